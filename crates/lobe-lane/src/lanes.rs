@@ -1,0 +1,155 @@
+//! The token of a backend and what it can make.
+
+use crate::{Block, Floats, Ints, Mask, Strict, Texels};
+
+/// The widest backend there may be; kernels that need an array with one entry a lane use this size.
+pub const MAX_LANES: usize = 16;
+
+/// Work to be compiled for a backend's instruction set.
+pub trait Kernel {
+    /// What the work returns.
+    type Out;
+
+    /// Does the work. Every implementation must be `#[inline(always)]`, and so must everything generic that it calls.
+    fn run<L: Lanes>(self, lanes: L) -> Self::Out;
+}
+
+/// A SIMD backend: a zero-sized proof that the CPU has the instructions, and the only source of lane values.
+///
+/// Methods that touch memory check their slices, once per call and not per lane.
+pub trait Lanes: Texels {
+    /// `LANES` floats.
+    type F: Floats<I = Self::I, M = Self::M>;
+    /// `LANES` signed 32-bit integers.
+    type I: Ints<F = Self::F, M = Self::M>;
+    /// `LANES` truth values.
+    type M: Mask;
+
+    /// How many lanes there are: a power of two, at most [`MAX_LANES`].
+    const LANES: usize;
+    /// Name of the backend as in `LOBE_BACKEND`.
+    const NAME: &'static str;
+    /// `true` where [`mul_add`](Lanes::mul_add) rounds once.
+    const FUSED: bool;
+    /// `true` where [`oct_lookup`](Lanes::oct_lookup) is a single instruction, so that small tables are best searched
+    /// inside registers.
+    const PERMUTES: bool;
+
+    /// Runs a kernel compiled with this backend's instructions. Call it once per batch: what is called through it
+    /// cannot be inlined into the caller.
+    fn vectorize<K: Kernel>(self, kernel: K) -> K::Out;
+
+    /// The same backend with [`mul_add`](Lanes::mul_add) rounded twice: bit-identical on every backend and width.
+    #[inline(always)]
+    fn strict(self) -> Strict<Self> {
+        Strict(self)
+    }
+
+    /// `x` in every lane.
+    fn splat(self, x: f32) -> Self::F;
+    /// `x` in every lane.
+    fn splat_int(self, x: i32) -> Self::I;
+    /// `0, 1, 2, ...`
+    fn iota(self) -> Self::I;
+    /// Set in the first `n` lanes.
+    #[inline(always)]
+    fn first_n(self, n: usize) -> Self::M {
+        self.iota().lt(self.splat_int(if n < Self::LANES { n as i32 } else { Self::LANES as i32 }))
+    }
+
+    /// `a * b + c`, rounded once where [`FUSED`](Lanes::FUSED), else twice.
+    fn mul_add(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F;
+    /// `a` where the mask is set, else `b`.
+    fn select(self, mask: Self::M, a: Self::F, b: Self::F) -> Self::F;
+    /// `a` where the mask is set, else `b`.
+    fn select_int(self, mask: Self::M, a: Self::I, b: Self::I) -> Self::I;
+
+    /// The first `LANES` floats of `src`.
+    ///
+    /// # Panics
+    /// Where `src` is shorter.
+    fn load(self, src: &[f32]) -> Self::F;
+    /// Writes to the first `LANES` floats of `dst`.
+    ///
+    /// # Panics
+    /// Where `dst` is shorter.
+    fn store(self, dst: &mut [f32], x: Self::F);
+    /// The first `LANES` integers of `src`.
+    ///
+    /// # Panics
+    /// Where `src` is shorter.
+    fn load_int(self, src: &[i32]) -> Self::I;
+    /// Writes to the first `LANES` integers of `dst`.
+    ///
+    /// # Panics
+    /// Where `dst` is shorter.
+    fn store_int(self, dst: &mut [i32], x: Self::I);
+    /// As many floats as `src` has, at most `LANES`; zeros in the lanes beyond.
+    #[inline(always)]
+    fn load_partial(self, src: &[f32]) -> Self::F {
+        if src.len() >= Self::LANES {
+            return self.load(src);
+        }
+        let mut buffer = [0.0; MAX_LANES];
+        buffer[..src.len()].copy_from_slice(src);
+        self.load(&buffer)
+    }
+    /// Writes as many lanes as `dst` has room for, at most `LANES`.
+    #[inline(always)]
+    fn store_partial(self, dst: &mut [f32], x: Self::F) {
+        if dst.len() >= Self::LANES {
+            return self.store(dst, x);
+        }
+        let mut buffer = [0.0; MAX_LANES];
+        self.store(&mut buffer, x);
+        let n = dst.len();
+        dst.copy_from_slice(&buffer[..n]);
+    }
+    /// `LANES` vectors of three floats, as `[x, y, z]`.
+    ///
+    /// # Panics
+    /// Where `src` is shorter.
+    fn load_xyz(self, src: &[[f32; 3]]) -> [Self::F; 3];
+
+    /// `table[index]` in each lane. An index outside the table, also a negative one, reads the last entry.
+    ///
+    /// # Panics
+    /// Where the table is empty.
+    fn gather(self, table: &[f32], index: Self::I) -> Self::F;
+    /// The two floats of `table[index]` in each lane; an index outside reads the last entry.
+    ///
+    /// # Panics
+    /// Where the table is empty.
+    fn gather_pair(self, table: &[[f32; 2]], index: Self::I) -> [Self::F; 2];
+    /// In each lane, the four floats at `base + offset` of the block, for each of its offsets; a base outside is
+    /// clamped to the block's last. The result is transposed: `[corner][k]` holds float `k` of that corner in all lanes.
+    fn gather_quads<const N: usize>(self, block: &Block<'_, N, 4>, base: Self::I) -> [[Self::F; 4]; N];
+    /// In each lane, float `index & 7` of the eight in `table`.
+    fn oct_lookup(self, table: Self::Oct, index: Self::I) -> Self::F;
+
+    /// `true` and the value where all lanes of `mask` hold the same index; `false` where they differ or none is set.
+    #[inline(always)]
+    fn uniform(self, index: Self::I, mask: Self::M) -> (bool, i32) {
+        let bits = mask.bits();
+        if bits == 0 {
+            return (false, 0);
+        }
+        let first = self.extract_int(index, bits.trailing_zeros() as usize);
+        let same = index.eq(self.splat_int(first));
+        (same.bits() & bits == bits, first)
+    }
+    /// Integer in lane `lane` (modulo `LANES`).
+    #[inline(always)]
+    fn extract_int(self, x: Self::I, lane: usize) -> i32 {
+        let mut buffer = [0; MAX_LANES];
+        self.store_int(&mut buffer, x);
+        buffer[lane & (Self::LANES - 1)]
+    }
+    /// Float in lane `lane` (modulo `LANES`).
+    #[inline(always)]
+    fn extract(self, x: Self::F, lane: usize) -> f32 {
+        let mut buffer = [0.0; MAX_LANES];
+        self.store(&mut buffer, x);
+        buffer[lane & (Self::LANES - 1)]
+    }
+}

@@ -1,0 +1,58 @@
+//! Whole texels of one query: four floats (a *quad*) and two neighbouring texels (an *oct*).
+//!
+//! The corners of an interpolation lie far apart, but the channels of a texel lie side by side. Loading a texel at
+//! once takes one load where gathering its channels lane by lane takes one each, so the inner loop of a table runs
+//! along a query and not across queries. Quads and octs have the same width on every backend.
+
+use core::fmt::Debug;
+use core::ops::{Add, Mul, Sub};
+
+use crate::Block;
+
+/// Operations on the channels of one query, the same bits on every backend of equal fusing.
+pub trait Texels: Copy + Debug + Send + Sync + 'static {
+    /// Four floats.
+    type Quad: Copy + Debug + Add<Output = Self::Quad> + Sub<Output = Self::Quad> + Mul<Output = Self::Quad>;
+    /// Eight floats.
+    type Oct: Copy + Debug + Add<Output = Self::Oct> + Mul<Output = Self::Oct>;
+
+    /// The first four floats of `src`.
+    ///
+    /// # Panics
+    /// Where `src` is shorter.
+    fn quad_load(self, src: &[f32]) -> Self::Quad;
+    /// Writes to the first four floats of `dst`.
+    ///
+    /// # Panics
+    /// Where `dst` is shorter.
+    fn quad_store(self, dst: &mut [f32], x: Self::Quad);
+    /// `x` four times.
+    fn quad_splat(self, x: f32) -> Self::Quad;
+    /// `a * b + c`, float by float; rounded once where the backend fuses.
+    fn quad_mul_add(self, a: Self::Quad, b: Self::Quad, c: Self::Quad) -> Self::Quad;
+    /// Each float of `x`, or 0 where it is not greater than 0 (NaN gives 0).
+    fn quad_positive(self, x: Self::Quad) -> Self::Quad;
+
+    /// The first eight floats of `src`.
+    ///
+    /// # Panics
+    /// Where `src` is shorter.
+    fn oct_load(self, src: &[f32]) -> Self::Oct;
+    /// Writes to the first eight floats of `dst`.
+    ///
+    /// # Panics
+    /// Where `dst` is shorter.
+    fn oct_store(self, dst: &mut [f32], x: Self::Oct);
+    /// `x` eight times.
+    fn oct_splat(self, x: f32) -> Self::Oct;
+    /// The floats at `base + offset` of the block, for each of its offsets; `base` is clamped to the block's last.
+    fn oct_corners<const N: usize>(self, block: &Block<'_, N, 8>, base: usize) -> [Self::Oct; N];
+    /// `a * b + c`, float by float; rounded once where the backend fuses.
+    fn oct_mul_add(self, a: Self::Oct, b: Self::Oct, c: Self::Oct) -> Self::Oct;
+    /// Each float of `x`, or 0 where it is not greater than 0 (NaN gives 0).
+    fn oct_positive(self, x: Self::Oct) -> Self::Oct;
+    /// The first four and the last four floats.
+    fn oct_halves(self, x: Self::Oct) -> [Self::Quad; 2];
+    /// How many of the eight floats are `<= x`.
+    fn oct_count_le(self, knots: Self::Oct, x: f32) -> u32;
+}

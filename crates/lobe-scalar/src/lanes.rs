@@ -1,0 +1,110 @@
+//! The token of a scalar backend.
+
+use lobe_lane::{Block, Kernel, Lanes};
+
+use crate::{Floats, Ints, Mask, Scalar};
+
+impl<const N: usize> Lanes for Scalar<N> {
+    type F = Floats<N>;
+    type I = Ints<N>;
+    type M = Mask<N>;
+
+    const LANES: usize = N;
+    const NAME: &'static str = match N {
+        1 => "scalar",
+        2 => "emulated2",
+        4 => "emulated4",
+        8 => "emulated8",
+        16 => "emulated16",
+        _ => panic!("a scalar backend has 1, 2, 4, 8 or 16 lanes"),
+    };
+    const FUSED: bool = false;
+    const PERMUTES: bool = false;
+
+    #[inline(always)]
+    fn vectorize<K: Kernel>(self, kernel: K) -> K::Out {
+        kernel.run(self)
+    }
+
+    #[inline(always)]
+    fn splat(self, x: f32) -> Floats<N> {
+        Floats([x; N])
+    }
+    #[inline(always)]
+    fn splat_int(self, x: i32) -> Ints<N> {
+        Ints([x; N])
+    }
+    #[inline(always)]
+    fn iota(self) -> Ints<N> {
+        Ints(std::array::from_fn(|lane| lane as i32))
+    }
+    #[inline(always)]
+    fn mul_add(self, a: Floats<N>, b: Floats<N>, c: Floats<N>) -> Floats<N> {
+        a * b + c
+    }
+    #[inline(always)]
+    fn select(self, mask: Mask<N>, a: Floats<N>, b: Floats<N>) -> Floats<N> {
+        Floats(std::array::from_fn(|lane| if mask.0[lane] { a.0[lane] } else { b.0[lane] }))
+    }
+    #[inline(always)]
+    fn select_int(self, mask: Mask<N>, a: Ints<N>, b: Ints<N>) -> Ints<N> {
+        Ints(std::array::from_fn(|lane| if mask.0[lane] { a.0[lane] } else { b.0[lane] }))
+    }
+
+    #[inline(always)]
+    fn load(self, src: &[f32]) -> Floats<N> {
+        let src = &src[..N];
+        Floats(std::array::from_fn(|lane| src[lane]))
+    }
+    #[inline(always)]
+    fn store(self, dst: &mut [f32], x: Floats<N>) {
+        dst[..N].copy_from_slice(&x.0);
+    }
+    #[inline(always)]
+    fn load_int(self, src: &[i32]) -> Ints<N> {
+        let src = &src[..N];
+        Ints(std::array::from_fn(|lane| src[lane]))
+    }
+    #[inline(always)]
+    fn store_int(self, dst: &mut [i32], x: Ints<N>) {
+        dst[..N].copy_from_slice(&x.0);
+    }
+    #[inline(always)]
+    fn load_xyz(self, src: &[[f32; 3]]) -> [Floats<N>; 3] {
+        let src = &src[..N];
+        std::array::from_fn(|axis| Floats(std::array::from_fn(|lane| src[lane][axis])))
+    }
+
+    #[inline(always)]
+    fn gather(self, table: &[f32], index: Ints<N>) -> Floats<N> {
+        Floats(std::array::from_fn(|lane| table[clamp_index(index.0[lane], table.len())]))
+    }
+    #[inline(always)]
+    fn gather_pair(self, table: &[[f32; 2]], index: Ints<N>) -> [Floats<N>; 2] {
+        std::array::from_fn(|half| {
+            Floats(std::array::from_fn(|lane| table[clamp_index(index.0[lane], table.len())][half]))
+        })
+    }
+    #[inline(always)]
+    fn gather_quads<const K: usize>(self, block: &Block<'_, K, 4>, base: Ints<N>) -> [[Floats<N>; 4]; K] {
+        std::array::from_fn(|corner| {
+            let offset = block.offsets()[corner];
+            std::array::from_fn(|k| {
+                Floats(std::array::from_fn(|lane| {
+                    let base = (base.0[lane] as u32 as usize).min(block.last_base());
+                    block.data()[base + offset + k]
+                }))
+            })
+        })
+    }
+    #[inline(always)]
+    fn oct_lookup(self, table: Floats<8>, index: Ints<N>) -> Floats<N> {
+        Floats(std::array::from_fn(|lane| table.0[(index.0[lane] & 7) as usize]))
+    }
+}
+
+/// An index outside the table reads its last entry; a negative one is far outside.
+#[inline(always)]
+fn clamp_index(index: i32, len: usize) -> usize {
+    (index as u32 as usize).min(len - 1)
+}
