@@ -1,1 +1,46 @@
-//! TODO
+//! The 8-lane backend of x86_64: [`Avx2`], with fused multiply-add and half-precision loads.
+//!
+//! `unsafe` stands in three places: in the `op!` macro (register-only intrinsics, safe because the token proves the
+//! features), in `memory.rs` (loads and stores, each checked where it stands), and at the door `vectorize`.
+#![cfg(target_arch = "x86_64")]
+#![no_std]
+
+extern crate std;
+
+/// Calls intrinsics that touch nothing but registers.
+macro_rules! op {
+    ($call:expr) => {{
+        // SAFETY: a value of these types, or the token itself, exists only where the CPU has AVX2 and FMA, and the
+        // intrinsic touches registers only.
+        unsafe { $call }
+    }};
+}
+
+mod lanes;
+mod memory;
+mod texels;
+mod values;
+
+pub use values::{Floats, Ints, Mask, Quad};
+
+/// A proof that the CPU has AVX2 and FMA: eight lanes.
+#[derive(Clone, Copy, Debug)]
+pub struct Avx2(());
+
+impl Avx2 {
+    /// The token where the CPU has the features.
+    pub fn detect() -> Option<Self> {
+        let has = std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma");
+        has.then_some(Avx2(()))
+    }
+
+    /// The token without a look at the CPU.
+    ///
+    /// # Safety
+    /// Safe from code compiled with AVX2 and FMA, which is what the attribute says; elsewhere the CPU must have them.
+    #[inline]
+    #[target_feature(enable = "avx2,fma")]
+    pub fn new() -> Self {
+        Avx2(())
+    }
+}

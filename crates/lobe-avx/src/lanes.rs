@@ -1,0 +1,148 @@
+//! The token of the 8-lane backend.
+
+use core::arch::x86_64::*;
+
+use lobe_lane::{Block, Kernel, Lanes};
+
+use crate::{Avx2, Floats, Ints, Mask, memory};
+
+impl Lanes for Avx2 {
+    type F = Floats;
+    type I = Ints;
+    type M = Mask;
+
+    const LANES: usize = 8;
+    const NAME: &'static str = "avx2";
+    const FUSED: bool = true;
+    const PERMUTES: bool = true;
+
+    #[inline(always)]
+    fn vectorize<K: Kernel>(self, kernel: K) -> K::Out {
+        #[target_feature(enable = "avx2,fma")]
+        fn inner<K: Kernel>(token: Avx2, kernel: K) -> K::Out {
+            kernel.run(token)
+        }
+        // SAFETY: the token proves AVX2 and FMA.
+        unsafe { inner(self, kernel) }
+    }
+
+    #[inline(always)]
+    fn splat(self, x: f32) -> Floats {
+        Floats(op!(_mm256_set1_ps(x)))
+    }
+    #[inline(always)]
+    fn splat_int(self, x: i32) -> Ints {
+        Ints(op!(_mm256_set1_epi32(x)))
+    }
+    #[inline(always)]
+    fn iota(self) -> Ints {
+        Ints(op!(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)))
+    }
+    #[inline(always)]
+    fn mul_add(self, a: Floats, b: Floats, c: Floats) -> Floats {
+        Floats(op!(_mm256_fmadd_ps(a.0, b.0, c.0)))
+    }
+    #[inline(always)]
+    fn select(self, mask: Mask, a: Floats, b: Floats) -> Floats {
+        Floats(op!(_mm256_blendv_ps(b.0, a.0, mask.0)))
+    }
+    #[inline(always)]
+    fn select_int(self, mask: Mask, a: Ints, b: Ints) -> Ints {
+        Ints(op!(_mm256_blendv_epi8(b.0, a.0, _mm256_castps_si256(mask.0))))
+    }
+
+    #[inline(always)]
+    fn load(self, src: &[f32]) -> Floats {
+        Floats(memory::load8(self, src))
+    }
+    #[inline(always)]
+    fn store(self, dst: &mut [f32], x: Floats) {
+        memory::store8(self, dst, x.0);
+    }
+    #[inline(always)]
+    fn load_int(self, src: &[i32]) -> Ints {
+        Ints(memory::load_int(self, src))
+    }
+    #[inline(always)]
+    fn store_int(self, dst: &mut [i32], x: Ints) {
+        memory::store_int(self, dst, x.0);
+    }
+    #[inline(always)]
+    fn load_xyz(self, src: &[[f32; 3]]) -> [Floats; 3] {
+        let flat = src[..8].as_flattened();
+        let halves = |at: usize| {
+            let (low, high) = (memory::load4(self, &flat[at..]), memory::load4(self, &flat[at + 12..]));
+            op!(_mm256_insertf128_ps::<1>(_mm256_castps128_ps256(low), high))
+        };
+        // In each half: a = x0 y0 z0 x1, b = y1 z1 x2 y2, c = z2 x3 y3 z3
+        let (a, b, c) = (halves(0), halves(4), halves(8));
+        op!({
+            let x23 = _mm256_shuffle_ps::<0b01_01_10_10>(b, c);
+            let y01 = _mm256_shuffle_ps::<0b00_00_01_01>(a, b);
+            let y23 = _mm256_shuffle_ps::<0b10_10_11_11>(b, c);
+            let z01 = _mm256_shuffle_ps::<0b01_01_10_10>(a, b);
+            [
+                Floats(_mm256_shuffle_ps::<0b10_00_11_00>(a, x23)),
+                Floats(_mm256_shuffle_ps::<0b10_00_10_00>(y01, y23)),
+                Floats(_mm256_shuffle_ps::<0b11_00_10_00>(z01, c)),
+            ]
+        })
+    }
+
+    // Eight scalar loads: `vgatherdps` takes 1.8 times as long on the processors measured.
+    #[inline(always)]
+    fn gather(self, table: &[f32], index: Ints) -> Floats {
+        let last = table.len().checked_sub(1).expect("a gather from an empty table");
+        let [a, b, c, d, e, f, g, h] = memory::indices(self, index.0).map(|index| table[index.min(last)]);
+        Floats(op!(_mm256_setr_ps(a, b, c, d, e, f, g, h)))
+    }
+    #[inline(always)]
+    fn gather_pair(self, table: &[[f32; 2]], index: Ints) -> [Floats; 2] {
+        let [a, b, c, d, e, f, g, h] =
+            memory::indices(self, index.0).map(|index| memory::load_pair(self, table, index));
+        op!({
+            let (ab, cd) = (_mm_unpacklo_ps(a, b), _mm_unpacklo_ps(c, d));
+            let (ef, gh) = (_mm_unpacklo_ps(e, f), _mm_unpacklo_ps(g, h));
+            let abef = _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(ab), ef);
+            let cdgh = _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(cd), gh);
+            [
+                Floats(_mm256_shuffle_ps::<0b01_00_01_00>(abef, cdgh)),
+                Floats(_mm256_shuffle_ps::<0b11_10_11_10>(abef, cdgh)),
+            ]
+        })
+    }
+    #[inline(always)]
+    fn gather_quads<const N: usize>(self, block: &Block<'_, N, 4>, base: Ints) -> [[Floats; 4]; N] {
+        let [a, b, c, d, e, f, g, h] = memory::indices(self, base.0);
+        core::array::from_fn(
+            #[inline(always)]
+            |corner| {
+                let pair = |low, high| {
+                    let low = memory::load_quad(self, block, low, corner);
+                    let high = memory::load_quad(self, block, high, corner);
+                    op!(_mm256_insertf128_ps::<1>(_mm256_castps128_ps256(low), high))
+                };
+                transpose(pair(a, e), pair(b, f), pair(c, g), pair(d, h))
+            },
+        )
+    }
+    #[inline(always)]
+    fn oct_lookup(self, table: Floats, index: Ints) -> Floats {
+        Floats(op!(_mm256_permutevar8x32_ps(table.0, index.0)))
+    }
+}
+
+/// Rows to columns, in each half of the registers.
+#[inline(always)]
+fn transpose(a: __m256, b: __m256, c: __m256, d: __m256) -> [Floats; 4] {
+    op!({
+        let (ab_low, ab_high) = (_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+        let (cd_low, cd_high) = (_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));
+        [
+            Floats(_mm256_shuffle_ps::<0b01_00_01_00>(ab_low, cd_low)),
+            Floats(_mm256_shuffle_ps::<0b11_10_11_10>(ab_low, cd_low)),
+            Floats(_mm256_shuffle_ps::<0b01_00_01_00>(ab_high, cd_high)),
+            Floats(_mm256_shuffle_ps::<0b11_10_11_10>(ab_high, cd_high)),
+        ]
+    })
+}

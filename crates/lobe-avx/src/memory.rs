@@ -1,0 +1,85 @@
+//! Every load and store of this crate. Each is bounds-safe by itself.
+//!
+//! All functions take the token, which proves that the CPU has AVX.
+
+use core::arch::x86_64::*;
+
+use lobe_lane::Block;
+
+use crate::Avx2;
+
+#[inline(always)]
+pub(crate) fn load8(_proof: Avx2, src: &[f32]) -> __m256 {
+    let src = &src[..8];
+    // SAFETY: `src` has eight floats; the token proves AVX; the load needs no alignment.
+    unsafe { _mm256_loadu_ps(src.as_ptr()) }
+}
+
+#[inline(always)]
+pub(crate) fn store8(_proof: Avx2, dst: &mut [f32], x: __m256) {
+    let dst = &mut dst[..8];
+    // SAFETY: `dst` has room for eight floats; the token proves AVX; the store needs no alignment.
+    unsafe { _mm256_storeu_ps(dst.as_mut_ptr(), x) }
+}
+
+#[inline(always)]
+pub(crate) fn load4(_proof: Avx2, src: &[f32]) -> __m128 {
+    let src = &src[..4];
+    // SAFETY: `src` has four floats; the token proves AVX; the load needs no alignment.
+    unsafe { _mm_loadu_ps(src.as_ptr()) }
+}
+
+#[inline(always)]
+pub(crate) fn store4(_proof: Avx2, dst: &mut [f32], x: __m128) {
+    let dst = &mut dst[..4];
+    // SAFETY: `dst` has room for four floats; the token proves AVX; the store needs no alignment.
+    unsafe { _mm_storeu_ps(dst.as_mut_ptr(), x) }
+}
+
+#[inline(always)]
+pub(crate) fn load_int(_proof: Avx2, src: &[i32]) -> __m256i {
+    let src = &src[..8];
+    // SAFETY: `src` has eight integers; the token proves AVX; the load needs no alignment.
+    unsafe { _mm256_loadu_si256(src.as_ptr().cast()) }
+}
+
+#[inline(always)]
+pub(crate) fn store_int(_proof: Avx2, dst: &mut [i32], x: __m256i) {
+    let dst = &mut dst[..8];
+    // SAFETY: `dst` has room for eight integers; the token proves AVX; the store needs no alignment.
+    unsafe { _mm256_storeu_si256(dst.as_mut_ptr().cast(), x) }
+}
+
+/// The eight integers, each as an index with negative values far outside.
+#[inline(always)]
+pub(crate) fn indices(proof: Avx2, x: __m256i) -> [usize; 8] {
+    let mut lanes = [0; 8];
+    store_int(proof, &mut lanes, x);
+    lanes.map(|index| index as u32 as usize)
+}
+
+/// Two floats of `table[index]`, in the low half of the register; an index outside reads the last entry.
+#[inline(always)]
+pub(crate) fn load_pair(_proof: Avx2, table: &[[f32; 2]], index: usize) -> __m128 {
+    let last = table.len().checked_sub(1).expect("a gather from an empty table");
+    // SAFETY: `index.min(last)` is inside `table`, so eight bytes can be read there; the token proves AVX.
+    unsafe { _mm_castpd_ps(_mm_load_sd(table.as_ptr().add(index.min(last)).cast())) }
+}
+
+/// Four floats at `base + offsets[corner]`; `base` is clamped to the block's last.
+#[inline(always)]
+pub(crate) fn load_quad<const N: usize>(_proof: Avx2, block: &Block<'_, N, 4>, base: usize, corner: usize) -> __m128 {
+    let at = base.min(block.last_base()) + block.offsets()[corner];
+    // SAFETY: the block promises `last_base + offset + 4 <= data.len()` for each of its offsets; the token proves AVX;
+    // the load needs no alignment.
+    unsafe { _mm_loadu_ps(block.data().as_ptr().add(at)) }
+}
+
+/// Eight floats at `base + offsets[corner]`; `base` is clamped to the block's last.
+#[inline(always)]
+pub(crate) fn load_oct<const N: usize>(_proof: Avx2, block: &Block<'_, N, 8>, base: usize, corner: usize) -> __m256 {
+    let at = base.min(block.last_base()) + block.offsets()[corner];
+    // SAFETY: the block promises `last_base + offset + 8 <= data.len()` for each of its offsets; the token proves AVX;
+    // the load needs no alignment.
+    unsafe { _mm256_loadu_ps(block.data().as_ptr().add(at)) }
+}
