@@ -20,7 +20,7 @@ const EIGHT_TERMS: [f32; 8] = [
 ];
 
 /// `asin x = x + x^3 Q(x^2)` on `[0, 1/2]`: minimax for the relative error, 9e-8.
-const ODD_TERMS: [f32; 4] = [0.166_655_79, 0.075_405_315, 0.040_034_983, 0.049_953_12];
+const ODD_TERMS: [f32; 4] = [0.166_655_8, 0.075_405_315, 0.040_034_983, 0.049_953_12];
 
 /// Arc cosine in `[0, pi]`. Arguments outside `[-1, 1]` are taken for the nearer end; NaN stays NaN.
 ///

@@ -11,7 +11,7 @@ const SIN_TERMS: [f32; 3] = [-0.166_666_55, 0.008_332_16, -0.000_195_152_84];
 const COS_TERMS: [f32; 3] = [0.041_666_646, -0.001_388_736_8, 2.443_845_2e-5];
 
 /// pi/2 in three parts of few bits, so that a small multiple of each of the first two is exact (Cody and Waite).
-const HALF_PI: [f32; 3] = [1.570_312_5, 4.837_512_97e-4, 7.549_79e-8];
+const HALF_PI: [f32; 3] = [1.570_312_5, 4.837_513e-4, 7.549_79e-8];
 
 /// `(sin x, cos x)` of an angle in radians, for `|x|` up to 8192.
 ///

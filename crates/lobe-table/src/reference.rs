@@ -9,7 +9,7 @@ use crate::edges::{Edge, Edges};
 use crate::samples::{Samples, Scatter};
 
 /// How far outside its knots, in radians, a query still counts as inside: room for knots and angles rounded in a file.
-const ROUNDING: f64 = 1e-6;
+pub(crate) const ROUNDING: f64 = 1e-6;
 
 /// Evaluates `f(wi, wo)` in 1/sr into `out`, one value a channel.
 ///

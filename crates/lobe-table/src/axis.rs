@@ -1,0 +1,209 @@
+//! One axis of a table, prepared for searching.
+
+use std::f64::consts::TAU;
+
+use thiserror::Error;
+
+use crate::Edge;
+use crate::reference::ROUNDING;
+
+/// An axis with at most this many cells is searched inside registers, or by counting knots.
+pub(crate) const MAX_REGISTER_CELLS: usize = 32;
+
+/// The knots of one axis in `f32` radians, with what the search of its kind needs.
+///
+/// A periodic axis whose knots stop short of the full circle has one knot more than its file: the first one again, a
+/// turn later.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    knots: Vec<f32>,
+    /// `[knots[i], 1 / (knots[i + 1] - knots[i])]` for each cell.
+    cells: Vec<[f32; 2]>,
+    /// For each knot the knot of the file whose values it has.
+    source: Vec<usize>,
+    edge: Edge,
+    search: Search,
+}
+
+/// Why knots do not make an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum AxisError {
+    /// No knots.
+    #[error("no knots; expected at least one")]
+    NoKnots,
+    /// A knot that is not finite, or not above the one before it after rounding to `f32`.
+    #[error("knot {index} is {value} rad; expected finite, strictly ascending knots")]
+    Knot {
+        /// Position in the list of knots.
+        index: usize,
+        /// What was found.
+        value: f64,
+    },
+    /// A function needs a value at each knot.
+    #[error("{values} values at {knots} knots; expected one each")]
+    Values {
+        /// How many knots there are.
+        knots: usize,
+        /// How many values.
+        values: usize,
+    },
+}
+
+/// How the cell of a query is found.
+#[derive(Clone, Debug)]
+pub(crate) enum Search {
+    /// One knot: cell 0, fraction 0.
+    Constant,
+    /// Equal cells: `cells_per_radian` from the first knot on.
+    Uniform { cells_per_radian: f32 },
+    /// Few cells: a search tree of the inner knots and the cells, both in registers.
+    Registers(Box<Registers>),
+    /// Many cells: a table over equal buckets gives the cell at the start of each.
+    Guide { buckets_per_radian: f32, buckets: Vec<[f32; 2]>, steps: usize },
+}
+
+/// Up to 31 inner knots in the order of a breadth-first search tree, node 1 the root, missing ones infinite, and the
+/// first knots and inverse widths of the cells.
+#[derive(Clone, Debug)]
+pub(crate) struct Registers {
+    pub(crate) levels: usize,
+    pub(crate) tree: [f32; 32],
+    pub(crate) first: [f32; 32],
+    pub(crate) inverse: [f32; 32],
+}
+
+impl Axis {
+    /// Prepares knots in radians.
+    ///
+    /// # Errors
+    /// Unless there is at least one knot, and all are finite and ascend strictly also in `f32`.
+    pub fn new(knots: &[f64], edge: Edge) -> Result<Self, AxisError> {
+        if knots.is_empty() {
+            return Err(AxisError::NoKnots);
+        }
+        for (index, &value) in knots.iter().enumerate() {
+            let ascends = index == 0 || value as f32 > knots[index - 1] as f32;
+            if !(value.is_finite() && ascends) {
+                return Err(AxisError::Knot { index, value });
+            }
+        }
+        let mut source: Vec<usize> = (0..knots.len()).collect();
+        let mut exact = knots.to_vec();
+        let gap = knots[0] + TAU - knots[knots.len() - 1];
+        if edge == Edge::Periodic && knots.len() > 1 && gap > ROUNDING {
+            exact.push(knots[0] + TAU);
+            source.push(0);
+        }
+        let knots: Vec<f32> = exact.iter().map(|&knot| knot as f32).collect();
+        let cells: Vec<[f32; 2]> =
+            exact.windows(2).map(|ends| [ends[0] as f32, (1.0 / (ends[1] - ends[0])) as f32]).collect();
+        let search = if cells.is_empty() {
+            Search::Constant
+        } else if let Some(cells_per_radian) = uniform(&exact) {
+            Search::Uniform { cells_per_radian }
+        } else if cells.len() <= MAX_REGISTER_CELLS {
+            Search::Registers(Box::new(Registers::new(&knots, &cells)))
+        } else {
+            guide(&knots)
+        };
+        Ok(Axis { knots, cells, source, edge, search })
+    }
+
+    /// The knots in radians.
+    pub fn knots(&self) -> &[f32] {
+        &self.knots
+    }
+
+    /// What happens outside the knots.
+    pub fn edge(&self) -> Edge {
+        self.edge
+    }
+
+    /// For each knot the position, among the knots given, of the one whose values it has.
+    pub(crate) fn source(&self) -> &[usize] {
+        &self.source
+    }
+
+    pub(crate) fn cells(&self) -> &[[f32; 2]] {
+        &self.cells
+    }
+
+    pub(crate) fn search(&self) -> &Search {
+        &self.search
+    }
+
+    pub(crate) fn first(&self) -> f32 {
+        self.knots[0]
+    }
+
+    pub(crate) fn last(&self) -> f32 {
+        self.knots[self.knots.len() - 1]
+    }
+
+    /// Bytes of memory that this holds.
+    pub fn bytes(&self) -> usize {
+        let search = match &self.search {
+            Search::Constant | Search::Uniform { .. } => 0,
+            Search::Registers(_) => size_of::<Registers>(),
+            Search::Guide { buckets, .. } => size_of_val(buckets.as_slice()),
+        };
+        size_of_val(self.knots.as_slice())
+            + size_of_val(self.cells.as_slice())
+            + size_of_val(self.source.as_slice())
+            + search
+    }
+}
+
+/// Cells a radian where all cells are equal to within `f32` rounding of the knots.
+fn uniform(knots: &[f64]) -> Option<f32> {
+    let cells = knots.len() - 1;
+    let (first, last) = (knots[0], knots[cells]);
+    let width = (last - first) / cells as f64;
+    let tolerance = f64::from(f32::EPSILON) * last.abs().max(width);
+    let equal = knots.iter().enumerate().all(|(i, knot)| (knot - (first + i as f64 * width)).abs() <= tolerance);
+    (equal && cells > 1).then_some((1.0 / width) as f32)
+}
+
+impl Registers {
+    fn new(knots: &[f32], cells: &[[f32; 2]]) -> Self {
+        let inner = &knots[1..knots.len() - 1];
+        // The searches come in three depths.
+        let levels = ((inner.len() + 1).next_power_of_two().ilog2() as usize).max(3);
+        let mut tree = [f32::INFINITY; 32];
+        // Node k of level l is the middle of the k-th of the 2^l parts of the sorted knots.
+        for (node, knot) in tree.iter_mut().enumerate().take(1 << levels).skip(1) {
+            let level = node.ilog2() as usize;
+            let part = 1 << (levels - level);
+            let rank = (node - (1 << level)) * part + part / 2 - 1;
+            *knot = inner.get(rank).copied().unwrap_or(f32::INFINITY);
+        }
+        // Look-ups beyond the last cell cannot happen; the padding keeps its values so that none of them is special.
+        let padded = |column: usize| std::array::from_fn(|i| cells[i.min(cells.len() - 1)][column]);
+        Registers { levels, tree, first: padded(0), inverse: padded(1) }
+    }
+}
+
+/// The coarsest of a row of bucket counts with at most one inner knot a bucket, or the finest tried.
+fn guide(knots: &[f32]) -> Search {
+    let inner = &knots[1..knots.len() - 1];
+    let (first, last) = (knots[0], knots[knots.len() - 1]);
+    let mut count = 2 * knots.len();
+    loop {
+        let buckets_per_radian = count as f32 / (last - first);
+        let bucket = |x: f32| (((x - first) * buckets_per_radian) as usize).min(count - 1);
+        // Rounded exactly as a query is, so a knot's bucket is the bucket of every query at that knot.
+        let mut buckets = vec![[0.0, f32::INFINITY]; count];
+        let mut steps = 1;
+        let mut below = 0;
+        for (b, entry) in buckets.iter_mut().enumerate() {
+            let inside = inner[below..].iter().take_while(|&&knot| bucket(knot) == b).count();
+            *entry = [below as f32, inner.get(below).copied().unwrap_or(f32::INFINITY)];
+            below += inside;
+            steps = steps.max(inside);
+        }
+        if steps == 1 || count >= 64 * knots.len() {
+            return Search::Guide { buckets_per_radian, buckets, steps };
+        }
+        count += count / 2;
+    }
+}

@@ -1,0 +1,53 @@
+//! Functions of one variable, straight from the search of their knots.
+//!
+//! The specialised searches of the paper (section 2.2): what a caller wants is seldom the index of a cell, but the
+//! interpolation weights there ([`Axis::weights`]), or the value of a function.
+
+use lobe_lane::{Floats, Lanes};
+
+use crate::axis::Axis;
+use crate::search::Cell;
+use crate::{AxisError, Edge};
+
+/// A piecewise linear function of an angle, evaluated in lanes.
+#[derive(Clone, Debug)]
+pub struct Function {
+    axis: Axis,
+    /// `[value at the cell's first knot, difference to its second]`.
+    cells: Vec<[f32; 2]>,
+}
+
+impl Function {
+    /// A function with a value at each knot. Knots are radians, strictly ascending.
+    ///
+    /// # Errors
+    /// Where knots and values do not match, or the knots are not finite and strictly ascending.
+    pub fn new(knots: &[f64], values: &[f64], edge: Edge) -> Result<Self, AxisError> {
+        let axis = Axis::new(knots, edge)?;
+        if values.len() != knots.len() {
+            return Err(AxisError::Values { knots: knots.len(), values: values.len() });
+        }
+        let at = |knot: usize| values[axis.source()[knot]];
+        let cells = if axis.cells().is_empty() {
+            vec![[at(0) as f32, 0.0]]
+        } else {
+            (0..axis.cells().len()).map(|i| [at(i) as f32, (at(i + 1) - at(i)) as f32]).collect()
+        };
+        Ok(Function { axis, cells })
+    }
+
+    /// The axis that is searched.
+    pub fn axis(&self) -> &Axis {
+        &self.axis
+    }
+
+    /// The value at `x`, in radians.
+    #[inline(always)]
+    pub fn eval<L: Lanes>(&self, lanes: L, x: L::F) -> L::F {
+        let (x, inside) = self.axis.bring_inside(lanes, x);
+        let Cell { index, fraction } = self.axis.cell(lanes, x);
+        let [value, slope] = lanes.gather_pair(&self.cells, index);
+        let value = lanes.mul_add(fraction, slope, value);
+        if self.axis.edge() == Edge::Zero { value.masked(inside) } else { value }
+    }
+}

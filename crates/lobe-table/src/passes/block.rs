@@ -1,0 +1,46 @@
+//! A block of queries and the columns that the passes hand on.
+
+use lobe_lane::Lanes;
+
+/// Queries a block: enough to keep the core busy within a pass, few enough that all columns stay in the first cache.
+pub(crate) const BLOCK: usize = 64;
+
+/// One float for each query of a block.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub(crate) struct Column<T = f32>(pub(crate) [T; BLOCK]);
+
+impl Column<f32> {
+    pub(crate) const ZERO: Self = Column([0.0; BLOCK]);
+
+    // Masking the position costs nothing in a loop and lets the compiler drop the bounds check.
+    #[inline(always)]
+    pub(crate) fn load<L: Lanes>(&self, lanes: L, at: usize) -> L::F {
+        lanes.load(&self.0[at & (BLOCK - L::LANES)..][..L::LANES])
+    }
+    #[inline(always)]
+    pub(crate) fn store<L: Lanes>(&mut self, lanes: L, at: usize, x: L::F) {
+        lanes.store(&mut self.0[at & (BLOCK - L::LANES)..][..L::LANES], x);
+    }
+    #[inline(always)]
+    pub(crate) fn one(&self, query: usize) -> f32 {
+        self.0[query & (BLOCK - 1)]
+    }
+}
+
+impl Column<i32> {
+    pub(crate) const ZERO: Self = Column([0; BLOCK]);
+
+    #[inline(always)]
+    pub(crate) fn load<L: Lanes>(&self, lanes: L, at: usize) -> L::I {
+        lanes.load_int(&self.0[at & (BLOCK - L::LANES)..][..L::LANES])
+    }
+    #[inline(always)]
+    pub(crate) fn store<L: Lanes>(&mut self, lanes: L, at: usize, x: L::I) {
+        lanes.store_int(&mut self.0[at & (BLOCK - L::LANES)..][..L::LANES], x);
+    }
+    #[inline(always)]
+    pub(crate) fn one(&self, query: usize) -> i32 {
+        self.0[query & (BLOCK - 1)]
+    }
+}

@@ -1,0 +1,47 @@
+//! Fractions to the weights of the corners.
+
+use lobe_lane::{Floats, Ints, Lanes};
+
+use super::block::{BLOCK, Column};
+
+/// The largest number of corners: both ends of four axes.
+pub(crate) const MAX_CORNERS: usize = 16;
+
+/// The weight of each corner over the axes whose fractions are given, the last axis fastest, for queries `0..n`: the
+/// first `2^AXES` columns of `weights`. Queries that are not valid get weights of 0.
+#[inline(always)]
+pub(crate) fn run<L: Lanes, const AXES: usize>(
+    lanes: L,
+    n: usize,
+    fractions: [&Column; AXES],
+    valid: &Column<i32>,
+    weights: &mut [Column; MAX_CORNERS],
+) {
+    let (zero, one) = (lanes.splat_int(0), lanes.splat(1.0));
+    let mut query = 0;
+    while query < n && query < BLOCK {
+        let mut products = [one; MAX_CORNERS];
+        let mut axis = 0;
+        while axis < AXES {
+            let upper = fractions[axis].load(lanes, query);
+            let lower = one - upper;
+            // From the back, so that each product is read before it is overwritten.
+            let mut corner = 1 << axis;
+            while corner > 0 {
+                corner -= 1;
+                let product = products[corner];
+                products[2 * corner] = product * lower;
+                products[2 * corner + 1] = product * upper;
+            }
+            axis += 1;
+        }
+        // Masked last: a fraction may be NaN where the query is not valid.
+        let valid = valid.load(lanes, query).lt(zero);
+        let mut corner = 0;
+        while corner < 1 << AXES {
+            weights[corner].store(lanes, query, products[corner].masked(valid));
+            corner += 1;
+        }
+        query += L::LANES;
+    }
+}

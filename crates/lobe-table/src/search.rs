@@ -1,0 +1,263 @@
+//! From angles to cells: which cell of an axis each lane lies in, and how far into it.
+//!
+//! Each kind of axis has a searcher of its own, a [`Find`], so that the loop around it holds no branch and keeps what
+//! the search needs in registers. [`Axis::visit`] picks the kind once.
+
+use lobe_lane::{Floats, Ints, Lanes};
+
+use crate::Edge;
+use crate::axis::{Axis, Registers, Search};
+use crate::reference::ROUNDING;
+
+/// A cell in each lane.
+#[derive(Clone, Copy, Debug)]
+pub struct Cell<L: Lanes> {
+    /// Which cell, from 0.
+    pub index: L::I,
+    /// How far into it: 0 at its first knot and 1 at its second, beyond them outside the knots.
+    pub fraction: L::F,
+}
+
+/// A way to find cells. Queries outside the knots belong to the outermost cells.
+pub(crate) trait Find<L: Lanes>: Copy {
+    /// The cell of each lane of `x`, in radians.
+    fn find(self, lanes: L, x: L::F) -> Cell<L>;
+}
+
+/// Work to be done with the searcher of an axis, whichever that is.
+pub(crate) trait Visitor<L: Lanes> {
+    type Out;
+    /// Must be `#[inline(always)]`.
+    fn visit<S: Find<L>>(self, find: S) -> Self::Out;
+}
+
+impl Axis {
+    /// The cell of each lane of `x`, in radians, with no regard to the edge policy.
+    ///
+    /// For lanes inside a caller's own kernel; a loop over many angles does better to look up the searcher once.
+    #[inline(always)]
+    pub fn cell<L: Lanes>(&self, lanes: L, x: L::F) -> Cell<L> {
+        struct One<L: Lanes>(L, L::F);
+        impl<L: Lanes> Visitor<L> for One<L> {
+            type Out = Cell<L>;
+            #[inline(always)]
+            fn visit<S: Find<L>>(self, find: S) -> Cell<L> {
+                find.find(self.0, self.1)
+            }
+        }
+        self.visit(lanes, One(lanes, x))
+    }
+
+    /// The cell of each lane of `x`, in radians, and the weights of its two knots. They add up to 1, or are both 0 where
+    /// `x` is outside an axis of [`Edge::Zero`].
+    #[inline(always)]
+    pub fn weights<L: Lanes>(&self, lanes: L, x: L::F) -> (L::I, [L::F; 2]) {
+        let (x, inside) = self.bring_inside(lanes, x);
+        let Cell { index, fraction } = self.cell(lanes, x);
+        let weights = [lanes.splat(1.0) - fraction, fraction];
+        let zero_outside = self.edge() == Edge::Zero;
+        (index, if zero_outside { weights.map(|w| w.masked(inside)) } else { weights })
+    }
+
+    /// Applies the edge policy to angles in radians: where the table is to be read, and whether the query is inside.
+    ///
+    /// Angles on a periodic axis are at most a turn below its first knot, and none above.
+    #[inline(always)]
+    pub(crate) fn bring_inside<L: Lanes>(&self, lanes: L, x: L::F) -> (L::F, L::M) {
+        let (first, last) = (lanes.splat(self.first()), lanes.splat(self.last()));
+        let rounding = lanes.splat(ROUNDING as f32);
+        let inside = (first - rounding).le(x) & x.le(last + rounding);
+        let x = match self.edge() {
+            Edge::Extrapolate => x,
+            Edge::Clamp | Edge::Zero => x.max(first).min(last),
+            Edge::Periodic => {
+                let turned = x + lanes.splat(std::f32::consts::TAU).masked(x.lt(first));
+                turned.min(last)
+            }
+        };
+        (x, inside)
+    }
+
+    /// Hands the searcher of this axis to `visitor`.
+    #[inline(always)]
+    pub(crate) fn visit<L: Lanes, V: Visitor<L>>(&self, lanes: L, visitor: V) -> V::Out {
+        match self.search() {
+            Search::Constant => visitor.visit(Constant),
+            Search::Uniform { cells_per_radian } => visitor.visit(Uniform::<L> {
+                first: lanes.splat(self.first()),
+                cells_per_radian: lanes.splat(*cells_per_radian),
+                last_cell: lanes.splat_int(self.cells().len() as i32 - 1),
+            }),
+            Search::Registers(registers) if L::PERMUTES => match registers.levels {
+                3 => visitor.visit(Permute::<L, 3, 1>::new(lanes, registers)),
+                4 => visitor.visit(Permute::<L, 4, 2>::new(lanes, registers)),
+                _ => visitor.visit(Permute::<L, 5, 4>::new(lanes, registers)),
+            },
+            Search::Registers(_) => {
+                visitor.visit(Count { inner: &self.knots()[1..self.knots().len() - 1], cells: self.cells() })
+            }
+            Search::Guide { buckets_per_radian, buckets, steps } => visitor.visit(Guide::<L> {
+                first: lanes.splat(self.first()),
+                buckets_per_radian: lanes.splat(*buckets_per_radian),
+                last_bucket: lanes.splat_int(buckets.len() as i32 - 1),
+                buckets,
+                further: steps - 1,
+                inner: &self.knots()[1..self.knots().len() - 1],
+                cells: self.cells(),
+            }),
+        }
+    }
+}
+
+/// An axis of one knot.
+#[derive(Clone, Copy)]
+struct Constant;
+
+impl<L: Lanes> Find<L> for Constant {
+    #[inline(always)]
+    fn find(self, lanes: L, _x: L::F) -> Cell<L> {
+        Cell { index: lanes.splat_int(0), fraction: lanes.splat(0.0) }
+    }
+}
+
+/// An axis of equal cells.
+#[derive(Clone, Copy)]
+struct Uniform<L: Lanes> {
+    first: L::F,
+    cells_per_radian: L::F,
+    last_cell: L::I,
+}
+
+impl<L: Lanes> Find<L> for Uniform<L> {
+    #[inline(always)]
+    fn find(self, lanes: L, x: L::F) -> Cell<L> {
+        let position = (x - self.first) * self.cells_per_radian;
+        let index = position.to_int().min(self.last_cell).max(lanes.splat_int(0));
+        Cell { index, fraction: position - index.to_float() }
+    }
+}
+
+/// A search tree of `LEVELS` levels, and `OCTS` times eight cells, all in registers.
+#[derive(Clone, Copy)]
+struct Permute<L: Lanes, const LEVELS: usize, const OCTS: usize> {
+    tree: [L::Oct; OCTS],
+    first: [L::Oct; OCTS],
+    inverse: [L::Oct; OCTS],
+}
+
+impl<L: Lanes, const LEVELS: usize, const OCTS: usize> Permute<L, LEVELS, OCTS> {
+    #[inline(always)]
+    fn new(lanes: L, registers: &Registers) -> Self {
+        Permute {
+            tree: octs(lanes, &registers.tree),
+            first: octs(lanes, &registers.first),
+            inverse: octs(lanes, &registers.inverse),
+        }
+    }
+}
+
+#[inline(always)]
+fn octs<L: Lanes, const OCTS: usize>(lanes: L, from: &[f32; 32]) -> [L::Oct; OCTS] {
+    let mut octs = [lanes.oct_load(&from[..8]); OCTS];
+    let mut i = 1;
+    while i < OCTS {
+        octs[i] = lanes.oct_load(&from[8 * i..][..8]);
+        i += 1;
+    }
+    octs
+}
+
+/// Entry `index` of up to 32 in registers.
+#[inline(always)]
+fn look_up<L: Lanes, const OCTS: usize>(lanes: L, octs: [L::Oct; OCTS], index: L::I) -> L::F {
+    let mut value = lanes.oct_lookup(octs[0], index);
+    if OCTS >= 2 {
+        let odd = index.shl::<28>().lt(lanes.splat_int(0));
+        value = lanes.select(odd, lanes.oct_lookup(octs[1], index), value);
+        if OCTS == 4 {
+            let upper = lanes.select(odd, lanes.oct_lookup(octs[3], index), lanes.oct_lookup(octs[2], index));
+            value = lanes.select(index.shl::<27>().lt(lanes.splat_int(0)), upper, value);
+        }
+    }
+    value
+}
+
+impl<L: Lanes, const LEVELS: usize, const OCTS: usize> Find<L> for Permute<L, LEVELS, OCTS> {
+    #[inline(always)]
+    fn find(self, lanes: L, x: L::F) -> Cell<L> {
+        // From node n on to node 2 n, or 2 n + 1 where the query is not left of its knot. Levels 1 to 3 are nodes 1 to 7
+        // and lie in the first oct, level 4 fills the second, level 5 the last two: one look-up a level up to the fourth.
+        let mut node = lanes.splat_int(1);
+        let mut level = 0;
+        while level < LEVELS {
+            let knot = if level < 3 {
+                lanes.oct_lookup(self.tree[0], node)
+            } else if level == 3 {
+                lanes.oct_lookup(self.tree[1], node)
+            } else {
+                let odd = node.shl::<28>().lt(lanes.splat_int(0));
+                lanes.select(odd, lanes.oct_lookup(self.tree[3], node), lanes.oct_lookup(self.tree[2], node))
+            };
+            node = (node + node).count(knot.le(x));
+            level += 1;
+        }
+        let index = node - lanes.splat_int(1 << LEVELS);
+        let first = look_up(lanes, self.first, index);
+        let inverse = look_up(lanes, self.inverse, index);
+        Cell { index, fraction: (x - first) * inverse }
+    }
+}
+
+/// A few knots, all compared with.
+#[derive(Clone, Copy)]
+struct Count<'a> {
+    inner: &'a [f32],
+    cells: &'a [[f32; 2]],
+}
+
+impl<L: Lanes> Find<L> for Count<'_> {
+    #[inline(always)]
+    fn find(self, lanes: L, x: L::F) -> Cell<L> {
+        let mut index = lanes.splat_int(0);
+        let mut k = 0;
+        while k < self.inner.len() {
+            index = index.count(lanes.splat(self.inner[k]).le(x));
+            k += 1;
+        }
+        let [first, inverse] = lanes.gather_pair(self.cells, index);
+        Cell { index, fraction: (x - first) * inverse }
+    }
+}
+
+/// Many knots, reached through equal buckets.
+#[derive(Clone, Copy)]
+struct Guide<'a, L: Lanes> {
+    first: L::F,
+    buckets_per_radian: L::F,
+    last_bucket: L::I,
+    /// The cell at the start of the bucket, and the first knot inside the bucket or beyond.
+    buckets: &'a [[f32; 2]],
+    /// Knots in the fullest bucket beyond the first.
+    further: usize,
+    inner: &'a [f32],
+    cells: &'a [[f32; 2]],
+}
+
+impl<L: Lanes> Find<L> for Guide<'_, L> {
+    #[inline(always)]
+    fn find(self, lanes: L, x: L::F) -> Cell<L> {
+        let bucket = ((x - self.first) * self.buckets_per_radian).to_int();
+        let bucket = bucket.min(self.last_bucket).max(lanes.splat_int(0));
+        let [start, knot] = lanes.gather_pair(self.buckets, bucket);
+        let mut index = start.to_int().count(knot.le(x));
+        let mut step = 0;
+        while step < self.further {
+            // Beyond the last inner knot the gather reads that knot again, and it has been counted.
+            let within = index.lt(lanes.splat_int(self.inner.len() as i32));
+            index = index.count(lanes.gather(self.inner, index).le(x) & within);
+            step += 1;
+        }
+        let [first, inverse] = lanes.gather_pair(self.cells, index);
+        Cell { index, fraction: (x - first) * inverse }
+    }
+}

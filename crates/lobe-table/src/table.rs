@@ -1,0 +1,118 @@
+//! A measured BRDF or BTDF made ready for evaluation.
+
+use thiserror::Error;
+
+use crate::axis::{Axis, AxisError};
+use crate::function::Function;
+use crate::layout::Layout;
+use crate::{AXIS_NAMES, Channels, Edge, Edges, Samples, Scatter};
+
+/// Why samples do not make a table.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum TableError {
+    /// Knots that do not make an axis.
+    #[error("{axis}: {source}")]
+    Axis {
+        /// Name of the axis.
+        axis: &'static str,
+        /// What is wrong with it.
+        source: AxisError,
+    },
+    /// More floats than a lane's 32-bit index reaches.
+    #[error("a table of {channels} channels and {nodes} nodes has more floats than a 32-bit index reaches")]
+    TooLarge {
+        /// Knots of all axes multiplied.
+        nodes: usize,
+        /// Channels.
+        channels: usize,
+    },
+}
+
+/// A measured BRDF or BTDF in specular coordinates, laid out for evaluation in SIMD lanes.
+///
+/// There are three ways to evaluate it, all giving the same bits on one backend (and, in strict form, on all):
+/// - [`eval`](Table::eval): one pair of directions;
+/// - [`eval_batch`](Table::eval_batch): many pairs, as arrays of vectors or as separate components;
+/// - [`eval_lanes`](Table::eval_lanes): one pair a lane, under a mask, inside a caller's own kernel.
+///
+/// `wi` points to the light and `wo` to the viewer, unit vectors that point away from the surface, normal on +z.
+/// Results are `f` in 1/sr without the cosine. A reflection table gives 0 unless both directions have `z > 0`; a
+/// transmission table takes `|z|` of both, as its values are stored mirrored up at the surface, and gives 0 where one is
+/// 0. Directions with a component that is not finite give 0. With `wi` at the normal psi is 0 and phi counts from +x;
+/// with `wo` at the zenith phi is 0.
+#[derive(Clone, Debug)]
+pub struct Table {
+    scatter: Scatter,
+    channels: Channels,
+    edges: Edges,
+    pub(crate) axes: [Axis; 4],
+    pub(crate) refraction: Option<Function>,
+    pub(crate) layout: Layout,
+}
+
+impl Table {
+    /// Lays out samples for evaluation, with a policy for queries outside the knots.
+    ///
+    /// # Errors
+    /// Where the table is too large to be indexed, or a periodic axis cannot be closed.
+    pub fn new(samples: &Samples, edges: &Edges) -> Result<Self, TableError> {
+        let axis = |index: usize| {
+            Axis::new(&samples.knots()[index], edges.axes[index])
+                .map_err(|source| TableError::Axis { axis: AXIS_NAMES[index], source })
+        };
+        let axes = [axis(0)?, axis(1)?, axis(2)?, axis(3)?];
+        let edge = if edges.axes[0] == Edge::Zero { Edge::Clamp } else { edges.axes[0] };
+        let refraction = samples
+            .refraction()
+            .map(|offsets| Function::new(&samples.knots()[0], offsets, edge))
+            .transpose()
+            .map_err(|source| TableError::Axis { axis: AXIS_NAMES[0], source })?;
+        let layout = Layout::new(samples, &axes).ok_or_else(|| TableError::TooLarge {
+            nodes: samples.knots().iter().fold(1usize, |nodes, knots| nodes.saturating_mul(knots.len())),
+            channels: samples.channels().count(),
+        })?;
+        Ok(Table {
+            scatter: samples.scatter(),
+            channels: samples.channels().clone(),
+            edges: *edges,
+            axes,
+            refraction,
+            layout,
+        })
+    }
+
+    /// Reflection or transmission.
+    pub fn scatter(&self) -> Scatter {
+        self.scatter
+    }
+
+    /// What the channels stand for.
+    pub fn channels(&self) -> &Channels {
+        &self.channels
+    }
+
+    /// How many channels there are.
+    pub fn channel_count(&self) -> usize {
+        self.layout.channels
+    }
+
+    /// The policy outside the knots.
+    pub fn edges(&self) -> &Edges {
+        &self.edges
+    }
+
+    /// The axes of sigma, psi, theta and phi.
+    pub fn axes(&self) -> &[Axis; 4] {
+        &self.axes
+    }
+
+    /// `true` where the value depends on the rotation of the sample.
+    pub fn is_anisotropic(&self) -> bool {
+        self.axes[1].knots().len() > 1
+    }
+
+    /// Bytes of memory that the table takes.
+    pub fn bytes(&self) -> usize {
+        self.layout.bytes() + self.axes.iter().map(Axis::bytes).sum::<usize>()
+    }
+}
