@@ -156,9 +156,9 @@ fn read_block(text: &mut Text<'_>, grid: &Grid) -> Result<Vec<f64>, FormatError>
     let line = text.keyword("def")?.line;
     let count = grid.block_len();
     text.room(Some(count), "values", line)?;
-    let block: Result<Vec<f64>, _> = (0..count).map(|_| text.number("a value")).collect();
+    let block = (0..count).map(|_| text.number("a value")).collect::<Result<_, _>>()?;
     text.keyword("enddef")?;
-    block
+    Ok(block)
 }
 
 /// Writes `path` whole or not at all: `Luminance Absolute` over the whole circle of phi with every kbdf 1, and `sigmat`

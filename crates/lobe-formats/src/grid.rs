@@ -26,7 +26,10 @@ pub(crate) fn read_angles(text: &mut Text<'_>, name: &str, limit: f32) -> Result
         }
         angles.push(angle);
     }
-    Ok(angles)
+    match text.peek() {
+        Some(token) if token.is_number() => Err(text.unexpected(token, format!("no more than {count} {name} angles"))),
+        _ => Ok(angles),
+    }
 }
 
 /// Reads an angle from 0 to `limit` degrees.

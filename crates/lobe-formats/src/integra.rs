@@ -1,5 +1,6 @@
 //! What DDR, DDT, SDR and SDT files have in common: comments, the colour model, and blocks of values by channel name.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use lobe_table::Channels;
@@ -63,6 +64,7 @@ pub(crate) fn starts_block(token: Token<'_>) -> bool {
 pub(crate) struct Blocks {
     model: ColorModel,
     wavelengths: Vec<f64>,
+    seen: HashSet<u64>,
     values: Vec<Option<Vec<f32>>>,
 }
 
@@ -70,7 +72,7 @@ impl Blocks {
     /// No block yet. The rest of the file has to have room for one value in each of them.
     pub fn new(model: ColorModel, text: &Text<'_>) -> Result<Self, FormatError> {
         text.room(Some(model.count()), "blocks", text.line())?;
-        Ok(Blocks { model, wavelengths: Vec::new(), values: vec![None; model.count()] })
+        Ok(Blocks { model, wavelengths: Vec::new(), seen: HashSet::new(), values: vec![None; model.count()] })
     }
 
     /// Reads the name of a block, with the wavelength of a spectral one; its channel.
@@ -90,7 +92,7 @@ impl Blocks {
             if wavelength <= 0.0 {
                 return Err(text.error(text.line(), wavelength.to_string(), "a wavelength in nm, above 0"));
             }
-            if self.wavelengths.contains(&wavelength) {
+            if !self.seen.insert(wavelength.to_bits()) {
                 return Err(text.error(text.line(), format!("a second block for {wavelength} nm"), "one a wavelength"));
             }
             self.wavelengths.push(wavelength);

@@ -4,6 +4,7 @@
 
 use std::borrow::Cow;
 use std::path::Path;
+use std::str::FromStr;
 
 use crate::{FormatError, Place};
 
@@ -24,6 +25,15 @@ impl<'a> Token<'a> {
     /// `true` where the word is `word` in any spelling of upper and lower case.
     pub fn is(&self, word: &str) -> bool {
         self.bytes.eq_ignore_ascii_case(word.as_bytes())
+    }
+
+    /// `true` where the word is a number.
+    pub fn is_number(&self) -> bool {
+        self.parse::<f64>().is_some()
+    }
+
+    fn parse<T: FromStr>(&self) -> Option<T> {
+        std::str::from_utf8(self.bytes).ok().and_then(|text| text.parse().ok())
     }
 
     /// The word as an error message shows it: quoted, escaped, and not longer than a line.
@@ -121,8 +131,7 @@ impl<'a> Text<'a> {
     /// The next token as a finite number.
     pub fn number(&mut self, what: &str) -> Result<f64, FormatError> {
         let token = self.expect(what)?;
-        let number = std::str::from_utf8(token.bytes).ok().and_then(|text| text.parse::<f64>().ok());
-        match number {
+        match token.parse::<f64>() {
             Some(number) if number.is_finite() => Ok(number),
             _ => Err(self.unexpected(token, format!("{what}, a finite number"))),
         }
@@ -143,8 +152,7 @@ impl<'a> Text<'a> {
     /// has room for.
     pub fn count(&mut self, what: &str) -> Result<usize, FormatError> {
         let token = self.expect(&format!("the number of {what}"))?;
-        let count = std::str::from_utf8(token.bytes).ok().and_then(|text| text.parse::<usize>().ok());
-        match count {
+        match token.parse() {
             Some(count) if count > 0 => self.room(Some(count), what, token.line).map(|()| count),
             _ => Err(self.unexpected(token, format!("the number of {what}, 1 or more"))),
         }

@@ -26,16 +26,20 @@ pub(crate) fn divide_by_cosine(grid: &Grid, zeniths: &[f64], block: &mut [f64]) 
     let rows = block.chunks_exact_mut(thetas);
     for (row, values) in rows.enumerate().take(psis * sigmas * phis) {
         let (s, h) = (row / phis % sigmas, row % phis);
-        let cosine = |t: usize| angles_to_directions([zeniths[s], 0.0, theta[t], phi[h]], |polar| polar).1[2];
-        let above: Vec<usize> = (0..thetas).filter(|&t| cosine(t) > HORIZON).collect();
-        for &t in &above {
-            values[t] /= cosine(t);
+        let cosines: Vec<f64> =
+            theta.iter().map(|&t| angles_to_directions([zeniths[s], 0.0, t, phi[h]], |z| z).1[2]).collect();
+        let above = |&t: &usize| cosines[t] > HORIZON;
+        // Along a row the direction leaves the upper side once for good, so the nodes above the horizon are neighbours.
+        let (Some(first), Some(last)) = ((0..thetas).find(above), (0..thetas).rfind(above)) else {
+            values.fill(0.0);
+            continue;
+        };
+        for t in first..=last {
+            values[t] /= cosines[t];
         }
-        for t in 0..thetas {
-            if cosine(t) <= HORIZON {
-                values[t] = above.iter().min_by_key(|above| above.abs_diff(t)).map_or(0.0, |&nearest| values[nearest]);
-            }
-        }
+        let (lowest, highest) = (values[first], values[last]);
+        values[..first].fill(lowest);
+        values[last + 1..].fill(highest);
     }
 }
 
@@ -55,8 +59,8 @@ pub(crate) fn scale_slices(file: &Path, samples: &Samples, targets: &[Vec<f64>])
                 let target = targets[c][p * sigmas + s];
                 let scale = target / reflectance[c];
                 let blank = slice.iter().skip(c).step_by(channels).all(|&v| v == 0.0);
-                let scalable = scale.is_finite() && scale >= 0.0;
-                if !scalable && !(blank && target == 0.0) {
+                let possible = if blank { target == 0.0 } else { scale.is_finite() && scale >= 0.0 };
+                if !possible {
                     let degrees = samples.knots()[0][s].to_degrees();
                     let found = format!(
                         "relative values with a reflectance of {} at sigma {degrees:.6} in channel {c}",

@@ -1,6 +1,8 @@
 //! The reader and the reference evaluation together against the answers of libbsdf, an independent implementation.
 
 mod common;
+#[path = "common/golden.rs"]
+mod golden;
 
 use std::path::Path;
 
@@ -9,9 +11,9 @@ use lobe_table::reference::eval;
 use lobe_table::{Edges, Samples};
 
 /// Largest difference to the golden answers, as a part of the largest magnitude in the table.
-fn largest_error(samples: &Samples, golden: &Path) -> (usize, f64) {
+fn largest_error(samples: &Samples, answers: &Path) -> (usize, f64) {
     let scale = samples.values().iter().fold(0.0_f64, |largest, &value| largest.max(f64::from(value).abs()));
-    let pairs = common::pairs(golden);
+    let pairs = golden::pairs(answers);
     let mut out = vec![0.0; samples.channels().count()];
     let mut largest: f64 = 0.0;
     for pair in &pairs {
@@ -24,9 +26,9 @@ fn largest_error(samples: &Samples, golden: &Path) -> (usize, f64) {
     (pairs.len(), largest)
 }
 
-fn check(file: &Path, golden: &Path, expected_pairs: usize) {
+fn check(file: &Path, answers: &Path, expected_pairs: usize) {
     let Document::Table(measured) = open(file).unwrap().1 else { panic!("{} is no table", file.display()) };
-    let (pairs, error) = largest_error(&measured.data, golden);
+    let (pairs, error) = largest_error(&measured.data, answers);
     println!("{}: {pairs} pairs, largest error {error:.2e} of the largest value", file.display());
     assert_eq!(pairs, expected_pairs);
     assert!(error <= 2e-6, "{}: {error:e}", file.display());
