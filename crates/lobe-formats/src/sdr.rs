@@ -1,0 +1,101 @@
+//! Integra SDR (mirror reflectance) and SDT (transmittance straight through).
+//!
+//! The header has `TypeColorModel` and `sigma`; each block is a name, `def`, one ratio a sigma, `enddef`. Keywords are
+//! read in any case of letters and written in the one that stricter readers ask for.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use lobe_table::Scatter;
+
+use crate::document::scatter_of_extension;
+use crate::grid::{LIMITS, radians, read_angles};
+use crate::integra::{Blocks, COMMENT, ColorModel, block_names, keep_comments, starts_block};
+use crate::text::{Text, Token, nine_digits};
+use crate::write::write_whole;
+use crate::{FormatError, Measured, Place, Specular};
+
+/// Reads a file from its content. Nothing in it says whether it is reflection or transmission.
+///
+/// # Errors
+/// [`FormatError`] names the line, what is there and what should be.
+pub fn read(file: &Path, bytes: &[u8], scatter: Scatter) -> Result<Measured<Specular>, FormatError> {
+    let text = &mut Text::new(file, bytes, COMMENT);
+    let mut source = Vec::new();
+    let mut model = ColorModel::Rgb;
+    let mut degrees = Vec::new();
+    while let Some(token) = text.peek().filter(|&token| !starts_block(token)) {
+        text.next();
+        keep_comments(text, &mut source);
+        if token.is("TypeColorModel") {
+            model = ColorModel::read(text)?;
+            source.push(("TypeColorModel".into(), model.keyword()));
+        } else if token.is("sigma") && degrees.is_empty() {
+            degrees = read_angles(text, "sigma", LIMITS[0])?;
+        } else {
+            let known = |token: Token<'_>| starts_block(token) || token.is("TypeColorModel") || token.is("sigma");
+            source.push((token.text().into(), text.rest_of_line(token, known)));
+        }
+    }
+    if degrees.is_empty() {
+        return Err(text.error(text.line(), "the end of the header", "`sigma` and its angles"));
+    }
+    let mut blocks = Blocks::new(model, text)?;
+    for _ in 0..model.count() {
+        let channel = blocks.read_name(text)?;
+        text.keyword("def")?;
+        let values: Result<_, _> = degrees.iter().map(|_| text.value("a reflectance")).collect();
+        blocks.keep(channel, values?);
+        text.keyword("enddef")?;
+    }
+    text.end("nothing after the last block")?;
+    let (channels, blocks) = blocks.finish();
+    let values = (0..degrees.len()).flat_map(|s| blocks.iter().map(move |block| block[s])).collect();
+    let data = Specular::new(scatter, radians(&degrees), channels, values)
+        .ok_or_else(|| FormatError::new(file, Place::File, "sigma angles that are equal", "distinct ones"))?;
+    Ok(Measured { data, source, tis: Vec::new() })
+}
+
+/// Writes `path` whole or not at all; nine significant digits, which give the same values when they are read again.
+///
+/// # Errors
+/// [`FormatError`] where the file cannot be written, the channels are XYZ, or the extension (`.sdr` for reflection,
+/// `.sdt` for transmission) would make readers take it for the other kind.
+pub fn write(path: &Path, specular: &Specular) -> Result<(), FormatError> {
+    check_extension(path, specular.scatter(), ["sdr", "sdt"])?;
+    let (model, names) = block_names(path, specular.channels())?;
+    let mut out = format!("TypeColorModel {}\nsigma {}\n", model.keyword(), specular.sigma().len());
+    push_row(&mut out, specular.sigma().iter().map(|angle| f64::from(angle.to_degrees() as f32)));
+    for (channel, name) in names.iter().enumerate() {
+        let _ = writeln!(out, "{name}\n def");
+        push_row(&mut out, specular.values().iter().skip(channel).step_by(names.len()).map(|&value| f64::from(value)));
+        out.push_str(" enddef\n");
+    }
+    write_whole(path, out.as_bytes())
+}
+
+/// Adds a line of numbers.
+pub(crate) fn push_row(out: &mut String, numbers: impl Iterator<Item = f64>) {
+    for number in numbers {
+        out.push(' ');
+        out.push_str(&nine_digits(number));
+    }
+    out.push('\n');
+}
+
+/// The extension is all that tells reflection from transmission in this family: refuse the misleading ones.
+pub(crate) fn check_extension(path: &Path, scatter: Scatter, names: [&str; 2]) -> Result<(), FormatError> {
+    if scatter_of_extension(path) == scatter {
+        return Ok(());
+    }
+    let (what, name) = match scatter {
+        Scatter::Reflection => ("reflection", names[0]),
+        Scatter::Transmission => ("transmission", names[1]),
+    };
+    Err(FormatError::new(
+        path,
+        Place::File,
+        format!("{what} data for this extension"),
+        format!("the extension .{name}"),
+    ))
+}
