@@ -1,1 +1,34 @@
-//! TODO
+//! Reflectance to measure: analytic models, a simulated woven cloth, and the virtual goniometer that turns either into a
+//! table.
+//!
+//! Everything here is plain `f64` on one direction pair at a time: the reference that tables are made from and compared
+//! with, not the evaluator.
+//!
+//! Directions are unit vectors that point away from the surface, whose normal is `+z`: `wi` toward the light, `wo` toward
+//! the viewer. Values are RGB in 1/sr without the cosine.
+#![forbid(unsafe_code)]
+
+mod albedo;
+mod blinn;
+pub mod cloth;
+mod conductor;
+pub mod goniometer;
+mod lambert;
+mod microfacet;
+mod mix;
+mod model;
+mod oren_nayar;
+mod phong;
+mod vec3;
+mod ward;
+
+pub use albedo::albedo;
+pub use blinn::Blinn;
+pub use conductor::{Conductor, fresnel_conductor};
+pub use lambert::Lambert;
+pub use microfacet::Ggx;
+pub use mix::Mix;
+pub use model::Model;
+pub use oren_nayar::OrenNayar;
+pub use phong::Phong;
+pub use ward::Ward;

@@ -1,0 +1,204 @@
+//! A virtual goniophotometer: the values of a model at the nodes of a table.
+
+use std::f64::consts::{PI, TAU};
+
+use lobe_table::{Channels, Samples, SamplesError, Scatter};
+use rayon::prelude::*;
+
+use crate::Model;
+use crate::vec3::{Vec3, normalize};
+
+/// The light and the viewer at the specular coordinates `sigma`, `psi`, `theta`, `phi`, in radians.
+///
+/// `wi` has polar angle `sigma` and azimuth `psi`. `wo` has polar angle `theta` and azimuth `phi` in the frame whose zenith
+/// is the mirror direction of `wi` and whose x axis leads from there over the normal to the light; it may lie below the
+/// surface.
+pub fn directions(sigma: f64, psi: f64, theta: f64, phi: f64) -> ([f64; 3], [f64; 3]) {
+    let ((sin_s, cos_s), (sin_p, cos_p)) = (sigma.sin_cos(), psi.sin_cos());
+    let ((sin_t, cos_t), (sin_f, cos_f)) = (theta.sin_cos(), phi.sin_cos());
+    let wi = [sin_s * cos_p, sin_s * sin_p, cos_s];
+    let x = cos_s * sin_t * cos_f - sin_s * cos_t;
+    let y = sin_t * sin_f;
+    let z = sin_s * sin_t * cos_f + cos_s * cos_t;
+    (wi, normalize([cos_p * x - sin_p * y, sin_p * x + cos_p * y, z]))
+}
+
+/// Measures `model` at every node of `knots` (sigma, psi, theta, phi in radians, as in [`Samples`]).
+///
+/// - Nodes at `theta` 0 and `pi` are one direction whatever `phi`, and the last `phi` or `psi` knot of a full circle is its
+///   first: they are measured once and get equal values.
+/// - Nodes below the surface cannot be measured, but a table needs values there to interpolate toward the horizon. They
+///   hold the value of the same azimuth just above it: see [`lift`]. The light is lifted in the same way, so `sigma` may be
+///   90 degrees.
+///
+/// Directions of the light are shared out over the threads of rayon; the values do not depend on their number. `progress`
+/// is called after each of them; there are sigma knots times psi knots.
+///
+/// # Errors
+/// [`SamplesError`] where the knots make no table.
+pub fn measure(
+    model: &(impl Model + Sync),
+    knots: [Vec<f64>; 4],
+    progress: impl Fn() + Sync,
+) -> Result<Samples, SamplesError> {
+    let [sigmas, psis, thetas, phis] = &knots;
+    let lights: Vec<(f64, f64)> = sigmas.iter().flat_map(|&sigma| psis.iter().map(move |&psi| (sigma, psi))).collect();
+    let measured: Vec<Vec<Vec3>> = lights
+        .par_iter()
+        .map(|&(sigma, psi)| {
+            // A second look at the first position of a full turn would only repeat it.
+            let psi = if closes_circle(psi, psis) { psis[0] } else { psi };
+            let slice = measure_light(model, sigma, psi, thetas, phis);
+            progress();
+            slice
+        })
+        .collect();
+    let values = measured.iter().flatten().flatten().map(|&f| f as f32).collect();
+    Samples::new(Scatter::Reflection, knots, Channels::Rgb, values)
+}
+
+/// All viewers of one light, `[theta][phi]`.
+fn measure_light(model: &impl Model, sigma: f64, psi: f64, thetas: &[f64], phis: &[f64]) -> Vec<Vec3> {
+    let mut viewers = Vec::new();
+    let mut viewer_of_node = Vec::new();
+    let (wi, _) = directions(sigma, psi, 0.0, 0.0);
+    for &theta in thetas {
+        let first = viewers.len();
+        for (i, &phi) in phis.iter().enumerate() {
+            let known = i > 0 && (at_pole(theta) || closes_circle(phi, phis));
+            if !known {
+                viewers.push(lift(directions(sigma, psi, theta, phi).1));
+            }
+            viewer_of_node.push(if known { first } else { viewers.len() - 1 });
+        }
+    }
+    let values = model.f_many(lift(wi), &viewers);
+    viewer_of_node.into_iter().map(|viewer| values[viewer]).collect()
+}
+
+/// Knots that were degrees in a file come back to within this of the pole or the full turn.
+const ANGLE_ROUNDING: f64 = 1e-6;
+
+fn at_pole(theta: f64) -> bool {
+    theta < ANGLE_ROUNDING || theta > PI - ANGLE_ROUNDING
+}
+
+fn closes_circle(angle: f64, knots: &[f64]) -> bool {
+    angle - knots[0] > TAU - ANGLE_ROUNDING
+}
+
+/// The height of the lowest direction that is measured: 1.1 degrees above the horizon.
+const LOWEST: f64 = 0.02;
+/// Directions higher than this, 3.4 degrees, are measured as they are.
+const UNTOUCHED: f64 = 0.06;
+
+/// A direction that can be measured, close to `w`: `w` itself where its z is above 0.06, else the same azimuth at a height
+/// that falls smoothly to 0.02. Height and its derivative are continuous.
+pub fn lift(w: [f64; 3]) -> [f64; 3] {
+    if w[2] >= UNTOUCHED {
+        return w;
+    }
+    let room = UNTOUCHED - LOWEST;
+    let z = LOWEST + room * ((w[2] - UNTOUCHED) / room).exp();
+    let across = w[0].hypot(w[1]);
+    // Straight down there is no azimuth, and any will do.
+    let (x, y) = if across > 0.0 { (w[0] / across, w[1] / across) } else { (1.0, 0.0) };
+    let radius = (1.0 - z * z).sqrt();
+    [x * radius, y * radius, z]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cloth::{Cloth, Ply, Weave, Yarn};
+    use crate::vec3::{dot, reflect};
+    use crate::{Lambert, Phong};
+
+    fn degrees(knots: &[f64]) -> Vec<f64> {
+        knots.iter().map(|k| k.to_radians()).collect()
+    }
+
+    fn close(a: Vec3, b: Vec3) -> bool {
+        a.into_iter().zip(b).all(|(x, y)| (x - y).abs() < 1e-4)
+    }
+
+    #[test]
+    fn geometry_of_known_directions() {
+        let at = |theta: f64, phi: f64| directions(30f64.to_radians(), 0.0, theta.to_radians(), phi.to_radians()).1;
+        assert!(close(at(20.0, 0.0), [-0.1736, 0.0, 0.9848]));
+        assert!(close(at(20.0, 90.0), [-0.4698, 0.3420, 0.8138]));
+        assert!(close(at(20.0, 180.0), [-0.7660, 0.0, 0.6428]));
+        assert!(close(at(20.0, 270.0), [-0.4698, -0.3420, 0.8138]));
+        assert!(close(at(60.0, 0.0), [0.5, 0.0, 0.8660]));
+    }
+
+    #[test]
+    fn zenith_is_the_mirror_and_psi_turns_both() {
+        for (sigma, psi, theta, phi) in [(0.3, 1.0, 0.7, 2.0), (1.2, 4.0, 1.5, 5.0), (0.0, 2.0, 0.4, 1.0)] {
+            let (wi, zenith) = directions(sigma, psi, 0.0, phi);
+            assert!(close(zenith, reflect(wi, [0.0, 0.0, 1.0])));
+            let (_, wo) = directions(sigma, psi, theta, phi);
+            assert!((dot(wo, zenith) - theta.cos()).abs() < 1e-12);
+            let (_, unturned) = directions(sigma, 0.0, theta, phi);
+            let (s, c) = psi.sin_cos();
+            let turned = [c * unturned[0] - s * unturned[1], s * unturned[0] + c * unturned[1], unturned[2]];
+            assert!((dot(wo, turned) - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn lift_changes_only_what_cannot_be_measured() {
+        let w = directions(1.0, 0.3, 0.2, 0.4).1;
+        assert_eq!(lift(w), w);
+        let at = |z: f64| lift([(1.0 - z * z).sqrt(), 0.0, z])[2];
+        for z in [-1.0, -0.5, -0.01, 0.0, 0.03, 0.0599] {
+            assert!(at(z) >= LOWEST && at(z) <= at(z + 1e-4), "not monotonic at {z}");
+        }
+        let (below, above) = (at(UNTOUCHED - 1e-6), at(UNTOUCHED + 1e-6));
+        assert!((above - below - 2e-6).abs() < 1e-9, "kink of {}", above - below);
+    }
+
+    #[test]
+    fn nodes_hold_the_model() {
+        let model = Phong { specular: [1.0, 0.5, 0.2], exponent: 20.0 };
+        let knots =
+            [&[0.0, 30.0, 60.0][..], &[0.0], &[0.0, 10.0, 40.0, 180.0], &[0.0, 90.0, 200.0, 360.0]].map(degrees);
+        let samples = measure(&model, knots, || {}).expect("a table");
+        // At the peak of the lobe: specular (n + 2) / (2 pi).
+        for sigma in 0..3 {
+            for phi in 0..4 {
+                assert!((samples.texel([sigma, 0, 0, phi])[1] - 0.5 * 22.0 / TAU as f32).abs() < 1e-5);
+            }
+        }
+        let expected = 0.5 * 22.0 / TAU * 10f64.to_radians().cos().powi(20);
+        assert!((f64::from(samples.texel([1, 0, 1, 2])[1]) - expected).abs() < 1e-5);
+        assert_eq!(samples.texel([1, 0, 2, 0]), samples.texel([1, 0, 2, 3]));
+    }
+
+    #[test]
+    fn nodes_below_the_horizon_continue_those_above() {
+        let knots = [&[0.0, 90.0][..], &[0.0], &[0.0, 45.0, 180.0], &[0.0, 180.0, 360.0]].map(degrees);
+        let samples = measure(&Lambert { albedo: [0.5; 3] }, knots, || {}).expect("a table");
+        assert!(samples.values().iter().all(|&f| (f64::from(f) - 0.5 / PI).abs() < 1e-7));
+    }
+
+    #[test]
+    fn cloth_is_the_same_on_any_number_of_threads() {
+        let weave = Weave { over: 1, under: 1, crimp: 0.2, roundness: 0.3, plies: [Ply::SMOOTH; 2] };
+        let yarn = Yarn { body: [0.5; 3], shine: [0.8; 3], share: 0.3, roughness: [0.2, 0.5] };
+        let cloth = Cloth::new(&weave, [yarn; 2], 8, 50, 11);
+        let knots =
+            [&[0.0, 40.0, 80.0][..], &[0.0, 90.0, 360.0], &[0.0, 30.0, 120.0], &[0.0, 120.0, 360.0]].map(degrees);
+        let on = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
+            pool.install(|| measure(&cloth, knots.clone(), || {})).expect("a table")
+        };
+        let samples = on(1);
+        assert_eq!(samples, on(3));
+        for (theta, phi) in [(1, 0), (2, 1)] {
+            assert_eq!(samples.texel([1, 0, theta, phi]), samples.texel([1, 2, theta, phi]), "psi 0 and 360");
+        }
+        assert_eq!(samples.texel([1, 1, 0, 0]), samples.texel([1, 1, 0, 1]), "the pole");
+        assert_eq!(samples.texel([1, 1, 1, 0]), samples.texel([1, 1, 1, 2]), "phi 0 and 360");
+    }
+}
