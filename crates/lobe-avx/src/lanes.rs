@@ -70,12 +70,10 @@ impl Lanes for Avx2 {
     #[inline(always)]
     fn load_xyz(self, src: &[[f32; 3]]) -> [Floats; 3] {
         let flat = src[..8].as_flattened();
-        let halves = |at: usize| {
-            let (low, high) = (memory::load4(self, &flat[at..]), memory::load4(self, &flat[at + 12..]));
-            op!(_mm256_insertf128_ps::<1>(_mm256_castps128_ps256(low), high))
-        };
         // In each half: a = x0 y0 z0 x1, b = y1 z1 x2 y2, c = z2 x3 y3 z3
-        let (a, b, c) = (halves(0), halves(4), halves(8));
+        let a = memory::load_halves(self, &flat[..4], &flat[12..16]);
+        let b = memory::load_halves(self, &flat[4..8], &flat[16..20]);
+        let c = memory::load_halves(self, &flat[8..12], &flat[20..]);
         op!({
             let x23 = _mm256_shuffle_ps::<0b01_01_10_10>(b, c);
             let y01 = _mm256_shuffle_ps::<0b00_00_01_01>(a, b);
@@ -113,18 +111,22 @@ impl Lanes for Avx2 {
     }
     #[inline(always)]
     fn gather_quads<const N: usize>(self, block: &Block<'_, N, 4>, base: Ints) -> [[Floats; 4]; N] {
-        let [a, b, c, d, e, f, g, h] = memory::indices(self, base.0);
-        core::array::from_fn(
-            #[inline(always)]
-            |corner| {
-                let pair = |low, high| {
-                    let low = memory::load_quad(self, block, low, corner);
-                    let high = memory::load_quad(self, block, high, corner);
-                    op!(_mm256_insertf128_ps::<1>(_mm256_castps128_ps256(low), high))
-                };
-                transpose(pair(a, e), pair(b, f), pair(c, g), pair(d, h))
-            },
-        )
+        let bases = memory::indices(self, base.0);
+        let mut corners = [[self.splat(0.0); 4]; N];
+        let mut corner = 0;
+        while corner < N {
+            let mut rows = [self.splat(0.0); 4];
+            let mut row = 0;
+            while row < 4 {
+                let low = memory::load_quad(self, block, bases[row], corner);
+                let high = memory::load_quad(self, block, bases[row + 4], corner);
+                rows[row] = Floats(op!(_mm256_insertf128_ps::<1>(_mm256_castps128_ps256(low), high)));
+                row += 1;
+            }
+            corners[corner] = transpose(rows);
+            corner += 1;
+        }
+        corners
     }
     #[inline(always)]
     fn oct_lookup(self, table: Floats, index: Ints) -> Floats {
@@ -134,7 +136,7 @@ impl Lanes for Avx2 {
 
 /// Rows to columns, in each half of the registers.
 #[inline(always)]
-fn transpose(a: __m256, b: __m256, c: __m256, d: __m256) -> [Floats; 4] {
+fn transpose([Floats(a), Floats(b), Floats(c), Floats(d)]: [Floats; 4]) -> [Floats; 4] {
     op!({
         let (ab_low, ab_high) = (_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
         let (cd_low, cd_high) = (_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));

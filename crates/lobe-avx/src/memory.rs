@@ -50,6 +50,13 @@ pub(crate) fn store_int(_proof: Avx2, dst: &mut [i32], x: __m256i) {
     unsafe { _mm256_storeu_si256(dst.as_mut_ptr().cast(), x) }
 }
 
+/// The first four floats of each slice, one in each half of the register.
+#[inline(always)]
+pub(crate) fn load_halves(proof: Avx2, low: &[f32], high: &[f32]) -> __m256 {
+    let (low, high) = (load4(proof, low), load4(proof, high));
+    op!(_mm256_insertf128_ps::<1>(_mm256_castps128_ps256(low), high))
+}
+
 /// The eight integers, each as an index with negative values far outside.
 #[inline(always)]
 pub(crate) fn indices(proof: Avx2, x: __m256i) -> [usize; 8] {

@@ -45,10 +45,13 @@ impl Texels for Avx2 {
     }
     #[inline(always)]
     fn oct_corners<const N: usize>(self, block: &Block<'_, N, 8>, base: usize) -> [Floats; N] {
-        core::array::from_fn(
-            #[inline(always)]
-            |corner| Floats(memory::load_oct(self, block, base, corner)),
-        )
+        let mut corners = [self.oct_splat(0.0); N];
+        let mut corner = 0;
+        while corner < N {
+            corners[corner] = Floats(memory::load_oct(self, block, base, corner));
+            corner += 1;
+        }
+        corners
     }
     #[inline(always)]
     fn oct_mul_add(self, a: Floats, b: Floats, c: Floats) -> Floats {

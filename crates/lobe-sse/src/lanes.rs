@@ -98,13 +98,19 @@ impl<V: Level> Lanes for Sse<V> {
     #[inline(always)]
     fn gather_quads<const N: usize>(self, block: &Block<'_, N, 4>, base: Ints<V>) -> [[Floats<V>; 4]; N] {
         let bases = memory::indices(base.0);
-        core::array::from_fn(
-            #[inline(always)]
-            |corner| {
-                let [a, b, c, d] = bases.map(|base| memory::load_corner(block, base, corner, 0));
-                transpose(a, b, c, d)
-            },
-        )
+        let mut corners = [[self.splat(0.0); 4]; N];
+        let mut corner = 0;
+        while corner < N {
+            let mut rows = [self.splat(0.0); 4];
+            let mut row = 0;
+            while row < 4 {
+                rows[row] = floats(memory::load_corner(block, bases[row], corner, 0));
+                row += 1;
+            }
+            corners[corner] = transpose(rows);
+            corner += 1;
+        }
+        corners
     }
     #[inline(always)]
     fn oct_lookup(self, table: Oct<V>, index: Ints<V>) -> Floats<V> {
@@ -118,7 +124,8 @@ impl<V: Level> Lanes for Sse<V> {
 
 /// Rows to columns.
 #[inline(always)]
-fn transpose<V: Level>(a: __m128, b: __m128, c: __m128, d: __m128) -> [Floats<V>; 4] {
+fn transpose<V: Level>(rows: [Floats<V>; 4]) -> [Floats<V>; 4] {
+    let [a, b, c, d] = rows.map(|row| row.0);
     op!({
         let (ab_low, ab_high) = (_mm_unpacklo_ps(a, b), _mm_unpackhi_ps(a, b));
         let (cd_low, cd_high) = (_mm_unpacklo_ps(c, d), _mm_unpackhi_ps(c, d));

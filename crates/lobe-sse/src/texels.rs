@@ -49,13 +49,16 @@ impl<V: Level> Texels for Sse<V> {
     }
     #[inline(always)]
     fn oct_corners<const N: usize>(self, block: &Block<'_, N, 8>, base: usize) -> [Oct<V>; N] {
-        core::array::from_fn(
-            #[inline(always)]
-            |corner| {
-                let half = |half| floats(memory::load_corner(block, base, corner, half));
-                Oct(half(0), half(1))
-            },
-        )
+        let mut corners = [self.oct_splat(0.0); N];
+        let mut corner = 0;
+        while corner < N {
+            corners[corner] = Oct(
+                floats(memory::load_corner(block, base, corner, 0)),
+                floats(memory::load_corner(block, base, corner, 1)),
+            );
+            corner += 1;
+        }
+        corners
     }
     #[inline(always)]
     fn oct_mul_add(self, a: Oct<V>, b: Oct<V>, c: Oct<V>) -> Oct<V> {

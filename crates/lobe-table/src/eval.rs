@@ -35,19 +35,36 @@ impl Table {
     /// # Panics
     /// Where `out` is not as long as there are channels.
     pub fn eval<L: Lanes>(&self, lanes: L, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
-        self.eval_batch(lanes, [wi].as_slice(), [wo].as_slice(), out);
+        lanes.vectorize(self.single(wi, wo, out));
     }
 
     /// Evaluates many pairs on the backend given: `out[query * channels + channel]`.
     ///
-    /// `wi` and `wo` are slices of vectors, or [`Soa`](crate::Soa) of components.
+    /// `wi` and `wo` are slices of vectors, or [`Soa`] of components.
     ///
     /// # Panics
     /// Where there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
     pub fn eval_batch<L: Lanes, D: Directions>(&self, lanes: L, wi: D, wo: D, out: &mut [f32]) {
+        lanes.vectorize(self.batch(wi, wo, out));
+    }
+
+    /// The work of [`eval`](Table::eval) as a kernel.
+    ///
+    /// # Panics
+    /// Where `out` is not as long as there are channels.
+    pub fn single<'a>(&'a self, wi: [f32; 3], wo: [f32; 3], out: &'a mut [f32]) -> impl Kernel<Out = ()> + 'a {
+        assert_eq!(out.len(), self.channel_count(), "one output a channel");
+        Single { table: self, wi, wo, out }
+    }
+
+    /// The work of [`eval_batch`](Table::eval_batch) as a kernel.
+    ///
+    /// # Panics
+    /// As [`eval_batch`](Table::eval_batch).
+    pub fn batch<'a, D: Directions + 'a>(&'a self, wi: D, wo: D, out: &'a mut [f32]) -> impl Kernel<Out = ()> + 'a {
         assert_eq!(wi.count(), wo.count(), "as many wi as wo");
         assert_eq!(out.len(), wi.count() * self.channel_count(), "one output a query and channel");
-        lanes.vectorize(Batch { table: self, wi, wo, out });
+        Batch { table: self, wi, wo, out }
     }
 
     /// Evaluates one pair a lane inside a caller's own kernel: `out[channel]` holds that channel in all lanes, 0 in the
@@ -194,5 +211,23 @@ impl<D: Directions> Kernel for Batch<'_, D> {
             table.texels(lanes, n, &scratch, 0, channels, &mut out[at * channels..][..n * channels]);
             at += n;
         }
+    }
+}
+
+/// One query.
+struct Single<'a> {
+    table: &'a Table,
+    wi: [f32; 3],
+    wo: [f32; 3],
+    out: &'a mut [f32],
+}
+
+impl Kernel for Single<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Single { table, wi, wo, out } = self;
+        Batch { table, wi: [wi].as_slice(), wo: [wo].as_slice(), out }.run(lanes);
     }
 }
