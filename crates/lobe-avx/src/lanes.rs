@@ -52,6 +52,11 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
+    fn select_negative(self, sign: Ints, a: Floats, b: Floats) -> Floats {
+        Floats(op!(_mm256_blendv_ps(b.0, a.0, _mm256_castsi256_ps(sign.0))))
+    }
+
+    #[inline(always)]
     fn load(self, src: &[f32]) -> Floats {
         Floats(memory::load8(self, src))
     }

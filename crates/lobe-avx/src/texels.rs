@@ -27,8 +27,8 @@ impl Texels for Avx2 {
         Quad(op!(_mm_fmadd_ps(a.0, b.0, c.0)))
     }
     #[inline(always)]
-    fn quad_positive(self, x: Quad) -> Quad {
-        Quad(op!(_mm_max_ps(x.0, _mm_setzero_ps())))
+    fn quad_max(self, a: Quad, b: Quad) -> Quad {
+        Quad(op!(_mm_max_ps(a.0, b.0)))
     }
 
     #[inline(always)]
@@ -58,8 +58,8 @@ impl Texels for Avx2 {
         Floats(op!(_mm256_fmadd_ps(a.0, b.0, c.0)))
     }
     #[inline(always)]
-    fn oct_positive(self, x: Floats) -> Floats {
-        Floats(op!(_mm256_max_ps(x.0, _mm256_setzero_ps())))
+    fn oct_max(self, a: Floats, b: Floats) -> Floats {
+        Floats(op!(_mm256_max_ps(a.0, b.0)))
     }
     #[inline(always)]
     fn oct_halves(self, x: Floats) -> [Quad; 2] {

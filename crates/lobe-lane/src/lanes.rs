@@ -64,6 +64,9 @@ pub trait Lanes: Texels {
     /// `a` where the mask is set, else `b`.
     fn select_int(self, mask: Self::M, a: Self::I, b: Self::I) -> Self::I;
 
+    /// `a` where `sign` is negative, else `b`: the sign bit alone decides, so that a bit of an index can be shifted there.
+    fn select_negative(self, sign: Self::I, a: Self::F, b: Self::F) -> Self::F;
+
     /// The first `LANES` floats of `src`.
     ///
     /// # Panics

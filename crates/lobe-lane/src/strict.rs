@@ -71,6 +71,11 @@ impl<L: Lanes> Lanes for Strict<L> {
     }
 
     #[inline(always)]
+    fn select_negative(self, sign: L::I, a: L::F, b: L::F) -> L::F {
+        self.0.select_negative(sign, a, b)
+    }
+
+    #[inline(always)]
     fn load(self, src: &[f32]) -> L::F {
         self.0.load(src)
     }
@@ -131,8 +136,8 @@ impl<L: Lanes> Texels for Strict<L> {
     }
 
     #[inline(always)]
-    fn quad_positive(self, x: L::Quad) -> L::Quad {
-        self.0.quad_positive(x)
+    fn quad_max(self, a: L::Quad, b: L::Quad) -> L::Quad {
+        self.0.quad_max(a, b)
     }
 
     #[inline(always)]
@@ -161,8 +166,8 @@ impl<L: Lanes> Texels for Strict<L> {
     }
 
     #[inline(always)]
-    fn oct_positive(self, x: L::Oct) -> L::Oct {
-        self.0.oct_positive(x)
+    fn oct_max(self, a: L::Oct, b: L::Oct) -> L::Oct {
+        self.0.oct_max(a, b)
     }
 
     #[inline(always)]

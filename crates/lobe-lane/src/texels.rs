@@ -30,8 +30,8 @@ pub trait Texels: Copy + Debug + Send + Sync + 'static {
     fn quad_splat(self, x: f32) -> Self::Quad;
     /// `a * b + c`, float by float; rounded once where the backend fuses.
     fn quad_mul_add(self, a: Self::Quad, b: Self::Quad, c: Self::Quad) -> Self::Quad;
-    /// Each float of `x`, or 0 where it is not greater than 0 (NaN gives 0).
-    fn quad_positive(self, x: Self::Quad) -> Self::Quad;
+    /// `if a > b { a } else { b }`, float by float, so `b` where either is NaN.
+    fn quad_max(self, a: Self::Quad, b: Self::Quad) -> Self::Quad;
 
     /// The first eight floats of `src`.
     ///
@@ -49,8 +49,8 @@ pub trait Texels: Copy + Debug + Send + Sync + 'static {
     fn oct_corners<const N: usize>(self, block: &Block<'_, N, 8>, base: usize) -> [Self::Oct; N];
     /// `a * b + c`, float by float; rounded once where the backend fuses.
     fn oct_mul_add(self, a: Self::Oct, b: Self::Oct, c: Self::Oct) -> Self::Oct;
-    /// Each float of `x`, or 0 where it is not greater than 0 (NaN gives 0).
-    fn oct_positive(self, x: Self::Oct) -> Self::Oct;
+    /// `if a > b { a } else { b }`, float by float, so `b` where either is NaN.
+    fn oct_max(self, a: Self::Oct, b: Self::Oct) -> Self::Oct;
     /// The first four and the last four floats.
     fn oct_halves(self, x: Self::Oct) -> [Self::Quad; 2];
     /// How many of the eight floats are `<= x`.

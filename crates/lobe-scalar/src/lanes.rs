@@ -52,6 +52,11 @@ impl<const N: usize> Lanes for Scalar<N> {
     }
 
     #[inline(always)]
+    fn select_negative(self, sign: Ints<N>, a: Floats<N>, b: Floats<N>) -> Floats<N> {
+        Floats(std::array::from_fn(|lane| if sign.0[lane] < 0 { a.0[lane] } else { b.0[lane] }))
+    }
+
+    #[inline(always)]
     fn load(self, src: &[f32]) -> Floats<N> {
         let src = &src[..N];
         Floats(std::array::from_fn(|lane| src[lane]))

@@ -25,8 +25,8 @@ impl<const N: usize> Texels for Scalar<N> {
         a * b + c
     }
     #[inline(always)]
-    fn quad_positive(self, x: Floats<4>) -> Floats<4> {
-        Floats(x.0.map(positive))
+    fn quad_max(self, a: Floats<4>, b: Floats<4>) -> Floats<4> {
+        lobe_lane::Floats::max(a, b)
     }
 
     #[inline(always)]
@@ -52,8 +52,8 @@ impl<const N: usize> Texels for Scalar<N> {
         a * b + c
     }
     #[inline(always)]
-    fn oct_positive(self, x: Floats<8>) -> Floats<8> {
-        Floats(x.0.map(positive))
+    fn oct_max(self, a: Floats<8>, b: Floats<8>) -> Floats<8> {
+        lobe_lane::Floats::max(a, b)
     }
     #[inline(always)]
     fn oct_halves(self, x: Floats<8>) -> [Floats<4>; 2] {
@@ -64,10 +64,4 @@ impl<const N: usize> Texels for Scalar<N> {
     fn oct_count_le(self, knots: Floats<8>, x: f32) -> u32 {
         knots.0.iter().map(|&knot| (knot <= x) as u32).sum()
     }
-}
-
-/// `x`, or 0 where it is not greater than 0.
-#[inline(always)]
-fn positive(x: f32) -> f32 {
-    if x > 0.0 { x } else { 0.0 }
 }

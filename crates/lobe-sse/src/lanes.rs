@@ -48,6 +48,11 @@ impl<V: Level> Lanes for Sse<V> {
     }
 
     #[inline(always)]
+    fn select_negative(self, sign: Ints<V>, a: Floats<V>, b: Floats<V>) -> Floats<V> {
+        floats(V::select_negative(self, op!(_mm_castsi128_ps(sign.0)), a.0, b.0))
+    }
+
+    #[inline(always)]
     fn load(self, src: &[f32]) -> Floats<V> {
         floats(memory::load(src))
     }

@@ -21,6 +21,8 @@ pub trait Level: sealed::Sealed + Copy + Debug + Send + Sync + 'static {
     #[doc(hidden)]
     fn select(_proof: Sse<Self>, mask: __m128, a: __m128, b: __m128) -> __m128;
     #[doc(hidden)]
+    fn select_negative(_proof: Sse<Self>, sign: __m128, a: __m128, b: __m128) -> __m128;
+    #[doc(hidden)]
     fn mul(_proof: Sse<Self>, a: __m128i, b: __m128i) -> __m128i;
     #[doc(hidden)]
     fn min(_proof: Sse<Self>, a: __m128i, b: __m128i) -> __m128i;
@@ -46,6 +48,12 @@ impl Level for V2 {
     #[inline(always)]
     fn select(_proof: Sse<Self>, mask: __m128, a: __m128, b: __m128) -> __m128 {
         op!(_mm_or_ps(_mm_and_ps(mask, a), _mm_andnot_ps(mask, b)))
+    }
+
+    #[inline(always)]
+    fn select_negative(proof: Sse<Self>, sign: __m128, a: __m128, b: __m128) -> __m128 {
+        let mask = op!(_mm_castsi128_ps(_mm_srai_epi32::<31>(_mm_castps_si128(sign))));
+        Self::select(proof, mask, a, b)
     }
 
     #[inline(always)]
@@ -85,6 +93,11 @@ impl Level for V41 {
     #[inline(always)]
     fn select(_proof: Sse<Self>, mask: __m128, a: __m128, b: __m128) -> __m128 {
         op!(_mm_blendv_ps(b, a, mask))
+    }
+
+    #[inline(always)]
+    fn select_negative(_proof: Sse<Self>, sign: __m128, a: __m128, b: __m128) -> __m128 {
+        op!(_mm_blendv_ps(b, a, sign))
     }
 
     #[inline(always)]

@@ -28,8 +28,8 @@ impl<V: Level> Texels for Sse<V> {
         a * b + c
     }
     #[inline(always)]
-    fn quad_positive(self, x: Floats<V>) -> Floats<V> {
-        floats(op!(_mm_max_ps(x.0, _mm_setzero_ps())))
+    fn quad_max(self, a: Floats<V>, b: Floats<V>) -> Floats<V> {
+        floats(op!(_mm_max_ps(a.0, b.0)))
     }
 
     #[inline(always)]
@@ -65,8 +65,8 @@ impl<V: Level> Texels for Sse<V> {
         a * b + c
     }
     #[inline(always)]
-    fn oct_positive(self, x: Oct<V>) -> Oct<V> {
-        Oct(self.quad_positive(x.0), self.quad_positive(x.1))
+    fn oct_max(self, a: Oct<V>, b: Oct<V>) -> Oct<V> {
+        Oct(self.quad_max(a.0, b.0), self.quad_max(a.1, b.1))
     }
     #[inline(always)]
     fn oct_halves(self, x: Oct<V>) -> [Floats<V>; 2] {

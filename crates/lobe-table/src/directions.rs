@@ -1,31 +1,74 @@
 //! Batches of directions in memory: an array of structures, or a structure of arrays.
 
-use lobe_lane::{Lanes, MAX_LANES};
+use lobe_lane::Lanes;
 
-/// Unit vectors, one a query.
-pub trait Directions: Copy {
+use crate::passes::block::BLOCK;
+
+/// Unit vectors, one a query: a slice of vectors, or [`Soa`].
+pub trait Directions: Copy + sealed::Sealed {
+    /// A whole block of directions, which needs no bounds checks.
+    #[doc(hidden)]
+    type Block<'a>: BlockOfDirections
+    where
+        Self: 'a;
+    /// Room for a block that is not whole.
+    #[doc(hidden)]
+    type Padding;
+    #[doc(hidden)]
+    const PADDING: Self::Padding;
+
     /// How many there are.
     fn count(&self) -> usize;
 
-    /// Directions `at .. at + LANES` as x, y and z; zero vectors beyond the last.
-    fn load<L: Lanes>(&self, lanes: L, at: usize) -> [L::F; 3];
+    /// The block from direction `at` on. Where fewer are left than a block has, they are copied to `padding`, zero
+    /// vectors behind them.
+    #[doc(hidden)]
+    fn block<'a>(&'a self, at: usize, padding: &'a mut Self::Padding) -> Self::Block<'a>;
+}
+
+/// A whole block of directions.
+#[doc(hidden)]
+pub trait BlockOfDirections: Copy {
+    /// Directions `at .. at + LANES` of the block as x, y and z; `at` is a multiple of the lanes.
+    fn load<L: Lanes>(self, lanes: L, at: usize) -> [L::F; 3];
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for &[[f32; 3]] {}
+    impl Sealed for super::Soa<'_> {}
 }
 
 impl Directions for &[[f32; 3]] {
+    type Block<'a>
+        = &'a [[f32; 3]; BLOCK]
+    where
+        Self: 'a;
+    type Padding = [[f32; 3]; BLOCK];
+    const PADDING: Self::Padding = [[0.0; 3]; BLOCK];
+
     fn count(&self) -> usize {
         self.len()
     }
 
     #[inline(always)]
-    fn load<L: Lanes>(&self, lanes: L, at: usize) -> [L::F; 3] {
-        if let Some(whole) = <[_]>::get(self, at..at + L::LANES) {
-            return lanes.load_xyz(whole);
+    fn block<'a>(&'a self, at: usize, padding: &'a mut Self::Padding) -> Self::Block<'a> {
+        let rest = &self[at..];
+        match rest.first_chunk() {
+            Some(whole) => whole,
+            None => {
+                *padding = Self::PADDING;
+                padding[..rest.len()].copy_from_slice(rest);
+                padding
+            }
         }
-        let mut padded = [[0.0; 3]; MAX_LANES];
-        for (target, direction) in padded.iter_mut().zip(self.iter().skip(at)) {
-            *target = *direction;
-        }
-        lanes.load_xyz(&padded)
+    }
+}
+
+impl BlockOfDirections for &[[f32; 3]; BLOCK] {
+    #[inline(always)]
+    fn load<L: Lanes>(self, lanes: L, at: usize) -> [L::F; 3] {
+        lanes.load_xyz(&self[at & (BLOCK - L::LANES)..][..L::LANES])
     }
 }
 
@@ -47,13 +90,39 @@ impl<'a> Soa<'a> {
 }
 
 impl Directions for Soa<'_> {
+    type Block<'a>
+        = [&'a [f32; BLOCK]; 3]
+    where
+        Self: 'a;
+    type Padding = [[f32; BLOCK]; 3];
+    const PADDING: Self::Padding = [[0.0; BLOCK]; 3];
+
     fn count(&self) -> usize {
         self.xyz[0].len()
     }
 
     #[inline(always)]
-    fn load<L: Lanes>(&self, lanes: L, at: usize) -> [L::F; 3] {
-        let [x, y, z] = self.xyz;
-        [lanes.load_partial(&x[at..]), lanes.load_partial(&y[at..]), lanes.load_partial(&z[at..])]
+    fn block<'a>(&'a self, at: usize, padding: &'a mut Self::Padding) -> Self::Block<'a> {
+        let [x, y, z] = self.xyz.map(|component| &component[at..]);
+        match (x.first_chunk(), y.first_chunk(), z.first_chunk()) {
+            (Some(x), Some(y), Some(z)) => [x, y, z],
+            _ => {
+                *padding = Self::PADDING;
+                for (padded, rest) in padding.iter_mut().zip([x, y, z]) {
+                    padded[..rest.len()].copy_from_slice(rest);
+                }
+                let [x, y, z] = padding;
+                [x, y, z]
+            }
+        }
+    }
+}
+
+impl BlockOfDirections for [&[f32; BLOCK]; 3] {
+    #[inline(always)]
+    fn load<L: Lanes>(self, lanes: L, at: usize) -> [L::F; 3] {
+        let [x, y, z] = self;
+        let at = at & (BLOCK - L::LANES);
+        [lanes.load(&x[at..][..L::LANES]), lanes.load(&y[at..][..L::LANES]), lanes.load(&z[at..][..L::LANES])]
     }
 }

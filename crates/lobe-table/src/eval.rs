@@ -2,7 +2,7 @@
 
 use lobe_lane::{Block, Floats, Kernel, Lanes, MAX_LANES};
 
-use crate::directions::{Directions, Soa};
+use crate::directions::{BlockOfDirections, Directions};
 use crate::layout::Kind;
 use crate::passes::block::{BLOCK, Column};
 use crate::passes::frame::{self, Frame};
@@ -18,6 +18,7 @@ struct Scratch {
     axes: [Column; 4],
     base: Column<i32>,
     weights: [Column; MAX_CORNERS],
+    tile: RgbTile,
 }
 
 impl Scratch {
@@ -26,6 +27,7 @@ impl Scratch {
         axes: [Column::<f32>::ZERO; 4],
         base: Column::<i32>::ZERO,
         weights: [Column::<f32>::ZERO; MAX_CORNERS],
+        tile: [0.0; 3 * BLOCK + 1],
     };
 }
 
@@ -40,7 +42,7 @@ impl Table {
 
     /// Evaluates many pairs on the backend given: `out[query * channels + channel]`.
     ///
-    /// `wi` and `wo` are slices of vectors, or [`Soa`] of components.
+    /// `wi` and `wo` are slices of vectors, or [`Soa`](crate::Soa) of components.
     ///
     /// # Panics
     /// Where there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
@@ -75,21 +77,21 @@ impl Table {
     #[inline(always)]
     pub fn eval_lanes<L: Lanes>(&self, lanes: L, wi: [L::F; 3], wo: [L::F; 3], mask: L::M, out: &mut [L::F]) {
         assert_eq!(out.len(), self.channel_count(), "one output a channel");
-        let mut directions = [[[0.0f32; MAX_LANES]; 3]; 2];
+        let mut directions = [[[0.0f32; BLOCK]; 3]; 2];
         for (side, w) in [wi, wo].into_iter().enumerate() {
             for (k, component) in w.into_iter().enumerate() {
                 // A lane left out gets directions of no length, which are not above the horizon.
                 lanes.store(&mut directions[side][k], component.masked(mask));
             }
         }
-        let [wi, wo] = directions.each_ref().map(|[x, y, z]| Soa::new(x, y, z));
+        let [wi, wo] = directions.each_ref().map(|[x, y, z]| [x, y, z]);
         let mut scratch = Scratch::ZERO;
-        self.locate(lanes, (wi, wo), (0, L::LANES), &mut scratch);
+        self.locate(lanes, L::LANES, (wi, wo), &mut scratch);
         // Texels come query by query; the lanes want them channel by channel.
         let mut tile = [0.0f32; MAX_LANES * CHUNK];
         for (chunk, channels) in out.chunks_mut(CHUNK).enumerate() {
             let width = channels.len();
-            self.texels(lanes, L::LANES, &scratch, chunk * CHUNK, width, &mut tile[..L::LANES * width]);
+            self.texels(lanes, L::LANES, &mut scratch, chunk * CHUNK, width, &mut tile[..L::LANES * width]);
             for (k, channel) in channels.iter_mut().enumerate() {
                 let mut column = [0.0f32; MAX_LANES];
                 let mut lane = 0;
@@ -102,22 +104,18 @@ impl Table {
         }
     }
 
-    /// The first passes: from the directions of queries `at .. at + n` to base indices and corner weights. `n` is a
-    /// multiple of the lanes and at most a block.
+    /// The first passes: from the directions of queries `0..n` to base indices and corner weights. `n` is a multiple of
+    /// the lanes.
     #[inline(always)]
-    fn locate<L: Lanes, D: Directions>(
-        &self,
-        lanes: L,
-        directions: (D, D),
-        (at, n): (usize, usize),
-        scratch: &mut Scratch,
-    ) {
-        let Scratch { frame, axes, base, weights } = scratch;
-        frame::run(lanes, self.scatter(), self.refraction.as_ref(), directions, (at, n), frame);
+    fn locate<L: Lanes, B: BlockOfDirections>(&self, lanes: L, n: usize, directions: (B, B), scratch: &mut Scratch) {
+        let Scratch { frame, axes, base, weights, .. } = scratch;
+        frame::run(lanes, n, directions, self.scatter(), self.refraction.as_ref(), frame);
         angles::run(lanes, n, self.is_anisotropic(), frame, axes);
         *base = Column::<i32>::ZERO;
-        for ((axis, stride), angle) in self.axes.iter().zip(self.layout.strides()).zip(axes.iter_mut()) {
-            cells::run(lanes, n, axis, *stride, angle, base, &mut frame.valid);
+        for (index, (axis, angle)) in self.axes.iter().zip(axes.iter_mut()).enumerate() {
+            if index != PSI || self.is_anisotropic() {
+                cells::run(lanes, n, axis, self.layout.strides()[index], angle, base, &mut frame.valid);
+            }
         }
         let [sigma, psi, theta, phi] = &*axes;
         let valid = &frame.valid;
@@ -132,31 +130,32 @@ impl Table {
     /// The last pass: channels `from .. from + width` of queries `0..n`, `out[query * width + channel - from]`. All
     /// channels at once, or from a multiple of eight on.
     #[inline(always)]
-    fn texels<L: Lanes>(&self, lanes: L, n: usize, scratch: &Scratch, from: usize, width: usize, out: &mut [f32]) {
-        let Scratch { axes, base, weights, .. } = scratch;
-        let located = (base, weights);
-        let non_negative = self.edges().non_negative;
+    fn texels<L: Lanes>(&self, lanes: L, n: usize, scratch: &mut Scratch, from: usize, width: usize, out: &mut [f32]) {
+        let Scratch { axes, base, weights, tile, .. } = scratch;
+        let located = (&*base, &*weights);
+        // Texels are finite, so the least float leaves every sum as it is.
+        let floor = if self.edges().non_negative { 0.0 } else { f32::MIN };
+        let whole = n.next_multiple_of(L::LANES);
         let data = self.layout.data();
         match (self.layout.kind, self.is_anisotropic()) {
             (Kind::Mono, anisotropic) => {
                 let mut values = Column::<f32>::ZERO;
                 if anisotropic {
                     let block = Block::<4, 4>::new(data, self.layout.corners(&self.axes, [SIGMA, PSI]));
-                    texels::mono(lanes, n, &block, located, non_negative, &mut values);
+                    texels::mono(lanes, whole, &block, located, floor, &mut values);
                 } else {
                     let block = Block::<2, 4>::new(data, self.layout.corners(&self.axes, [SIGMA]));
-                    texels::mono(lanes, n, &block, located, non_negative, &mut values);
+                    texels::mono(lanes, whole, &block, located, floor, &mut values);
                 }
                 out.copy_from_slice(&values.0[..out.len()]);
             }
             (Kind::Rgb, anisotropic) => {
-                let mut tile: RgbTile = [0.0; 3 * BLOCK + 1];
                 if anisotropic {
                     let block = Block::<8, 8>::new(data, self.layout.corners(&self.axes, [SIGMA, PSI, THETA]));
-                    texels::rgb(lanes, n, &block, (base, weights, &axes[PHI]), non_negative, &mut tile);
+                    texels::rgb(lanes, whole, &block, (&*base, &*weights, &axes[PHI]), floor, tile);
                 } else {
                     let block = Block::<4, 8>::new(data, self.layout.corners(&self.axes, [SIGMA, THETA]));
-                    texels::rgb(lanes, n, &block, (base, weights, &axes[PHI]), non_negative, &mut tile);
+                    texels::rgb(lanes, whole, &block, (&*base, &*weights, &axes[PHI]), floor, tile);
                 }
                 if width == 3 {
                     out.copy_from_slice(&tile[..out.len()]);
@@ -169,10 +168,10 @@ impl Table {
             (Kind::Wide, anisotropic) => {
                 if anisotropic {
                     let block = Block::<16, 8>::new(data, self.layout.corners(&self.axes, [SIGMA, PSI, THETA, PHI]));
-                    texels::wide(lanes, &block, (from, width), located, non_negative, out);
+                    texels::wide(lanes, &block, (from, width), located, floor, out);
                 } else {
                     let block = Block::<8, 8>::new(data, self.layout.corners(&self.axes, [SIGMA, THETA, PHI]));
-                    texels::wide(lanes, &block, (from, width), located, non_negative, out);
+                    texels::wide(lanes, &block, (from, width), located, floor, out);
                 }
             }
         }
@@ -204,11 +203,13 @@ impl<D: Directions> Kernel for Batch<'_, D> {
         let channels = table.channel_count();
         let count = wi.count();
         let mut scratch = Scratch::ZERO;
+        let mut padding = (D::PADDING, D::PADDING);
         let mut at = 0;
         while at < count {
             let n = (count - at).min(BLOCK);
-            table.locate(lanes, (wi, wo), (at, n.next_multiple_of(L::LANES)), &mut scratch);
-            table.texels(lanes, n, &scratch, 0, channels, &mut out[at * channels..][..n * channels]);
+            let block = (wi.block(at, &mut padding.0), wo.block(at, &mut padding.1));
+            table.locate(lanes, n.next_multiple_of(L::LANES), block, &mut scratch);
+            table.texels(lanes, n, &mut scratch, 0, channels, &mut out[at * channels..][..n * channels]);
             at += n;
         }
     }

@@ -3,6 +3,8 @@
 //! Each kind of axis has a searcher of its own, a [`Find`], so that the loop around it holds no branch and keeps what
 //! the search needs in registers. [`Axis::visit`] picks the kind once.
 
+use std::f32::consts::TAU;
+
 use lobe_lane::{Floats, Ints, Lanes};
 
 use crate::Edge;
@@ -64,18 +66,32 @@ impl Axis {
     /// Angles on a periodic axis are at most a turn below its first knot, and none above.
     #[inline(always)]
     pub(crate) fn bring_inside<L: Lanes>(&self, lanes: L, x: L::F) -> (L::F, L::M) {
-        let (first, last) = (lanes.splat(self.first()), lanes.splat(self.last()));
-        let rounding = lanes.splat(ROUNDING as f32);
-        let inside = (first - rounding).le(x) & x.le(last + rounding);
-        let x = match self.edge() {
-            Edge::Extrapolate => x,
-            Edge::Clamp | Edge::Zero => x.max(first).min(last),
-            Edge::Periodic => {
-                let turned = x + lanes.splat(std::f32::consts::TAU).masked(x.lt(first));
-                turned.min(last)
-            }
-        };
-        (x, inside)
+        let inside = self.contains(lanes, x);
+        let x = if self.edge() == Edge::Periodic { self.turn_up(lanes, x) } else { x };
+        let (low, high) = self.limits();
+        (x.max(lanes.splat(low)).min(lanes.splat(high)), inside)
+    }
+
+    /// `true` in the lanes within the knots, with room for rounding.
+    #[inline(always)]
+    pub(crate) fn contains<L: Lanes>(&self, lanes: L, x: L::F) -> L::M {
+        let rounding = ROUNDING as f32;
+        lanes.splat(self.first() - rounding).le(x) & x.le(lanes.splat(self.last() + rounding))
+    }
+
+    /// Angles below the first knot, a turn on.
+    #[inline(always)]
+    pub(crate) fn turn_up<L: Lanes>(&self, lanes: L, x: L::F) -> L::F {
+        x + lanes.splat(TAU).masked(x.lt(lanes.splat(self.first())))
+    }
+
+    /// Where angles are clamped.
+    #[inline(always)]
+    pub(crate) fn limits(&self) -> (f32, f32) {
+        match self.edge() {
+            Edge::Extrapolate => (f32::NEG_INFINITY, f32::INFINITY),
+            Edge::Clamp | Edge::Zero | Edge::Periodic => (self.first(), self.last()),
+        }
     }
 
     /// Hands the searcher of this axis to `visitor`.
@@ -172,11 +188,12 @@ fn octs<L: Lanes, const OCTS: usize>(lanes: L, from: &[f32; 32]) -> [L::Oct; OCT
 fn look_up<L: Lanes, const OCTS: usize>(lanes: L, octs: [L::Oct; OCTS], index: L::I) -> L::F {
     let mut value = lanes.oct_lookup(octs[0], index);
     if OCTS >= 2 {
-        let odd = index.shl::<28>().lt(lanes.splat_int(0));
-        value = lanes.select(odd, lanes.oct_lookup(octs[1], index), value);
+        let eights = index.shl::<28>();
+        value = lanes.select_negative(eights, lanes.oct_lookup(octs[1], index), value);
         if OCTS == 4 {
-            let upper = lanes.select(odd, lanes.oct_lookup(octs[3], index), lanes.oct_lookup(octs[2], index));
-            value = lanes.select(index.shl::<27>().lt(lanes.splat_int(0)), upper, value);
+            let upper =
+                lanes.select_negative(eights, lanes.oct_lookup(octs[3], index), lanes.oct_lookup(octs[2], index));
+            value = lanes.select_negative(index.shl::<27>(), upper, value);
         }
     }
     value
@@ -195,8 +212,12 @@ impl<L: Lanes, const LEVELS: usize, const OCTS: usize> Find<L> for Permute<L, LE
             } else if level == 3 {
                 lanes.oct_lookup(self.tree[1], node)
             } else {
-                let odd = node.shl::<28>().lt(lanes.splat_int(0));
-                lanes.select(odd, lanes.oct_lookup(self.tree[3], node), lanes.oct_lookup(self.tree[2], node))
+                let eights = node.shl::<28>();
+                lanes.select_negative(
+                    eights,
+                    lanes.oct_lookup(self.tree[3], node),
+                    lanes.oct_lookup(self.tree[2], node),
+                )
             };
             node = (node + node).count(knot.le(x));
             level += 1;

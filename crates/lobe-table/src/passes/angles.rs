@@ -2,7 +2,7 @@
 
 use lobe_lane::{Floats, Lanes};
 
-use super::block::{BLOCK, Column};
+use super::block::Column;
 use super::frame::Frame;
 
 /// Fills sigma, psi (where `anisotropic`), theta and phi, in radians, from the frame of queries `0..n`.
@@ -12,7 +12,7 @@ pub(crate) fn run<L: Lanes>(lanes: L, n: usize, anisotropic: bool, frame: &Frame
     let [sigma, psi, theta, phi] = angles;
 
     let mut query = 0;
-    while query < n && query < BLOCK {
+    while query < n {
         let cos = frame.cos_sigma.load(lanes, query);
         let rest = frame.sin2_sigma.load(lanes, query) / (one + cos.abs());
         sigma.store(lanes, query, lobe_math::acos_from(lanes, cos, rest));
@@ -26,16 +26,16 @@ pub(crate) fn run<L: Lanes>(lanes: L, n: usize, anisotropic: bool, frame: &Frame
     }
 
     let mut query = 0;
-    while query < n && query < BLOCK {
+    while query < n {
         let [x, y] = [frame.across[0].load(lanes, query), frame.across[1].load(lanes, query)];
         phi.store(lanes, query, lobe_math::azimuth(lanes, y, x));
         query += L::LANES;
     }
 
     let mut query = 0;
-    while anisotropic && query < n && query < BLOCK {
+    while anisotropic && query < n {
         let [x, y] = [frame.psi[0].load(lanes, query), frame.psi[1].load(lanes, query)];
-        psi.store(lanes, query, lobe_math::azimuth(lanes, y, x));
+        psi.store(lanes, query, lobe_math::azimuth_from(lanes, y, x, one));
         query += L::LANES;
     }
 }

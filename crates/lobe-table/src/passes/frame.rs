@@ -1,10 +1,12 @@
 //! Directions to what the angles are computed from: the specular frame (see [`coords`](crate::coords)).
 
+use std::f32::consts::FRAC_PI_2;
+
 use lobe_lane::{Floats, Lanes};
 
-use super::block::{BLOCK, Column};
+use super::block::Column;
 use crate::Scatter;
-use crate::directions::Directions;
+use crate::directions::BlockOfDirections;
 use crate::function::Function;
 
 /// The columns that the first pass fills.
@@ -39,36 +41,72 @@ const POLE: f32 = 1e-30;
 /// The squared distance of two unit vectors is at most 4; more, or NaN, means that a component is not finite.
 const FARTHEST: f32 = 16.0;
 
-/// Fills the frame of queries `0..n` from the directions at `at..at + n`. `n` is a multiple of the lanes.
+/// Fills the frame of queries `0..n` of a block. `n` is a multiple of the lanes.
 #[inline(always)]
-pub(crate) fn run<L: Lanes, D: Directions>(
+pub(crate) fn run<L: Lanes, B: BlockOfDirections>(
     lanes: L,
+    n: usize,
+    (wi, wo): (B, B),
     scatter: Scatter,
     refraction: Option<&Function>,
-    (wi, wo): (D, D),
-    (at, n): (usize, usize),
     frame: &mut Frame,
 ) {
     match (scatter, refraction) {
-        (Scatter::Reflection, _) => pass::<L, D, false>(lanes, None, (wi, wo), (at, n), frame),
-        (Scatter::Transmission, refraction) => pass::<L, D, true>(lanes, refraction, (wi, wo), (at, n), frame),
+        (Scatter::Reflection, _) => pass(lanes, n, (wi, wo), Mirror::<false>, frame),
+        (Scatter::Transmission, None) => pass(lanes, n, (wi, wo), Mirror::<true>, frame),
+        (Scatter::Transmission, Some(offset)) => pass(lanes, n, (wi, wo), Refracted(offset), frame),
+    }
+}
+
+/// Where the zenith of the scattered light lies.
+trait Zenith: Copy {
+    /// `true` where directions below the surface are folded up.
+    const FOLD: bool;
+
+    /// The zenith mirrored about the normal, which is `wi` itself unless light is refracted, and the sine of its polar
+    /// angle. `sin` is that of sigma, and `psi` the cosine and sine of psi.
+    fn opposite<L: Lanes>(self, lanes: L, wi: [L::F; 3], sin: L::F, psi: [L::F; 2]) -> ([L::F; 3], L::F);
+}
+
+/// The mirror direction, or where `FOLD`, straight through the surface and folded up.
+#[derive(Clone, Copy)]
+struct Mirror<const FOLD: bool>;
+
+impl<const FOLD: bool> Zenith for Mirror<FOLD> {
+    const FOLD: bool = FOLD;
+
+    #[inline(always)]
+    fn opposite<L: Lanes>(self, _lanes: L, wi: [L::F; 3], sin: L::F, _psi: [L::F; 2]) -> ([L::F; 3], L::F) {
+        (wi, sin)
+    }
+}
+
+/// Through the surface, bent by an offset that depends on sigma.
+#[derive(Clone, Copy)]
+struct Refracted<'a>(&'a Function);
+
+impl Zenith for Refracted<'_> {
+    const FOLD: bool = true;
+
+    #[inline(always)]
+    fn opposite<L: Lanes>(self, lanes: L, wi: [L::F; 3], sin: L::F, psi: [L::F; 2]) -> ([L::F; 3], L::F) {
+        let [_, _, cos] = wi;
+        let rest = sin * sin / (lanes.splat(1.0) + cos);
+        let sigma = lobe_math::acos_from(lanes, cos, rest);
+        let polar = (sigma + self.0.eval(lanes, sigma)).max(lanes.splat(0.0)).min(lanes.splat(FRAC_PI_2));
+        let (sin, cos) = lobe_math::sin_cos(lanes, polar);
+        ([sin * psi[0], sin * psi[1], cos], sin)
     }
 }
 
 #[inline(always)]
-fn pass<L: Lanes, D: Directions, const FOLD: bool>(
-    lanes: L,
-    refraction: Option<&Function>,
-    (wi, wo): (D, D),
-    (at, n): (usize, usize),
-    frame: &mut Frame,
-) {
+fn pass<L: Lanes, B: BlockOfDirections, Z: Zenith>(lanes: L, n: usize, (wi, wo): (B, B), zenith: Z, frame: &mut Frame) {
     let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
     let mut query = 0;
-    while query < n && query < BLOCK {
-        let [ix, iy, iz] = wi.load(lanes, at + query);
-        let [ox, oy, oz] = wo.load(lanes, at + query);
-        let (iz, oz) = if FOLD { (iz.abs(), oz.abs()) } else { (iz, oz) };
+    while query < n {
+        let [ix, iy, iz] = wi.load(lanes, query);
+        let [ox, oy, oz] = wo.load(lanes, query);
+        let (iz, oz) = if Z::FOLD { (iz.abs(), oz.abs()) } else { (iz, oz) };
 
         let sin2 = lanes.mul_add(ix, ix, iy * iy);
         let sin = sin2.sqrt();
@@ -76,24 +114,9 @@ fn pass<L: Lanes, D: Directions, const FOLD: bool>(
         let scale = (one / sin).masked(tilted);
         let (cos_psi, sin_psi) = (lanes.select(tilted, ix * scale, one), iy * scale);
 
-        // The zenith's polar angle, by its sine and cosine: sigma itself, or moved by refraction.
-        let (sin_zenith, cos_zenith) = match refraction {
-            None => (sin, iz),
-            Some(offset) => {
-                let sigma = lobe_math::acos_from(lanes, iz, sin2 / (one + iz));
-                let polar = (sigma + offset.eval(lanes, sigma)).max(zero).min(lanes.splat(std::f32::consts::FRAC_PI_2));
-                lobe_math::sin_cos(lanes, polar)
-            }
-        };
-
         // The difference of wo and the zenith: near the peak its digits are exact where those of a product are lost.
-        let (dx, dy, dz) = match refraction {
-            None => (ox + ix, oy + iy, oz - iz),
-            Some(_) => {
-                let (ax, ay) = (sin_zenith * cos_psi, sin_zenith * sin_psi);
-                (ox + ax, oy + ay, oz - cos_zenith)
-            }
-        };
+        let ([ax, ay, cos_zenith], sin_zenith) = zenith.opposite(lanes, [ix, iy, iz], sin, [cos_psi, sin_psi]);
+        let (dx, dy, dz) = (ox + ax, oy + ay, oz - cos_zenith);
         let toward = lanes.mul_add(cos_psi, dx, sin_psi * dy);
         let y = lanes.mul_add(cos_psi, dy, -(sin_psi * dx));
         let x = lanes.mul_add(cos_zenith, toward, sin_zenith * dz);

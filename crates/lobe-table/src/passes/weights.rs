@@ -2,7 +2,7 @@
 
 use lobe_lane::{Floats, Ints, Lanes};
 
-use super::block::{BLOCK, Column};
+use super::block::Column;
 
 /// The largest number of corners: both ends of four axes.
 pub(crate) const MAX_CORNERS: usize = 16;
@@ -19,7 +19,7 @@ pub(crate) fn run<L: Lanes, const AXES: usize>(
 ) {
     let (zero, one) = (lanes.splat_int(0), lanes.splat(1.0));
     let mut query = 0;
-    while query < n && query < BLOCK {
+    while query < n {
         let mut products = [one; MAX_CORNERS];
         let mut axis = 0;
         while axis < AXES {
