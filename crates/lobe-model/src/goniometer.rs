@@ -1,6 +1,6 @@
 //! A virtual goniophotometer: the values of a model at the nodes of a table.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use lobe_table::{Channels, Samples, SamplesError, Scatter};
 use rayon::prelude::*;
@@ -80,7 +80,7 @@ fn measure_light(model: &impl Model, sigma: f64, psi: f64, thetas: &[f64], phis:
 const ANGLE_ROUNDING: f64 = 1e-6;
 
 fn at_pole(theta: f64) -> bool {
-    theta < ANGLE_ROUNDING || theta > PI - ANGLE_ROUNDING
+    theta.sin() < ANGLE_ROUNDING
 }
 
 fn closes_circle(angle: f64, knots: &[f64]) -> bool {
@@ -101,14 +101,16 @@ pub fn lift(w: [f64; 3]) -> [f64; 3] {
     let room = UNTOUCHED - LOWEST;
     let z = LOWEST + room * ((w[2] - UNTOUCHED) / room).exp();
     let across = w[0].hypot(w[1]);
-    // Straight down there is no azimuth, and any will do.
-    let (x, y) = if across > 0.0 { (w[0] / across, w[1] / across) } else { (1.0, 0.0) };
+    // Straight down there is no azimuth but that of rounding errors, and any will do.
+    let (x, y) = if across > 1e-9 { (w[0] / across, w[1] / across) } else { (1.0, 0.0) };
     let radius = (1.0 - z * z).sqrt();
     [x * radius, y * radius, z]
 }
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
     use crate::cloth::{Cloth, Ply, Weave, Yarn};
     use crate::vec3::{dot, reflect};
