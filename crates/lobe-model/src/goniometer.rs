@@ -195,12 +195,30 @@ mod tests {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
             pool.install(|| measure(&cloth, knots.clone(), || {})).expect("a table")
         };
-        let samples = on(1);
-        assert_eq!(samples, on(3));
-        for (theta, phi) in [(1, 0), (2, 1)] {
+        assert_eq!(on(1), on(3));
+    }
+
+    /// Makes a large difference of the smallest one.
+    struct Chaos;
+
+    impl Model for Chaos {
+        fn f(&self, wi: [f64; 3], wo: [f64; 3]) -> [f64; 3] {
+            [0, 1, 2].map(|c| (1e17 * (wi[0] + 2.0 * wi[1] + wo[c])).sin())
+        }
+    }
+
+    #[test]
+    fn one_direction_has_one_value() {
+        let knots =
+            [&[0.0, 40.0, 80.0][..], &[0.0, 90.0, 360.0], &[0.0, 30.0, 180.0], &[0.0, 120.0, 360.0]].map(degrees);
+        let samples = measure(&Chaos, knots, || {}).expect("a table");
+        for (theta, phi) in [(0, 0), (1, 0), (1, 1), (2, 2)] {
             assert_eq!(samples.texel([1, 0, theta, phi]), samples.texel([1, 2, theta, phi]), "psi 0 and 360");
         }
-        assert_eq!(samples.texel([1, 1, 0, 0]), samples.texel([1, 1, 0, 1]), "the pole");
+        for theta in [0, 2] {
+            assert_eq!(samples.texel([1, 1, theta, 0]), samples.texel([1, 1, theta, 1]), "a pole");
+        }
         assert_eq!(samples.texel([1, 1, 1, 0]), samples.texel([1, 1, 1, 2]), "phi 0 and 360");
+        assert_ne!(samples.texel([1, 1, 1, 0]), samples.texel([1, 1, 1, 1]));
     }
 }

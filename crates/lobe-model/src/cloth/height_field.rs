@@ -219,6 +219,21 @@ mod tests {
     }
 
     #[test]
+    fn no_triangle_is_in_its_own_way() {
+        let field = field();
+        let mut rng = Pcg32::seed_from_u64(2);
+        for _ in 0..20_000 {
+            let start = field.above([rng.random(), rng.random()]);
+            let hit = field.first_hit(start, [0.0, 0.0, -1.0]).expect("straight down");
+            // Barely out of the facet, where rounding decides.
+            let (_, frame) = field.facet(hit.facet);
+            let direction = frame.to_world(spherical(1.570_79, TAU * rng.random::<f64>()));
+            let next = field.first_hit(hit.point, direction);
+            assert!(next.is_none_or(|next| next.facet != hit.facet), "{:?} is left and met again", hit.point);
+        }
+    }
+
+    #[test]
     fn vertical_and_level_rays_end() {
         let field = field();
         let start = field.above([0.3, 0.7]);
