@@ -153,7 +153,7 @@ fn slopes([low_left, low_right, high_left, high_right]: [f64; 4], upper: bool) -
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::TAU;
+    use std::f64::consts::{FRAC_PI_2, TAU};
 
     use rand::{RngExt, SeedableRng};
     use rand_pcg::Pcg32;
@@ -225,9 +225,9 @@ mod tests {
         for _ in 0..20_000 {
             let start = field.above([rng.random(), rng.random()]);
             let hit = field.first_hit(start, [0.0, 0.0, -1.0]).expect("straight down");
-            // Barely out of the facet, where rounding decides.
+            // Along the facet, where rounding decides.
             let (_, frame) = field.facet(hit.facet);
-            let direction = frame.to_world(spherical(1.570_79, TAU * rng.random::<f64>()));
+            let direction = frame.to_world(spherical(FRAC_PI_2, TAU * rng.random::<f64>()));
             let next = field.first_hit(hit.point, direction);
             assert!(next.is_none_or(|next| next.facet != hit.facet), "{:?} is left and met again", hit.point);
         }
