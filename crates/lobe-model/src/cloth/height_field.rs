@@ -153,6 +153,8 @@ fn slopes([low_left, low_right, high_left, high_right]: [f64; 4], upper: bool) -
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::{FRAC_PI_2, TAU};
+
     use rand::{RngExt, SeedableRng};
     use rand_pcg::Pcg32;
 
@@ -182,13 +184,13 @@ mod tests {
         for _ in 0..300 {
             let start = field.above([rng.random(), rng.random()]);
             let (cos, phi): (f64, f64) = (rng.random(), rng.random());
-            let down = spherical((-cos).acos(), 6.28 * phi);
+            let down = spherical((-cos).acos(), TAU * phi);
             let first = field.first_hit(start, down).expect("a ray that goes down meets the cloth");
             let (_, frame) = field.facet(first.facet);
             assert!(dot(frame.0[2], down) < 0.0, "met from behind");
             // From there in a random direction out of the facet.
             let (cos, phi): (f64, f64) = (rng.random(), rng.random());
-            let direction = frame.to_world(spherical(cos.acos(), 6.28 * phi));
+            let direction = frame.to_world(spherical(cos.acos(), TAU * phi));
             let found = field.first_hit(first.point, direction);
             let step = 2e-3;
             let at = |t: f64| [0, 1, 2].map(|axis| first.point[axis] + t * direction[axis]);
@@ -214,6 +216,21 @@ mod tests {
             }
         }
         assert!(hits > 30 && misses > 30, "{hits} hits, {misses} misses");
+    }
+
+    #[test]
+    fn no_triangle_is_in_its_own_way() {
+        let field = field();
+        let mut rng = Pcg32::seed_from_u64(2);
+        for _ in 0..20_000 {
+            let start = field.above([rng.random(), rng.random()]);
+            let hit = field.first_hit(start, [0.0, 0.0, -1.0]).expect("straight down");
+            // Along the facet, where rounding decides.
+            let (_, frame) = field.facet(hit.facet);
+            let direction = frame.to_world(spherical(FRAC_PI_2, TAU * rng.random::<f64>()));
+            let next = field.first_hit(hit.point, direction);
+            assert!(next.is_none_or(|next| next.facet != hit.facet), "{:?} is left and met again", hit.point);
+        }
     }
 
     #[test]

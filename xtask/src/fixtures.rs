@@ -1,0 +1,82 @@
+//! `xtask fixtures`: the small tables that tests and benchmarks share, made from nothing but a seed.
+//!
+//! The sizes are those of the tables that the paper behind this project timed: 7 x 8 x 13 and 17 x 7 x 17 x 13.
+
+mod ddr;
+mod provenance;
+mod tables;
+
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Arguments of `xtask fixtures`.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// Write nothing; fail if a file differs from what its seed gives: in a word or knot, or in a value by more than 1e-4 of
+    /// it (sine and cosine differ in the last bits from platform to platform)
+    #[arg(long)]
+    check: bool,
+    /// Where the files are
+    #[arg(long, default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/../fixtures"))]
+    directory: PathBuf,
+}
+
+/// Makes every fixture and writes or checks it.
+pub fn run(arguments: Arguments) -> Result<()> {
+    let fixtures = [tables::conductor(), tables::cloth()];
+    let bar = ProgressBar::new(fixtures.iter().map(|fixture| fixture.steps() as u64).sum())
+        .with_style(ProgressStyle::with_template("{bar:40} {percent:>3} % of {msg} {elapsed}")?);
+    let mut different = Vec::new();
+    let mut hashes = Vec::new();
+    for fixture in &fixtures {
+        bar.set_message(fixture.file);
+        let made = ddr::text(&fixture.measure(|| bar.inc(1))?);
+        let path = arguments.directory.join(fixture.file);
+        if arguments.check {
+            let there = fs::read_to_string(&path).with_context(|| format!("reading {}", path.display()))?;
+            if let Err(difference) = ddr::compare(&there, &made) {
+                different.push(format!("{}: {difference}", fixture.file));
+            }
+            hashes.push(provenance::hash(&there));
+        } else {
+            write_whole(&path, &made)?;
+            hashes.push(provenance::hash(&made));
+        }
+    }
+    bar.finish_and_clear();
+
+    let readme = provenance::readme(&fixtures, &hashes);
+    let path = arguments.directory.join("README.md");
+    if !arguments.check {
+        write_whole(&path, &readme)?;
+    } else if fs::read_to_string(&path).with_context(|| format!("reading {}", path.display()))? != readme {
+        different.push("README.md: does not describe these files (parameters or hashes)".into());
+    }
+    if !different.is_empty() {
+        bail!("fixtures differ from their seeds; `cargo xtask fixtures` makes them anew:\n{}", different.join("\n"));
+    }
+    let done = if arguments.check { "checked" } else { "written" };
+    println!("{} tables and README.md {done} in {}", fixtures.len(), arguments.directory.display());
+    Ok(())
+}
+
+/// Writes a file in one step, so that nobody ever sees half of it.
+fn write_whole(path: &Path, content: &str) -> Result<()> {
+    let directory = path.parent().unwrap_or(Path::new("."));
+    let write = || -> Result<()> {
+        fs::create_dir_all(directory)?;
+        let mut builder = tempfile::Builder::new();
+        // Temporary files are private by default; this one becomes an ordinary file, under the user's umask.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        let mut file = builder.tempfile_in(directory)?;
+        file.write_all(content.as_bytes())?;
+        file.persist(path)?;
+        Ok(())
+    };
+    write().with_context(|| format!("writing {}", path.display()))
+}
