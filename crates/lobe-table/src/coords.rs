@@ -152,6 +152,16 @@ mod tests {
         }
     }
 
+    /// One unit in the last place toward +z off the mirror direction is phi 0, for light from anywhere.
+    #[test]
+    fn phi_is_accurate_at_the_mirror_peak() {
+        for step in 1..200 {
+            let (wi, _) = angles_to_directions([f64::from(step) * 0.007, f64::from(step), 0.0, 0.0], |s| s);
+            let [_, _, theta, phi] = directions_to_angles(wi, [-wi[0], -wi[1], wi[2].next_up()], |s| s);
+            assert!(theta > 0.0 && theta < 2e-16 && phi.min(TAU - phi) < 1e-9, "theta {theta}, phi {phi} at {wi:?}");
+        }
+    }
+
     #[test]
     fn undefined_angles_are_zero() {
         let up = [-0.0, 0.0, 1.0];

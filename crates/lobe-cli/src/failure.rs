@@ -1,0 +1,60 @@
+//! How a command ends when it does not succeed, and the exit code of that.
+
+use std::fmt;
+use std::io;
+use std::process::ExitCode;
+
+use lobe_formats::FormatError;
+
+/// Why a command stopped.
+#[derive(Debug)]
+pub enum Failure {
+    /// A file cannot be read or written, or is damaged. Exit code 1.
+    File(String),
+    /// What was asked for makes no sense. Exit code 2.
+    Usage(String),
+    /// Whoever reads the output has read enough, as `head` does. No failure at all.
+    OutputClosed,
+}
+
+impl Failure {
+    /// The code for the shell.
+    pub fn exit_code(&self) -> ExitCode {
+        match self {
+            Failure::File(_) => ExitCode::from(1),
+            Failure::Usage(_) => ExitCode::from(2),
+            Failure::OutputClosed => ExitCode::SUCCESS,
+        }
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Failure::File(message) | Failure::Usage(message) => f.write_str(message),
+            Failure::OutputClosed => f.write_str("the output was closed"),
+        }
+    }
+}
+
+impl From<FormatError> for Failure {
+    fn from(error: FormatError) -> Self {
+        Failure::File(error.to_string())
+    }
+}
+
+/// Errors of writing to the standard output.
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::BrokenPipe => Failure::OutputClosed,
+            _ => Failure::File(format!("standard output: {error}")),
+        }
+    }
+}
+
+impl From<serde_json::Error> for Failure {
+    fn from(error: serde_json::Error) -> Self {
+        Failure::from(io::Error::from(error))
+    }
+}
