@@ -16,6 +16,7 @@ mod passes;
 pub mod reference;
 mod samples;
 mod search;
+mod single;
 mod storage;
 mod table;
 

@@ -36,10 +36,10 @@ impl Frame {
 }
 
 /// Closer to the normal than 1e-15 rad, psi is taken for 0: the squares of shorter components lose their digits.
-const POLE: f32 = 1e-30;
+pub(crate) const POLE: f32 = 1e-30;
 
 /// The squared distance of two unit vectors is at most 4; more, or NaN, means that a component is not finite.
-const FARTHEST: f32 = 16.0;
+pub(crate) const FARTHEST: f32 = 16.0;
 
 /// Fills the frame of queries `0..n` of a block. `n` is a multiple of the lanes.
 #[inline(always)]
