@@ -11,7 +11,7 @@ use lobe_lane::{Block, Floats, Kernel, Lanes};
 use crate::Scatter;
 use crate::axis::{Axis, Bounds, Search};
 use crate::layout::{Corners, PHI, PSI, SIGMA, THETA};
-use crate::passes::frame::{FARTHEST, POLE};
+use crate::passes::frame::{FARTHEST, POLE, Refracted, Zenith};
 use crate::table::Table;
 
 /// One query.
@@ -28,10 +28,6 @@ impl Kernel for Single<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         let Single { table, wi, wo, out } = self;
-        if table.refraction.is_some() {
-            // Refraction adds a search and a sine to every query; the passes have them.
-            return table.batch([wi].as_slice(), [wo].as_slice(), out).run(lanes);
-        }
         let (angles, above) = angles(lanes, table, wi, wo);
         let strides = table.layout.strides();
         let find = |index: usize| {
@@ -71,10 +67,18 @@ fn angles<L: Lanes>(lanes: L, table: &Table, wi: [f32; 3], wo: [f32; 3]) -> ([f3
     let sin = sin2.sqrt();
     let scale = if POLE < sin2 { 1.0 / sin } else { 0.0 };
     let (cos_psi, sin_psi) = (if POLE < sin2 { ix * scale } else { 1.0 }, iy * scale);
-    let (dx, dy, dz) = (ox + ix, oy + iy, oz - iz);
+    let ([ax, ay, cos_zenith], sin_zenith) = match &table.refraction {
+        None => ([ix, iy, iz], sin),
+        Some(offset) => {
+            let [wi, psi] = [[ix, iy, iz], [cos_psi, sin_psi, 0.0]].map(|v| v.map(|x| lanes.splat(x)));
+            let (opposite, sin) = Refracted(offset).opposite(lanes, wi, lanes.splat(sin), [psi[0], psi[1]]);
+            (opposite.map(|x| lanes.extract(x, 0)), lanes.extract(sin, 0))
+        }
+    };
+    let (dx, dy, dz) = (ox + ax, oy + ay, oz - cos_zenith);
     let toward = fma(cos_psi, dx, sin_psi * dy);
     let y = fma(cos_psi, dy, -(sin_psi * dx));
-    let x = fma(iz, toward, sin * dz);
+    let x = fma(cos_zenith, toward, sin_zenith * dz);
     let distance2 = fma(dx, dx, fma(dy, dy, dz * dz));
     let valid = 0.0 < iz && 0.0 < oz && distance2 < FARTHEST;
 
@@ -188,7 +192,11 @@ fn rgb<L: Lanes, const CORNERS: usize>(
     let texel = lanes.quad_mul_add(lanes.quad_splat(phi), high - low, low);
     let mut four = [0.0; 4];
     lanes.quad_store(&mut four, lanes.quad_max(texel, lanes.quad_splat(floor)));
-    out.copy_from_slice(&four[..out.len()]);
+    let [r, g, b, _] = four;
+    match out {
+        [red, green, blue] => (*red, *green, *blue) = (r, g, b),
+        _ => out.copy_from_slice(&[r, g]),
+    }
 }
 
 #[inline(always)]

@@ -59,7 +59,7 @@ pub(crate) fn run<L: Lanes, B: BlockOfDirections>(
 }
 
 /// Where the zenith of the scattered light lies.
-trait Zenith: Copy {
+pub(crate) trait Zenith: Copy {
     /// `true` where directions below the surface are folded up.
     const FOLD: bool;
 
@@ -83,7 +83,7 @@ impl<const FOLD: bool> Zenith for Mirror<FOLD> {
 
 /// Through the surface, bent by an offset that depends on sigma.
 #[derive(Clone, Copy)]
-struct Refracted<'a>(&'a Function);
+pub(crate) struct Refracted<'a>(pub(crate) &'a Function);
 
 impl Zenith for Refracted<'_> {
     const FOLD: bool = true;
