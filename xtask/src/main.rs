@@ -1,1 +1,20 @@
-fn main() {}
+//! `cargo xtask COMMAND`: the workspace's own commands, one module a command.
+
+use clap::Parser;
+
+/// The workspace's own commands.
+#[derive(Parser)]
+#[command(bin_name = "cargo xtask")]
+enum Command {
+    Equivalence(xtask::equivalence::Args),
+    Sweep(xtask::sweep::Args),
+    Asm(xtask::asm::Args),
+}
+
+fn main() -> anyhow::Result<()> {
+    match Command::parse() {
+        Command::Equivalence(args) => xtask::equivalence::run(&args),
+        Command::Sweep(args) => xtask::sweep::run(&args),
+        Command::Asm(args) => xtask::asm::run(&args),
+    }
+}

@@ -1,0 +1,6 @@
+//! The workspace's own commands, as a library so that the tests run the same checks.
+#![forbid(unsafe_code)]
+
+pub mod asm;
+pub mod equivalence;
+pub mod sweep;
