@@ -13,9 +13,9 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Arguments of `xtask fixtures`.
+/// Make the tables in fixtures/ from their seeds, or check those that are there.
 #[derive(clap::Args)]
-pub struct Arguments {
+pub struct Args {
     /// Write nothing; fail if a file differs from what its seed gives: in a word or knot, or in a value by more than 1e-4 of
     /// it (sine and cosine differ in the last bits from platform to platform)
     #[arg(long)]
@@ -26,7 +26,7 @@ pub struct Arguments {
 }
 
 /// Makes every fixture and writes or checks it.
-pub fn run(arguments: Arguments) -> Result<()> {
+pub fn run(args: &Args) -> Result<()> {
     let fixtures = [tables::conductor(), tables::cloth()];
     let bar = ProgressBar::new(fixtures.iter().map(|fixture| fixture.steps() as u64).sum())
         .with_style(ProgressStyle::with_template("{bar:40} {percent:>3} % of {msg} {elapsed}")?);
@@ -35,8 +35,8 @@ pub fn run(arguments: Arguments) -> Result<()> {
     for fixture in &fixtures {
         bar.set_message(fixture.file);
         let made = ddr::text(&fixture.measure(|| bar.inc(1))?);
-        let path = arguments.directory.join(fixture.file);
-        if arguments.check {
+        let path = args.directory.join(fixture.file);
+        if args.check {
             let there = fs::read_to_string(&path).with_context(|| format!("reading {}", path.display()))?;
             if let Err(difference) = ddr::compare(&there, &made) {
                 different.push(format!("{}: {difference}", fixture.file));
@@ -50,8 +50,8 @@ pub fn run(arguments: Arguments) -> Result<()> {
     bar.finish_and_clear();
 
     let readme = provenance::readme(&fixtures, &hashes);
-    let path = arguments.directory.join("README.md");
-    if !arguments.check {
+    let path = args.directory.join("README.md");
+    if !args.check {
         write_whole(&path, &readme)?;
     } else if fs::read_to_string(&path).with_context(|| format!("reading {}", path.display()))? != readme {
         different.push("README.md: does not describe these files (parameters or hashes)".into());
@@ -59,8 +59,8 @@ pub fn run(arguments: Arguments) -> Result<()> {
     if !different.is_empty() {
         bail!("fixtures differ from their seeds; `cargo xtask fixtures` makes them anew:\n{}", different.join("\n"));
     }
-    let done = if arguments.check { "checked" } else { "written" };
-    println!("{} tables and README.md {done} in {}", fixtures.len(), arguments.directory.display());
+    let done = if args.check { "checked" } else { "written" };
+    println!("{} tables and README.md {done} in {}", fixtures.len(), args.directory.display());
     Ok(())
 }
 

@@ -1,29 +1,24 @@
-//! The workspace's own commands.
-#![forbid(unsafe_code)]
+//! `cargo xtask COMMAND`: the workspace's own commands, one module a command.
 
-mod fixtures;
-mod pictures;
+use clap::Parser;
 
-use clap::{Parser, Subcommand};
-
+/// The workspace's own commands.
 #[derive(Parser)]
-#[command(about = "The workspace's own commands")]
-struct Arguments {
-    #[command(subcommand)]
-    command: Command,
-}
-
-#[derive(Subcommand)]
+#[command(bin_name = "cargo xtask")]
 enum Command {
-    /// Make the tables in fixtures/ from their seeds, or check those that are there
-    Fixtures(fixtures::Arguments),
-    /// Draw the pictures of the documentation
-    Pictures(pictures::Arguments),
+    Equivalence(xtask::equivalence::Args),
+    Sweep(xtask::sweep::Args),
+    Asm(xtask::asm::Args),
+    Fixtures(xtask::fixtures::Args),
+    Pictures(xtask::pictures::Args),
 }
 
 fn main() -> anyhow::Result<()> {
-    match Arguments::parse().command {
-        Command::Fixtures(arguments) => fixtures::run(arguments),
-        Command::Pictures(arguments) => pictures::run(arguments),
+    match Command::parse() {
+        Command::Equivalence(args) => xtask::equivalence::run(&args),
+        Command::Sweep(args) => xtask::sweep::run(&args),
+        Command::Asm(args) => xtask::asm::run(&args),
+        Command::Fixtures(args) => xtask::fixtures::run(&args),
+        Command::Pictures(args) => xtask::pictures::run(&args),
     }
 }

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use lobe::Brdf;
 
-/// The command's options.
+/// Draw the pictures of the documentation.
 #[derive(clap::Args)]
-pub struct Arguments {
+pub struct Args {
     /// Folder for the pictures
     #[arg(long, default_value = "docs/pictures")]
     directory: PathBuf,
@@ -25,7 +25,7 @@ const BACKGROUND: [f32; 3] = [0.93, 0.93, 0.91];
 ///
 /// # Errors
 /// Where a fixture cannot be read or the picture not written.
-pub fn run(arguments: Arguments) -> anyhow::Result<()> {
+pub fn run(args: &Args) -> anyhow::Result<()> {
     let conductor = Brdf::open("fixtures/conductor-7x8x13.ddr")?;
     let cloth = Brdf::open("fixtures/cloth-17x7x17x13.ddr")?;
     let spheres = [sphere(&conductor, 0.0, 0.55), sphere(&cloth, 0.0, 1.5), sphere(&cloth, 90.0, 1.5)];
@@ -36,8 +36,8 @@ pub fn run(arguments: Arguments) -> anyhow::Result<()> {
             pixels.extend(sphere[row * SIZE..][..SIZE].iter().flatten().map(|&linear| encode(linear)));
         }
     }
-    std::fs::create_dir_all(&arguments.directory)?;
-    let path = arguments.directory.join("spheres.png");
+    std::fs::create_dir_all(&args.directory)?;
+    let path = args.directory.join("spheres.png");
     write_png(&path, width, SIZE, &pixels).with_context(|| path.display().to_string())?;
     println!("{}", path.display());
     Ok(())

@@ -58,6 +58,6 @@ pub trait Texels: Copy + Debug + Send + Sync + 'static {
     fn oct_max(self, a: Self::Oct, b: Self::Oct) -> Self::Oct;
     /// The first four and the last four floats.
     fn oct_halves(self, x: Self::Oct) -> [Self::Quad; 2];
-    /// How many of the eight floats, which ascend, are `<= x`.
+    /// How many of the eight floats, from the first on, are `<= x`: all that are, where they ascend.
     fn oct_count_le(self, knots: Self::Oct, x: f32) -> u32;
 }

@@ -71,6 +71,6 @@ impl<const N: usize> Texels for Scalar<N> {
     }
     #[inline(always)]
     fn oct_count_le(self, knots: Floats<8>, x: f32) -> u32 {
-        knots.0.iter().map(|&knot| (knot <= x) as u32).sum()
+        knots.0.iter().take_while(|&&knot| knot <= x).count() as u32
     }
 }

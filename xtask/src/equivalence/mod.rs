@@ -1,0 +1,115 @@
+//! `cargo xtask equivalence`: every backend against the scalar reference.
+//!
+//! A [`Property`] records, generic over the lanes, rows of results that must not depend on the backend. In strict form
+//! they have to be the same bits as those of [`Scalar<1>`](lobe_scalar::Scalar), all NaN being one value; in fused form
+//! floats may differ within a stated bound.
+
+mod axes;
+mod bound;
+mod evaluation;
+mod lanes;
+mod math;
+mod memory;
+mod patterns;
+mod record;
+mod report;
+mod subject;
+mod tables;
+mod texels;
+
+use std::path::PathBuf;
+
+use lobe_lane::Lanes;
+
+pub use record::{Bound, Check, Record, Values};
+pub use subject::{Form, Subject, facade_agrees, reference};
+
+/// A group of results that every backend has to agree on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Property {
+    /// Arithmetic and comparison of floats.
+    Floats,
+    /// Arithmetic and comparison of integers.
+    Ints,
+    /// Masks, and what depends on the number of lanes.
+    Masks,
+    /// Loads, stores and gathers.
+    Memory,
+    /// Quads and octs.
+    Texels,
+    /// The functions of `lobe_math`.
+    Math,
+    /// Searches of axes.
+    Axes,
+    /// Whole evaluations.
+    Evaluation,
+}
+
+impl Property {
+    /// All of them.
+    pub const ALL: [Property; 8] =
+        [Self::Floats, Self::Ints, Self::Masks, Self::Memory, Self::Texels, Self::Math, Self::Axes, Self::Evaluation];
+
+    /// The name in the printed table.
+    pub fn name(self) -> &'static str {
+        match self {
+            Property::Floats => "floats",
+            Property::Ints => "ints",
+            Property::Masks => "masks",
+            Property::Memory => "memory",
+            Property::Texels => "texels",
+            Property::Math => "math",
+            Property::Axes => "axes",
+            Property::Evaluation => "evaluation",
+        }
+    }
+
+    /// Computes everything on one backend.
+    pub fn record<L: Lanes>(self, lanes: L) -> Vec<Record> {
+        match self {
+            Property::Floats => lanes.vectorize(lanes::FloatLanes),
+            Property::Ints => lanes.vectorize(lanes::IntLanes),
+            Property::Masks => lanes.vectorize(lanes::Masks),
+            Property::Memory => lanes.vectorize(memory::Memory),
+            Property::Texels => lanes.vectorize(texels::QuadsAndOcts),
+            Property::Math => lanes.vectorize(math::Functions),
+            Property::Axes => lanes.vectorize(axes::Searches),
+            Property::Evaluation => evaluation::record(lanes),
+        }
+    }
+}
+
+/// Compares what a backend recorded with the reference, record by record; records of one name become one check.
+pub fn compare(found: &[Record], reference: &[Record], backend: &str, form: Form) -> Vec<Check> {
+    assert_eq!(found.len(), reference.len(), "{backend}: other records than the reference");
+    let mut checks: Vec<Check> = Vec::new();
+    for (found, reference) in found.iter().zip(reference) {
+        let Some(check) = found.compare(reference, backend, form) else { continue };
+        match checks.iter_mut().find(|earlier| earlier.what == check.what) {
+            Some(earlier) => earlier.merge(check),
+            None => checks.push(check),
+        }
+    }
+    checks
+}
+
+/// Check every backend of this CPU against the scalar reference, bit by bit
+#[derive(clap::Args, Debug)]
+pub struct Args {
+    /// Write all checks to this file, as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+/// Runs everything, prints a table, and writes the file asked for.
+///
+/// # Errors
+/// Where a check fails, a backend that this CPU has to have does not run, or the file cannot be written.
+pub fn run(args: &Args) -> anyhow::Result<()> {
+    let outcome = report::Outcome::measure();
+    outcome.print();
+    if let Some(path) = &args.json {
+        outcome.write(path)?;
+    }
+    outcome.verdict()
+}

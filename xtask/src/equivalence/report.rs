@@ -1,0 +1,154 @@
+//! The outcome of all checks: a table for the reader and JSON for programs.
+
+use std::io::Write;
+use std::path::Path;
+
+use anyhow::{Context, ensure};
+use comfy_table::{CellAlignment, Table, presets};
+use serde::Serialize;
+
+use super::{Check, Form, Property, Subject, compare, facade_agrees, reference};
+
+/// What all backends gave.
+#[derive(Serialize)]
+pub(super) struct Outcome {
+    backends: Vec<BackendRow>,
+    checks: Vec<Check>,
+    ok: bool,
+    #[serde(skip)]
+    rows: Vec<Row>,
+    /// What failed, in words.
+    #[serde(skip)]
+    faults: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct BackendRow {
+    name: &'static str,
+    lanes: usize,
+    available: bool,
+}
+
+/// A line of the printed table: one property on one backend.
+struct Row {
+    backend: &'static str,
+    form: Form,
+    property: Property,
+    checks: usize,
+    items: usize,
+    differing: usize,
+    /// The check nearest to its bound, in fused form.
+    nearest: Option<Check>,
+    ok: bool,
+}
+
+impl Outcome {
+    pub(super) fn measure() -> Self {
+        let mut outcome =
+            Outcome { backends: Vec::new(), checks: Vec::new(), ok: true, rows: Vec::new(), faults: Vec::new() };
+        let mut ran = [false; Subject::ALL.len()];
+        for property in Property::ALL {
+            let expected = reference(property);
+            // What has to hold by definition is asked of the reference too.
+            outcome.add("scalar", Form::Strict, property, compare(&expected, &expected, "scalar", Form::Strict));
+            for (subject, ran) in Subject::ALL.into_iter().zip(&mut ran) {
+                for &form in subject.forms() {
+                    let Some(found) = subject.record(form, property) else { continue };
+                    *ran = true;
+                    outcome.add(subject.name(), form, property, compare(&found, &expected, subject.name(), form));
+                }
+            }
+        }
+        for (subject, ran) in Subject::ALL.into_iter().zip(ran) {
+            outcome.backends.push(BackendRow { name: subject.name(), lanes: subject.lanes(), available: ran });
+            if ran != subject.expected() {
+                let did = if ran { "ran, though" } else { "did not run, though" };
+                let has = if subject.expected() { "has" } else { "does not have" };
+                outcome.faults.push(format!("{} {did} this CPU {has} its features", subject.name()));
+            }
+        }
+        if let Err(error) = facade_agrees() {
+            outcome.faults.push(error.to_string());
+        }
+        outcome.ok = outcome.faults.is_empty();
+        outcome
+    }
+
+    fn add(&mut self, backend: &'static str, form: Form, property: Property, checks: Vec<Check>) {
+        for check in checks.iter().filter(|check| !check.ok) {
+            let fault = check.first_fault.as_deref().unwrap_or_default();
+            self.faults.push(format!("{backend} {form:?}, {}, {}: {fault}", property.name(), check.what));
+        }
+        self.rows.push(Row {
+            backend,
+            form,
+            property,
+            checks: checks.len(),
+            items: checks.iter().map(|check| check.items).sum(),
+            differing: checks.iter().map(|check| check.differing).sum(),
+            nearest: checks
+                .iter()
+                .filter(|check| check.bound > 0.0)
+                .max_by(|a, b| a.nearness().total_cmp(&b.nearness()))
+                .cloned(),
+            ok: checks.iter().all(|check| check.ok),
+        });
+        self.checks.extend(checks);
+    }
+
+    pub(super) fn print(&self) {
+        let mut table = Table::new();
+        table.load_style(presets::UTF8_HORIZONTAL_ONLY);
+        table.set_header(["backend", "form", "property", "checks", "items", "differing", "nearest to its bound", ""]);
+        for column in 3..6 {
+            table.column_mut(column).expect("a column").set_cell_alignment(CellAlignment::Right);
+        }
+        for row in &self.rows {
+            table.add_row([
+                row.backend.to_string(),
+                format!("{:?}", row.form).to_lowercase(),
+                row.property.name().to_string(),
+                row.checks.to_string(),
+                row.items.to_string(),
+                row.differing.to_string(),
+                row.nearest.as_ref().map_or("-".into(), |check| {
+                    format!("{:.2e} of {:.2e}, {}", check.max_abs, check.bound, check.what)
+                }),
+                if row.ok { "ok" } else { "FAILED" }.to_string(),
+            ]);
+        }
+        println!("{table}");
+        for row in &self.backends {
+            println!(
+                "{:>10}: {} lanes, {}",
+                row.name,
+                row.lanes,
+                if row.available { "ran" } else { "not on this CPU" }
+            );
+        }
+        println!(
+            "{} checks of {} results",
+            self.checks.len(),
+            self.checks.iter().map(|check| check.items).sum::<usize>()
+        );
+        for fault in &self.faults {
+            println!("FAILED: {fault}");
+        }
+    }
+
+    /// Writes the JSON beside its target and renames it.
+    pub(super) fn write(&self, path: &Path) -> anyhow::Result<()> {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let failed = || format!("{}: cannot be written", path.display());
+        let mut file = tempfile::NamedTempFile::new_in(folder).with_context(failed)?;
+        serde_json::to_writer_pretty(&mut file, self).with_context(failed)?;
+        file.write_all(b"\n").with_context(failed)?;
+        file.persist(path).with_context(failed)?;
+        Ok(())
+    }
+
+    pub(super) fn verdict(&self) -> anyhow::Result<()> {
+        ensure!(self.ok, "{} faults", self.faults.len());
+        Ok(())
+    }
+}

@@ -1,0 +1,8 @@
+//! The workspace's own commands, as a library so that the tests run the same checks.
+#![forbid(unsafe_code)]
+
+pub mod asm;
+pub mod equivalence;
+pub mod fixtures;
+pub mod pictures;
+pub mod sweep;

@@ -1,0 +1,68 @@
+//! Every backend agrees with the scalar reference on every property: one test each.
+//!
+//! A test of a backend that this CPU does not have prints SKIP; `the_expected_backends_ran` counts those and fails where
+//! one was skipped that this CPU has.
+
+use xtask::equivalence::{Form, Property, Subject, compare, facade_agrees, reference};
+
+fn check(subject: Subject, form: Form, property: Property) {
+    let Some(found) = subject.record(form, property) else {
+        println!("SKIP: this CPU has no {}", subject.name());
+        return;
+    };
+    let checks = compare(&found, &reference(property), subject.name(), form);
+    assert!(!checks.is_empty());
+    let faults: Vec<_> = checks.iter().filter(|check| !check.ok).collect();
+    assert!(faults.is_empty(), "{} of {} checks failed: {faults:#?}", faults.len(), checks.len());
+}
+
+macro_rules! tests {
+    ($($backend:ident: $subject:ident $form:ident;)*) => {$(
+        mod $backend {
+            tests! { @properties $subject $form:
+                floats Floats; ints Ints; masks Masks; memory Memory; texels Texels; math Math; axes Axes;
+                evaluation Evaluation;
+            }
+        }
+    )*};
+    (@properties $subject:ident $form:ident: $($name:ident $property:ident;)*) => {$(
+        #[test]
+        fn $name() {
+            use super::{Form, Property, Subject};
+            super::check(Subject::$subject, Form::$form, Property::$property);
+        }
+    )*};
+}
+
+tests! {
+    emulated4: Emulated4 Strict;
+    emulated8: Emulated8 Strict;
+    emulated16: Emulated16 Strict;
+    sse2: Sse2 Strict;
+    sse41: Sse41 Strict;
+    avx2: Avx2 Strict;
+    avx2_fused: Avx2 Fused;
+}
+
+#[test]
+fn the_reference_holds_what_its_definition_says() {
+    for property in Property::ALL {
+        let records = reference(property);
+        for check in compare(&records, &records, "scalar", Form::Strict) {
+            assert!(check.ok, "{check:#?}");
+        }
+    }
+}
+
+#[test]
+fn the_expected_backends_ran() {
+    let (mut run, mut skipped) = (0, 0);
+    for subject in Subject::ALL {
+        let tests = subject.forms().len() * Property::ALL.len();
+        let ran = subject.record(Form::Strict, Property::Masks).is_some();
+        assert_eq!(ran, subject.expected(), "{}", subject.name());
+        *if ran { &mut run } else { &mut skipped } += tests;
+    }
+    println!("{run} tests of backends ran, {skipped} were skipped");
+    facade_agrees().unwrap();
+}
