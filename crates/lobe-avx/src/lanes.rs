@@ -18,11 +18,11 @@ impl Lanes for Avx2 {
 
     #[inline(always)]
     fn vectorize<K: Kernel>(self, kernel: K) -> K::Out {
-        #[target_feature(enable = "avx2,fma")]
+        #[target_feature(enable = "avx2,fma,f16c")]
         fn inner<K: Kernel>(token: Avx2, kernel: K) -> K::Out {
             kernel.run(token)
         }
-        // SAFETY: the token proves AVX2 and FMA.
+        // SAFETY: the token proves AVX2, FMA and F16C.
         unsafe { inner(self, kernel) }
     }
 
@@ -129,6 +129,25 @@ impl Lanes for Avx2 {
             while row < 4 {
                 let low = memory::load_quad(self, block, bases[row], corner);
                 let high = memory::load_quad(self, block, bases[row + 4], corner);
+                rows[row] = Floats(op!(_mm256_insertf128_ps::<1>(_mm256_castps128_ps256(low), high)));
+                row += 1;
+            }
+            corners[corner] = transpose(rows);
+            corner += 1;
+        }
+        corners
+    }
+    #[inline(always)]
+    fn gather_quads_half<const N: usize>(self, block: &Block<'_, N, 4, u16>, base: Ints) -> [[Floats; 4]; N] {
+        let bases = memory::indices(self, base.0);
+        let mut corners = [[self.splat(0.0); 4]; N];
+        let mut corner = 0;
+        while corner < N {
+            let mut rows = [self.splat(0.0); 4];
+            let mut row = 0;
+            while row < 4 {
+                let low = memory::load_half_quad(self, block, bases[row], corner);
+                let high = memory::load_half_quad(self, block, bases[row + 4], corner);
                 rows[row] = Floats(op!(_mm256_insertf128_ps::<1>(_mm256_castps128_ps256(low), high)));
                 row += 1;
             }

@@ -10,7 +10,7 @@ extern crate std;
 /// Calls intrinsics that touch nothing but registers.
 macro_rules! op {
     ($call:expr) => {{
-        // SAFETY: a value of these types, or the token itself, exists only where the CPU has AVX2 and FMA, and the
+        // SAFETY: a value of these types, or the token itself, exists only where the CPU has AVX2, FMA and F16C, and the
         // intrinsic touches registers only.
         unsafe { $call }
     }};
@@ -23,23 +23,25 @@ mod values;
 
 pub use values::{Floats, Ints, Mask, Quad};
 
-/// A proof that the CPU has AVX2 and FMA: eight lanes.
+/// A proof that the CPU has AVX2, FMA and F16C: eight lanes.
 #[derive(Clone, Copy, Debug)]
 pub struct Avx2(());
 
 impl Avx2 {
     /// The token where the CPU has the features.
     pub fn detect() -> Option<Self> {
-        let has = std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma");
+        let has = std::is_x86_feature_detected!("avx2")
+            && std::is_x86_feature_detected!("fma")
+            && std::is_x86_feature_detected!("f16c");
         has.then_some(Avx2(()))
     }
 
     /// The token without a look at the CPU.
     ///
     /// # Safety
-    /// Safe from code compiled with AVX2 and FMA, which is what the attribute says; elsewhere the CPU must have them.
+    /// Safe from code compiled with AVX2, FMA and F16C, which is what the attribute says; elsewhere the CPU must have them.
     #[inline]
-    #[target_feature(enable = "avx2,fma")]
+    #[target_feature(enable = "avx2,fma,f16c")]
     pub fn new() -> Self {
         Avx2(())
     }

@@ -1,6 +1,6 @@
 //! Every load and store of this crate. Each is bounds-safe by itself.
 //!
-//! All functions take the token, which proves that the CPU has AVX.
+//! All functions take the token, which proves that the CPU has AVX and F16C.
 
 use core::arch::x86_64::*;
 
@@ -89,4 +89,32 @@ pub(crate) fn load_oct<const N: usize>(_proof: Avx2, block: &Block<'_, N, 8>, ba
     // SAFETY: the block promises `last_base + offset + 8 <= data.len()` for each of its offsets; the token proves AVX;
     // the load needs no alignment.
     unsafe { _mm256_loadu_ps(block.data().as_ptr().add(at)) }
+}
+
+/// Four half-precision floats at `base + offsets[corner]`, as floats; `base` is clamped to the block's last.
+#[inline(always)]
+pub(crate) fn load_half_quad<const N: usize>(
+    _proof: Avx2,
+    block: &Block<'_, N, 4, u16>,
+    base: usize,
+    corner: usize,
+) -> __m128 {
+    let at = base.min(block.last_base()) + block.offsets()[corner];
+    // SAFETY: the block promises `last_base + offset + 4 <= data.len()` for each of its offsets; the token proves SSE2 and
+    // F16C; the load of eight bytes needs no alignment.
+    unsafe { _mm_cvtph_ps(_mm_loadl_epi64(block.data().as_ptr().add(at).cast())) }
+}
+
+/// Eight half-precision floats at `base + offsets[corner]`, as floats; `base` is clamped to the block's last.
+#[inline(always)]
+pub(crate) fn load_half_oct<const N: usize>(
+    _proof: Avx2,
+    block: &Block<'_, N, 8, u16>,
+    base: usize,
+    corner: usize,
+) -> __m256 {
+    let at = base.min(block.last_base()) + block.offsets()[corner];
+    // SAFETY: the block promises `last_base + offset + 8 <= data.len()` for each of its offsets; the token proves AVX and
+    // F16C; the load of sixteen bytes needs no alignment.
+    unsafe { _mm256_cvtph_ps(_mm_loadu_si128(block.data().as_ptr().add(at).cast())) }
 }

@@ -33,6 +33,16 @@ impl Texels for Avx2 {
         corners
     }
     #[inline(always)]
+    fn quad_corners_half<const N: usize>(self, block: &Block<'_, N, 4, u16>, base: usize) -> [Quad; N] {
+        let mut corners = [self.quad_splat(0.0); N];
+        let mut corner = 0;
+        while corner < N {
+            corners[corner] = Quad(memory::load_half_quad(self, block, base, corner));
+            corner += 1;
+        }
+        corners
+    }
+    #[inline(always)]
     fn quad_splat(self, x: f32) -> Quad {
         Quad(op!(_mm_set1_ps(x)))
     }
@@ -63,6 +73,16 @@ impl Texels for Avx2 {
         let mut corner = 0;
         while corner < N {
             corners[corner] = Floats(memory::load_oct(self, block, base, corner));
+            corner += 1;
+        }
+        corners
+    }
+    #[inline(always)]
+    fn oct_corners_half<const N: usize>(self, block: &Block<'_, N, 8, u16>, base: usize) -> [Floats; N] {
+        let mut corners = [self.oct_splat(0.0); N];
+        let mut corner = 0;
+        while corner < N {
+            corners[corner] = Floats(memory::load_half_oct(self, block, base, corner));
             corner += 1;
         }
         corners

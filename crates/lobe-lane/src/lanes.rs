@@ -129,6 +129,8 @@ pub trait Lanes: Texels {
     /// In each lane, the four floats at `base + offset` of the block, for each of its offsets; a base outside is
     /// clamped to the block's last. The result is transposed: `[corner][k]` holds float `k` of that corner in all lanes.
     fn gather_quads<const N: usize>(self, block: &Block<'_, N, 4>, base: Self::I) -> [[Self::F; 4]; N];
+    /// As [`gather_quads`](Lanes::gather_quads), from half-precision floats.
+    fn gather_quads_half<const N: usize>(self, block: &Block<'_, N, 4, u16>, base: Self::I) -> [[Self::F; 4]; N];
     /// In each lane, float `index & 7` of the eight in `table`.
     fn oct_lookup(self, table: Self::Oct, index: Self::I) -> Self::F;
 

@@ -121,6 +121,11 @@ impl<L: Lanes> Lanes for Strict<L> {
     }
 
     #[inline(always)]
+    fn gather_quads_half<const N: usize>(self, block: &Block<'_, N, 4, u16>, base: L::I) -> [[L::F; 4]; N] {
+        self.0.gather_quads_half(block, base)
+    }
+
+    #[inline(always)]
     fn oct_lookup(self, table: L::Oct, index: L::I) -> L::F {
         self.0.oct_lookup(table, index)
     }
@@ -171,6 +176,11 @@ impl<L: Lanes> Texels for Strict<L> {
     }
 
     #[inline(always)]
+    fn oct_corners_half<const N: usize>(self, block: &Block<'_, N, 8, u16>, base: usize) -> [L::Oct; N] {
+        self.0.oct_corners_half(block, base)
+    }
+
+    #[inline(always)]
     fn oct_mul_add(self, a: L::Oct, b: L::Oct, c: L::Oct) -> L::Oct {
         a * b + c
     }
@@ -188,6 +198,11 @@ impl<L: Lanes> Texels for Strict<L> {
     #[inline(always)]
     fn quad_corners<const N: usize>(self, block: &Block<'_, N, 4>, base: usize) -> [L::Quad; N] {
         self.0.quad_corners(block, base)
+    }
+
+    #[inline(always)]
+    fn quad_corners_half<const N: usize>(self, block: &Block<'_, N, 4, u16>, base: usize) -> [L::Quad; N] {
+        self.0.quad_corners_half(block, base)
     }
 
     #[inline(always)]

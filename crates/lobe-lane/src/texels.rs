@@ -3,6 +3,9 @@
 //! The corners of an interpolation lie far apart, but the channels of a texel lie side by side. Loading a texel at
 //! once takes one load where gathering its channels lane by lane takes one each, so the inner loop of a table runs
 //! along a query and not across queries. Quads and octs have the same width on every backend.
+//!
+//! Tables may also hold half-precision floats (IEEE 754 binary16, as `u16`). They are finite: what a backend makes of the
+//! bits of infinities and NaNs is not defined.
 
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Sub};
@@ -31,6 +34,8 @@ pub trait Texels: Copy + Debug + Send + Sync + 'static {
     fn quad_store(self, dst: &mut [f32], x: Self::Quad);
     /// The four floats at `base + offset` of the block, for each of its offsets; `base` is clamped to the block's last.
     fn quad_corners<const N: usize>(self, block: &Block<'_, N, 4>, base: usize) -> [Self::Quad; N];
+    /// As [`quad_corners`](Texels::quad_corners), from half-precision floats.
+    fn quad_corners_half<const N: usize>(self, block: &Block<'_, N, 4, u16>, base: usize) -> [Self::Quad; N];
     /// `x` four times.
     fn quad_splat(self, x: f32) -> Self::Quad;
     /// `a * b + c`, float by float; rounded once where the backend fuses.
@@ -52,6 +57,8 @@ pub trait Texels: Copy + Debug + Send + Sync + 'static {
     fn oct_splat(self, x: f32) -> Self::Oct;
     /// The floats at `base + offset` of the block, for each of its offsets; `base` is clamped to the block's last.
     fn oct_corners<const N: usize>(self, block: &Block<'_, N, 8>, base: usize) -> [Self::Oct; N];
+    /// As [`oct_corners`](Texels::oct_corners), from half-precision floats.
+    fn oct_corners_half<const N: usize>(self, block: &Block<'_, N, 8, u16>, base: usize) -> [Self::Oct; N];
     /// `a * b + c`, float by float; rounded once where the backend fuses.
     fn oct_mul_add(self, a: Self::Oct, b: Self::Oct, c: Self::Oct) -> Self::Oct;
     /// `if a > b { a } else { b }`, float by float, so `b` where either is NaN.

@@ -2,6 +2,7 @@
 
 use lobe_lane::{Block, Kernel, Lanes};
 
+use crate::texels::from_half;
 use crate::{Floats, Ints, Mask, Scalar};
 
 impl<const N: usize> Lanes for Scalar<N> {
@@ -102,6 +103,18 @@ impl<const N: usize> Lanes for Scalar<N> {
                 Floats(std::array::from_fn(|lane| {
                     let base = (base.0[lane] as u32 as usize).min(block.last_base());
                     block.data()[base + offset + k]
+                }))
+            })
+        })
+    }
+    #[inline(always)]
+    fn gather_quads_half<const K: usize>(self, block: &Block<'_, K, 4, u16>, base: Ints<N>) -> [[Floats<N>; 4]; K] {
+        std::array::from_fn(|corner| {
+            let offset = block.offsets()[corner];
+            std::array::from_fn(|k| {
+                Floats(std::array::from_fn(|lane| {
+                    let base = (base.0[lane] as u32 as usize).min(block.last_base());
+                    from_half(block.data()[base + offset + k])
                 }))
             })
         })

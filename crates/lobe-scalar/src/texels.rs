@@ -26,6 +26,14 @@ impl<const N: usize> Texels for Scalar<N> {
         std::array::from_fn(|corner| self.quad_load(&block.data()[base + block.offsets()[corner]..]))
     }
     #[inline(always)]
+    fn quad_corners_half<const K: usize>(self, block: &Block<'_, K, 4, u16>, base: usize) -> [Floats<4>; K] {
+        let base = base.min(block.last_base());
+        std::array::from_fn(|corner| {
+            let texel = &block.data()[base + block.offsets()[corner]..][..4];
+            Floats(std::array::from_fn(|i| from_half(texel[i])))
+        })
+    }
+    #[inline(always)]
     fn quad_splat(self, x: f32) -> Floats<4> {
         Floats([x; 4])
     }
@@ -57,6 +65,14 @@ impl<const N: usize> Texels for Scalar<N> {
         std::array::from_fn(|corner| self.oct_load(&block.data()[base + block.offsets()[corner]..]))
     }
     #[inline(always)]
+    fn oct_corners_half<const K: usize>(self, block: &Block<'_, K, 8, u16>, base: usize) -> [Floats<8>; K] {
+        let base = base.min(block.last_base());
+        std::array::from_fn(|corner| {
+            let texels = &block.data()[base + block.offsets()[corner]..][..8];
+            Floats(std::array::from_fn(|i| from_half(texels[i])))
+        })
+    }
+    #[inline(always)]
     fn oct_mul_add(self, a: Floats<8>, b: Floats<8>, c: Floats<8>) -> Floats<8> {
         a * b + c
     }
@@ -73,4 +89,12 @@ impl<const N: usize> Texels for Scalar<N> {
     fn oct_count_le(self, knots: Floats<8>, x: f32) -> u32 {
         knots.0.iter().take_while(|&&knot| knot <= x).count() as u32
     }
+}
+
+/// A finite half-precision float, exactly: its exponent and mantissa moved to where `f32` has them, and the difference of
+/// the two exponent biases multiplied in, which makes subnormal halves right as well.
+#[inline(always)]
+pub(crate) fn from_half(half: u16) -> f32 {
+    let magnitude = f32::from_bits(u32::from(half & 0x7fff) << 13) * f32::from_bits((127 + 127 - 15) << 23);
+    f32::from_bits(magnitude.to_bits() | u32::from(half & 0x8000) << 16)
 }

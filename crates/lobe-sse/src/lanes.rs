@@ -122,6 +122,23 @@ impl<V: Level> Lanes for Sse<V> {
         corners
     }
     #[inline(always)]
+    fn gather_quads_half<const N: usize>(self, block: &Block<'_, N, 4, u16>, base: Ints<V>) -> [[Floats<V>; 4]; N] {
+        let bases = memory::indices(base.0);
+        let mut corners = [[self.splat(0.0); 4]; N];
+        let mut corner = 0;
+        while corner < N {
+            let mut rows = [self.splat(0.0); 4];
+            let mut row = 0;
+            while row < 4 {
+                rows[row] = floats(memory::load_half_corner(block, bases[row], corner, 0));
+                row += 1;
+            }
+            corners[corner] = transpose(rows);
+            corner += 1;
+        }
+        corners
+    }
+    #[inline(always)]
     fn oct_lookup(self, table: Oct<V>, index: Ints<V>) -> Floats<V> {
         let mut buffer = [0.0; 8];
         memory::store(&mut buffer, table.0.0);

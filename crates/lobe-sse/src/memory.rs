@@ -62,3 +62,26 @@ pub(crate) fn load_corner<const N: usize, const WIDTH: usize>(
     // `4 * half + 4 <= WIDTH`; SSE2 is the baseline; the load needs no alignment.
     unsafe { _mm_loadu_ps(block.data().as_ptr().add(at)) }
 }
+
+/// Four half-precision floats at `base + offsets[corner]`, as floats; `base` is clamped to the block's last.
+#[inline(always)]
+pub(crate) fn load_half_corner<const N: usize, const WIDTH: usize>(
+    block: &Block<'_, N, WIDTH, u16>,
+    base: usize,
+    corner: usize,
+    half: usize,
+) -> __m128 {
+    assert!(4 * half + 4 <= WIDTH);
+    let at = base.min(block.last_base()) + block.offsets()[corner] + 4 * half;
+    // SAFETY: the block promises `last_base + offset + WIDTH <= data.len()` for each of its offsets, and
+    // `4 * half + 4 <= WIDTH`; SSE2 is the baseline; the load of eight bytes needs no alignment.
+    let halves = unsafe { _mm_loadl_epi64(block.data().as_ptr().add(at).cast()) };
+    op!({
+        // Exponent and mantissa to where a float has them, and the difference of the exponent biases multiplied in.
+        let bits = _mm_unpacklo_epi16(halves, _mm_setzero_si128());
+        let magnitude = _mm_slli_epi32::<13>(_mm_and_si128(bits, _mm_set1_epi32(0x7fff)));
+        let bias = _mm_castsi128_ps(_mm_set1_epi32((127 + 127 - 15) << 23));
+        let sign = _mm_slli_epi32::<16>(_mm_and_si128(bits, _mm_set1_epi32(0x8000)));
+        _mm_or_ps(_mm_mul_ps(_mm_castsi128_ps(magnitude), bias), _mm_castsi128_ps(sign))
+    })
+}

@@ -34,6 +34,16 @@ impl<V: Level> Texels for Sse<V> {
         corners
     }
     #[inline(always)]
+    fn quad_corners_half<const N: usize>(self, block: &Block<'_, N, 4, u16>, base: usize) -> [Floats<V>; N] {
+        let mut corners = [self.quad_splat(0.0); N];
+        let mut corner = 0;
+        while corner < N {
+            corners[corner] = floats(memory::load_half_corner(block, base, corner, 0));
+            corner += 1;
+        }
+        corners
+    }
+    #[inline(always)]
     fn quad_splat(self, x: f32) -> Floats<V> {
         floats(op!(_mm_set1_ps(x)))
     }
@@ -69,6 +79,19 @@ impl<V: Level> Texels for Sse<V> {
             corners[corner] = Oct(
                 floats(memory::load_corner(block, base, corner, 0)),
                 floats(memory::load_corner(block, base, corner, 1)),
+            );
+            corner += 1;
+        }
+        corners
+    }
+    #[inline(always)]
+    fn oct_corners_half<const N: usize>(self, block: &Block<'_, N, 8, u16>, base: usize) -> [Oct<V>; N] {
+        let mut corners = [self.oct_splat(0.0); N];
+        let mut corner = 0;
+        while corner < N {
+            corners[corner] = Oct(
+                floats(memory::load_half_corner(block, base, corner, 0)),
+                floats(memory::load_half_corner(block, base, corner, 1)),
             );
             corner += 1;
         }

@@ -3,7 +3,7 @@
 use lobe_lane::{Floats, Kernel, Lanes, MAX_LANES};
 
 use crate::directions::{BlockOfDirections, Directions};
-use crate::layout::{Corners, Kind, PHI, PSI};
+use crate::layout::{Corners, Kind, PHI, PSI, Texels};
 use crate::passes::block::{BLOCK, Column};
 use crate::passes::frame::{self, Frame};
 use crate::passes::texels::{self, Tile};
@@ -11,6 +11,7 @@ use crate::passes::weights::{self, MAX_CORNERS};
 use crate::passes::{angles, cells};
 use crate::single::Single;
 use crate::table::Table;
+use crate::texel::Stored;
 
 /// What the passes of a block hand on.
 struct Scratch {
@@ -89,12 +90,12 @@ impl Table {
         let mut scratch = Scratch::ZERO;
         self.locate(lanes, L::LANES, (wi, wo), &mut scratch);
         // Texels come query by query; the lanes want them channel by channel.
-        let corners = self.layout.corners();
+        let texels = self.layout.texels();
         let mut tile = [0.0f32; MAX_LANES * CHUNK];
         for (chunk, channels) in out.chunks_mut(CHUNK).enumerate() {
             let width = channels.len();
             let tile = &mut tile[..L::LANES * width];
-            self.texels(lanes, L::LANES, &corners, &mut scratch, (chunk * CHUNK, width), tile);
+            self.texels(lanes, L::LANES, &texels, &mut scratch, (chunk * CHUNK, width), tile);
             for (k, channel) in channels.iter_mut().enumerate() {
                 let mut column = [0.0f32; MAX_LANES];
                 let mut lane = 0;
@@ -121,7 +122,7 @@ impl Table {
             }
         }
         let [sigma, psi, theta, phi] = &*axes;
-        let valid = &frame.valid;
+        let valid = (&frame.valid, self.layout.scale());
         match (self.layout.kind, self.is_anisotropic()) {
             (Kind::Rgb, false) => weights::run(lanes, n, [sigma, theta], valid, weights),
             (Kind::Rgb, true) => weights::run(lanes, n, [sigma, psi, theta], valid, weights),
@@ -137,7 +138,23 @@ impl Table {
         &self,
         lanes: L,
         n: usize,
-        corners: &Corners<'_>,
+        texels: &Texels<'_>,
+        scratch: &mut Scratch,
+        channels: (usize, usize),
+        out: &mut [f32],
+    ) {
+        match texels {
+            Texels::Single(corners) => self.blend(lanes, n, corners, scratch, channels, out),
+            Texels::Half(corners) => self.blend(lanes, n, corners, scratch, channels, out),
+        }
+    }
+
+    #[inline(always)]
+    fn blend<L: Lanes, T: Stored>(
+        &self,
+        lanes: L,
+        n: usize,
+        corners: &Corners<'_, T>,
         scratch: &mut Scratch,
         (from, width): (usize, usize),
         out: &mut [f32],
@@ -189,7 +206,7 @@ impl<D: Directions> Kernel for Batch<'_, D> {
     fn run<L: Lanes>(self, lanes: L) {
         let Batch { table, wi, wo, out } = self;
         let channels = table.channel_count();
-        let corners = table.layout.corners();
+        let texels = table.layout.texels();
         let count = wi.count();
         let mut scratch = Scratch::ZERO;
         let mut padding = (D::PADDING, D::PADDING);
@@ -199,7 +216,7 @@ impl<D: Directions> Kernel for Batch<'_, D> {
             let block = (wi.block(at, &mut padding.0), wo.block(at, &mut padding.1));
             table.locate(lanes, n.next_multiple_of(L::LANES), block, &mut scratch);
             let target = &mut out[at * channels..][..n * channels];
-            table.texels(lanes, n, &corners, &mut scratch, (0, channels), target);
+            table.texels(lanes, n, &texels, &mut scratch, (0, channels), target);
             at += n;
         }
     }

@@ -19,6 +19,7 @@ mod search;
 mod single;
 mod storage;
 mod table;
+mod texel;
 
 pub use axis::{Axis, AxisError};
 pub use directions::{Directions, Soa};
@@ -27,3 +28,4 @@ pub use function::Function;
 pub use samples::{AXIS_NAMES, Channels, Samples, SamplesError, Scatter};
 pub use search::Cell;
 pub use table::{Table, TableError};
+pub use texel::Precision;

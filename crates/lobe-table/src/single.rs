@@ -10,9 +10,10 @@ use lobe_lane::{Block, Floats, Kernel, Lanes};
 
 use crate::Scatter;
 use crate::axis::{Axis, Bounds, Search};
-use crate::layout::{Corners, PHI, PSI, SIGMA, THETA};
+use crate::layout::{Corners, PHI, PSI, SIGMA, THETA, Texels};
 use crate::passes::frame::{FARTHEST, POLE, Refracted, Zenith};
 use crate::table::Table;
+use crate::texel::Stored;
 
 /// One query.
 pub(crate) struct Single<'a> {
@@ -40,16 +41,39 @@ impl Kernel for Single<'_> {
         let (at_psi, psi, in_psi) = if table.is_anisotropic() { find(PSI) } else { (0, 0.0, true) };
         let base = at_sigma.wrapping_add(at_psi).wrapping_add(at_theta).wrapping_add(at_phi);
         let valid = above & in_sigma & in_psi & in_theta & in_phi;
-        let (at, floor) = (base as usize, table.floor());
-        match table.layout.corners() {
-            Corners::RgbIso(block) => rgb(lanes, &block, at, (weights([sigma, theta], valid), phi), floor, out),
-            Corners::RgbAniso(block) => rgb(lanes, &block, at, (weights([sigma, psi, theta], valid), phi), floor, out),
-            Corners::MonoIso(block) => mono(lanes, &block, at, weights::<3, 8>([sigma, theta, phi], valid), floor, out),
-            Corners::MonoAniso(block) => {
-                mono(lanes, &block, at, weights::<4, 16>([sigma, psi, theta, phi], valid), floor, out);
+        let located = Located { at: base as usize, fractions: [sigma, psi, theta, phi], valid };
+        match table.layout.texels() {
+            Texels::Single(corners) => located.read(lanes, table, corners, out),
+            Texels::Half(corners) => located.read(lanes, table, corners, out),
+        }
+    }
+}
+
+/// Where in a table a query lies.
+struct Located {
+    at: usize,
+    fractions: [f32; 4],
+    valid: bool,
+}
+
+impl Located {
+    #[inline(always)]
+    fn read<L: Lanes, T: Stored>(self, lanes: L, table: &Table, corners: Corners<'_, T>, out: &mut [f32]) {
+        let Located { at, fractions: [sigma, psi, theta, phi], valid } = self;
+        let (floor, share) = (table.floor(), (valid, table.layout.scale()));
+        match corners {
+            Corners::RgbIso(block) => rgb(lanes, &block, at, (weights([sigma, theta], share), phi), floor, out),
+            Corners::RgbAniso(block) => rgb(lanes, &block, at, (weights([sigma, psi, theta], share), phi), floor, out),
+            Corners::MonoIso(block) => {
+                mono(lanes, &block, at, weights::<3, 8>([sigma, theta, phi], share), floor, out);
             }
-            Corners::WideIso(block) => wide(lanes, &block, at, weights([sigma, theta, phi], valid), floor, out),
-            Corners::WideAniso(block) => wide(lanes, &block, at, weights([sigma, psi, theta, phi], valid), floor, out),
+            Corners::MonoAniso(block) => {
+                mono(lanes, &block, at, weights::<4, 16>([sigma, psi, theta, phi], share), floor, out);
+            }
+            Corners::WideIso(block) => wide(lanes, &block, at, weights([sigma, theta, phi], share), floor, out),
+            Corners::WideAniso(block) => {
+                wide(lanes, &block, at, weights([sigma, psi, theta, phi], share), floor, out);
+            }
         }
     }
 }
@@ -165,10 +189,14 @@ impl Axis {
     }
 }
 
-/// The weight of each corner over the axes whose fractions are given, the last axis fastest; 0 where not `valid`.
+/// The weight of each corner over the axes whose fractions are given, the last axis fastest. They add up to `scale`,
+/// or to 0 where not `valid`.
 #[inline(always)]
-fn weights<const AXES: usize, const CORNERS: usize>(fractions: [f32; AXES], valid: bool) -> [f32; CORNERS] {
-    let mut products = [1.0; CORNERS];
+fn weights<const AXES: usize, const CORNERS: usize>(
+    fractions: [f32; AXES],
+    (valid, scale): (bool, f32),
+) -> [f32; CORNERS] {
+    let mut products = [scale; CORNERS];
     for (axis, upper) in fractions.into_iter().enumerate() {
         for corner in (0..1 << axis).rev() {
             let product = products[corner];
@@ -180,9 +208,9 @@ fn weights<const AXES: usize, const CORNERS: usize>(fractions: [f32; AXES], vali
 }
 
 #[inline(always)]
-fn rgb<L: Lanes, const CORNERS: usize>(
+fn rgb<L: Lanes, T: Stored, const CORNERS: usize>(
     lanes: L,
-    block: &Block<'_, CORNERS, 8>,
+    block: &Block<'_, CORNERS, 8, T>,
     base: usize,
     (weights, phi): ([f32; CORNERS], f32),
     floor: f32,
@@ -200,9 +228,9 @@ fn rgb<L: Lanes, const CORNERS: usize>(
 }
 
 #[inline(always)]
-fn wide<L: Lanes, const CORNERS: usize>(
+fn wide<L: Lanes, T: Stored, const CORNERS: usize>(
     lanes: L,
-    block: &Block<'_, CORNERS, 8>,
+    block: &Block<'_, CORNERS, 8, T>,
     base: usize,
     weights: [f32; CORNERS],
     floor: f32,
@@ -218,13 +246,13 @@ fn wide<L: Lanes, const CORNERS: usize>(
 
 /// The weighted sum of the corners.
 #[inline(always)]
-fn blend<L: Lanes, const CORNERS: usize>(
+fn blend<L: Lanes, T: Stored, const CORNERS: usize>(
     lanes: L,
-    block: &Block<'_, CORNERS, 8>,
+    block: &Block<'_, CORNERS, 8, T>,
     base: usize,
     weights: [f32; CORNERS],
 ) -> L::Oct {
-    let corners = lanes.oct_corners(block, base);
+    let corners = T::octs(lanes, block, base);
     let mut sum = corners[0] * lanes.oct_splat(weights[0]);
     let mut corner = 1;
     while corner < CORNERS {
@@ -235,15 +263,15 @@ fn blend<L: Lanes, const CORNERS: usize>(
 }
 
 #[inline(always)]
-fn mono<L: Lanes, const CELLS: usize, const CORNERS: usize>(
+fn mono<L: Lanes, T: Stored, const CELLS: usize, const CORNERS: usize>(
     lanes: L,
-    block: &Block<'_, CELLS, 4>,
+    block: &Block<'_, CELLS, 4, T>,
     base: usize,
     weights: [f32; CORNERS],
     floor: f32,
     out: &mut [f32],
 ) {
-    let cells = lanes.quad_corners(block, base);
+    let cells = T::quads(lanes, block, base);
     let mut sum = 0.0;
     let mut corner = 0;
     while corner < CORNERS {

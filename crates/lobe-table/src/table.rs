@@ -5,6 +5,7 @@ use thiserror::Error;
 use crate::axis::{Axis, AxisError};
 use crate::function::Function;
 use crate::layout::Layout;
+use crate::texel::Precision;
 use crate::{AXIS_NAMES, Channels, Edge, Edges, Samples, Scatter};
 
 /// Why samples do not make a table.
@@ -56,6 +57,14 @@ impl Table {
     /// # Errors
     /// Where the table is too large to be indexed, or a periodic axis cannot be closed.
     pub fn new(samples: &Samples, edges: &Edges) -> Result<Self, TableError> {
+        Table::with_precision(samples, edges, Precision::Single)
+    }
+
+    /// As [`new`](Table::new), with a choice of how the values are stored.
+    ///
+    /// # Errors
+    /// As [`new`](Table::new).
+    pub fn with_precision(samples: &Samples, edges: &Edges, precision: Precision) -> Result<Self, TableError> {
         let axis = |index: usize| {
             Axis::new(&samples.knots()[index], edges.axes[index])
                 .map_err(|source| TableError::Axis { axis: AXIS_NAMES[index], source })
@@ -67,7 +76,7 @@ impl Table {
             .map(|offsets| Function::new(&samples.knots()[0], offsets, edge))
             .transpose()
             .map_err(|source| TableError::Axis { axis: AXIS_NAMES[0], source })?;
-        let layout = Layout::new(samples, &axes).ok_or_else(|| TableError::TooLarge {
+        let layout = Layout::new(samples, &axes, precision).ok_or_else(|| TableError::TooLarge {
             nodes: samples.knots().iter().fold(1usize, |nodes, knots| nodes.saturating_mul(knots.len())),
             channels: samples.channels().count(),
         })?;

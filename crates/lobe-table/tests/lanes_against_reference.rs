@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use lobe_lane::{Kernel, Lanes};
-use lobe_table::{Channels, Edge, Edges, Samples, Scatter, Soa, Table, coords, reference};
+use lobe_table::{Channels, Edge, Edges, Precision, Samples, Scatter, Soa, Table, coords, reference};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -73,8 +73,19 @@ impl Kernel for OneLane<'_> {
 }
 
 fn check<L: Lanes>(lanes: L, samples: &Samples, edges: &Edges, name: &str) {
+    check_stored(lanes, samples, edges, Precision::Single, 2e-5, name);
+}
+
+fn check_stored<L: Lanes>(
+    lanes: L,
+    samples: &Samples,
+    edges: &Edges,
+    precision: Precision,
+    tolerance: f64,
+    name: &str,
+) {
     let channels = samples.channels().count();
-    let table = Table::new(samples, edges).unwrap();
+    let table = Table::with_precision(samples, edges, precision).unwrap();
     // Not a multiple of any number of lanes, and more than one block.
     let (wi, wo) = directions(515);
     let mut batch = vec![f32::NAN; wi.len() * channels];
@@ -113,7 +124,7 @@ fn check<L: Lanes>(lanes: L, samples: &Samples, edges: &Edges, name: &str) {
         }
         for (got, expected) in got.iter().zip(&expected) {
             let error = (*got as f64 - expected).abs() / scale;
-            assert!(error < 2e-5, "{name}: query {query}, {got} is not {expected}: {wi:?} {wo:?}");
+            assert!(error < tolerance, "{name}: query {query}, {got} is not {expected}: {wi:?} {wo:?}");
             largest = largest.max(error);
         }
     }
@@ -143,6 +154,9 @@ fn check_all<L: Lanes>(lanes: L) {
             ];
             let samples = smooth(turning, colour, Scatter::Reflection);
             check(lanes, &samples, &edges, &format!("{policy} {channels} anisotropic"));
+            // Weights add up to 1, so an interpolated value errs no more than a stored one: by 2^-11 of it.
+            let half = 2e-5 + 1.0 / 2048.0;
+            check_stored(lanes, &samples, &edges, Precision::Half, half, &format!("{policy} {channels} half"));
         }
         // Equal cells, one knot only, and so many knots that a guide table is needed.
         let large = [knots(90, 0.0, FRAC_PI_2, 2.0), vec![0.0], knots(50, 0.0, PI, 1.0), knots(200, 0.0, TAU, 1.3)];

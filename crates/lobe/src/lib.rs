@@ -13,4 +13,4 @@ pub use lobe_formats as formats;
 pub use lobe_lane::{Floats, Ints, Kernel, Lanes, Mask};
 pub use lobe_math as math;
 pub use lobe_table as table;
-pub use lobe_table::{Axis, Channels, Directions, Edge, Edges, Function, Samples, Scatter, Soa, Table};
+pub use lobe_table::{Axis, Channels, Directions, Edge, Edges, Function, Precision, Samples, Scatter, Soa, Table};

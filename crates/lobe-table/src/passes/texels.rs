@@ -4,6 +4,7 @@ use lobe_lane::{Block, Floats, Lanes};
 
 use super::block::{BLOCK, Column};
 use super::weights::MAX_CORNERS;
+use crate::texel::Stored;
 
 /// Room for up to three channels of each query of a block, and for the fourth float that the last store writes.
 pub(crate) type Tile = [f32; 3 * BLOCK + 1];
@@ -14,10 +15,10 @@ type Located<'a> = (&'a Column<i32>, &'a [Column; MAX_CORNERS]);
 /// Two or three channels: `CORNERS` pairs of neighbours in phi. Writes three floats a query, from the first, none less
 /// than `floor`. `n` is a multiple of the lanes.
 #[inline(always)]
-pub(crate) fn rgb<L: Lanes, const CORNERS: usize>(
+pub(crate) fn rgb<L: Lanes, T: Stored, const CORNERS: usize>(
     lanes: L,
     n: usize,
-    corners: &Block<'_, CORNERS, 8>,
+    corners: &Block<'_, CORNERS, 8, T>,
     ((base, weights), phi): (Located<'_>, &Column),
     floor: f32,
     tile: &mut Tile,
@@ -28,7 +29,7 @@ pub(crate) fn rgb<L: Lanes, const CORNERS: usize>(
         // A few queries a turn, which the compiler writes out: the loop itself would be a tenth of the work.
         let mut query = first;
         while query < first + L::LANES {
-            let pairs = lanes.oct_corners(corners, base.one(query) as u32 as usize);
+            let pairs = T::octs(lanes, corners, base.one(query) as u32 as usize);
             let mut sum = pairs[0] * lanes.oct_splat(weights[0].one(query));
             let mut corner = 1;
             while corner < CORNERS {
@@ -48,10 +49,10 @@ pub(crate) fn rgb<L: Lanes, const CORNERS: usize>(
 /// One channel: `CORNERS` cells of four corners in theta and phi. Writes one float a query, none less than `floor`. `n`
 /// is a multiple of the lanes.
 #[inline(always)]
-pub(crate) fn mono<L: Lanes, const CORNERS: usize>(
+pub(crate) fn mono<L: Lanes, T: Stored, const CORNERS: usize>(
     lanes: L,
     n: usize,
-    corners: &Block<'_, CORNERS, 4>,
+    corners: &Block<'_, CORNERS, 4, T>,
     (base, weights): Located<'_>,
     floor: f32,
     tile: &mut Tile,
@@ -59,7 +60,7 @@ pub(crate) fn mono<L: Lanes, const CORNERS: usize>(
     let floor = lanes.splat(floor);
     let mut query = 0;
     while query < n {
-        let cells = lanes.gather_quads(corners, base.load(lanes, query));
+        let cells = T::gather(lanes, corners, base.load(lanes, query));
         let mut sum = lanes.splat(0.0);
         let mut corner = 0;
         while corner < 4 * CORNERS {
@@ -75,9 +76,9 @@ pub(crate) fn mono<L: Lanes, const CORNERS: usize>(
 /// `channels` floats a query, beginning with channel `from`, a multiple of
 /// eight, none less than `floor`.
 #[inline(always)]
-pub(crate) fn wide<L: Lanes, const CORNERS: usize>(
+pub(crate) fn wide<L: Lanes, T: Stored, const CORNERS: usize>(
     lanes: L,
-    corners: &Block<'_, CORNERS, 8>,
+    corners: &Block<'_, CORNERS, 8, T>,
     (from, channels): (usize, usize),
     (base, weights): Located<'_>,
     floor: f32,
@@ -87,7 +88,7 @@ pub(crate) fn wide<L: Lanes, const CORNERS: usize>(
     for (query, texel) in out.chunks_exact_mut(channels).enumerate() {
         let base = base.one(query) as u32 as usize + from;
         for (chunk, target) in texel.chunks_mut(8).enumerate() {
-            let nodes = lanes.oct_corners(corners, base + 8 * chunk);
+            let nodes = T::octs(lanes, corners, base + 8 * chunk);
             let mut sum = nodes[0] * lanes.oct_splat(weights[0].one(query));
             let mut corner = 1;
             while corner < CORNERS {

@@ -8,19 +8,20 @@ use super::block::Column;
 pub(crate) const MAX_CORNERS: usize = 16;
 
 /// The weight of each corner over the axes whose fractions are given, the last axis fastest, for queries `0..n`: the
-/// first `2^AXES` columns of `weights`. Queries that are not valid get weights of 0.
+/// first `2^AXES` columns of `weights`. They add up to `scale`, or to 0 for queries that
+/// are not valid.
 #[inline(always)]
 pub(crate) fn run<L: Lanes, const AXES: usize>(
     lanes: L,
     n: usize,
     fractions: [&Column; AXES],
-    valid: &Column<i32>,
+    (valid, scale): (&Column<i32>, f32),
     weights: &mut [Column; MAX_CORNERS],
 ) {
-    let (zero, one) = (lanes.splat_int(0), lanes.splat(1.0));
+    let (zero, one, scale) = (lanes.splat_int(0), lanes.splat(1.0), lanes.splat(scale));
     let mut query = 0;
     while query < n {
-        let mut products = [one; MAX_CORNERS];
+        let mut products = [scale; MAX_CORNERS];
         let mut axis = 0;
         while axis < AXES {
             let upper = fractions[axis].load(lanes, query);
