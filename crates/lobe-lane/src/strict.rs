@@ -51,8 +51,8 @@ impl<L: Lanes> Lanes for Strict<L> {
     }
 
     #[inline(always)]
-    fn first_two(self, a: f32, b: f32) -> L::F {
-        self.0.first_two(a, b)
+    fn first_four(self, x: [f32; 4]) -> L::F {
+        self.0.first_four(x)
     }
 
     #[inline(always)]

@@ -18,19 +18,41 @@ const ODD_TERMS: [f32; 8] = [
     0.002_920_692_6,
 ];
 
+/// Twice the arc tangent of `t` in `[-1, 1]`: the angle, in `[-pi/2, pi/2]`, whose half has the tangent `t`.
+///
+/// The tangent of half an angle is `sin / (1 + cos)`: one division, no root, and no octants to tell apart. It keeps the
+/// small angles that an arc cosine loses.
+///
+/// Largest error: [`bounds::DOUBLE_ATAN`](crate::bounds::DOUBLE_ATAN).
+#[inline(always)]
+pub fn double_atan<L: Lanes>(lanes: L, t: L::F) -> L::F {
+    let square = t * t;
+    let half = lanes.mul_add(t * square, horner(lanes, square, ODD_TERMS), t);
+    half + half
+}
+
+/// The polar angle, in `[0, pi]`, of a direction whose cosine is `cos` and whose `t` is `sin / (1 + |cos|)`. Only the sign
+/// of `cos` counts.
+#[inline(always)]
+pub fn polar_from<L: Lanes>(lanes: L, t: L::F, cos: L::F) -> L::F {
+    let angle = double_atan(lanes, t);
+    lanes.select(cos.lt(lanes.splat(0.0)), lanes.splat(PI) - angle, angle)
+}
+
+/// The azimuth, in `[0, 2 pi]` (the upper end only by rounding), of a vector `(x, y)` whose `t` is
+/// `y / (length + |x|)`. Only the sign of `x` counts.
+#[inline(always)]
+pub fn azimuth_from<L: Lanes>(lanes: L, t: L::F, x: L::F) -> L::F {
+    let angle = half_plane(lanes, t, x);
+    angle + lanes.splat(TAU).masked(angle.lt(lanes.splat(0.0)))
+}
+
 /// The angle of `(x, y)` from the positive x axis, in `[0, 2 pi]` (the upper end only by rounding); 0 where both are 0.
 ///
 /// Largest error: [`bounds::AZIMUTH`](crate::bounds::AZIMUTH), for vectors of lengths from 1e-18 to 1e18.
 #[inline(always)]
 pub fn azimuth<L: Lanes>(lanes: L, y: L::F, x: L::F) -> L::F {
-    azimuth_from(lanes, y, x, lanes.mul_add(x, x, y * y).sqrt())
-}
-
-/// [`azimuth`] of a vector whose length is known.
-#[inline(always)]
-pub fn azimuth_from<L: Lanes>(lanes: L, y: L::F, x: L::F, length: L::F) -> L::F {
-    let angle = half_plane(lanes, y, x, length);
-    angle + lanes.splat(TAU).masked(angle.lt(lanes.splat(0.0)))
+    azimuth_from(lanes, half_tangent(lanes, y, x), x)
 }
 
 /// The angle of `(x, y)` from the positive x axis, in `[-pi, pi]`, with the sign of `y`; 0 where both are 0.
@@ -38,19 +60,20 @@ pub fn azimuth_from<L: Lanes>(lanes: L, y: L::F, x: L::F, length: L::F) -> L::F 
 /// Largest error: [`bounds::ATAN2`](crate::bounds::ATAN2), for vectors of lengths from 1e-18 to 1e18.
 #[inline(always)]
 pub fn atan2<L: Lanes>(lanes: L, y: L::F, x: L::F) -> L::F {
-    half_plane(lanes, y, x, lanes.mul_add(x, x, y * y).sqrt())
+    half_plane(lanes, half_tangent(lanes, y, x), x)
+}
+
+/// `y / (length + |x|)`: the tangent of half the angle to the nearer end of the x axis.
+#[inline(always)]
+fn half_tangent<L: Lanes>(lanes: L, y: L::F, x: L::F) -> L::F {
+    let length = lanes.mul_add(x, x, y * y).sqrt();
+    y / lanes.splat(f32::MIN_POSITIVE).max(length + x.abs())
 }
 
 /// The signed angle in `[-pi, pi]`.
-///
-/// Half the angle to the nearer end of the x axis has the tangent `y / (length + |x|)`, which is within `[-1, 1]`: no
-/// octants to tell apart.
 #[inline(always)]
-fn half_plane<L: Lanes>(lanes: L, y: L::F, x: L::F, length: L::F) -> L::F {
-    let t = y / lanes.splat(f32::MIN_POSITIVE).max(length + x.abs());
-    let square = t * t;
-    let half = lanes.mul_add(t * square, horner(lanes, square, ODD_TERMS), t);
-    let angle = half + half;
-    let beyond = lanes.splat(PI).mul_sign(y) - angle;
+fn half_plane<L: Lanes>(lanes: L, t: L::F, x: L::F) -> L::F {
+    let angle = double_atan(lanes, t);
+    let beyond = lanes.splat(PI).mul_sign(t) - angle;
     lanes.select(x.lt(lanes.splat(0.0)), beyond, angle)
 }

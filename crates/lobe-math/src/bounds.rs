@@ -26,6 +26,8 @@ pub const PAPER_ACOS: Bound = Bound { abs: 1.4e-4, ulp: 1.6e3 };
 pub const ATAN2: Bound = Bound { abs: 4.5e-7, ulp: 3.0 };
 /// Of [`azimuth`](crate::azimuth).
 pub const AZIMUTH: Bound = Bound { abs: 6.5e-7, ulp: 3.0 };
+/// Of [`double_atan`](crate::double_atan) over `[-1, 1]`.
+pub const DOUBLE_ATAN: Bound = Bound { abs: 1.6e-7, ulp: 1.5 };
 /// Of both results of [`sin_cos`](crate::sin_cos) for angles of up to 8192 rad. Near the zeros of either the absolute
 /// error holds and the ULP bound does not: it is given for angles in `[0, pi/4]`.
 pub const SIN_COS: Bound = Bound { abs: 1.5e-7, ulp: 2.0 };

@@ -8,7 +8,7 @@
 //! | [`acos`], [`asin`] | eight terms, Abramowitz and Stegun 4.4.46 (asin near zero: an odd minimax polynomial) |
 //! | [`acos_from`] | the same polynomial with `1 - abs(c)` given by a caller who knows it without cancellation |
 //! | [`paper::acos`], [`paper::asin`] | four terms, the form of the 2005 paper, for comparison |
-//! | [`atan2`], [`azimuth`], [`azimuth_from`] | odd minimax polynomial of eight terms, of half the angle |
+//! | [`atan2`], [`azimuth`], [`double_atan`] | odd minimax polynomial of eight terms, of half the angle |
 //! | [`sin_cos`] | reduction by pi/2 in three parts and two minimax polynomials |
 //!
 //! Everything is `#[inline(always)]`: call it from inside [`Lanes::vectorize`](lobe_lane::Lanes::vectorize).
@@ -23,5 +23,5 @@ mod poly;
 mod sin_cos;
 
 pub use acos::{acos, acos_from, asin};
-pub use atan2::{atan2, azimuth, azimuth_from};
+pub use atan2::{atan2, azimuth, azimuth_from, double_atan, polar_from};
 pub use sin_cos::sin_cos;

@@ -8,6 +8,7 @@ enum Function {
     Acos,
     Asin,
     PaperAcos,
+    DoubleAtan,
     Atan2,
     Azimuth,
     Sin,
@@ -30,6 +31,7 @@ impl Kernel for Apply<'_> {
                 Function::Acos => lobe_math::acos(lanes, a),
                 Function::Asin => lobe_math::asin(lanes, a),
                 Function::PaperAcos => lobe_math::paper::acos(lanes, a),
+                Function::DoubleAtan => lobe_math::double_atan(lanes, a),
                 Function::Atan2 => lobe_math::atan2(lanes, b, a),
                 Function::Azimuth => lobe_math::azimuth(lanes, b, a),
                 Function::Sin => lobe_math::sin_cos(lanes, a).0,
@@ -95,6 +97,8 @@ fn check_all<L: Lanes>(lanes: L) {
     check(&name, "acos", bounds::ACOS, unary(Function::Acos, f64::acos, &xs).into_iter());
     check(&name, "asin", bounds::ASIN, unary(Function::Asin, f64::asin, &xs).into_iter());
     check(&name, "paper", bounds::PAPER_ACOS, unary(Function::PaperAcos, f64::acos, &xs).into_iter());
+    let truth = |t: f64| 2.0 * t.atan();
+    check(&name, "double_atan", bounds::DOUBLE_ATAN, unary(Function::DoubleAtan, truth, &xs).into_iter());
 
     let (x, y) = directions();
     let truth = |x: f32, y: f32| (y as f64).atan2(x as f64);

@@ -32,8 +32,8 @@ impl<const N: usize> Lanes for Scalar<N> {
         Floats([x; N])
     }
     #[inline(always)]
-    fn first_two(self, a: f32, b: f32) -> Floats<N> {
-        Floats(std::array::from_fn(|lane| [a, b].get(lane).copied().unwrap_or(0.0)))
+    fn first_four(self, x: [f32; 4]) -> Floats<N> {
+        Floats(std::array::from_fn(|lane| x.get(lane).copied().unwrap_or(0.0)))
     }
     #[inline(always)]
     fn splat_int(self, x: i32) -> Ints<N> {

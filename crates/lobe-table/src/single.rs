@@ -1,16 +1,17 @@
 //! One query at a time, with SIMD inside the query.
 //!
 //! The arithmetic is that of the passes, operation by operation, so the results are the same bits; only its arrangement
-//! differs. There is no other query to hide latency behind: two angles share a register, a cell is found by comparing
+//! differs. There is no other query to hide latency behind: the four angles share a register, a cell is found by comparing
 //! with eight knots at once, and texels are loaded whole.
 
 use std::f32::consts::TAU;
 
-use lobe_lane::{Block, Floats, Kernel, Lanes};
+use lobe_lane::{Block, Kernel, Lanes, MAX_LANES};
 
 use crate::Scatter;
 use crate::axis::{Axis, Bounds, Search};
 use crate::layout::{Corners, PHI, PSI, SIGMA, THETA, Texels};
+use crate::passes::angles::TINY;
 use crate::passes::frame::{FARTHEST, POLE, Refracted, Zenith};
 use crate::table::Table;
 use crate::texel::Stored;
@@ -89,8 +90,11 @@ fn angles<L: Lanes>(lanes: L, table: &Table, wi: [f32; 3], wo: [f32; 3]) -> ([f3
     }
     let sin2 = fma(ix, ix, iy * iy);
     let sin = sin2.sqrt();
-    let scale = if POLE < sin2 { 1.0 / sin } else { 0.0 };
-    let (cos_psi, sin_psi) = (if POLE < sin2 { ix * scale } else { 1.0 }, iy * scale);
+    let (tilted, reach) = (POLE < sin, 1.0 + iz);
+    let shared = 1.0 / (if tilted { sin } else { POLE } * reach);
+    let scale = if tilted { reach * shared } else { 0.0 };
+    let (cos_psi, sin_psi) = (if tilted { ix * scale } else { 1.0 }, iy * scale);
+    let half_sigma = sin2 * shared;
     let ([ax, ay, cos_zenith], sin_zenith) = match &table.refraction {
         None => ([ix, iy, iz], sin),
         Some(offset) => {
@@ -106,36 +110,37 @@ fn angles<L: Lanes>(lanes: L, table: &Table, wi: [f32; 3], wo: [f32; 3]) -> ([f3
     let distance2 = fma(dx, dx, fma(dy, dy, dz * dz));
     let valid = 0.0 < iz && 0.0 < oz && distance2 + sin2 < FARTHEST;
 
-    let across2 = fma(x, x, y * y);
-    let one = lanes.splat(1.0);
-    let [sigma, theta] = two(lanes, [[iz, sin2], [1.0 - 0.5 * distance2, across2]], |[cos, sin2]| {
-        lobe_math::acos_from(lanes, cos, sin2 / (one + cos.abs()))
-    });
-    if table.is_anisotropic() {
-        let arguments = [[sin_psi, cos_psi, 1.0], [y, x, across2.sqrt()]];
-        let [psi, phi] = two(lanes, arguments, |[y, x, length]| lobe_math::azimuth_from(lanes, y, x, length));
-        ([sigma, psi, theta, phi], valid)
-    } else {
-        let phi = lobe_math::azimuth(lanes, lanes.splat(y), lanes.splat(x));
-        ([sigma, 0.0, theta, lanes.extract(phi, 0)], valid)
-    }
+    let along = 1.0 - 0.5 * distance2;
+    let across = fma(x, x, y * y).sqrt();
+    let (reach, span) = (1.0 + along.abs(), across + x.abs());
+    let span = if TINY > span { TINY } else { span };
+    let shared = 1.0 / (reach * span);
+    let half_theta = across * span * shared;
+    let half_phi = y * reach * shared;
+    let half_psi = if table.is_anisotropic() { sin_psi / (1.0 + cos_psi.abs()) } else { 0.0 };
+
+    // One polynomial for all four: where a polar angle's tangent is not negative, it is an azimuth like another. Sigma is
+    // never beyond pi/2.
+    let halves = [half_sigma, half_psi, half_theta, half_phi];
+    (azimuths(lanes, halves, [1.0, cos_psi, along, x]), valid)
 }
 
-/// A function of `N` floats at two points, in one register where it has room for both.
+/// As [`lobe_math::azimuth_from`], of four angles.
 #[inline(always)]
-fn two<L: Lanes, const N: usize>(lanes: L, points: [[f32; N]; 2], f: impl Fn([L::F; N]) -> L::F) -> [f32; 2] {
-    let [a, b] = points;
-    if L::LANES == 1 {
-        return [a, b].map(|point| lanes.extract(f(point.map(|x| lanes.splat(x))), 0));
+fn azimuths<L: Lanes>(lanes: L, t: [f32; 4], x: [f32; 4]) -> [f32; 4] {
+    let mut angles = [0.0; MAX_LANES];
+    if L::LANES < 4 {
+        let mut k = 0;
+        while k < 4 {
+            let angle = lobe_math::azimuth_from(lanes, lanes.splat(t[k]), lanes.splat(x[k]));
+            angles[k] = lanes.extract(angle, 0);
+            k += 1;
+        }
+    } else {
+        let packed = lobe_math::azimuth_from(lanes, lanes.first_four(t), lanes.first_four(x));
+        lanes.store(&mut angles, packed);
     }
-    let mut packed = [lanes.splat(0.0); N];
-    let mut k = 0;
-    while k < N {
-        packed[k] = lanes.first_two(a[k], b[k]);
-        k += 1;
-    }
-    let values = f(packed);
-    [lanes.extract(values, 0), lanes.extract(values, 1)]
+    [angles[0], angles[1], angles[2], angles[3]]
 }
 
 impl Axis {

@@ -171,10 +171,10 @@ impl Kernel for Masks {
         }
         records.push(Record::exact("first_n", first));
 
-        let two = lanes.first_two(3.0, 5.0);
-        let expected = |lane: usize| [3.0, 5.0].get(lane).copied().unwrap_or(0.0);
-        let placed = |lane: usize| lanes.extract(two, lane) == expected(lane);
-        records.push(Record::exact("first_two, extract", (0..L::LANES).map(placed).collect::<Vec<bool>>()));
+        let four = [3.0, 5.0, -1.0, 0.5];
+        let expected = |lane: usize| four.get(lane).copied().unwrap_or(0.0);
+        let placed = |lane: usize| lanes.extract(lanes.first_four(four), lane) == expected(lane);
+        records.push(Record::exact("first_four, extract", (0..L::LANES).map(placed).collect::<Vec<bool>>()));
 
         let iota = lanes.iota();
         let lane_of = |lane: usize| lanes.extract_int(iota, lane) == (lane % L::LANES) as i32;

@@ -9,34 +9,35 @@ use crate::Scatter;
 use crate::directions::BlockOfDirections;
 use crate::function::Function;
 
-/// The columns that the first pass fills.
+/// What the angles of a block are computed from.
+///
+/// Every angle comes from the tangent of its half, `sin / (1 + cos)`. Divisions and roots are what the first passes wait
+/// for, so each root serves two angles, and so does each division.
 #[derive(Clone, Copy)]
 pub(crate) struct Frame {
-    /// Cosine of sigma, and its squared sine.
-    pub(crate) cos_sigma: Column,
-    pub(crate) sin2_sigma: Column,
+    /// Tangent of half of sigma.
+    pub(crate) half_sigma: Column,
     /// Cosine and sine of psi.
     pub(crate) psi: [Column; 2],
-    /// `wo` about the zenith: across it toward phi = 0 and phi = pi/2, and 1 less its component along it.
+    /// `wo` about the zenith: across it toward phi = 0 and phi = pi/2, and along it.
     pub(crate) across: [Column; 2],
-    pub(crate) rest: Column,
+    pub(crate) along: Column,
     /// All bits set where both directions are finite and above the horizon.
     pub(crate) valid: Column<i32>,
 }
 
 impl Frame {
     pub(crate) const ZERO: Self = Frame {
-        cos_sigma: Column::<f32>::ZERO,
-        sin2_sigma: Column::<f32>::ZERO,
+        half_sigma: Column::<f32>::ZERO,
         psi: [Column::<f32>::ZERO; 2],
         across: [Column::<f32>::ZERO; 2],
-        rest: Column::<f32>::ZERO,
+        along: Column::<f32>::ZERO,
         valid: Column::<i32>::ZERO,
     };
 }
 
-/// Closer to the normal than 1e-15 rad, psi is taken for 0: the squares of shorter components lose their digits.
-pub(crate) const POLE: f32 = 1e-30;
+/// Closer to the normal than this sine, psi is taken for 0: the squares of shorter components lose their digits.
+pub(crate) const POLE: f32 = 1e-15;
 
 /// The squared distance of two unit vectors is at most 4 and a squared sine at most 1; a much larger sum, or NaN, means
 /// that a component is not finite.
@@ -92,8 +93,7 @@ impl Zenith for Refracted<'_> {
     #[inline(always)]
     fn opposite<L: Lanes>(self, lanes: L, wi: [L::F; 3], sin: L::F, psi: [L::F; 2]) -> ([L::F; 3], L::F) {
         let [_, _, cos] = wi;
-        let rest = sin * sin / (lanes.splat(1.0) + cos);
-        let sigma = lobe_math::acos_from(lanes, cos, rest);
+        let sigma = lobe_math::double_atan(lanes, sin / (lanes.splat(1.0) + cos));
         let polar = (sigma + self.0.eval(lanes, sigma)).max(lanes.splat(0.0)).min(lanes.splat(FRAC_PI_2));
         let (sin, cos) = lobe_math::sin_cos(lanes, polar);
         ([sin * psi[0], sin * psi[1], cos], sin)
@@ -111,8 +111,11 @@ fn pass<L: Lanes, B: BlockOfDirections, Z: Zenith>(lanes: L, n: usize, (wi, wo):
 
         let sin2 = lanes.mul_add(ix, ix, iy * iy);
         let sin = sin2.sqrt();
-        let tilted = lanes.splat(POLE).lt(sin2);
-        let scale = (one / sin).masked(tilted);
+        let (pole, reach) = (lanes.splat(POLE), one + iz);
+        let tilted = pole.lt(sin);
+        // One division gives 1 / sin, for psi, and 1 / (1 + cos), for sigma.
+        let shared = one / (pole.max(sin) * reach);
+        let scale = (reach * shared).masked(tilted);
         let (cos_psi, sin_psi) = (lanes.select(tilted, ix * scale, one), iy * scale);
 
         // The difference of wo and the zenith: near the peak its digits are exact where those of a product are lost.
@@ -123,13 +126,12 @@ fn pass<L: Lanes, B: BlockOfDirections, Z: Zenith>(lanes: L, n: usize, (wi, wo):
         let x = lanes.mul_add(cos_zenith, toward, sin_zenith * dz);
         let distance2 = lanes.mul_add(dx, dx, lanes.mul_add(dy, dy, dz * dz));
 
-        frame.cos_sigma.store(lanes, query, iz);
-        frame.sin2_sigma.store(lanes, query, sin2);
+        frame.half_sigma.store(lanes, query, sin2 * shared);
         frame.psi[0].store(lanes, query, cos_psi);
         frame.psi[1].store(lanes, query, sin_psi);
         frame.across[0].store(lanes, query, x);
         frame.across[1].store(lanes, query, y);
-        frame.rest.store(lanes, query, lanes.splat(0.5) * distance2);
+        frame.along.store(lanes, query, one - lanes.splat(0.5) * distance2);
         let valid = zero.lt(iz) & zero.lt(oz) & (distance2 + sin2).lt(lanes.splat(FARTHEST));
         frame.valid.store(lanes, query, lanes.select_int(valid, lanes.splat_int(-1), lanes.splat_int(0)));
         query += L::LANES;
