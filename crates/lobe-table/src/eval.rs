@@ -212,18 +212,12 @@ impl<D: Directions> Kernel for Batch<'_, D> {
         let mut padding = (D::PADDING, D::PADDING);
         let mut at = 0;
         while at < count {
-            let left = count - at;
+            let n = (count - at).min(BLOCK);
             let block = (wi.block(at, &mut padding.0), wo.block(at, &mut padding.1));
-            // Compiled twice: in a whole block the passes know how far they go.
-            if left >= BLOCK {
-                table.locate(lanes, BLOCK, block, &mut scratch);
-                let target = &mut out[at * channels..][..BLOCK * channels];
-                table.texels(lanes, BLOCK, &texels, &mut scratch, (0, channels), target);
-            } else {
-                table.locate(lanes, left.next_multiple_of(L::LANES), block, &mut scratch);
-                table.texels(lanes, left, &texels, &mut scratch, (0, channels), &mut out[at * channels..]);
-            }
-            at += BLOCK;
+            table.locate(lanes, n.next_multiple_of(L::LANES), block, &mut scratch);
+            let target = &mut out[at * channels..][..n * channels];
+            table.texels(lanes, n, &texels, &mut scratch, (0, channels), target);
+            at += n;
         }
     }
 }

@@ -84,9 +84,13 @@ impl Axis {
                 cells_per_radian: lanes.splat(*cells_per_radian),
                 last_cell: lanes.splat_int(self.cells().len() as i32 - 1),
             }),
-            Search::Registers(registers) if L::PERMUTES => match registers.levels {
-                3 => visitor.visit(Permute::<L, 3, 1>::new(lanes, registers)),
-                4 => visitor.visit(Permute::<L, 4, 2>::new(lanes, registers)),
+            Search::Registers(registers) if L::PERMUTES => match self.knots().len() {
+                0..=5 => visitor.visit(Compare::<L, 3, 1>::new(lanes, registers)),
+                6..=7 => visitor.visit(Compare::<L, 5, 1>::new(lanes, registers)),
+                8..=9 => visitor.visit(Compare::<L, 7, 1>::new(lanes, registers)),
+                10..=11 => visitor.visit(Compare::<L, 9, 2>::new(lanes, registers)),
+                12..=13 => visitor.visit(Compare::<L, 11, 2>::new(lanes, registers)),
+                14..=17 => visitor.visit(Permute::<L, 4, 2>::new(lanes, registers)),
                 _ => visitor.visit(Permute::<L, 5, 4>::new(lanes, registers)),
             },
             Search::Registers(_) => {
@@ -130,6 +134,44 @@ impl<L: Lanes> Find<L> for Uniform<L> {
         let position = (x - self.first) * self.cells_per_radian;
         let index = position.to_int().min(self.last_cell).max(lanes.splat_int(0));
         Cell { index, fraction: position - index.to_float() }
+    }
+}
+
+/// Up to `KNOTS` inner knots, all compared with, and `OCTS` times eight cells, all in registers.
+///
+/// More instructions than a tree of look-ups, but none waits for another.
+#[derive(Clone, Copy)]
+struct Compare<L: Lanes, const KNOTS: usize, const OCTS: usize> {
+    inner: [L::F; KNOTS],
+    first: [L::Oct; OCTS],
+    inverse: [L::Oct; OCTS],
+}
+
+impl<L: Lanes, const KNOTS: usize, const OCTS: usize> Compare<L, KNOTS, OCTS> {
+    #[inline(always)]
+    fn new(lanes: L, registers: &Registers) -> Self {
+        let mut inner = [lanes.splat(f32::INFINITY); KNOTS];
+        let mut k = 0;
+        while k < KNOTS {
+            inner[k] = lanes.splat(registers.sorted[k]);
+            k += 1;
+        }
+        Compare { inner, first: octs(lanes, &registers.first), inverse: octs(lanes, &registers.inverse) }
+    }
+}
+
+impl<L: Lanes, const KNOTS: usize, const OCTS: usize> Find<L> for Compare<L, KNOTS, OCTS> {
+    #[inline(always)]
+    fn find(self, lanes: L, x: L::F) -> Cell<L> {
+        let mut index = lanes.splat_int(0);
+        let mut k = 0;
+        while k < KNOTS {
+            index = index.count(self.inner[k].le(x));
+            k += 1;
+        }
+        let first = look_up(lanes, self.first, index);
+        let inverse = look_up(lanes, self.inverse, index);
+        Cell { index, fraction: (x - first) * inverse }
     }
 }
 
