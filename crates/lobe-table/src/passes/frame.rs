@@ -15,7 +15,8 @@ pub(crate) struct Frame {
     pub(crate) sin2_sigma: Column,
     /// Cosine and sine of psi.
     pub(crate) psi: [Column; 2],
-    /// `wo` about the zenith: across it toward phi = 0 and phi = pi/2, and 1 less its component along it.
+    /// `wo` about the zenith: across it toward phi = 0 and phi = pi/2, and 1 less its component along it. Nothing across
+    /// where not valid, so that phi, which multiplies the texels of colours last, is a number.
     pub(crate) across: [Column; 2],
     pub(crate) rest: Column,
     /// All bits set where both directions are finite and above the horizon.
@@ -36,7 +37,8 @@ impl Frame {
 /// Closer to the normal than 1e-15 rad, psi is taken for 0: the squares of shorter components lose their digits.
 const POLE: f32 = 1e-30;
 
-/// The squared distance of two unit vectors is at most 4; more, or NaN, means that a component is not finite.
+/// The squared distance of two unit vectors is at most 4, and their squared length 1; much more, or NaN, means that a
+/// component is not finite.
 const FARTHEST: f32 = 16.0;
 
 /// Fills the frame of queries `0..n` from the directions at `at..at + n`. `n` is a multiple of the lanes.
@@ -103,10 +105,15 @@ fn pass<L: Lanes, D: Directions, const FOLD: bool>(
         frame.sin2_sigma.store(lanes, query, sin2);
         frame.psi[0].store(lanes, query, cos_psi);
         frame.psi[1].store(lanes, query, sin_psi);
-        frame.across[0].store(lanes, query, x);
-        frame.across[1].store(lanes, query, y);
+        // A zenith that is computed is finite even where wi is not.
+        let size2 = match refraction {
+            None => distance2,
+            Some(_) => distance2 + lanes.mul_add(iz, iz, sin2),
+        };
+        let valid = zero.lt(iz) & zero.lt(oz) & size2.lt(lanes.splat(FARTHEST));
+        frame.across[0].store(lanes, query, x.masked(valid));
+        frame.across[1].store(lanes, query, y.masked(valid));
         frame.rest.store(lanes, query, lanes.splat(0.5) * distance2);
-        let valid = zero.lt(iz) & zero.lt(oz) & distance2.lt(lanes.splat(FARTHEST));
         frame.valid.store(lanes, query, lanes.select_int(valid, lanes.splat_int(-1), lanes.splat_int(0)));
         query += L::LANES;
     }
