@@ -74,6 +74,9 @@ pub enum AxisError {
     },
 }
 
+/// In the place of a knot that there is not: no query is at or above it, not even an infinite one.
+const BEYOND: f32 = f32::NAN;
+
 /// How the cell of a query is found.
 #[derive(Clone, Debug)]
 pub(crate) enum Search {
@@ -88,7 +91,7 @@ pub(crate) enum Search {
 }
 
 /// Up to 31 inner knots, sorted and in the order of a breadth-first search tree with node 1 the root, missing ones
-/// infinite, and the first knots and inverse widths of the cells.
+/// [`BEYOND`], and the first knots and inverse widths of the cells.
 #[derive(Clone, Debug)]
 pub(crate) struct Registers {
     pub(crate) levels: usize,
@@ -121,8 +124,7 @@ impl Axis {
             source.push(0);
         }
         let knots: Vec<f32> = exact.iter().map(|&knot| knot as f32).collect();
-        let cells: Vec<[f32; 2]> =
-            exact.windows(2).map(|ends| [ends[0] as f32, (1.0 / (ends[1] - ends[0])) as f32]).collect();
+        let cells: Vec<[f32; 2]> = exact.windows(2).map(|ends| [ends[0] as f32, inverse(ends[1] - ends[0])]).collect();
         let search = if cells.is_empty() {
             Search::Constant
         } else if let Some(cells_per_radian) = uniform(&exact) {
@@ -177,6 +179,11 @@ impl Axis {
     }
 }
 
+/// `1 / width`, at most the largest float: a cell may be so narrow that the inverse is none.
+fn inverse(width: f64) -> f32 {
+    (1.0 / width).min(f64::from(f32::MAX)) as f32
+}
+
 /// Cells a radian where all cells are equal to within `f32` rounding of the knots.
 fn uniform(knots: &[f64]) -> Option<f32> {
     let cells = knots.len() - 1;
@@ -184,7 +191,7 @@ fn uniform(knots: &[f64]) -> Option<f32> {
     let width = (last - first) / cells as f64;
     let tolerance = f64::from(f32::EPSILON) * last.abs().max(width);
     let equal = knots.iter().enumerate().all(|(i, knot)| (knot - (first + i as f64 * width)).abs() <= tolerance);
-    (equal && cells > 1).then_some((1.0 / width) as f32)
+    (equal && cells > 1).then(|| inverse(width))
 }
 
 impl Registers {
@@ -192,17 +199,17 @@ impl Registers {
         let inner = &knots[1..knots.len() - 1];
         // The searches come in three depths.
         let levels = ((inner.len() + 1).next_power_of_two().ilog2() as usize).max(3);
-        let mut tree = [f32::INFINITY; 32];
+        let mut tree = [BEYOND; 32];
         // Node k of level l is the middle of the k-th of the 2^l parts of the sorted knots.
         for (node, knot) in tree.iter_mut().enumerate().take(1 << levels).skip(1) {
             let level = node.ilog2() as usize;
             let part = 1 << (levels - level);
             let rank = (node - (1 << level)) * part + part / 2 - 1;
-            *knot = inner.get(rank).copied().unwrap_or(f32::INFINITY);
+            *knot = inner.get(rank).copied().unwrap_or(BEYOND);
         }
         // Look-ups beyond the last cell cannot happen; the padding keeps its values so that none of them is special.
         let padded = |column: usize| std::array::from_fn(|i| cells[i.min(cells.len() - 1)][column]);
-        let sorted = std::array::from_fn(|i| inner.get(i).copied().unwrap_or(f32::INFINITY));
+        let sorted = std::array::from_fn(|i| inner.get(i).copied().unwrap_or(BEYOND));
         Registers { levels, sorted, tree, first: padded(0), inverse: padded(1) }
     }
 }
@@ -216,12 +223,12 @@ fn guide(knots: &[f32]) -> Search {
         let buckets_per_radian = count as f32 / (last - first);
         let bucket = |x: f32| (((x - first) * buckets_per_radian) as usize).min(count - 1);
         // Rounded exactly as a query is, so a knot's bucket is the bucket of every query at that knot.
-        let mut buckets = vec![[0.0, f32::INFINITY]; count];
+        let mut buckets = vec![[0.0, BEYOND]; count];
         let mut steps = 1;
         let mut below = 0;
         for (b, entry) in buckets.iter_mut().enumerate() {
             let inside = inner[below..].iter().take_while(|&&knot| bucket(knot) == b).count();
-            *entry = [below as f32, inner.get(below).copied().unwrap_or(f32::INFINITY)];
+            *entry = [below as f32, inner.get(below).copied().unwrap_or(BEYOND)];
             below += inside;
             steps = steps.max(inside);
         }

@@ -82,7 +82,7 @@ impl Axis {
             Search::Uniform { cells_per_radian } => visitor.visit(Uniform::<L> {
                 first: lanes.splat(self.first()),
                 cells_per_radian: lanes.splat(*cells_per_radian),
-                last_cell: lanes.splat_int(self.cells().len() as i32 - 1),
+                last_cell: lanes.splat((self.cells().len() - 1) as f32),
             }),
             Search::Registers(registers) if L::PERMUTES => match self.knots().len() {
                 0..=5 => visitor.visit(Compare::<L, 3, 1>::new(lanes, registers)),
@@ -99,7 +99,7 @@ impl Axis {
             Search::Guide { buckets_per_radian, buckets, steps } => visitor.visit(Guide::<L> {
                 first: lanes.splat(self.first()),
                 buckets_per_radian: lanes.splat(*buckets_per_radian),
-                last_bucket: lanes.splat_int(buckets.len() as i32 - 1),
+                last_bucket: lanes.splat((buckets.len() - 1) as f32),
                 buckets,
                 further: steps - 1,
                 inner: &self.knots()[1..self.knots().len() - 1],
@@ -107,6 +107,12 @@ impl Axis {
             }),
         }
     }
+}
+
+/// The whole part of a position, in `[0, last]`. It is brought there first: far outside it would not fit an integer.
+#[inline(always)]
+fn whole_within<L: Lanes>(lanes: L, position: L::F, last: L::F) -> L::I {
+    position.max(lanes.splat(0.0)).min(last).to_int()
 }
 
 /// An axis of one knot.
@@ -125,14 +131,14 @@ impl<L: Lanes> Find<L> for Constant {
 struct Uniform<L: Lanes> {
     first: L::F,
     cells_per_radian: L::F,
-    last_cell: L::I,
+    last_cell: L::F,
 }
 
 impl<L: Lanes> Find<L> for Uniform<L> {
     #[inline(always)]
     fn find(self, lanes: L, x: L::F) -> Cell<L> {
         let position = (x - self.first) * self.cells_per_radian;
-        let index = position.to_int().min(self.last_cell).max(lanes.splat_int(0));
+        let index = whole_within(lanes, position, self.last_cell);
         Cell { index, fraction: position - index.to_float() }
     }
 }
@@ -150,7 +156,7 @@ struct Compare<L: Lanes, const KNOTS: usize, const OCTS: usize> {
 impl<L: Lanes, const KNOTS: usize, const OCTS: usize> Compare<L, KNOTS, OCTS> {
     #[inline(always)]
     fn new(lanes: L, registers: &Registers) -> Self {
-        let mut inner = [lanes.splat(f32::INFINITY); KNOTS];
+        let mut inner = [lanes.splat(registers.sorted[0]); KNOTS];
         let mut k = 0;
         while k < KNOTS {
             inner[k] = lanes.splat(registers.sorted[k]);
@@ -277,7 +283,7 @@ impl<L: Lanes> Find<L> for Count<'_> {
 struct Guide<'a, L: Lanes> {
     first: L::F,
     buckets_per_radian: L::F,
-    last_bucket: L::I,
+    last_bucket: L::F,
     /// The cell at the start of the bucket, and the first knot inside the bucket or beyond.
     buckets: &'a [[f32; 2]],
     /// Knots in the fullest bucket beyond the first.
@@ -289,8 +295,7 @@ struct Guide<'a, L: Lanes> {
 impl<L: Lanes> Find<L> for Guide<'_, L> {
     #[inline(always)]
     fn find(self, lanes: L, x: L::F) -> Cell<L> {
-        let bucket = ((x - self.first) * self.buckets_per_radian).to_int();
-        let bucket = bucket.min(self.last_bucket).max(lanes.splat_int(0));
+        let bucket = whole_within(lanes, (x - self.first) * self.buckets_per_radian, self.last_bucket);
         let [start, knot] = lanes.gather_pair(self.buckets, bucket);
         let mut index = start.to_int().count(knot.le(x));
         let mut step = 0;

@@ -96,14 +96,14 @@ impl<'a> FusedBound<'a> {
         let angles = directions_to_angles(wi, wo, |sigma| zenith(self.samples, self.edges, sigma));
         let errors = self.angle_errors(angles[2]);
 
-        let stretch: [f64; 4] = std::array::from_fn(|axis| self.stretch(axis, angles[axis]));
+        let stretch: [f64; 4] = std::array::from_fn(|axis| self.stretch(axis, angles[axis], errors[axis]));
         let product: f64 = stretch.iter().product();
         let whole = 2.0 * self.largest * product;
         let mut bound = SUM * self.largest * product;
         for axis in 0..4 {
             let sloping = self.slopes[axis] * errors[axis] * product / stretch[axis];
             let stepping = if self.is_near_step(axis, angles[axis], errors[axis]) { whole } else { 0.0 };
-            // Whatever the error of the angle, values remain between those of the table.
+            // Whatever the error of the angle, both values are within the stretched range of the table.
             bound += (sloping + stepping).min(whole);
         }
         bound
@@ -128,15 +128,20 @@ impl<'a> FusedBound<'a> {
         ]
     }
 
-    /// The sum of the two weights' sizes: more than 1 where a straight line goes on beyond the knots.
-    fn stretch(&self, axis: usize, x: f64) -> f64 {
+    /// The largest sum of the two weights' sizes within reach: more than 1 where a straight line goes on beyond the knots.
+    fn stretch(&self, axis: usize, x: f64, error: f64) -> f64 {
         let knots = &self.samples.knots()[axis];
         let last = knots.len() - 1;
         if last == 0 || self.edges.axes[axis] != Edge::Extrapolate {
             return 1.0;
         }
-        let below = (knots[0] - x) / (knots[1] - knots[0]);
-        let above = (x - knots[last]) / (knots[last] - knots[last - 1]);
+        let (mut lowest, mut highest) = (x - error, x + error);
+        // What reaches across the seam of a circle may come out at its other end.
+        if axis % 2 == 1 && (lowest <= 0.0 || highest >= TAU) {
+            (lowest, highest) = (0.0, TAU);
+        }
+        let below = (knots[0] - lowest) / (knots[1] - knots[0]);
+        let above = (highest - knots[last]) / (knots[last] - knots[last - 1]);
         1.0 + 2.0 * below.max(above).max(0.0)
     }
 

@@ -97,7 +97,7 @@ fn random(seed: u64, channels: usize, anisotropic: bool, scatter: Scatter) -> Sa
         let mut at: Vec<f64> =
             (0..n).map(|i| i as f64 + if uniform { 0.0 } else { rng.random_range(-0.4..0.4) }).collect();
         at[0] = 0.0;
-        let span = if closed { at[n - 1] } else { n as f64 };
+        let span = if closed && n > 1 { at[n - 1] } else { n as f64 };
         at.iter().map(|x| end * x / span).collect()
     };
     let pick = |sizes: [usize; 3]| sizes[seed as usize % 3];
