@@ -108,7 +108,7 @@ fn angles<L: Lanes>(lanes: L, table: &Table, wi: [f32; 3], wo: [f32; 3]) -> ([f3
     let y = fma(cos_psi, dy, -(sin_psi * dx));
     let x = fma(cos_zenith, toward, sin_zenith * dz);
     let distance2 = fma(dx, dx, fma(dy, dy, dz * dz));
-    let valid = 0.0 < iz && 0.0 < oz && distance2 + sin2 < FARTHEST;
+    let valid = 0.0 < iz && 0.0 < oz && distance2 + fma(iz, iz, sin2) < FARTHEST;
 
     let along = 1.0 - 0.5 * distance2;
     let across = fma(x, x, y * y).sqrt();

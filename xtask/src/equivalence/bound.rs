@@ -11,9 +11,11 @@ use lobe_table::{Edge, Edges, Samples, Scatter};
 const UNIT: f64 = 1.0 / (1 << 24) as f64;
 /// Difference in an angle that comes from its last place, for angles of up to 2 pi.
 const LAST_PLACE: f64 = 4.0 * UNIT * TAU;
+/// Roundings of the tangent of half an angle, both forms together; its error reaches the angle at most doubled.
+const TANGENT: f64 = 12.0 * UNIT;
 /// Differences in sigma and psi: two functions of `lobe_math`, each within its bound, and their arguments.
-const SIGMA: f64 = 2.0 * bounds::ACOS.abs + 4.0 * UNIT + LAST_PLACE;
-const PSI: f64 = 2.0 * bounds::AZIMUTH.abs + 4.0 * UNIT + LAST_PLACE;
+const SIGMA: f64 = 2.0 * bounds::DOUBLE_ATAN.abs + TANGENT + LAST_PLACE;
+const PSI: f64 = 2.0 * bounds::AZIMUTH.abs + TANGENT + LAST_PLACE;
 /// Roundings between the sines of the angles and the vector across the zenith, both forms together.
 const ACROSS: f64 = 45.0 * UNIT;
 /// Roundings of weights and sums of up to 16 corners, both forms together.
@@ -123,8 +125,8 @@ impl<'a> FusedBound<'a> {
         [
             SIGMA,
             PSI,
-            FRAC_PI_2 * across + 2.0 * bounds::ACOS.abs + 13.0 * UNIT + LAST_PLACE,
-            phi + 2.0 * bounds::AZIMUTH.abs + LAST_PLACE,
+            FRAC_PI_2 * across + 2.0 * bounds::DOUBLE_ATAN.abs + 9.0 * UNIT + TANGENT + LAST_PLACE,
+            phi + 2.0 * bounds::AZIMUTH.abs + TANGENT + LAST_PLACE,
         ]
     }
 

@@ -101,10 +101,10 @@ fn random(seed: u64, channels: usize, anisotropic: bool, scatter: Scatter) -> Sa
         at.iter().map(|x| end * x / span).collect()
     };
     let pick = |sizes: [usize; 3]| sizes[seed as usize % 3];
-    let closed = seed % 2 == 0;
-    let sigma = knots(pick([4, 7, 1]), FRAC_PI_2, seed % 5 == 0);
+    let closed = seed.is_multiple_of(2);
+    let sigma = knots(pick([4, 7, 1]), FRAC_PI_2, seed.is_multiple_of(5));
     let psi = if anisotropic { knots(pick([5, 3, 11]), TAU, closed) } else { vec![0.0] };
-    let theta = knots(pick([9, 19, 40]), PI, seed % 3 == 0);
+    let theta = knots(pick([9, 19, 40]), PI, seed.is_multiple_of(3));
     let phi = knots(pick([13, 6, 36]), TAU, closed);
 
     let sizes = [sigma.len(), psi.len(), theta.len(), phi.len()];

@@ -39,8 +39,8 @@ impl Frame {
 /// Closer to the normal than this sine, psi is taken for 0: the squares of shorter components lose their digits.
 pub(crate) const POLE: f32 = 1e-15;
 
-/// The squared distance of two unit vectors is at most 4 and a squared sine at most 1; a much larger sum, or NaN, means
-/// that a component is not finite.
+/// The squared distance of two unit vectors is at most 4, and the squared length of one is 1; a much larger sum, or NaN,
+/// means that a component is not finite. The length of `wi` counts because a zenith that is computed may hide it.
 pub(crate) const FARTHEST: f32 = 16.0;
 
 /// Fills the frame of queries `0..n` of a block. `n` is a multiple of the lanes.
@@ -132,7 +132,8 @@ fn pass<L: Lanes, B: BlockOfDirections, Z: Zenith>(lanes: L, n: usize, (wi, wo):
         frame.across[0].store(lanes, query, x);
         frame.across[1].store(lanes, query, y);
         frame.along.store(lanes, query, one - lanes.splat(0.5) * distance2);
-        let valid = zero.lt(iz) & zero.lt(oz) & (distance2 + sin2).lt(lanes.splat(FARTHEST));
+        let size2 = distance2 + lanes.mul_add(iz, iz, sin2);
+        let valid = zero.lt(iz) & zero.lt(oz) & size2.lt(lanes.splat(FARTHEST));
         frame.valid.store(lanes, query, lanes.select_int(valid, lanes.splat_int(-1), lanes.splat_int(0)));
         query += L::LANES;
     }
