@@ -2,5 +2,8 @@
 #![forbid(unsafe_code)]
 
 mod error;
+mod replace;
+pub mod rgl;
+pub mod tensor;
 
 pub use error::{FormatError, Place};
