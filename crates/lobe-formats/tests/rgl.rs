@@ -153,10 +153,10 @@ fn samples_have_the_density_and_the_value_of_their_direction() {
             let Some(sample) = sample else { continue };
             drawn += 1;
             let pdf = reference.pdf(wi, sample.wo);
-            assert!(relative(pdf, sample.pdf, 0.0) < 1e-6, "{name} {n}: {pdf} and {}", sample.pdf);
+            assert!(relative(pdf, sample.pdf, 0.0) < 1e-9, "{name} {n}: {pdf} and {}", sample.pdf);
             reference.eval_cos(wi, sample.wo, &mut value);
             for (value, weight) in value.iter().zip(&sample.weight) {
-                assert!(relative(value / pdf, *weight, 1e-6) < 1e-5, "{name} {n}: {} and {weight}", value / pdf);
+                assert!(relative(value / pdf, *weight, 1e-6) < 1e-9, "{name} {n}: {} and {weight}", value / pdf);
             }
         }
         assert!(drawn > 100, "{name}: {drawn} of 200 samples lie above the surface");

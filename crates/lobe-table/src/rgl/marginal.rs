@@ -207,14 +207,11 @@ fn integral(a: f64, b: f64, t: f64) -> f64 {
     t * a + 0.5 * t * t * (b - a)
 }
 
-/// The `t` in `[0, 1]` at which that integral is `q`. The square root is guarded: rounding may make its argument negative.
+/// The `t` in `[0, 1]` at which that integral is `q`. The quadratic formula is used with the root in the denominator,
+/// which holds for `a = b` too. The root is guarded: rounding may make its argument negative.
 fn solve(a: f64, b: f64, q: f64) -> f64 {
-    let t = if (a - b).abs() < 1e-4 * (a + b) {
-        2.0 * q / (a + b)
-    } else {
-        (a - (a * a - 2.0 * q * (a - b)).max(0.0).sqrt()) / (a - b)
-    };
-    // Both are 0/0 in a cell without density.
+    let t = 2.0 * q / (a + (a * a - 2.0 * q * (a - b)).max(0.0).sqrt());
+    // 0/0 in a cell without density.
     if t.is_finite() { t.clamp(0.0, 1.0) } else { 0.0 }
 }
 
