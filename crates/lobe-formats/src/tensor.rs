@@ -4,6 +4,7 @@
 //! each field the length of its name as `u16`, the name, the number of dimensions as `u16`, the type as `u8`, the
 //! position of the data from the start of the file as `u64`, and the dimensions as `u64`. Data are in row-major order.
 
+use crate::bytes::Cursor;
 use crate::error::{FormatError, Place};
 use crate::replace::replace;
 use std::borrow::Cow;
@@ -75,6 +76,11 @@ impl<'a> Field<'a> {
         Field { name: name.into(), dtype: DType::U8, shape: shape.into(), data: data.into(), position: 0 }
     }
 
+    /// A field of 16-bit integers, from their little-endian bytes.
+    pub fn u16(name: &str, shape: &[usize], data: &'a [u8]) -> Self {
+        Field { name: name.into(), dtype: DType::U16, shape: shape.into(), data: data.into(), position: 0 }
+    }
+
     /// A field of 32-bit floats.
     pub fn f32(name: &str, shape: &[usize], data: &[f32]) -> Self {
         let data = data.iter().flat_map(|x| x.to_le_bytes()).collect();
@@ -100,12 +106,8 @@ pub fn matches(bytes: &[u8]) -> bool {
 /// # Errors
 /// [`FormatError`] where the header or a field is cut off, unknown or outside the file.
 pub fn read<'a>(bytes: &'a [u8], file: &Path) -> Result<TensorFile<'a>, FormatError> {
-    let mut cursor = Cursor { bytes, at: 0, file };
-    if !matches(bytes) {
-        let found = format!("{:?}", bytes[..bytes.len().min(MAGIC.len())].escape_ascii().to_string());
-        return Err(FormatError::new(file, Place::Byte(0), found, "the signature tensor_file"));
-    }
-    cursor.at = MAGIC.len();
+    let mut cursor = Cursor::new(bytes, file);
+    cursor.signature(MAGIC, "tensor_file")?;
     let version = cursor.array::<2>("the version")?;
     if version != VERSION {
         let found = format!("version {}.{}", version[0], version[1]);
@@ -242,29 +244,7 @@ fn bytes_of(shape: &[usize], dtype: DType) -> Option<usize> {
     shape.iter().try_fold(dtype.size(), |bytes, &n| bytes.checked_mul(n))
 }
 
-struct Cursor<'a, 'f> {
-    bytes: &'a [u8],
-    at: usize,
-    file: &'f Path,
-}
-
 impl<'a> Cursor<'a, '_> {
-    fn take(&mut self, n: usize, what: &str) -> Result<&'a [u8], FormatError> {
-        let rest = &self.bytes[self.at..];
-        let Some(taken) = rest.get(..n) else {
-            let found = format!("the end of the file, {} bytes on", rest.len());
-            return Err(FormatError::new(self.file, Place::Byte(self.at as u64), found, format!("{what}, {n} bytes")));
-        };
-        self.at += n;
-        Ok(taken)
-    }
-
-    fn array<const N: usize>(&mut self, what: &str) -> Result<[u8; N], FormatError> {
-        let mut array = [0; N];
-        array.copy_from_slice(self.take(N, what)?);
-        Ok(array)
-    }
-
     fn field(&mut self) -> Result<Field<'a>, FormatError> {
         let start = self.at as u64;
         let error = |found: String, expected: &str| FormatError::new(self.file, Place::Byte(start), found, expected);

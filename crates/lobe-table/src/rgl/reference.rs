@@ -1,8 +1,9 @@
 //! Evaluation of an [`Rgl`] one query at a time in `f64`: what the lanes are compared with.
 
-use super::marginal::{Blend, Warp, bilinear, cell};
+use super::marginal::{Blend, Warp, bilinear};
 use super::{Images, Rgl};
-use crate::direction::{Vector, add, dot, normalize, phi, scale, sub, theta};
+use crate::direction::{Vector, add, dot, normalize, phi, scale, spherical, sub, theta};
+use crate::knots::cell;
 use crate::samples::Channels;
 use std::f64::consts::{PI, TAU};
 
@@ -120,7 +121,7 @@ impl<'a> Reference<'a> {
         let (u_m, p_v) = self.vndf.sample(s, &blend);
         let turn = if self.rgl.is_isotropic() { phi(wi) } else { 0.0 };
         let (theta_m, phi_m) = (u_m[0] * u_m[0] * PI / 2.0, (2.0 * u_m[1] - 1.0) * PI + turn);
-        let m = [theta_m.sin() * phi_m.cos(), theta_m.sin() * phi_m.sin(), theta_m.cos()];
+        let m = spherical(theta_m, phi_m);
         let cos = dot(wi, m);
         let wo = sub(scale(m, 2.0 * cos), wi);
         if cos <= 0.0 || wo[2] <= 0.0 {
