@@ -59,7 +59,7 @@ impl DType {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field<'a> {
     /// The name.
-    pub name: String,
+    pub name: Cow<'a, str>,
     /// The type of the elements.
     pub dtype: DType,
     /// The dimensions, the slowest first.
@@ -72,17 +72,17 @@ pub struct Field<'a> {
 
 impl<'a> Field<'a> {
     /// A field of bytes.
-    pub fn u8(name: &str, shape: &[usize], data: &'a [u8]) -> Self {
+    pub fn u8(name: &'a str, shape: &[usize], data: &'a [u8]) -> Self {
         Field { name: name.into(), dtype: DType::U8, shape: shape.into(), data: data.into(), position: 0 }
     }
 
     /// A field of 16-bit integers, from their little-endian bytes.
-    pub fn u16(name: &str, shape: &[usize], data: &'a [u8]) -> Self {
+    pub fn u16(name: &'a str, shape: &[usize], data: &'a [u8]) -> Self {
         Field { name: name.into(), dtype: DType::U16, shape: shape.into(), data: data.into(), position: 0 }
     }
 
     /// A field of 32-bit floats.
-    pub fn f32(name: &str, shape: &[usize], data: &[f32]) -> Self {
+    pub fn f32(name: &'a str, shape: &[usize], data: &[f32]) -> Self {
         let data = data.iter().flat_map(|x| x.to_le_bytes()).collect();
         Field { name: name.into(), dtype: DType::F32, shape: shape.into(), data: Cow::Owned(data), position: 0 }
     }
@@ -119,11 +119,13 @@ pub fn read<'a>(bytes: &'a [u8], file: &Path) -> Result<TensorFile<'a>, FormatEr
         return Err(FormatError::new(file, Place::Byte(14), found, "as many field headers as the file can hold"));
     }
     let mut fields: Vec<Field<'a>> = Vec::with_capacity(count);
-    let mut names = HashSet::new();
+    let mut names: HashSet<&'a str> = HashSet::new();
     for _ in 0..count {
         let field = cursor.field()?;
-        if !names.insert(field.name.clone()) {
-            let found = format!("a second field {:?}", field.name);
+        if let Cow::Borrowed(name) = field.name
+            && !names.insert(name)
+        {
+            let found = format!("a second field {name:?}");
             return Err(FormatError::new(file, Place::Byte(field.position), found, "each name once"));
         }
         fields.push(field);
@@ -148,7 +150,7 @@ impl<'a> TensorFile<'a> {
     /// [`FormatError`] where there is no such field or it has another type or number of dimensions.
     pub fn require(&self, name: &str, dtype: DType, dimensions: usize) -> Result<&Field<'a>, FormatError> {
         let Some(field) = self.get(name) else {
-            let names: Vec<_> = self.fields.iter().map(|field| field.name.as_str()).collect();
+            let names: Vec<_> = self.fields.iter().map(|field| &*field.name).collect();
             return Err(FormatError::new(
                 &self.file,
                 Place::File,
