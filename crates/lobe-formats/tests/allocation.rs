@@ -32,6 +32,9 @@ fn overlapping(names: &[String], dtype: u8, shape: &[u64], data: usize) -> Vec<u
     bytes
 }
 
+/// Reads a file; whether that went as it should.
+type Read = fn(&[u8], &Path) -> bool;
+
 /// One test, so that no other thread allocates meanwhile.
 #[test]
 fn memory_follows_the_size_of_the_file() {
@@ -48,7 +51,7 @@ fn memory_follows_the_size_of_the_file() {
     let header: Vec<u8> = [90i32, 90, 180].iter().flat_map(|n| n.to_le_bytes()).collect();
     let short: Vec<String> = (0..4000).map(|i| format!("{i:x}")).collect();
     let headers = overlapping(&short, 10, &[], 4);
-    let cases: [(&str, Vec<u8>, fn(&[u8], &Path) -> bool); 7] = [
+    let cases: [(&str, Vec<u8>, Read); 7] = [
         ("nothing but the headers of fields", headers, |bytes, file| tensor::read(bytes, file).is_ok()),
         ("many fields over the same data", many, |bytes, file| tensor::read(bytes, file).is_ok()),
         ("all fields with four dimensions", named, |bytes, file| rgl::read(bytes, file).is_err()),

@@ -173,6 +173,16 @@ fn tensor_files_with_wrong_headers_are_refused() {
     assert!(error.place == Place::File && error.found.contains("vnda") && error.expected.contains("vndf"), "{error}");
 }
 
+/// The product of these dimensions is a multiple of 2^64: no empty array, but one that cannot be.
+#[test]
+fn a_shape_beyond_the_address_space_is_not_empty() {
+    let mut bytes = tiny_rgl();
+    let shape = header(&bytes, "vndf").shape;
+    bytes[shape..][..32].copy_from_slice(&[1u64 << 31; 4].map(u64::to_le_bytes).concat());
+    let error = tensor::read(&bytes, Path::new(FILE)).expect_err("an impossible shape");
+    assert!(error.found.contains("2147483648"), "{error}");
+}
+
 #[test]
 fn a_name_may_occur_once() {
     let field = || tensor::Field::f32("twice", &[1], &[1.0]);

@@ -6,9 +6,9 @@
 use crate::direction::{phi, theta, wrap};
 use crate::invalid::{Invalid, count};
 
-/// How many zenith angles and azimuths each direction has.
+/// How many zenith angles each direction has.
 pub const THETAS: usize = 6;
-/// See [`THETAS`].
+/// How many azimuths each direction has.
 pub const PHIS: usize = 48;
 /// The values of one channel.
 pub const PLANE: usize = THETAS * PHIS * THETAS * PHIS;
