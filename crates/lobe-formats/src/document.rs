@@ -42,9 +42,9 @@ pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
         FormatError::new(path, Place::File, "content of no known format", format!("one of {}", known.join(", ")))
     })?;
     let document = match format {
-        Format::Ddr => Document::Table(ddr::read(path, &bytes, scatter_of_extension(path))?),
-        Format::Sdr => Document::Specular(sdr::read(path, &bytes, scatter_of_extension(path))?),
-        Format::Zemax => Document::Table(zemax::read(path, &bytes)?),
+        Format::Ddr => Document::Table(ddr::read(&bytes, path, scatter_of_extension(path))?),
+        Format::Sdr => Document::Specular(sdr::read(&bytes, path, scatter_of_extension(path))?),
+        Format::Zemax => Document::Table(zemax::read(&bytes, path)?),
     };
     Ok((format, document))
 }

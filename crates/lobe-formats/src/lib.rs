@@ -4,16 +4,23 @@
 //! the formats look like, and what is done where a file leaves a question open, is described in `docs/formats.md`.
 #![forbid(unsafe_code)]
 
+mod bytes;
 pub mod ddr;
 mod document;
 mod error;
 mod grid;
 mod integra;
+pub mod mbsdf;
+pub mod merl;
+pub mod pbsdf;
+pub mod rgl;
 pub mod sdr;
 mod sniff;
 mod specular;
+pub mod tensor;
 mod text;
 mod units;
+pub mod utia;
 mod write;
 pub mod zemax;
 

@@ -19,7 +19,7 @@ use crate::{FormatError, Measured, Place, Specular};
 ///
 /// # Errors
 /// [`FormatError`] names the line, what is there and what should be.
-pub fn read(file: &Path, bytes: &[u8], scatter: Scatter) -> Result<Measured<Specular>, FormatError> {
+pub fn read(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Measured<Specular>, FormatError> {
     let text = &mut Text::new(file, bytes, COMMENT);
     let mut source = Vec::new();
     let mut model = ColorModel::Rgb;
@@ -61,7 +61,7 @@ pub fn read(file: &Path, bytes: &[u8], scatter: Scatter) -> Result<Measured<Spec
 /// # Errors
 /// [`FormatError`] where the file cannot be written, the channels are XYZ, or the extension (`.sdr` for reflection,
 /// `.sdt` for transmission) would make readers take it for the other kind.
-pub fn write(path: &Path, specular: &Specular) -> Result<(), FormatError> {
+pub fn write(specular: &Specular, path: &Path) -> Result<(), FormatError> {
     check_extension(path, specular.scatter(), ["sdr", "sdt"])?;
     let (model, names) = block_names(path, specular.channels())?;
     let mut out = format!("TypeColorModel {}\nsigma {}\n", model.keyword(), specular.sigma().len());

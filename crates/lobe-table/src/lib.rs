@@ -7,22 +7,31 @@
 
 mod axis;
 pub mod coords;
+mod direction;
 mod directions;
 mod edges;
 mod eval;
 mod function;
+pub mod half_diff;
+mod invalid;
+mod knots;
 mod layout;
+pub mod mueller;
 mod passes;
 pub mod reference;
+pub mod rgl;
 mod samples;
 mod search;
+pub mod spherical;
 mod storage;
 mod table;
+pub mod utia;
 
 pub use axis::{Axis, AxisError};
 pub use directions::{Directions, Soa};
 pub use edges::{Edge, Edges};
 pub use function::Function;
+pub use invalid::Invalid;
 pub use samples::{AXIS_NAMES, Channels, Samples, SamplesError, Scatter};
 pub use search::Cell;
 pub use table::{Table, TableError};

@@ -28,9 +28,9 @@ impl Reader {
     fn read(self, bytes: &[u8]) -> Result<(), FormatError> {
         let file = Path::new("t");
         match self {
-            Reader::Ddr => ddr::read(file, bytes, Scatter::Transmission).map(|_| ()),
-            Reader::Sdr => sdr::read(file, bytes, Scatter::Reflection).map(|_| ()),
-            Reader::Zemax => zemax::read(file, bytes).map(|_| ()),
+            Reader::Ddr => ddr::read(bytes, file, Scatter::Transmission).map(|_| ()),
+            Reader::Sdr => sdr::read(bytes, file, Scatter::Reflection).map(|_| ()),
+            Reader::Zemax => zemax::read(bytes, file).map(|_| ()),
         }
     }
 }
