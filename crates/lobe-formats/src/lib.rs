@@ -2,5 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod error;
+mod replace;
+pub mod window_xml;
 
 pub use error::{FormatError, Place};
