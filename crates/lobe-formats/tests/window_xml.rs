@@ -94,7 +94,7 @@ fn what_is_wrong_is_named_with_its_line() {
     let data = data.replace("</Layer></Optical>", "");
     refused(
         &format!("{head}{data}{data}</Layer></Optical></WindowElement>"),
-        Place::Line(13),
+        Place::Line(15),
         "a second ReflectionBack",
     );
 }

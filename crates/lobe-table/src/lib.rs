@@ -2,7 +2,10 @@
 #![forbid(unsafe_code)]
 
 pub mod klems;
+mod mesh;
 mod samples;
+pub mod scattered;
+pub mod spherical_grid;
 pub mod tensor_tree;
 pub mod window;
 
