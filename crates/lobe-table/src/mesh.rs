@@ -1,13 +1,21 @@
 //! Linear interpolation between scattered points of a plane, on their Delaunay triangulation.
 
+use spade::handles::{FixedDirectedEdgeHandle, FixedVertexHandle};
 use spade::{DelaunayTriangulation, HierarchyHintGenerator, Point2, PositionInTriangulation, Triangulation};
 
 type Delaunay = DelaunayTriangulation<Point2<f64>, (), (), (), HierarchyHintGenerator<f64>>;
+
+/// Triangles at the rim that are lower than this, in radians, are there by rounding only.
+const FLAT: f64 = 1e-5;
 
 /// Scattered points and how to interpolate between them.
 #[derive(Clone, Debug)]
 pub(crate) struct Mesh {
     triangles: Delaunay,
+    /// The edges around all triangles that are not [`FLAT`].
+    rim: Vec<[usize; 2]>,
+    /// By the index of a triangle, whether it lies outside of the rim.
+    is_outside: Vec<bool>,
 }
 
 /// Up to three points and what each counts for; the weights are not negative and add up to 1.
@@ -20,49 +28,78 @@ impl Mesh {
         let snap = |x: f64| if x.abs() < 1e-12 { 0.0 } else { x };
         let points: Vec<_> = points.iter().map(|[x, y]| Point2::new(snap(*x), snap(*y))).collect();
         let triangles = Delaunay::bulk_load_stable(points).ok()?;
-        (triangles.num_vertices() > 0).then_some(Mesh { triangles })
+        if triangles.num_vertices() == 0 {
+            return None;
+        }
+        // Points on a straight rim are a little off it by rounding, and then a long flat triangle covers them: at the
+        // rim its far ends would answer for the points. So such triangles are taken off, one after the other.
+        let mut is_outside = vec![false; triangles.num_all_faces()];
+        let mut rim = Vec::new();
+        let mut pending: Vec<_> = triangles.convex_hull().map(|edge| edge.fix()).collect();
+        while let Some(edge) = pending.pop() {
+            let inner = triangles.directed_edge(edge).rev();
+            let [a, b] = [inner.from(), inner.to()].map(|end| end.position());
+            let face = inner.face().as_inner().map(|face| face.fix().index());
+            let apex = inner.opposite_position();
+            match face.zip(apex) {
+                Some((face, apex)) if !is_outside[face] && area(a, b, apex) < FLAT * (b.x - a.x).hypot(b.y - a.y) => {
+                    is_outside[face] = true;
+                    pending.extend([inner.next().fix(), inner.prev().fix()]);
+                }
+                _ => rim.push([inner.from().index(), inner.to().index()]),
+            }
+        }
+        Some(Mesh { triangles, rim, is_outside })
     }
 
-    /// The weights at a point of the plane. Outside of the convex hull they are those of the nearest point of the hull,
+    /// The weights at a point of the plane. Outside of the convex hull they are those of the nearest point of its rim,
     /// and so they are where all points lie on a line.
     pub(crate) fn weights(&self, point: [f64; 2]) -> Weights {
         let at = Point2::new(point[0], point[1]);
-        let ends = |edge: spade::handles::FixedDirectedEdgeHandle| {
-            let edge = self.triangles.directed_edge(edge);
-            [edge.from(), edge.to()].map(|end| (end.index(), end.position()))
-        };
         match self.triangles.locate(at) {
             PositionInTriangulation::OnVertex(vertex) => [(vertex.index(), 1.0), (0, 0.0), (0, 0.0)],
-            PositionInTriangulation::OnEdge(edge) => along(ends(edge), at).0,
-            PositionInTriangulation::OnFace(face) => {
+            PositionInTriangulation::OnFace(face) if !self.is_outside[face.index()] => {
                 let corners = self.triangles.face(face).vertices();
                 let [a, b, c] = corners.map(|corner| corner.position());
-                let area = |p: Point2<f64>, q: Point2<f64>, r: Point2<f64>| {
-                    ((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x)).max(0.0)
-                };
                 let parts = [area(at, b, c), area(a, at, c), area(a, b, at)];
                 let whole: f64 = parts.iter().sum();
                 // A triangle too thin for its area to show: any corner is as near as rounding allows.
                 let weight = |index: usize| if whole > 0.0 { parts[index] / whole } else { 1.0 / 3.0 };
                 std::array::from_fn(|index| (corners[index].index(), weight(index)))
             }
-            PositionInTriangulation::OutsideOfConvexHull(_) => {
-                let hull = self.triangles.convex_hull().map(|edge| along(ends(edge.fix()), at));
-                let nearest = hull.min_by(|(_, a), (_, b)| a.total_cmp(b));
+            PositionInTriangulation::OnEdge(edge) if self.is_inside(edge) => {
+                let edge = self.triangles.directed_edge(edge);
+                self.along([edge.from().index(), edge.to().index()], at).0
+            }
+            _ => {
+                let edges = self.rim.iter().map(|&edge| self.along(edge, at));
+                let nearest = edges.min_by(|(_, a), (_, b)| a.total_cmp(b));
                 nearest.map_or([(0, 1.0), (0, 0.0), (0, 0.0)], |(weights, _)| weights)
             }
-            PositionInTriangulation::NoTriangulation => [(0, 1.0), (0, 0.0), (0, 0.0)],
         }
+    }
+
+    /// Whether a triangle within the rim has this edge.
+    fn is_inside(&self, edge: FixedDirectedEdgeHandle) -> bool {
+        let edge = self.triangles.directed_edge(edge);
+        [edge, edge.rev()].iter().any(|side| side.face().as_inner().is_some_and(|f| !self.is_outside[f.fix().index()]))
+    }
+
+    /// The weights of the point of an edge that is nearest to `at`, and its squared distance.
+    fn along(&self, [i, j]: [usize; 2], at: Point2<f64>) -> (Weights, f64) {
+        let position = |index| self.triangles.vertex(FixedVertexHandle::from_index(index)).position();
+        let (a, b) = (position(i), position(j));
+        let (dx, dy) = (b.x - a.x, b.y - a.y);
+        let length2 = dx * dx + dy * dy;
+        let t = if length2 > 0.0 { (((at.x - a.x) * dx + (at.y - a.y) * dy) / length2).clamp(0.0, 1.0) } else { 0.0 };
+        let distance2 = (a.x + t * dx - at.x).powi(2) + (a.y + t * dy - at.y).powi(2);
+        ([(i, 1.0 - t), (j, t), (0, 0.0)], distance2)
     }
 }
 
-/// The weights of the point of an edge that is nearest to `at`, and its squared distance.
-fn along([(i, a), (j, b)]: [(usize, Point2<f64>); 2], at: Point2<f64>) -> (Weights, f64) {
-    let (dx, dy) = (b.x - a.x, b.y - a.y);
-    let length2 = dx * dx + dy * dy;
-    let t = if length2 > 0.0 { (((at.x - a.x) * dx + (at.y - a.y) * dy) / length2).clamp(0.0, 1.0) } else { 0.0 };
-    let distance2 = (a.x + t * dx - at.x).powi(2) + (a.y + t * dy - at.y).powi(2);
-    ([(i, 1.0 - t), (j, t), (0, 0.0)], distance2)
+/// Twice the area of a triangle whose corners turn to the left, or 0.
+fn area(a: Point2<f64>, b: Point2<f64>, c: Point2<f64>) -> f64 {
+    ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)).max(0.0)
 }
 
 #[cfg(test)]
@@ -94,5 +131,23 @@ mod tests {
         let mesh = Mesh::new(&[[0.5, 0.5]]).expect("a point");
         assert_eq!(value(&mesh, &[7.0], [0.1, 0.0]), 7.0);
         assert!(Mesh::new(&[]).is_none());
+    }
+
+    #[test]
+    fn points_on_a_straight_rim_answer_for_themselves() {
+        // A fan of rays whose outermost ones are straight but for rounding.
+        let mut points = vec![[0.0, 0.0]];
+        for ray in 0..4 {
+            let (sin, cos) = (0.3 + 0.2 * f64::from(ray)).sin_cos();
+            points.extend((1..9).map(|step| [0.1 * f64::from(step) * cos, 0.1 * f64::from(step) * sin]));
+        }
+        let mesh = Mesh::new(&points).expect("points");
+        let values: Vec<f64> = (0..points.len()).map(|index| (index as f64).sin()).collect();
+        for (index, [x, y]) in points.iter().enumerate() {
+            for (dx, dy) in [(0.0, 0.0), (1e-9, -1e-9), (-1e-9, 1e-9), (1e-15, 0.0), (0.0, 1e-15)] {
+                let found = value(&mesh, &values, [x + dx, y + dy]);
+                assert!((found - values[index]).abs() < 1e-6, "point {index}: {found}, not {}", values[index]);
+            }
+        }
     }
 }
