@@ -7,6 +7,7 @@ mod columns;
 pub mod cornell;
 mod error;
 pub mod fred;
+pub mod goniometer;
 pub mod light_tools;
 mod lines;
 pub mod lumos;
@@ -15,6 +16,7 @@ pub mod openmaterial;
 mod records;
 mod replace;
 pub mod speos;
+pub mod ssdd;
 #[allow(dead_code, reason = "other readers use the rest")]
 mod text;
 pub mod window_xml;
