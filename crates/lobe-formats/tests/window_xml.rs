@@ -70,6 +70,17 @@ fn marks_and_lines_before_the_xml_are_let_pass() {
 }
 
 #[test]
+fn the_definition_may_follow_the_data() {
+    let text = sheet("Rows", NINE);
+    let start = text.find("<DataDefinition>").expect("a definition");
+    let (head, rest) = text.split_at(start);
+    let (definition, data) = rest.split_at(rest.find("<WavelengthData>").expect("data"));
+    let end = data.find("</Layer>").expect("the end of the layer");
+    let turned = format!("{head}{}{definition}{}", &data[..end], &data[end..]);
+    assert_eq!(values(&turned), values(&text));
+}
+
+#[test]
 fn comments_and_sections_within_the_values_do_not_part_them() {
     let parted = "1 2 3 <!-- half --> 4 5 <![CDATA[6 7]]> 8 9";
     assert_eq!(values(&sheet("Rows", parted)), values(&sheet("Rows", NINE)));
@@ -94,7 +105,7 @@ fn what_is_wrong_is_named_with_its_line() {
     let data = data.replace("</Layer></Optical>", "");
     refused(
         &format!("{head}{data}{data}</Layer></Optical></WindowElement>"),
-        Place::Line(15),
+        Place::Line(12),
         "a second ReflectionBack",
     );
 }

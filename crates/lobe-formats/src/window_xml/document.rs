@@ -40,13 +40,18 @@ enum Structure {
     Tree(Rank),
 }
 
-/// A `WavelengthDataBlock` while it is read.
+/// A text of the file and where it starts.
+type Text<'a> = (Cow<'a, str>, usize);
+
+/// A `WavelengthDataBlock` as text: what its bases and values mean may be said after it.
 #[derive(Default)]
-struct BlockReader {
-    block: Option<Block>,
-    columns: Option<AngleBasis>,
-    rows: Option<AngleBasis>,
-    component: Option<Component>,
+struct BlockText<'a> {
+    start: usize,
+    wavelength: String,
+    direction: Option<Block>,
+    columns: Option<Text<'a>>,
+    rows: Option<Text<'a>>,
+    values: Option<Text<'a>>,
 }
 
 /// A file while it is read.
@@ -57,8 +62,9 @@ pub(super) struct Document<'a> {
     structure: Option<Structure>,
     basis: BasisReader,
     wavelength: String,
-    block: Option<BlockReader>,
-    blocks: Vec<(Block, Component)>,
+    /// Whether the element is within a block, which is then the last one.
+    is_in_block: bool,
+    blocks: Vec<BlockText<'a>>,
 }
 
 impl<'a> Document<'a> {
@@ -70,10 +76,13 @@ impl<'a> Document<'a> {
             structure: None,
             basis: BasisReader::default(),
             wavelength: String::new(),
-            block: None,
+            is_in_block: false,
             blocks: Vec::new(),
         };
         document.walk()?;
+        for block in std::mem::take(&mut document.blocks) {
+            document.keep(&block)?;
+        }
         if document.result.bands.is_empty() {
             return Err(FormatError::new(file, Place::File, "no WavelengthData with values", "at least one block"));
         }
@@ -88,8 +97,9 @@ impl<'a> Document<'a> {
 
     fn walk(&mut self) -> Result<(), FormatError> {
         // Programs that recover an interrupted run leave a line of plain text before the XML.
-        let skipped = self.text.find('<').unwrap_or(self.text.len());
-        let mut reader = Reader::from_str(&self.text[skipped..]);
+        let text = self.text;
+        let skipped = text.find('<').unwrap_or(text.len());
+        let mut reader = Reader::from_str(&text[skipped..]);
         reader.config_mut().expand_empty_elements = true;
         let (mut content, mut start) = (Cow::Borrowed(""), skipped);
         let (mut depth, mut has_root) = (0_usize, false);
@@ -105,12 +115,11 @@ impl<'a> Document<'a> {
                     }
                     has_root = true;
                     depth += 1;
-                    self.open(tag.local_name().as_ref());
+                    self.open(tag.local_name().as_ref(), at);
                     (content, start) = (Cow::Borrowed(""), skipped + reader.buffer_position() as usize);
                 }
                 Event::End(tag) => {
-                    self.close(tag.local_name().as_ref(), &content, start)?;
-                    content = Cow::Borrowed("");
+                    self.close(tag.local_name().as_ref(), std::mem::take(&mut content), start)?;
                     depth -= 1;
                     if depth == 0 {
                         return Ok(());
@@ -136,31 +145,26 @@ impl<'a> Document<'a> {
         }
     }
 
-    fn open(&mut self, name: &str) {
+    fn open(&mut self, name: &str, start: usize) {
         match name {
             "WavelengthData" => self.wavelength.clear(),
-            "WavelengthDataBlock" => self.block = Some(BlockReader::default()),
+            "WavelengthDataBlock" => {
+                self.is_in_block = true;
+                self.blocks.push(BlockText { start, ..BlockText::default() });
+            }
             _ => {}
         }
     }
 
-    fn close(&mut self, name: &str, content: &str, start: usize) -> Result<(), FormatError> {
-        if let Some(mut block) = self.block.take() {
-            self.close_in_block(&mut block, name, content, start)?;
-            if name == "WavelengthDataBlock" {
-                let Some(found) = block.block.zip(block.component) else {
-                    return Err(self.error(start, "a WavelengthDataBlock without them", "a direction and values"));
-                };
-                self.blocks.push(found);
-            } else {
-                self.block = Some(block);
-            }
-            return Ok(());
+    fn close(&mut self, name: &str, content: Cow<'a, str>, start: usize) -> Result<(), FormatError> {
+        if self.is_in_block {
+            return self.close_in_block(name, content, start);
         }
+        let content = content.trim();
         match name {
-            "Name" => self.result.name = content.trim().into(),
-            "Manufacturer" => self.result.manufacturer = content.trim().into(),
-            "Wavelength" => self.wavelength = content.trim().into(),
+            "Name" => self.result.name = content.into(),
+            "Manufacturer" => self.result.manufacturer = content.into(),
+            "Wavelength" => self.wavelength = content.into(),
             "IncidentDataStructure" => {
                 let known = [
                     ("Columns", Structure::Columns),
@@ -168,49 +172,29 @@ impl<'a> Document<'a> {
                     ("TensorTree3", Structure::Tree(Rank::Three)),
                     ("TensorTree4", Structure::Tree(Rank::Four)),
                 ];
-                let found = known.into_iter().find(|(name, _)| name.eq_ignore_ascii_case(content.trim()));
+                let found = known.into_iter().find(|(name, _)| name.eq_ignore_ascii_case(content));
                 let (_, structure) = found.ok_or_else(|| {
                     let expected = "Columns, Rows, TensorTree3 or TensorTree4";
-                    self.error(start, format!("IncidentDataStructure {:?}", content.trim()), expected)
+                    self.error(start, format!("IncidentDataStructure {content:?}"), expected)
                 })?;
                 self.structure = Some(structure);
             }
-            "WavelengthData" => self.close_band(start)?,
+            "WavelengthData" => {
+                for block in self.blocks.iter_mut().rev().take_while(|block| block.wavelength.is_empty()) {
+                    block.wavelength.clone_from(&self.wavelength);
+                }
+            }
             _ => self.basis.close(name, content).map_err(|(found, expected)| self.error(start, found, expected))?,
         }
         Ok(())
     }
 
-    fn close_band(&mut self, start: usize) -> Result<(), FormatError> {
-        if self.blocks.is_empty() {
-            return Ok(());
-        }
-        if self.wavelength.is_empty() {
-            return Err(self.error(start, "WavelengthData without a Wavelength", "its name"));
-        }
-        let bands = &mut self.result.bands;
-        let known = bands.iter().position(|band| band.wavelength.eq_ignore_ascii_case(&self.wavelength));
-        let band = known.unwrap_or_else(|| {
-            bands.push(Band { wavelength: self.wavelength.clone(), window: Window::default() });
-            bands.len() - 1
-        });
-        for (block, component) in std::mem::take(&mut self.blocks) {
-            if self.result.bands[band].window.set(block, component).is_some() {
-                let found = format!("a second {block:?} of {}", self.wavelength);
-                return Err(self.error(start, found, "each block once in a band"));
+    fn close_in_block(&mut self, name: &str, content: Cow<'a, str>, start: usize) -> Result<(), FormatError> {
+        let direction = match name {
+            "WavelengthDataBlock" => {
+                self.is_in_block = false;
+                return Ok(());
             }
-        }
-        Ok(())
-    }
-
-    fn close_in_block(
-        &self,
-        block: &mut BlockReader,
-        name: &str,
-        content: &str,
-        start: usize,
-    ) -> Result<(), FormatError> {
-        match name {
             "WavelengthDataDirection" => {
                 let names = ["transmission front", "transmission back", "reflection front", "reflection back"];
                 let wanted = content.split_whitespace().collect::<Vec<_>>().join(" ").to_ascii_lowercase();
@@ -218,38 +202,70 @@ impl<'a> Document<'a> {
                     let expected = "Transmission or Reflection, Front or Back";
                     self.error(start, format!("WavelengthDataDirection {:?}", content.trim()), expected)
                 })?;
-                block.block = Some(Block::ALL[index]);
+                Some(Block::ALL[index])
             }
-            "ColumnAngleBasis" => block.columns = Some(self.find_basis(content, start)?),
-            "RowAngleBasis" => block.rows = Some(self.find_basis(content, start)?),
             "AngleBasis" if !content.trim().eq_ignore_ascii_case("LBNL/Shirley-Chiu") => {
                 return Err(self.error(start, format!("AngleBasis {:?}", content.trim()), "LBNL/Shirley-Chiu"));
             }
-            "ScatteringData" => block.component = Some(self.component(block, content, start)?),
-            _ => {}
+            _ => None,
+        };
+        if let Some(block) = self.blocks.last_mut() {
+            match name {
+                "WavelengthDataDirection" => block.direction = direction,
+                "ColumnAngleBasis" => block.columns = Some((content, start)),
+                "RowAngleBasis" => block.rows = Some((content, start)),
+                "ScatteringData" => block.values = Some((content, start)),
+                _ => {}
+            }
         }
         Ok(())
     }
 
-    fn find_basis(&self, name: &str, start: usize) -> Result<AngleBasis, FormatError> {
+    /// Takes a block into its band.
+    fn keep(&mut self, block: &BlockText<'_>) -> Result<(), FormatError> {
+        let wavelength = &block.wavelength;
+        if wavelength.is_empty() {
+            return Err(self.error(block.start, "WavelengthData without a Wavelength", "its name"));
+        }
+        let Some((direction, values)) = block.direction.zip(block.values.as_ref()) else {
+            return Err(self.error(block.start, "a WavelengthDataBlock without them", "a direction and values"));
+        };
+        let component = self.component(block, values)?;
+        let bands = &mut self.result.bands;
+        let known = bands.iter().position(|band| band.wavelength.eq_ignore_ascii_case(wavelength));
+        let band = known.unwrap_or_else(|| {
+            bands.push(Band { wavelength: wavelength.clone(), window: Window::default() });
+            bands.len() - 1
+        });
+        if bands[band].window.set(direction, component).is_some() {
+            let found = format!("a second {direction:?} of {wavelength}");
+            return Err(self.error(block.start, found, "each block once in a band"));
+        }
+        Ok(())
+    }
+
+    fn find_basis(&self, (name, start): &Text<'_>) -> Result<AngleBasis, FormatError> {
         self.basis.find(name.trim()).ok_or_else(|| {
             let expected = "LBNL/Klems Full, Half or Quarter, or a basis that the file defines";
-            self.error(start, format!("basis {:?}", name.trim()), expected)
+            self.error(*start, format!("basis {:?}", name.trim()), expected)
         })
     }
 
-    fn component(&self, block: &BlockReader, content: &str, start: usize) -> Result<Component, FormatError> {
-        let Some(structure) = self.structure else {
-            return Err(self.error(start, "values before an IncidentDataStructure", "the structure first"));
+    fn component(&self, block: &BlockText<'_>, (content, start): &Text<'_>) -> Result<Component, FormatError> {
+        let start = *start;
+        let is_columns = match self.structure {
+            None => {
+                return Err(self.error(start, "values without an IncidentDataStructure", "the structure of the file"));
+            }
+            Some(Structure::Tree(rank)) => return self.tree(rank, content, start).map(Component::Tree),
+            Some(Structure::Columns) => true,
+            Some(Structure::Rows) => false,
         };
-        // A missing structure element was caught above; both bases are needed for a matrix only.
-        let is_columns = matches!(structure, Structure::Columns);
-        let (incident, exit) = match (structure, &block.columns, &block.rows) {
-            (Structure::Tree(rank), ..) => return self.tree(rank, content, start).map(Component::Tree),
-            (Structure::Columns, Some(columns), Some(rows)) => (columns, rows),
-            (Structure::Rows, Some(columns), Some(rows)) => (rows, columns),
-            _ => return Err(self.error(start, "values before their bases", "ColumnAngleBasis and RowAngleBasis")),
+        let Some((columns, rows)) = block.columns.as_ref().zip(block.rows.as_ref()) else {
+            return Err(self.error(start, "values without their bases", "ColumnAngleBasis and RowAngleBasis"));
         };
+        let (columns, rows) = (self.find_basis(columns)?, self.find_basis(rows)?);
+        let (incident, exit) = if is_columns { (columns, rows) } else { (rows, columns) };
         let (ni, no) = (incident.patches(), exit.patches());
         let found = numbers(content).count();
         if found != ni * no {
@@ -262,7 +278,7 @@ impl<'a> Document<'a> {
             let (i, o) = if is_columns { (index % ni, index / ni) } else { (index / no, index % no) };
             values[i * no + o] = value;
         }
-        let matrix = KlemsMatrix::new(incident.clone(), exit.clone(), values);
+        let matrix = KlemsMatrix::new(incident, exit, values);
         matrix.map(Component::Klems).map_err(|error| self.error(start, error.to_string(), "a Klems matrix"))
     }
 
