@@ -2,13 +2,14 @@
 
 mod common;
 
-use lobe_formats::{FormatError, Place, mbsdf, merl, pbsdf, rgl, tensor, utia};
-use lobe_table::Channels;
+use lobe_formats::{FormatError, Place, Sides, mbsdf, merl, pbsdf, rgl, tensor, utia};
 use lobe_table::half_diff::HalfDiff;
 use lobe_table::mueller::Mueller;
 use lobe_table::rgl::{Images, Parts, Reference, Rgl, UniformOrder};
-use lobe_table::spherical::{Sides, Spherical};
+use lobe_table::spherical_grid::SphericalGrid;
+use lobe_table::{Channels, Scatter};
 use proptest::prelude::*;
+use std::f64::consts::PI;
 use std::path::Path;
 
 const FILE: &str = "broken.file";
@@ -43,8 +44,8 @@ fn read_merl(bytes: &[u8]) -> Result<(), FormatError> {
 
 fn read_mbsdf(bytes: &[u8]) -> Result<(), FormatError> {
     let sides = mbsdf::read(bytes, Path::new(FILE))?;
-    sides.eval([0.6, 0.0, 0.8], [0.0, 0.6, 0.8]);
-    sides.eval([0.6, 0.0, 0.8], [0.0, 0.6, -0.8]);
+    sides.reflection.inspect(|side| drop(side.eval([0.6, 0.0, 0.8], [0.0, 0.6, 0.8])));
+    sides.transmission.inspect(|side| drop(side.eval([0.6, 0.0, 0.8], [0.0, 0.6, -0.8])));
     Ok(())
 }
 
@@ -79,8 +80,14 @@ fn tiny_merl() -> Vec<u8> {
 }
 
 fn tiny_mbsdf() -> Vec<u8> {
-    let side = |n| Some(Spherical::new([2, n, 1], vec![0.5; 4 * n]).expect("a valid material"));
-    mbsdf::to_bytes(&Sides { reflection: side(3), transmission: side(1) }).expect("bytes")
+    let side = |scatter, phis: &[f64]| {
+        let thetas = vec![0.0, PI / 4.0];
+        let (knots, values) = ([thetas.clone(), vec![0.0], thetas, phis.to_vec()], vec![0.5; 4 * phis.len()]);
+        let grid = SphericalGrid::new(scatter, knots, Channels::Mono, values).and_then(SphericalGrid::mirrored);
+        Some(grid.expect("a valid material"))
+    };
+    let reflection = side(Scatter::Reflection, &[0.0, PI / 2.0, PI]);
+    mbsdf::to_bytes(&Sides { reflection, transmission: side(Scatter::Transmission, &[0.0]) }).expect("bytes")
 }
 
 /// Every format with a small file of it.

@@ -243,10 +243,10 @@ fn mirror_reflectances_are_read_interpolated_and_written() {
     assert_eq!(measured.source[0], ("source".into(), "Measured".into()));
     let specular = measured.data;
     assert_eq!(specular.values(), [0.04, 0.0, 3.0, 0.5, 0.0, 6.0, 1.0, 0.0, 9.0]);
-    let at = specular.at(67.5_f64.to_radians());
+    let at = specular.at(67.5_f64.to_radians(), 0.0);
     assert!((at[0] - 0.75).abs() < 1e-12 && (at[2] - 7.5).abs() < 1e-12);
-    assert_eq!(specular.at(-1.0)[2], 3.0);
-    assert_eq!(specular.at(2.0)[2], 9.0);
+    assert_eq!(specular.at(-1.0, 0.0)[2], 3.0);
+    assert_eq!(specular.at(2.0, 0.0)[2], 9.0);
 
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("t.sdr");

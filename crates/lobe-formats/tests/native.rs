@@ -4,6 +4,7 @@ mod common;
 
 use common::{Worst, golden, relative, shared, unit};
 use lobe_formats::{mbsdf, merl, pbsdf, tensor, utia};
+use lobe_table::spherical_grid::SphericalGrid;
 use lobe_table::utia::Decode;
 use std::fs;
 use std::path::Path;
@@ -113,6 +114,11 @@ fn utia_values_match_the_reader_of_the_database() {
     assert!(worst.error < 5e-12);
 }
 
+/// The number of zenith angles, of azimuths, and of channels.
+fn resolution(grid: &SphericalGrid) -> [usize; 3] {
+    [grid.knots()[0].len(), grid.knots()[3].len(), grid.channels().count()]
+}
+
 #[test]
 fn mbsdf_files_have_the_blocks_that_they_name() {
     let Some(shared) = shared() else { return };
@@ -125,7 +131,7 @@ fn mbsdf_files_have_the_blocks_that_they_name() {
         let sides = read(name).expect("an MBSDF");
         let again = mbsdf::read(&mbsdf::to_bytes(&sides).expect("bytes"), Path::new("again.mbsdf"));
         assert_eq!(again.as_ref(), Ok(&sides), "{name}: what is written is read back");
-        [sides.reflection, sides.transmission].map(|side| side.map(|s| (s.resolution(), s.values().to_vec())))
+        [sides.reflection, sides.transmission].map(|side| side.map(|s| (resolution(&s), s.values().to_vec())))
     };
     let ramp = |n: u8| (0..n).map(f32::from).collect::<Vec<_>>();
     let (twelve, sixteen) = (Some(([2, 3, 1], ramp(12))), Some(([2, 4, 1], ramp(16))));
@@ -151,13 +157,14 @@ fn mbsdf_paints_shine_where_they_mirror() {
         let path = shared.join("data/mdl_mbsdf").join(format!("{name}.mbsdf"));
         let sides = mbsdf::read(&fs::read(&path).expect("file"), &path).expect("an MBSDF");
         let reflection = sides.reflection.as_ref().expect("reflection");
-        assert_eq!(reflection.resolution(), [45, 90, 3]);
+        assert_eq!(resolution(reflection), [45, 90, 3]);
         let wi = spherical([0.7, 0.4]);
-        let at = |theta: f64, phi: f64| sides.eval(wi, spherical([theta, 0.4 + phi]))[1];
+        let at = |theta: f64, phi: f64| reflection.eval(wi, spherical([theta, 0.4 + phi]))[1];
         assert!(at(0.7, std::f64::consts::PI) > 20.0 * at(0.7, 0.0).abs(), "{name}");
-        assert!((at(0.7, 2.0) - at(0.7, -2.0)).abs() < 1e-9, "{name}: mirror images");
-        assert!((at(0.0, 1.0) - at(0.0, 3.0)).abs() < 1e-9, "{name}: the pole has one value");
-        assert_eq!(sides.eval(wi, spherical([2.4, 0.0])), [0.0; 3], "{name}: no transmission");
+        assert!((at(0.7, 2.0) - at(0.7, -2.0)).abs() < 1e-6, "{name}: mirror images");
+        assert!((at(0.0, 1.0) - at(0.0, 3.0)).abs() < 1e-6, "{name}: the pole has one value");
+        assert_eq!(reflection.eval(wi, spherical([2.4, 0.0])), [0.0; 3], "{name}: no transmission");
+        assert!(sides.transmission.is_none(), "{name}");
     }
 }
 

@@ -70,8 +70,8 @@ fn lerp(a: f64, b: f64, t: f64) -> f64 {
 ///
 /// Negative texels, which noise may leave, count as zero, and a slice without any density adds none to a blend.
 #[derive(Clone, Debug)]
-pub struct Warp<'a> {
-    images: &'a Images,
+pub struct Warp {
+    images: Images,
     /// One factor a slice, after which the cells of the slice add up to one.
     norm: Vec<f64>,
     /// `[slice][row][column]`: integral of the row up to the column, in cells.
@@ -80,9 +80,9 @@ pub struct Warp<'a> {
     marginal: Vec<f64>,
 }
 
-impl<'a> Warp<'a> {
+impl Warp {
     /// Normalises the slices and sums them up.
-    pub fn new(images: &'a Images) -> Self {
+    pub fn new(images: &Images) -> Self {
         let [height, width] = images.size();
         let mut norm = Vec::with_capacity(images.slices());
         let mut conditional = Vec::with_capacity(images.texels().len());
@@ -106,7 +106,7 @@ impl<'a> Warp<'a> {
             conditional[first..].iter_mut().for_each(|c| *c *= factor);
             norm.push(factor);
         }
-        Warp { images, norm, conditional, marginal }
+        Warp { images: images.clone(), norm, conditional, marginal }
     }
 
     /// The factor that normalises each slice: after it, the bilinear integral over the cells of a slice, with a cell of
@@ -117,7 +117,7 @@ impl<'a> Warp<'a> {
 
     /// The density at `u`, over the unit square.
     pub fn density(&self, u: [f64; 2], blend: &Blend) -> f64 {
-        bilinear(self.images, u, |texel| self.texel(texel, blend)) * self.cells()
+        bilinear(&self.images, u, |texel| self.texel(texel, blend)) * self.cells()
     }
 
     /// The uniform position that [`sample`](Self::sample) turns into `u`, and the density at `u`.
@@ -167,14 +167,14 @@ impl<'a> Warp<'a> {
 
     /// The integrals of a row and the next.
     fn rows(&self, row: usize, blend: &Blend) -> (f64, f64) {
-        let Images { height, width, .. } = *self.images;
+        let [height, width] = self.images.size();
         let at = |row: usize| blend.mix(|slice| self.conditional[(slice * height + row) * width + width - 1]);
         (at(row), at(row + 1))
     }
 
     /// The integral up to a column at the height `fy` between a row and the next.
     fn conditional(&self, row: usize, col: usize, fy: f64, blend: &Blend) -> f64 {
-        let Images { height, width, .. } = *self.images;
+        let [height, width] = self.images.size();
         let at = |row: usize| blend.mix(|slice| self.conditional[(slice * height + row) * width + col]);
         lerp(at(row), at(row + 1), fy)
     }

@@ -21,6 +21,7 @@ pub use reference::{Reference, Sample, UniformOrder};
 use crate::invalid::{Invalid, ascending, count, finite};
 use crate::samples::Channels;
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 /// Images on the unit square, `[slice][row][column]`: the row is `u.y`, an azimuth; the column is `u.x`, a zenith angle.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +29,8 @@ pub struct Images {
     slices: usize,
     height: usize,
     width: usize,
-    texels: Vec<f32>,
+    /// Shared, so that an evaluator may keep them too.
+    texels: Arc<Vec<f32>>,
 }
 
 impl Images {
@@ -44,7 +46,7 @@ impl Images {
         }
         count(part, texels.len(), &[slices, height, width])?;
         finite(part, &texels)?;
-        Ok(Images { slices, height, width, texels })
+        Ok(Images { slices, height, width, texels: Arc::new(texels) })
     }
 
     /// How many images there are.

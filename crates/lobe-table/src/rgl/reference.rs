@@ -30,10 +30,10 @@ pub struct Sample {
 
 /// Evaluates an [`Rgl`] in `f64` over its `f32` data.
 #[derive(Clone, Debug)]
-pub struct Reference<'a> {
-    rgl: &'a Rgl,
-    vndf: Warp<'a>,
-    luminance: Warp<'a>,
+pub struct Reference {
+    rgl: Rgl,
+    vndf: Warp,
+    luminance: Warp,
     clamp_negative: bool,
 }
 
@@ -50,12 +50,12 @@ struct Footprint {
     jacobian: f64,
 }
 
-impl<'a> Reference<'a> {
+impl Reference {
     /// Prepares the cumulative distributions. They take 16 bytes a texel of `vndf` and `luminance`.
-    pub fn new(rgl: &'a Rgl) -> Self {
+    pub fn new(rgl: &Rgl) -> Self {
         let parts = rgl.parts();
         let (vndf, luminance) = (Warp::new(&parts.vndf), Warp::new(&parts.luminance));
-        Reference { rgl, vndf, luminance, clamp_negative: false }
+        Reference { rgl: rgl.clone(), vndf, luminance, clamp_negative: false }
     }
 
     /// Whether values below zero, which the measurements have, become zero. Off unless set.
@@ -136,6 +136,11 @@ impl<'a> Reference<'a> {
         self.channels_at(&footprint, &mut weight);
         weight.iter_mut().for_each(|value| *value /= pdf);
         Some(Sample { wo: flip(wo, signs), pdf, weight })
+    }
+
+    /// The material that is evaluated.
+    pub fn rgl(&self) -> &Rgl {
+        &self.rgl
     }
 
     fn channels(&self) -> usize {
