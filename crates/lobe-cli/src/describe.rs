@@ -113,9 +113,12 @@ fn scattered(data: &Scattered) -> Part {
     thetas.dedup();
     let thetas: Vec<String> = thetas.iter().map(f32::to_string).collect();
     let kind = if data.is_isotropic() { "isotropic" } else { "anisotropic" };
-    let incidences = data.incidences().len();
+    let incidences = match data.incidences().len() {
+        1 => "1 direction".into(),
+        n => format!("{n} directions"),
+    };
     part.facts.push(("samples", format!("{} pairs of directions, {kind}", data.samples().count())));
-    part.facts.push(("light", format!("{incidences} directions, at {} degrees", thetas.join(" "))));
+    part.facts.push(("light", format!("{incidences}, at {} degrees", thetas.join(" "))));
     part
 }
 

@@ -231,7 +231,7 @@ fn writers_refuse_what_would_be_misread() {
         |name: &str, samples: &Samples| ddr::write(samples, &folder.path().join(name)).unwrap_err().to_string();
     assert!(message("a.ddr", &table(Scatter::Transmission, Channels::Mono)).contains("expected the extension .ddt"));
     assert!(message("a.ddt", &table(Scatter::Reflection, Channels::Mono)).contains("expected the extension .ddr"));
-    assert!(message("a.ddr", &table(Scatter::Reflection, Channels::Xyz)).contains("found XYZ channels"));
+    assert!(message("a.ddr", &table(Scatter::Reflection, Channels::Xyz)).contains("found the channels X Y Z"));
     assert!(message("none/a.ddr", &table(Scatter::Reflection, Channels::Mono)).contains("a file that can be written"));
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "a failed write leaves nothing");
 }

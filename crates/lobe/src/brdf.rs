@@ -40,13 +40,13 @@ pub enum OpenError {
 /// let wi = [[0.5, 0.0, 0.866], [0.0, 0.6, 0.8]];
 /// let wo = [[-0.5, 0.0, 0.866], [0.0, -0.6, 0.8]];
 /// let mut f = vec![0.0; wi.len() * brdf.channel_count()];
-/// brdf.eval_batch(&wi, &wo, &mut f);
+/// brdf.eval_batch(wi.as_slice(), wo.as_slice(), &mut f);
 /// # Ok::<(), lobe::OpenError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Brdf {
     table: Table,
-    backend: Backend,
+    pub(crate) backend: Backend,
 }
 
 impl Brdf {

@@ -17,8 +17,11 @@ pub(super) trait Evaluator: Debug + Send + Sync {
     /// What the channels of a value stand for.
     fn channels(&self) -> &Channels;
 
+    /// Evaluates on this backend from now on, where there are lanes.
+    fn set_backend(&mut self, _backend: Backend) {}
+
     /// `f` in 1/sr of every pair: `out[query * channels + channel]`. The slices fit together.
-    fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]);
+    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]);
 
     /// The density of [`sample`](Self::sample) over the solid angle of `wi`, in 1/sr, where there is a sampler.
     fn pdf(&self, _wi: [f32; 3], _wo: [f32; 3]) -> Option<f32> {

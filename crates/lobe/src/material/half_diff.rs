@@ -4,7 +4,7 @@ use lobe_table::Channels;
 use lobe_table::half_diff::HalfDiff;
 
 use super::evaluator::{Evaluator, pair_by_pair, round};
-use crate::{Backend, Kind, Lookup};
+use crate::{Kind, Lookup};
 
 #[derive(Debug)]
 pub(super) struct HalfDifference {
@@ -21,7 +21,7 @@ impl Evaluator for HalfDifference {
         &Channels::Rgb
     }
 
-    fn eval_batch(&self, _: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         pair_by_pair(wi, wo, out, |wi, wo, texel| {
             let value = match self.lookup {
                 Lookup::Nearest => self.data.eval_nearest(wi, wo),

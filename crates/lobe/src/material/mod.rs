@@ -18,9 +18,9 @@ use lobe_formats::{Document, Format};
 use lobe_table::mueller::Matrix;
 use lobe_table::rgl::Reference;
 use lobe_table::utia::Decode;
-use lobe_table::{Channels, Edges, Table};
+use lobe_table::{Channels, Edges};
 
-use crate::{Backend, OpenError};
+use crate::{Backend, Brdf, OpenError};
 use evaluator::Evaluator;
 pub use kind::Kind;
 
@@ -110,7 +110,7 @@ impl Material {
         let source = document.source().to_vec();
         let not_a_table = |found: &'static str| OpenError::NotATable { file: path.display().to_string(), found };
         let evaluator: Box<dyn Evaluator> = match document {
-            Document::Table(measured) => Box::new(Table::new(&measured.data, &options.edges)?),
+            Document::Table(measured) => Box::new(Brdf::new(&measured.data, &options.edges)?),
             Document::Spherical(measured) => Box::new(measured.data),
             Document::Scattered(measured) => Box::new(measured.data),
             Document::Rgl(measured) => Box::new(Reference::new(&measured.data)),
@@ -125,7 +125,7 @@ impl Material {
                 for part in measured.data {
                     let (scatter, side) = (part.data.scatter(), part.side);
                     let evaluator: Box<dyn Evaluator> = match part.data {
-                        Data::Table(data) => Box::new(Table::new(&data, &options.edges)?),
+                        Data::Table(data) => Box::new(Brdf::new(&data, &options.edges)?),
                         Data::Spherical(data) => Box::new(data),
                         Data::Scattered(data) => Box::new(data),
                         // A delta function has no value for a pair of directions.
@@ -146,7 +146,8 @@ impl Material {
     }
 
     /// The same material on another backend.
-    pub fn with_backend(self, backend: Backend) -> Self {
+    pub fn with_backend(mut self, backend: Backend) -> Self {
+        self.evaluator.set_backend(backend);
         Material { backend, ..self }
     }
 
@@ -203,7 +204,7 @@ impl Material {
     pub fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         assert_eq!(wi.len(), wo.len(), "as many wi as wo");
         assert_eq!(out.len(), wi.len() * self.channel_count(), "one output a query and channel");
-        self.evaluator.eval_batch(self.backend, wi, wo, out);
+        self.evaluator.eval_batch(wi, wo, out);
     }
 
     /// The density of [`sample`](Material::sample) over the solid angle of `wi`, in 1/sr. `None` where the

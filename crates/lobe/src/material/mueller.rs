@@ -4,7 +4,7 @@ use lobe_table::Channels;
 use lobe_table::mueller::{Matrix, Mueller};
 
 use super::evaluator::{Evaluator, pair_by_pair, unit};
-use crate::{Backend, Kind};
+use crate::Kind;
 
 #[derive(Debug)]
 pub(super) struct Polarised {
@@ -28,7 +28,7 @@ impl Evaluator for Polarised {
         &self.channels
     }
 
-    fn eval_batch(&self, _: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         let wavelengths = &self.data.knots()[3];
         pair_by_pair(wi, wo, out, |wi, wo, texel| {
             for (out, nm) in texel.iter_mut().zip(wavelengths) {

@@ -4,7 +4,7 @@ use lobe_table::Channels;
 use lobe_table::rgl::{Reference, UniformOrder};
 
 use super::evaluator::{Evaluator, pair_by_pair, round, unit};
-use crate::{Backend, Kind, Sample};
+use crate::{Kind, Sample};
 
 /// Values are indexed by the light, as they were measured; samples, which are drawn for a viewer, by the viewer.
 impl Evaluator for Reference {
@@ -16,7 +16,7 @@ impl Evaluator for Reference {
         &self.rgl().parts().channels
     }
 
-    fn eval_batch(&self, _: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         let mut value = vec![0.0; Evaluator::channels(self).count()];
         pair_by_pair(wi, wo, out, |wi, wo, texel| {
             self.eval(wi, wo, &mut value);

@@ -47,14 +47,18 @@ impl Evaluator for Sheet {
         &self.channels
     }
 
-    fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+    fn set_backend(&mut self, backend: Backend) {
+        self.parts.iter_mut().for_each(|part| part.evaluator.set_backend(backend));
+    }
+
+    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         let channels = self.channels.count();
         out.fill(0.0);
         for part in &self.parts {
             let queries: Vec<usize> = (0..wi.len()).filter(|&query| part.answers(wi[query], wo[query])).collect();
             let pick = |from: &[[f32; 3]]| queries.iter().map(|&query| from[query]).collect::<Vec<_>>();
             let mut values = vec![0.0; queries.len() * channels];
-            part.evaluator.eval_batch(backend, &pick(wi), &pick(wo), &mut values);
+            part.evaluator.eval_batch(&pick(wi), &pick(wo), &mut values);
             for (&query, value) in queries.iter().zip(values.chunks_exact(channels)) {
                 out[query * channels..][..channels].copy_from_slice(value);
             }

@@ -5,7 +5,7 @@ use lobe_table::scattered::Scattered;
 use lobe_table::spherical_grid::SphericalGrid;
 
 use super::evaluator::{Evaluator, pair_by_pair};
-use crate::{Backend, Kind};
+use crate::Kind;
 
 impl Evaluator for SphericalGrid {
     fn kind(&self) -> Kind {
@@ -16,7 +16,7 @@ impl Evaluator for SphericalGrid {
         SphericalGrid::channels(self)
     }
 
-    fn eval_batch(&self, _: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         pair_by_pair(wi, wo, out, |wi, wo, texel| texel.copy_from_slice(&self.eval(wi, wo)));
     }
 }
@@ -30,7 +30,7 @@ impl Evaluator for Scattered {
         Scattered::channels(self)
     }
 
-    fn eval_batch(&self, _: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         pair_by_pair(wi, wo, out, |wi, wo, texel| texel.copy_from_slice(&self.eval(wi, wo)));
     }
 }

@@ -1,20 +1,24 @@
 //! Specular tables, in SIMD lanes.
 
-use lobe_table::{Channels, Table};
+use lobe_table::Channels;
 
 use super::evaluator::Evaluator;
-use crate::{Backend, Kind};
+use crate::{Backend, Brdf, Kind};
 
-impl Evaluator for Table {
+impl Evaluator for Brdf {
     fn kind(&self) -> Kind {
         Kind::SpecularTable
     }
 
     fn channels(&self) -> &Channels {
-        Table::channels(self)
+        self.table().channels()
     }
 
-    fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        backend.run(self.batch(wi, wo, out));
+    fn set_backend(&mut self, backend: Backend) {
+        self.backend = backend;
+    }
+
+    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        Brdf::eval_batch(self, wi, wo, out);
     }
 }

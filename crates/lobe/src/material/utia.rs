@@ -4,7 +4,7 @@ use lobe_table::Channels;
 use lobe_table::utia::{Decode, Utia};
 
 use super::evaluator::{Evaluator, pair_by_pair, round};
-use crate::{Backend, Kind};
+use crate::Kind;
 
 #[derive(Debug)]
 pub(super) struct UtiaGrid {
@@ -21,7 +21,7 @@ impl Evaluator for UtiaGrid {
         &Channels::Rgb
     }
 
-    fn eval_batch(&self, _: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         pair_by_pair(wi, wo, out, |wi, wo, texel| round(texel, &self.data.eval(wi, wo, self.decode)));
     }
 }

@@ -5,7 +5,7 @@ use lobe_table::Channels;
 use lobe_table::window::{Block, Component};
 
 use super::evaluator::{Evaluator, pair_by_pair};
-use crate::{Backend, Kind};
+use crate::Kind;
 
 #[derive(Debug)]
 pub(super) struct Bands {
@@ -34,7 +34,7 @@ impl Evaluator for Bands {
         &self.channels
     }
 
-    fn eval_batch(&self, _: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         pair_by_pair(wi, wo, out, |wi, wo, texel| {
             for (out, band) in texel.iter_mut().zip(&self.data.bands) {
                 *out = band.window.eval(wi, wo) as f32;
