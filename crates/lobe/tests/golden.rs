@@ -44,8 +44,7 @@ fn check(file: &Path, answers: &Path, expected_pairs: usize) {
         let name = file.file_name().expect("a name").to_string_lossy();
         let form = if backend.is_strict() { "strict" } else { "fused" };
         println!("{name:<26} {backend:<7} {form:<6} {:.2e} of the largest value", worst.error);
-        // Negated, so that NaN fails.
-        if !(worst.error <= BOUND) {
+        if worst.error.is_nan() || worst.error > BOUND {
             let (query, answer) = &queries[worst.at];
             let value = &values[worst.at * channels..][..channels];
             failures

@@ -44,7 +44,7 @@ const OUTCOMES: &[(&str, &str, Outcome)] = &[
     ("nist_mueller_csv", "PTFE.data", Opens(Scattered, 4)),
     // Coefficients of a fit, and a description.
     ("nist_mueller_csv", "", UNKNOWN),
-    ("openmaterial3d_json", "asphalt", Opens(Scattered, 33)),
+    ("openmaterial3d_json", "asphalt", Opens(Scattered, 32)),
     ("openmaterial3d_json", "material_brdf_schema", UNKNOWN),
     ("rgl_bsdf", "", Opens(Rgl, 3)),
     ("rpc_txt", "EDS10", Opens(Scattered, 1)),
