@@ -30,7 +30,8 @@ pub struct Args {
 struct Info {
     file: String,
     format: &'static str,
-    file_bytes: u64,
+    /// `None` for a folder.
+    file_bytes: Option<u64>,
     /// One for each block of values; most files have one.
     parts: Vec<Part>,
     /// Total integrated scatter, as the file states it.
@@ -41,13 +42,12 @@ struct Info {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let (format, document) = open(&args.file)?;
-    let file_bytes = std::fs::metadata(&args.file)
-        .map_err(|error| Failure::File(format!("{}: {error}", args.file.display())))?
-        .len();
+    let metadata =
+        std::fs::metadata(&args.file).map_err(|error| Failure::File(format!("{}: {error}", args.file.display())))?;
     let info = Info {
         file: args.file.display().to_string(),
         format: format.name(),
-        file_bytes,
+        file_bytes: metadata.is_file().then_some(metadata.len()),
         parts: describe(&document)
             .ok_or_else(|| Failure::File(format!("{}: nothing is known about {format}", args.file.display())))?,
         tis: document.tis().to_vec(),
@@ -67,7 +67,9 @@ impl Info {
     fn print(&self, out: &mut impl Write) -> std::io::Result<()> {
         writeln!(out, "{}", self.file)?;
         writeln!(out, "format    {}", self.format)?;
-        writeln!(out, "file      {} bytes", self.file_bytes)?;
+        if let Some(bytes) = self.file_bytes {
+            writeln!(out, "file      {bytes} bytes")?;
+        }
         for part in &self.parts {
             if self.parts.len() > 1 {
                 writeln!(out, "\n{}", part.name)?;

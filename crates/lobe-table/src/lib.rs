@@ -1,8 +1,10 @@
 //! Tabulated BRDFs and BTDFs on non-uniform angular grids, evaluated in SIMD lanes.
 //!
-//! [`Samples`] are a material as it was measured, [`Edges`] say what holds outside its knots, and a [`Table`] is both made
-//! ready to be evaluated on any [`lobe_lane`] backend. [`reference`] is the same evaluation in `f64`, written for the
-//! reader; [`coords`] explains the four angles.
+//! [`Samples`] are a material as it was measured in specular coordinates, [`Edges`] say what holds outside its knots, and a
+//! [`Table`] is both made ready to be evaluated on any [`lobe_lane`] backend. [`mod@reference`] is the same evaluation in
+//! `f64`, written for the reader; [`coords`] explains the four angles.
+//!
+//! The other modules hold the representations that materials are measured in elsewhere, each with its evaluation in `f64`.
 #![forbid(unsafe_code)]
 
 mod axis;
