@@ -1,30 +1,32 @@
-//! `lobe eval`: values of a table at given directions.
+//! `lobe eval`: values of a material at given directions.
 
 use std::io::{BufWriter, Write, stdout};
 use std::path::PathBuf;
 
 use clap::{ArgGroup, ValueEnum};
-use lobe_formats::{Document, nine_digits, open};
+use lobe::formats::Document;
+use lobe::{Edges, Lookup, Material, Options};
 use lobe_table::coords::angles_to_directions;
 use lobe_table::reference::zenith;
-use lobe_table::{Edges, Samples};
 use serde::Serialize;
 
-use crate::evaluate::evaluate;
 use crate::failure::Failure;
 use crate::pairs::{Pair, parse_direction, parse_numbers, read_pairs};
 
-/// Evaluate a table: f in 1/sr, without the cosine, for one pair of directions or for many.
+/// Evaluate a material: f in 1/sr, without the cosine, for one pair of directions or for many.
 #[derive(clap::Args)]
 #[command(
     group(ArgGroup::new("query").required(true).args(["wi", "angles", "pairs"])),
-    after_help = "Directions point away from the surface, with the normal on +z: wi to the light, wo to the viewer. They are normalised. Below the horizon f is 0; tables of transmission take either sign of z.
+    after_help = "Directions point away from the surface, with the normal on +z: wi to the light, wo to the viewer. They are normalised. Below the horizon f is 0; tables of transmission take either sign of z, and files of both sides of a sheet tell them by it.
 
 Examples:
   lobe eval paint.ddr --wi -0.5,0,0.8 --wo 0.4,0.1,0.9
   lobe eval paint.ddr --angles 30,0,5,180          sigma, psi, theta, phi in degrees
   lobe eval paint.ddr --pairs pairs.csv > f.csv    a line `wi.x,wi.y,wi.z,wo.x,wo.y,wo.z` a pair
-  generate | lobe eval paint.ddr --edge zero --pairs -"
+  generate | lobe eval paint.ddr --edge zero --pairs -
+  lobe eval blinds.xml --wi 0,0.5,0.8 --wo 0,-0.5,-0.8 --channel Visible --cosine
+
+LOBE_BACKEND=scalar|sse2|sse4.1|avx2 chooses the instructions; by default the best of this machine."
 )]
 pub struct Args {
     /// The file of a measured BRDF or BTDF.
@@ -41,9 +43,18 @@ pub struct Args {
     /// A CSV file with six columns, wi then wo; `-` is the standard input. Prints a line of channels for each pair.
     #[arg(long, value_name = "FILE")]
     pairs: Option<PathBuf>,
-    /// What happens beyond the outermost angles of the table.
+    /// What happens beyond the outermost angles of a table in specular coordinates.
     #[arg(long, value_enum, default_value = "clamp")]
     edge: EdgeRule,
+    /// How grids of half and difference angles (MERL) are looked up.
+    #[arg(long, value_enum, default_value = "nearest")]
+    lookup: LookupRule,
+    /// Print this channel only, by the name that `lobe info` shows: Y, R, 550nm. May be given again.
+    #[arg(long = "channel", value_name = "NAME")]
+    channels: Vec<String>,
+    /// Print f times the cosine between wo and the normal.
+    #[arg(long)]
+    cosine: bool,
     /// Print JSON: an object, or with --pairs an object a line.
     #[arg(long)]
     json: bool,
@@ -69,55 +80,89 @@ impl EdgeRule {
     }
 }
 
+#[derive(Clone, Copy, ValueEnum)]
+enum LookupRule {
+    /// The value of the bin.
+    Nearest,
+    /// Linear between the middles of bins.
+    Linear,
+}
+
 #[derive(Serialize)]
 struct Answer<'a> {
     wi: [f64; 3],
     wo: [f64; 3],
-    channels: &'a [String],
+    channels: &'a [&'a str],
     values: &'a [f32],
 }
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let samples = read_table(args)?;
-    let edges = args.edge.edges();
+    let lookup = match args.lookup {
+        LookupRule::Nearest => Lookup::Nearest,
+        LookupRule::Linear => Lookup::Linear,
+    };
+    let options = Options { edges: args.edge.edges(), lookup, ..Options::default() };
+    let (format, document) = lobe::formats::open(&args.file)?;
     let pairs = match (args.wi, args.wo, args.angles, &args.pairs) {
         (Some(wi), Some(wo), ..) => vec![Pair { wi, wo }],
         (_, _, Some(angles), _) => {
-            let radians = angles.map(f64::to_radians);
-            let (wi, wo) = angles_to_directions(radians, |sigma| zenith(&samples, &edges, sigma));
+            // A table with refraction counts theta from the refracted ray.
+            let zenith = |sigma| match &document {
+                Document::Table(measured) => zenith(&measured.data, &options.edges, sigma),
+                _ => sigma,
+            };
+            let (wi, wo) = angles_to_directions(angles.map(f64::to_radians), zenith);
             vec![Pair { wi, wo }]
         }
         (.., Some(file)) => read_pairs(file)?,
         _ => return Err(Failure::Usage("found no directions; expected --wi and --wo, --angles or --pairs".into())),
     };
-    let values = evaluate(&samples, &edges, &pairs);
+    let material = Material::new(&args.file, format, document, &options)?;
+    let all = material.channels().names();
+    let chosen = choose(&all, &args.channels)?;
+    let names: Vec<&str> = chosen.iter().map(|&channel| all[channel].as_str()).collect();
 
-    let names = samples.channels().names();
+    let narrow = |direction: [f64; 3]| direction.map(|c| c as f32);
+    let (wi, wo): (Vec<_>, Vec<_>) = pairs.iter().map(|pair| (narrow(pair.wi), narrow(pair.wo))).unzip();
+    let mut values = vec![0.0; pairs.len() * all.len()];
+    material.eval_batch(&wi, &wo, &mut values);
+
     let mut out = BufWriter::new(stdout().lock());
-    for (pair, texel) in pairs.iter().zip(values.chunks_exact(names.len())) {
-        let digits = texel.iter().map(|&value| nine_digits(f64::from(value)));
+    for (pair, texel) in pairs.iter().zip(values.chunks_exact(all.len())) {
+        let factor = if args.cosine { pair.wo[2].abs() } else { 1.0 };
+        let texel: Vec<f32> = chosen.iter().map(|&channel| (f64::from(texel[channel]) * factor) as f32).collect();
         if args.json {
-            let answer = Answer { wi: pair.wi, wo: pair.wo, channels: &names, values: texel };
+            let answer = Answer { wi: pair.wi, wo: pair.wo, channels: &names, values: &texel };
             serde_json::to_writer(&mut out, &answer)?;
             writeln!(out)?;
         } else if args.pairs.is_some() {
-            writeln!(out, "{}", digits.collect::<Vec<_>>().join(","))?;
+            let digits: Vec<String> = texel.iter().copied().map(shortest).collect();
+            writeln!(out, "{}", digits.join(","))?;
         } else {
-            for (name, value) in names.iter().zip(digits) {
-                writeln!(out, "{name} {value}")?;
+            for (name, &value) in names.iter().zip(&texel) {
+                writeln!(out, "{name} {}", shortest(value))?;
             }
         }
     }
     Ok(out.flush()?)
 }
 
-fn read_table(args: &Args) -> Result<Samples, Failure> {
-    match open(&args.file)? {
-        (_, Document::Table(measured)) => Ok(measured.data),
-        (format, _) => {
-            let file = args.file.display();
-            Err(Failure::File(format!("{file}: found {format}, which is no table; expected that of a BRDF or BTDF")))
-        }
+/// The positions of the channels asked for, or of all.
+fn choose(all: &[String], asked: &[String]) -> Result<Vec<usize>, Failure> {
+    if asked.is_empty() {
+        return Ok((0..all.len()).collect());
     }
+    let find = |name: &String| all.iter().position(|channel| channel.eq_ignore_ascii_case(name));
+    let position = |name| {
+        let unknown = || Failure::Usage(format!("found no channel {name}; expected one of {}", all.join(", ")));
+        find(name).ok_or_else(unknown)
+    };
+    asked.iter().map(position).collect()
+}
+
+/// The shortest number that is this one in `f32`.
+fn shortest(value: f32) -> String {
+    let digits = format!("{value:?}");
+    digits.strip_suffix(".0").map_or(digits.clone(), String::from)
 }

@@ -4,6 +4,7 @@ use std::fmt;
 use std::io;
 use std::process::ExitCode;
 
+use lobe::OpenError;
 use lobe_formats::FormatError;
 
 /// Why a command stopped.
@@ -40,6 +41,15 @@ impl fmt::Display for Failure {
 impl From<FormatError> for Failure {
     fn from(error: FormatError) -> Self {
         Failure::File(error.to_string())
+    }
+}
+
+impl From<OpenError> for Failure {
+    fn from(error: OpenError) -> Self {
+        match error {
+            OpenError::Backend(error) => Failure::Usage(format!("LOBE_BACKEND: {error}")),
+            error => Failure::File(error.to_string()),
+        }
     }
 }
 

@@ -1,8 +1,8 @@
 //! The `lobe` program: look at measured materials and evaluate them.
 #![forbid(unsafe_code)]
 
+mod describe;
 mod eval;
-mod evaluate;
 mod failure;
 mod info;
 mod pairs;

@@ -32,7 +32,7 @@ struct Header {
 ///
 /// # Errors
 /// [`FormatError`] names the line, what is there and what should be.
-pub fn read(file: &Path, bytes: &[u8], scatter: Scatter) -> Result<Measured<Samples>, FormatError> {
+pub fn read(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Measured<Samples>, FormatError> {
     let text = &mut Text::new(file, bytes, COMMENT);
     let header = read_header(text)?;
     let grid = &header.grid;
@@ -170,7 +170,7 @@ fn read_block(text: &mut Text<'_>, grid: &Grid) -> Result<Vec<f64>, FormatError>
 /// # Errors
 /// [`FormatError`] where the file cannot be written, the channels are XYZ, two knots are one in `f32` degrees, or the
 /// extension (`.ddr` for reflection, `.ddt` for transmission) would make readers take it for the other kind.
-pub fn write(path: &Path, samples: &Samples) -> Result<(), FormatError> {
+pub fn write(samples: &Samples, path: &Path) -> Result<(), FormatError> {
     check_extension(path, samples.scatter(), ["ddr", "ddt"])?;
     let (model, names) = block_names(path, samples.channels())?;
     let degrees =

@@ -136,8 +136,9 @@ pub(crate) fn block_names(file: &Path, channels: &Channels) -> Result<(ColorMode
             let names = wavelengths.iter().map(|&nm| format!("wl {}", nine_digits(nm))).collect();
             Ok((ColorModel::Spectral(wavelengths.len()), names))
         }
-        Channels::Xyz => {
-            Err(FormatError::new(file, Place::File, "XYZ channels", "one channel, RGB or wavelengths in this format"))
+        Channels::Xyz | Channels::Named(_) => {
+            let found = format!("the channels {}", channels.names().join(" "));
+            Err(FormatError::new(file, Place::File, found, "one channel, RGB or wavelengths in this format"))
         }
     }
 }

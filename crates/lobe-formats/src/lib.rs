@@ -4,21 +4,45 @@
 //! the formats look like, and what is done where a file leaves a question open, is described in `docs/formats.md`.
 #![forbid(unsafe_code)]
 
+pub mod alta;
+pub mod astm;
+mod bytes;
+mod columns;
+pub mod cornell;
 pub mod ddr;
 mod document;
 mod error;
+pub mod fred;
+pub mod goniometer;
 mod grid;
 mod integra;
+pub mod light_tools;
+mod lines;
+pub mod lumos;
+pub mod mbsdf;
+pub mod merl;
+pub mod nist;
+pub mod openmaterial;
+pub mod pbsdf;
+mod records;
+pub mod rgl;
 pub mod sdr;
+pub mod sheet;
 mod sniff;
 mod specular;
+pub mod speos;
+pub mod ssdd;
+pub mod tensor;
 mod text;
 mod units;
+pub mod utia;
+pub mod window_xml;
 mod write;
 pub mod zemax;
 
 pub use document::{Document, Measured, open};
 pub use error::{FormatError, Place};
+pub use sheet::Sides;
 pub use sniff::{Format, sniff};
 pub use specular::Specular;
 pub use text::nine_digits;

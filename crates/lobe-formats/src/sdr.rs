@@ -19,7 +19,7 @@ use crate::{FormatError, Measured, Place, Specular};
 ///
 /// # Errors
 /// [`FormatError`] names the line, what is there and what should be.
-pub fn read(file: &Path, bytes: &[u8], scatter: Scatter) -> Result<Measured<Specular>, FormatError> {
+pub fn read(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Measured<Specular>, FormatError> {
     let text = &mut Text::new(file, bytes, COMMENT);
     let mut source = Vec::new();
     let mut model = ColorModel::Rgb;
@@ -51,7 +51,7 @@ pub fn read(file: &Path, bytes: &[u8], scatter: Scatter) -> Result<Measured<Spec
     text.end("nothing after the last block")?;
     let (channels, blocks) = blocks.finish();
     let values = (0..degrees.len()).flat_map(|s| blocks.iter().map(move |block| block[s])).collect();
-    let data = Specular::new(scatter, radians(&degrees), channels, values)
+    let data = Specular::new(scatter, [radians(&degrees), vec![0.0]], channels, values)
         .ok_or_else(|| FormatError::new(file, Place::File, "sigma angles that are equal", "distinct ones"))?;
     Ok(Measured { data, source, tis: Vec::new() })
 }
@@ -59,13 +59,18 @@ pub fn read(file: &Path, bytes: &[u8], scatter: Scatter) -> Result<Measured<Spec
 /// Writes `path` whole or not at all; nine significant digits, which give the same values when they are read again.
 ///
 /// # Errors
-/// [`FormatError`] where the file cannot be written, the channels are XYZ, or the extension (`.sdr` for reflection,
+/// [`FormatError`] where the file cannot be written, the channels are not one, RGB or
+/// wavelengths, there is more than one psi, or the extension (`.sdr` for reflection,
 /// `.sdt` for transmission) would make readers take it for the other kind.
-pub fn write(path: &Path, specular: &Specular) -> Result<(), FormatError> {
+pub fn write(specular: &Specular, path: &Path) -> Result<(), FormatError> {
     check_extension(path, specular.scatter(), ["sdr", "sdt"])?;
     let (model, names) = block_names(path, specular.channels())?;
-    let mut out = format!("TypeColorModel {}\nsigma {}\n", model.keyword(), specular.sigma().len());
-    push_row(&mut out, specular.sigma().iter().map(|angle| f64::from(angle.to_degrees() as f32)));
+    let [sigma, psi] = specular.knots();
+    if psi.len() > 1 {
+        return Err(FormatError::new(path, Place::File, format!("{} psi angles", psi.len()), "one in this format"));
+    }
+    let mut out = format!("TypeColorModel {}\nsigma {}\n", model.keyword(), sigma.len());
+    push_row(&mut out, sigma.iter().map(|angle| f64::from(angle.to_degrees() as f32)));
     for (channel, name) in names.iter().enumerate() {
         let _ = writeln!(out, "{name}\n def");
         push_row(&mut out, specular.values().iter().skip(channel).step_by(names.len()).map(|&value| f64::from(value)));

@@ -2,25 +2,29 @@
 
 use lobe_table::{Channels, Scatter};
 
-/// Mirror reflectance (or transmittance straight through) at each sigma knot: a ratio of fluxes, 0 to 1, no pi in it.
+/// Mirror reflectance (or transmittance straight through) by the direction of the light: a ratio of fluxes, 0 to 1, no
+/// pi in it.
 ///
 /// It stands beside a BRDF or BTDF as its delta part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Specular {
     scatter: Scatter,
-    sigma: Vec<f64>,
+    knots: [Vec<f64>; 2],
     channels: Channels,
     values: Vec<f32>,
 }
 
 impl Specular {
-    /// `sigma` ascends strictly, in radians; `values` is `[sigma][channel]`. `None` unless the values are as many as
-    /// that, and all are finite.
-    pub fn new(scatter: Scatter, sigma: Vec<f64>, channels: Channels, values: Vec<f32>) -> Option<Self> {
-        let ascending = sigma.windows(2).all(|pair| pair[0] < pair[1]) && sigma.iter().all(|angle| angle.is_finite());
-        let sound = ascending && !values.is_empty() && values.iter().all(|value| value.is_finite());
-        let fits = sigma.len().checked_mul(channels.count()) == Some(values.len());
-        (sound && fits).then_some(Specular { scatter, sigma, channels, values })
+    /// `knots` are those of sigma and psi in radians, which ascend strictly; one psi where it makes no difference.
+    /// `values` is `[sigma][psi][channel]`. `None` unless the values are as many as that, and all are finite.
+    pub fn new(scatter: Scatter, knots: [Vec<f64>; 2], channels: Channels, values: Vec<f32>) -> Option<Self> {
+        let mut expected = channels.count();
+        for axis in &knots {
+            let ascending = axis.windows(2).all(|pair| pair[0] < pair[1]) && axis.iter().all(|angle| angle.is_finite());
+            expected = expected.checked_mul(axis.len()).filter(|_| ascending)?;
+        }
+        let sound = expected == values.len() && expected > 0 && values.iter().all(|value| value.is_finite());
+        sound.then_some(Specular { scatter, knots, channels, values })
     }
 
     /// Reflection or transmission.
@@ -28,9 +32,9 @@ impl Specular {
         self.scatter
     }
 
-    /// The angles of incidence, in radians.
-    pub fn sigma(&self) -> &[f64] {
-        &self.sigma
+    /// The polar angles and the azimuths of the light, in radians.
+    pub fn knots(&self) -> &[Vec<f64>; 2] {
+        &self.knots
     }
 
     /// What the channels stand for.
@@ -38,20 +42,31 @@ impl Specular {
         &self.channels
     }
 
-    /// All values, `[sigma][channel]`.
+    /// All values, `[sigma][psi][channel]`.
     pub fn values(&self) -> &[f32] {
         &self.values
     }
 
-    /// The reflectance of each channel at `sigma` radians: linear between the knots, constant beyond them.
-    pub fn at(&self, sigma: f64) -> Vec<f64> {
-        let last = self.sigma.len() - 1;
-        let upper = self.sigma.partition_point(|&knot| knot < sigma).min(last);
-        let lower = upper.saturating_sub(1);
-        let width = self.sigma[upper] - self.sigma[lower];
-        let fraction = if width > 0.0 { ((sigma - self.sigma[lower]) / width).clamp(0.0, 1.0) } else { 0.0 };
-        let count = self.channels.count();
-        let row = |index: usize| self.values[index * count..][..count].iter().map(|&value| f64::from(value));
-        row(lower).zip(row(upper)).map(|(a, b)| (1.0 - fraction) * a + fraction * b).collect()
+    /// The reflectance of each channel for light from polar angle `sigma` and azimuth `psi`, in radians: linear between
+    /// the knots, constant beyond them.
+    pub fn at(&self, sigma: f64, psi: f64) -> Vec<f64> {
+        let (cells, count) = ([cell(&self.knots[0], sigma), cell(&self.knots[1], psi)], self.channels.count());
+        let mut sum = vec![0.0; count];
+        for (sigma, share) in cells[0] {
+            for (psi, part) in cells[1] {
+                let texel = &self.values[(sigma * self.knots[1].len() + psi) * count..][..count];
+                sum.iter_mut().zip(texel).for_each(|(sum, &value)| *sum += share * part * f64::from(value));
+            }
+        }
+        sum
     }
+}
+
+/// The two knots around an angle, and their weights.
+fn cell(knots: &[f64], x: f64) -> [(usize, f64); 2] {
+    let upper = knots.partition_point(|&knot| knot < x).min(knots.len() - 1);
+    let lower = upper.saturating_sub(1);
+    let width = knots[upper] - knots[lower];
+    let t = if width > 0.0 { ((x - knots[lower]) / width).clamp(0.0, 1.0) } else { 0.0 };
+    [(lower, 1.0 - t), (upper, t)]
 }

@@ -29,7 +29,7 @@ struct Header {
 ///
 /// # Errors
 /// [`FormatError`] names the line, what is there and what should be.
-pub fn read(file: &Path, bytes: &[u8]) -> Result<Measured<Samples>, FormatError> {
+pub fn read(bytes: &[u8], file: &Path) -> Result<Measured<Samples>, FormatError> {
     let text = &mut Text::new(file, bytes, "#");
     let header = read_header(text)?;
     let names: &[&str] = if header.channels == Channels::Mono { &["Monochrome"] } else { &XYZ };

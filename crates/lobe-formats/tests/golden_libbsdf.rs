@@ -1,11 +1,10 @@
 //! The reader and the reference evaluation together against the answers of libbsdf, an independent implementation.
 
 mod common;
-#[path = "common/golden.rs"]
-mod golden;
 
 use std::path::Path;
 
+use common::{Worst, direction, golden};
 use lobe_formats::{Document, open};
 use lobe_table::reference::eval;
 use lobe_table::{Edges, Samples};
@@ -13,17 +12,15 @@ use lobe_table::{Edges, Samples};
 /// Largest difference to the golden answers, as a part of the largest magnitude in the table.
 fn largest_error(samples: &Samples, answers: &Path) -> (usize, f64) {
     let scale = samples.values().iter().fold(0.0_f64, |largest, &value| largest.max(f64::from(value).abs()));
-    let pairs = golden::pairs(answers);
+    let queries = golden(answers);
     let mut out = vec![0.0; samples.channels().count()];
-    let mut largest: f64 = 0.0;
-    for pair in &pairs {
-        eval(samples, &Edges::extrapolate(), pair.wi, pair.wo, &mut out);
-        assert_eq!(out.len(), pair.values.len());
-        for (got, expected) in out.iter().zip(&pair.values) {
-            largest = largest.max((got - expected).abs() / scale);
-        }
+    let mut worst = Worst::default();
+    for (at, (query, answer)) in queries.iter().enumerate() {
+        eval(samples, &Edges::extrapolate(), direction(query, 0), direction(query, 3), &mut out);
+        assert_eq!(out.len(), answer.len());
+        out.iter().zip(answer).for_each(|(got, expected)| worst.see((got - expected).abs() / scale, at));
     }
-    (pairs.len(), largest)
+    (queries.len(), worst.error)
 }
 
 fn check(file: &Path, answers: &Path, expected_pairs: usize) {

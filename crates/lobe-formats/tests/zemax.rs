@@ -19,7 +19,7 @@ fn block(name: &str, start: u32) -> String {
 
 fn read(text: &str) -> Measured<Samples> {
     assert_eq!(sniff(text.as_bytes()), Some(Format::Zemax));
-    zemax::read(Path::new("t.bsdf"), text.as_bytes()).unwrap()
+    zemax::read(text.as_bytes(), Path::new("t.bsdf")).unwrap()
 }
 
 #[test]
@@ -46,7 +46,7 @@ fn every_spelling_of_the_four_dimensional_keyword() {
         assert_eq!(measured.data.knots()[3].len(), 2, "{symmetry} is not expanded");
     }
     let text = header("Spherical", "Monochrome", "BRDF") + &block("Monochrome", 1);
-    let message = zemax::read(Path::new("t.bsdf"), text.as_bytes()).unwrap_err().to_string();
+    let message = zemax::read(text.as_bytes(), Path::new("t.bsdf")).unwrap_err().to_string();
     let expected = "t.bsdf:4: found Symmetry `Spherical`; expected PlaneSymmetrical, Asymmetrical or Asymmetrical4D";
     assert_eq!(message, expected);
 }
@@ -60,7 +60,7 @@ fn tristimulus_blocks_and_transmission() {
     assert_eq!(measured.data.texel([0, 0, 1, 1]), [12.0, 1012.0, 2012.0]);
     assert_eq!(measured.tis.len(), 6);
     let twice = header("Asymmetrical", "XYZ", "BRDF") + &block("TristimulusX", 1) + &block("TristimulusX", 1);
-    let message = zemax::read(Path::new("t.bsdf"), twice.as_bytes()).unwrap_err().to_string();
+    let message = zemax::read(twice.as_bytes(), Path::new("t.bsdf")).unwrap_err().to_string();
     assert!(message.contains("found `TristimulusX`; expected the block `TristimulusY`"), "{message}");
 }
 

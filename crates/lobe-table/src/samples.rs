@@ -29,6 +29,8 @@ pub enum Channels {
     Xyz,
     /// One channel a wavelength, in nm, in the file's order.
     Spectral(Vec<f64>),
+    /// Bands that have names only, such as `Visible` and `Solar`.
+    Named(Vec<String>),
 }
 
 impl Channels {
@@ -38,16 +40,18 @@ impl Channels {
             Channels::Mono => 1,
             Channels::Rgb | Channels::Xyz => 3,
             Channels::Spectral(wavelengths) => wavelengths.len(),
+            Channels::Named(names) => names.len(),
         }
     }
 
-    /// A name for each channel, in order: `Y`, or `R G B`, or `X Y Z`, or `550nm`.
+    /// A name for each channel, in order: `Y`, or `R G B`, or `X Y Z`, or `550nm`, or what the file calls it.
     pub fn names(&self) -> Vec<String> {
         match self {
             Channels::Mono => vec!["Y".into()],
             Channels::Rgb => ["R", "G", "B"].map(String::from).into(),
             Channels::Xyz => ["X", "Y", "Z"].map(String::from).into(),
             Channels::Spectral(wavelengths) => wavelengths.iter().map(|nm| format!("{nm}nm")).collect(),
+            Channels::Named(names) => names.clone(),
         }
     }
 }

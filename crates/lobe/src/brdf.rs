@@ -53,7 +53,7 @@ pub enum OpenError {
 #[derive(Clone, Debug)]
 pub struct Brdf {
     table: Table,
-    backend: Backend,
+    pub(crate) backend: Backend,
 }
 
 impl Brdf {
@@ -73,7 +73,7 @@ impl Brdf {
         let path = path.as_ref();
         match lobe_formats::open(path)?.1 {
             Document::Table(measured) => Brdf::new(&measured.data, edges),
-            _ => Err(OpenError::NotATable { file: path.display().to_string(), found: "a mirror reflectance" }),
+            _ => Err(OpenError::NotATable { file: path.display().to_string(), found: "no specular table" }),
         }
     }
 

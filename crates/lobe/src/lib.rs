@@ -1,11 +1,13 @@
 //! Measured BRDFs and BSDFs: open a file, evaluate it in batches on the best SIMD backend of the machine.
 //!
-//! [`Brdf`] is what most programs want. A renderer that is itself vectorised takes a [`Table`] and calls
+//! [`Material`] is what most programs want: any format, any representation. [`Brdf`] is a specular table, evaluated
+//! wherever its batches lie. A renderer that is itself vectorised takes a [`Table`] and calls
 //! [`Table::eval_lanes`] inside a [`Kernel`] of its own, which [`Backend::run`] runs.
 #![forbid(unsafe_code)]
 
 mod backend;
 mod brdf;
+mod material;
 
 pub use backend::{BACKEND_VARIABLE, Backend, BackendError};
 pub use brdf::{Brdf, OpenError, PARALLEL_FROM};
@@ -13,4 +15,6 @@ pub use lobe_formats as formats;
 pub use lobe_lane::{Floats, Ints, Kernel, Lanes, Mask};
 pub use lobe_math as math;
 pub use lobe_table as table;
+pub use lobe_table::utia::Decode;
 pub use lobe_table::{Axis, Channels, Directions, Edge, Edges, Function, Precision, Samples, Scatter, Soa, Table};
+pub use material::{Kind, Lookup, Material, Options, Sample};

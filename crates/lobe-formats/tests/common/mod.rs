@@ -1,5 +1,7 @@
-//! Where measured files and the answers of other implementations lie: in the folder that the environment variable
-//! `LOBE_SHARED` names, else in `shared` beside the workspace. Tests of other crates take this file in by its path.
+//! Measured files and the answers of other implementations, which lie beside the project and not in it: in the folder
+//! that the environment variable `LOBE_SHARED` names, else in `shared` beside the workspace. Tests of other crates take
+//! this file in by its path.
+#![allow(dead_code, reason = "every test program uses a part of this")]
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -14,4 +16,57 @@ pub fn shared() -> Option<PathBuf> {
     // Written past the test harness, which would swallow what a passing test prints.
     let _ = writeln!(std::io::stderr(), "SKIPPED: no golden vectors in {}; set LOBE_SHARED", folder.display());
     None
+}
+
+/// The bytes of a file that has to be there.
+pub fn bytes(path: &Path) -> Vec<u8> {
+    std::fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// All files of a folder, by name.
+pub fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = folder.read_dir().unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.expect("a folder entry").path()).collect();
+    files.sort();
+    files
+}
+
+/// The queries of a golden file: the numbers left of `->`, and those right of it.
+pub fn golden(path: &Path) -> Vec<(Vec<f64>, Vec<f64>)> {
+    let numbers = |text: &str| text.split_whitespace().map(|x| x.parse().expect("a number")).collect();
+    let text = String::from_utf8(bytes(path)).expect("text");
+    let lines = text.lines().filter(|line| !line.starts_with('#') && !line.trim().is_empty());
+    lines.map(|line| line.split_once("->").expect("an arrow")).map(|(q, a)| (numbers(q), numbers(a))).collect()
+}
+
+/// The three numbers of a direction at `at`.
+pub fn direction(numbers: &[f64], at: usize) -> [f64; 3] {
+    [numbers[at], numbers[at + 1], numbers[at + 2]]
+}
+
+/// The same, of length one to the last digit: some references printed single precision.
+pub fn unit(numbers: &[f64], at: usize) -> [f64; 3] {
+    let d = direction(numbers, at);
+    let length = d.iter().map(|x| x * x).sum::<f64>().sqrt();
+    d.map(|x| x / length)
+}
+
+/// The largest deviation seen, and where.
+#[derive(Default, Debug)]
+pub struct Worst {
+    pub error: f64,
+    pub at: usize,
+}
+
+impl Worst {
+    pub fn see(&mut self, error: f64, at: usize) {
+        if error.is_nan() || error > self.error {
+            *self = Worst { error, at };
+        }
+    }
+}
+
+/// |a - b| relative to b, where values below `floor` count as `floor`.
+pub fn relative(a: f64, b: f64, floor: f64) -> f64 {
+    (a - b).abs() / b.abs().max(floor)
 }

@@ -1,0 +1,91 @@
+//! ASTM E1392 text files of scattered light, as the Cornell Program of Computer Graphics has them.
+//!
+//! Lines of a keyword and a value, among them `NUM_POINTS`; the last is `VARS` with the names of the columns. Then a
+//! comma-separated record a line: `theta_i`, `phi_i`, `theta_s`, `phi_s` in radians, or `theta_i`, `theta_s`, `phi_s` with
+//! the light at azimuth 0, and `f` in 1/sr: `R,G,B`, or `X,Y,Z`, or columns such as `400nm`, or one of any name. Whether
+//! it is reflection or transmission the file does not say.
+
+use std::path::Path;
+
+use lobe_table::scattered::Scattered;
+use lobe_table::{Channels, Scatter};
+
+use crate::columns::channels;
+use crate::lines::{Line, lines, shown};
+use crate::records::Records;
+use crate::{FormatError, Place};
+
+/// `true` where the lines at the start have `NUM_POINTS` and `VARS`.
+pub fn matches(bytes: &[u8]) -> bool {
+    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 16)]);
+    let has = |key: &str| head.lines().any(|line| line.split_whitespace().next() == Some(key));
+    has("NUM_POINTS") && has("VARS")
+}
+
+/// Reads a file as reflection; see [`read_as`].
+///
+/// # Errors
+/// See [`read_as`].
+pub fn read(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
+    read_as(bytes, file, Scatter::Reflection)
+}
+
+/// Reads a file. `file` only names it in errors.
+///
+/// # Errors
+/// [`FormatError`] with the line: other columns, records of another length, or another number of them than announced.
+pub fn read_as(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Scattered, FormatError> {
+    let text = String::from_utf8_lossy(bytes);
+    let mut lines = lines(file, &text);
+    let mut announced = None;
+    let vars = loop {
+        let Some(line) = lines.next() else {
+            return Err(FormatError::new(file, Place::File, "no VARS", "VARS with the names of the columns"));
+        };
+        let (key, value) = line.text.split_once(char::is_whitespace).unwrap_or((line.text, ""));
+        match key {
+            "VARS" => break (line, value),
+            "NUM_POINTS" => {
+                let count = value.trim().parse::<usize>();
+                announced = Some(count.map_err(|_| line.error(shown(value), "a number of points"))?);
+            }
+            _ => {}
+        }
+    };
+    let (angles, channels) = columns(vars)?;
+    let width = angles + channels.count();
+    let mut records = Records::default();
+    for line in lines {
+        let numbers = line.numbers()?;
+        if numbers.len() != width {
+            return Err(line.error(format!("{} numbers", numbers.len()), format!("{width}, as VARS has names")));
+        }
+        let of_record = match angles {
+            4 => [numbers[0], numbers[1], numbers[2], numbers[3]],
+            _ => [numbers[0], 0.0, numbers[1], numbers[2]],
+        };
+        records.push(of_record, numbers[angles..].iter().copied());
+    }
+    match announced {
+        Some(count) if count != records.angles.len() => {
+            let found = format!("{} records", records.angles.len());
+            Err(FormatError::new(file, Place::File, found, format!("NUM_POINTS, {count}")))
+        }
+        _ => records.scattered(file, scatter, channels),
+    }
+}
+
+/// The number of angles, and the channels.
+fn columns((line, names): (Line<'_>, &str)) -> Result<(usize, Channels), FormatError> {
+    let names: Vec<&str> = names.split(',').map(str::trim).collect();
+    let starts = |wanted: &[&str]| names.len() > wanted.len() && names.iter().zip(wanted).all(|(a, b)| a == b);
+    let angles = match () {
+        () if starts(&["theta_i", "phi_i", "theta_s", "phi_s"]) => 4,
+        () if starts(&["theta_i", "theta_s", "phi_s"]) => 3,
+        () => return Err(line.error(shown(line.text), "VARS theta_i,phi_i,theta_s,phi_s and columns of values")),
+    };
+    let channels = channels(&names[angles..]).ok_or_else(|| {
+        line.error(shown(&names[angles..].join(",")), "R,G,B or X,Y,Z or wavelengths in nm or one column")
+    })?;
+    Ok((angles, channels))
+}

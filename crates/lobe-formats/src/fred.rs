@@ -1,0 +1,155 @@
+//! Tables of scattered light of FRED, and those of RPC Photonics (now VIAVI) for engineered diffusers.
+//!
+//! Both have lines of two angles, the polar angle and azimuth in which light *travels* toward the surface, each followed
+//! by lines of polar angle, azimuth and `f` in 1/sr. So the mirrored and the straight-through ray have the azimuth of
+//! the incident one, and the direction toward the light has the opposite azimuth. A FRED table starts with
+//! `type bsdf_data` and a `format` line; an RPC file starts with comments (`!!`) and holds one incident direction of a
+//! transmitting sheet, so that a material is a set of files.
+
+use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
+
+use lobe_table::scattered::Scattered;
+use lobe_table::{Channels, Scatter};
+
+use crate::lines::{Line, lines, shown};
+use crate::records::Records;
+use crate::{FormatError, Place};
+
+/// `true` for a FRED table.
+pub fn matches(bytes: &[u8]) -> bool {
+    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(256)]);
+    let first = head.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
+    first.split_whitespace().map(str::to_ascii_lowercase).eq(["type", "bsdf_data"])
+}
+
+/// `true` for an RPC file.
+pub fn matches_rpc(bytes: &[u8]) -> bool {
+    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
+    head.trim_start().starts_with("!!") && head.lines().any(|line| line.trim() == "!!BSDF Data")
+}
+
+/// How a table states angles and values.
+struct Units {
+    to_radians: f64,
+    scale: f64,
+}
+
+/// Reads a FRED table as reflection, which the format does not tell from transmission; see [`read_as`].
+///
+/// # Errors
+/// See [`read_as`].
+pub fn read(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
+    read_as(bytes, file, Scatter::Reflection)
+}
+
+/// Reads a FRED table. `file` only names it in errors.
+///
+/// # Errors
+/// [`FormatError`] with the line: a format other than values at angles in degrees or radians, lines that are neither two
+/// angles nor three numbers, or a value before the first incident direction.
+pub fn read_as(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Scattered, FormatError> {
+    let text = String::from_utf8_lossy(bytes);
+    let mut lines = lines(file, &text);
+    let mut next = |expected: &str| {
+        lines.next().ok_or_else(|| FormatError::new(file, Place::File, "the end of the file", expected))
+    };
+    let first = next("`type bsdf_data`")?;
+    if !first.words().map(str::to_ascii_lowercase).eq(["type", "bsdf_data"]) {
+        return Err(first.error(shown(first.text), "`type bsdf_data`"));
+    }
+    let units = units(next("a `format` line")?)?;
+    let mut records = Records::default();
+    blocks(lines, &units, &mut records)?;
+    records.scattered(file, scatter, Channels::Mono)
+}
+
+fn units(line: Line<'_>) -> Result<Units, FormatError> {
+    let mut words = line.words();
+    if words.next().is_none_or(|word| !word.eq_ignore_ascii_case("format")) {
+        return Err(line.error(shown(line.text), "a `format` line"));
+    }
+    let mut units = Units { to_radians: PI / 180.0, scale: 1.0 };
+    for word in words {
+        match word.to_ascii_lowercase().split_once('=') {
+            Some(("angles", "deg")) => units.to_radians = PI / 180.0,
+            Some(("angles", "rad")) => units.to_radians = 1.0,
+            Some(("bsdf", "value")) => {}
+            Some(("scale", scale)) => units.scale = line.number(scale)?,
+            _ => return Err(line.error(shown(word), "angles=deg, angles=rad, bsdf=value or scale=NUMBER")),
+        }
+    }
+    Ok(units)
+}
+
+/// Reads one RPC file. `file` only names it in errors.
+///
+/// # Errors
+/// See [`read_rpc_set`].
+pub fn read_rpc(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
+    read_rpc_set(&[(file.to_path_buf(), bytes)])
+}
+
+/// Reads the files of one material, each with its name for errors.
+///
+/// # Errors
+/// [`FormatError`] with the line, as in [`read_as`].
+pub fn read_rpc_set<B: AsRef<[u8]>>(files: &[(PathBuf, B)]) -> Result<Scattered, FormatError> {
+    let units = Units { to_radians: PI / 180.0, scale: 1.0 };
+    let mut records = Records::default();
+    for (file, bytes) in files {
+        let text = String::from_utf8_lossy(bytes.as_ref());
+        blocks(lines(file, &text).filter(|line| !line.text.starts_with("!!")), &units, &mut records)?;
+    }
+    let name = files.first().map_or(Path::new(""), |(file, _)| file);
+    records.scattered(name, Scatter::Transmission, Channels::Mono)
+}
+
+/// Reads all RPC files of a folder as one material; other files in it are let be.
+///
+/// # Errors
+/// [`FormatError`] where the folder or a file cannot be read, where none is an RPC file, and as in [`read_rpc_set`].
+pub fn read_rpc_folder(folder: &Path) -> Result<Scattered, FormatError> {
+    let failed = |path: &Path, error: std::io::Error| {
+        FormatError::new(path, Place::File, error.to_string(), "files that can be read")
+    };
+    let mut files = Vec::new();
+    for entry in folder.read_dir().map_err(|error| failed(folder, error))? {
+        let path = entry.map_err(|error| failed(folder, error))?.path();
+        if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("txt")) {
+            let bytes = std::fs::read(&path).map_err(|error| failed(&path, error))?;
+            if matches_rpc(&bytes) {
+                files.push((path, bytes));
+            }
+        }
+    }
+    if files.is_empty() {
+        return Err(FormatError::new(
+            folder,
+            Place::File,
+            "no such file",
+            "files that start with `!!` and `!!BSDF Data`",
+        ));
+    }
+    files.sort();
+    read_rpc_set(&files)
+}
+
+fn blocks<'a>(lines: impl Iterator<Item = Line<'a>>, units: &Units, records: &mut Records) -> Result<(), FormatError> {
+    let mut incident: Option<[f64; 2]> = None;
+    for line in lines {
+        match (line.numbers()?.as_slice(), incident) {
+            (&[theta, phi], _) => incident = Some([theta * units.to_radians, phi * units.to_radians + PI]),
+            (&[theta, phi, value], Some([theta_i, phi_i])) => {
+                let angles = [theta_i, phi_i, theta * units.to_radians, phi * units.to_radians];
+                records.push(angles, [value * units.scale]);
+            }
+            (&[_, _, _], None) => return Err(line.error("a value", "the two angles of an incident direction first")),
+            (numbers, _) => {
+                let found = format!("{} numbers", numbers.len());
+                return Err(line.error(found, "2 angles, or 2 angles and a value"));
+            }
+        }
+    }
+    Ok(())
+}

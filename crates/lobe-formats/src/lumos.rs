@@ -1,0 +1,39 @@
+//! Tables for satellites' brightness, as the lumos-sat project has them.
+//!
+//! `#` comments, the last of which names five columns between white space: zenith angle and azimuth of the direction
+//! toward the light (there called phi and theta), those of the scattered light, and `f` in 1/sr. Degrees. Zenith angles
+//! may be negative, which is the other half of the plane.
+
+use std::path::Path;
+
+use lobe_table::scattered::Scattered;
+use lobe_table::{Channels, Scatter};
+
+use crate::FormatError;
+use crate::lines::lines;
+use crate::records::Records;
+
+/// `true` where a comment at the start names the columns.
+pub fn matches(bytes: &[u8]) -> bool {
+    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
+    let comments = head.lines().take_while(|line| line.starts_with('#'));
+    let names = |line: &str| line[1..].split_whitespace().map(str::to_ascii_lowercase).collect::<Vec<_>>();
+    comments.map(names).any(|names| {
+        let short: Vec<&str> = names.iter().map(|name| name.split_inclusive('_').next().unwrap_or_default()).collect();
+        short == ["phi_", "theta_", "phi_", "theta_", "brdf"]
+    })
+}
+
+/// Reads a file. `file` only names it in errors.
+///
+/// # Errors
+/// [`FormatError`] with the line that has other than five finite numbers, or where there is none.
+pub fn read(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
+    let text = String::from_utf8_lossy(bytes);
+    let mut records = Records::default();
+    for line in lines(file, &text).filter(|line| !line.text.starts_with('#')) {
+        let [zenith_i, azimuth_i, zenith_o, azimuth_o, f] = line.exactly("two angles, two angles and a value")?;
+        records.push([zenith_i, azimuth_i, zenith_o, azimuth_o].map(f64::to_radians), [f]);
+    }
+    records.scattered(file, Scatter::Reflection, Channels::Mono)
+}

@@ -1,0 +1,194 @@
+//! NVIDIA MDL `.mbsdf` files: isotropic reflection and transmission on uniform grids.
+//!
+//! A line `NVIDIA ARC MBSDF V1`, any lines of metadata, then one or two blocks. A block is a line
+//! `MBSDF_DATA_REFLECTION=` (or `MBSDF_DATA=`, the same) or `MBSDF_DATA_TRANSMISSION=`, reflection first; the type (0
+//! scalar, 1 RGB), the number of zenith angles and the number of azimuths as little-endian `u32`; and the values as
+//! 32-bit floats, `[theta_in][theta_out][phi][channel]`. Lines end with a single line feed.
+//!
+//! The zenith angles are documented as uniform in `[0, pi/2)` and the azimuths, those between the two directions, as
+//! uniform in `[0, pi]`. Measured files bear out the first: with `theta_out` index 0 their values do not depend on the
+//! azimuth, so it is the pole itself.
+
+use crate::bytes::Cursor;
+use crate::error::FormatError;
+use crate::sheet::Sides;
+use crate::write::{unwritable, write_whole};
+use lobe_table::spherical_grid::SphericalGrid;
+use lobe_table::{Channels, Scatter};
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::io;
+use std::path::Path;
+
+const MAGIC: &[u8] = b"NVIDIA ARC MBSDF V1\n";
+const DATA: &[u8] = b"MBSDF_DATA=\n";
+const REFLECTION: &[u8] = b"MBSDF_DATA_REFLECTION=\n";
+const TRANSMISSION: &[u8] = b"MBSDF_DATA_TRANSMISSION=\n";
+
+/// Whether `bytes` begin like a file of this format.
+pub fn matches(bytes: &[u8]) -> bool {
+    bytes.starts_with(MAGIC)
+}
+
+/// Where on an axis of `n` values over `[0, end]` the values lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Nodes {
+    /// At `i / n` of the range: the end is no node.
+    LowerEdge,
+    /// At `(i + 1/2) / n`: the middles of equal bins.
+    Middle,
+    /// At `i / (n - 1)`: both ends are nodes.
+    Closed,
+}
+
+impl Nodes {
+    fn knots(self, n: usize, end: f64) -> Vec<f64> {
+        let (first, steps) = match self {
+            Nodes::LowerEdge => (0.0, n),
+            Nodes::Middle => (0.5, n),
+            Nodes::Closed => (0.0, n.max(2) - 1),
+        };
+        (0..n).map(|i| end * (i as f64 + first) / steps as f64).collect()
+    }
+}
+
+/// Reads both sides, with zenith angles as [`Nodes::LowerEdge`] and azimuths as [`Nodes::Closed`].
+///
+/// # Errors
+/// As [`read_with`].
+pub fn read(bytes: &[u8], file: &Path) -> Result<Sides<SphericalGrid>, FormatError> {
+    read_with(bytes, file, [Nodes::LowerEdge, Nodes::Closed])
+}
+
+/// Reads both sides, with values that lie as `nodes` say on the zenith axes and on the azimuth axis.
+///
+/// # Errors
+/// [`FormatError`] where the signature or all data are missing, a block is cut off, or something follows the last one.
+pub fn read_with(bytes: &[u8], file: &Path, nodes: [Nodes; 2]) -> Result<Sides<SphericalGrid>, FormatError> {
+    let mut cursor = Cursor::new(bytes, file);
+    cursor.signature(MAGIC, MAGIC.trim_ascii().escape_ascii().to_string().as_str())?;
+    let mut sides = Sides { reflection: None, transmission: None };
+    let mut heading = metadata(&mut cursor)?;
+    if heading != TRANSMISSION {
+        sides.reflection = Some(block(&mut cursor, Scatter::Reflection, nodes)?);
+        // The format's description ends a block with a line feed, its files do not.
+        if cursor.rest().starts_with(b"\n") {
+            cursor.at += 1;
+        }
+        if cursor.rest().is_empty() {
+            return Ok(sides);
+        }
+        heading = line(&mut cursor);
+        if heading != TRANSMISSION {
+            cursor.at -= heading.len();
+            return Err(cursor.error(shown(heading), format!("{} or the end", shown(TRANSMISSION))));
+        }
+    }
+    sides.transmission = Some(block(&mut cursor, Scatter::Transmission, nodes)?);
+    match cursor.rest() {
+        b"" | b"\n" => Ok(sides),
+        rest => Err(cursor.error(format!("{} bytes more", rest.len()), "the end of the file")),
+    }
+}
+
+/// Passes over the metadata and the first heading, which is returned.
+fn metadata<'a>(cursor: &mut Cursor<'a, '_>) -> Result<&'a [u8], FormatError> {
+    loop {
+        let line = line(cursor);
+        if [DATA, REFLECTION, TRANSMISSION].contains(&line) {
+            return Ok(line);
+        }
+        if line.is_empty() {
+            return Err(
+                cursor.error("the end of the file", "a line MBSDF_DATA=, or that of reflection or transmission")
+            );
+        }
+    }
+}
+
+/// The next line with its line feed, or what is left of the file.
+fn line<'a>(cursor: &mut Cursor<'a, '_>) -> &'a [u8] {
+    let rest = cursor.rest();
+    let end = rest.iter().position(|byte| *byte == b'\n').map_or(rest.len(), |at| at + 1);
+    cursor.at += end;
+    &rest[..end]
+}
+
+fn shown(line: &[u8]) -> String {
+    format!("\"{}\"", line[..line.len().min(40)].escape_ascii())
+}
+
+fn block(
+    cursor: &mut Cursor<'_, '_>,
+    scatter: Scatter,
+    [zeniths, azimuths]: [Nodes; 2],
+) -> Result<SphericalGrid, FormatError> {
+    let start = cursor.at;
+    let mut number = |what| Ok::<_, FormatError>(u32::from_le_bytes(cursor.array(what)?) as usize);
+    let (kind, thetas, phis) = (number("the type")?, number("the zenith angles")?, number("the azimuths")?);
+    let channels = match kind {
+        0 => Channels::Mono,
+        1 => Channels::Rgb,
+        _ => {
+            cursor.at = start;
+            return Err(cursor.error(format!("type {kind}"), "0 for scalars or 1 for RGB"));
+        }
+    };
+    if thetas == 0 || phis == 0 {
+        cursor.at = start;
+        return Err(cursor.error(format!("{thetas} thetas and {phis} phis"), "at least one of each"));
+    }
+    let count = [thetas, phis, channels.count()].into_iter().try_fold(thetas, |count, n| count.checked_mul(n));
+    let values = cursor.floats(count, &format!("{thetas} x {thetas} x {phis} x {} values", channels.count()))?;
+    let theta = zeniths.knots(thetas, FRAC_PI_2);
+    let knots = [theta.clone(), vec![0.0], theta, azimuths.knots(phis, PI)];
+    SphericalGrid::new(scatter, knots, channels, values).and_then(SphericalGrid::mirrored).map_err(|error| {
+        cursor.at = start;
+        cursor.error(error.to_string(), "angles and values of a grid")
+    })
+}
+
+/// The bytes of an `.mbsdf` file.
+///
+/// # Errors
+/// [`io::ErrorKind::InvalidInput`] where there is neither side, and for grids other than the mirrored ones that
+/// [`read_with`] makes.
+pub fn to_bytes(sides: &Sides<SphericalGrid>) -> io::Result<Vec<u8>> {
+    let mut bytes = MAGIC.to_vec();
+    let invalid = |why| io::Error::new(io::ErrorKind::InvalidInput, why);
+    for (heading, side) in [(REFLECTION, &sides.reflection), (TRANSMISSION, &sides.transmission)] {
+        let Some(side) = side else { continue };
+        bytes.extend_from_slice(heading);
+        let [thetas, _, theta_o, phis] = side.knots();
+        let kind = match side.channels() {
+            Channels::Mono => 0,
+            Channels::Rgb => 1,
+            _ => return Err(invalid("channels other than one or RGB")),
+        };
+        let fits = |knots: &[f64], end| {
+            let all = [Nodes::LowerEdge, Nodes::Middle, Nodes::Closed];
+            all.into_iter().any(|nodes| nodes.knots(knots.len(), end) == knots)
+        };
+        if !side.is_mirrored() || thetas != theta_o || !fits(thetas, FRAC_PI_2) || !fits(phis, PI) {
+            return Err(invalid(
+                "a grid that is not uniform in the zenith angles of both and the azimuth between them",
+            ));
+        }
+        for n in [kind, thetas.len(), phis.len()] {
+            let n = u32::try_from(n).map_err(|_| invalid("a resolution above that of u32"))?;
+            bytes.extend_from_slice(&n.to_le_bytes());
+        }
+        side.values().iter().for_each(|value| bytes.extend_from_slice(&value.to_le_bytes()));
+    }
+    if bytes.len() == MAGIC.len() {
+        return Err(invalid("neither reflection nor transmission"));
+    }
+    Ok(bytes)
+}
+
+/// Writes an `.mbsdf` file, replacing what was there at once.
+///
+/// # Errors
+/// [`FormatError`] as [`to_bytes`], and where the file system refuses.
+pub fn write(sides: &Sides<SphericalGrid>, path: &Path) -> Result<(), FormatError> {
+    write_whole(path, &to_bytes(sides).map_err(|error| unwritable(path, &error))?)
+}

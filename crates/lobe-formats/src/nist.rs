@@ -1,0 +1,52 @@
+//! NIST's Mueller matrices of sintered PTFE (T. A. Germer, "Full four-dimensional and reciprocal Mueller matrix
+//! bidirectional reflectance distribution function of sintered polytetrafluoroethylene", Applied Optics 56, 2017).
+//!
+//! A line that names the columns, then comma-separated records: wavelength in micrometres, `thetai`, azimuth of
+//! incidence, `thetar`, `phir` in degrees, the unpolarised BRDF in 1/sr, and 15 elements of the Mueller matrix relative
+//! to it, which are not read. `thetai` is negative where the light is on the side of azimuth 180.
+
+use std::path::Path;
+
+use lobe_table::Scatter;
+use lobe_table::scattered::Scattered;
+
+use crate::lines::{lines, shown};
+use crate::records::ByWavelength;
+use crate::{FormatError, Place};
+
+const COLUMNS: usize = 21;
+
+/// `true` where the first line names the columns.
+pub fn matches(bytes: &[u8]) -> bool {
+    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(1024)]);
+    let names: Vec<String> = head.lines().next().unwrap_or_default().split(',').map(simple).collect();
+    names.len() == COLUMNS && names[0] == "lambda" && names[1] == "thetai" && names[5] == "fr11"
+}
+
+fn simple(name: &str) -> String {
+    name.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_ascii_lowercase()
+}
+
+/// Reads the unpolarised BRDF. `file` only names it in errors.
+///
+/// # Errors
+/// [`FormatError`] with the line that has other than 21 finite numbers, or where wavelengths have different directions.
+pub fn read(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
+    let text = String::from_utf8_lossy(bytes);
+    let mut lines = lines(file, &text);
+    match lines.next() {
+        Some(_) if matches(bytes) => {}
+        Some(line) => return Err(line.error(shown(line.text), "the names of 21 columns, lambda first")),
+        None => return Err(FormatError::new(file, Place::File, "an empty file", "the names of 21 columns")),
+    }
+    let mut samples = ByWavelength::default();
+    for line in lines {
+        let [micrometres, theta_i, phi_i, theta_o, phi_o, value, ..] = line.exactly::<COLUMNS>("21 columns")?;
+        let nm = (micrometres * 1e9).round() / 1e6;
+        if nm <= 0.0 {
+            return Err(line.error(format!("wavelength {micrometres}"), "a positive number of micrometres"));
+        }
+        samples.push(nm, [theta_i, phi_i, theta_o, phi_o].map(f64::to_radians), value);
+    }
+    samples.scattered(file, Scatter::Reflection)
+}

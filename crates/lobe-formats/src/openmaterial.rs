@@ -1,0 +1,58 @@
+//! Look-up tables of ASAM OpenMATERIAL 3D, `.xompt`: JSON with rows of wavelength in m, `theta_i`, `theta_o`, `phi_o`
+//! relative to the incident azimuth, in radians, and `f` in 1/sr.
+
+use std::path::Path;
+
+use lobe_table::Scatter;
+use lobe_table::scattered::Scattered;
+use serde::Deserialize;
+
+use crate::records::ByWavelength;
+use crate::{FormatError, Place};
+
+#[derive(Deserialize)]
+struct Document {
+    brdf: Brdf,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct Brdf {
+    lookup_table: Vec<[Option<f64>; 5]>,
+}
+
+/// `true` for JSON that has a `brdf` with a list as its `lookupTable`.
+pub fn matches(bytes: &[u8]) -> bool {
+    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 16)]);
+    let head = head.trim_start_matches('\u{feff}').trim_start();
+    let table = head.split_once("\"lookupTable\"").map(|(_, after)| after.trim_start());
+    let is_list =
+        table.and_then(|after| after.strip_prefix(':')).is_some_and(|value| value.trim_start().starts_with('['));
+    head.starts_with('{') && head.contains("\"brdf\"") && is_list
+}
+
+/// Reads a file. `file` only names it in errors. Rows in which a number is null are left out: they say that nothing was
+/// measured there.
+///
+/// # Errors
+/// [`FormatError`] with the line of the JSON that is wrong; wavelengths that are not positive; or where wavelengths have
+/// different directions.
+pub fn read(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let document: Document = serde_json::from_slice(bytes).map_err(|error| {
+        FormatError::new(file, Place::Line(error.line()), error.to_string(), "brdf.lookupTable, rows of 5 numbers")
+    })?;
+    let mut samples = ByWavelength::default();
+    for (row, numbers) in document.brdf.lookup_table.iter().enumerate() {
+        if let &[Some(metres), Some(theta_i), Some(theta_o), Some(phi), Some(value)] = numbers {
+            // Nanometres to a millionth, so that 4.1e-7 m is 410 nm.
+            let nm = (metres * 1e15).round() / 1e6;
+            if nm <= 0.0 {
+                let found = format!("wavelength {metres} in row {row}");
+                return Err(FormatError::new(file, Place::File, found, "a positive number of metres"));
+            }
+            samples.push(nm, [theta_i, 0.0, theta_o, phi], value);
+        }
+    }
+    samples.scattered(file, Scatter::Reflection)
+}

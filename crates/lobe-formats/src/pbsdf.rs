@@ -1,0 +1,86 @@
+//! `.pbsdf` files of polarised reflection (Baek et al. 2020, KAIST), which are [tensor files](crate::tensor).
+//!
+//! Fields: `theta_h [1, H]`, `theta_d [1, D]`, `phi_d [1, P]` in radians and `M [P, D, H, L, 4, 4]` in 32-bit floats,
+//! and `wvls [L]` in nm as `u16`. There are files that give the angles with the shape `[0, n]` and do not store them;
+//! they are then taken to lie uniformly over a quarter turn, and `phi_d` over the whole turn from `-pi`.
+
+use crate::error::FormatError;
+use crate::tensor::{self, DType, Field, TensorFile};
+use crate::write::{unwritable, write_whole};
+use lobe_table::mueller::{AXES, Mueller};
+use std::f32::consts::{FRAC_PI_2, PI};
+use std::io;
+use std::path::Path;
+
+/// Whether `bytes` are a tensor file with the fields of a polarised material.
+pub fn matches(bytes: &[u8]) -> bool {
+    tensor::matches(bytes)
+        && tensor::read(bytes, Path::new("")).is_ok_and(|file| file.get("M").is_some() && file.get("theta_h").is_some())
+}
+
+/// Reads a polarised material.
+///
+/// # Errors
+/// [`FormatError`] where the file is no tensor file, or a field is missing or does not fit the others.
+pub fn read(bytes: &[u8], file: &Path) -> Result<Mueller, FormatError> {
+    let tensors = tensor::read(bytes, file)?;
+    let (values, shape) = tensors.floats("M", 6)?;
+    // With a dimension of zero the others could be anything, and would be believed below.
+    if values.is_empty() {
+        return Err(tensors.error("M", format!("M as {shape:?}"), "at least one matrix"));
+    }
+    let wavelengths = tensors.require("wvls", DType::U16, 1)?;
+    let (wavelengths, _) = wavelengths.data.as_chunks();
+    let knots = [
+        angles(&tensors, AXES[0], shape[0], -PI, PI)?,
+        angles(&tensors, AXES[1], shape[1], 0.0, FRAC_PI_2)?,
+        angles(&tensors, AXES[2], shape[2], 0.0, FRAC_PI_2)?,
+        wavelengths.iter().map(|nm| f32::from(u16::from_le_bytes(*nm))).collect(),
+    ];
+    let expected: Vec<usize> = knots.iter().map(Vec::len).chain([4, 4]).collect();
+    if shape != expected {
+        return Err(tensors.error("M", format!("M as {shape:?}"), format!("{expected:?}")));
+    }
+    Mueller::new(knots, values).map_err(|invalid| tensors.invalid(invalid))
+}
+
+/// The `n` knots of an axis, over `[low, high]` where the file has none.
+fn angles(tensors: &TensorFile<'_>, name: &str, n: usize, low: f32, high: f32) -> Result<Vec<f32>, FormatError> {
+    let (knots, shape) = tensors.floats(name, 2)?;
+    match *shape {
+        [0, declared] if declared == n && n > 1 => {
+            Ok((0..n).map(|i| low + (high - low) * i as f32 / (n - 1) as f32).collect())
+        }
+        [1, declared] if declared == n => Ok(knots),
+        _ => Err(tensors.error(name, format!("{name} as {shape:?}"), format!("[1, {n}], as M has it"))),
+    }
+}
+
+/// The bytes of a `.pbsdf` file.
+///
+/// # Errors
+/// [`io::ErrorKind::InvalidInput`] where a wavelength is no whole number of nm below 65536.
+pub fn to_bytes(material: &Mueller) -> io::Result<Vec<u8>> {
+    let [p, d, h, nm] = material.knots();
+    if let Some(bad) = nm.iter().find(|nm| f32::from(**nm as u16) != **nm) {
+        let why = format!("wavelength {bad} nm; the format has whole numbers of nm");
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
+    }
+    let wavelengths: Vec<u8> = nm.iter().flat_map(|nm| (*nm as u16).to_le_bytes()).collect();
+    TensorFile::new(vec![
+        Field::f32("theta_h", &[1, h.len()], h),
+        Field::f32("theta_d", &[1, d.len()], d),
+        Field::f32("phi_d", &[1, p.len()], p),
+        Field::u16("wvls", &[nm.len()], &wavelengths),
+        Field::f32("M", &[p.len(), d.len(), h.len(), nm.len(), 4, 4], material.values()),
+    ])
+    .to_bytes()
+}
+
+/// Writes a `.pbsdf` file, replacing what was there at once.
+///
+/// # Errors
+/// [`FormatError`] as [`to_bytes`], and where the file system refuses.
+pub fn write(material: &Mueller, path: &Path) -> Result<(), FormatError> {
+    write_whole(path, &to_bytes(material).map_err(|error| unwritable(path, &error))?)
+}

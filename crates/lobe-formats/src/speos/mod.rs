@@ -1,0 +1,53 @@
+//! Surface files of Ansys Speos (formerly OPTIS), text form: `.brdf` and `.anisotropicbsdf`.
+//!
+//! Both hold tables of polar angle by azimuth for each incident direction, of reflection, of transmission, or of both. A
+//! table is proportional to `f`, or to `f cos` ("intensity"); its scale comes from a percentage, the albedo, that the file
+//! states per wavelength. In `.brdf` every incident angle and wavelength has a table and a percentage of its own; an
+//! `.anisotropicbsdf` has tables per rotation of the sample and incident angle, and one spectrum of percentages, which
+//! holds at one of its incident directions. Azimuth 0 is where the light goes on to, so that the mirror direction of
+//! incidence `i` is at polar angle `i`, azimuth 0; polar angles of transmission are above 90 degrees.
+
+mod anisotropic;
+mod brdf;
+mod table;
+
+use std::path::Path;
+
+use lobe_table::scattered::Scattered;
+
+use crate::lines::shown;
+use crate::{FormatError, Sides};
+use table::Source;
+
+/// `true` where the first line is that of one of these files.
+pub fn matches(bytes: &[u8]) -> bool {
+    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(128)]).to_ascii_lowercase();
+    head.starts_with("optis - ")
+        && (head.contains("brdf surface file") || head.contains("anisotropic bsdf surface file"))
+}
+
+/// Reads a file of either kind. `file` only names it in errors.
+///
+/// # Errors
+/// [`FormatError`] with the line: another kind of file, the binary form, counts that the rest of the file has no room for,
+/// numbers that are missing or none, or tables that have nothing to scale.
+pub fn read(bytes: &[u8], file: &Path) -> Result<Sides<Scattered>, FormatError> {
+    let text = String::from_utf8_lossy(bytes);
+    let mut source = Source::new(file, &text);
+    let header = source.line("the line that names the file")?;
+    let is_brdf = match header.to_ascii_lowercase() {
+        header if header.starts_with("optis - brdf surface file") => true,
+        header if header.starts_with("optis - anisotropic bsdf surface file") => false,
+        _ => return Err(source.error(shown(header), "`OPTIS - brdf` or `OPTIS - Anisotropic BSDF surface file`")),
+    };
+    match source.line("0, text")?.trim() {
+        "0" => {}
+        "1" => return Err(source.error("mode 1, binary", "mode 0, text: the binary form is not public")),
+        other => return Err(source.error(shown(other), "mode 0, text")),
+    }
+    source.line("a comment")?;
+    let length = source.line("the length of the description")?.trim().parse::<usize>();
+    let length = length.map_err(|_| source.error("no number", "the length of the description"))?;
+    source.description(length)?;
+    if is_brdf { brdf::read(&mut source) } else { anisotropic::read(&mut source) }
+}

@@ -1,0 +1,47 @@
+//! UTIA `.bin` files: anisotropic RGB materials on the uniform grid of the UTIA database.
+//!
+//! No header: 3 x 288 x 288 little-endian `f64`, `[channel][theta_i][phi_i][theta_v][phi_v]`, 1,990,656 bytes.
+
+use crate::bytes::Cursor;
+use crate::error::FormatError;
+use crate::write::write_whole;
+use lobe_table::utia::{PLANE, Utia};
+use std::path::Path;
+
+const SIZE: usize = 3 * PLANE * size_of::<f64>();
+
+/// Whether the file has the size of a UTIA file, by which alone it can be told.
+pub fn matches(bytes: &[u8]) -> bool {
+    bytes.len() == SIZE
+}
+
+/// Reads a UTIA material.
+///
+/// # Errors
+/// [`FormatError`] where the size of the file is another or a value is not finite.
+pub fn read(bytes: &[u8], file: &Path) -> Result<Utia, FormatError> {
+    let mut cursor = Cursor::new(bytes, file);
+    if !matches(bytes) {
+        return Err(cursor.error(format!("{} bytes", bytes.len()), format!("{SIZE} bytes")));
+    }
+    let (stored, _) = bytes.as_chunks();
+    let values: Vec<f64> = stored.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
+    if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+        cursor.at = at * size_of::<f64>();
+        return Err(cursor.error(format!("{}", values[at]), "a finite number"));
+    }
+    Utia::new(values).map_err(|invalid| cursor.error(invalid.found, invalid.expected))
+}
+
+/// The bytes of a UTIA file.
+pub fn to_bytes(material: &Utia) -> Vec<u8> {
+    material.values().iter().flat_map(|value| value.to_le_bytes()).collect()
+}
+
+/// Writes a UTIA file, replacing what was there at once.
+///
+/// # Errors
+/// [`FormatError`] where the file system refuses.
+pub fn write(material: &Utia, path: &Path) -> Result<(), FormatError> {
+    write_whole(path, &to_bytes(material))
+}

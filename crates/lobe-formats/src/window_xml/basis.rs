@@ -1,0 +1,55 @@
+//! The angle bases that a file defines, and those that it may take for granted.
+
+use lobe_table::klems::{AngleBasis, Ring};
+
+/// Collects `AngleBasis` elements of a `DataDefinition`.
+#[derive(Default)]
+pub(super) struct BasisReader {
+    known: Vec<AngleBasis>,
+    name: String,
+    rings: Vec<Ring>,
+    lower: Option<f64>,
+    upper: Option<f64>,
+    patches: Option<u32>,
+}
+
+impl BasisReader {
+    /// Takes an element outside of a data block as it ends; an error is what was found and what was expected.
+    pub(super) fn close(&mut self, name: &str, content: &str) -> Result<(), (String, &'static str)> {
+        let content = content.trim();
+        let angle = || content.parse::<f64>().map_err(|_| (format!("{name} {content:?}"), "an angle in degrees"));
+        match name {
+            "AngleBasisName" => self.name = content.into(),
+            "LowerTheta" => self.lower = Some(angle()?),
+            "UpperTheta" => self.upper = Some(angle()?),
+            "nPhis" => {
+                let count = content.parse().map_err(|_| (format!("nPhis {content:?}"), "a number of patches"))?;
+                self.patches = Some(count);
+            }
+            "AngleBasisBlock" => {
+                let ring = (self.lower.take(), self.upper.take(), self.patches.take());
+                let (Some(lower), Some(upper), Some(patches)) = ring else {
+                    return Err(("an AngleBasisBlock without them".into(), "LowerTheta, UpperTheta and nPhis"));
+                };
+                self.rings.push(Ring { lower, upper, patches });
+            }
+            "AngleBasis" => {
+                let (name, rings) = (std::mem::take(&mut self.name), std::mem::take(&mut self.rings));
+                // Trees name their basis here, without rings.
+                if !rings.is_empty() {
+                    let basis = AngleBasis::new(name, rings);
+                    self.known.push(basis.map_err(|error| (error.to_string(), "the rings of a hemisphere"))?);
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// A basis by its name, in any case. What the file defines goes before the standard bases.
+    pub(super) fn find(&self, name: &str) -> Option<AngleBasis> {
+        let is_it = |basis: &&AngleBasis| basis.name().eq_ignore_ascii_case(name);
+        let standard = [AngleBasis::full(), AngleBasis::half(), AngleBasis::quarter()];
+        self.known.iter().find(is_it).or_else(|| standard.iter().find(is_it)).cloned()
+    }
+}

@@ -1,0 +1,315 @@
+//! The elements of a file, taken from a stream of XML events.
+//!
+//! A pull parser keeps no document in memory, expands no entities of the file's own, and does not recurse, so that
+//! neither entity bombs nor deep nesting can hurt.
+
+use std::borrow::Cow;
+use std::path::Path;
+
+use lobe_table::klems::{AngleBasis, KlemsMatrix};
+use lobe_table::tensor_tree::{Rank, TensorTree};
+use lobe_table::window::{Block, Component, Window};
+use quick_xml::Reader;
+use quick_xml::events::Event;
+
+use super::basis::BasisReader;
+use super::{Band, WindowXml, tree};
+use crate::{FormatError, Place};
+
+/// Text of a file: UTF-8, or UTF-16 with a byte order mark. Bytes that are neither can only be in names.
+pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
+    let utf16 = |unit: fn([u8; 2]) -> u16| {
+        let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| unit([pair[0], pair[1]])).collect();
+        Cow::Owned(String::from_utf16_lossy(&units))
+    };
+    match bytes {
+        [0xff, 0xfe, ..] => utf16(u16::from_le_bytes),
+        [0xfe, 0xff, ..] => utf16(u16::from_be_bytes),
+        _ => String::from_utf8_lossy(bytes),
+    }
+}
+
+/// How the values of a block are listed.
+#[derive(Clone, Copy)]
+enum Structure {
+    /// Exit patch by exit patch.
+    Columns,
+    /// Incident patch by incident patch.
+    Rows,
+    /// In braces.
+    Tree(Rank),
+}
+
+/// A text of the file and where it starts.
+type Text<'a> = (Cow<'a, str>, usize);
+
+/// A `WavelengthDataBlock` as text: what its bases and values mean may be said after it.
+#[derive(Default)]
+struct BlockText<'a> {
+    start: usize,
+    wavelength: String,
+    direction: Option<Block>,
+    columns: Option<Text<'a>>,
+    rows: Option<Text<'a>>,
+    values: Option<Text<'a>>,
+}
+
+/// A file while it is read.
+pub(super) struct Document<'a> {
+    text: &'a str,
+    file: &'a Path,
+    result: WindowXml,
+    structure: Option<Structure>,
+    basis: BasisReader,
+    wavelength: String,
+    /// Whether the element is within a block, which is then the last one.
+    is_in_block: bool,
+    blocks: Vec<BlockText<'a>>,
+}
+
+impl<'a> Document<'a> {
+    pub(super) fn parse(text: &'a str, file: &'a Path) -> Result<WindowXml, FormatError> {
+        let mut document = Document {
+            text,
+            file,
+            result: WindowXml::default(),
+            structure: None,
+            basis: BasisReader::default(),
+            wavelength: String::new(),
+            is_in_block: false,
+            blocks: Vec::new(),
+        };
+        document.walk()?;
+        for block in std::mem::take(&mut document.blocks) {
+            document.keep(&block)?;
+        }
+        if document.result.bands.is_empty() {
+            return Err(FormatError::new(file, Place::File, "no WavelengthData with values", "at least one block"));
+        }
+        Ok(document.result)
+    }
+
+    fn error(&self, at: usize, found: impl Into<String>, expected: impl Into<String>) -> FormatError {
+        let before = &self.text.as_bytes()[..at.min(self.text.len())];
+        let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
+        FormatError::new(self.file, Place::Line(line), found, expected)
+    }
+
+    fn walk(&mut self) -> Result<(), FormatError> {
+        // Programs that recover an interrupted run leave a line of plain text before the XML.
+        let text = self.text;
+        let skipped = text.find('<').unwrap_or(text.len());
+        let mut reader = Reader::from_str(&text[skipped..]);
+        reader.config_mut().expand_empty_elements = true;
+        let (mut content, mut start) = (Cow::Borrowed(""), skipped);
+        let (mut depth, mut has_root) = (0_usize, false);
+        loop {
+            let at = skipped + reader.buffer_position() as usize;
+            let event = reader.read_event().map_err(|error| {
+                self.error(skipped + reader.error_position() as usize, error.to_string(), "well-formed XML")
+            })?;
+            match event {
+                Event::Start(tag) => {
+                    if !has_root && tag.local_name().as_ref() != "WindowElement" {
+                        return Err(self.error(at, format!("<{}>", tag.name().as_ref()), "<WindowElement>"));
+                    }
+                    has_root = true;
+                    depth += 1;
+                    self.open(tag.local_name().as_ref(), at);
+                    (content, start) = (Cow::Borrowed(""), skipped + reader.buffer_position() as usize);
+                }
+                Event::End(tag) => {
+                    self.close(tag.local_name().as_ref(), std::mem::take(&mut content), start)?;
+                    depth -= 1;
+                    if depth == 0 {
+                        return Ok(());
+                    }
+                }
+                Event::Text(text) => append(&mut content, text.into_inner()),
+                Event::CData(text) => append(&mut content, text.into_inner()),
+                Event::GeneralRef(reference) => {
+                    let name = reference.xml10_content();
+                    let resolved = match reference.resolve_char_ref() {
+                        Ok(Some(character)) => Some(character.to_string()),
+                        Ok(None) => quick_xml::escape::resolve_predefined_entity(&name).map(String::from),
+                        Err(_) => None,
+                    };
+                    let resolved =
+                        resolved.ok_or_else(|| self.error(at, format!("&{name};"), "an entity that XML predefines"))?;
+                    append(&mut content, Cow::Owned(resolved));
+                }
+                Event::Eof => return Err(self.error(self.text.len(), "the end of the file", "</WindowElement>")),
+                // An empty element comes as a start and an end.
+                Event::Empty(_) | Event::Comment(_) | Event::Decl(_) | Event::PI(_) | Event::DocType(_) => {}
+            }
+        }
+    }
+
+    fn open(&mut self, name: &str, start: usize) {
+        match name {
+            "WavelengthData" => self.wavelength.clear(),
+            "WavelengthDataBlock" => {
+                self.is_in_block = true;
+                self.blocks.push(BlockText { start, ..BlockText::default() });
+            }
+            _ => {}
+        }
+    }
+
+    fn close(&mut self, name: &str, content: Cow<'a, str>, start: usize) -> Result<(), FormatError> {
+        if self.is_in_block {
+            return self.close_in_block(name, content, start);
+        }
+        let content = content.trim();
+        match name {
+            "Name" => self.result.name = content.into(),
+            "Manufacturer" => self.result.manufacturer = content.into(),
+            "Wavelength" => self.wavelength = content.into(),
+            "IncidentDataStructure" => {
+                let known = [
+                    ("Columns", Structure::Columns),
+                    ("Rows", Structure::Rows),
+                    ("TensorTree3", Structure::Tree(Rank::Three)),
+                    ("TensorTree4", Structure::Tree(Rank::Four)),
+                ];
+                let found = known.into_iter().find(|(name, _)| name.eq_ignore_ascii_case(content));
+                let (_, structure) = found.ok_or_else(|| {
+                    let expected = "Columns, Rows, TensorTree3 or TensorTree4";
+                    self.error(start, format!("IncidentDataStructure {content:?}"), expected)
+                })?;
+                self.structure = Some(structure);
+            }
+            "WavelengthData" => {
+                for block in self.blocks.iter_mut().rev().take_while(|block| block.wavelength.is_empty()) {
+                    block.wavelength.clone_from(&self.wavelength);
+                }
+            }
+            _ => self.basis.close(name, content).map_err(|(found, expected)| self.error(start, found, expected))?,
+        }
+        Ok(())
+    }
+
+    fn close_in_block(&mut self, name: &str, content: Cow<'a, str>, start: usize) -> Result<(), FormatError> {
+        let direction = match name {
+            "WavelengthDataBlock" => {
+                self.is_in_block = false;
+                return Ok(());
+            }
+            "WavelengthDataDirection" => {
+                let names = ["transmission front", "transmission back", "reflection front", "reflection back"];
+                let wanted = content.split_whitespace().collect::<Vec<_>>().join(" ").to_ascii_lowercase();
+                let index = names.iter().position(|name| *name == wanted).ok_or_else(|| {
+                    let expected = "Transmission or Reflection, Front or Back";
+                    self.error(start, format!("WavelengthDataDirection {:?}", content.trim()), expected)
+                })?;
+                Some(Block::ALL[index])
+            }
+            "AngleBasis" if !content.trim().eq_ignore_ascii_case("LBNL/Shirley-Chiu") => {
+                return Err(self.error(start, format!("AngleBasis {:?}", content.trim()), "LBNL/Shirley-Chiu"));
+            }
+            _ => None,
+        };
+        if let Some(block) = self.blocks.last_mut() {
+            match name {
+                "WavelengthDataDirection" => block.direction = direction,
+                "ColumnAngleBasis" => block.columns = Some((content, start)),
+                "RowAngleBasis" => block.rows = Some((content, start)),
+                "ScatteringData" => block.values = Some((content, start)),
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes a block into its band.
+    fn keep(&mut self, block: &BlockText<'_>) -> Result<(), FormatError> {
+        let wavelength = &block.wavelength;
+        if wavelength.is_empty() {
+            return Err(self.error(block.start, "WavelengthData without a Wavelength", "its name"));
+        }
+        let Some((direction, values)) = block.direction.zip(block.values.as_ref()) else {
+            return Err(self.error(block.start, "a WavelengthDataBlock without them", "a direction and values"));
+        };
+        let component = self.component(block, values)?;
+        let bands = &mut self.result.bands;
+        let known = bands.iter().position(|band| band.wavelength.eq_ignore_ascii_case(wavelength));
+        let band = known.unwrap_or_else(|| {
+            bands.push(Band { wavelength: wavelength.clone(), window: Window::default() });
+            bands.len() - 1
+        });
+        if bands[band].window.set(direction, component).is_some() {
+            let found = format!("a second {direction:?} of {wavelength}");
+            return Err(self.error(block.start, found, "each block once in a band"));
+        }
+        Ok(())
+    }
+
+    fn find_basis(&self, (name, start): &Text<'_>) -> Result<AngleBasis, FormatError> {
+        self.basis.find(name.trim()).ok_or_else(|| {
+            let expected = "LBNL/Klems Full, Half or Quarter, or a basis that the file defines";
+            self.error(*start, format!("basis {:?}", name.trim()), expected)
+        })
+    }
+
+    fn component(&self, block: &BlockText<'_>, (content, start): &Text<'_>) -> Result<Component, FormatError> {
+        let start = *start;
+        let is_columns = match self.structure {
+            None => {
+                return Err(self.error(start, "values without an IncidentDataStructure", "the structure of the file"));
+            }
+            Some(Structure::Tree(rank)) => return self.tree(rank, content, start).map(Component::Tree),
+            Some(Structure::Columns) => true,
+            Some(Structure::Rows) => false,
+        };
+        let Some((columns, rows)) = block.columns.as_ref().zip(block.rows.as_ref()) else {
+            return Err(self.error(start, "values without their bases", "ColumnAngleBasis and RowAngleBasis"));
+        };
+        let (columns, rows) = (self.find_basis(columns)?, self.find_basis(rows)?);
+        let (incident, exit) = if is_columns { (columns, rows) } else { (rows, columns) };
+        let (ni, no) = (incident.patches(), exit.patches());
+        let found = numbers(content).count();
+        if found != ni * no {
+            let expected = format!("{} = {ni} incident patches x {no} exit patches", ni * no);
+            return Err(self.error(start, format!("{found} values"), expected));
+        }
+        let mut values = vec![0.0; ni * no];
+        for (index, (at, token)) in numbers(content).enumerate() {
+            let value = number(token).ok_or_else(|| self.error(start + at, quoted(token), "a finite number"))?;
+            let (i, o) = if is_columns { (index % ni, index / ni) } else { (index / no, index % no) };
+            values[i * no + o] = value;
+        }
+        let matrix = KlemsMatrix::new(incident, exit, values);
+        matrix.map(Component::Klems).map_err(|error| self.error(start, error.to_string(), "a Klems matrix"))
+    }
+
+    fn tree(&self, rank: Rank, content: &str, start: usize) -> Result<TensorTree, FormatError> {
+        tree::parse(rank, content).map_err(|error| self.error(start + error.at, error.found, error.expected))
+    }
+}
+
+fn append<'a>(content: &mut Cow<'a, str>, more: Cow<'a, str>) {
+    if content.is_empty() {
+        *content = more;
+    } else {
+        content.to_mut().push_str(&more);
+    }
+}
+
+/// The tokens between white space and commas, each with its offset.
+fn numbers(content: &str) -> impl Iterator<Item = (usize, &str)> {
+    let is_separator = |character: char| character.is_ascii_whitespace() || character == ',';
+    content
+        .split(is_separator)
+        .filter(|token| !token.is_empty())
+        .map(|token| (token.as_ptr() as usize - content.as_ptr() as usize, token))
+}
+
+/// A finite `f32`.
+pub(super) fn number(token: &str) -> Option<f32> {
+    token.parse().ok().filter(|value: &f32| value.is_finite())
+}
+
+/// A token as an error shows it, cut short.
+pub(super) fn quoted(token: &str) -> String {
+    format!("{:?}", token.chars().take(32).collect::<String>())
+}

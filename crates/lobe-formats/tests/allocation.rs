@@ -1,0 +1,71 @@
+//! No reader allocates more than a small multiple of the size of its file, whatever the file says.
+
+use lobe_formats::{mbsdf, merl, pbsdf, rgl, tensor};
+use peak_alloc::PeakAlloc;
+use std::path::Path;
+
+#[global_allocator]
+static ALLOCATOR: PeakAlloc = PeakAlloc;
+
+/// The most memory that `read` had at once beyond what there was before, in bytes.
+fn peak(read: impl FnOnce()) -> usize {
+    ALLOCATOR.reset_peak_usage();
+    let before = ALLOCATOR.current_usage();
+    read();
+    ALLOCATOR.peak_usage() - before
+}
+
+/// A tensor file whose fields all lie over the same data, and say whatever the caller wants of their shape.
+fn overlapping(names: &[String], dtype: u8, shape: &[u64], data: usize) -> Vec<u8> {
+    let mut bytes = b"tensor_file\0\x01\x00".to_vec();
+    bytes.extend_from_slice(&(names.len() as u32).to_le_bytes());
+    let headers: usize = names.iter().map(|name| 13 + name.len() + 8 * shape.len()).sum();
+    for name in names {
+        bytes.extend_from_slice(&(name.len() as u16).to_le_bytes());
+        bytes.extend_from_slice(name.as_bytes());
+        bytes.extend_from_slice(&(shape.len() as u16).to_le_bytes());
+        bytes.push(dtype);
+        bytes.extend_from_slice(&(18 + headers as u64).to_le_bytes());
+        shape.iter().for_each(|n| bytes.extend_from_slice(&n.to_le_bytes()));
+    }
+    bytes.resize(bytes.len() + data, 0);
+    bytes
+}
+
+/// Reads a file; whether that went as it should.
+type Read = fn(&[u8], &Path) -> bool;
+
+/// One test, so that no other thread allocates meanwhile.
+#[test]
+fn memory_follows_the_size_of_the_file() {
+    let file = Path::new("hostile.file");
+    let names: Vec<String> = (0..2000).map(|i| format!("field{i}")).collect();
+    let many = overlapping(&names, 10, &[10_000], 40_000);
+    let fields = ["phi_i", "theta_i", "ndf", "sigma", "vndf", "luminance", "rgb", "description", "jacobian"];
+    let fields = fields.map(String::from);
+    let named = overlapping(&fields, 10, &[1, 4, 50, 50], 40_000);
+    let flat = overlapping(&fields, 10, &[10_000], 40_000);
+    let polarised = overlapping(&["M", "wvls", "phi_d", "theta_d", "theta_h"].map(String::from), 10, &[0, 1 << 40], 64);
+    let blocks =
+        [b"NVIDIA ARC MBSDF V1\nMBSDF_DATA=\n\x01\x00\x00\x00\xff\xff\x00\x00\xff\xff\x00\x00".as_slice(), &[7; 999]];
+    let header: Vec<u8> = [90i32, 90, 180].iter().flat_map(|n| n.to_le_bytes()).collect();
+    let short: Vec<String> = (0..4000).map(|i| format!("{i:x}")).collect();
+    let headers = overlapping(&short, 10, &[], 4);
+    let cases: [(&str, Vec<u8>, Read); 7] = [
+        ("nothing but the headers of fields", headers, |bytes, file| tensor::read(bytes, file).is_ok()),
+        ("many fields over the same data", many, |bytes, file| tensor::read(bytes, file).is_ok()),
+        ("all fields with four dimensions", named, |bytes, file| rgl::read(bytes, file).is_err()),
+        ("all fields with one dimension", flat, |bytes, file| rgl::read(bytes, file).is_err()),
+        ("angles that are not there", polarised, |bytes, file| pbsdf::read(bytes, file).is_err()),
+        ("a block larger than its file", blocks.concat(), |bytes, file| mbsdf::read(bytes, file).is_err()),
+        ("a header without its values", header, |bytes, file| merl::read(bytes, file).is_err()),
+    ];
+    for (name, bytes, read) in cases {
+        let used = peak(|| assert!(read(&bytes, file), "{name}"));
+        println!("{name}: {used} bytes for a file of {}", bytes.len());
+        // The header of a field, of 16 bytes or more, becomes a structure of about 130. A short file still has an error
+        // to tell.
+        let times = if name.starts_with("nothing") { 12 } else { 4 };
+        assert!(used < times * bytes.len() + 4096, "{name}: {used} bytes for a file of {}", bytes.len());
+    }
+}

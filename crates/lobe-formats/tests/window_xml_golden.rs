@@ -1,0 +1,90 @@
+//! WINDOW XML against what Radiance answered.
+
+mod common;
+
+use std::path::Path;
+
+use common::{bytes, direction, files, golden, shared};
+use lobe_formats::window_xml;
+use lobe_table::window::Window;
+
+fn visible(path: &Path) -> Window {
+    let bytes = bytes(path);
+    assert!(window_xml::matches(&bytes), "{}", path.display());
+    let sheet = window_xml::read(&bytes, path).unwrap_or_else(|error| panic!("{error}"));
+    sheet.band("visible").expect("a visible band").clone()
+}
+
+/// Radiance moves values by up to 3.5e-4 on purpose, to break ties when it samples.
+const PERTURBATION: f64 = 3.5e-4;
+
+#[test]
+fn synthetic_files_agree_with_the_reference() {
+    let Some(shared) = shared() else { return };
+    let folder = shared.join("golden");
+    let mut count = 0;
+    for name in ["klems_quarter_columns", "klems_quarter_rows", "klems_half", "tensortree3", "tensortree4"] {
+        let xml = folder.join(format!("{name}.xml"));
+        if !xml.is_file() {
+            println!("SKIPPED: {} is not there", xml.display());
+            continue;
+        }
+        let window = visible(&xml);
+        let (mut exact, mut perturbed) = (0.0_f64, 0.0_f64);
+        for (query, answer) in golden(&folder.join(format!("{name}.radiance.txt"))) {
+            let (wi, wo) = (direction(&query, 0), direction(&query, 3));
+            let found = window.eval(wi, wo);
+            let error = |wanted: f64| (found - wanted).abs() / wanted.abs().max(1e-12);
+            perturbed = perturbed.max(error(answer[0]));
+            exact = exact.max(error(answer[1]));
+            count += 1;
+        }
+        println!("{name}: exact {exact:.2e}, Radiance {perturbed:.2e}");
+        assert!(exact <= 1e-6, "{name}: {exact}");
+        assert!(perturbed <= PERTURBATION, "{name}: {perturbed}");
+    }
+    assert!(count >= 1000, "{count} answers");
+}
+
+#[test]
+fn real_files_agree_with_the_reference() {
+    let Some(shared) = shared() else { return };
+    let data = shared.join("data");
+    let mut count = 0;
+    for path in files(&shared.join("golden")) {
+        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+        let Some(xml) = name.strip_prefix("real_").and_then(|name| name.strip_suffix(".radiance.txt")) else {
+            continue;
+        };
+        let folders = ["klems_xml", "tensortree_xml"].map(|folder| data.join(folder).join(xml));
+        let xml = folders.iter().find(|path| path.is_file()).unwrap_or_else(|| panic!("{xml} is not there"));
+        let window = visible(xml);
+        let mut worst = 0.0_f64;
+        for (query, answer) in golden(&path) {
+            let (wi, wo) = (direction(&query, 0), direction(&query, 3));
+            let (found, wanted) = (window.eval(wi, wo), answer[0]);
+            let error = (found - wanted).abs() / wanted.abs().max(1e-12);
+            assert!(error <= PERTURBATION, "{name}: {found}, not {wanted} for {wi:?} {wo:?}");
+            worst = worst.max(error);
+            count += 1;
+        }
+        println!("{name}: {worst:.2e}");
+    }
+    assert!(count >= 3000, "{count} answers");
+}
+
+#[test]
+fn every_real_file_loads_and_survives_a_round_trip() {
+    let Some(shared) = shared() else { return };
+    let data = shared.join("data");
+    let target = tempfile::tempdir().expect("a folder");
+    for path in files(&data.join("klems_xml")).into_iter().chain(files(&data.join("tensortree_xml"))) {
+        let sheet = window_xml::read(&bytes(&path), &path).unwrap_or_else(|error| panic!("{error}"));
+        let copy = target.path().join("copy.xml");
+        window_xml::write(&sheet, &copy).expect("a written copy");
+        let again = window_xml::read(&bytes(&copy), &copy).unwrap_or_else(|error| panic!("{error}"));
+        assert!(sheet == again, "{}", path.display());
+        let bands: Vec<&str> = sheet.bands.iter().map(|band| band.wavelength.as_str()).collect();
+        println!("{:?} by {:?}: {bands:?}", sheet.name, sheet.manufacturer);
+    }
+}

@@ -1,0 +1,292 @@
+//! Klems matrices: a BSDF that is constant on pairs of patches of two hemispheres.
+//!
+//! A basis cuts a hemisphere into rings of polar angle and each ring into equal sectors of azimuth, the first of which
+//! is centred on +x (J. H. Klems, "A new method for predicting the solar heat gain of complex fenestration systems",
+//! ASHRAE Transactions 100(1), 1994). Nothing is interpolated: a value belongs to a whole patch.
+
+use thiserror::Error;
+
+/// Why rings do not make a basis, or values do not make a matrix.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum KlemsError {
+    /// A basis without rings.
+    #[error("no rings; expected at least one")]
+    NoRings,
+    /// A ring whose bounds do not continue the ring before, or that leaves `[0, 90]` degrees.
+    #[error("ring {index} spans {lower} to {upper} degrees; expected it to start at {start} and to end by 90")]
+    Bounds {
+        /// Position of the ring.
+        index: usize,
+        /// Its lower bound in degrees.
+        lower: f64,
+        /// Its upper bound in degrees.
+        upper: f64,
+        /// The upper bound of the ring before, in degrees.
+        start: f64,
+    },
+    /// A ring without patches, or a basis with more of them than an index can count.
+    #[error("ring {index} has {patches} patches; expected 1 to {}", u16::MAX)]
+    Patches {
+        /// Position of the ring.
+        index: usize,
+        /// What was found.
+        patches: u32,
+    },
+    /// The value count is not the product of the two patch counts.
+    #[error("{found} values; expected {expected} = incident patches x exit patches")]
+    ValueCount {
+        /// What was found.
+        found: usize,
+        /// What the bases ask for.
+        expected: usize,
+    },
+    /// A value that is NaN or infinite.
+    #[error("value {index} is {value}; expected a finite number")]
+    ValueNotFinite {
+        /// Position in the value array.
+        index: usize,
+        /// What was found.
+        value: f32,
+    },
+}
+
+/// One ring of a basis. Its bounds are in degrees, as every file and table of bases has them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ring {
+    /// Lower bound of the polar angle, in degrees; it belongs to the ring.
+    pub lower: f64,
+    /// Upper bound of the polar angle, in degrees; it belongs to the next ring.
+    pub upper: f64,
+    /// How many equal sectors of azimuth the ring has.
+    pub patches: u32,
+}
+
+/// A partition of a hemisphere into patches, counted ring by ring from the pole.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AngleBasis {
+    name: String,
+    rings: Vec<Ring>,
+    patches: usize,
+}
+
+/// How far apart, in degrees, two bounds may be that mean the same circle.
+const SAME_BOUND: f64 = 1e-3;
+
+impl AngleBasis {
+    /// Checks that the rings follow each other from 0 to at most 90 degrees and keeps them.
+    ///
+    /// # Errors
+    /// [`KlemsError`] names the ring.
+    pub fn new(name: impl Into<String>, rings: Vec<Ring>) -> Result<Self, KlemsError> {
+        if rings.is_empty() {
+            return Err(KlemsError::NoRings);
+        }
+        let (mut start, mut patches) = (0.0, 0_usize);
+        for (index, ring) in rings.iter().enumerate() {
+            let Ring { lower, upper, patches: count } = *ring;
+            let follows = (lower - start).abs() <= SAME_BOUND && upper > lower && upper <= 90.0 + SAME_BOUND;
+            if !follows {
+                return Err(KlemsError::Bounds { index, lower, upper, start });
+            }
+            start = upper;
+            patches += count as usize;
+            if count == 0 || patches > usize::from(u16::MAX) {
+                return Err(KlemsError::Patches { index, patches: count });
+            }
+        }
+        Ok(AngleBasis { name: name.into(), rings, patches })
+    }
+
+    /// The basis of 145 patches, `LBNL/Klems Full`.
+    pub fn full() -> Self {
+        let counts = [1, 8, 16, 20, 24, 24, 24, 16, 12];
+        Self::standard("LBNL/Klems Full", &[0.0, 5.0, 15.0, 25.0, 35.0, 45.0, 55.0, 65.0, 75.0, 90.0], &counts)
+    }
+
+    /// The basis of 77 patches, `LBNL/Klems Half`.
+    pub fn half() -> Self {
+        let counts = [1, 8, 12, 16, 20, 12, 8];
+        Self::standard("LBNL/Klems Half", &[0.0, 6.5, 19.5, 32.5, 45.5, 58.5, 71.5, 90.0], &counts)
+    }
+
+    /// The basis of 41 patches, `LBNL/Klems Quarter`.
+    pub fn quarter() -> Self {
+        Self::standard("LBNL/Klems Quarter", &[0.0, 9.0, 27.0, 45.0, 63.0, 90.0], &[1, 8, 12, 12, 8])
+    }
+
+    fn standard(name: &str, bounds: &[f64], counts: &[u32]) -> Self {
+        let ring = |(bounds, &patches): (&[f64], &u32)| Ring { lower: bounds[0], upper: bounds[1], patches };
+        let rings = bounds.windows(2).zip(counts).map(ring).collect();
+        AngleBasis { name: name.into(), rings, patches: counts.iter().map(|&n| n as usize).sum() }
+    }
+
+    /// The name by which files refer to the basis.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The rings, from the pole to the horizon.
+    pub fn rings(&self) -> &[Ring] {
+        &self.rings
+    }
+
+    /// How many patches there are; at least one.
+    pub fn patches(&self) -> usize {
+        self.patches
+    }
+
+    /// The patch that holds the unit vector `direction`, whose z must not be negative; `None` beyond the last ring.
+    ///
+    /// Neighbouring patches meet without a gap, so that a change in the last bit of a direction that lies on a bound
+    /// changes its patch.
+    pub fn patch(&self, direction: [f64; 3]) -> Option<usize> {
+        let [x, y, z] = direction;
+        let theta = z.clamp(-1.0, 1.0).acos().to_degrees();
+        let mut first = 0;
+        for (index, ring) in self.rings.iter().enumerate() {
+            let is_horizon = index + 1 == self.rings.len() && ring.upper >= 90.0 - SAME_BOUND;
+            if theta < ring.upper || (is_horizon && theta <= 90.0) {
+                let turn = y.atan2(x).to_degrees().rem_euclid(360.0) / 360.0;
+                let sector = (turn * f64::from(ring.patches) + 0.5) as usize;
+                return Some(first + sector % ring.patches as usize);
+            }
+            first += ring.patches as usize;
+        }
+        None
+    }
+
+    /// The solid angle of a patch projected on the surface, in sr: `pi (cos^2 lower - cos^2 upper) / patches`.
+    ///
+    /// # Panics
+    /// Where `patch` is not below [`patches`](Self::patches).
+    pub fn projected_solid_angle(&self, patch: usize) -> f64 {
+        assert!(patch < self.patches, "patch {patch} of a basis with {}", self.patches);
+        let mut end = 0;
+        let ring = self.rings.iter().find(|ring| {
+            end += ring.patches as usize;
+            patch < end
+        });
+        ring.map_or(0.0, |Ring { lower, upper, patches }| {
+            let cos2 = |degrees: &f64| degrees.to_radians().cos().powi(2);
+            std::f64::consts::PI * (cos2(lower) - cos2(upper)) / f64::from(*patches)
+        })
+    }
+}
+
+/// A BSDF on pairs of patches: one value for light that arrives through one patch and leaves through another.
+///
+/// Values are `f` in 1/sr, without the cosine, `[incident patch][exit patch]`. The incident patch is found by the
+/// direction in which light *travels*, so that equal indices mean the straight-through ray, or the mirrored one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KlemsMatrix {
+    incident: AngleBasis,
+    exit: AngleBasis,
+    values: Vec<f32>,
+}
+
+impl KlemsMatrix {
+    /// Checks the number of values and keeps them.
+    ///
+    /// # Errors
+    /// [`KlemsError::ValueCount`] and [`KlemsError::ValueNotFinite`].
+    pub fn new(incident: AngleBasis, exit: AngleBasis, values: Vec<f32>) -> Result<Self, KlemsError> {
+        let expected = incident.patches * exit.patches;
+        if values.len() != expected {
+            return Err(KlemsError::ValueCount { found: values.len(), expected });
+        }
+        if let Some(index) = values.iter().position(|v| !v.is_finite()) {
+            return Err(KlemsError::ValueNotFinite { index, value: values[index] });
+        }
+        Ok(KlemsMatrix { incident, exit, values })
+    }
+
+    /// The basis of the side from which light arrives.
+    pub fn incident(&self) -> &AngleBasis {
+        &self.incident
+    }
+
+    /// The basis of the side to which light leaves.
+    pub fn exit(&self) -> &AngleBasis {
+        &self.exit
+    }
+
+    /// All values, `[incident patch][exit patch]`, in 1/sr.
+    pub fn values(&self) -> &[f32] {
+        &self.values
+    }
+
+    /// The value for light from `wi` to `wo`, unit vectors that point away from the surface, each on either side.
+    /// Zero where a direction is beyond the last ring of its basis.
+    pub fn eval(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
+        let incident = self.incident.patch([-wi[0], -wi[1], wi[2].abs()]);
+        let exit = self.exit.patch([wo[0], wo[1], wo[2].abs()]);
+        match (incident, exit) {
+            (Some(incident), Some(exit)) => f64::from(self.values[incident * self.exit.patches + exit]),
+            _ => 0.0,
+        }
+    }
+
+    /// The share of the light arriving through `incident` that leaves: the sum of `f` times projected solid angle.
+    ///
+    /// # Panics
+    /// Where `incident` is not a patch of the incident basis.
+    pub fn albedo(&self, incident: usize) -> f64 {
+        let row = &self.values[incident * self.exit.patches..][..self.exit.patches];
+        row.iter().enumerate().map(|(exit, &f)| f64::from(f) * self.exit.projected_solid_angle(exit)).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn standard_bases_cover_the_hemisphere() {
+        for (basis, patches) in [(AngleBasis::full(), 145), (AngleBasis::half(), 77), (AngleBasis::quarter(), 41)] {
+            assert_eq!(basis.patches(), patches);
+            assert_eq!(AngleBasis::new(basis.name(), basis.rings().to_vec()), Ok(basis.clone()));
+            let total: f64 = (0..patches).map(|patch| basis.projected_solid_angle(patch)).sum();
+            assert!((total - std::f64::consts::PI).abs() < 1e-12, "{} covers {total}", basis.name());
+        }
+    }
+
+    #[test]
+    fn patches_are_counted_from_a_sector_centred_on_x() {
+        let basis = AngleBasis::full();
+        let at = |theta: f64, phi: f64| {
+            let ((s, c), (sp, cp)) = (theta.to_radians().sin_cos(), phi.to_radians().sin_cos());
+            basis.patch([s * cp, s * sp, c])
+        };
+        assert_eq!(at(0.0, 0.0), Some(0));
+        assert_eq!(at(10.0, 0.0), Some(1));
+        assert_eq!(at(10.0, 22.0), Some(1));
+        assert_eq!(at(10.0, -22.0), Some(1));
+        assert_eq!(at(10.0, 23.0), Some(2));
+        assert_eq!(at(20.0, 90.0), Some(9 + 4));
+        assert_eq!(basis.patch([1.0, 0.0, 0.0]), Some(133));
+    }
+
+    #[test]
+    fn light_straight_through_has_equal_indices() {
+        let basis = AngleBasis::quarter();
+        let n = basis.patches();
+        let values = (0..n * n).map(|at| if at / n == at % n { 1.0 } else { 0.0 }).collect();
+        let matrix = KlemsMatrix::new(basis.clone(), basis, values).expect("a square matrix");
+        let (s, c) = 0.7_f64.sin_cos();
+        assert_eq!(matrix.eval([s * 0.6, s * 0.8, c], [-s * 0.6, -s * 0.8, -c]), 1.0);
+        assert_eq!(matrix.eval([s * 0.6, s * 0.8, c], [s * 0.6, s * 0.8, -c]), 0.0);
+    }
+
+    #[test]
+    fn bad_rings_are_refused() {
+        let ring = |lower, upper, patches| Ring { lower, upper, patches };
+        let new = |rings| AngleBasis::new("bad", rings);
+        assert_eq!(new(vec![]), Err(KlemsError::NoRings));
+        assert!(matches!(new(vec![ring(1.0, 90.0, 1)]), Err(KlemsError::Bounds { index: 0, .. })));
+        assert!(matches!(new(vec![ring(0.0, 5.0, 1), ring(6.0, 90.0, 1)]), Err(KlemsError::Bounds { index: 1, .. })));
+        assert!(matches!(new(vec![ring(0.0, f64::NAN, 1)]), Err(KlemsError::Bounds { .. })));
+        assert!(matches!(new(vec![ring(0.0, 91.0, 1)]), Err(KlemsError::Bounds { .. })));
+        assert!(matches!(new(vec![ring(0.0, 90.0, 0)]), Err(KlemsError::Patches { .. })));
+        assert!(matches!(new(vec![ring(0.0, 90.0, u32::MAX)]), Err(KlemsError::Patches { .. })));
+    }
+}

@@ -1,0 +1,153 @@
+//! Linear interpolation between scattered points of a plane, on their Delaunay triangulation.
+
+use spade::handles::{FixedDirectedEdgeHandle, FixedVertexHandle};
+use spade::{DelaunayTriangulation, HierarchyHintGenerator, Point2, PositionInTriangulation, Triangulation};
+
+type Delaunay = DelaunayTriangulation<Point2<f64>, (), (), (), HierarchyHintGenerator<f64>>;
+
+/// Triangles at the rim that are lower than this, in radians, are there by rounding only.
+const FLAT: f64 = 1e-5;
+
+/// Scattered points and how to interpolate between them.
+#[derive(Clone, Debug)]
+pub(crate) struct Mesh {
+    triangles: Delaunay,
+    /// The edges around all triangles that are not [`FLAT`].
+    rim: Vec<[usize; 2]>,
+    /// By the index of a triangle, whether it lies outside of the rim.
+    is_outside: Vec<bool>,
+}
+
+/// Up to three points and what each counts for; the weights are not negative and add up to 1.
+pub(crate) type Weights = [(usize, f64); 3];
+
+impl Mesh {
+    /// Triangulates points that are finite and different from each other; `None` where there is no point.
+    pub(crate) fn new(points: &[[f64; 2]]) -> Option<Self> {
+        // Coordinates that only rounding keeps from zero would be refused.
+        let snap = |x: f64| if x.abs() < 1e-12 { 0.0 } else { x };
+        let points: Vec<_> = points.iter().map(|[x, y]| Point2::new(snap(*x), snap(*y))).collect();
+        let triangles = Delaunay::bulk_load_stable(points).ok()?;
+        if triangles.num_vertices() == 0 {
+            return None;
+        }
+        // Points on a straight rim are a little off it by rounding, and then a long flat triangle covers them: at the
+        // rim its far ends would answer for the points. So such triangles are taken off, one after the other.
+        let mut is_outside = vec![false; triangles.num_all_faces()];
+        let mut rim = Vec::new();
+        let mut pending: Vec<_> = triangles.convex_hull().map(|edge| edge.fix()).collect();
+        while let Some(edge) = pending.pop() {
+            let inner = triangles.directed_edge(edge).rev();
+            let [a, b] = [inner.from(), inner.to()].map(|end| end.position());
+            let face = inner.face().as_inner().map(|face| face.fix().index());
+            let apex = inner.opposite_position();
+            match face.zip(apex) {
+                Some((face, apex)) if !is_outside[face] && area(a, b, apex) < FLAT * (b.x - a.x).hypot(b.y - a.y) => {
+                    is_outside[face] = true;
+                    pending.extend([inner.next().fix(), inner.prev().fix()]);
+                }
+                _ => rim.push([inner.from().index(), inner.to().index()]),
+            }
+        }
+        Some(Mesh { triangles, rim, is_outside })
+    }
+
+    /// The weights at a point of the plane. Outside of the convex hull they are those of the nearest point of its rim,
+    /// and so they are where all points lie on a line.
+    pub(crate) fn weights(&self, point: [f64; 2]) -> Weights {
+        let at = Point2::new(point[0], point[1]);
+        match self.triangles.locate(at) {
+            PositionInTriangulation::OnVertex(vertex) => [(vertex.index(), 1.0), (0, 0.0), (0, 0.0)],
+            PositionInTriangulation::OnFace(face) if !self.is_outside[face.index()] => {
+                let corners = self.triangles.face(face).vertices();
+                let [a, b, c] = corners.map(|corner| corner.position());
+                let parts = [area(at, b, c), area(a, at, c), area(a, b, at)];
+                let whole: f64 = parts.iter().sum();
+                // A triangle too thin for its area to show: any corner is as near as rounding allows.
+                let weight = |index: usize| if whole > 0.0 { parts[index] / whole } else { 1.0 / 3.0 };
+                std::array::from_fn(|index| (corners[index].index(), weight(index)))
+            }
+            PositionInTriangulation::OnEdge(edge) if self.is_inside(edge) => {
+                let edge = self.triangles.directed_edge(edge);
+                self.along([edge.from().index(), edge.to().index()], at).0
+            }
+            _ => {
+                let edges = self.rim.iter().map(|&edge| self.along(edge, at));
+                let nearest = edges.min_by(|(_, a), (_, b)| a.total_cmp(b));
+                nearest.map_or([(0, 1.0), (0, 0.0), (0, 0.0)], |(weights, _)| weights)
+            }
+        }
+    }
+
+    /// Whether a triangle within the rim has this edge.
+    fn is_inside(&self, edge: FixedDirectedEdgeHandle) -> bool {
+        let edge = self.triangles.directed_edge(edge);
+        [edge, edge.rev()].iter().any(|side| side.face().as_inner().is_some_and(|f| !self.is_outside[f.fix().index()]))
+    }
+
+    /// The weights of the point of an edge that is nearest to `at`, and its squared distance.
+    fn along(&self, [i, j]: [usize; 2], at: Point2<f64>) -> (Weights, f64) {
+        let position = |index| self.triangles.vertex(FixedVertexHandle::from_index(index)).position();
+        let (a, b) = (position(i), position(j));
+        let (dx, dy) = (b.x - a.x, b.y - a.y);
+        let length2 = dx * dx + dy * dy;
+        let t = if length2 > 0.0 { (((at.x - a.x) * dx + (at.y - a.y) * dy) / length2).clamp(0.0, 1.0) } else { 0.0 };
+        let distance2 = (a.x + t * dx - at.x).powi(2) + (a.y + t * dy - at.y).powi(2);
+        ([(i, 1.0 - t), (j, t), (0, 0.0)], distance2)
+    }
+}
+
+/// Twice the area of a triangle whose corners turn to the left, or 0.
+fn area(a: Point2<f64>, b: Point2<f64>, c: Point2<f64>) -> f64 {
+    ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)).max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(mesh: &Mesh, values: &[f64], point: [f64; 2]) -> f64 {
+        mesh.weights(point).iter().map(|&(index, weight)| values[index] * weight).sum()
+    }
+
+    #[test]
+    fn a_plane_is_reproduced_inside_and_held_outside() {
+        let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [0.3, 0.6]];
+        let plane = |[x, y]: [f64; 2]| 2.0 * x - 3.0 * y + 1.0;
+        let (mesh, values) = (Mesh::new(&points).expect("points"), points.map(plane));
+        for point in [[0.3, 0.6], [0.1, 0.1], [0.9, 0.2], [0.5, 0.5], [0.0, 0.25], [1.0, 1.0]] {
+            assert!((value(&mesh, &values, point) - plane(point)).abs() < 1e-12, "{point:?}");
+        }
+        assert!((value(&mesh, &values, [0.5, -9.0]) - plane([0.5, 0.0])).abs() < 1e-12);
+        assert!((value(&mesh, &values, [7.0, 7.0]) - plane([1.0, 1.0])).abs() < 1e-12);
+    }
+
+    #[test]
+    fn points_on_a_line_and_single_points_will_do() {
+        let mesh = Mesh::new(&[[0.0, 0.0], [2.0, 0.0], [4.0, 0.0]]).expect("points");
+        assert_eq!(value(&mesh, &[1.0, 2.0, 6.0], [3.0, 0.0]), 4.0);
+        assert_eq!(value(&mesh, &[1.0, 2.0, 6.0], [1.0, 5.0]), 1.5);
+        assert_eq!(value(&mesh, &[1.0, 2.0, 6.0], [-1.0, -5.0]), 1.0);
+        let mesh = Mesh::new(&[[0.5, 0.5]]).expect("a point");
+        assert_eq!(value(&mesh, &[7.0], [0.1, 0.0]), 7.0);
+        assert!(Mesh::new(&[]).is_none());
+    }
+
+    #[test]
+    fn points_on_a_straight_rim_answer_for_themselves() {
+        // A fan of rays whose outermost ones are straight but for rounding.
+        let mut points = vec![[0.0, 0.0]];
+        for ray in 0..4 {
+            let (sin, cos) = (0.3 + 0.2 * f64::from(ray)).sin_cos();
+            points.extend((1..9).map(|step| [0.1 * f64::from(step) * cos, 0.1 * f64::from(step) * sin]));
+        }
+        let mesh = Mesh::new(&points).expect("points");
+        let values: Vec<f64> = (0..points.len()).map(|index| (index as f64).sin()).collect();
+        for (index, [x, y]) in points.iter().enumerate() {
+            for (dx, dy) in [(0.0, 0.0), (1e-9, -1e-9), (-1e-9, 1e-9), (1e-15, 0.0), (0.0, 1e-15)] {
+                let found = value(&mesh, &values, [x + dx, y + dy]);
+                assert!((found - values[index]).abs() < 1e-6, "point {index}: {found}, not {}", values[index]);
+            }
+        }
+    }
+}

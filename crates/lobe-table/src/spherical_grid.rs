@@ -1,0 +1,179 @@
+//! Measurements on a grid of ordinary spherical coordinates of both directions.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use crate::scattered::ANGLE_NAMES;
+use crate::{Channels, SamplesError, Scatter};
+
+/// A BRDF or BTDF on a grid of `theta_i`, `phi_i`, `theta_o`, `phi_o`, in radians.
+///
+/// Polar angles are in `[0, pi/2]`, from the normal on the side of their direction; azimuths in `[0, 2 pi]`; all strictly
+/// ascending. A grid with one `phi_i` is isotropic: only the difference of the azimuths counts. Values are `f` in 1/sr,
+/// without the cosine, `[theta_i][phi_i][theta_o][phi_o][channel]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SphericalGrid {
+    scatter: Scatter,
+    knots: [Vec<f64>; 4],
+    channels: Channels,
+    values: Vec<f32>,
+    is_mirrored: bool,
+}
+
+const ROUNDING: f64 = 1e-5;
+
+impl SphericalGrid {
+    /// Checks knots and values and keeps them.
+    ///
+    /// # Errors
+    /// [`SamplesError`] names the axis, the position, what was found and what was expected.
+    pub fn new(
+        scatter: Scatter,
+        knots: [Vec<f64>; 4],
+        channels: Channels,
+        values: Vec<f32>,
+    ) -> Result<Self, SamplesError> {
+        let mut expected = channels.count();
+        if expected == 0 {
+            return Err(SamplesError::Channels("no channels; expected at least one".into()));
+        }
+        for (of_axis, axis) in knots.iter().zip(ANGLE_NAMES) {
+            let limit = if axis.starts_with("theta") { FRAC_PI_2 } else { TAU };
+            if of_axis.is_empty() {
+                return Err(SamplesError::NoKnots { axis });
+            }
+            for (index, &value) in of_axis.iter().enumerate() {
+                if !value.is_finite() {
+                    return Err(SamplesError::KnotNotFinite { axis, index, value });
+                }
+                if !(-ROUNDING..=limit + ROUNDING).contains(&value) {
+                    return Err(SamplesError::KnotOutOfRange { axis, index, value, limit });
+                }
+                if index > 0 && value as f32 <= of_axis[index - 1] as f32 {
+                    return Err(SamplesError::KnotsNotAscending { axis, index, previous: of_axis[index - 1], value });
+                }
+            }
+            expected = expected.checked_mul(of_axis.len()).ok_or(SamplesError::TooLarge)?;
+        }
+        if values.len() != expected {
+            return Err(SamplesError::ValueCount { found: values.len(), expected });
+        }
+        if let Some(index) = values.iter().position(|v| !v.is_finite()) {
+            return Err(SamplesError::ValueNotFinite { index, value: values[index] });
+        }
+        Ok(SphericalGrid { scatter, knots, channels, values, is_mirrored: false })
+    }
+
+    /// Takes the grid for one half of an isotropic material whose other half, across the plane of incidence, is its
+    /// mirror image. `phi_o` then is the angle between the azimuths, held beyond its knots.
+    ///
+    /// # Errors
+    /// [`SamplesError::KnotOutOfRange`] where there is a second `phi_i`, or a `phi_o` beyond half a turn.
+    pub fn mirrored(self) -> Result<Self, SamplesError> {
+        for (axis, limit, least) in [(1, 0.0, 1), (3, PI, 0)] {
+            let beyond = self.knots[axis].iter().enumerate().skip(least).find(|(_, knot)| **knot > limit + ROUNDING);
+            if let Some((index, &value)) = beyond {
+                return Err(SamplesError::KnotOutOfRange { axis: ANGLE_NAMES[axis], index, value, limit });
+            }
+        }
+        Ok(SphericalGrid { is_mirrored: true, ..self })
+    }
+
+    /// `true` where the grid is one half of a material, see [`mirrored`](Self::mirrored).
+    pub fn is_mirrored(&self) -> bool {
+        self.is_mirrored
+    }
+
+    /// Reflection or transmission.
+    pub fn scatter(&self) -> Scatter {
+        self.scatter
+    }
+
+    /// The knots of `theta_i`, `phi_i`, `theta_o` and `phi_o`, in radians.
+    pub fn knots(&self) -> &[Vec<f64>; 4] {
+        &self.knots
+    }
+
+    /// What the channels stand for.
+    pub fn channels(&self) -> &Channels {
+        &self.channels
+    }
+
+    /// All values, in 1/sr, `[theta_i][phi_i][theta_o][phi_o][channel]`.
+    pub fn values(&self) -> &[f32] {
+        &self.values
+    }
+
+    /// `true` where the value depends on the difference of the azimuths only.
+    pub fn is_isotropic(&self) -> bool {
+        self.knots[1].len() == 1
+    }
+
+    /// The channels of `f` in 1/sr for light from `wi` to `wo`, unit vectors that point away from the surface:
+    /// multilinear in the angles. Polar angles beyond the knots are held, azimuths go round.
+    ///
+    /// Zero for directions that graze the surface, for two sides of a BRDF, and for one side of a BTDF. The two sides of
+    /// the surface are taken for alike.
+    pub fn eval(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f32> {
+        let count = self.channels.count();
+        let sides = wi[2] * wo[2];
+        let is_measured = match self.scatter {
+            Scatter::Reflection => sides > 0.0,
+            Scatter::Transmission => sides < 0.0,
+        };
+        if !is_measured {
+            return vec![0.0; count];
+        }
+        let polar = |[x, y, z]: [f64; 3]| x.hypot(y).atan2(z.abs());
+        let azimuth = |[x, y, _]: [f64; 3]| y.atan2(x);
+        let turn = match () {
+            () if self.is_mirrored => azimuth(wi),
+            () if self.is_isotropic() => azimuth(wi) - self.knots[1][0],
+            () => 0.0,
+        };
+        let cells = [
+            held(&self.knots[0], polar(wi)),
+            periodic(&self.knots[1], azimuth(wi)),
+            held(&self.knots[2], polar(wo)),
+            match (azimuth(wo) - turn).rem_euclid(TAU) {
+                between if self.is_mirrored => held(&self.knots[3], between.min(TAU - between)),
+                azimuth => periodic(&self.knots[3], azimuth),
+            },
+        ];
+        let mut sum = vec![0.0_f64; count];
+        for corner in 0..16_usize {
+            let (mut at, mut weight) = (0, 1.0);
+            for (axis, [lower, upper]) in cells.iter().enumerate() {
+                let (index, share) = if corner >> axis & 1 == 0 { lower } else { upper };
+                at = at * self.knots[axis].len() + index;
+                weight *= share;
+            }
+            let values = &self.values[at * count..][..count];
+            sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * f64::from(*value));
+        }
+        sum.into_iter().map(|value| value as f32).collect()
+    }
+}
+
+/// The two knots around an angle, and their weights.
+type Cell = [(usize, f64); 2];
+
+fn held(knots: &[f64], x: f64) -> Cell {
+    let upper = knots.partition_point(|&knot| knot <= x);
+    if upper == 0 || upper == knots.len() {
+        let nearest = upper.min(knots.len() - 1);
+        return [(nearest, 1.0), (nearest, 0.0)];
+    }
+    let t = (x - knots[upper - 1]) / (knots[upper] - knots[upper - 1]);
+    [(upper - 1, 1.0 - t), (upper, t)]
+}
+
+fn periodic(knots: &[f64], x: f64) -> Cell {
+    let (first, last) = (knots[0], knots[knots.len() - 1]);
+    let x = first + (x - first).rem_euclid(TAU);
+    let gap = first + TAU - last;
+    if x < last || knots.len() == 1 || gap <= ROUNDING {
+        return held(knots, x);
+    }
+    let t = ((x - last) / gap).clamp(0.0, 1.0);
+    [(knots.len() - 1, 1.0 - t), (0, t)]
+}

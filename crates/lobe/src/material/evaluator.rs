@@ -1,0 +1,69 @@
+//! What every representation can do.
+
+use std::fmt::Debug;
+
+use lobe_table::Channels;
+use lobe_table::mueller::Matrix;
+
+use crate::{Backend, Kind, Sample};
+
+/// Finds the values of pairs of directions in one representation: what [`Material`](crate::Material) is made of.
+///
+/// All directions are unit vectors that point away from the surface, normal on +z; `wi` to the light, `wo` to the viewer.
+pub(super) trait Evaluator: Debug + Send + Sync {
+    /// Which representation this is.
+    fn kind(&self) -> Kind;
+
+    /// What the channels of a value stand for.
+    fn channels(&self) -> &Channels;
+
+    /// Evaluates on this backend from now on, where there are lanes.
+    fn set_backend(&mut self, _backend: Backend) {}
+
+    /// `f` in 1/sr of every pair: `out[query * channels + channel]`. The slices fit together.
+    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]);
+
+    /// The density of [`sample`](Self::sample) over the solid angle of `wi`, in 1/sr, where there is a sampler.
+    fn pdf(&self, _wi: [f32; 3], _wo: [f32; 3]) -> Option<f32> {
+        None
+    }
+
+    /// Draws a direction to the light from two numbers in `[0, 1)`, where there is a sampler.
+    fn sample(&self, _wo: [f32; 3], _uniform: [f32; 2]) -> Option<Sample> {
+        None
+    }
+
+    /// The Mueller matrix at a wavelength in nm, where the representation has polarisation.
+    fn mueller(&self, _wi: [f32; 3], _wo: [f32; 3], _nm: f64) -> Option<Matrix> {
+        None
+    }
+}
+
+/// Evaluates pair by pair with an evaluator in `f64`, which finds unit vectors there to the last digit. Directions
+/// that have no length or are not finite give 0.
+pub(super) fn pair_by_pair(
+    wi: &[[f32; 3]],
+    wo: &[[f32; 3]],
+    out: &mut [f32],
+    mut eval: impl FnMut([f64; 3], [f64; 3], &mut [f32]),
+) {
+    let channels = out.len().checked_div(wi.len()).unwrap_or(1);
+    for ((wi, wo), texel) in wi.iter().zip(wo).zip(out.chunks_exact_mut(channels)) {
+        match unit(*wi).zip(unit(*wo)) {
+            Some((wi, wo)) => eval(wi, wo, texel),
+            None => texel.fill(0.0),
+        }
+    }
+}
+
+/// A direction in `f64`; `None` where it points nowhere.
+pub(super) fn unit(direction: [f32; 3]) -> Option<[f64; 3]> {
+    let v = direction.map(f64::from);
+    let length = v.iter().map(|c| c * c).sum::<f64>().sqrt();
+    (length.is_finite() && length > 0.0).then(|| v.map(|c| c / length))
+}
+
+/// Rounds the channels of a value.
+pub(super) fn round(texel: &mut [f32], value: &[f64]) {
+    texel.iter_mut().zip(value).for_each(|(out, value)| *out = *value as f32);
+}

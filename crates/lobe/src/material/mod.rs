@@ -1,0 +1,227 @@
+//! A material from a file, whatever its representation, ready to be evaluated.
+
+mod evaluator;
+mod half_diff;
+mod kind;
+mod mueller;
+mod rgl;
+mod sheet;
+mod spherical;
+mod table;
+mod utia;
+mod window;
+
+use std::path::Path;
+
+use lobe_formats::sheet::Data;
+use lobe_formats::{Document, Format};
+use lobe_table::mueller::Matrix;
+use lobe_table::rgl::Reference;
+use lobe_table::utia::Decode;
+use lobe_table::{Channels, Edges};
+
+use crate::{Backend, Brdf, OpenError};
+use evaluator::Evaluator;
+pub use kind::Kind;
+
+/// How to look up values on a grid of half and difference angles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Lookup {
+    /// The value of the bin, as the reader of the MERL database does it.
+    #[default]
+    Nearest,
+    /// Linear between the middles of the bins.
+    Linear,
+}
+
+/// What a file leaves open.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Options {
+    /// What holds outside the measured angles of specular tables. The other representations have their own rule, which
+    /// is that of the programs that defined them.
+    pub edges: Edges,
+    /// How half-difference grids are looked up.
+    pub lookup: Lookup,
+    /// What to make of the numbers of the UTIA database, whose unit is not documented.
+    pub decode: Decode,
+}
+
+/// A direction that was drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// To the light.
+    pub wi: [f32; 3],
+    /// The density over its solid angle, in 1/sr; 0 where the draw led below the surface and is to be dropped.
+    pub pdf: f32,
+}
+
+impl Sample {
+    const NONE: Sample = Sample { wi: [0.0; 3], pdf: 0.0 };
+}
+
+/// A measured material in the form in which it was measured: nothing is resampled.
+///
+/// `wi` points to the light and `wo` to the viewer: unit vectors away from the surface, normal on +z. Values are `f` in
+/// 1/sr, without the cosine, one a channel. Specular tables are evaluated in the SIMD lanes of the backend, the other
+/// representations in `f64`, pair by pair.
+///
+/// ```no_run
+/// let material = lobe::Material::open("paint.bsdf")?;
+/// println!("{} with {}", material.kind(), material.channels().names().join(" "));
+/// let wi = [[0.5, 0.0, 0.866], [0.0, 0.6, 0.8]];
+/// let wo = [[-0.5, 0.0, 0.866], [0.0, -0.6, 0.8]];
+/// let mut f = vec![0.0; wi.len() * material.channel_count()];
+/// material.eval_batch(&wi, &wo, &mut f);
+/// # Ok::<(), lobe::OpenError>(())
+/// ```
+#[derive(Debug)]
+pub struct Material {
+    format: Format,
+    source: Vec<(String, String)>,
+    evaluator: Box<dyn Evaluator>,
+    backend: Backend,
+}
+
+impl Material {
+    /// Opens a file of any format that `lobe_formats` reads, on the detected backend.
+    ///
+    /// # Errors
+    /// [`OpenError`] where the file cannot be read or holds nothing that has a value for a pair of directions, or
+    /// `LOBE_BACKEND` is wrong.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, OpenError> {
+        Material::open_with(path, &Options::default())
+    }
+
+    /// As [`open`](Material::open), with answers to what the file leaves open.
+    ///
+    /// # Errors
+    /// As [`open`](Material::open).
+    pub fn open_with(path: impl AsRef<Path>, options: &Options) -> Result<Self, OpenError> {
+        let path = path.as_ref();
+        let (format, document) = lobe_formats::open(path)?;
+        Material::new(path, format, document, options)
+    }
+
+    /// The material of a document that was read from `path`, which is named in errors.
+    ///
+    /// # Errors
+    /// As [`open`](Material::open).
+    pub fn new(path: &Path, format: Format, document: Document, options: &Options) -> Result<Self, OpenError> {
+        let source = document.source().to_vec();
+        let not_a_table = |found: &'static str| OpenError::NotATable { file: path.display().to_string(), found };
+        let evaluator: Box<dyn Evaluator> = match document {
+            Document::Table(measured) => Box::new(Brdf::new(&measured.data, &options.edges)?),
+            Document::Spherical(measured) => Box::new(measured.data),
+            Document::Scattered(measured) => Box::new(measured.data),
+            Document::Rgl(measured) => Box::new(Reference::new(&measured.data)),
+            Document::HalfDiff(measured) => {
+                Box::new(half_diff::HalfDifference { data: measured.data, lookup: options.lookup })
+            }
+            Document::Utia(measured) => Box::new(utia::UtiaGrid { data: measured.data, decode: options.decode }),
+            Document::Mueller(measured) => Box::new(mueller::Polarised::new(measured.data)),
+            Document::Window(measured) => Box::new(window::Bands::new(measured.data)),
+            Document::Sheet(measured) => {
+                let mut parts = Vec::new();
+                for part in measured.data {
+                    let (scatter, side) = (part.data.scatter(), part.side);
+                    let evaluator: Box<dyn Evaluator> = match part.data {
+                        Data::Table(data) => Box::new(Brdf::new(&data, &options.edges)?),
+                        Data::Spherical(data) => Box::new(data),
+                        Data::Scattered(data) => Box::new(data),
+                        // A delta function has no value for a pair of directions.
+                        Data::Specular(_) => continue,
+                    };
+                    parts.push(sheet::Part { scatter, side, evaluator });
+                }
+                let channels = parts.first().ok_or_else(|| not_a_table("mirror reflectances"))?.evaluator.channels();
+                let channels = channels.clone();
+                if parts.iter().any(|part| *part.evaluator.channels() != channels) {
+                    return Err(not_a_table("parts with different channels"));
+                }
+                Box::new(sheet::Sheet { channels, parts })
+            }
+            _ => return Err(not_a_table("a mirror reflectance")),
+        };
+        Ok(Material { format, source, evaluator, backend: Backend::detect()? })
+    }
+
+    /// The same material on another backend.
+    pub fn with_backend(mut self, backend: Backend) -> Self {
+        self.evaluator.set_backend(backend);
+        Material { backend, ..self }
+    }
+
+    /// The backend that evaluates.
+    pub fn backend(&self) -> Backend {
+        self.backend
+    }
+
+    /// The format of the file.
+    pub fn format(&self) -> Format {
+        self.format
+    }
+
+    /// The representation.
+    pub fn kind(&self) -> Kind {
+        self.evaluator.kind()
+    }
+
+    /// What the header of the file says: names and values in its order.
+    pub fn source(&self) -> &[(String, String)] {
+        &self.source
+    }
+
+    /// What the channels stand for.
+    pub fn channels(&self) -> &Channels {
+        self.evaluator.channels()
+    }
+
+    /// How many channels a value has.
+    pub fn channel_count(&self) -> usize {
+        self.channels().count()
+    }
+
+    /// The wavelength of each channel in nm, where channels are wavelengths.
+    pub fn wavelengths(&self) -> Option<&[f64]> {
+        match self.channels() {
+            Channels::Spectral(wavelengths) => Some(wavelengths),
+            _ => None,
+        }
+    }
+
+    /// Evaluates one pair into `out`, one value a channel. For many pairs use [`eval_batch`](Material::eval_batch).
+    ///
+    /// # Panics
+    /// Where `out` is not as long as there are channels.
+    pub fn eval(&self, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
+        self.eval_batch(&[wi], &[wo], out);
+    }
+
+    /// Evaluates many pairs: `out[query * channel_count + channel]`.
+    ///
+    /// # Panics
+    /// Where there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+    pub fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        assert_eq!(wi.len(), wo.len(), "as many wi as wo");
+        assert_eq!(out.len(), wi.len() * self.channel_count(), "one output a query and channel");
+        self.evaluator.eval_batch(wi, wo, out);
+    }
+
+    /// The density of [`sample`](Material::sample) over the solid angle of `wi`, in 1/sr. `None` where the
+    /// representation has no sampler.
+    pub fn pdf(&self, wi: [f32; 3], wo: [f32; 3]) -> Option<f32> {
+        self.evaluator.pdf(wi, wo)
+    }
+
+    /// Draws a direction to the light for a viewer from two numbers in `[0, 1)`. `None` where the representation has no
+    /// sampler.
+    pub fn sample(&self, wo: [f32; 3], uniform: [f32; 2]) -> Option<Sample> {
+        self.evaluator.sample(wo, uniform)
+    }
+
+    /// The Mueller matrix in 1/sr for light from `wi` to `wo` at a wavelength in nm, in the Stokes frames of
+    /// [`stokes_basis`](lobe_table::mueller::stokes_basis). `None` where the representation has no polarisation.
+    pub fn mueller(&self, wi: [f32; 3], wo: [f32; 3], nm: f64) -> Option<Matrix> {
+        self.evaluator.mueller(wi, wo, nm)
+    }
+}

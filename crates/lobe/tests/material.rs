@@ -1,0 +1,183 @@
+//! One interface over all representations: the value is that of the representation, whatever it is.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::path::Path;
+
+use lobe::formats::sheet::{Data, Part, Side};
+use lobe::formats::{Document, Format, Measured, Specular};
+use lobe::table::half_diff::HalfDiff;
+use lobe::table::mueller::Mueller;
+use lobe::table::rgl::{Images, Parts, Reference, Rgl};
+use lobe::table::spherical_grid::SphericalGrid;
+use lobe::{Channels, Kind, Lookup, Material, OpenError, Options, Samples, Scatter};
+
+fn measured<T>(data: T) -> Measured<T> {
+    Measured { data, source: vec![("by".into(), "hand".into())], tis: Vec::new() }
+}
+
+fn open(document: Document, options: &Options) -> Result<Material, OpenError> {
+    Material::new(Path::new("made.file"), Format::Ssdd, document, options)
+}
+
+fn material(document: Document) -> Material {
+    open(document, &Options::default()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn value(material: &Material, wi: [f32; 3], wo: [f32; 3]) -> Vec<f32> {
+    let mut out = vec![f32::NAN; material.channel_count()];
+    material.eval(wi, wo, &mut out);
+    out
+}
+
+fn flat(scatter: Scatter, value: f32, side: Option<Side>) -> Part {
+    let knots = [vec![0.0], vec![0.0], vec![0.0], vec![0.0]];
+    let grid = SphericalGrid::new(scatter, knots, Channels::Mono, vec![value]).expect("a grid");
+    Part { side, ..Part::new("", Data::Spherical(grid)) }
+}
+
+const UP: [f32; 3] = [0.6, 0.0, 0.8];
+const DOWN: [f32; 3] = [0.0, 0.6, -0.8];
+
+#[test]
+fn the_sides_choose_the_part_of_a_sheet() {
+    // The table answers with both directions above the surface only.
+    let knots = [vec![0.0], vec![0.0], vec![0.0], vec![0.0]];
+    let table = Samples::new(Scatter::Reflection, knots, Channels::Mono, vec![1.0]).expect("a table");
+    let mirror = Specular::new(Scatter::Reflection, [vec![0.0], vec![0.0]], Channels::Mono, vec![0.5]);
+    let parts = vec![
+        Part { side: Some(Side::Front), ..Part::new("", Data::Table(table)) },
+        Part::new("", Data::Specular(mirror.expect("a mirror"))),
+        flat(Scatter::Reflection, 2.0, Some(Side::Back)),
+        flat(Scatter::Transmission, 3.0, Some(Side::Front)),
+    ];
+    let sheet = material(Document::Sheet(measured(parts)));
+    assert_eq!((sheet.kind(), sheet.channel_count(), sheet.wavelengths()), (Kind::Sheet, 1, None));
+    assert_eq!(sheet.source(), [("by".to_string(), "hand".to_string())]);
+    let graze = [1.0, 0.0, 0.0];
+    let (wi, wo) = ([UP, DOWN, UP, DOWN, UP, graze], [UP, DOWN, DOWN, UP, graze, UP]);
+    let mut values = [f32::NAN; 6];
+    sheet.eval_batch(&wi, &wo, &mut values);
+    assert_eq!(values, [1.0, 2.0, 3.0, 0.0, 0.0, 0.0]);
+}
+
+#[test]
+fn sheets_without_one_answer_are_refused() {
+    let refused = |parts| {
+        let error = open(Document::Sheet(measured(parts)), &Options::default()).expect_err("no material");
+        error.to_string()
+    };
+    let mirror = Specular::new(Scatter::Reflection, [vec![0.0], vec![0.0]], Channels::Mono, vec![0.5]);
+    let mirror = Part::new("", Data::Specular(mirror.expect("a mirror")));
+    assert_eq!(refused(vec![mirror]), "made.file: found mirror reflectances; expected a BRDF or BTDF");
+    let knots = [vec![0.0], vec![0.0], vec![0.0], vec![0.0]];
+    let rgb = Samples::new(Scatter::Transmission, knots, Channels::Rgb, vec![1.0; 3]).expect("a table");
+    let parts = vec![flat(Scatter::Reflection, 1.0, None), Part::new("", Data::Table(rgb))];
+    assert!(refused(parts).contains("parts with different channels"));
+}
+
+#[test]
+fn half_difference_grids_are_looked_up_as_asked() {
+    let data = HalfDiff::new([4, 5, 6], (0..360).map(|i| i as f32).collect()).expect("a grid");
+    let wo = [0.0, 0.28, 0.96];
+    let wide = |w: [f32; 3]| w.map(f64::from);
+    let expected = [
+        (Lookup::Nearest, data.eval_nearest(wide(UP), wide(wo))),
+        (Lookup::Linear, data.eval_linear(wide(UP), wide(wo))),
+    ];
+    assert_ne!(expected[0].1, expected[1].1);
+    for (lookup, expected) in expected {
+        let options = Options { lookup, ..Options::default() };
+        let material = open(Document::HalfDiff(measured(data.clone())), &options).expect("a material");
+        assert_eq!((material.kind(), material.channels()), (Kind::HalfDifference, &Channels::Rgb));
+        for (found, expected) in value(&material, UP, wo).into_iter().zip(expected) {
+            assert!((f64::from(found) - expected).abs() < 1e-4, "{lookup:?}: {found}, not {expected}");
+        }
+    }
+}
+
+#[test]
+fn directions_that_point_nowhere_are_dark() {
+    let data = HalfDiff::new([1, 1, 1], vec![1.0; 3]).expect("a grid");
+    let material = material(Document::HalfDiff(measured(data)));
+    assert_eq!(value(&material, UP, [0.0, 0.0, 2.0]), [1.0; 3], "the length makes no difference");
+    for nowhere in [[0.0; 3], [f32::NAN, 0.0, 1.0], [0.0, 0.0, f32::INFINITY]] {
+        assert_eq!((value(&material, nowhere, UP), value(&material, UP, nowhere)), (vec![0.0; 3], vec![0.0; 3]));
+    }
+    assert_eq!((material.pdf(UP, UP), material.sample(UP, [0.5, 0.5])), (None, None), "no sampler");
+    assert_eq!(material.mueller(UP, UP, 500.0), None);
+}
+
+#[test]
+fn polarised_materials_have_the_value_of_unpolarised_light() {
+    let knots = [vec![-3.0, 3.0], vec![0.0, 1.5], vec![0.0, 1.5], vec![500.0, 600.0]];
+    let data = Mueller::new(knots, (0..256).map(|i| 0.1 + (i % 37) as f32).collect()).expect("matrices");
+    let material = material(Document::Mueller(measured(data)));
+    assert_eq!((material.kind(), material.wavelengths()), (Kind::Mueller, Some([500.0, 600.0].as_slice())));
+    let wo = [0.0, 0.28, 0.96];
+    for (nm, found) in [500.0, 600.0].into_iter().zip(value(&material, UP, wo)) {
+        let matrix = material.mueller(UP, wo, nm).expect("a matrix");
+        assert!((matrix[0][0] - f64::from(found)).abs() < 1e-5 && found > 0.0, "{found} at {nm} nm: {matrix:?}");
+    }
+}
+
+fn rgl() -> Rgl {
+    let images = |shape: [usize; 3]| {
+        let texels = (0..shape.iter().product()).map(|i| 0.5 + (i % 7) as f32 / 7.0).collect();
+        Images::new("made", shape, texels).expect("valid images")
+    };
+    let parts = Parts {
+        description: "made".into(),
+        phi_i: vec![0.0],
+        theta_i: vec![0.0, 1.5],
+        ndf: images([1, 2, 3]),
+        sigma: images([1, 2, 2]),
+        vndf: images([2, 6, 6]),
+        luminance: images([2, 4, 4]),
+        channels: Channels::Rgb,
+        spectra: images([6, 4, 4]),
+        jacobian: true,
+        valid: None,
+    };
+    Rgl::new(parts).expect("a material")
+}
+
+#[test]
+fn rgl_values_are_indexed_by_the_light_and_samples_by_the_viewer() {
+    let data = rgl();
+    let reference = Reference::new(&data);
+    let material = material(Document::Rgl(measured(data)));
+    let wo = [0.0, 0.28, 0.96];
+    let wide = |w: [f32; 3]| w.map(f64::from);
+    let mut expected = [0.0; 3];
+    reference.eval(wide(UP), wide(wo), &mut expected);
+    for (found, expected) in value(&material, UP, wo).into_iter().zip(expected) {
+        assert!((f64::from(found) / expected - 1.0).abs() < 1e-6, "{found}, not {expected}");
+    }
+    let mut drawn = 0;
+    for i in 0..100 {
+        let uniform = [(i % 10) as f32 / 10.0 + 0.05, (i / 10) as f32 / 10.0 + 0.05];
+        let sample = material.sample(wo, uniform).expect("a sampler");
+        if sample.pdf > 0.0 {
+            let pdf = material.pdf(sample.wi, wo).expect("a sampler");
+            assert!((sample.pdf / pdf - 1.0).abs() < 1e-3, "{sample:?}: {pdf}");
+            assert!(sample.wi[2] > 0.0);
+            drawn += 1;
+        }
+    }
+    assert!(drawn > 50, "{drawn}");
+    // Over the hemisphere the density is what does not fall below the surface.
+    let (n, m) = (200, 400);
+    let mut sum = 0.0;
+    for i in 0..n {
+        let theta = (i as f64 + 0.5) / n as f64 * FRAC_PI_2;
+        for j in 0..m {
+            let phi = (j as f64 + 0.5) / m as f64 * 2.0 * PI;
+            let wi = [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()].map(|c| c as f32);
+            let pdf = material.pdf(wi, wo).expect("a sampler");
+            sum += f64::from(pdf) * theta.sin() * FRAC_PI_2 / n as f64 * 2.0 * PI / m as f64;
+        }
+    }
+    assert!((0.5..1.01).contains(&sum), "{sum}");
+    let below = material.sample(DOWN, [0.5, 0.5]).expect("a sampler");
+    assert_eq!((below.pdf, material.pdf(DOWN, UP)), (0.0, Some(0.0)));
+}
