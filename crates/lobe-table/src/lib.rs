@@ -12,6 +12,7 @@ mod edges;
 mod eval;
 mod function;
 mod layout;
+pub mod paper;
 mod passes;
 pub mod reference;
 mod samples;
