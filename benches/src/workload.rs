@@ -2,6 +2,7 @@
 
 use std::f32::consts::TAU;
 
+use lobe::table::coords::directions_to_angles;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -41,6 +42,15 @@ impl Input {
             Input::Coherent => Pairs::sphere_picture(count),
             Input::Incoherent => Pairs::uniform(count),
         }
+    }
+
+    /// The angles, in radians, between `wo` and the mirror direction of `count` pairs.
+    pub fn thetas(self, count: usize) -> Vec<f64> {
+        let (wi, wo) = self.pairs(count).vectors();
+        let theta = |(wi, wo): (&[f32; 3], &[f32; 3])| {
+            directions_to_angles(wi.map(f64::from), wo.map(f64::from), |sigma| sigma)[2]
+        };
+        wi.iter().zip(&wo).map(theta).collect()
     }
 }
 

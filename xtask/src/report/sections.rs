@@ -1,0 +1,42 @@
+//! Which questions stand together on the page, and beside which table of the paper.
+
+use lobe_benches::contest::{QUESTIONS, Question};
+
+use super::paper::{self, PaperTable};
+
+/// One section of the page.
+#[derive(Clone, Debug)]
+pub struct Section {
+    /// Heading.
+    pub title: &'static str,
+    /// A table of the paper.
+    pub paper: Option<PaperTable>,
+    /// What is measured for it.
+    pub questions: Vec<Question>,
+}
+
+/// Sections with a table of the paper: heading, table, and the ids of the questions.
+const OF_THE_PAPER: [(&str, PaperTable, &[&str]); 4] = [
+    ("Inverse trigonometry", paper::ACOS, &["acos", "acos-paper"]),
+    ("Binary search", paper::SEARCH, &["search", "search-paper"]),
+    ("Isotropic evaluation", paper::ISOTROPIC, &["iso", "iso-single", "iso-paper"]),
+    ("Anisotropic evaluation", paper::ANISOTROPIC, &["aniso", "aniso-single", "aniso-paper"]),
+];
+
+/// All sections; questions that belong to no table of the paper come last, together.
+pub fn all() -> Vec<Section> {
+    let mut sections: Vec<Section> = OF_THE_PAPER
+        .into_iter()
+        .map(|(title, paper, ids)| Section {
+            title,
+            paper: Some(paper),
+            questions: ids.iter().filter_map(|id| Question::named(id)).collect(),
+        })
+        .collect();
+    let placed = |question: &Question| OF_THE_PAPER.iter().any(|(.., ids)| ids.contains(&question.id));
+    let rest: Vec<_> = QUESTIONS.into_iter().filter(|question| !placed(question)).collect();
+    if !rest.is_empty() {
+        sections.push(Section { title: "Beyond the paper", paper: None, questions: rest });
+    }
+    sections
+}
