@@ -22,7 +22,7 @@ pub struct Question {
     pub id: &'static str,
     /// What is timed, in a few words.
     pub title: &'static str,
-    /// What one answer is, as in "nanoseconds a search".
+    /// What one answer is, as in "nanoseconds per search".
     pub unit: &'static str,
     build: fn(Input, usize) -> Contest,
 }

@@ -13,7 +13,7 @@ const GAP: f64 = 10.0;
 const AXIS: f64 = 24.0;
 
 /// Bars of one question on one input. `most` is the ratio at the full width, so that pictures beside each other share
-/// their scale. `paper` is the paper's own speed-up, drawn as a mark.
+/// their scale, and at least 1. `paper` is the paper's own speed-up, at most `most`, drawn as a mark.
 pub fn bars(all: &[Row], id: &str, input: &str, most: f64, paper: Option<f64>) -> String {
     let backends = rows::distinct(rows::of(all, id, input), |row| row.backend);
     let baselines = rows::distinct(rows::of(all, id, input), |row| row.baseline);
@@ -31,6 +31,7 @@ pub fn bars(all: &[Row], id: &str, input: &str, most: f64, paper: Option<f64>) -
         svg.text("tick", [x(tick), bottom + 14.0], Anchor::Middle, &format!("{tick}×"));
         tick += step;
     }
+    let mut figures = Vec::new();
     for (at, backend) in backends.iter().enumerate() {
         let top = TOP + group * at as f64 + GAP / 2.0;
         let middle = top + BAR * baselines.len() as f64 / 2.0 + 4.0;
@@ -38,16 +39,20 @@ pub fn bars(all: &[Row], id: &str, input: &str, most: f64, paper: Option<f64>) -
         for (series, baseline) in baselines.iter().enumerate() {
             if let Some(row) = rows::find(all, id, input, backend, baseline) {
                 let y = top + BAR * series as f64;
-                svg.rect(&format!("bar series{series}"), [LEFT, y], [(x(row.ratio) - LEFT).max(1.0), BAR - 1.0]);
-                svg.text("value", [x(row.ratio) + 4.0, y + BAR - 2.5], Anchor::Start, &rows::times(row.ratio));
+                svg.rect(&format!("series{series}"), [LEFT, y], [(x(row.ratio) - LEFT).max(1.0), BAR - 1.0]);
+                figures.push(([x(row.ratio) + 4.0, y + BAR - 2.5], rows::times(row.ratio)));
             }
         }
     }
-    // Over the bars, so that those shorter and longer than the line can be told apart.
+    // Over the bars, so that those shorter and longer than a line can be told apart, and under the figures.
     svg.line("base", [x(1.0), TOP], [x(1.0), bottom]);
-    if let Some(ratio) = paper.filter(|ratio| *ratio < most) {
+    if let Some(ratio) = paper {
         svg.line("paper", [x(ratio), TOP - 4.0], [x(ratio), bottom]);
-        svg.text("papertext", [x(ratio) + 4.0, TOP - 2.0], Anchor::Start, &format!("paper {}", rows::times(ratio)));
+        let (shift, anchor) = if ratio < most / 2.0 { (4.0, Anchor::Start) } else { (-4.0, Anchor::End) };
+        svg.text("papertext", [x(ratio) + shift, TOP - 2.0], anchor, &format!("paper {}", rows::times(ratio)));
+    }
+    for (at, figure) in figures {
+        svg.text("value", at, Anchor::Start, &figure);
     }
     svg.finish()
 }

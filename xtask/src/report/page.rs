@@ -111,11 +111,14 @@ fn printed(paper: &PaperTable) -> String {
     let head: String = paper.counts.iter().map(|count| format!("<th>{count}</th>")).collect();
     let seconds = |times: [f64; 3]| times.map(|time| format!("{time} s"));
     format!(
-        r#"<div class="wide"><table><caption>As printed in 2005 (Pentium M, 1.8 GHz): {}</caption><thead><tr><th></th>{head}</tr></thead><tbody>{}{}{}</tbody></table></div>"#,
+        r#"<p class="caption">As printed in 2005 (Pentium M, 1.8 GHz): {}</p><div class="wide"><table><thead><tr><th></th>{head}</tr></thead><tbody>{}{}{}</tbody></table></div>"#,
         escape(paper.counted),
         row("without SSE", seconds(paper.scalar)),
         row("with SSE", seconds(paper.sse)),
-        row("times the speed", paper.speed_up.map(|ratio| format!("{ratio}×"))),
+        row(
+            "times the speed",
+            paper.speed_up.map(|ratio| if ratio < 10.0 { format!("{ratio:.2}×") } else { format!("{ratio}×") })
+        ),
     )
 }
 
@@ -123,7 +126,8 @@ fn printed(paper: &PaperTable) -> String {
 fn answer(all: &[Row], question: &Question, paper: Option<&PaperTable>) -> String {
     let of_question = || all.iter().filter(|row| row.id == question.id);
     let baselines = rows::distinct(of_question(), |row| row.baseline);
-    let most = of_question().fold(1.0f64, |most, row| most.max(row.ratio));
+    let least = paper.map_or(1.0, |paper| paper.speed_up[2]);
+    let most = of_question().fold(least, |most, row| most.max(row.ratio));
     let mut text = format!("<h3>{}</h3>", escape(question.title));
     if let Some(fastest) = of_question().min_by(|a, b| a.ns.total_cmp(&b.ns)) {
         let speeds: Vec<_> = baselines
@@ -132,7 +136,7 @@ fn answer(all: &[Row], question: &Question, paper: Option<&PaperTable>) -> Strin
             .map(|row| format!("<b>{}</b> the speed of {}", rows::times(row.ratio), row.baseline))
             .collect();
         let (ns, backend, input) = (rows::nanoseconds(fastest.ns), rows::shown(fastest.backend), fastest.input);
-        write!(text, "<p>{ns} ns a {} at best ({backend}, {input} input): {}.</p>", question.unit, speeds.join(", "))
+        write!(text, "<p>{ns} ns per {} at best ({backend}, {input} input): {}.</p>", question.unit, speeds.join(", "))
             .expect("a string");
     }
     text += "<p class=\"soft\">Times the speed of";
@@ -208,7 +212,7 @@ fn figures(all: &[Row], question: &Question, baselines: &[&str], paper: Option<&
     }
     let [inputs, columns] = head;
     format!(
-        r#"<div class="wide"><table><caption>Nanoseconds a {}, and times the speed of each baseline</caption><thead>{inputs}</tr>{columns}</tr></thead><tbody>{lines}</tbody></table></div>"#,
+        r#"<p class="caption">Nanoseconds per {}, and times the speed of each baseline</p><div class="wide"><table><thead>{inputs}</tr>{columns}</tr></thead><tbody>{lines}</tbody></table></div>"#,
         question.unit
     )
 }

@@ -21,7 +21,7 @@ pub fn print(report: &Report) {
             println!("Table {} of the paper: {scalar} ns scalar, {sse} ns with SSE, {times} the speed", paper.number);
         }
         for question in section.questions {
-            println!("{} ({}), ns a {}", question.title, question.id, question.unit);
+            println!("{} ({}), ns per {}", question.title, question.id, question.unit);
             println!("{}", table(&report.rows, question.id));
         }
     }
