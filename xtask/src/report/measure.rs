@@ -24,15 +24,21 @@ impl Plan {
     pub const QUICK: Plan = Plan { count: 1 << 13, rounds: 40 };
 }
 
-/// Verifies everybody's values, then times all questions on both inputs.
+/// Verifies everybody's values, then times the questions on both inputs: those named, or all.
 ///
 /// # Errors
-/// Where values are wrong; nothing is timed then.
-pub fn all(plan: Plan) -> anyhow::Result<Vec<Row>> {
+/// Where there is no question of a name, or values are wrong; nothing is timed then.
+pub fn all(plan: Plan, only: &[String]) -> anyhow::Result<Vec<Row>> {
+    if let Some(unknown) = only.iter().find(|id| Question::named(id).is_none()) {
+        let ids: Vec<_> = QUESTIONS.iter().map(|question| question.id).collect();
+        bail!("no question `{unknown}`; there are {}", ids.join(", "));
+    }
+    let asked = |question: &Question| only.is_empty() || only.iter().any(|id| id == question.id);
+    let questions: Vec<_> = QUESTIONS.into_iter().filter(asked).collect();
     let mut contests: Vec<(Question, Input, Contest)> = Vec::new();
-    let checks = (QUESTIONS.len() * Input::ALL.len()) as u64;
+    let checks = (questions.len() * Input::ALL.len()) as u64;
     let bar = progress(checks, "checking values");
-    for question in QUESTIONS {
+    for question in questions {
         for input in Input::ALL {
             let mut contest = question.contest(input, plan.count);
             if let Err(wrong) = contest.verify() {

@@ -30,6 +30,9 @@ pub struct Options {
     /// Fewer queries and rounds: under a minute, ratios within some 10 %
     #[arg(long)]
     quick: bool,
+    /// Only these questions, by their ids in report.json
+    #[arg(long, value_name = "ID", value_delimiter = ',')]
+    only: Vec<String>,
     /// Also write the rows to this file
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -54,7 +57,7 @@ struct Report {
 pub fn run(options: &Options) -> anyhow::Result<()> {
     let machine = Machine::here();
     let plan = if options.quick { measure::Plan::QUICK } else { measure::Plan::FULL };
-    let rows = measure::all(plan)?;
+    let rows = measure::all(plan, &options.only)?;
     let report = Report { machine, quick: options.quick, rows, equivalence: equivalence::summary() };
 
     terminal::print(&report);

@@ -24,7 +24,7 @@ pub fn html(report: &Report) -> String {
     if let Some(summary) = &report.equivalence {
         body += &equivalence(summary);
     }
-    for section in sections::all() {
+    for section in sections::all(rows) {
         body += &match section.paper {
             Some(paper) => format!("<h2>Table {}: {}</h2>{}", paper.number, escape(section.title), printed(&paper)),
             None => format!("<h2>{}</h2>", escape(section.title)),

@@ -3,6 +3,7 @@
 use lobe_benches::contest::{QUESTIONS, Question};
 
 use super::paper::{self, PaperTable};
+use super::rows::Row;
 
 /// One section of the page.
 #[derive(Clone, Debug)]
@@ -23,20 +24,17 @@ const OF_THE_PAPER: [(&str, PaperTable, &[&str]); 4] = [
     ("Anisotropic evaluation", paper::ANISOTROPIC, &["aniso", "aniso-single", "aniso-paper"]),
 ];
 
-/// All sections; questions that belong to no table of the paper come last, together.
-pub fn all() -> Vec<Section> {
+/// The sections with the questions that have rows; those that belong to no table of the paper come last, together.
+pub fn all(rows: &[Row]) -> Vec<Section> {
+    let measured: Vec<_> = QUESTIONS.into_iter().filter(|q| rows.iter().any(|row| row.id == q.id)).collect();
+    let of = |ids: &[&str]| measured.iter().copied().filter(|question| ids.contains(&question.id)).collect();
     let mut sections: Vec<Section> = OF_THE_PAPER
         .into_iter()
-        .map(|(title, paper, ids)| Section {
-            title,
-            paper: Some(paper),
-            questions: ids.iter().filter_map(|id| Question::named(id)).collect(),
-        })
+        .map(|(title, paper, ids)| Section { title, paper: Some(paper), questions: of(ids) })
         .collect();
     let placed = |question: &Question| OF_THE_PAPER.iter().any(|(.., ids)| ids.contains(&question.id));
-    let rest: Vec<_> = QUESTIONS.into_iter().filter(|question| !placed(question)).collect();
-    if !rest.is_empty() {
-        sections.push(Section { title: "Beyond the paper", paper: None, questions: rest });
-    }
+    let rest = measured.iter().copied().filter(|question| !placed(question)).collect();
+    sections.push(Section { title: "Beyond the paper", paper: None, questions: rest });
+    sections.retain(|section| !section.questions.is_empty());
     sections
 }

@@ -54,6 +54,6 @@ td b { font-weight: 650; }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .25rem 1rem; margin: .5rem 0; }
 dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
 code { font-size: .9em; }
-@media (max-width: 30rem) { th, td { padding: .22rem .32rem; } table { font-size: .8rem; } dl { grid-template-columns: 1fr; gap: 0; }
+@media (max-width: 30rem) { th, td { padding: .22rem .22rem; } table { font-size: .74rem; } dl { grid-template-columns: 1fr; gap: 0; }
   dd { margin-bottom: .5rem; } }
 ";

@@ -13,7 +13,7 @@ pub fn print(report: &Report) {
     if let Some(load) = machine.load.filter(|load| *load > 1.0) {
         println!("The machine was busy when the run began (load {load:.1}): figures are noisy.");
     }
-    for section in sections::all() {
+    for section in sections::all(&report.rows) {
         println!("\n{}", section.title);
         if let Some(paper) = section.paper {
             let [scalar, sse] = paper.nanoseconds().map(rows::nanoseconds);

@@ -15,18 +15,16 @@ pub(super) fn interpolate<L: Lanes, const CORNERS: usize>(
     weights: &[L::F; CORNERS],
     mask: L::M,
 ) -> [L::F; 3] {
-    let mut active = mask.bits();
     let zero = lanes.splat(0.0);
     let mut sum = [zero; 3];
+    let active = mask.bits();
     if active == 0 {
         return sum;
     }
-    let mut indices = [0.0; MAX_LANES];
-    lanes.store(&mut indices, base);
 
     // The coherent case: everything is loaded once and used at once.
-    let first = indices[active.trailing_zeros() as usize];
-    if shared(lanes, base, first) & active == active {
+    let first = lanes.extract(base, active.trailing_zeros() as usize);
+    if base.eq(lanes.splat(first)).bits() & active == active {
         let cell = &texels[first as usize..];
         let mut corner = 0;
         while corner < CORNERS {
@@ -41,30 +39,30 @@ pub(super) fn interpolate<L: Lanes, const CORNERS: usize>(
         return sum;
     }
 
-    // Else cell by cell, the smallest index first, until every lane has its corners.
+    // Else cell by cell, the smallest index first, until every lane has its corners. Lanes that are done wait at infinity.
+    let done = lanes.splat(f32::INFINITY);
+    let mut waiting = lanes.select(mask, base, done);
     let mut corners = [[zero; 3]; CORNERS];
-    while active != 0 {
-        let mut least = f32::INFINITY;
-        let mut lane = 0;
-        while lane < L::LANES {
-            if active >> lane & 1 == 1 && indices[lane] < least {
-                least = indices[lane];
-            }
-            lane += 1;
+    loop {
+        let least = minimum(lanes, waiting);
+        if least == f32::INFINITY {
+            break;
         }
-        let here = base.eq(lanes.splat(least));
+        let here = waiting.eq(lanes.splat(least));
         let cell = &texels[least as usize..];
         let mut corner = 0;
         while corner < CORNERS {
             let texel = cell[offsets[corner]];
             let mut k = 0;
             while k < 3 {
-                corners[corner][k] = lanes.select(here, lanes.splat(texel[k]), corners[corner][k]);
+                // Each lane is loaded once, onto a zero. A select here becomes a masked store, which some CPUs make of
+                // dozens of steps.
+                corners[corner][k] = corners[corner][k] + lanes.splat(texel[k]).masked(here);
                 k += 1;
             }
             corner += 1;
         }
-        active &= !here.bits();
+        waiting = lanes.select(here, done, waiting);
     }
     let mut corner = 0;
     while corner < CORNERS {
@@ -78,8 +76,16 @@ pub(super) fn interpolate<L: Lanes, const CORNERS: usize>(
     sum
 }
 
-/// The lanes whose index is `index`, one bit each: one comparison, as indices are floats.
+/// The smallest of all lanes.
 #[inline(always)]
-fn shared<L: Lanes>(lanes: L, base: L::F, index: f32) -> u32 {
-    base.eq(lanes.splat(index)).bits()
+fn minimum<L: Lanes>(lanes: L, x: L::F) -> f32 {
+    let mut buffer = [0.0; MAX_LANES];
+    lanes.store(&mut buffer, x);
+    let mut least = buffer[0];
+    let mut lane = 1;
+    while lane < L::LANES {
+        least = if buffer[lane] < least { buffer[lane] } else { least };
+        lane += 1;
+    }
+    least
 }
