@@ -12,9 +12,15 @@ const TURN: usize = 3;
 pub fn interleaved<const N: usize>(
     rounds: usize,
     mut contenders: [&mut dyn FnMut(); N],
-    mut progress: impl FnMut(),
+    progress: impl FnMut(),
 ) -> [f64; N] {
-    let mut least = [f64::INFINITY; N];
+    let least = interleaved_slice(rounds, &mut contenders, progress);
+    std::array::from_fn(|i| least[i])
+}
+
+/// As [`interleaved`], for a number of contenders that is only known at run time.
+pub fn interleaved_slice(rounds: usize, contenders: &mut [&mut dyn FnMut()], mut progress: impl FnMut()) -> Vec<f64> {
+    let mut least = vec![f64::INFINITY; contenders.len()];
     for _ in 0..rounds {
         for (run, least) in contenders.iter_mut().zip(&mut least) {
             for _ in 0..TURN {

@@ -1,6 +1,7 @@
-//! What the benchmarks and the report share: workloads, baselines and the clock.
+//! What the benchmarks and the report share: workloads, baselines, contests between them, and the clock.
 
 pub mod baseline;
 pub mod clock;
+pub mod contest;
 pub mod tables;
 pub mod workload;

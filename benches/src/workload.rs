@@ -2,6 +2,7 @@
 
 use std::f32::consts::TAU;
 
+use lobe::table::coords::directions_to_angles;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -41,6 +42,15 @@ impl Input {
             Input::Coherent => Pairs::sphere_picture(count),
             Input::Incoherent => Pairs::uniform(count),
         }
+    }
+
+    /// The angles, in radians, between `wo` and the mirror direction of `count` pairs.
+    pub fn thetas(self, count: usize) -> Vec<f64> {
+        let (wi, wo) = self.pairs(count).vectors();
+        let theta = |(wi, wo): (&[f32; 3], &[f32; 3])| {
+            directions_to_angles(wi.map(f64::from), wo.map(f64::from), |sigma| sigma)[2]
+        };
+        wi.iter().zip(&wo).map(theta).collect()
     }
 }
 
@@ -89,17 +99,28 @@ impl Pairs {
         pairs
     }
 
-    /// The pixels of a picture of a sphere under a point light, in Morton order, so that each run of four or eight is a
-    /// block of neighbouring pixels. The local frame's x axis follows the circles of latitude.
+    /// The pixels of a picture of a sphere under a point light, in tiles of 8 x 8 pixels, each in Morton order, so that
+    /// every run of four or eight is a block of neighbouring pixels. The tiles are spread over the picture, so that a few
+    /// stand for all of it. The local frame's x axis follows the circles of latitude.
     pub fn sphere_picture(count: usize) -> Self {
         const SIZE: u32 = 760;
+        const TILE: u32 = 8 * 8;
+        // The tiles of a square whose side is the next power of two.
+        const TILES: u32 = SIZE.next_power_of_two().pow(2) / TILE;
+        // Odd, and near the golden section of the number of tiles: every tile comes once, far from the one before.
+        const STEP: u32 = (TILES as f64 * 0.618) as u32 | 1;
         let light = [2.0f32, 3.0, 4.0];
         let mut pairs = Pairs::default();
-        let mut code = 0u32;
+        let mut pixel = 0u32;
         while pairs.len() < count {
             // A picture that is used up begins again: it has more visible pixels than any workload asks for at once.
+            let tile = (pixel / TILE).wrapping_mul(STEP) % TILES;
+            let code = tile * TILE + pixel % TILE;
+            pixel = (pixel + 1) % (TILES * TILE);
             let (px, py) = (even_bits(code), even_bits(code >> 1));
-            code = if px >= SIZE && py >= SIZE { 0 } else { code + 1 };
+            if px >= SIZE || py >= SIZE {
+                continue;
+            }
             let ndc = |p: u32| 2.0 * (p as f32 + 0.5) / SIZE as f32 - 1.0;
             let (x, y) = (ndc(px), ndc(py));
             let inside = 1.0 - x * x - y * y;

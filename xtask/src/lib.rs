@@ -5,4 +5,5 @@ pub mod asm;
 pub mod equivalence;
 pub mod fixtures;
 pub mod pictures;
+pub mod report;
 pub mod sweep;

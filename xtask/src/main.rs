@@ -4,8 +4,9 @@ use clap::Parser;
 
 /// The workspace's own commands.
 #[derive(Parser)]
-#[command(bin_name = "cargo xtask")]
+#[command(bin_name = "cargo xtask", disable_help_subcommand = true)]
 enum Command {
+    Report(xtask::report::Options),
     Equivalence(xtask::equivalence::Args),
     Sweep(xtask::sweep::Args),
     Asm(xtask::asm::Args),
@@ -15,6 +16,7 @@ enum Command {
 
 fn main() -> anyhow::Result<()> {
     match Command::parse() {
+        Command::Report(options) => xtask::report::run(&options),
         Command::Equivalence(args) => xtask::equivalence::run(&args),
         Command::Sweep(args) => xtask::sweep::run(&args),
         Command::Asm(args) => xtask::asm::run(&args),

@@ -47,7 +47,8 @@ pub fn bisect(knots: &[f32], angle: f32) -> usize {
     low
 }
 
-fn locate(knots: &[f32], angle: f32) -> (usize, f32) {
+/// The cell of an angle and how far into it; clamped at the ends.
+pub fn locate(knots: &[f32], angle: f32) -> (usize, f32) {
     let angle = angle.clamp(knots[0], knots[knots.len() - 1]);
     let cell = bisect(knots, angle);
     (cell, (angle - knots[cell]) / (knots[cell + 1] - knots[cell]))

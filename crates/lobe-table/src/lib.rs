@@ -21,6 +21,7 @@ mod knots;
 mod layout;
 mod mesh;
 pub mod mueller;
+pub mod paper;
 mod passes;
 pub mod reference;
 pub mod rgl;

@@ -59,6 +59,8 @@ impl Outcome {
                 }
             }
         }
+        // The reference runs wherever this does.
+        outcome.backends.push(BackendRow { name: "scalar", lanes: 1, available: true });
         for (subject, ran) in Subject::ALL.into_iter().zip(ran) {
             outcome.backends.push(BackendRow { name: subject.name(), lanes: subject.lanes(), available: ran });
             if ran != subject.expected() {
@@ -72,6 +74,26 @@ impl Outcome {
         }
         outcome.ok = outcome.faults.is_empty();
         outcome
+    }
+
+    /// A line for each backend and form: its name, and what came out.
+    pub(super) fn summary(&self) -> (Vec<[String; 2]>, bool) {
+        let mut lines: Vec<(&str, Form, usize, usize, bool)> = Vec::new();
+        for row in &self.rows {
+            match lines.iter_mut().find(|line| (line.0, line.1) == (row.backend, row.form)) {
+                Some(line) => *line = (line.0, line.1, line.2 + row.items, line.3 + row.differing, line.4 && row.ok),
+                None => lines.push((row.backend, row.form, row.items, row.differing, row.ok)),
+            }
+        }
+        let words = |(backend, form, items, differing, ok): (&str, Form, usize, usize, bool)| {
+            let verdict = match (form, ok) {
+                (_, false) => "FAILED".to_string(),
+                (Form::Strict, _) => format!("{items} results, {differing} of them not the same bits"),
+                (Form::Fused, _) => format!("{items} results, {differing} differ, all within their bounds"),
+            };
+            [format!("{backend}, {}", format!("{form:?}").to_lowercase()), verdict]
+        };
+        (lines.into_iter().map(words).collect(), self.ok)
     }
 
     fn add(&mut self, backend: &'static str, form: Form, property: Property, checks: Vec<Check>) {

@@ -1,0 +1,30 @@
+//! What every benchmark does: build a contest, check its values, and hand its contenders to criterion.
+
+use criterion::{BenchmarkId, Criterion, Throughput};
+use lobe_benches::contest::Question;
+use lobe_benches::workload::Input;
+
+/// Queries a run: enough to leave the first cache, as a renderer's batches do.
+const COUNT: usize = 1 << 14;
+
+/// Benchmarks all contenders of the questions of those ids, on both inputs.
+///
+/// # Panics
+/// Where somebody's values are not those of the reference.
+pub fn bench(criterion: &mut Criterion, ids: &[&str]) {
+    for id in ids {
+        let question = Question::named(id).expect("a question of the contests");
+        let mut group = criterion.benchmark_group(*id);
+        group.throughput(Throughput::Elements(COUNT as u64));
+        for input in Input::ALL {
+            let mut contest = question.contest(input, COUNT);
+            if let Err(wrong) = contest.verify() {
+                panic!("{id}, {}: {wrong}", input.name());
+            }
+            for contender in contest.baselines.iter_mut().chain(&mut contest.contenders) {
+                let name = BenchmarkId::new(contender.name, input.name());
+                group.bench_function(name, |bencher| bencher.iter(|| contender.run()));
+            }
+        }
+    }
+}

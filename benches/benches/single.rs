@@ -1,0 +1,12 @@
+//! What does a call for one query cost, isotropic and anisotropic?
+
+mod common;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+
+fn single(criterion: &mut Criterion) {
+    common::bench(criterion, &["iso-single", "aniso-single"]);
+}
+
+criterion_group!(benches, single);
+criterion_main!(benches);

@@ -1,0 +1,40 @@
+//! The backends of this machine under the names of the report.
+
+use lobe::{Backend, Kernel, Lanes};
+
+/// A backend in one of its forms.
+#[derive(Clone, Copy, Debug)]
+pub struct Named {
+    /// The backend's name, with `-strict` where that is a form of its own.
+    pub name: &'static str,
+    /// The backend.
+    pub backend: Backend,
+}
+
+/// Every backend of this machine, slowest first; those that fuse multiply-adds in both forms.
+pub fn backends() -> Vec<Named> {
+    let mut found = Vec::new();
+    for backend in Backend::available() {
+        let backend = backend.fused();
+        found.push(Named { name: backend.name(), backend });
+        if backend.run(Fuses) {
+            let name = match backend.name() {
+                "avx2" => "avx2-strict",
+                other => other,
+            };
+            found.push(Named { name, backend: backend.strict() });
+        }
+    }
+    found
+}
+
+struct Fuses;
+
+impl Kernel for Fuses {
+    type Out = bool;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, _lanes: L) -> bool {
+        L::FUSED
+    }
+}

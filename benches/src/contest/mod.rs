@@ -1,0 +1,212 @@
+//! Contests: one question, asked of baselines and of every backend, on the same input and in the same run.
+//!
+//! [`QUESTIONS`] lists them; a new one is a file and a line there. A contest is built, [verified](Contest::verify)
+//! against the `f64` reference, and only then [timed](Contest::time).
+
+mod acos;
+mod backends;
+mod evaluation;
+mod search;
+
+use std::fmt;
+
+use crate::clock;
+use crate::workload::Input;
+
+pub use backends::{Named, backends};
+
+/// A question that a contest answers, by its id in the report.
+#[derive(Clone, Copy, Debug)]
+pub struct Question {
+    /// Short name, as in `report.json`.
+    pub id: &'static str,
+    /// What is timed, in a few words.
+    pub title: &'static str,
+    /// What one answer is, as in "nanoseconds per search".
+    pub unit: &'static str,
+    build: fn(Input, usize) -> Contest,
+}
+
+/// All questions, in the order of the report.
+pub const QUESTIONS: [Question; 10] = [
+    Question { id: "acos", title: "Arc cosine, eight terms", unit: "value", build: acos::eight_terms },
+    Question { id: "acos-paper", title: "Arc cosine, the paper's four terms", unit: "value", build: acos::four_terms },
+    Question { id: "search", title: "Interval search among 17 knots", unit: "search", build: search::library },
+    Question { id: "search-paper", title: "The paper's stack search, 17 knots", unit: "search", build: search::paper },
+    Question { id: "iso", title: "Isotropic table, batch", unit: "evaluation", build: evaluation::iso },
+    Question {
+        id: "iso-single",
+        title: "Isotropic table, one query a call",
+        unit: "evaluation",
+        build: evaluation::iso_single,
+    },
+    Question {
+        id: "iso-paper",
+        title: "Isotropic table, the paper's kernel",
+        unit: "evaluation",
+        build: evaluation::iso_paper,
+    },
+    Question { id: "aniso", title: "Anisotropic table, batch", unit: "evaluation", build: evaluation::aniso },
+    Question {
+        id: "aniso-single",
+        title: "Anisotropic table, one query a call",
+        unit: "evaluation",
+        build: evaluation::aniso_single,
+    },
+    Question {
+        id: "aniso-paper",
+        title: "Anisotropic table, the paper's kernel",
+        unit: "evaluation",
+        build: evaluation::aniso_paper,
+    },
+];
+
+impl Question {
+    /// The question of that id.
+    pub fn named(id: &str) -> Option<Self> {
+        QUESTIONS.into_iter().find(|question| question.id == id)
+    }
+
+    /// Prepares the contest on `count` queries.
+    pub fn contest(&self, input: Input, count: usize) -> Contest {
+        (self.build)(input, count)
+    }
+}
+
+/// Work that is repeated, and what it wrote.
+pub trait Task {
+    /// Does the whole work once.
+    fn run(&mut self);
+    /// What the last run wrote, in the order of the contest's expected values.
+    fn values(&self) -> Vec<f32>;
+}
+
+/// A [`Task`] of an output, a function that fills it and one that puts it in order.
+struct Job<O, R, V> {
+    out: O,
+    run: R,
+    values: V,
+}
+
+impl<O, R: FnMut(&mut O), V: Fn(&O) -> Vec<f32>> Task for Job<O, R, V> {
+    fn run(&mut self) {
+        (self.run)(&mut self.out);
+        std::hint::black_box(&self.out);
+    }
+
+    fn values(&self) -> Vec<f32> {
+        (self.values)(&self.out)
+    }
+}
+
+/// How far values may be from the reference, in parts of the largest expected one.
+#[derive(Clone, Copy, Debug)]
+pub struct Tolerance {
+    /// The largest error.
+    pub max: f64,
+    /// The root of the mean squared error.
+    pub rms: f64,
+}
+
+/// Who takes part in a contest.
+pub struct Contender {
+    /// A backend, as `avx2` or `avx2-strict`, or a baseline.
+    pub name: &'static str,
+    /// What its values are held to.
+    pub tolerance: Tolerance,
+    task: Box<dyn Task>,
+}
+
+impl Contender {
+    fn new<O: 'static>(
+        name: &'static str,
+        tolerance: Tolerance,
+        out: O,
+        run: impl FnMut(&mut O) + 'static,
+        values: impl Fn(&O) -> Vec<f32> + 'static,
+    ) -> Self {
+        Contender { name, tolerance, task: Box::new(Job { out, run, values }) }
+    }
+
+    /// Does the whole work once.
+    pub fn run(&mut self) {
+        self.task.run();
+    }
+}
+
+/// One question on one input: baselines, and the contenders that are compared with each of them.
+pub struct Contest {
+    /// How many queries a run answers.
+    pub count: usize,
+    /// What the contenders are compared with.
+    pub baselines: Vec<Contender>,
+    /// One a backend.
+    pub contenders: Vec<Contender>,
+    /// The right values.
+    expected: Vec<f64>,
+}
+
+/// A contender whose values are not those of the reference.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WrongValues {
+    /// Who.
+    pub name: &'static str,
+    /// Largest error, in parts of the largest expected value.
+    pub max: f64,
+    /// Root of the mean squared error, likewise.
+    pub rms: f64,
+}
+
+impl fmt::Display for WrongValues {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let WrongValues { name, max, rms } = self;
+        write!(f, "{name} is off the reference by {max:.1e} at most and {rms:.1e} on average (rms)")
+    }
+}
+
+impl std::error::Error for WrongValues {}
+
+/// Nanoseconds a query.
+#[derive(Clone, Debug)]
+pub struct Timing {
+    /// Of each baseline, in order.
+    pub baselines: Vec<f64>,
+    /// Of each contender, in order.
+    pub contenders: Vec<f64>,
+}
+
+impl Contest {
+    /// Runs everybody once and compares all values with the reference.
+    ///
+    /// # Errors
+    /// Names the first whose values are wrong.
+    pub fn verify(&mut self) -> Result<(), WrongValues> {
+        let scale = self.expected.iter().fold(0.0f64, |scale, value| scale.max(value.abs()));
+        for contender in self.baselines.iter_mut().chain(&mut self.contenders) {
+            contender.task.run();
+            let values = contender.task.values();
+            assert_eq!(values.len(), self.expected.len(), "{}: one value for each expected", contender.name);
+            let errors = values.iter().zip(&self.expected).map(|(got, expected)| (f64::from(*got) - expected) / scale);
+            // Written so that a NaN fails.
+            let (max, sum) = errors.fold((0.0f64, 0.0), |(max, sum), error| {
+                (if error.abs() <= max { max } else { error.abs() }, sum + error * error)
+            });
+            let rms = (sum / values.len() as f64).sqrt();
+            if !(max <= contender.tolerance.max && rms <= contender.tolerance.rms) {
+                return Err(WrongValues { name: contender.name, max, rms });
+            }
+        }
+        Ok(())
+    }
+
+    /// Times everybody in turn, `rounds` times. Between rounds `progress` is called.
+    pub fn time(&mut self, rounds: usize, progress: impl FnMut()) -> Timing {
+        let mut runs: Vec<_> =
+            self.baselines.iter_mut().chain(&mut self.contenders).map(|contender| || contender.task.run()).collect();
+        let mut runs: Vec<&mut dyn FnMut()> = runs.iter_mut().map(|run| run as &mut dyn FnMut()).collect();
+        let mut baselines = clock::interleaved_slice(rounds, &mut runs, progress);
+        baselines.iter_mut().for_each(|ns| *ns /= self.count as f64);
+        let contenders = baselines.split_off(self.baselines.len());
+        Timing { baselines, contenders }
+    }
+}
