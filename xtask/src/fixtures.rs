@@ -2,7 +2,7 @@
 //!
 //! The sizes are those of the tables that the paper behind this project timed: 7 x 8 x 13 and 17 x 7 x 17 x 13.
 
-mod ddr;
+mod compare;
 mod provenance;
 mod tables;
 
@@ -16,7 +16,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 /// Make the tables in fixtures/ from their seeds, or check those that are there.
 #[derive(clap::Args)]
 pub struct Args {
-    /// Write nothing; fail if a file differs from what its seed gives: in a word or knot, or in a value by more than 1e-4 of
+    /// Write nothing; fail if a file differs from what its seed gives: in a word, or in a number by more than 1e-4 of
     /// it (sine and cosine differ in the last bits from platform to platform)
     #[arg(long)]
     check: bool,
@@ -34,11 +34,11 @@ pub fn run(args: &Args) -> Result<()> {
     let mut hashes = Vec::new();
     for fixture in &fixtures {
         bar.set_message(fixture.file);
-        let made = ddr::text(&fixture.measure(|| bar.inc(1))?);
         let path = args.directory.join(fixture.file);
+        let made = lobe_formats::ddr::text(&fixture.measure(|| bar.inc(1))?, &path)?;
         if args.check {
             let there = fs::read_to_string(&path).with_context(|| format!("reading {}", path.display()))?;
-            if let Err(difference) = ddr::compare(&there, &made) {
+            if let Err(difference) = compare::compare(&there, &made) {
                 different.push(format!("{}: {difference}", fixture.file));
             }
             hashes.push(provenance::hash(&there));

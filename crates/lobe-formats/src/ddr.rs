@@ -171,6 +171,14 @@ fn read_block(text: &mut Text<'_>, grid: &Grid) -> Result<Vec<f64>, FormatError>
 /// [`FormatError`] where the file cannot be written, the channels are XYZ, two knots are one in `f32` degrees, or the
 /// extension (`.ddr` for reflection, `.ddt` for transmission) would make readers take it for the other kind.
 pub fn write(samples: &Samples, path: &Path) -> Result<(), FormatError> {
+    write_whole(path, text(samples, path)?.as_bytes())
+}
+
+/// What [`write`] writes.
+///
+/// # Errors
+/// As [`write`], which `path` would name.
+pub fn text(samples: &Samples, path: &Path) -> Result<String, FormatError> {
     check_extension(path, samples.scatter(), ["ddr", "ddt"])?;
     let (model, names) = block_names(path, samples.channels())?;
     let degrees =
@@ -205,5 +213,5 @@ pub fn write(samples: &Samples, path: &Path) -> Result<(), FormatError> {
         }
         out.push_str(" enddef\n");
     }
-    write_whole(path, out.as_bytes())
+    Ok(out)
 }

@@ -2,26 +2,12 @@
 
 use std::f64::consts::TAU;
 
+use lobe_table::coords::angles_to_directions;
 use lobe_table::{Channels, Samples, SamplesError, Scatter};
 use rayon::prelude::*;
 
 use crate::Model;
-use crate::vec3::{Vec3, normalize};
-
-/// The light and the viewer at the specular coordinates `sigma`, `psi`, `theta`, `phi`, in radians.
-///
-/// `wi` has polar angle `sigma` and azimuth `psi`. `wo` has polar angle `theta` and azimuth `phi` in the frame whose zenith
-/// is the mirror direction of `wi` and whose x axis leads from there over the normal to the light; it may lie below the
-/// surface.
-pub fn directions(sigma: f64, psi: f64, theta: f64, phi: f64) -> ([f64; 3], [f64; 3]) {
-    let ((sin_s, cos_s), (sin_p, cos_p)) = (sigma.sin_cos(), psi.sin_cos());
-    let ((sin_t, cos_t), (sin_f, cos_f)) = (theta.sin_cos(), phi.sin_cos());
-    let wi = [sin_s * cos_p, sin_s * sin_p, cos_s];
-    let x = cos_s * sin_t * cos_f - sin_s * cos_t;
-    let y = sin_t * sin_f;
-    let z = sin_s * sin_t * cos_f + cos_s * cos_t;
-    (wi, normalize([cos_p * x - sin_p * y, sin_p * x + cos_p * y, z]))
-}
+use crate::vec3::Vec3;
 
 /// Measures `model` at every node of `knots` (sigma, psi, theta, phi in radians, as in [`Samples`]).
 ///
@@ -61,13 +47,13 @@ pub fn measure(
 fn measure_light(model: &impl Model, sigma: f64, psi: f64, thetas: &[f64], phis: &[f64]) -> Vec<Vec3> {
     let mut viewers = Vec::new();
     let mut viewer_of_node = Vec::new();
-    let (wi, _) = directions(sigma, psi, 0.0, 0.0);
+    let (wi, _) = angles_to_directions([sigma, psi, 0.0, 0.0], |sigma| sigma);
     for &theta in thetas {
         let first = viewers.len();
         for (i, &phi) in phis.iter().enumerate() {
             let known = i > 0 && (at_pole(theta) || closes_circle(phi, phis));
             if !known {
-                viewers.push(lift(directions(sigma, psi, theta, phi).1));
+                viewers.push(lift(angles_to_directions([sigma, psi, theta, phi], |sigma| sigma).1));
             }
             viewer_of_node.push(if known { first } else { viewers.len() - 1 });
         }
@@ -126,7 +112,9 @@ mod tests {
 
     #[test]
     fn geometry_of_known_directions() {
-        let at = |theta: f64, phi: f64| directions(30f64.to_radians(), 0.0, theta.to_radians(), phi.to_radians()).1;
+        let at = |theta: f64, phi: f64| {
+            angles_to_directions([30f64.to_radians(), 0.0, theta.to_radians(), phi.to_radians()], |sigma| sigma).1
+        };
         assert!(close(at(20.0, 0.0), [-0.1736, 0.0, 0.9848]));
         assert!(close(at(20.0, 90.0), [-0.4698, 0.3420, 0.8138]));
         assert!(close(at(20.0, 180.0), [-0.7660, 0.0, 0.6428]));
@@ -137,11 +125,11 @@ mod tests {
     #[test]
     fn zenith_is_the_mirror_and_psi_turns_both() {
         for (sigma, psi, theta, phi) in [(0.3, 1.0, 0.7, 2.0), (1.2, 4.0, 1.5, 5.0), (0.0, 2.0, 0.4, 1.0)] {
-            let (wi, zenith) = directions(sigma, psi, 0.0, phi);
+            let (wi, zenith) = angles_to_directions([sigma, psi, 0.0, phi], |sigma| sigma);
             assert!(close(zenith, reflect(wi, [0.0, 0.0, 1.0])));
-            let (_, wo) = directions(sigma, psi, theta, phi);
+            let (_, wo) = angles_to_directions([sigma, psi, theta, phi], |sigma| sigma);
             assert!((dot(wo, zenith) - theta.cos()).abs() < 1e-12);
-            let (_, unturned) = directions(sigma, 0.0, theta, phi);
+            let (_, unturned) = angles_to_directions([sigma, 0.0, theta, phi], |sigma| sigma);
             let (s, c) = psi.sin_cos();
             let turned = [c * unturned[0] - s * unturned[1], s * unturned[0] + c * unturned[1], unturned[2]];
             assert!((dot(wo, turned) - 1.0).abs() < 1e-12);
@@ -150,7 +138,7 @@ mod tests {
 
     #[test]
     fn lift_changes_only_what_cannot_be_measured() {
-        let w = directions(1.0, 0.3, 0.2, 0.4).1;
+        let w = angles_to_directions([1.0, 0.3, 0.2, 0.4], |sigma| sigma).1;
         assert_eq!(lift(w), w);
         let at = |z: f64| lift([(1.0 - z * z).sqrt(), 0.0, z])[2];
         for z in [-1.0, -0.5, -0.01, 0.0, 0.03, 0.0599] {

@@ -88,7 +88,7 @@ impl Outcome {
         let words = |(backend, form, items, differing, ok): (&str, Form, usize, usize, bool)| {
             let verdict = match (form, ok) {
                 (_, false) => "FAILED".to_string(),
-                (Form::Strict, _) => format!("{items} results, {differing} of them not the same bits"),
+                (Form::Strict, _) => format!("{items} results, all the same bits"),
                 (Form::Fused, _) => format!("{items} results, {differing} differ, all within their bounds"),
             };
             [format!("{backend}, {}", format!("{form:?}").to_lowercase()), verdict]
