@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod fixtures;
+mod pictures;
 
 use clap::{Parser, Subcommand};
 
@@ -16,10 +17,13 @@ struct Arguments {
 enum Command {
     /// Make the tables in fixtures/ from their seeds, or check those that are there
     Fixtures(fixtures::Arguments),
+    /// Draw the pictures of the documentation
+    Pictures(pictures::Arguments),
 }
 
 fn main() -> anyhow::Result<()> {
     match Arguments::parse().command {
         Command::Fixtures(arguments) => fixtures::run(arguments),
+        Command::Pictures(arguments) => pictures::run(arguments),
     }
 }

@@ -31,6 +31,10 @@ impl Lanes for Avx2 {
         Floats(op!(_mm256_set1_ps(x)))
     }
     #[inline(always)]
+    fn first_two(self, a: f32, b: f32) -> Floats {
+        Floats(op!(_mm256_zextps128_ps256(_mm_unpacklo_ps(_mm_set_ss(a), _mm_set_ss(b)))))
+    }
+    #[inline(always)]
     fn splat_int(self, x: i32) -> Ints {
         Ints(op!(_mm256_set1_epi32(x)))
     }

@@ -11,12 +11,26 @@ impl Texels for Avx2 {
     type Oct = Floats;
 
     #[inline(always)]
+    fn scalar_mul_add(self, a: f32, b: f32, c: f32) -> f32 {
+        a.mul_add(b, c)
+    }
+    #[inline(always)]
     fn quad_load(self, src: &[f32]) -> Quad {
         Quad(memory::load4(self, src))
     }
     #[inline(always)]
     fn quad_store(self, dst: &mut [f32], x: Quad) {
         memory::store4(self, dst, x.0);
+    }
+    #[inline(always)]
+    fn quad_corners<const N: usize>(self, block: &Block<'_, N, 4>, base: usize) -> [Quad; N] {
+        let mut corners = [self.quad_splat(0.0); N];
+        let mut corner = 0;
+        while corner < N {
+            corners[corner] = Quad(memory::load_quad(self, block, base, corner));
+            corner += 1;
+        }
+        corners
     }
     #[inline(always)]
     fn quad_splat(self, x: f32) -> Quad {
@@ -68,6 +82,6 @@ impl Texels for Avx2 {
     #[inline(always)]
     fn oct_count_le(self, knots: Floats, x: f32) -> u32 {
         let bits = op!(_mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(knots.0, _mm256_set1_ps(x))));
-        (bits as u32).count_ones()
+        (bits as u32).trailing_ones()
     }
 }

@@ -47,6 +47,8 @@ pub trait Lanes: Texels {
 
     /// `x` in every lane.
     fn splat(self, x: f32) -> Self::F;
+    /// `a` in lane 0, `b` in lane 1 where there is one, 0 in the others.
+    fn first_two(self, a: f32, b: f32) -> Self::F;
     /// `x` in every lane.
     fn splat_int(self, x: i32) -> Self::I;
     /// `0, 1, 2, ...`

@@ -51,6 +51,11 @@ impl<L: Lanes> Lanes for Strict<L> {
     }
 
     #[inline(always)]
+    fn first_two(self, a: f32, b: f32) -> L::F {
+        self.0.first_two(a, b)
+    }
+
+    #[inline(always)]
     fn splat_int(self, x: i32) -> L::I {
         self.0.splat_int(x)
     }
@@ -126,6 +131,11 @@ impl<L: Lanes> Texels for Strict<L> {
     type Oct = L::Oct;
 
     #[inline(always)]
+    fn scalar_mul_add(self, a: f32, b: f32, c: f32) -> f32 {
+        a * b + c
+    }
+
+    #[inline(always)]
     fn quad_load(self, src: &[f32]) -> L::Quad {
         self.0.quad_load(src)
     }
@@ -173,6 +183,11 @@ impl<L: Lanes> Texels for Strict<L> {
     #[inline(always)]
     fn oct_halves(self, x: L::Oct) -> [L::Quad; 2] {
         self.0.oct_halves(x)
+    }
+
+    #[inline(always)]
+    fn quad_corners<const N: usize>(self, block: &Block<'_, N, 4>, base: usize) -> [L::Quad; N] {
+        self.0.quad_corners(block, base)
     }
 
     #[inline(always)]

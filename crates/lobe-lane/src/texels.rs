@@ -16,6 +16,9 @@ pub trait Texels: Copy + Debug + Send + Sync + 'static {
     /// Eight floats.
     type Oct: Copy + Debug + Add<Output = Self::Oct> + Mul<Output = Self::Oct>;
 
+    /// `a * b + c` of single floats; rounded once where the backend fuses.
+    fn scalar_mul_add(self, a: f32, b: f32, c: f32) -> f32;
+
     /// The first four floats of `src`.
     ///
     /// # Panics
@@ -26,6 +29,8 @@ pub trait Texels: Copy + Debug + Send + Sync + 'static {
     /// # Panics
     /// Where `dst` is shorter.
     fn quad_store(self, dst: &mut [f32], x: Self::Quad);
+    /// The four floats at `base + offset` of the block, for each of its offsets; `base` is clamped to the block's last.
+    fn quad_corners<const N: usize>(self, block: &Block<'_, N, 4>, base: usize) -> [Self::Quad; N];
     /// `x` four times.
     fn quad_splat(self, x: f32) -> Self::Quad;
     /// `a * b + c`, float by float; rounded once where the backend fuses.
@@ -53,6 +58,6 @@ pub trait Texels: Copy + Debug + Send + Sync + 'static {
     fn oct_max(self, a: Self::Oct, b: Self::Oct) -> Self::Oct;
     /// The first four and the last four floats.
     fn oct_halves(self, x: Self::Oct) -> [Self::Quad; 2];
-    /// How many of the eight floats are `<= x`.
+    /// How many of the eight floats, which ascend, are `<= x`.
     fn oct_count_le(self, knots: Self::Oct, x: f32) -> u32;
 }

@@ -31,6 +31,10 @@ impl<const N: usize> Lanes for Scalar<N> {
         Floats([x; N])
     }
     #[inline(always)]
+    fn first_two(self, a: f32, b: f32) -> Floats<N> {
+        Floats(std::array::from_fn(|lane| [a, b].get(lane).copied().unwrap_or(0.0)))
+    }
+    #[inline(always)]
     fn splat_int(self, x: i32) -> Ints<N> {
         Ints([x; N])
     }

@@ -9,12 +9,21 @@ impl<const N: usize> Texels for Scalar<N> {
     type Oct = Floats<8>;
 
     #[inline(always)]
+    fn scalar_mul_add(self, a: f32, b: f32, c: f32) -> f32 {
+        a * b + c
+    }
+    #[inline(always)]
     fn quad_load(self, src: &[f32]) -> Floats<4> {
         Floats([src[0], src[1], src[2], src[3]])
     }
     #[inline(always)]
     fn quad_store(self, dst: &mut [f32], x: Floats<4>) {
         dst[..4].copy_from_slice(&x.0);
+    }
+    #[inline(always)]
+    fn quad_corners<const K: usize>(self, block: &Block<'_, K, 4>, base: usize) -> [Floats<4>; K] {
+        let base = base.min(block.last_base());
+        std::array::from_fn(|corner| self.quad_load(&block.data()[base + block.offsets()[corner]..]))
     }
     #[inline(always)]
     fn quad_splat(self, x: f32) -> Floats<4> {

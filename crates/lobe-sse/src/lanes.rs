@@ -27,6 +27,10 @@ impl<V: Level> Lanes for Sse<V> {
         floats(op!(_mm_set1_ps(x)))
     }
     #[inline(always)]
+    fn first_two(self, a: f32, b: f32) -> Floats<V> {
+        floats(op!(_mm_unpacklo_ps(_mm_set_ss(a), _mm_set_ss(b))))
+    }
+    #[inline(always)]
     fn splat_int(self, x: i32) -> Ints<V> {
         ints(op!(_mm_set1_epi32(x)))
     }

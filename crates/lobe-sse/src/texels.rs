@@ -12,12 +12,26 @@ impl<V: Level> Texels for Sse<V> {
     type Oct = Oct<V>;
 
     #[inline(always)]
+    fn scalar_mul_add(self, a: f32, b: f32, c: f32) -> f32 {
+        a * b + c
+    }
+    #[inline(always)]
     fn quad_load(self, src: &[f32]) -> Floats<V> {
         floats(memory::load(src))
     }
     #[inline(always)]
     fn quad_store(self, dst: &mut [f32], x: Floats<V>) {
         memory::store(dst, x.0);
+    }
+    #[inline(always)]
+    fn quad_corners<const N: usize>(self, block: &Block<'_, N, 4>, base: usize) -> [Floats<V>; N] {
+        let mut corners = [self.quad_splat(0.0); N];
+        let mut corner = 0;
+        while corner < N {
+            corners[corner] = floats(memory::load_corner(block, base, corner, 0));
+            corner += 1;
+        }
+        corners
     }
     #[inline(always)]
     fn quad_splat(self, x: f32) -> Floats<V> {
@@ -76,6 +90,6 @@ impl<V: Level> Texels for Sse<V> {
     fn oct_count_le(self, knots: Oct<V>, x: f32) -> u32 {
         let x = op!(_mm_set1_ps(x));
         let bits = op!(_mm_movemask_ps(_mm_cmple_ps(knots.0.0, x)) | _mm_movemask_ps(_mm_cmple_ps(knots.1.0, x)) << 4);
-        (bits as u32).count_ones()
+        (bits as u32).trailing_ones()
     }
 }

@@ -22,7 +22,32 @@ pub struct Axis {
     /// For each knot the knot of the file whose values it has.
     source: Vec<usize>,
     edge: Edge,
+    pub(crate) bounds: Bounds,
     search: Search,
+}
+
+/// The edge policy in numbers, so that applying it takes no branch.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounds {
+    /// Angles below this move up a turn.
+    pub(crate) turn_below: f32,
+    /// Where angles are clamped: at the least to what an angle can be, so that no NaN gets beyond.
+    pub(crate) clamp: [f32; 2],
+    /// Outside these the value is 0.
+    pub(crate) inside: [f32; 2],
+}
+
+impl Bounds {
+    fn new(edge: Edge, first: f32, last: f32) -> Self {
+        const EVERYWHERE: [f32; 2] = [f32::NEG_INFINITY, f32::INFINITY];
+        let turn = std::f32::consts::TAU;
+        let rounding = ROUNDING as f32;
+        Bounds {
+            turn_below: if edge == Edge::Periodic { first } else { f32::NEG_INFINITY },
+            clamp: if edge == Edge::Extrapolate { [-turn, 2.0 * turn] } else { [first, last] },
+            inside: if edge == Edge::Zero { [first - rounding, last + rounding] } else { EVERYWHERE },
+        }
+    }
 }
 
 /// Why knots do not make an axis.
@@ -62,11 +87,12 @@ pub(crate) enum Search {
     Guide { buckets_per_radian: f32, buckets: Vec<[f32; 2]>, steps: usize },
 }
 
-/// Up to 31 inner knots in the order of a breadth-first search tree, node 1 the root, missing ones infinite, and the
-/// first knots and inverse widths of the cells.
+/// Up to 31 inner knots, sorted and in the order of a breadth-first search tree with node 1 the root, missing ones
+/// infinite, and the first knots and inverse widths of the cells.
 #[derive(Clone, Debug)]
 pub(crate) struct Registers {
     pub(crate) levels: usize,
+    pub(crate) sorted: [f32; 32],
     pub(crate) tree: [f32; 32],
     pub(crate) first: [f32; 32],
     pub(crate) inverse: [f32; 32],
@@ -106,7 +132,8 @@ impl Axis {
         } else {
             guide(&knots)
         };
-        Ok(Axis { knots, cells, source, edge, search })
+        let bounds = Bounds::new(edge, knots[0], knots[knots.len() - 1]);
+        Ok(Axis { knots, cells, source, edge, bounds, search })
     }
 
     /// The knots in radians.
@@ -134,10 +161,6 @@ impl Axis {
 
     pub(crate) fn first(&self) -> f32 {
         self.knots[0]
-    }
-
-    pub(crate) fn last(&self) -> f32 {
-        self.knots[self.knots.len() - 1]
     }
 
     /// Bytes of memory that this holds.
@@ -179,7 +202,8 @@ impl Registers {
         }
         // Look-ups beyond the last cell cannot happen; the padding keeps its values so that none of them is special.
         let padded = |column: usize| std::array::from_fn(|i| cells[i.min(cells.len() - 1)][column]);
-        Registers { levels, tree, first: padded(0), inverse: padded(1) }
+        let sorted = std::array::from_fn(|i| inner.get(i).copied().unwrap_or(f32::INFINITY));
+        Registers { levels, sorted, tree, first: padded(0), inverse: padded(1) }
     }
 }
 

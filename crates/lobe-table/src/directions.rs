@@ -1,5 +1,7 @@
 //! Batches of directions in memory: an array of structures, or a structure of arrays.
 
+use std::ops::Range;
+
 use lobe_lane::Lanes;
 
 use crate::passes::block::BLOCK;
@@ -19,6 +21,12 @@ pub trait Directions: Copy + sealed::Sealed {
 
     /// How many there are.
     fn count(&self) -> usize;
+
+    /// Directions `range`, for splitting a batch.
+    ///
+    /// # Panics
+    /// Where there are fewer.
+    fn part(&self, range: Range<usize>) -> Self;
 
     /// The block from direction `at` on. Where fewer are left than a block has, they are copied to `padding`, zero
     /// vectors behind them.
@@ -49,6 +57,10 @@ impl Directions for &[[f32; 3]] {
 
     fn count(&self) -> usize {
         self.len()
+    }
+
+    fn part(&self, range: Range<usize>) -> Self {
+        &self[range]
     }
 
     #[inline(always)]
@@ -99,6 +111,10 @@ impl Directions for Soa<'_> {
 
     fn count(&self) -> usize {
         self.xyz[0].len()
+    }
+
+    fn part(&self, range: Range<usize>) -> Self {
+        Soa { xyz: self.xyz.map(|component| &component[range.clone()]) }
     }
 
     #[inline(always)]

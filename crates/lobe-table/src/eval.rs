@@ -1,14 +1,15 @@
-//! The ways to evaluate a [`Table`], all through the same passes.
+//! The ways to evaluate a [`Table`]: batches and lanes through the same passes, single queries beside them.
 
-use lobe_lane::{Block, Floats, Kernel, Lanes, MAX_LANES};
+use lobe_lane::{Floats, Kernel, Lanes, MAX_LANES};
 
 use crate::directions::{BlockOfDirections, Directions};
-use crate::layout::Kind;
+use crate::layout::{Corners, Kind, PHI, PSI};
 use crate::passes::block::{BLOCK, Column};
 use crate::passes::frame::{self, Frame};
-use crate::passes::texels::{self, RgbTile};
+use crate::passes::texels::{self, Tile};
 use crate::passes::weights::{self, MAX_CORNERS};
 use crate::passes::{angles, cells};
+use crate::single::Single;
 use crate::table::Table;
 
 /// What the passes of a block hand on.
@@ -18,7 +19,7 @@ struct Scratch {
     axes: [Column; 4],
     base: Column<i32>,
     weights: [Column; MAX_CORNERS],
-    tile: RgbTile,
+    tile: Tile,
 }
 
 impl Scratch {
@@ -88,10 +89,12 @@ impl Table {
         let mut scratch = Scratch::ZERO;
         self.locate(lanes, L::LANES, (wi, wo), &mut scratch);
         // Texels come query by query; the lanes want them channel by channel.
+        let corners = self.layout.corners();
         let mut tile = [0.0f32; MAX_LANES * CHUNK];
         for (chunk, channels) in out.chunks_mut(CHUNK).enumerate() {
             let width = channels.len();
-            self.texels(lanes, L::LANES, &mut scratch, chunk * CHUNK, width, &mut tile[..L::LANES * width]);
+            let tile = &mut tile[..L::LANES * width];
+            self.texels(lanes, L::LANES, &corners, &mut scratch, (chunk * CHUNK, width), tile);
             for (k, channel) in channels.iter_mut().enumerate() {
                 let mut column = [0.0f32; MAX_LANES];
                 let mut lane = 0;
@@ -130,61 +133,46 @@ impl Table {
     /// The last pass: channels `from .. from + width` of queries `0..n`, `out[query * width + channel - from]`. All
     /// channels at once, or from a multiple of eight on.
     #[inline(always)]
-    fn texels<L: Lanes>(&self, lanes: L, n: usize, scratch: &mut Scratch, from: usize, width: usize, out: &mut [f32]) {
+    fn texels<L: Lanes>(
+        &self,
+        lanes: L,
+        n: usize,
+        corners: &Corners<'_>,
+        scratch: &mut Scratch,
+        (from, width): (usize, usize),
+        out: &mut [f32],
+    ) {
         let Scratch { axes, base, weights, tile, .. } = scratch;
         let located = (&*base, &*weights);
-        // Texels are finite, so the least float leaves every sum as it is.
-        let floor = if self.edges().non_negative { 0.0 } else { f32::MIN };
-        let whole = n.next_multiple_of(L::LANES);
-        let data = self.layout.data();
-        match (self.layout.kind, self.is_anisotropic()) {
-            (Kind::Mono, anisotropic) => {
-                let mut values = Column::<f32>::ZERO;
-                if anisotropic {
-                    let block = Block::<4, 4>::new(data, self.layout.corners(&self.axes, [SIGMA, PSI]));
-                    texels::mono(lanes, whole, &block, located, floor, &mut values);
-                } else {
-                    let block = Block::<2, 4>::new(data, self.layout.corners(&self.axes, [SIGMA]));
-                    texels::mono(lanes, whole, &block, located, floor, &mut values);
-                }
-                out.copy_from_slice(&values.0[..out.len()]);
-            }
-            (Kind::Rgb, anisotropic) => {
-                if anisotropic {
-                    let block = Block::<8, 8>::new(data, self.layout.corners(&self.axes, [SIGMA, PSI, THETA]));
-                    texels::rgb(lanes, whole, &block, (&*base, &*weights, &axes[PHI]), floor, tile);
-                } else {
-                    let block = Block::<4, 8>::new(data, self.layout.corners(&self.axes, [SIGMA, THETA]));
-                    texels::rgb(lanes, whole, &block, (&*base, &*weights, &axes[PHI]), floor, tile);
-                }
-                if width == 3 {
-                    out.copy_from_slice(&tile[..out.len()]);
-                } else {
-                    for (texel, whole) in out.chunks_exact_mut(width).zip(tile.chunks_exact(3)) {
-                        texel.copy_from_slice(&whole[..width]);
-                    }
-                }
-            }
-            (Kind::Wide, anisotropic) => {
-                if anisotropic {
-                    let block = Block::<16, 8>::new(data, self.layout.corners(&self.axes, [SIGMA, PSI, THETA, PHI]));
-                    texels::wide(lanes, &block, (from, width), located, floor, out);
-                } else {
-                    let block = Block::<8, 8>::new(data, self.layout.corners(&self.axes, [SIGMA, THETA, PHI]));
-                    texels::wide(lanes, &block, (from, width), located, floor, out);
-                }
-            }
+        let (floor, whole) = (self.floor(), n.next_multiple_of(L::LANES));
+        match corners {
+            Corners::MonoIso(block) => texels::mono(lanes, whole, block, located, floor, tile),
+            Corners::MonoAniso(block) => texels::mono(lanes, whole, block, located, floor, tile),
+            Corners::RgbIso(block) => texels::rgb(lanes, whole, block, (located, &axes[PHI]), floor, tile),
+            Corners::RgbAniso(block) => texels::rgb(lanes, whole, block, (located, &axes[PHI]), floor, tile),
+            // Many channels need no tile.
+            Corners::WideIso(block) => return texels::wide(lanes, block, (from, width), located, floor, out),
+            Corners::WideAniso(block) => return texels::wide(lanes, block, (from, width), located, floor, out),
         }
+        match width {
+            2 => {
+                for (texel, three) in out.chunks_exact_mut(2).zip(tile.chunks_exact(3)) {
+                    texel.copy_from_slice(&three[..2]);
+                }
+            }
+            _ => out.copy_from_slice(&tile[..out.len()]),
+        }
+    }
+
+    /// What no result is less than. Texels are finite, so the least float leaves every sum as it is.
+    #[inline(always)]
+    pub(crate) fn floor(&self) -> f32 {
+        if self.edges().non_negative { 0.0 } else { f32::MIN }
     }
 }
 
 /// Channels that [`Table::eval_lanes`] turns into lanes at once.
 const CHUNK: usize = 8;
-
-const SIGMA: usize = 0;
-const PSI: usize = 1;
-const THETA: usize = 2;
-const PHI: usize = 3;
 
 /// All queries of a batch, block by block.
 struct Batch<'a, D> {
@@ -201,6 +189,7 @@ impl<D: Directions> Kernel for Batch<'_, D> {
     fn run<L: Lanes>(self, lanes: L) {
         let Batch { table, wi, wo, out } = self;
         let channels = table.channel_count();
+        let corners = table.layout.corners();
         let count = wi.count();
         let mut scratch = Scratch::ZERO;
         let mut padding = (D::PADDING, D::PADDING);
@@ -209,26 +198,9 @@ impl<D: Directions> Kernel for Batch<'_, D> {
             let n = (count - at).min(BLOCK);
             let block = (wi.block(at, &mut padding.0), wo.block(at, &mut padding.1));
             table.locate(lanes, n.next_multiple_of(L::LANES), block, &mut scratch);
-            table.texels(lanes, n, &mut scratch, 0, channels, &mut out[at * channels..][..n * channels]);
+            let target = &mut out[at * channels..][..n * channels];
+            table.texels(lanes, n, &corners, &mut scratch, (0, channels), target);
             at += n;
         }
-    }
-}
-
-/// One query.
-struct Single<'a> {
-    table: &'a Table,
-    wi: [f32; 3],
-    wo: [f32; 3],
-    out: &'a mut [f32],
-}
-
-impl Kernel for Single<'_> {
-    type Out = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) {
-        let Single { table, wi, wo, out } = self;
-        Batch { table, wi: [wi].as_slice(), wo: [wo].as_slice(), out }.run(lanes);
     }
 }

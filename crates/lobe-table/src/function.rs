@@ -44,10 +44,9 @@ impl Function {
     /// The value at `x`, in radians.
     #[inline(always)]
     pub fn eval<L: Lanes>(&self, lanes: L, x: L::F) -> L::F {
-        let (x, inside) = self.axis.bring_inside(lanes, x);
-        let Cell { index, fraction } = self.axis.cell(lanes, x);
+        let inside = self.axis.contains(lanes, x);
+        let Cell { index, fraction } = self.axis.cell(lanes, self.axis.bring_inside(lanes, x));
         let [value, slope] = lanes.gather_pair(&self.cells, index);
-        let value = lanes.mul_add(fraction, slope, value);
-        if self.axis.edge() == Edge::Zero { value.masked(inside) } else { value }
+        lanes.mul_add(fraction, slope, value).masked(inside)
     }
 }

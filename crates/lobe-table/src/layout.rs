@@ -1,5 +1,7 @@
 //! Where the texels of a table lie in memory.
 
+use lobe_lane::Block;
+
 use crate::Samples;
 use crate::axis::Axis;
 use crate::storage::Storage;
@@ -17,6 +19,25 @@ pub(crate) enum Kind {
     Wide,
 }
 
+pub(crate) const SIGMA: usize = 0;
+pub(crate) const PSI: usize = 1;
+pub(crate) const THETA: usize = 2;
+pub(crate) const PHI: usize = 3;
+
+/// The texels of a table and the corners of a cell, by kind and by whether psi counts.
+///
+/// Corners go over sigma, psi where it counts, theta and phi, the last fastest. One load brings two corners in phi of
+/// [`Kind::Rgb`], and all four in theta and phi of [`Kind::Mono`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Corners<'a> {
+    MonoIso(Block<'a, 2, 4>),
+    MonoAniso(Block<'a, 4, 4>),
+    RgbIso(Block<'a, 4, 8>),
+    RgbAniso(Block<'a, 8, 8>),
+    WideIso(Block<'a, 8, 8>),
+    WideAniso(Block<'a, 16, 8>),
+}
+
 /// The texels of a table, sigma slowest, then psi, theta and phi.
 #[derive(Clone, Debug)]
 pub(crate) struct Layout {
@@ -25,6 +46,9 @@ pub(crate) struct Layout {
     storage: Storage,
     /// Floats from a node to the next along sigma, psi, theta and phi.
     strides: [usize; 4],
+    anisotropic: bool,
+    /// The corners of a cell, from its first node: as many as [`Corners`] has for this kind.
+    offsets: [usize; 16],
 }
 
 impl Layout {
@@ -70,13 +94,23 @@ impl Layout {
                 }
             }
         }
-        Some(Layout { kind, channels, storage, strides })
+        let anisotropic = axes[PSI].knots().len() > 1;
+        let over: &[usize] = match (kind, anisotropic) {
+            (Kind::Mono, false) => &[SIGMA],
+            (Kind::Mono, true) => &[SIGMA, PSI],
+            (Kind::Rgb, false) => &[SIGMA, THETA],
+            (Kind::Rgb, true) => &[SIGMA, PSI, THETA],
+            (Kind::Wide, false) => &[SIGMA, THETA, PHI],
+            (Kind::Wide, true) => &[SIGMA, PSI, THETA, PHI],
+        };
+        let offsets = offsets(axes, strides, over);
+        Some(Layout { kind, channels, storage, strides, anisotropic, offsets })
     }
 
-    /// All floats.
+    /// `true` where psi counts.
     #[inline(always)]
-    pub(crate) fn data(&self) -> &[f32] {
-        self.storage.as_slice()
+    pub(crate) fn anisotropic(&self) -> bool {
+        self.anisotropic
     }
 
     /// Floats from a node to the next along each axis.
@@ -85,31 +119,40 @@ impl Layout {
         &self.strides
     }
 
-    /// The offsets of `2^AXES` corners over the axes given, the last fastest; an axis of one knot has no upper corner.
+    /// The texels with the pattern of corners that an interpolation reads.
     #[inline(always)]
-    pub(crate) fn corners<const AXES: usize, const CORNERS: usize>(
-        &self,
-        axes: &[Axis; 4],
-        over: [usize; AXES],
-    ) -> [usize; CORNERS] {
-        let mut offsets = [0; CORNERS];
-        let mut corner = 0;
-        while corner < CORNERS {
-            let mut k = 0;
-            while k < AXES {
-                let axis = over[k];
-                let upper = corner >> (AXES - 1 - k) & 1 == 1;
-                let step = axis == 3 || axes[axis].knots().len() > 1;
-                offsets[corner] += if upper && step { self.strides[axis] } else { 0 };
-                k += 1;
-            }
-            corner += 1;
+    pub(crate) fn corners(&self) -> Corners<'_> {
+        let data = self.storage.as_slice();
+        match (self.kind, self.anisotropic) {
+            (Kind::Mono, false) => Corners::MonoIso(Block::new(data, first(&self.offsets))),
+            (Kind::Mono, true) => Corners::MonoAniso(Block::new(data, first(&self.offsets))),
+            (Kind::Rgb, false) => Corners::RgbIso(Block::new(data, first(&self.offsets))),
+            (Kind::Rgb, true) => Corners::RgbAniso(Block::new(data, first(&self.offsets))),
+            (Kind::Wide, false) => Corners::WideIso(Block::new(data, first(&self.offsets))),
+            (Kind::Wide, true) => Corners::WideAniso(Block::new(data, first(&self.offsets))),
         }
-        offsets
     }
 
     /// Bytes of memory that this holds.
     pub(crate) fn bytes(&self) -> usize {
         self.storage.bytes()
     }
+}
+
+#[inline(always)]
+fn first<const N: usize>(offsets: &[usize; 16]) -> [usize; N] {
+    *offsets.first_chunk().expect("at most 16 corners")
+}
+
+/// The offsets of the corners over the axes given, the last fastest; an axis of one knot has no upper corner, except phi,
+/// which has every knot twice.
+fn offsets(axes: &[Axis; 4], strides: [usize; 4], over: &[usize]) -> [usize; 16] {
+    let mut offsets = [0; 16];
+    for (corner, offset) in offsets.iter_mut().enumerate().take(1 << over.len()) {
+        for (k, &axis) in over.iter().rev().enumerate() {
+            let step = axis == PHI || axes[axis].knots().len() > 1;
+            *offset += if corner >> k & 1 == 1 && step { strides[axis] } else { 0 };
+        }
+    }
+    offsets
 }

@@ -22,6 +22,7 @@ pub mod reference;
 pub mod rgl;
 mod samples;
 mod search;
+mod single;
 pub mod spherical;
 mod storage;
 mod table;

@@ -7,9 +7,7 @@ use std::f32::consts::TAU;
 
 use lobe_lane::{Floats, Ints, Lanes};
 
-use crate::Edge;
 use crate::axis::{Axis, Registers, Search};
-use crate::reference::ROUNDING;
 
 /// A cell in each lane.
 #[derive(Clone, Copy, Debug)]
@@ -51,47 +49,29 @@ impl Axis {
     }
 
     /// The cell of each lane of `x`, in radians, and the weights of its two knots. They add up to 1, or are both 0 where
-    /// `x` is outside an axis of [`Edge::Zero`].
+    /// `x` is outside an axis of [`Edge::Zero`](crate::Edge::Zero).
     #[inline(always)]
     pub fn weights<L: Lanes>(&self, lanes: L, x: L::F) -> (L::I, [L::F; 2]) {
-        let (x, inside) = self.bring_inside(lanes, x);
-        let Cell { index, fraction } = self.cell(lanes, x);
-        let weights = [lanes.splat(1.0) - fraction, fraction];
-        let zero_outside = self.edge() == Edge::Zero;
-        (index, if zero_outside { weights.map(|w| w.masked(inside)) } else { weights })
-    }
-
-    /// Applies the edge policy to angles in radians: where the table is to be read, and whether the query is inside.
-    ///
-    /// Angles on a periodic axis are at most a turn below its first knot, and none above.
-    #[inline(always)]
-    pub(crate) fn bring_inside<L: Lanes>(&self, lanes: L, x: L::F) -> (L::F, L::M) {
         let inside = self.contains(lanes, x);
-        let x = if self.edge() == Edge::Periodic { self.turn_up(lanes, x) } else { x };
-        let (low, high) = self.limits();
-        (x.max(lanes.splat(low)).min(lanes.splat(high)), inside)
+        let Cell { index, fraction } = self.cell(lanes, self.bring_inside(lanes, x));
+        (index, [lanes.splat(1.0) - fraction, fraction].map(|weight| weight.masked(inside)))
     }
 
-    /// `true` in the lanes within the knots, with room for rounding.
+    /// `true` in the lanes where the table has a value, which is everywhere but outside an axis of
+    /// [`Edge::Zero`](crate::Edge::Zero).
     #[inline(always)]
     pub(crate) fn contains<L: Lanes>(&self, lanes: L, x: L::F) -> L::M {
-        let rounding = ROUNDING as f32;
-        lanes.splat(self.first() - rounding).le(x) & x.le(lanes.splat(self.last() + rounding))
+        let [low, high] = self.bounds.inside;
+        lanes.splat(low).le(x) & x.le(lanes.splat(high))
     }
 
-    /// Angles below the first knot, a turn on.
+    /// Where the table is to be read for angles in radians. Angles on a periodic axis are at most a turn below its first
+    /// knot, and none above.
     #[inline(always)]
-    pub(crate) fn turn_up<L: Lanes>(&self, lanes: L, x: L::F) -> L::F {
-        x + lanes.splat(TAU).masked(x.lt(lanes.splat(self.first())))
-    }
-
-    /// Where angles are clamped.
-    #[inline(always)]
-    pub(crate) fn limits(&self) -> (f32, f32) {
-        match self.edge() {
-            Edge::Extrapolate => (f32::NEG_INFINITY, f32::INFINITY),
-            Edge::Clamp | Edge::Zero | Edge::Periodic => (self.first(), self.last()),
-        }
+    pub(crate) fn bring_inside<L: Lanes>(&self, lanes: L, x: L::F) -> L::F {
+        let [low, high] = self.bounds.clamp;
+        let turned = x + lanes.splat(TAU).masked(x.lt(lanes.splat(self.bounds.turn_below)));
+        turned.max(lanes.splat(low)).min(lanes.splat(high))
     }
 
     /// Hands the searcher of this axis to `visitor`.

@@ -108,7 +108,7 @@ impl Table {
 
     /// `true` where the value depends on the rotation of the sample.
     pub fn is_anisotropic(&self) -> bool {
-        self.axes[1].knots().len() > 1
+        self.layout.anisotropic()
     }
 
     /// Bytes of memory that the table takes.

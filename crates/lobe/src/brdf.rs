@@ -8,6 +8,13 @@ use thiserror::Error;
 
 use crate::{Backend, BackendError};
 
+/// Batches of at least this many queries are shared among threads; below it, starting them would cost more than it saves.
+pub const PARALLEL_FROM: usize = 16_384;
+
+/// Queries a task: a few tens of microseconds of work.
+#[cfg(feature = "rayon")]
+const TASK: usize = 4_096;
+
 /// Why a material could not be opened.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum OpenError {
@@ -40,7 +47,7 @@ pub enum OpenError {
 /// let wi = [[0.5, 0.0, 0.866], [0.0, 0.6, 0.8]];
 /// let wo = [[-0.5, 0.0, 0.866], [0.0, -0.6, 0.8]];
 /// let mut f = vec![0.0; wi.len() * brdf.channel_count()];
-/// brdf.eval_batch(&wi, &wo, &mut f);
+/// brdf.eval_batch(wi.as_slice(), wo.as_slice(), &mut f);
 /// # Ok::<(), lobe::OpenError>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -109,9 +116,28 @@ impl Brdf {
     /// Evaluates many pairs: `out[query * channel_count + channel]`. `wi` and `wo` are slices of vectors, or
     /// [`Soa`](crate::Soa) of components.
     ///
+    /// From [`PARALLEL_FROM`] queries on, the work is shared among the threads of the current rayon pool (feature
+    /// `rayon`); the results do not depend on how many there are.
+    ///
     /// # Panics
     /// Where there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
-    pub fn eval_batch<D: Directions>(&self, wi: D, wo: D, out: &mut [f32]) {
+    pub fn eval_batch<D: Directions + Sync>(&self, wi: D, wo: D, out: &mut [f32]) {
+        #[cfg(feature = "rayon")]
+        if wi.count() >= PARALLEL_FROM {
+            return self.eval_parallel(wi, wo, out);
+        }
         self.backend.run(self.table.batch(wi, wo, out));
+    }
+
+    #[cfg(feature = "rayon")]
+    fn eval_parallel<D: Directions + Sync>(&self, wi: D, wo: D, out: &mut [f32]) {
+        use rayon::prelude::*;
+        assert_eq!(wi.count(), wo.count(), "as many wi as wo");
+        assert_eq!(out.len(), wi.count() * self.channel_count(), "one output a query and channel");
+        out.par_chunks_mut(TASK * self.channel_count()).enumerate().for_each(|(task, out)| {
+            let from = task * TASK;
+            let range = from..from + out.len() / self.channel_count();
+            self.backend.run(self.table.batch(wi.part(range.clone()), wo.part(range), out));
+        });
     }
 }

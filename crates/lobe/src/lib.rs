@@ -8,7 +8,7 @@ mod backend;
 mod brdf;
 
 pub use backend::{BACKEND_VARIABLE, Backend, BackendError};
-pub use brdf::{Brdf, OpenError};
+pub use brdf::{Brdf, OpenError, PARALLEL_FROM};
 pub use lobe_formats as formats;
 pub use lobe_lane::{Floats, Ints, Kernel, Lanes, Mask};
 pub use lobe_math as math;

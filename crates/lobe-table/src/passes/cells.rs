@@ -39,9 +39,15 @@ impl<L: Lanes> Visitor<L> for Pass<'_, L> {
     #[inline(always)]
     fn visit<S: Find<L>>(self, find: S) {
         let Pass { lanes, n, axis, stride, angle, base, valid } = self;
-        axis.restrict(lanes, n, angle, valid);
-        let (low, high) = axis.limits();
-        let (low, high, stride) = (lanes.splat(low), lanes.splat(high), lanes.splat_int(stride as i32));
+        if axis.edge() == Edge::Zero {
+            leave_out(lanes, n, axis, angle, valid);
+        }
+        let [low, high] = axis.bounds.clamp.map(|bound| lanes.splat(bound));
+        let stride = lanes.splat_int(stride as i32);
+        // Few axes begin above 0, so few have to be turned.
+        if axis.bounds.turn_below > 0.0 {
+            turn_up(lanes, n, axis, angle);
+        }
         let mut query = 0;
         while query < n {
             let x = angle.load(lanes, query).max(low).min(high);
@@ -53,28 +59,24 @@ impl<L: Lanes> Visitor<L> for Pass<'_, L> {
     }
 }
 
-impl Axis {
-    /// The part of the edge policy that few axes need: angles of a periodic axis below its first knot move up a turn, and
-    /// queries outside an axis of [`Edge::Zero`] lose their `valid` bits.
-    #[inline(always)]
-    fn restrict<L: Lanes>(&self, lanes: L, n: usize, angle: &mut Column, valid: &mut Column<i32>) {
-        let zero = lanes.splat_int(0);
-        let mut query = 0;
-        match self.edge() {
-            Edge::Periodic if self.first() > 0.0 => {
-                while query < n {
-                    angle.store(lanes, query, self.turn_up(lanes, angle.load(lanes, query)));
-                    query += L::LANES;
-                }
-            }
-            Edge::Zero => {
-                while query < n {
-                    let keep = self.contains(lanes, angle.load(lanes, query)) & valid.load(lanes, query).lt(zero);
-                    valid.store(lanes, query, lanes.select_int(keep, lanes.splat_int(-1), zero));
-                    query += L::LANES;
-                }
-            }
-            _ => {}
-        }
+/// Queries outside the axis lose their `valid` bits.
+#[inline(always)]
+fn leave_out<L: Lanes>(lanes: L, n: usize, axis: &Axis, angle: &Column, valid: &mut Column<i32>) {
+    let zero = lanes.splat_int(0);
+    let mut query = 0;
+    while query < n {
+        let keep = axis.contains(lanes, angle.load(lanes, query)) & valid.load(lanes, query).lt(zero);
+        valid.store(lanes, query, lanes.select_int(keep, lanes.splat_int(-1), zero));
+        query += L::LANES;
+    }
+}
+
+/// Angles below the first knot move up a turn.
+#[inline(always)]
+fn turn_up<L: Lanes>(lanes: L, n: usize, axis: &Axis, angle: &mut Column) {
+    let mut query = 0;
+    while query < n {
+        angle.store(lanes, query, axis.bring_inside(lanes, angle.load(lanes, query)));
+        query += L::LANES;
     }
 }

@@ -36,10 +36,11 @@ impl Frame {
 }
 
 /// Closer to the normal than 1e-15 rad, psi is taken for 0: the squares of shorter components lose their digits.
-const POLE: f32 = 1e-30;
+pub(crate) const POLE: f32 = 1e-30;
 
-/// The squared distance of two unit vectors is at most 4; more, or NaN, means that a component is not finite.
-const FARTHEST: f32 = 16.0;
+/// The squared distance of two unit vectors is at most 4 and a squared sine at most 1; a much larger sum, or NaN, means
+/// that a component is not finite.
+pub(crate) const FARTHEST: f32 = 16.0;
 
 /// Fills the frame of queries `0..n` of a block. `n` is a multiple of the lanes.
 #[inline(always)]
@@ -59,7 +60,7 @@ pub(crate) fn run<L: Lanes, B: BlockOfDirections>(
 }
 
 /// Where the zenith of the scattered light lies.
-trait Zenith: Copy {
+pub(crate) trait Zenith: Copy {
     /// `true` where directions below the surface are folded up.
     const FOLD: bool;
 
@@ -83,7 +84,7 @@ impl<const FOLD: bool> Zenith for Mirror<FOLD> {
 
 /// Through the surface, bent by an offset that depends on sigma.
 #[derive(Clone, Copy)]
-struct Refracted<'a>(&'a Function);
+pub(crate) struct Refracted<'a>(pub(crate) &'a Function);
 
 impl Zenith for Refracted<'_> {
     const FOLD: bool = true;
@@ -129,7 +130,7 @@ fn pass<L: Lanes, B: BlockOfDirections, Z: Zenith>(lanes: L, n: usize, (wi, wo):
         frame.across[0].store(lanes, query, x);
         frame.across[1].store(lanes, query, y);
         frame.rest.store(lanes, query, lanes.splat(0.5) * distance2);
-        let valid = zero.lt(iz) & zero.lt(oz) & distance2.lt(lanes.splat(FARTHEST));
+        let valid = zero.lt(iz) & zero.lt(oz) & (distance2 + sin2).lt(lanes.splat(FARTHEST));
         frame.valid.store(lanes, query, lanes.select_int(valid, lanes.splat_int(-1), lanes.splat_int(0)));
         query += L::LANES;
     }

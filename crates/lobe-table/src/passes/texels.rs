@@ -5,8 +5,11 @@ use lobe_lane::{Block, Floats, Lanes};
 use super::block::{BLOCK, Column};
 use super::weights::MAX_CORNERS;
 
-/// Room for three channels of each query of a block, and for the fourth float that the last store writes.
-pub(crate) type RgbTile = [f32; 3 * BLOCK + 1];
+/// Room for up to three channels of each query of a block, and for the fourth float that the last store writes.
+pub(crate) type Tile = [f32; 3 * BLOCK + 1];
+
+/// Base indices and corner weights.
+type Located<'a> = (&'a Column<i32>, &'a [Column; MAX_CORNERS]);
 
 /// Two or three channels: `CORNERS` pairs of neighbours in phi. Writes three floats a query, from the first, none less
 /// than `floor`. `n` is a multiple of the lanes.
@@ -15,9 +18,9 @@ pub(crate) fn rgb<L: Lanes, const CORNERS: usize>(
     lanes: L,
     n: usize,
     corners: &Block<'_, CORNERS, 8>,
-    (base, weights, phi): (&Column<i32>, &[Column; MAX_CORNERS], &Column),
+    ((base, weights), phi): (Located<'_>, &Column),
     floor: f32,
-    tile: &mut RgbTile,
+    tile: &mut Tile,
 ) {
     let floor = lanes.quad_splat(floor);
     let mut first = 0;
@@ -49,9 +52,9 @@ pub(crate) fn mono<L: Lanes, const CORNERS: usize>(
     lanes: L,
     n: usize,
     corners: &Block<'_, CORNERS, 4>,
-    (base, weights): (&Column<i32>, &[Column; MAX_CORNERS]),
+    (base, weights): Located<'_>,
     floor: f32,
-    out: &mut Column,
+    tile: &mut Tile,
 ) {
     let floor = lanes.splat(floor);
     let mut query = 0;
@@ -63,7 +66,7 @@ pub(crate) fn mono<L: Lanes, const CORNERS: usize>(
             sum = lanes.mul_add(cells[corner / 4][corner % 4], weights[corner].load(lanes, query), sum);
             corner += 1;
         }
-        out.store(lanes, query, sum.max(floor));
+        lanes.store(&mut tile[query & (BLOCK - L::LANES)..][..L::LANES], sum.max(floor));
         query += L::LANES;
     }
 }
@@ -76,7 +79,7 @@ pub(crate) fn wide<L: Lanes, const CORNERS: usize>(
     lanes: L,
     corners: &Block<'_, CORNERS, 8>,
     (from, channels): (usize, usize),
-    (base, weights): (&Column<i32>, &[Column; MAX_CORNERS]),
+    (base, weights): Located<'_>,
     floor: f32,
     out: &mut [f32],
 ) {

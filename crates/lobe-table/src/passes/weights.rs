@@ -35,7 +35,6 @@ pub(crate) fn run<L: Lanes, const AXES: usize>(
             }
             axis += 1;
         }
-        // Masked last: a fraction may be NaN where the query is not valid.
         let valid = valid.load(lanes, query).lt(zero);
         let mut corner = 0;
         while corner < 1 << AXES {
