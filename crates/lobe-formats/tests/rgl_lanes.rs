@@ -9,7 +9,7 @@ use common::{Worst, bytes, golden, relative, shared, unit};
 use lobe_formats::rgl;
 use lobe_lane::Lanes;
 use lobe_scalar::Scalar;
-use lobe_table::rgl::{Reference, Rgl, RglOptions, RglTable, Wanted};
+use lobe_table::rgl::{Rgl, RglOptions, RglTable, Wanted};
 
 const SYNTHETIC: [&str; 4] = ["rgl_iso_rgb", "rgl_iso_spec", "rgl_aniso_rgb", "rgl_aniso_spec"];
 const REAL: [&str; 5] =

@@ -17,7 +17,7 @@ mod reference;
 #[cfg(test)]
 mod tests;
 
-pub use lanes::{RglOptions, RglTable, Wanted};
+pub use lanes::{Drawn, RglOptions, RglTable, Wanted};
 pub use marginal::{Blend, Warp};
 pub use reference::{Reference, Sample, UniformOrder};
 

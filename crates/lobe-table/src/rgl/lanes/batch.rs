@@ -96,8 +96,7 @@ impl RglTable {
     ) {
         let Scratch { frame, incident, blend, u_m, places, s, density, .. } = scratch;
         frame::run(lanes, n, directions, self.symmetry, cosine, frame);
-        let azimuthal = SLICES == 4 || self.factor.as_ref().is_some_and(|factor| factor.azimuthal);
-        angles::incident(lanes, n, azimuthal, frame, incident);
+        angles::incident(lanes, n, self.azimuthal, frame, incident);
         angles::half(lanes, n, frame, u_m);
         self.blend::<L, SLICES>(lanes, n, &mut frame.valid, incident, blend);
         places.find(lanes, n, &self.vndf.grid, &blend.slice, u_m);
@@ -106,7 +105,7 @@ impl RglTable {
 
     /// The slices that queries `0..n` blend; none where they are not `valid`. The angles turn into fractions.
     #[inline(always)]
-    fn blend<L: Lanes, const SLICES: usize>(
+    pub(super) fn blend<L: Lanes, const SLICES: usize>(
         &self,
         lanes: L,
         n: usize,
@@ -136,26 +135,27 @@ pub(super) struct Incident {
 }
 
 /// What the passes of a block hand on.
-struct Scratch {
-    frame: Frame,
-    incident: Incident,
-    blend: Blend,
-    u_m: [Column; 2],
+pub(super) struct Scratch {
+    pub(super) frame: Frame,
+    pub(super) incident: Incident,
+    pub(super) blend: Blend,
+    /// The position of the half vector, and the uniform position that the visible normals warp to it.
+    pub(super) u_m: [Column; 2],
+    pub(super) s: [Column; 2],
     places: Places,
-    s: [Column; 2],
-    density: Column,
+    pub(super) density: Column,
     weights: [Column; MAX_CORNERS],
     tile: Tile,
 }
 
 impl Scratch {
-    const ZERO: Self = Scratch {
+    pub(super) const ZERO: Self = Scratch {
         frame: Frame::ZERO,
         incident: Incident { theta: Column::<f32>::ZERO, phi: Column::<f32>::ZERO, u: [Column::<f32>::ZERO; 2] },
         blend: Blend::ZERO,
         u_m: [Column::<f32>::ZERO; 2],
-        places: Places::ZERO,
         s: [Column::<f32>::ZERO; 2],
+        places: Places::ZERO,
         density: Column::<f32>::ZERO,
         weights: [Column::<f32>::ZERO; MAX_CORNERS],
         tile: [0.0; 3 * BLOCK + 1],
@@ -212,7 +212,7 @@ impl<D: Directions> Batch<'_, D> {
 impl RglTable {
     /// The values of the located queries `0..n`.
     #[inline(always)]
-    fn values<L: Lanes, const SLICES: usize, const PAIRS: usize, const FOURS: usize>(
+    pub(super) fn values<L: Lanes, const SLICES: usize, const PAIRS: usize, const FOURS: usize>(
         &self,
         lanes: L,
         n: usize,

@@ -63,9 +63,10 @@ impl Factor {
         let (four, largest) = (lanes.splat(4.0), lanes.splat(LARGEST));
         let mut query = 0;
         while query < n {
-            let at = |u: &[Column; 2]| [u[0].load(lanes, query), u[1].load(lanes, query)];
-            let ndf = bilinear(lanes, &ndf, &ndf_places, at(u_m));
-            let sigma = bilinear(lanes, &sigma, &sigma_places, at(u_i));
+            let u = [u_m[0].load(lanes, query), u_m[1].load(lanes, query)];
+            let ndf = bilinear(lanes, &ndf, &ndf_places, u);
+            let u = [u_i[0].load(lanes, query), u_i[1].load(lanes, query)];
+            let sigma = bilinear(lanes, &sigma, &sigma_places, u);
             let value = factor.load(lanes, query) * ndf / (four * sigma);
             factor.store(lanes, query, value.min(largest).max(-largest));
             query += L::LANES;

@@ -51,17 +51,41 @@ pub(super) struct Symmetry {
     pub(super) reduction: u32,
 }
 
+/// A `wi` in each lane, moved to the azimuths that are stored.
+#[derive(Clone, Copy)]
+pub(super) struct Oriented<L: Lanes> {
+    /// -0.0 where x and where y of all directions must change sign to get there, and back; +0.0 elsewhere.
+    pub(super) signs: [L::F; 2],
+    /// x, y and z.
+    pub(super) wi: [L::F; 3],
+    /// Squared sine.
+    pub(super) sin2: L::F,
+    /// Cosine and sine of the azimuth that a half vector is measured from: 0 unless the material is isotropic.
+    pub(super) turn: [L::F; 2],
+}
+
 impl Symmetry {
-    /// -0.0 in the lanes where x and where y of both directions must change sign to get into the azimuths that are
-    /// stored, +0.0 elsewhere.
+    /// Moves `wi` to the azimuths that are stored.
     #[inline(always)]
-    pub(super) fn signs<L: Lanes>(self, lanes: L, x: L::F, y: L::F) -> [L::F; 2] {
-        let (zero, turn) = (lanes.splat(0.0), lanes.splat(-0.0));
-        let half = lanes.first_n(if self.reduction == 2 { L::LANES } else { 0 });
-        let quarter = lanes.first_n(if self.reduction == 4 { L::LANES } else { 0 });
+    pub(super) fn orient<L: Lanes>(self, lanes: L, [x, y, z]: [L::F; 3]) -> Oriented<L> {
+        let (zero, one, negative) = (lanes.splat(0.0), lanes.splat(1.0), lanes.splat(-0.0));
+        let (half, quarter) = (every(lanes, self.reduction == 2), every(lanes, self.reduction == 4));
+        let isotropic = every(lanes, self.isotropic);
         let (right, behind) = (zero.le(x), zero.le(y));
-        [turn.masked((half & behind) | (quarter & right)), turn.masked((half | quarter) & behind)]
+        let signs = [negative.masked((half & behind) | (quarter & right)), negative.masked((half | quarter) & behind)];
+        let (x, y) = (x.mul_sign(signs[0]), y.mul_sign(signs[1]));
+        let sin2 = lanes.mul_add(x, x, y * y);
+        // The azimuth of a `wi` at the normal is 0.
+        let turned = isotropic & lanes.splat(POLE).lt(sin2);
+        let scale = (one / sin2.sqrt()).masked(turned);
+        Oriented { signs, wi: [x, y, z], sin2, turn: [lanes.select(turned, x * scale, one), y * scale] }
     }
+}
+
+/// All lanes, or none.
+#[inline(always)]
+fn every<L: Lanes>(lanes: L, wanted: bool) -> L::M {
+    lanes.first_n(if wanted { L::LANES } else { 0 })
 }
 
 /// Fills the frame of queries `0..n` of a block. `n` is a multiple of the lanes.
@@ -77,19 +101,13 @@ pub(super) fn run<L: Lanes, B: BlockOfDirections>(
     frame: &mut Frame,
 ) {
     let (zero, one, pole) = (lanes.splat(0.0), lanes.splat(1.0), lanes.splat(POLE));
-    let isotropic = lanes.first_n(if symmetry.isotropic { L::LANES } else { 0 });
-    let divide = lanes.first_n(if cosine { 0 } else { L::LANES });
+    let divide = every(lanes, !cosine);
     let mut query = 0;
     while query < n {
-        let [ix, iy, iz] = wi.load(lanes, query);
+        let Oriented { signs, wi: [ix, iy, iz], sin2, turn: [cos_phi, sin_phi] } =
+            symmetry.orient(lanes, wi.load(lanes, query));
         let [ox, oy, oz] = wo.load(lanes, query);
-        let [sign_x, sign_y] = symmetry.signs(lanes, ix, iy);
-        let (ix, ox, iy, oy) = (ix.mul_sign(sign_x), ox.mul_sign(sign_x), iy.mul_sign(sign_y), oy.mul_sign(sign_y));
-
-        let sin2 = lanes.mul_add(ix, ix, iy * iy);
-        let turned = isotropic & pole.lt(sin2);
-        let scale = (one / sin2.sqrt()).masked(turned);
-        let (cos_phi, sin_phi) = (lanes.select(turned, ix * scale, one), iy * scale);
+        let (ox, oy) = (ox.mul_sign(signs[0]), oy.mul_sign(signs[1]));
 
         // The sum of the directions has the digits of a half vector near the normal that a product would lose.
         let (hx, hy, hz) = (ix + ox, iy + oy, iz + oz);

@@ -74,6 +74,12 @@ impl<L: Lanes> Placer<L> {
         (cells, [x - cells[0].to_float(), y - cells[1].to_float()])
     }
 
+    /// The position on the unit square of a cell and a fraction into it, added up: `axis` 0 is x, 1 is y.
+    #[inline(always)]
+    pub(super) fn position(&self, axis: usize, place: L::F) -> L::F {
+        place / self.cells[axis]
+    }
+
     /// Where the first texel of a cell of the first slice lies.
     #[inline(always)]
     pub(super) fn texel(&self, cells: [L::I; 2]) -> L::I {

@@ -8,13 +8,19 @@
 //! 4. `invert`: the position of the half vector back to the uniform position that the visible normals warp to it;
 //! 5. `factor`: `ndf / (4 sigma)`, where the material asks for it;
 //! 6. `spectra`: the texels at the uniform position, weighted and summed.
+//!
+//! Sampling goes the other way: `draw` warps uniform numbers by the luminance and then by the visible normals, `reflect`
+//! turns the half vector into a direction, and the last two passes are the same.
 
 mod angles;
 mod batch;
+mod draw;
 mod factor;
 mod frame;
 mod grid;
 mod invert;
+mod reflect;
+mod sample;
 mod spectra;
 mod warp;
 
@@ -29,6 +35,7 @@ use spectra::Spectra;
 use warp::Warp;
 
 pub use batch::Wanted;
+pub use sample::Drawn;
 
 /// How an [`RglTable`] is to be evaluated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,6 +63,8 @@ pub struct RglTable {
     luminance: Warp,
     factor: Option<Factor>,
     spectra: Spectra,
+    /// Whether anything depends on the azimuth of `wi`.
+    azimuthal: bool,
 }
 
 impl RglTable {
@@ -72,14 +81,17 @@ impl RglTable {
         };
         let slices = [parts.phi_i.len(), parts.theta_i.len()];
         let floor = if options.clamp_negative { 0.0 } else { f32::MIN };
+        let factor = if parts.jacobian { Some(Factor::new(&parts.ndf, &parts.sigma)?) } else { None };
+        let azimuthal = parts.phi_i.len() > 1 || factor.as_ref().is_some_and(|factor| factor.azimuthal);
         Ok(RglTable {
+            azimuthal,
             channels: parts.channels.clone(),
             symmetry: Symmetry { isotropic: rgl.is_isotropic(), reduction: rgl.reduction() },
             phi_i: axis("phi_i", &parts.phi_i)?,
             theta_i: axis("theta_i", &parts.theta_i)?,
             vndf: Warp::new("vndf", &parts.vndf, slices)?,
             luminance: Warp::new("luminance", &parts.luminance, slices)?,
-            factor: if parts.jacobian { Some(Factor::new(&parts.ndf, &parts.sigma)?) } else { None },
+            factor,
             spectra: Spectra::new(&parts.spectra, slices, parts.channels.count(), floor)?,
         })
     }
