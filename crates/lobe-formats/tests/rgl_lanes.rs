@@ -1,5 +1,4 @@
-//! RGL materials in lanes: against the loader of the database and Mitsuba on every backend, against the `f64` reference,
-//! and bit for bit against each other.
+//! RGL materials in lanes against the loader of the database and Mitsuba.
 
 mod common;
 
@@ -9,7 +8,7 @@ use common::{Worst, bytes, golden, relative, shared, unit};
 use lobe_formats::rgl;
 use lobe_lane::Lanes;
 use lobe_scalar::Scalar;
-use lobe_table::rgl::{Rgl, RglOptions, RglTable, Wanted};
+use lobe_table::rgl::{Drawn, Rgl, RglOptions, RglTable, UniformOrder, Wanted};
 
 const SYNTHETIC: [&str; 4] = ["rgl_iso_rgb", "rgl_iso_spec", "rgl_aniso_rgb", "rgl_aniso_spec"];
 const REAL: [&str; 5] =
@@ -23,15 +22,11 @@ fn load(path: &Path) -> Rgl {
 macro_rules! on_every_backend {
     ($check:ident($($argument:expr),*)) => {{
         $check(Scalar::<1>, "scalar", $($argument),*);
-        $check(Scalar::<8>, "emulated8", $($argument),*);
         #[cfg(target_arch = "x86_64")]
         {
             $check(lobe_sse::Sse2::new(), "sse2", $($argument),*);
             match lobe_avx::Avx2::detect() {
-                Some(avx2) => {
-                    $check(avx2, "avx2", $($argument),*);
-                    $check(avx2.strict(), "avx2 strict", $($argument),*);
-                }
+                Some(avx2) => $check(avx2, "avx2", $($argument),*),
                 None => println!("SKIPPED: this CPU has no AVX2"),
             }
         }
@@ -76,6 +71,34 @@ fn against<L: Lanes>(
     assert!(eval.error < 1e-4 && density.error < 1e-4, "{name} on {backend}");
 }
 
+/// The columns behind the density: direction, density and weights of a sample of the loader of the database.
+fn draws<L: Lanes>(lanes: L, backend: &str, name: &str, table: &RglTable, queries: &Queries) {
+    let channels = table.channel_count();
+    let (wi, _) = directions(queries);
+    let uniforms: Vec<_> = queries.iter().map(|(query, _)| [query[6] as f32, query[7] as f32]).collect();
+    let (mut wo, mut pdf) = (vec![[f32::NAN; 3]; wi.len()], vec![f32::NAN; wi.len()]);
+    let mut weights = vec![f32::NAN; wi.len() * channels];
+    let drawn = Drawn { wo: &mut wo, pdf: &mut pdf, weights: &mut weights };
+    table.sample_batch(lanes, wi.as_slice(), &uniforms, UniformOrder::Powitacq, drawn);
+    let mut worst: [Worst; 3] = Default::default();
+    for (at, (_, answer)) in queries.iter().enumerate() {
+        let expected = &answer[channels + 1..];
+        if expected.iter().all(|x| *x == 0.0) {
+            assert_eq!((wo[at], pdf[at]), ([0.0; 3], 0.0), "{name} on {backend}: query {at} has no sample");
+        }
+        wo[at].iter().zip(expected).for_each(|(a, b)| worst[0].see((f64::from(*a) - b).abs(), at));
+        // Close to the pole of the half vector the density rises without bound, and with it the effect of the last digit
+        // of a single precision position.
+        worst[1].see(relative(f64::from(pdf[at]), expected[3], 1e-3) / (1.0 + expected[3] / 100.0), at);
+        for (weight, expected) in weights[at * channels..][..channels].iter().zip(&expected[4..]) {
+            worst[2].see(relative(f64::from(*weight), *expected, 1e-3), at);
+        }
+    }
+    let [direction, density, weight] = worst;
+    println!("{name} on {backend}: direction {direction:?}, pdf {density:?}, weight {weight:?}");
+    assert!(direction.error < 1e-4 && density.error < 1e-4 && weight.error < 1e-4, "{name} on {backend}");
+}
+
 #[test]
 fn synthetic_materials_match_the_loader_of_the_database() {
     let Some(shared) = shared() else { return };
@@ -86,6 +109,7 @@ fn synthetic_materials_match_the_loader_of_the_database() {
         assert_eq!(queries.len(), 150);
         let pdf_at = table.channel_count();
         on_every_backend!(against(name, &table, &queries, pdf_at, 1e-7));
+        on_every_backend!(draws(name, &table, &queries));
     }
 }
 
@@ -98,6 +122,7 @@ fn real_materials_match_the_loader_of_the_database() {
         let queries = golden(&shared.join(format!("golden/real_{name}_rgb.bsdf.powitacq.txt")));
         assert_eq!(queries.len(), 300);
         on_every_backend!(against(name, &table, &queries, 3, 1e-3));
+        on_every_backend!(draws(name, &table, &queries));
     }
 }
 
