@@ -4,7 +4,7 @@ use std::f32::consts::{FRAC_PI_2, PI};
 
 use lobe_lane::Lanes;
 use lobe_scalar::Scalar;
-use lobe_table::rgl::{Images, Parts, Reference, Rgl, RglOptions, RglTable, Wanted};
+use lobe_table::rgl::{Drawn, Images, Parts, Reference, Rgl, RglOptions, RglTable, UniformOrder, Wanted};
 use lobe_table::{Channels, Soa};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -39,7 +39,7 @@ fn material(phi_i: &[f32], theta_i: &[f32], channels: usize, jacobian: bool) -> 
             3 => Channels::Rgb,
             n => Channels::Spectral((0..n).map(|i| 400.0 + 10.0 * i as f64).collect()),
         },
-        spectra: images("spectra", [incident * channels, 5, 4], -0.5),
+        spectra: images("spectra", [incident * channels, 5, 4], -1.0),
         jacobian,
         valid: None,
     })
@@ -85,8 +85,9 @@ const NOTHING: std::ops::Range<usize> = 10..38;
 /// Not a multiple of any number of lanes, and more than one block.
 const COUNT: usize = 331;
 
-/// `f`, `f cos` and densities, which must not depend on what is asked for together.
-fn evaluate<L: Lanes>(lanes: L, table: &RglTable) -> [Vec<f32>; 3] {
+/// `f`, `f cos` and densities, which must not depend on what is asked for together; and directions drawn, with their
+/// densities and weights.
+fn evaluate<L: Lanes>(lanes: L, table: &RglTable) -> [Vec<f32>; 6] {
     let (wi, wo) = directions(COUNT);
     let values = || vec![f32::NAN; COUNT * table.channel_count()];
     let (mut f, mut alone, mut cos, mut pdf) = (values(), values(), values(), vec![f32::NAN; COUNT]);
@@ -100,7 +101,18 @@ fn evaluate<L: Lanes>(lanes: L, table: &RglTable) -> [Vec<f32>; 3] {
         lanes.vectorize(table.batch(wi.as_slice(), wo.as_slice(), wanted));
     }
     assert_eq!((bits(&alone), bits(&pdf_alone)), (bits(&f), bits(&pdf)));
-    [f, cos, pdf]
+    let (mut drawn, mut density, mut weights) = (vec![[f32::NAN; 3]; COUNT], vec![f32::NAN; COUNT], values());
+    let outputs = Drawn { wo: &mut drawn, pdf: &mut density, weights: &mut weights };
+    table.sample_batch(lanes, wi.as_slice(), &uniforms(), UniformOrder::Pbrt, outputs);
+    [f, cos, pdf, drawn.into_flattened(), density, weights]
+}
+
+/// The corners of the unit square and numbers in it.
+fn uniforms() -> Vec<[f32; 2]> {
+    let mut rng = Pcg32::seed_from_u64(4);
+    let mut uniforms: Vec<[f32; 2]> = (0..COUNT).map(|_| [rng.random(), rng.random()]).collect();
+    uniforms[..4].copy_from_slice(&[[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [0.5, 1.0]]);
+    uniforms
 }
 
 #[test]
@@ -108,7 +120,7 @@ fn components_and_single_pairs_give_the_same_bits() {
     let lanes = Scalar::<1>;
     let table = RglTable::new(&material(&[0.0], &THETA_I, 3, true), RglOptions::default()).expect("a table");
     let (wi, wo) = directions(COUNT);
-    let [f, _, pdf] = evaluate(lanes, &table);
+    let [f, _, pdf, ..] = evaluate(lanes, &table);
     let split = |w: &[[f32; 3]]| [0, 1, 2].map(|k| w.iter().map(|v| v[k]).collect::<Vec<f32>>());
     let ([ix, iy, iz], [ox, oy, oz]) = (split(&wi), split(&wo));
     let (wi_soa, wo_soa) = (Soa::new(&ix, &iy, &iz), Soa::new(&ox, &oy, &oz));
@@ -126,8 +138,49 @@ fn bits(values: &[f32]) -> Vec<u32> {
     values.iter().map(|x| x.to_bits()).collect()
 }
 
-/// The largest error of values and densities, as a fraction of the larger of 1 and what is expected.
-fn check(rgl: &Rgl, [f, cos, pdf]: &[Vec<f32>; 3], clamp: bool, name: &str) {
+/// What is drawn, and what its weights are.
+fn check_draws(rgl: &Rgl, [.., wo, pdf, weights]: &[Vec<f32>; 6], clamp: bool, name: &str) {
+    let reference = Reference::new(rgl).clamp_negative(clamp);
+    let channels = rgl.parts().channels.count();
+    let mut above = 0;
+    for (query, (wi, uniform)) in directions(COUNT).0.into_iter().zip(uniforms()).enumerate() {
+        let (wo, weights) = (&wo[3 * query..][..3], &weights[query * channels..][..channels]);
+        let found = wi.iter().all(|x| x.is_finite()).then(|| {
+            let wi = unit(wi);
+            reference.sample(wi, uniform.map(f64::from), UniformOrder::Pbrt)
+        });
+        let Some(sample) = found.flatten() else {
+            // A direction along the surface may lie on either side of it.
+            if wo[2] > 1e-5 || pdf[query] > 0.0 && wo[2] == 0.0 {
+                panic!("{name} {query}: drawn {wo:?}");
+            }
+            assert!(wo[2] > 0.0 || weights.iter().all(|x| *x == 0.0), "{name} {query}");
+            continue;
+        };
+        if sample.wo[2] < 1e-5 && pdf[query] == 0.0 {
+            continue;
+        }
+        above += 1;
+        let along = wo.iter().zip(&sample.wo).map(|(a, b)| (f64::from(*a) - b).abs()).fold(0.0, f64::max);
+        assert!(along < 2e-5, "{name} {query}: {wo:?} is not {:?}", sample.wo);
+        let error = (f64::from(pdf[query]) / sample.pdf - 1.0).abs();
+        assert!(error < 1e-4, "{name} {query}: density {} is not {}", pdf[query], sample.pdf);
+        for (got, expected) in weights.iter().zip(&sample.weight) {
+            let error = (f64::from(*got) - expected).abs() / expected.abs().max(1.0);
+            assert!(error < 1e-4, "{name} {query}: weight {got} is not {expected}");
+        }
+    }
+    assert!(above > COUNT / 4, "{name}: {above} samples above the surface");
+}
+
+fn unit(w: [f32; 3]) -> [f64; 3] {
+    let w = w.map(f64::from);
+    let length = w.iter().map(|x| x * x).sum::<f64>().sqrt();
+    w.map(|x| x / length)
+}
+
+/// Values and densities.
+fn check(rgl: &Rgl, [f, cos, pdf, ..]: &[Vec<f32>; 6], clamp: bool, name: &str) {
     let reference = Reference::new(rgl).clamp_negative(clamp);
     let channels = rgl.parts().channels.count();
     let (wi, wo) = directions(COUNT);
@@ -140,19 +193,16 @@ fn check(rgl: &Rgl, [f, cos, pdf]: &[Vec<f32>; 3], clamp: bool, name: &str) {
             assert_eq!(pdf[query], 0.0, "{name} {query}");
             continue;
         }
-        let unit = |w: [f32; 3]| {
-            let w = w.map(f64::from);
-            let length = w.iter().map(|x| x * x).sum::<f64>().sqrt();
-            w.map(|x| x / length)
-        };
         let (wi, wo) = (unit(wi[query]), unit(wo[query]));
         reference.eval(wi, wo, &mut expected);
         reference.eval_cos(wi, wo, &mut expected_cos);
         let density = [reference.pdf(wi, wo)];
-        let pairs = f[at.clone()].iter().zip(&expected).chain(cos[at].iter().zip(&expected_cos));
-        for (got, expected) in pairs.chain(pdf[query..=query].iter().zip(&density)) {
+        // The spectra have both signs, so what they sum up to is as exact as they are; f is that divided by the cosine.
+        let pairs = f[at.clone()].iter().zip(&expected).map(|pair| (pair, 1.0 / wo[2]));
+        let pairs = pairs.chain(cos[at].iter().zip(&expected_cos).map(|pair| (pair, 1.0)));
+        for ((got, expected), unit) in pairs.chain(pdf[query..=query].iter().zip(&density).map(|pair| (pair, 1.0))) {
             below |= *got < 0.0;
-            let error = (f64::from(*got) - expected).abs() / expected.abs().max(1.0);
+            let error = (f64::from(*got) - expected).abs() / expected.abs().max(unit);
             assert!(error < 2e-5, "{name} {query}: {got} is not {expected}: {wi:?} {wo:?}");
         }
     }
@@ -167,7 +217,8 @@ fn check_all(phi_i: &[f32], theta_i: &[f32]) {
             let table = RglTable::new(&rgl, RglOptions { clamp_negative }).expect("a table");
             let scalar = evaluate(Scalar::<1>, &table);
             check(&rgl, &scalar, clamp_negative, &name);
-            let same = |other: [Vec<f32>; 3], backend: &str| {
+            check_draws(&rgl, &scalar, clamp_negative, &name);
+            let same = |other: [Vec<f32>; 6], backend: &str| {
                 for (one, other) in scalar.iter().zip(&other) {
                     assert_eq!(bits(one), bits(other), "{name} on {backend}");
                 }
@@ -179,7 +230,9 @@ fn check_all(phi_i: &[f32], theta_i: &[f32]) {
                 match lobe_avx::Avx2::detect() {
                     Some(avx2) => {
                         same(evaluate(avx2.strict(), &table), "avx2 strict");
-                        check(&rgl, &evaluate(avx2, &table), clamp_negative, &name);
+                        let fused = evaluate(avx2, &table);
+                        check(&rgl, &fused, clamp_negative, &name);
+                        check_draws(&rgl, &fused, clamp_negative, &name);
                     }
                     None => println!("SKIPPED: this CPU has no AVX2"),
                 }

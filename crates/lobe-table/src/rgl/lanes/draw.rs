@@ -40,7 +40,7 @@ fn rows<L: Lanes, const SLICES: usize>(lanes: L, n: usize, warp: &Warp, blend: &
         let y = u[1].load(lanes, query).max(low).min(high);
         // The last row below which there is less than `y`.
         let mut row = lanes.splat_int(0);
-        let mut step = cells.next_power_of_two();
+        let mut step = cells.next_power_of_two() / 2;
         while step > 0 {
             let next = row + lanes.splat_int(step as i32);
             let [_, _, below] = invert::rows(lanes, &block, first + next * row_stride, weights);
@@ -79,7 +79,7 @@ fn columns<L: Lanes, const SLICES: usize, const CORNERS: usize>(
         let y = place - row.to_float();
         let first = placer.slice(blend.slice.load(lanes, query));
         let mut column = lanes.splat_int(0);
-        let mut step = columns.next_power_of_two();
+        let mut step = columns.next_power_of_two() / 2;
         while step > 0 {
             let next = column + lanes.splat_int(step as i32);
             let base = first + placer.texel([next, row]);
