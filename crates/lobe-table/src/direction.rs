@@ -42,9 +42,9 @@ pub(crate) fn theta(d: Vector) -> f64 {
     2.0 * (0.5 * chord).min(1.0).asin()
 }
 
-/// The azimuth of a direction in `(-pi, pi]`, 0 at the pole.
+/// The azimuth of a direction in `[-pi, pi]`, with the sign of y; 0 at the pole, whatever the signs of its zeros.
 pub(crate) fn phi(d: Vector) -> f64 {
-    d[1].atan2(d[0])
+    if d[0] == 0.0 && d[1] == 0.0 { 0.0 } else { d[1].atan2(d[0]) }
 }
 
 /// A direction turned about the normal by `angle`.

@@ -30,6 +30,7 @@ pub mod scattered;
 mod search;
 mod single;
 pub mod spherical_grid;
+pub mod spherical;
 mod storage;
 mod table;
 pub mod tensor_tree;

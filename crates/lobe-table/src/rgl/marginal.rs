@@ -152,7 +152,23 @@ impl Warp {
         (u, lerp(c0, c1, fx) * self.cells())
     }
 
-    fn cells(&self) -> f64 {
+    /// Density, in cells, and conditional integral at a texel of a slice.
+    pub(super) fn node(&self, slice: usize, row: usize, col: usize) -> [f64; 2] {
+        let [height, width] = self.images.size();
+        let at = row * width + col;
+        let value = self.norm[slice] * density(self.images.slice(slice)[at]);
+        [value, self.conditional[slice * height * width + at]]
+    }
+
+    /// The integral of a row of a slice, and of the slice up to that row.
+    pub(super) fn row(&self, slice: usize, row: usize) -> [f64; 2] {
+        let [height, width] = self.images.size();
+        let row = slice * height + row;
+        [self.conditional[row * width + width - 1], self.marginal[row]]
+    }
+
+    /// How many cells the unit square has.
+    pub(super) fn cells(&self) -> f64 {
         let [height, width] = self.images.size();
         ((height - 1) * (width - 1)) as f64
     }

@@ -7,14 +7,17 @@
 //! The direction that a table is indexed by is `wi`; the other one is `wo`. Renderers that trace from the camera put
 //! the viewer into `wi`, so that [`Reference::sample`] yields the next direction of a path.
 //!
-//! [`Rgl`] is the data; [`Reference`] evaluates it one query at a time in `f64`; [`Warp`] is the interpolant between.
+//! [`Rgl`] is the data; [`Reference`] evaluates it one query at a time in `f64`; [`RglTable`]
+//! evaluates many in SIMD lanes; [`Warp`] is the interpolant between.
 
+mod lanes;
 mod marginal;
 mod reference;
 
 #[cfg(test)]
 mod tests;
 
+pub use lanes::{Drawn, RglOptions, RglTable, Wanted};
 pub use marginal::{Blend, Warp};
 pub use reference::{Reference, Sample, UniformOrder};
 

@@ -1,0 +1,244 @@
+//! Evaluation of many pairs of directions, block by block.
+
+use lobe_lane::{Floats, Kernel, Lanes};
+
+use super::RglTable;
+use super::angles;
+use super::frame::{self, Frame};
+use super::grid::Places;
+use super::invert::{self, Blend};
+use crate::directions::{BlockOfDirections, Directions};
+use crate::passes::block::{BLOCK, Column};
+use crate::passes::cells;
+use crate::passes::texels::Tile;
+use crate::passes::weights::{self, MAX_CORNERS};
+
+/// What to compute for each pair of directions, and where to put it.
+#[derive(Debug)]
+pub enum Wanted<'a> {
+    /// `f` in 1/sr, without the cosine: `[query][channel]`.
+    Values(&'a mut [f32]),
+    /// `f cos(theta_o)` in 1/sr: `[query][channel]`.
+    ValuesCos(&'a mut [f32]),
+    /// The density of sampling `wo` for a `wi`, 1/sr, one a query.
+    Pdf(&'a mut [f32]),
+    /// `f`, and the density.
+    ValuesAndPdf(&'a mut [f32], &'a mut [f32]),
+    /// `f cos(theta_o)`, and the density.
+    ValuesCosAndPdf(&'a mut [f32], &'a mut [f32]),
+}
+
+impl<'a> Wanted<'a> {
+    /// Values, whether they keep the cosine, and densities.
+    fn split(self) -> (Option<&'a mut [f32]>, bool, Option<&'a mut [f32]>) {
+        match self {
+            Wanted::Values(values) => (Some(values), false, None),
+            Wanted::ValuesCos(values) => (Some(values), true, None),
+            Wanted::Pdf(pdf) => (None, true, Some(pdf)),
+            Wanted::ValuesAndPdf(values, pdf) => (Some(values), false, Some(pdf)),
+            Wanted::ValuesCosAndPdf(values, pdf) => (Some(values), true, Some(pdf)),
+        }
+    }
+}
+
+impl RglTable {
+    /// Evaluates `f` in 1/sr of many pairs on the backend given: `out[query * channels + channel]`.
+    ///
+    /// `wi` and `wo` are slices of vectors, or [`Soa`](crate::Soa) of components.
+    ///
+    /// # Panics
+    /// Where there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+    pub fn eval_batch<L: Lanes, D: Directions>(&self, lanes: L, wi: D, wo: D, out: &mut [f32]) {
+        lanes.vectorize(self.batch(wi, wo, Wanted::Values(out)));
+    }
+
+    /// The density over solid angle, 1/sr, with which `wo` is sampled for `wi`, for many pairs on the backend given.
+    ///
+    /// # Panics
+    /// Where there are not as many `wi` as `wo` and elements in `out`.
+    pub fn pdf_batch<L: Lanes, D: Directions>(&self, lanes: L, wi: D, wo: D, out: &mut [f32]) {
+        lanes.vectorize(self.batch(wi, wo, Wanted::Pdf(out)));
+    }
+
+    /// Evaluates `f` in 1/sr of one pair into `out`, one value a channel, on the backend given.
+    ///
+    /// # Panics
+    /// Where `out` is not as long as there are channels.
+    pub fn eval<L: Lanes>(&self, lanes: L, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
+        self.eval_batch(lanes, [wi].as_slice(), [wo].as_slice(), out);
+    }
+
+    /// The evaluation of many pairs as a kernel.
+    ///
+    /// # Panics
+    /// Where there are not as many `wi` as `wo`, or a slice in `wanted` is not as long as that asks for.
+    pub fn batch<'a, D: Directions + 'a>(&'a self, wi: D, wo: D, wanted: Wanted<'a>) -> impl Kernel<Out = ()> + 'a {
+        let (values, cosine, pdf) = wanted.split();
+        let count = wi.count();
+        assert_eq!(count, wo.count(), "as many wi as wo");
+        if let Some(values) = &values {
+            assert_eq!(values.len(), count * self.channel_count(), "one value a query and channel");
+        }
+        if let Some(pdf) = &pdf {
+            assert_eq!(pdf.len(), count, "one density a query");
+        }
+        Batch { table: self, wi, wo, values, cosine, pdf }
+    }
+
+    /// The passes that values and densities share: where the queries `0..n` are in the tables.
+    #[inline(always)]
+    fn locate<L: Lanes, B: BlockOfDirections, const SLICES: usize, const CORNERS: usize>(
+        &self,
+        lanes: L,
+        n: usize,
+        (directions, cosine): ((B, B), bool),
+        scratch: &mut Scratch,
+    ) {
+        let Scratch { frame, incident, blend, u_m, places, s, density, .. } = scratch;
+        frame::run(lanes, n, directions, self.symmetry, cosine, frame);
+        angles::incident(lanes, n, self.azimuthal, frame, incident);
+        angles::half(lanes, n, frame, u_m);
+        self.blend::<L, SLICES>(lanes, n, &mut frame.valid, incident, blend);
+        places.find(lanes, n, &self.vndf.grid, &blend.slice, u_m);
+        invert::run::<L, SLICES, CORNERS>(lanes, n, &self.vndf, (u_m, blend), places, s, density);
+    }
+
+    /// The slices that queries `0..n` blend; none where they are not `valid`. The angles turn into fractions.
+    #[inline(always)]
+    pub(super) fn blend<L: Lanes, const SLICES: usize>(
+        &self,
+        lanes: L,
+        n: usize,
+        valid: &mut Column<i32>,
+        incident: &mut Incident,
+        blend: &mut Blend,
+    ) {
+        let Incident { theta, phi, .. } = incident;
+        blend.slice = Column::<i32>::ZERO;
+        cells::run(lanes, n, &self.theta_i, 1, theta, &mut blend.slice, valid);
+        if SLICES == 4 {
+            cells::run(lanes, n, &self.phi_i, self.theta_i.knots().len(), phi, &mut blend.slice, valid);
+            weights::run(lanes, n, [phi, theta], valid, &mut blend.weights);
+        } else {
+            weights::run(lanes, n, [theta], valid, &mut blend.weights);
+        }
+    }
+}
+
+/// What is known of `wi`.
+pub(super) struct Incident {
+    /// Zenith angle and azimuth in radians.
+    pub(super) theta: Column,
+    pub(super) phi: Column,
+    /// The position on the unit square.
+    pub(super) u: [Column; 2],
+}
+
+/// What the passes of a block hand on.
+pub(super) struct Scratch {
+    pub(super) frame: Frame,
+    pub(super) incident: Incident,
+    pub(super) blend: Blend,
+    /// The position of the half vector, and the uniform position that the visible normals warp to it.
+    pub(super) u_m: [Column; 2],
+    pub(super) s: [Column; 2],
+    places: Places,
+    pub(super) density: Column,
+    weights: [Column; MAX_CORNERS],
+    tile: Tile,
+}
+
+impl Scratch {
+    pub(super) const ZERO: Self = Scratch {
+        frame: Frame::ZERO,
+        incident: Incident { theta: Column::<f32>::ZERO, phi: Column::<f32>::ZERO, u: [Column::<f32>::ZERO; 2] },
+        blend: Blend::ZERO,
+        u_m: [Column::<f32>::ZERO; 2],
+        s: [Column::<f32>::ZERO; 2],
+        places: Places::ZERO,
+        density: Column::<f32>::ZERO,
+        weights: [Column::<f32>::ZERO; MAX_CORNERS],
+        tile: [0.0; 3 * BLOCK + 1],
+    };
+}
+
+/// All queries of a batch.
+struct Batch<'a, D> {
+    table: &'a RglTable,
+    wi: D,
+    wo: D,
+    values: Option<&'a mut [f32]>,
+    cosine: bool,
+    pdf: Option<&'a mut [f32]>,
+}
+
+impl<D: Directions> Kernel for Batch<'_, D> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        if self.table.blends_azimuths() { self.blocks::<L, 4, 8, 16>(lanes) } else { self.blocks::<L, 2, 4, 8>(lanes) }
+    }
+}
+
+impl<D: Directions> Batch<'_, D> {
+    /// With blends of `SLICES`: `PAIRS` corners of a cell in one dimension, and `FOURS` in two.
+    #[inline(always)]
+    fn blocks<L: Lanes, const SLICES: usize, const PAIRS: usize, const FOURS: usize>(self, lanes: L) {
+        let Batch { table, wi, wo, mut values, cosine, mut pdf } = self;
+        let channels = table.channel_count();
+        let count = wi.count();
+        let mut scratch = Scratch::ZERO;
+        let mut padding = (D::PADDING, D::PADDING);
+        let mut at = 0;
+        while at < count {
+            let left = (count - at).min(BLOCK);
+            let n = left.next_multiple_of(L::LANES);
+            let block = (wi.block(at, &mut padding.0), wo.block(at, &mut padding.1));
+            table.locate::<L, _, SLICES, PAIRS>(lanes, n, (block, cosine), &mut scratch);
+            if let Some(values) = &mut values {
+                let target = &mut values[at * channels..][..left * channels];
+                table.values::<L, SLICES, PAIRS, FOURS>(lanes, n, &mut scratch, target);
+            }
+            if let Some(pdf) = &mut pdf {
+                table.density::<L, SLICES, PAIRS>(lanes, n, &mut scratch);
+                pdf[at..][..left].copy_from_slice(&scratch.density.0[..left]);
+            }
+            at += left;
+        }
+    }
+}
+
+impl RglTable {
+    /// The values of the located queries `0..n`.
+    #[inline(always)]
+    pub(super) fn values<L: Lanes, const SLICES: usize, const PAIRS: usize, const FOURS: usize>(
+        &self,
+        lanes: L,
+        n: usize,
+        scratch: &mut Scratch,
+        out: &mut [f32],
+    ) {
+        let Scratch { frame, incident, blend, u_m, places, s, weights, tile, .. } = scratch;
+        if let Some(factor) = &self.factor {
+            factor.run(lanes, n, &incident.u, u_m, &mut frame.factor);
+        }
+        places.find(lanes, n, &self.spectra.grid, &blend.slice, s);
+        self.spectra.run::<L, SLICES, PAIRS, FOURS>(lanes, n, places, (blend, &frame.factor), (weights, tile), out);
+    }
+
+    /// The density over solid angle of the located queries `0..n`, in place of that of the visible normals.
+    #[inline(always)]
+    fn density<L: Lanes, const SLICES: usize, const PAIRS: usize>(&self, lanes: L, n: usize, scratch: &mut Scratch) {
+        let Scratch { frame, blend, u_m, places, s, density, .. } = scratch;
+        places.find(lanes, n, &self.luminance.grid, &blend.slice, s);
+        invert::multiply_density::<L, SLICES, PAIRS>(lanes, n, &self.luminance, blend, places, density);
+        let mut query = 0;
+        while query < n {
+            let sin_m = frame.sin2_m.load(lanes, query).sqrt();
+            let jacobian = angles::jacobian(lanes, frame.cos_d.load(lanes, query), u_m[0].load(lanes, query), sin_m);
+            density.store(lanes, query, density.load(lanes, query) / jacobian);
+            query += L::LANES;
+        }
+    }
+}

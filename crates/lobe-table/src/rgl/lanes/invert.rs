@@ -1,0 +1,158 @@
+//! Positions on the unit square back to the uniform positions that a [`Warp`] samples them from, and densities.
+
+use lobe_lane::{Block, Floats, Lanes};
+
+use super::grid::Places;
+use super::warp::Warp;
+use crate::passes::block::Column;
+use crate::passes::weights::MAX_CORNERS;
+
+/// Which slices a block of queries blends: the first of each, and the weights of all.
+#[derive(Clone, Copy)]
+pub(super) struct Blend {
+    /// The slice, from 0.
+    pub(super) slice: Column<i32>,
+    /// The weights of two or four slices.
+    pub(super) weights: [Column; MAX_CORNERS],
+}
+
+impl Blend {
+    pub(super) const ZERO: Self = Blend { slice: Column::<i32>::ZERO, weights: [Column::<f32>::ZERO; MAX_CORNERS] };
+}
+
+/// The row of a cell and the next, blended: at a fraction between them the density, in cells, at the left and the right
+/// end, and the integral up to the left end. `SLICES` is half of `CORNERS`.
+#[inline(always)]
+pub(super) fn columns<L: Lanes, const SLICES: usize, const CORNERS: usize>(
+    lanes: L,
+    texels: &Block<'_, CORNERS, 4>,
+    base: L::I,
+    weights: [L::F; SLICES],
+    y: L::F,
+) -> [L::F; 3] {
+    let corners = lanes.gather_quads(texels, base);
+    let lower = lanes.splat(1.0) - y;
+    let mut sums = [lanes.splat(0.0); 3];
+    let mut slice = 0;
+    while slice < SLICES {
+        let [above, below] = [weights[slice] * lower, weights[slice] * y];
+        let mut row = 0;
+        while row < 2 {
+            let weight = if row == 0 { above } else { below };
+            let [left, integral, right, _] = corners[2 * slice + row];
+            sums[0] = lanes.mul_add(left, weight, sums[0]);
+            sums[1] = lanes.mul_add(right, weight, sums[1]);
+            sums[2] = lanes.mul_add(integral, weight, sums[2]);
+            row += 1;
+        }
+        slice += 1;
+    }
+    sums
+}
+
+/// The integrals of a row and the next, and of what lies below the row, blended.
+#[inline(always)]
+pub(super) fn rows<L: Lanes, const SLICES: usize>(
+    lanes: L,
+    rows: &Block<'_, SLICES, 4>,
+    base: L::I,
+    weights: [L::F; SLICES],
+) -> [L::F; 3] {
+    let corners = lanes.gather_quads(rows, base);
+    let mut sums = [lanes.splat(0.0); 3];
+    let mut slice = 0;
+    while slice < SLICES {
+        let mut k = 0;
+        while k < 3 {
+            sums[k] = lanes.mul_add(corners[slice][k], weights[slice], sums[k]);
+            k += 1;
+        }
+        slice += 1;
+    }
+    sums
+}
+
+/// The weights of the slices.
+#[inline(always)]
+pub(super) fn slices<L: Lanes, const SLICES: usize>(lanes: L, query: usize, blend: &Blend) -> [L::F; SLICES] {
+    let mut weights = [lanes.splat(0.0); SLICES];
+    let mut slice = 0;
+    while slice < SLICES {
+        weights[slice] = blend.weights[slice].load(lanes, query);
+        slice += 1;
+    }
+    weights
+}
+
+/// The integral from 0 to `t` of a function that goes linearly from `a` at 0 to `b` at 1.
+#[inline(always)]
+fn integral<L: Lanes>(lanes: L, a: L::F, b: L::F, t: L::F) -> L::F {
+    t * lanes.mul_add(lanes.splat(0.5) * t, b - a, a)
+}
+
+/// Fills `s`, the uniform positions of queries `0..n`, and the density over the unit square at `places`.
+#[inline(always)]
+pub(super) fn run<L: Lanes, const SLICES: usize, const CORNERS: usize>(
+    lanes: L,
+    n: usize,
+    warp: &Warp,
+    (u, blend): (&[Column; 2], &Blend),
+    places: &Places,
+    s: &mut [Column; 2],
+    density: &mut Column,
+) {
+    let (texels, row_block) = (warp.texels::<CORNERS>(), warp.rows::<SLICES>());
+    let placer = warp.grid.placer(lanes);
+    let [row_stride, slice_stride] = warp.row_strides().map(|stride| lanes.splat_int(stride));
+    let scale = lanes.splat(warp.scale);
+
+    // The integral of the row so far, first on its own: the texels of the two loads are far apart.
+    let mut query = 0;
+    while query < n {
+        let weights = slices::<L, SLICES>(lanes, query, blend);
+        let [x, y] = [places.fractions[0].load(lanes, query), places.fractions[1].load(lanes, query)];
+        let base = places.base.load(lanes, query);
+        let [left, right, before] = columns::<L, SLICES, CORNERS>(lanes, &texels, base, weights, y);
+        s[0].store(lanes, query, before + integral(lanes, left, right, x));
+        density.store(lanes, query, lanes.mul_add(x, right - left, left) * scale);
+        query += L::LANES;
+    }
+
+    let mut query = 0;
+    while query < n {
+        let weights = slices::<L, SLICES>(lanes, query, blend);
+        let y = places.fractions[1].load(lanes, query);
+        let (cells, _) = placer.cells(lanes, [u[0].load(lanes, query), u[1].load(lanes, query)]);
+        let base = cells[1] * row_stride + blend.slice.load(lanes, query) * slice_stride;
+        let [here, next, below] = rows(lanes, &row_block, base, weights);
+        let total = lanes.mul_add(y, next - here, here);
+        let x = (s[0].load(lanes, query) / total).masked(lanes.splat(0.0).lt(total));
+        s[0].store(lanes, query, x);
+        s[1].store(lanes, query, below + integral(lanes, here, next, y));
+        query += L::LANES;
+    }
+}
+
+/// The density over the unit square at `places` of queries `0..n`, multiplied into `density`.
+#[inline(always)]
+pub(super) fn multiply_density<L: Lanes, const SLICES: usize, const CORNERS: usize>(
+    lanes: L,
+    n: usize,
+    warp: &Warp,
+    blend: &Blend,
+    places: &Places,
+    density: &mut Column,
+) {
+    let texels = warp.texels::<CORNERS>();
+    let scale = lanes.splat(warp.scale);
+    let mut query = 0;
+    while query < n {
+        let weights = slices::<L, SLICES>(lanes, query, blend);
+        let [x, y] = [places.fractions[0].load(lanes, query), places.fractions[1].load(lanes, query)];
+        let base = places.base.load(lanes, query);
+        let [left, right, _] = columns::<L, SLICES, CORNERS>(lanes, &texels, base, weights, y);
+        let here = lanes.mul_add(x, right - left, left) * scale;
+        density.store(lanes, query, density.load(lanes, query) * here);
+        query += L::LANES;
+    }
+}
