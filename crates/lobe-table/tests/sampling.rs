@@ -6,7 +6,9 @@ use std::sync::Arc;
 
 use lobe_formats::Document;
 use lobe_lane::{Kernel, Lanes};
-use lobe_table::{Channels, Edges, Given, Sampled, Sampler, SamplerError, SamplerOptions, Samples, Scatter, Table, coords};
+use lobe_table::{
+    Channels, Edges, Given, Sampled, Sampler, SamplerError, SamplerOptions, Samples, Scatter, Table, coords,
+};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -28,7 +30,14 @@ fn random(seed: u64, [sigma, psi, theta, phi]: [usize; 4], channels: Channels, s
         let mut gaps: Vec<f64> = (0..count).map(|_| rng.random_range(0.3..1.0)).collect();
         gaps[0] = 0.0;
         let all = gaps.iter().sum::<f64>().max(1e-9);
-        gaps.iter().scan(0.0, |at, gap| Some({ *at += gap; *at / all * last })).collect::<Vec<f64>>()
+        gaps.iter()
+            .scan(0.0, |at, gap| {
+                Some({
+                    *at += gap;
+                    *at / all * last
+                })
+            })
+            .collect::<Vec<f64>>()
     };
     let knots = [knots(sigma, 1.5), knots(psi, TAU), knots(theta, PI), knots(phi, TAU)];
     let count = sigma * psi * theta * phi * channels.count();
@@ -173,7 +182,9 @@ fn observed(sampler: &Sampler, incident: [f32; 3], seed: u64) -> Vec<f64> {
     let Run { directions, .. } = best(Fast(sampler, Given::Light, &known, &u));
     let mut bins = vec![0.0; THETAS * PHIS];
     for wo in directions {
-        assert!((f64::from(wo[2]) * f64::from(incident[2]) > 0.0) == (sampler.table().scatter() == Scatter::Reflection));
+        assert!(
+            (f64::from(wo[2]) * f64::from(incident[2]) > 0.0) == (sampler.table().scatter() == Scatter::Reflection)
+        );
         let wo = [wo[0], wo[1], wo[2].abs()].map(f64::from);
         let [.., theta, phi] = coords::directions_to_angles(incident.map(f64::from), wo, |s| s);
         let i = ((theta / PI).sqrt() * THETAS as f64) as usize;
@@ -271,7 +282,10 @@ fn albedo_is_that_of_cosine_sampling_with_less_noise() {
             sampler.table().eval_batch(REFERENCE, known.as_slice(), cosine.as_slice(), &mut f);
             let (reference, by_cosine) = moments(f.chunks(3).map(|f| PI * luminance(f)));
             let error = ((variance + by_cosine) / count as f64).sqrt() * reference;
-            println!("{name} {incident:.3?}: albedo {albedo:.4}, relative variance {variance:.4} for {by_cosine:.3}: {:.1}", by_cosine / variance);
+            println!(
+                "{name} {incident:.3?}: albedo {albedo:.4}, relative variance {variance:.4} for {by_cosine:.3}: {:.1}",
+                by_cosine / variance
+            );
             assert!((albedo - reference).abs() < 5.0 * error, "{albedo} is not {reference} within {error}");
             assert!(by_cosine > at_least * variance, "{name} {incident:?}: {variance} after {by_cosine}");
         }
@@ -306,7 +320,14 @@ impl Kernel for OneLane<'_> {
 /// Incident directions with, among them, what is no direction above the surface; and numbers with what is out of range.
 fn hostile(count: usize) -> (Vec<[f32; 3]>, Vec<[f32; 2]>) {
     let mut u = numbers(8, count);
-    u[..6].copy_from_slice(&[[0.0, 0.0], [1.0, 1.0], [0.999_999_94, 0.999_999_94], [f32::NAN, 0.5], [-1.0, 2.0], [0.0, 1.0]]);
+    u[..6].copy_from_slice(&[
+        [0.0, 0.0],
+        [1.0, 1.0],
+        [0.999_999_94, 0.999_999_94],
+        [f32::NAN, 0.5],
+        [-1.0, 2.0],
+        [0.0, 1.0],
+    ]);
     let incidents = incidents();
     let mut known: Vec<[f32; 3]> = (0..count).map(|k| incidents[k * 7 % incidents.len()]).collect();
     known[10] = [0.6, 0.0, -0.8];
@@ -340,8 +361,7 @@ fn check_ways<L: Lanes>(lanes: L) {
                 let mut weight = vec![f32::NAN; channels];
                 let one = sampler.sample(lanes, given, known[k], u[k], &mut weight);
                 assert_eq!((one, weight.as_slice()), ((direction, pdf), weights), "{name}: one sample, query {k}");
-                let (lane, [lane_pdf, again]) =
-                    lanes.vectorize(OneLane(&sampler, given, known[k], u[k], &mut weight));
+                let (lane, [lane_pdf, again]) = lanes.vectorize(OneLane(&sampler, given, known[k], u[k], &mut weight));
                 assert_eq!((lane, lane_pdf, weight.as_slice()), (direction, pdf, weights), "{name}: lanes, query {k}");
 
                 let (wi, wo) = if given == Given::Light { (known[k], direction) } else { (direction, known[k]) };
@@ -469,7 +489,8 @@ fn memory_is_at_most_one_and_a_half_tables() {
 fn progress_ends_with_all_slices() {
     let table = Arc::new(Table::new(&fixture("cloth-17x7x17x13.ddr"), &Edges::default()).unwrap());
     let mut calls = Vec::new();
-    Sampler::with_progress(REFERENCE, table, &SamplerOptions::default(), &mut |done, all| calls.push((done, all))).unwrap();
+    Sampler::with_progress(REFERENCE, table, &SamplerOptions::default(), &mut |done, all| calls.push((done, all)))
+        .unwrap();
     assert_eq!(calls, (1..=17 * 7).map(|done| (done, 17 * 7)).collect::<Vec<_>>());
 }
 

@@ -8,10 +8,10 @@ use super::SamplerError;
 use super::grid::{Grid, candidate_columns, candidate_rows, spread};
 use super::histogram::{Bin, Histogram};
 use super::slices::Slices;
+use crate::Table;
 use crate::axis::Axis;
 use crate::layout::{PHI, PSI, SIGMA, THETA};
 use crate::storage::Storage;
-use crate::Table;
 
 /// At most this many cells a slice, as a power of two: what the caches near a core can hold of a few slices.
 const MOST_BITS: u32 = 13;
@@ -63,10 +63,7 @@ impl<L: Lanes> Builder<'_, L> {
     }
 
     /// The finest grid that the table's size allows, its edges where the light of the surveyed slices varies.
-    fn lay_out(
-        &self,
-        surveyed: impl Iterator<Item = [f32; 3]>,
-    ) -> Result<(Vec<f64>, Vec<f64>, Grid), SamplerError> {
+    fn lay_out(&self, surveyed: impl Iterator<Item = [f32; 3]>) -> Result<(Vec<f64>, Vec<f64>, Grid), SamplerError> {
         let rows = candidate_rows(&self.table.axes[PHI]);
         let columns = candidate_columns(&self.table.axes[THETA]);
         let (mut by_row, mut by_column) = (vec![0.0; rows.len() - 1], vec![0.0; columns.len() - 1]);
@@ -169,8 +166,7 @@ impl Slice {
     fn sums(&self, brightest: f64, grid: &Grid) -> [Vec<f32>; 2] {
         let (rows, columns) = (1 << grid.row_bits, 1 << grid.column_bits);
         let scale = if brightest > 0.0 { (self.brightness / brightest).max(DARKEST) } else { 1.0 };
-        let row_shares: Vec<f64> =
-            self.shares.chunks_exact(columns).map(|row| row.iter().sum::<f64>()).collect();
+        let row_shares: Vec<f64> = self.shares.chunks_exact(columns).map(|row| row.iter().sum::<f64>()).collect();
         let by_row = ascending(&row_shares, scale as f32, rows);
         let mut by_column = Vec::with_capacity(rows * columns);
         let mut before = 0.0;

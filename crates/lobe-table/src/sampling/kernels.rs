@@ -4,11 +4,11 @@ use lobe_lane::{Floats, Kernel, Lanes};
 
 use super::incident::{Incident, Local};
 use super::slices::{Draw, Place};
-use super::{Given, Sampler};
+use super::{Given, Sampler, block};
 use crate::Table;
 use crate::axis::Axis;
 use crate::layout::{PSI, SIGMA};
-use crate::passes::block::{BLOCK, Column};
+use crate::passes::block::BLOCK;
 
 /// Where the samples of a batch go.
 #[derive(Debug)]
@@ -30,7 +30,7 @@ fn cell<L: Lanes>(lanes: L, axis: &Axis, angle: L::F) -> (L::I, L::F) {
 
 /// The slices about an incident direction, in the angles that the table interpolates in.
 #[inline(always)]
-fn place<L: Lanes>(lanes: L, table: &Table, incident: &Incident<L>) -> Place<L> {
+pub(super) fn place<L: Lanes>(lanes: L, table: &Table, incident: &Incident<L>) -> Place<L> {
     let one = lanes.splat(1.0);
     let rest = incident.sin2 / (one + incident.cos);
     let (sigma, up) = cell(lanes, &table.axes[SIGMA], lobe_math::acos_from(lanes, incident.cos, rest));
@@ -58,15 +58,21 @@ pub(super) fn draw<L: Lanes>(
     let Sampler { table, slices } = sampler;
     let incident = Incident::new(lanes, table, direction);
     let place = place(lanes, table, &incident);
-    let Draw { v, phi, density } = match slices.width {
+    let draw = match slices.width {
         2 => slices.pairs().draw(lanes, &place, u),
         _ => slices.quads().draw(lanes, &place, u),
     };
-    let (sin, cos) = lobe_math::sin_cos(lanes, phi);
+    leave(lanes, &incident, draw, mask)
+}
+
+/// From a sample of the slices to a direction and its density; zeros as [`draw`].
+#[inline(always)]
+pub(super) fn leave<L: Lanes>(lanes: L, incident: &Incident<L>, draw: Draw<L>, mask: L::M) -> ([L::F; 3], L::F) {
+    let (sin, cos) = lobe_math::sin_cos(lanes, draw.phi);
     let height = incident.height(lanes, cos);
     let valid = incident.valid & mask;
-    let sampled = incident.direction(lanes, v * height, [cos, sin]).map(|x| x.masked(valid));
-    (sampled, (density / height).masked(valid))
+    let sampled = incident.direction(lanes, draw.v * height, [cos, sin]).map(|x| x.masked(valid));
+    (sampled, (draw.density / height).masked(valid))
 }
 
 /// The density of `other` given `known`; 0 where one of them is none above the surface.
@@ -166,88 +172,47 @@ impl Kernel for Draws<'_> {
     fn run<L: Lanes>(self, lanes: L) {
         let Draws { sampler, given, directions, u, out } = self;
         let channels = sampler.table.channel_count();
+        let mut factors = [0.0f32; CHUNK];
         let mut at = 0;
         while at < directions.len() {
             let n = CHUNK.min(directions.len() - at);
             let known = &directions[at..][..n];
             let sampled = &mut out.directions[at..][..n];
             let pdfs = &mut out.pdfs[at..][..n];
-            let mut block = 0;
-            while block < n {
-                let end = n.min(block + BLOCK);
-                let (known, u) = (&known[block..end], &u[at + block..at + end]);
-                draw_block(lanes, sampler, known, u, &mut sampled[block..end], &mut pdfs[block..end]);
-                block = end;
+            let mut from = 0;
+            while from < n {
+                let end = n.min(from + BLOCK);
+                let (known, u) = (&known[from..end], &u[at + from..at + end]);
+                let out = block::Out {
+                    directions: &mut sampled[from..end],
+                    pdfs: &mut pdfs[from..end],
+                    factors: &mut factors[from..end],
+                };
+                match sampler.slices.width {
+                    2 => block::draw(lanes, &sampler.table, &sampler.slices.pairs(), (known, u), out),
+                    _ => block::draw(lanes, &sampler.table, &sampler.slices.quads(), (known, u), out),
+                }
+                from = end;
             }
             let weights = &mut out.weights[at * channels..][..n * channels];
             let (wi, wo) = pair(given, known, &*sampled);
             sampler.table.batch(wi, wo, weights).run(lanes);
-            scale(lanes, sampled, pdfs, weights);
+            scale(&factors[..n], weights);
             at += n;
         }
     }
 }
 
-/// Up to [`BLOCK`] samples.
-#[inline(always)]
-fn draw_block<L: Lanes>(
-    lanes: L,
-    sampler: &Sampler,
-    known: &[[f32; 3]],
-    u: &[[f32; 2]],
-    sampled: &mut [[f32; 3]],
-    pdfs: &mut [f32],
-) {
-    let mut columns = [Column::<f32>::ZERO; 5];
-    let [x, y, z, first, second] = &mut columns;
-    let mut query = 0;
-    while query < known.len().min(BLOCK) {
-        [x.0[query], y.0[query], z.0[query]] = known[query];
-        [first.0[query], second.0[query]] = u[query];
-        query += 1;
-    }
-    let mask = lanes.first_n(L::LANES);
-    let mut query = 0;
-    while query < known.len() {
-        let direction = [x.load(lanes, query), y.load(lanes, query), z.load(lanes, query)];
-        let numbers = [first.load(lanes, query), second.load(lanes, query)];
-        let (direction, pdf) = draw(lanes, sampler, direction, numbers, mask);
-        x.store(lanes, query, direction[0]);
-        y.store(lanes, query, direction[1]);
-        z.store(lanes, query, direction[2]);
-        lanes.store_partial(&mut pdfs[query..], pdf);
-        query += L::LANES;
-    }
-    let mut query = 0;
-    while query < known.len().min(BLOCK) {
-        sampled[query] = [x.0[query], y.0[query], z.0[query]];
-        query += 1;
-    }
-}
-
 /// Values to weights.
 #[inline(always)]
-fn scale<L: Lanes>(lanes: L, sampled: &[[f32; 3]], pdfs: &[f32], weights: &mut [f32]) {
-    let channels = weights.len() / sampled.len();
-    let mut factors = [0.0f32; CHUNK];
+fn scale(factors: &[f32], weights: &mut [f32]) {
+    let channels = weights.len() / factors.len();
     let mut query = 0;
-    while query < sampled.len().min(CHUNK) {
-        factors[query] = sampled[query][2];
-        query += 1;
-    }
-    let mut query = 0;
-    while query < sampled.len() {
-        let end = sampled.len().min(query + L::LANES);
-        let z = lanes.load_partial(&factors[query..end]);
-        let factor = factor(lanes, z, lanes.load_partial(&pdfs[query..end]));
-        lanes.store_partial(&mut factors[query..end], factor);
-        query = end;
-    }
-    let mut query = 0;
-    while query < sampled.len().min(CHUNK) {
+    while query < factors.len() {
+        let texel = &mut weights[query * channels..][..channels];
         let mut channel = 0;
         while channel < channels {
-            weights[query * channels + channel] *= factors[query];
+            texel[channel] *= factors[query];
             channel += 1;
         }
         query += 1;

@@ -13,6 +13,7 @@
 //! Every histogram holds a part [`SamplerOptions::defensive`] of a cosine distribution, so the density is positive in
 //! all of the hemisphere.
 
+mod block;
 mod build;
 mod grid;
 mod histogram;
@@ -231,14 +232,7 @@ impl Sampler {
     /// The density of a pair a lane inside a caller's own kernel, as [`pdf`](Sampler::pdf); 0 in the lanes that `mask`
     /// leaves out.
     #[inline(always)]
-    pub fn pdf_lanes<L: Lanes>(
-        &self,
-        lanes: L,
-        given: Given,
-        wi: [L::F; 3],
-        wo: [L::F; 3],
-        mask: L::M,
-    ) -> L::F {
+    pub fn pdf_lanes<L: Lanes>(&self, lanes: L, given: Given, wi: [L::F; 3], wo: [L::F; 3], mask: L::M) -> L::F {
         let (known, other) = kernels::pair(given, wi, wo);
         kernels::density(lanes, self, known, other).masked(mask)
     }

@@ -100,24 +100,77 @@ impl Slices {
 }
 
 impl<S: Sums> View<'_, S> {
-    /// The sample for two numbers in `[0, 1)`: the first chooses the row and the phi in it, the second the column and `v`.
+    /// The sample for two numbers: the first chooses the row and the phi in it, the second the column and `v`.
     #[inline(always)]
-    pub(crate) fn draw<L: Lanes>(&self, lanes: L, place: &Place<L>, u: [L::F; 2]) -> Draw<L> {
-        let (zero, below_one) = (lanes.splat(0.0), lanes.splat(1.0 - f32::EPSILON / 2.0));
-        let [u, w] = u.map(|x| x.max(zero).min(below_one));
-        let Grid { row_bits, column_bits, .. } = *self.grid;
+    pub(crate) fn draw<L: Lanes>(&self, lanes: L, place: &Place<L>, [u, w]: [L::F; 2]) -> Draw<L> {
+        let (mut search, total) = self.begin(lanes, place, u);
+        let mut half = self.row_half();
+        while half > 0 {
+            search = self.row_step(lanes, search, half, &place.weights);
+            half >>= 1;
+        }
+        let (mut search, row) = self.turn(lanes, search, total, w);
+        let mut half = self.column_half();
+        while half > 0 {
+            search = self.column_step(lanes, search, half, &place.weights);
+            half >>= 1;
+        }
+        self.end(lanes, search, row)
+    }
 
-        let first = place.block * lanes.splat_int(1 << row_bits);
-        let total = self.rows.blend(lanes, first + lanes.splat_int((1 << row_bits) - 1), &place.weights);
-        let (row, across) = descend(lanes, self.rows, first, row_bits, &place.weights, (u * total, total));
-        let first = (first + row) * lanes.splat_int(1 << column_bits);
-        let within = across.mass;
-        let (column, along) = descend(lanes, self.columns, first, column_bits, &place.weights, (w * within, within));
+    /// Half the rows, and half the columns: where their searches begin.
+    #[inline(always)]
+    pub(crate) fn row_half(&self) -> i32 {
+        (1 << self.grid.row_bits) >> 1
+    }
+    #[inline(always)]
+    pub(crate) fn column_half(&self) -> i32 {
+        (1 << self.grid.column_bits) >> 1
+    }
 
-        let [phi, per_phi] = lanes.gather_pair(self.grid.phi.cells(), row);
-        let [v, per_v] = lanes.gather_pair(&self.grid.columns, column);
-        let density = along.mass / total * per_phi * per_v;
-        Draw { v: v + along.fraction / per_v, phi: phi + across.fraction / per_phi, density }
+    /// The search of a row by a number in `[0, 1)`, and the sum of all rows.
+    #[inline(always)]
+    pub(crate) fn begin<L: Lanes>(&self, lanes: L, place: &Place<L>, u: L::F) -> (Search<L>, L::F) {
+        let rows = lanes.splat_int(1 << self.grid.row_bits);
+        let first = place.block * rows;
+        let total = self.rows.blend(lanes, first + rows - lanes.splat_int(1), &place.weights);
+        (Search::new(lanes, first, unit(lanes, u) * total, total), total)
+    }
+
+    /// One step of the search of a row.
+    #[inline(always)]
+    pub(crate) fn row_step<L: Lanes>(&self, lanes: L, search: Search<L>, half: i32, weights: &[L::F; 4]) -> Search<L> {
+        search.step(lanes, self.rows, half, weights)
+    }
+
+    /// From the row that was found to the search of a column in it.
+    #[inline(always)]
+    pub(crate) fn turn<L: Lanes>(&self, lanes: L, search: Search<L>, total: L::F, w: L::F) -> (Search<L>, Row<L>) {
+        let (mass, fraction) = search.end(lanes);
+        let [phi, per_phi] = lanes.gather_pair(self.grid.phi.cells(), search.cell);
+        let first = (search.first + search.cell) * lanes.splat_int(1 << self.grid.column_bits);
+        let row = Row { phi: phi + fraction / per_phi, scale: per_phi / total };
+        (Search::new(lanes, first, unit(lanes, w) * mass, mass), row)
+    }
+
+    /// One step of the search of a column.
+    #[inline(always)]
+    pub(crate) fn column_step<L: Lanes>(
+        &self,
+        lanes: L,
+        search: Search<L>,
+        half: i32,
+        weights: &[L::F; 4],
+    ) -> Search<L> {
+        search.step(lanes, self.columns, half, weights)
+    }
+
+    /// The sample in the column that was found.
+    #[inline(always)]
+    pub(crate) fn end<L: Lanes>(&self, lanes: L, search: Search<L>, row: Row<L>) -> Draw<L> {
+        let (mass, fraction) = search.end(lanes);
+        let [v, per_v] = lanes.gather_pair(&self.grid.columns, search.cell);
+        Draw { v: v + fraction / per_v, phi: row.phi, density: mass * row.scale * per_v }
     }
 
     /// The density per unit of `v` and phi.
@@ -139,34 +192,55 @@ impl<S: Sums> View<'_, S> {
     }
 }
 
-/// The mass of a cell, and how far into it the target lies.
+/// A search on its way: the target lies between the sums `low` and `high`, in one of the cells from `cell` on, whose
+/// sums lie from entry `first` on.
 #[derive(Clone, Copy)]
-struct Found<L: Lanes> {
-    mass: L::F,
-    fraction: L::F,
+pub(crate) struct Search<L: Lanes> {
+    pub(crate) first: L::I,
+    pub(crate) cell: L::I,
+    pub(crate) target: L::F,
+    pub(crate) low: L::F,
+    pub(crate) high: L::F,
 }
 
-/// The cell whose sums enclose `target`, among the `2^bits` whose upper sums begin at entry `first` and end with `total`.
-#[inline(always)]
-fn descend<L: Lanes, S: Sums>(
-    lanes: L,
-    sums: S,
-    first: L::I,
-    bits: u32,
-    weights: &[L::F; 4],
-    (target, total): (L::F, L::F),
-) -> (L::I, Found<L>) {
-    let (mut low, mut high) = (lanes.splat(0.0), total);
-    let mut cell = lanes.splat_int(0);
-    let mut half = (1 << bits) >> 1;
-    while half > 0 {
+/// The azimuth of a sample, and what makes a density of a column's mass and width.
+#[derive(Clone, Copy)]
+pub(crate) struct Row<L: Lanes> {
+    pub(crate) phi: L::F,
+    pub(crate) scale: L::F,
+}
+
+impl<L: Lanes> Search<L> {
+    #[inline(always)]
+    fn new(lanes: L, first: L::I, target: L::F, total: L::F) -> Self {
+        Search { first, cell: lanes.splat_int(0), target, low: lanes.splat(0.0), high: total }
+    }
+
+    /// Halves the cells that are left, from twice `half`.
+    #[inline(always)]
+    fn step<S: Sums>(self, lanes: L, sums: S, half: i32, weights: &[L::F; 4]) -> Self {
+        let Search { first, cell, target, low, high } = self;
         let middle = sums.blend(lanes, first + cell + lanes.splat_int(half - 1), weights);
         let right = middle.le(target);
-        low = lanes.select(right, middle, low);
-        high = lanes.select(right, high, middle);
-        cell = lanes.select_int(right, cell + lanes.splat_int(half), cell);
-        half >>= 1;
+        Search {
+            first,
+            cell: lanes.select_int(right, cell + lanes.splat_int(half), cell),
+            target,
+            low: lanes.select(right, middle, low),
+            high: lanes.select(right, high, middle),
+        }
     }
-    let mass = (high - low).max(lanes.splat(f32::MIN_POSITIVE));
-    (cell, Found { mass, fraction: ((target - low) / mass).min(lanes.splat(1.0)) })
+
+    /// The mass of the cell that is left, and how far into it the target lies.
+    #[inline(always)]
+    fn end(self, lanes: L) -> (L::F, L::F) {
+        let mass = (self.high - self.low).max(lanes.splat(f32::MIN_POSITIVE));
+        (mass, ((self.target - self.low) / mass).min(lanes.splat(1.0)))
+    }
+}
+
+/// A number held in `[0, 1)`; 0 for NaN.
+#[inline(always)]
+fn unit<L: Lanes>(lanes: L, u: L::F) -> L::F {
+    u.max(lanes.splat(0.0)).min(lanes.splat(1.0 - f32::EPSILON / 2.0))
 }
