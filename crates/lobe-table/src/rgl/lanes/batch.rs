@@ -118,9 +118,9 @@ impl RglTable {
         cells::run(lanes, n, &self.theta_i, 1, theta, &mut blend.slice, valid);
         if SLICES == 4 {
             cells::run(lanes, n, &self.phi_i, self.theta_i.knots().len(), phi, &mut blend.slice, valid);
-            weights::run(lanes, n, [phi, theta], valid, &mut blend.weights);
+            weights::run(lanes, n, [phi, theta], (valid, 1.0), &mut blend.weights);
         } else {
-            weights::run(lanes, n, [theta], valid, &mut blend.weights);
+            weights::run(lanes, n, [theta], (valid, 1.0), &mut blend.weights);
         }
     }
 }

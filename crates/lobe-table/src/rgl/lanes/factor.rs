@@ -15,7 +15,7 @@ const LARGEST: f32 = 1e20;
 #[derive(Clone, Debug)]
 struct Cells {
     grid: Grid,
-    texels: Storage,
+    texels: Storage<f32>,
 }
 
 impl Cells {

@@ -21,7 +21,7 @@ const FEW: usize = 3;
 pub(super) struct Spectra {
     pub(super) grid: Grid,
     pub(super) channels: usize,
-    texels: Storage,
+    texels: Storage<f32>,
     /// Corners over the slices and the rows; with many channels the columns too.
     offsets: [usize; MAX_CORNERS],
     /// What no value is less than.

@@ -14,10 +14,10 @@ use crate::storage::Storage;
 #[derive(Clone, Debug)]
 pub(super) struct Warp {
     pub(super) grid: Grid,
-    texels: Storage,
+    texels: Storage<f32>,
     /// For each row of a slice its integral, that of the next row, and the integral of the slice below it; a fourth
     /// float is not used.
-    rows: Storage,
+    rows: Storage<f32>,
     row_offsets: [usize; 4],
     texel_offsets: [usize; 8],
     /// Cells of the unit square: from a density in cells to one on the square.

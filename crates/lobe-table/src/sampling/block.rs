@@ -1,0 +1,172 @@
+//! A block of samples in short passes.
+//!
+//! A search is a chain of loads, each waiting for the one before. Taking one step of it in all queries of a block before
+//! the next keeps many loads in flight. The arithmetic is that of [`draw`](super::kernels::draw).
+
+use lobe_lane::{Lanes, MAX_LANES};
+
+use super::incident::Incident;
+use super::kernels::{factor, leave, place};
+use super::slices::{Place, Row, Search, Sums, View};
+use crate::Table;
+use crate::directions::{BlockOfDirections, Directions};
+use crate::passes::block::Column;
+
+/// The columns that the passes hand on.
+struct Scratch {
+    weights: [Column; 4],
+    first: Column<i32>,
+    cell: Column<i32>,
+    target: Column,
+    low: Column,
+    high: Column,
+    /// The sum of all rows, and then what makes a density of a mass.
+    scale: Column,
+    /// The second number, and then phi.
+    phi: Column,
+}
+
+impl Scratch {
+    const ZERO: Self = Scratch {
+        weights: [Column::<f32>::ZERO; 4],
+        first: Column::<i32>::ZERO,
+        cell: Column::<i32>::ZERO,
+        target: Column::<f32>::ZERO,
+        low: Column::<f32>::ZERO,
+        high: Column::<f32>::ZERO,
+        scale: Column::<f32>::ZERO,
+        phi: Column::<f32>::ZERO,
+    };
+
+    #[inline(always)]
+    fn weights<L: Lanes>(&self, lanes: L, at: usize) -> [L::F; 4] {
+        let [a, b, c, d] = &self.weights;
+        [a.load(lanes, at), b.load(lanes, at), c.load(lanes, at), d.load(lanes, at)]
+    }
+
+    #[inline(always)]
+    fn search<L: Lanes>(&self, lanes: L, at: usize) -> Search<L> {
+        Search {
+            first: self.first.load(lanes, at),
+            cell: self.cell.load(lanes, at),
+            target: self.target.load(lanes, at),
+            low: self.low.load(lanes, at),
+            high: self.high.load(lanes, at),
+        }
+    }
+
+    #[inline(always)]
+    fn begin<L: Lanes>(&mut self, lanes: L, at: usize, search: Search<L>) {
+        self.first.store(lanes, at, search.first);
+        self.target.store(lanes, at, search.target);
+        self.step(lanes, at, search);
+    }
+
+    #[inline(always)]
+    fn step<L: Lanes>(&mut self, lanes: L, at: usize, search: Search<L>) {
+        self.cell.store(lanes, at, search.cell);
+        self.low.store(lanes, at, search.low);
+        self.high.store(lanes, at, search.high);
+    }
+}
+
+/// Where the samples of a block go.
+pub(super) struct Out<'a> {
+    pub(super) directions: &'a mut [[f32; 3]],
+    pub(super) pdfs: &'a mut [f32],
+    /// What makes a weight of `f`.
+    pub(super) factors: &'a mut [f32],
+}
+
+/// Samples up to [`BLOCK`](crate::passes::block::BLOCK) directions.
+#[inline(always)]
+pub(super) fn draw<L: Lanes, S: Sums>(
+    lanes: L,
+    table: &Table,
+    view: &View<'_, S>,
+    (known, u): (&[[f32; 3]], &[[f32; 2]]),
+    out: Out<'_>,
+) {
+    let n = known.len();
+    let mut padding = <&[[f32; 3]] as Directions>::PADDING;
+    let known = known.block(0, &mut padding);
+    let mut scratch = Scratch::ZERO;
+
+    let mut at = 0;
+    while at < n {
+        // Beyond the last pair of numbers that pair is read again.
+        let [first, second] = lanes.gather_pair(u, lanes.iota() + lanes.splat_int(at as i32));
+        let incident = Incident::new(lanes, table, known.load(lanes, at));
+        let place = place(lanes, table, &incident);
+        let (search, total) = view.begin(lanes, &place, first);
+        scratch.begin(lanes, at, search);
+        scratch.scale.store(lanes, at, total);
+        scratch.phi.store(lanes, at, second);
+        let Place { weights, .. } = place;
+        let mut slice = 0;
+        while slice < 4 {
+            scratch.weights[slice].store(lanes, at, weights[slice]);
+            slice += 1;
+        }
+        at += L::LANES;
+    }
+
+    let mut half = view.row_half();
+    while half > 0 {
+        let mut at = 0;
+        while at < n {
+            let search = view.row_step(lanes, scratch.search(lanes, at), half, &scratch.weights(lanes, at));
+            scratch.step(lanes, at, search);
+            at += L::LANES;
+        }
+        half >>= 1;
+    }
+
+    let mut at = 0;
+    while at < n {
+        let (total, w) = (scratch.scale.load(lanes, at), scratch.phi.load(lanes, at));
+        let (search, Row { phi, scale }) = view.turn(lanes, scratch.search(lanes, at), total, w);
+        scratch.begin(lanes, at, search);
+        scratch.phi.store(lanes, at, phi);
+        scratch.scale.store(lanes, at, scale);
+        at += L::LANES;
+    }
+
+    let mut half = view.column_half();
+    while half > 0 {
+        let mut at = 0;
+        while at < n {
+            let search = view.column_step(lanes, scratch.search(lanes, at), half, &scratch.weights(lanes, at));
+            scratch.step(lanes, at, search);
+            at += L::LANES;
+        }
+        half >>= 1;
+    }
+
+    let all = lanes.first_n(L::LANES);
+    let mut at = 0;
+    while at < n {
+        let row = Row { phi: scratch.phi.load(lanes, at), scale: scratch.scale.load(lanes, at) };
+        let draw = view.end(lanes, scratch.search(lanes, at), row);
+        let incident = Incident::new(lanes, table, known.load(lanes, at));
+        let (direction, pdf) = leave(lanes, &incident, draw, all);
+        lanes.store_partial(&mut out.pdfs[at..], pdf);
+        lanes.store_partial(&mut out.factors[at..], factor(lanes, direction[2], pdf));
+        store(lanes, &mut out.directions[at..], direction);
+        at += L::LANES;
+    }
+}
+
+/// Writes as many vectors as there is room for.
+#[inline(always)]
+fn store<L: Lanes>(lanes: L, target: &mut [[f32; 3]], [x, y, z]: [L::F; 3]) {
+    let mut columns = [[0.0f32; MAX_LANES]; 3];
+    lanes.store(&mut columns[0], x);
+    lanes.store(&mut columns[1], y);
+    lanes.store(&mut columns[2], z);
+    let mut lane = 0;
+    while lane < L::LANES && lane < target.len() {
+        target[lane] = [columns[0][lane], columns[1][lane], columns[2][lane]];
+        lane += 1;
+    }
+}

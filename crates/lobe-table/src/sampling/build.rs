@@ -1,0 +1,196 @@
+//! From a table to the slices of its sampler.
+
+use std::f64::consts::FRAC_PI_2;
+
+use lobe_lane::Lanes;
+
+use super::SamplerError;
+use super::grid::{Grid, candidate_columns, candidate_rows, spread};
+use super::histogram::{Bin, Histogram};
+use super::slices::Slices;
+use crate::Table;
+use crate::axis::Axis;
+use crate::layout::{PHI, PSI, SIGMA, THETA};
+use crate::storage::Storage;
+
+/// At most this many cells a slice, as a power of two: what the caches near a core can hold of a few slices.
+const MOST_BITS: u32 = 13;
+/// At least this many.
+const LEAST_BITS: u32 = 4;
+/// Slices that decide where the grid is fine.
+const SURVEYED: usize = 32;
+/// Psi is lost at the normal and the light at the horizon, so the slices of knots there are built a hair away.
+const SIGMAS: [f64; 2] = [1e-4, FRAC_PI_2 - 1e-3];
+/// No slice is darker than this part of the brightest, so that none is lost to rounding.
+const DARKEST: f64 = 1e-6;
+/// No cell has less than this part of its row, and no row of its slice, so that sums ascend also in `f32`.
+const LEAST_SHARE: f64 = 4.0 * f32::EPSILON as f64;
+
+/// What a builder is given.
+pub(crate) struct Builder<'a, L> {
+    pub(crate) lanes: L,
+    pub(crate) table: &'a Table,
+    pub(crate) luminance: &'a [f32],
+    pub(crate) defensive: f64,
+}
+
+impl<L: Lanes> Builder<'_, L> {
+    /// Builds the slices, and tells `progress` how many of how many are done.
+    pub(crate) fn build(&self, progress: &mut dyn FnMut(usize, usize)) -> Result<Slices, SamplerError> {
+        let [sigma, psi] = [SIGMA, PSI].map(|axis| knots(&self.table.axes[axis]));
+        let count = sigma.len() * psi.len();
+        let incident = |slice: usize| {
+            let (sin_sigma, cos_sigma) = sigma[slice / psi.len()].clamp(SIGMAS[0], SIGMAS[1]).sin_cos();
+            let (sin_psi, cos_psi) = psi[slice % psi.len()].sin_cos();
+            [sin_sigma * cos_psi, sin_sigma * sin_psi, cos_sigma].map(|x| x as f32)
+        };
+        let stride = count.div_ceil(SURVEYED);
+        let surveyed = (0..count).step_by(stride).map(incident);
+        let (phi, root_v, grid) = self.lay_out(surveyed)?;
+
+        let points = if phi.len() * root_v.len() > 2048 { 2 } else { 4 };
+        let mut slices = Vec::with_capacity(count);
+        for slice in 0..count {
+            slices.push(Slice::new(&self.histogram(incident(slice), &phi, &root_v, points), self.defensive));
+            progress(slice + 1, count);
+        }
+        Ok(self.store(grid, &slices))
+    }
+
+    fn histogram(&self, incident: [f32; 3], phi: &[f64], root_v: &[f64], points: usize) -> Vec<Bin> {
+        let &Builder { lanes, table, luminance, .. } = self;
+        lanes.vectorize(Histogram { table, luminance, incident, phi, root_v, points })
+    }
+
+    /// The finest grid that the table's size allows, its edges where the light of the surveyed slices varies.
+    fn lay_out(&self, surveyed: impl Iterator<Item = [f32; 3]>) -> Result<(Vec<f64>, Vec<f64>, Grid), SamplerError> {
+        let rows = candidate_rows(&self.table.axes[PHI]);
+        let columns = candidate_columns(&self.table.axes[THETA]);
+        let (mut by_row, mut by_column) = (vec![0.0; rows.len() - 1], vec![0.0; columns.len() - 1]);
+        for incident in surveyed {
+            let bins = self.histogram(incident, &rows, &columns, 1);
+            let total: f64 = bins.iter().map(|bin| bin.light).sum();
+            if total > 0.0 {
+                for (row, bins) in bins.chunks_exact(by_column.len()).enumerate() {
+                    for (column, bin) in bins.iter().enumerate() {
+                        by_row[row] += bin.light / total;
+                        by_column[column] += bin.light / total;
+                    }
+                }
+            }
+        }
+        let budget = self.table.bytes() + self.table.bytes() / 2;
+        let mut bits = MOST_BITS;
+        loop {
+            let row_bits = bits / 2;
+            let phi = spread(&rows, &by_row, 1 << row_bits);
+            let root_v = spread(&columns, &by_column, 1 << (bits - row_bits));
+            let grid = Grid::new(&phi, &root_v).map_err(|source| SamplerError::Grid { source })?;
+            let floats = self.blocks().iter().product::<usize>() * self.width() * ((1 << bits) + (1 << row_bits));
+            let bytes = grid.bytes() + 4 * floats + 128;
+            if bits == LEAST_BITS || (bytes <= budget && i32::try_from(floats).is_ok()) {
+                return Ok((phi, root_v, grid));
+            }
+            bits -= 1;
+        }
+    }
+
+    /// Cells in sigma and psi, at least one.
+    fn blocks(&self) -> [usize; 2] {
+        [SIGMA, PSI].map(|axis| self.table.axes[axis].cells().len().max(1))
+    }
+
+    /// Slices that a lane blends.
+    fn width(&self) -> usize {
+        if self.table.is_anisotropic() { 4 } else { 2 }
+    }
+
+    /// Puts the slices that are blended side by side.
+    fn store(&self, grid: Grid, slices: &[Slice]) -> Slices {
+        let brightest = slices.iter().fold(0.0, |most: f64, slice| most.max(slice.brightness));
+        let psis = knots(&self.table.axes[PSI]).len();
+        let sums: Vec<[Vec<f32>; 2]> = slices.iter().map(|slice| slice.sums(brightest, &grid)).collect();
+        let (width, blocks) = (self.width(), self.blocks());
+        let source = |axis: usize, knot: usize| {
+            let source = self.table.axes[axis].source();
+            source[knot.min(source.len() - 1)]
+        };
+        let [rows, columns] = [0, 1].map(|which| {
+            let entries = sums[0][which].len();
+            let mut storage = Storage::zeros(blocks[0] * blocks[1] * entries * width);
+            let mut target = storage.as_mut_slice().chunks_exact_mut(entries * width);
+            for sigma in 0..blocks[0] {
+                for psi in 0..blocks[1] {
+                    let block = target.next().expect("a chunk a block");
+                    for corner in 0..width {
+                        // Where psi counts it is the fast one of the two.
+                        let (up_sigma, up_psi) = if width == 2 { (corner, 0) } else { (corner / 2, corner % 2) };
+                        let slice = source(SIGMA, sigma + up_sigma) * psis + source(PSI, psi + up_psi);
+                        for (entry, sum) in sums[slice][which].iter().enumerate() {
+                            block[entry * width + corner] = *sum;
+                        }
+                    }
+                }
+            }
+            storage
+        });
+        Slices { grid, width, rows, columns }
+    }
+}
+
+/// The knots of an axis without the one that closes a circle.
+fn knots(axis: &Axis) -> Vec<f64> {
+    let count = axis.source().iter().max().map_or(0, |last| last + 1);
+    axis.knots()[..count].iter().map(|&knot| f64::from(knot)).collect()
+}
+
+/// The distribution of one slice: shares of its cells, which add up to 1, and what they add up to in the table.
+struct Slice {
+    shares: Vec<f64>,
+    brightness: f64,
+}
+
+impl Slice {
+    /// Mixes the light of each cell with a part `defensive` of a cosine. A slice without light is all cosine.
+    fn new(bins: &[Bin], defensive: f64) -> Self {
+        let brightness: f64 = bins.iter().map(|bin| bin.light).sum();
+        let cosine: f64 = bins.iter().map(|bin| bin.cosine).sum();
+        let defensive = if brightness > 0.0 { defensive } else { 1.0 };
+        let light = if brightness > 0.0 { (1.0 - defensive) / brightness } else { 0.0 };
+        let shares = bins.iter().map(|bin| light * bin.light + defensive / cosine * bin.cosine).collect();
+        Slice { shares, brightness }
+    }
+
+    /// The sums over rows, and over the columns of each row. The last sum of a row is, to the bit, what the row adds to
+    /// the sums over rows.
+    fn sums(&self, brightest: f64, grid: &Grid) -> [Vec<f32>; 2] {
+        let (rows, columns) = (1 << grid.row_bits, 1 << grid.column_bits);
+        let scale = if brightest > 0.0 { (self.brightness / brightest).max(DARKEST) } else { 1.0 };
+        let row_shares: Vec<f64> = self.shares.chunks_exact(columns).map(|row| row.iter().sum::<f64>()).collect();
+        let by_row = ascending(&row_shares, scale as f32, rows);
+        let mut by_column = Vec::with_capacity(rows * columns);
+        let mut before = 0.0;
+        for (row, sum) in self.shares.chunks_exact(columns).zip(&by_row) {
+            by_column.extend(ascending(row, sum - before, columns));
+            before = *sum;
+        }
+        [by_row, by_column]
+    }
+}
+
+/// The sums of shares, scaled so that the last is `total`, each share at least [`LEAST_SHARE`] of them all.
+fn ascending(shares: &[f64], total: f32, count: usize) -> Vec<f32> {
+    let sum: f64 = shares.iter().sum();
+    let share = |x: f64| if sum > 0.0 { x / sum + LEAST_SHARE } else { 1.0 };
+    let all: f64 = shares.iter().map(|&x| share(x)).sum();
+    let mut below = 0.0;
+    let mut sums: Vec<f32> = shares
+        .iter()
+        .map(|&x| {
+            below += share(x);
+            (f64::from(total) * below / all) as f32
+        })
+        .collect();
+    sums[count - 1] = total;
+    sums
+}

@@ -1,0 +1,250 @@
+//! Importance sampling of tables in specular coordinates, with densities that are exact.
+//!
+//! For each knot of sigma (and psi) the [`Sampler`] has a histogram of luminance times f times cosine over the scattered
+//! hemisphere. The hemisphere is a rectangle in phi and `v = (1 - cos theta) / (1 - cos theta_max(phi))`, where theta_max
+//! is the horizon, so no sample lies below the horizon and no mass has to be thrown away; the Jacobian between solid
+//! angle and the rectangle is `1 - cos theta_max(phi)`. Between the knots the histograms are blended as the table
+//! interpolates; their cumulative sums are blended while they are searched, first the rows in phi, then the columns in
+//! `v` (inversion of the marginal and the conditional distribution: Pharr, Jakob and Humphreys 2023, *Physically Based
+//! Rendering*, appendix A.4; blending of sums as in Dupuy and Jakob 2018, *An adaptive parameterization for efficient
+//! material acquisition and rendering*). The map from `u` to directions is continuous in the incident direction and
+//! keeps the stratification of `u`.
+//!
+//! Every histogram holds a part [`SamplerOptions::defensive`] of a cosine distribution, so the density is positive in
+//! all of the hemisphere.
+
+mod block;
+mod build;
+mod grid;
+mod histogram;
+mod incident;
+mod kernels;
+mod slices;
+
+use std::sync::Arc;
+
+use lobe_lane::{Floats, Lanes};
+use thiserror::Error;
+
+use crate::{AxisError, Channels, Table};
+use build::Builder;
+use kernels::{Densities, Draws, One, OneDensity};
+use slices::Slices;
+
+pub use kernels::Sampled;
+
+/// Which direction of a pair is known; the other one is sampled.
+///
+/// A table depends on its light in a way (sigma and psi) and on its viewer in another (theta and phi). Given the viewer,
+/// the light is sampled as if the material were reciprocal, that is from the distribution of what a light at the viewer's
+/// place would scatter. The weight has the true `f(wi, wo)`, so estimates are right for every material; where the data
+/// are far from reciprocal, or a BTDF refracts, they are noisier.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Given {
+    /// `wi` is given and `wo` sampled.
+    Light,
+    /// `wo` is given and `wi` sampled.
+    Viewer,
+}
+
+/// How a sampler is built.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SamplerOptions {
+    /// The part of every slice that is a cosine distribution, in `(0, 1]`. With part `d` a weight is at most
+    /// about `pi f / d`, and noise where the histogram fits grows by `1 / (1 - d)`.
+    pub defensive: f32,
+    /// How much each channel counts in luminance. Where it is `None`: Y of XYZ, the weights of Rec. 709 for RGB, and the
+    /// mean of spectral channels.
+    pub luminance: Option<Vec<f32>>,
+}
+
+impl Default for SamplerOptions {
+    /// A twentieth of cosine; luminance by the kind of the channels.
+    fn default() -> Self {
+        SamplerOptions { defensive: 0.05, luminance: None }
+    }
+}
+
+/// Why there is no sampler.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum SamplerError {
+    /// A part of cosine that is no part, or none.
+    #[error("a defensive part of {found}; expected a number in (0, 1]")]
+    Defensive {
+        /// What was found.
+        found: f32,
+    },
+    /// Luminance weights that do not go with the channels, or are negative, not finite, or all 0.
+    #[error("luminance weights {found:?}; expected {channels}, not negative, finite and not all 0")]
+    Luminance {
+        /// What was found.
+        found: Vec<f32>,
+        /// How many channels the table has.
+        channels: usize,
+    },
+    /// Edges of a grid that single precision does not tell apart.
+    #[error("the grid of the sampler: {source}")]
+    Grid {
+        /// What is wrong with it.
+        source: AxisError,
+    },
+}
+
+/// A table and what is needed to sample directions in proportion to luminance times f times cosine.
+///
+/// As in a [`Table`], `wi` points to the light and `wo` to the viewer, unit vectors, normal on +z. Sampled directions of
+/// a reflection table have `z > 0`; those of a transmission table lie on the other side of the surface. Densities are
+/// per steradian. In strict form, samples are the same bits on every backend.
+#[derive(Clone, Debug)]
+pub struct Sampler {
+    table: Arc<Table>,
+    slices: Slices,
+}
+
+impl Sampler {
+    /// Builds the distributions of a table on the backend given.
+    ///
+    /// They are the same bits whichever backend builds them.
+    ///
+    /// # Errors
+    /// Where the options make no sense for this table.
+    pub fn new<L: Lanes>(lanes: L, table: Arc<Table>, options: &SamplerOptions) -> Result<Self, SamplerError> {
+        Sampler::with_progress(lanes, table, options, &mut |_, _| {})
+    }
+
+    /// As [`new`](Sampler::new), calling `progress(done, all)` after each slice.
+    ///
+    /// # Errors
+    /// As [`new`](Sampler::new).
+    pub fn with_progress<L: Lanes>(
+        lanes: L,
+        table: Arc<Table>,
+        options: &SamplerOptions,
+        progress: &mut dyn FnMut(usize, usize),
+    ) -> Result<Self, SamplerError> {
+        if !(options.defensive > 0.0 && options.defensive <= 1.0) {
+            return Err(SamplerError::Defensive { found: options.defensive });
+        }
+        let channels = table.channel_count();
+        let luminance = options.luminance.clone().unwrap_or_else(|| luminance(table.channels()));
+        let fits = luminance.len() == channels && luminance.iter().all(|&y| y.is_finite() && y >= 0.0);
+        if !fits || luminance.iter().all(|&y| y == 0.0) {
+            return Err(SamplerError::Luminance { found: luminance, channels });
+        }
+        let defensive = f64::from(options.defensive);
+        let lanes = lanes.strict();
+        let slices = Builder { lanes, table: &table, luminance: &luminance, defensive }.build(progress)?;
+        Ok(Sampler { table, slices })
+    }
+
+    /// The table that is sampled.
+    pub fn table(&self) -> &Arc<Table> {
+        &self.table
+    }
+
+    /// Bytes of memory that the distributions take beside the table: at most one and a half times what the table takes,
+    /// but for the tiniest tables.
+    pub fn bytes(&self) -> usize {
+        self.slices.bytes()
+    }
+
+    /// Samples one direction for two numbers in `[0, 1)`. Returns it with its density, and `weight` is set to `f` times
+    /// cosine over the density, one value a channel. Where `given` is no direction above the surface, everything is 0.
+    ///
+    /// # Panics
+    /// Where `weight` is not as long as there are channels.
+    pub fn sample<L: Lanes>(
+        &self,
+        lanes: L,
+        given: Given,
+        direction: [f32; 3],
+        u: [f32; 2],
+        weight: &mut [f32],
+    ) -> ([f32; 3], f32) {
+        assert_eq!(weight.len(), self.table.channel_count(), "one weight a channel");
+        lanes.vectorize(One { sampler: self, given, direction, u, weight })
+    }
+
+    /// The density with which [`sample`](Sampler::sample) finds the direction of the pair that is not given. It is 0
+    /// unless the table can scatter from one to the other.
+    ///
+    /// Rounding can put a direction that lies on the very edge of a histogram's cell into the neighbouring cell, which
+    /// has a density of its own.
+    pub fn pdf<L: Lanes>(&self, lanes: L, given: Given, wi: [f32; 3], wo: [f32; 3]) -> f32 {
+        lanes.vectorize(OneDensity { sampler: self, given, wi, wo })
+    }
+
+    /// Samples a direction for each direction given, as [`sample`](Sampler::sample).
+    ///
+    /// # Panics
+    /// Where `u` or a part of `out` does not have one entry a direction, and the weights one more a channel.
+    pub fn sample_batch<L: Lanes>(
+        &self,
+        lanes: L,
+        given: Given,
+        directions: &[[f32; 3]],
+        u: &[[f32; 2]],
+        out: Sampled<'_>,
+    ) {
+        let count = directions.len();
+        assert_eq!(u.len(), count, "a pair of numbers a direction");
+        assert_eq!((out.directions.len(), out.pdfs.len()), (count, count), "an output a direction");
+        assert_eq!(out.weights.len(), count * self.table.channel_count(), "a weight a direction and channel");
+        lanes.vectorize(Draws { sampler: self, given, directions, u, out });
+    }
+
+    /// The densities of many pairs, as [`pdf`](Sampler::pdf).
+    ///
+    /// # Panics
+    /// Where there are not as many `wi` as `wo` and `pdfs`.
+    pub fn pdf_batch<L: Lanes>(&self, lanes: L, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], pdfs: &mut [f32]) {
+        assert_eq!((wi.len(), wo.len()), (pdfs.len(), pdfs.len()), "as many wi as wo and densities");
+        lanes.vectorize(Densities { sampler: self, given, wi, wo, pdfs });
+    }
+
+    /// Samples a direction in each lane inside a caller's own kernel, as [`sample`](Sampler::sample); 0 in the lanes that
+    /// `mask` leaves out.
+    ///
+    /// # Panics
+    /// Where `weight` is not as long as there are channels.
+    #[inline(always)]
+    pub fn sample_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        given: Given,
+        direction: [L::F; 3],
+        u: [L::F; 2],
+        mask: L::M,
+        weight: &mut [L::F],
+    ) -> ([L::F; 3], L::F) {
+        let (sampled, pdf) = kernels::draw(lanes, self, direction, u, mask);
+        let (wi, wo) = kernels::pair(given, direction, sampled);
+        self.table.eval_lanes(lanes, wi, wo, mask, weight);
+        let factor = kernels::factor(lanes, sampled[2], pdf);
+        let mut channel = 0;
+        while channel < weight.len() {
+            weight[channel] = weight[channel] * factor;
+            channel += 1;
+        }
+        (sampled, pdf)
+    }
+
+    /// The density of a pair a lane inside a caller's own kernel, as [`pdf`](Sampler::pdf); 0 in the lanes that `mask`
+    /// leaves out.
+    #[inline(always)]
+    pub fn pdf_lanes<L: Lanes>(&self, lanes: L, given: Given, wi: [L::F; 3], wo: [L::F; 3], mask: L::M) -> L::F {
+        let (known, other) = kernels::pair(given, wi, wo);
+        kernels::density(lanes, self, known, other).masked(mask)
+    }
+}
+
+/// How much each channel counts in luminance.
+fn luminance(channels: &Channels) -> Vec<f32> {
+    match channels {
+        Channels::Mono => vec![1.0],
+        // Rec. ITU-R BT.709, item 3.2.
+        Channels::Rgb => vec![0.2126, 0.7152, 0.0722],
+        Channels::Xyz => vec![0.0, 1.0, 0.0],
+        Channels::Spectral(_) | Channels::Named(_) => vec![1.0 / channels.count() as f32; channels.count()],
+    }
+}

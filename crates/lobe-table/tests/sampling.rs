@@ -1,0 +1,510 @@
+//! Importance sampling against its own densities, against the table, and on every backend.
+
+use std::f64::consts::{PI, TAU};
+use std::path::Path;
+use std::sync::Arc;
+
+use lobe_formats::Document;
+use lobe_lane::{Kernel, Lanes};
+use lobe_table::{
+    Channels, Edges, Given, Sampled, Sampler, SamplerError, SamplerOptions, Samples, Scatter, Table, coords,
+};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg32;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+const REFERENCE: lobe_scalar::Scalar<1> = lobe_scalar::Scalar::<1>;
+
+fn fixture(name: &str) -> Samples {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures").join(name);
+    match lobe_formats::open(&path).unwrap().1 {
+        Document::Table(measured) => measured.data,
+        _ => panic!("{name} is no table"),
+    }
+}
+
+/// A table of noise on knots that are not even.
+fn random(seed: u64, [sigma, psi, theta, phi]: [usize; 4], channels: Channels, scatter: Scatter) -> Samples {
+    let mut rng = Pcg32::seed_from_u64(seed);
+    let mut knots = |count: usize, last: f64| {
+        let mut gaps: Vec<f64> = (0..count).map(|_| rng.random_range(0.3..1.0)).collect();
+        gaps[0] = 0.0;
+        let all = gaps.iter().sum::<f64>().max(1e-9);
+        gaps.iter()
+            .scan(0.0, |at, gap| {
+                Some({
+                    *at += gap;
+                    *at / all * last
+                })
+            })
+            .collect::<Vec<f64>>()
+    };
+    let knots = [knots(sigma, 1.5), knots(psi, TAU), knots(theta, PI), knots(phi, TAU)];
+    let count = sigma * psi * theta * phi * channels.count();
+    // A few values are negative, as in measurements, and a few are large.
+    let values = (0..count).map(|_| rng.random_range(-0.1f32..1.3).powi(3)).collect();
+    Samples::new(scatter, knots, channels, values).unwrap()
+}
+
+/// Every kind of table.
+fn tables() -> Vec<(&'static str, Samples)> {
+    let spectral = Channels::Spectral(vec![450.0, 500.0, 550.0, 600.0]);
+    let bent = random(5, [5, 1, 8, 7], Channels::Mono, Scatter::Transmission);
+    let offsets = bent.knots()[0].iter().map(|sigma| (sigma.sin() / 1.5).asin() - sigma).collect();
+    vec![
+        ("conductor", fixture("conductor-7x8x13.ddr")),
+        ("cloth", fixture("cloth-17x7x17x13.ddr")),
+        ("isotropic noise", random(1, [6, 1, 9, 8], Channels::Rgb, Scatter::Reflection)),
+        ("anisotropic noise", random(2, [5, 4, 7, 9], Channels::Xyz, Scatter::Reflection)),
+        ("transmission", random(3, [5, 3, 8, 7], spectral, Scatter::Transmission)),
+        ("refraction", bent.with_refraction(offsets).unwrap()),
+    ]
+}
+
+fn sampler(samples: &Samples) -> Sampler {
+    let table = Arc::new(Table::new(samples, &Edges::default()).unwrap());
+    Sampler::new(REFERENCE, table, &SamplerOptions::default()).unwrap()
+}
+
+fn direction(sigma: f64, psi: f64) -> [f32; 3] {
+    coords::angles_to_directions([sigma.to_radians(), psi.to_radians(), 0.0, 0.0], |s| s).0.map(|x| x as f32)
+}
+
+/// At, near and far from the normal, on knots and between them, for several rotations of the sample.
+fn incidents() -> Vec<[f32; 3]> {
+    let mut incidents = vec![direction(0.0, 0.0), direction(0.001, 77.0), direction(1.0, 10.0)];
+    for (k, sigma) in [30.0, 47.0, 60.0, 80.0, 85.0, 88.0].into_iter().enumerate() {
+        incidents.extend([0.0, 100.0, 215.0].map(|psi| direction(sigma, psi + 13.0 * k as f64)));
+    }
+    incidents
+}
+
+/// Samples and densities of one table, whatever the backend.
+struct Run {
+    directions: Vec<[f32; 3]>,
+    weights: Vec<f32>,
+    pdfs: Vec<f32>,
+}
+
+fn run<L: Lanes>(lanes: L, sampler: &Sampler, given: Given, known: &[[f32; 3]], u: &[[f32; 2]]) -> Run {
+    let count = known.len();
+    let mut run = Run {
+        directions: vec![[f32::NAN; 3]; count],
+        weights: vec![f32::NAN; count * sampler.table().channel_count()],
+        pdfs: vec![f32::NAN; count],
+    };
+    let Run { directions, weights, pdfs } = &mut run;
+    sampler.sample_batch(lanes, given, known, u, Sampled { directions, weights, pdfs });
+    run
+}
+
+fn numbers(seed: u64, count: usize) -> Vec<[f32; 2]> {
+    let mut rng = Pcg32::seed_from_u64(seed);
+    (0..count).map(|_| [rng.random(), rng.random()]).collect()
+}
+
+fn best<K: Kernel>(kernel: K) -> K::Out {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(avx2) = lobe_avx::Avx2::detect() {
+        return avx2.vectorize(kernel);
+    }
+    REFERENCE.vectorize(kernel)
+}
+
+/// The work of a test on the fastest backend there is.
+struct Fast<'a>(&'a Sampler, Given, &'a [[f32; 3]], &'a [[f32; 2]]);
+
+impl Kernel for Fast<'_> {
+    type Out = Run;
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> Run {
+        run(lanes, self.0, self.1, self.2, self.3)
+    }
+}
+
+struct FastPdf<'a>(&'a Sampler, &'a [[f32; 3]], &'a [[f32; 3]]);
+
+impl Kernel for FastPdf<'_> {
+    type Out = Vec<f32>;
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> Vec<f32> {
+        let mut pdfs = vec![f32::NAN; self.1.len()];
+        self.0.pdf_batch(lanes, Given::Light, self.1, self.2, &mut pdfs);
+        pdfs
+    }
+}
+
+/// Bins for a chi-square test, in theta and phi about the mirror direction, which are not the coordinates sampled in.
+const THETAS: usize = 40;
+const PHIS: usize = 24;
+/// Points a bin over which the density is summed: as the density is not continuous, no two at the same theta or phi.
+const POINTS: usize = if cfg!(debug_assertions) { 400 } else { 1600 };
+/// Samples an incident direction; fewer with debug assertions, which go with slow builds.
+const COUNT: usize = if cfg!(debug_assertions) { 200_000 } else { 1_000_000 };
+
+/// The theta at a part of the way: bins are finer near the peak.
+fn theta_at(part: f64) -> f64 {
+    PI * part * part
+}
+
+/// The integral of the density over each bin.
+fn expected(sampler: &Sampler, incident: [f32; 3]) -> Vec<f64> {
+    let [sigma, psi, ..] = coords::directions_to_angles(incident.map(f64::from), [0.0, 0.0, 1.0], |s| s);
+    let side = if sampler.table().scatter() == Scatter::Reflection { 1.0 } else { -1.0 };
+    let mut bins = Vec::new();
+    let incidents = vec![incident; POINTS];
+    for i in 0..THETAS {
+        let [low, high] = [i, i + 1].map(|i| theta_at(i as f64 / THETAS as f64).cos());
+        for j in 0..PHIS {
+            let shift = (i * PHIS + j) as f64;
+            let scattered: Vec<[f32; 3]> = (0..POINTS)
+                .map(|point| {
+                    // The additive recurrence of the plastic number (Roberts 2018), begun elsewhere in each bin.
+                    let at = shift * 0.618_033_988_749_895 + point as f64;
+                    let [u, w] = [0.754_877_666_246_693, 0.569_840_290_998_053].map(|step| (at * step).fract());
+                    let phi = (j as f64 + w) / PHIS as f64 * TAU;
+                    let wo = coords::angles_to_directions([sigma, psi, (low + u * (high - low)).acos(), phi], |s| s).1;
+                    let above = if wo[2] > 0.0 { side } else { f64::NAN };
+                    [wo[0], wo[1], wo[2] * above].map(|x| x as f32)
+                })
+                .collect();
+            let mean = best(FastPdf(sampler, &incidents, &scattered)).iter().map(|&pdf| f64::from(pdf)).sum::<f64>();
+            bins.push(mean / POINTS as f64 * (low - high) * TAU / PHIS as f64);
+        }
+    }
+    bins
+}
+
+/// How many samples fall into each bin.
+fn observed(sampler: &Sampler, incident: [f32; 3], seed: u64) -> Vec<f64> {
+    let u = numbers(seed, COUNT);
+    let known = vec![incident; COUNT];
+    let Run { directions, .. } = best(Fast(sampler, Given::Light, &known, &u));
+    let mut bins = vec![0.0; THETAS * PHIS];
+    for wo in directions {
+        assert!(
+            (f64::from(wo[2]) * f64::from(incident[2]) > 0.0) == (sampler.table().scatter() == Scatter::Reflection)
+        );
+        let wo = [wo[0], wo[1], wo[2].abs()].map(f64::from);
+        let [.., theta, phi] = coords::directions_to_angles(incident.map(f64::from), wo, |s| s);
+        let i = ((theta / PI).sqrt() * THETAS as f64) as usize;
+        let j = (phi / TAU * PHIS as f64) as usize;
+        bins[i.min(THETAS - 1) * PHIS + j.min(PHIS - 1)] += 1.0;
+    }
+    bins
+}
+
+/// The probability of a worse fit, bins of less than 10 samples lumped together.
+fn p_value(expected: &[f64], observed: &[f64]) -> f64 {
+    let total: f64 = expected.iter().sum();
+    let (mut statistic, mut freedom) = (0.0, -1.0);
+    let mut lump = (0.0, 0.0);
+    let mut add = |(e, o): (f64, f64)| {
+        statistic += (o - e) * (o - e) / e;
+        freedom += 1.0;
+    };
+    for (e, o) in expected.iter().zip(observed) {
+        let e = e / total * COUNT as f64;
+        if e < 10.0 {
+            lump = (lump.0 + e, lump.1 + o);
+        } else {
+            add((e, *o));
+        }
+    }
+    if lump.0 >= 5.0 {
+        add(lump);
+    }
+    1.0 - ChiSquared::new(freedom).unwrap().cdf(statistic)
+}
+
+#[test]
+fn samples_follow_the_density() {
+    let (tables, incidents) = (tables(), incidents());
+    let tests = tables.len() * incidents.len();
+    // Sidak: all tests together pass with probability 0.99 where all hypotheses hold.
+    let significance = 1.0 - 0.99f64.powf(1.0 / tests as f64);
+    let mut failures = Vec::new();
+    for (name, samples) in &tables {
+        let sampler = sampler(samples);
+        let (mut least, mut off) = (1.0f64, 0.0f64);
+        for (k, &incident) in incidents.iter().enumerate() {
+            let expected = expected(&sampler, incident);
+            let total: f64 = expected.iter().sum();
+            let p = p_value(&expected, &observed(&sampler, incident, k as u64));
+            (least, off) = (least.min(p), off.max((total - 1.0).abs()));
+            if p < significance {
+                failures.push(format!("{name} {incident:?}: p = {p:.1e}"));
+            }
+            if (total - 1.0).abs() > 1e-3 {
+                failures.push(format!("{name} {incident:?}: the density integrates to {total}"));
+            }
+        }
+        println!("{name}: least p {least:.1e} (at least {significance:.1e}), integral off by {off:.1e}");
+    }
+    assert!(failures.is_empty(), "{failures:#?}");
+}
+
+/// The mean of what a sampler estimates, and the variance of one estimate over the mean's square.
+fn moments(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let (mut count, mut sum, mut squares) = (0.0, 0.0, 0.0);
+    for value in values {
+        (count, sum, squares) = (count + 1.0, sum + value, squares + value * value);
+    }
+    let mean = sum / count;
+    (mean, squares / count / (mean * mean) - 1.0)
+}
+
+/// Luminance by Rec. 709.
+fn luminance(rgb: &[f32]) -> f64 {
+    0.2126 * f64::from(rgb[0]) + 0.7152 * f64::from(rgb[1]) + 0.0722 * f64::from(rgb[2])
+}
+
+#[test]
+fn albedo_is_that_of_cosine_sampling_with_less_noise() {
+    for (name, at_least) in [("conductor-7x8x13.ddr", 10.0), ("cloth-17x7x17x13.ddr", 3.0)] {
+        let sampler = sampler(&fixture(name));
+        for incident in incidents() {
+            let count = 400_000;
+            let u = numbers(3, count);
+            let known = vec![incident; count];
+            let Run { weights, .. } = best(Fast(&sampler, Given::Light, &known, &u));
+            let (albedo, variance) = moments(weights.chunks(3).map(luminance));
+
+            let cosine: Vec<[f32; 3]> = u
+                .iter()
+                .map(|&[u, w]| {
+                    let (sin, cos) = (f64::from(w) * TAU).sin_cos();
+                    let radius = f64::from(u).sqrt();
+                    [radius * cos, radius * sin, (1.0 - f64::from(u)).sqrt()].map(|x| x as f32)
+                })
+                .collect();
+            let mut f = vec![0.0; 3 * count];
+            sampler.table().eval_batch(REFERENCE, known.as_slice(), cosine.as_slice(), &mut f);
+            let (reference, by_cosine) = moments(f.chunks(3).map(|f| PI * luminance(f)));
+            let error = ((variance + by_cosine) / count as f64).sqrt() * reference;
+            println!(
+                "{name} {incident:.3?}: albedo {albedo:.4}, relative variance {variance:.4} for {by_cosine:.3}: {:.1}",
+                by_cosine / variance
+            );
+            assert!((albedo - reference).abs() < 5.0 * error, "{albedo} is not {reference} within {error}");
+            assert!(by_cosine > at_least * variance, "{name} {incident:?}: {variance} after {by_cosine}");
+        }
+    }
+}
+
+/// One sample and one density in the last lane only.
+struct OneLane<'a>(&'a Sampler, Given, [f32; 3], [f32; 2], &'a mut [f32]);
+
+impl Kernel for OneLane<'_> {
+    type Out = ([f32; 3], [f32; 2]);
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> ([f32; 3], [f32; 2]) {
+        let OneLane(sampler, given, known, u, weight) = self;
+        let last = L::LANES - 1;
+        let mask = lanes.first_n(L::LANES) ^ lanes.first_n(last);
+        let mut weights = vec![lanes.splat(f32::NAN); weight.len()];
+        let known = known.map(|x| lanes.splat(x));
+        let (sampled, pdf) = sampler.sample_lanes(lanes, given, known, u.map(|x| lanes.splat(x)), mask, &mut weights);
+        let (wi, wo) = if given == Given::Light { (known, sampled) } else { (sampled, known) };
+        let again = sampler.pdf_lanes(lanes, given, wi, wo, mask);
+        for (target, value) in weight.iter_mut().zip(weights) {
+            *target = lanes.extract(value, last);
+            assert!(last == 0 || lanes.extract(value, 0) == 0.0, "a lane that the mask leaves out");
+        }
+        assert!(last == 0 || (lanes.extract(pdf, 0), lanes.extract(again, 0)) == (0.0, 0.0));
+        (sampled.map(|x| lanes.extract(x, last)), [pdf, again].map(|x| lanes.extract(x, last)))
+    }
+}
+
+/// Incident directions with, among them, what is no direction above the surface; and numbers with what is out of range.
+fn hostile(count: usize) -> (Vec<[f32; 3]>, Vec<[f32; 2]>) {
+    let mut u = numbers(8, count);
+    u[..6].copy_from_slice(&[
+        [0.0, 0.0],
+        [1.0, 1.0],
+        [0.999_999_94, 0.999_999_94],
+        [f32::NAN, 0.5],
+        [-1.0, 2.0],
+        [0.0, 1.0],
+    ]);
+    let incidents = incidents();
+    let mut known: Vec<[f32; 3]> = (0..count).map(|k| incidents[k * 7 % incidents.len()]).collect();
+    known[10] = [0.6, 0.0, -0.8];
+    known[11] = [f32::NAN, 0.0, 1.0];
+    known[12] = [0.0, f32::INFINITY, 0.5];
+    known[13] = [1.0, 0.0, 0.0];
+    known[14] = [0.0; 3];
+    // Light that skims the surface.
+    known[15] = [1.0, 0.0, 1e-6];
+    known[16] = [-0.6, 0.8, 1e-20];
+    (known, u)
+}
+
+fn bits(run: &Run) -> Vec<u32> {
+    let directions = run.directions.iter().flatten();
+    directions.chain(&run.weights).chain(&run.pdfs).map(|x| x.to_bits()).collect()
+}
+
+fn check_ways<L: Lanes>(lanes: L) {
+    for (name, samples) in tables() {
+        let sampler = sampler(&samples);
+        let channels = sampler.table().channel_count();
+        let through = samples.scatter() == Scatter::Transmission;
+        let (known, u) = hostile(300);
+        for given in [Given::Light, Given::Viewer] {
+            let batch = run(lanes, &sampler, given, &known, &u);
+            let (mut agree, mut drawn) = (0, 0);
+            for k in 0..known.len() {
+                let (direction, pdf) = (batch.directions[k], batch.pdfs[k]);
+                let weights = &batch.weights[k * channels..][..channels];
+                let mut weight = vec![f32::NAN; channels];
+                let one = sampler.sample(lanes, given, known[k], u[k], &mut weight);
+                assert_eq!((one, weight.as_slice()), ((direction, pdf), weights), "{name}: one sample, query {k}");
+                let (lane, [lane_pdf, again]) = lanes.vectorize(OneLane(&sampler, given, known[k], u[k], &mut weight));
+                assert_eq!((lane, lane_pdf, weight.as_slice()), (direction, pdf, weights), "{name}: lanes, query {k}");
+
+                let (wi, wo) = if given == Given::Light { (known[k], direction) } else { (direction, known[k]) };
+                assert_eq!(sampler.pdf(lanes, given, wi, wo), again, "{name}: one density, query {k}");
+                if (11..=14).contains(&k) || (k == 10 && !through) {
+                    assert_eq!((direction, pdf), ([0.0; 3], 0.0), "{name}: query {k} is no direction");
+                    assert!(weights.iter().all(|&w| w == 0.0));
+                    continue;
+                }
+                assert!(pdf > 0.0 && pdf.is_finite(), "{name}: density {pdf} of query {k}");
+                assert!((direction[2] > 0.0) == ((known[k][2] > 0.0) != through), "{name}: side of query {k}");
+                let length = direction.iter().map(|x| x * x).sum::<f32>();
+                assert!((length - 1.0).abs() < 1e-6, "{name}: length {length} of query {k}");
+                let mut f = vec![0.0; channels];
+                sampler.table().eval(lanes, wi, wo, &mut f);
+                for (f, weight) in f.iter().zip(weights) {
+                    assert_eq!(f * (direction[2].abs() / pdf), *weight, "{name}: weight of query {k}");
+                }
+                drawn += 1;
+                agree += usize::from((pdf - again).abs() <= 2e-3 * pdf);
+            }
+            // At the edge of a cell, and beside light that skims the surface, rounding may lead to another cell.
+            assert!(agree + 12 > drawn, "{name} {given:?}: {agree} of {drawn} densities are found again");
+        }
+    }
+}
+
+#[test]
+fn batches_single_queries_and_lanes_agree() {
+    check_ways(REFERENCE);
+    check_ways(lobe_scalar::Scalar::<16>);
+    #[cfg(target_arch = "x86_64")]
+    {
+        check_ways(lobe_sse::Sse2::new());
+        if let Some(avx2) = lobe_avx::Avx2::detect() {
+            check_ways(avx2);
+        }
+    }
+}
+
+#[test]
+fn strict_samples_are_the_same_bits_on_every_backend() {
+    for (name, samples) in tables() {
+        let table = Arc::new(Table::new(&samples, &Edges::default()).unwrap());
+        let options = SamplerOptions::default();
+        let (known, u) = hostile(5_003);
+        let mut expected = None;
+        macro_rules! check {
+            ($lanes:expr) => {
+                // Built on the backend that samples, so that building is compared too.
+                let sampler = Sampler::new($lanes, table.clone(), &options).unwrap();
+                for given in [Given::Light, Given::Viewer] {
+                    let got = run($lanes.strict(), &sampler, given, &known, &u);
+                    let mut pdfs = vec![f32::NAN; known.len()];
+                    sampler.pdf_batch($lanes.strict(), given, &known, &got.directions, &mut pdfs);
+                    let got = (bits(&got), pdfs.iter().map(|x| x.to_bits()).collect::<Vec<u32>>());
+                    let expected: &mut Vec<_> = expected.get_or_insert_with(Vec::new);
+                    let at = given as usize;
+                    if expected.len() <= at {
+                        expected.push(got);
+                    } else {
+                        assert!(got == expected[at], "{name} {given:?} on {}", stringify!($lanes));
+                    }
+                }
+            };
+        }
+        check!(REFERENCE);
+        check!(lobe_scalar::Scalar::<16>);
+        #[cfg(target_arch = "x86_64")]
+        {
+            check!(lobe_sse::Sse2::new());
+            if let Some(sse41) = lobe_sse::Sse41::detect() {
+                check!(sse41);
+            }
+            if let Some(avx2) = lobe_avx::Avx2::detect() {
+                check!(avx2);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_density_is_positive_wherever_the_table_is() {
+    for (name, samples) in tables() {
+        let sampler = sampler(&samples);
+        let channels = sampler.table().channel_count();
+        let through = samples.scatter() == Scatter::Transmission;
+        let u = numbers(21, 4_000);
+        let mut f = vec![0.0; channels];
+        for (k, incident) in incidents().into_iter().cycle().take(u.len()).enumerate() {
+            let wo = direction(f64::from(u[k][0]) * 89.9, f64::from(u[k][1]) * 360.0);
+            let wo = [wo[0], wo[1], if through { -wo[2] } else { wo[2] }];
+            sampler.table().eval(REFERENCE, incident, wo, &mut f);
+            let pdf = sampler.pdf(REFERENCE, Given::Light, incident, wo);
+            // A cosine is a twentieth of each slice; a cell holds its mean.
+            assert!(pdf > 1e-3 * wo[2].abs(), "{name}: {pdf} from {incident:?} to {wo:?}, f {f:?}");
+        }
+    }
+}
+
+#[test]
+fn a_black_table_is_sampled_as_a_cosine() {
+    let black = random(1, [3, 1, 4, 5], Channels::Mono, Scatter::Reflection);
+    let black = Samples::new(Scatter::Reflection, black.knots().clone(), Channels::Mono, vec![0.0; 60]).unwrap();
+    let sampler = sampler(&black);
+    let u = numbers(4, 100_000);
+    let sampled = run(REFERENCE, &sampler, Given::Light, &vec![direction(40.0, 0.0); u.len()], &u);
+    assert!(sampled.weights.iter().all(|&weight| weight == 0.0));
+    // The mean of the cosine under a density in proportion to it is 2/3.
+    let mean = sampled.directions.iter().map(|w| f64::from(w[2])).sum::<f64>() / u.len() as f64;
+    assert!((mean - 2.0 / 3.0).abs() < 0.02, "mean cosine {mean}");
+}
+
+#[test]
+fn memory_is_at_most_one_and_a_half_tables() {
+    for (name, samples) in tables() {
+        let sampler = sampler(&samples);
+        let (bytes, table) = (sampler.bytes(), sampler.table().bytes());
+        println!("{name}: {bytes} bytes beside the {table} of the table");
+        assert!(2 * bytes <= 3 * table, "{name}: {bytes} bytes beside {table}");
+    }
+}
+
+#[test]
+fn progress_ends_with_all_slices() {
+    let table = Arc::new(Table::new(&fixture("cloth-17x7x17x13.ddr"), &Edges::default()).unwrap());
+    let mut calls = Vec::new();
+    Sampler::with_progress(REFERENCE, table, &SamplerOptions::default(), &mut |done, all| calls.push((done, all)))
+        .unwrap();
+    assert_eq!(calls, (1..=17 * 7).map(|done| (done, 17 * 7)).collect::<Vec<_>>());
+}
+
+#[test]
+fn options_that_make_no_sense_are_refused() {
+    let table = Arc::new(Table::new(&fixture("conductor-7x8x13.ddr"), &Edges::default()).unwrap());
+    for defensive in [0.0, -0.1, 1.1, f32::NAN] {
+        let options = SamplerOptions { defensive, ..SamplerOptions::default() };
+        let error = Sampler::new(REFERENCE, table.clone(), &options).unwrap_err();
+        assert!(matches!(error, SamplerError::Defensive { .. }), "{defensive}: {error}");
+    }
+    for luminance in [vec![], vec![1.0], vec![0.0; 3], vec![1.0, -1.0, 1.0], vec![1.0, f32::INFINITY, 0.0]] {
+        let options = SamplerOptions { luminance: Some(luminance.clone()), ..SamplerOptions::default() };
+        let error = Sampler::new(REFERENCE, table.clone(), &options).unwrap_err();
+        assert!(matches!(error, SamplerError::Luminance { channels: 3, .. }), "{luminance:?}: {error}");
+    }
+}
