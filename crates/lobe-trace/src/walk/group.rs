@@ -2,7 +2,7 @@
 
 use lobe_lane::{Floats, Lanes, MAX_LANES, Mask};
 
-use super::{Single, Walk};
+use super::{Single, Walk, enter};
 use crate::block::{first_ray, mask_of};
 use crate::bvh::Child;
 use crate::leaves::Leaves;
@@ -36,7 +36,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
                 let ray = at + bits.trailing_zeros() as usize;
                 bits &= bits - 1;
                 let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
-                lanes.vectorize(Single { walk, from: child, ray });
+                enter(lanes, Single { walk, from: child, ray });
             }
         } else if child.is_leaf() {
             leaves.packet(lanes, child, rays, (bits as u64) << at, found);

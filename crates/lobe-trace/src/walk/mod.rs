@@ -29,7 +29,7 @@ impl<V: Leaves, const W: usize> Walk<'_, V, W> {
     pub fn trace<L: Lanes>(self, lanes: L, form: Form, live: u64) {
         let Walk { bvh, leaves, rays, found, stacks } = self;
         if form == Form::Large && rays.is_coherent(lanes, live) {
-            lanes.vectorize(Large(Walk { bvh, leaves, rays, found, stacks }, live));
+            enter(lanes, Large(Walk { bvh, leaves, rays, found, stacks }, live));
             return;
         }
         let mut at = 0;
@@ -37,22 +37,26 @@ impl<V: Leaves, const W: usize> Walk<'_, V, W> {
             let mut bits = group_bits::<L>(live, at);
             if form != Form::Single && bits != 0 && rays.group_is_coherent(lanes, at, mask_of(lanes, bits)) {
                 let few = if form == Form::Packet { 0 } else { group::FEW };
-                lanes.vectorize(Group { walk: Walk { bvh, leaves, rays, found, stacks }, at, live: bits, few });
+                enter(lanes, Group { walk: Walk { bvh, leaves, rays, found, stacks }, at, live: bits, few });
                 bits = 0;
             }
             while bits != 0 {
                 let ray = at + bits.trailing_zeros() as usize;
                 bits &= bits - 1;
                 let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
-                lanes.vectorize(Single { walk, from: Child::node(0), ray });
+                enter(lanes, Single { walk, from: Child::node(0), ray });
             }
             at += L::LANES;
         }
     }
 }
 
-// Each walk enters the backend anew: a call a walk is nothing, and its code stands there once and not at every place
-// that may fall back to it.
+/// Enters the backend anew, so that the code of a walk stands there once and not at every place that may fall back to
+/// it. A call a walk is nothing. Not generic code on lanes itself, it need not be inlined.
+#[inline(never)]
+fn enter<L: Lanes, K: Kernel>(lanes: L, walk: K) -> K::Out {
+    lanes.vectorize(walk)
+}
 
 /// One ray, from a child on.
 struct Single<'a, V, const W: usize> {
