@@ -70,11 +70,7 @@ fn camera(pixels: usize) -> RaySoA {
 }
 
 /// Secondary rays: what happens at each hit is told by a function of the ray's direction, place and normal.
-fn next<const W: usize>(
-    scene: &Scene<W>,
-    rays: &RaySoA,
-    mut turn: impl FnMut(V, V, V) -> (V, f32),
-) -> RaySoA {
+fn next<const W: usize>(scene: &Scene<W>, rays: &RaySoA, mut turn: impl FnMut(V, V, V) -> (V, f32)) -> RaySoA {
     let mut hits = HitSoA::new(rays.len());
     Scalar::<4>.vectorize(Intersect::new(scene, RayClass::Diffuse, rays.view(), hits.view()));
     let mut out = RaySoA::with_capacity(rays.len());

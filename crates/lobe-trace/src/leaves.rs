@@ -28,7 +28,16 @@ pub(crate) struct Triangles<'a> {
 impl Triangles<'_> {
     /// Tests the triangles of a leaf against a group whose live rays have one major axis.
     #[inline(always)]
-    fn group<L: Lanes>(&self, lanes: L, leaf: Child, rays: &Block, at: usize, live: L::M, axes: [usize; 3], found: &mut Found) {
+    fn group<L: Lanes>(
+        &self,
+        lanes: L,
+        leaf: Child,
+        rays: &Block,
+        at: usize,
+        live: L::M,
+        axes: [usize; 3],
+        found: &mut Found,
+    ) {
         let at = first_ray::<L>(at);
         let ray = ShearRay::group(lanes, rays, at);
         let blocks = &self.blocks[leaf.first()..leaf.first() + leaf.blocks()];

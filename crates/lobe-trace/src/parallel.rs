@@ -28,10 +28,7 @@ pub fn intersect<L: Lanes, const W: usize>(
     }
     let (rays, more_rays) = rays.split_at(middle(rays.len()));
     let (hits, more_hits) = hits.split_at(rays.len());
-    rayon::join(
-        || intersect(lanes, scene, class, rays, hits),
-        || intersect(lanes, scene, class, more_rays, more_hits),
-    );
+    rayon::join(|| intersect(lanes, scene, class, rays, hits), || intersect(lanes, scene, class, more_rays, more_hits));
 }
 
 /// Which rays of a batch hit anything, as [`Occluded`] finds it.
@@ -50,8 +47,5 @@ pub fn occluded<L: Lanes, const W: usize>(
     }
     let (rays, more_rays) = rays.split_at(middle(rays.len()));
     let (out, more_out) = out.split_at_mut(rays.len());
-    rayon::join(
-        || occluded(lanes, scene, class, rays, out),
-        || occluded(lanes, scene, class, more_rays, more_out),
-    );
+    rayon::join(|| occluded(lanes, scene, class, rays, out), || occluded(lanes, scene, class, more_rays, more_out));
 }

@@ -116,13 +116,7 @@ pub struct HitSoA {
 impl HitSoA {
     /// Room for the hits of `n` rays.
     pub fn new(n: usize) -> Self {
-        HitSoA {
-            t: vec![0.0; n],
-            u: vec![0.0; n],
-            v: vec![0.0; n],
-            primitive: vec![MISS; n],
-            instance: vec![MISS; n],
-        }
+        HitSoA { t: vec![0.0; n], u: vec![0.0; n], v: vec![0.0; n], primitive: vec![MISS; n], instance: vec![MISS; n] }
     }
 
     /// All of them, borrowed for writing.

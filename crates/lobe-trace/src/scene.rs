@@ -85,7 +85,8 @@ impl SceneBuilder {
         }
         // Instances of empty meshes have no box to be sorted by.
         let seen: Vec<usize> = (0..instances.len()).filter(|&i| instances[i].bounds != Aabb::EMPTY).collect();
-        let binary = Binary::build(seen.iter().map(|&i| instances[i].bounds), 1);
+        let boxes: Vec<Aabb> = seen.iter().map(|&i| instances[i].bounds).collect();
+        let binary = Binary::build(&boxes, 1);
         let top = WideBvh::collapse(&binary, |places| Child::leaf(seen[places[0] as usize], 1));
         Ok(Scene { meshes: self.meshes, trees, instances, top })
     }

@@ -91,14 +91,27 @@ impl<const W: usize> Tree<W> {
     const LEAF: usize = 2 * SLOTS;
 
     pub fn build(mesh: &Mesh) -> Self {
-        let boxes = (0..mesh.triangles().len()).map(|triangle| Aabb::of(mesh.corners(triangle)));
-        let binary = Binary::build(boxes, Self::LEAF);
-        let mut blocks = Vec::with_capacity(mesh.triangles().len() / 2);
-        let bvh = WideBvh::collapse(&binary, |triangles| {
+        let seen: Vec<u32> =
+            (0..mesh.triangles().len() as u32).filter(|&triangle| can_be_hit(mesh, triangle)).collect();
+        let boxes: Vec<Aabb> = seen.iter().map(|&triangle| Aabb::of(mesh.corners(triangle as usize))).collect();
+        let binary = Binary::build(&boxes, Self::LEAF);
+        let mut blocks = Vec::with_capacity(seen.len() / 2);
+        let bvh = WideBvh::collapse(&binary, |places| {
             let first = blocks.len();
-            blocks.extend(triangles.chunks(SLOTS).map(|run| TriangleBlock::new(mesh, run)));
+            for run in places.chunks(SLOTS) {
+                let mut triangles = [0; SLOTS];
+                run.iter().zip(&mut triangles).for_each(|(&place, triangle)| *triangle = seen[place as usize]);
+                blocks.push(TriangleBlock::new(mesh, &triangles[..run.len()]));
+            }
             Child::leaf(first, blocks.len() - first)
         });
         Tree { bvh, blocks }
     }
+}
+
+/// `false` for a triangle with two corners in one place. Two of its edge functions cancel to the bit whatever the ray,
+/// so it need not stand in the tree.
+fn can_be_hit(mesh: &Mesh, triangle: u32) -> bool {
+    let [a, b, c] = mesh.corners(triangle as usize);
+    a != b && b != c && c != a
 }

@@ -36,21 +36,68 @@ impl Boundable for Primitive {
 impl Binary {
     /// Builds a tree over boxes with at most `leaf` of them in a leaf: parallel locally-ordered clustering (Meister and
     /// Bittner 2018), then reinsertion, which gave 9 to 23 per cent cheaper trees than 16-bin SAH in the same time.
-    pub fn build(boxes: impl IntoIterator<Item = Aabb>, leaf: usize) -> Self {
-        let primitives: Vec<Primitive> = boxes.into_iter().map(Primitive).collect();
-        if primitives.is_empty() {
+    pub fn build(boxes: &[Aabb], leaf: usize) -> Self {
+        if boxes.is_empty() {
             return Binary { nodes: Vec::new(), order: Vec::new() };
         }
+        let reach = boxes.iter().fold(0.0, |most, bounds| bounds.reach().max(most));
+        let uneven = |(index, &bounds): (usize, &Aabb)| Primitive(loosened(bounds, index, reach));
+        let primitives: Vec<Primitive> = boxes.iter().enumerate().map(uneven).collect();
         let params = BvhBuildParams { max_prims_per_leaf: leaf as u32, ..BvhBuildParams::medium_build() };
         let Bvh2 { nodes, primitive_indices, .. } = build_bvh2(&primitives, params, &mut Default::default());
         let nodes = nodes
             .into_iter()
             .map(|node| BinaryNode {
-                bounds: Aabb { lower: node.min.to_array(), upper: node.max.to_array() },
+                bounds: Aabb::EMPTY,
                 count: node.prim_count as usize,
                 first: node.first_index as usize,
             })
             .collect();
-        Binary { nodes, order: primitive_indices }
+        let mut tree = Binary { nodes, order: primitive_indices };
+        tree.fit(boxes);
+        tree
     }
+
+    /// Gives every node the box around its primitives.
+    fn fit(&mut self, boxes: &[Aabb]) {
+        let mut parents_first = Vec::with_capacity(self.nodes.len());
+        let mut waiting = vec![0];
+        while let Some(at) = waiting.pop() {
+            parents_first.push(at);
+            let node = self.nodes[at];
+            if node.count == 0 {
+                waiting.extend([node.first, node.first + 1]);
+            }
+        }
+        for at in parents_first.into_iter().rev() {
+            let node = self.nodes[at];
+            self.nodes[at].bounds = if node.count == 0 {
+                self.nodes[node.first].bounds.union(self.nodes[node.first + 1].bounds)
+            } else {
+                let members = &self.order[node.first..node.first + node.count];
+                members.iter().fold(Aabb::EMPTY, |sum, &member| sum.union(boxes[member as usize]))
+            };
+        }
+    }
+}
+
+/// A box made larger by up to a thirtieth of its size, a different part for each.
+///
+/// Clustering joins boxes that are each other's nearest. Where all costs are equal, as along a fence of equal posts or
+/// in a heap of equal triangles, everybody's nearest is the neighbour on one side, only one pair joins a round, and a
+/// million boxes take hours and make a tree a million deep. Uneven boxes have mutual neighbours everywhere.
+fn loosened(bounds: Aabb, index: usize, reach: f32) -> Aabb {
+    let mut bounds = bounds;
+    let mut state = index as u64;
+    for axis in 0..3 {
+        // SplitMix64 (Steele, Lea, Flood 2014).
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut hash = (state ^ state >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        hash = (hash ^ hash >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        let part = ((hash ^ hash >> 31) >> 40) as f32 / 16_777_216.0;
+        let more = part * ((bounds.upper[axis] - bounds.lower[axis]) / 64.0 + reach / 1_048_576.0);
+        bounds.lower[axis] -= more;
+        bounds.upper[axis] += more;
+    }
+    bounds
 }

@@ -98,8 +98,8 @@ pub fn check<const W: usize>(scene: &Scene<W>, rays: &RaySoA, hits: &HitSoA, nam
                 if best.is_some_and(|(_, p, i)| (p, i) == (*primitive, *instance)) {
                     continue;
                 }
-                let same_place =
-                    best.is_some_and(|(truth, ..)| (truth.t - met.t).abs() <= 1e-5 * met.t.abs() + truth.doubt + met.doubt);
+                let same_place = best
+                    .is_some_and(|(truth, ..)| (truth.t - met.t).abs() <= 1e-5 * met.t.abs() + truth.doubt + met.doubt);
                 let truth_near = best.is_some_and(|(truth, ..)| near(&truth));
                 assert!(same_place || near(met) || truth_near, "{}", text());
                 explained += !same_place as usize;

@@ -59,11 +59,8 @@ fn nothing_is_hit_in_an_empty_scene() {
     let mut of_empty_mesh = SceneBuilder::new();
     of_empty_mesh.mesh(empty.clone());
     of_empty_mesh.instance(0, Affine::translation([1.0; 3]));
-    let scenes = [
-        Scene::<8>::of_mesh(empty),
-        SceneBuilder::new().build(|_| ()).unwrap(),
-        of_empty_mesh.build(|_| ()).unwrap(),
-    ];
+    let scenes =
+        [Scene::<8>::of_mesh(empty), SceneBuilder::new().build(|_| ()).unwrap(), of_empty_mesh.build(|_| ()).unwrap()];
     for scene in &scenes {
         for form in Form::ALL {
             let hits = intersect(Scalar::<1>, scene, &rays, form);
@@ -73,6 +70,7 @@ fn nothing_is_hit_in_an_empty_scene() {
     }
 }
 
+/// A million boxes that are alike, and where clustering would have joined one pair a round.
 #[test]
 fn a_million_triangles_in_one_place() {
     let corners = vec![[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]];
@@ -83,6 +81,31 @@ fn a_million_triangles_in_one_place() {
     for form in Form::ALL {
         let hits = intersect(Scalar::<1>, &scene, &rays, form);
         assert_eq!((hits.primitive[0], hits.t[0], hits.primitive[1]), (0, 1.0, MISS), "{form:?}");
+    }
+}
+
+#[test]
+fn a_long_fence_and_points_and_needles() {
+    let mut positions = Vec::new();
+    let mut add = |corners: [[f32; 3]; 3]| positions.extend(corners);
+    for i in 0..50_000 {
+        let x = i as f32;
+        add([[x, 0.0, 0.0], [x + 0.5, 0.0, 0.0], [x, 1.0, 0.0]]);
+        add([[1.0, 1.0, 1.0]; 3]);
+        add([[2.0, 1.0, 1.0], [3.0, 1.0, 1.0], [4.0, 1.0, 1.0]]);
+    }
+    let triangles = (0..positions.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    let scene: Scene = Scene::of_mesh(Mesh::new(positions, triangles).unwrap());
+    let mut rays = RaySoA::default();
+    for post in [0, 777, 49_999] {
+        rays.push([post as f32 + 0.125, 0.25, 5.0], [0.0, 0.0, -1.0], 0.0, f32::INFINITY);
+    }
+    rays.push([1.0, 1.0, 5.0], [0.0, 0.0, -1.0], 0.0, f32::INFINITY);
+    rays.push([3.0, 1.0, 5.0], [0.0, 0.0, -1.0], 0.0, 4.5);
+    for form in Form::ALL {
+        let hits = intersect(Scalar::<1>, &scene, &rays, form);
+        // The point touches the tip of a post and hides it from nobody.
+        assert_eq!(hits.primitive, [0, 3 * 777, 3 * 49_999, 3, MISS], "{form:?}");
     }
 }
 

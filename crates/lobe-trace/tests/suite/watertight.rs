@@ -41,7 +41,7 @@ fn no_leak(scene: &Scene, rays: &RaySoA) {
     leaks(Scalar::<1>, scene, rays);
     #[cfg(target_arch = "x86_64")]
     {
-        //leaks(lobe_sse::Sse2::new(), scene, rays);
+        leaks(lobe_sse::Sse2::new(), scene, rays);
         match lobe_avx::Avx2::detect() {
             Some(avx2) => leaks(avx2, scene, rays),
             None => println!("SKIP: this CPU has no AVX2"),
@@ -92,8 +92,9 @@ fn long_box() {
     let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
     let mesh = Mesh::new(positions, triangles).unwrap();
     let mut rng = meshes::random(5);
-    let origins: Vec<[f32; 3]> =
-        (0..200).map(|_| [rng.random_range(-1.0..7000.0), rng.random_range(-1.0..2.0), rng.random_range(-0.006..0.005)]).collect();
+    let origins: Vec<[f32; 3]> = (0..200)
+        .map(|_| [rng.random_range(-1.0..7000.0), rng.random_range(-1.0..2.0), rng.random_range(-0.006..0.005)])
+        .collect();
     let rays = through_edges(&mesh, &origins);
     no_leak(&Scene::of_mesh(mesh), &rays);
 }
