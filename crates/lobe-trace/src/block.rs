@@ -3,6 +3,7 @@
 use lobe_lane::{Floats, Ints, Lanes, Mask};
 
 use crate::mesh::LIMIT;
+use crate::packet::Packet;
 
 /// Rays of a block; every number of lanes divides it.
 pub(crate) const RAYS: usize = 64;
@@ -65,19 +66,9 @@ impl Block {
     /// Fills in a group. `reach` is the largest magnitude of a coordinate of what the rays are traced against.
     /// Returns the mask of valid rays.
     #[inline(always)]
-    pub fn prepare<L: Lanes>(
-        &mut self,
-        lanes: L,
-        at: usize,
-        origin: [L::F; 3],
-        direction: [L::F; 3],
-        [t_min, t_max]: [L::F; 2],
-        live: L::M,
-        reach: f32,
-    ) -> L::M {
+    pub fn prepare<L: Lanes>(&mut self, lanes: L, at: usize, packet: Packet<L>, live: L::M, reach: f32) -> L::M {
         let at = first_ray::<L>(at);
-        let [o_x, o_y, o_z] = origin;
-        let [d_x, d_y, d_z] = direction;
+        let Packet { origin: [o_x, o_y, o_z], direction: [d_x, d_y, d_z], t_min, t_max } = packet;
         let (a_x, a_y, a_z) = (d_x.abs(), d_y.abs(), d_z.abs());
         let limit = lanes.splat(LIMIT);
         let is_x = a_x.ge(a_y) & a_x.ge(a_z);
@@ -111,7 +102,7 @@ impl Block {
             lanes.store(&mut self.near[axis][at..], -((o + shift) * inverse));
             lanes.store(&mut self.far[axis][at..], -((o - shift) * inverse));
             let sign = d.bits().shr::<31>();
-            octant = octant | sign * lanes.splat_int(1 << axis);
+            octant = octant | (sign * lanes.splat_int(1 << axis));
             axis += 1;
         }
         let [x, y, z] = turned(lanes, is_x, is_y, direction);

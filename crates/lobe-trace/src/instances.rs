@@ -5,6 +5,7 @@ use lobe_lane::{Lanes, Mask};
 use crate::block::{Block, Found, RAYS, first_ray, group_bits, group_rows, mask_of};
 use crate::bvh::Child;
 use crate::leaves::{Leaves, Triangles};
+use crate::packet::Packet;
 use crate::scene::{Instance, Scene};
 use crate::slab::SlabRay;
 use crate::walk::{Stacks, Walk};
@@ -37,9 +38,10 @@ impl<const W: usize> Instances<'_, W> {
         lanes.store(&mut self.local.leave[at..], leave);
         let origin = carried(lanes, &instance.to_local, group_rows(lanes, &rays.origin, at), 1.0);
         let direction = carried(lanes, &instance.to_local, group_rows(lanes, &rays.direction, at), 0.0);
-        let interval = [lanes.load(&rays.t_min[at..]), lanes.splat(f32::INFINITY)];
+        let t_min = lanes.load(&rays.t_min[at..]);
+        let packet = Packet { origin, direction, t_min, t_max: lanes.splat(f32::INFINITY) };
         let reach = self.scene.trees[instance.mesh].bvh.bounds().reach();
-        self.local.prepare(lanes, at, origin, direction, interval, mask_of(lanes, live), reach).bits()
+        self.local.prepare(lanes, at, packet, mask_of(lanes, live), reach).bits()
     }
 }
 

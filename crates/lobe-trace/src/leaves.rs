@@ -26,19 +26,12 @@ pub(crate) struct Triangles<'a> {
 }
 
 impl Triangles<'_> {
-    /// Tests the triangles of a leaf against a group whose live rays have one major axis.
+    /// Tests the triangles of a leaf against rays of a group that have one major axis.
     #[inline(always)]
-    fn group<L: Lanes>(
-        &self,
-        lanes: L,
-        leaf: Child,
-        rays: &Block,
-        at: usize,
-        live: L::M,
-        axes: [usize; 3],
-        found: &mut Found,
-    ) {
+    fn group<L: Lanes>(&self, lanes: L, leaf: Child, rays: &Block, at: usize, bits: u32, found: &mut Found) {
         let at = first_ray::<L>(at);
+        let axes = axes_of(rays.major[(at + bits.trailing_zeros() as usize) & (RAYS - 1)]);
+        let live = mask_of(lanes, bits);
         let ray = ShearRay::group(lanes, rays, at);
         let blocks = &self.blocks[leaf.first()..leaf.first() + leaf.blocks()];
         let mut index = 0;
@@ -113,7 +106,7 @@ impl Leaves for Triangles<'_> {
                 // Once, but where the group looks along a diagonal.
                 let major = rays.major[(at + bits.trailing_zeros() as usize) & (RAYS - 1)];
                 let same = majors.eq(lanes.splat_int(major)).bits() & bits;
-                self.group(lanes, leaf, rays, at, mask_of(lanes, same), axes_of(major), found);
+                self.group(lanes, leaf, rays, at, same, found);
                 bits &= !same;
             }
         }

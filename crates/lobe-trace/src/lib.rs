@@ -35,6 +35,7 @@ mod class;
 mod instances;
 mod leaves;
 mod mesh;
+mod packet;
 #[cfg(feature = "rayon")]
 mod parallel;
 mod rays;
@@ -49,9 +50,10 @@ mod woop;
 pub use aabb::Aabb;
 pub use class::{Form, RayClass};
 pub use mesh::{LIMIT, Mesh, MeshError};
+pub use packet::{Packet, PacketHits};
 #[cfg(feature = "rayon")]
 pub use parallel::{intersect, occluded};
 pub use rays::{HitSoA, Hits, MISS, RaySoA, Rays};
 pub use scene::{Progress, Scene, SceneBuilder, SceneError};
-pub use trace::{Intersect, Occluded, Packet, PacketHits, Tracer};
+pub use trace::{Intersect, Occluded, Tracer};
 pub use transform::Affine;

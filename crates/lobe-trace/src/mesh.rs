@@ -55,7 +55,7 @@ impl Mesh {
     pub fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
         for (vertex, position) in positions.iter().enumerate() {
             for (axis, &found) in position.iter().enumerate() {
-                if !(found.abs() <= LIMIT) {
+                if found.is_nan() || found.abs() > LIMIT {
                     return Err(MeshError::Coordinate { vertex, axis, found });
                 }
             }

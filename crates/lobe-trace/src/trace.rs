@@ -5,6 +5,7 @@ use lobe_lane::{Floats, Ints, Kernel, Lanes, Mask};
 use crate::block::{Block, Found, RAYS, first_ray};
 use crate::instances::Instances;
 use crate::leaves::Triangles;
+use crate::packet::{Packet, PacketHits};
 use crate::rays::{Hits, MISS, Rays};
 use crate::scene::Scene;
 use crate::walk::{Stacks, Walk};
@@ -19,36 +20,6 @@ pub struct Tracer<'s, const W: usize> {
     found: Found,
     top: Stacks,
     bottom: Stacks,
-}
-
-/// A ray a lane; see [`RaySoA`](crate::RaySoA) for what a ray is.
-#[derive(Clone, Copy, Debug)]
-pub struct Packet<L: Lanes> {
-    /// Origins.
-    pub origin: [L::F; 3],
-    /// Directions.
-    pub direction: [L::F; 3],
-    /// Where the rays begin.
-    pub t_min: L::F,
-    /// Where the rays end.
-    pub t_max: L::F,
-}
-
-/// The nearest hits of a packet; in the lanes not of `mask` as for a miss of [`HitSoA`](crate::HitSoA).
-#[derive(Clone, Copy, Debug)]
-pub struct PacketHits<L: Lanes> {
-    /// The rays that hit something.
-    pub mask: L::M,
-    /// Where along the ray.
-    pub t: L::F,
-    /// Weight of the triangle's second vertex.
-    pub u: L::F,
-    /// Weight of the triangle's third vertex.
-    pub v: L::F,
-    /// The triangle's number in its mesh.
-    pub primitive: L::I,
-    /// The instance's number in the scene.
-    pub instance: L::I,
 }
 
 impl<'s, const W: usize> Tracer<'s, W> {
@@ -93,7 +64,7 @@ impl<'s, const W: usize> Tracer<'s, W> {
         let reach = self.scene.bounds().reach();
         // A limit that is not infinite keeps a ray that misses a box from seeming to meet it at infinity. NaN stays.
         let t_max = lanes.splat(f32::MAX).min(rays.t_max);
-        let valid = self.rays.prepare(lanes, at, rays.origin, rays.direction, [rays.t_min, t_max], live, reach);
+        let valid = self.rays.prepare(lanes, at, Packet { t_max, ..rays }, live, reach);
         self.found.reset(lanes, at, lanes.select(valid, t_max, lanes.splat(f32::NEG_INFINITY)));
         valid
     }

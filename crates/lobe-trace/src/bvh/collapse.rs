@@ -12,14 +12,14 @@ impl<const W: usize> WideBvh<W> {
             return WideBvh { nodes: vec![Node::EMPTY], bounds: Aabb::EMPTY, stack: W };
         };
         let mut nodes: Vec<Node<W>> = Vec::with_capacity(binary.nodes.len() / W + 1);
-        // Binary node, its depth, and the slot of the parent that refers to it.
-        let mut waiting: Vec<(usize, usize, Option<(usize, usize)>)> = vec![(0, 1, None)];
+        let mut waiting = vec![Waiting { at: 0, depth: 1, parent: 0, slot: 0 }];
         let mut deepest = 1;
-        while let Some((at, depth, parent)) = waiting.pop() {
+        while let Some(Waiting { at, depth, parent, slot }) = waiting.pop() {
             deepest = deepest.max(depth);
             let index = nodes.len();
-            if let Some((parent, slot)) = parent {
-                nodes[parent].children[slot] = Child::node(index);
+            // The root has no parent, and is no node yet.
+            if let Some(parent) = nodes.get_mut(parent) {
+                parent.children[slot] = Child::node(index);
             }
             let mut node = Node::EMPTY;
             let (open, count) = widen::<W>(binary, at);
@@ -28,7 +28,7 @@ impl<const W: usize> WideBvh<W> {
                 let reference = if source.count > 0 {
                     emit(&binary.order[source.first..source.first + source.count])
                 } else {
-                    waiting.push((child, depth + 1, Some((index, node.count))));
+                    waiting.push(Waiting { at: child, depth: depth + 1, parent: index, slot: node.count });
                     Child::node(0)
                 };
                 node.push(source.bounds, reference);
@@ -37,6 +37,14 @@ impl<const W: usize> WideBvh<W> {
         }
         WideBvh { nodes, bounds: root.bounds, stack: deepest * (W - 1) + 1 }
     }
+}
+
+/// A binary node that is to become a wide one, and the slot of the parent that is to refer to it.
+struct Waiting {
+    at: usize,
+    depth: usize,
+    parent: usize,
+    slot: usize,
 }
 
 /// The up to `W` binary nodes that become the children of a wide one.
