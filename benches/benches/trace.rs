@@ -157,7 +157,7 @@ fn enter<'a, L: Lanes, const W: usize>(all: &mut Vec<Contestant<'a, W>>, lanes: 
 fn table<const W: usize>(title: &str, scene: &Scene<W>, pixels: usize) {
     let (sets, contestants) = (sets(scene, pixels), contestants(scene));
     let mut best = vec![vec![f64::INFINITY; sets.len()]; contestants.len()];
-    for _ in 0..7 {
+    for _ in 0..5 {
         for (row, contestant) in best.iter_mut().zip(&contestants) {
             for (time, (_, rays, any)) in row.iter_mut().zip(&sets) {
                 let start = Instant::now();
@@ -183,7 +183,7 @@ fn table<const W: usize>(title: &str, scene: &Scene<W>, pixels: usize) {
 
 fn main() {
     let scene: Scene<8> = scene(700, 50);
-    table("70 thousand triangles", &scene, 256);
+    table("70 thousand triangles", &scene, 1024);
     let mut criterion = Criterion::default().configure_from_args().sample_size(10);
     for (set, rays, any) in sets(&scene, 128) {
         let mut group = criterion.benchmark_group(format!("trace/{set}"));

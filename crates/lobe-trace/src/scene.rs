@@ -130,8 +130,8 @@ fn carried_box(local: Aabb, to_world: &Affine, to_local: &Affine) -> Aabb {
     }
 }
 
-/// Meshes and their instances, ready to be traced. `W` is how many children a node has, 4 or 8; eight is best for
-/// eight lanes and no worse for four.
+/// Meshes and their instances, ready to be traced. `W` is how many children a node has, 4 or 8; the hits do not depend
+/// on it.
 #[derive(Clone, Debug)]
 pub struct Scene<const W: usize = 8> {
     meshes: Vec<Mesh>,

@@ -2,7 +2,9 @@
 
 use obvhs::aabb::Aabb as BuilderBox;
 use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2;
+use obvhs::bvh2::leaf_collapser::collapse;
+use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
+use obvhs::ploc::PlocBuilder;
 use obvhs::{Boundable, BvhBuildParams};
 
 use crate::Aabb;
@@ -43,8 +45,7 @@ impl Binary {
         let reach = boxes.iter().fold(0.0, |most, bounds| bounds.reach().max(most));
         let uneven = |(index, &bounds): (usize, &Aabb)| Primitive(loosened(bounds, index, reach));
         let primitives: Vec<Primitive> = boxes.iter().enumerate().map(uneven).collect();
-        let params = BvhBuildParams { max_prims_per_leaf: leaf as u32, ..BvhBuildParams::medium_build() };
-        let Bvh2 { nodes, primitive_indices, .. } = build_bvh2(&primitives, params, &mut Default::default());
+        let Bvh2 { nodes, primitive_indices, .. } = clustered(&primitives, leaf);
         let nodes = nodes
             .into_iter()
             .map(|node| BinaryNode {
@@ -79,6 +80,25 @@ impl Binary {
             };
         }
     }
+}
+
+/// The builder's own sequence for its medium preset, without the check that it adds in debug builds: that recurses as
+/// deep as the tree and refuses trees deeper than reinsertion was expected to make them.
+fn clustered(primitives: &[Primitive], leaf: usize) -> Bvh2 {
+    let preset = BvhBuildParams::medium_build();
+    let mut tree = PlocBuilder::with_capacity(primitives.len()).build(
+        preset.ploc_search_distance,
+        primitives,
+        (0..primitives.len() as u32).collect(),
+        preset.sort_precision,
+        preset.search_depth_threshold,
+    );
+    let mut optimizer = ReinsertionOptimizer::default();
+    optimizer.run(&mut tree, preset.reinsertion_batch_ratio, None);
+    collapse(&mut tree, leaf as u32, preset.collapse_traversal_cost);
+    let again = preset.post_collapse_reinsertion_batch_ratio_multiplier;
+    optimizer.run(&mut tree, preset.reinsertion_batch_ratio * again, None);
+    tree
 }
 
 /// A box made larger by up to a thirtieth of its size, a different part for each.

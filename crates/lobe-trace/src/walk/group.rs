@@ -27,6 +27,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
     let t_min = lanes.select(mask_of(lanes, live), lanes.load(&rays.t_min[at..]), never);
     let nodes = bvh.nodes.as_slice();
     let mut enters = [[0.0; MAX_LANES]; W];
+    let mut order = [(0.0, 0); W];
     let mut waiting = 0;
     let mut child = Child::node(0);
     let mut bits = live;
@@ -43,7 +44,6 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
         } else {
             let node = &nodes[child.index()];
             let best = lanes.load(&found.t[at..]);
-            let mut order = [(0.0, 0); W];
             let mut hits = 0;
             let mut slot = 0;
             while slot < W {
@@ -70,7 +70,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
             while place < hits {
                 let slot = order[place & (W - 1)].1 & (W - 1);
                 stacks.group[waiting] = node.children[slot];
-                stacks.enter[waiting] = enters[slot];
+                lanes.store(&mut stacks.enter[waiting], lanes.load(&enters[slot]));
                 waiting += 1;
                 place += 1;
             }
