@@ -37,6 +37,11 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                 lanes.store(&mut keys[slot..], enter);
                 slot += L::LANES;
             }
+            // Most often one child is met, or none.
+            if bits.is_power_of_two() {
+                child = node.children[bits.trailing_zeros() as usize & (W - 1)];
+                continue;
+            }
             // Sorted in among themselves, the nearest on top.
             let floor = waiting;
             while bits != 0 {
