@@ -124,7 +124,8 @@ impl Leaves for Triangles<'_> {
         while at < blocks.len() {
             let block = &blocks[at];
             let mut slot = 0;
-            while slot < SLOTS {
+            // Empty slots come last.
+            while slot < SLOTS && block.number(slot) >= 0 {
                 let candidates = ray.test(lanes, block.several(lanes, slot, axes), all);
                 if candidates.mask.any() {
                     let [lower, upper] = extent::<L>(block.several(lanes, slot, [0, 1, 2]));
