@@ -43,7 +43,9 @@ impl Binary {
             return Binary { nodes: Vec::new(), order: Vec::new() };
         }
         let reach = boxes.iter().fold(0.0, |most, bounds| bounds.reach().max(most));
-        let uneven = |(index, &bounds): (usize, &Aabb)| Primitive(loosened(bounds, index, reach));
+        // In units of the largest number: surfaces of tiny boxes would all be zero.
+        let scale = 1.0 / reach.max(f32::MIN_POSITIVE);
+        let uneven = |(index, &bounds): (usize, &Aabb)| Primitive(loosened(bounds, index, scale));
         let primitives: Vec<Primitive> = boxes.iter().enumerate().map(uneven).collect();
         let Bvh2 { nodes, primitive_indices, .. } = clustered(&primitives, leaf);
         let nodes = nodes
@@ -101,12 +103,12 @@ fn clustered(primitives: &[Primitive], leaf: usize) -> Bvh2 {
     tree
 }
 
-/// A box made larger by up to a thirtieth of its size, a different part for each.
+/// A scaled box made larger by up to a thirtieth of its size, a different part for each.
 ///
 /// Clustering joins boxes that are each other's nearest. Where all costs are equal, as along a fence of equal posts or
 /// in a heap of equal triangles, everybody's nearest is the neighbour on one side, only one pair joins a round, and a
 /// million boxes take hours and make a tree a million deep. Uneven boxes have mutual neighbours everywhere.
-fn loosened(bounds: Aabb, index: usize, reach: f32) -> Aabb {
+fn loosened(bounds: Aabb, index: usize, scale: f32) -> Aabb {
     let mut bounds = bounds;
     let mut state = index as u64;
     for axis in 0..3 {
@@ -115,9 +117,10 @@ fn loosened(bounds: Aabb, index: usize, reach: f32) -> Aabb {
         let mut hash = (state ^ state >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         hash = (hash ^ hash >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
         let part = ((hash ^ hash >> 31) >> 40) as f32 / 16_777_216.0;
-        let more = part * ((bounds.upper[axis] - bounds.lower[axis]) / 64.0 + reach / 1_048_576.0);
-        bounds.lower[axis] -= more;
-        bounds.upper[axis] += more;
+        let [lower, upper] = [bounds.lower[axis] * scale, bounds.upper[axis] * scale];
+        let more = part * ((upper - lower) / 64.0 + 1.0 / 1_048_576.0);
+        bounds.lower[axis] = lower - more;
+        bounds.upper[axis] = upper + more;
     }
     bounds
 }

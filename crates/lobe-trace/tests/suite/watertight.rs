@@ -70,6 +70,17 @@ fn small_sphere_far_from_the_origin() {
     no_leak(&Scene::of_mesh(mesh), &rays);
 }
 
+/// So small that the edge functions are zero in single precision.
+#[test]
+fn tiny_sphere() {
+    let place = |p: [f32; 3]| p.map(|x| x * 1e-24);
+    let sphere = meshes::sphere(16);
+    let mesh = Mesh::new(sphere.positions().iter().map(|&p| place(p)).collect(), sphere.triangles().to_vec()).unwrap();
+    let mut rays = through_edges(&sphere, &ORIGINS);
+    rays.origin.iter_mut().flatten().for_each(|x| *x *= 1e-24);
+    no_leak(&Scene::of_mesh(mesh), &rays);
+}
+
 #[test]
 fn instance() {
     let sphere = meshes::sphere(24);
