@@ -110,6 +110,17 @@ pub trait Lanes: Texels {
         let n = dst.len();
         dst.copy_from_slice(&buffer[..n]);
     }
+    /// Writes as many lanes as `dst` has room for, at most `LANES`.
+    #[inline(always)]
+    fn store_int_partial(self, dst: &mut [i32], x: Self::I) {
+        if dst.len() >= Self::LANES {
+            return self.store_int(dst, x);
+        }
+        let mut buffer = [0; MAX_LANES];
+        self.store_int(&mut buffer, x);
+        let n = dst.len();
+        dst.copy_from_slice(&buffer[..n]);
+    }
     /// `LANES` vectors of three floats, as `[x, y, z]`.
     ///
     /// # Panics

@@ -1,0 +1,48 @@
+//! Axis-aligned boxes on the host side.
+
+/// A box by its two extreme corners; empty where a lower coordinate is above the upper one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aabb {
+    /// The smallest coordinates.
+    pub lower: [f32; 3],
+    /// The largest coordinates.
+    pub upper: [f32; 3],
+}
+
+impl Aabb {
+    /// The box of nothing: no ray meets it.
+    pub const EMPTY: Aabb = Aabb { lower: [f32::INFINITY; 3], upper: [f32::NEG_INFINITY; 3] };
+
+    /// The smallest box around the points.
+    pub fn of(points: impl IntoIterator<Item = [f32; 3]>) -> Self {
+        points.into_iter().fold(Aabb::EMPTY, |sum, point| sum.union(Aabb { lower: point, upper: point }))
+    }
+
+    /// The smallest box around both.
+    pub fn union(self, other: Aabb) -> Aabb {
+        Aabb {
+            lower: std::array::from_fn(|axis| self.lower[axis].min(other.lower[axis])),
+            upper: std::array::from_fn(|axis| self.upper[axis].max(other.upper[axis])),
+        }
+    }
+
+    /// Half the surface: what the chance of a ray to meet the box is proportional to.
+    pub fn half_area(self) -> f32 {
+        let [x, y, z]: [f32; 3] = std::array::from_fn(|axis| (self.upper[axis] - self.lower[axis]).max(0.0));
+        x * y + y * z + z * x
+    }
+
+    /// The largest magnitude of a coordinate; 0 for the empty box.
+    pub fn reach(self) -> f32 {
+        if self.lower[0] > self.upper[0] {
+            return 0.0;
+        }
+        self.lower.iter().chain(&self.upper).fold(0.0, |most, x| x.abs().max(most))
+    }
+
+    /// In the order of a node's rows: lower x, upper x, lower y, ...
+    pub(crate) fn rows(self) -> [f32; 6] {
+        let ([a, c, e], [b, d, f]) = (self.lower, self.upper);
+        [a, b, c, d, e, f]
+    }
+}

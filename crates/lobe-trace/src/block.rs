@@ -1,0 +1,240 @@
+//! 64 rays with everything that the walks need worked out once.
+
+use lobe_lane::{Floats, Ints, Lanes, Mask};
+
+use crate::mesh::LIMIT;
+use crate::packet::Packet;
+
+/// Rays of a block; every number of lanes divides it.
+pub(crate) const RAYS: usize = 64;
+
+/// One float a ray.
+pub(crate) type Row = [f32; RAYS];
+
+/// Rays in one space. A *group* is as many neighbouring rays as there are lanes; `at` is always the first ray of a
+/// group.
+///
+/// A plane `x = p` is met at `p inverse + near` by a box test that must not miss. It is moved by the ray's *pad*
+/// against the ray for the near planes (`near`) and along it for the far planes (`far`). The pad of `2^-20` of the
+/// largest magnitude there is covers what the box test and the triangle test lose by rounding: at most 4 and 6
+/// half-units in the last place of it.
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+pub(crate) struct Block {
+    pub origin: [Row; 3],
+    pub direction: [Row; 3],
+    /// `+inf` for a ray that is not there, is not valid or has been answered.
+    pub t_min: Row,
+    pub inverse: [Row; 3],
+    pub near: [Row; 3],
+    pub far: [Row; 3],
+    pub pad: Row,
+    /// `-x / z`, `-y / z` and `1 / z` of the direction, its axes turned so that z is the one of largest magnitude.
+    pub shear: [Row; 3],
+    /// The origin with its axes turned in the same way.
+    pub pivot: [Row; 3],
+    /// Which axis became z.
+    pub major: [i32; RAYS],
+    /// Bit `a` is the sign of the direction along axis `a`.
+    pub octant: [i32; RAYS],
+    /// What the hits' t is limited to: where the ray is inside the box of the instance.
+    pub enter: Row,
+    /// See [`enter`](Block::enter).
+    pub leave: Row,
+}
+
+impl Block {
+    pub fn new() -> Self {
+        let (rows, row) = ([[0.0; RAYS]; 3], [0.0; RAYS]);
+        Block {
+            origin: rows,
+            direction: rows,
+            t_min: row,
+            inverse: rows,
+            near: rows,
+            far: rows,
+            pad: row,
+            shear: rows,
+            pivot: rows,
+            major: [0; RAYS],
+            octant: [0; RAYS],
+            enter: [f32::NEG_INFINITY; RAYS],
+            leave: [f32::INFINITY; RAYS],
+        }
+    }
+
+    /// Fills in a group. `reach` is the largest magnitude of a coordinate of what the rays are traced against.
+    /// Returns the mask of valid rays.
+    #[inline(always)]
+    pub fn prepare<L: Lanes>(&mut self, lanes: L, at: usize, packet: Packet<L>, live: L::M, reach: f32) -> L::M {
+        let at = first_ray::<L>(at);
+        let Packet { origin: [o_x, o_y, o_z], direction: [d_x, d_y, d_z], t_min, t_max } = packet;
+        let (a_x, a_y, a_z) = (d_x.abs(), d_y.abs(), d_z.abs());
+        let limit = lanes.splat(LIMIT);
+        let is_x = a_x.ge(a_y) & a_x.ge(a_z);
+        let is_y = !is_x & a_y.ge(a_z);
+        let largest = lanes.select(is_x, a_x, lanes.select(is_y, a_y, a_z));
+        // Written so that NaN fails.
+        let within = a_x.le(limit) & a_y.le(limit) & a_z.le(limit) & largest.ge(lanes.splat(1.0 / LIMIT));
+        let near_enough = o_x.abs().le(limit) & o_y.abs().le(limit) & o_z.abs().le(limit);
+        let valid = live & within & near_enough & t_min.le(t_max);
+
+        // Dead rays get harmless numbers: all that is worked out from them stays finite.
+        let origin = [o_x.masked(valid), o_y.masked(valid), o_z.masked(valid)];
+        let direction = [d_x.masked(valid), d_y.masked(valid), lanes.select(valid, d_z, lanes.splat(1.0))];
+        let [o_x, o_y, o_z] = origin;
+        let (is_x, is_y) = (is_x & valid, is_y & valid);
+        let size = o_x.abs().max(o_y.abs()).max(o_z.abs()) + lanes.splat(reach);
+        let pad = size * lanes.splat(1.0 / 1_048_576.0);
+        // A component of almost nothing has no finite inverse. Over the size of the scene this replacement turns the
+        // ray by less than the pad.
+        let floor = lanes.select(valid, largest, lanes.splat(1.0)) * lanes.splat(1.0 / 1_073_741_824.0);
+        let mut octant = lanes.splat_int(0);
+        let mut axis = 0;
+        while axis < 3 {
+            let (o, d) = (origin[axis], direction[axis]);
+            let steep = lanes.select(d.abs().lt(floor), floor.mul_sign(d), d);
+            let inverse = lanes.splat(1.0) / steep;
+            let shift = pad.mul_sign(d);
+            lanes.store(&mut self.origin[axis][at..], o);
+            lanes.store(&mut self.direction[axis][at..], d);
+            lanes.store(&mut self.inverse[axis][at..], inverse);
+            lanes.store(&mut self.near[axis][at..], -((o + shift) * inverse));
+            lanes.store(&mut self.far[axis][at..], -((o - shift) * inverse));
+            let sign = d.bits().shr::<31>();
+            octant = octant | (sign * lanes.splat_int(1 << axis));
+            axis += 1;
+        }
+        let [x, y, z] = turned(lanes, is_x, is_y, direction);
+        lanes.store(&mut self.shear[0][at..], -(x / z));
+        lanes.store(&mut self.shear[1][at..], -(y / z));
+        lanes.store(&mut self.shear[2][at..], lanes.splat(1.0) / z);
+        let [x, y, z] = turned(lanes, is_x, is_y, origin);
+        lanes.store(&mut self.pivot[0][at..], x);
+        lanes.store(&mut self.pivot[1][at..], y);
+        lanes.store(&mut self.pivot[2][at..], z);
+        let major = lanes.select_int(is_x, lanes.splat_int(0), lanes.splat_int(2));
+        lanes.store_int(&mut self.major[at..], lanes.select_int(is_y, lanes.splat_int(1), major));
+        lanes.store_int(&mut self.octant[at..], octant);
+        lanes.store(&mut self.pad[at..], pad);
+        lanes.store(&mut self.t_min[at..], lanes.select(valid, t_min, lanes.splat(f32::INFINITY)));
+        valid
+    }
+
+    /// The octant of a ray.
+    #[inline(always)]
+    pub fn octant(&self, ray: usize) -> usize {
+        self.octant[ray & (RAYS - 1)] as usize & 7
+    }
+
+    /// `true` where all live rays of the group that begins at `at` point into one octant.
+    #[inline(always)]
+    pub fn group_is_coherent<L: Lanes>(&self, lanes: L, at: usize, live: L::M) -> bool {
+        lanes.uniform(lanes.load_int(&self.octant[first_ray::<L>(at)..]), live).0
+    }
+
+    /// `true` where all live rays point into one octant.
+    #[inline(always)]
+    pub fn is_coherent<L: Lanes>(&self, lanes: L, live: u64) -> bool {
+        if live == 0 {
+            return false;
+        }
+        let octant = lanes.splat_int(self.octant(live.trailing_zeros() as usize) as i32);
+        let mut at = 0;
+        while at < RAYS {
+            let different = !lanes.load_int(&self.octant[at..]).eq(octant);
+            if group_bits::<L>(live, at) & different.bits() != 0 {
+                return false;
+            }
+            at += L::LANES;
+        }
+        true
+    }
+}
+
+/// Coordinates with the axes turned so that z is the major one.
+#[inline(always)]
+fn turned<L: Lanes>(lanes: L, is_x: L::M, is_y: L::M, [x, y, z]: [L::F; 3]) -> [L::F; 3] {
+    [
+        lanes.select(is_x, y, lanes.select(is_y, z, x)),
+        lanes.select(is_x, z, lanes.select(is_y, x, y)),
+        lanes.select(is_x, x, lanes.select(is_y, y, z)),
+    ]
+}
+
+/// The same number; the compiler learns that a whole group follows it.
+#[inline(always)]
+pub(crate) fn first_ray<L: Lanes>(at: usize) -> usize {
+    at & (RAYS - L::LANES)
+}
+
+/// Three rows of a group, a ray a lane.
+#[inline(always)]
+pub(crate) fn group_rows<L: Lanes>(lanes: L, rows: &[Row; 3], at: usize) -> [L::F; 3] {
+    let at = first_ray::<L>(at);
+    [lanes.load(&rows[0][at..]), lanes.load(&rows[1][at..]), lanes.load(&rows[2][at..])]
+}
+
+/// Three rows of one ray, in all lanes.
+#[inline(always)]
+pub(crate) fn ray_rows<L: Lanes>(lanes: L, rows: &[Row; 3], ray: usize) -> [L::F; 3] {
+    let ray = ray & (RAYS - 1);
+    [lanes.splat(rows[0][ray]), lanes.splat(rows[1][ray]), lanes.splat(rows[2][ray])]
+}
+
+/// The bits of the group that begins at ray `at`.
+#[inline(always)]
+pub(crate) fn group_bits<L: Lanes>(live: u64, at: usize) -> u32 {
+    (live >> (at & (RAYS - 1))) as u32 & ((1u32 << L::LANES) - 1)
+}
+
+/// The mask with the lanes of these bits set.
+#[inline(always)]
+pub(crate) fn mask_of<L: Lanes>(lanes: L, bits: u32) -> L::M {
+    const POWERS: [i32; 16] = {
+        let mut powers = [0; 16];
+        let mut lane = 0;
+        while lane < 16 {
+            powers[lane] = 1 << lane;
+            lane += 1;
+        }
+        powers
+    };
+    let powers = lanes.load_int(&POWERS);
+    (lanes.splat_int(bits as i32) & powers).eq(powers)
+}
+
+/// What has been found for 64 rays.
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+pub(crate) struct Found {
+    /// The best so far; the ray's end before the first. `-inf` once it is enough to know of a hit.
+    pub t: Row,
+    pub u: Row,
+    pub v: Row,
+    /// [`Found::NONE`] where nothing has been hit.
+    pub primitive: [i32; RAYS],
+    pub instance: [i32; RAYS],
+}
+
+impl Found {
+    /// Above every number of a triangle, so that a first hit at the very end of the interval wins the tie.
+    pub const NONE: i32 = i32::MAX;
+
+    pub fn new() -> Self {
+        let (row, none) = ([0.0; RAYS], [Self::NONE; RAYS]);
+        Found { t: row, u: row, v: row, primitive: none, instance: none }
+    }
+
+    /// Forgets the hits of a group and sets its end.
+    #[inline(always)]
+    pub fn reset<L: Lanes>(&mut self, lanes: L, at: usize, t_max: L::F) {
+        let at = first_ray::<L>(at);
+        let (zero, none) = (lanes.splat(0.0), lanes.splat_int(Self::NONE));
+        lanes.store(&mut self.t[at..], t_max);
+        lanes.store(&mut self.u[at..], zero);
+        lanes.store(&mut self.v[at..], zero);
+        lanes.store_int(&mut self.primitive[at..], none);
+        lanes.store_int(&mut self.instance[at..], none);
+    }
+}

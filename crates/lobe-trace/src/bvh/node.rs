@@ -1,0 +1,90 @@
+//! The wide node: the boxes of all children side by side.
+
+use crate::Aabb;
+
+/// A child of a node: another node, or a leaf's run of up to eight leaf blocks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Child(u32);
+
+impl Child {
+    const LEAF: u32 = 1 << 31;
+    /// The most blocks a leaf can have.
+    pub const MAX_BLOCKS: usize = 8;
+
+    pub fn node(index: usize) -> Self {
+        assert!(index < Self::LEAF as usize, "a tree of more nodes than a reference can count");
+        Child(index as u32)
+    }
+
+    pub fn leaf(first: usize, blocks: usize) -> Self {
+        assert!(first < 1 << 28, "more leaf blocks than a reference can count");
+        assert!((1..=Self::MAX_BLOCKS).contains(&blocks), "a leaf of {blocks} blocks");
+        Child(Self::LEAF | ((blocks - 1) as u32) << 28 | first as u32)
+    }
+
+    #[inline(always)]
+    pub fn is_leaf(self) -> bool {
+        self.0 & Self::LEAF != 0
+    }
+
+    /// The index of an inner node.
+    #[inline(always)]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+
+    /// The first block of a leaf.
+    #[inline(always)]
+    pub fn first(self) -> usize {
+        (self.0 & 0x0fff_ffff) as usize
+    }
+
+    /// How many blocks a leaf has.
+    #[inline(always)]
+    pub fn blocks(self) -> usize {
+        (self.0 >> 28 & 7) as usize + 1
+    }
+}
+
+/// The boxes of up to `W` children, 4 cache lines for eight.
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+pub(crate) struct Node<const W: usize> {
+    /// Rows lower x, upper x, lower y, ...: one entry a child. Absent children have the empty box, which nothing meets.
+    pub bounds: [[f32; W]; 6],
+    pub children: [Child; W],
+    /// How many children there are; they come first.
+    pub count: usize,
+}
+
+impl<const W: usize> Node<W> {
+    pub const EMPTY: Self = {
+        let (low, high) = ([f32::INFINITY; W], [f32::NEG_INFINITY; W]);
+        Node { bounds: [low, high, low, high, low, high], children: [Child(0); W], count: 0 }
+    };
+
+    pub fn push(&mut self, bounds: Aabb, child: Child) {
+        for (row, bound) in self.bounds.iter_mut().zip(bounds.rows()) {
+            row[self.count] = bound;
+        }
+        self.children[self.count] = child;
+        self.count += 1;
+    }
+}
+
+/// A tree with up to `W` children a node, `W` being 4 or 8.
+#[derive(Clone, Debug)]
+pub struct WideBvh<const W: usize> {
+    /// Node 0 is the root, and always there.
+    pub(crate) nodes: Vec<Node<W>>,
+    pub(crate) bounds: Aabb,
+    /// How many references may wait at once while the tree is walked.
+    pub(crate) stack: usize,
+}
+
+impl<const W: usize> WideBvh<W> {
+    /// The box around everything.
+    pub fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+}

@@ -1,0 +1,95 @@
+//! Instances as leaves: rays are carried into the instance's own space and walk its tree there.
+
+use lobe_lane::{Lanes, Mask};
+
+use crate::block::{Block, Found, RAYS, first_ray, group_bits, group_rows, mask_of};
+use crate::bvh::Child;
+use crate::leaves::{Leaves, Triangles};
+use crate::packet::Packet;
+use crate::scene::{Instance, Scene};
+use crate::slab::SlabRay;
+use crate::walk::{Stacks, Walk};
+use crate::{Affine, Form};
+
+/// The instances of a scene, and room for rays in the space of one.
+pub(crate) struct Instances<'a, const W: usize> {
+    pub scene: &'a Scene<W>,
+    pub form: Form,
+    /// Any hit is enough.
+    pub any: bool,
+    pub local: &'a mut Block,
+    pub stacks: &'a mut Stacks,
+}
+
+impl<const W: usize> Instances<'_, W> {
+    /// Carries rays of a group into the space of an instance. Returns the bits of those that may meet it.
+    #[inline(always)]
+    fn carry<L: Lanes>(&mut self, lanes: L, instance: &Instance, rays: &Block, at: usize, live: u32) -> u32 {
+        let at = first_ray::<L>(at);
+        let (mut lower, mut upper) = ([lanes.splat(0.0); 3], [lanes.splat(0.0); 3]);
+        let mut axis = 0;
+        while axis < 3 {
+            lower[axis] = lanes.splat(instance.bounds.lower[axis]);
+            upper[axis] = lanes.splat(instance.bounds.upper[axis]);
+            axis += 1;
+        }
+        let [enter, leave] = SlabRay::group(lanes, rays, at).interval_any(lanes, lower, upper);
+        lanes.store(&mut self.local.enter[at..], enter);
+        lanes.store(&mut self.local.leave[at..], leave);
+        let origin = carried(lanes, &instance.to_local, group_rows(lanes, &rays.origin, at), 1.0);
+        let direction = carried(lanes, &instance.to_local, group_rows(lanes, &rays.direction, at), 0.0);
+        let t_min = lanes.load(&rays.t_min[at..]);
+        let packet = Packet { origin, direction, t_min, t_max: lanes.splat(f32::INFINITY) };
+        let reach = self.scene.trees[instance.mesh].bvh.bounds().reach();
+        self.local.prepare(lanes, at, packet, mask_of(lanes, live), reach).bits()
+    }
+}
+
+/// The image of points (`w` 1) or directions (`w` 0).
+#[inline(always)]
+fn carried<L: Lanes>(lanes: L, map: &Affine, x: [L::F; 3], w: f32) -> [L::F; 3] {
+    let mut image = x;
+    let mut row = 0;
+    while row < 3 {
+        let [a, b, c, d] = map.rows[row];
+        let sum = lanes.mul_add(lanes.splat(c), x[2], lanes.splat(d * w));
+        image[row] = lanes.mul_add(lanes.splat(a), x[0], lanes.mul_add(lanes.splat(b), x[1], sum));
+        row += 1;
+    }
+    image
+}
+
+impl<const W: usize> Leaves for Instances<'_, W> {
+    #[inline(always)]
+    fn packet<L: Lanes>(&mut self, lanes: L, leaf: Child, rays: &Block, live: u64, found: &mut Found) {
+        let scene = self.scene;
+        let instance = &scene.instances[leaf.first()];
+        let mut carried = 0;
+        let mut at = 0;
+        while at < RAYS {
+            let bits = group_bits::<L>(live, at);
+            if bits != 0 {
+                carried |= (self.carry(lanes, instance, rays, at, bits) as u64) << at;
+            } else {
+                lanes.store(&mut self.local.t_min[at..], lanes.splat(f32::INFINITY));
+            }
+            at += L::LANES;
+        }
+        let tree = &scene.trees[instance.mesh];
+        let leaves = &mut Triangles { blocks: &tree.blocks, instance: leaf.first() as i32, any: self.any };
+        let walk = Walk { bvh: &tree.bvh, leaves, rays: &*self.local, found, stacks: &mut *self.stacks };
+        walk.trace(lanes, self.form, carried);
+    }
+
+    #[inline(always)]
+    fn single<L: Lanes>(&mut self, lanes: L, leaf: Child, rays: &Block, ray: usize, found: &mut Found) {
+        let scene = self.scene;
+        let instance = &scene.instances[leaf.first()];
+        let at = first_ray::<L>(ray);
+        let bits = self.carry(lanes, instance, rays, at, 1 << (ray - at));
+        let tree = &scene.trees[instance.mesh];
+        let leaves = &mut Triangles { blocks: &tree.blocks, instance: leaf.first() as i32, any: self.any };
+        let walk = Walk { bvh: &tree.bvh, leaves, rays: &*self.local, found, stacks: &mut *self.stacks };
+        walk.trace(lanes, Form::Single, (bits as u64) << at);
+    }
+}

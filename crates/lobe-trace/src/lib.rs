@@ -1,0 +1,59 @@
+//! Coherent ray tracing on SIMD lanes.
+//!
+//! A [`Scene`] is built from checked [meshes](Mesh) and their instances. Batches of rays ([`RaySoA`]) go through it by
+//! the kernels [`Intersect`] (nearest hits) and [`Occluded`] (any hit) on any [`lobe_lane`] backend; a caller's own
+//! kernel traces as many rays as it has lanes by a [`Tracer`].
+//!
+//! - **The class of a ray chooses the way through the tree** ([`RayClass`]): 64 rays at once for the camera and point
+//!   lights, a lane a ray for mirrors, one ray against all boxes of a node after a diffuse bounce. Rays that do not fit
+//!   together are traced one by one.
+//! - **The way does not change the answer.** Box tests are conservative, hits lie inside the boxes they are found in,
+//!   and of hits at the same t the smaller (primitive, instance) wins. On [`strict`](lobe_lane::Lanes::strict) backends
+//!   hits are the same bits on every backend and width as well; others differ by the rounding of t, u and v.
+//! - **No ray leaks** through a shared edge or vertex (Woop, Benthin, Wald, JCGT 2013).
+//! - A ray with a NaN, and a zero-area triangle, hit nothing. [`LIMIT`] bounds all coordinates.
+//!
+//! ```
+//! use lobe_lane::Lanes;
+//! use lobe_trace::{HitSoA, Intersect, Mesh, RayClass, RaySoA, Scene};
+//!
+//! let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+//! let scene: Scene = Scene::of_mesh(Mesh::new(corners, vec![[0, 1, 2]])?);
+//! let mut rays = RaySoA::default();
+//! rays.push([0.25, 0.5, 3.0], [0.0, 0.0, -1.0], 0.0, f32::INFINITY);
+//! let mut hits = HitSoA::new(1);
+//! lobe_scalar::Scalar::<1>.vectorize(Intersect::new(&scene, RayClass::Camera, rays.view(), hits.view()));
+//! assert_eq!((hits.primitive[0], hits.t[0], hits.u[0], hits.v[0]), (0, 3.0, 0.25, 0.5));
+//! # Ok::<(), lobe_trace::MeshError>(())
+//! ```
+#![forbid(unsafe_code)]
+
+mod aabb;
+mod block;
+mod bvh;
+mod class;
+mod instances;
+mod leaves;
+mod mesh;
+mod packet;
+#[cfg(feature = "rayon")]
+mod parallel;
+mod rays;
+mod scene;
+mod slab;
+mod trace;
+mod transform;
+mod triangles;
+mod walk;
+mod woop;
+
+pub use aabb::Aabb;
+pub use class::{Form, RayClass};
+pub use mesh::{LIMIT, Mesh, MeshError};
+pub use packet::{Packet, PacketHits};
+#[cfg(feature = "rayon")]
+pub use parallel::{intersect, occluded};
+pub use rays::{HitSoA, Hits, MISS, RaySoA, Rays};
+pub use scene::{Progress, Scene, SceneBuilder, SceneError};
+pub use trace::{Intersect, Occluded, Tracer};
+pub use transform::Affine;

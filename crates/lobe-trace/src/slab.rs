@@ -1,0 +1,198 @@
+//! Rays against boxes.
+//!
+//! Every test computes the same expression from the same numbers, monotone in the planes of the box. So the interval a
+//! ray spends in a box contains, exactly and not only up to rounding, the one it spends in any box inside it.
+
+use lobe_lane::{Floats, Lanes, Mask};
+
+use crate::block::{Block, RAYS, group_rows, ray_rows};
+use crate::bvh::Node;
+
+/// What a box test knows of rays, a value a lane.
+#[derive(Clone, Copy)]
+pub(crate) struct SlabRay<L: Lanes> {
+    inverse: [L::F; 3],
+    near: [L::F; 3],
+    far: [L::F; 3],
+}
+
+impl<L: Lanes> SlabRay<L> {
+    /// A ray a lane.
+    #[inline(always)]
+    pub fn group(lanes: L, rays: &Block, at: usize) -> Self {
+        SlabRay {
+            inverse: group_rows(lanes, &rays.inverse, at),
+            near: group_rows(lanes, &rays.near, at),
+            far: group_rows(lanes, &rays.far, at),
+        }
+    }
+
+    /// One ray in all lanes.
+    #[inline(always)]
+    pub fn single(lanes: L, rays: &Block, ray: usize) -> Self {
+        SlabRay {
+            inverse: ray_rows(lanes, &rays.inverse, ray),
+            near: ray_rows(lanes, &rays.near, ray),
+            far: ray_rows(lanes, &rays.far, ray),
+        }
+    }
+
+    /// Where rays enter and leave boxes, given by the three planes they meet first and the three they meet last.
+    /// A ray whose first number is not below or at its second misses the box.
+    #[inline(always)]
+    pub fn interval(&self, lanes: L, near: [L::F; 3], far: [L::F; 3]) -> [L::F; 2] {
+        let enter_x = lanes.mul_add(near[0], self.inverse[0], self.near[0]);
+        let enter_y = lanes.mul_add(near[1], self.inverse[1], self.near[1]);
+        let enter_z = lanes.mul_add(near[2], self.inverse[2], self.near[2]);
+        let leave_x = lanes.mul_add(far[0], self.inverse[0], self.far[0]);
+        let leave_y = lanes.mul_add(far[1], self.inverse[1], self.far[1]);
+        let leave_z = lanes.mul_add(far[2], self.inverse[2], self.far[2]);
+        [enter_x.max(enter_y).max(enter_z), leave_x.min(leave_y).min(leave_z)]
+    }
+
+    /// As [`interval`](SlabRay::interval) for the box between two corners, whatever octants the rays point into.
+    #[inline(always)]
+    pub fn interval_any(&self, lanes: L, lower: [L::F; 3], upper: [L::F; 3]) -> [L::F; 2] {
+        let (mut near, mut far) = (lower, upper);
+        let zero = lanes.splat(0.0);
+        let mut axis = 0;
+        while axis < 3 {
+            let backward = self.inverse[axis].lt(zero);
+            near[axis] = lanes.select(backward, upper[axis], lower[axis]);
+            far[axis] = lanes.select(backward, lower[axis], upper[axis]);
+            axis += 1;
+        }
+        self.interval(lanes, near, far)
+    }
+}
+
+/// Which rows of a node hold the planes that rays of an octant meet first and last.
+#[derive(Clone, Copy)]
+pub(crate) struct Sides {
+    near: [usize; 3],
+    far: [usize; 3],
+}
+
+impl Sides {
+    #[inline(always)]
+    pub fn of(octant: usize) -> Self {
+        let [x, y, z] = [octant & 1, octant >> 1 & 1, octant >> 2 & 1];
+        Sides { near: [x, 2 + y, 4 + z], far: [1 - x, 3 - y, 5 - z] }
+    }
+
+    /// The planes of one child in all lanes.
+    #[inline(always)]
+    pub fn child<L: Lanes, const W: usize>(&self, lanes: L, node: &Node<W>, slot: usize) -> [[L::F; 3]; 2] {
+        let slot = slot & (W - 1);
+        let mut planes = [[lanes.splat(0.0); 3]; 2];
+        let mut axis = 0;
+        while axis < 3 {
+            planes[0][axis] = lanes.splat(node.bounds[self.near[axis]][slot]);
+            planes[1][axis] = lanes.splat(node.bounds[self.far[axis]][slot]);
+            axis += 1;
+        }
+        planes
+    }
+
+    /// The planes of the children from `slot` on, a child a lane; zeros beyond the last.
+    #[inline(always)]
+    pub fn children<L: Lanes, const W: usize>(&self, lanes: L, node: &Node<W>, slot: usize) -> [[L::F; 3]; 2] {
+        let mut planes = [[lanes.splat(0.0); 3]; 2];
+        let mut axis = 0;
+        while axis < 3 {
+            planes[0][axis] = children_row(lanes, &node.bounds[self.near[axis]], slot);
+            planes[1][axis] = children_row(lanes, &node.bounds[self.far[axis]], slot);
+            axis += 1;
+        }
+        planes
+    }
+}
+
+/// As many entries of a row from `slot` on as there are lanes.
+#[inline(always)]
+fn children_row<L: Lanes, const W: usize>(lanes: L, row: &[f32; W], slot: usize) -> L::F {
+    if L::LANES <= W { lanes.load(&row[slot & (W - L::LANES)..]) } else { lanes.load_partial(row) }
+}
+
+/// What is true of all rays of a coherent block.
+#[derive(Clone, Copy)]
+pub(crate) struct Beam {
+    near: [f32; 3],
+    far: [f32; 3],
+    inverse: [[f32; 2]; 3],
+    t_min: f32,
+}
+
+impl Beam {
+    /// Around the rays that are not dead: their own planes' pad is taken twice, since this test rounds differently.
+    #[inline(always)]
+    pub fn around<L: Lanes>(lanes: L, rays: &Block, octant: usize) -> Self {
+        let (most, least) = (lanes.splat(f32::INFINITY), lanes.splat(f32::NEG_INFINITY));
+        let mut beam = Beam { near: [0.0; 3], far: [0.0; 3], inverse: [[0.0; 2]; 3], t_min: 0.0 };
+        let mut first = most;
+        let mut axis = 0;
+        while axis < 3 {
+            let (mut low_o, mut high_o, mut low_i, mut high_i) = (most, least, most, least);
+            let mut at = 0;
+            while at < RAYS {
+                let t_min = lanes.load(&rays.t_min[at..]);
+                let there = t_min.lt(most);
+                let pad = lanes.load(&rays.pad[at..]);
+                let origin = lanes.load(&rays.origin[axis][at..]);
+                let inverse = lanes.load(&rays.inverse[axis][at..]);
+                let wide = pad + pad;
+                low_o = low_o.min(lanes.select(there, origin - wide, most));
+                high_o = high_o.max(lanes.select(there, origin + wide, least));
+                low_i = low_i.min(lanes.select(there, inverse, most));
+                high_i = high_i.max(lanes.select(there, inverse, least));
+                first = first.min(t_min);
+                at += L::LANES;
+            }
+            let (low, high) = (least_lane(lanes, low_o), -least_lane(lanes, -high_o));
+            let backward = octant >> axis & 1 != 0;
+            // Against the ray for the plane met first, along it for the one met last.
+            (beam.near[axis], beam.far[axis]) = if backward { (low, high) } else { (high, low) };
+            beam.inverse[axis] = [least_lane(lanes, low_i), -least_lane(lanes, -high_i)];
+            axis += 1;
+        }
+        beam.t_min = least_lane(lanes, first);
+        beam
+    }
+
+    /// A child a lane: below what t no ray of the beam enters the box, and above what t none leaves it.
+    #[inline(always)]
+    pub fn interval<L: Lanes>(&self, lanes: L, near: [L::F; 3], far: [L::F; 3]) -> [L::F; 2] {
+        let mut enter = lanes.splat(self.t_min);
+        let mut leave = lanes.splat(f32::INFINITY);
+        let mut axis = 0;
+        while axis < 3 {
+            let [low, high] = [lanes.splat(self.inverse[axis][0]), lanes.splat(self.inverse[axis][1])];
+            let ahead = near[axis] - lanes.splat(self.near[axis]);
+            let behind = far[axis] - lanes.splat(self.far[axis]);
+            enter = enter.max((ahead * low).min(ahead * high));
+            leave = leave.min((behind * low).max(behind * high));
+            axis += 1;
+        }
+        [enter, leave]
+    }
+}
+
+/// The smallest of all lanes.
+#[inline(always)]
+pub(crate) fn least_lane<L: Lanes>(lanes: L, x: L::F) -> f32 {
+    let mut buffer = [f32::INFINITY; lobe_lane::MAX_LANES];
+    lanes.store(&mut buffer, x);
+    let mut least = buffer[0];
+    let mut lane = 1;
+    while lane < L::LANES {
+        least = if buffer[lane] < least { buffer[lane] } else { least };
+        lane += 1;
+    }
+    least
+}
+
+/// The bits of those of `W` children from `slot` on whose lanes are set, moved to their slots.
+#[inline(always)]
+pub(crate) fn child_bits<L: Lanes, const W: usize>(mask: L::M, slot: usize) -> u32 {
+    (mask.bits() << slot) & ((1 << W) - 1)
+}

@@ -1,0 +1,238 @@
+//! Batches and packets of rays through a scene.
+
+use lobe_lane::{Floats, Ints, Kernel, Lanes, Mask};
+
+use crate::block::{Block, Found, RAYS, first_ray};
+use crate::instances::Instances;
+use crate::leaves::Triangles;
+use crate::packet::{Packet, PacketHits};
+use crate::rays::{Hits, MISS, Rays};
+use crate::scene::Scene;
+use crate::walk::{Stacks, Walk};
+use crate::{Form, RayClass};
+
+/// The working memory of tracing one scene. Making one allocates; tracing with it does not.
+#[derive(Debug)]
+pub struct Tracer<'s, const W: usize> {
+    scene: &'s Scene<W>,
+    rays: Block,
+    local: Block,
+    found: Found,
+    top: Stacks,
+    bottom: Stacks,
+}
+
+impl<'s, const W: usize> Tracer<'s, W> {
+    /// Working memory for a scene.
+    pub fn new(scene: &'s Scene<W>) -> Self {
+        let deepest = scene.trees.iter().map(|tree| tree.bvh.stack).max().unwrap_or(0);
+        Tracer {
+            scene,
+            rays: Block::new(),
+            local: Block::new(),
+            found: Found::new(),
+            top: Stacks::new(scene.top.stack.max(deepest)),
+            bottom: Stacks::new(deepest),
+        }
+    }
+
+    /// The nearest hits of the rays of `live`. To be called inside a kernel.
+    #[inline(always)]
+    pub fn intersect_packet<L: Lanes>(
+        &mut self,
+        lanes: L,
+        class: RayClass,
+        rays: Packet<L>,
+        live: L::M,
+    ) -> PacketHits<L> {
+        let live = self.set(lanes, 0, rays, live);
+        self.trace(lanes, packet_form(class), false, live.bits() as u64);
+        self.conclude(lanes, 0)
+    }
+
+    /// Which rays of `live` hit anything. To be called inside a kernel.
+    #[inline(always)]
+    pub fn occluded_packet<L: Lanes>(&mut self, lanes: L, class: RayClass, rays: Packet<L>, live: L::M) -> L::M {
+        let live = self.set(lanes, 0, rays, live);
+        self.trace(lanes, packet_form(class), true, live.bits() as u64);
+        !lanes.load_int(&self.found.primitive).eq(lanes.splat_int(Found::NONE))
+    }
+
+    /// Puts a group of rays in its place. Returns which are valid.
+    #[inline(always)]
+    fn set<L: Lanes>(&mut self, lanes: L, at: usize, rays: Packet<L>, live: L::M) -> L::M {
+        let reach = self.scene.bounds().reach();
+        // A limit that is not infinite keeps a ray that misses a box from seeming to meet it at infinity. NaN stays.
+        let t_max = lanes.splat(f32::MAX).min(rays.t_max);
+        let valid = self.rays.prepare(lanes, at, Packet { t_max, ..rays }, live, reach);
+        self.found.reset(lanes, at, lanes.select(valid, t_max, lanes.splat(f32::NEG_INFINITY)));
+        valid
+    }
+
+    /// Traces what has been set.
+    #[inline(always)]
+    fn trace<L: Lanes>(&mut self, lanes: L, form: Form, any: bool, live: u64) {
+        let Tracer { scene, rays, local, found, top, bottom } = self;
+        if let Some(tree) = scene.plain() {
+            let leaves = &mut Triangles { blocks: &tree.blocks, instance: 0, any };
+            Walk { bvh: &tree.bvh, leaves, rays: &*rays, found, stacks: top }.trace(lanes, form, live);
+        } else {
+            let leaves = &mut Instances { scene: *scene, form, any, local, stacks: bottom };
+            Walk { bvh: &scene.top, leaves, rays: &*rays, found, stacks: top }.trace(lanes, form, live);
+        }
+    }
+
+    /// What has been found for a group.
+    #[inline(always)]
+    fn conclude<L: Lanes>(&self, lanes: L, at: usize) -> PacketHits<L> {
+        let at = first_ray::<L>(at);
+        let primitive = lanes.load_int(&self.found.primitive[at..]);
+        let mask = !primitive.eq(lanes.splat_int(Found::NONE));
+        let miss = lanes.splat_int(MISS);
+        PacketHits {
+            mask,
+            t: lanes.select(mask, lanes.load(&self.found.t[at..]), lanes.splat(f32::INFINITY)),
+            u: lanes.load(&self.found.u[at..]),
+            v: lanes.load(&self.found.v[at..]),
+            primitive: lanes.select_int(mask, primitive, miss),
+            instance: lanes.select_int(mask, lanes.load_int(&self.found.instance[at..]), miss),
+        }
+    }
+
+    /// Sets up to 64 rays from `from` on. Returns the bits of the valid ones.
+    #[inline(always)]
+    fn set_block<L: Lanes>(&mut self, lanes: L, rays: &Rays<'_>, from: usize) -> u64 {
+        let mut live = 0;
+        let mut at = 0;
+        while at < RAYS {
+            let start = if from + at < rays.len() { from + at } else { rays.len() };
+            let [o_x, o_y, o_z] = rays.origin;
+            let [d_x, d_y, d_z] = rays.direction;
+            let packet = Packet {
+                origin: [
+                    lanes.load_partial(&o_x[start..]),
+                    lanes.load_partial(&o_y[start..]),
+                    lanes.load_partial(&o_z[start..]),
+                ],
+                direction: [
+                    lanes.load_partial(&d_x[start..]),
+                    lanes.load_partial(&d_y[start..]),
+                    lanes.load_partial(&d_z[start..]),
+                ],
+                t_min: lanes.load_partial(&rays.t_min[start..]),
+                t_max: lanes.load_partial(&rays.t_max[start..]),
+            };
+            let there = lanes.first_n(rays.len() - start);
+            live |= (self.set(lanes, at, packet, there).bits() as u64) << at;
+            at += L::LANES;
+        }
+        live
+    }
+}
+
+/// A packet of as many rays as lanes is not large.
+#[inline(always)]
+fn packet_form(class: RayClass) -> Form {
+    match class.form() {
+        Form::Large => Form::Hybrid,
+        form => form,
+    }
+}
+
+/// Finds the nearest hits of a batch: a kernel to be run on a backend by [`Lanes::vectorize`].
+#[derive(Debug)]
+pub struct Intersect<'a, const W: usize> {
+    scene: &'a Scene<W>,
+    form: Form,
+    rays: Rays<'a>,
+    hits: Hits<'a>,
+}
+
+impl<'a, const W: usize> Intersect<'a, W> {
+    /// The kernel for these rays.
+    ///
+    /// # Panics
+    /// Where there are not as many places for hits as rays.
+    pub fn new(scene: &'a Scene<W>, class: RayClass, rays: Rays<'a>, hits: Hits<'a>) -> Self {
+        assert_eq!(rays.len(), hits.len(), "rays, and places for hits");
+        Intersect { scene, form: class.form(), rays, hits }
+    }
+
+    /// The same by another way through the tree, to compare: the hits are the same bits.
+    pub fn by(self, form: Form) -> Self {
+        Intersect { form, ..self }
+    }
+}
+
+impl<const W: usize> Kernel for Intersect<'_, W> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Intersect { scene, form, rays, hits } = self;
+        let mut tracer = Tracer::new(scene);
+        let mut from = 0;
+        while from < rays.len() {
+            let live = tracer.set_block(lanes, &rays, from);
+            tracer.trace(lanes, form, false, live);
+            let mut at = 0;
+            while at < RAYS && from + at < rays.len() {
+                let found = tracer.conclude(lanes, at);
+                let start = from + at;
+                lanes.store_partial(&mut hits.t[start..], found.t);
+                lanes.store_partial(&mut hits.u[start..], found.u);
+                lanes.store_partial(&mut hits.v[start..], found.v);
+                lanes.store_int_partial(&mut hits.primitive[start..], found.primitive);
+                lanes.store_int_partial(&mut hits.instance[start..], found.instance);
+                at += L::LANES;
+            }
+            from += RAYS;
+        }
+    }
+}
+
+/// Finds which rays of a batch hit anything: a kernel to be run on a backend by [`Lanes::vectorize`].
+#[derive(Debug)]
+pub struct Occluded<'a, const W: usize> {
+    scene: &'a Scene<W>,
+    form: Form,
+    rays: Rays<'a>,
+    out: &'a mut [bool],
+}
+
+impl<'a, const W: usize> Occluded<'a, W> {
+    /// The kernel for these rays.
+    ///
+    /// # Panics
+    /// Where there are not as many answers as rays.
+    pub fn new(scene: &'a Scene<W>, class: RayClass, rays: Rays<'a>, out: &'a mut [bool]) -> Self {
+        assert_eq!(rays.len(), out.len(), "rays, and places for answers");
+        Occluded { scene, form: class.form(), rays, out }
+    }
+
+    /// The same by another way through the tree, to compare: the answers are the same.
+    pub fn by(self, form: Form) -> Self {
+        Occluded { form, ..self }
+    }
+}
+
+impl<const W: usize> Kernel for Occluded<'_, W> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Occluded { scene, form, rays, out } = self;
+        let mut tracer = Tracer::new(scene);
+        let mut from = 0;
+        while from < rays.len() {
+            let live = tracer.set_block(lanes, &rays, from);
+            tracer.trace(lanes, form, true, live);
+            let mut at = 0;
+            while at < RAYS && from + at < rays.len() {
+                out[from + at] = tracer.found.primitive[at] != Found::NONE;
+                at += 1;
+            }
+            from += RAYS;
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! The triangles of a leaf, four side by side.
+
+use lobe_lane::Lanes;
+
+use crate::bvh::{Binary, Child, WideBvh};
+use crate::{Aabb, Mesh};
+
+/// Triangles of a block: more would stand empty in most leaves.
+pub(crate) const SLOTS: usize = 4;
+
+/// Corners of triangles, a triangle a lane: `[corner][axis]`.
+pub(crate) type Corners<L> = [[<L as Lanes>::F; 3]; 3];
+
+/// Four triangles in three cache lines. Coordinate `axis` of corner `corner` of triangle `slot` is
+/// `floats[(3 corner + axis) SLOTS + slot]`; the triangles' numbers follow as bits. What stands behind them is never
+/// used: it lets a row be loaded as 16 floats.
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+pub(crate) struct TriangleBlock {
+    floats: [f32; 48],
+}
+
+impl TriangleBlock {
+    const NUMBERS: usize = 9 * SLOTS;
+
+    fn new(mesh: &Mesh, triangles: &[u32]) -> Self {
+        // NaN in empty slots: no comparison holds for them.
+        let mut floats = [f32::NAN; 48];
+        for slot in 0..SLOTS {
+            let number = triangles.get(slot).map_or(-1, |&triangle| triangle as i32);
+            floats[Self::NUMBERS + slot] = f32::from_bits(number as u32);
+        }
+        for (slot, &triangle) in triangles.iter().enumerate() {
+            for (corner, position) in mesh.corners(triangle as usize).iter().enumerate() {
+                for (axis, &x) in position.iter().enumerate() {
+                    floats[(3 * corner + axis) * SLOTS + slot] = x;
+                }
+            }
+        }
+        TriangleBlock { floats }
+    }
+
+    /// The number of a triangle in its mesh; negative where the slot is empty.
+    #[inline(always)]
+    pub fn number(&self, slot: usize) -> i32 {
+        self.floats[Self::NUMBERS + (slot & (SLOTS - 1))].to_bits() as i32
+    }
+
+    /// A coordinate of triangle `slot` and those of its followers behind it, 16 floats in all at slot 0.
+    #[inline(always)]
+    fn from(&self, corner: usize, axis: usize, slot: usize) -> &[f32] {
+        &self.floats[(3 * corner + axis) * SLOTS + slot..]
+    }
+
+    /// The corners of one triangle in all lanes, their coordinates in the order of `axes`.
+    #[inline(always)]
+    pub fn one<L: Lanes>(&self, lanes: L, slot: usize, axes: [usize; 3]) -> Corners<L> {
+        let slot = slot & (SLOTS - 1);
+        let mut corners = [[lanes.splat(0.0); 3]; 3];
+        let mut at = 0;
+        while at < 9 {
+            corners[at / 3][at % 3] = lanes.splat(self.from(at / 3, axes[at % 3], slot)[0]);
+            at += 1;
+        }
+        corners
+    }
+
+    /// The corners of the triangles from `slot` on, a triangle a lane; what is beyond the last is to be ignored.
+    #[inline(always)]
+    pub fn several<L: Lanes>(&self, lanes: L, slot: usize, axes: [usize; 3]) -> Corners<L> {
+        let slot = slot & (SLOTS - 1);
+        let mut corners = [[lanes.splat(0.0); 3]; 3];
+        let mut at = 0;
+        while at < 9 {
+            corners[at / 3][at % 3] = lanes.load(self.from(at / 3, axes[at % 3], slot));
+            at += 1;
+        }
+        corners
+    }
+}
+
+/// A mesh ready to be traced: its tree and its triangles in the order of the leaves.
+#[derive(Clone, Debug)]
+pub(crate) struct Tree<const W: usize> {
+    pub bvh: WideBvh<W>,
+    pub blocks: Vec<TriangleBlock>,
+}
+
+impl<const W: usize> Tree<W> {
+    /// Up to two blocks a leaf: the cost of a tree changes little from 2 to 16 triangles.
+    const LEAF: usize = 2 * SLOTS;
+
+    pub fn build(mesh: &Mesh) -> Self {
+        let seen: Vec<u32> =
+            (0..mesh.triangles().len() as u32).filter(|&triangle| can_be_hit(mesh, triangle)).collect();
+        let boxes: Vec<Aabb> = seen.iter().map(|&triangle| Aabb::of(mesh.corners(triangle as usize))).collect();
+        let binary = Binary::build(&boxes, Self::LEAF);
+        let mut blocks = Vec::with_capacity(seen.len() / 2);
+        let bvh = WideBvh::collapse(&binary, |places| {
+            let first = blocks.len();
+            for run in places.chunks(SLOTS) {
+                let mut triangles = [0; SLOTS];
+                run.iter().zip(&mut triangles).for_each(|(&place, triangle)| *triangle = seen[place as usize]);
+                blocks.push(TriangleBlock::new(mesh, &triangles[..run.len()]));
+            }
+            Child::leaf(first, blocks.len() - first)
+        });
+        Tree { bvh, blocks }
+    }
+}
+
+/// `false` for a triangle with two corners in one place. Two of its edge functions cancel to the bit whatever the ray,
+/// so it need not stand in the tree.
+fn can_be_hit(mesh: &Mesh, triangle: u32) -> bool {
+    let [a, b, c] = mesh.corners(triangle as usize);
+    a != b && b != c && c != a
+}

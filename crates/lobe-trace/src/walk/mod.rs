@@ -1,0 +1,104 @@
+//! Ways through a tree.
+
+mod group;
+mod large;
+mod single;
+mod stack;
+
+use lobe_lane::{Kernel, Lanes};
+
+use crate::Form;
+use crate::block::{Block, Found, RAYS, group_bits, mask_of};
+use crate::bvh::{Child, WideBvh};
+use crate::leaves::Leaves;
+
+pub(crate) use stack::Stacks;
+
+/// A tree, the rays that walk it, and where their hits go.
+pub(crate) struct Walk<'a, V, const W: usize> {
+    pub bvh: &'a WideBvh<W>,
+    pub leaves: &'a mut V,
+    pub rays: &'a Block,
+    pub found: &'a mut Found,
+    pub stacks: &'a mut Stacks,
+}
+
+impl<V: Leaves, const W: usize> Walk<'_, V, W> {
+    /// Traces the rays of `live` by a form, those that are not coherent one by one.
+    #[inline(always)]
+    pub fn trace<L: Lanes>(self, lanes: L, form: Form, live: u64) {
+        let Walk { bvh, leaves, rays, found, stacks } = self;
+        if form == Form::Large && rays.is_coherent(lanes, live) {
+            enter(lanes, Large(Walk { bvh, leaves, rays, found, stacks }, live));
+            return;
+        }
+        let mut at = 0;
+        while at < RAYS {
+            let mut bits = group_bits::<L>(live, at);
+            if form != Form::Single && bits != 0 && rays.group_is_coherent(lanes, at, mask_of(lanes, bits)) {
+                let few = if form == Form::Packet { 0 } else { group::FEW };
+                enter(lanes, Group { walk: Walk { bvh, leaves, rays, found, stacks }, at, live: bits, few });
+                bits = 0;
+            }
+            while bits != 0 {
+                let ray = at + bits.trailing_zeros() as usize;
+                bits &= bits - 1;
+                let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
+                enter(lanes, Single { walk, from: Child::node(0), ray });
+            }
+            at += L::LANES;
+        }
+    }
+}
+
+/// Enters the backend anew, so that the code of a walk stands there once and not at every place that may fall back to
+/// it. A call a walk is nothing. Not generic code on lanes itself, it need not be inlined.
+#[inline(never)]
+fn enter<L: Lanes, K: Kernel>(lanes: L, walk: K) -> K::Out {
+    lanes.vectorize(walk)
+}
+
+/// One ray, from a child on.
+struct Single<'a, V, const W: usize> {
+    walk: Walk<'a, V, W>,
+    from: Child,
+    ray: usize,
+}
+
+impl<V: Leaves, const W: usize> Kernel for Single<'_, V, W> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        single::walk(lanes, self.walk, self.from, self.ray);
+    }
+}
+
+/// The group that begins at ray `at`; single rays where no more than `few` are live.
+struct Group<'a, V, const W: usize> {
+    walk: Walk<'a, V, W>,
+    at: usize,
+    live: u32,
+    few: u32,
+}
+
+impl<V: Leaves, const W: usize> Kernel for Group<'_, V, W> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        group::walk(lanes, self.walk, self.at, self.live, self.few);
+    }
+}
+
+/// All rays that are live.
+struct Large<'a, V, const W: usize>(Walk<'a, V, W>, u64);
+
+impl<V: Leaves, const W: usize> Kernel for Large<'_, V, W> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        large::walk(lanes, self.0, self.1);
+    }
+}

@@ -1,0 +1,73 @@
+//! One ray against all boxes of a node, a child a lane.
+
+use lobe_lane::{Floats, Lanes, MAX_LANES};
+
+use super::Walk;
+use super::stack::Entry;
+use crate::block::RAYS;
+use crate::bvh::Child;
+use crate::leaves::Leaves;
+use crate::slab::{Sides, SlabRay, child_bits};
+
+#[inline(always)]
+pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_, V, W>, from: Child, ray: usize) {
+    let Walk { bvh, leaves, rays, found, stacks } = walk;
+    let ray = ray & (RAYS - 1);
+    let slab = SlabRay::single(lanes, rays, ray);
+    let sides = Sides::of(rays.octant(ray));
+    let t_min = lanes.splat(rays.t_min[ray]);
+    let nodes = bvh.nodes.as_slice();
+    let stack = stacks.single.as_mut_slice();
+    let mut keys = [0.0; MAX_LANES];
+    let mut waiting = 0;
+    let mut child = from;
+    loop {
+        if child.is_leaf() {
+            leaves.single(lanes, child, rays, ray, found);
+        } else {
+            let node = &nodes[child.index()];
+            let best = lanes.splat(found.t[ray]);
+            let mut bits = 0;
+            let mut slot = 0;
+            while slot < W {
+                let [near, far] = sides.children(lanes, node, slot);
+                let [enter, leave] = slab.interval(lanes, near, far);
+                let enter = enter.max(t_min);
+                bits |= child_bits::<L, W>(enter.le(leave.min(best)), slot);
+                lanes.store(&mut keys[slot..], enter);
+                slot += L::LANES;
+            }
+            // Most often one child is met, or none.
+            if bits.is_power_of_two() {
+                child = node.children[bits.trailing_zeros() as usize & (W - 1)];
+                continue;
+            }
+            // Sorted in among themselves, the nearest on top.
+            let floor = waiting;
+            while bits != 0 {
+                let slot = bits.trailing_zeros() as usize & (W - 1);
+                bits &= bits - 1;
+                let entry = Entry { key: keys[slot], child: node.children[slot] };
+                let mut place = waiting;
+                while place > floor && stack[place - 1].key < entry.key {
+                    stack[place] = stack[place - 1];
+                    place -= 1;
+                }
+                stack[place] = entry;
+                waiting += 1;
+            }
+        }
+        // A child that begins exactly at the best hit may still hold one that wins the tie.
+        let best = found.t[ray];
+        loop {
+            if waiting == 0 {
+                return;
+            }
+            waiting -= 1;
+            if stack[waiting].key <= best {
+                child = stack[waiting].child;
+                break;
+            }
+        }
+    }
+}

@@ -1,0 +1,265 @@
+//! Every form on every backend gives what double precision gives, and the same bits as one ray at a time.
+
+use std::sync::LazyLock;
+
+use lobe_lane::{Kernel, Lanes};
+use lobe_scalar::Scalar;
+use lobe_trace::{
+    Affine, Form, HitSoA, Intersect, MISS, Mesh, Occluded, Packet, RayClass, RaySoA, Scene, SceneBuilder, Tracer,
+};
+
+use crate::{meshes, rays, reference};
+
+pub struct Case {
+    pub name: &'static str,
+    pub eight: Scene<8>,
+    pub four: Scene<4>,
+    pub rays: RaySoA,
+    /// By one ray at a time on the reference backend, and checked against double precision.
+    pub hits: HitSoA,
+}
+
+fn single(mesh: Mesh) -> SceneBuilder {
+    let mut builder = SceneBuilder::new();
+    let mesh = builder.mesh(mesh);
+    builder.instance(mesh, Affine::IDENTITY);
+    builder
+}
+
+/// Turned, stretched, mirrored, shifted; two in one place.
+fn instanced() -> SceneBuilder {
+    let mut builder = SceneBuilder::new();
+    let (knot, cloth) = (builder.mesh(meshes::torus_knot(60, 8)), builder.mesh(meshes::cloth(12)));
+    for i in 0..9 {
+        let (sin, cos) = (0.7 * i as f32).sin_cos();
+        let size = 0.3 + 0.05 * i as f32;
+        let [x, y, z] = [(i % 3) as f32 - 1.0, (i / 3) as f32 - 1.0, 0.4 * sin];
+        let turned = Affine {
+            rows: [[size * cos, -size * sin, 0.1, x], [size * sin, size * cos, 0.0, y], [0.0, 0.2 * sin, -size, z]],
+        };
+        builder.instance(if i % 2 == 0 { knot } else { cloth }, turned);
+    }
+    let place = Affine::translation([0.25, -0.5, 1.0]);
+    builder.instance(cloth, place);
+    builder.instance(cloth, place);
+    builder
+}
+
+pub static CASES: LazyLock<Vec<Case>> = LazyLock::new(|| {
+    let scenes = [
+        ("sphere", single(meshes::sphere(24))),
+        ("torus knot", single(meshes::torus_knot(150, 12))),
+        ("cloth", single(meshes::cloth(32))),
+        ("soup", single(meshes::soup(900))),
+        ("instances", instanced()),
+    ];
+    scenes
+        .into_iter()
+        .map(|(name, builder)| {
+            let eight: Scene<8> = builder.clone().build(|_| ()).unwrap();
+            let four = builder.build(|_| ()).unwrap();
+            // A number of rays that no packet divides.
+            let bounds = eight.bounds();
+            let rays = rays::joined(&[rays::camera(bounds, 32), rays::mixed(bounds, 1500, 3)]);
+            let hits = intersect(Scalar::<1>, &eight, &rays, Form::Single);
+            let count = reference::check(&eight, &rays, &hits, name);
+            println!("{name}: {count} of {} rays hit", rays.len());
+            assert!(count > rays.len() / 10 && count < rays.len(), "{name}: {count} of {} rays hit", rays.len());
+            Case { name, eight, four, rays, hits }
+        })
+        .collect()
+});
+
+pub fn intersect<L: Lanes, const W: usize>(lanes: L, scene: &Scene<W>, rays: &RaySoA, form: Form) -> HitSoA {
+    let mut hits = HitSoA::new(rays.len());
+    lanes.vectorize(Intersect::new(scene, RayClass::Camera, rays.view(), hits.view()).by(form));
+    hits
+}
+
+fn occluded<L: Lanes, const W: usize>(lanes: L, scene: &Scene<W>, rays: &RaySoA, form: Form) -> Vec<bool> {
+    let mut out = vec![false; rays.len()];
+    lanes.vectorize(Occluded::new(scene, RayClass::Shadow, rays.view(), &mut out).by(form));
+    out
+}
+
+/// The first ray whose hit differs in a bit.
+fn first_difference(a: &HitSoA, b: &HitSoA) -> Option<usize> {
+    let row = |x: &[f32], y: &[f32], i: usize| x[i].to_bits() == y[i].to_bits();
+    (0..a.t.len()).find(|&i| {
+        let same = row(&a.t, &b.t, i) && row(&a.u, &b.u, i) && row(&a.v, &b.v, i);
+        !same || (a.primitive[i], a.instance[i]) != (b.primitive[i], b.instance[i])
+    })
+}
+
+fn same_bits<const W: usize>(scene: &Scene<W>, rays: &RaySoA, found: &HitSoA, truth: &HitSoA, name: &str) {
+    if let Some(i) = first_difference(found, truth) {
+        let text = |hits: &HitSoA| {
+            let ids = (hits.primitive[i], hits.instance[i]);
+            format!("{:?} at t {:e} ({:08x}) u {:e} v {:e}", ids, hits.t[i], hits.t[i].to_bits(), hits.u[i], hits.v[i])
+        };
+        let at = |rows: &[Vec<f32>; 3]| [rows[0][i], rows[1][i], rows[2][i]];
+        let ray = (at(&rays.origin), at(&rays.direction), rays.t_min[i], rays.t_max[i]);
+        panic!("{name}, {W} children, {:?}: ray {i} {ray:?}: {} for {}", scene.bounds(), text(found), text(truth));
+    }
+}
+
+/// In strict form the bits of the reference; fused, the bits of its own single rays and the tolerance of the reference.
+fn check_form<L: Lanes>(lanes: L, form: Form) {
+    for case in CASES.iter() {
+        let name = format!("{} {} {form:?}", case.name, L::NAME);
+        let found = intersect(lanes, &case.eight, &case.rays, form);
+        if L::FUSED {
+            let single = intersect(lanes, &case.eight, &case.rays, Form::Single);
+            same_bits(&case.eight, &case.rays, &found, &single, &name);
+            reference::check(&case.eight, &case.rays, &found, &name);
+        } else {
+            same_bits(&case.eight, &case.rays, &found, &case.hits, &name);
+        }
+        let hit: Vec<bool> = found.primitive.iter().map(|&primitive| primitive != MISS).collect();
+        assert_eq!(occluded(lanes, &case.eight, &case.rays, form), hit, "{name}");
+    }
+}
+
+/// Trees of four children a node give the same as those of eight.
+fn check_four<L: Lanes>(lanes: L) {
+    for case in CASES.iter() {
+        let name = format!("{} {}", case.name, L::NAME);
+        let truth = intersect(lanes, &case.eight, &case.rays, Form::Single);
+        for form in Form::ALL {
+            same_bits(&case.four, &case.rays, &intersect(lanes, &case.four, &case.rays, form), &truth, &name);
+        }
+    }
+}
+
+/// Traces a batch by the packet call, from within a kernel.
+struct ByPacket<'a>(&'a Scene<8>, RayClass, &'a RaySoA, &'a mut HitSoA);
+
+impl Kernel for ByPacket<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let ByPacket(scene, class, rays, hits) = self;
+        let mut tracer = Tracer::new(scene);
+        let mut at = 0;
+        while at < rays.len() {
+            let load = |x: &[f32]| lanes.load_partial(&x[at..]);
+            let packet: Packet<L> = Packet {
+                origin: [load(&rays.origin[0]), load(&rays.origin[1]), load(&rays.origin[2])],
+                direction: [load(&rays.direction[0]), load(&rays.direction[1]), load(&rays.direction[2])],
+                t_min: load(&rays.t_min),
+                t_max: load(&rays.t_max),
+            };
+            let live = lanes.first_n(rays.len() - at);
+            let found = tracer.intersect_packet(lanes, class, packet, live);
+            lanes.store_partial(&mut hits.t[at..], found.t);
+            lanes.store_partial(&mut hits.u[at..], found.u);
+            lanes.store_partial(&mut hits.v[at..], found.v);
+            lanes.store_int_partial(&mut hits.primitive[at..], found.primitive);
+            lanes.store_int_partial(&mut hits.instance[at..], found.instance);
+            use lobe_lane::Mask;
+            let occluded = tracer.occluded_packet(lanes, class, packet, live);
+            assert_eq!(occluded.bits(), found.mask.bits());
+            at += L::LANES;
+        }
+    }
+}
+
+fn check_packet_call<L: Lanes>(lanes: L) {
+    for case in CASES.iter() {
+        for class in [RayClass::Camera, RayClass::Diffuse] {
+            let mut found = HitSoA::new(case.rays.len());
+            lanes.vectorize(ByPacket(&case.eight, class, &case.rays, &mut found));
+            let name = format!("{} {} packet call", case.name, L::NAME);
+            same_bits(&case.eight, &case.rays, &found, &intersect(lanes, &case.eight, &case.rays, Form::Single), &name);
+        }
+    }
+}
+
+/// One named test a form and backend. A backend that the CPU lacks says so.
+macro_rules! on {
+    ($($name:ident: $lanes:expr;)*) => {$(
+        mod $name {
+            use super::*;
+
+            fn check(form: Form) {
+                match $lanes {
+                    Some(lanes) => check_form(lanes, form),
+                    None => println!("SKIP: this CPU has no {}", stringify!($name)),
+                }
+            }
+
+            #[test]
+            fn packet() {
+                check(Form::Packet);
+            }
+            #[test]
+            fn hybrid() {
+                check(Form::Hybrid);
+            }
+            #[test]
+            fn large() {
+                check(Form::Large);
+            }
+            #[test]
+            fn single() {
+                check(Form::Single);
+            }
+            #[test]
+            fn packet_call() {
+                match $lanes {
+                    Some(lanes) => check_packet_call(lanes),
+                    None => println!("SKIP: this CPU has no {}", stringify!($name)),
+                }
+            }
+        }
+    )*};
+}
+
+on! {
+    scalar: Some(Scalar::<1>);
+    emulated4: Some(Scalar::<4>);
+    emulated8: Some(Scalar::<8>);
+}
+
+#[cfg(target_arch = "x86_64")]
+on! {
+    sse2: Some(lobe_sse::Sse2::new());
+    sse41: lobe_sse::Sse41::detect();
+    avx2: lobe_avx::Avx2::detect();
+    avx2_strict: lobe_avx::Avx2::detect().map(Lanes::strict);
+}
+
+#[test]
+fn four_children_scalar() {
+    check_four(Scalar::<1>);
+}
+
+/// More lanes than children.
+#[test]
+fn four_children_emulated8() {
+    check_four(Scalar::<8>);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[test]
+fn four_children_sse2() {
+    check_four(lobe_sse::Sse2::new());
+}
+
+#[cfg(feature = "rayon")]
+#[test]
+fn threads_change_nothing() {
+    let case = &CASES[1];
+    let rays = rays::joined(&vec![case.rays.clone(); 5]);
+    let mut hits = HitSoA::new(rays.len());
+    lobe_trace::intersect(Scalar::<4>, &case.eight, RayClass::Mirror, rays.view(), hits.view());
+    let n = case.rays.len();
+    for run in 0..5 {
+        assert_eq!(hits.primitive[run * n..][..n], case.hits.primitive);
+        assert_eq!(hits.t[run * n..][..n], case.hits.t);
+    }
+    let mut out = vec![false; rays.len()];
+    lobe_trace::occluded(Scalar::<4>, &case.eight, RayClass::Shadow, rays.view(), &mut out);
+    assert!(out.iter().zip(&hits.primitive).all(|(&hit, &primitive)| hit == (primitive != MISS)));
+}
