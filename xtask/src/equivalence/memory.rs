@@ -33,14 +33,14 @@ fn whole<L: Lanes>(lanes: L) -> Vec<bool> {
     let source: Vec<f32> = (0..2 * MAX_LANES).map(|i| i as f32 + 0.25).collect();
     let mut holds = Vec::new();
     for at in 0..MAX_LANES {
-        let mut target = vec![UNTOUCHED; 2 * MAX_LANES];
+        let mut target = [UNTOUCHED; 2 * MAX_LANES];
         lanes.store(&mut target[at..], lanes.load(&source[at..]));
         holds.extend((0..target.len()).map(|i| {
             let inside = (at..at + L::LANES).contains(&i);
             target[i] == if inside { source[i] } else { UNTOUCHED }
         }));
         let from: Vec<i32> = patterns::INTS[at..][..MAX_LANES].to_vec();
-        let mut to = vec![0x0bad; MAX_LANES + 1];
+        let mut to = [0x0bad; MAX_LANES + 1];
         lanes.store_int(&mut to[1..], lanes.load_int(&from));
         holds.extend((0..MAX_LANES).map(|i| to[1 + i] == if i < L::LANES { from[i] } else { 0x0bad }));
         holds.push(to[0] == 0x0bad);
