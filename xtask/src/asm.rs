@@ -120,6 +120,12 @@ mod tests {
     }
 
     #[test]
+    fn the_functions_of_an_executable_are_seen() {
+        let symbols = Symbols::read(&std::env::current_exe().unwrap()).unwrap();
+        assert!(symbols.functions > 1000, "{symbols:?}");
+    }
+
+    #[test]
     fn executables_are_read_from_the_messages_of_cargo() {
         let messages = b"{\"reason\":\"x\",\"executable\":null}\n{\"executable\":\"/t/lobe\"}\n{\"success\":true}\n";
         assert_eq!(executables(messages).unwrap(), [PathBuf::from("/t/lobe")]);

@@ -53,6 +53,7 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
     let mut faults = 0;
     for (backend, errors) in forms.iter().zip(found) {
         for ((name, bound), error) in FUNCTIONS.into_iter().zip(errors) {
+            let ulp = |ulp: f64| if bound.ulp.is_finite() { format!("{ulp:.2}") } else { "-".into() };
             let ok = error.abs <= bound.abs && error.ulp <= bound.ulp;
             faults += usize::from(!ok);
             table.add_row([
@@ -61,8 +62,8 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
                 name.to_string(),
                 format!("{:.3e}", error.abs),
                 format!("{:.3e}", bound.abs),
-                format!("{:.2}", error.ulp),
-                format!("{:.2}", bound.ulp),
+                ulp(error.ulp),
+                ulp(bound.ulp),
                 if ok { "ok" } else { "FAILED" }.to_string(),
             ]);
         }
@@ -214,8 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn every_float_is_visited_and_a_wrong_result_is_seen() {
-        // With this step the bits of 0 and 1 and one between are the arguments.
+    fn a_wrong_result_is_seen() {
         let mut chunk = Chunk::new();
         chunk.fill([0.0, 0.5, 1.0].into_iter().cycle().take(CHUNK));
         let mut errors = NONE;

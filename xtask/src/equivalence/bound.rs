@@ -84,6 +84,11 @@ impl<'a> FusedBound<'a> {
         largest
     }
 
+    /// Whether a bound allows any values of the table, as it does at a step: it says nothing then.
+    pub(super) fn is_void(&self, bound: f64) -> bool {
+        bound >= 2.0 * self.largest
+    }
+
     /// The largest difference, for unit vectors or for directions whose value is 0 in both forms.
     pub(super) fn at(&self, wi: [f32; 3], wo: [f32; 3]) -> f64 {
         let fold = self.samples.scatter() == Scatter::Transmission;
@@ -189,6 +194,7 @@ mod tests {
         assert_eq!(bound.at([f32::NAN, 0.0, 1.0], [0.0, 0.0, 1.0]), 0.0);
         let (wi, inside) = ([0.6, 0.0, 0.8], [-0.3, 0.5, 0.812_403_85]);
         assert!(bound.at(wi, inside) < 1e-3, "{}", bound.at(wi, inside));
+        assert!(!bound.is_void(bound.at(wi, inside)) && bound.is_void(bound.at(wi, wi)));
         assert!(bound.at(wi, wi) > 20.0, "phi is 0, and the values at 0 and at the full turn differ");
     }
 }

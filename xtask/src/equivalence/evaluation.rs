@@ -51,11 +51,14 @@ fn evaluate<L: Lanes>(lanes: L, case: &Case) -> Vec<Record> {
         let finite = vectors.iter().map(|value| value.is_finite()).collect::<Vec<bool>>();
         records.push(Record::exact(format!("{name}: finite"), finite));
     }
-    let bound = match bounds {
-        None => Bound::StrictOnly,
-        Some(bounds) => Bound::Each(bounds.iter().flat_map(|&bound| std::iter::repeat_n(bound, channels)).collect()),
-    };
-    records.push(Record::bounded(format!("{name}: values"), vectors, bound));
+    match bounds {
+        None => records.push(Record::bounded(format!("{name}: values"), vectors, Bound::StrictOnly)),
+        Some(bounds) => records.extend([("values", false), ("values at a step", true)].map(|(what, at_step)| {
+            let texels = vectors.chunks_exact(channels).zip(bounds).filter(|(_, allowed)| allowed.at_step == at_step);
+            let (values, bounds) = texels.flat_map(|(texel, a)| texel.iter().map(|&x| (x, a.difference))).unzip();
+            Record::bounded(format!("{name}: {what}"), values, Bound::Each(bounds))
+        })),
+    }
     records
 }
 

@@ -177,11 +177,17 @@ impl Kernel for Masks {
         records.push(Record::exact("first_four, extract", (0..L::LANES).map(placed).collect::<Vec<bool>>()));
 
         let iota = lanes.iota();
-        let lane_of = |lane: usize| lanes.extract_int(iota, lane) == (lane % L::LANES) as i32;
-        records.push(Record::exact("iota, extract_int", (0..2 * MAX_LANES).map(lane_of).collect::<Vec<bool>>()));
         let scaled = iota.to_float() * lanes.splat(1.5);
-        let lane_of = |lane: usize| lanes.extract(scaled, lane) == 1.5 * (lane % L::LANES) as f32;
-        records.push(Record::exact("extract", (0..2 * MAX_LANES).map(lane_of).collect::<Vec<bool>>()));
+        let (mut whole, mut halves) = (Vec::new(), Vec::new());
+        let mut lane = 0;
+        while lane < 2 * MAX_LANES {
+            let expected = (lane % L::LANES) as i32;
+            whole.push(lanes.extract_int(iota, lane) == expected);
+            halves.push(lanes.extract(scaled, lane) == 1.5 * expected as f32);
+            lane += 1;
+        }
+        records.push(Record::exact("iota, extract_int", whole));
+        records.push(Record::exact("extract", halves));
 
         let mut splats = Vec::new();
         for (&x, &bits) in patterns::INTS.iter().zip(&patterns::FLOATS) {

@@ -22,7 +22,15 @@ pub(super) struct Case {
     pub(super) table: Table,
     pub(super) queries: Queries,
     /// For each query how far the fused form may be away; none for queries that are not unit vectors.
-    pub(super) bounds: Option<Vec<f64>>,
+    pub(super) bounds: Option<Vec<Allowed>>,
+}
+
+/// How far the fused form may be away.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Allowed {
+    pub(super) difference: f64,
+    /// Where the table has a step.
+    pub(super) at_step: bool,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -71,7 +79,11 @@ fn add(cases: &mut Vec<Case>, name: &str, samples: &Samples, edges: &Edges) {
         ("not unit", not_unit(), false),
     ];
     for (set, queries, unit) in sets {
-        let bounds = || queries.wi.iter().zip(&queries.wo).map(|(&wi, &wo)| bound.at(wi, wo)).collect();
+        let allowed = |(&wi, &wo): (&[f32; 3], &[f32; 3])| {
+            let difference = bound.at(wi, wo);
+            Allowed { difference, at_step: bound.is_void(difference) }
+        };
+        let bounds = || queries.wi.iter().zip(&queries.wo).map(allowed).collect();
         let (name, bounds) = (format!("{name}, {set}"), unit.then(bounds));
         cases.push(Case { name, table: table.clone(), queries, bounds });
     }
@@ -92,7 +104,9 @@ fn fixtures() -> Vec<PathBuf> {
 /// phi are the same where the knots close the circle.
 fn random(seed: u64, channels: usize, anisotropic: bool, scatter: Scatter) -> Samples {
     let mut rng = Pcg32::seed_from_u64(seed);
-    let mut knots = |n: usize, end: f64, closed: bool| -> Vec<f64> {
+    let closed = rng.random::<bool>();
+    let mut axis = |sizes: [usize; 3], end: f64, closed: bool| -> Vec<f64> {
+        let n = sizes[rng.random_range(0..3)];
         let uniform = rng.random_range(0..3) == 0;
         let mut at: Vec<f64> =
             (0..n).map(|i| i as f64 + if uniform { 0.0 } else { rng.random_range(-0.4..0.4) }).collect();
@@ -100,12 +114,10 @@ fn random(seed: u64, channels: usize, anisotropic: bool, scatter: Scatter) -> Sa
         let span = if closed && n > 1 { at[n - 1] } else { n as f64 };
         at.iter().map(|x| end * x / span).collect()
     };
-    let pick = |sizes: [usize; 3]| sizes[seed as usize % 3];
-    let closed = seed.is_multiple_of(2);
-    let sigma = knots(pick([4, 7, 1]), FRAC_PI_2, seed.is_multiple_of(5));
-    let psi = if anisotropic { knots(pick([5, 3, 11]), TAU, closed) } else { vec![0.0] };
-    let theta = knots(pick([9, 19, 40]), PI, seed.is_multiple_of(3));
-    let phi = knots(pick([13, 6, 36]), TAU, closed);
+    let sigma = axis([4, 7, 1], FRAC_PI_2, seed.is_multiple_of(5));
+    let psi = if anisotropic { axis([5, 3, 11], TAU, closed) } else { vec![0.0] };
+    let theta = axis([9, 19, 40], PI, seed.is_multiple_of(2));
+    let phi = axis([13, 6, 36], TAU, closed);
 
     let sizes = [sigma.len(), psi.len(), theta.len(), phi.len()];
     let mut values = Vec::new();

@@ -49,12 +49,13 @@ fn quads<L: Lanes>(lanes: L, xs: &[f32], ys: &[f32], records: &mut Vec<Record>) 
         "quad a * b" |a, b| a * b;
         "quad_max" |a, b| lanes.quad_max(a, b);
     }
-    let splat = |x: f32| {
-        let mut out = [0.0; 4];
-        lanes.quad_store(&mut out, lanes.quad_splat(x));
-        out
-    };
-    records.push(Record::exact("quad_splat", xs.iter().flat_map(|&x| splat(x)).collect::<Vec<f32>>()));
+    let mut splats = Vec::new();
+    for &x in xs {
+        let mut splat = [0.0; 4];
+        lanes.quad_store(&mut splat, lanes.quad_splat(x));
+        splats.extend(splat);
+    }
+    records.push(Record::exact("quad_splat", splats));
 }
 
 #[inline(always)]
