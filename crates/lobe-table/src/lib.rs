@@ -1,7 +1,7 @@
 //! Tabulated BRDFs and BTDFs on non-uniform angular grids, evaluated in SIMD lanes.
 //!
 //! [`Samples`] are a material as it was measured, [`Edges`] say what holds outside its knots, and a [`Table`] is both made
-//! ready to be evaluated on any [`lobe_lane`] backend. [`reference`] is the same evaluation in `f64`, written for the
+//! ready to be evaluated on any [`lobe_lane`] backend. [`mod@reference`] is the same evaluation in `f64`, written for the
 //! reader; [`coords`] explains the four angles.
 #![forbid(unsafe_code)]
 
