@@ -44,7 +44,9 @@ pub use edges::{Edge, Edges};
 pub use function::Function;
 pub use invalid::Invalid;
 pub use samples::{AXIS_NAMES, Channels, Samples, SamplesError, Scatter};
-pub use sampling::{Given, Sampled, Sampler, SamplerError, SamplerOptions};
+pub use sampling::{
+    Distribution, DistributionError, DistributionOptions, Given, Sampled, Sampler, SamplerError, SamplerOptions,
+};
 pub use search::Cell;
 pub use table::{Table, TableError};
 pub use texel::Precision;

@@ -7,7 +7,8 @@ use std::sync::Arc;
 use lobe_formats::Document;
 use lobe_lane::{Kernel, Lanes};
 use lobe_table::{
-    Channels, Edges, Given, Sampled, Sampler, SamplerError, SamplerOptions, Samples, Scatter, Table, coords,
+    Channels, DistributionError, Edges, Given, Sampled, Sampler, SamplerError, SamplerOptions, Samples, Scatter, Table,
+    coords,
 };
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -500,7 +501,10 @@ fn options_that_make_no_sense_are_refused() {
     for defensive in [0.0, -0.1, 1.1, f32::NAN] {
         let options = SamplerOptions { defensive, ..SamplerOptions::default() };
         let error = Sampler::new(REFERENCE, table.clone(), &options).unwrap_err();
-        assert!(matches!(error, SamplerError::Defensive { .. }), "{defensive}: {error}");
+        assert!(
+            matches!(error, SamplerError::Distribution(DistributionError::Defensive { .. })),
+            "{defensive}: {error}"
+        );
     }
     for luminance in [vec![], vec![1.0], vec![0.0; 3], vec![1.0, -1.0, 1.0], vec![1.0, f32::INFINITY, 0.0]] {
         let options = SamplerOptions { luminance: Some(luminance.clone()), ..SamplerOptions::default() };

@@ -1,14 +1,13 @@
 //! A block of samples in short passes.
 //!
 //! A search is a chain of loads, each waiting for the one before. Taking one step of it in all queries of a block before
-//! the next keeps many loads in flight. The arithmetic is that of [`draw`](super::kernels::draw).
+//! the next keeps many loads in flight. The arithmetic is that of [`Distribution::draw_lanes`].
 
 use lobe_lane::{Lanes, MAX_LANES};
 
+use super::distribution::{Distribution, leave, place};
 use super::incident::Incident;
-use super::kernels::{factor, leave, place};
 use super::slices::{Place, Row, Search, Sums, View};
-use crate::Table;
 use crate::directions::{BlockOfDirections, Directions};
 use crate::passes::block::Column;
 
@@ -74,15 +73,13 @@ impl Scratch {
 pub(super) struct Out<'a> {
     pub(super) directions: &'a mut [[f32; 3]],
     pub(super) pdfs: &'a mut [f32],
-    /// What makes a weight of `f`.
-    pub(super) factors: &'a mut [f32],
 }
 
 /// Samples up to [`BLOCK`](crate::passes::block::BLOCK) directions.
 #[inline(always)]
 pub(super) fn draw<L: Lanes, S: Sums>(
     lanes: L,
-    table: &Table,
+    distribution: &Distribution,
     view: &View<'_, S>,
     (known, u): (&[[f32; 3]], &[[f32; 2]]),
     out: Out<'_>,
@@ -96,8 +93,8 @@ pub(super) fn draw<L: Lanes, S: Sums>(
     while at < n {
         // Beyond the last pair of numbers that pair is read again.
         let [first, second] = lanes.gather_pair(u, lanes.iota() + lanes.splat_int(at as i32));
-        let incident = Incident::new(lanes, table, known.load(lanes, at));
-        let place = place(lanes, table, &incident);
+        let incident = Incident::new(lanes, &distribution.surface, known.load(lanes, at));
+        let place = place(lanes, distribution, &incident);
         let (search, total) = view.begin(lanes, &place, first);
         scratch.begin(lanes, at, search);
         scratch.scale.store(lanes, at, total);
@@ -148,10 +145,9 @@ pub(super) fn draw<L: Lanes, S: Sums>(
     while at < n {
         let row = Row { phi: scratch.phi.load(lanes, at), scale: scratch.scale.load(lanes, at) };
         let draw = view.end(lanes, scratch.search(lanes, at), row);
-        let incident = Incident::new(lanes, table, known.load(lanes, at));
+        let incident = Incident::new(lanes, &distribution.surface, known.load(lanes, at));
         let (direction, pdf) = leave(lanes, &incident, draw, all);
         lanes.store_partial(&mut out.pdfs[at..], pdf);
-        lanes.store_partial(&mut out.factors[at..], factor(lanes, direction[2], pdf));
         store(lanes, &mut out.directions[at..], direction);
         at += L::LANES;
     }

@@ -1,16 +1,15 @@
-//! From a table to the slices of its sampler.
+//! From the light of a material to the slices of its distribution.
 
 use std::f64::consts::FRAC_PI_2;
 
 use lobe_lane::Lanes;
 
-use super::SamplerError;
+use super::DistributionError;
 use super::grid::{Grid, candidate_columns, candidate_rows, spread};
-use super::histogram::{Bin, Histogram};
+use super::histogram::{Bin, Histogram, Light};
+use super::incident::Surface;
 use super::slices::Slices;
-use crate::Table;
 use crate::axis::Axis;
-use crate::layout::{PHI, PSI, SIGMA, THETA};
 use crate::storage::Storage;
 
 /// At most this many cells a slice, as a power of two: what the caches near a core can hold of a few slices.
@@ -27,17 +26,26 @@ const DARKEST: f64 = 1e-6;
 const LEAST_SHARE: f64 = 4.0 * f32::EPSILON as f64;
 
 /// What a builder is given.
-pub(crate) struct Builder<'a, L> {
+pub(crate) struct Builder<'a, L, T> {
     pub(crate) lanes: L,
-    pub(crate) table: &'a Table,
-    pub(crate) luminance: &'a [f32],
+    pub(crate) light: T,
+    pub(crate) surface: &'a Surface,
+    /// Incident directions: the knots of sigma and, where it counts, of psi.
+    pub(crate) sigma: &'a Axis,
+    pub(crate) psi: Option<&'a Axis>,
+    /// Where scattered light is likely to vary: knots of theta, and how many of phi.
+    pub(crate) theta: &'a [f32],
+    pub(crate) phis: usize,
+    /// At most this much memory.
+    pub(crate) bytes: usize,
     pub(crate) defensive: f64,
 }
 
-impl<L: Lanes> Builder<'_, L> {
-    /// Builds the slices, and tells `progress` how many of how many are done.
-    pub(crate) fn build(&self, progress: &mut dyn FnMut(usize, usize)) -> Result<Slices, SamplerError> {
-        let [sigma, psi] = [SIGMA, PSI].map(|axis| knots(&self.table.axes[axis]));
+impl<L: Lanes, T: Light> Builder<'_, L, T> {
+    /// Builds the slices, and tells `progress` how many of how many are done. With them comes the brightness that sums
+    /// of 1 stand for.
+    pub(crate) fn build(mut self, progress: &mut dyn FnMut(usize, usize)) -> Result<(Slices, f64), DistributionError> {
+        let (sigma, psi) = (knots(self.sigma), self.psi.map_or(vec![0.0], knots));
         let count = sigma.len() * psi.len();
         let incident = |slice: usize| {
             let (sin_sigma, cos_sigma) = sigma[slice / psi.len()].clamp(SIGMAS[0], SIGMAS[1]).sin_cos();
@@ -54,18 +62,22 @@ impl<L: Lanes> Builder<'_, L> {
             slices.push(Slice::new(&self.histogram(incident(slice), &phi, &root_v, points), self.defensive));
             progress(slice + 1, count);
         }
-        Ok(self.store(grid, &slices))
+        let brightest = slices.iter().fold(0.0, |most: f64, slice| most.max(slice.brightness));
+        Ok((self.store(grid, &slices, brightest), brightest))
     }
 
-    fn histogram(&self, incident: [f32; 3], phi: &[f64], root_v: &[f64], points: usize) -> Vec<Bin> {
-        let &Builder { lanes, table, luminance, .. } = self;
-        lanes.vectorize(Histogram { table, luminance, incident, phi, root_v, points })
+    fn histogram(&mut self, incident: [f32; 3], phi: &[f64], root_v: &[f64], points: usize) -> Vec<Bin> {
+        let Builder { lanes, light, surface, .. } = self;
+        lanes.vectorize(Histogram { light, surface, incident, phi, root_v, points })
     }
 
     /// The finest grid that the table's size allows, its edges where the light of the surveyed slices varies.
-    fn lay_out(&self, surveyed: impl Iterator<Item = [f32; 3]>) -> Result<(Vec<f64>, Vec<f64>, Grid), SamplerError> {
-        let rows = candidate_rows(&self.table.axes[PHI]);
-        let columns = candidate_columns(&self.table.axes[THETA]);
+    fn lay_out(
+        &mut self,
+        surveyed: impl Iterator<Item = [f32; 3]>,
+    ) -> Result<(Vec<f64>, Vec<f64>, Grid), DistributionError> {
+        let rows = candidate_rows(self.phis);
+        let columns = candidate_columns(self.theta);
         let (mut by_row, mut by_column) = (vec![0.0; rows.len() - 1], vec![0.0; columns.len() - 1]);
         for incident in surveyed {
             let bins = self.histogram(incident, &rows, &columns, 1);
@@ -79,16 +91,15 @@ impl<L: Lanes> Builder<'_, L> {
                 }
             }
         }
-        let budget = self.table.bytes() + self.table.bytes() / 2;
         let mut bits = MOST_BITS;
         loop {
             let row_bits = bits / 2;
             let phi = spread(&rows, &by_row, 1 << row_bits);
             let root_v = spread(&columns, &by_column, 1 << (bits - row_bits));
-            let grid = Grid::new(&phi, &root_v).map_err(|source| SamplerError::Grid { source })?;
+            let grid = Grid::new(&phi, &root_v).map_err(|source| DistributionError::Grid { source })?;
             let floats = self.blocks().iter().product::<usize>() * self.width() * ((1 << bits) + (1 << row_bits));
             let bytes = grid.bytes() + 4 * floats + 128;
-            if bits == LEAST_BITS || (bytes <= budget && i32::try_from(floats).is_ok()) {
+            if bits == LEAST_BITS || (bytes <= self.bytes && i32::try_from(floats).is_ok()) {
                 return Ok((phi, root_v, grid));
             }
             bits -= 1;
@@ -97,24 +108,21 @@ impl<L: Lanes> Builder<'_, L> {
 
     /// Cells in sigma and psi, at least one.
     fn blocks(&self) -> [usize; 2] {
-        [SIGMA, PSI].map(|axis| self.table.axes[axis].cells().len().max(1))
+        [Some(self.sigma), self.psi].map(|axis| axis.map_or(1, |axis| axis.cells().len().max(1)))
     }
 
     /// Slices that a lane blends.
     fn width(&self) -> usize {
-        if self.table.is_anisotropic() { 4 } else { 2 }
+        if self.psi.is_some() { 4 } else { 2 }
     }
 
     /// Puts the slices that are blended side by side.
-    fn store(&self, grid: Grid, slices: &[Slice]) -> Slices {
-        let brightest = slices.iter().fold(0.0, |most: f64, slice| most.max(slice.brightness));
-        let psis = knots(&self.table.axes[PSI]).len();
+    fn store(&self, grid: Grid, slices: &[Slice], brightest: f64) -> Slices {
+        let psis = self.psi.map_or(1, |psi| knots(psi).len());
         let sums: Vec<[Vec<f32>; 2]> = slices.iter().map(|slice| slice.sums(brightest, &grid)).collect();
         let (width, blocks) = (self.width(), self.blocks());
-        let source = |axis: usize, knot: usize| {
-            let source = self.table.axes[axis].source();
-            source[knot.min(source.len() - 1)]
-        };
+        let source =
+            |axis: Option<&Axis>, knot: usize| axis.map_or(0, |axis| axis.source()[knot.min(axis.source().len() - 1)]);
         let [rows, columns] = [0, 1].map(|which| {
             let entries = sums[0][which].len();
             let mut storage = Storage::zeros(blocks[0] * blocks[1] * entries * width);
@@ -125,7 +133,7 @@ impl<L: Lanes> Builder<'_, L> {
                     for corner in 0..width {
                         // Where psi counts it is the fast one of the two.
                         let (up_sigma, up_psi) = if width == 2 { (corner, 0) } else { (corner / 2, corner % 2) };
-                        let slice = source(SIGMA, sigma + up_sigma) * psis + source(PSI, psi + up_psi);
+                        let slice = source(Some(self.sigma), sigma + up_sigma) * psis + source(self.psi, psi + up_psi);
                         for (entry, sum) in sums[slice][which].iter().enumerate() {
                             block[entry * width + corner] = *sum;
                         }

@@ -61,16 +61,16 @@ pub(crate) fn spread(edges: &[f64], mass: &[f64], count: usize) -> Vec<f64> {
 }
 
 /// Even rows to choose from, at least as fine as the knots of phi.
-pub(crate) fn candidate_rows(phi: &Axis) -> Vec<f64> {
-    let count = phi.knots().len().clamp(64, 256);
+pub(crate) fn candidate_rows(phis: usize) -> Vec<f64> {
+    let count = phis.clamp(64, 256);
     (0..=count).map(|i| TAU * i as f64 / count as f64).collect()
 }
 
 /// Columns to choose from, as edges in the root of `v`: the knots of theta with the horizon at a right angle, and as
 /// many between them as make about 128.
-pub(crate) fn candidate_columns(theta: &Axis) -> Vec<f64> {
+pub(crate) fn candidate_columns(theta: &[f32]) -> Vec<f64> {
     let mut knots = vec![0.0];
-    for &theta in theta.knots() {
+    for &theta in theta {
         let root = (1.0 - f64::from(theta).cos()).max(0.0).sqrt();
         let last = knots[knots.len() - 1];
         // Knots closer than single precision tells apart are one.

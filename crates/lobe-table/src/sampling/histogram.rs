@@ -1,15 +1,59 @@
-//! The brightness of a table over the cells of a grid, for one incident direction.
+//! The brightness of a material over the cells of a grid, for one incident direction.
 
 use lobe_lane::{Kernel, Lanes};
 
-use super::incident::Incident;
+use super::incident::{Incident, Surface};
 use crate::Table;
 
-/// The integrals over each cell, rows slow, by midpoints: of luminance times f times cosine, and of the cosine alone.
-pub(crate) struct Histogram<'a> {
+/// What scatters.
+pub(crate) trait Light {
+    /// Luminance times `f`, 1/sr, of each pair. There are as many `wi` as `wo` and `out`.
+    fn fill<L: Lanes>(&mut self, lanes: L, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]);
+}
+
+/// The light of a table.
+pub(crate) struct TableLight<'a> {
     pub(crate) table: &'a Table,
     /// How much each channel counts.
     pub(crate) luminance: &'a [f32],
+    /// Room for values.
+    pub(crate) values: Vec<f32>,
+}
+
+impl Light for TableLight<'_> {
+    #[inline(always)]
+    fn fill<L: Lanes>(&mut self, lanes: L, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        let TableLight { table, luminance, values } = self;
+        let channels = luminance.len();
+        values.resize(wi.len() * channels, 0.0);
+        table.batch(wi, wo, values).run(lanes);
+        let mut at = 0;
+        while at < out.len() {
+            let mut brightness = 0.0;
+            let mut channel = 0;
+            while channel < channels {
+                brightness += luminance[channel] * values[at * channels + channel];
+                channel += 1;
+            }
+            out[at] = brightness;
+            at += 1;
+        }
+    }
+}
+
+/// Light that a function tells.
+pub(crate) struct LightOf<F>(pub(crate) F);
+
+impl<F: FnMut(&[[f32; 3]], &[[f32; 3]], &mut [f32])> Light for LightOf<F> {
+    fn fill<L: Lanes>(&mut self, _: L, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        (self.0)(wi, wo, out);
+    }
+}
+
+/// The integrals over each cell, rows slow, by midpoints: of luminance times f times cosine, and of the cosine alone.
+pub(crate) struct Histogram<'a, T> {
+    pub(crate) light: &'a mut T,
+    pub(crate) surface: &'a Surface,
     /// The incident direction.
     pub(crate) incident: [f32; 3],
     /// The edges of rows and columns.
@@ -26,20 +70,19 @@ pub(crate) struct Bin {
     pub(crate) cosine: f64,
 }
 
-impl Kernel for Histogram<'_> {
+impl<T: Light> Kernel for Histogram<'_, T> {
     type Out = Vec<Bin>;
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> Vec<Bin> {
-        let Histogram { table, luminance, incident, phi, root_v, points } = self;
-        let channels = luminance.len();
+        let Histogram { light, surface, incident, phi, root_v, points } = self;
         let columns = root_v.len() - 1;
-        let incident_lanes = Incident::new(lanes, table, incident.map(|x| lanes.splat(x)));
+        let incident_lanes = Incident::new(lanes, surface, incident.map(|x| lanes.splat(x)));
 
         let v = midpoints(root_v, points, |root| root * root);
         let mut scattered = vec![[0.0f32; 3]; v.len()];
         let incidents = vec![incident; v.len()];
-        let mut values = vec![0.0f32; v.len() * channels];
+        let mut values = vec![0.0f32; v.len()];
         let mut bins = Vec::with_capacity((phi.len() - 1) * columns);
         let mut row = 0;
         while row + 1 < phi.len() {
@@ -62,7 +105,7 @@ impl Kernel for Histogram<'_> {
                     }
                     at += L::LANES;
                 }
-                table.batch(incidents.as_slice(), scattered.as_slice(), &mut values).run(lanes);
+                light.fill(lanes, &incidents, &scattered, &mut values);
 
                 let solid_angle = f64::from(lanes.extract(height, 0)) * width / points as f64;
                 let mut at = 0;
@@ -70,14 +113,8 @@ impl Kernel for Histogram<'_> {
                     let column = at / points;
                     let [low, high] = [root_v[column], root_v[column + 1]];
                     let cosine = f64::from(scattered[at][2].abs()) * solid_angle * (high * high - low * low);
-                    let mut brightness = 0.0;
-                    let mut channel = 0;
-                    while channel < channels {
-                        brightness += luminance[channel] * values[at * channels + channel];
-                        channel += 1;
-                    }
                     bins[column].cosine += cosine;
-                    bins[column].light += cosine * f64::from(brightness.max(0.0));
+                    bins[column].light += cosine * f64::from(values[at].max(0.0));
                     at += 1;
                 }
                 point += 1;

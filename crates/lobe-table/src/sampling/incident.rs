@@ -11,8 +11,17 @@
 
 use lobe_lane::{Floats, Lanes};
 
+use crate::Scatter;
+use crate::function::Function;
 use crate::passes::frame::{FARTHEST, POLE, Refracted, Zenith};
-use crate::{Scatter, Table};
+
+/// What the frame of scattered light depends on, beside the incident direction.
+#[derive(Clone, Debug)]
+pub(crate) struct Surface {
+    pub(crate) scatter: Scatter,
+    /// How far refraction turns the zenith, by sigma.
+    pub(crate) refraction: Option<Function>,
+}
 
 /// An incident direction in each lane, and the frame of what it scatters.
 #[derive(Clone, Copy)]
@@ -43,9 +52,9 @@ pub(crate) struct Local<L: Lanes> {
 
 impl<L: Lanes> Incident<L> {
     #[inline(always)]
-    pub(crate) fn new(lanes: L, table: &Table, [x, y, z]: [L::F; 3]) -> Self {
+    pub(crate) fn new(lanes: L, surface: &Surface, [x, y, z]: [L::F; 3]) -> Self {
         let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
-        let (cos, side) = match table.scatter() {
+        let (cos, side) = match surface.scatter {
             Scatter::Reflection => (z, one),
             Scatter::Transmission => (z.abs(), -one.mul_sign(z)),
         };
@@ -54,7 +63,7 @@ impl<L: Lanes> Incident<L> {
         let tilted = lanes.splat(POLE).lt(sin2);
         let scale = (one / sin).masked(tilted);
         let psi = [lanes.select(tilted, x * scale, one), y * scale];
-        let (opposite, sin_zenith) = match &table.refraction {
+        let (opposite, sin_zenith) = match &surface.refraction {
             None => ([x, y, cos], sin),
             Some(offset) => Refracted(offset).opposite(lanes, [x, y, cos], sin, psi),
         };

@@ -15,6 +15,7 @@
 
 mod block;
 mod build;
+mod distribution;
 mod grid;
 mod histogram;
 mod incident;
@@ -26,11 +27,14 @@ use std::sync::Arc;
 use lobe_lane::{Floats, Lanes};
 use thiserror::Error;
 
-use crate::{AxisError, Channels, Table};
-use build::Builder;
-use kernels::{Densities, Draws, One, OneDensity};
-use slices::Slices;
+use crate::layout::{PHI, PSI, SIGMA, THETA};
+use crate::{Channels, Table};
+use distribution::{Densities, Plan};
+use histogram::TableLight;
+use incident::Surface;
+use kernels::{Draws, One, OneDensity, factor, pair};
 
+pub use distribution::{Distribution, DistributionError, DistributionOptions};
 pub use kernels::Sampled;
 
 /// Which direction of a pair is known; the other one is sampled.
@@ -68,12 +72,9 @@ impl Default for SamplerOptions {
 /// Why there is no sampler.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SamplerError {
-    /// A part of cosine that is no part, or none.
-    #[error("a defensive part of {found}; expected a number in (0, 1]")]
-    Defensive {
-        /// What was found.
-        found: f32,
-    },
+    /// What keeps it from having a distribution.
+    #[error(transparent)]
+    Distribution(#[from] DistributionError),
     /// Luminance weights that do not go with the channels, or are negative, not finite, or all 0.
     #[error("luminance weights {found:?}; expected {channels}, not negative, finite and not all 0")]
     Luminance {
@@ -81,12 +82,6 @@ pub enum SamplerError {
         found: Vec<f32>,
         /// How many channels the table has.
         channels: usize,
-    },
-    /// Edges of a grid that single precision does not tell apart.
-    #[error("the grid of the sampler: {source}")]
-    Grid {
-        /// What is wrong with it.
-        source: AxisError,
     },
 }
 
@@ -98,7 +93,7 @@ pub enum SamplerError {
 #[derive(Clone, Debug)]
 pub struct Sampler {
     table: Arc<Table>,
-    slices: Slices,
+    distribution: Distribution,
 }
 
 impl Sampler {
@@ -122,19 +117,24 @@ impl Sampler {
         options: &SamplerOptions,
         progress: &mut dyn FnMut(usize, usize),
     ) -> Result<Self, SamplerError> {
-        if !(options.defensive > 0.0 && options.defensive <= 1.0) {
-            return Err(SamplerError::Defensive { found: options.defensive });
-        }
         let channels = table.channel_count();
         let luminance = options.luminance.clone().unwrap_or_else(|| luminance(table.channels()));
         let fits = luminance.len() == channels && luminance.iter().all(|&y| y.is_finite() && y >= 0.0);
         if !fits || luminance.iter().all(|&y| y == 0.0) {
             return Err(SamplerError::Luminance { found: luminance, channels });
         }
-        let defensive = f64::from(options.defensive);
-        let lanes = lanes.strict();
-        let slices = Builder { lanes, table: &table, luminance: &luminance, defensive }.build(progress)?;
-        Ok(Sampler { table, slices })
+        let surface = Surface { scatter: table.scatter(), refraction: table.refraction.clone() };
+        let sigma = table.axes[SIGMA].clone();
+        let psi = table.is_anisotropic().then(|| table.axes[PSI].clone());
+        let plan = Plan {
+            theta: table.axes[THETA].knots(),
+            phis: table.axes[PHI].knots().len(),
+            bytes: table.bytes() + table.bytes() / 2,
+            defensive: options.defensive,
+        };
+        let light = TableLight { table: &table, luminance: &luminance, values: Vec::new() };
+        let distribution = Distribution::build(lanes, light, surface, (sigma, psi), &plan, progress)?;
+        Ok(Sampler { table, distribution })
     }
 
     /// The table that is sampled.
@@ -142,10 +142,15 @@ impl Sampler {
         &self.table
     }
 
+    /// The distribution of its samples.
+    pub fn distribution(&self) -> &Distribution {
+        &self.distribution
+    }
+
     /// Bytes of memory that the distributions take beside the table: at most one and a half times what the table takes,
     /// but for the tiniest tables.
     pub fn bytes(&self) -> usize {
-        self.slices.bytes()
+        self.distribution.bytes()
     }
 
     /// Samples one direction for two numbers in `[0, 1)`. Returns it with its density, and `weight` is set to `f` times
@@ -199,7 +204,8 @@ impl Sampler {
     /// Where there are not as many `wi` as `wo` and `pdfs`.
     pub fn pdf_batch<L: Lanes>(&self, lanes: L, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], pdfs: &mut [f32]) {
         assert_eq!((wi.len(), wo.len()), (pdfs.len(), pdfs.len()), "as many wi as wo and densities");
-        lanes.vectorize(Densities { sampler: self, given, wi, wo, pdfs });
+        let (known, other) = pair(given, wi, wo);
+        lanes.vectorize(Densities { distribution: &self.distribution, known, other, pdfs });
     }
 
     /// Samples a direction in each lane inside a caller's own kernel, as [`sample`](Sampler::sample); 0 in the lanes that
@@ -217,10 +223,10 @@ impl Sampler {
         mask: L::M,
         weight: &mut [L::F],
     ) -> ([L::F; 3], L::F) {
-        let (sampled, pdf) = kernels::draw(lanes, self, direction, u, mask);
-        let (wi, wo) = kernels::pair(given, direction, sampled);
+        let (sampled, pdf) = self.distribution.draw_lanes(lanes, direction, u, mask);
+        let (wi, wo) = pair(given, direction, sampled);
         self.table.eval_lanes(lanes, wi, wo, mask, weight);
-        let factor = kernels::factor(lanes, sampled[2], pdf);
+        let factor = factor(lanes, sampled[2], pdf);
         let mut channel = 0;
         while channel < weight.len() {
             weight[channel] = weight[channel] * factor;
@@ -233,8 +239,8 @@ impl Sampler {
     /// leaves out.
     #[inline(always)]
     pub fn pdf_lanes<L: Lanes>(&self, lanes: L, given: Given, wi: [L::F; 3], wo: [L::F; 3], mask: L::M) -> L::F {
-        let (known, other) = kernels::pair(given, wi, wo);
-        kernels::density(lanes, self, known, other).masked(mask)
+        let (known, other) = pair(given, wi, wo);
+        self.distribution.pdf_lanes(lanes, known, other).masked(mask)
     }
 }
 

@@ -131,9 +131,8 @@ impl<S: Sums> View<'_, S> {
     /// The search of a row by a number in `[0, 1)`, and the sum of all rows.
     #[inline(always)]
     pub(crate) fn begin<L: Lanes>(&self, lanes: L, place: &Place<L>, u: L::F) -> (Search<L>, L::F) {
-        let rows = lanes.splat_int(1 << self.grid.row_bits);
-        let first = place.block * rows;
-        let total = self.rows.blend(lanes, first + rows - lanes.splat_int(1), &place.weights);
+        let first = place.block * lanes.splat_int(1 << self.grid.row_bits);
+        let total = self.total(lanes, place);
         (Search::new(lanes, first, unit(lanes, u) * total, total), total)
     }
 
@@ -173,6 +172,13 @@ impl<S: Sums> View<'_, S> {
         Draw { v: v + fraction / per_v, phi: row.phi, density: mass * row.scale * per_v }
     }
 
+    /// The sum of all rows.
+    #[inline(always)]
+    pub(crate) fn total<L: Lanes>(&self, lanes: L, place: &Place<L>) -> L::F {
+        let rows = lanes.splat_int(1 << self.grid.row_bits);
+        self.rows.blend(lanes, place.block * rows + rows - lanes.splat_int(1), &place.weights)
+    }
+
     /// The density per unit of `v` and phi.
     #[inline(always)]
     pub(crate) fn density<L: Lanes>(&self, lanes: L, place: &Place<L>, v: L::F, phi: L::F) -> L::F {
@@ -183,7 +189,7 @@ impl<S: Sums> View<'_, S> {
         let [_, per_v] = lanes.gather_pair(&self.grid.columns, column);
 
         let first = place.block * lanes.splat_int(1 << row_bits);
-        let total = self.rows.blend(lanes, first + lanes.splat_int((1 << row_bits) - 1), &place.weights);
+        let total = self.total(lanes, place);
         let index = (first + row) * lanes.splat_int(1 << column_bits) + column;
         let upper = self.columns.blend(lanes, index, &place.weights);
         let lower = self.columns.blend(lanes, index - lanes.splat_int(1), &place.weights);

@@ -1,0 +1,356 @@
+//! The distribution of scattered light about every incident direction.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use lobe_lane::{Floats, Kernel, Lanes};
+use thiserror::Error;
+
+use super::block;
+use super::build::Builder;
+use super::histogram::{Light, LightOf};
+use super::incident::{Incident, Local, Surface};
+use super::slices::{Draw, Place, Slices};
+use crate::axis::Axis;
+use crate::passes::block::BLOCK;
+use crate::{AxisError, Edge, Scatter};
+
+/// What a [`Distribution`] is laid out for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DistributionOptions {
+    /// Whether scattered directions lie on the side of the incident one, or on the other.
+    pub scatter: Scatter,
+    /// Polar angles of incidence in radians, ascending in `[0, pi/2]`: at each there is a slice.
+    pub sigma: Vec<f64>,
+    /// Azimuths of incidence in radians, ascending in `[0, 2 pi)`; one or none where the azimuth does not count.
+    pub psi: Vec<f64>,
+    /// Angles from the mirror direction, radians in `[0, pi]`, between which the light varies little.
+    pub theta: Vec<f64>,
+    /// About how many steps in azimuth about the mirror direction it takes to follow the light.
+    pub phis: usize,
+    /// The most memory to take, but for the coarsest grid.
+    pub bytes: usize,
+    /// The part of every slice that is a cosine distribution, in `(0, 1]`.
+    pub defensive: f32,
+}
+
+impl DistributionOptions {
+    /// A grid for light of which nothing is known: slices every 5 degrees and close at grazing, psi every 15 degrees
+    /// where it counts, and steps in theta that are finest at the mirror direction.
+    pub fn unknown(scatter: Scatter, isotropic: bool, bytes: usize) -> Self {
+        let mut sigma: Vec<f64> = (0..17).map(|i| f64::from(5 * i).to_radians()).collect();
+        sigma.extend([83.0, 86.0, 88.0, 89.5].map(f64::to_radians));
+        let psi = if isotropic { vec![0.0] } else { (0..24).map(|i| f64::from(i) / 24.0 * TAU).collect() };
+        let theta = (0..=40).map(|i| FRAC_PI_2 * 2.0 * (f64::from(i) / 40.0).powi(2)).collect();
+        DistributionOptions { scatter, sigma, psi, theta, phis: 128, bytes, defensive: 0.05 }
+    }
+}
+
+/// Why there is no distribution.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum DistributionError {
+    /// A part of cosine that is no part, or none.
+    #[error("a defensive part of {found}; expected a number in (0, 1]")]
+    Defensive {
+        /// What was found.
+        found: f32,
+    },
+    /// Knots that do not make an axis.
+    #[error("{axis} of the distribution: {source}")]
+    Axis {
+        /// Which axis.
+        axis: &'static str,
+        /// What is wrong with it.
+        source: AxisError,
+    },
+    /// Edges of a grid that single precision does not tell apart.
+    #[error("the grid of the distribution: {source}")]
+    Grid {
+        /// What is wrong with it.
+        source: AxisError,
+    },
+}
+
+/// Densities of scattered directions in proportion to light times cosine, for every incident direction.
+///
+/// The incident direction is called `known` here, because it may be that of the light or of the viewer. Directions are
+/// unit vectors away from the surface, normal on +z; densities are per steradian. In strict form, samples are the same
+/// bits on every backend.
+#[derive(Clone, Debug)]
+pub struct Distribution {
+    pub(super) surface: Surface,
+    sigma: Axis,
+    psi: Option<Axis>,
+    slices: Slices,
+    brightest: f32,
+}
+
+impl Distribution {
+    /// Builds the distribution of a function that tells luminance times `f`, 1/sr, of many pairs: it gets the incident
+    /// directions, as many scattered ones, and where to put the results. It is asked for incident directions with
+    /// `z > 0` only, and for scattered ones on the side that `options` say.
+    ///
+    /// `progress(done, all)` is called after each slice.
+    ///
+    /// # Errors
+    /// Where the options make no sense.
+    pub fn of_function<L: Lanes>(
+        lanes: L,
+        options: &DistributionOptions,
+        light: impl FnMut(&[[f32; 3]], &[[f32; 3]], &mut [f32]),
+        progress: &mut dyn FnMut(usize, usize),
+    ) -> Result<Self, DistributionError> {
+        let axis = |name: &'static str, knots: &[f64], edge: Edge| {
+            Axis::new(knots, edge).map_err(|source| DistributionError::Axis { axis: name, source })
+        };
+        let surface = Surface { scatter: options.scatter, refraction: None };
+        let sigma = axis("sigma", &options.sigma, Edge::Clamp)?;
+        let psi = if options.psi.len() > 1 { Some(axis("psi", &options.psi, Edge::Periodic)?) } else { None };
+        let theta: Vec<f32> = options.theta.iter().map(|&theta| theta as f32).collect();
+        let plan = Plan { theta: &theta, phis: options.phis, bytes: options.bytes, defensive: options.defensive };
+        Distribution::build(lanes, LightOf(light), surface, (sigma, psi), &plan, progress)
+    }
+
+    pub(super) fn build<L: Lanes>(
+        lanes: L,
+        light: impl Light,
+        surface: Surface,
+        (sigma, psi): (Axis, Option<Axis>),
+        plan: &Plan<'_>,
+        progress: &mut dyn FnMut(usize, usize),
+    ) -> Result<Self, DistributionError> {
+        let &Plan { theta, phis, bytes, defensive } = plan;
+        if !(defensive > 0.0 && defensive <= 1.0) {
+            return Err(DistributionError::Defensive { found: defensive });
+        }
+        let (slices, brightest) = Builder {
+            lanes: lanes.strict(),
+            light,
+            surface: &surface,
+            sigma: &sigma,
+            psi: psi.as_ref(),
+            theta,
+            phis,
+            bytes,
+            defensive: f64::from(defensive),
+        }
+        .build(progress)?;
+        Ok(Distribution { surface, sigma, psi, slices, brightest: brightest as f32 })
+    }
+
+    /// Whether scattered directions lie on the side of the incident one, or on the other.
+    pub fn scatter(&self) -> Scatter {
+        self.surface.scatter
+    }
+
+    /// Bytes of memory that the distribution takes.
+    pub fn bytes(&self) -> usize {
+        let psi = self.psi.as_ref().map_or(0, Axis::bytes);
+        self.slices.bytes() + self.sigma.bytes() + psi
+    }
+
+    /// Draws a scattered direction, and its density, for each known direction and two numbers in `[0, 1)`; zeros where
+    /// the known direction is none above the surface.
+    ///
+    /// # Panics
+    /// Where the slices do not have the same length.
+    pub fn draw_batch<L: Lanes>(
+        &self,
+        lanes: L,
+        known: &[[f32; 3]],
+        u: &[[f32; 2]],
+        directions: &mut [[f32; 3]],
+        pdfs: &mut [f32],
+    ) {
+        let count = known.len();
+        assert_eq!((u.len(), directions.len(), pdfs.len()), (count, count, count), "one of each a direction");
+        lanes.vectorize(Draws { distribution: self, known, u, directions, pdfs });
+    }
+
+    /// The density of each of the `other` directions given the known one; 0 where one of them is none above the surface.
+    ///
+    /// # Panics
+    /// Where the slices do not have the same length.
+    pub fn pdf_batch<L: Lanes>(&self, lanes: L, known: &[[f32; 3]], other: &[[f32; 3]], pdfs: &mut [f32]) {
+        assert_eq!((known.len(), other.len()), (pdfs.len(), pdfs.len()), "as many known as other and densities");
+        lanes.vectorize(Densities { distribution: self, known, other, pdfs });
+    }
+
+    /// How bright the surface is for light from each known direction: the integral of luminance times `f` times cosine,
+    /// interpolated between the slices; 0 where it is no direction above the surface.
+    ///
+    /// # Panics
+    /// Where the slices do not have the same length.
+    pub fn brightness_batch<L: Lanes>(&self, lanes: L, known: &[[f32; 3]], out: &mut [f32]) {
+        assert_eq!(known.len(), out.len(), "a direction a result");
+        lanes.vectorize(Brightnesses { distribution: self, known, out });
+    }
+
+    /// A direction a lane and its density, inside a caller's own kernel; zeros where `known` is none above the surface
+    /// and where `mask` leaves out.
+    #[inline(always)]
+    pub fn draw_lanes<L: Lanes>(&self, lanes: L, known: [L::F; 3], u: [L::F; 2], mask: L::M) -> ([L::F; 3], L::F) {
+        let incident = Incident::new(lanes, &self.surface, known);
+        let place = place(lanes, self, &incident);
+        let draw = match self.slices.width {
+            2 => self.slices.pairs().draw(lanes, &place, u),
+            _ => self.slices.quads().draw(lanes, &place, u),
+        };
+        leave(lanes, &incident, draw, mask)
+    }
+
+    /// The density of `other` given `known`, inside a caller's own kernel; 0 where one of them is none above the
+    /// surface.
+    #[inline(always)]
+    pub fn pdf_lanes<L: Lanes>(&self, lanes: L, known: [L::F; 3], other: [L::F; 3]) -> L::F {
+        let incident = Incident::new(lanes, &self.surface, known);
+        let place = place(lanes, self, &incident);
+        let Local { v, phi, height, valid } = incident.locate(lanes, other);
+        let density = match self.slices.width {
+            2 => self.slices.pairs().density(lanes, &place, v, phi),
+            _ => self.slices.quads().density(lanes, &place, v, phi),
+        };
+        (density / height).masked(valid)
+    }
+
+    /// How bright the surface is, inside a caller's own kernel (see [`brightness_batch`](Self::brightness_batch)).
+    #[inline(always)]
+    pub fn brightness_lanes<L: Lanes>(&self, lanes: L, known: [L::F; 3]) -> L::F {
+        let incident = Incident::new(lanes, &self.surface, known);
+        let place = place(lanes, self, &incident);
+        let total = match self.slices.width {
+            2 => self.slices.pairs().total(lanes, &place),
+            _ => self.slices.quads().total(lanes, &place),
+        };
+        (total * lanes.splat(self.brightest)).masked(incident.valid)
+    }
+}
+
+/// What decides how fine a distribution is (see [`DistributionOptions`]).
+pub(super) struct Plan<'a> {
+    pub(super) theta: &'a [f32],
+    pub(super) phis: usize,
+    pub(super) bytes: usize,
+    pub(super) defensive: f32,
+}
+
+/// The cell of an angle and how far into it, never outside.
+#[inline(always)]
+fn cell<L: Lanes>(lanes: L, axis: &Axis, angle: L::F) -> (L::I, L::F) {
+    let cell = axis.cell(lanes, axis.bring_inside(lanes, angle));
+    (cell.index, cell.fraction.max(lanes.splat(0.0)).min(lanes.splat(1.0)))
+}
+
+/// The slices about an incident direction, in sigma and psi.
+#[inline(always)]
+pub(super) fn place<L: Lanes>(lanes: L, distribution: &Distribution, incident: &Incident<L>) -> Place<L> {
+    let one = lanes.splat(1.0);
+    let rest = incident.sin2 / (one + incident.cos);
+    let (sigma, up) = cell(lanes, &distribution.sigma, lobe_math::acos_from(lanes, incident.cos, rest));
+    let down = one - up;
+    let Some(axis) = &distribution.psi else {
+        let zero = lanes.splat(0.0);
+        return Place { block: sigma, weights: [down, up, zero, zero] };
+    };
+    let [cos_psi, sin_psi] = incident.psi;
+    let (psi, on) = cell(lanes, axis, lobe_math::azimuth(lanes, sin_psi, cos_psi));
+    let back = one - on;
+    let block = sigma * lanes.splat_int(axis.cells().len() as i32) + psi;
+    Place { block, weights: [down * back, down * on, up * back, up * on] }
+}
+
+/// From a sample of the slices to a direction and its density; zeros as [`draw`].
+#[inline(always)]
+pub(super) fn leave<L: Lanes>(lanes: L, incident: &Incident<L>, draw: Draw<L>, mask: L::M) -> ([L::F; 3], L::F) {
+    let (sin, cos) = lobe_math::sin_cos(lanes, draw.phi);
+    let height = incident.height(lanes, cos);
+    let valid = incident.valid & mask;
+    let sampled = incident.direction(lanes, draw.v * height, [cos, sin]).map(|x| x.masked(valid));
+    (sampled, (draw.density / height).masked(valid))
+}
+
+/// All samples of a batch.
+pub(super) struct Draws<'a> {
+    pub(super) distribution: &'a Distribution,
+    pub(super) known: &'a [[f32; 3]],
+    pub(super) u: &'a [[f32; 2]],
+    pub(super) directions: &'a mut [[f32; 3]],
+    pub(super) pdfs: &'a mut [f32],
+}
+
+impl Kernel for Draws<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Draws { distribution, known, u, directions, pdfs } = self;
+        let mut at = 0;
+        while at < known.len() {
+            let end = known.len().min(at + BLOCK);
+            let input = (&known[at..end], &u[at..end]);
+            let out = block::Out { directions: &mut directions[at..end], pdfs: &mut pdfs[at..end] };
+            match distribution.slices.width {
+                2 => block::draw(lanes, distribution, &distribution.slices.pairs(), input, out),
+                _ => block::draw(lanes, distribution, &distribution.slices.quads(), input, out),
+            }
+            at = end;
+        }
+    }
+}
+
+/// All densities of a batch.
+pub(super) struct Densities<'a> {
+    pub(super) distribution: &'a Distribution,
+    pub(super) known: &'a [[f32; 3]],
+    pub(super) other: &'a [[f32; 3]],
+    pub(super) pdfs: &'a mut [f32],
+}
+
+impl Kernel for Densities<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Densities { distribution, known, other, pdfs } = self;
+        let mut at = 0;
+        while at < pdfs.len() {
+            let end = pdfs.len().min(at + L::LANES);
+            let [known, other] = [known, other].map(|w| load(lanes, &w[at..end]));
+            lanes.store_partial(&mut pdfs[at..end], distribution.pdf_lanes(lanes, known, other));
+            at = end;
+        }
+    }
+}
+
+/// How bright the surface is for many directions.
+struct Brightnesses<'a> {
+    distribution: &'a Distribution,
+    known: &'a [[f32; 3]],
+    out: &'a mut [f32],
+}
+
+impl Kernel for Brightnesses<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Brightnesses { distribution, known, out } = self;
+        let mut at = 0;
+        while at < out.len() {
+            let end = out.len().min(at + L::LANES);
+            let known = load(lanes, &known[at..end]);
+            lanes.store_partial(&mut out[at..end], distribution.brightness_lanes(lanes, known));
+            at = end;
+        }
+    }
+}
+
+/// Up to a register of vectors, zeros behind them.
+#[inline(always)]
+pub(super) fn load<L: Lanes>(lanes: L, vectors: &[[f32; 3]]) -> [L::F; 3] {
+    if vectors.len() >= L::LANES {
+        return lanes.load_xyz(vectors);
+    }
+    let mut padded = [[0.0; 3]; lobe_lane::MAX_LANES];
+    padded[..vectors.len()].copy_from_slice(vectors);
+    lanes.load_xyz(&padded)
+}
