@@ -45,7 +45,8 @@ pub use function::Function;
 pub use invalid::Invalid;
 pub use samples::{AXIS_NAMES, Channels, Samples, SamplesError, Scatter};
 pub use sampling::{
-    Distribution, DistributionError, DistributionOptions, Given, Sampled, Sampler, SamplerError, SamplerOptions,
+    Distribution, DistributionError, DistributionOptions, Given, PatchSampler, Sampled, Sampler, SamplerError,
+    SamplerOptions, luminance,
 };
 pub use search::Cell;
 pub use table::{Table, TableError};

@@ -1,9 +1,10 @@
 //! A material from a file, ready to be evaluated.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use lobe_formats::{Document, FormatError};
-use lobe_table::{Directions, Edges, Samples, Table, TableError};
+use lobe_table::{Directions, Edges, Invalid, Samples, Table, TableError};
 use thiserror::Error;
 
 use crate::{Backend, BackendError};
@@ -32,6 +33,14 @@ pub enum OpenError {
     /// The data are too large for a table.
     #[error(transparent)]
     Table(#[from] TableError),
+    /// The data are more than lanes can index.
+    #[error("{file}: {source}")]
+    TooLarge {
+        /// The file.
+        file: String,
+        /// Which part.
+        source: Invalid,
+    },
     /// `LOBE_BACKEND` names no backend of this machine.
     #[error(transparent)]
     Backend(#[from] BackendError),
@@ -52,7 +61,7 @@ pub enum OpenError {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Brdf {
-    table: Table,
+    table: Arc<Table>,
     pub(crate) backend: Backend,
 }
 
@@ -82,7 +91,7 @@ impl Brdf {
     /// # Errors
     /// [`OpenError`] where the data are too large for a table, or `LOBE_BACKEND` is wrong.
     pub fn new(samples: &Samples, edges: &Edges) -> Result<Self, OpenError> {
-        Ok(Brdf { table: Table::new(samples, edges)?, backend: Backend::detect()? })
+        Ok(Brdf { table: Arc::new(Table::new(samples, edges)?), backend: Backend::detect()? })
     }
 
     /// The same material on another backend.
@@ -96,7 +105,7 @@ impl Brdf {
     }
 
     /// The table, for its axes and channels, and for evaluation inside a kernel of your own.
-    pub fn table(&self) -> &Table {
+    pub fn table(&self) -> &Arc<Table> {
         &self.table
     }
 

@@ -8,6 +8,7 @@
 mod backend;
 mod brdf;
 mod material;
+mod sampler;
 
 pub use backend::{BACKEND_VARIABLE, Backend, BackendError};
 pub use brdf::{Brdf, OpenError, PARALLEL_FROM};
@@ -16,5 +17,9 @@ pub use lobe_lane::{Floats, Ints, Kernel, Lanes, Mask};
 pub use lobe_math as math;
 pub use lobe_table as table;
 pub use lobe_table::utia::Decode;
-pub use lobe_table::{Axis, Channels, Directions, Edge, Edges, Function, Precision, Samples, Scatter, Soa, Table};
+pub use lobe_table::{
+    Axis, Channels, Directions, Edge, Edges, Function, Given, Precision, Sampled, SamplerError, SamplerOptions,
+    Samples, Scatter, Soa, Table, luminance,
+};
 pub use material::{Kind, Lookup, Material, Options, Sample};
+pub use sampler::Sampler;

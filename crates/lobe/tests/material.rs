@@ -57,7 +57,8 @@ fn the_sides_choose_the_part_of_a_sheet() {
     let (wi, wo) = ([UP, DOWN, UP, DOWN, UP, graze], [UP, DOWN, DOWN, UP, graze, UP]);
     let mut values = [f32::NAN; 6];
     sheet.eval_batch(&wi, &wo, &mut values);
-    assert_eq!(values, [1.0, 2.0, 3.0, 0.0, 0.0, 0.0]);
+    // What was measured one way through holds the other way too.
+    assert_eq!(values, [1.0, 2.0, 3.0, 3.0, 0.0, 0.0]);
 }
 
 #[test]

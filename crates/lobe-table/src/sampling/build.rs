@@ -91,6 +91,7 @@ impl<L: Lanes, T: Light> Builder<'_, L, T> {
                 }
             }
         }
+        let axes = self.sigma.bytes() + self.psi.map_or(0, Axis::bytes);
         let mut bits = MOST_BITS;
         loop {
             let row_bits = bits / 2;
@@ -98,7 +99,7 @@ impl<L: Lanes, T: Light> Builder<'_, L, T> {
             let root_v = spread(&columns, &by_column, 1 << (bits - row_bits));
             let grid = Grid::new(&phi, &root_v).map_err(|source| DistributionError::Grid { source })?;
             let floats = self.blocks().iter().product::<usize>() * self.width() * ((1 << bits) + (1 << row_bits));
-            let bytes = grid.bytes() + 4 * floats + 128;
+            let bytes = axes + grid.bytes() + 4 * floats + 128;
             if bits == LEAST_BITS || (bytes <= self.bytes && i32::try_from(floats).is_ok()) {
                 return Ok((phi, root_v, grid));
             }

@@ -1,6 +1,6 @@
 //! The distribution of scattered light about every incident direction.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{PI, TAU};
 
 use lobe_lane::{Floats, Kernel, Lanes};
 use thiserror::Error;
@@ -34,13 +34,14 @@ pub struct DistributionOptions {
 }
 
 impl DistributionOptions {
-    /// A grid for light of which nothing is known: slices every 5 degrees and close at grazing, psi every 15 degrees
-    /// where it counts, and steps in theta that are finest at the mirror direction.
+    /// A grid for light of which nothing is known: steps in theta that are finest at the mirror direction, and slices
+    /// every 5 degrees and closer at grazing; where psi counts, every 10 degrees, and of psi every 22.5.
     pub fn unknown(scatter: Scatter, isotropic: bool, bytes: usize) -> Self {
-        let mut sigma: Vec<f64> = (0..17).map(|i| f64::from(5 * i).to_radians()).collect();
-        sigma.extend([83.0, 86.0, 88.0, 89.5].map(f64::to_radians));
-        let psi = if isotropic { vec![0.0] } else { (0..24).map(|i| f64::from(i) / 24.0 * TAU).collect() };
-        let theta = (0..=40).map(|i| FRAC_PI_2 * 2.0 * (f64::from(i) / 40.0).powi(2)).collect();
+        let (step, last) = if isotropic { (5, 17) } else { (10, 9) };
+        let mut sigma: Vec<f64> = (0..last).map(|i| f64::from(step * i).to_radians()).collect();
+        sigma.extend([85.0, 88.0, 89.5].map(f64::to_radians));
+        let psi = if isotropic { vec![0.0] } else { (0..16).map(|i| f64::from(i) / 16.0 * TAU).collect() };
+        let theta = (0..=40).map(|i| PI * (f64::from(i) / 40.0).powi(2)).collect();
         DistributionOptions { scatter, sigma, psi, theta, phis: 128, bytes, defensive: 0.05 }
     }
 }

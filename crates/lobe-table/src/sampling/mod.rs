@@ -20,6 +20,8 @@ mod grid;
 mod histogram;
 mod incident;
 mod kernels;
+mod luminance;
+mod patches;
 mod slices;
 
 use std::sync::Arc;
@@ -27,8 +29,8 @@ use std::sync::Arc;
 use lobe_lane::{Floats, Lanes};
 use thiserror::Error;
 
+use crate::Table;
 use crate::layout::{PHI, PSI, SIGMA, THETA};
-use crate::{Channels, Table};
 use distribution::{Densities, Plan};
 use histogram::TableLight;
 use incident::Surface;
@@ -36,6 +38,8 @@ use kernels::{Draws, One, OneDensity, factor, pair};
 
 pub use distribution::{Distribution, DistributionError, DistributionOptions};
 pub use kernels::Sampled;
+pub use luminance::luminance;
+pub use patches::PatchSampler;
 
 /// Which direction of a pair is known; the other one is sampled.
 ///
@@ -57,8 +61,8 @@ pub struct SamplerOptions {
     /// The part of every slice that is a cosine distribution, in `(0, 1]`. With part `d` a weight is at most
     /// about `pi f / d`, and noise where the histogram fits grows by `1 / (1 - d)`.
     pub defensive: f32,
-    /// How much each channel counts in luminance. Where it is `None`: Y of XYZ, the weights of Rec. 709 for RGB, and the
-    /// mean of spectral channels.
+    /// How much each channel counts in luminance; as the function [`luminance`] says where it is `None`. Where a path is
+    /// traced at a few wavelengths, those count.
     pub luminance: Option<Vec<f32>>,
 }
 
@@ -241,16 +245,5 @@ impl Sampler {
     pub fn pdf_lanes<L: Lanes>(&self, lanes: L, given: Given, wi: [L::F; 3], wo: [L::F; 3], mask: L::M) -> L::F {
         let (known, other) = pair(given, wi, wo);
         self.distribution.pdf_lanes(lanes, known, other).masked(mask)
-    }
-}
-
-/// How much each channel counts in luminance.
-fn luminance(channels: &Channels) -> Vec<f32> {
-    match channels {
-        Channels::Mono => vec![1.0],
-        // Rec. ITU-R BT.709, item 3.2.
-        Channels::Rgb => vec![0.2126, 0.7152, 0.0722],
-        Channels::Xyz => vec![0.0, 1.0, 0.0],
-        Channels::Spectral(_) | Channels::Named(_) => vec![1.0 / channels.count() as f32; channels.count()],
     }
 }

@@ -2,10 +2,20 @@
 
 use std::fmt::Debug;
 
-use lobe_table::Channels;
 use lobe_table::mueller::Matrix;
+use lobe_table::rgl::RglTable;
+use lobe_table::{Channels, Scatter};
 
-use crate::{Backend, Kind, Sample};
+use super::window::Patches;
+use crate::{Backend, Brdf, Kind, Sample};
+
+/// Representations that have a sampler of their own.
+pub(crate) enum Native<'a> {
+    Table(&'a Brdf),
+    Rgl(&'a RglTable),
+    Klems(Patches<'a>),
+    None,
+}
 
 /// Finds the values of pairs of directions in one representation: what [`Material`](crate::Material) is made of.
 ///
@@ -16,6 +26,20 @@ pub(super) trait Evaluator: Debug + Send + Sync {
 
     /// What the channels of a value stand for.
     fn channels(&self) -> &Channels;
+
+    /// Bytes of memory that the data take.
+    fn bytes(&self) -> usize;
+
+    /// `true` where values do not depend on the rotation of the sample.
+    fn is_isotropic(&self) -> bool;
+
+    /// Whether there are values for light from the side of z > 0 (`front`) or from the other that is scattered so.
+    fn holds(&self, front: bool, scatter: Scatter) -> bool;
+
+    /// What makes a sampler better than the values alone do.
+    fn native(&self) -> Native<'_> {
+        Native::None
+    }
 
     /// Evaluates on this backend from now on, where there are lanes.
     fn set_backend(&mut self, _backend: Backend) {}

@@ -3,6 +3,7 @@
 mod evaluator;
 mod half_diff;
 mod kind;
+mod mirror;
 mod mueller;
 mod rgl;
 mod sheet;
@@ -13,16 +14,20 @@ mod window;
 
 use std::path::Path;
 
-use lobe_formats::sheet::Data;
+use lobe_formats::sheet::{Data, Side};
 use lobe_formats::{Document, Format};
 use lobe_table::mueller::Matrix;
-use lobe_table::rgl::Reference;
+use lobe_table::rgl::{RglOptions, RglTable};
 use lobe_table::utia::Decode;
-use lobe_table::{Channels, Edges};
+use lobe_table::{Channels, Edges, Scatter};
 
 use crate::{Backend, Brdf, OpenError};
 use evaluator::Evaluator;
+pub(crate) use evaluator::Native;
 pub use kind::Kind;
+use mirror::Mirror;
+pub(crate) use mirror::mirrored;
+pub(crate) use sheet::flipped;
 
 /// How to look up values on a grid of half and difference angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,15 +60,48 @@ pub struct Sample {
     pub pdf: f32,
 }
 
-impl Sample {
-    const NONE: Sample = Sample { wi: [0.0; 3], pdf: 0.0 };
+/// The measurements of a sheet as they are read.
+#[derive(Default)]
+struct Parts {
+    parts: Vec<sheet::Part>,
+    mirrors: Vec<Mirror>,
+}
+
+impl Parts {
+    fn add(&mut self, side: Option<Side>, data: Data, options: &Options) -> Result<(), OpenError> {
+        let scatter = data.scatter();
+        let evaluator: Box<dyn Evaluator> = match data {
+            Data::Table(data) => Box::new(Brdf::new(&data, &options.edges)?),
+            Data::Spherical(data) => Box::new(data),
+            Data::Scattered(data) => Box::new(data),
+            Data::Specular(data) => {
+                self.mirrors.push(Mirror { side, data });
+                return Ok(());
+            }
+        };
+        self.parts.push(sheet::Part { scatter, side, evaluator });
+        Ok(())
+    }
+
+    fn finish(self, path: &Path, (format, source): (Format, Vec<(String, String)>)) -> Result<Material, OpenError> {
+        let Parts { parts, mirrors } = self;
+        let not_a_table = |found: &'static str| OpenError::NotATable { file: path.display().to_string(), found };
+        let channels = parts.first().ok_or_else(|| not_a_table("mirror reflectances"))?.evaluator.channels().clone();
+        let differ = parts.iter().any(|part| *part.evaluator.channels() != channels)
+            || mirrors.iter().any(|mirror| *mirror.data.channels() != channels);
+        if differ {
+            return Err(not_a_table("parts with different channels"));
+        }
+        let evaluator = Box::new(sheet::Sheet { channels, parts });
+        Ok(Material { format, source, evaluator, mirrors, backend: Backend::detect()? })
+    }
 }
 
 /// A measured material in the form in which it was measured: nothing is resampled.
 ///
 /// `wi` points to the light and `wo` to the viewer: unit vectors away from the surface, normal on +z. Values are `f` in
-/// 1/sr, without the cosine, one a channel. Specular tables are evaluated in the SIMD lanes of the backend, the other
-/// representations in `f64`, pair by pair.
+/// 1/sr, without the cosine, one a channel. Specular tables and the materials of the EPFL database are evaluated in the
+/// SIMD lanes of the backend, the other representations in `f64`, pair by pair.
 ///
 /// ```no_run
 /// let material = lobe::Material::open("paint.bsdf")?;
@@ -79,6 +117,7 @@ pub struct Material {
     format: Format,
     source: Vec<(String, String)>,
     evaluator: Box<dyn Evaluator>,
+    mirrors: Vec<Mirror>,
     backend: Backend,
 }
 
@@ -113,7 +152,11 @@ impl Material {
             Document::Table(measured) => Box::new(Brdf::new(&measured.data, &options.edges)?),
             Document::Spherical(measured) => Box::new(measured.data),
             Document::Scattered(measured) => Box::new(measured.data),
-            Document::Rgl(measured) => Box::new(Reference::new(&measured.data)),
+            Document::Rgl(measured) => {
+                let table = RglTable::new(&measured.data, RglOptions::default());
+                let too_large = |error| OpenError::TooLarge { file: path.display().to_string(), source: error };
+                Box::new(rgl::Parametrised { table: table.map_err(too_large)?, backend: Backend::detect()? })
+            }
             Document::HalfDiff(measured) => {
                 Box::new(half_diff::HalfDifference { data: measured.data, lookup: options.lookup })
             }
@@ -121,28 +164,51 @@ impl Material {
             Document::Mueller(measured) => Box::new(mueller::Polarised::new(measured.data)),
             Document::Window(measured) => Box::new(window::Bands::new(measured.data)),
             Document::Sheet(measured) => {
-                let mut parts = Vec::new();
+                let mut parts = Parts::default();
                 for part in measured.data {
-                    let (scatter, side) = (part.data.scatter(), part.side);
-                    let evaluator: Box<dyn Evaluator> = match part.data {
-                        Data::Table(data) => Box::new(Brdf::new(&data, &options.edges)?),
-                        Data::Spherical(data) => Box::new(data),
-                        Data::Scattered(data) => Box::new(data),
-                        // A delta function has no value for a pair of directions.
-                        Data::Specular(_) => continue,
-                    };
-                    parts.push(sheet::Part { scatter, side, evaluator });
+                    parts.add(part.side, part.data, options)?;
                 }
-                let channels = parts.first().ok_or_else(|| not_a_table("mirror reflectances"))?.evaluator.channels();
-                let channels = channels.clone();
-                if parts.iter().any(|part| *part.evaluator.channels() != channels) {
-                    return Err(not_a_table("parts with different channels"));
-                }
-                Box::new(sheet::Sheet { channels, parts })
+                return parts.finish(path, (format, source));
             }
             _ => return Err(not_a_table("a mirror reflectance")),
         };
-        Ok(Material { format, source, evaluator, backend: Backend::detect()? })
+        Ok(Material { format, source, evaluator, mirrors: Vec::new(), backend: Backend::detect()? })
+    }
+
+    /// A sheet of which both sides, and both ways through, were measured into files of their own: those measured with
+    /// light on the front (z > 0), and those with light on the back, each with its own side up. Files of mirror
+    /// reflectance (SDR) and of transmittance straight through (SDT) are its [mirrors](Material::mirror).
+    ///
+    /// Transmission that was measured in one direction only is the same in the other one; a side without reflection is
+    /// black.
+    ///
+    /// # Errors
+    /// As [`open`](Material::open), and where the files do not have the same channels, or are neither tables nor
+    /// goniometer data.
+    pub fn open_sheet<P: AsRef<Path>>(front: &[P], back: &[P], options: &Options) -> Result<Self, OpenError> {
+        let mut parts = Parts::default();
+        let sides = [(front, Side::Front), (back, Side::Back)];
+        let mut last = None;
+        for (path, side) in sides.iter().flat_map(|(paths, side)| paths.iter().map(|path| (path.as_ref(), *side))) {
+            let (format, document) = lobe_formats::open(path)?;
+            let source = document.source().to_vec();
+            let data = match document {
+                Document::Table(measured) => Data::Table(measured.data),
+                Document::Spherical(measured) => Data::Spherical(measured.data),
+                Document::Scattered(measured) => Data::Scattered(measured.data),
+                Document::Specular(measured) => Data::Specular(measured.data),
+                _ => {
+                    let found = "data that are no part of a sheet";
+                    return Err(OpenError::NotATable { file: path.display().to_string(), found });
+                }
+            };
+            parts.add(Some(side), data, options)?;
+            last = Some((path, (format, source)));
+        }
+        let Some((path, what)) = last else {
+            return Err(OpenError::NotATable { file: "a sheet".into(), found: "no files" });
+        };
+        parts.finish(path, what)
     }
 
     /// The same material on another backend.
@@ -187,6 +253,43 @@ impl Material {
             Channels::Spectral(wavelengths) => Some(wavelengths),
             _ => None,
         }
+    }
+
+    /// Bytes of memory that the data take.
+    pub fn bytes(&self) -> usize {
+        self.evaluator.bytes()
+    }
+
+    /// `true` where values do not depend on the rotation of the sample.
+    pub fn is_isotropic(&self) -> bool {
+        self.evaluator.is_isotropic()
+    }
+
+    /// Whether there are values for light from the side of z > 0 (`front`), or from that of z < 0, that is reflected or
+    /// transmitted.
+    pub fn holds(&self, front: bool, scatter: Scatter) -> bool {
+        self.evaluator.holds(front, scatter)
+    }
+
+    /// The share of the light from `wi` that is mirrored, or goes straight through, into `out`, one value a channel; and
+    /// where it goes. `None` where that was not measured. These have no value for a pair of directions.
+    ///
+    /// # Panics
+    /// Where `out` is not as long as there are channels.
+    pub fn mirror(&self, wi: [f32; 3], scatter: Scatter, out: &mut [f32]) -> Option<[f32; 3]> {
+        let mirror = self.mirrors.iter().find(|mirror| mirror.answers(wi[2] > 0.0, scatter))?;
+        out.copy_from_slice(&mirror.reflectance(wi));
+        Some(mirrored(wi, scatter))
+    }
+
+    /// Whether there is a [mirror](Material::mirror).
+    pub fn has_mirrors(&self) -> bool {
+        !self.mirrors.is_empty()
+    }
+
+    /// What makes a sampler better than the values alone do.
+    pub(crate) fn native(&self) -> Native<'_> {
+        self.evaluator.native()
     }
 
     /// Evaluates one pair into `out`, one value a channel. For many pairs use [`eval_batch`](Material::eval_batch).

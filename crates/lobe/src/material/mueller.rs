@@ -1,7 +1,7 @@
 //! Mueller matrices, by their `f64` reference. The value of a pair of directions is that of unpolarised light.
 
-use lobe_table::Channels;
 use lobe_table::mueller::{Matrix, Mueller};
+use lobe_table::{Channels, Scatter};
 
 use super::evaluator::{Evaluator, pair_by_pair, unit};
 use crate::Kind;
@@ -26,6 +26,18 @@ impl Evaluator for Polarised {
 
     fn channels(&self) -> &Channels {
         &self.channels
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(self.data.values())
+    }
+
+    fn is_isotropic(&self) -> bool {
+        true
+    }
+
+    fn holds(&self, front: bool, scatter: Scatter) -> bool {
+        front && scatter == Scatter::Reflection
     }
 
     fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {

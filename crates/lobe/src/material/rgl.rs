@@ -1,36 +1,61 @@
-//! The EPFL database, by its `f64` reference.
+//! The EPFL database, in SIMD lanes.
 
-use lobe_table::Channels;
-use lobe_table::rgl::{Reference, UniformOrder};
+use lobe_table::rgl::{Drawn, RglTable, UniformOrder, Wanted};
+use lobe_table::{Channels, Scatter};
 
-use super::evaluator::{Evaluator, pair_by_pair, round, unit};
-use crate::{Kind, Sample};
+use super::evaluator::{Evaluator, Native};
+use crate::{Backend, Kind, Sample};
 
 /// Values are indexed by the light, as they were measured; samples, which are drawn for a viewer, by the viewer.
-impl Evaluator for Reference {
+#[derive(Debug)]
+pub(super) struct Parametrised {
+    pub(super) table: RglTable,
+    pub(super) backend: Backend,
+}
+
+impl Evaluator for Parametrised {
     fn kind(&self) -> Kind {
         Kind::Rgl
     }
 
     fn channels(&self) -> &Channels {
-        &self.rgl().parts().channels
+        self.table.channels()
+    }
+
+    fn bytes(&self) -> usize {
+        self.table.bytes()
+    }
+
+    fn is_isotropic(&self) -> bool {
+        self.table.is_isotropic()
+    }
+
+    fn holds(&self, front: bool, scatter: Scatter) -> bool {
+        front && scatter == Scatter::Reflection
+    }
+
+    fn native(&self) -> Native<'_> {
+        Native::Rgl(&self.table)
+    }
+
+    fn set_backend(&mut self, backend: Backend) {
+        self.backend = backend;
     }
 
     fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        let mut value = vec![0.0; Evaluator::channels(self).count()];
-        pair_by_pair(wi, wo, out, |wi, wo, texel| {
-            self.eval(wi, wo, &mut value);
-            round(texel, &value);
-        });
+        self.backend.run(self.table.batch(wi, wo, Wanted::Values(out)));
     }
 
     fn pdf(&self, wi: [f32; 3], wo: [f32; 3]) -> Option<f32> {
-        Some(unit(wi).zip(unit(wo)).map_or(0.0, |(wi, wo)| Reference::pdf(self, wo, wi) as f32))
+        let mut pdf = [0.0];
+        self.backend.run(self.table.batch([wo].as_slice(), [wi].as_slice(), Wanted::Pdf(&mut pdf)));
+        Some(pdf[0])
     }
 
     fn sample(&self, wo: [f32; 3], uniform: [f32; 2]) -> Option<Sample> {
-        let drawn =
-            unit(wo).and_then(|wo| Reference::sample(self, wo, uniform.map(f64::from), UniformOrder::default()));
-        Some(drawn.map_or(Sample::NONE, |drawn| Sample { wi: drawn.wo.map(|c| c as f32), pdf: drawn.pdf as f32 }))
+        let (mut wi, mut pdf, mut weights) = ([[0.0; 3]], [0.0], vec![0.0; self.table.channel_count()]);
+        let drawn = Drawn { wo: &mut wi, pdf: &mut pdf, weights: &mut weights };
+        self.backend.run(self.table.sampling([wo].as_slice(), &[uniform], UniformOrder::default(), drawn));
+        Some(Sample { wi: wi[0], pdf: pdf[0] })
     }
 }

@@ -1,8 +1,8 @@
 //! Specular tables, in SIMD lanes.
 
-use lobe_table::Channels;
+use lobe_table::{Channels, Scatter};
 
-use super::evaluator::Evaluator;
+use super::evaluator::{Evaluator, Native};
 use crate::{Backend, Brdf, Kind};
 
 impl Evaluator for Brdf {
@@ -12,6 +12,23 @@ impl Evaluator for Brdf {
 
     fn channels(&self) -> &Channels {
         self.table().channels()
+    }
+
+    fn bytes(&self) -> usize {
+        self.table().bytes()
+    }
+
+    fn is_isotropic(&self) -> bool {
+        !self.table().is_anisotropic()
+    }
+
+    /// Tables of transmission take light from either side.
+    fn holds(&self, front: bool, scatter: Scatter) -> bool {
+        self.table().scatter() == scatter && (front || scatter == Scatter::Transmission)
+    }
+
+    fn native(&self) -> Native<'_> {
+        Native::Table(self)
     }
 
     fn set_backend(&mut self, backend: Backend) {

@@ -1,7 +1,7 @@
 //! The grid of the UTIA database, by its `f64` reference.
 
-use lobe_table::Channels;
 use lobe_table::utia::{Decode, Utia};
+use lobe_table::{Channels, Scatter};
 
 use super::evaluator::{Evaluator, pair_by_pair, round};
 use crate::Kind;
@@ -19,6 +19,18 @@ impl Evaluator for UtiaGrid {
 
     fn channels(&self) -> &Channels {
         &Channels::Rgb
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(self.data.values())
+    }
+
+    fn is_isotropic(&self) -> bool {
+        false
+    }
+
+    fn holds(&self, front: bool, scatter: Scatter) -> bool {
+        front && scatter == Scatter::Reflection
     }
 
     fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {

@@ -1,10 +1,12 @@
 //! Klems matrices and tensor trees, by their `f64` reference. Each band of wavelengths is a channel.
 
 use lobe_formats::window_xml::WindowXml;
-use lobe_table::Channels;
+use lobe_table::klems::KlemsMatrix;
+use lobe_table::tensor_tree::Rank;
 use lobe_table::window::{Block, Component};
+use lobe_table::{Channels, Scatter};
 
-use super::evaluator::{Evaluator, pair_by_pair};
+use super::evaluator::{Evaluator, Native, pair_by_pair};
 use crate::Kind;
 
 #[derive(Debug)]
@@ -17,11 +19,46 @@ pub(super) struct Bands {
 impl Bands {
     pub(super) fn new(data: WindowXml) -> Self {
         let channels = Channels::Named(data.bands.iter().map(|band| band.wavelength.clone()).collect());
-        let mut components =
-            data.bands.iter().flat_map(|band| Block::ALL.into_iter().filter_map(|block| band.window.block(block)));
-        let is_tree = components.any(|component| matches!(component, Component::Tree(_)));
-        drop(components);
-        Bands { data, channels, kind: if is_tree { Kind::TensorTree } else { Kind::Klems } }
+        let mut bands = Bands { data, channels, kind: Kind::Klems };
+        if bands.components().any(|component| matches!(component, Component::Tree(_))) {
+            bands.kind = Kind::TensorTree;
+        }
+        bands
+    }
+}
+
+/// The matrices of every band, where light is scattered by patches.
+#[derive(Clone, Copy)]
+pub(crate) struct Patches<'a>(&'a Bands);
+
+impl<'a> Patches<'a> {
+    /// The matrices of one block, a band after the other; `None` where a band does not have it.
+    pub(crate) fn block(&self, front: bool, scatter: Scatter) -> Option<Vec<&'a KlemsMatrix>> {
+        let block = block(front, scatter);
+        self.0.data.bands.iter().map(|band| band.window.block(block).and_then(as_matrix)).collect()
+    }
+}
+
+fn as_matrix(component: &Component) -> Option<&KlemsMatrix> {
+    match component {
+        Component::Klems(matrix) => Some(matrix),
+        Component::Tree(_) => None,
+    }
+}
+
+/// The block for light from the side of z > 0, or from the other one.
+fn block(front: bool, scatter: Scatter) -> Block {
+    match (front, scatter) {
+        (true, Scatter::Reflection) => Block::ReflectionBack,
+        (true, Scatter::Transmission) => Block::TransmissionBack,
+        (false, Scatter::Reflection) => Block::ReflectionFront,
+        (false, Scatter::Transmission) => Block::TransmissionFront,
+    }
+}
+
+impl Bands {
+    fn components(&self) -> impl Iterator<Item = &Component> {
+        self.data.bands.iter().flat_map(|band| Block::ALL.into_iter().filter_map(|block| band.window.block(block)))
     }
 }
 
@@ -32,6 +69,34 @@ impl Evaluator for Bands {
 
     fn channels(&self) -> &Channels {
         &self.channels
+    }
+
+    fn bytes(&self) -> usize {
+        let values = self.components().map(|component| match component {
+            Component::Klems(matrix) => size_of_val(matrix.values()),
+            Component::Tree(tree) => size_of_val(tree.nodes()) + size_of_val(tree.values()),
+        });
+        values.sum()
+    }
+
+    fn is_isotropic(&self) -> bool {
+        self.components().all(|component| match component {
+            Component::Klems(_) => false,
+            Component::Tree(tree) => tree.rank() == Rank::Three,
+        })
+    }
+
+    /// One block of transmission stands for the other one too.
+    fn holds(&self, front: bool, scatter: Scatter) -> bool {
+        let has = |front| self.data.bands.iter().any(|band| band.window.block(block(front, scatter)).is_some());
+        has(front) || (scatter == Scatter::Transmission && has(!front))
+    }
+
+    fn native(&self) -> Native<'_> {
+        match self.kind {
+            Kind::Klems => Native::Klems(Patches(self)),
+            _ => Native::None,
+        }
     }
 
     fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {

@@ -1,0 +1,37 @@
+//! Light that is mirrored, or goes straight through: what has no value for a pair of directions.
+
+use lobe_formats::Specular;
+use lobe_formats::sheet::Side;
+use lobe_table::Scatter;
+
+/// A mirror reflectance or a transmittance straight through, and the side from which it was measured.
+#[derive(Clone, Debug)]
+pub(crate) struct Mirror {
+    /// `None` holds for both sides.
+    pub(crate) side: Option<Side>,
+    pub(crate) data: Specular,
+}
+
+impl Mirror {
+    /// Whether this answers for light from that side.
+    pub(crate) fn answers(&self, front: bool, scatter: Scatter) -> bool {
+        let side = if front { Side::Front } else { Side::Back };
+        self.data.scatter() == scatter && self.side.is_none_or(|of| of == side)
+    }
+
+    /// The share of the light from `wi` that goes on, one value a channel.
+    pub(crate) fn reflectance(&self, [x, y, z]: [f32; 3]) -> Vec<f32> {
+        let [x, y, z] = [x, y, z.abs()].map(f64::from);
+        let sigma = x.hypot(y).atan2(z);
+        let psi = if x == 0.0 && y == 0.0 { 0.0 } else { y.atan2(x).rem_euclid(std::f64::consts::TAU) };
+        self.data.at(sigma, psi).iter().map(|&share| share.max(0.0) as f32).collect()
+    }
+}
+
+/// Where light from `wi` goes: mirrored at the normal, or straight on.
+pub(crate) fn mirrored([x, y, z]: [f32; 3], scatter: Scatter) -> [f32; 3] {
+    match scatter {
+        Scatter::Reflection => [-x, -y, z],
+        Scatter::Transmission => [-x, -y, -z],
+    }
+}
