@@ -41,6 +41,19 @@ impl Function {
         &self.axis
     }
 
+    /// The value at `x`, in radians, one at a time in `f64`.
+    pub(crate) fn at(&self, x: f64) -> f64 {
+        let knots = self.axis.knots();
+        if knots.len() < 2 {
+            return f64::from(self.cells[0][0]);
+        }
+        let cell = knots.partition_point(|&knot| f64::from(knot) <= x).clamp(1, knots.len() - 1) - 1;
+        let (low, high) = (f64::from(knots[cell]), f64::from(knots[cell + 1]));
+        let fraction = (x - low) / (high - low);
+        let fraction = if self.axis.edge() == Edge::Extrapolate { fraction } else { fraction.clamp(0.0, 1.0) };
+        f64::from(self.cells[cell][0]) + fraction * f64::from(self.cells[cell][1])
+    }
+
     /// The value at `x`, in radians.
     #[inline(always)]
     pub fn eval<L: Lanes>(&self, lanes: L, x: L::F) -> L::F {

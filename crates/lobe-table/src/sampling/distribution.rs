@@ -79,9 +79,9 @@ pub enum DistributionError {
 #[derive(Clone, Debug)]
 pub struct Distribution {
     pub(super) surface: Surface,
-    sigma: Axis,
-    psi: Option<Axis>,
-    slices: Slices,
+    pub(super) sigma: Axis,
+    pub(super) psi: Option<Axis>,
+    pub(super) slices: Slices,
     brightest: f32,
 }
 

@@ -22,6 +22,7 @@ mod incident;
 mod kernels;
 mod luminance;
 mod patches;
+mod reference;
 mod slices;
 
 use std::sync::Arc;

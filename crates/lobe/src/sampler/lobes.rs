@@ -46,9 +46,10 @@ impl Lobes {
             let bytes = (material.bytes() + material.bytes() / 2) / count;
             let mut options = DistributionOptions::unknown(scatter, material.is_isotropic(), bytes);
             options.defensive = defensive;
-            let side = Side { material, is_front, luminance: &luminance, values: Vec::new() };
+            let mut side = Side { material, is_front, luminance: &luminance, values: Vec::new() };
+            let light = |wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]| side.fill(wi, wo, out);
             let mut progress = |slice: usize, all: usize| progress(done * all + slice, count * all);
-            let build = BuildDistribution { options: &options, light: side.light(), progress: &mut progress };
+            let build = BuildDistribution { options: &options, light, progress: &mut progress };
             let distribution = material.backend().run(build)?;
             done += 1;
             Ok(Some(Lobe::Histograms(Box::new(distribution))))
@@ -57,8 +58,16 @@ impl Lobes {
         Ok(Lobes { lobes, luminance })
     }
 
+    /// The lobes there are: whether of the front, the index of its [way](SCATTERS), and itself.
+    fn each(&self) -> impl Iterator<Item = (bool, usize, &Lobe)> {
+        let lobes = self.lobes.iter().zip([true, false]);
+        lobes.flat_map(|(ways, front)| {
+            ways.iter().enumerate().filter_map(move |(way, lobe)| lobe.as_ref().map(|lobe| (front, way, lobe)))
+        })
+    }
+
     pub(super) fn bytes(&self) -> usize {
-        let bytes = self.lobes.iter().flatten().flatten().map(|lobe| match lobe {
+        let bytes = self.each().map(|(_, _, lobe)| match lobe {
             Lobe::Histograms(distribution) => distribution.bytes(),
             Lobe::Patches(patches) => patches.bytes(),
         });
@@ -69,25 +78,22 @@ impl Lobes {
     fn shares(&self, material: &Material, known: &[[f32; 3]]) -> Vec<[f32; 4]> {
         let backend = material.backend();
         let mut shares = vec![[0.0; 4]; known.len()];
-        for front in 0..2 {
-            let queries = of_side(known, front == 0);
-            let up = pick(known, &queries, front == 1);
-            for way in 0..2 {
-                let Some(lobe) = &self.lobes[front][way] else { continue };
-                let mut brightness = vec![0.0; queries.len()];
-                match lobe {
-                    Lobe::Histograms(distribution) => {
-                        backend.run(Brighten { distribution, known: &up, out: &mut brightness });
-                    }
-                    Lobe::Patches(patches) => {
-                        let of = |query: &usize| patches.brightness(known[*query]);
-                        brightness.iter_mut().zip(&queries).for_each(|(out, query)| *out = of(query));
-                    }
+        for (front, way, lobe) in self.each() {
+            let queries = of_side(known, front);
+            let mut brightness = vec![0.0; queries.len()];
+            match lobe {
+                Lobe::Histograms(distribution) => {
+                    let known = pick(known, &queries, !front);
+                    backend.run(Brighten { distribution, known: &known, out: &mut brightness });
                 }
-                // A lobe is never left out: what is dark between two slices may be bright in one place.
-                let share = |b: f32| b.max(1e-6);
-                queries.iter().zip(&brightness).for_each(|(&query, &b)| shares[query][way] = share(b));
+                Lobe::Patches(patches) => {
+                    let of = |query: &usize| patches.brightness(known[*query]);
+                    brightness.iter_mut().zip(&queries).for_each(|(out, query)| *out = of(query));
+                }
             }
+            // A lobe is never left out: what is dark between two slices may be bright in one place.
+            let share = |b: f32| b.max(1e-6);
+            queries.iter().zip(&brightness).for_each(|(&query, &b)| shares[query][way] = share(b));
         }
         if material.has_mirrors() {
             let mut reflectance = vec![0.0; self.luminance.len()];
@@ -123,31 +129,28 @@ impl Lobes {
         let shares = self.shares(material, known);
         // The first number chooses the lobe, and what is left of it is as even as it was.
         let chosen: Vec<(usize, [f32; 2])> = shares.iter().zip(u).map(|(shares, &u)| choose(shares, u)).collect();
-        for front in 0..2 {
-            for way in 0..2 {
-                let Some(lobe) = &self.lobes[front][way] else { continue };
-                let mut queries = of_side(known, front == 0);
-                queries.retain(|&query| chosen[query].0 == way && shares[query][way] > 0.0);
-                let u: Vec<[f32; 2]> = queries.iter().map(|&query| chosen[query].1).collect();
-                let (mut drawn, mut found) = (vec![[0.0; 3]; queries.len()], vec![0.0; queries.len()]);
-                match lobe {
-                    Lobe::Histograms(distribution) => {
-                        let known = pick(known, &queries, front == 1);
-                        let (directions, pdfs) = (drawn.as_mut_slice(), found.as_mut_slice());
-                        backend.run(Draw { distribution, known: &known, u: &u, directions, pdfs });
-                        if front == 1 {
-                            directions.iter_mut().for_each(|direction| *direction = flipped(*direction));
-                        }
-                    }
-                    Lobe::Patches(patches) => {
-                        for ((&query, &u), out) in queries.iter().zip(&u).zip(drawn.iter_mut().zip(&mut found)) {
-                            (*out.0, *out.1) = patches.draw(known[query], u);
-                        }
+        for (front, way, lobe) in self.each() {
+            let mut queries = of_side(known, front);
+            queries.retain(|&query| chosen[query].0 == way && shares[query][way] > 0.0);
+            let u: Vec<[f32; 2]> = queries.iter().map(|&query| chosen[query].1).collect();
+            let (mut drawn, mut found) = (vec![[0.0; 3]; queries.len()], vec![0.0; queries.len()]);
+            match lobe {
+                Lobe::Histograms(distribution) => {
+                    let known = pick(known, &queries, !front);
+                    let (directions, pdfs) = (drawn.as_mut_slice(), found.as_mut_slice());
+                    backend.run(Draw { distribution, known: &known, u: &u, directions, pdfs });
+                    if !front {
+                        directions.iter_mut().for_each(|direction| *direction = flipped(*direction));
                     }
                 }
-                for ((&query, direction), pdf) in queries.iter().zip(drawn).zip(found) {
-                    (directions[query], pdfs[query]) = (direction, pdf * shares[query][way]);
+                Lobe::Patches(patches) => {
+                    for ((&query, &u), out) in queries.iter().zip(&u).zip(drawn.iter_mut().zip(&mut found)) {
+                        (*out.0, *out.1) = patches.draw(known[query], u);
+                    }
                 }
+            }
+            for ((&query, direction), pdf) in queries.iter().zip(drawn).zip(found) {
+                (directions[query], pdfs[query]) = (direction, pdf * shares[query][way]);
             }
         }
         for (query, &(lobe, _)) in chosen.iter().enumerate().filter(|(_, (lobe, _))| *lobe >= 2) {
@@ -181,25 +184,22 @@ impl Lobes {
         let backend = material.backend();
         let shares = self.shares(material, known);
         pdfs.fill(0.0);
-        for front in 0..2 {
-            for (way, scatter) in SCATTERS.into_iter().enumerate() {
-                let Some(lobe) = &self.lobes[front][way] else { continue };
-                let mut queries = of_side(known, front == 0);
-                let is_above = |query: usize| (known[query][2] > 0.0) == (other[query][2] > 0.0);
-                queries.retain(|&query| is_above(query) == (scatter == Scatter::Reflection));
-                let mut found = vec![0.0; queries.len()];
-                match lobe {
-                    Lobe::Histograms(distribution) => {
-                        let [known, other] = [known, other].map(|from| pick(from, &queries, front == 1));
-                        backend.run(Densities { distribution, known: &known, other: &other, pdfs: &mut found });
-                    }
-                    Lobe::Patches(patches) => {
-                        let of = |query: &usize| patches.pdf(known[*query], other[*query]);
-                        found.iter_mut().zip(&queries).for_each(|(out, query)| *out = of(query));
-                    }
+        for (front, way, lobe) in self.each() {
+            let mut queries = of_side(known, front);
+            let is_above = |query: usize| (known[query][2] > 0.0) == (other[query][2] > 0.0);
+            queries.retain(|&query| is_above(query) == (SCATTERS[way] == Scatter::Reflection));
+            let mut found = vec![0.0; queries.len()];
+            match lobe {
+                Lobe::Histograms(distribution) => {
+                    let [known, other] = [known, other].map(|from| pick(from, &queries, !front));
+                    backend.run(Densities { distribution, known: &known, other: &other, pdfs: &mut found });
                 }
-                queries.iter().zip(found).for_each(|(&query, pdf)| pdfs[query] = pdf * shares[query][way]);
+                Lobe::Patches(patches) => {
+                    let of = |query: &usize| patches.pdf(known[*query], other[*query]);
+                    found.iter_mut().zip(&queries).for_each(|(out, query)| *out = of(query));
+                }
             }
+            queries.iter().zip(found).for_each(|(&query, pdf)| pdfs[query] = pdf * shares[query][way]);
         }
     }
 }
@@ -225,21 +225,19 @@ struct Side<'a> {
     values: Vec<f32>,
 }
 
-impl<'a> Side<'a> {
+impl Side<'_> {
     /// Luminance times `f` of pairs that are given with this side up.
-    fn light(mut self) -> impl FnMut(&[[f32; 3]], &[[f32; 3]], &mut [f32]) + 'a {
-        move |wi, wo, out| {
-            let channels = self.luminance.len();
-            self.values.resize(wi.len() * channels, 0.0);
-            if self.is_front {
-                self.material.eval_batch(wi, wo, &mut self.values);
-            } else {
-                let [wi, wo] = [wi, wo].map(|from| from.iter().map(|&w| flipped(w)).collect::<Vec<_>>());
-                self.material.eval_batch(&wi, &wo, &mut self.values);
-            }
-            for (out, texel) in out.iter_mut().zip(self.values.chunks_exact(channels)) {
-                *out = dot(texel, self.luminance);
-            }
+    fn fill(&mut self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        let channels = self.luminance.len();
+        self.values.resize(wi.len() * channels, 0.0);
+        if self.is_front {
+            self.material.eval_batch(wi, wo, &mut self.values);
+        } else {
+            let [wi, wo] = [wi, wo].map(|from| from.iter().map(|&w| flipped(w)).collect::<Vec<_>>());
+            self.material.eval_batch(&wi, &wo, &mut self.values);
+        }
+        for (out, texel) in out.iter_mut().zip(self.values.chunks_exact(channels)) {
+            *out = dot(texel, self.luminance);
         }
     }
 }

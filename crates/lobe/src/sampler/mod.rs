@@ -42,7 +42,7 @@ pub struct Sampler {
 
 #[derive(Clone, Debug)]
 enum Scheme {
-    Table(lobe_table::Sampler),
+    Table(Box<lobe_table::Sampler>),
     /// The scheme is in the material.
     Rgl,
     Lobes(Arc<Lobes>),
@@ -70,7 +70,7 @@ impl Sampler {
             Native::Table(brdf) if !material.has_mirrors() => {
                 let table = brdf.table().clone();
                 let build = BuildTable { table, options, progress };
-                Scheme::Table(material.backend().run(build)?)
+                Scheme::Table(Box::new(material.backend().run(build)?))
             }
             Native::Rgl(_) if !material.has_mirrors() => Scheme::Rgl,
             _ => {

@@ -13,10 +13,17 @@ use crate::{below, incidents, numbers};
 /// Bins in theta and phi about the mirror direction, which are not the coordinates sampled in.
 const THETAS: usize = 40;
 const PHIS: usize = 24;
-/// Points a bin over which the density is summed: as the density is not continuous, no two at the same theta or phi.
-const POINTS: usize = 1600;
-/// Samples an incident direction.
-const COUNT: usize = 1_000_000;
+
+/// Samples an incident direction: what the variable `LOBE_SAMPLES` says, or what takes seconds and not an hour.
+fn sample_count() -> usize {
+    std::env::var("LOBE_SAMPLES").map_or(50_000, |count| count.parse().expect("LOBE_SAMPLES is a number"))
+}
+
+/// Points a bin over which the density is summed, so that its error stays below the noise of the samples. As the density
+/// is not continuous, no two are at the same theta or phi.
+fn point_count() -> usize {
+    ((1.6 * (sample_count() as f64).sqrt()) as usize).max(200)
+}
 
 /// The theta at a part of the way: bins are finer near the peak.
 fn theta_at(part: f64) -> f64 {
@@ -32,8 +39,9 @@ fn raised([x, y, z]: [f32; 3]) -> [f64; 3] {
 fn expected(sampler: &Sampler, incident: [f32; 3]) -> Vec<f64> {
     let [sigma, psi, ..] = coords::directions_to_angles(raised(incident), [0.0, 0.0, 1.0], |s| s);
     let front = incident[2] > 0.0;
-    let incidents = vec![incident; POINTS];
-    let mut pdfs = vec![0.0f32; POINTS];
+    let points = point_count();
+    let incidents = vec![incident; points];
+    let mut pdfs = vec![0.0f32; points];
     let mut bins = Vec::new();
     for scatter in [Scatter::Reflection, Scatter::Transmission] {
         if !sampler.material().holds(front, scatter) {
@@ -45,7 +53,7 @@ fn expected(sampler: &Sampler, incident: [f32; 3]) -> Vec<f64> {
             let [low, high] = [i, i + 1].map(|i| theta_at(i as f64 / THETAS as f64).cos());
             for j in 0..PHIS {
                 let shift = (i * PHIS + j) as f64;
-                let scattered: Vec<[f32; 3]> = (0..POINTS)
+                let scattered: Vec<[f32; 3]> = (0..points)
                     .map(|point| {
                         // The additive recurrence of the plastic number (Roberts 2018), begun elsewhere in each bin.
                         let at = shift * 0.618_033_988_749_895 + point as f64;
@@ -58,7 +66,7 @@ fn expected(sampler: &Sampler, incident: [f32; 3]) -> Vec<f64> {
                     })
                     .collect();
                 sampler.pdf_batch(Given::Light, &incidents, &scattered, &mut pdfs);
-                let mean = pdfs.iter().map(|&pdf| f64::from(pdf)).sum::<f64>() / POINTS as f64;
+                let mean = pdfs.iter().map(|&pdf| f64::from(pdf)).sum::<f64>() / points as f64;
                 bins.push(mean * (low - high) * TAU / PHIS as f64);
             }
         }
@@ -72,9 +80,10 @@ fn observed(sampler: &Sampler, incident: [f32; 3], seed: u64) -> (Vec<f64>, usiz
     let (mut bins, mut nowhere) = (vec![0.0; 2 * THETAS * PHIS], 0);
     let known = vec![incident; CHUNK];
     let (mut directions, mut pdfs) = (vec![[0.0; 3]; CHUNK], vec![0.0; CHUNK]);
-    for u in numbers(seed, COUNT).chunks(CHUNK) {
-        sampler.draw_batch(&known, u, &mut directions, &mut pdfs);
-        for (wo, &pdf) in directions.iter().zip(&pdfs) {
+    for u in numbers(seed, sample_count()).chunks(CHUNK) {
+        let n = u.len();
+        sampler.draw_batch(&known[..n], u, &mut directions[..n], &mut pdfs[..n]);
+        for (wo, &pdf) in directions[..n].iter().zip(&pdfs) {
             if pdf == 0.0 {
                 nowhere += 1;
                 continue;
@@ -136,8 +145,9 @@ fn samples_follow_the_density() {
             let (observed, nowhere) = observed(sampler, incident, seed as u64);
             let (total, p) = (expected.iter().sum::<f64>(), p_value(&expected, &observed));
             // What leads nowhere is missing from the density too.
-            let deficit = nowhere as f64 / COUNT as f64;
-            let noise = 4.0 * (deficit * (1.0 - deficit) / COUNT as f64).sqrt();
+            let count = sample_count() as f64;
+            let deficit = nowhere as f64 / count;
+            let noise = 4.0 * (deficit * (1.0 - deficit) / count).sqrt();
             let mut failures = Vec::new();
             if p < significance {
                 failures.push(format!("{name} {incident:?}: p = {p:.1e}"));
