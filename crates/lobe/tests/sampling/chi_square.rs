@@ -1,9 +1,10 @@
 //! Samples follow their density: histograms of samples against the integrated density, by Pearson's test.
 
+use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 
 use lobe::table::coords;
-use lobe::{Given, Sampler, Scatter};
+use lobe::{Given, Material, Sampler, Scatter};
 use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -14,15 +15,28 @@ use crate::{below, incidents, numbers};
 const THETAS: usize = 40;
 const PHIS: usize = 24;
 
-/// Samples an incident direction: what the variable `LOBE_SAMPLES` says, or what takes seconds and not an hour.
-fn sample_count() -> usize {
-    std::env::var("LOBE_SAMPLES").map_or(50_000, |count| count.parse().expect("LOBE_SAMPLES is a number"))
+/// Points a bin over which the density is summed: as the density is not continuous, no two at the same theta or phi.
+const POINTS: usize = 1600;
+
+/// Samples an incident direction: what the variable `LOBE_SAMPLES` says, which tests all files there are and takes half
+/// an hour for a million; without it fewer, and two files of each kind.
+fn asked() -> Option<usize> {
+    std::env::var("LOBE_SAMPLES").ok().map(|count| count.parse().expect("LOBE_SAMPLES is a number"))
 }
 
-/// Points a bin over which the density is summed, so that its error stays below the noise of the samples. As the density
-/// is not continuous, no two are at the same theta or phi.
-fn point_count() -> usize {
-    ((1.6 * (sample_count() as f64).sqrt()) as usize).max(200)
+fn sample_count() -> usize {
+    asked().unwrap_or(100_000)
+}
+
+/// What is tested.
+fn materials() -> Vec<(String, Material)> {
+    let mut kinds = HashMap::new();
+    let is_asked = |(_, material): &(String, Material)| {
+        let seen = kinds.entry(material.kind()).or_insert(0);
+        *seen += 1;
+        asked().is_some() || *seen <= 2
+    };
+    made().into_iter().chain(shared().into_iter().filter(is_asked)).collect()
 }
 
 /// The theta at a part of the way: bins are finer near the peak.
@@ -35,14 +49,14 @@ fn raised([x, y, z]: [f32; 3]) -> [f64; 3] {
     [x, y, z.abs()].map(f64::from)
 }
 
-/// The integral of the density over each bin, those of reflection before those of transmission.
-fn expected(sampler: &Sampler, incident: [f32; 3]) -> Vec<f64> {
+/// The integral of the density over each bin, those of reflection before those of transmission; and how far from the
+/// truth their sum may be, by the difference of two halves.
+fn expected(sampler: &Sampler, incident: [f32; 3]) -> (Vec<f64>, f64) {
     let [sigma, psi, ..] = coords::directions_to_angles(raised(incident), [0.0, 0.0, 1.0], |s| s);
     let front = incident[2] > 0.0;
-    let points = point_count();
-    let incidents = vec![incident; points];
-    let mut pdfs = vec![0.0f32; points];
-    let mut bins = Vec::new();
+    let incidents = vec![incident; POINTS];
+    let mut pdfs = vec![0.0f32; POINTS];
+    let (mut bins, mut doubt) = (Vec::new(), 0.0);
     for scatter in [Scatter::Reflection, Scatter::Transmission] {
         if !sampler.material().holds(front, scatter) {
             bins.extend([0.0; THETAS * PHIS]);
@@ -53,7 +67,7 @@ fn expected(sampler: &Sampler, incident: [f32; 3]) -> Vec<f64> {
             let [low, high] = [i, i + 1].map(|i| theta_at(i as f64 / THETAS as f64).cos());
             for j in 0..PHIS {
                 let shift = (i * PHIS + j) as f64;
-                let scattered: Vec<[f32; 3]> = (0..points)
+                let scattered: Vec<[f32; 3]> = (0..POINTS)
                     .map(|point| {
                         // The additive recurrence of the plastic number (Roberts 2018), begun elsewhere in each bin.
                         let at = shift * 0.618_033_988_749_895 + point as f64;
@@ -66,12 +80,17 @@ fn expected(sampler: &Sampler, incident: [f32; 3]) -> Vec<f64> {
                     })
                     .collect();
                 sampler.pdf_batch(Given::Light, &incidents, &scattered, &mut pdfs);
-                let mean = pdfs.iter().map(|&pdf| f64::from(pdf)).sum::<f64>() / points as f64;
-                bins.push(mean * (low - high) * TAU / PHIS as f64);
+                let [a, b] = [0, POINTS / 2].map(|from| {
+                    let half = &pdfs[from..from + POINTS / 2];
+                    half.iter().map(|&pdf| f64::from(pdf)).sum::<f64>() / POINTS as f64
+                });
+                let solid_angle = (low - high) * TAU / PHIS as f64;
+                bins.push((a + b) * solid_angle);
+                doubt += (a - b).abs() * solid_angle;
             }
         }
     }
-    bins
+    (bins, doubt)
 }
 
 /// How many samples fall into each bin, and how many lead nowhere.
@@ -123,7 +142,7 @@ fn p_value(expected: &[f64], observed: &[f64]) -> f64 {
 
 #[test]
 fn samples_follow_the_density() {
-    let samplers: Vec<_> = made().into_iter().chain(shared()).map(|(name, m)| (name, sampler(m))).collect();
+    let samplers: Vec<_> = materials().into_iter().map(|(name, m)| (name, sampler(m))).collect();
     let mut cases = Vec::new();
     for (name, sampler) in &samplers {
         let reaches = |front| {
@@ -141,7 +160,7 @@ fn samples_follow_the_density() {
         .par_iter()
         .enumerate()
         .flat_map_iter(|(seed, &(name, sampler, incident))| {
-            let expected = expected(sampler, incident);
+            let (expected, doubt) = expected(sampler, incident);
             let (observed, nowhere) = observed(sampler, incident, seed as u64);
             let (total, p) = (expected.iter().sum::<f64>(), p_value(&expected, &observed));
             // What leads nowhere is missing from the density too.
@@ -152,7 +171,7 @@ fn samples_follow_the_density() {
             if p < significance {
                 failures.push(format!("{name} {incident:?}: p = {p:.1e}"));
             }
-            if (total + deficit - 1.0).abs() > 1e-3 + noise {
+            if (total + deficit - 1.0).abs() > 1e-3 + noise + doubt {
                 failures.push(format!("{name} {incident:?}: density {total}, nowhere {deficit}"));
             }
             failures

