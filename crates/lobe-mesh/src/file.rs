@@ -35,17 +35,12 @@ pub(crate) fn geometry(path: &Path, mut parts: Parts) -> Result<Geometry, Format
     // Taken out while positions and triangles are checked: what replaces them is computed from those.
     let (file_normals, file_tangents) = (parts.normals.take(), parts.tangents.take());
     let mut parts = Geometry::new(parts).map_err(|error| unsound(path, &error))?.into_parts();
-    if let Some(mut file_normals) = file_normals {
-        let unit = |normal: [f32; 3]| wide(normal).try_normalize();
-        if file_normals.len() == parts.positions.len() && file_normals.iter().any(|&normal| unit(normal).is_none()) {
-            let smooth = normals::smooth(&parts.positions, &parts.triangles);
-            for (normal, smooth) in file_normals.iter_mut().zip(smooth) {
-                if unit(*normal).is_none() {
-                    *normal = smooth;
-                }
-            }
-        }
-        parts.normals = Some(file_normals.into_iter().map(|normal| narrow(normals::unit(wide(normal)))).collect());
+    if let Some(file_normals) = file_normals {
+        let units: Vec<Option<[f32; 3]>> = file_normals.into_iter().map(unit).collect();
+        let smooth =
+            if units.contains(&None) { normals::smooth(&parts.positions, &parts.triangles) } else { Vec::new() };
+        let normal = |(i, unit): (usize, Option<[f32; 3]>)| unit.or(smooth.get(i).copied()).unwrap_or_default();
+        parts.normals = Some(units.into_iter().enumerate().map(normal).collect());
         parts.tangents = file_tangents.and_then(|tangents| tangents.into_iter().map(frame).collect());
     }
     Geometry::new(parts).map_err(|error| unsound(path, &error))
@@ -58,8 +53,14 @@ fn unsound(path: &Path, error: &crate::GeometryError) -> FormatError {
     wrong(path, found.trim_start_matches("found "), expected)
 }
 
+/// A vector made of unit length, if it has a direction. One that is, up to rounding, stays as it is.
+fn unit(vector: [f32; 3]) -> Option<[f32; 3]> {
+    let square = wide(vector).length_squared();
+    if (square - 1.0).abs() < 1e-6 { Some(vector) } else { wide(vector).try_normalize().map(narrow) }
+}
+
 /// A tangent of unit length with its hand, if it is one.
 fn frame([x, y, z, w]: [f32; 4]) -> Option<[f32; 4]> {
-    let [x, y, z] = narrow(wide([x, y, z]).try_normalize()?);
+    let [x, y, z] = unit([x, y, z])?;
     (w == 1.0 || w == -1.0).then_some([x, y, z, w])
 }

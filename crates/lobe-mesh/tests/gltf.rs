@@ -49,7 +49,7 @@ fn binary() -> Vec<u8> {
     json.resize(json.len().next_multiple_of(4), b' ');
     let buffer = buffer();
     let mut bytes = b"glTF".to_vec();
-    let mut word = |bytes: &mut Vec<u8>, word: usize| bytes.extend((word as u32).to_le_bytes());
+    let word = |bytes: &mut Vec<u8>, word: usize| bytes.extend((word as u32).to_le_bytes());
     word(&mut bytes, 2);
     word(&mut bytes, 12 + 8 + json.len() + 8 + buffer.len());
     word(&mut bytes, json.len());
@@ -151,7 +151,7 @@ fn errors_say_what_is_wrong() {
 
 #[test]
 fn a_small_file_cannot_ask_for_much() {
-    // A square placed by ten thousand nodes, and an accessor of zeros that no buffer holds.
+    // A square placed by a hundred thousand nodes, and an accessor of zeros that no buffer holds.
     let many: Vec<String> = (0..100_000).map(|_| r#"{"mesh": 0}"#.to_owned()).collect();
     let list: Vec<String> = (0..100_000).map(|i| i.to_string()).collect();
     let text = text();

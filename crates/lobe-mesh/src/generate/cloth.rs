@@ -23,11 +23,12 @@ const SETTLING: f64 = 0.7;
 /// Friction against the sphere and the ground.
 const FRICTION: f64 = 0.35;
 
-/// How far the edge of a cell, its diagonal and two cells in a row give way, in metres per newton for particles of
-/// unit mass: threads hardly stretch, a weave shears easily and bends very easily.
+/// How threads give way to a force: hardly when stretched, easily when the weave is sheared (in s^2 over m^2, times the
+/// square of the spacing: particles of a finer cloth are lighter) and very easily when it is bent (s^2 over m^4, times the
+/// fourth power: a distance over two cells shrinks with the square of the angle between them).
 const STRETCH: f64 = 0.0;
-const SHEAR: f64 = 1e-5;
-const BEND: f64 = 4e-5;
+const SHEAR: f64 = 0.04;
+const BEND: f64 = 650.0;
 
 /// What the cloth falls on: the ground y = 0, and a sphere that lies on it above the origin.
 pub(super) struct Obstacles {
@@ -59,13 +60,15 @@ impl Cloth {
     pub fn new(positions: Vec<DVec3>, n: usize, spacing: f64) -> Cloth {
         let mut links = Vec::new();
         let diagonal = spacing * 2f64.sqrt();
+        let square = spacing * spacing;
+        let (shear, bend) = (SHEAR * square, BEND * square * square);
         let kinds = [
             ([1, 0], spacing, STRETCH),
             ([0, 1], spacing, STRETCH),
-            ([1, 1], diagonal, SHEAR),
-            ([-1, 1], diagonal, SHEAR),
-            ([2, 0], 2.0 * spacing, BEND),
-            ([0, 2], 2.0 * spacing, BEND),
+            ([1, 1], diagonal, shear),
+            ([-1, 1], diagonal, shear),
+            ([2, 0], 2.0 * spacing, bend),
+            ([0, 2], 2.0 * spacing, bend),
         ];
         for j in 0..n {
             for i in 0..n {

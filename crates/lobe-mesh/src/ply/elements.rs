@@ -70,10 +70,8 @@ impl PropertyAccess for Face {
 
     fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
         match (name, property) {
-            ("vertex_indices" | "vertex_index", property) => match property.to_u32_list() {
-                Some(corners) => self.corners = corners,
-                None => return PropertyAccessResult::UnsupportedType,
-            },
+            // Indices that are not whole or negative leave a face without corners, which is told with its number.
+            ("vertex_indices" | "vertex_index", property) => self.corners = property.to_u32_list().unwrap_or_default(),
             ("group", Property::UChar(group)) => self.group = group.into(),
             ("group", Property::UInt(group)) => self.group = group,
             _ => return PropertyAccessResult::Ignored,

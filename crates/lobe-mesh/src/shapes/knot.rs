@@ -63,7 +63,10 @@ fn tube(builder: &mut Builder, curve: impl Fn(f64) -> [DVec3; 2], radius: f64, s
 /// by double reflection (Wang, Jüttler, Zheng and Liu, "Computation of Rotation Minimizing Frames", 2008), what is
 /// missing at the end shared out evenly.
 fn sides(curve: &[[DVec3; 2]]) -> Vec<DVec3> {
-    let reflect = |v: DVec3, across: DVec3| v - across * (2.0 * across.dot(v) / across.length_squared());
+    let reflect = |v: DVec3, across: DVec3| match across.try_normalize() {
+        Some(across) => v - across * (2.0 * across.dot(v)),
+        None => v,
+    };
     let carry = |side: DVec3, [p, t]: [DVec3; 2], [q, u]: [DVec3; 2]| {
         let chord = q - p;
         reflect(reflect(side, chord), u - reflect(t, chord))
