@@ -3,6 +3,7 @@
 mod common;
 
 use std::f64::consts::PI;
+use std::path::Path;
 
 use common::{assert_frames, open_edges, wide};
 use lobe_mesh::{generate, shapes};
@@ -75,4 +76,22 @@ fn the_ball_stands_on_the_ground_in_three_closed_parts() {
     assert_eq!(names, ["ball", "ring", "pedestal"]);
     let (low, high) = ball.bounds().expect("vertices");
     assert!(low[1] == 0.0 && (2.5..2.75).contains(&high[1]), "{low:?} {high:?}");
+}
+
+#[test]
+fn the_files_of_the_project_hold_what_is_made() {
+    let file = |name: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/scenes").join(name);
+        lobe_mesh::read(&path).unwrap_or_else(|error| panic!("{error}"))
+    };
+    for (name, made) in [("ball.ply", generate::ball()), ("knot.ply", generate::knot())] {
+        let read = file(name);
+        assert!(read.tangents.is_none());
+        assert!(read.positions == made.positions && read.triangles == made.triangles && read.groups == made.groups);
+        assert_frames(&read.complete(), 0.9);
+    }
+    let drape = file("drape.ply").complete();
+    assert_eq!((drape.positions.len(), drape.triangles.len()), (128 * 128, 2 * 127 * 127));
+    assert_eq!(open_edges(&drape), 4 * 127);
+    assert!(drape.tangents.is_some());
 }
