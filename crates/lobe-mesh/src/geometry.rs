@@ -135,7 +135,7 @@ impl Geometry {
     /// Checks parts and makes a mesh of them.
     ///
     /// # Errors
-    /// The first thing that is wrong, in the order of the variants of [`GeometryError`], attribute by attribute.
+    /// The first thing that is wrong.
     pub fn new(mut parts: Parts) -> Result<Geometry, GeometryError> {
         let vertices = parts.positions.len();
         for (what, found) in [("vertices", vertices), ("triangles", parts.triangles.len())] {

@@ -13,7 +13,9 @@ mod document;
 mod primitive;
 mod scene;
 
+use std::collections::HashMap;
 use std::path::Path;
+use std::rc::Rc;
 
 use lobe_formats::{FormatError, Place};
 
@@ -52,7 +54,8 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<Geometry, FormatError> {
         return Err(wrong(path, format!("the required extension {extension}"), "a file that does without"));
     }
     let buffers = buffers::load(path, &document, binary)?;
-    let size = bytes.len() + buffers.iter().map(|buffer| buffer.len()).sum::<usize>();
+    let distinct: HashMap<*const u8, usize> = buffers.iter().map(|bytes| (bytes.as_ptr(), bytes.len())).collect();
+    let size = bytes.len() + distinct.values().sum::<usize>();
     let source = Source { path, document: &document, buffers: &buffers };
     scene::assemble(&source, Budget::of(path, size))
 }
@@ -96,7 +99,7 @@ fn chunks<'a>(path: &Path, bytes: &'a [u8]) -> Result<(&'a [u8], Option<&'a [u8]
 struct Source<'a> {
     path: &'a Path,
     document: &'a Document,
-    buffers: &'a [std::borrow::Cow<'a, [u8]>],
+    buffers: &'a [Rc<[u8]>],
 }
 
 /// Memory that may still be used. Without it, a small file could place one mesh a million times.

@@ -1,7 +1,8 @@
 //! The bytes of buffers: inside the file, in its text, or in files beside it.
 
-use std::borrow::Cow;
+use std::collections::HashMap;
 use std::path::{Component, Path, PathBuf};
+use std::rc::Rc;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -11,19 +12,27 @@ use super::document::Document;
 use crate::file::{self, wrong};
 
 /// Loads all buffers. `binary` is the second chunk of a binary file.
-pub(super) fn load<'a>(
-    path: &Path,
-    document: &Document,
-    binary: Option<&'a [u8]>,
-) -> Result<Vec<Cow<'a, [u8]>>, FormatError> {
+pub(super) fn load(path: &Path, document: &Document, binary: Option<&[u8]>) -> Result<Vec<Rc<[u8]>>, FormatError> {
     let mut buffers = Vec::new();
+    // Each file once: a thousand buffers may name the same one.
+    let mut files: HashMap<PathBuf, Rc<[u8]>> = HashMap::new();
     for (number, buffer) in document.buffers.iter().enumerate() {
-        let (name, bytes) = match (&buffer.uri, binary) {
-            (Some(uri), _) => (shown(uri), external(path, number, uri)?),
-            (None, Some(binary)) if number == 0 => ("the binary chunk".into(), Cow::Borrowed(binary)),
+        let bytes: Rc<[u8]> = match (&buffer.uri, binary) {
+            (Some(uri), _) => match uri.strip_prefix("data:") {
+                Some(data) => decode(path, number, data)?.into(),
+                None => {
+                    let name = beside(path, uri)?;
+                    match files.get(&name) {
+                        Some(bytes) => bytes.clone(),
+                        None => files.entry(name.clone()).or_insert(file::bytes(&name)?.into()).clone(),
+                    }
+                }
+            },
+            (None, Some(binary)) if number == 0 => binary.into(),
             (None, _) => return Err(wrong(path, format!("no bytes of buffer {number}"), "a uri or a binary chunk")),
         };
         if bytes.len() < buffer.byte_length {
+            let name = buffer.uri.as_deref().map_or("the binary chunk".into(), shown);
             let found = format!("{} bytes of buffer {number} in {name}", bytes.len());
             return Err(wrong(path, found, format!("{}, its byteLength", buffer.byte_length)));
         }
@@ -32,26 +41,31 @@ pub(super) fn load<'a>(
     Ok(buffers)
 }
 
-fn external<'a>(path: &Path, number: usize, uri: &str) -> Result<Cow<'a, [u8]>, FormatError> {
-    if let Some(data) = uri.strip_prefix("data:") {
-        let text = data.split_once(";base64,").map(|(_, text)| text);
-        let bytes = text.and_then(|text| STANDARD.decode(text).ok());
-        let bytes = bytes.ok_or_else(|| wrong(path, format!("the data uri of buffer {number}"), "base64"))?;
-        return Ok(Cow::Owned(bytes));
-    }
-    Ok(Cow::Owned(file::bytes(&beside(path, uri)?)?))
+/// Bytes of what follows `data:` in a uri.
+fn decode(path: &Path, number: usize, data: &str) -> Result<Vec<u8>, FormatError> {
+    let text = data.split_once(";base64,").map(|(_, text)| text);
+    let bytes = text.and_then(|text| STANDARD.decode(text).ok());
+    bytes.ok_or_else(|| wrong(path, format!("the data uri of buffer {number}"), "base64"))
 }
 
 /// The file that a relative uri names. A scene must not open what lies elsewhere.
 fn beside(path: &Path, uri: &str) -> Result<PathBuf, FormatError> {
-    let decoded = percent_encoding::percent_decode_str(uri).decode_utf8();
-    let relative = decoded.ok().map(|uri| PathBuf::from(&*uri)).filter(|file| {
-        file.components().all(|component| matches!(component, Component::Normal(_) | Component::CurDir))
-    });
-    match relative {
-        Some(file) if !uri.contains("://") => Ok(path.parent().unwrap_or(Path::new("")).join(file)),
-        _ => Err(wrong(path, format!("the uri {}", shown(uri)), "the name of a file in the same folder or below")),
+    let decoded = percent_encoding::percent_decode_str(uri).decode_utf8().unwrap_or_default();
+    let mut file = path.parent().unwrap_or(Path::new("")).to_path_buf();
+    for component in Path::new(&*decoded).components() {
+        match component {
+            Component::CurDir => {}
+            Component::Normal(name) if !uri.contains("://") => file.push(name),
+            _ => {
+                return Err(wrong(
+                    path,
+                    format!("the uri {}", shown(uri)),
+                    "the name of a file in the same folder or below",
+                ));
+            }
+        }
     }
+    Ok(file)
 }
 
 /// A uri short enough for a message.
