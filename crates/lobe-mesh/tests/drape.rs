@@ -64,6 +64,27 @@ fn the_weave_keeps_its_lengths_and_its_texture() {
 }
 
 #[test]
+fn folds_of_the_file_touch_and_do_not_cross() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/scenes/drape.ply");
+    let cloth = lobe_mesh::read(std::path::Path::new(path)).expect("the fixture");
+    let settings = Drape::default();
+    let n = settings.vertices;
+    let spacing = settings.side / (n - 1) as f64;
+    let places: Vec<_> = cloth.positions.iter().map(|&p| wide(p)).collect();
+    let mut closest = f64::INFINITY;
+    for (a, p) in places.iter().enumerate() {
+        for (b, q) in places.iter().enumerate().skip(a + 1) {
+            if (a % n).abs_diff(b % n) > 2 || b / n - a / n > 2 {
+                closest = closest.min(p.distance_squared(*q));
+            }
+        }
+    }
+    // Vertices keep 0.9 of the spacing, up to what the last step left.
+    let closest = closest.sqrt() / spacing;
+    assert!((0.85..1.0).contains(&closest), "vertices of two folds are {closest} spacings apart");
+}
+
+#[test]
 fn a_seed_gives_one_cloth() {
     let short = Drape { vertices: 33, duration: 0.3, ..Drape::default() };
     assert!(drape(&short) == drape(&short));
