@@ -16,7 +16,7 @@ pub fn write(path: &Path, geometry: &Geometry) -> Result<(), FormatError> {
     write_whole(path, &to_bytes(geometry))
 }
 
-/// The content of the file that [`write`] writes.
+/// The content of the file that [`write()`] writes.
 pub fn to_bytes(geometry: &Geometry) -> Vec<u8> {
     let mut out = header(geometry).into_bytes();
     for vertex in 0..geometry.positions.len() {
