@@ -24,7 +24,7 @@ fn count(xml: &str, wanted: &str) -> usize {
     let mut found = 0;
     loop {
         match reader.read_event().unwrap() {
-            Event::Start(element) | Event::Empty(element) if element.name().as_ref() == wanted.as_bytes() => found += 1,
+            Event::Start(element) | Event::Empty(element) if element.name().as_ref() == wanted => found += 1,
             Event::Eof => return found,
             _ => {}
         }

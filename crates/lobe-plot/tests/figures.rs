@@ -48,10 +48,10 @@ fn elements(xml: &str) -> Vec<(String, BytesStart<'static>)> {
         match reader.read_event().expect("well-formed XML") {
             Event::Start(element) => {
                 depth += 1;
-                found.push((String::from_utf8_lossy(element.name().as_ref()).into(), element.into_owned()));
+                found.push((element.name().as_ref().to_string(), element.into_owned()));
             }
             Event::Empty(element) => {
-                found.push((String::from_utf8_lossy(element.name().as_ref()).into(), element.into_owned()));
+                found.push((element.name().as_ref().to_string(), element.into_owned()));
             }
             Event::End(_) => depth -= 1,
             Event::Eof => break,
@@ -63,8 +63,8 @@ fn elements(xml: &str) -> Vec<(String, BytesStart<'static>)> {
 }
 
 fn attribute(element: &BytesStart<'_>, name: &str) -> Option<String> {
-    let found = element.attributes().flatten().find(|attribute| attribute.key.as_ref() == name.as_bytes())?;
-    Some(String::from_utf8_lossy(&found.value).into())
+    let found = element.attributes().flatten().find(|attribute| attribute.key.as_ref() == name)?;
+    Some(found.value.into_owned())
 }
 
 #[test]
@@ -204,17 +204,16 @@ fn a_lambert_sphere_has_the_right_pixels() {
     let at = |x: usize, y: usize| y * 101 + x;
     // The middle faces the viewer; the light is 3 degrees away.
     let cos = 1.0 / (1.0_f32 + 0.04 * 0.04 + 0.034 * 0.034).sqrt();
-    for k in 0..3 {
-        let found = sphere.linear[at(50, 50)][k];
-        assert!((found - albedo[k] * cos).abs() < 2e-3, "{found}");
+    for (found, albedo) in sphere.linear[at(50, 50)].iter().zip(albedo) {
+        assert!((found - albedo * cos).abs() < 2e-3, "{found}");
     }
     // At half the radius the normal is 30 degrees away from the viewer.
     let right = sphere.linear[at(75, 50)][0];
     assert!((right - 0.6 * 0.75_f32.sqrt()).abs() < 0.02, "{right}");
     let picture = sphere.picture(0.0);
     let pixel = &picture.rgba[4 * at(50, 50)..][..4];
-    for k in 0..3 {
-        assert!(pixel[k].abs_diff(encode(albedo[k] * cos)) <= 1, "{pixel:?}");
+    for (byte, albedo) in pixel.iter().zip(albedo) {
+        assert!(byte.abs_diff(encode(albedo * cos)) <= 1, "{pixel:?}");
     }
     assert_eq!((pixel[3], picture.rgba[3]), (255, 0), "opaque on the sphere and clear around it");
     // One stop doubles the light.
