@@ -15,7 +15,7 @@ const TOLERANCE: f64 = 0.05;
 const RADIUS: f64 = 246.0;
 const CENTRE: f64 = 292.0;
 /// Where the largest value of a curve is this many times that of another, a linear radius shows only the first.
-const WIDE: f64 = 12.0;
+const WIDE: f64 = 8.0;
 
 /// Reflection above the surface, transmission below it.
 pub(super) fn draw(subject: &Subject, view: &View, progress: &dyn Progress) -> String {
@@ -24,8 +24,8 @@ pub(super) fn draw(subject: &Subject, view: &View, progress: &dyn Progress) -> S
     let scale = scale(&curves, view.scaling);
     let sigmas = incidences(&curves);
     let (has_up, has_down) = (scatters.contains(&Scatter::Reflection), scatters.contains(&Scatter::Transmission));
-    let up = if has_up { RADIUS + 30.0 } else { 16.0 };
-    let down = if has_down { RADIUS + 30.0 } else { 16.0 };
+    let up = if has_up { RADIUS + 38.0 } else { 16.0 };
+    let down = if has_down { RADIUS + 38.0 } else { 16.0 };
     let centre = [CENTRE, TOP + up];
     let mut svg = Svg::new(id("polar", view));
     let radius = match scale.scaling {
@@ -125,7 +125,7 @@ fn grid(svg: &mut Svg, centre: [f64; 2], scale: &Scale, (has_up, has_down): (boo
             let role = if is_major { Role::Grid } else { Role::Faint };
             svg.line(at(centre, 0.08 * RADIUS, theta, scatter), at(centre, RADIUS, theta, scatter), role, 1.0);
             if is_major && angle.abs() < 90 {
-                let [x, y] = at(centre, RADIUS + 19.0, theta, scatter);
+                let [x, y] = at(centre, RADIUS + 24.0, theta, scatter);
                 svg.text([x, y + 5.5], Text { size: 15.0, role: Role::Muted, ..MIDDLE }, &super::degrees(theta));
             }
         }
