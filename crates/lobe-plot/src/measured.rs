@@ -1,5 +1,6 @@
 //! Where a material was measured: the incidences to draw, the directions to mark, and what is only continued.
 
+use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use lobe::formats::Document;
@@ -95,7 +96,7 @@ impl Part {
         self.scatter == scatter && self.side.unwrap_or(Side::Front) == side
     }
 
-    /// The outgoing directions that were measured for light from `wi`, as if light and view were both above, as far as
+    /// The outgoing directions that were measured for light at `sigma` and `psi`, as if light and view were both above, as far as
     /// they are above the horizon. Empty where the representation has no directions of its own.
     pub(crate) fn directions(&self, sigma: f64, psi: f64) -> Vec<[f64; 3]> {
         let spherical = |theta: f64, phi: f64| [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()];
@@ -128,6 +129,9 @@ impl Part {
     /// A test of outgoing directions for light at `sigma` and `psi`, as if light and view were both above: is the value
     /// there one of the measurement, and not only its continuation?
     pub(crate) fn coverage(&self, sigma: f64, psi: f64) -> Box<dyn Fn([f64; 3]) -> bool + Sync + '_> {
+        if matches!(self.places, Places::Everywhere) {
+            return Box::new(|_| true);
+        }
         let first = self.incidences.first().copied().unwrap_or(0.0);
         let last = self.incidences.last().copied().unwrap_or(FRAC_PI_2);
         // One incidence is all that there is: its figure is that of the measurement.
@@ -153,11 +157,40 @@ impl Part {
                 Box::new(move |wo| polar(wo) <= last)
             }
             Places::Scattered { incidences, is_isotropic } => {
-                let reach = nearest(incidences, *is_isotropic, sigma, psi).map_or(0.0, |cloud| cloud.reach.cos());
-                let found = self.directions(sigma, psi);
-                Box::new(move |wo| found.iter().any(|place| dot(*place, wo) >= reach))
+                let reach = nearest(incidences, *is_isotropic, sigma, psi).map_or(0.0, |cloud| cloud.reach);
+                let near = Near::new(self.directions(sigma, psi), reach);
+                Box::new(move |wo| near.has_neighbour(wo))
             }
         }
+    }
+}
+
+/// Finds whether a direction has others near it, in cells as wide as that is.
+struct Near {
+    cells: HashMap<[i32; 3], Vec<[f64; 3]>>,
+    width: f64,
+    cos: f64,
+}
+
+impl Near {
+    /// `reach` is how far near is, in radians.
+    fn new(directions: Vec<[f64; 3]>, reach: f64) -> Self {
+        // The chord of the angle: nothing nearer is farther than one cell away.
+        let mut near = Near { cells: HashMap::new(), width: (2.0 * (0.5 * reach).sin()).max(1e-3), cos: reach.cos() };
+        for direction in directions {
+            near.cells.entry(near.cell(direction)).or_default().push(direction);
+        }
+        near
+    }
+
+    fn cell(&self, direction: [f64; 3]) -> [i32; 3] {
+        direction.map(|c| (c / self.width).floor() as i32)
+    }
+
+    fn has_neighbour(&self, direction: [f64; 3]) -> bool {
+        let [x, y, z] = self.cell(direction);
+        let around = (0..27).filter_map(|at| self.cells.get(&[x + at % 3 - 1, y + at / 3 % 3 - 1, z + at / 9 - 1]));
+        around.flatten().any(|place| dot(*place, direction) >= self.cos)
     }
 }
 
@@ -300,4 +333,29 @@ fn nearest(clouds: &[Cloud], is_isotropic: bool, sigma: f64, psi: f64) -> Option
         false => -dot(incident(Side::Front, cloud.light[0], cloud.light[1].rem_euclid(TAU)), wi),
     };
     clouds.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbours_are_found_across_cells_and_nowhere_else() {
+        let direction = |degrees: f64| incident(Side::Front, degrees.to_radians(), 0.7);
+        let near = Near::new((0..9).map(|i| direction(10.0 * f64::from(i))).collect(), 3_f64.to_radians());
+        for tenths in 0..880 {
+            let degrees = 0.1 * f64::from(tenths) + 0.05;
+            let distance = (degrees - 10.0 * (degrees / 10.0).round().min(8.0)).abs();
+            assert_eq!(near.has_neighbour(direction(degrees)), distance < 3.0, "{degrees}");
+        }
+    }
+
+    #[test]
+    fn the_refracted_ray_is_linear_between_its_knots_and_goes_on_beside_them() {
+        let zenith = [[0.0, 0.0], [0.8, 0.5]];
+        for (sigma, expected) in [(0.0, 0.0), (0.4, 0.25), (0.8, 0.5), (1.0, 0.7)] {
+            assert!((at_sigma(&zenith, sigma) - expected).abs() < 1e-12, "{sigma}");
+        }
+        assert_eq!(at_sigma(&[[0.3, 0.3]], 1.0), 1.0);
+    }
 }
