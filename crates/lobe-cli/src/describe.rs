@@ -52,6 +52,33 @@ pub struct Values {
 
 const F: &str = "f in 1/sr";
 
+impl Part {
+    /// Everything but the name, as names and values for people.
+    pub fn rows(&self) -> Vec<(&'static str, String)> {
+        let mut rows = vec![
+            ("kind", self.kind.to_string()),
+            ("scatter", self.scatter.to_string()),
+            ("channels", format!("{}: {}", self.channels.len(), self.channels.join(" "))),
+        ];
+        for Axis { name, unit, count, first, last, knots } in &self.axes {
+            rows.push((
+                name,
+                match count {
+                    1 => format!("1 knot: {first} {unit}"),
+                    _ => {
+                        let knots: Vec<String> = knots.iter().map(f32::to_string).collect();
+                        format!("{count} knots, {first} to {last} {unit}: {}", knots.join(" "))
+                    }
+                },
+            ));
+        }
+        rows.extend(self.facts.iter().cloned());
+        let Values { of, count, bytes, smallest, largest, negative } = &self.values;
+        rows.push(("values", format!("{count} of {of}, {smallest} to {largest}, {negative} negative, {bytes} bytes")));
+        rows
+    }
+}
+
 /// The parts of a file; `None` for a representation that is newer than this command.
 pub fn describe(document: &Document) -> Option<Vec<Part>> {
     Some(match document {

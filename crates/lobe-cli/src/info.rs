@@ -74,7 +74,9 @@ impl Info {
             if self.parts.len() > 1 {
                 writeln!(out, "\n{}", part.name)?;
             }
-            part.print(out)?;
+            for (name, value) in part.rows() {
+                writeln!(out, "{name:<9} {value}")?;
+            }
         }
         if !self.tis.is_empty() {
             let (low, high) = range(self.tis.iter().copied());
@@ -84,33 +86,5 @@ impl Info {
             writeln!(out, "  {name}: {value}")?;
         }
         Ok(())
-    }
-}
-
-impl Part {
-    fn print(&self, out: &mut impl Write) -> std::io::Result<()> {
-        writeln!(out, "kind      {}", self.kind)?;
-        writeln!(out, "scatter   {}", self.scatter)?;
-        writeln!(out, "channels  {}: {}", self.channels.len(), self.channels.join(" "))?;
-        for axis in &self.axes {
-            let (name, unit, count) = (axis.name, axis.unit, axis.count);
-            match count {
-                1 => writeln!(out, "{name:<9} 1 knot: {} {unit}", axis.first)?,
-                _ => {
-                    let knots: Vec<String> = axis.knots.iter().map(f32::to_string).collect();
-                    let (first, last) = (axis.first, axis.last);
-                    writeln!(out, "{name:<9} {count} knots, {first} to {last} {unit}: {}", knots.join(" "))?;
-                }
-            }
-        }
-        for (name, fact) in &self.facts {
-            writeln!(out, "{name:<9} {fact}")?;
-        }
-        let values = &self.values;
-        writeln!(
-            out,
-            "values    {} of {}, {} to {}, {} negative, {} bytes",
-            values.count, values.of, values.smallest, values.largest, values.negative, values.bytes
-        )
     }
 }

@@ -1,4 +1,4 @@
-//! The `lobe` program: look at measured materials and evaluate them.
+//! The `lobe` program: look at measured materials, evaluate and draw them.
 #![forbid(unsafe_code)]
 
 mod describe;
@@ -6,6 +6,7 @@ mod eval;
 mod failure;
 mod info;
 mod pairs;
+mod plot;
 
 use std::process::ExitCode;
 
@@ -25,12 +26,14 @@ struct Cli {
 enum Command {
     Info(info::Args),
     Eval(eval::Args),
+    Plot(plot::Args),
 }
 
 fn main() -> ExitCode {
     let done = match Cli::parse().command {
         Command::Info(args) => info::run(&args),
         Command::Eval(args) => eval::run(&args),
+        Command::Plot(args) => plot::run(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -8,7 +8,7 @@ use crate::{FormatError, Place};
 /// Writes `content` to a temporary file beside `path` and renames it, so that nobody ever sees half a file.
 ///
 /// # Errors
-/// The file system refused.
+/// [`FormatError`] where the folder or the file cannot be written.
 pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), FormatError> {
     replace(path, content).map_err(|error| unwritable(path, &error))
 }

@@ -1,0 +1,49 @@
+//! Many pairs of directions, shared among the threads.
+
+use lobe::Material;
+use rayon::prelude::*;
+
+/// Hears how far a drawing has come.
+pub trait Progress: Sync {
+    /// A figure begins that needs this many pairs of directions.
+    fn begin(&self, figure: &str, pairs: u64);
+    /// So many more pairs are done.
+    fn advance(&self, pairs: u64);
+}
+
+/// Nobody listens.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Silent;
+
+impl Progress for Silent {
+    fn begin(&self, _figure: &str, _pairs: u64) {}
+    fn advance(&self, _pairs: u64) {}
+}
+
+/// Pairs a task: enough that the threads are worth it, and less than the material would share among threads itself.
+const TASK: usize = 2048;
+
+/// The value of every pair of directions, reduced from its channels to `N` numbers as soon as it is known, since a
+/// picture of a spectral material would not fit in memory.
+pub(crate) fn evaluate<const N: usize>(
+    material: &Material,
+    count: usize,
+    pair: impl Fn(usize) -> ([f64; 3], [f64; 3]) + Sync,
+    reduce: impl Fn(&[f32]) -> [f32; N] + Sync,
+    progress: &dyn Progress,
+) -> Vec<[f32; N]> {
+    let channels = material.channel_count();
+    let mut out = vec![[0.0; N]; count];
+    out.par_chunks_mut(TASK).enumerate().for_each(|(task, out)| {
+        let pairs = (0..out.len()).map(|at| pair(task * TASK + at));
+        let narrow = |d: [f64; 3]| d.map(|c| c as f32);
+        let (wi, wo): (Vec<_>, Vec<_>) = pairs.map(|(wi, wo)| (narrow(wi), narrow(wo))).unzip();
+        let mut texels = vec![0.0; wi.len() * channels];
+        material.eval_batch(&wi, &wo, &mut texels);
+        for (out, texel) in out.iter_mut().zip(texels.chunks_exact(channels)) {
+            *out = reduce(texel);
+        }
+        progress.advance(out.len() as u64);
+    });
+    out
+}

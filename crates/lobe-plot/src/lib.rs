@@ -1,0 +1,42 @@
+//! Figures of measured materials: what a goniometer engineer or a shading artist looks at first.
+//!
+//! [`Subject`] is an opened file with what is known about where it was measured; a [`View`] says what of it to look at;
+//! [`draw`] makes one figure as SVG, [`rasterise`] turns that into a PNG, and [`page()`] is a self-contained HTML page of
+//! all figures. A figure is a pure function of file and view: no clock, no random numbers.
+//!
+//! Conventions of every figure: the light comes from the left; angles of view are positive on the side of the mirror
+//! direction (for transmission: of the ray straight through); `f` is in 1/sr, without the cosine.
+#![forbid(unsafe_code)]
+
+mod albedo;
+mod colour;
+mod evaluate;
+mod figures;
+mod geometry;
+mod image;
+mod in_plane;
+mod measured;
+mod page;
+mod raster;
+mod scale;
+mod shade;
+mod simplify;
+mod slice;
+mod subject;
+mod svg;
+mod view;
+
+pub use albedo::{Albedo, albedos};
+pub use colour::{Colour, Quantity};
+pub use evaluate::{Progress, Silent};
+pub use figures::{Figure, draw};
+pub use geometry::{in_plane, incident};
+pub use image::Image;
+pub use in_plane::{Curve, curves};
+pub use page::{Facts, page};
+pub use raster::{RasterError, rasterise};
+pub use scale::Scaling;
+pub use shade::{Sphere, Studio, encode, shade};
+pub use slice::{Slice, slice};
+pub use subject::Subject;
+pub use view::{View, ViewError};

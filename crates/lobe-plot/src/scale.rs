@@ -1,0 +1,229 @@
+//! Axes of values and their ticks.
+
+/// How values are spread along an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scaling {
+    /// Equal factors are equally long.
+    Log,
+    /// Equal differences are equally long.
+    Linear,
+}
+
+/// A logarithmic axis spans at most this factor: what is below it is noise.
+const DEEPEST: f64 = 1e-6;
+
+/// A mark on an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Tick {
+    pub(crate) value: f64,
+    /// `None` for a small mark between the others. A power has the form `10^{-2}`.
+    pub(crate) label: Option<String>,
+}
+
+/// An axis of values from `low` to `high`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Scale {
+    pub(crate) scaling: Scaling,
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+}
+
+impl Scale {
+    /// An axis that holds all values, with ends at round numbers.
+    pub(crate) fn around(values: impl Iterator<Item = f64>, scaling: Scaling) -> Self {
+        let (mut least, mut most, mut least_positive) = (0.0_f64, 0.0_f64, f64::INFINITY);
+        for value in values.filter(|value| value.is_finite()) {
+            least = least.min(value);
+            most = most.max(value);
+            if value > 0.0 {
+                least_positive = least_positive.min(value);
+            }
+        }
+        if most <= 0.0 && (least >= 0.0 || scaling == Scaling::Log) {
+            // Nothing is there to see, on any axis.
+            return Scale { scaling, low: if scaling == Scaling::Log { 0.1 } else { 0.0 }, high: 1.0 };
+        }
+        match scaling {
+            Scaling::Log => {
+                let high = round_up(most);
+                let low = round_down(least_positive.max(most * DEEPEST)).min(high / 10.0);
+                Scale { scaling, low, high }
+            }
+            Scaling::Linear => {
+                let mut step = step(most - least);
+                // Rounding may lengthen the axis so much that it gets longer steps.
+                loop {
+                    let high = (most / step * (1.0 - 1e-9)).ceil() * step;
+                    let low = (least / step).floor() * step;
+                    match self::step(high - low) {
+                        longer if longer > step => step = longer,
+                        _ => return Scale { scaling, low, high },
+                    }
+                }
+            }
+        }
+    }
+
+    /// The place of a value: 0 at the low end, 1 at the high one. What has no logarithm is far below.
+    pub(crate) fn place(&self, value: f64) -> f64 {
+        match self.scaling {
+            Scaling::Linear => (value - self.low) / (self.high - self.low),
+            Scaling::Log if value > 0.0 => ((value / self.low).ln() / (self.high / self.low).ln()).max(-1.0),
+            Scaling::Log => -1.0,
+        }
+    }
+
+    /// The value at a place.
+    #[cfg(test)]
+    pub(crate) fn value(&self, place: f64) -> f64 {
+        match self.scaling {
+            Scaling::Linear => self.low + place * (self.high - self.low),
+            Scaling::Log => self.low * (self.high / self.low).powf(place),
+        }
+    }
+
+    /// The marks, ascending.
+    pub(crate) fn ticks(&self) -> Vec<Tick> {
+        match self.scaling {
+            Scaling::Linear => {
+                let step = step(self.high - self.low);
+                let digits = (-step.log10().floor()).max(0.0) as usize;
+                let (first, last) = ((self.low / step - 1e-6).ceil() as i64, (self.high / step + 1e-6).floor() as i64);
+                let tick = |n: i64| {
+                    let value = n as f64 * step;
+                    Tick { value, label: Some(minus(&format!("{value:.digits$}"))) }
+                };
+                (first..=last).map(tick).collect()
+            }
+            Scaling::Log => self.log_ticks(),
+        }
+    }
+
+    fn log_ticks(&self) -> Vec<Tick> {
+        let (first, last) = (exponent(self.low), exponent(self.high));
+        let decades = (self.high / self.low).log10();
+        // On a short axis a power of ten alone would leave it bare.
+        let labelled: &[u32] = match decades {
+            decades if decades < 2.2 => &[1, 2, 5],
+            _ => &[1],
+        };
+        let mut ticks = Vec::new();
+        for exponent in first..=last {
+            for digit in 1..10 {
+                let value = f64::from(digit) * 10_f64.powi(exponent);
+                if value < self.low * (1.0 - 1e-9) || value > self.high * (1.0 + 1e-9) {
+                    continue;
+                }
+                let label = labelled.contains(&digit).then(|| power(digit, exponent));
+                ticks.push(Tick { value, label });
+            }
+        }
+        ticks
+    }
+}
+
+/// A digit times a power of ten: a plain number where that is short.
+fn power(digit: u32, exponent: i32) -> String {
+    match exponent {
+        0..=2 => format!("{}", digit * 10_u32.pow(exponent as u32)),
+        -2..=-1 => format!("{:.*}", exponent.unsigned_abs() as usize, f64::from(digit) * 10_f64.powi(exponent)),
+        _ if digit == 1 => format!("10^{{{}}}", minus(&exponent.to_string())),
+        _ => format!("{digit}·10^{{{}}}", minus(&exponent.to_string())),
+    }
+}
+
+/// With the sign that is as wide as a digit.
+pub(crate) fn minus(number: &str) -> String {
+    number.replace('-', "\u{2212}")
+}
+
+/// A number with three digits that count.
+pub(crate) fn short(value: f64) -> String {
+    let magnitude = value.abs();
+    if magnitude == 0.0 {
+        return "0".into();
+    }
+    let digits = 2 - exponent(magnitude);
+    match digits {
+        0..=6 => {
+            let text = format!("{value:.*}", digits as usize);
+            let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+            minus(text)
+        }
+        -4..=-1 => minus(&format!("{value:.0}")),
+        _ => minus(&format!("{value:.2e}")),
+    }
+}
+
+fn exponent(value: f64) -> i32 {
+    (value.log10() + 1e-9).floor() as i32
+}
+
+/// 1, 2 or 5 times a power of ten, so that there are four to eight steps.
+fn step(range: f64) -> f64 {
+    let rough = range / 5.0;
+    let power = 10_f64.powi(exponent(rough));
+    let digit = [1.0, 2.0, 5.0].into_iter().rev().find(|digit| digit * power <= rough * 1.2).unwrap_or(1.0);
+    digit * power
+}
+
+fn round_up(value: f64) -> f64 {
+    let power = 10_f64.powi(exponent(value));
+    let digit = [1.0, 2.0, 5.0, 10.0].into_iter().find(|digit| digit * power >= value * 0.999_999).unwrap_or(10.0);
+    digit * power
+}
+
+fn round_down(value: f64) -> f64 {
+    let power = 10_f64.powi(exponent(value));
+    let digit = [5.0, 2.0, 1.0].into_iter().find(|digit| digit * power <= value * 1.000_001).unwrap_or(1.0);
+    digit * power
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(scale: Scale) -> Vec<String> {
+        scale.ticks().into_iter().filter_map(|tick| tick.label).collect()
+    }
+
+    #[test]
+    fn axes_end_at_round_numbers_and_hold_their_values() {
+        let scale = Scale::around([0.013, 3.2].into_iter(), Scaling::Log);
+        assert!((scale.low - 0.01).abs() < 1e-12 && (scale.high - 5.0).abs() < 1e-12, "{scale:?}");
+        let scale = Scale::around([0.0, 0.31].into_iter(), Scaling::Linear);
+        assert_eq!(labels(scale), ["0.00", "0.05", "0.10", "0.15", "0.20", "0.25", "0.30", "0.35"]);
+        let scale = Scale::around([-0.02, 0.9].into_iter(), Scaling::Linear);
+        assert_eq!(labels(scale)[0], "\u{2212}0.2");
+        // Zeros and noise do not stretch a logarithmic axis without end.
+        assert_eq!(Scale::around([0.0, 1e-30, 1.0].into_iter(), Scaling::Log).low, 1e-6);
+        assert_eq!(Scale::around([0.0].into_iter(), Scaling::Log).high, 1.0);
+    }
+
+    #[test]
+    fn places_and_values_are_inverse() {
+        for scaling in [Scaling::Log, Scaling::Linear] {
+            let scale = Scale { scaling, low: 0.02, high: 50.0 };
+            for value in [0.02, 0.7, 50.0] {
+                assert!((scale.value(scale.place(value)) / value - 1.0).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn powers_and_short_axes() {
+        assert_eq!(
+            labels(Scale { scaling: Scaling::Log, low: 1e-4, high: 1000.0 }).join(" "),
+            "10^{\u{2212}4} 10^{\u{2212}3} 0.01 0.1 1 10 100 10^{3}"
+        );
+        assert_eq!(labels(Scale { scaling: Scaling::Log, low: 0.2, high: 5.0 }).join(" "), "0.2 0.5 1 2 5");
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!(
+            [0.0, 0.12345, -2.5, 1234.6, 3.0e-7].map(short).join(" "),
+            "0 0.123 \u{2212}2.5 1235 3.00e\u{2212}7"
+        );
+    }
+}

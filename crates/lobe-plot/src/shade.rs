@@ -1,0 +1,278 @@
+//! Spheres under lights.
+
+use std::f64::consts::PI;
+
+use lobe::Scatter;
+use lobe::formats::sheet::Side;
+
+use crate::evaluate::{Progress, evaluate};
+use crate::geometry::{cross, dot, normalise, sign};
+use crate::image::Image;
+use crate::subject::Subject;
+use crate::view::View;
+
+/// A light far away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Light {
+    /// Toward its middle; the viewer is at +z, up is +y.
+    toward: [f64; 3],
+    /// The angle from its middle to its rim, in radians.
+    radius: f64,
+    /// How much of the light of a standard one, whose irradiance on a surface that faces it is pi.
+    power: f64,
+}
+
+/// How a sphere is lit. The viewer is far away, so that all sight lines are parallel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Studio {
+    /// A round light of 12 degrees from the upper left, and an eighth of it from the right: most of what there is to see.
+    Key,
+    /// A light of 2 degrees, 3 degrees beside the viewer: what a driver sees.
+    Viewer,
+    /// A light 75 degrees aside, beyond the left rim: what shows at grazing angles.
+    Rim,
+    /// The key light with the sample turned by a quarter on the sphere.
+    Turned,
+    /// A light behind the sphere, which is a thin shell: what is transmitted.
+    Behind,
+}
+
+impl Studio {
+    fn lights(self) -> Vec<Light> {
+        let light =
+            |toward, degrees: f64, power| Light { toward: normalise(toward), radius: degrees.to_radians(), power };
+        match self {
+            Studio::Key | Studio::Turned => {
+                vec![light([-0.55, 0.6, 0.75], 6.0, 1.0), light([0.85, 0.1, 0.5], 6.0, 0.125)]
+            }
+            Studio::Viewer => vec![light([-0.04, 0.034, 1.0], 1.0, 1.0)],
+            Studio::Rim => vec![light([-0.9, 0.35, 0.26], 6.0, 1.0)],
+            Studio::Behind => vec![light([-0.35, 0.4, -0.85], 6.0, 1.0)],
+        }
+    }
+
+    fn scatter(self) -> Scatter {
+        match self {
+            Studio::Behind => Scatter::Transmission,
+            _ => Scatter::Reflection,
+        }
+    }
+}
+
+/// A sphere of a material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sphere {
+    /// Pixels along each side of the picture, which the sphere just fills.
+    pub size: usize,
+    /// The light of each pixel, linear sRGB: 1 is what a white Lambert surface sends back that faces a standard light.
+    pub linear: Vec<[f32; 3]>,
+    /// How much of each pixel the sphere covers.
+    pub cover: Vec<f32>,
+}
+
+/// Pairs of directions a pixel and light.
+const SAMPLES: usize = 8;
+
+/// A sphere of the material of a view. The sample lies on it with its x axis along the circles of latitude.
+///
+/// Every pixel is the mean of eight places in it, each with another point of the light.
+pub fn shade(subject: &Subject, view: &View, studio: Studio, size: usize, progress: &dyn Progress) -> Sphere {
+    let lights = studio.lights();
+    let places = places(size);
+    progress.begin("sphere", (places.len() * lights.len()) as u64);
+    let flip = sign(view.side);
+    let turn = if studio == Studio::Turned { 0.5 * PI } else { 0.0 } + view.psi;
+    let pair = |at: usize| {
+        let (place, light) = (&places[at / lights.len()], &lights[at % lights.len()]);
+        let frame = Frame::on_sphere(place.normal, turn);
+        // The side that is lit looks out of the sphere.
+        let local = |w: [f64; 3]| {
+            let [x, y, z] = frame.local(w);
+            [x, flip * y, flip * z]
+        };
+        (local(light.point(place.uniform)), local([0.0, 0.0, 1.0]))
+    };
+    let colour = &view.colour;
+    let values = evaluate(subject.material(), places.len() * lights.len(), pair, |texel| colour.rgb(texel), progress);
+
+    let mut sphere = Sphere { size, linear: vec![[0.0; 3]; size * size], cover: vec![0.0; size * size] };
+    for (place, values) in places.iter().zip(values.chunks_exact(lights.len())) {
+        sphere.cover[place.pixel] += 1.0 / SAMPLES as f32;
+        for (light, rgb) in lights.iter().zip(values) {
+            let cos = dot(place.normal, light.point(place.uniform));
+            let is_lit = match studio.scatter() {
+                Scatter::Reflection => cos > 0.0,
+                Scatter::Transmission => cos < 0.0,
+            };
+            if is_lit {
+                let irradiance = (PI * light.power * cos.abs()) as f32;
+                for (sum, f) in sphere.linear[place.pixel].iter_mut().zip(rgb) {
+                    *sum += irradiance * f;
+                }
+            }
+        }
+    }
+    for (linear, cover) in sphere.linear.iter_mut().zip(&sphere.cover) {
+        let count = cover * SAMPLES as f32;
+        linear.iter_mut().for_each(|c| *c /= count.max(1.0));
+    }
+    sphere
+}
+
+impl Sphere {
+    /// The exposure in stops at which nine tenths of the sphere are darker than six tenths of white, and a peak has room
+    /// above: a whole number of halves.
+    pub fn exposure(&self) -> f64 {
+        let covered = self.linear.iter().zip(&self.cover).filter(|(_, cover)| **cover > 0.5);
+        let mut bright: Vec<f32> =
+            covered.map(|(rgb, _)| 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]).collect();
+        bright.sort_by(f32::total_cmp);
+        let at = bright.len() * 9 / 10;
+        match bright.get(at) {
+            Some(&value) if value > 1e-7 => (2.0 * (0.6 / f64::from(value)).log2()).floor() / 2.0,
+            _ => 0.0,
+        }
+    }
+
+    /// The picture at an exposure in stops; transparent around the sphere.
+    pub fn picture(&self, exposure: f64) -> Image {
+        let gain = exposure.exp2() as f32;
+        let pixel = |(linear, cover): (&[f32; 3], &f32)| {
+            let [r, g, b] = linear.map(|c| encode(tone(gain * c)));
+            [r, g, b, (255.0 * cover).round() as u8]
+        };
+        let rgba = self.linear.iter().zip(&self.cover).flat_map(pixel).collect();
+        Image { width: self.size as u32, height: self.size as u32, rgba }
+    }
+}
+
+/// Linear as far as this; what is brighter approaches 1, so that a peak does not become a flat patch.
+const SHOULDER: f32 = 0.7;
+
+fn tone(linear: f32) -> f32 {
+    let room = 1.0 - SHOULDER;
+    if linear <= SHOULDER { linear.max(0.0) } else { SHOULDER + room * (1.0 - (-(linear - SHOULDER) / room).exp()) }
+}
+
+/// The sRGB curve of IEC 61966-2-1, to a byte.
+pub fn encode(linear: f32) -> u8 {
+    let c = linear.clamp(0.0, 1.0);
+    let curved = if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
+    (255.0 * curved).round() as u8
+}
+
+/// A place on the sphere that is looked at.
+struct Place {
+    pixel: usize,
+    normal: [f64; 3],
+    /// Which point of a light shines on it.
+    uniform: [f64; 2],
+}
+
+/// The places of all pixels, those off the sphere left out. The points of each pixel are those of the R2 sequence
+/// (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018), which go on from pixel to pixel for the
+/// light, so that neighbours differ and no pattern shows.
+fn places(size: usize) -> Vec<Place> {
+    // The plastic number, the root of x^3 = x + 1.
+    const PLASTIC: f64 = 1.324_717_957_244_746;
+    let (a, b) = (1.0 / PLASTIC, 1.0 / (PLASTIC * PLASTIC));
+    let mut places = Vec::new();
+    for pixel in 0..size * size {
+        for sample in 0..SAMPLES {
+            let within = [a, b].map(|step| (0.5 + step * sample as f64).fract());
+            let ndc = |pixel: usize, within: f64| 2.0 * (pixel as f64 + within) / size as f64 - 1.0;
+            let (x, y) = (ndc(pixel % size, within[0]), -ndc(pixel / size, within[1]));
+            let square = x * x + y * y;
+            if square < 1.0 {
+                let index = (places.len() % (1 << 20)) as f64;
+                let uniform = [a, b].map(|step| (0.5 + step * index).fract());
+                places.push(Place { pixel, normal: [x, y, (1.0 - square).sqrt()], uniform });
+            }
+        }
+    }
+    places
+}
+
+impl Light {
+    /// The direction to a point of the light, chosen by two numbers in `[0, 1)`.
+    fn point(&self, [u, v]: [f64; 2]) -> [f64; 3] {
+        let helper = if self.toward[1].abs() < 0.9 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
+        let x = normalise(cross(helper, self.toward));
+        let y = cross(self.toward, x);
+        let (radius, (sin, cos)) = (self.radius.tan() * u.sqrt(), (2.0 * PI * v).sin_cos());
+        normalise(std::array::from_fn(|k| self.toward[k] + radius * (cos * x[k] + sin * y[k])))
+    }
+}
+
+/// The axes of the sample at a place on the sphere.
+struct Frame {
+    x: [f64; 3],
+    y: [f64; 3],
+    z: [f64; 3],
+}
+
+impl Frame {
+    /// x along the circle of latitude, toward the right for the viewer, then turned by `turn` about the normal.
+    fn on_sphere(normal: [f64; 3], turn: f64) -> Self {
+        let across = [normal[2], 0.0, -normal[0]];
+        let along = if across[0].hypot(across[2]) > 1e-9 { normalise(across) } else { [1.0, 0.0, 0.0] };
+        let up = cross(normal, along);
+        let (sin, cos) = turn.sin_cos();
+        let x: [f64; 3] = std::array::from_fn(|k| cos * along[k] + sin * up[k]);
+        Frame { x, y: cross(normal, x), z: normal }
+    }
+
+    fn local(&self, w: [f64; 3]) -> [f64; 3] {
+        [dot(w, self.x), dot(w, self.y), dot(w, self.z)]
+    }
+}
+
+/// The spheres that a material deserves: those that show something, and something else than the others.
+pub(crate) fn studios(subject: &Subject, side: Side) -> Vec<Studio> {
+    let scatters = subject.scatters(side);
+    let mut studios = Vec::new();
+    if scatters.contains(&Scatter::Reflection) {
+        studios.extend([Studio::Key, Studio::Viewer, Studio::Rim]);
+        if subject.is_anisotropic(side) {
+            studios.push(Studio::Turned);
+        }
+    }
+    if scatters.contains(&Scatter::Transmission) {
+        studios.push(Studio::Behind);
+    }
+    studios
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_right_handed_everywhere() {
+        for normal in [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [0.6, -0.64, 0.48]] {
+            let frame = Frame::on_sphere(normal, 0.7);
+            let z = cross(frame.x, frame.y);
+            assert!((0..3).all(|k| (z[k] - normal[k]).abs() < 1e-12), "{normal:?}");
+        }
+        assert_eq!(Frame::on_sphere([0.0, 0.0, 1.0], 0.0).x, [1.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn points_of_a_light_stay_within_it() {
+        for light in Studio::Key.lights() {
+            for (u, v) in [(0.0, 0.0), (0.5, 0.3), (0.999, 0.8)] {
+                let cos = dot(light.point([u, v]), light.toward);
+                assert!(cos >= light.radius.cos() - 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn tones_are_kept_up_to_the_shoulder_and_never_burn() {
+        assert_eq!(tone(0.5), 0.5);
+        assert_eq!(tone(-1.0), 0.0);
+        assert!((tone(SHOULDER + 1e-4) - SHOULDER - 1e-4).abs() < 1e-6);
+        assert!(tone(1.0) < tone(2.0) && tone(2.0) < 1.0);
+        assert_eq!([0.0, 0.5, 1.0].map(encode), [0, 188, 255]);
+    }
+}

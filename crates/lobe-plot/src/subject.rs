@@ -1,0 +1,122 @@
+//! A file to draw.
+
+use std::f64::consts::FRAC_PI_4;
+use std::path::Path;
+
+use lobe::formats::sheet::Side;
+use lobe::formats::{Document, Format};
+use lobe::{Material, OpenError, Options, Scatter};
+
+use crate::colour::Colour;
+use crate::evaluate::{Silent, evaluate};
+use crate::geometry::{in_plane, incident};
+use crate::measured::{Part, parts};
+
+/// A measured material, and what is known about where it was measured.
+#[derive(Debug)]
+pub struct Subject {
+    name: String,
+    material: Material,
+    parts: Vec<Part>,
+}
+
+impl Subject {
+    /// Opens a file of any format that `lobe` reads.
+    ///
+    /// # Errors
+    /// As [`Material::open`].
+    pub fn open(path: &Path) -> Result<Self, OpenError> {
+        let (format, document) = lobe::formats::open(path)?;
+        Subject::new(path, format, document)
+    }
+
+    /// A document that was read from `path`, after whose last part the figures are named.
+    ///
+    /// # Errors
+    /// As [`Material::new`].
+    pub fn new(path: &Path, format: Format, document: Document) -> Result<Self, OpenError> {
+        let parts = parts(&document);
+        let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into());
+        Ok(Subject { name, material: Material::new(path, format, document, &Options::default())?, parts })
+    }
+
+    /// The name of the file.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The material.
+    pub fn material(&self) -> &Material {
+        &self.material
+    }
+
+    /// What happens to light from `side`: reflection, transmission, both or nothing.
+    pub fn scatters(&self, side: Side) -> Vec<Scatter> {
+        let both = [Scatter::Reflection, Scatter::Transmission];
+        both.into_iter().filter(|&scatter| self.part(side, scatter).is_some()).collect()
+    }
+
+    /// The sides from which light was measured.
+    pub fn sides(&self) -> Vec<Side> {
+        [Side::Front, Side::Back].into_iter().filter(|&side| !self.scatters(side).is_empty()).collect()
+    }
+
+    pub(crate) fn part(&self, side: Side, scatter: Scatter) -> Option<&Part> {
+        self.parts.iter().find(|part| part.answers(side, scatter))
+    }
+
+    /// The polar angles of the light to draw, in radians: at most `most` of the knots of the measurement, or every 15
+    /// degrees where it has none of its own.
+    pub fn incidences(&self, side: Side, most: usize) -> Vec<f64> {
+        let part = self.scatters(side).first().and_then(|&scatter| self.part(side, scatter));
+        let mut knots: Vec<f64> = part.map(|part| part.incidences.clone()).unwrap_or_default();
+        // Grazing light has no value.
+        knots.retain(|knot| *knot < 88.5_f64.to_radians());
+        if knots.is_empty() {
+            knots = [0.0, 15.0, 30.0, 45.0, 60.0, 75.0].map(f64::to_radians).into();
+        }
+        if knots.len() <= most {
+            return knots;
+        }
+        // As even in the angle as the knots allow.
+        let (first, last) = (knots[0], knots[knots.len() - 1]);
+        let mut chosen: Vec<f64> = (0..most)
+            .map(|i| first + (last - first) * i as f64 / (most - 1).max(1) as f64)
+            .filter_map(|at| knots.iter().copied().min_by(|a, b| (a - at).abs().total_cmp(&(b - at).abs())))
+            .collect();
+        chosen.dedup();
+        chosen
+    }
+
+    /// The azimuth of the light to begin with, in radians.
+    pub fn psi(&self, side: Side) -> f64 {
+        self.scatters(side).first().and_then(|&scatter| self.part(side, scatter)).map_or(0.0, |part| part.psi)
+    }
+
+    /// Whether turning the sample by an eighth or a quarter makes a difference: a twentieth of the colours or more, for a
+    /// few hundred pairs of directions.
+    pub fn is_anisotropic(&self, side: Side) -> bool {
+        let scatters = self.scatters(side);
+        let Some(&scatter) = scatters.first() else { return false };
+        let psi = self.psi(side);
+        const TURNS: usize = 3;
+        let pair = |at: usize| {
+            let (turn, sigma, theta) = (at % TURNS, at / TURNS % 8, at / (8 * TURNS));
+            let (sigma, theta) = ((5.0 + 9.0 * sigma as f64).to_radians(), (-76.0 + 8.0 * theta as f64).to_radians());
+            let psi = psi + FRAC_PI_4 * turn as f64;
+            (incident(side, sigma, psi), in_plane(side, scatter, theta, psi))
+        };
+        let colour = Colour::of(self.material.channels());
+        let values = evaluate(&self.material, TURNS * 8 * 20, pair, |texel| colour.rgb(texel), &Silent);
+        let (mut difference, mut sum) = (0.0, 0.0);
+        for turns in values.chunks_exact(TURNS) {
+            for channel in 0..3 {
+                let of = turns.iter().map(|rgb| rgb[channel]);
+                let (low, high) = of.fold((f32::INFINITY, f32::NEG_INFINITY), |(l, h), c| (l.min(c), h.max(c)));
+                difference += high - low;
+                sum += high.abs();
+            }
+        }
+        difference > 0.05 * sum
+    }
+}

@@ -1,0 +1,99 @@
+//! What of a material to look at.
+
+use lobe::formats::sheet::Side;
+use thiserror::Error;
+
+use crate::colour::{Colour, Quantity};
+use crate::scale::Scaling;
+use crate::subject::Subject;
+
+/// What of a material a figure shows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct View {
+    /// Where the light is.
+    pub side: Side,
+    /// The polar angles of the light, in radians; where there are none, those of [`Subject::incidences`].
+    pub sigmas: Vec<f64>,
+    /// The azimuth of the light, in radians.
+    pub psi: f64,
+    /// Axes of values; `None` lets every figure choose.
+    pub scaling: Option<Scaling>,
+    /// The number that curves and maps show.
+    pub quantity: Quantity,
+    /// The colours of spheres.
+    pub colour: Colour,
+    /// The width of the figure in pixels.
+    pub width: u32,
+}
+
+/// Why there is nothing to see.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ViewError {
+    /// No channel of this name.
+    #[error("found no channel {asked}; expected one of {}", known.join(", "))]
+    Channel {
+        /// What was asked for.
+        asked: String,
+        /// What there is.
+        known: Vec<String>,
+    },
+    /// Nothing was measured for light from this side.
+    #[error("found no values for light from {}", match side { Side::Front => "above", Side::Back => "below" })]
+    Side {
+        /// The side that was asked for.
+        side: Side,
+    },
+}
+
+impl View {
+    /// The view of a material that a figure starts with: the light above, where there is anything to see from there, and
+    /// at the azimuth of the first knot.
+    pub fn new(subject: &Subject) -> Self {
+        let side = subject.sides().first().copied().unwrap_or(Side::Front);
+        let channels = subject.material().channels();
+        View {
+            side,
+            sigmas: Vec::new(),
+            psi: subject.psi(side),
+            scaling: None,
+            quantity: Quantity::of(channels),
+            colour: Colour::of(channels),
+            width: 960,
+        }
+    }
+
+    /// The same view with the light on a side.
+    ///
+    /// # Errors
+    /// [`ViewError::Side`].
+    pub fn lit_from(self, subject: &Subject, side: Side) -> Result<Self, ViewError> {
+        match subject.scatters(side).is_empty() {
+            true => Err(ViewError::Side { side }),
+            false => Ok(View { side, psi: subject.psi(side), ..self }),
+        }
+    }
+
+    /// The same view of one channel, in any case of letters.
+    ///
+    /// # Errors
+    /// [`ViewError::Channel`].
+    pub fn channel(self, subject: &Subject, name: &str) -> Result<Self, ViewError> {
+        let channels = subject.material().channels();
+        let known = channels.names();
+        match known.iter().position(|channel| channel.eq_ignore_ascii_case(name)) {
+            Some(index) => {
+                let quantity = Quantity::channel(channels, index);
+                Ok(View { colour: Colour::grey(&quantity), quantity, ..self })
+            }
+            None => Err(ViewError::Channel { asked: name.into(), known }),
+        }
+    }
+
+    /// The polar angles of the light to draw, in radians.
+    pub(crate) fn incidences(&self, subject: &Subject, most: usize) -> Vec<f64> {
+        match self.sigmas.is_empty() {
+            true => subject.incidences(self.side, most),
+            false => self.sigmas.clone(),
+        }
+    }
+}
