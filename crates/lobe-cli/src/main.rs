@@ -1,11 +1,22 @@
-//! The `lobe` program: look at measured materials and evaluate them.
+//! The `lobe` program: look at measured materials, evaluate and convert them.
 #![forbid(unsafe_code)]
 
+mod channels;
+mod convert;
 mod describe;
 mod eval;
 mod failure;
+mod generate;
 mod info;
+mod lossless;
+mod measure;
+mod output;
 mod pairs;
+mod probe;
+mod progress;
+mod shell;
+mod surface;
+mod target;
 
 use std::process::ExitCode;
 
@@ -13,7 +24,7 @@ use clap::{Parser, Subcommand};
 
 use crate::failure::Failure;
 
-/// Look at measured BRDFs and BTDFs and evaluate them.
+/// Look at measured BRDFs and BTDFs, evaluate and convert them.
 #[derive(Parser)]
 #[command(name = "lobe", version, after_help = "Exit codes: 0 done, 1 a file is unreadable or damaged, 2 wrong usage.")]
 struct Cli {
@@ -25,12 +36,20 @@ struct Cli {
 enum Command {
     Info(info::Args),
     Eval(eval::Args),
+    Convert(Box<convert::Args>),
+    Generate(Box<generate::Args>),
+    Completions(shell::Completions),
+    Man(shell::Man),
 }
 
 fn main() -> ExitCode {
     let done = match Cli::parse().command {
         Command::Info(args) => info::run(&args),
         Command::Eval(args) => eval::run(&args),
+        Command::Convert(args) => convert::run(&args),
+        Command::Generate(args) => generate::run(&args),
+        Command::Completions(args) => shell::completions(&args),
+        Command::Man(args) => shell::man(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
