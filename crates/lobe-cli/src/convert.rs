@@ -68,9 +68,24 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         Sides::One(scatter) => Some(scatter),
         Sides::Both => None,
     };
+    if let Some(loss) = loss(&document, target) {
+        eprintln!("{}: {loss}", args.file.display());
+    }
     let options = Options { lookup: Lookup::Linear, ..Options::default() };
     let material = Material::new(&args.file, format, document, &options)?;
     measure::write(&MaterialSurface { material, scatter }, sides, &args.output)
+}
+
+/// What of a document values for pairs of directions on one side leave out.
+fn loss(document: &Document, target: Target) -> Option<&'static str> {
+    match document {
+        Document::Mueller(_) => Some("polarised; only the intensity of unpolarised light is written"),
+        Document::Utia(_) => Some("the unit of the values is not documented; they are written as they are stored"),
+        Document::Window(_) | Document::Sheet(_) if target != Target::Klems => {
+            Some("a sheet with two sides; one kind of scatter of light from z > 0 is written")
+        }
+        _ => None,
+    }
 }
 
 /// The one measurement of a sheet that is to be written, where the target has room for one.

@@ -121,7 +121,7 @@ fn what_a_format_cannot_hold_is_refused() {
     let folder = Folder::new();
     std::fs::write(
         folder.0.path().join("glass.ddt"),
-        "TypeColorModel BW sigma 2 0 60 phi 2 0 360 theta 2 0 180 bw def 1 1 1 1 1 1 1 1 enddef",
+        "TypeSym ASymmetrical TypeColorModel BW sigma 2 0 60 phi 2 0 360 theta 2 0 180 bw def 1 1 1 1 1 1 1 1 enddef",
     )
     .expect("written");
     let said = folder.refused(&["convert", "glass.ddt", "x.bsdf", "--to", "rgl"], "x.bsdf");
@@ -139,7 +139,7 @@ fn what_a_format_cannot_hold_is_refused() {
     let cloth = cloth.to_str().expect("a path in UTF-8");
     let said = folder.refused(&["convert", cloth, "x.binary"], "x.binary");
     assert!(said.contains("found an anisotropic material; expected an isotropic one in MERL"), "{said}");
-    let spectral = "TypeColorModel spectral 2 sigma 1 0 phi 2 0 360 theta 2 0 180 wl 450 def 1 1 1 1 enddef wl 600 def 1 1 1 1 enddef";
+    let spectral = "TypeSym ASymmetrical TypeColorModel spectral 2 sigma 1 0 phi 2 0 360 theta 2 0 180 wl 450 def 1 1 1 1 enddef wl 600 def 1 1 1 1 enddef";
     std::fs::write(folder.0.path().join("spectral.ddr"), spectral).expect("written");
     let said = folder.refused(&["convert", "spectral.ddr", "x.xml"], "x.xml");
     assert!(said.contains("found the channels 450nm 600nm; expected one channel, X Y Z or named bands"), "{said}");

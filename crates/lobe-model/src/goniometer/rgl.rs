@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use super::lift;
 use crate::Surface;
-use crate::vec3::{Vec3, dot, reflect, spherical};
+use crate::vec3::{Vec3, add, dot, normalize, reflect, spherical};
 
 /// How finely a surface is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,18 +22,20 @@ pub struct Resolution {
     pub theta_i: usize,
     /// Azimuths of the light: 1 for an isotropic surface, else at least 3, evenly over the whole turn with both its ends.
     pub phi_i: usize,
-    /// Rows and columns of the images of microfacets, at least 2. Their interpolation costs no accuracy: they only say
-    /// where values are kept.
+    /// Columns of the distribution of microfacets, and rows for other than isotropic surfaces, at least 2. Values follow
+    /// it exactly only at its texels.
+    pub ndf: usize,
+    /// Rows and columns of the other images of microfacets, at least 2. They only say where values are kept.
     pub microfacets: usize,
     /// Rows and columns of the images of values, at least 2.
     pub spectra: usize,
 }
 
 impl Resolution {
-    /// What keeps a smooth isotropic surface within a thousandth of its values.
-    pub const ISOTROPIC: Resolution = Resolution { theta_i: 32, phi_i: 1, microfacets: 128, spectra: 64 };
-    /// A compromise between accuracy and the size of the file for other surfaces.
-    pub const ANISOTROPIC: Resolution = Resolution { theta_i: 16, phi_i: 25, microfacets: 64, spectra: 32 };
+    /// What keeps most values of a smooth isotropic surface within a thousandth, in 6 megabytes.
+    pub const ISOTROPIC: Resolution = Resolution { theta_i: 48, phi_i: 1, ndf: 512, microfacets: 128, spectra: 64 };
+    /// A compromise between accuracy and the 18 megabytes of the file for other surfaces.
+    pub const ANISOTROPIC: Resolution = Resolution { theta_i: 20, phi_i: 25, ndf: 192, microfacets: 48, spectra: 40 };
 
     /// How often [`measure`] reports progress.
     pub fn steps(&self) -> usize {
@@ -50,21 +52,20 @@ const ITERATIONS: usize = 8;
 const RANDOM: f64 = 1e-4;
 /// How much of a warp is even over the square of zenith and azimuth. The microfacets alone would leave the directions
 /// about the normal, of which there are few, to a single row of texels.
-const EVEN: f64 = 0.3;
+const EVEN: f64 = 0.5;
 
 /// Measures a surface into a material that reproduces it at every node: at the knots of the light and the texels of its
 /// images. Values are those of [`Rgl`]: `f cos(theta_o)` over `ndf / (4 sigma)`.
 ///
-/// Texels whose viewer is below the surface hold the continuation of `f cos(theta_o)` through zero at the horizon, a
-/// negative number, so that the interpolation above it is right. Directions of the light are shared out over the threads of
+/// Texels whose viewer is below the surface hold 0. Directions of the light are shared out over the threads of
 /// rayon; `progress` is called after each of them.
 ///
 /// # Errors
 /// [`Invalid`] where the channels are neither RGB nor ascending wavelengths, the resolution is below its least, or a value
 /// is not finite.
 pub fn measure(surface: &dyn Surface, resolution: Resolution, progress: impl Fn() + Sync) -> Result<Rgl, Invalid> {
-    let Resolution { theta_i, phi_i, microfacets, spectra } = resolution;
-    if theta_i < 2 || phi_i == 0 || phi_i == 2 || microfacets < 2 || spectra < 2 {
+    let Resolution { theta_i, phi_i, ndf, microfacets, spectra } = resolution;
+    if theta_i < 2 || phi_i == 0 || phi_i == 2 || ndf < 2 || microfacets < 2 || spectra < 2 {
         return Err(Invalid {
             part: "resolution",
             found: format!("{resolution:?}"),
@@ -76,7 +77,7 @@ pub fn measure(surface: &dyn Surface, resolution: Resolution, progress: impl Fn(
         1 => vec![0.0],
         n => (0..n).map(|p| (TAU * p as f64 / (n - 1) as f64 - PI) as f32).collect(),
     };
-    let facets = Microfacets::new(surface, phi_i == 1, microfacets)?;
+    let facets = Microfacets::new(surface, phi_i == 1, [ndf, microfacets])?;
     let lights: Vec<Vec3> = azimuths
         .iter()
         .flat_map(|&phi| zeniths.iter().map(move |&theta| spherical(f64::from(theta), f64::from(phi))))
@@ -124,53 +125,51 @@ impl Microfacets {
     /// `f(m, m) = c ndf(m) / (4 cos(m) sigma(m))`, and sigma is the integral of ndf: so ndf is an eigenvector, which power
     /// iteration finds (Dupuy et al., *Extracting microfacet-based BRDF parameters from arbitrary materials with power
     /// iterations*, EGSR 2015).
-    fn new(surface: &dyn Surface, is_isotropic: bool, side: usize) -> Result<Self, Invalid> {
+    fn new(surface: &dyn Surface, is_isotropic: bool, [fine, side]: [usize; 2]) -> Result<Self, Invalid> {
+        // An isotropic surface looks alike from all azimuths, and two rows suffice for its images.
+        let image = |part, side: usize, row_or_all: Vec<f64>| {
+            let kept = if is_isotropic { 2 } else { side };
+            Images::new(part, [1, kept, side], row_or_all.iter().cycle().take(kept * side).map(|&x| x as f32).collect())
+        };
+        let rows = |side: usize| if is_isotropic { 1 } else { side };
         let channels = surface.channels().count();
+        let back = |u: [f64; 2]| {
+            let w = spherical(theta(u[0]), phi(u[1]));
+            let (at, mut f) = (lift(w), vec![0.0; channels]);
+            surface.f(at, &[at], &mut f);
+            (f.iter().sum::<f64>() * w[2]).max(0.0)
+        };
+        let squares = |side: usize| positions(side).take(rows(side) * side).collect::<Vec<_>>();
+
         let normals: Vec<Vec3> = positions(side).map(|u| spherical(theta(u[0]), phi(u[1]))).collect();
-        // Area of the sphere that each node stands for: trapezoids, d theta = pi u du and d phi = 2 pi du.
+        // Area of the sphere that each node stands for: trapezoids.
         let step = 1.0 / (side - 1) as f64;
         let halved = |i: usize| if i == 0 || i == side - 1 { 0.5 * step } else { step };
-        let areas: Vec<f64> = positions(side)
-            .enumerate()
-            .map(|(i, u)| theta(u[0]).sin() * PI * u[0] * halved(i % side) * TAU * halved(i / side))
-            .collect();
-        // An isotropic surface looks alike from all azimuths.
-        let rows = if is_isotropic { 1 } else { side };
-        let seen: Vec<Vec3> = normals[..rows * side].to_vec();
-        let back: Vec<f64> = seen
-            .par_iter()
-            .map(|&w| {
-                let (at, mut f) = (lift(w), vec![0.0; channels]);
-                surface.f(at, &[at], &mut f);
-                (f.iter().sum::<f64>() * w[2]).max(0.0)
-            })
-            .collect();
-        let all_rows = |row: &[f64]| -> Vec<f64> { row.iter().copied().cycle().take(side * side).collect() };
+        let areas: Vec<f64> =
+            positions(side).enumerate().map(|(i, u)| stretch(u) * halved(i % side) * halved(i / side)).collect();
         let area_seen = |ndf: &[f64]| -> Vec<f64> {
-            let area = |w: &Vec3| -> f64 {
-                normals.iter().zip(&areas).zip(ndf).map(|((m, area), d)| area * d * dot(*w, *m).max(0.0)).sum()
-            };
-            seen.par_iter().map(area).collect()
+            let weighted: Vec<f64> = areas.iter().zip(ndf.iter().cycle()).map(|(area, d)| area * d).collect();
+            let area = |w: &Vec3| normals.iter().zip(&weighted).map(|(m, d)| d * dot(*w, *m).max(0.0)).sum();
+            normals[..rows(side) * side].par_iter().map(area).collect()
         };
-        let normalised = |ndf: Vec<f64>| -> Option<Vec<f64>> {
-            let total: f64 = normals.iter().zip(&areas).zip(&ndf).map(|((m, area), d)| area * d * m[2]).sum();
-            (total.is_finite() && total > 0.0).then(|| ndf.iter().map(|d| d / total).collect())
-        };
-        let random = vec![1.0 / PI; side * side];
-        let mut ndf = random.clone();
+        let returned: Vec<f64> = squares(side).into_par_iter().map(back).collect();
+        let (mut ndf, mut total) = (vec![1.0 / PI; returned.len()], 0.0);
         for _ in 0..ITERATIONS {
-            let next: Vec<f64> = area_seen(&ndf).iter().zip(&back).map(|(sigma, back)| sigma * back).collect();
+            let next: Vec<f64> = area_seen(&ndf).iter().zip(&returned).map(|(sigma, back)| sigma * back).collect();
+            total = areas.iter().zip(&normals).zip(next.iter().cycle()).map(|((area, m), d)| area * m[2] * d).sum();
             // A surface that sends nothing back says nothing about its facets.
-            ndf = normalised(all_rows(&next)).unwrap_or_else(|| random.clone());
+            if total <= 0.0 {
+                break;
+            }
+            ndf = next.iter().map(|d| (1.0 - RANDOM) * d / total + RANDOM / PI).collect();
         }
-        ndf.iter_mut().for_each(|d| *d = (1.0 - RANDOM) * *d + RANDOM / PI);
-        let sigma = all_rows(&area_seen(&ndf));
-        // Two rows suffice for what does not depend on the azimuth.
-        let kept = if is_isotropic { 2 } else { side };
-        let image = |part, texels: &[f64]| {
-            Images::new(part, [1, kept, side], texels[..kept * side].iter().map(|&x| x as f32).collect())
+        let sigma = image("sigma", side, area_seen(&ndf))?;
+        let density = |u: [f64; 2]| {
+            let found = if total > 0.0 { sigma.bilinear(0, u) * back(u) / total } else { 1.0 / PI };
+            (1.0 - RANDOM) * found + RANDOM / PI
         };
-        Ok(Microfacets { ndf: image("ndf", &ndf)?, sigma: image("sigma", &sigma)? })
+        let ndf = image("ndf", fine, squares(fine).into_par_iter().map(density).collect())?;
+        Ok(Microfacets { ndf, sigma })
     }
 
     /// The area seen from `wi`, as an evaluation finds it.
@@ -199,55 +198,26 @@ impl Microfacets {
             })
             .collect();
         let viewers: Vec<Vec3> = normals.iter().map(|u| reflect(wi, spherical(theta(u[0]), phi(u[1])))).collect();
-        let lit: Vec<usize> = (0..viewers.len()).filter(|&texel| viewers[texel][2] > 1e-6).collect();
+        let lit: Vec<usize> = (0..viewers.len()).filter(|&texel| viewers[texel][2] > 0.0).collect();
         let above: Vec<Vec3> = lit.iter().map(|&texel| viewers[texel]).collect();
         let channels = surface.channels().count();
         let mut f = vec![0.0; above.len() * channels];
         surface.f(wi, &above, &mut f);
 
         let texels = side * side;
-        let mut smooth: Vec<Option<Vec<f64>>> = vec![None; texels];
-        for (&texel, f) in lit.iter().zip(f.chunks_exact(channels)) {
-            let factor = 4.0 * self.area(wi) / self.ndf.bilinear(0, normals[texel]);
-            smooth[texel] = Some(f.iter().map(|f| f * factor).collect());
-        }
-        continue_outwards(&mut smooth, side);
         let (mut values, mut luminance) = (vec![0.0; texels * channels], vec![0.0; texels]);
-        for (texel, (smooth, wo)) in smooth.iter().zip(&viewers).enumerate() {
-            let u = normals[texel];
-            let m = spherical(theta(u[0]), phi(u[1]));
-            let drawn =
-                dot(wi, m).max(0.0) * stretch(u) * self.ndf.bilinear(0, u) / self.area(wi) / warp.density(u, &blend);
-            for (channel, smooth) in smooth.iter().flatten().enumerate() {
-                let value = smooth * wo[2];
-                values[channel * texels + texel] = value as f32;
-                luminance[texel] += (drawn * value.max(0.0) / channels as f64) as f32;
+        for ((&texel, wo), f) in lit.iter().zip(&above).zip(f.chunks_exact(channels)) {
+            let (u, m) = (normals[texel], normalize(add(wi, *wo)));
+            let mirrors = self.ndf.bilinear(0, u) / (4.0 * self.area(wi));
+            // Samples are drawn by the warp, which is not quite that of the visible normals, and by luminance.
+            let drawn = 4.0 * dot(wi, m) * stretch(u) / warp.density(u, &blend);
+            for (channel, f) in f.iter().enumerate() {
+                let shed = f * wo[2];
+                values[channel * texels + texel] = (shed / mirrors) as f32;
+                luminance[texel] += (drawn * shed.max(0.0) / channels as f64) as f32;
             }
         }
         (values, luminance)
-    }
-}
-
-/// Gives texels that have none the mean of their neighbours, ring by ring from those that have a value.
-fn continue_outwards(texels: &mut [Option<Vec<f64>>], side: usize) {
-    let neighbours = |texel: usize| {
-        let (row, column) = (texel / side, texel % side);
-        let rows = row.saturating_sub(1)..=(row + 1).min(side - 1);
-        rows.flat_map(move |r| (column.saturating_sub(1)..=(column + 1).min(side - 1)).map(move |c| r * side + c))
-    };
-    loop {
-        let mut ring: Vec<(usize, Vec<f64>)> = Vec::new();
-        for texel in (0..texels.len()).filter(|&texel| texels[texel].is_none()) {
-            let known: Vec<&Vec<f64>> = neighbours(texel).filter_map(|at| texels[at].as_ref()).collect();
-            if let Some(first) = known.first() {
-                let mean = |channel: usize| known.iter().map(|v| v[channel]).sum::<f64>() / known.len() as f64;
-                ring.push((texel, (0..first.len()).map(mean).collect()));
-            }
-        }
-        if ring.is_empty() {
-            return;
-        }
-        ring.into_iter().for_each(|(texel, value)| texels[texel] = Some(value));
     }
 }
 
@@ -257,7 +227,7 @@ fn positions(side: usize) -> impl Iterator<Item = [f64; 2]> {
     (0..side * side).map(move |i| [(i % side) as f64 / last, (i / side) as f64 / last])
 }
 
-/// Area of the sphere over that of the square.
+/// Area of the sphere over that of the square: d theta = pi u.x du.x and d phi = 2 pi du.y.
 fn stretch(u: [f64; 2]) -> f64 {
     2.0 * PI * PI * u[0] * theta(u[0]).sin()
 }
