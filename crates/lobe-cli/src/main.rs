@@ -1,12 +1,23 @@
-//! The `lobe` program: look at measured materials, evaluate and draw them.
+//! The `lobe` program: look at measured materials, evaluate, convert and draw them.
 #![forbid(unsafe_code)]
 
+mod channels;
+mod convert;
 mod describe;
 mod eval;
 mod failure;
+mod generate;
 mod info;
+mod lossless;
+mod measure;
+mod output;
 mod pairs;
 mod plot;
+mod probe;
+mod progress;
+mod shell;
+mod surface;
+mod target;
 
 use std::process::ExitCode;
 
@@ -14,7 +25,7 @@ use clap::{Parser, Subcommand};
 
 use crate::failure::Failure;
 
-/// Look at measured BRDFs and BTDFs and evaluate them.
+/// Look at measured BRDFs and BTDFs, evaluate, convert and draw them.
 #[derive(Parser)]
 #[command(name = "lobe", version, after_help = "Exit codes: 0 done, 1 a file is unreadable or damaged, 2 wrong usage.")]
 struct Cli {
@@ -27,6 +38,10 @@ enum Command {
     Info(info::Args),
     Eval(eval::Args),
     Plot(plot::Args),
+    Convert(Box<convert::Args>),
+    Generate(Box<generate::Args>),
+    Completions(shell::Completions),
+    Man(shell::Man),
 }
 
 fn main() -> ExitCode {
@@ -34,6 +49,10 @@ fn main() -> ExitCode {
         Command::Info(args) => info::run(&args),
         Command::Eval(args) => eval::run(&args),
         Command::Plot(args) => plot::run(&args),
+        Command::Convert(args) => convert::run(&args),
+        Command::Generate(args) => generate::run(&args),
+        Command::Completions(args) => shell::completions(&args),
+        Command::Man(args) => shell::man(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -5,9 +5,12 @@
 //! that of [`Options`]. All other columns are channels of `f` in 1/sr, without the cosine: `R`, `G`, `B`; `X`, `Y`, `Z`;
 //! wavelengths in nm such as `550` or `550nm`; or one of any name.
 //!
-//! CSV has a line of names, `#` comments, and commas, semicolons or tabs. JSON has an object with a list of numbers a
+//! CSV has a line of names, `#` comments, and commas, semicolons or tabs; a comment `# scatter: transmission` before the
+//! names says that it is a BTDF. JSON has an object with a list of numbers a
 //! column. Rows may be in any order: where they are all nodes of a grid over more than half a turn they
 //! become a grid, else scattered samples.
+
+mod write;
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -15,6 +18,8 @@ use std::path::Path;
 
 use lobe_table::spherical_grid::SphericalGrid;
 use lobe_table::{Channels, Samples, Scatter};
+
+pub use write::write;
 
 use crate::columns::channels;
 use crate::lines::shown;
@@ -39,6 +44,9 @@ impl Default for Options {
 
 const SPHERICAL: [&str; 4] = ["theta_i", "phi_i", "theta_o", "phi_o"];
 const SPECULAR: [&str; 4] = ["sigma", "psi", "theta", "phi"];
+
+/// The comment, before the names, that tells a BTDF from a BRDF.
+const TRANSMISSION: &str = "scatter: transmission";
 
 /// `true` for CSV or JSON with the names of these columns of angles.
 pub fn matches(bytes: &[u8]) -> bool {
@@ -72,8 +80,13 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Data, FormatError> {
 /// neither colours nor wavelengths nor one, rows of another length, and words that are no finite numbers.
 pub fn read_with(bytes: &[u8], file: &Path, options: Options) -> Result<Data, FormatError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let table = if bytes.trim_ascii_start().starts_with(b"{") { json(bytes, file)? } else { csv(bytes, file)? };
-    table.goniometer(file, options)
+    if bytes.trim_ascii_start().starts_with(b"{") {
+        return json(bytes, file)?.goniometer(file, options);
+    }
+    let mut comments = bytes.split(|&b| b == b'\n').take_while(|line| line.starts_with(b"#"));
+    let is_transmission = comments.any(|line| line[1..].trim_ascii().eq_ignore_ascii_case(TRANSMISSION.as_bytes()));
+    let scatter = if is_transmission { Scatter::Transmission } else { options.scatter };
+    csv(bytes, file)?.goniometer(file, Options { scatter, ..options })
 }
 
 /// Names and `[row][column]`.

@@ -22,6 +22,7 @@ pub mod lumos;
 pub mod mbsdf;
 pub mod merl;
 pub mod nist;
+pub mod npz;
 pub mod openmaterial;
 pub mod pbsdf;
 mod records;

@@ -89,7 +89,7 @@ pub(crate) fn scale_slices(file: &Path, samples: &Samples, targets: &[Vec<f64>])
 
 /// The integral of `f cos(theta_out)` over the hemisphere, a channel each, with the light at a sigma and a psi knot:
 /// the midpoint rule inside every cell of theta and phi, whose error at these steps is below 1e-4.
-fn slice_reflectance(samples: &Samples, [s, p]: [usize; 2]) -> Vec<f64> {
+pub(crate) fn slice_reflectance(samples: &Samples, [s, p]: [usize; 2]) -> Vec<f64> {
     const STEPS: [f64; 2] = [1.5 * PI / 180.0, 4.0 * PI / 180.0];
     let knots = samples.knots();
     let edges = Edges { non_negative: false, ..Edges::default() };

@@ -5,9 +5,13 @@
 //! The axes are the specular coordinates: AngleOfIncidence is sigma, SampleRotation psi, ScatterRadial theta,
 //! ScatterAzimuth phi. The details and the policies are in `docs/formats.md`.
 
+mod write;
+
 use std::path::Path;
 
 use lobe_table::{Channels, Samples, Scatter};
+
+pub use write::write;
 
 use crate::grid::{Axes, Grid};
 use crate::integra::keep_comments;

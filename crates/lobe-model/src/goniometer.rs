@@ -1,13 +1,18 @@
-//! A virtual goniophotometer: the values of a model at the nodes of a table.
+//! Virtual goniophotometers: the values of a surface at the nodes of a table.
+//!
+//! [`measure`] fills a table in specular coordinates; the modules fill the other representations.
+
+pub mod half_diff;
+pub mod klems;
+pub mod rgl;
 
 use std::f64::consts::TAU;
 
 use lobe_table::coords::angles_to_directions;
-use lobe_table::{Channels, Samples, SamplesError, Scatter};
+use lobe_table::{Samples, SamplesError, Scatter};
 use rayon::prelude::*;
 
-use crate::Model;
-use crate::vec3::Vec3;
+use crate::{Model, Rgb, Surface};
 
 /// Measures `model` at every node of `knots` (sigma, psi, theta, phi in radians, as in [`Samples`]).
 ///
@@ -27,24 +32,42 @@ pub fn measure(
     knots: [Vec<f64>; 4],
     progress: impl Fn() + Sync,
 ) -> Result<Samples, SamplesError> {
+    measure_surface(&Rgb(model), Scatter::Reflection, knots, progress)
+}
+
+/// As [`measure`], of any surface, and on either side of it: the viewers of transmission are below.
+///
+/// # Errors
+/// As [`measure`].
+pub fn measure_surface(
+    surface: &dyn Surface,
+    scatter: Scatter,
+    knots: [Vec<f64>; 4],
+    progress: impl Fn() + Sync,
+) -> Result<Samples, SamplesError> {
     let [sigmas, psis, thetas, phis] = &knots;
     let lights: Vec<(f64, f64)> = sigmas.iter().flat_map(|&sigma| psis.iter().map(move |&psi| (sigma, psi))).collect();
-    let measured: Vec<Vec<Vec3>> = lights
+    let measured: Vec<Vec<f32>> = lights
         .par_iter()
         .map(|&(sigma, psi)| {
             // A second look at the first position of a full turn would only repeat it.
             let psi = if closes_circle(psi, psis) { psis[0] } else { psi };
-            let slice = measure_light(model, sigma, psi, thetas, phis);
+            let slice = measure_light(surface, scatter, [sigma, psi], thetas, phis);
             progress();
             slice
         })
         .collect();
-    let values = measured.iter().flatten().flatten().map(|&f| f as f32).collect();
-    Samples::new(Scatter::Reflection, knots, Channels::Rgb, values)
+    Samples::new(scatter, knots, surface.channels().clone(), measured.concat())
 }
 
-/// All viewers of one light, `[theta][phi]`.
-fn measure_light(model: &impl Model, sigma: f64, psi: f64, thetas: &[f64], phis: &[f64]) -> Vec<Vec3> {
+/// All viewers of one light, `[theta][phi][channel]`.
+fn measure_light(
+    surface: &dyn Surface,
+    scatter: Scatter,
+    [sigma, psi]: [f64; 2],
+    thetas: &[f64],
+    phis: &[f64],
+) -> Vec<f32> {
     let mut viewers = Vec::new();
     let mut viewer_of_node = Vec::new();
     let (wi, _) = angles_to_directions([sigma, psi, 0.0, 0.0], |sigma| sigma);
@@ -53,13 +76,17 @@ fn measure_light(model: &impl Model, sigma: f64, psi: f64, thetas: &[f64], phis:
         for (i, &phi) in phis.iter().enumerate() {
             let known = i > 0 && (at_pole(theta) || closes_circle(phi, phis));
             if !known {
-                viewers.push(lift(angles_to_directions([sigma, psi, theta, phi], |sigma| sigma).1));
+                let [x, y, z] = lift(angles_to_directions([sigma, psi, theta, phi], |sigma| sigma).1);
+                viewers.push([x, y, if scatter == Scatter::Reflection { z } else { -z }]);
             }
             viewer_of_node.push(if known { first } else { viewers.len() - 1 });
         }
     }
-    let values = model.f_many(lift(wi), &viewers);
-    viewer_of_node.into_iter().map(|viewer| values[viewer]).collect()
+    let channels = surface.channels().count();
+    let mut values = vec![0.0; viewers.len() * channels];
+    surface.f(lift(wi), &viewers, &mut values);
+    let texel = |viewer: usize| values[viewer * channels..][..channels].iter().map(|&f| f as f32);
+    viewer_of_node.into_iter().flat_map(texel).collect()
 }
 
 /// Knots that were degrees in a file come back to within this of the pole or the full turn.
@@ -99,7 +126,7 @@ mod tests {
 
     use super::*;
     use crate::cloth::{Cloth, Ply, Weave, Yarn};
-    use crate::vec3::{dot, reflect};
+    use crate::vec3::{Vec3, dot, reflect};
     use crate::{Lambert, Phong};
 
     fn degrees(knots: &[f64]) -> Vec<f64> {

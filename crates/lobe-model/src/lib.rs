@@ -1,5 +1,5 @@
-//! Reflectance to measure: analytic models, a simulated woven cloth, and the virtual goniometer that turns either into a
-//! table.
+//! Reflectance to measure: analytic models, a simulated woven cloth, and the virtual goniometers that turn them, or any
+//! other [`Surface`], into a table of any representation.
 //!
 //! Everything here is plain `f64` on one direction pair at a time: the reference that tables are made from and compared
 //! with, not the evaluator.
@@ -13,22 +13,26 @@ mod blinn;
 pub mod cloth;
 mod conductor;
 pub mod goniometer;
+mod halton;
 mod lambert;
 mod microfacet;
 mod mix;
 mod model;
 mod oren_nayar;
 mod phong;
+mod surface;
 mod vec3;
 mod ward;
 
 pub use albedo::albedo;
 pub use blinn::Blinn;
 pub use conductor::{Conductor, fresnel_conductor};
+pub use halton::halton;
 pub use lambert::Lambert;
 pub use microfacet::Ggx;
 pub use mix::Mix;
 pub use model::Model;
 pub use oren_nayar::OrenNayar;
 pub use phong::Phong;
+pub use surface::{Rgb, Surface, is_isotropic};
 pub use ward::Ward;

@@ -29,7 +29,6 @@ pub(crate) fn reflect(d: Vec3, n: Vec3) -> Vec3 {
 }
 
 /// The unit vector at polar angle `theta` from `+z` and azimuth `phi` from `+x`, in radians.
-#[cfg(test)]
 pub(crate) fn spherical(theta: f64, phi: f64) -> Vec3 {
     [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
 }

@@ -74,6 +74,15 @@ impl Images {
     pub fn slice(&self, index: usize) -> &[f32] {
         &self.texels[index * self.height * self.width..][..self.height * self.width]
     }
+
+    /// The bilinear value of one image at `u`, which is clamped to the unit square.
+    ///
+    /// # Panics
+    /// Where there is no such slice.
+    pub fn bilinear(&self, index: usize, u: [f64; 2]) -> f64 {
+        let image = self.slice(index);
+        marginal::bilinear(self, u, |texel| f64::from(image[texel]))
+    }
 }
 
 /// What an [`Rgl`] is made of. P is the number of `phi_i`, T of `theta_i`, C of channels.

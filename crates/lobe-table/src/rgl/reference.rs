@@ -1,7 +1,7 @@
 //! Evaluation of an [`Rgl`] one query at a time in `f64`: what the lanes are compared with.
 
+use super::Rgl;
 use super::marginal::{Blend, Warp, bilinear};
-use super::{Images, Rgl};
 use crate::direction::{Vector, add, dot, normalize, phi, scale, spherical, sub, theta};
 use crate::knots::cell;
 use crate::samples::Channels;
@@ -179,8 +179,7 @@ impl Reference {
             return 1.0;
         }
         let u_i = [theta_to_u(theta(wi)), phi_to_u(phi(wi))];
-        let first = |images: &Images, u| bilinear(images, u, |texel| f64::from(images.texels()[texel]));
-        first(&parts.ndf, u_m) / (4.0 * first(&parts.sigma, u_i))
+        parts.ndf.bilinear(0, u_m) / (4.0 * parts.sigma.bilinear(0, u_i))
     }
 
     /// The stored value of one channel.

@@ -1,0 +1,127 @@
+//! From the channels of a material to those of a format: a linear map.
+
+use lobe::Channels;
+use lobe_model::Surface;
+
+use crate::failure::Failure;
+use crate::target::Target;
+
+/// Linear sRGB to CIE XYZ, D65 white (IEC 61966-2-1).
+static RGB_TO_XYZ: [[f64; 3]; 3] = [
+    [0.412_456_4, 0.357_576_1, 0.180_437_5],
+    [0.212_672_9, 0.715_152_2, 0.072_175],
+    [0.019_333_9, 0.119_192, 0.950_304_1],
+];
+/// Its inverse.
+static XYZ_TO_RGB: [[f64; 3]; 3] = [
+    [3.240_454_2, -1.537_138_5, -0.498_531_4],
+    [-0.969_266, 1.876_010_8, 0.041_556],
+    [0.055_643_4, -0.204_025_9, 1.057_225_2],
+];
+
+/// A linear map of channels.
+pub struct ChannelMap {
+    /// What it leads to.
+    pub channels: Channels,
+    /// What is to be said about it; `None` where it changes nothing.
+    pub note: Option<String>,
+    /// A row for each channel it leads to.
+    rows: Vec<Vec<f64>>,
+}
+
+impl ChannelMap {
+    /// The way from these channels, or from the one of them that was chosen, to a format.
+    pub fn new(from: &Channels, chosen: Option<&str>, target: Target) -> Result<Self, Failure> {
+        let count = from.count();
+        let unit = |index: usize| (0..count).map(|i| if i == index { 1.0 } else { 0.0 }).collect::<Vec<f64>>();
+        let mut map = ChannelMap { channels: from.clone(), note: None, rows: (0..count).map(unit).collect() };
+        let names = from.names();
+        if let Some(name) = chosen {
+            let index = names.iter().position(|known| known.eq_ignore_ascii_case(name)).ok_or_else(|| {
+                Failure::Usage(format!("found no channel {name}; expected one of {}", names.join(", ")))
+            })?;
+            map = ChannelMap {
+                channels: Channels::Mono,
+                note: Some(format!("{} only", names[index])),
+                rows: vec![unit(index)],
+            };
+        }
+        if let Channels::Named(names) = &map.channels
+            && names.len() == 1
+            && !target.holds(&map.channels)
+        {
+            map.channels = Channels::Mono;
+        }
+        if target.holds(&map.channels) {
+            return Ok(map);
+        }
+        let (channels, matrix, note): (_, Vec<&[f64]>, _) = match map.channels {
+            Channels::Mono if target.holds(&Channels::Rgb) => {
+                (Channels::Rgb, vec![&[1.0][..]; 3], "one channel as equal R, G and B")
+            }
+            Channels::Rgb if target.holds(&Channels::Xyz) => (
+                Channels::Xyz,
+                RGB_TO_XYZ.iter().map(|row| &row[..]).collect(),
+                "R G B, taken for linear sRGB, as X Y Z",
+            ),
+            Channels::Xyz if target.holds(&Channels::Rgb) => {
+                (Channels::Rgb, XYZ_TO_RGB.iter().map(|row| &row[..]).collect(), "X Y Z as linear sRGB")
+            }
+            other => {
+                let (found, expected) = (other.names().join(" "), target.channels());
+                let message = format!("{target}: found the channels {found}; expected {expected} (or --channel NAME)");
+                return Err(Failure::Usage(message));
+            }
+        };
+        let product = |row: &&[f64]| {
+            (0..count)
+                .map(|i| row.iter().zip(&map.rows).map(|(weight, from)| weight * from[i]).sum::<f64>())
+                .collect::<Vec<f64>>()
+        };
+        let note = map.note.iter().map(String::as_str).chain([note]).collect::<Vec<_>>().join(", ");
+        Ok(ChannelMap { channels, rows: matrix.iter().map(product).collect(), note: Some(note) })
+    }
+
+    /// `true` where nothing changes.
+    pub fn is_identity(&self) -> bool {
+        self.note.is_none()
+    }
+
+    /// Maps texels of the old channels to such of the new.
+    pub fn apply(&self, texels: &[f32]) -> Vec<f32> {
+        if self.is_identity() {
+            return texels.to_vec();
+        }
+        let mut mapped = Vec::new();
+        for texel in texels.chunks_exact(self.rows[0].len()) {
+            let dot = |row: &Vec<f64>| row.iter().zip(texel).map(|(weight, f)| weight * f64::from(*f)).sum::<f64>();
+            mapped.extend(self.rows.iter().map(|row| dot(row) as f32));
+        }
+        mapped
+    }
+}
+
+/// A surface whose channels are mapped.
+pub struct Mapped<'a> {
+    /// What is looked at.
+    pub surface: &'a dyn Surface,
+    /// How its channels are mapped.
+    pub map: &'a ChannelMap,
+}
+
+impl Surface for Mapped<'_> {
+    fn channels(&self) -> &Channels {
+        &self.map.channels
+    }
+
+    fn f(&self, wi: [f64; 3], viewers: &[[f64; 3]], out: &mut [f64]) {
+        let (from, to) = (self.map.rows[0].len(), self.map.rows.len());
+        let mut texels = vec![0.0; viewers.len() * from];
+        self.surface.f(wi, viewers, &mut texels);
+        for (out, texel) in out.chunks_exact_mut(to).zip(texels.chunks_exact(from)) {
+            for (out, row) in out.iter_mut().zip(&self.map.rows) {
+                *out = row.iter().zip(texel).map(|(weight, f)| weight * f).sum();
+            }
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! `lobe convert`: a measured material in another format.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use lobe::formats::Document;
+use lobe::{Lookup, Material, Options, Scatter};
+use lobe_formats::sheet::{Data, Side};
+
+use crate::failure::Failure;
+use crate::lossless;
+use crate::measure::{self, Sides};
+use crate::output::Output;
+use crate::surface::MaterialSurface;
+use crate::target::Target;
+
+/// Convert a material to another format.
+#[derive(clap::Args)]
+#[command(
+    after_help = "The format to write is told from the extension of OUT or from --to. Where it has the representation of the file, knots and values are written as they are. Where it has not, the material is resampled, which is said, together with the error at probes. What the format cannot hold is refused.
+
+Examples:
+  lobe convert paint.ddr paint.ssdd                        the same table in another format
+  lobe convert paint.ddr paint.bsdf --to rgl               for Mitsuba and pbrt, parameterisation included
+  lobe convert cloth.ddr cloth.bsdf --to rgl --azimuths 49 finer
+  lobe convert gold.binary gold.xml --basis half           Klems matrices for Radiance
+  lobe convert paint.bsdf paint.npz                        for numpy.load
+  lobe convert film.ssdd film.bsdf --to zemax --channel Y --scatter transmission
+
+Grids of half and difference angles (MERL) are read linearly between the middles of their bins."
+)]
+pub struct Args {
+    /// The file of a measured material.
+    file: PathBuf,
+    #[command(flatten)]
+    output: Output,
+    /// Which measurement of a sheet to write, where the file has both and the format has room for one.
+    #[arg(long, value_enum)]
+    scatter: Option<ScatterKind>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum ScatterKind {
+    /// Both directions on one side.
+    Reflection,
+    /// The directions on opposite sides.
+    Transmission,
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let (target, out) = (args.output.target()?, args.output.out.as_path());
+    let (format, document) = lobe_formats::open(&args.file)?;
+    let document = choose(document, target, args)?;
+    if let Some(done) = lossless::write(&document, target, args.output.channel.as_deref(), out)? {
+        eprintln!("{}: {target}, {done}", out.display());
+        return Ok(());
+    }
+    let sides = match &document {
+        Document::Specular(_) => {
+            let message = format!("{target}: found mirror reflectances; expected values for pairs of directions");
+            return Err(Failure::Usage(message));
+        }
+        Document::Sheet(_) | Document::Window(_) => Sides::Both,
+        document => Sides::One(lossless::data(document).map_or(Scatter::Reflection, |data| data.scatter())),
+    };
+    let scatter = match sides {
+        Sides::One(scatter) => Some(scatter),
+        Sides::Both => None,
+    };
+    if let Some(loss) = loss(&document, target) {
+        eprintln!("{}: {loss}", args.file.display());
+    }
+    let options = Options { lookup: Lookup::Linear, ..Options::default() };
+    let material = Material::new(&args.file, format, document, &options)?;
+    measure::write(&MaterialSurface { material, scatter }, sides, &args.output)
+}
+
+/// What of a document values for pairs of directions on one side leave out.
+fn loss(document: &Document, target: Target) -> Option<&'static str> {
+    match document {
+        Document::Mueller(_) => Some("polarised; only the intensity of unpolarised light is written"),
+        Document::Utia(_) => Some("the unit of the values is not documented; they are written as they are stored"),
+        Document::Window(_) | Document::Sheet(_) if target != Target::Klems => {
+            Some("a sheet with two sides; one kind of scatter of light from z > 0 is written")
+        }
+        _ => None,
+    }
+}
+
+/// The one measurement of a sheet that is to be written, where the target has room for one.
+fn choose(document: Document, target: Target, args: &Args) -> Result<Document, Failure> {
+    let asked = args.scatter.map(|kind| match kind {
+        ScatterKind::Reflection => Scatter::Reflection,
+        ScatterKind::Transmission => Scatter::Transmission,
+    });
+    let Document::Sheet(measured) = &document else { return Ok(document) };
+    if asked.is_none() && matches!(target, Target::Ssdd | Target::Npz | Target::Klems) {
+        return Ok(document);
+    }
+    let wanted = asked.or(target.side(&args.output.out));
+    let is_delta = target == Target::Sdr;
+    let candidates: Vec<&Data> = measured
+        .data
+        .iter()
+        .filter(|part| part.side != Some(Side::Back))
+        .map(|part| &part.data)
+        .filter(|data| matches!(data, Data::Specular(_)) == is_delta && wanted.is_none_or(|w| data.scatter() == w))
+        .collect();
+    match candidates[..] {
+        [data] => {
+            if measured.data.len() > 1 {
+                eprintln!("{}: one of {} measurements of a sheet", args.file.display(), measured.data.len());
+            }
+            Ok(lossless::document(data.clone()))
+        }
+        [] => Err(Failure::Usage(format!(
+            "{}: found no such measurement; expected what {target} holds",
+            args.file.display()
+        ))),
+        _ => Err(Failure::Usage(format!(
+            "{}: found {} measurements; expected --scatter with the one to write",
+            args.file.display(),
+            candidates.len()
+        ))),
+    }
+}

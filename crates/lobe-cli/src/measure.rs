@@ -1,0 +1,153 @@
+//! Measuring a surface anew, on the nodes of the format that is written.
+
+use std::path::Path;
+
+use lobe::{Channels, Material, Scatter};
+use lobe::{Lookup, Options};
+use lobe_formats::window_xml::{Band, WindowXml};
+use lobe_formats::{merl, rgl, window_xml};
+use lobe_model::goniometer::{half_diff, klems, measure_surface, rgl as parameterised};
+use lobe_model::{Surface, is_isotropic};
+use lobe_table::window::{Block, Component, Window};
+
+use crate::channels::{ChannelMap, Mapped};
+use crate::failure::Failure;
+use crate::lossless;
+use crate::output::{Output, side};
+use crate::probe::Errors;
+use crate::progress::Progress;
+use crate::surface::MaterialSurface;
+use crate::target::Target;
+
+/// On which sides a surface has values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sides {
+    /// One kind of scatter.
+    One(Scatter),
+    /// The surface tells the sides apart.
+    Both,
+}
+
+/// Measures a surface and writes it; says how, and how far the file is from the surface, on the standard error.
+pub fn write(surface: &dyn Surface, sides: Sides, output: &Output) -> Result<(), Failure> {
+    let (target, out) = (output.target()?, output.out.as_path());
+    let map = ChannelMap::new(surface.channels(), output.channel.as_deref(), target)?;
+    let surface: &dyn Surface = &Mapped { surface, map: &map };
+    let refuse = |found: &str, expected: &str| {
+        Err(Failure::Usage(format!("{}: found {found}; expected {expected} in {target}", out.display())))
+    };
+    let scatter = match (target.side(out), sides) {
+        (Some(Scatter::Reflection), Sides::One(Scatter::Transmission)) => return refuse("transmission", "reflection"),
+        (Some(Scatter::Transmission), Sides::One(Scatter::Reflection)) => return refuse("reflection", "transmission"),
+        (_, Sides::One(scatter)) => scatter,
+        (Some(scatter), Sides::Both) => scatter,
+        (None, Sides::Both) => Scatter::Reflection,
+    };
+    let isotropic = is_isotropic(surface);
+    let nodes = match target {
+        Target::Sdr => return refuse("values for pairs of directions", "mirror reflectances"),
+        Target::Merl if !isotropic => return refuse("an anisotropic material", "an isotropic one"),
+        Target::Merl => {
+            let progress = Progress::new(half_diff::MERL[0], "bins");
+            let table = half_diff::measure(surface, half_diff::MERL, || progress.step()).map_err(|e| file(out, &e))?;
+            merl::write(&table, out)?;
+            "90 x 90 x 180 bins of half and difference angles".into()
+        }
+        Target::Rgl => {
+            let resolution = output.rgl(isotropic);
+            let progress = Progress::new(resolution.steps(), "directions of the light");
+            let material =
+                parameterised::measure(surface, resolution, || progress.step()).map_err(|e| file(out, &e))?;
+            rgl::write(&material, out)?;
+            let parameterised::Resolution { theta_i, phi_i, spectra, .. } = resolution;
+            format!("{theta_i} theta_i x {phi_i} phi_i, {spectra} x {spectra} texels")
+        }
+        Target::Klems => {
+            let basis = output.basis();
+            let sheet = sheet(surface, output, sides)?;
+            window_xml::write(&sheet, out)?;
+            format!("means over {n} x {n} patches", n = basis.patches())
+        }
+        Target::Ddr | Target::Ssdd | Target::Zemax | Target::Csv | Target::Npz => {
+            let knots = output.knots(isotropic);
+            let [sigma, psi, theta, phi] = knots.each_ref().map(Vec::len);
+            let progress = Progress::new(sigma * psi, "directions of the light");
+            let samples = measure_surface(surface, scatter, knots, || progress.step()).map_err(|e| file(out, &e))?;
+            lossless::write_table(samples, target, out)?;
+            format!("{sigma} sigma x {psi} psi x {theta} theta x {phi} phi")
+        }
+    };
+    let kind = if isotropic { "isotropic" } else { "anisotropic" };
+    eprintln!("{}: {target}, resampled: {kind} {}, {nodes}", out.display(), side_of(target, sides, scatter));
+    if let Some(note) = &map.note {
+        eprintln!("  {note}");
+    }
+    match errors(surface, target, sides, scatter, out)? {
+        Some(errors) => eprintln!("  {errors}"),
+        None => eprintln!("  lobe does not read this format, so that the error is not known"),
+    }
+    Ok(())
+}
+
+fn side_of(target: Target, sides: Sides, scatter: Scatter) -> &'static str {
+    if target == Target::Klems && sides == Sides::Both { "reflection and transmission" } else { side(scatter) }
+}
+
+fn file(out: &Path, error: &dyn std::fmt::Display) -> Failure {
+    Failure::File(format!("{}: {error}", out.display()))
+}
+
+/// The blocks of a sheet that are not dark.
+fn sheet(surface: &dyn Surface, output: &Output, sides: Sides) -> Result<WindowXml, Failure> {
+    let names: Vec<String> = match surface.channels() {
+        // Radiance takes X and Z beside Visible for colour.
+        Channels::Xyz => ["CIE-X", "Visible", "CIE-Z"].map(String::from).into(),
+        Channels::Mono => vec!["Visible".into()],
+        other => other.names(),
+    };
+    let mut bands: Vec<Band> =
+        names.into_iter().map(|wavelength| Band { wavelength, window: Window::default() }).collect();
+    let basis = output.basis();
+    let wanted = |block: &Block| match sides {
+        Sides::Both => true,
+        Sides::One(Scatter::Reflection) => matches!(block, Block::ReflectionFront | Block::ReflectionBack),
+        Sides::One(Scatter::Transmission) => matches!(block, Block::TransmissionFront | Block::TransmissionBack),
+    };
+    let blocks: Vec<Block> = Block::ALL.into_iter().filter(wanted).collect();
+    let progress = Progress::new(blocks.len() * basis.patches(), "patches");
+    for block in blocks {
+        let matrices =
+            klems::measure(surface, [&basis, &basis], block, || progress.step()).map_err(|e| file(&output.out, &e))?;
+        if matrices.iter().all(|matrix| matrix.values().iter().all(|f| *f == 0.0)) {
+            continue;
+        }
+        for (band, matrix) in bands.iter_mut().zip(matrices) {
+            band.window.set(block, Component::Klems(matrix));
+        }
+    }
+    let name = output.out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    Ok(WindowXml { name, manufacturer: String::new(), bands })
+}
+
+/// Reads the file back and compares.
+fn errors(
+    surface: &dyn Surface,
+    target: Target,
+    sides: Sides,
+    scatter: Scatter,
+    out: &Path,
+) -> Result<Option<Errors>, Failure> {
+    if target == Target::Npz {
+        return Ok(None);
+    }
+    let options = Options { lookup: Lookup::Linear, ..Options::default() };
+    let is_klems = target == Target::Klems;
+    let found = MaterialSurface {
+        material: Material::open_with(out, &options)?,
+        scatter: if is_klems { None } else { Some(scatter) },
+    };
+    // Where only one side was written, the other is no error.
+    let with_transmission =
+        if is_klems { sides != Sides::One(Scatter::Reflection) } else { scatter == Scatter::Transmission };
+    Ok(Some(Errors::between(surface, &found, with_transmission)))
+}

@@ -1,0 +1,120 @@
+//! Where a table is written, and how finely.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use lobe::Scatter;
+use lobe_model::goniometer::rgl;
+use lobe_table::klems::AngleBasis;
+
+use crate::failure::Failure;
+use crate::target::Target;
+
+/// Arguments of the commands that write tables.
+#[derive(clap::Args)]
+pub struct Output {
+    /// The file to write; one that is there is replaced.
+    pub out: PathBuf,
+    /// The format to write, where the extension does not say it.
+    #[arg(long, value_enum)]
+    pub to: Option<Target>,
+    /// Write this channel only, by the name that `lobe info` shows.
+    #[arg(long, value_name = "NAME")]
+    pub channel: Option<String>,
+    /// Knots of specular tables in degrees where values are resampled: angle of incidence.
+    #[arg(long, value_name = "DEGREES", value_delimiter = ',', help_heading = "Resampling")]
+    pub sigma: Vec<f64>,
+    /// Rotation of the sample; a single 0 for isotropic ones.
+    #[arg(long, value_name = "DEGREES", value_delimiter = ',', help_heading = "Resampling")]
+    pub psi: Vec<f64>,
+    /// Angle to the mirror direction.
+    #[arg(long, value_name = "DEGREES", value_delimiter = ',', help_heading = "Resampling")]
+    pub theta: Vec<f64>,
+    /// Azimuth about the mirror direction.
+    #[arg(long, value_name = "DEGREES", value_delimiter = ',', help_heading = "Resampling")]
+    pub phi: Vec<f64>,
+    /// Zenith angles of the light in RGL files.
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(2..=512), help_heading = "Resampling")]
+    pub zeniths: Option<u16>,
+    /// Azimuths of the light in RGL files of anisotropic materials.
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(3..=512), help_heading = "Resampling")]
+    pub azimuths: Option<u16>,
+    /// Rows and columns of the images of values in RGL files.
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(2..=1024), help_heading = "Resampling")]
+    pub texels: Option<u16>,
+    /// Patches of WINDOW XML files.
+    #[arg(long, value_enum, default_value = "full", help_heading = "Resampling")]
+    pub basis: Basis,
+}
+
+/// The standard bases of Klems matrices.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Basis {
+    /// 145 patches.
+    Full,
+    /// 77 patches.
+    Half,
+    /// 41 patches.
+    Quarter,
+}
+
+const SIGMA: &[f64] =
+    &[0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 55.0, 60.0, 65.0, 70.0, 75.0, 80.0, 84.0, 88.0];
+const SIGMA_COARSE: &[f64] = &[0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 68.0, 75.0, 82.0, 88.0];
+const THETA: &[f64] = &[
+    0.0, 0.5, 1.0, 2.0, 3.0, 4.5, 6.0, 8.0, 10.0, 12.5, 15.0, 18.0, 21.0, 25.0, 30.0, 35.0, 40.0, 46.0, 52.0, 60.0,
+    68.0, 76.0, 85.0, 95.0, 105.0, 120.0, 135.0, 150.0, 165.0, 180.0,
+];
+
+impl Output {
+    /// The format to write.
+    pub fn target(&self) -> Result<Target, Failure> {
+        Target::of(&self.out, self.to)
+    }
+
+    /// The knots of a specular table in radians: those asked for, else some that suit most materials.
+    pub fn knots(&self, is_isotropic: bool) -> [Vec<f64>; 4] {
+        let every_15: Vec<f64> = (0..=24).map(|step| 15.0 * f64::from(step)).collect();
+        let defaults = [
+            if is_isotropic { SIGMA } else { SIGMA_COARSE }.to_vec(),
+            if is_isotropic { vec![0.0] } else { every_15.clone() },
+            THETA.to_vec(),
+            every_15,
+        ];
+        let asked = [&self.sigma, &self.psi, &self.theta, &self.phi];
+        let mut chosen = asked.into_iter().zip(defaults).map(|(asked, default)| {
+            let degrees = if asked.is_empty() { &default } else { asked };
+            degrees.iter().map(|angle| angle.to_radians()).collect()
+        });
+        std::array::from_fn(|_| chosen.next().unwrap_or_default())
+    }
+
+    /// The sizes of an RGL material.
+    pub fn rgl(&self, is_isotropic: bool) -> rgl::Resolution {
+        let default = if is_isotropic { rgl::Resolution::ISOTROPIC } else { rgl::Resolution::ANISOTROPIC };
+        let or = |asked: Option<u16>, default: usize| asked.map_or(default, usize::from);
+        rgl::Resolution {
+            theta_i: or(self.zeniths, default.theta_i),
+            phi_i: if is_isotropic { 1 } else { or(self.azimuths, default.phi_i) },
+            spectra: or(self.texels, default.spectra),
+            ..default
+        }
+    }
+
+    /// The patches of Klems matrices.
+    pub fn basis(&self) -> AngleBasis {
+        match self.basis {
+            Basis::Full => AngleBasis::full(),
+            Basis::Half => AngleBasis::half(),
+            Basis::Quarter => AngleBasis::quarter(),
+        }
+    }
+}
+
+/// The side of the surface for people.
+pub fn side(scatter: Scatter) -> &'static str {
+    match scatter {
+        Scatter::Reflection => "reflection",
+        Scatter::Transmission => "transmission",
+    }
+}

@@ -1,0 +1,73 @@
+//! How far what was written is from what it was made of.
+
+use std::f64::consts::{PI, TAU};
+use std::fmt;
+
+use lobe_model::{Surface, halton};
+
+/// Pairs of directions that are compared.
+const PROBES: u32 = 4096;
+
+/// Differences at the probes, relative to the value, or to a hundredth of the mean value where that is larger.
+pub struct Errors {
+    probes: usize,
+    median: f64,
+    most: f64,
+    largest: f64,
+}
+
+impl Errors {
+    /// Compares two surfaces of the same channels. Half of the probes are spread over both hemispheres in proportion to
+    /// their cosines, half are near the mirror direction, and, `with_transmission`, as many mirrored to the other side.
+    /// None is within a degree of the horizon.
+    pub fn between(expected: &dyn Surface, found: &dyn Surface, with_transmission: bool) -> Self {
+        let channels = expected.channels().count();
+        let mut values = Vec::new();
+        for n in 1..=PROBES {
+            let (wi, mut wo) = pair(n);
+            if with_transmission && n % 4 < 2 {
+                wo[2] = -wo[2];
+            }
+            let (mut a, mut b) = (vec![0.0; channels], vec![0.0; channels]);
+            expected.f(wi, &[wo], &mut a);
+            found.f(wi, &[wo], &mut b);
+            values.extend(a.into_iter().zip(b));
+        }
+        let mean = values.iter().map(|(a, _)| a.abs()).sum::<f64>() / values.len() as f64;
+        let error = |(a, b): &(f64, f64)| (a - b).abs() / a.abs().max(0.01 * mean).max(f64::MIN_POSITIVE);
+        let mut errors: Vec<f64> = values.iter().map(error).collect();
+        errors.sort_by(f64::total_cmp);
+        let at = |share: f64| errors[((errors.len() - 1) as f64 * share) as usize];
+        Errors { probes: PROBES as usize, median: at(0.5), most: at(0.95), largest: at(1.0) }
+    }
+}
+
+impl fmt::Display for Errors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Errors { probes, median, most, largest } = self;
+        write!(
+            f,
+            "relative error at {probes} probes: median {median:.1e}, 95 % below {most:.1e}, largest {largest:.1e}"
+        )
+    }
+}
+
+fn pair(n: u32) -> ([f64; 3], [f64; 3]) {
+    let [a, b, c, d] = halton(n);
+    // Of a disc, so that the density is the cosine; its rim is the horizon.
+    let up = |square: f64, turn: f64| {
+        let (radius, (sin, cos)) = ((0.9997 * square).sqrt(), (TAU * turn).sin_cos());
+        [radius * cos, radius * sin, (1.0 - radius * radius).sqrt()]
+    };
+    let wi = up(a, d);
+    let wo = up(b, c);
+    if n % 2 == 0 {
+        return (wi, wo);
+    }
+    // Half vectors within 20 degrees of the normal.
+    let (sin, cos) = (PI / 9.0 * b).sin_cos();
+    let h = [sin * (TAU * c).cos(), sin * (TAU * c).sin(), cos];
+    let along = 2.0 * (wi[0] * h[0] + wi[1] * h[1] + wi[2] * h[2]);
+    let mirrored = [0, 1, 2].map(|i| along * h[i] - wi[i]);
+    (wi, if mirrored[2] > 0.018 { mirrored } else { wo })
+}

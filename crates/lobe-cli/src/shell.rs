@@ -1,0 +1,53 @@
+//! `lobe completions` and `lobe man`: what makes a program at home in a shell.
+
+use std::io::{Write, stdout};
+use std::path::PathBuf;
+
+use clap::CommandFactory;
+use clap_complete::Shell;
+
+use crate::Cli;
+use crate::failure::Failure;
+
+/// Print the completions for a shell.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  lobe completions bash > ~/.local/share/bash-completion/completions/lobe
+  lobe completions zsh > ~/.zfunc/_lobe
+  lobe completions fish > ~/.config/fish/completions/lobe.fish")]
+pub struct Completions {
+    /// The shell.
+    shell: Shell,
+}
+
+/// Print the manual page, or write those of all commands.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  lobe man | man -l -
+  lobe man --out ~/.local/share/man/man1")]
+pub struct Man {
+    /// A folder for lobe.1 and a page for each command.
+    #[arg(long, value_name = "FOLDER")]
+    out: Option<PathBuf>,
+}
+
+/// Runs `lobe completions`.
+pub fn completions(args: &Completions) -> Result<(), Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut Cli::command(), "lobe", &mut script);
+    Ok(stdout().lock().write_all(&script)?)
+}
+
+/// Runs `lobe man`.
+pub fn man(args: &Man) -> Result<(), Failure> {
+    match &args.out {
+        None => {
+            let mut page = Vec::new();
+            clap_mangen::Man::new(Cli::command()).render(&mut page)?;
+            Ok(stdout().lock().write_all(&page)?)
+        }
+        Some(folder) => std::fs::create_dir_all(folder)
+            .and_then(|()| clap_mangen::generate_to(Cli::command(), folder))
+            .map_err(|error| Failure::File(format!("{}: {error}", folder.display()))),
+    }
+}

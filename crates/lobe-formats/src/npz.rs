@@ -1,0 +1,233 @@
+//! NumPy `.npz`: the knots and values of any document as named arrays, for `numpy.load`. Written only.
+//!
+//! Angles are in radians and values `f` in 1/sr unless their name says otherwise; every file has `kind` (text). Grids in
+//! specular coordinates have `sigma`, `psi`, `theta`, `phi` and `values [sigma, psi, theta, phi, channel]`, with `channels`
+//! (text), `scatter` (text) and, where channels are wavelengths, `wavelengths` in nm; grids in spherical coordinates the
+//! same with `theta_i`, `phi_i`, `theta_o`, `phi_o`; scattered samples one of each angle a sample. Other kinds have the
+//! names of their own format. Parts of a sheet have a number and a point before the name.
+
+use std::io::{self, Cursor, Write};
+use std::path::Path;
+
+use lobe_table::klems::AngleBasis;
+use lobe_table::scattered::ANGLE_NAMES;
+use lobe_table::window::{Block, Component};
+use lobe_table::{AXIS_NAMES, Channels, Scatter};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
+
+use crate::sheet::{Data, Part, Side};
+use crate::window_xml::WindowXml;
+use crate::write::{unwritable, write_whole};
+use crate::{Document, FormatError};
+
+/// Writes `path` whole or not at all, without compression, so that a reader may map it.
+///
+/// # Errors
+/// [`FormatError`] where the file cannot be written, or the document has tensor trees, which are no arrays.
+pub fn write(document: &Document, path: &Path) -> Result<(), FormatError> {
+    let bytes = to_bytes(document).map_err(|error| unwritable(path, &error))?;
+    write_whole(path, &bytes)
+}
+
+fn to_bytes(document: &Document) -> io::Result<Vec<u8>> {
+    let mut arrays = Arrays { zip: ZipWriter::new(Cursor::new(Vec::new())), prefix: String::new() };
+    arrays.document(document)?;
+    Ok(arrays.zip.finish()?.into_inner())
+}
+
+/// The arrays of a file that is being written.
+struct Arrays {
+    zip: ZipWriter<Cursor<Vec<u8>>>,
+    prefix: String,
+}
+
+impl Arrays {
+    /// One array: its elements in row-major order, as little-endian bytes of NumPy's type `descr`.
+    fn array(&mut self, name: &str, descr: &str, shape: &[usize], data: &[u8]) -> io::Result<()> {
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Stored)
+            .large_file(data.len() > u32::MAX as usize / 2);
+        self.zip.start_file(format!("{}{name}.npy", self.prefix), options)?;
+        let sizes: String = shape.iter().map(|n| format!("{n}, ")).collect();
+        let header = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': ({}), }}", sizes.trim_end());
+        // Version 1.0: the data begin at a multiple of 64, the header ends with a line feed.
+        let padded = (10 + header.len() + 1).next_multiple_of(64) - 10;
+        self.zip.write_all(b"\x93NUMPY\x01\x00")?;
+        self.zip.write_all(&(padded as u16).to_le_bytes())?;
+        self.zip.write_all(format!("{header:<width$}\n", width = padded - 1).as_bytes())?;
+        self.zip.write_all(data)
+    }
+
+    fn floats(&mut self, name: &str, shape: &[usize], data: &[f32]) -> io::Result<()> {
+        self.array(name, "<f4", shape, &data.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>())
+    }
+
+    fn doubles(&mut self, name: &str, shape: &[usize], data: &[f64]) -> io::Result<()> {
+        self.array(name, "<f8", shape, &data.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>())
+    }
+
+    /// Text is UTF-32 of equal lengths, padded with zeros.
+    fn texts(&mut self, name: &str, shape: &[usize], texts: &[String]) -> io::Result<()> {
+        let width = texts.iter().map(|text| text.chars().count()).max().unwrap_or(0).max(1);
+        let padded = |text: &String| {
+            let characters: Vec<u32> = text.chars().map(u32::from).chain(std::iter::repeat(0)).take(width).collect();
+            characters.into_iter().flat_map(u32::to_le_bytes)
+        };
+        self.array(name, &format!("<U{width}"), shape, &texts.iter().flat_map(padded).collect::<Vec<u8>>())
+    }
+
+    fn text(&mut self, name: &str, text: &str) -> io::Result<()> {
+        self.texts(name, &[], &[text.into()])
+    }
+
+    fn channels(&mut self, channels: &Channels) -> io::Result<()> {
+        if let Channels::Spectral(wavelengths) = channels {
+            self.doubles("wavelengths", &[wavelengths.len()], wavelengths)?;
+        }
+        self.texts("channels", &[channels.count()], &channels.names())
+    }
+
+    fn scatter(&mut self, scatter: Scatter) -> io::Result<()> {
+        self.text("scatter", if scatter == Scatter::Reflection { "reflection" } else { "transmission" })
+    }
+
+    /// Knots, one array an axis, and values over all of them and the channels.
+    fn grid(&mut self, names: &[&str], knots: &[Vec<f64>], channels: &Channels, values: &[f32]) -> io::Result<()> {
+        for (name, knots) in names.iter().zip(knots) {
+            self.doubles(name, &[knots.len()], knots)?;
+        }
+        self.channels(channels)?;
+        let shape: Vec<usize> = knots.iter().map(Vec::len).chain([channels.count()]).collect();
+        self.floats("values", &shape, values)
+    }
+
+    fn document(&mut self, document: &Document) -> io::Result<()> {
+        match document {
+            Document::Table(measured) => self.part(&Data::Table(measured.data.clone())),
+            Document::Specular(measured) => self.part(&Data::Specular(measured.data.clone())),
+            Document::Spherical(measured) => self.part(&Data::Spherical(measured.data.clone())),
+            Document::Scattered(measured) => self.part(&Data::Scattered(measured.data.clone())),
+            Document::Sheet(measured) => self.sheet(&measured.data),
+            Document::Rgl(measured) => {
+                let parts = measured.data.parts();
+                let (p, t, c) = (parts.phi_i.len(), parts.theta_i.len(), parts.channels.count());
+                self.text("kind", "rgl")?;
+                self.channels(&parts.channels)?;
+                self.floats("phi_i", &[p], &parts.phi_i)?;
+                self.floats("theta_i", &[t], &parts.theta_i)?;
+                let lead: [(&str, _, &[usize]); 5] = [
+                    ("ndf", &parts.ndf, &[]),
+                    ("sigma", &parts.sigma, &[]),
+                    ("vndf", &parts.vndf, &[p, t]),
+                    ("luminance", &parts.luminance, &[p, t]),
+                    ("spectra", &parts.spectra, &[p, t, c]),
+                ];
+                for (name, images, lead) in lead {
+                    self.floats(name, &[lead, &images.size()].concat(), images.texels())?;
+                }
+                self.array("jacobian", "|b1", &[], &[u8::from(parts.jacobian)])
+            }
+            Document::HalfDiff(measured) => {
+                let bins = measured.data.bins();
+                self.text("kind", "half-difference")?;
+                self.channels(&Channels::Rgb)?;
+                self.floats("values", &[3, bins[0], bins[1], bins[2]], measured.data.values())
+            }
+            Document::Utia(measured) => {
+                self.text("kind", "utia")?;
+                self.channels(&Channels::Rgb)?;
+                self.doubles("values", &[3, 6, 48, 6, 48], measured.data.values())
+            }
+            Document::Mueller(measured) => {
+                let knots = measured.data.knots();
+                self.text("kind", "mueller")?;
+                for (name, knots) in ["phi_d", "theta_d", "theta_h", "wavelengths"].iter().zip(knots) {
+                    self.floats(name, &[knots.len()], knots)?;
+                }
+                let shape: Vec<usize> = knots.iter().map(Vec::len).chain([4, 4]).collect();
+                self.floats("M", &shape, measured.data.values())
+            }
+            Document::Window(measured) => self.window(&measured.data),
+        }
+    }
+
+    fn sheet(&mut self, parts: &[Part]) -> io::Result<()> {
+        for (index, part) in parts.iter().enumerate() {
+            self.prefix = format!("{index}.");
+            self.part(&part.data)?;
+            self.text("name", &part.name)?;
+            if let Some(side) = part.side {
+                self.text("side", if side == Side::Front { "front" } else { "back" })?;
+            }
+        }
+        Ok(())
+    }
+
+    fn part(&mut self, data: &Data) -> io::Result<()> {
+        self.scatter(data.scatter())?;
+        match data {
+            Data::Table(samples) => {
+                self.text("kind", "specular table")?;
+                if let Some(offsets) = samples.refraction() {
+                    self.doubles("refraction", &[offsets.len()], offsets)?;
+                }
+                self.grid(&AXIS_NAMES, samples.knots(), samples.channels(), samples.values())
+            }
+            Data::Spherical(grid) => {
+                self.text("kind", "spherical grid")?;
+                self.array("is_mirrored", "|b1", &[], &[u8::from(grid.is_mirrored())])?;
+                self.grid(&ANGLE_NAMES, grid.knots(), grid.channels(), grid.values())
+            }
+            Data::Scattered(scattered) => {
+                self.text("kind", "scattered samples")?;
+                self.channels(scattered.channels())?;
+                let samples: Vec<_> = scattered.samples().collect();
+                for (axis, name) in ANGLE_NAMES.iter().enumerate() {
+                    let angles: Vec<f64> = samples.iter().map(|(angles, _)| angles[axis]).collect();
+                    self.doubles(name, &[samples.len()], &angles)?;
+                }
+                let values: Vec<f32> = samples.iter().flat_map(|(_, values)| values.iter().copied()).collect();
+                self.floats("values", &[samples.len(), scattered.channels().count()], &values)
+            }
+            Data::Specular(specular) => {
+                self.text("kind", "mirror reflectance")?;
+                self.grid(&AXIS_NAMES[..2], specular.knots(), specular.channels(), specular.values())
+            }
+        }
+    }
+
+    fn window(&mut self, sheet: &WindowXml) -> io::Result<()> {
+        self.text("kind", "klems")?;
+        for band in &sheet.bands {
+            for (block, name) in Block::ALL.into_iter().zip([
+                "transmission_front",
+                "transmission_back",
+                "reflection_front",
+                "reflection_back",
+            ]) {
+                match band.window.block(block) {
+                    None => {}
+                    Some(Component::Tree(_)) => {
+                        return Err(io::Error::new(io::ErrorKind::InvalidInput, "tensor trees, which are no arrays"));
+                    }
+                    Some(Component::Klems(matrix)) => {
+                        self.prefix = format!("{}.{name}.", band.wavelength);
+                        self.basis("incident", matrix.incident())?;
+                        self.basis("exit", matrix.exit())?;
+                        let shape = [matrix.incident().patches(), matrix.exit().patches()];
+                        self.floats("values", &shape, matrix.values())?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The rings of a basis: lower bound and upper bound in degrees, and the number of patches.
+    fn basis(&mut self, name: &str, basis: &AngleBasis) -> io::Result<()> {
+        let rings = basis.rings();
+        let rows: Vec<f64> = rings.iter().flat_map(|ring| [ring.lower, ring.upper, f64::from(ring.patches)]).collect();
+        self.doubles(&format!("{name}_rings"), &[rings.len(), 3], &rows)
+    }
+}

@@ -1,0 +1,70 @@
+//! What a goniometer measures.
+
+use std::f64::consts::TAU;
+
+use lobe_table::Channels;
+
+use crate::Model;
+use crate::vec3::spherical;
+
+/// Anything that has a value for a pair of directions: a model, a material from a file.
+///
+/// Directions are unit vectors that point away from the surface, normal on +z; `wi` toward the light. Values are `f` in
+/// 1/sr, without the cosine.
+pub trait Surface: Sync {
+    /// What the channels stand for.
+    fn channels(&self) -> &Channels;
+
+    /// The values for light from `wi` to each of the viewers: `out[viewer * channels + channel]`, which is as long as that.
+    fn f(&self, wi: [f64; 3], viewers: &[[f64; 3]], out: &mut [f64]);
+}
+
+/// A [`Model`] as a [`Surface`] of three channels, red, green and blue.
+#[derive(Clone, Copy, Debug)]
+pub struct Rgb<M>(pub M);
+
+impl<M: Model + Sync> Surface for Rgb<M> {
+    fn channels(&self) -> &Channels {
+        &Channels::Rgb
+    }
+
+    fn f(&self, wi: [f64; 3], viewers: &[[f64; 3]], out: &mut [f64]) {
+        out.copy_from_slice(self.0.f_many(wi, viewers).as_flattened());
+    }
+}
+
+impl<M: Model + ?Sized> Model for &M {
+    fn f(&self, wi: [f64; 3], wo: [f64; 3]) -> [f64; 3] {
+        (**self).f(wi, wo)
+    }
+
+    fn f_many(&self, wi: [f64; 3], viewers: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        (**self).f_many(wi, viewers)
+    }
+}
+
+/// `true` where the values do not depend on the rotation of the surface about its normal.
+///
+/// 400 pairs of directions are looked at before and after a turn; 1 % of them may differ by more than a thousandth of the
+/// value, since a table that is constant on bins may fall into the next bin by rounding.
+pub fn is_isotropic(surface: &dyn Surface) -> bool {
+    let channels = surface.channels().count();
+    let (mut before, mut after) = (vec![0.0; channels], vec![0.0; channels]);
+    let (mut differ, mut lit) = (0, 0);
+    for query in 0..400 {
+        let [a, b, c, turn] = crate::halton(query + 1);
+        // Polar angles up to 80 degrees; the lower half of the sphere too, for what transmits.
+        let (theta_i, theta_o) = (1.4 * a, 1.4 * b);
+        let pair = |turn: f64| {
+            let [x, y, z] = spherical(theta_o, TAU * c + turn);
+            (spherical(theta_i, turn), [x, y, if query % 2 == 0 { z } else { -z }])
+        };
+        let ((wi, wo), (wi2, wo2)) = (pair(0.3), pair(0.3 + TAU * turn));
+        surface.f(wi, &[wo], &mut before);
+        surface.f(wi2, &[wo2], &mut after);
+        let apart = before.iter().zip(&after).any(|(x, y)| (x - y).abs() > 1e-3 * x.abs().max(y.abs()));
+        differ += usize::from(apart);
+        lit += usize::from(before.iter().chain(&after).any(|x| *x != 0.0));
+    }
+    differ * 100 <= lit
+}
