@@ -57,7 +57,7 @@ const WIDE: usize = 6;
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
-    if !(args.tolerance > 0.0) {
+    if args.tolerance.is_nan() || args.tolerance <= 0.0 {
         return Err(Failure::Usage(format!("found a tolerance of {}; expected one above 0", args.tolerance)));
     }
     let subject = Subject::open(&args.file, &Options::default())?;
@@ -103,7 +103,7 @@ impl Answer {
             writeln!(out, "{}", self.aspect)?;
         }
         let is_wide = self.channels.len() > WIDE;
-        let columns =
+        let columns: Vec<String> =
             if is_wide { ["smallest", "mean", "largest"].map(String::from).into() } else { self.channels.clone() };
         let header = ["sigma", "psi"].map(String::from).into_iter().chain(columns).chain(["error".into()]).collect();
         let row = |albedo: &Albedo| {

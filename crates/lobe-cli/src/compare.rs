@@ -59,7 +59,8 @@ struct Answer {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
-    if !(args.limit > 0.0 && args.limit < 90.0) {
+    let is_sound = args.limit > 0.0 && args.limit < 90.0;
+    if !is_sound {
         return Err(Failure::Usage(format!("found a limit of {} degrees; expected one between 0 and 90", args.limit)));
     }
     let open = |file| Subject::open(file, &Options::default());
@@ -100,7 +101,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     out.flush()?;
     let worst = answers.iter().map(|answer| answer.difference.relative_rms).fold(0.0, f64::max);
     match args.within {
-        Some(within) if !(worst <= within) => {
+        Some(within) if worst > within || within.is_nan() => {
             Err(Failure::Check(format!("they differ by {worst:.3e}, more than {within}")))
         }
         _ => Ok(()),

@@ -167,7 +167,7 @@ fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(Samples, Opt
         return Ok((samples.clone(), None));
     }
     let bound = Bound { error: args.error.unwrap_or(DEFAULT_ERROR), per_value: args.per_value };
-    if !(bound.error > 0.0) {
+    if bound.error.is_nan() || bound.error <= 0.0 {
         return Err(Failure::Usage(format!("found an error of {}; expected one above 0", bound.error)));
     }
     let candidates = own.map_or_else(|| candidates(subject.is_isotropic()), |samples| samples.knots().clone());

@@ -9,15 +9,13 @@ const CSV: &str = "theta_i,theta_o,phi_o,550nm\n";
 /// A lobe about the mirror direction, on a grid of spherical angles.
 fn glossy() -> String {
     let mut csv = String::from(CSV);
+    let radians = |degrees: i32| f64::from(degrees).to_radians();
     for theta_i in [0, 20, 40, 60, 80] {
         for theta_o in (0..90).step_by(10) {
             for phi_o in (0..360).step_by(30) {
-                let f = 0.1
-                    + 0.2
-                        * (-f64::from((theta_i - theta_o) * (theta_i - theta_o) + (phi_o - 180) * (phi_o - 180))
-                            / 3000.0)
-                            .exp();
-                csv.push_str(&format!("{theta_i},{theta_o},{phi_o},{f}\n"));
+                let ((sin_i, cos_i), (sin_o, cos_o)) = (radians(theta_i).sin_cos(), radians(theta_o).sin_cos());
+                let cos = cos_i * cos_o - sin_i * sin_o * radians(phi_o).cos();
+                csv.push_str(&format!("{theta_i},{theta_o},{phi_o},{}\n", 0.1 + 0.2 * cos.max(0.0).powi(8)));
             }
         }
     }

@@ -51,14 +51,16 @@ impl Default for Effort {
 impl Panels {
     /// Panels about an axis at polar angle `zenith` for light at azimuth `psi`, that shrink toward the axis.
     pub fn graded(zenith: f64, psi: f64) -> Self {
-        let thetas = (0..=16).map(|i| PI * (f64::from(i) / 16.0).powi(3)).collect();
-        Panels { zenith, psi, thetas, phis: (0..=12).map(|i| TAU * f64::from(i) / 12.0).collect() }
+        let thetas = (0..=24).map(|i| PI * (f64::from(i) / 24.0).powi(3)).collect();
+        let phis: Vec<f64> = (0..=24).map(|i| TAU * f64::from(i) / 24.0).collect();
+        Panels { zenith, psi, thetas, phis: with_horizon(zenith, phis) }
     }
 
     /// Panels whose bounds are the knots of a grid of polar angles and azimuths.
     pub fn of_knots(zenith: f64, psi: f64, thetas: &[f64], phis: &[f64]) -> Self {
         let start = phis.first().copied().unwrap_or(0.0);
-        Panels { zenith, psi, thetas: bounds(thetas, 0.0, PI), phis: bounds(phis, start, start + TAU) }
+        let phis = bounds(phis, start, start + TAU);
+        Panels { zenith, psi, thetas: bounds(thetas, 0.0, PI), phis: with_horizon(zenith, phis) }
     }
 
     /// The direction with z >= 0 at these coordinates.
@@ -77,9 +79,29 @@ impl Panels {
 /// to 1e-5.
 const STEP: f64 = PI / 12.0;
 
+/// Azimuths with those between at which the horizon is at a multiple of the step. From a low axis it turns within a few
+/// degrees of azimuth from nearly 0 to nearly a half turn, and no rule of few points would see that.
+fn with_horizon(zenith: f64, mut phis: Vec<f64>) -> Vec<f64> {
+    let (start, end) = (phis[0], phis[phis.len() - 1]);
+    let steps = (PI / STEP).round() as u32;
+    for step in 1..steps {
+        let cos = -zenith.cos() / (zenith.sin() * (f64::from(step) * STEP).tan());
+        if cos.abs() < 1.0 {
+            phis.extend([cos.acos(), -cos.acos()].map(|phi| start + (phi - start).rem_euclid(TAU)));
+        }
+    }
+    phis.sort_by(f64::total_cmp);
+    // The ends stay what they are.
+    phis.retain(|&phi| phi == start || phi == end || (start + SAME..=end - SAME).contains(&phi));
+    phis.dedup_by(|a, b| *a - *b < SAME);
+    phis
+}
+
+/// Bounds nearer to each other than this are one.
+const SAME: f64 = 1e-6;
+
 /// The knots between two ends, with the ends, and with more between where they are far apart.
 fn bounds(knots: &[f64], first: f64, last: f64) -> Vec<f64> {
-    const SAME: f64 = 1e-6;
     let mut bounds = vec![first];
     let inner = knots.iter().copied().filter(|&knot| knot > first + SAME && knot < last - SAME);
     for knot in inner.chain([last]) {
