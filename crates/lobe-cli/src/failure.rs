@@ -14,6 +14,8 @@ pub enum Failure {
     File(String),
     /// What was asked for makes no sense. Exit code 2.
     Usage(String),
+    /// What was checked is not in order, or a bound was not met. Exit code 3.
+    Check(String),
     /// Whoever reads the output has read enough, as `head` does. No failure at all.
     OutputClosed,
 }
@@ -24,6 +26,7 @@ impl Failure {
         match self {
             Failure::File(_) => ExitCode::from(1),
             Failure::Usage(_) => ExitCode::from(2),
+            Failure::Check(_) => ExitCode::from(3),
             Failure::OutputClosed => ExitCode::SUCCESS,
         }
     }
@@ -32,7 +35,7 @@ impl Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Failure::File(message) | Failure::Usage(message) => f.write_str(message),
+            Failure::File(message) | Failure::Usage(message) | Failure::Check(message) => f.write_str(message),
             Failure::OutputClosed => f.write_str("the output was closed"),
         }
     }

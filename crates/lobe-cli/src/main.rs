@@ -1,7 +1,11 @@
 //! The `lobe` program: look at measured materials, evaluate, convert and draw them.
 #![forbid(unsafe_code)]
 
+mod albedo;
+mod angles;
 mod channels;
+mod check;
+mod compare;
 mod convert;
 mod describe;
 mod eval;
@@ -15,6 +19,7 @@ mod pairs;
 mod plot;
 mod probe;
 mod progress;
+mod resample;
 mod shell;
 mod surface;
 mod target;
@@ -25,9 +30,13 @@ use clap::{Parser, Subcommand};
 
 use crate::failure::Failure;
 
-/// Look at measured BRDFs and BTDFs, evaluate, convert and draw them.
+/// Look at measured BRDFs and BTDFs, check, evaluate, convert and draw them.
 #[derive(Parser)]
-#[command(name = "lobe", version, after_help = "Exit codes: 0 done, 1 a file is unreadable or damaged, 2 wrong usage.")]
+#[command(
+    name = "lobe",
+    version,
+    after_help = "Exit codes: 0 done, 1 a file is unreadable or damaged, 2 wrong usage, 3 a check failed."
+)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -37,8 +46,12 @@ struct Cli {
 enum Command {
     Info(info::Args),
     Eval(eval::Args),
+    Check(check::Args),
+    Albedo(albedo::Args),
+    Compare(compare::Args),
     Plot(plot::Args),
     Convert(Box<convert::Args>),
+    Resample(resample::Args),
     Generate(Box<generate::Args>),
     Completions(shell::Completions),
     Man(shell::Man),
@@ -48,8 +61,12 @@ fn main() -> ExitCode {
     let done = match Cli::parse().command {
         Command::Info(args) => info::run(&args),
         Command::Eval(args) => eval::run(&args),
+        Command::Check(args) => check::run(&args),
+        Command::Albedo(args) => albedo::run(&args),
+        Command::Compare(args) => compare::run(&args),
         Command::Plot(args) => plot::run(&args),
         Command::Convert(args) => convert::run(&args),
+        Command::Resample(args) => resample::run(&args),
         Command::Generate(args) => generate::run(&args),
         Command::Completions(args) => shell::completions(&args),
         Command::Man(args) => shell::man(&args),

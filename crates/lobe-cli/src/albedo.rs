@@ -1,0 +1,118 @@
+//! `lobe albedo`: how much of the light comes back.
+
+use std::io::{Write, stdout};
+use std::path::PathBuf;
+
+use lobe::Options;
+use lobe_ops::Subject;
+use lobe_ops::albedo::{Albedo, albedo_of};
+use lobe_ops::hemisphere::Effort;
+use serde::Serialize;
+
+use crate::angles::{Angles, ScatterRule, SideRule, choose_aspects, parse_angles, progress, table};
+use crate::failure::Failure;
+
+/// Compute the albedo (directional-hemispherical reflectance, or transmittance) by incident direction and channel.
+#[derive(clap::Args)]
+#[command(
+    after_help = "The integral of f cos(theta_o) over the hemisphere of viewers. Without --sigma, at the angles of incidence at which the file was measured, else from 0 to 80 degrees. Grids are integrated between their knots, Klems matrices summed over their patches.
+
+Examples:
+  lobe albedo paint.ddr
+  lobe albedo paint.ddr --sigma 0:80:10
+  lobe albedo blinds.xml --scatter transmission --side front --json | jq '.[0].albedos[].values'"
+)]
+pub struct Args {
+    /// The file of a measured BRDF or BTDF.
+    file: PathBuf,
+    /// Polar angles of the light in degrees: 0,30,60 or first:last:step.
+    #[arg(long, value_name = "LIST", value_parser = parse_angles)]
+    sigma: Option<Angles>,
+    /// Azimuths of the light in degrees.
+    #[arg(long, value_name = "LIST", value_parser = parse_angles, requires = "sigma")]
+    psi: Option<Angles>,
+    /// Reflection or transmission only, where the file has both.
+    #[arg(long, value_enum)]
+    scatter: Option<ScatterRule>,
+    /// Light from one side only, where the file has both.
+    #[arg(long, value_enum)]
+    side: Option<SideRule>,
+    /// The absolute error that is good enough.
+    #[arg(long, default_value_t = 1e-4)]
+    tolerance: f64,
+    /// Print JSON, angles in radians.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    aspect: String,
+    channels: Vec<String>,
+    albedos: Vec<Albedo>,
+}
+
+/// Files with more channels than this show their extremes; JSON has them all.
+const WIDE: usize = 6;
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    if args.tolerance.is_nan() || args.tolerance <= 0.0 {
+        return Err(Failure::Usage(format!("found a tolerance of {}; expected one above 0", args.tolerance)));
+    }
+    let subject = Subject::open(&args.file, &Options::default())?;
+    let aspects = choose_aspects(&args.file, &subject, args.scatter, args.side)?;
+    let bar = progress("integrating");
+    let effort = Effort { tolerance: args.tolerance, ..Effort::default() };
+    let mut answers = Vec::new();
+    for (index, &aspect) in aspects.iter().enumerate() {
+        let incidences = match &args.sigma {
+            Some(Angles(sigmas)) => {
+                let psis = args.psi.as_ref().map_or(&[0.0][..], |Angles(psis)| psis);
+                sigmas.iter().flat_map(|&sigma| psis.iter().map(move |&psi| [sigma, psi])).collect()
+            }
+            None => subject.incidences(aspect),
+        };
+        if let Some([bad, _]) = incidences.iter().find(|[sigma, _]| !(0.0..std::f64::consts::FRAC_PI_2).contains(sigma))
+        {
+            return Err(Failure::Usage(format!("found light at {} degrees; expected 0 to below 90", bad.to_degrees())));
+        }
+        let mut albedos = Vec::new();
+        for (done, &incidence) in incidences.iter().enumerate() {
+            albedos.push(albedo_of(&subject, aspect, incidence, effort));
+            bar((index as f64 + (done + 1) as f64 / incidences.len() as f64) / aspects.len() as f64);
+        }
+        answers.push(Answer { aspect: aspect.to_string(), channels: subject.material.channels().names(), albedos });
+    }
+    drop(bar);
+    let mut out = stdout().lock();
+    if args.json {
+        serde_json::to_writer_pretty(&mut out, &answers)?;
+        writeln!(out)?;
+    } else {
+        for answer in &answers {
+            answer.print(&mut out, answers.len() > 1)?;
+        }
+    }
+    Ok(out.flush()?)
+}
+
+impl Answer {
+    fn print(&self, out: &mut impl Write, is_named: bool) -> std::io::Result<()> {
+        if is_named {
+            writeln!(out, "{}", self.aspect)?;
+        }
+        let is_wide = self.channels.len() > WIDE;
+        let columns: Vec<String> =
+            if is_wide { ["smallest", "mean", "largest"].map(String::from).into() } else { self.channels.clone() };
+        let header = ["sigma", "psi"].map(String::from).into_iter().chain(columns).chain(["error".into()]).collect();
+        let row = |albedo: &Albedo| {
+            let mean = albedo.values.iter().sum::<f64>() / albedo.values.len() as f64;
+            let values = if is_wide { vec![albedo.smallest(), mean, albedo.largest()] } else { albedo.values.clone() };
+            let angles = [albedo.theta, albedo.phi].map(|angle| format!("{:.2}", angle.to_degrees()));
+            let values = values.iter().map(|value| format!("{value:.5}"));
+            angles.into_iter().chain(values).chain([format!("{:.0e}", albedo.error)]).collect()
+        };
+        writeln!(out, "{}", table(header, self.albedos.iter().map(row).collect(), 0).trim_fmt())
+    }
+}

@@ -1,0 +1,132 @@
+//! Lists of angles and measurements of a sheet, from the command line.
+
+use std::cell::Cell;
+use std::path::Path;
+
+use clap::ValueEnum;
+use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
+use lobe::table::Scatter;
+use lobe_formats::sheet::Side;
+use lobe_ops::{Aspect, Subject};
+
+use crate::failure::Failure;
+use crate::progress::Progress;
+
+/// Angles in radians.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Angles(pub Vec<f64>);
+
+/// The longest list: more knots than any instrument has positions.
+const LONGEST: f64 = 100_000.0;
+
+/// Parses degrees with commas between them; `first:last:step` stands for a row of them.
+pub fn parse_angles(text: &str) -> Result<Angles, String> {
+    let mut angles = Vec::new();
+    for item in text.split(',') {
+        let numbers = item.split(':').map(|word| {
+            let number: Option<f64> = word.trim().parse().ok();
+            number
+                .filter(|n| n.is_finite())
+                .ok_or_else(|| format!("found `{word}`; expected a finite number of degrees"))
+        });
+        match numbers.collect::<Result<Vec<f64>, String>>()?.as_slice() {
+            [angle] => angles.push(*angle),
+            [first, last, step] if *step > 0.0 && last >= first && (last - first) / step < LONGEST => {
+                // Half a step of rounding must not cost the last angle.
+                let steps = ((last - first) / step + 1e-9).floor() as usize;
+                angles.extend((0..=steps).map(|index| first + index as f64 * step));
+            }
+            _ => return Err(format!("found `{item}`; expected an angle, or first:last:step with a step above 0")),
+        }
+    }
+    Ok(Angles(angles.into_iter().map(f64::to_radians).collect()))
+}
+
+/// Light that stays on its side, or passes through.
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub enum ScatterRule {
+    Reflection,
+    Transmission,
+}
+
+/// The side that the light comes from.
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub enum SideRule {
+    /// z > 0.
+    Front,
+    /// z < 0.
+    Back,
+}
+
+/// The measurements of a file that are asked for, all of them where nothing is.
+pub fn choose_aspects(
+    file: &Path,
+    subject: &Subject,
+    scatter: Option<ScatterRule>,
+    side: Option<SideRule>,
+) -> Result<Vec<Aspect>, Failure> {
+    let all = subject.aspects();
+    let fits = |aspect: &&Aspect| {
+        let is_scatter =
+            scatter.is_none_or(|rule| (rule == ScatterRule::Reflection) == (aspect.scatter == Scatter::Reflection));
+        is_scatter && side.is_none_or(|rule| (rule == SideRule::Front) == (aspect.light == Side::Front))
+    };
+    let chosen: Vec<Aspect> = all.iter().filter(fits).copied().collect();
+    if chosen.is_empty() {
+        let there: Vec<String> = all.iter().map(Aspect::to_string).collect();
+        return Err(Failure::Usage(format!(
+            "{}: found {}; expected what was asked for",
+            file.display(),
+            there.join(", ")
+        )));
+    }
+    Ok(chosen)
+}
+
+/// A table for the terminal, all columns but the first `words` to the right.
+pub fn table(header: Vec<String>, rows: Vec<Vec<String>>, words: usize) -> Table {
+    let columns = header.len();
+    let mut table = Table::new();
+    table.load_preset(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic).set_header(header);
+    rows.into_iter().for_each(|row| {
+        table.add_row(row);
+    });
+    for index in words..columns {
+        if let Some(column) = table.column_mut(index) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    table
+}
+
+/// A bar that is told the share that is done.
+pub fn progress(what: &'static str) -> impl Fn(f64) {
+    let (bar, done) = (Progress::new(100, what), Cell::new(0));
+    move |share: f64| {
+        let percent = (100.0 * share).clamp(0.0, 100.0) as usize;
+        (done.get()..percent).for_each(|_| bar.step());
+        done.set(percent.max(done.get()));
+    }
+}
+
+/// A direction as its polar angle and azimuth in degrees.
+pub fn show_direction([x, y, z]: [f64; 3]) -> String {
+    let (theta, phi) = (x.hypot(y).atan2(z).to_degrees(), y.atan2(x).to_degrees().rem_euclid(360.0));
+    format!("{theta:.1}, {phi:.1}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_and_ranges() {
+        let degrees =
+            |text: &str| parse_angles(text).map(|Angles(list)| list.iter().map(|a| a.to_degrees().round()).collect());
+        assert_eq!(degrees("0, 5,90"), Ok(vec![0.0, 5.0, 90.0]));
+        assert_eq!(degrees("0:90:30,360"), Ok(vec![0.0, 30.0, 60.0, 90.0, 360.0]));
+        for bad in ["", "a", "0:90", "0:90:0", "90:0:5", "0:1e9:1e-9", "nan"] {
+            assert!(degrees(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! `lobe check`: is a measurement sound, and what does it cover?
+
+use std::io::{IsTerminal, Write, stdout};
+use std::path::{Path, PathBuf};
+
+use lobe::Options;
+use lobe_ops::Subject;
+use lobe_ops::check::{Finding, Status, Thoroughness, check, worst};
+use serde::Serialize;
+
+use crate::angles::{progress, table};
+use crate::failure::Failure;
+
+/// Check measurements: values, knots, poles, seams, coverage, energy, stated totals, units, reciprocity.
+#[derive(clap::Args)]
+#[command(
+    after_help = "pass: as it should be. note: worth knowing. warn: probably not what was meant. FAIL: cannot be.
+
+Examples:
+  lobe check paint.ddr
+  lobe check --strict scans/*.bsdf
+  lobe check --json paint.ddr | jq '.[0].findings[] | select(.status == \"fail\") | .text'
+
+Exit codes: 0 nothing failed, 1 a file is unreadable or damaged, 3 a check failed (with --strict: or warned)."
+)]
+pub struct Args {
+    /// The files to check.
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// Warnings count as failures.
+    #[arg(long)]
+    strict: bool,
+    /// Print JSON: an array with an object a file.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Report {
+    file: String,
+    format: Option<&'static str>,
+    kind: Option<&'static str>,
+    channels: Vec<String>,
+    /// Why nothing could be checked.
+    unreadable: Option<String>,
+    /// The worst of the findings.
+    status: Option<Status>,
+    findings: Vec<Finding>,
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let mut reports = Vec::new();
+    let mut out = stdout().lock();
+    for file in &args.files {
+        let report = report(file)?;
+        if !args.json {
+            report.print(&mut out)?;
+        }
+        reports.push(report);
+    }
+    if args.json {
+        serde_json::to_writer_pretty(&mut out, &reports)?;
+        writeln!(out)?;
+    }
+    out.flush()?;
+    let unreadable = reports.iter().filter(|report| report.unreadable.is_some()).count();
+    let limit = if args.strict { Status::Warn } else { Status::Fail };
+    let failed = reports.iter().filter(|report| report.status.is_some_and(|status| status >= limit)).count();
+    match (unreadable, failed) {
+        (0, 0) => Ok(()),
+        (0, failed) => Err(Failure::Check(format!("{failed} of {} files did not pass", reports.len()))),
+        (unreadable, _) => Err(Failure::File(format!("{unreadable} of {} files could not be checked", reports.len()))),
+    }
+}
+
+/// Checks one file. A file that cannot be read is reported, not fatal; a wrong backend is.
+fn report(file: &Path) -> Result<Report, Failure> {
+    let name = file.display().to_string();
+    let subject = match Subject::open(file, &Options::default()).map_err(Failure::from) {
+        Ok(subject) => subject,
+        Err(Failure::File(why)) => {
+            let (channels, findings) = (Vec::new(), Vec::new());
+            return Ok(Report {
+                file: name,
+                format: None,
+                kind: None,
+                channels,
+                unreadable: Some(why),
+                status: None,
+                findings,
+            });
+        }
+        Err(other) => return Err(other),
+    };
+    let bar = progress("checking");
+    let findings = check(&subject, &Thoroughness::default(), &bar);
+    Ok(Report {
+        file: name,
+        format: Some(subject.format.name()),
+        kind: Some(subject.material.kind().name()),
+        channels: subject.material.channels().names(),
+        unreadable: None,
+        status: Some(worst(&findings)),
+        findings,
+    })
+}
+
+impl Report {
+    fn print(&self, out: &mut impl Write) -> std::io::Result<()> {
+        if let Some(why) = &self.unreadable {
+            return writeln!(out, "{why}\n");
+        }
+        let (format, kind) = (self.format.unwrap_or_default(), self.kind.unwrap_or_default());
+        writeln!(out, "{}: {format}, {kind}, {} channels", self.file, self.channels.len())?;
+        let has_parts = self.findings.iter().any(|finding| !finding.part.is_empty());
+        let header = ["", "check", "part", "finding"].into_iter().filter(|name| has_parts || *name != "part");
+        let row = |finding: &Finding| {
+            let mut cells = vec![finding.status.to_string(), finding.check.into()];
+            if has_parts {
+                cells.push(finding.part.clone());
+            }
+            cells.push(finding.text.clone());
+            cells
+        };
+        let rows = self.findings.iter().map(row).collect();
+        let mut table = table(header.map(String::from).collect(), rows, 4);
+        // Where nobody reads it on a terminal, lines are as long as they are.
+        if !stdout().is_terminal() {
+            table.set_content_arrangement(comfy_table::ContentArrangement::Disabled);
+        }
+        writeln!(out, "{}\n", table.trim_fmt())
+    }
+}

@@ -1,0 +1,130 @@
+//! `lobe compare`: how far two materials are apart.
+
+use std::io::{Write, stdout};
+use std::path::PathBuf;
+
+use lobe::Options;
+use lobe_ops::Subject;
+use lobe_ops::compare::{Difference, Visible, difference, visible};
+use serde::Serialize;
+
+use crate::angles::{ScatterRule, SideRule, choose_aspects, progress, show_direction};
+use crate::failure::Failure;
+
+/// Compare two materials: in numbers over many directions, and as two spheres look.
+#[derive(clap::Args)]
+#[command(
+    after_help = "Both files are asked at the same pairs of directions, every other one near the mirror direction. Where their channels differ they are compared in CIE XYZ under D65. Delta E is CIE 2000, between the pixels of two spheres under one light; about 1 is just noticed, side by side.
+
+Examples:
+  lobe compare paint.ddr paint-resampled.ddr
+  lobe compare --within 0.01 old.bsdf new.bsdf      exit code 3 where they are further apart
+  lobe compare --json a.ddr b.brdf | jq '.[0].difference.rms'"
+)]
+pub struct Args {
+    /// The first material.
+    first: PathBuf,
+    /// The material to compare with it.
+    second: PathBuf,
+    /// Reflection or transmission only, where the files have both.
+    #[arg(long, value_enum)]
+    scatter: Option<ScatterRule>,
+    /// Light from one side only, where the files have both.
+    #[arg(long, value_enum)]
+    side: Option<SideRule>,
+    /// How many pairs of directions.
+    #[arg(long, default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    pairs: u32,
+    /// The largest polar angle of both directions, in degrees.
+    #[arg(long, default_value_t = 85.0)]
+    limit: f64,
+    /// How many pixels the spheres are wide.
+    #[arg(long, default_value_t = 128, value_parser = clap::value_parser!(u16).range(8..=4096))]
+    pixels: u16,
+    /// The largest relative difference (root mean square) that is no failure.
+    #[arg(long, value_name = "SHARE")]
+    within: Option<f64>,
+    /// Print JSON: an array with an object for each measurement that both files have.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    aspect: String,
+    difference: Difference,
+    /// `None` where channels have no colour.
+    delta_e: Option<Visible>,
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let is_sound = args.limit > 0.0 && args.limit < 90.0;
+    if !is_sound {
+        return Err(Failure::Usage(format!("found a limit of {} degrees; expected one between 0 and 90", args.limit)));
+    }
+    let open = |file| Subject::open(file, &Options::default());
+    let (first, second) = (open(&args.first)?, open(&args.second)?);
+    let theirs = second.aspects();
+    let mut aspects = choose_aspects(&args.first, &first, args.scatter, args.side)?;
+    aspects.retain(|aspect| theirs.contains(aspect));
+    if aspects.is_empty() {
+        let there: Vec<String> = theirs.iter().map(ToString::to_string).collect();
+        return Err(Failure::Usage(format!(
+            "{}: found {}; expected a measurement that {} has too",
+            args.second.display(),
+            there.join(", "),
+            args.first.display()
+        )));
+    }
+    let bar = progress("comparing");
+    let (a, b) = (&first.material, &second.material);
+    let mut answers = Vec::new();
+    for (index, &aspect) in aspects.iter().enumerate() {
+        let difference = difference(a, b, aspect, args.limit.to_radians(), args.pairs as usize)
+            .map_err(|error| Failure::Usage(error.to_string()))?;
+        bar((index as f64 + 0.8) / aspects.len() as f64);
+        let delta_e = visible(a, b, aspect, usize::from(args.pixels)).ok();
+        bar((index + 1) as f64 / aspects.len() as f64);
+        answers.push(Answer { aspect: aspect.to_string(), difference, delta_e });
+    }
+    drop(bar);
+    let mut out = stdout().lock();
+    if args.json {
+        serde_json::to_writer_pretty(&mut out, &answers)?;
+        writeln!(out)?;
+    } else {
+        for answer in &answers {
+            answer.print(&mut out)?;
+        }
+    }
+    out.flush()?;
+    let worst = answers.iter().map(|answer| answer.difference.relative_rms).fold(0.0, f64::max);
+    match args.within {
+        Some(within) if worst > within || within.is_nan() => {
+            Err(Failure::Check(format!("they differ by {worst:.3e}, more than {within}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+impl Answer {
+    fn print(&self, out: &mut impl Write) -> std::io::Result<()> {
+        let found = &self.difference;
+        let [wi, wo] = found.worst.map(show_direction);
+        writeln!(out, "{}", self.aspect)?;
+        writeln!(out, "channels  {}", found.channels.join(" "))?;
+        writeln!(out, "pairs     {}, values up to {:.5} 1/sr", found.pairs, found.peak)?;
+        writeln!(out, "max       {:.6} 1/sr, for light at ({wi}) and viewer at ({wo}) degrees", found.max)?;
+        writeln!(out, "rms       {:.6} 1/sr, {:.3} % of the first", found.rms, 100.0 * found.relative_rms)?;
+        writeln!(out, "bias      {:+.6} 1/sr, the second less the first", found.bias)?;
+        match &self.delta_e {
+            Some(visible) => writeln!(
+                out,
+                "delta E   {:.3} in the mean of {} pixels, 95 % below {:.3}, at most {:.3}",
+                visible.mean, visible.pixels, visible.percentile_95, visible.max
+            ),
+            None => writeln!(out, "delta E   none, as these channels have no colour"),
+        }
+    }
+}

@@ -1,0 +1,316 @@
+//! `lobe resample`: any material into a table of specular coordinates, and repairs of such a table.
+
+use std::io::{Write, stdout};
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use lobe::Options;
+use lobe::table::{Samples, Scatter};
+use lobe_formats::sheet::{Data, Part};
+use lobe_formats::{Document, ddr, ssdd, write_whole};
+use lobe_ops::colour::{Target, convert};
+use lobe_ops::fill::{Beyond, fill, negatives, zeros};
+use lobe_ops::hemisphere::Effort;
+use lobe_ops::resample::{Bound, Knots, Resampling, candidates, choose, error};
+use lobe_ops::{Aspect, Subject, energy, symmetrise};
+use serde::Serialize;
+
+use crate::angles::{Angles, ScatterRule, SideRule, choose_aspects, parse_angles, progress, show_direction};
+use crate::failure::Failure;
+
+/// Resample any material into a table of specular coordinates, repair it, and say how far it is from the original.
+#[derive(clap::Args)]
+#[command(
+    after_help = "Axes that are not given get the knots that keep the interpolation error below --error, as a part of the largest value (or, with --per-value, of each value above a thousandth of that). A specular table keeps its knots unless an axis or --error is given; then knots are chosen among its own. Elevations below 3.4 degrees are not compared.
+
+Repairs come after, in the order of this list: colour, fill, mirror, reciprocal, conserve.
+
+Examples:
+  lobe resample vinyl.bsdf vinyl.ddr --error 0.01
+  lobe resample paint.brdf paint.ssdd --sigma 0:85:5 --theta 0,1,2,5,10:180:10 --phi 0:360:15
+  lobe resample sensor.bsdf sensor.ddr --fill zeros --beyond linear --mask filled.csv --conserve
+  lobe resample paint.brdf paint.ddr --colour rgb
+
+Exit code 3, and no file, where the bound is not met."
+)]
+pub struct Args {
+    /// The material.
+    input: PathBuf,
+    /// The file to write: .ddr for reflection, .ddt for transmission, .ssdd for either.
+    output: PathBuf,
+    /// The largest interpolation error [default: 0.01].
+    #[arg(long, value_name = "SHARE")]
+    error: Option<f64>,
+    /// The error is a part of each value, not of the largest.
+    #[arg(long)]
+    per_value: bool,
+    /// Knots of the angle of incidence in degrees: 0,30,60 or first:last:step.
+    #[arg(long, value_name = "LIST", value_parser = parse_angles)]
+    sigma: Option<Angles>,
+    /// Knots of the rotation of the sample in degrees.
+    #[arg(long, value_name = "LIST", value_parser = parse_angles)]
+    psi: Option<Angles>,
+    /// Knots of the angle to the mirror direction in degrees.
+    #[arg(long, value_name = "LIST", value_parser = parse_angles)]
+    theta: Option<Angles>,
+    /// Knots of the azimuth about the mirror direction in degrees.
+    #[arg(long, value_name = "LIST", value_parser = parse_angles)]
+    phi: Option<Angles>,
+    /// Reflection or transmission, where the file has both; the first otherwise.
+    #[arg(long, value_enum)]
+    scatter: Option<ScatterRule>,
+    /// The side that the light comes from, where the file has both; the first otherwise.
+    #[arg(long, value_enum)]
+    side: Option<SideRule>,
+    /// Turn spectra and the like into colours.
+    #[arg(long, value_enum)]
+    colour: Option<ColourRule>,
+    /// Fill what was not measured.
+    #[arg(long, value_enum)]
+    fill: Option<FillRule>,
+    /// How values go on beyond the last that was measured.
+    #[arg(long, value_enum, default_value = "nearest", requires = "fill")]
+    beyond: BeyondRule,
+    /// Write the nodes that were filled: CSV of sigma, psi, theta, phi in degrees.
+    #[arg(long, value_name = "FILE", requires = "fill")]
+    mask: Option<PathBuf>,
+    /// Average both sides of the plane of incidence (of psi 0 in an anisotropic table).
+    #[arg(long)]
+    mirror: bool,
+    /// Average with light and viewer exchanged.
+    #[arg(long)]
+    reciprocal: bool,
+    /// Scale slices whose albedo is above 1 to 1.
+    #[arg(long)]
+    conserve: bool,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum ColourRule {
+    /// Linear RGB with the primaries of sRGB.
+    Rgb,
+    /// CIE 1931 XYZ under D65.
+    Xyz,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum FillRule {
+    /// Where all channels are exactly 0.
+    Zeros,
+    /// Where any channel is negative.
+    Negatives,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum BeyondRule {
+    /// The nearest measured value.
+    Nearest,
+    /// The line through the two nearest, not below 0.
+    Linear,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    output: String,
+    aspect: String,
+    /// Knots of sigma, psi, theta and phi.
+    knots: [usize; 4],
+    channels: Vec<String>,
+    /// `None` where the table kept its knots.
+    resampling: Option<Resampling>,
+    repairs: Vec<String>,
+}
+
+/// Directions at which the result is compared with the material.
+const PROBES: usize = 100_000;
+const DEFAULT_ERROR: f64 = 0.01;
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let subject = Subject::open(&args.input, &Options::default())?;
+    let aspect = choose_aspects(&args.input, &subject, args.scatter, args.side)?[0];
+    check_output(&args.output, aspect.scatter)?;
+    let (samples, resampling) = table(args, &subject, aspect)?;
+    let mut repairs = Vec::new();
+    let samples = repair(args, samples, &mut repairs)?;
+    write(&samples, &args.output)?;
+    let answer = Answer {
+        output: args.output.display().to_string(),
+        aspect: aspect.to_string(),
+        knots: samples.knots().each_ref().map(Vec::len),
+        channels: samples.channels().names(),
+        resampling,
+        repairs,
+    };
+    let mut out = stdout().lock();
+    if args.json {
+        serde_json::to_writer_pretty(&mut out, &answer)?;
+        writeln!(out)?;
+    } else {
+        answer.print(&mut out)?;
+    }
+    Ok(out.flush()?)
+}
+
+/// The table before repairs, and its error where it is not the file's own.
+fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(Samples, Option<Resampling>), Failure> {
+    let given = [&args.sigma, &args.psi, &args.theta, &args.phi];
+    let own = match (&subject.document, subject.part(aspect)) {
+        (Document::Table(measured), _) => Some(&measured.data),
+        (_, Some(Data::Table(data))) => Some(data),
+        _ => None,
+    };
+    if let Some(samples) = own.filter(|_| args.error.is_none() && given.iter().all(|axis| axis.is_none())) {
+        return Ok((samples.clone(), None));
+    }
+    let bound = Bound { error: args.error.unwrap_or(DEFAULT_ERROR), per_value: args.per_value };
+    if bound.error.is_nan() || bound.error <= 0.0 {
+        return Err(Failure::Usage(format!("found an error of {}; expected one above 0", bound.error)));
+    }
+    let candidates = own.map_or_else(|| candidates(subject.is_isotropic()), |samples| samples.knots().clone());
+    let mut axes = candidates.map(Knots::Choose);
+    for (axis, Angles(knots)) in axes.iter_mut().zip(given).filter_map(|(axis, list)| Some((axis, list.as_ref()?))) {
+        *axis = Knots::Keep(knots.clone());
+    }
+    let is_all_given = given.iter().all(|axis| axis.is_some());
+    let bar = progress("resampling");
+    let chosen = choose(&subject.material, aspect, &axes, bound, &bar)
+        .map_err(|error| Failure::Usage(format!("{}: {error}", args.output.display())))?;
+    drop(bar);
+    // With all knots given there is no bound to meet, unless one was asked for.
+    if chosen.error > bound.error && !(is_all_given && args.error.is_none()) {
+        return Err(Failure::Check(format!(
+            "{}: the smallest error that was reached is {:.4}; expected {} or less",
+            args.output.display(),
+            chosen.error,
+            bound.error
+        )));
+    }
+    let found = error(&subject.material, aspect, &chosen.samples, PROBES)?;
+    Ok((chosen.samples, Some(found)))
+}
+
+fn repair(args: &Args, mut samples: Samples, repairs: &mut Vec<String>) -> Result<Samples, Failure> {
+    let refuse = |error: &dyn std::fmt::Display| Failure::Usage(format!("{}: {error}", args.input.display()));
+    if let Some(colour) = args.colour {
+        let target = match colour {
+            ColourRule::Rgb => Target::Rgb,
+            ColourRule::Xyz => Target::Xyz,
+        };
+        samples = convert(&samples, target).map_err(|error| refuse(&error))?;
+    }
+    if let Some(rule) = args.fill {
+        let mask = match rule {
+            FillRule::Zeros => zeros(&samples),
+            FillRule::Negatives => negatives(&samples),
+        };
+        let beyond = match args.beyond {
+            BeyondRule::Nearest => Beyond::Nearest,
+            BeyondRule::Linear => Beyond::Linear,
+        };
+        let filled = fill(&samples, &mask, beyond).map_err(|error| refuse(&error))?;
+        let count = filled.mask.iter().filter(|filled| **filled).count();
+        repairs.push(format!("{count} of {} nodes filled", filled.mask.len()));
+        if let Some(file) = &args.mask {
+            write_whole(file, mask_csv(&filled.samples, &filled.mask).as_bytes())?;
+        }
+        samples = filled.samples;
+    }
+    if args.mirror {
+        samples = symmetrise::mirror(&samples).map_err(|error| refuse(&error))?;
+        repairs.push("averaged with its mirror image".into());
+    }
+    if args.reciprocal {
+        samples = symmetrise::reciprocal(&samples).map_err(|error| refuse(&error))?;
+        repairs.push("averaged with light and viewer exchanged".into());
+    }
+    if args.conserve {
+        let (repaired, scaled) =
+            energy::conserve_energy(&samples, Effort::default()).map_err(|error| refuse(&error))?;
+        let largest = scaled.iter().map(|repair| repair.albedo.largest()).fold(0.0, f64::max);
+        repairs.push(match scaled.len() {
+            0 => "no slice has an albedo above 1".into(),
+            n => format!("{n} slices scaled to an albedo of 1, from {largest:.4} at most"),
+        });
+        samples = repaired;
+    }
+    Ok(samples)
+}
+
+/// The angles of the nodes that were filled.
+fn mask_csv(samples: &Samples, mask: &[bool]) -> String {
+    let knots = samples.knots().each_ref().map(|knots| knots.iter().map(|a| a.to_degrees() as f32).collect::<Vec<_>>());
+    let mut csv = String::from("sigma,psi,theta,phi\n");
+    let mut filled = mask.iter();
+    for sigma in &knots[0] {
+        for psi in &knots[1] {
+            for theta in &knots[2] {
+                for phi in &knots[3] {
+                    if filled.next() == Some(&true) {
+                        csv.push_str(&format!("{sigma},{psi},{theta},{phi}\n"));
+                    }
+                }
+            }
+        }
+    }
+    csv
+}
+
+fn extension(path: &Path) -> String {
+    path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
+}
+
+/// Before anything takes long.
+fn check_output(path: &Path, scatter: Scatter) -> Result<(), Failure> {
+    let (wanted, what) = match scatter {
+        Scatter::Reflection => ("ddr", "reflection"),
+        Scatter::Transmission => ("ddt", "transmission"),
+    };
+    let found = extension(path);
+    if found == "ssdd" || found == wanted {
+        return Ok(());
+    }
+    let path = path.display();
+    Err(Failure::Usage(format!("{path}: found the extension `{found}`; expected {wanted} or ssdd for {what}")))
+}
+
+fn write(samples: &Samples, path: &Path) -> Result<(), Failure> {
+    if extension(path) == "ssdd" {
+        let part = Part::new("", Data::Table(samples.clone()));
+        return Ok(ssdd::write(&[part], ssdd::Encoding::Ascii, path)?);
+    }
+    Ok(ddr::write(samples, path)?)
+}
+
+impl Answer {
+    fn print(&self, out: &mut impl Write) -> std::io::Result<()> {
+        let [sigmas, psis, thetas, phis] = self.knots;
+        writeln!(
+            out,
+            "{}: {}, {sigmas} x {psis} x {thetas} x {phis} knots, {}",
+            self.output,
+            self.aspect,
+            self.channels.join(" ")
+        )?;
+        match &self.resampling {
+            None => writeln!(out, "knots     those of the file")?,
+            Some(found) => {
+                let [wi, wo] = found.worst.map(show_direction);
+                writeln!(
+                    out,
+                    "error     at most {:.6} 1/sr, {:.3} % of the largest value, {:.2} % of a value, rms {:.6}, at {} pairs",
+                    found.max,
+                    100.0 * found.relative_to_peak,
+                    100.0 * found.relative_to_value,
+                    found.rms,
+                    found.probes
+                )?;
+                writeln!(out, "worst     for light at ({wi}) and viewer at ({wo}) degrees")?;
+            }
+        }
+        self.repairs.iter().try_for_each(|repair| writeln!(out, "repair    {repair}"))
+    }
+}

@@ -1,0 +1,176 @@
+//! Directional-hemispherical reflectance, or transmittance: how much of the light from one direction comes back.
+
+use lobe_formats::Document;
+use lobe_table::Samples;
+use lobe_table::klems::KlemsMatrix;
+use lobe_table::reference::zenith;
+use lobe_table::window::{Block, Component, Window};
+use serde::Serialize;
+
+use crate::directions::spherical;
+use crate::hemisphere::{Effort, Panels, integrate};
+use crate::samples::signed_edges;
+use crate::scattering::eval_pairs;
+use crate::subject::aspect_of;
+use crate::{Aspect, Scattering, Subject};
+
+/// The share of the light from one direction that leaves again: the integral of `f cos(theta_o)` over the hemisphere.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Albedo {
+    /// The polar angle of the light, in radians.
+    pub theta: f64,
+    /// The azimuth of the light, in radians.
+    pub phi: f64,
+    /// One a channel. Above 1 no passive material is.
+    pub values: Vec<f64>,
+    /// The largest estimated error of a channel.
+    pub error: f64,
+}
+
+impl Albedo {
+    /// The largest channel.
+    pub fn largest(&self) -> f64 {
+        self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The smallest channel.
+    pub fn smallest(&self) -> f64 {
+        self.values.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// The albedo of anything for light at a polar angle and an azimuth, in radians, by adaptive quadrature in `panels`.
+pub fn albedo(
+    scattering: &dyn Scattering,
+    aspect: Aspect,
+    [theta, phi]: [f64; 2],
+    panels: &Panels,
+    effort: Effort,
+) -> Albedo {
+    let light = spherical(theta, phi);
+    let integral = integrate(panels, scattering.channels().count(), effort, |viewers, out| {
+        let pairs: Vec<_> = viewers.iter().map(|&viewer| aspect.place(light, viewer)).collect();
+        out.copy_from_slice(&eval_pairs(scattering, &pairs));
+    });
+    Albedo { theta, phi, values: integral.values, error: integral.error }
+}
+
+/// The albedo of a file for light at a polar angle and an azimuth, in radians, with the quadrature that suits its
+/// representation: between the knots of a grid; the sum over the patches of a Klems matrix, which is exact; toward the
+/// mirror direction in all others.
+pub fn albedo_of(subject: &Subject, aspect: Aspect, incidence: [f64; 2], effort: Effort) -> Albedo {
+    let exact = match &subject.document {
+        Document::Window(measured) => {
+            let bands = measured.data.bands.iter().map(|band| of_patches(&band.window, aspect, incidence));
+            bands.collect::<Option<Vec<f64>>>()
+        }
+        _ => None,
+    };
+    match exact {
+        Some(values) => Albedo { theta: incidence[0], phi: incidence[1], values, error: 0.0 },
+        None => albedo(&subject.material, aspect, incidence, &subject.panels(aspect, incidence), effort),
+    }
+}
+
+/// The sum over the patches of a Klems matrix; `None` for trees, and for transmission that is known the other way only.
+fn of_patches(window: &Window, aspect: Aspect, [theta, phi]: [f64; 2]) -> Option<f64> {
+    let block = Block::ALL.into_iter().find(|&block| aspect_of(block) == aspect)?;
+    let Some(Component::Klems(matrix)) = window.block(block) else { return None };
+    incident_patch(matrix, spherical(theta, phi)).map(|patch| matrix.albedo(patch))
+}
+
+fn incident_patch(matrix: &KlemsMatrix, [x, y, z]: [f64; 3]) -> Option<usize> {
+    matrix.incident().patch([-x, -y, z])
+}
+
+/// The albedo of every slice of a table, `[sigma][psi]`, negative values included, as the default edge policy
+/// interpolates them.
+///
+/// Of a transmission table it is the transmittance.
+pub fn albedo_of_samples(samples: &Samples, effort: Effort) -> Vec<Albedo> {
+    let knots = samples.knots();
+    let edges = signed_edges();
+    let channels = samples.channels().count();
+    let slice = |sigma: f64, psi: f64| {
+        let polar = zenith(samples, &edges, sigma);
+        let panels = Panels::of_knots(polar, psi, &knots[2], &knots[3]);
+        let integral = integrate(&panels, channels, effort, |viewers, out| {
+            let mut texel = vec![0.0; channels];
+            for (viewer, out) in viewers.iter().zip(out.chunks_exact_mut(channels)) {
+                // The slice at the horizon is one too, though no light comes from there.
+                let light = spherical(sigma, psi);
+                let [.., theta, phi] = lobe_table::coords::directions_to_angles(light, *viewer, |_| polar);
+                lobe_table::reference::eval_angles(samples, &edges, [sigma, psi, theta, phi], &mut texel);
+                out.iter_mut().zip(&texel).for_each(|(out, &value)| *out = value as f32);
+            }
+        });
+        Albedo { theta: sigma, phi: psi, values: integral.values, error: integral.error }
+    };
+    knots[0].iter().flat_map(|&sigma| knots[1].iter().map(move |&psi| (sigma, psi))).map(|(s, p)| slice(s, p)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+    use crate::testing::{Exact, degrees, gold};
+    use lobe_model::{Lambert, goniometer};
+
+    #[test]
+    fn lambert_reflects_its_albedo() {
+        let model = Exact(Lambert { albedo: [0.9, 0.5, 0.0] });
+        for theta in [0.0, 0.7, 1.5] {
+            let panels = Panels::graded(theta, 2.0);
+            let found = albedo(&model, Aspect::REFLECTION, [theta, 2.0], &panels, Effort::default());
+            for (x, expected) in found.values.iter().zip([0.9, 0.5, 0.0]) {
+                assert!((x - expected).abs() < 1e-4, "{found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_narrow_lobe_agrees_with_the_model() {
+        let model = gold(0.15);
+        for theta in [0.2_f64, 0.9, 1.3] {
+            let light = spherical(theta, 0.4);
+            let expected = lobe_model::albedo(&model, light, 800);
+            let panels = Panels::graded(theta, 0.4);
+            let found = albedo(&Exact(model), Aspect::REFLECTION, [theta, 0.4], &panels, Effort::default());
+            for (x, expected) in found.values.iter().zip(expected) {
+                assert!((x - expected).abs() < 3e-4, "{x} is not {expected} at {theta}");
+            }
+        }
+    }
+
+    #[test]
+    fn slices_of_a_table_are_integrated_as_they_are_interpolated() {
+        let knots = [
+            degrees(&[0.0, 30.0, 60.0, 90.0]),
+            degrees(&[0.0, 90.0, 360.0]),
+            degrees(&[0.0, 3.0, 10.0, 40.0, 180.0]),
+            degrees(&[0.0, 90.0, 180.0, 270.0, 360.0]),
+        ];
+        let samples = goniometer::measure(&Lambert { albedo: [0.9, 0.5, 0.0] }, knots, || {}).expect("a table");
+        let albedos = albedo_of_samples(&samples, Effort::default());
+        assert_eq!(albedos.len(), 12);
+        for found in albedos {
+            for (x, expected) in found.values.iter().zip([0.9, 0.5, 0.0]) {
+                assert!((x - expected).abs() < 1e-4, "{found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn patches_of_a_window_are_summed() {
+        use lobe_table::klems::AngleBasis;
+        let basis = AngleBasis::full();
+        let values = vec![0.3 / PI as f32; basis.patches().pow(2)];
+        let matrix = KlemsMatrix::new(basis.clone(), basis, values).expect("a matrix");
+        let mut window = Window::default();
+        window.set(Block::ReflectionBack, Component::Klems(matrix));
+        let found = of_patches(&window, Aspect::REFLECTION, [0.5, 0.0]).expect("a block");
+        assert!((found - 0.3).abs() < 1e-6, "{found}");
+        assert_eq!(of_patches(&window, Aspect::TRANSMISSION, [0.5, 0.0]), None);
+    }
+}

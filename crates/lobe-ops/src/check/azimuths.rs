@@ -1,0 +1,127 @@
+//! Circles of azimuths: whether they close, what they leave out, and whether both sides are alike.
+
+use std::f64::consts::{PI, TAU};
+
+use super::grid::Grid;
+use super::{Finding, Status, degrees, percent};
+use crate::samples::closes_circle;
+
+/// A difference of this part of the largest value at the seam is more than rounding.
+const SAME: f64 = 1e-3;
+/// A gap as wide as this, 45 degrees, is not one step of a circle more.
+const WIDE: f64 = PI / 4.0 + 1e-3;
+
+pub(super) fn check(grid: &Grid<'_>, part: &str) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    for axis in [1, 3] {
+        let knots = &grid.knots[axis];
+        if knots.len() < 2 || axis == 3 && grid.is_mirrored {
+            continue;
+        }
+        findings.push(if closes_circle(knots) { seam(grid, part, axis) } else { gap(grid, part, axis) });
+    }
+    let is_isotropic = grid.knots[1].len() == 1;
+    if grid.knots[3].len() == 1 {
+        let what = if grid.is_specular { "the mirror direction" } else { "the normal" };
+        let text = format!("one {} only: the same all round {what}", grid.names[3]);
+        findings.push(Finding::new("symmetry", part, Status::Note, text));
+    } else if is_isotropic && !grid.is_mirrored {
+        findings.extend(mirror(grid, part));
+    }
+    findings
+}
+
+/// The first and the last azimuth are the same, and so should be their values.
+fn seam(grid: &Grid<'_>, part: &str, axis: usize) -> Finding {
+    let last = grid.knots[axis].len() - 1;
+    let (difference, _) = pairs(grid, axis, |_| 0, |index| (index == last).then_some(last));
+    let name = grid.names[axis];
+    let (status, text) = match difference {
+        d if d <= SAME => (Status::Pass, format!("{name} closes at 360 degrees with the values of 0")),
+        d => {
+            let text = format!("the values of {name} 0 and 360, one angle, differ by {} of the largest", percent(d));
+            (Status::Warn, text)
+        }
+    };
+    Finding::new("azimuth seam", part, status, text).number("difference", difference)
+}
+
+fn gap(grid: &Grid<'_>, part: &str, axis: usize) -> Finding {
+    let (knots, name) = (&grid.knots[axis], grid.names[axis]);
+    let (first, last) = (knots[0], knots[knots.len() - 1]);
+    let gap = TAU - (last - first);
+    let step = knots.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+    let is_plane = axis == 3 && knots.len() == 2 && (gap - PI).abs() < 0.01;
+    let (status, text) = if is_plane {
+        let text = format!(
+            "{name} has {} and {} degrees only: measured in the plane of incidence, guessed everywhere else",
+            degrees(first),
+            degrees(last)
+        );
+        (Status::Warn, text)
+    } else if gap > WIDE.max(1.5 * step) {
+        let text = format!(
+            "{name} runs from {} to {} degrees; the gap of {} degrees is closed by a line",
+            degrees(first),
+            degrees(last),
+            degrees(gap)
+        );
+        (Status::Warn, text)
+    } else {
+        (Status::Pass, format!("{name} ends one step, {} degrees, short of the circle and closes", degrees(gap)))
+    };
+    Finding::new("azimuth seam", part, status, text).number("gap", gap.to_degrees())
+}
+
+/// An isotropic material is the same on both sides of the plane of incidence.
+fn mirror(grid: &Grid<'_>, part: &str) -> Option<Finding> {
+    let phis = &grid.knots[3];
+    let around = |angle: f64| angle.rem_euclid(TAU);
+    let twin = |index: usize| {
+        let wanted = around(-phis[index]);
+        let distance = |other: f64| (around(other) - wanted).abs().min(TAU - (around(other) - wanted).abs());
+        (0..phis.len()).find(|&other| distance(phis[other]) < 1e-4)
+    };
+    let with_twin = (0..phis.len()).filter(|&index| twin(index).is_some_and(|other| other != index)).count();
+    if with_twin < 2 {
+        return None;
+    }
+    let (difference, mean) = pairs(grid, 3, |index| index, twin);
+    let (status, text) = match difference {
+        d if d <= SAME => (Status::Pass, "both sides of the plane of incidence are alike".into()),
+        d => {
+            let text = format!(
+                "both sides of the plane of incidence differ, by up to {} of the largest value and by {} in the mean",
+                percent(d),
+                percent(mean)
+            );
+            (if mean > 0.05 { Status::Warn } else { Status::Note }, text)
+        }
+    };
+    Some(Finding::new("symmetry", part, status, text).number("difference", difference).number("mean", mean))
+}
+
+/// The largest difference between the values at two azimuths of an axis, as a part of the largest value of the grid, and the
+/// mean difference as a part of the mean value.
+fn pairs(
+    grid: &Grid<'_>,
+    axis: usize,
+    one: impl Fn(usize) -> usize,
+    other: impl Fn(usize) -> Option<usize>,
+) -> (f64, f64) {
+    let counts = grid.knots.each_ref().map(Vec::len);
+    let (mut worst, mut sum, mut values) = (0.0_f64, 0.0, 0.0);
+    for index in 0..counts.iter().product() {
+        let node = crate::samples::node(counts, index);
+        let Some(partner) = other(node[axis]) else { continue };
+        let at = |azimuth: usize| grid.texel(std::array::from_fn(|i| if i == axis { azimuth } else { node[i] }));
+        for (a, b) in at(one(node[axis])).iter().zip(at(partner)) {
+            let difference = f64::from(a - b).abs();
+            worst = worst.max(difference);
+            sum += difference;
+            values += f64::from(*a).abs();
+        }
+    }
+    let peak = grid.values.iter().map(|value| f64::from(value.abs())).fold(0.0, f64::max);
+    (if peak > 0.0 { worst / peak } else { 0.0 }, if values > 0.0 { sum / values } else { 0.0 })
+}

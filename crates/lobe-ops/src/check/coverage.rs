@@ -1,0 +1,140 @@
+//! Which part of the hemisphere was measured.
+
+use std::collections::BTreeSet;
+use std::f64::consts::{PI, TAU};
+
+use lobe_formats::Document;
+use lobe_formats::sheet::Data;
+use lobe_table::scattered::Scattered;
+use lobe_table::window::Block;
+use lobe_table::{AXIS_NAMES, Samples};
+
+use super::{Finding, Status, degrees, part_name, percent};
+use crate::samples::{directions, nodes};
+use crate::subject::aspect_of;
+
+pub(super) fn check(document: &Document) -> Vec<Finding> {
+    match document {
+        Document::Table(measured) => dark_nodes(&measured.data, "").into_iter().collect(),
+        Document::Scattered(measured) => of_samples(&measured.data, ""),
+        Document::Sheet(measured) => {
+            let of_part = |part: &lobe_formats::sheet::Part| match &part.data {
+                Data::Table(data) => dark_nodes(data, &part_name(part)).into_iter().collect(),
+                Data::Scattered(data) => of_samples(data, &part_name(part)),
+                Data::Spherical(_) | Data::Specular(_) => Vec::new(),
+            };
+            measured.data.iter().flat_map(of_part).collect()
+        }
+        Document::Window(measured) => {
+            let mut findings = Vec::new();
+            for band in &measured.data.bands {
+                let missing: Vec<String> = Block::ALL
+                    .into_iter()
+                    .filter(|&block| band.window.block(block).is_none())
+                    .map(|block| aspect_of(block).to_string())
+                    .collect();
+                let (status, text) = match missing.as_slice() {
+                    [] => (Status::Pass, "transmission and reflection of both sides".into()),
+                    [one] if one.starts_with("transmission") => {
+                        (Status::Note, format!("no {one}: the transmission of the other side serves for it"))
+                    }
+                    _ => (Status::Warn, format!("no {}: dark there", missing.join(", no "))),
+                };
+                findings.push(Finding::new("coverage", &band.wavelength, status, text));
+            }
+            findings
+        }
+        Document::Utia(_) => {
+            let text = "both directions from 0 to 75 degrees; beyond, values are extrapolated".into();
+            vec![Finding::new("coverage", "", Status::Note, text)]
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Nodes of a table above the horizon that are exactly dark, and which share of the hemisphere they are.
+fn dark_nodes(samples: &Samples, part: &str) -> Option<Finding> {
+    let channels = samples.channels().count();
+    let (mut dark, mut above) = (0_usize, 0_usize);
+    for (node, texel) in nodes(samples).zip(samples.values().chunks_exact(channels)) {
+        if directions(samples, node).1[2] > 1e-3 {
+            above += 1;
+            dark += usize::from(texel.iter().all(|&value| value == 0.0));
+        }
+    }
+    if dark == 0 {
+        return None;
+    }
+    let share = dark as f64 / above.max(1) as f64;
+    let text = format!(
+        "{dark} of {above} nodes above the horizon ({}) are exactly 0: the {} or {} there was probably not measured",
+        percent(share),
+        AXIS_NAMES[2],
+        AXIS_NAMES[3]
+    );
+    let status = if share > 0.1 { Status::Warn } else { Status::Note };
+    Some(Finding::new("coverage", part, status, text).number("dark", dark as f64).number("above", above as f64))
+}
+
+/// The sectors of outgoing directions that a count is over: steps of 15 degrees of the polar angle, of 30 of the azimuth.
+const RINGS: usize = 6;
+const SECTORS: usize = 12;
+
+/// Which light there was, and in how many sectors of the hemisphere somebody looked.
+fn of_samples(data: &Scattered, part: &str) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    let incidences: Vec<[f64; 2]> = data.incidences().collect();
+    let thetas: BTreeSet<i64> =
+        incidences.iter().map(|[theta, _]| (theta.to_degrees() * 10.0).round() as i64).collect();
+    let list: Vec<String> = thetas.iter().map(|tenths| degrees((*tenths as f64 / 10.0).to_radians())).collect();
+    let widest = list.len().max(1);
+    let shown = if widest > 12 { format!("{} polar angles to {}", widest, list[widest - 1]) } else { list.join(" ") };
+    let text = format!(
+        "light from {} directions, at {shown} degrees; between and beyond, the nearest goes on",
+        incidences.len()
+    );
+    let (status, few) = match thetas.len() {
+        1 => (Status::Warn, ". One angle of incidence says nothing about the others"),
+        2 | 3 => (Status::Warn, ". So few are too sparse for pictures"),
+        _ => (Status::Note, ""),
+    };
+    let finding = Finding::new("coverage", part, status, format!("{text}{few}"));
+    findings.push(finding.number("incidences", incidences.len() as f64));
+
+    let (mut least, mut at, mut in_plane) = (usize::MAX, 0.0, true);
+    let mut sectors = BTreeSet::new();
+    let mut samples = data.samples().peekable();
+    let mut is_left = true;
+    let mut is_right = true;
+    while let Some(([theta_i, phi_i, theta, phi], _)) = samples.next() {
+        let relative = (phi - phi_i).rem_euclid(TAU);
+        in_plane &= theta < 1e-3 || relative.sin().abs() < 1e-3;
+        is_left &= theta.sin() * relative.sin() > -1e-6;
+        is_right &= theta.sin() * relative.sin() < 1e-6;
+        let ring = ((theta * RINGS as f64 / (PI / 2.0)) as usize).min(RINGS - 1);
+        let sector = ((relative * SECTORS as f64 / TAU) as usize).min(SECTORS - 1);
+        sectors.insert((ring, sector));
+        let is_last = samples.peek().is_none_or(|(next, _)| next[..2] != [theta_i, phi_i]);
+        if is_last {
+            if sectors.len() < least {
+                (least, at) = (sectors.len(), theta_i);
+            }
+            sectors.clear();
+        }
+    }
+    // Where one side of the plane was measured, the other is its mirror image.
+    let all = RINGS * SECTORS / if data.is_isotropic() && (is_left || is_right) { 2 } else { 1 };
+    let (status, text) = if in_plane {
+        (Status::Warn, "measured in the plane of incidence only, and guessed everywhere else".to_string())
+    } else {
+        let share = least as f64 / all as f64;
+        let text = format!(
+            "samples in at least {least} of {all} sectors of 15 by 30 degrees, least for light at {} degrees",
+            degrees(at)
+        );
+        (if share < 0.5 { Status::Warn } else { Status::Note }, text)
+    };
+    findings
+        .push(Finding::new("coverage", part, status, text).number("sectors", least as f64).number("of", all as f64));
+    findings
+}

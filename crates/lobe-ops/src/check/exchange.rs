@@ -1,0 +1,61 @@
+//! Whether light and viewer may be exchanged.
+
+use lobe_table::Scatter;
+
+use super::{Finding, Status, Thoroughness, degrees, percent};
+use crate::Subject;
+use crate::reciprocity::reciprocity;
+
+/// Beyond this, 80 degrees, few instruments see anything.
+const LIMIT: f64 = 80.0 * std::f64::consts::PI / 180.0;
+/// A relative difference (root mean square) that interpolation alone makes.
+const SAME: f64 = 0.02;
+/// One that is more than errors of measurement.
+const APART: f64 = 0.15;
+
+pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness) -> Vec<Finding> {
+    let aspects = subject.aspects();
+    let mut findings = Vec::new();
+    for (index, &aspect) in aspects.iter().enumerate() {
+        let part = if aspects.len() > 1 { aspect.to_string() } else { String::new() };
+        let way_back = aspects.iter().position(|&other| other == aspect.reversed());
+        // A pair of ways is the same pair from either end.
+        if way_back.is_some_and(|back| back < index) {
+            continue;
+        }
+        if way_back.is_none() && aspect.scatter == Scatter::Transmission {
+            let text = "only one way was measured: nothing to exchange it with".into();
+            findings.push(Finding::new("reciprocity", &part, Status::Note, text));
+            continue;
+        }
+        let limit = subject.measured_up_to(aspect).min(subject.measured_up_to(aspect.reversed())).min(LIMIT);
+        if limit < 0.1 {
+            let text = "no two angles of incidence: nothing to exchange".into();
+            findings.push(Finding::new("reciprocity", &part, Status::Note, text));
+            continue;
+        }
+        let found = reciprocity(&subject.material, aspect, limit, thoroughness.pairs);
+        let [wi, wo] = found.worst.map(|w| degrees(w[2].clamp(-1.0, 1.0).acos()));
+        let text = format!(
+            "up to {} degrees, f(wi, wo) and f(wo, wi) differ by {} (rms), by {} in the median, and most, by {:.3e}, \
+             between {wi} and {wo} degrees",
+            degrees(limit),
+            percent(found.relative_rms),
+            percent(found.relative_median),
+            found.max
+        );
+        let status = match found.relative_rms {
+            rms if rms <= SAME => Status::Pass,
+            rms if rms <= APART => Status::Note,
+            _ => Status::Warn,
+        };
+        let finding = Finding::new("reciprocity", &part, status, text);
+        findings.push(
+            finding
+                .number("relative rms", found.relative_rms)
+                .number("relative median", found.relative_median)
+                .number("largest", found.max),
+        );
+    }
+    findings
+}

@@ -1,0 +1,149 @@
+//! Grids of four angles, whatever they are about, and what has to hold at their knots and poles.
+
+use std::f64::consts::FRAC_PI_2;
+
+use lobe_table::spherical_grid::SphericalGrid;
+use lobe_table::{AXIS_NAMES, Samples};
+
+use super::{Finding, Status, degrees, percent};
+
+/// A grid in specular or in spherical coordinates: polar angle and azimuth of the light, then of the viewer.
+pub(super) struct Grid<'a> {
+    pub(super) names: [&'static str; 4],
+    pub(super) knots: &'a [Vec<f64>; 4],
+    pub(super) values: &'a [f32],
+    pub(super) channels: usize,
+    /// The azimuths of the viewer cover half a turn, and that is how it is meant.
+    pub(super) is_mirrored: bool,
+    /// The viewer's angles are about the mirror direction.
+    pub(super) is_specular: bool,
+}
+
+/// At the pole all azimuths are one direction: a difference of this part of the values there is more than rounding.
+const SAME: f64 = 1e-3;
+/// A difference of this part is more than noise.
+const APART: f64 = 0.05;
+
+impl<'a> Grid<'a> {
+    pub(super) fn of_table(samples: &'a Samples) -> Self {
+        Grid {
+            names: AXIS_NAMES,
+            knots: samples.knots(),
+            values: samples.values(),
+            channels: samples.channels().count(),
+            is_mirrored: false,
+            is_specular: true,
+        }
+    }
+
+    pub(super) fn of_spherical(grid: &'a SphericalGrid) -> Self {
+        Grid {
+            names: lobe_table::scattered::ANGLE_NAMES,
+            knots: grid.knots(),
+            values: grid.values(),
+            channels: grid.channels().count(),
+            is_mirrored: grid.is_mirrored(),
+            is_specular: false,
+        }
+    }
+
+    /// The channels at a node.
+    pub(super) fn texel(&self, node: [usize; 4]) -> &'a [f32] {
+        let at = node.into_iter().zip(self.knots).fold(0, |at, (index, knots)| at * knots.len() + index);
+        &self.values[at * self.channels..][..self.channels]
+    }
+
+    /// Every pair of knots of the light.
+    pub(super) fn lights(&self) -> impl Iterator<Item = [usize; 2]> + use<'_> {
+        (0..self.knots[0].len()).flat_map(|polar| (0..self.knots[1].len()).map(move |azimuth| [polar, azimuth]))
+    }
+
+    /// That the knots ascend, which they do, or the reader would have refused the file; and what they reach.
+    pub(super) fn check_knots(&self, part: &str) -> Vec<Finding> {
+        let counts = self.knots.each_ref().map(Vec::len);
+        let each: Vec<String> =
+            self.names.iter().zip(counts).filter(|(_, n)| *n > 1).map(|(name, n)| format!("{n} of {name}")).collect();
+        let text = format!("ascending: {}", if each.is_empty() { "one of each axis".into() } else { each.join(", ") });
+        let mut findings = vec![Finding::new("knots", part, Status::Pass, text)];
+
+        let [light, .., viewer, _] = self.knots;
+        let (first, last) = (light[0], light[light.len() - 1]);
+        if last < FRAC_PI_2 - 0.01 || first > 0.01 {
+            let text = format!(
+                "light was measured from {} to {} degrees only; beyond, the nearest measurement goes on",
+                degrees(first),
+                degrees(last)
+            );
+            let finding = Finding::new("coverage", part, Status::Note, text);
+            findings.push(finding.number("first", first.to_degrees()).number("last", last.to_degrees()));
+        }
+        let reach = viewer[viewer.len() - 1];
+        // From grazing light the other horizon is nearly a half turn from the mirror direction.
+        let needed = if self.is_specular { FRAC_PI_2 + last } else { FRAC_PI_2 };
+        if reach < needed - 0.05 {
+            let text = format!(
+                "{} ends at {} degrees, and the hemisphere at {}; beyond, the last value goes on",
+                self.names[2],
+                degrees(reach),
+                degrees(needed)
+            );
+            let finding = Finding::new("coverage", part, Status::Note, text);
+            findings.push(finding.number("reach", reach.to_degrees()).number("needed", needed.to_degrees()));
+        }
+        findings
+    }
+
+    /// That the pole of the viewer is one direction with one value, whatever the azimuth, and that of the light too.
+    pub(super) fn check_pole(&self, part: &str) -> Vec<Finding> {
+        let mut findings = Vec::new();
+        let [light, rotations, viewer, azimuths] = self.knots.each_ref().map(Vec::len);
+        if self.knots[2][0].abs() < 1e-6 && azimuths > 1 {
+            let worst = self.spread(
+                self.lights()
+                    .map(|[polar, azimuth]| (0..azimuths).map(|phi| self.texel([polar, azimuth, 0, phi])).collect()),
+            );
+            findings.push(self.pole(part, self.names[2], worst));
+        }
+        // With the light at the normal, the sample's rotation and the viewer's azimuth are one angle.
+        if self.knots[0][0].abs() < 1e-6 && light > 0 && rotations > 1 && self.knots[2][0].abs() < 1e-6 && viewer > 0 {
+            let at_zenith = (0..rotations).map(|azimuth| self.texel([0, azimuth, 0, 0])).collect();
+            let worst = self.spread(std::iter::once(at_zenith));
+            findings.push(self.pole(part, self.names[0], worst));
+        }
+        findings
+    }
+
+    fn pole(&self, part: &str, axis: &str, (worst, place): (f64, usize)) -> Finding {
+        let (status, text) = match worst {
+            worst if worst <= SAME => (Status::Pass, format!("one value at {axis} 0, whatever the azimuth")),
+            worst => {
+                let status = if worst <= APART { Status::Note } else { Status::Warn };
+                let light = degrees(self.knots[0][place / self.knots[1].len().max(1)]);
+                let at = if axis == self.names[0] { String::new() } else { format!(" for light at {light} degrees") };
+                let part = percent(worst);
+                (
+                    status,
+                    format!(
+                        "at {axis} 0, one direction, values with other azimuths differ by {part} of the largest{at}"
+                    ),
+                )
+            }
+        };
+        Finding::new("pole", part, status, text).number("difference", worst)
+    }
+
+    /// The largest difference among texels that should be alike, as a part of the largest of them, and in which group.
+    fn spread(&self, groups: impl Iterator<Item = Vec<&'a [f32]>>) -> (f64, usize) {
+        let of_group = |texels: Vec<&[f32]>| {
+            let of_channel = |channel: usize| {
+                let values = texels.iter().map(|texel| f64::from(texel[channel]));
+                let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+                let size = low.abs().max(high.abs());
+                if size > 0.0 { (high - low) / size } else { 0.0 }
+            };
+            (0..self.channels).map(of_channel).fold(0.0, f64::max)
+        };
+        let each = groups.map(of_group).enumerate();
+        each.fold((0.0, 0), |worst, (index, spread)| if spread > worst.0 { (spread, index) } else { worst })
+    }
+}

@@ -1,0 +1,211 @@
+//! How far two materials are apart: in numbers, and to the eye.
+
+use std::f64::consts::PI;
+
+use serde::Serialize;
+
+use crate::colour::{Coloured, NoColour, Target, delta_e, white};
+use crate::directions::pairs;
+use crate::scattering::eval_pairs;
+use crate::{Aspect, Scattering};
+
+/// The differences of two materials over a set of directions, all channels together, in 1/sr.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Difference {
+    /// The names of the channels that were compared.
+    pub channels: Vec<String>,
+    /// At how many pairs of directions.
+    pub pairs: usize,
+    /// The largest value of the first material among them.
+    pub peak: f64,
+    /// The largest difference.
+    pub max: f64,
+    /// The root of the mean squared difference.
+    pub rms: f64,
+    /// The mean of the second material less the first.
+    pub bias: f64,
+    /// `rms` as a part of the root of the mean squared value of the first material.
+    pub relative_rms: f64,
+    /// Where the largest difference is: `wi` and `wo`, with z > 0.
+    pub worst: [[f64; 3]; 2],
+}
+
+/// How different two spheres look, one of each material, under one light: CIE delta E 2000 of their pixels. About 1 is
+/// just noticed, side by side.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Visible {
+    /// Pixels that are lit.
+    pub pixels: usize,
+    /// The mean over them.
+    pub mean: f64,
+    /// A twentieth of the pixels is further off.
+    pub percentile_95: f64,
+    /// The largest.
+    pub max: f64,
+}
+
+/// Compares two materials at up to `count` pairs of directions with polar angles up to `limit` in radians: the same pairs
+/// at every call, every other one near the mirror direction.
+///
+/// Materials with the same channels are compared in these, others in XYZ.
+///
+/// # Errors
+/// [`NoColour`] where channels differ and those of one have no colour.
+pub fn difference(
+    a: &dyn Scattering,
+    b: &dyn Scattering,
+    aspect: Aspect,
+    limit: f64,
+    count: usize,
+) -> Result<Difference, NoColour> {
+    if a.channels() != b.channels() {
+        let (a, b) = (Coloured::new(a, Target::Xyz)?, Coloured::new(b, Target::Xyz)?);
+        return difference(&a, &b, aspect, limit, count);
+    }
+    let pairs = pairs(count, limit);
+    let placed: Vec<_> = pairs.iter().map(|&(wi, wo)| aspect.place(wi, wo)).collect();
+    let (first, second) = (eval_pairs(a, &placed), eval_pairs(b, &placed));
+    let channels = a.channels().count();
+    let (mut max, mut worst, mut peak) = (0.0, [[0.0, 0.0, 1.0]; 2], 0.0_f64);
+    let (mut squares, mut values, mut bias) = (0.0, 0.0, 0.0);
+    for (index, (&a, &b)) in first.iter().zip(&second).enumerate() {
+        let (a, difference) = (f64::from(a), f64::from(b) - f64::from(a));
+        squares += difference * difference;
+        values += a * a;
+        bias += difference;
+        peak = peak.max(a);
+        if difference.abs() > max {
+            let (wi, wo) = pairs[index / channels];
+            (max, worst) = (difference.abs(), [wi, wo]);
+        }
+    }
+    let count = first.len().max(1) as f64;
+    Ok(Difference {
+        channels: a.channels().names(),
+        pairs: pairs.len(),
+        peak,
+        max,
+        rms: (squares / count).sqrt(),
+        bias: bias / count,
+        relative_rms: if values > 0.0 { (squares / values).sqrt() } else { 0.0 },
+        worst,
+    })
+}
+
+/// Draws a sphere of each material, `size` pixels wide, seen from afar under a distant light at 45 degrees from above left,
+/// and compares their pixels.
+///
+/// The colour of a pixel is relative to a perfect white that faces the light; what is brighter is white, as in a picture.
+///
+/// # Errors
+/// [`NoColour`] where the channels of one have no colour.
+pub fn visible(a: &dyn Scattering, b: &dyn Scattering, aspect: Aspect, size: usize) -> Result<Visible, NoColour> {
+    let pixels = lit_pixels(size);
+    let (first, second) = (colours(a, aspect, &pixels)?, colours(b, aspect, &pixels)?);
+    let mut errors: Vec<f64> = first.into_iter().zip(second).map(|(a, b)| delta_e(a, b)).collect();
+    errors.sort_by(f64::total_cmp);
+    let at = |share: f64| errors.get((share * errors.len() as f64) as usize).copied().unwrap_or(0.0);
+    Ok(Visible {
+        pixels: errors.len(),
+        mean: errors.iter().sum::<f64>() / errors.len().max(1) as f64,
+        percentile_95: at(0.95),
+        max: errors.last().copied().unwrap_or(0.0),
+    })
+}
+
+/// The directions to the light and to the viewer in the frame of each pixel that sees both.
+fn lit_pixels(size: usize) -> Vec<([f64; 3], [f64; 3])> {
+    const LIGHT: [f64; 3] = [-0.5, 0.5, std::f64::consts::FRAC_1_SQRT_2];
+    const VIEWER: [f64; 3] = [0.0, 0.0, 1.0];
+    let centre = |index: usize| (2.0 * index as f64 + 1.0) / size as f64 - 1.0;
+    let mut pixels = Vec::new();
+    for row in 0..size {
+        for column in 0..size {
+            let (x, y) = (centre(column), -centre(row));
+            let square = x * x + y * y;
+            if square >= 1.0 {
+                continue;
+            }
+            let normal = [x, y, (1.0 - square).sqrt()];
+            // The tangent goes round the vertical axis, which no normal that is seen is parallel to.
+            let around = normal[0].hypot(normal[2]);
+            let tangent = [normal[2] / around, 0.0, -normal[0] / around];
+            let up = cross(normal, tangent);
+            let local = |w: [f64; 3]| [dot(w, tangent), dot(w, up), dot(w, normal)];
+            let (wi, wo) = (local(LIGHT), local(VIEWER));
+            if wi[2] > 0.0 && wo[2] > 0.0 {
+                pixels.push((wi, wo));
+            }
+        }
+    }
+    pixels
+}
+
+/// XYZ of the pixels, of which a perfect white that faces the light has Y = 1.
+fn colours(
+    scattering: &dyn Scattering,
+    aspect: Aspect,
+    pixels: &[([f64; 3], [f64; 3])],
+) -> Result<Vec<[f64; 3]>, NoColour> {
+    let coloured = Coloured::new(scattering, Target::Xyz)?;
+    let placed: Vec<_> = pixels.iter().map(|&(wi, wo)| aspect.place(wi, wo)).collect();
+    let values = eval_pairs(&coloured, &placed);
+    let colour = |((wi, _), xyz): (&([f64; 3], [f64; 3]), &[f32])| {
+        [0, 1, 2].map(|c| (PI * f64::from(xyz[c]) * wi[2]).clamp(0.0, white()[c]))
+    };
+    Ok(pixels.iter().zip(values.chunks_exact(3)).map(colour).collect())
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{Exact, Mono};
+    use lobe_model::Lambert;
+
+    #[test]
+    fn a_constant_difference_is_found() {
+        let (a, b) = (Mono(|_, _| 0.25), Mono(|_, _| 0.2));
+        let found = difference(&a, &b, Aspect::REFLECTION, 1.4, 1000).expect("one channel");
+        for (x, expected) in [(found.max, 0.05), (found.rms, 0.05), (found.bias, -0.05), (found.relative_rms, 0.2)] {
+            assert!((x - expected).abs() < 1e-6, "{found:?}");
+        }
+        let same = difference(&a, &a, Aspect::REFLECTION, 1.4, 1000).expect("one channel");
+        assert_eq!((same.max, same.rms), (0.0, 0.0));
+        assert_eq!(visible(&a, &a, Aspect::REFLECTION, 32).expect("grey").max, 0.0);
+    }
+
+    #[test]
+    fn the_largest_difference_is_named() {
+        let bump = Mono(|_: [f64; 3], wo: [f64; 3]| if wo[0] > 0.9 { 1.0 } else { 0.0 });
+        let found = difference(&Mono(|_, _| 0.0), &bump, Aspect::REFLECTION, 1.5, 20_000).expect("one channel");
+        assert!(found.max == 1.0 && found.worst[1][0] > 0.9, "{found:?}");
+    }
+
+    #[test]
+    fn different_channels_are_compared_in_xyz() {
+        let found =
+            difference(&Mono(|_, _| 0.3 / PI), &Exact(Lambert { albedo: [0.3; 3] }), Aspect::REFLECTION, 1.4, 500)
+                .expect("colours");
+        assert_eq!(found.channels, ["X", "Y", "Z"]);
+        assert!(found.max < 1e-4, "{found:?}");
+    }
+
+    /// White and black differ by 100 where the white sphere faces the light, and by less where it is darker.
+    #[test]
+    fn spheres_differ_as_they_look() {
+        let grey = |albedo: f64| Exact(Lambert { albedo: [albedo; 3] });
+        let far = visible(&grey(1.0), &grey(0.0), Aspect::REFLECTION, 64).expect("colours");
+        assert!((far.max - 100.0).abs() < 0.5 && far.mean < far.percentile_95, "{far:?}");
+        assert!(far.pixels > 64 * 64 / 2, "{far:?}");
+        let near = visible(&grey(0.5), &grey(0.51), Aspect::REFLECTION, 64).expect("colours");
+        assert!(near.max < 1.2 && near.mean > 0.2, "{near:?}");
+    }
+}

@@ -1,0 +1,99 @@
+//! Helmholtz reciprocity: exchanging light and viewer changes nothing.
+
+use serde::Serialize;
+
+use crate::directions::pairs;
+use crate::scattering::eval_pairs;
+use crate::{Aspect, Scattering};
+
+/// How far `f(wi, wo)` and `f(wo, wi)` are apart.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Reciprocity {
+    /// How many pairs of directions were exchanged.
+    pub pairs: usize,
+    /// The largest difference, in 1/sr.
+    pub max: f64,
+    /// The root of the mean squared difference, in 1/sr.
+    pub rms: f64,
+    /// `rms` as a part of the root of the mean squared value.
+    pub relative_rms: f64,
+    /// Half of all differences are at most this part of the mean of their two values.
+    pub relative_median: f64,
+    /// Where the largest difference is: `wi` and `wo`, with z > 0.
+    pub worst: [[f64; 3]; 2],
+}
+
+/// Exchanges up to `count` pairs of directions, with polar angles up to `limit` in radians: the same pairs at every call,
+/// every other one near the mirror direction. Differences are over all channels.
+///
+/// Transmission is compared with that of the way back. In a file that has one way only that is the same data, and the
+/// result says nothing.
+pub fn reciprocity(scattering: &dyn Scattering, aspect: Aspect, limit: f64, count: usize) -> Reciprocity {
+    let pairs = pairs(count, limit);
+    let there: Vec<_> = pairs.iter().map(|&(wi, wo)| aspect.place(wi, wo)).collect();
+    let back: Vec<_> = there.iter().map(|&(wi, wo)| (wo, wi)).collect();
+    let channels = scattering.channels().count();
+    let (there, back) = (eval_pairs(scattering, &there), eval_pairs(scattering, &back));
+
+    let (mut max, mut worst) = (0.0, [[0.0, 0.0, 1.0]; 2]);
+    let (mut squares, mut values) = (0.0, 0.0);
+    let mut relative = Vec::with_capacity(there.len());
+    for (index, (&a, &b)) in there.iter().zip(&back).enumerate() {
+        let (difference, mean) = (f64::from(a - b).abs(), 0.5 * (f64::from(a) + f64::from(b)));
+        squares += difference * difference;
+        values += mean * mean;
+        if mean != 0.0 {
+            relative.push(difference / mean.abs());
+        }
+        if difference > max {
+            let (wi, wo) = pairs[index / channels];
+            (max, worst) = (difference, [wi, wo]);
+        }
+    }
+    relative.sort_by(f64::total_cmp);
+    let part = |a: f64, b: f64| if b > 0.0 { (a / b).sqrt() } else { 0.0 };
+    Reciprocity {
+        pairs: pairs.len(),
+        max,
+        rms: part(squares, there.len() as f64),
+        relative_rms: part(squares, values),
+        relative_median: relative.get(relative.len() / 2).copied().unwrap_or(0.0),
+        worst,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{Exact, Mono, gold};
+
+    #[test]
+    fn a_model_is_reciprocal() {
+        let found = reciprocity(&Exact(gold(0.3)), Aspect::REFLECTION, 1.4, 2000);
+        assert!(found.pairs > 1500 && found.relative_rms < 1e-4, "{found:?}");
+    }
+
+    /// `f = a + b cos(theta_i)` differs by `b |cos(theta_i) - cos(theta_o)|` from itself exchanged.
+    #[test]
+    fn differences_are_what_they_are() {
+        let limit = 1.3_f64;
+        let found = reciprocity(&Mono(|wi: [f64; 3], _| 1.0 + 0.5 * wi[2]), Aspect::REFLECTION, limit, 4000);
+        let [wi, wo] = found.worst;
+        assert!((found.max - 0.5 * (wi[2] - wo[2]).abs()).abs() < 1e-6, "{found:?}");
+        assert!(found.max > 0.3 && found.max < 0.5 * (1.0 - limit.cos()), "{found:?}");
+        assert!(found.rms > 0.01 && found.rms < found.max && found.relative_median < found.max, "{found:?}");
+    }
+
+    /// Transmission that knows the side of the light is compared with the other side's.
+    #[test]
+    fn transmission_is_compared_with_the_way_back() {
+        let uneven = Mono(|wi: [f64; 3], wo: [f64; 3]| match (wi[2] > 0.0, wo[2] > 0.0) {
+            (true, false) => 1.0,
+            (false, true) => 0.8,
+            _ => 0.0,
+        });
+        let found = reciprocity(&uneven, Aspect::TRANSMISSION, 1.3, 500);
+        assert!((found.max - 0.2).abs() < 1e-6 && (found.relative_median - 0.2 / 0.9).abs() < 1e-6, "{found:?}");
+        assert_eq!(reciprocity(&uneven, Aspect::REFLECTION, 1.3, 500).max, 0.0);
+    }
+}

@@ -1,0 +1,81 @@
+//! How far a table is from the material that it was made of.
+
+use std::f64::consts::{PI, TAU};
+
+use lobe::{Brdf, OpenError};
+use lobe_table::coords::angles_to_directions;
+use lobe_table::{Edges, Samples};
+use serde::Serialize;
+
+use crate::directions::quasi_random;
+use crate::scattering::eval_pairs;
+use crate::{Aspect, Scattering};
+
+/// The differences between a table and its origin over a set of directions, all channels together.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Resampling {
+    /// At how many pairs of directions they were compared.
+    pub probes: usize,
+    /// The largest value of the material among them, in 1/sr.
+    pub peak: f64,
+    /// The largest difference, in 1/sr.
+    pub max: f64,
+    /// The root of the mean squared difference, in 1/sr.
+    pub rms: f64,
+    /// `max / peak`.
+    pub relative_to_peak: f64,
+    /// The largest difference as a part of the value there, where that is at least a thousandth of the peak.
+    pub relative_to_value: f64,
+    /// Where the largest difference is: `wi` and `wo`, with z > 0.
+    pub worst: [[f64; 3]; 2],
+}
+
+/// Elevations below this cosine, 3.4 degrees, are not compared: nodes there are not the material's own values.
+const LOWEST: f64 = 0.06;
+
+/// Compares a table with its origin at up to `count` pairs of directions that are the same at every call: evenly in the
+/// four angles, theta more densely toward the mirror direction, within the knots of sigma.
+///
+/// # Errors
+/// Where the table is too large to be evaluated.
+pub fn error(
+    scattering: &dyn Scattering,
+    aspect: Aspect,
+    samples: &Samples,
+    count: usize,
+) -> Result<Resampling, OpenError> {
+    let sigmas = &samples.knots()[0];
+    let (low, high) = (sigmas[0], sigmas[sigmas.len() - 1]);
+    let probe = |index: usize| {
+        let [a, b, c, d] = quasi_random::<4>(index);
+        angles_to_directions([low + a * (high - low), TAU * b, PI * c.powi(3), TAU * d], |sigma| sigma)
+    };
+    let probes: Vec<_> = (0..count).map(probe).filter(|(wi, wo)| wi[2] >= LOWEST && wo[2] >= LOWEST).collect();
+    let table = Brdf::new(samples, &Edges { non_negative: false, ..Edges::default() })?;
+    let placed: Vec<_> = probes.iter().map(|&(wi, wo)| aspect.place(wi, wo)).collect();
+    let (exact, found) = (eval_pairs(scattering, &placed), eval_pairs(&table, &placed));
+
+    let channels = scattering.channels().count();
+    let peak = exact.iter().map(|&value| f64::from(value)).fold(0.0, f64::max);
+    let (mut max, mut squares, mut relative, mut worst) = (0.0, 0.0, 0.0_f64, [[0.0, 0.0, 1.0]; 2]);
+    for (index, (&exact, &found)) in exact.iter().zip(&found).enumerate() {
+        let (exact, difference) = (f64::from(exact), f64::from(exact - found).abs());
+        squares += difference * difference;
+        if exact.abs() >= 1e-3 * peak && exact != 0.0 {
+            relative = relative.max(difference / exact.abs());
+        }
+        if difference > max {
+            let (wi, wo) = probes[index / channels];
+            (max, worst) = (difference, [wi, wo]);
+        }
+    }
+    Ok(Resampling {
+        probes: probes.len(),
+        peak,
+        max,
+        rms: (squares / exact.len().max(1) as f64).sqrt(),
+        relative_to_peak: if peak > 0.0 { max / peak } else { 0.0 },
+        relative_to_value: relative,
+        worst,
+    })
+}

@@ -1,0 +1,244 @@
+//! Knots that keep the interpolation error under a bound.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use lobe_table::{Samples, SamplesError};
+
+use super::{error, measure};
+use crate::samples::{directions, nodes};
+use crate::{Aspect, Scattering};
+
+/// How large the interpolation error may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bound {
+    /// As a part of the largest value of the material; or of each value, but of no less than a thousandth of the largest.
+    pub error: f64,
+    /// Which of the two.
+    pub per_value: bool,
+}
+
+/// A table with knots of our own choice.
+#[derive(Clone, Debug)]
+pub struct Chosen {
+    /// The table.
+    pub samples: Samples,
+    /// The error that was found, on directions that had no part in the choice, in the terms of the bound.
+    pub error: f64,
+}
+
+/// The knots of one axis, in radians.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Knots {
+    /// All of these.
+    Keep(Vec<f64>),
+    /// As few of these as the bound allows, and the first and the last.
+    Choose(Vec<f64>),
+}
+
+impl Knots {
+    fn all(&self) -> &[f64] {
+        match self {
+            Knots::Keep(knots) | Knots::Choose(knots) => knots,
+        }
+    }
+}
+
+/// Values of more channels than this are probed at this many of them.
+const CHANNELS: usize = 4;
+/// Values below this part of the largest are as exact as it asks for, in a bound on each value.
+const FLOOR: f64 = 1e-3;
+/// Directions on which the result is tested.
+const PROBES: usize = 60_000;
+
+/// Measures a material on a dense grid, keeps of its knots those that linear interpolation needs, and measures again there.
+///
+/// On each axis to choose, the knot with the largest error is added until the error there is within its share of the
+/// bound. The multilinear interpolant is no further from the material than the sum of the errors of the axes, so equal
+/// shares are enough; more is tried first, as errors seldom meet. `progress` is told the share that is done.
+///
+/// The result may miss the bound: see [`Chosen::error`]. Between the candidates nothing can be added, and a material that
+/// jumps, as a Klems matrix does, cannot be interpolated to any bound.
+///
+/// # Errors
+/// As [`measure`].
+pub fn choose(
+    scattering: &dyn Scattering,
+    aspect: Aspect,
+    axes: &[Knots; 4],
+    bound: Bound,
+    progress: impl Fn(f64),
+) -> Result<Chosen, SamplesError> {
+    let free = axes.iter().filter(|axis| matches!(axis, Knots::Choose(knots) if knots.len() > 1)).count().max(1);
+    let dense = axes.each_ref().map(|axis| axis.all().to_vec());
+    let grid = Grid::new(&measure(scattering, aspect, dense, |done| progress(0.8 * done))?, bound);
+    let mut best: Option<Chosen> = None;
+    // First as if the errors of the axes did not add up, then as if they did, then with something to spare.
+    for share in [1.0, 0.5, 1.0 / free as f64, 0.5 / free as f64] {
+        let knots = std::array::from_fn(|axis| match &axes[axis] {
+            Knots::Keep(knots) => knots.clone(),
+            Knots::Choose(_) => grid.thin(axis, share * bound.error),
+        });
+        let samples = measure(scattering, aspect, knots, |_| {})?;
+        // A table that is too large to be evaluated is worse than any other.
+        let found = error(scattering, aspect, &samples, PROBES).map_or(f64::INFINITY, |found| {
+            if bound.per_value { found.relative_to_value } else { found.relative_to_peak }
+        });
+        if best.as_ref().is_none_or(|best| found < best.error) {
+            best = Some(Chosen { samples, error: found });
+        }
+        if found <= bound.error {
+            break;
+        }
+    }
+    progress(1.0);
+    Ok(best.expect("at least one share was tried"))
+}
+
+/// Candidates for the knots of a material of which nothing is known, a million nodes: those of sigma lie densest at
+/// grazing light, where values grow without bound, those of theta at the mirror direction, where their first step is a
+/// ten-thousandth of a degree. An isotropic material has one knot of psi, and more of the others.
+pub fn candidates(is_isotropic: bool) -> [Vec<f64>; 4] {
+    let [sigmas, psis, thetas, phis] = if is_isotropic { [61, 1, 161, 73] } else { [25, 25, 61, 31] };
+    let steps = |count: usize| (0..count).map(move |index| index as f64 / (count - 1).max(1) as f64);
+    [
+        steps(sigmas).map(|x| FRAC_PI_2 * (1.0 - (1.0 - x).powi(2))).collect(),
+        steps(psis).map(|x| TAU * x).collect(),
+        steps(thetas).map(|x| PI * x.powi(3)).collect(),
+        steps(phis).map(|x| TAU * x).collect(),
+    ]
+}
+
+/// The values of a material at dense knots.
+struct Grid {
+    knots: [Vec<f64>; 4],
+    /// `[node][channel]`, each divided by what an error there is measured in.
+    values: Vec<f64>,
+    /// What errors are measured in, as the values.
+    scales: Vec<f64>,
+    /// One a node: an error there counts.
+    counts: Vec<bool>,
+    channels: usize,
+}
+
+impl Grid {
+    fn new(samples: &Samples, bound: Bound) -> Self {
+        let all = samples.channels().count();
+        let chosen: Vec<usize> =
+            (0..all.min(CHANNELS)).map(|i| i * (all - 1) / (all.min(CHANNELS) - 1).max(1)).collect();
+        let texels = samples.values().chunks_exact(all);
+        let values: Vec<f64> = texels.flat_map(|texel| chosen.iter().map(|&c| f64::from(texel[c]))).collect();
+        let peak = values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        let scale = |value: &f64| if bound.per_value { value.abs().max(FLOOR * peak) } else { peak };
+        let above = |node| {
+            let (wi, wo) = directions(samples, node);
+            wi[2] > 0.0 && wo[2] > 0.0
+        };
+        Grid {
+            knots: samples.knots().clone(),
+            scales: values.iter().map(scale).collect(),
+            values,
+            counts: nodes(samples).map(above).collect(),
+            channels: chosen.len(),
+        }
+    }
+
+    /// The knots of an axis between which no other is further off a straight line than `error`.
+    fn thin(&self, axis: usize, error: f64) -> Vec<f64> {
+        let knots = &self.knots[axis];
+        if knots.len() < 3 {
+            return knots.clone();
+        }
+        let last = knots.len() - 1;
+        let mut kept = vec![0, last];
+        let mut open = vec![(0, last)];
+        while let Some((a, b)) = open.pop() {
+            let worst = (a + 1..b).map(|k| (k, self.error(axis, a, k, b))).max_by(|x, y| x.1.total_cmp(&y.1));
+            if let Some((k, _)) = worst.filter(|(_, worst)| *worst > error) {
+                kept.push(k);
+                open.extend([(a, k), (k, b)]);
+            }
+        }
+        kept.sort_unstable();
+        kept.dedup();
+        kept.into_iter().map(|k| knots[k]).collect()
+    }
+
+    /// How far the values at knot `k` of an axis are from the line between knots `a` and `b`, at most, in terms of the
+    /// bound.
+    fn error(&self, axis: usize, a: usize, k: usize, b: usize) -> f64 {
+        let knots = &self.knots[axis];
+        let t = (knots[k] - knots[a]) / (knots[b] - knots[a]);
+        let inner: usize = self.knots[axis + 1..].iter().map(Vec::len).product();
+        let outer: usize = self.knots[..axis].iter().map(Vec::len).product();
+        let mut largest = 0.0_f64;
+        for first in 0..outer {
+            let row = |knot: usize| (first * knots.len() + knot) * inner;
+            let (at_a, at_k, at_b) = (row(a), row(k), row(b));
+            for i in (0..inner).filter(|i| self.counts[at_k + i]) {
+                for c in 0..self.channels {
+                    let value = |at: usize| self.values[(at + i) * self.channels + c];
+                    let line = (1.0 - t) * value(at_a) + t * value(at_b);
+                    let difference = (line - value(at_k)).abs() / self.scales[(at_k + i) * self.channels + c];
+                    largest = largest.max(difference);
+                }
+            }
+        }
+        largest
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{Exact, Mono, gold};
+
+    fn isotropic() -> [Knots; 4] {
+        candidates(true).map(Knots::Choose)
+    }
+
+    #[test]
+    fn the_bound_holds_and_a_smaller_one_takes_more_knots() {
+        let material = Exact(gold(0.4));
+        let nodes = [0.05, 0.01].map(|bound| {
+            let bound = Bound { error: bound, per_value: false };
+            let chosen = choose(&material, Aspect::REFLECTION, &isotropic(), bound, |_| {}).expect("a table");
+            assert!(chosen.error <= bound.error, "{} is over {}", chosen.error, bound.error);
+            // Directions that the choice has not seen.
+            let found = error(&material, Aspect::REFLECTION, &chosen.samples, 100_000).expect("a table");
+            assert!(found.relative_to_peak <= 1.5 * bound.error, "{found:?}");
+            chosen.samples.values().len()
+        });
+        assert!(nodes[0] < nodes[1], "{nodes:?}");
+    }
+
+    #[test]
+    fn what_is_linear_needs_no_knots() {
+        let flat = Mono(|_, _| 0.25);
+        let bound = Bound { error: 1e-4, per_value: true };
+        let chosen = choose(&flat, Aspect::REFLECTION, &isotropic(), bound, |_| {}).expect("a table");
+        assert_eq!(chosen.samples.knots().each_ref().map(Vec::len), [2, 1, 2, 2]);
+    }
+
+    #[test]
+    fn given_knots_are_kept() {
+        let [.., thetas, _] = isotropic();
+        let fixed =
+            [Knots::Keep(vec![0.0, 0.5, 1.0]), Knots::Keep(vec![0.0]), thetas, Knots::Keep(vec![0.0, 1.0, 2.0])];
+        let bound = Bound { error: 0.05, per_value: false };
+        let chosen = choose(&Exact(gold(0.4)), Aspect::REFLECTION, &fixed, bound, |_| {}).expect("a table");
+        assert_eq!(
+            (&chosen.samples.knots()[0], &chosen.samples.knots()[3]),
+            (&vec![0.0, 0.5, 1.0], &vec![0.0, 1.0, 2.0])
+        );
+        // Three azimuths are not enough, and that is said.
+        assert!(chosen.error > 0.05, "{}", chosen.error);
+    }
+
+    #[test]
+    fn a_jump_is_missed_and_said() {
+        let jump = Mono(|_: [f64; 3], wo: [f64; 3]| if wo[0] > 0.1 { 1.0 } else { 0.0 });
+        let bound = Bound { error: 0.01, per_value: false };
+        let chosen = choose(&jump, Aspect::REFLECTION, &isotropic(), bound, |_| {}).expect("a table");
+        assert!(chosen.error > 0.3, "{}", chosen.error);
+    }
+}

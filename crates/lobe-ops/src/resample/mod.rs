@@ -1,0 +1,50 @@
+//! Any material into a table of specular coordinates.
+//!
+//! Nothing else in lobe resamples: a file is evaluated on its own grid. This is for programs that want another grid, and
+//! it always says how far the table is from the material.
+
+mod error;
+mod knots;
+
+pub use error::{Resampling, error};
+pub use knots::{Bound, Chosen, Knots, candidates, choose};
+
+use lobe_model::goniometer::lift;
+use lobe_table::coords::angles_to_directions;
+use lobe_table::{Samples, SamplesError};
+
+use crate::scattering::eval_pairs;
+use crate::{Aspect, Scattering};
+
+/// Measures a material at every node of `knots`: sigma, psi, theta and phi in radians, as in [`Samples`]. `progress` is
+/// told the share that is done, now and then.
+///
+/// A node below 3.4 degrees of elevation takes the value of the same azimuth a little higher (see [`lift`]): below the
+/// horizon there is no value, and a table needs one there to interpolate toward it.
+///
+/// # Errors
+/// [`SamplesError`] where the knots make no table, or a value of the material is not finite.
+pub fn measure(
+    scattering: &dyn Scattering,
+    aspect: Aspect,
+    knots: [Vec<f64>; 4],
+    progress: impl Fn(f64),
+) -> Result<Samples, SamplesError> {
+    let [sigmas, psis, thetas, phis] = &knots;
+    let mut values = Vec::new();
+    for (index, &sigma) in sigmas.iter().enumerate() {
+        for &psi in psis {
+            let node = |&theta: &f64, &phi: &f64| pair(aspect, [sigma, psi, theta, phi]);
+            let pairs: Vec<_> = thetas.iter().flat_map(|theta| phis.iter().map(move |phi| node(theta, phi))).collect();
+            values.extend(eval_pairs(scattering, &pairs));
+        }
+        progress((index + 1) as f64 / sigmas.len() as f64);
+    }
+    Samples::new(aspect.scatter, knots, scattering.channels().clone(), values)
+}
+
+/// The directions at which the value of a node is measured.
+fn pair(aspect: Aspect, angles: [f64; 4]) -> ([f64; 3], [f64; 3]) {
+    let (wi, wo) = angles_to_directions(angles, |sigma| sigma);
+    aspect.place(lift(wi), lift(wo))
+}

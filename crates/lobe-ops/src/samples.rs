@@ -1,0 +1,60 @@
+//! Small things that operations on tables share.
+
+use std::f64::consts::TAU;
+
+use lobe_table::coords::angles_to_directions;
+use lobe_table::reference::zenith;
+use lobe_table::{Edges, Samples, SamplesError};
+
+/// Knots that were degrees in a file come back to within this of the pole or the full turn.
+pub(crate) const ANGLE_ROUNDING: f64 = 1e-5;
+
+/// The same table with other values.
+pub(crate) fn with_values(samples: &Samples, values: Vec<f32>) -> Result<Samples, SamplesError> {
+    let table = Samples::new(samples.scatter(), samples.knots().clone(), samples.channels().clone(), values)?;
+    match samples.refraction() {
+        Some(offsets) => table.with_refraction(offsets.to_vec()),
+        None => Ok(table),
+    }
+}
+
+/// The policy under which repairs look values up: that of the evaluation, but negative values stay what they are.
+pub(crate) fn signed_edges() -> Edges {
+    Edges { non_negative: false, ..Edges::default() }
+}
+
+/// The nodes of a table in the order of its values: the knot indices of sigma, psi, theta and phi.
+pub(crate) fn nodes(samples: &Samples) -> impl Iterator<Item = [usize; 4]> {
+    let counts = samples.knots().each_ref().map(Vec::len);
+    (0..counts.iter().product()).map(move |index| node(counts, index))
+}
+
+/// The node at a position in the order of the values.
+pub(crate) fn node(counts: [usize; 4], mut index: usize) -> [usize; 4] {
+    let mut node = [0; 4];
+    for axis in (0..4).rev() {
+        node[axis] = index % counts[axis];
+        index /= counts[axis];
+    }
+    node
+}
+
+/// The position of a node in the order of the values.
+pub(crate) fn position(counts: [usize; 4], node: [usize; 4]) -> usize {
+    node.into_iter().zip(counts).fold(0, |at, (index, count)| at * count + index)
+}
+
+/// The angles of a node.
+pub(crate) fn angles(samples: &Samples, node: [usize; 4]) -> [f64; 4] {
+    std::array::from_fn(|axis| samples.knots()[axis][node[axis]])
+}
+
+/// The directions of a node, both with z > 0 for nodes above the horizon.
+pub(crate) fn directions(samples: &Samples, node: [usize; 4]) -> ([f64; 3], [f64; 3]) {
+    angles_to_directions(angles(samples, node), |sigma| zenith(samples, &Edges::default(), sigma))
+}
+
+/// Whether the last of these angles is the first one again, a turn later.
+pub(crate) fn closes_circle(knots: &[f64]) -> bool {
+    knots.len() > 1 && (knots[knots.len() - 1] - knots[0] - TAU).abs() < ANGLE_ROUNDING
+}
