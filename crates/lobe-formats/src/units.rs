@@ -55,8 +55,8 @@ pub(crate) fn scale_slices(file: &Path, samples: &Samples, targets: &[Vec<f64>])
         let weights = quadrature.weights(zenith(samples, &Edges::default(), samples.knots()[0][s]));
         for p in 0..psis {
             let slice = &mut values[(s * psis + p) * thetas * phis * channels..][..thetas * phis * channels];
-            for c in 0..channels {
-                let target = targets[c][p * sigmas + s];
+            for (c, targets) in targets.iter().enumerate() {
+                let target = targets[p * sigmas + s];
                 let of_channel = slice.iter().skip(c).step_by(channels);
                 let reflectance: f64 = of_channel.clone().zip(&weights).map(|(&f, weight)| f64::from(f) * weight).sum();
                 let scale = target / reflectance;

@@ -4,7 +4,7 @@
 mod examples;
 
 use examples::{tiny_mbsdf, tiny_merl, tiny_pbsdf, tiny_rgl};
-use lobe_formats::{Format, FormatError, Place, Sides, mbsdf, merl, pbsdf, rgl, tensor, utia};
+use lobe_formats::{Format, FormatError, Place, Sides, mbsdf, merl, pbsdf, tensor, utia};
 use lobe_table::mueller::Mueller;
 use std::path::Path;
 
