@@ -251,7 +251,8 @@ mod tests {
     fn no_set_of_points_takes_the_square_of_their_number() {
         let count = 100_000;
         let part = |index: usize| index as f64 / count as f64;
-        let sets: [(&str, fn(f64) -> [f64; 2]); 4] = [
+        type Curve = fn(f64) -> [f64; 2];
+        let sets: [(&str, Curve); 4] = [
             ("a parabola", |t| [t, t * t]),
             ("a line and points off it", |t| if t < 1e-4 { [0.3, 0.5 + t] } else { [t, 0.0] }),
             ("two lines", |t| if t < 0.5 { [2.0 * t, 0.0] } else { [2.0 * t - 1.0, 0.5] }),
