@@ -2,7 +2,8 @@
 //! size of the file can justify.
 //!
 //! The damage follows from a seed, so every run is the same. `LOBE_MUTATIONS` sets the number of damaged files for each
-//! sound one, which is 400 without it. A file that is too much for its reader is kept in `target/tmp`.
+//! sound one, which is 400 without it, and `LOBE_MUTATION_SEED` the seed of the first of them, which is 0. A file that is
+//! too much for its reader is kept in `target/tmp`.
 
 mod common;
 #[path = "common/examples.rs"]
@@ -56,13 +57,16 @@ fn run(format: Format, name: &str, bytes: &[u8], costs: &mut BTreeMap<&'static s
     result.is_ok()
 }
 
+/// A number from the environment.
+fn variable(name: &str, default: usize) -> usize {
+    std::env::var(name)
+        .map_or(default, |value| value.parse().unwrap_or_else(|_| panic!("{name} is no number: {value}")))
+}
+
 /// One test, so that no other thread allocates meanwhile.
 #[test]
 fn damaged_files_do_no_harm() {
-    let count: usize = match std::env::var("LOBE_MUTATIONS") {
-        Ok(count) => count.parse().expect("LOBE_MUTATIONS is a number of files"),
-        Err(_) => 400,
-    };
+    let (count, first) = (variable("LOBE_MUTATIONS", 400), variable("LOBE_MUTATION_SEED", 0));
     let mut files = examples::all();
     let own = files.len();
     if let Some(shared) = common::shared() {
@@ -84,9 +88,9 @@ fn damaged_files_do_no_harm() {
         }
         let same: Vec<&[u8]> = files.iter().filter(|(other, _)| other == format).map(|(_, bytes)| &bytes[..]).collect();
         let mutants = (count * FULL_COUNT_SIZE / bytes.len().max(FULL_COUNT_SIZE)).max(1);
-        for seed in 0..mutants as u64 {
-            let mut random = Pcg64Mcg::seed_from_u64(seed << 16 | index as u64);
-            let mutant = mutate::mutant(&mut random, bytes, same[seed as usize % same.len()]);
+        for seed in first..first + mutants {
+            let mut random = Pcg64Mcg::seed_from_u64((seed << 16 | index) as u64);
+            let mutant = mutate::mutant(&mut random, bytes, same[seed % same.len()]);
             run(*format, &name(&format!("seed-{seed}")), &mutant, &mut costs);
         }
     }
