@@ -184,6 +184,8 @@ fn azimuths_have_no_seam() {
         let angles = [[0.4, a, 0.2, 1.0], [0.4, b, 0.3, 2.0], [0.4, 2.5, 0.2, 1.0]];
         let data = Scattered::new(Scatter::Reflection, Channels::Mono, &angles, &[1.0, 2.0, 3.0]).expect("samples");
         assert_eq!(data.incidences().len(), 2, "{a} and {b}");
+        let data = Scattered::new(Scatter::Reflection, Channels::Mono, &angles[..2], &[1.0, 2.0]).expect("samples");
+        assert!(data.is_isotropic(), "{a} and {b}");
     }
     let angles = [[3e-6, 0.0, 0.2, 1.0], [3e-6, 1e-3, 0.3, 2.0], [0.4, 2.5, 0.2, 1.0]];
     let data = Scattered::new(Scatter::Reflection, Channels::Mono, &angles, &[1.0, 2.0, 3.0]).expect("samples");
