@@ -131,7 +131,12 @@ pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
     Ok((format, read(format, &bytes, path)?))
 }
 
-fn read(format: Format, bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
+/// Reads `bytes` as a file of this format, whatever they look like. `path` names it in errors, and its extension counts
+/// as in [`open`].
+///
+/// # Errors
+/// [`FormatError`] where the bytes are no sound file of the format.
+pub fn read(format: Format, bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
     let scattered = |data| Ok(Document::Scattered(Measured::new(data, &[])));
     match format {
         Format::Pbsdf => Ok(Document::Mueller(Measured::new(pbsdf::read(bytes, path)?, &[]))),

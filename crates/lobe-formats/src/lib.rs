@@ -41,7 +41,7 @@ pub mod window_xml;
 mod write;
 pub mod zemax;
 
-pub use document::{Document, Measured, open};
+pub use document::{Document, Measured, open, read};
 pub use error::{FormatError, Place};
 pub use sheet::Sides;
 pub use sniff::{Format, sniff};

@@ -69,7 +69,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Vec<Part>, FormatError> {
     if azimuths.is_empty() || radials.is_empty() {
         return Err(text.error(text.line(), "`DataBegin`", "ScatterAzimuth and ScatterRadial first"));
     }
-    let tables = tables(&mut text, azimuths.len() * radials.len(), &channels)?;
+    let tables = tables(&mut text, azimuths.len().saturating_mul(radials.len()), &channels)?;
     if tables.is_empty() {
         return Err(text.error(text.line(), "no table", "at least one"));
     }

@@ -43,7 +43,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
     for line in lines {
         let [micrometres, theta_i, phi_i, theta_o, phi_o, value, ..] = line.exactly::<COLUMNS>("21 columns")?;
         let nm = (micrometres * 1e9).round() / 1e6;
-        if nm <= 0.0 {
+        if !(nm > 0.0 && nm.is_finite()) {
             return Err(line.error(format!("wavelength {micrometres}"), "a positive number of micrometres"));
         }
         samples.push(nm, [theta_i, phi_i, theta_o, phi_o].map(f64::to_radians), value);

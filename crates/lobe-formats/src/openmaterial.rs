@@ -47,7 +47,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
         if let &[Some(metres), Some(theta_i), Some(theta_o), Some(phi), Some(value)] = numbers {
             // Nanometres to a millionth, so that 4.1e-7 m is 410 nm.
             let nm = (metres * 1e15).round() / 1e6;
-            if nm <= 0.0 {
+            if !(nm > 0.0 && nm.is_finite()) {
                 let found = format!("wavelength {metres} in row {row}");
                 return Err(FormatError::new(file, Place::File, found, "a positive number of metres"));
             }

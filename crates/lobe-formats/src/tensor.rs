@@ -23,18 +23,28 @@ const ALIGNMENT: usize = 8;
 /// The type of the elements of a field. The discriminant is the number in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
-#[allow(missing_docs, reason = "the names say it all")]
 pub enum DType {
+    /// Unsigned bytes.
     U8 = 1,
+    /// Signed bytes.
     I8,
+    /// Unsigned integers of 16 bits.
     U16,
+    /// Signed integers of 16 bits.
     I16,
+    /// Unsigned integers of 32 bits.
     U32,
+    /// Signed integers of 32 bits.
     I32,
+    /// Unsigned integers of 64 bits.
     U64,
+    /// Signed integers of 64 bits.
     I64,
+    /// IEEE 754 half precision.
     F16,
+    /// IEEE 754 single precision.
     F32,
+    /// IEEE 754 double precision.
     F64,
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use lobe_table::coords::angles_to_directions;
-use lobe_table::reference::{eval_angles, zenith};
+use lobe_table::reference::zenith;
 use lobe_table::{Edges, Samples};
 
 use crate::grid::{Grid, from_samples};
@@ -50,28 +50,25 @@ pub(crate) fn scale_slices(file: &Path, samples: &Samples, targets: &[Vec<f64>])
     let [sigmas, psis, thetas, phis] = samples.knots().each_ref().map(Vec::len);
     let channels = samples.channels().count();
     let mut values = samples.values().to_vec();
-    let slice_len = thetas * phis * channels;
+    let quadrature = Quadrature::new(samples);
     for s in 0..sigmas {
+        let weights = quadrature.weights(zenith(samples, &Edges::default(), samples.knots()[0][s]));
         for p in 0..psis {
-            let reflectance = slice_reflectance(samples, [s, p]);
-            let slice = &mut values[(s * psis + p) * slice_len..][..slice_len];
-            for c in 0..channels {
-                let target = targets[c][p * sigmas + s];
-                let scale = target / reflectance[c];
-                let blank = slice.iter().skip(c).step_by(channels).all(|&v| v == 0.0);
+            let slice = &mut values[(s * psis + p) * thetas * phis * channels..][..thetas * phis * channels];
+            for (c, targets) in targets.iter().enumerate() {
+                let target = targets[p * sigmas + s];
+                let of_channel = slice.iter().skip(c).step_by(channels);
+                let reflectance: f64 = of_channel.clone().zip(&weights).map(|(&f, weight)| f64::from(f) * weight).sum();
+                let scale = target / reflectance;
+                let blank = of_channel.clone().all(|&v| v == 0.0);
                 let possible = if blank { target == 0.0 } else { scale.is_finite() && scale >= 0.0 };
                 if !possible {
                     let degrees = samples.knots()[0][s].to_degrees();
                     let found = format!(
-                        "relative values with a reflectance of {} at sigma {degrees:.6} in channel {c}",
-                        reflectance[c]
+                        "relative values with a reflectance of {reflectance} at sigma {degrees:.6} in channel {c}"
                     );
-                    return Err(FormatError::new(
-                        file,
-                        Place::File,
-                        found,
-                        format!("one that can be scaled to kbdf {target}"),
-                    ));
+                    let expected = format!("one that can be scaled to kbdf {target}");
+                    return Err(FormatError::new(file, Place::File, found, expected));
                 }
                 for value in slice.iter_mut().skip(c).step_by(channels).filter(|_| !blank) {
                     *value = (f64::from(*value) * scale) as f32;
@@ -87,43 +84,102 @@ pub(crate) fn scale_slices(file: &Path, samples: &Samples, targets: &[Vec<f64>])
     }
 }
 
-/// The integral of `f cos(theta_out)` over the hemisphere, a channel each, with the light at a sigma and a psi knot:
-/// the midpoint rule inside every cell of theta and phi, whose error at these steps is below 1e-4.
-pub(crate) fn slice_reflectance(samples: &Samples, [s, p]: [usize; 2]) -> Vec<f64> {
-    const STEPS: [f64; 2] = [1.5 * PI / 180.0, 4.0 * PI / 180.0];
-    let knots = samples.knots();
-    let edges = Edges { non_negative: false, ..Edges::default() };
-    let (sigma, psi) = (knots[0][s], knots[1][p]);
-    let mut sum = vec![0.0; samples.channels().count()];
-    let mut f = sum.clone();
-    let phi_start = knots[3][0];
-    let phis = midpoints(&knots[3], [phi_start, phi_start + TAU], STEPS[1]);
-    for (theta, theta_width) in midpoints(&knots[2], [0.0, PI], STEPS[0]) {
-        for &(phi, phi_width) in &phis {
-            let angles = [sigma, psi, theta, phi];
-            let cosine = angles_to_directions(angles, |sigma| zenith(samples, &edges, sigma)).1[2];
-            if cosine > 0.0 {
-                eval_angles(samples, &edges, angles, &mut f);
-                let weight = cosine * theta.sin() * theta_width * phi_width;
-                for (sum, f) in sum.iter_mut().zip(&f) {
-                    *sum += weight * f;
+/// The directional-hemispherical reflectance of each slice, a channel each, `[psi][sigma]`.
+pub(crate) fn reflectances(samples: &Samples) -> Vec<Vec<f64>> {
+    let [sigmas, psis, ..] = samples.knots().each_ref().map(Vec::len);
+    let channels = samples.channels().count();
+    let quadrature = Quadrature::new(samples);
+    let weigh = |s: usize| quadrature.weights(zenith(samples, &Edges::default(), samples.knots()[0][s]));
+    let weights: Vec<Vec<f64>> = (0..sigmas).map(weigh).collect();
+    let slice = |p: usize, s: usize| {
+        let nodes = weights[s].len() * channels;
+        let values = &samples.values()[(s * psis + p) * nodes..][..nodes];
+        let channel = |c: usize| {
+            let of_channel = values.iter().skip(c).step_by(channels);
+            of_channel.zip(&weights[s]).map(|(&f, weight)| f64::from(f) * weight).sum()
+        };
+        (0..channels).map(channel).collect()
+    };
+    (0..psis).flat_map(|p| (0..sigmas).map(move |s| (p, s))).map(|(p, s)| slice(p, s)).collect()
+}
+
+/// The integral of `f cos(theta_out)` over the hemisphere as a sum over the nodes of a slice: the midpoint rule inside
+/// every cell of theta and phi, whose error at these steps is below 1e-4.
+///
+/// `f` is linear within a cell, clamped beyond the ends of theta, and periodic in phi. All that depends on one angle is
+/// computed once here, as a file may have a million slices of one value.
+struct Quadrature {
+    thetas: Vec<Part>,
+    phis: Vec<Part>,
+    counts: [usize; 2],
+}
+
+/// A part of a cell, by the angle in its middle.
+struct Part {
+    sin: f64,
+    cos: f64,
+    width: f64,
+    /// The nodes at the ends of the cell, and what each counts for.
+    nodes: [(usize, f64); 2],
+}
+
+impl Quadrature {
+    fn new(samples: &Samples) -> Self {
+        const STEPS: [f64; 2] = [1.5 * PI / 180.0, 4.0 * PI / 180.0];
+        let [_, _, theta, phi] = samples.knots();
+        let (last, end) = (theta.len() - 1, phi[0] + TAU);
+        let clamped = [([0.0, theta[0]], [0, 0]), ([theta[last], PI], [last, last])];
+        let closing = [([phi[phi.len() - 1], end], [phi.len() - 1, 0])];
+        Quadrature {
+            thetas: parts(cells(theta).chain(clamped), PI, STEPS[0]),
+            phis: parts(cells(phi).chain(closing), end, STEPS[1]),
+            counts: [theta.len(), phi.len()],
+        }
+    }
+
+    /// What each node of a slice counts for, `[theta][phi]`, in a frame with this polar angle.
+    fn weights(&self, zenith: f64) -> Vec<f64> {
+        let [thetas, phis] = self.counts;
+        let (sin_zenith, cos_zenith) = zenith.sin_cos();
+        let mut weights = vec![0.0; thetas * phis];
+        for theta in &self.thetas {
+            for phi in &self.phis {
+                let cosine = cos_zenith * theta.cos + sin_zenith * theta.sin * phi.cos;
+                if cosine > 0.0 {
+                    let weight = cosine * theta.sin * theta.width * phi.width;
+                    for (t, of_theta) in theta.nodes {
+                        for (h, of_phi) in phi.nodes {
+                            weights[t * phis + h] += weight * of_theta * of_phi;
+                        }
+                    }
                 }
             }
         }
+        weights
     }
-    sum
 }
 
-/// Midpoints and widths of the parts of a range, cut at the knots and then into at least two parts, none over `step`.
-fn midpoints(knots: &[f64], [start, end]: [f64; 2], step: f64) -> Vec<(f64, f64)> {
-    let inside = knots.iter().copied().filter(|knot| (start..end).contains(knot));
+/// The ends of the cells between knots, and the nodes there.
+fn cells(knots: &[f64]) -> impl Iterator<Item = ([f64; 2], [usize; 2])> {
+    knots.windows(2).enumerate().map(|(i, pair)| ([pair[0], pair[1]], [i, i + 1]))
+}
+
+/// Cuts each cell below `end` into at least two equal parts, none over `step`.
+fn parts(cells: impl Iterator<Item = ([f64; 2], [usize; 2])>, end: f64, step: f64) -> Vec<Part> {
     let mut parts = Vec::new();
-    let mut from = start;
-    for to in inside.chain([end]).filter(|&to| to > start) {
-        let count = ((to - from) / step).ceil().max(2.0);
-        let width = (to - from) / count;
-        parts.extend((0..count as usize).map(|i| (from + (i as f64 + 0.5) * width, width)));
-        from = to;
+    for ([from, to], nodes) in cells {
+        let span = to.min(end) - from;
+        if span <= 0.0 {
+            continue;
+        }
+        let count = (span / step).ceil().max(2.0);
+        let width = span / count;
+        parts.extend((0..count as usize).map(|i| {
+            let angle = from + (i as f64 + 0.5) * width;
+            let (sin, cos) = angle.sin_cos();
+            let share = (angle - from) / (to - from);
+            Part { sin, cos, width, nodes: [(nodes[0], 1.0 - share), (nodes[1], share)] }
+        }));
     }
     parts
 }

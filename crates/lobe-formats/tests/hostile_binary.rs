@@ -1,93 +1,32 @@
 //! Broken files: every reader refuses them with the file and the place, and none panics.
 
-mod common;
+#[path = "common/examples.rs"]
+mod examples;
 
-use lobe_formats::{FormatError, Place, Sides, mbsdf, merl, pbsdf, rgl, tensor, utia};
-use lobe_table::half_diff::HalfDiff;
+use examples::{tiny_mbsdf, tiny_merl, tiny_pbsdf, tiny_rgl};
+use lobe_formats::{Format, FormatError, Place, Sides, mbsdf, merl, pbsdf, tensor, utia};
 use lobe_table::mueller::Mueller;
-use lobe_table::rgl::{Images, Parts, Reference, Rgl, UniformOrder};
-use lobe_table::spherical_grid::SphericalGrid;
-use lobe_table::{Channels, Scatter};
-use proptest::prelude::*;
-use std::f64::consts::PI;
 use std::path::Path;
 
 const FILE: &str = "broken.file";
 
-/// A reader whose material, if there is one, is evaluated and dropped.
+/// A reader whose material, if there is one, is dropped.
 type Read = fn(&[u8]) -> Result<(), FormatError>;
 
 fn read_rgl(bytes: &[u8]) -> Result<(), FormatError> {
-    let material = rgl::read(bytes, Path::new(FILE))?;
-    let reference = Reference::new(&material);
-    let mut values = vec![0.0; material.parts().channels.count()];
-    for (wi, wo) in [([0.6, 0.0, 0.8], [-0.6, 0.0, 0.8]), ([0.0, 0.0, 1.0], [0.0, 0.0, 1.0])] {
-        reference.eval(wi, wo, &mut values);
-        reference.pdf(wi, wo);
-        reference.eval_cos_at(wi, wo, 550.0);
-        reference.sample(wi, [0.999, 0.001], UniformOrder::Pbrt);
-    }
-    Ok(())
+    lobe_formats::read(Format::Rgl, bytes, Path::new(FILE)).map(drop)
 }
 
 fn read_pbsdf(bytes: &[u8]) -> Result<(), FormatError> {
-    pbsdf::read(bytes, Path::new(FILE))?.eval([0.6, 0.0, 0.8], [0.0, 0.6, 0.8], 550.0);
-    Ok(())
+    lobe_formats::read(Format::Pbsdf, bytes, Path::new(FILE)).map(drop)
 }
 
 fn read_merl(bytes: &[u8]) -> Result<(), FormatError> {
-    let material = merl::read(bytes, Path::new(FILE))?;
-    material.eval_nearest([0.6, 0.0, 0.8], [0.0, 0.6, 0.8]);
-    material.eval_linear([0.6, 0.0, 0.8], [0.6, 0.0, 0.8]);
-    Ok(())
+    lobe_formats::read(Format::Merl, bytes, Path::new(FILE)).map(drop)
 }
 
 fn read_mbsdf(bytes: &[u8]) -> Result<(), FormatError> {
-    let sides = mbsdf::read(bytes, Path::new(FILE))?;
-    sides.reflection.inspect(|side| drop(side.eval([0.6, 0.0, 0.8], [0.0, 0.6, 0.8])));
-    sides.transmission.inspect(|side| drop(side.eval([0.6, 0.0, 0.8], [0.0, 0.6, -0.8])));
-    Ok(())
-}
-
-fn tiny_rgl() -> Vec<u8> {
-    let images = |shape: [usize; 3]| {
-        let texels = (0..shape.iter().product()).map(|i| 0.5 + (i % 7) as f32).collect();
-        Images::new("tiny", shape, texels).expect("valid images")
-    };
-    let material = Rgl::new(Parts {
-        description: "tiny".into(),
-        phi_i: vec![0.0],
-        theta_i: vec![0.0, 1.5],
-        ndf: images([1, 2, 3]),
-        sigma: images([1, 2, 2]),
-        vndf: images([2, 3, 2]),
-        luminance: images([2, 2, 2]),
-        channels: Channels::Spectral(vec![500.0, 600.0]),
-        spectra: images([4, 2, 2]),
-        jacobian: true,
-        valid: Some(vec![255]),
-    });
-    rgl::to_bytes(&material.expect("a valid material")).expect("bytes")
-}
-
-fn tiny_pbsdf() -> Vec<u8> {
-    let knots = [vec![-3.0, 3.0], vec![0.0, 1.5], vec![0.5], vec![500.0, 600.0]];
-    pbsdf::to_bytes(&Mueller::new(knots, vec![0.25; 128]).expect("a valid material")).expect("bytes")
-}
-
-fn tiny_merl() -> Vec<u8> {
-    merl::to_bytes(&HalfDiff::new([2, 1, 3], vec![0.5; 18]).expect("a valid material")).expect("bytes")
-}
-
-fn tiny_mbsdf() -> Vec<u8> {
-    let side = |scatter, phis: &[f64]| {
-        let thetas = vec![0.0, PI / 4.0];
-        let (knots, values) = ([thetas.clone(), vec![0.0], thetas, phis.to_vec()], vec![0.5; 4 * phis.len()]);
-        let grid = SphericalGrid::new(scatter, knots, Channels::Mono, values).and_then(SphericalGrid::mirrored);
-        Some(grid.expect("a valid material"))
-    };
-    let reflection = side(Scatter::Reflection, &[0.0, PI / 2.0, PI]);
-    mbsdf::to_bytes(&Sides { reflection, transmission: side(Scatter::Transmission, &[0.0]) }).expect("bytes")
+    lobe_formats::read(Format::Mbsdf, bytes, Path::new(FILE)).map(drop)
 }
 
 /// Every format with a small file of it.
@@ -285,56 +224,4 @@ fn mbsdf_blocks_that_lie_are_refused() {
     let rest = &good[start..];
     let old = [b"NVIDIA ARC MBSDF V1\nkey=\"\xff\"\n\nMBSDF_DATA=\n", rest].concat();
     assert!(mbsdf::read(&old, Path::new(FILE)).expect("an old file").reflection.is_some());
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
-
-    /// Bytes changed, inserted and cut off at random: a material or an error, never a panic.
-    #[test]
-    fn mutated_files_do_not_panic(
-        which in 0usize..4,
-        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
-        cut in prop::option::of(any::<prop::sample::Index>()),
-    ) {
-        let (_, mut bytes, read) = formats().into_iter().nth(which).expect("a format");
-        for (at, value) in changes {
-            let at = at.index(bytes.len());
-            bytes[at] = value;
-        }
-        if let Some(cut) = cut {
-            bytes.truncate(cut.index(bytes.len()));
-        }
-        let _ = read(&bytes);
-        let claimed = [rgl::matches, pbsdf::matches, merl::matches, mbsdf::matches, utia::matches];
-        claimed.iter().for_each(|matches| { matches(&bytes); });
-    }
-}
-
-/// The same with the files of other programs: their headers changed, and numbers among their data.
-#[test]
-fn mutated_golden_files_do_not_panic() {
-    let Some(shared) = common::shared() else { return };
-    let files: [(&str, Read); 4] = [
-        ("golden/rgl_iso_spec.bsdf", read_rgl),
-        ("golden/rgl_aniso_rgb.bsdf", read_rgl),
-        ("golden/syn.pbsdf", read_pbsdf),
-        ("data/mdl_mbsdf/test_rgb_theta_2_phi_3.mbsdf", read_mbsdf),
-    ];
-    for (name, read) in files {
-        let good = std::fs::read(shared.join(name)).expect("golden file");
-        let config = ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() };
-        let changes = prop::collection::vec((any::<prop::sample::Index>(), any::<bool>(), any::<[u8; 4]>()), 1..6);
-        let mut runner = proptest::test_runner::TestRunner::new(config);
-        let run = runner.run(&changes, |changes| {
-            let mut bytes = good.clone();
-            for (at, in_header, value) in changes {
-                let at = at.index(if in_header { bytes.len().min(400) } else { bytes.len() } - 4);
-                bytes[at..at + 4].copy_from_slice(&value);
-            }
-            let _ = read(&bytes);
-            Ok(())
-        });
-        run.unwrap_or_else(|error| panic!("{name}: {error}"));
-    }
 }

@@ -124,6 +124,20 @@ fn relative_values_are_scaled_to_the_reflectance_in_kbdf() {
     assert!(error(&mono("PlaneSymmetrical", "Luminance Relative", "", |_, _, _| 1.0)).contains("expected `kbdf`"));
 }
 
+/// Slices of one value each: what is computed for each of them has to be little.
+#[test]
+fn thousands_of_slices_are_scaled_at_once() {
+    let sigma: String = (0..4000).map(|i| format!(" {}", f64::from(i) * 0.02)).collect();
+    let head = "TypeSym ASymmetrical\nTypeColorModel BW\nTypeData Luminance Relative\n";
+    let psi: String = (0..10).map(|i| format!(" {}", i * 20)).collect();
+    let (targets, values) = (" 0.5".repeat(40_000), " 7".repeat(40_000));
+    let text =
+        format!("{head}sigma 4000{sigma}\npsi 10{psi}\nphi 1 0\ntheta 1 0\nbw kbdf{targets}\ndef{values}\nenddef\n");
+    let samples = read(&text).data;
+    let wanted = 0.5 / PI;
+    assert!(samples.values().iter().all(|f| (f64::from(*f) / wanted - 1.0).abs() < 1e-3), "{:?}", samples.values()[0]);
+}
+
 #[test]
 fn blocks_come_in_any_order_but_each_once() {
     let head = "typesym axisymmetrical TYPECOLORMODEL rgb sigma 1 10 phi 1 0 theta 1 0\n";

@@ -19,6 +19,7 @@ mod invalid;
 pub mod klems;
 mod knots;
 mod layout;
+mod line;
 mod mesh;
 pub mod mueller;
 pub mod paper;

@@ -1,19 +1,47 @@
 //! Linear interpolation between scattered points of a plane, on their Delaunay triangulation.
 
 use spade::handles::{FixedDirectedEdgeHandle, FixedVertexHandle};
-use spade::{DelaunayTriangulation, HierarchyHintGenerator, Point2, PositionInTriangulation, Triangulation};
+use spade::{
+    DelaunayTriangulation, HasPosition, HierarchyHintGenerator, Point2, PositionInTriangulation, Triangulation,
+};
 
-type Delaunay = DelaunayTriangulation<Point2<f64>, (), (), (), HierarchyHintGenerator<f64>>;
+use crate::line::Line;
 
-/// Triangles at the rim that are lower than this, in radians, are there by rounding only.
+type Delaunay = DelaunayTriangulation<Vertex, (), (), (), HierarchyHintGenerator<f64>>;
+
+/// Triangles at the rim that are lower than this, in radians, are there by rounding only; and points are on a line that
+/// are no farther from it.
 const FLAT: f64 = 1e-5;
 
 /// Scattered points and how to interpolate between them.
 #[derive(Clone, Debug)]
-pub(crate) struct Mesh {
+pub(crate) enum Mesh {
+    /// Apart, as there is nothing to triangulate, and trying it would take time that grows with the square of the points.
+    Line(Line),
+    Triangles(Box<Triangles>),
+}
+
+/// A point and its position in the list given.
+#[derive(Clone, Copy, Debug)]
+struct Vertex {
+    at: Point2<f64>,
+    index: usize,
+}
+
+impl HasPosition for Vertex {
+    type Scalar = f64;
+
+    fn position(&self) -> Point2<f64> {
+        self.at
+    }
+}
+
+/// Points that are not on a line.
+#[derive(Clone, Debug)]
+pub(crate) struct Triangles {
     triangles: Delaunay,
     /// The edges around all triangles that are not [`FLAT`].
-    rim: Vec<[usize; 2]>,
+    rim: Vec<[FixedVertexHandle; 2]>,
     /// By the index of a triangle, whether it lies outside of the rim.
     is_outside: Vec<bool>,
 }
@@ -24,10 +52,40 @@ pub(crate) type Weights = [(usize, f64); 3];
 impl Mesh {
     /// Triangulates points that are finite and different from each other; `None` where there is no point.
     pub(crate) fn new(points: &[[f64; 2]]) -> Option<Self> {
+        match Line::new(points, FLAT) {
+            Some(line) => Some(Mesh::Line(line)),
+            None => Triangles::new(points).map(|triangles| Mesh::Triangles(Box::new(triangles))),
+        }
+    }
+
+    /// The weights at a point of the plane. Outside of the convex hull they are those of the nearest point of its rim,
+    /// and so they are where all points lie on a line.
+    pub(crate) fn weights(&self, point: [f64; 2]) -> Weights {
+        match self {
+            Mesh::Line(line) => {
+                let [lower, upper] = line.weights(point);
+                [lower, upper, (0, 0.0)]
+            }
+            Mesh::Triangles(triangles) => triangles.weights(point),
+        }
+    }
+}
+
+impl Triangles {
+    fn new(points: &[[f64; 2]]) -> Option<Self> {
         // Coordinates that only rounding keeps from zero would be refused.
         let snap = |x: f64| if x.abs() < 1e-12 { 0.0 } else { x };
-        let points: Vec<_> = points.iter().map(|[x, y]| Point2::new(snap(*x), snap(*y))).collect();
-        let triangles = Delaunay::bulk_load_stable(points).ok()?;
+        // One by one in an order that has nothing to do with that of the file: whatever the points, this takes a time that
+        // hardly more than doubles with twice as many. Sweeping over them all takes the square of it for some sets.
+        let mut order: Vec<usize> = (0..points.len()).collect();
+        order.sort_by_key(|&index| scrambled(index as u64));
+        // As long as all are on a line, each takes a time that grows with their number: so the corners of a large triangle
+        // go first. That they come again later changes nothing.
+        let mut triangles = Delaunay::new();
+        for index in corners(points)?.into_iter().chain(order) {
+            let [x, y] = points[index];
+            triangles.insert(Vertex { at: Point2::new(snap(x), snap(y)), index }).ok()?;
+        }
         if triangles.num_vertices() == 0 {
             return None;
         }
@@ -46,18 +104,16 @@ impl Mesh {
                     is_outside[face] = true;
                     pending.extend([inner.next().fix(), inner.prev().fix()]);
                 }
-                _ => rim.push([inner.from().index(), inner.to().index()]),
+                _ => rim.push([inner.from().fix(), inner.to().fix()]),
             }
         }
-        Some(Mesh { triangles, rim, is_outside })
+        Some(Triangles { triangles, rim, is_outside })
     }
 
-    /// The weights at a point of the plane. Outside of the convex hull they are those of the nearest point of its rim,
-    /// and so they are where all points lie on a line.
-    pub(crate) fn weights(&self, point: [f64; 2]) -> Weights {
+    fn weights(&self, point: [f64; 2]) -> Weights {
         let at = Point2::new(point[0], point[1]);
         match self.triangles.locate(at) {
-            PositionInTriangulation::OnVertex(vertex) => [(vertex.index(), 1.0), (0, 0.0), (0, 0.0)],
+            PositionInTriangulation::OnVertex(vertex) => [(self.index(vertex), 1.0), (0, 0.0), (0, 0.0)],
             PositionInTriangulation::OnFace(face) if !self.is_outside[face.index()] => {
                 let corners = self.triangles.face(face).vertices();
                 let [a, b, c] = corners.map(|corner| corner.position());
@@ -65,11 +121,11 @@ impl Mesh {
                 let whole: f64 = parts.iter().sum();
                 // A triangle too thin for its area to show: any corner is as near as rounding allows.
                 let weight = |index: usize| if whole > 0.0 { parts[index] / whole } else { 1.0 / 3.0 };
-                std::array::from_fn(|index| (corners[index].index(), weight(index)))
+                std::array::from_fn(|index| (corners[index].data().index, weight(index)))
             }
             PositionInTriangulation::OnEdge(edge) if self.is_inside(edge) => {
                 let edge = self.triangles.directed_edge(edge);
-                self.along([edge.from().index(), edge.to().index()], at).0
+                self.along([edge.from().fix(), edge.to().fix()], at).0
             }
             _ => {
                 let edges = self.rim.iter().map(|&edge| self.along(edge, at));
@@ -79,6 +135,10 @@ impl Mesh {
         }
     }
 
+    fn index(&self, vertex: FixedVertexHandle) -> usize {
+        self.triangles.vertex(vertex).data().index
+    }
+
     /// Whether a triangle within the rim has this edge.
     fn is_inside(&self, edge: FixedDirectedEdgeHandle) -> bool {
         let edge = self.triangles.directed_edge(edge);
@@ -86,15 +146,35 @@ impl Mesh {
     }
 
     /// The weights of the point of an edge that is nearest to `at`, and its squared distance.
-    fn along(&self, [i, j]: [usize; 2], at: Point2<f64>) -> (Weights, f64) {
-        let position = |index| self.triangles.vertex(FixedVertexHandle::from_index(index)).position();
-        let (a, b) = (position(i), position(j));
+    fn along(&self, ends: [FixedVertexHandle; 2], at: Point2<f64>) -> (Weights, f64) {
+        let [Vertex { at: a, index: i }, Vertex { at: b, index: j }] =
+            ends.map(|end| *self.triangles.vertex(end).data());
         let (dx, dy) = (b.x - a.x, b.y - a.y);
         let length2 = dx * dx + dy * dy;
         let t = if length2 > 0.0 { (((at.x - a.x) * dx + (at.y - a.y) * dy) / length2).clamp(0.0, 1.0) } else { 0.0 };
         let distance2 = (a.x + t * dx - at.x).powi(2) + (a.y + t * dy - at.y).powi(2);
         ([(i, 1.0 - t), (j, t), (0, 0.0)], distance2)
     }
+}
+
+/// Three points that are far from being on a line.
+fn corners(points: &[[f64; 2]]) -> Option<[usize; 3]> {
+    let farthest = |distance: &dyn Fn([f64; 2]) -> f64| {
+        (0..points.len()).max_by(|&i, &j| distance(points[i]).total_cmp(&distance(points[j])))
+    };
+    let [x, y] = *points.first()?;
+    let second = farthest(&|point| (point[0] - x).hypot(point[1] - y))?;
+    let (dx, dy) = (points[second][0] - x, points[second][1] - y);
+    let third = farthest(&|point| (dx * (point[1] - y) - dy * (point[0] - x)).abs())?;
+    Some([0, second, third])
+}
+
+/// A number that looks random for each index (the finaliser of splitmix64; Steele, Lea and Flood, OOPSLA 2014).
+fn scrambled(index: u64) -> u64 {
+    let mut x = index.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ (x >> 31)
 }
 
 /// Twice the area of a triangle whose corners turn to the left, or 0.
@@ -133,6 +213,21 @@ mod tests {
         assert!(Mesh::new(&[]).is_none());
     }
 
+    /// Straight, askew, and with what rounding leaves: a hostile file may have as many as fit into it.
+    #[test]
+    fn a_hundred_thousand_points_on_a_line_take_no_time() {
+        for jitter in [0.0, 1e-13, 1e-7] {
+            let offset = |index: i32| jitter * f64::from(index * 7 % 11 - 5);
+            let point = |index: i32| [f64::from(index) * 1e-5, f64::from(index) * 3e-6 + offset(index)];
+            let points: Vec<_> = (0..100_000).map(point).collect();
+            let mesh = Mesh::new(&points).expect("points");
+            assert!(matches!(mesh, Mesh::Line(_)));
+            let values: Vec<f64> = (0..points.len()).map(|index| index as f64).collect();
+            let found = value(&mesh, &values, [0.500_005, 0.150_001_5]);
+            assert!((found - 50_000.5).abs() < 0.05, "{jitter}: {found}");
+        }
+    }
+
     #[test]
     fn points_on_a_straight_rim_answer_for_themselves() {
         // A fan of rays whose outermost ones are straight but for rounding.
@@ -148,6 +243,27 @@ mod tests {
                 let found = value(&mesh, &values, [x + dx, y + dy]);
                 assert!((found - values[index]).abs() < 1e-6, "point {index}: {found}, not {}", values[index]);
             }
+        }
+    }
+
+    /// Sets that a sweep over all points takes the square of their number for: that would make this test take minutes.
+    #[test]
+    fn no_set_of_points_takes_the_square_of_their_number() {
+        let count = 100_000;
+        let part = |index: usize| index as f64 / count as f64;
+        type Curve = fn(f64) -> [f64; 2];
+        let sets: [(&str, Curve); 4] = [
+            ("a parabola", |t| [t, t * t]),
+            ("a line and points off it", |t| if t < 1e-4 { [0.3, 0.5 + t] } else { [t, 0.0] }),
+            ("two lines", |t| if t < 0.5 { [2.0 * t, 0.0] } else { [2.0 * t - 1.0, 0.5] }),
+            ("a cross", |t| if t < 0.5 { [4.0 * t - 1.0, 0.0] } else { [0.0, 4.0 * t - 3.0 + 1e-6] }),
+        ];
+        for (name, set) in sets {
+            let points: Vec<_> = (0..count).map(|index| set(part(index))).collect();
+            let mesh = Mesh::new(&points).expect("points");
+            let values: Vec<f64> = points.iter().map(|[x, y]| 2.0 * x - 3.0 * y).collect();
+            let at = set(0.750_003);
+            assert!((value(&mesh, &values, at) - (2.0 * at[0] - 3.0 * at[1])).abs() < 1e-4, "{name}");
         }
     }
 }

@@ -118,18 +118,21 @@ impl Scattered {
             }
         }
         // At the pole an azimuth says nothing about the direction.
-        let mut azimuths = angles.iter().filter(|a| a[0] > SAME).map(|a| key(a[1].rem_euclid(TAU)));
+        let mut azimuths = angles.iter().filter(|a| a[0] > SAME).map(|a| azimuth_key(a[1]));
         let first = azimuths.next();
         let is_isotropic = azimuths.all(|azimuth| Some(azimuth) == first);
 
+        // By the place in the mesh, where the seam of the azimuths does not show.
         let mut samples: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
         for (sample, [theta, phi, ..]) in angles.iter().enumerate() {
-            let phi = if is_isotropic || *theta <= SAME { 0.0 } else { phi.rem_euclid(TAU) };
-            samples.entry((key(*theta), key(phi))).or_default().push(sample);
+            let theta = if *theta <= SAME { 0.0 } else { *theta };
+            let [x, y] = project(theta, place(*phi, is_isotropic));
+            samples.entry((key(x), key(y))).or_default().push(sample);
         }
         let incidences: Option<Vec<_>> =
             samples.values().map(|samples| incidence(samples, angles, values, count, is_isotropic)).collect();
-        let incidences = incidences.ok_or(ScatteredError::Empty)?;
+        let mut incidences = incidences.ok_or(ScatteredError::Empty)?;
+        incidences.sort_by_key(|incidence| (key(incidence.theta), azimuth_key(incidence.phi)));
         let positions: Vec<_> = incidences.iter().map(|i| project(i.theta, place(i.phi, is_isotropic))).collect();
         let mesh = Mesh::new(&positions).ok_or(ScatteredError::Empty)?;
 
@@ -269,4 +272,9 @@ fn place(phi: f64, is_isotropic: bool) -> f64 {
 
 fn key(angle: f64) -> i64 {
     (angle / SAME).round() as i64
+}
+
+/// The same for a whole turn more or less, and for what rounding puts on either side of the seam.
+fn azimuth_key(phi: f64) -> i64 {
+    key(phi.rem_euclid(TAU)) % key(TAU)
 }

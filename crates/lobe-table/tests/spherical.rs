@@ -175,3 +175,19 @@ fn bad_samples_are_refused() {
     let angle = new(&[[0.0; 4], [0.0, 0.0, 1.6, 0.0]], &[1.0, 1.0]);
     assert_eq!(angle, ScatteredError::Angle { name: "theta_o", sample: 1, angle: 1.6 });
 }
+
+/// Zero, a turn, and what rounding leaves below it are one azimuth; so are all azimuths so near to the pole that they
+/// hardly differ in direction.
+#[test]
+fn azimuths_have_no_seam() {
+    for [a, b] in [[0.0, -1e-18], [0.0, TAU - 1e-9], [1.0, 1.0 + TAU], [0.5, 0.5 - 3.0 * TAU]] {
+        let angles = [[0.4, a, 0.2, 1.0], [0.4, b, 0.3, 2.0], [0.4, 2.5, 0.2, 1.0]];
+        let data = Scattered::new(Scatter::Reflection, Channels::Mono, &angles, &[1.0, 2.0, 3.0]).expect("samples");
+        assert_eq!(data.incidences().len(), 2, "{a} and {b}");
+        let data = Scattered::new(Scatter::Reflection, Channels::Mono, &angles[..2], &[1.0, 2.0]).expect("samples");
+        assert!(data.is_isotropic(), "{a} and {b}");
+    }
+    let angles = [[3e-6, 0.0, 0.2, 1.0], [3e-6, 1e-3, 0.3, 2.0], [0.4, 2.5, 0.2, 1.0]];
+    let data = Scattered::new(Scatter::Reflection, Channels::Mono, &angles, &[1.0, 2.0, 3.0]).expect("samples");
+    assert_eq!(data.incidences().map(|[theta, _]| theta).collect::<Vec<_>>(), [3e-6, 0.4]);
+}

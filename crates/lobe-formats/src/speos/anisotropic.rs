@@ -92,12 +92,14 @@ fn read_tables(
     if !(scale.is_finite() && scale > 0.0) {
         return Err(source.error("tables without light where the spectrum holds", "values with a positive integral"));
     }
-    // All samples would be kept once per wavelength; a file may have more of both than memory.
+    // All samples are kept once per wavelength, and so a file of many of both would take the square of its size. Those of
+    // instruments have a few hundred wavelengths, and write a sample in eight characters or more.
+    const VALUES_PER_BYTE: usize = 64;
     let samples: usize = tables.iter().map(|(_, _, table)| table.samples(1.0).count()).sum();
-    const MOST_VALUES: usize = 1 << 26;
-    if samples.checked_mul(spectrum.wavelengths.len()).is_none_or(|values| values > MOST_VALUES) {
+    let most = source.size.saturating_mul(VALUES_PER_BYTE);
+    if samples.checked_mul(spectrum.wavelengths.len()).is_none_or(|values| values > most) {
         let found = format!("{samples} samples at {} wavelengths", spectrum.wavelengths.len());
-        return Err(source.error(found, format!("at most {MOST_VALUES} values in all")));
+        return Err(source.error(found, format!("at most {most} values in all, {VALUES_PER_BYTE} for each byte")));
     }
     let mut records = Records::default();
     for (rotation, theta_i, table) in &tables {

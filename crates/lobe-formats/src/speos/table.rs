@@ -14,11 +14,13 @@ pub(super) struct Source<'a> {
     pub(super) file: &'a Path,
     rest: &'a str,
     line: usize,
+    /// The size of the whole text in bytes.
+    pub(super) size: usize,
 }
 
 impl<'a> Source<'a> {
     pub(super) fn new(file: &'a Path, text: &'a str) -> Self {
-        Source { file, rest: text, line: 1 }
+        Source { file, rest: text, line: 1, size: text.len() }
     }
 
     fn take(&mut self, end: usize) -> &'a str {

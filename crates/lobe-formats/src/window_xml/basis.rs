@@ -1,11 +1,14 @@
 //! The angle bases that a file defines, and those that it may take for granted.
 
+use std::collections::HashMap;
+
 use lobe_table::klems::{AngleBasis, Ring};
 
 /// Collects `AngleBasis` elements of a `DataDefinition`.
 #[derive(Default)]
 pub(super) struct BasisReader {
-    known: Vec<AngleBasis>,
+    /// By their names in lower case; of several with one name the first.
+    known: HashMap<String, AngleBasis>,
     name: String,
     rings: Vec<Ring>,
     lower: Option<f64>,
@@ -37,8 +40,10 @@ impl BasisReader {
                 let (name, rings) = (std::mem::take(&mut self.name), std::mem::take(&mut self.rings));
                 // Trees name their basis here, without rings.
                 if !rings.is_empty() {
+                    let key = name.to_ascii_lowercase();
                     let basis = AngleBasis::new(name, rings);
-                    self.known.push(basis.map_err(|error| (error.to_string(), "the rings of a hemisphere"))?);
+                    let basis = basis.map_err(|error| (error.to_string(), "the rings of a hemisphere"))?;
+                    self.known.entry(key).or_insert(basis);
                 }
             }
             _ => {}
@@ -48,8 +53,9 @@ impl BasisReader {
 
     /// A basis by its name, in any case. What the file defines goes before the standard bases.
     pub(super) fn find(&self, name: &str) -> Option<AngleBasis> {
-        let is_it = |basis: &&AngleBasis| basis.name().eq_ignore_ascii_case(name);
-        let standard = [AngleBasis::full(), AngleBasis::half(), AngleBasis::quarter()];
-        self.known.iter().find(is_it).or_else(|| standard.iter().find(is_it)).cloned()
+        self.known.get(&name.to_ascii_lowercase()).cloned().or_else(|| {
+            let standard = [AngleBasis::full(), AngleBasis::half(), AngleBasis::quarter()];
+            standard.into_iter().find(|basis| basis.name().eq_ignore_ascii_case(name))
+        })
     }
 }

@@ -4,7 +4,9 @@
 //! neither entity bombs nor deep nesting can hurt.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::path::Path;
+use std::rc::Rc;
 
 use lobe_table::klems::{AngleBasis, KlemsMatrix};
 use lobe_table::tensor_tree::{Rank, TensorTree};
@@ -47,7 +49,8 @@ type Text<'a> = (Cow<'a, str>, usize);
 #[derive(Default)]
 struct BlockText<'a> {
     start: usize,
-    wavelength: String,
+    /// Shared by all blocks of a `WavelengthData`: the name may be long, and the blocks many.
+    wavelength: Rc<str>,
     direction: Option<Block>,
     columns: Option<Text<'a>>,
     rows: Option<Text<'a>>,
@@ -65,6 +68,10 @@ pub(super) struct Document<'a> {
     /// Whether the element is within a block, which is then the last one.
     is_in_block: bool,
     blocks: Vec<BlockText<'a>>,
+    /// The first block of the `WavelengthData` that is being read.
+    first_block: usize,
+    /// The position of each band, by its name in lower case.
+    bands: HashMap<String, usize>,
 }
 
 impl<'a> Document<'a> {
@@ -78,6 +85,8 @@ impl<'a> Document<'a> {
             wavelength: String::new(),
             is_in_block: false,
             blocks: Vec::new(),
+            first_block: 0,
+            bands: HashMap::new(),
         };
         document.walk()?;
         for block in std::mem::take(&mut document.blocks) {
@@ -147,7 +156,10 @@ impl<'a> Document<'a> {
 
     fn open(&mut self, name: &str, start: usize) {
         match name {
-            "WavelengthData" => self.wavelength.clear(),
+            "WavelengthData" => {
+                self.wavelength.clear();
+                self.first_block = self.blocks.len();
+            }
             "WavelengthDataBlock" => {
                 self.is_in_block = true;
                 self.blocks.push(BlockText { start, ..BlockText::default() });
@@ -180,9 +192,11 @@ impl<'a> Document<'a> {
                 self.structure = Some(structure);
             }
             "WavelengthData" => {
-                for block in self.blocks.iter_mut().rev().take_while(|block| block.wavelength.is_empty()) {
-                    block.wavelength.clone_from(&self.wavelength);
+                let wavelength: Rc<str> = self.wavelength.as_str().into();
+                for block in &mut self.blocks[self.first_block..] {
+                    block.wavelength = wavelength.clone();
                 }
+                self.first_block = self.blocks.len();
             }
             _ => self.basis.close(name, content).map_err(|(found, expected)| self.error(start, found, expected))?,
         }
@@ -223,7 +237,7 @@ impl<'a> Document<'a> {
 
     /// Takes a block into its band.
     fn keep(&mut self, block: &BlockText<'_>) -> Result<(), FormatError> {
-        let wavelength = &block.wavelength;
+        let wavelength = &*block.wavelength;
         if wavelength.is_empty() {
             return Err(self.error(block.start, "WavelengthData without a Wavelength", "its name"));
         }
@@ -232,9 +246,8 @@ impl<'a> Document<'a> {
         };
         let component = self.component(block, values)?;
         let bands = &mut self.result.bands;
-        let known = bands.iter().position(|band| band.wavelength.eq_ignore_ascii_case(wavelength));
-        let band = known.unwrap_or_else(|| {
-            bands.push(Band { wavelength: wavelength.clone(), window: Window::default() });
+        let band = *self.bands.entry(wavelength.to_ascii_lowercase()).or_insert_with(|| {
+            bands.push(Band { wavelength: wavelength.to_string(), window: Window::default() });
             bands.len() - 1
         });
         if bands[band].window.set(direction, component).is_some() {

@@ -7,7 +7,7 @@ use lobe_table::{Channels, Samples, Scatter};
 
 use super::{AXES, XYZ};
 use crate::sdr::push_row;
-use crate::units::slice_reflectance;
+use crate::units::reflectances;
 use crate::write::write_whole;
 use crate::{FormatError, Place};
 
@@ -46,7 +46,7 @@ pub fn write(samples: &Samples, path: &Path) -> Result<(), FormatError> {
     }
     let [sigmas, psis, thetas, phis] = samples.knots().each_ref().map(Vec::len);
     let totals: Vec<Vec<f64>> =
-        (0..psis * sigmas).map(|slice| slice_reflectance(samples, [slice % sigmas, slice / sigmas])).collect();
+        reflectances(samples);
     for (channel, name) in names.iter().enumerate() {
         let _ = writeln!(out, "\n{name}\nDataBegin");
         for (slice, total) in totals.iter().enumerate() {

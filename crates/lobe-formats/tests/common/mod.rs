@@ -31,6 +31,16 @@ pub fn files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
+/// The files of a folder, and of the folders in it, of at most 200 kB.
+pub fn small_files(folder: &Path) -> Vec<PathBuf> {
+    let of = |path: PathBuf| match path.is_dir() {
+        true => small_files(&path),
+        false => vec![path],
+    };
+    let is_small = |path: &PathBuf| path.metadata().is_ok_and(|metadata| metadata.len() <= 200_000);
+    files(folder).into_iter().flat_map(of).filter(is_small).collect()
+}
+
 /// The queries of a golden file: the numbers left of `->`, and those right of it.
 pub fn golden(path: &Path) -> Vec<(Vec<f64>, Vec<f64>)> {
     let numbers = |text: &str| text.split_whitespace().map(|x| x.parse().expect("a number")).collect();

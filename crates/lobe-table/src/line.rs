@@ -1,0 +1,50 @@
+//! Linear interpolation between points of a plane that lie on a line.
+
+/// Points on a line, and how to interpolate between them.
+#[derive(Clone, Debug)]
+pub(crate) struct Line {
+    /// An end of the line, and its direction; of no length where there is one point only.
+    start: [f64; 2],
+    direction: [f64; 2],
+    /// How far along the line each point is, ascending, and which it is.
+    points: Vec<(f64, usize)>,
+}
+
+impl Line {
+    /// The points as a line; `None` where there is no point, or one is further than `tolerance` from the line through those
+    /// at its ends.
+    pub(crate) fn new(points: &[[f64; 2]], tolerance: f64) -> Option<Self> {
+        let farthest = |from: [f64; 2]| {
+            let distance = |point: &[f64; 2]| (point[0] - from[0]).hypot(point[1] - from[1]);
+            points.iter().copied().max_by(|a, b| distance(a).total_cmp(&distance(b)))
+        };
+        let start = farthest(*points.first()?)?;
+        let end = farthest(start)?;
+        let (dx, dy) = (end[0] - start[0], end[1] - start[1]);
+        let length = dx.hypot(dy);
+        let direction = if length > 0.0 { [dx / length, dy / length] } else { [0.0; 2] };
+        let mut line = Line { start, direction, points: Vec::new() };
+        let off = |[x, y]: [f64; 2]| (direction[0] * (y - start[1]) - direction[1] * (x - start[0])).abs();
+        if !points.iter().all(|&point| off(point) <= tolerance) {
+            return None;
+        }
+        line.points = points.iter().enumerate().map(|(index, &point)| (line.along(point), index)).collect();
+        line.points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Some(line)
+    }
+
+    /// How far along the line the point of it is that is nearest to `point`.
+    fn along(&self, [x, y]: [f64; 2]) -> f64 {
+        self.direction[0] * (x - self.start[0]) + self.direction[1] * (y - self.start[1])
+    }
+
+    /// The two points around the one of the line that is nearest to `point`, and what each counts for.
+    pub(crate) fn weights(&self, point: [f64; 2]) -> [(usize, f64); 2] {
+        let at = self.along(point);
+        let upper = self.points.partition_point(|&(along, _)| along < at).min(self.points.len() - 1);
+        let lower = upper.saturating_sub(1);
+        let ((from, lower), (to, upper)) = (self.points[lower], self.points[upper]);
+        let share = if to > from { ((at - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
+        [(lower, 1.0 - share), (upper, share)]
+    }
+}

@@ -1,0 +1,30 @@
+//! What all fuzz targets do: read, check the memory that it took, evaluate.
+//!
+//! `docs/fuzzing.md` says how to run them.
+#![forbid(unsafe_code)]
+
+use std::path::Path;
+
+use lobe_formats::Format;
+
+#[path = "../../crates/lobe-formats/tests/common/memory.rs"]
+mod memory;
+#[path = "../../crates/lobe-formats/tests/common/probe.rs"]
+mod probe;
+
+/// Reads `bytes` as a file of `format` and evaluates what is in it.
+///
+/// # Panics
+/// Where a reader or an evaluation does, or a reader took more memory than the size of the file can justify.
+pub fn read(format: Format, bytes: &[u8]) {
+    // Whether it is a sound file is not the question.
+    let _ = probe::probe(format, bytes, Path::new("fuzz"));
+}
+
+/// The target of a reader, which is named by its variant of [`Format`].
+#[macro_export]
+macro_rules! reader {
+    ($format:ident) => {
+        libfuzzer_sys::fuzz_target!(|bytes: &[u8]| $crate::read(lobe_formats::Format::$format, bytes));
+    };
+}
