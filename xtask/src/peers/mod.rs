@@ -1,7 +1,7 @@
 //! `cargo xtask peers`: other people's programs beside this library, on the same tables and queries, in turns.
 //!
 //! What a package registry serves as wheels is installed into a virtual environment, SLEEF is taken from the system.
-//! Each peer runs in a process of its own, which answers one request a line ([`program`]); a peer that cannot be had is
+//! Each peer runs in a process of its own, which answers one request a line; a peer that cannot be had is
 //! left out with a line that says why. Everybody's values are compared before anything is timed.
 
 mod analytic;
