@@ -35,12 +35,12 @@ pub fn smooth(nodes: [usize; 4]) -> Samples {
     let knots = knots(nodes);
     let mut values = Vec::with_capacity(3 * nodes.iter().product::<usize>());
     let waves = knots.each_ref().map(|knots| knots.iter().map(|angle| angle.sin_cos()).collect::<Vec<_>>());
-    for (_, cos_sigma) in &waves[0] {
+    for (sin_sigma, _) in &waves[0] {
         for (_, cos_psi) in &waves[1] {
             for (sin_theta, cos_theta) in &waves[2] {
                 for (sin_phi, cos_phi) in &waves[3] {
-                    // No phi at the poles of theta, where it means nothing.
-                    let base = 1.0 + 0.3 * cos_sigma * cos_psi + 0.4 * cos_theta;
+                    // No psi at the normal and no phi at the poles of theta, where they mean nothing.
+                    let base = 1.0 + 0.3 * sin_sigma * cos_psi + 0.4 * cos_theta;
                     let around = 0.2 * sin_theta;
                     values.extend([base, base + around * cos_phi, base + around * sin_phi].map(|x| x as f32));
                 }
