@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use lobe::table::rgl::{Images, Parts, Rgl};
 use lobe::{Channels, Samples, Scatter};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -11,18 +12,42 @@ use rand_pcg::Pcg32;
 /// Speed does not depend on the values, so the sizes of real tables are all that counts here.
 pub fn random(nodes: [usize; 4], channels: Channels) -> Samples {
     let mut rng = Pcg32::seed_from_u64(7);
+    let count = channels.count() * nodes.iter().product::<usize>();
+    let values = (0..count).map(|_| rng.random_range(0.01..1.0)).collect();
+    Samples::new(Scatter::Reflection, knots(nodes), channels, values).expect("a valid random table")
+}
+
+/// Knots over all of each axis, closer together near 0.
+fn knots(nodes: [usize; 4]) -> [Vec<f64>; 4] {
     let graded = |n: usize, end: f64, power: f64| -> Vec<f64> {
         (0..n).map(|i| if n == 1 { 0.0 } else { end * (i as f64 / (n - 1) as f64).powf(power) }).collect()
     };
-    let knots = [
+    [
         graded(nodes[0], FRAC_PI_2, 1.2),
         graded(nodes[1], TAU, 1.1),
         graded(nodes[2], PI, 2.0),
         graded(nodes[3], TAU, 1.1),
-    ];
-    let count = channels.count() * nodes.iter().product::<usize>();
-    let values = (0..count).map(|_| rng.random_range(0.01..1.0)).collect();
-    Samples::new(Scatter::Reflection, knots, channels, values).expect("a valid random table")
+    ]
+}
+
+/// An RGB table of smooth values, so that a small error of an angle stays one of the value where cells are narrow.
+pub fn smooth(nodes: [usize; 4]) -> Samples {
+    let knots = knots(nodes);
+    let mut values = Vec::with_capacity(3 * nodes.iter().product::<usize>());
+    let waves = knots.each_ref().map(|knots| knots.iter().map(|angle| angle.sin_cos()).collect::<Vec<_>>());
+    for (sin_sigma, _) in &waves[0] {
+        for (_, cos_psi) in &waves[1] {
+            for (sin_theta, cos_theta) in &waves[2] {
+                for (sin_phi, cos_phi) in &waves[3] {
+                    // No psi at the normal and no phi at the poles of theta, where they mean nothing.
+                    let base = 1.0 + 0.3 * sin_sigma * cos_psi + 0.4 * cos_theta;
+                    let around = 0.2 * sin_theta;
+                    values.extend([base, base + around * cos_phi, base + around * sin_phi].map(|x| x as f32));
+                }
+            }
+        }
+    }
+    Samples::new(Scatter::Reflection, knots, Channels::Rgb, values).expect("a valid smooth table")
 }
 
 /// The paper's isotropic table: 7 x 8 x 13, RGB.
@@ -33,4 +58,48 @@ pub fn isotropic() -> Samples {
 /// The paper's anisotropic table: 17 x 7 x 17 x 13, RGB.
 pub fn anisotropic() -> Samples {
     random([17, 7, 17, 13], Channels::Rgb)
+}
+
+/// An isotropic table beyond the second cache: 90 x 90 x 180, RGB, 17 MB.
+pub fn large() -> Samples {
+    smooth([90, 1, 90, 180])
+}
+
+/// An anisotropic table beyond the third: 16 x 36 x 90 x 108, RGB, 67 MB.
+pub fn large_anisotropic() -> Samples {
+    smooth([16, 36, 90, 108])
+}
+
+/// A material of the sizes that the RGB files of the EPFL database have, of smooth values.
+pub fn rgl() -> Rgl {
+    let theta_i: Vec<f32> = (0..8).map(|i| 1.4 * i as f32 / 7.0).collect();
+    Rgl::new(Parts {
+        description: "waves".into(),
+        phi_i: vec![0.0],
+        ndf: waves("ndf", [1, 2, 128], 0.1),
+        sigma: waves("sigma", [1, 2, 128], 0.3),
+        vndf: waves("vndf", [theta_i.len(), 128, 128], 0.1),
+        luminance: waves("luminance", [theta_i.len(), 32, 32], 0.1),
+        channels: Channels::Rgb,
+        spectra: waves("rgb", [3 * theta_i.len(), 32, 32], 0.1),
+        theta_i,
+        jacobian: true,
+        valid: None,
+    })
+    .expect("a valid material")
+}
+
+/// Images of values from `low` up, with equal ends along the azimuth.
+fn waves(part: &'static str, [slices, height, width]: [usize; 3], low: f32) -> Images {
+    let mut texels = Vec::with_capacity(slices * height * width);
+    for slice in 0..slices {
+        for row in 0..height {
+            let around = (std::f32::consts::TAU * row as f32 / (height - 1) as f32).cos();
+            for column in 0..width {
+                let x = column as f32 / (width - 1) as f32;
+                texels.push(low + 0.4 * (2.0 + around * x + (3.0 * x + 0.3 * slice as f32).sin()));
+            }
+        }
+    }
+    Images::new(part, [slices, height, width], texels).expect("valid images")
 }

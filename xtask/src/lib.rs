@@ -4,6 +4,8 @@
 pub mod asm;
 pub mod equivalence;
 pub mod fixtures;
+#[cfg(target_os = "linux")]
+pub mod peers;
 pub mod pictures;
 pub mod report;
 pub mod sweep;

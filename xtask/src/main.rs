@@ -7,6 +7,8 @@ use clap::Parser;
 #[command(bin_name = "cargo xtask", disable_help_subcommand = true)]
 enum Command {
     Report(xtask::report::Options),
+    #[cfg(target_os = "linux")]
+    Peers(xtask::peers::Options),
     Equivalence(xtask::equivalence::Args),
     Sweep(xtask::sweep::Args),
     Asm(xtask::asm::Args),
@@ -17,6 +19,8 @@ enum Command {
 fn main() -> anyhow::Result<()> {
     match Command::parse() {
         Command::Report(options) => xtask::report::run(&options),
+        #[cfg(target_os = "linux")]
+        Command::Peers(options) => xtask::peers::run(&options),
         Command::Equivalence(args) => xtask::equivalence::run(&args),
         Command::Sweep(args) => xtask::sweep::run(&args),
         Command::Asm(args) => xtask::asm::run(&args),

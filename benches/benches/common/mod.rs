@@ -15,9 +15,9 @@ pub fn bench(criterion: &mut Criterion, ids: &[&str]) {
     for id in ids {
         let question = Question::named(id).expect("a question of the contests");
         let mut group = criterion.benchmark_group(*id);
-        group.throughput(Throughput::Elements(COUNT as u64));
         for input in Input::ALL {
             let mut contest = question.contest(input, COUNT);
+            group.throughput(Throughput::Elements(contest.count as u64));
             if let Err(wrong) = contest.verify() {
                 panic!("{id}, {}: {wrong}", input.name());
             }

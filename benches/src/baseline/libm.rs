@@ -44,3 +44,16 @@ pub fn locate(knots: &[f32], angle: f32) -> (usize, f32) {
     let cell = knots[1..knots.len() - 1].partition_point(|&knot| knot <= angle);
     (cell, (angle - knots[cell]) / (knots[cell + 1] - knots[cell]))
 }
+
+/// The table at sigma, psi, theta and phi in radians, RGB in 1/sr.
+pub fn interpolate(table: &ScalarTable, angles: [f32; 4]) -> [f32; 3] {
+    let mut cell = [0; 4];
+    let mut fraction = [0.0; 4];
+    for axis in 0..4 {
+        // The psi of an isotropic table has one knot and no cell.
+        if table.knots[axis].len() > 1 {
+            (cell[axis], fraction[axis]) = locate(&table.knots[axis], angles[axis]);
+        }
+    }
+    table.interpolate(cell, fraction).map(|value| value.max(0.0))
+}

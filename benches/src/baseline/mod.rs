@@ -1,8 +1,9 @@
 //! What the lanes are compared with: the same evaluation one query at a time.
 //!
 //! Both baselines use the specular coordinates of the library and give its values to rounding. They differ in what an
-//! author of their time would have written: [`libm`] today, [`x87`] in 2005.
+//! author of their time would have written: [`libm`] today, [`x87`] in 2005. [`interpn`] is a library that interpolates.
 
+pub mod interpn;
 pub mod libm;
 #[cfg(target_arch = "x86_64")]
 pub mod x87;

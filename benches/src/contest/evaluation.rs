@@ -52,6 +52,14 @@ pub fn aniso_paper(input: Input, count: usize) -> Contest {
     contest(tables::anisotropic(), input, count, paper)
 }
 
+/// Isotropic, in batches: the strict form beside the fused one.
+pub fn iso_strict(input: Input, count: usize) -> Contest {
+    let mut whole = iso(input, count);
+    let (strict, fused): (Vec<_>, Vec<_>) = whole.contenders.into_iter().partition(|c| c.name.ends_with("-strict"));
+    whole.baselines = fused.into_iter().filter(|f| strict.iter().any(|s| s.name.starts_with(f.name))).collect();
+    Contest { contenders: strict, ..whole }
+}
+
 /// What all contenders share.
 struct Setup {
     pairs: Pairs,

@@ -6,7 +6,11 @@
 mod acos;
 mod backends;
 mod evaluation;
+mod interpolation;
+mod large;
+mod rgl;
 mod search;
+mod threads;
 
 use std::fmt;
 
@@ -14,6 +18,7 @@ use crate::clock;
 use crate::workload::Input;
 
 pub use backends::{Named, backends};
+pub use interpolation::angles;
 
 /// A question that a contest answers, by its id in the report.
 #[derive(Clone, Copy, Debug)]
@@ -24,40 +29,109 @@ pub struct Question {
     pub title: &'static str,
     /// What one answer is, as in "nanoseconds per search".
     pub unit: &'static str,
+    /// Queries that a run takes at least, for what shows in long runs only.
+    pub least: usize,
     build: fn(Input, usize) -> Contest,
 }
 
 /// All questions, in the order of the report.
-pub const QUESTIONS: [Question; 10] = [
-    Question { id: "acos", title: "Arc cosine, eight terms", unit: "value", build: acos::eight_terms },
-    Question { id: "acos-paper", title: "Arc cosine, the paper's four terms", unit: "value", build: acos::four_terms },
-    Question { id: "search", title: "Interval search among 17 knots", unit: "search", build: search::library },
-    Question { id: "search-paper", title: "The paper's stack search, 17 knots", unit: "search", build: search::paper },
-    Question { id: "iso", title: "Isotropic table, batch", unit: "evaluation", build: evaluation::iso },
+pub const QUESTIONS: [Question; 19] = [
+    Question { id: "acos", title: "Arc cosine, eight terms", unit: "value", least: 1, build: acos::eight_terms },
+    Question {
+        id: "acos-paper",
+        title: "Arc cosine, the paper's four terms",
+        unit: "value",
+        least: 1,
+        build: acos::four_terms,
+    },
+    Question {
+        id: "search",
+        title: "Interval search among 17 knots",
+        unit: "search",
+        least: 1,
+        build: search::library,
+    },
+    Question {
+        id: "search-paper",
+        title: "The paper's stack search, 17 knots",
+        unit: "search",
+        least: 1,
+        build: search::paper,
+    },
+    Question { id: "iso", title: "Isotropic table, batch", unit: "evaluation", least: 1, build: evaluation::iso },
     Question {
         id: "iso-single",
         title: "Isotropic table, one query a call",
         unit: "evaluation",
+        least: 1,
         build: evaluation::iso_single,
     },
     Question {
         id: "iso-paper",
         title: "Isotropic table, the paper's kernel",
         unit: "evaluation",
+        least: 1,
         build: evaluation::iso_paper,
     },
-    Question { id: "aniso", title: "Anisotropic table, batch", unit: "evaluation", build: evaluation::aniso },
+    Question { id: "aniso", title: "Anisotropic table, batch", unit: "evaluation", least: 1, build: evaluation::aniso },
     Question {
         id: "aniso-single",
         title: "Anisotropic table, one query a call",
         unit: "evaluation",
+        least: 1,
         build: evaluation::aniso_single,
     },
     Question {
         id: "aniso-paper",
         title: "Anisotropic table, the paper's kernel",
         unit: "evaluation",
+        least: 1,
         build: evaluation::aniso_paper,
+    },
+    Question {
+        id: "iso-interpolation",
+        title: "Isotropic table at known angles",
+        unit: "point",
+        least: 1,
+        build: interpolation::iso,
+    },
+    Question {
+        id: "aniso-interpolation",
+        title: "Anisotropic table at known angles",
+        unit: "point",
+        least: 1,
+        build: interpolation::aniso,
+    },
+    Question {
+        id: "iso-strict",
+        title: "Isotropic table, the same bits on every machine",
+        unit: "evaluation",
+        least: 1,
+        build: evaluation::iso_strict,
+    },
+    Question { id: "large", title: "Isotropic table of 17 MB", unit: "evaluation", least: 1 << 16, build: large::iso },
+    Question {
+        id: "large-aniso",
+        title: "Anisotropic table of 67 MB",
+        unit: "evaluation",
+        least: 1 << 16,
+        build: large::aniso,
+    },
+    Question { id: "rgl-eval", title: "EPFL material, values", unit: "evaluation", least: 1, build: rgl::eval },
+    Question { id: "rgl-pdf", title: "EPFL material, densities", unit: "density", least: 1, build: rgl::pdf },
+    Question {
+        id: "rgl-sample",
+        title: "EPFL material, samples with their weights",
+        unit: "sample",
+        least: 1,
+        build: rgl::sample,
+    },
+    Question {
+        id: "threads",
+        title: "Isotropic table, a batch of a million",
+        unit: "evaluation",
+        least: 1 << 20,
+        build: threads::iso,
     },
 ];
 
@@ -67,9 +141,9 @@ impl Question {
         QUESTIONS.into_iter().find(|question| question.id == id)
     }
 
-    /// Prepares the contest on `count` queries.
+    /// Prepares the contest on `count` queries, or on [`least`](Self::least) where those are more.
     pub fn contest(&self, input: Input, count: usize) -> Contest {
-        (self.build)(input, count)
+        (self.build)(input, count.max(self.least))
     }
 }
 
@@ -118,7 +192,11 @@ pub struct Contender {
 }
 
 impl Contender {
-    fn new<O: 'static>(
+    /// Where somebody else compares the values.
+    pub const UNCHECKED: Tolerance = Tolerance { max: f64::INFINITY, rms: f64::INFINITY };
+
+    /// Runs `run` on `out`, whose values are in the order of the expected ones.
+    pub fn new<O: 'static>(
         name: &'static str,
         tolerance: Tolerance,
         out: O,
@@ -131,6 +209,11 @@ impl Contender {
     /// Does the whole work once.
     pub fn run(&mut self) {
         self.task.run();
+    }
+
+    /// What the last run wrote.
+    pub fn values(&self) -> Vec<f32> {
+        self.task.values()
     }
 }
 

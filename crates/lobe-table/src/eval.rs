@@ -14,17 +14,17 @@ use crate::table::Table;
 use crate::texel::Stored;
 
 /// What the passes of a block hand on.
-struct Scratch {
-    frame: Frame,
+pub(crate) struct Scratch {
+    pub(crate) frame: Frame,
     /// Angles, and then the fractions into their cells.
-    axes: [Column; 4],
+    pub(crate) axes: [Column; 4],
     base: Column<i32>,
     weights: [Column; MAX_CORNERS],
     tile: Tile,
 }
 
 impl Scratch {
-    const ZERO: Self = Scratch {
+    pub(crate) const ZERO: Self = Scratch {
         frame: Frame::ZERO,
         axes: [Column::<f32>::ZERO; 4],
         base: Column::<i32>::ZERO,
@@ -112,9 +112,16 @@ impl Table {
     /// the lanes.
     #[inline(always)]
     fn locate<L: Lanes, B: BlockOfDirections>(&self, lanes: L, n: usize, directions: (B, B), scratch: &mut Scratch) {
-        let Scratch { frame, axes, base, weights, .. } = scratch;
+        let Scratch { frame, axes, .. } = scratch;
         frame::run(lanes, n, directions, self.scatter(), self.refraction.as_ref(), frame);
         angles::run(lanes, n, self.is_anisotropic(), frame, axes);
+        self.find(lanes, n, scratch);
+    }
+
+    /// From the angles of queries `0..n` to base indices and corner weights.
+    #[inline(always)]
+    pub(crate) fn find<L: Lanes>(&self, lanes: L, n: usize, scratch: &mut Scratch) {
+        let Scratch { frame, axes, base, weights, .. } = scratch;
         *base = Column::<i32>::ZERO;
         for (index, (axis, angle)) in self.axes.iter().zip(axes.iter_mut()).enumerate() {
             if index != PSI || self.is_anisotropic() {
@@ -134,7 +141,7 @@ impl Table {
     /// The last pass: channels `from .. from + width` of queries `0..n`, `out[query * width + channel - from]`. All
     /// channels at once, or from a multiple of eight on.
     #[inline(always)]
-    fn texels<L: Lanes>(
+    pub(crate) fn texels<L: Lanes>(
         &self,
         lanes: L,
         n: usize,

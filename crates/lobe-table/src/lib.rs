@@ -15,6 +15,7 @@ mod edges;
 mod eval;
 mod function;
 pub mod half_diff;
+mod interpolate;
 mod invalid;
 pub mod klems;
 mod knots;

@@ -22,6 +22,11 @@ impl Plan {
     pub const FULL: Plan = Plan { count: 1 << 13, rounds: 400 };
     /// For a look, and for continuous integration.
     pub const QUICK: Plan = Plan { count: 1 << 13, rounds: 40 };
+
+    /// Fewer rounds where a run takes more queries, but always some.
+    fn rounds_of(&self, contest: &Contest) -> usize {
+        (self.rounds * self.count / contest.count).max(self.rounds / 10)
+    }
 }
 
 /// Verifies everybody's values, then times the questions on both inputs: those named, or all.
@@ -51,11 +56,12 @@ pub fn all(plan: Plan, only: &[String]) -> anyhow::Result<Vec<Row>> {
     }
     bar.finish_and_clear();
 
-    let bar = progress(checks * (plan.rounds as u64 + 1), "");
+    let rounds: u64 = contests.iter().map(|(.., contest)| plan.rounds_of(contest) as u64 + 1).sum();
+    let bar = progress(rounds, "");
     let mut rows = Vec::new();
     for (question, input, mut contest) in contests {
         bar.set_message(format!("{} {}", question.id, input.name()));
-        let timing = contest.time(plan.rounds, || bar.inc(1));
+        let timing = contest.time(plan.rounds_of(&contest), || bar.inc(1));
         for (contender, &ns) in contest.contenders.iter().zip(&timing.contenders) {
             for (baseline, &baseline_ns) in contest.baselines.iter().zip(&timing.baselines) {
                 rows.push(Row {

@@ -21,8 +21,11 @@ use clap::Args;
 use serde::Serialize;
 
 use equivalence::EquivalenceSummary;
-use machine::Machine;
 use rows::Row;
+
+pub(crate) use machine::Machine;
+pub(crate) use rows::{nanoseconds, times};
+pub(crate) use write::replace;
 
 /// Options of `cargo xtask report`.
 #[derive(Args, Debug)]

@@ -1,0 +1,12 @@
+//! What do two threads gain over one?
+
+mod common;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+
+fn threads(criterion: &mut Criterion) {
+    common::bench(criterion, &["threads"]);
+}
+
+criterion_group!(benches, threads);
+criterion_main!(benches);

@@ -1,0 +1,49 @@
+//! A large batch shared among threads.
+
+use std::rc::Rc;
+
+use lobe::table::reference;
+use lobe::{Brdf, Edges, Soa};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use super::{Contender, Contest, Tolerance};
+use crate::tables;
+use crate::workload::{Input, Pairs};
+
+/// As of a short batch on average. The nearest of a million pairs is ten times as near the mirror peak as that of ten
+/// thousand, and the error of phi there ten times as large.
+const TOLERANCE: Tolerance = Tolerance { max: 2e-2, rms: 2e-5 };
+
+/// Isotropic, two threads beside one; nobody beside it on a machine of one core.
+pub fn iso(input: Input, count: usize) -> Contest {
+    let samples = tables::isotropic();
+    let pairs = Rc::new(input.pairs(count));
+    let mut expected = vec![0.0; 3 * count];
+    for (query, out) in expected.chunks_exact_mut(3).enumerate() {
+        let (wi, wo) = pairs.get(query);
+        reference::eval(&samples, &Edges::default(), wi.map(f64::from), wo.map(f64::from), out);
+    }
+    let brdf = Rc::new(Brdf::new(&samples, &Edges::default()).expect("a small table and a backend"));
+    let two = std::thread::available_parallelism().is_ok_and(|cores| cores.get() > 1);
+    Contest {
+        count,
+        baselines: vec![contender("1 thread", pool(1), &brdf, &pairs)],
+        contenders: two.then(|| contender("2 threads", pool(2), &brdf, &pairs)).into_iter().collect(),
+        expected,
+    }
+}
+
+fn pool(threads: usize) -> ThreadPool {
+    ThreadPoolBuilder::new().num_threads(threads).build().expect("threads")
+}
+
+fn contender(name: &'static str, pool: ThreadPool, brdf: &Rc<Brdf>, pairs: &Rc<Pairs>) -> Contender {
+    let (brdf, pairs) = (brdf.clone(), pairs.clone());
+    let out = vec![f32::NAN; 3 * pairs.len()];
+    let run = move |out: &mut Vec<f32>| {
+        let [wi, wo] = [&pairs.wi, &pairs.wo].map(|[x, y, z]| Soa::new(x, y, z));
+        let brdf: &Brdf = &brdf;
+        pool.install(|| brdf.eval_batch(wi, wo, out));
+    };
+    Contender::new(name, TOLERANCE, out, run, Vec::clone)
+}

@@ -1,0 +1,97 @@
+//! A [`Table`] where the angles are known: the evaluation without its directions.
+
+use lobe_lane::{Floats, Kernel, Lanes};
+
+use crate::eval::Scratch;
+use crate::layout::PSI;
+use crate::passes::block::BLOCK;
+use crate::table::Table;
+
+impl Table {
+    /// Interpolates at many points on the backend given: `out[query * channels + channel]`, in 1/sr.
+    ///
+    /// `angles` are sigma, psi, theta and phi in radians, see [`coords`](crate::coords); psi and phi are in `[0, 2 pi]`.
+    /// An isotropic table does not read psi, which may be empty. Results are 0 where an angle is not finite.
+    ///
+    /// # Panics
+    /// Where the angles differ in number, or `out` is not that many times the channels long.
+    pub fn interpolate_batch<L: Lanes>(&self, lanes: L, angles: [&[f32]; 4], out: &mut [f32]) {
+        lanes.vectorize(self.interpolation(angles, out));
+    }
+
+    /// The work of [`interpolate_batch`](Table::interpolate_batch) as a kernel.
+    ///
+    /// # Panics
+    /// As [`interpolate_batch`](Table::interpolate_batch).
+    pub fn interpolation<'a>(&'a self, angles: [&'a [f32]; 4], out: &'a mut [f32]) -> impl Kernel<Out = ()> + 'a {
+        let count = angles[0].len();
+        for (axis, angles) in angles.iter().enumerate() {
+            let unread = axis == PSI && !self.is_anisotropic();
+            assert!(unread || angles.len() == count, "as many angles of each kind");
+        }
+        assert_eq!(out.len(), count * self.channel_count(), "one output a query and channel");
+        Interpolation { table: self, angles, out }
+    }
+}
+
+/// All queries of a batch, block by block.
+struct Interpolation<'a> {
+    table: &'a Table,
+    angles: [&'a [f32]; 4],
+    out: &'a mut [f32],
+}
+
+impl Kernel for Interpolation<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Interpolation { table, angles, out } = self;
+        let channels = table.channel_count();
+        let texels = table.layout.texels();
+        let count = angles[0].len();
+        let mut scratch = Scratch::ZERO;
+        let mut at = 0;
+        while at < count {
+            let left = (count - at).min(BLOCK);
+            let n = left.next_multiple_of(L::LANES);
+            for (axis, (column, angles)) in scratch.axes.iter_mut().zip(angles).enumerate() {
+                if axis != PSI || table.is_anisotropic() {
+                    column.0[..left].copy_from_slice(&angles[at..][..left]);
+                }
+            }
+            leave_out(lanes, n, table.is_anisotropic(), &mut scratch);
+            table.find(lanes, n, &mut scratch);
+            table.texels(
+                lanes,
+                left,
+                &texels,
+                &mut scratch,
+                (0, channels),
+                &mut out[at * channels..][..left * channels],
+            );
+            at += left;
+        }
+    }
+}
+
+/// Queries `0..n` are valid where all angles are finite; those that are not become 0.
+#[inline(always)]
+fn leave_out<L: Lanes>(lanes: L, n: usize, anisotropic: bool, scratch: &mut Scratch) {
+    let mut query = 0;
+    while query < n {
+        let mut finite = lanes.splat_int(-1);
+        let mut axis = 0;
+        while axis < 4 {
+            if axis != PSI || anisotropic {
+                let angle = scratch.axes[axis].load(lanes, query);
+                let kept = angle.abs().lt(lanes.splat(f32::INFINITY));
+                finite = lanes.select_int(kept, finite, lanes.splat_int(0));
+                scratch.axes[axis].store(lanes, query, angle.masked(kept));
+            }
+            axis += 1;
+        }
+        scratch.frame.valid.store(lanes, query, finite);
+        query += L::LANES;
+    }
+}

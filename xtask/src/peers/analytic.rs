@@ -1,0 +1,42 @@
+//! A measured table against an analytic model: what measured materials cost.
+
+use lobe::{Backend, Edges, Soa, Table};
+use lobe_benches::contest::Contender;
+use lobe_benches::tables;
+use lobe_benches::workload::Input;
+use serde_json::json;
+
+use super::contest::{Contest, Outside};
+use super::exchange::Exchange;
+use super::material::{COUNT, pairs};
+
+/// The isotropic table of the paper's size on both inputs, in batches as long as Mitsuba's wavefronts.
+///
+/// # Errors
+/// Where a file cannot be written.
+pub fn all(exchange: &mut Exchange) -> anyhow::Result<Vec<Contest>> {
+    Input::ALL.into_iter().map(|input| contest(exchange, input)).collect()
+}
+
+fn contest(exchange: &mut Exchange, input: Input) -> anyhow::Result<Contest> {
+    let (pairs, file) = pairs(exchange, input)?;
+    let task = format!("principled-{}", input.name());
+    exchange.task(&task, json!({ "bsdf": { "type": "principled" }, "what": "eval", "pairs": file }));
+    let table = Table::new(&tables::isotropic(), &Edges::default())?;
+    let backend = Backend::best().fused();
+    let run = move |out: &mut Vec<f32>| {
+        let [wi, wo] = [&pairs.wi, &pairs.wo].map(|[x, y, z]| Soa::new(x, y, z));
+        backend.run(table.batch(wi, wo, out));
+    };
+    Ok(Contest {
+        id: "analytic",
+        on: format!("7 × 8 × 13, {}", input.name()),
+        unit: "evaluation",
+        count: COUNT,
+        lobe: Contender::new("lobe", Contender::UNCHECKED, vec![f32::NAN; 3 * COUNT], run, Vec::clone),
+        inside: Vec::new(),
+        outside: vec![Outside { name: "Mitsuba principled", program: "mitsuba", task }],
+        agreement: None,
+        goal: Some(1.0),
+    })
+}

@@ -1,0 +1,20 @@
+//! All contests, with the files that the peers need for them.
+
+use std::path::Path;
+
+use super::contest::Contest;
+use super::exchange::Exchange;
+use super::{analytic, interpolation, material, trigonometry};
+
+/// Those whose names begin like one of `only`, or all. Files and tasks go to `exchange`.
+///
+/// # Errors
+/// Where a measured material cannot be read, or a file cannot be written.
+pub fn all(data: &Path, exchange: &mut Exchange, only: &[String]) -> anyhow::Result<Vec<Contest>> {
+    let mut contests = vec![trigonometry::acos(exchange)?];
+    contests.extend(interpolation::all(exchange)?);
+    contests.extend(analytic::all(exchange)?);
+    contests.extend(material::all(data, exchange)?);
+    contests.retain(|contest| only.is_empty() || only.iter().any(|start| contest.name().starts_with(start.as_str())));
+    Ok(contests)
+}

@@ -1,0 +1,112 @@
+//! `cargo xtask peers`: other people's programs beside this library, on the same tables and queries, in turns.
+//!
+//! What a package registry serves as wheels is installed into a virtual environment, SLEEF is taken from the system.
+//! Each peer runs in a process of its own, which answers one request a line; a peer that cannot be had is
+//! left out with a line that says why. Everybody's values are compared before anything is timed.
+
+mod analytic;
+mod contest;
+mod contests;
+mod exchange;
+mod install;
+mod interpolation;
+mod material;
+mod processor;
+mod program;
+mod record;
+mod trigonometry;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, bail};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::report::{Machine, replace};
+use exchange::Exchange;
+use program::{Program, Programs};
+use record::Record;
+
+/// Options of `cargo xtask peers`.
+#[derive(Args, Debug)]
+pub struct Options {
+    /// Turns that everybody gets
+    #[arg(long, value_name = "COUNT", default_value_t = 12)]
+    turns: usize,
+    /// Only the contests whose names begin like this
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    only: Vec<String>,
+    /// Directory of the environment, of exchanged files and of peers.json
+    #[arg(long, value_name = "DIR", default_value = "target/peers")]
+    out: PathBuf,
+    /// Directory of measured materials, `rgl_bsdf/*.bsdf` [default: LOBE_SHARED/data, else ../shared/data]
+    #[arg(long, value_name = "DIR")]
+    data: Option<PathBuf>,
+    /// Also write the table to docs/performance.md
+    #[arg(long)]
+    record: bool,
+}
+
+/// Installs, checks, measures, prints and writes.
+///
+/// # Errors
+/// Where a peer's values are not those of this library, a program breaks off, or a file cannot be written.
+pub fn run(options: &Options) -> anyhow::Result<()> {
+    let machine = Machine::here();
+    std::fs::create_dir_all(&options.out).with_context(|| format!("cannot create {}", options.out.display()))?;
+    // Programs are started with absolute paths, so that they may be started anywhere.
+    let out = options.out.canonicalize()?;
+    let data = options.data.clone().unwrap_or_else(default_data);
+    let mut exchange = Exchange::new(&out)?;
+    let mut contests = contests::all(&data, &mut exchange, &options.only)?;
+    if contests.is_empty() {
+        bail!("no contest begins with {}", options.only.join(" or "));
+    }
+    let tasks = exchange.write_tasks()?;
+
+    let mut programs = Programs::default();
+    for (name, command) in install::all(&out, &tasks, &exchange.cosines()) {
+        println!("{name}: starting");
+        programs.add(name, command.and_then(|command| Program::start(command, &out.join(format!("{name}.log")))));
+    }
+    for (name, why) in programs.missing() {
+        println!("{name}: left out, {why}");
+    }
+    if material::files(&data).is_empty() {
+        println!("EPFL materials: left out, no rgl_bsdf/*.bsdf in {}", data.display());
+    }
+    contests.retain_mut(|contest| contest.keep_present(&programs));
+
+    let core = processor::pin();
+    let style = ProgressStyle::with_template("{bar:32} {percent:>3} % {eta:>4} {msg}").expect("a valid template");
+    let bar = ProgressBar::new((contests.len() * (options.turns + 1)) as u64).with_style(style);
+    let mut rows = Vec::new();
+    for mut contest in contests {
+        bar.set_message(contest.name());
+        let differences = contest.check(&mut programs, &exchange)?;
+        bar.inc(1);
+        rows.extend(contest.time(&mut programs, options.turns, &differences, || bar.inc(1))?);
+    }
+    bar.finish_and_clear();
+
+    let missing = programs.missing().map(|(name, why)| [name.to_owned(), why]).collect();
+    let record = Record { machine, core, turns: options.turns, versions: programs.versions(), missing, rows };
+    record.print();
+    let json = out.join("peers.json");
+    replace(&json, &(serde_json::to_string_pretty(&record)? + "\n"))?;
+    println!("{}", json.display());
+    if options.record {
+        let page = workspace().join("docs/performance.md");
+        replace(&page, &record.markdown())?;
+        println!("{}", page.display());
+    }
+    Ok(())
+}
+
+fn workspace() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("xtask lies in the workspace")
+}
+
+fn default_data() -> PathBuf {
+    std::env::var_os("LOBE_SHARED").map_or_else(|| workspace().join("../shared"), PathBuf::from).join("data")
+}

@@ -1,0 +1,147 @@
+"""Runs peers of lobe on request: `python peers.py PACKAGE TASKS`.
+
+TASKS is a JSON file, an object of tasks by name. Says `ready VERSION` once, then answers each line of its input:
+
+    run TASK TIMES      the least processor seconds of that many runs
+    values TASK FILE    `written`, after writing what a run computes to FILE, as little-endian f32
+
+Arrays come from files of little-endian f32. What it takes to get them into place is not timed.
+"""
+
+import gc
+import importlib.metadata
+import json
+import sys
+import time
+
+import numpy as np
+
+
+def floats(path, rows):
+    return np.fromfile(path, "<f4").reshape(rows, -1)
+
+
+class Scipy:
+    """Linear interpolation on a rectilinear grid by SciPy, all channels at once."""
+
+    def __init__(self, task):
+        from scipy.interpolate import RegularGridInterpolator
+
+        kind = task["float"]
+        knots = tuple(np.array(axis, kind) for axis in task["knots"])
+        values = np.fromfile(task["values"], "<f4").reshape(*map(len, knots), 3).astype(kind)
+        self.grid = RegularGridInterpolator(knots, values, bounds_error=False, fill_value=None)
+        self.points = np.ascontiguousarray(floats(task["points"], len(knots)).T).astype(kind)
+
+    def run(self):
+        self.out = self.grid(self.points)
+
+    def values(self):
+        return self.out
+
+
+class Interpn:
+    """The same by interpn, a channel a call."""
+
+    def __init__(self, task):
+        from interpn import raw
+
+        self.interpolate = raw.interpn_linear_rectilinear_f32
+        self.knots = [np.array(axis, "f4") for axis in task["knots"]]
+        values = np.fromfile(task["values"], "<f4").reshape(-1, 3)
+        self.channels = [np.ascontiguousarray(values[:, k]) for k in range(3)]
+        self.points = [np.ascontiguousarray(row) for row in floats(task["points"], len(self.knots))]
+        self.out = [np.zeros_like(self.points[0]) for _ in range(3)]
+
+    def run(self):
+        for channel, out in zip(self.channels, self.out):
+            self.interpolate(self.knots, channel, self.points, out)
+
+    def values(self):
+        return np.stack(self.out, axis=1)
+
+
+class Mitsuba:
+    """A BSDF of Mitsuba 3, compiled for this processor, one wavefront a run."""
+
+    def __init__(self, task):
+        import drjit as dr
+        import mitsuba as mi
+
+        mi.set_variant("llvm_ad_rgb")
+        dr.set_thread_count(1)
+        self.dr = dr
+        self.context = mi.BSDFContext()
+        self.bsdf = mi.load_dict(task["bsdf"])
+        pairs = floats(task["pairs"], 6)
+        self.si = dr.zeros(mi.SurfaceInteraction3f, pairs.shape[1])
+        self.si.wi = mi.Vector3f(*pairs[:3])
+        self.wo = mi.Vector3f(*pairs[3:])
+        self.compute = getattr(self, task["what"])
+        if task["what"] == "sample":
+            uniforms = floats(task["uniforms"], 2)
+            self.which = mi.Float(0) + dr.zeros(mi.Float, pairs.shape[1])
+            self.uniforms = mi.Point2f(*uniforms)
+            dr.eval(self.which, self.uniforms)
+        dr.eval(self.si, self.wo)
+        dr.sync_thread()
+
+    def eval(self):
+        return [self.bsdf.eval(self.context, self.si, self.wo)]
+
+    def pdf(self):
+        return [self.bsdf.pdf(self.context, self.si, self.wo)]
+
+    def sample(self):
+        drawn, weight = self.bsdf.sample(self.context, self.si, self.which, self.uniforms)
+        return [drawn.wo, drawn.pdf, weight]
+
+    def run(self):
+        self.out = self.compute()
+        self.dr.eval(self.out)
+        self.dr.sync_thread()
+
+    def values(self):
+        return np.concatenate([np.ravel(np.array(part), order="F") for part in self.out])
+
+
+KINDS = {"scipy": Scipy, "interpn": Interpn, "mitsuba": Mitsuba}
+
+
+def main():
+    package, tasks = sys.argv[1], json.load(open(sys.argv[2]))
+    kind = KINDS[package]
+    ready = {}
+
+    def prepared(name):
+        if name not in ready:
+            ready[name] = kind(tasks[name])
+            # The first run compiles kernels, the second finds them.
+            ready[name].run()
+            ready[name].run()
+        return ready[name]
+
+    if package == "mitsuba":
+        # Without a usable LLVM this ends the process, so do it before saying that all is well.
+        import mitsuba as mi
+
+        mi.set_variant("llvm_ad_rgb")
+        str(mi.Float([1, 2]) + 1)
+    print("ready", importlib.metadata.version(package), flush=True)
+    gc.disable()
+    for line in sys.stdin:
+        what, name, argument = line.rstrip("\n").split(" ", 2)
+        contestant = prepared(name)
+        if what == "run":
+            least = float("inf")
+            for _ in range(int(argument)):
+                start = time.process_time_ns()
+                contestant.run()
+                least = min(least, time.process_time_ns() - start)
+            print(least * 1e-9, flush=True)
+        else:
+            np.asarray(contestant.values(), "<f4").tofile(argument)
+            print("written", flush=True)
+
+
+main()

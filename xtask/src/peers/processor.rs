@@ -1,0 +1,24 @@
+//! The processor: one core for everybody, and the time that it has worked.
+
+use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity};
+use rustix::time::{ClockId, clock_gettime};
+
+/// Keeps this thread, and what it starts or has started with it as a pattern, on the last core that it may use. Returns
+/// that core, or `None` where the system refuses.
+pub fn pin() -> Option<usize> {
+    let allowed = sched_getaffinity(None).ok()?;
+    let core = (0..CpuSet::MAX_CPU).rev().find(|&core| allowed.is_set(core))?;
+    let mut one = CpuSet::new();
+    one.set(core);
+    sched_setaffinity(None, &one).ok()?;
+    Some(core)
+}
+
+/// Seconds that this process has been on a processor.
+///
+/// Unlike a wall clock it stands still while other programs have the core, so that long runs can be timed on a machine
+/// that is not quiet.
+pub fn seconds() -> f64 {
+    let time = clock_gettime(ClockId::ProcessCPUTime);
+    time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
+}
