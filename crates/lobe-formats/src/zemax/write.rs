@@ -44,7 +44,7 @@ pub fn write(samples: &Samples, path: &Path) -> Result<(), FormatError> {
         let _ = writeln!(out, "{}  {}", AXES[axis], degrees[axis].len());
         push_row(&mut out, degrees[axis].iter().map(|&angle| f64::from(angle)));
     }
-    let [sigmas, psis, thetas, phis] = samples.knots().each_ref().map(Vec::len);
+    let [sigmas, _, thetas, phis] = samples.knots().each_ref().map(Vec::len);
     let totals: Vec<Vec<f64>> = reflectances(samples);
     for (channel, name) in names.iter().enumerate() {
         let _ = writeln!(out, "\n{name}\nDataBegin");
