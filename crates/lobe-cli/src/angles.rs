@@ -87,7 +87,7 @@ pub fn choose_aspects(
 pub fn table(header: Vec<String>, rows: Vec<Vec<String>>, words: usize) -> Table {
     let columns = header.len();
     let mut table = Table::new();
-    table.load_preset(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic).set_header(header);
+    table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic).set_header(header);
     rows.into_iter().for_each(|row| {
         table.add_row(row);
     });

@@ -35,7 +35,7 @@ pub struct Integral {
 /// How exact an integral is to be, and what it may cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
-    /// The absolute error that is good enough.
+    /// The error that is good enough: absolute, but relative for integrals above 1.
     pub tolerance: f64,
     /// After this many directions the estimate is taken as it is.
     pub evaluations: usize,
@@ -59,7 +59,14 @@ impl Panels {
     /// Panels whose bounds are the knots of a grid of polar angles and azimuths.
     pub fn of_knots(zenith: f64, psi: f64, thetas: &[f64], phis: &[f64]) -> Self {
         let start = phis.first().copied().unwrap_or(0.0);
-        let phis = bounds(phis, start, start + TAU);
+        // Knots as dense as these are left to the division of panels.
+        let mut sparse: Vec<f64> = Vec::new();
+        for &phi in phis {
+            if sparse.last().is_none_or(|last| phi - last > DENSE) {
+                sparse.push(phi);
+            }
+        }
+        let phis = bounds(&sparse, start, start + TAU);
         Panels { zenith, psi, thetas: bounds(thetas, 0.0, PI), phis: with_horizon(zenith, phis) }
     }
 
@@ -79,13 +86,12 @@ impl Panels {
 /// to 1e-5.
 const STEP: f64 = PI / 12.0;
 
-/// Azimuths with those between at which the horizon is at a multiple of the step. From a low axis it turns within a few
+/// Azimuths with those between at which the horizon is at a multiple of 30 degrees. From a low axis it turns within a few
 /// degrees of azimuth from nearly 0 to nearly a half turn, and no rule of few points would see that.
 fn with_horizon(zenith: f64, mut phis: Vec<f64>) -> Vec<f64> {
     let (start, end) = (phis[0], phis[phis.len() - 1]);
-    let steps = (PI / STEP).round() as u32;
-    for step in 1..steps {
-        let cos = -zenith.cos() / (zenith.sin() * (f64::from(step) * STEP).tan());
+    for step in 1..6 {
+        let cos = -zenith.cos() / (zenith.sin() * (f64::from(step) * PI / 6.0).tan());
         if cos.abs() < 1.0 {
             phis.extend([cos.acos(), -cos.acos()].map(|phi| start + (phi - start).rem_euclid(TAU)));
         }
@@ -99,6 +105,9 @@ fn with_horizon(zenith: f64, mut phis: Vec<f64>) -> Vec<f64> {
 
 /// Bounds nearer to each other than this are one.
 const SAME: f64 = 1e-6;
+
+/// Azimuths nearer to each other than this, 4 degrees, do not each begin a panel: across it, a cosine is a line to 6e-4.
+const DENSE: f64 = PI / 45.0;
 
 /// The knots between two ends, with the ends, and with more between where they are far apart.
 fn bounds(knots: &[f64], first: f64, last: f64) -> Vec<f64> {
@@ -163,14 +172,15 @@ pub fn integrate(
     let mut leaves = integrator.leaves(&whole, &coarse);
     loop {
         let error: f64 = leaves.iter().map(|leaf| leaf.error).sum();
-        if error <= effort.tolerance || integrator.evaluations >= effort.evaluations {
-            let mut values = vec![0.0; channels];
-            for leaf in &leaves {
-                leaf.parts.iter().enumerate().for_each(|(at, part)| values[at % channels] += part);
-            }
+        let mut values = vec![0.0; channels];
+        for leaf in &leaves {
+            leaf.parts.iter().enumerate().for_each(|(at, part)| values[at % channels] += part);
+        }
+        let tolerance = effort.tolerance * values.iter().fold(1.0, |largest: f64, value| largest.max(value.abs()));
+        if error <= tolerance || integrator.evaluations >= effort.evaluations {
             return Integral { values, error, evaluations: integrator.evaluations };
         }
-        let share = effort.tolerance / leaves.len() as f64;
+        let share = tolerance / leaves.len() as f64;
         let (rough, mut fine): (Vec<Leaf>, Vec<Leaf>) = leaves.into_iter().partition(|leaf| leaf.error > share);
         let quarters: Vec<Rectangle> = rough.iter().flat_map(|leaf| leaf.quarters).collect();
         let parts: Vec<f64> = rough.into_iter().flat_map(|leaf| leaf.parts).collect();

@@ -10,6 +10,7 @@ use lobe_table::window::Block;
 use lobe_table::{AXIS_NAMES, Samples};
 
 use super::{Finding, Status, degrees, part_name, percent};
+use crate::directions::spherical;
 use crate::samples::{directions, nodes};
 use crate::subject::aspect_of;
 
@@ -76,6 +77,24 @@ fn dark_nodes(samples: &Samples, part: &str) -> Option<Finding> {
     Some(Finding::new("coverage", part, status, text).number("dark", dark as f64).number("above", above as f64))
 }
 
+/// Whether nobody looked anywhere but in the plane of incidence, so that no integral over the hemisphere is a measurement.
+pub(super) fn is_in_plane(data: &Scattered) -> bool {
+    data.samples().all(|([_, phi_i, theta, phi], _)| theta < 1e-3 || (phi - phi_i).sin().abs() < 1e-3)
+}
+
+/// Where the brightest sample is, if it is toward the light: such materials are often read the wrong way round.
+fn backward(data: &Scattered, part: &str) -> Option<Finding> {
+    let sum = |texel: &[f32]| texel.iter().map(|&value| f64::from(value)).sum::<f64>();
+    let ([theta_i, phi_i, theta, phi], _) = data.samples().max_by(|a, b| sum(a.1).total_cmp(&sum(b.1)))?;
+    let (wi, wo) = (spherical(theta_i, phi_i), spherical(theta, phi));
+    let cos = |w: [f64; 3]| wo.iter().zip(w).map(|(a, b)| a * b).sum::<f64>();
+    let (to_light, to_mirror) = (cos(wi), cos([-wi[0], -wi[1], wi[2]]));
+    (to_light > 0.97 && to_mirror < 0.9).then(|| {
+        let text = format!("brightest toward the light, which is at {} degrees: a retroreflector", degrees(theta_i));
+        Finding::new("peak", part, Status::Note, text)
+    })
+}
+
 /// The sectors of outgoing directions that a count is over: steps of 15 degrees of the polar angle, of 30 of the azimuth.
 const RINGS: usize = 6;
 const SECTORS: usize = 12;
@@ -90,8 +109,11 @@ fn of_samples(data: &Scattered, part: &str) -> Vec<Finding> {
     let widest = list.len().max(1);
     let shown = if widest > 12 { format!("{} polar angles to {}", widest, list[widest - 1]) } else { list.join(" ") };
     let text = format!(
-        "light from {} directions, at {shown} degrees; between and beyond, the nearest goes on",
-        incidences.len()
+        "light from {}, at {shown} degrees; between and beyond, the nearest goes on",
+        match incidences.len() {
+            1 => "one direction".into(),
+            n => format!("{n} directions"),
+        }
     );
     let (status, few) = match thetas.len() {
         1 => (Status::Warn, ". One angle of incidence says nothing about the others"),
@@ -101,14 +123,13 @@ fn of_samples(data: &Scattered, part: &str) -> Vec<Finding> {
     let finding = Finding::new("coverage", part, status, format!("{text}{few}"));
     findings.push(finding.number("incidences", incidences.len() as f64));
 
-    let (mut least, mut at, mut in_plane) = (usize::MAX, 0.0, true);
+    let (mut least, mut at) = (usize::MAX, 0.0);
     let mut sectors = BTreeSet::new();
     let mut samples = data.samples().peekable();
     let mut is_left = true;
     let mut is_right = true;
     while let Some(([theta_i, phi_i, theta, phi], _)) = samples.next() {
         let relative = (phi - phi_i).rem_euclid(TAU);
-        in_plane &= theta < 1e-3 || relative.sin().abs() < 1e-3;
         is_left &= theta.sin() * relative.sin() > -1e-6;
         is_right &= theta.sin() * relative.sin() < 1e-6;
         let ring = ((theta * RINGS as f64 / (PI / 2.0)) as usize).min(RINGS - 1);
@@ -124,7 +145,7 @@ fn of_samples(data: &Scattered, part: &str) -> Vec<Finding> {
     }
     // Where one side of the plane was measured, the other is its mirror image.
     let all = RINGS * SECTORS / if data.is_isotropic() && (is_left || is_right) { 2 } else { 1 };
-    let (status, text) = if in_plane {
+    let (status, text) = if is_in_plane(data) {
         (Status::Warn, "measured in the plane of incidence only, and guessed everywhere else".to_string())
     } else {
         let share = least as f64 / all as f64;
@@ -136,5 +157,6 @@ fn of_samples(data: &Scattered, part: &str) -> Vec<Finding> {
     };
     findings
         .push(Finding::new("coverage", part, status, text).number("sectors", least as f64).number("of", all as f64));
+    findings.extend(backward(data, part));
     findings
 }

@@ -3,7 +3,10 @@
 use std::f64::consts::PI;
 
 use lobe_formats::Document;
+use lobe_formats::sheet::Data;
+use lobe_table::scattered::Scattered;
 
+use super::coverage::is_in_plane;
 use super::{Finding, Status, Thoroughness, degrees, percent};
 use crate::albedo::{Albedo, albedo_of};
 use crate::directions::spherical;
@@ -28,6 +31,11 @@ pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness, progress: im
     let mut findings = Vec::new();
     let mut all: Vec<(Aspect, Vec<Albedo>)> = Vec::new();
     for (index, &aspect) in aspects.iter().enumerate() {
+        let part = if aspects.len() > 1 { aspect.to_string() } else { String::new() };
+        if let Some(data) = scattered(subject, aspect).filter(|data| is_in_plane(data)) {
+            findings.extend(in_plane(data, &part));
+            continue;
+        }
         let mut incidences = subject.incidences(aspect);
         incidences.retain(|[theta, _]| *theta <= GRAZING);
         let step = incidences.len().div_ceil(thoroughness.incidences.max(1)).max(1);
@@ -41,7 +49,7 @@ pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness, progress: im
     }
     let names = subject.material.channels().names();
     for (aspect, albedos) in all.iter().filter(|(_, albedos)| !albedos.is_empty()) {
-        let part = if all.len() > 1 { aspect.to_string() } else { String::new() };
+        let part = if aspects.len() > 1 { aspect.to_string() } else { String::new() };
         findings.push(energy(&part, aspect, albedos, &names));
         findings.extend(unit(&part, albedos));
         findings.extend(cosine(subject, *aspect, &part));
@@ -51,6 +59,30 @@ pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness, progress: im
     if matches!(subject.document, Document::Utia(_)) {
         let text = "the unit of this database is not documented; albedos are those of the numbers as they are stored";
         findings.push(Finding::new("unit", "", Status::Warn, text.into()));
+    }
+    findings
+}
+
+fn scattered(subject: &Subject, aspect: Aspect) -> Option<&Scattered> {
+    match (&subject.document, subject.part(aspect)) {
+        (Document::Scattered(measured), _) => Some(&measured.data),
+        (_, Some(Data::Scattered(data))) => Some(data),
+        _ => None,
+    }
+}
+
+/// What can be said without an integral: no albedo is above pi times the largest value.
+fn in_plane(data: &Scattered, part: &str) -> Vec<Finding> {
+    let text = "measured in the plane of incidence only, so there is no albedo".into();
+    let mut findings = vec![Finding::new("energy", part, Status::Note, text)];
+    let largest = data.samples().flat_map(|(_, texel)| texel).fold(0.0, |most: f64, &value| most.max(f64::from(value)));
+    if largest * PI < BLACK {
+        let text = format!(
+            "values are {largest:.1e} at most, so no albedo is above {:.1e}, less than the blackest coatings have: they are \
+             not in 1/sr",
+            PI * largest
+        );
+        findings.push(Finding::new("unit", part, Status::Warn, text).number("largest", largest));
     }
     findings
 }

@@ -79,7 +79,7 @@ pub struct Thoroughness {
     pub incidences: usize,
     /// Directions of an integral.
     pub evaluations: usize,
-    /// The absolute error of an integral.
+    /// The error of an integral, absolute, but relative above 1.
     pub tolerance: f64,
     /// Pairs of directions that are exchanged.
     pub pairs: usize,
@@ -87,7 +87,7 @@ pub struct Thoroughness {
 
 impl Default for Thoroughness {
     fn default() -> Self {
-        Thoroughness { incidences: 160, evaluations: 400_000, tolerance: 1e-3, pairs: 20_000 }
+        Thoroughness { incidences: 48, evaluations: 200_000, tolerance: 1e-3, pairs: 20_000 }
     }
 }
 

@@ -113,7 +113,7 @@ fn stated_totals_are_compared_with_the_integral() {
 fn what_was_not_measured_is_found() {
     let holed = table(&CIRCLE, |_, theta, _| if theta == 60.0 || theta == 120.0 { 0.0 } else { 0.1 + 1e-4 * theta });
     assert_found(&found(holed.clone(), Vec::new(), "coverage"), Status::Warn, "are exactly 0");
-    assert_found(&found(holed, Vec::new(), "repeated values"), Status::Note, "probably not measured");
+    assert_found(&found(holed, Vec::new(), "repeated values"), Status::Note, "not measured; the interpolation");
     let short = table(&CIRCLE, |_, _, _| 0.1);
     assert_found(&found(short, Vec::new(), "coverage"), Status::Note, "from 0 to 85 degrees only");
 }

@@ -119,7 +119,7 @@ fn repeated(part: &str, values: &[f32]) -> Option<Finding> {
     }
     let (least, most) = values.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)));
     let reading = match value {
-        0.0 => "probably not measured; the interpolation takes them for dark",
+        0.0 => "below the horizon, below the noise, or not measured; the interpolation takes them for dark",
         value if value == least => "a floor, below which nothing was kept",
         value if value == most => "a ceiling, above which the instrument was blind",
         _ => "more often than a measurement would have it",
