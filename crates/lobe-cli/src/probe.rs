@@ -61,7 +61,7 @@ fn pair(n: u32) -> ([f64; 3], [f64; 3]) {
     };
     let wi = up(a, d);
     let wo = up(b, c);
-    if n % 2 == 0 {
+    if n.is_multiple_of(2) {
         return (wi, wo);
     }
     // Half vectors within 20 degrees of the normal.
