@@ -57,7 +57,7 @@ pub fn is_isotropic(surface: &dyn Surface) -> bool {
         let (theta_i, theta_o) = (1.4 * a, 1.4 * b);
         let pair = |turn: f64| {
             let [x, y, z] = spherical(theta_o, TAU * c + turn);
-            (spherical(theta_i, turn), [x, y, if query % 2 == 0 { z } else { -z }])
+            (spherical(theta_i, turn), [x, y, if query.is_multiple_of(2) { z } else { -z }])
         };
         let ((wi, wo), (wi2, wo2)) = (pair(0.3), pair(0.3 + TAU * turn));
         surface.f(wi, &[wo], &mut before);

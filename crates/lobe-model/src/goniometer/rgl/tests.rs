@@ -17,7 +17,7 @@ fn pairs() -> impl Iterator<Item = (Vec3, Vec3)> {
     (1..4000).filter_map(|n| {
         let [a, b, c, d] = halton(n);
         let (wi, near) = (spherical(a.sqrt().asin(), TAU * d), spherical(0.3 * b, TAU * c));
-        let wo = if n % 2 == 0 { spherical(b.sqrt().asin(), TAU * c) } else { reflect(wi, near) };
+        let wo = if n.is_multiple_of(2) { spherical(b.sqrt().asin(), TAU * c) } else { reflect(wi, near) };
         (wi[2] > 0.1 && wo[2] > 0.1).then_some((wi, wo))
     })
 }
