@@ -9,6 +9,7 @@ mod evaluation;
 mod interpolation;
 mod large;
 mod rgl;
+mod sampling;
 mod search;
 mod threads;
 
@@ -35,7 +36,7 @@ pub struct Question {
 }
 
 /// All questions, in the order of the report.
-pub const QUESTIONS: [Question; 19] = [
+pub const QUESTIONS: [Question; 21] = [
     Question { id: "acos", title: "Arc cosine, eight terms", unit: "value", least: 1, build: acos::eight_terms },
     Question {
         id: "acos-paper",
@@ -125,6 +126,20 @@ pub const QUESTIONS: [Question; 19] = [
         unit: "sample",
         least: 1,
         build: rgl::sample,
+    },
+    Question {
+        id: "iso-sample",
+        title: "Isotropic table, samples with their weights",
+        unit: "sample",
+        least: 1,
+        build: sampling::iso,
+    },
+    Question {
+        id: "aniso-sample",
+        title: "Anisotropic table, samples with their weights",
+        unit: "sample",
+        least: 1,
+        build: sampling::aniso,
     },
     Question {
         id: "threads",

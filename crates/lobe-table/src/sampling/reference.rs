@@ -51,10 +51,10 @@ impl Distribution {
     fn blend(&self, sigma: f64, psi: f64) -> Blend {
         let (sigma, up) = cell(&self.sigma, sigma);
         match &self.psi {
-            None => Blend { block: sigma, weights: vec![1.0 - up, up] },
+            None => Blend { block: sigma, weights: [1.0 - up, up, 0.0, 0.0] },
             Some(axis) => {
                 let (psi, on) = cell(axis, psi);
-                let weights = vec![(1.0 - up) * (1.0 - on), (1.0 - up) * on, up * (1.0 - on), up * on];
+                let weights = [(1.0 - up) * (1.0 - on), (1.0 - up) * on, up * (1.0 - on), up * on];
                 Blend { block: sigma * axis.cells().len() + psi, weights }
             }
         }
@@ -64,7 +64,7 @@ impl Distribution {
 /// The slices about an incident direction.
 struct Blend {
     block: usize,
-    weights: Vec<f64>,
+    weights: [f64; 4],
 }
 
 /// Where a number falls among cumulative sums.
