@@ -102,7 +102,13 @@ class Mitsuba:
         self.dr.sync_thread()
 
     def values(self):
-        return np.concatenate([np.ravel(np.array(part), order="F") for part in self.out])
+        parts = [np.atleast_2d(np.array(part)) for part in self.out]
+        if len(parts) > 1:
+            # A draw that leads below the surface keeps its direction and density in Mitsuba; here it has none.
+            (_, _, z), pdf, weight = parts
+            leads = (z > 0) & np.any(weight != 0, axis=0)
+            parts = [part * leads for part in parts]
+        return np.concatenate([np.ravel(part, order="F") for part in parts])
 
 
 KINDS = {"scipy": Scipy, "interpn": Interpn, "mitsuba": Mitsuba}
