@@ -126,7 +126,7 @@ impl Scale {
 fn power(digit: u32, exponent: i32) -> String {
     match exponent {
         0..=2 => format!("{}", digit * 10_u32.pow(exponent as u32)),
-        -2..=-1 | -3 if digit > 1 || exponent > -3 => {
+        -3..=-1 if digit > 1 || exponent > -3 => {
             format!("{:.*}", exponent.unsigned_abs() as usize, f64::from(digit) * 10_f64.powi(exponent))
         }
         _ if digit == 1 => format!("10^{{{}}}", minus(&exponent.to_string())),
