@@ -126,7 +126,9 @@ impl Scale {
 fn power(digit: u32, exponent: i32) -> String {
     match exponent {
         0..=2 => format!("{}", digit * 10_u32.pow(exponent as u32)),
-        -2..=-1 => format!("{:.*}", exponent.unsigned_abs() as usize, f64::from(digit) * 10_f64.powi(exponent)),
+        -3..=-1 if digit > 1 || exponent > -3 => {
+            format!("{:.*}", exponent.unsigned_abs() as usize, f64::from(digit) * 10_f64.powi(exponent))
+        }
         _ if digit == 1 => format!("10^{{{}}}", minus(&exponent.to_string())),
         _ => format!("{digit}·10^{{{}}}", minus(&exponent.to_string())),
     }
@@ -217,6 +219,7 @@ mod tests {
             "10^{\u{2212}4} 10^{\u{2212}3} 0.01 0.1 1 10 100 10^{3}"
         );
         assert_eq!(labels(Scale { scaling: Scaling::Log, low: 0.2, high: 5.0 }).join(" "), "0.2 0.5 1 2 5");
+        assert_eq!(labels(Scale { scaling: Scaling::Log, low: 0.005, high: 0.02 }).join(" "), "0.005 0.01 0.02");
     }
 
     #[test]
