@@ -1,9 +1,9 @@
 //! Surfaces in the adaptive parameterisation of the EPFL database.
 //!
 //! J. Dupuy and W. Jakob, *An adaptive parameterization for efficient material acquisition and rendering*, ACM TOG 37(6),
-//! 2018. The surface is taken for a crowd of small mirrors whose normals are found from the light that comes straight back
-//! (section 5.1 there); the distribution of the normals that each light sees warps the unit square, so that equal steps on
-//! it lead to viewers who receive about equal shares of the light. What is left in the images is smooth.
+//! 2018. The surface is taken for a crowd of small mirrors whose normals are found from the light that comes straight
+//! back; the distribution of the normals that each light sees warps the unit square, so that equal steps on it lead to
+//! viewers who receive about equal shares of the light. What is left in the images is smooth.
 
 use std::f64::consts::{PI, TAU};
 
