@@ -5,6 +5,8 @@ use std::fmt;
 
 use lobe_model::{Surface, halton};
 
+use crate::progress::Progress;
+
 /// Pairs of directions that are compared.
 const PROBES: u32 = 4096;
 
@@ -23,6 +25,7 @@ impl Errors {
     pub fn between(expected: &dyn Surface, found: &dyn Surface, with_transmission: bool) -> Self {
         let channels = expected.channels().count();
         let mut values = Vec::new();
+        let progress = Progress::new(PROBES as usize, "probes");
         for n in 1..=PROBES {
             let (wi, mut wo) = pair(n);
             if with_transmission && n % 4 < 2 {
@@ -32,6 +35,7 @@ impl Errors {
             expected.f(wi, &[wo], &mut a);
             found.f(wi, &[wo], &mut b);
             values.extend(a.into_iter().zip(b));
+            progress.step();
         }
         let mean = values.iter().map(|(a, _)| a.abs()).sum::<f64>() / values.len() as f64;
         let error = |(a, b): &(f64, f64)| (a - b).abs() / a.abs().max(0.01 * mean).max(f64::MIN_POSITIVE);

@@ -11,6 +11,8 @@ use lobe_formats::{Document, Format, ddr, npz, open, zemax};
 use lobe_table::spherical_grid::SphericalGrid;
 use lobe_table::{Channels, Samples, Scatter};
 
+type Writer = fn(&Samples, &Path);
+
 const FIXTURES: [&str; 2] = ["conductor-7x8x13.ddr", "cloth-17x7x17x13.ddr"];
 
 fn fixture(name: &str) -> PathBuf {
@@ -47,16 +49,13 @@ fn ddr_files_are_written_as_they_were_read() {
     }
 }
 
-/// Writes a table in one format.
-type Write = fn(&Samples, &Path);
-
 #[test]
 fn the_way_through_ssdd_and_csv_loses_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     for name in FIXTURES {
         let samples = table(&fixture(name));
         let expected = ddr::text(&samples, Path::new("x.ddr")).expect("a DDR");
-        let ways: [(&str, Write); 3] = [
+        let ways: [(&str, Writer); 3] = [
             ("ascii.ssdd", |samples, path| {
                 let part = Part::new("a name", Data::Table(samples.clone()));
                 ssdd::write(&[part], Encoding::Ascii, path).expect("written");

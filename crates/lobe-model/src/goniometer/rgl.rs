@@ -1,9 +1,9 @@
 //! Surfaces in the adaptive parameterisation of the EPFL database.
 //!
 //! J. Dupuy and W. Jakob, *An adaptive parameterization for efficient material acquisition and rendering*, ACM TOG 37(6),
-//! 2018. The surface is taken for a crowd of small mirrors whose normals are found from the light that comes straight back
-//! (section 5.1 there); the distribution of the normals that each light sees warps the unit square, so that equal steps on
-//! it lead to viewers who receive about equal shares of the light. What is left in the images is smooth.
+//! 2018. The surface is taken for a crowd of small mirrors whose normals are found from the light that comes straight
+//! back; the distribution of the normals that each light sees warps the unit square, so that equal steps on it lead to
+//! viewers who receive about equal shares of the light. What is left in the images is smooth.
 
 use std::f64::consts::{PI, TAU};
 
@@ -39,7 +39,7 @@ impl Resolution {
 
     /// How often [`measure`] reports progress.
     pub fn steps(&self) -> usize {
-        self.theta_i * self.phi_i
+        self.theta_i * self.phi_i + if self.phi_i == 1 { 1 } else { self.ndf }
     }
 }
 
@@ -58,7 +58,7 @@ const EVEN: f64 = 0.5;
 /// images. Values are those of [`Rgl`]: `f cos(theta_o)` over `ndf / (4 sigma)`.
 ///
 /// Texels whose viewer is below the surface hold 0. Directions of the light are shared out over the threads of
-/// rayon; `progress` is called after each of them.
+/// rayon; `progress` is called after each of them, and for each row of the microfacets.
 ///
 /// # Errors
 /// [`Invalid`] where the channels are neither RGB nor ascending wavelengths, the resolution is below its least, or a value
@@ -77,7 +77,7 @@ pub fn measure(surface: &dyn Surface, resolution: Resolution, progress: impl Fn(
         1 => vec![0.0],
         n => (0..n).map(|p| (TAU * p as f64 / (n - 1) as f64 - PI) as f32).collect(),
     };
-    let facets = Microfacets::new(surface, phi_i == 1, [ndf, microfacets])?;
+    let facets = Microfacets::new(surface, phi_i == 1, [ndf, microfacets], &progress)?;
     let lights: Vec<Vec3> = azimuths
         .iter()
         .flat_map(|&phi| zeniths.iter().map(move |&theta| spherical(f64::from(theta), f64::from(phi))))
@@ -125,7 +125,12 @@ impl Microfacets {
     /// `f(m, m) = c ndf(m) / (4 cos(m) sigma(m))`, and sigma is the integral of ndf: so ndf is an eigenvector, which power
     /// iteration finds (Dupuy et al., *Extracting microfacet-based BRDF parameters from arbitrary materials with power
     /// iterations*, EGSR 2015).
-    fn new(surface: &dyn Surface, is_isotropic: bool, [fine, side]: [usize; 2]) -> Result<Self, Invalid> {
+    fn new(
+        surface: &dyn Surface,
+        is_isotropic: bool,
+        [fine, side]: [usize; 2],
+        progress: &(impl Fn() + Sync),
+    ) -> Result<Self, Invalid> {
         // An isotropic surface looks alike from all azimuths, and two rows suffice for its images.
         let image = |part, side: usize, row_or_all: Vec<f64>| {
             let kept = if is_isotropic { 2 } else { side };
@@ -164,11 +169,14 @@ impl Microfacets {
             ndf = next.iter().map(|d| (1.0 - RANDOM) * d / total + RANDOM / PI).collect();
         }
         let sigma = image("sigma", side, area_seen(&ndf))?;
-        let density = |u: [f64; 2]| {
+        let density = |(index, u): (usize, [f64; 2])| {
+            if index.is_multiple_of(fine) {
+                progress();
+            }
             let found = if total > 0.0 { sigma.bilinear(0, u) * back(u) / total } else { 1.0 / PI };
             (1.0 - RANDOM) * found + RANDOM / PI
         };
-        let ndf = image("ndf", fine, squares(fine).into_par_iter().map(density).collect())?;
+        let ndf = image("ndf", fine, squares(fine).into_par_iter().enumerate().map(density).collect())?;
         Ok(Microfacets { ndf, sigma })
     }
 
