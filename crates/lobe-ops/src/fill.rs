@@ -64,7 +64,7 @@ pub fn fill(samples: &Samples, mask: &[bool], beyond: Beyond) -> Result<Filled, 
         let is_circle = axis == 1 || axis == 3;
         let turn = is_circle && !closes_circle(knots);
         let stride = position(counts, std::array::from_fn(|other| usize::from(other == axis))).max(1);
-        let starts = (0..mask.len()).filter(|index| index / stride % counts[axis] == 0);
+        let starts = (0..mask.len()).filter(|index| (index / stride).is_multiple_of(counts[axis]));
         for start in starts.collect::<Vec<_>>() {
             let row: Vec<usize> = (0..counts[axis]).map(|step| start + step * stride).collect();
             let known: Vec<usize> = (0..row.len()).filter(|&step| is_known[row[step]]).collect();

@@ -213,7 +213,7 @@ fn tis(subject: &Subject, effort: Effort) -> Option<Finding> {
     let Document::Table(measured) = &subject.document else { return None };
     let knots = measured.data.knots();
     let (sigmas, psis) = (knots[0].len(), knots[1].len());
-    if stated.is_empty() || stated.len() % (sigmas * psis) != 0 {
+    if stated.is_empty() || !stated.len().is_multiple_of(sigmas * psis) {
         return None;
     }
     let aspect = *subject.aspects().first()?;
