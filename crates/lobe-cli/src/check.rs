@@ -112,7 +112,11 @@ impl Report {
             return writeln!(out, "{why}\n");
         }
         let (format, kind) = (self.format.unwrap_or_default(), self.kind.unwrap_or_default());
-        writeln!(out, "{}: {format}, {kind}, {} channels", self.file, self.channels.len())?;
+        let channels = match self.channels.len() {
+            1 => "1 channel".into(),
+            n => format!("{n} channels"),
+        };
+        writeln!(out, "{}: {format}, {kind}, {channels}", self.file)?;
         let has_parts = self.findings.iter().any(|finding| !finding.part.is_empty());
         let header = ["", "check", "part", "finding"].into_iter().filter(|name| has_parts || *name != "part");
         let row = |finding: &Finding| {

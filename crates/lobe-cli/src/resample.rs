@@ -11,7 +11,7 @@ use lobe_formats::{Document, ddr, ssdd, write_whole};
 use lobe_ops::colour::{Target, convert};
 use lobe_ops::fill::{Beyond, fill, negatives, zeros};
 use lobe_ops::hemisphere::Effort;
-use lobe_ops::resample::{Bound, Knots, Resampling, candidates, choose, error};
+use lobe_ops::resample::{Bound, Knots, PROBES, Resampling, candidates, choose, error};
 use lobe_ops::{Aspect, Subject, energy, symmetrise};
 use serde::Serialize;
 
@@ -21,7 +21,7 @@ use crate::failure::Failure;
 /// Resample any material into a table of specular coordinates, repair it, and say how far it is from the original.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Axes that are not given get the knots that keep the interpolation error below --error, as a part of the largest value (or, with --per-value, of each value above a thousandth of that). A specular table keeps its knots unless an axis or --error is given; then knots are chosen among its own. Elevations below 3.4 degrees are not compared.
+    after_help = "Axes that are not given get the knots that keep the interpolation error below --error, as a part of the largest value (or, with --per-value, of each value above a thousandth of that). A specular table keeps its knots unless an axis or --error is given; then knots are chosen among its own. Errors count up to polar angles of --limit.
 
 Repairs come after, in the order of this list: colour, fill, mirror, reciprocal, conserve.
 
@@ -44,6 +44,9 @@ pub struct Args {
     /// The error is a part of each value, not of the largest.
     #[arg(long)]
     per_value: bool,
+    /// The polar angle of both directions, in degrees, up to which errors count: toward the horizon values grow.
+    #[arg(long, value_name = "DEGREES", default_value_t = 80.0)]
+    limit: f64,
     /// Knots of the angle of incidence in degrees: 0,30,60 or first:last:step.
     #[arg(long, value_name = "LIST", value_parser = parse_angles)]
     sigma: Option<Angles>,
@@ -124,8 +127,6 @@ struct Answer {
     repairs: Vec<String>,
 }
 
-/// Directions at which the result is compared with the material.
-const PROBES: usize = 100_000;
 const DEFAULT_ERROR: f64 = 0.01;
 
 /// Runs the command.
@@ -166,7 +167,12 @@ fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(Samples, Opt
     if let Some(samples) = own.filter(|_| args.error.is_none() && given.iter().all(|axis| axis.is_none())) {
         return Ok((samples.clone(), None));
     }
-    let bound = Bound { error: args.error.unwrap_or(DEFAULT_ERROR), per_value: args.per_value };
+    let bound =
+        Bound { error: args.error.unwrap_or(DEFAULT_ERROR), per_value: args.per_value, limit: args.limit.to_radians() };
+    let is_sound = args.limit > 0.0 && args.limit <= 90.0;
+    if !is_sound {
+        return Err(Failure::Usage(format!("found a limit of {} degrees; expected one above 0, up to 90", args.limit)));
+    }
     if bound.error.is_nan() || bound.error <= 0.0 {
         return Err(Failure::Usage(format!("found an error of {}; expected one above 0", bound.error)));
     }
@@ -189,7 +195,7 @@ fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(Samples, Opt
             bound.error
         )));
     }
-    let found = error(&subject.material, aspect, &chosen.samples, PROBES)?;
+    let found = error(&subject.material, aspect, &chosen.samples, bound.limit, PROBES)?;
     Ok((chosen.samples, Some(found)))
 }
 

@@ -87,6 +87,7 @@ fn what_makes_no_sense_is_refused() {
         ("a.ddt", vec![], "expected ddr or ssdd for reflection"),
         ("a.csv", vec![], "found the extension `csv`"),
         ("a.ddr", vec!["--error", "0"], "found an error of 0"),
+        ("a.ddr", vec!["--error", "0.1", "--limit", "0"], "found a limit of 0"),
         ("a.ddr", vec!["--sigma", "40,30"], "expected strictly ascending knots"),
         ("a.ddr", vec!["--mask", "m.csv"], "--fill"),
     ] {

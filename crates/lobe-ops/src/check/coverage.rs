@@ -82,16 +82,31 @@ pub(super) fn is_in_plane(data: &Scattered) -> bool {
     data.samples().all(|([_, phi_i, theta, phi], _)| theta < 1e-3 || (phi - phi_i).sin().abs() < 1e-3)
 }
 
-/// Where the brightest sample is, if it is toward the light: such materials are often read the wrong way round.
+/// For which light the brightest sample is toward it: such materials are often read the wrong way round.
 fn backward(data: &Scattered, part: &str) -> Option<Finding> {
-    let sum = |texel: &[f32]| texel.iter().map(|&value| f64::from(value)).sum::<f64>();
-    let ([theta_i, phi_i, theta, phi], _) = data.samples().max_by(|a, b| sum(a.1).total_cmp(&sum(b.1)))?;
-    let (wi, wo) = (spherical(theta_i, phi_i), spherical(theta, phi));
-    let cos = |w: [f64; 3]| wo.iter().zip(w).map(|(a, b)| a * b).sum::<f64>();
-    let (to_light, to_mirror) = (cos(wi), cos([-wi[0], -wi[1], wi[2]]));
-    (to_light > 0.97 && to_mirror < 0.9).then(|| {
-        let text = format!("brightest toward the light, which is at {} degrees: a retroreflector", degrees(theta_i));
-        Finding::new("peak", part, Status::Note, text)
+    let mut brightest: Vec<([f64; 4], f64)> = Vec::new();
+    for (angles, texel) in data.samples() {
+        let value: f64 = texel.iter().map(|&value| f64::from(value)).sum();
+        match brightest.last_mut() {
+            Some((other, most)) if other[..2] == angles[..2] => {
+                if value > *most {
+                    (*other, *most) = (angles, value);
+                }
+            }
+            _ => brightest.push((angles, value)),
+        }
+    }
+    let is_backward = |[theta_i, phi_i, theta, phi]: [f64; 4]| {
+        let (wi, wo) = (spherical(theta_i, phi_i), spherical(theta, phi));
+        let cos = |w: [f64; 3]| wo.iter().zip(w).map(|(a, b)| a * b).sum::<f64>();
+        cos(wi) > 0.97 && cos([-wi[0], -wi[1], wi[2]]) < 0.9
+    };
+    let thetas: Vec<String> =
+        brightest.iter().filter(|(angles, _)| is_backward(*angles)).map(|(angles, _)| degrees(angles[0])).collect();
+    (!thetas.is_empty()).then(|| {
+        let list =
+            if thetas.len() > 12 { format!("{} directions", thetas.len()) } else { thetas.join(" ") + " degrees" };
+        Finding::new("peak", part, Status::Note, format!("brightest toward the light itself, for light at {list}"))
     })
 }
 

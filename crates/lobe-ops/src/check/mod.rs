@@ -87,7 +87,7 @@ pub struct Thoroughness {
 
 impl Default for Thoroughness {
     fn default() -> Self {
-        Thoroughness { incidences: 48, evaluations: 200_000, tolerance: 1e-3, pairs: 20_000 }
+        Thoroughness { incidences: 160, evaluations: 200_000, tolerance: 1e-3, pairs: 20_000 }
     }
 }
 

@@ -30,11 +30,12 @@ pub struct Resampling {
     pub worst: [[f64; 3]; 2],
 }
 
-/// Elevations below this cosine, 3.4 degrees, are not compared: nodes there are not the material's own values.
-const LOWEST: f64 = 0.06;
+/// Elevations below this cosine, 3.4 degrees, are never compared: nodes there are not the material's own values.
+pub(super) const LOWEST: f64 = 0.06;
 
 /// Compares a table with its origin at up to `count` pairs of directions that are the same at every call: evenly in the
-/// four angles, theta more densely toward the mirror direction, within the knots of sigma.
+/// four angles, theta more densely toward the mirror direction, within the knots of sigma, and both with polar angles up
+/// to `limit` in radians.
 ///
 /// # Errors
 /// Where the table is too large to be evaluated.
@@ -42,15 +43,17 @@ pub fn error(
     scattering: &dyn Scattering,
     aspect: Aspect,
     samples: &Samples,
+    limit: f64,
     count: usize,
 ) -> Result<Resampling, OpenError> {
+    let lowest = limit.cos().max(LOWEST);
     let sigmas = &samples.knots()[0];
     let (low, high) = (sigmas[0], sigmas[sigmas.len() - 1]);
     let probe = |index: usize| {
         let [a, b, c, d] = quasi_random::<4>(index);
         angles_to_directions([low + a * (high - low), TAU * b, PI * c.powi(3), TAU * d], |sigma| sigma)
     };
-    let probes: Vec<_> = (0..count).map(probe).filter(|(wi, wo)| wi[2] >= LOWEST && wo[2] >= LOWEST).collect();
+    let probes: Vec<_> = (0..count).map(probe).filter(|(wi, wo)| wi[2] >= lowest && wo[2] >= lowest).collect();
     let table = Brdf::new(samples, &Edges { non_negative: false, ..Edges::default() })?;
     let placed: Vec<_> = probes.iter().map(|&(wi, wo)| aspect.place(wi, wo)).collect();
     let (exact, found) = (eval_pairs(scattering, &placed), eval_pairs(&table, &placed));

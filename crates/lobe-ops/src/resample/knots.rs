@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use lobe_table::{Samples, SamplesError};
 
+use super::error::LOWEST;
 use super::{error, measure};
 use crate::samples::{directions, nodes};
 use crate::{Aspect, Scattering};
@@ -15,6 +16,9 @@ pub struct Bound {
     pub error: f64,
     /// Which of the two.
     pub per_value: bool,
+    /// The polar angle of both directions up to which it has to hold, in radians. Toward the horizon values grow, and the
+    /// largest with them.
+    pub limit: f64,
 }
 
 /// A table with knots of our own choice.
@@ -47,8 +51,11 @@ impl Knots {
 const CHANNELS: usize = 4;
 /// Values below this part of the largest are as exact as it asks for, in a bound on each value.
 const FLOOR: f64 = 1e-3;
+/// How far beyond the limit, in radians, nodes have to be exact, so that there is something to interpolate toward: more
+/// than the longest step between candidates.
+const MARGIN: f64 = 0.09;
 /// Directions on which the result is tested.
-const PROBES: usize = 60_000;
+pub const PROBES: usize = 100_000;
 
 /// Measures a material on a dense grid, keeps of its knots those that linear interpolation needs, and measures again there.
 ///
@@ -80,7 +87,7 @@ pub fn choose(
         });
         let samples = measure(scattering, aspect, knots, |_| {})?;
         // A table that is too large to be evaluated is worse than any other.
-        let found = error(scattering, aspect, &samples, PROBES).map_or(f64::INFINITY, |found| {
+        let found = error(scattering, aspect, &samples, bound.limit, PROBES).map_or(f64::INFINITY, |found| {
             if bound.per_value { found.relative_to_value } else { found.relative_to_peak }
         });
         if best.as_ref().is_none_or(|best| found < best.error) {
@@ -127,17 +134,22 @@ impl Grid {
             (0..all.min(CHANNELS)).map(|i| i * (all - 1) / (all.min(CHANNELS) - 1).max(1)).collect();
         let texels = samples.values().chunks_exact(all);
         let values: Vec<f64> = texels.flat_map(|texel| chosen.iter().map(|&c| f64::from(texel[c]))).collect();
-        let peak = values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-        let scale = |value: &f64| if bound.per_value { value.abs().max(FLOOR * peak) } else { peak };
-        let above = |node| {
-            let (wi, wo) = directions(samples, node);
-            wi[2] > 0.0 && wo[2] > 0.0
+        let limit = bound.limit.min(LOWEST.acos());
+        let is_within = |limit: f64| {
+            move |node| {
+                let (wi, wo) = directions(samples, node);
+                wi[2].min(wo[2]) >= limit.cos()
+            }
         };
+        let counted = nodes(samples).zip(values.chunks_exact(chosen.len())).filter(|(node, _)| is_within(limit)(*node));
+        let peak = counted.flat_map(|(_, texel)| texel).copied().fold(f64::MIN_POSITIVE, f64::max);
+        let counts = nodes(samples).map(is_within(limit + MARGIN)).collect();
+        let scale = |value: &f64| if bound.per_value { value.abs().max(FLOOR * peak) } else { peak };
         Grid {
             knots: samples.knots().clone(),
             scales: values.iter().map(scale).collect(),
             values,
-            counts: nodes(samples).map(above).collect(),
+            counts,
             channels: chosen.len(),
         }
     }
@@ -192,6 +204,8 @@ mod tests {
     use super::*;
     use crate::testing::{Exact, Mono, gold};
 
+    const LIMIT: f64 = 1.4;
+
     fn isotropic() -> [Knots; 4] {
         candidates(true).map(Knots::Choose)
     }
@@ -200,11 +214,11 @@ mod tests {
     fn the_bound_holds_and_a_smaller_one_takes_more_knots() {
         let material = Exact(gold(0.4));
         let nodes = [0.05, 0.01].map(|bound| {
-            let bound = Bound { error: bound, per_value: false };
+            let bound = Bound { error: bound, per_value: false, limit: LIMIT };
             let chosen = choose(&material, Aspect::REFLECTION, &isotropic(), bound, |_| {}).expect("a table");
             assert!(chosen.error <= bound.error, "{} is over {}", chosen.error, bound.error);
             // Directions that the choice has not seen.
-            let found = error(&material, Aspect::REFLECTION, &chosen.samples, 100_000).expect("a table");
+            let found = error(&material, Aspect::REFLECTION, &chosen.samples, LIMIT, 300_000).expect("a table");
             assert!(found.relative_to_peak <= 1.5 * bound.error, "{found:?}");
             chosen.samples.values().len()
         });
@@ -214,7 +228,7 @@ mod tests {
     #[test]
     fn what_is_linear_needs_no_knots() {
         let flat = Mono(|_, _| 0.25);
-        let bound = Bound { error: 1e-4, per_value: true };
+        let bound = Bound { error: 1e-4, per_value: true, limit: LIMIT };
         let chosen = choose(&flat, Aspect::REFLECTION, &isotropic(), bound, |_| {}).expect("a table");
         assert_eq!(chosen.samples.knots().each_ref().map(Vec::len), [2, 1, 2, 2]);
     }
@@ -224,7 +238,7 @@ mod tests {
         let [.., thetas, _] = isotropic();
         let fixed =
             [Knots::Keep(vec![0.0, 0.5, 1.0]), Knots::Keep(vec![0.0]), thetas, Knots::Keep(vec![0.0, 1.0, 2.0])];
-        let bound = Bound { error: 0.05, per_value: false };
+        let bound = Bound { error: 0.05, per_value: false, limit: LIMIT };
         let chosen = choose(&Exact(gold(0.4)), Aspect::REFLECTION, &fixed, bound, |_| {}).expect("a table");
         assert_eq!(
             (&chosen.samples.knots()[0], &chosen.samples.knots()[3]),
@@ -237,7 +251,7 @@ mod tests {
     #[test]
     fn a_jump_is_missed_and_said() {
         let jump = Mono(|_: [f64; 3], wo: [f64; 3]| if wo[0] > 0.1 { 1.0 } else { 0.0 });
-        let bound = Bound { error: 0.01, per_value: false };
+        let bound = Bound { error: 0.01, per_value: false, limit: LIMIT };
         let chosen = choose(&jump, Aspect::REFLECTION, &isotropic(), bound, |_| {}).expect("a table");
         assert!(chosen.error > 0.3, "{}", chosen.error);
     }

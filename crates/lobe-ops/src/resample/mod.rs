@@ -7,7 +7,7 @@ mod error;
 mod knots;
 
 pub use error::{Resampling, error};
-pub use knots::{Bound, Chosen, Knots, candidates, choose};
+pub use knots::{Bound, Chosen, Knots, PROBES, candidates, choose};
 
 use lobe_model::goniometer::lift;
 use lobe_table::coords::angles_to_directions;
