@@ -2,8 +2,8 @@
 //! `LOBE_SHARED` names or in `shared` beside the workspace.
 #![forbid(unsafe_code)]
 
-use std::path::Path;
-use std::{fs, io};
+use std::path::{Path, PathBuf};
+use std::{env, fs, io};
 
 use lobe_formats::{Format, sniff, tensor};
 
@@ -16,7 +16,7 @@ fn main() -> io::Result<()> {
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
     let mut files = examples::all();
     files.push((Format::Utia, vec![0; 1_990_656]));
-    if let Some(shared) = common::shared() {
+    if let Some(shared) = shared() {
         for path in ["golden", "data"].iter().flat_map(|folder| common::small_files(&shared.join(folder))) {
             let bytes = common::bytes(&path);
             files.extend(sniff(&bytes).map(|format| (format, bytes)));
@@ -39,6 +39,13 @@ fn main() -> io::Result<()> {
     }
     println!("{} files in {}", files.len(), corpus.display());
     Ok(())
+}
+
+/// The folder with measured files, if there is one.
+fn shared() -> Option<PathBuf> {
+    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared");
+    let folder = env::var_os("LOBE_SHARED").map_or_else(beside, PathBuf::from);
+    folder.join("golden").is_dir().then_some(folder)
 }
 
 /// The target of a format: `LightTools` has `light_tools`.
