@@ -1,4 +1,7 @@
 //! Uniform positions to positions that have the density of a [`Warp`].
+//!
+//! A search is a chain of loads, each waiting for the one before: one step of it is taken in all queries of a block before
+//! the next.
 
 use lobe_lane::{Floats, Ints, Lanes};
 
@@ -33,20 +36,29 @@ fn rows<L: Lanes, const SLICES: usize>(lanes: L, n: usize, warp: &Warp, blend: &
     let cells = warp.grid.cells[1];
     let count = lanes.splat_int(cells as i32);
     let (low, high) = (lanes.splat(EDGE), lanes.splat(1.0 - EDGE));
+    // The last row below which there is less than `y`.
+    let mut found = Column::<i32>::ZERO;
+    let mut step = cells.next_power_of_two() / 2;
+    while step > 0 {
+        let mut query = 0;
+        while query < n {
+            let weights = invert::slices::<L, SLICES>(lanes, query, blend);
+            let first = blend.slice.load(lanes, query) * slice_stride;
+            let y = u[1].load(lanes, query).max(low).min(high);
+            let row = found.load(lanes, query);
+            let next = row + lanes.splat_int(step as i32);
+            let [_, _, below] = invert::rows(lanes, &block, first + next * row_stride, weights);
+            found.store(lanes, query, lanes.select_int(next.lt(count) & below.lt(y), next, row));
+            query += L::LANES;
+        }
+        step /= 2;
+    }
     let mut query = 0;
     while query < n {
         let weights = invert::slices::<L, SLICES>(lanes, query, blend);
         let first = blend.slice.load(lanes, query) * slice_stride;
         let y = u[1].load(lanes, query).max(low).min(high);
-        // The last row below which there is less than `y`.
-        let mut row = lanes.splat_int(0);
-        let mut step = cells.next_power_of_two() / 2;
-        while step > 0 {
-            let next = row + lanes.splat_int(step as i32);
-            let [_, _, below] = invert::rows(lanes, &block, first + next * row_stride, weights);
-            row = lanes.select_int(next.lt(count) & below.lt(y), next, row);
-            step /= 2;
-        }
+        let row = found.load(lanes, query);
         let [here, next, below] = invert::rows(lanes, &block, first + row * row_stride, weights);
         let fraction = solve(lanes, here, next, y - below);
         let x = u[0].load(lanes, query).max(low).min(high);
@@ -71,6 +83,25 @@ fn columns<L: Lanes, const SLICES: usize, const CORNERS: usize>(
     let [columns, rows] = warp.grid.cells;
     let [count, last_row] = [columns, rows - 1].map(|cells| lanes.splat_int(cells as i32));
     let scale = lanes.splat(warp.scale);
+    let mut found = Column::<i32>::ZERO;
+    let mut step = columns.next_power_of_two() / 2;
+    while step > 0 {
+        let mut query = 0;
+        while query < n {
+            let weights = invert::slices::<L, SLICES>(lanes, query, blend);
+            let (x, place) = (u[0].load(lanes, query), u[1].load(lanes, query));
+            let row = place.to_int().min(last_row);
+            let y = place - row.to_float();
+            let first = placer.slice(blend.slice.load(lanes, query));
+            let column = found.load(lanes, query);
+            let next = column + lanes.splat_int(step as i32);
+            let base = first + placer.texel([next, row]);
+            let [_, _, before] = invert::columns::<L, SLICES, CORNERS>(lanes, &block, base, weights, y);
+            found.store(lanes, query, lanes.select_int(next.lt(count) & before.lt(x), next, column));
+            query += L::LANES;
+        }
+        step /= 2;
+    }
     let mut query = 0;
     while query < n {
         let weights = invert::slices::<L, SLICES>(lanes, query, blend);
@@ -78,15 +109,7 @@ fn columns<L: Lanes, const SLICES: usize, const CORNERS: usize>(
         let row = place.to_int().min(last_row);
         let y = place - row.to_float();
         let first = placer.slice(blend.slice.load(lanes, query));
-        let mut column = lanes.splat_int(0);
-        let mut step = columns.next_power_of_two() / 2;
-        while step > 0 {
-            let next = column + lanes.splat_int(step as i32);
-            let base = first + placer.texel([next, row]);
-            let [_, _, before] = invert::columns::<L, SLICES, CORNERS>(lanes, &block, base, weights, y);
-            column = lanes.select_int(next.lt(count) & before.lt(x), next, column);
-            step /= 2;
-        }
+        let column = found.load(lanes, query);
         let base = first + placer.texel([column, row]);
         let [left, right, before] = invert::columns::<L, SLICES, CORNERS>(lanes, &block, base, weights, y);
         let fraction = solve(lanes, left, right, x - before);
