@@ -20,8 +20,10 @@ mod film;
 mod integrator;
 pub mod light;
 pub mod picture;
+mod merge;
 mod random;
 mod render;
+// pub mod scene;
 pub mod shader;
 mod stats;
 mod vec3;
@@ -30,6 +32,7 @@ mod world;
 
 pub use camera::{Camera, CameraError, Filter};
 pub use film::{Film, Pixel, Rect, Seen};
+pub use merge::{MergeError, merge};
 pub use integrator::Integrator;
 pub use render::{Progress, RenderError, Settings, render};
 pub use stats::Stats;

@@ -59,6 +59,23 @@ impl<const C: usize> Environment<C> {
         Environment::image(1, 1, vec![radiance], 0.0)
     }
 
+    /// From the radiance straight up over that of the horizon to that straight down, smooth in the height.
+    ///
+    /// # Errors
+    /// Where a radiance is negative or not finite.
+    pub fn gradient(zenith: [f32; C], horizon: [f32; C], ground: [f32; C]) -> Result<Self, EnvironmentError> {
+        const ROWS: usize = 128;
+        let mut texels = Vec::with_capacity(2 * ROWS);
+        for row in 0..ROWS {
+            let height = libm::cosf(PI * (row as f32 + 0.5) / ROWS as f32);
+            let end = if height > 0.0 { zenith } else { ground };
+            let t = height.abs().sqrt();
+            let texel = std::array::from_fn(|k| horizon[k] + t * (end[k] - horizon[k]));
+            texels.extend([texel; 2]);
+        }
+        Environment::image(2, ROWS, texels, 0.0)
+    }
+
     /// An image of `height` rows from the top, turned about +y by an angle in radians.
     ///
     /// # Errors

@@ -17,13 +17,12 @@ const EXR: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 ///
 /// # Errors
 /// Where the file cannot be read, is damaged, or has radiances that are no finite numbers.
-pub fn read_environment(path: &Path, turn: f32, scale: f32) -> Result<(Environment<3>, Vec<u8>), PictureError> {
+pub fn read_environment(path: &Path, turn: f32, scale: f32) -> Result<Environment<3>, PictureError> {
     let bytes = std::fs::read(path).map_err(|error| PictureError::Io { file: path.into(), error })?;
     let (width, height, texels) = if bytes.starts_with(&EXR) { exr(path, &bytes)? } else { hdr(path, &bytes)? };
     let texels = texels.into_iter().map(|texel| texel.map(|x| (x * scale).max(if x.is_nan() { x } else { 0.0 })));
-    let environment = Environment::image(width, height, texels.collect(), turn)
-        .map_err(|error| content(path, error, "an image of an environment"))?;
-    Ok((environment, bytes))
+    Environment::image(width, height, texels.collect(), turn)
+        .map_err(|error| content(path, error, "an image of an environment"))
 }
 
 type Texels = (usize, usize, Vec<[f32; 3]>);
@@ -48,13 +47,15 @@ fn exr(path: &Path, bytes: &[u8]) -> Result<Texels, PictureError> {
 }
 
 fn hdr(path: &Path, bytes: &[u8]) -> Result<Texels, PictureError> {
-    let wrong = |error: image::ImageError| content(path, error, "an OpenEXR or Radiance HDR file");
-    let mut reader = image::ImageReader::with_format(Cursor::new(bytes), image::ImageFormat::Hdr);
-    // Runs of one colour take four bytes for at most 127 texels.
-    let mut limits = image::Limits::default();
-    limits.max_alloc = Some(bytes.len() as u64 * 1024 + 4096);
-    reader.limits(limits);
-    let image = reader.decode().map_err(wrong)?.into_rgb32f();
-    let (width, height) = image.dimensions();
-    Ok((width as usize, height as usize, image.pixels().map(|pixel| pixel.0).collect()))
+    const EXPECTED: &str = "an OpenEXR or Radiance HDR file";
+    let wrong = |error: zune_hdr::errors::HdrDecodeErrors| content(path, format!("{error:?}"), EXPECTED);
+    let mut decoder = zune_hdr::HdrDecoder::new(zune_core::bytestream::ZCursor::new(bytes));
+    decoder.decode_headers().map_err(wrong)?;
+    let (width, height) = decoder.dimensions().ok_or_else(|| content(path, "no size", EXPECTED))?;
+    // Four runs of one byte take eight bytes for at most 127 texels.
+    if width.saturating_mul(height) / 16 > bytes.len() {
+        return Err(content(path, format!("{width} x {height} texels in {} bytes", bytes.len()), EXPECTED));
+    }
+    let values = decoder.decode().map_err(wrong)?;
+    Ok((width, height, values.chunks_exact(3).map(|rgb| [rgb[0], rgb[1], rgb[2]]).collect()))
 }

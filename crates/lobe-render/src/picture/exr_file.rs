@@ -57,8 +57,10 @@ fn encode(film: &Film<3>, meta: &Meta, partial: bool) -> exr::error::Result<Vec<
     attributes.layer_position = Vec2(window.x as i32, window.y as i32);
     // One attribute only: the library writes those that it does not know in any order.
     attributes.other.insert(Text::from(ATTRIBUTE), AttributeValue::Text(Text::from(meta.to_string().as_str())));
+    // Parts are written often and read once.
+    let encoding = if partial { Encoding::FAST_LOSSLESS } else { Encoding::SMALL_LOSSLESS };
     let size = Vec2(window.width as usize, window.height as usize);
-    let layer = Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels.into()));
+    let layer = Layer::new(size, attributes, encoding, AnyChannels::sort(channels.into()));
     let mut image = Image::from_layer(layer);
     image.attributes.display_window =
         IntegerBounds::from_dimensions(Vec2(meta.size[0] as usize, meta.size[1] as usize));
