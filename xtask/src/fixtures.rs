@@ -1,23 +1,24 @@
-//! `xtask fixtures`: the small tables that tests and benchmarks share, made from nothing but a seed.
+//! `xtask fixtures`: the small tables that tests and benchmarks share, and the meshes that materials are shown on, made
+//! from nothing but a seed.
 //!
 //! The sizes are those of the tables that the paper behind this project timed: 7 x 8 x 13 and 17 x 7 x 17 x 13.
 
 mod compare;
 mod provenance;
+mod scenes;
 mod tables;
 
 use std::fs;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Make the tables in fixtures/ from their seeds, or check those that are there.
+/// Make the tables and meshes in fixtures/ from their seeds, or check those that are there.
 #[derive(clap::Args)]
 pub struct Args {
     /// Write nothing; fail if a file differs from what its seed gives: in a word, or in a number by more than 1e-4 of
-    /// it (sine and cosine differ in the last bits from platform to platform)
+    /// it (sine and cosine differ in the last bits from platform to platform); meshes must be the same bytes
     #[arg(long)]
     check: bool,
     /// Where the files are
@@ -28,8 +29,9 @@ pub struct Args {
 /// Makes every fixture and writes or checks it.
 pub fn run(args: &Args) -> Result<()> {
     let fixtures = [tables::conductor(), tables::cloth()];
-    let bar = ProgressBar::new(fixtures.iter().map(|fixture| fixture.steps() as u64).sum())
-        .with_style(ProgressStyle::with_template("{bar:40} {percent:>3} % of {msg} {elapsed}")?);
+    let steps = fixtures.iter().map(|fixture| fixture.steps() as u64).sum::<u64>() + scenes::SCENES.len() as u64;
+    let bar =
+        ProgressBar::new(steps).with_style(ProgressStyle::with_template("{bar:40} {percent:>3} % of {msg} {elapsed}")?);
     let mut different = Vec::new();
     let mut hashes = Vec::new();
     for fixture in &fixtures {
@@ -43,16 +45,28 @@ pub fn run(args: &Args) -> Result<()> {
             }
             hashes.push(provenance::hash(&there));
         } else {
-            write_whole(&path, &made)?;
+            write_whole(&path, made.as_bytes())?;
             hashes.push(provenance::hash(&made));
         }
+    }
+    for scene in &scenes::SCENES {
+        bar.set_message(scene.file);
+        let path = args.directory.join(scene.file);
+        let made = (scene.make)();
+        if !args.check {
+            write_whole(&path, &made)?;
+        } else if fs::read(&path).with_context(|| format!("reading {}", path.display()))? != made {
+            different.push(format!("{}: other bytes", scene.file));
+        }
+        hashes.push(provenance::hash(&made));
+        bar.inc(1);
     }
     bar.finish_and_clear();
 
     let readme = provenance::readme(&fixtures, &hashes);
     let path = args.directory.join("README.md");
     if !args.check {
-        write_whole(&path, &readme)?;
+        write_whole(&path, readme.as_bytes())?;
     } else if fs::read_to_string(&path).with_context(|| format!("reading {}", path.display()))? != readme {
         different.push("README.md: does not describe these files (parameters or hashes)".into());
     }
@@ -60,23 +74,14 @@ pub fn run(args: &Args) -> Result<()> {
         bail!("fixtures differ from their seeds; `cargo xtask fixtures` makes them anew:\n{}", different.join("\n"));
     }
     let done = if args.check { "checked" } else { "written" };
-    println!("{} tables and README.md {done} in {}", fixtures.len(), args.directory.display());
+    let (tables, meshes) = (fixtures.len(), scenes::SCENES.len());
+    println!("{tables} tables, {meshes} meshes and README.md {done} in {}", args.directory.display());
     Ok(())
 }
 
-/// Writes a file in one step, so that nobody ever sees half of it.
-fn write_whole(path: &Path, content: &str) -> Result<()> {
-    let directory = path.parent().unwrap_or(Path::new("."));
-    let write = || -> Result<()> {
-        fs::create_dir_all(directory)?;
-        let mut builder = tempfile::Builder::new();
-        // Temporary files are private by default; this one becomes an ordinary file, under the user's umask.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let mut file = builder.tempfile_in(directory)?;
-        file.write_all(content.as_bytes())?;
-        file.persist(path)?;
-        Ok(())
-    };
-    write().with_context(|| format!("writing {}", path.display()))
+/// Writes a file in one step, into a folder that may not be there yet.
+fn write_whole(path: &Path, content: &[u8]) -> Result<()> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    fs::create_dir_all(folder).with_context(|| format!("making {}", folder.display()))?;
+    Ok(lobe_formats::write_whole(path, content)?)
 }

@@ -37,8 +37,10 @@ pub fn bisect(knots: &[f32], angle: f32) -> usize {
     let (mut low, mut high) = (0, knots.len() - 1);
     while high - low > 1 {
         let middle = (low + high) / 2;
-        // The empty statement keeps the compiler from turning the branch into a conditional move.
-        if std::hint::black_box(knots[middle] <= angle) {
+        if knots[middle] <= angle {
+            // SAFETY: no instruction at all. It keeps the compiler from turning the branch into a conditional move, since
+            // it must run in this arm only.
+            unsafe { asm!("", options(nomem, nostack, preserves_flags)) };
             low = middle;
         } else {
             high = middle;

@@ -187,11 +187,10 @@ impl Contest {
             let values = contender.task.values();
             assert_eq!(values.len(), self.expected.len(), "{}: one value for each expected", contender.name);
             let errors = values.iter().zip(&self.expected).map(|(got, expected)| (f64::from(*got) - expected) / scale);
-            // Written so that a NaN fails.
-            let (max, sum) = errors.fold((0.0f64, 0.0), |(max, sum), error| {
-                (if error.abs() <= max { max } else { error.abs() }, sum + error * error)
-            });
+            let (max, sum) =
+                errors.fold((0.0f64, 0.0), |(max, sum), error| (max.max(error.abs()), sum + error * error));
             let rms = (sum / values.len() as f64).sqrt();
+            // The maximum passes over a NaN, the mean does not.
             if !(max <= contender.tolerance.max && rms <= contender.tolerance.rms) {
                 return Err(WrongValues { name: contender.name, max, rms });
             }
@@ -208,5 +207,34 @@ impl Contest {
         baselines.iter_mut().for_each(|ns| *ns /= self.count as f64);
         let contenders = baselines.split_off(self.baselines.len());
         Timing { baselines, contenders }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn contest(value: f32) -> Contest {
+        let tolerance = Tolerance { max: 0.1, rms: 0.05 };
+        let out = vec![0.0; 4];
+        let run = move |out: &mut Vec<f32>| out.copy_from_slice(&[1.0, 2.0, 4.0, value]);
+        let contender = Contender::new("someone", tolerance, out, run, Vec::clone);
+        Contest { count: 4, baselines: vec![], contenders: vec![contender], expected: vec![1.0, 2.0, 4.0, 3.0] }
+    }
+
+    #[test]
+    fn wrong_values_are_found() {
+        assert_eq!(contest(3.0).verify(), Ok(()));
+        assert_eq!(contest(3.3).verify(), Ok(()), "0.075 at most and 0.04 on average");
+        assert!(contest(3.42).verify().is_err(), "0.105 at most");
+        assert!(contest(2.58).verify().is_err(), "0.105 at most, below");
+        assert!(contest(3.39).verify().is_ok() && contest(f32::NAN).verify().is_err());
+    }
+
+    #[test]
+    fn every_question_has_an_id_of_its_own() {
+        for question in QUESTIONS {
+            assert_eq!(QUESTIONS.iter().filter(|other| other.id == question.id).count(), 1, "{}", question.id);
+        }
     }
 }

@@ -174,10 +174,10 @@ pub fn write(samples: &Samples, path: &Path) -> Result<(), FormatError> {
     write_whole(path, text(samples, path)?.as_bytes())
 }
 
-/// What [`write`] writes.
+/// What [`write()`] writes.
 ///
 /// # Errors
-/// As [`write`], which `path` would name.
+/// As [`write()`], which `path` would name.
 pub fn text(samples: &Samples, path: &Path) -> Result<String, FormatError> {
     check_extension(path, samples.scatter(), ["ddr", "ddt"])?;
     let (model, names) = block_names(path, samples.channels())?;

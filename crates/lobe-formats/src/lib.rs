@@ -46,3 +46,4 @@ pub use sheet::Sides;
 pub use sniff::{Format, sniff};
 pub use specular::Specular;
 pub use text::nine_digits;
+pub use write::write_whole;

@@ -6,7 +6,10 @@ use std::path::Path;
 use crate::{FormatError, Place};
 
 /// Writes `content` to a temporary file beside `path` and renames it, so that nobody ever sees half a file.
-pub(crate) fn write_whole(path: &Path, content: &[u8]) -> Result<(), FormatError> {
+///
+/// # Errors
+/// The file system refused.
+pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), FormatError> {
     replace(path, content).map_err(|error| unwritable(path, &error))
 }
 

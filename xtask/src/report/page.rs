@@ -68,7 +68,7 @@ fn cards(all: &[Row]) -> String {
                 let ratio = rows::times(best.ratio);
                 write!(
                     cards,
-                    r#"<div class="card"><b>{ratio}</b><span>the speed of {code}: {what}, {backend}</span></div>"#
+                    r#"<div class="card"><b>{ratio}</b><span>the speed of {code}: {what}, {backend}, incoherent input</span></div>"#
                 )
                 .expect("a string");
             }
@@ -107,16 +107,13 @@ fn printed(paper: &PaperTable) -> String {
         format!("<tr><td>{name}</td>{cells}</tr>")
     };
     let head: String = paper.counts.iter().map(|count| format!("<th>{count}</th>")).collect();
-    let seconds = |times: [f64; 3]| times.map(|time| format!("{time} s"));
+    let seconds = |times: [&str; 3]| times.map(|time| format!("{time} s"));
     format!(
         r#"<p class="caption">As printed in 2005 (Pentium M, 1.8 GHz): {}</p><div class="wide"><table><thead><tr><th></th>{head}</tr></thead><tbody>{}{}{}</tbody></table></div>"#,
         escape(paper.counted),
         row("without SSE", seconds(paper.scalar)),
         row("with SSE", seconds(paper.sse)),
-        row(
-            "times the speed",
-            paper.speed_up.map(|ratio| if ratio < 10.0 { format!("{ratio:.2}×") } else { format!("{ratio}×") })
-        ),
+        row("times the speed", paper.speed_up.map(|ratio| format!("{ratio}×"))),
     )
 }
 
@@ -124,7 +121,7 @@ fn printed(paper: &PaperTable) -> String {
 fn answer(all: &[Row], question: &Question, paper: Option<&PaperTable>) -> String {
     let of_question = || all.iter().filter(|row| row.id == question.id);
     let baselines = rows::distinct(of_question(), |row| row.baseline);
-    let least = paper.map_or(1.0, |paper| paper.speed_up[2]);
+    let least = paper.map_or(1.0, PaperTable::ratio);
     let most = of_question().fold(least, |most, row| most.max(row.ratio));
     let mut text = format!("<h3>{}</h3>", escape(question.title));
     if let Some(fastest) = of_question().min_by(|a, b| a.ns.total_cmp(&b.ns)) {
@@ -145,13 +142,13 @@ fn answer(all: &[Row], question: &Question, paper: Option<&PaperTable>) -> Strin
         write!(
             text,
             r#"<span class="keymark"></span>the paper's SSE over its scalar code, {}"#,
-            rows::times(paper.speed_up[2])
+            rows::times(paper.ratio())
         )
         .expect("a string");
     }
     text += "</p><div class=\"pair\">";
     for input in Input::ALL {
-        let picture = bars(all, question.id, input.name(), most, paper.map(|paper| paper.speed_up[2]));
+        let picture = bars(all, question.id, input.name(), most, paper.map(PaperTable::ratio));
         write!(text, "<div>{picture}</div>").expect("a string");
     }
     text += "</div>";
@@ -174,7 +171,7 @@ fn figures(all: &[Row], question: &Question, baselines: &[&str], paper: Option<&
         let [scalar, sse] = paper.nanoseconds().map(rows::nanoseconds);
         let blank = "<td></td>".repeat(baselines.len().saturating_sub(1));
         let rest = format!(r#"<td class="split" colspan="{}">input not stated</td>"#, 1 + baselines.len());
-        let times = rows::times(paper.speed_up[2]);
+        let times = rows::times(paper.ratio());
         write!(
             lines,
             r#"<tr class="then"><td>2005 scalar</td><td class="split">{scalar}</td><td></td>{blank}{rest}</tr>"#

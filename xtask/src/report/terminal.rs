@@ -17,7 +17,7 @@ pub fn print(report: &Report) {
         println!("\n{}", section.title);
         if let Some(paper) = section.paper {
             let [scalar, sse] = paper.nanoseconds().map(rows::nanoseconds);
-            let times = rows::times(paper.speed_up[2]);
+            let times = rows::times(paper.ratio());
             println!("Table {} of the paper: {scalar} ns scalar, {sse} ns with SSE, {times} the speed", paper.number);
         }
         for question in section.questions {

@@ -1,0 +1,65 @@
+//! What all readers share: getting a file whole, and saying what is wrong with it.
+
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
+
+use lobe_formats::{FormatError, Place};
+
+use crate::geometry::{narrow, wide};
+use crate::{Geometry, Parts, normals};
+
+/// Reads a whole file. Devices and pipes, which may have no end, are refused.
+pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, FormatError> {
+    let unreadable = |error: std::io::Error| wrong(path, error.to_string(), "a file that can be read");
+    let mut file = File::open(path).map_err(unreadable)?;
+    if !file.metadata().map_err(unreadable)?.is_file() {
+        return Err(wrong(path, "a folder or a device", "a file"));
+    }
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes).map_err(unreadable)?;
+    Ok(bytes)
+}
+
+/// An error about the file as a whole.
+pub(crate) fn wrong(path: &Path, found: impl Into<String>, expected: impl Into<String>) -> FormatError {
+    FormatError::new(path, Place::File, found, expected)
+}
+
+/// A mesh of what a file holds. Normals become unit vectors, and where a file has a normal without direction, a smooth
+/// one takes its place; tangents that make no frame are dropped, to be computed.
+pub(crate) fn geometry(path: &Path, mut parts: Parts) -> Result<Geometry, FormatError> {
+    if parts.triangles.is_empty() {
+        return Err(wrong(path, "no triangles", "a mesh with at least one"));
+    }
+    // Taken out while positions and triangles are checked: what replaces them is computed from those.
+    let (file_normals, file_tangents) = (parts.normals.take(), parts.tangents.take());
+    let mut parts = Geometry::new(parts).map_err(|error| unsound(path, &error))?.into_parts();
+    if let Some(mut file_normals) = file_normals {
+        let unit = |normal: [f32; 3]| wide(normal).try_normalize();
+        if file_normals.len() == parts.positions.len() && file_normals.iter().any(|&normal| unit(normal).is_none()) {
+            let smooth = normals::smooth(&parts.positions, &parts.triangles);
+            for (normal, smooth) in file_normals.iter_mut().zip(smooth) {
+                if unit(*normal).is_none() {
+                    *normal = smooth;
+                }
+            }
+        }
+        parts.normals = Some(file_normals.into_iter().map(|normal| narrow(normals::unit(wide(normal)))).collect());
+        parts.tangents = file_tangents.and_then(|tangents| tangents.into_iter().map(frame).collect());
+    }
+    Geometry::new(parts).map_err(|error| unsound(path, &error))
+}
+
+/// The error of a mesh as an error of its file.
+fn unsound(path: &Path, error: &crate::GeometryError) -> FormatError {
+    let text = error.to_string();
+    let (found, expected) = text.split_once("; expected ").unwrap_or((&text, "a sound mesh"));
+    wrong(path, found.trim_start_matches("found "), expected)
+}
+
+/// A tangent of unit length with its hand, if it is one.
+fn frame([x, y, z, w]: [f32; 4]) -> Option<[f32; 4]> {
+    let [x, y, z] = narrow(wide([x, y, z]).try_normalize()?);
+    (w == 1.0 || w == -1.0).then_some([x, y, z, w])
+}

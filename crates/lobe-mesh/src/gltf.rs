@@ -1,0 +1,130 @@
+//! glTF 2.0, as text (`.gltf` with its buffers) and in one piece (`.glb`).
+//!
+//! All meshes of the scene become one, each where its node puts it; a group is one primitive of one node, named after
+//! the node. Triangles, strips and fans are read, with positions, normals, tangents and the first set of texture
+//! coordinates, whose v is turned to point up. Points and lines, skins and morph targets are left out. Integers in
+//! place of floats (`KHR_mesh_quantization`) are read; compressed meshes are refused.
+//!
+//! Section numbers in this module are those of the glTF 2.0 specification.
+
+mod accessor;
+mod buffers;
+mod document;
+mod primitive;
+mod scene;
+
+use std::path::Path;
+
+use lobe_formats::{FormatError, Place};
+
+use crate::Geometry;
+use crate::file::{self, wrong};
+use document::Document;
+
+/// Extensions that say nothing about shapes, or that are read: a file may require them.
+const KNOWN: [&str; 4] = ["KHR_materials_", "KHR_texture_", "KHR_lights_punctual", "KHR_mesh_quantization"];
+
+/// Reads the meshes of the scene of a glTF file, with the buffers that it names.
+///
+/// # Errors
+/// A file cannot be read, is cut short, refers to what is not there, or asks for more memory than its size justifies.
+pub fn read(path: &Path) -> Result<Geometry, FormatError> {
+    parse(path, &file::bytes(path)?)
+}
+
+/// Reads the content of a glTF file; buffers outside it are looked for beside `path`.
+///
+/// # Errors
+/// As those of [`read`].
+pub fn parse(path: &Path, bytes: &[u8]) -> Result<Geometry, FormatError> {
+    let (json, binary) = if bytes.starts_with(b"glTF") { chunks(path, bytes)? } else { (bytes, None) };
+    let document: Document = serde_json::from_slice(json).map_err(|error| {
+        // In one piece, there are no lines that an editor would show.
+        let place =
+            if json.len() == bytes.len() { Place::Line(error.line()) } else { Place::Byte(20 + error.column() as u64) };
+        FormatError::new(path, place, error.to_string(), "glTF 2.0 as JSON")
+    })?;
+    if !document.asset.version.starts_with("2.") {
+        return Err(wrong(path, format!("glTF version {}", document.asset.version), "2.0"));
+    }
+    let unknown = |name: &&String| !KNOWN.iter().any(|known| name.starts_with(known));
+    if let Some(extension) = document.extensions_required.iter().find(unknown) {
+        return Err(wrong(path, format!("the required extension {extension}"), "a file that does without"));
+    }
+    let buffers = buffers::load(path, &document, binary)?;
+    let size = bytes.len() + buffers.iter().map(|buffer| buffer.len()).sum::<usize>();
+    let source = Source { path, document: &document, buffers: &buffers };
+    scene::assemble(&source, Budget::of(path, size))
+}
+
+/// Splits a binary file into its JSON and its buffer (section 4.4).
+fn chunks<'a>(path: &Path, bytes: &'a [u8]) -> Result<(&'a [u8], Option<&'a [u8]>), FormatError> {
+    let at =
+        |byte: usize, found: String, expected: &str| FormatError::new(path, Place::Byte(byte as u64), found, expected);
+    let word = |offset: usize| Some(u32::from_le_bytes(bytes.get(offset..offset + 4)?.try_into().ok()?));
+    let cut = || at(bytes.len(), "the end of the file".into(), "a header of 12 bytes and chunks");
+    let (version, length) = (word(4).ok_or_else(cut)?, word(8).ok_or_else(cut)? as usize);
+    if version != 2 {
+        return Err(at(4, format!("version {version}"), "2"));
+    }
+    if length > bytes.len() {
+        return Err(at(8, format!("a length of {length}"), &format!("at most {}, the size of the file", bytes.len())));
+    }
+    let chunk = |offset: usize, kind: &'static [u8; 4]| {
+        let size = word(offset).ok_or_else(cut)? as usize;
+        let found = bytes.get(offset + 4..offset + 8).ok_or_else(cut)?;
+        if found != kind {
+            return Err(at(
+                offset + 4,
+                format!("a chunk {}", found.escape_ascii()),
+                &format!("{}", kind.escape_ascii()),
+            ));
+        }
+        let content = bytes[offset + 8..].get(..size);
+        content.ok_or_else(|| {
+            let room = bytes.len() - offset - 8;
+            at(offset, format!("a chunk of {size} bytes"), &format!("at most {room}, what is left of the file"))
+        })
+    };
+    let json = chunk(12, b"JSON")?;
+    let second = 20 + json.len();
+    let binary = if second < length { Some(chunk(second, b"BIN\0")?) } else { None };
+    Ok((json, binary))
+}
+
+/// A file with all its parts.
+struct Source<'a> {
+    path: &'a Path,
+    document: &'a Document,
+    buffers: &'a [std::borrow::Cow<'a, [u8]>],
+}
+
+/// Memory that may still be used. Without it, a small file could place one mesh a million times.
+struct Budget<'a> {
+    path: &'a Path,
+    whole: usize,
+    left: usize,
+}
+
+impl<'a> Budget<'a> {
+    /// What a file of `size` bytes justifies.
+    fn of(path: &'a Path, size: usize) -> Self {
+        let whole = size.saturating_mul(64).saturating_add(1 << 24);
+        Budget { path, whole, left: whole }
+    }
+
+    /// Takes `count` times `bytes`.
+    fn take(&mut self, count: usize, bytes: usize) -> Result<(), FormatError> {
+        match count.checked_mul(bytes).and_then(|bytes| self.left.checked_sub(bytes)) {
+            Some(left) => {
+                self.left = left;
+                Ok(())
+            }
+            None => Err(wrong(
+                self.path,
+                "more vertices, indices and instances than files of this size hold",
+                format!("meshes of at most {} bytes", self.whole),
+            )),
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! Triangle meshes to show measured materials on.
+//!
+//! [`read`] opens PLY, OBJ and glTF files; [`shapes`] makes a sphere, a plane, a disk, a cuboid and tubes; [`generate`]
+//! makes the scenes of the previews: a draped cloth, a material ball, a knot. All of them give a [`Geometry`], whose
+//! [`complete`](Geometry::complete) adds the normals and tangents that are missing.
+//!
+//! # Conventions
+//!
+//! - Coordinates are right-handed, +y is up in everything made here. Files keep their own axes.
+//! - Triangles are counterclockwise seen from outside.
+//! - Texture coordinates are (u, v) with v **up**: (0, 0) is the lower left corner of an image. glTF counts v downward,
+//!   so its reader turns v into `1 - v`.
+//! - A tangent is the unit direction of dp/du made perpendicular to the normal `n`; dp/dv points to the side of
+//!   `w * cross(n, t)`, w being its fourth component, +1 or -1. So (t, w * cross(n, t), n) is the frame that psi of an
+//!   anisotropic material is measured in.
+//!
+//! Everything is computed in an order that does not depend on threads, in IEEE arithmetic and with the elementary
+//! functions of `libm`, so that the same input gives the same bytes on any machine.
+#![forbid(unsafe_code)]
+
+mod file;
+pub mod generate;
+mod geometry;
+pub mod gltf;
+mod normals;
+pub mod obj;
+pub mod ply;
+mod read;
+pub mod shapes;
+mod tangents;
+
+pub use geometry::{Geometry, GeometryError, Group, Parts};
+pub use lobe_formats::{FormatError, Place};
+pub use normals::Shading;
+pub use read::read;

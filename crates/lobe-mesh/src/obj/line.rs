@@ -1,0 +1,107 @@
+//! One line of an OBJ or MTL file, word by word.
+
+use std::path::Path;
+use std::str::SplitAsciiWhitespace;
+
+use lobe_formats::{FormatError, Place};
+
+/// Bytes of the longest name.
+const LONGEST_NAME: usize = 1024;
+
+/// The words of a line that are still to be read.
+pub(super) struct Line<'a> {
+    path: &'a Path,
+    number: usize,
+    words: SplitAsciiWhitespace<'a>,
+}
+
+impl<'a> Line<'a> {
+    /// A line without its comment. Bytes that are no text end it: they can only be in names and comments.
+    pub fn new(path: &'a Path, number: usize, bytes: &'a [u8]) -> Self {
+        let content = bytes.split(|&byte| byte == b'#').next().unwrap_or_default();
+        let text = content.utf8_chunks().next().map_or("", |chunk| chunk.valid());
+        Line { path, number, words: text.split_ascii_whitespace() }
+    }
+
+    /// The next word.
+    pub fn word(&mut self) -> Option<&'a str> {
+        self.words.next()
+    }
+
+    /// All words that are left, with single spaces, as a name. Groups repeat names, so they must not be of any length.
+    pub fn name(&mut self) -> Result<String, FormatError> {
+        let name = self.words.by_ref().collect::<Vec<_>>().join(" ");
+        if name.len() > LONGEST_NAME {
+            return Err(self.wrong(format!("a name of {} bytes", name.len()), format!("at most {LONGEST_NAME}")));
+        }
+        Ok(name)
+    }
+
+    /// `N` finite numbers. More are left alone.
+    pub fn numbers<const N: usize>(&mut self, expected: &str) -> Result<[f32; N], FormatError> {
+        let mut numbers = [0.0; N];
+        for number in &mut numbers {
+            *number = match self.words.next() {
+                Some(word) => self.number(word)?,
+                None => return Err(self.wrong("the end of the line", format!("{expected}, {N} numbers"))),
+            };
+        }
+        Ok(numbers)
+    }
+
+    /// Texture coordinates: u, and v where there is one.
+    pub fn coordinates(&mut self) -> Result<[f32; 2], FormatError> {
+        let [u] = self.numbers("u and v")?;
+        let v = self.words.next().map_or(Ok(0.0), |word| self.number(word))?;
+        Ok([u, v])
+    }
+
+    /// A word as a finite number.
+    pub fn number(&self, word: &str) -> Result<f32, FormatError> {
+        let number = word.parse().ok().filter(|number: &f32| number.is_finite());
+        number.ok_or_else(|| self.wrong(format!("`{word}`"), "a finite number"))
+    }
+
+    /// The next corner of a face, `v`, `v/vt`, `v//vn` or `v/vt/vn`, as indices from 0; `counts` says how many of each
+    /// there are.
+    #[expect(clippy::type_complexity, reason = "three indices, two of which may be missing")]
+    pub fn corner(&mut self, counts: [usize; 3]) -> Result<Option<(u32, Option<u32>, Option<u32>)>, FormatError> {
+        const NAMES: [&str; 3] = ["vertex", "texture coordinates", "normal"];
+        let Some(word) = self.words.next() else { return Ok(None) };
+        let mut indices = [None; 3];
+        for (place, text) in word.split('/').enumerate() {
+            if place > 2 {
+                return Err(self.wrong(format!("`{word}`"), "at most three indices"));
+            }
+            if !text.is_empty() {
+                indices[place] = Some(self.index(text, counts[place], NAMES[place])?);
+            }
+        }
+        match indices {
+            [Some(position), uv, normal] => Ok(Some((position, uv, normal))),
+            _ => Err(self.wrong(format!("`{word}`"), "the index of a vertex")),
+        }
+    }
+
+    /// An index: counted from 1, or backward from the last one.
+    fn index(&self, text: &str, count: usize, name: &str) -> Result<u32, FormatError> {
+        let index: Option<i64> = text.parse().ok();
+        let from_zero = index.and_then(|index| match index {
+            0 => None,
+            1.. => Some(index - 1),
+            _ => (count as i64).checked_add(index),
+        });
+        let in_range = from_zero.and_then(|index| u32::try_from(index).ok()).filter(|&index| (index as usize) < count);
+        in_range.ok_or_else(|| {
+            self.wrong(
+                format!("{name} `{text}`"),
+                format!("1 to {count} or -1 to -{count}, as many as there are so far"),
+            )
+        })
+    }
+
+    /// An error about this line.
+    pub fn wrong(&self, found: impl Into<String>, expected: impl Into<String>) -> FormatError {
+        FormatError::new(self.path, Place::Line(self.number), found, expected)
+    }
+}

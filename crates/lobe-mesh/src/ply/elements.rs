@@ -1,0 +1,93 @@
+//! Where the values of a PLY file go.
+
+use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
+
+/// Numbers of a vertex, in the order of [`slot`].
+#[derive(Debug)]
+pub(super) struct Vertex([f32; 12]);
+
+/// Place of a property among the numbers of a vertex: position, normal, texture coordinates, tangent.
+fn slot(name: &str) -> Option<usize> {
+    Some(match name {
+        "x" => 0,
+        "y" => 1,
+        "z" => 2,
+        "nx" => 3,
+        "ny" => 4,
+        "nz" => 5,
+        "u" | "s" | "texture_u" | "texture_s" => 6,
+        "v" | "t" | "texture_v" | "texture_t" => 7,
+        "tx" => 8,
+        "ty" => 9,
+        "tz" => 10,
+        "tw" => 11,
+        _ => return None,
+    })
+}
+
+impl Vertex {
+    /// Which slots are filled by properties of these names.
+    pub fn present<'a>(names: impl Iterator<Item = &'a str>) -> [bool; 12] {
+        let mut present = [false; 12];
+        names.filter_map(slot).for_each(|slot| present[slot] = true);
+        present
+    }
+
+    /// `N` slots from `first` on.
+    pub fn slots<const N: usize>(&self, first: usize) -> [f32; N] {
+        std::array::from_fn(|i| self.0[first + i])
+    }
+}
+
+impl PropertyAccess for Vertex {
+    fn new() -> Self {
+        Vertex([0.0; 12])
+    }
+
+    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
+        match (slot(name), property.to_f32_lossy()) {
+            (Some(slot), Some(value)) => {
+                self.0[slot] = value;
+                PropertyAccessResult::Set
+            }
+            (Some(_), None) => PropertyAccessResult::UnsupportedType,
+            (None, _) => PropertyAccessResult::Ignored,
+        }
+    }
+}
+
+/// A polygon and its group.
+#[derive(Debug)]
+pub(super) struct Face {
+    pub corners: Vec<u32>,
+    pub group: u32,
+}
+
+impl PropertyAccess for Face {
+    fn new() -> Self {
+        Face { corners: Vec::new(), group: 0 }
+    }
+
+    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
+        match (name, property) {
+            ("vertex_indices" | "vertex_index", property) => match property.to_u32_list() {
+                Some(corners) => self.corners = corners,
+                None => return PropertyAccessResult::UnsupportedType,
+            },
+            ("group", Property::UChar(group)) => self.group = group.into(),
+            ("group", Property::UInt(group)) => self.group = group,
+            _ => return PropertyAccessResult::Ignored,
+        }
+        PropertyAccessResult::Set
+    }
+}
+
+/// An element that is not needed.
+#[derive(Debug)]
+pub(super) struct Skipped;
+
+impl PropertyAccess for Skipped {
+    fn new() -> Self {
+        Skipped
+    }
+}
