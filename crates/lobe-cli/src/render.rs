@@ -17,7 +17,7 @@ use crate::progress::Bar;
 #[command(after_help = "The picture does not depend on threads, tiles, or the order of work. With --strict it does not depend on the
 instructions of the machine either.
 
-Every half minute the picture so far is written; an EXR file then also has the exact sums that --resume goes on
+Every 30 seconds the picture so far is written; an EXR file then also has the exact sums that --resume goes on
 with. A PNG has them beside it, in OUT.part.exr.
 
 Examples:
@@ -48,6 +48,9 @@ pub struct Args {
     /// Render these of the samples only, and write them so that `lobe merge` can add them to the others.
     #[arg(long, value_name = "A..B", value_parser = parse_range, conflicts_with = "time")]
     samples_range: Option<Range<u32>>,
+    /// How often the picture so far is written.
+    #[arg(long, value_name = "TIME", default_value = "30s", value_parser = humantime::parse_duration)]
+    write_every: Duration,
     /// Go on with the file that a rendering which was stopped has left.
     #[arg(long)]
     resume: bool,
@@ -112,8 +115,6 @@ fn parse_range(text: &str) -> Result<Range<u32>, String> {
     pair.filter(|range: &Range<u32>| !range.is_empty()).ok_or_else(|| "expected A..B with A < B".into())
 }
 
-/// How often the picture so far is written.
-const EVERY: Duration = Duration::from_secs(30);
 /// With a time limit alone there is no other.
 const UNLIMITED: u32 = 1 << 20;
 
@@ -155,7 +156,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let (mut written, mut failed) = (Instant::now(), None);
     let rendered = render(&scene.world, &settings, film, |progress| {
         bar.show(progress.done, progress.total, settings.time.map(|limit| (progress.elapsed, limit)));
-        if written.elapsed() >= EVERY {
+        if written.elapsed() >= args.write_every {
             failed = output.write_part(&progress.film()).err();
             written = Instant::now();
         }

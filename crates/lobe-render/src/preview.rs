@@ -1,9 +1,13 @@
 //! A material in a studio, with no scene to be written: on a ball and on a draped cloth.
 
+use std::path::Path;
 use std::sync::Arc;
+
+use lobe_mesh::{Geometry, generate, ply};
 
 use crate::camera::Camera;
 use crate::light::{Environment, Light};
+use crate::place::Place;
 use crate::shader::{Lambert, Shader};
 use crate::vec3::{Vec3, add, cross, scale, sub, unit};
 use crate::world::{Shape, World, WorldBuilder, WorldError};
@@ -37,12 +41,18 @@ pub fn studio(material: Arc<dyn Shader<3>>, show: Show) -> Result<(World<3>, Cam
         Show::Ball | Show::Cloth => ([0.0; 3], [0.0; 3]),
     };
     if show != Show::Cloth {
-        for (shape, is_ball) in shapes::ball() {
-            world.shape(&moved(shape, 1.0, ball_at), if is_ball { material } else { stand }, None, false)?;
+        let ball = generate::ball().complete();
+        let moved = Place { axes: Place::UPRIGHT, translate: ball_at };
+        for group in &ball.groups {
+            let range = group.triangles.start as usize..group.triangles.end as usize;
+            let shape = moved.shape(&ball, ball.triangles[range].to_vec());
+            world.shape(&shape, if group.name == "pedestal" { stand } else { material }, None, false)?;
         }
     }
     if show != Show::Ball {
-        world.shape(&moved(shapes::cloth(), shapes::CLOTH_SCALE, cloth_at), material, None, false)?;
+        let cloth = cloth();
+        let moved = Place { axes: Place::UPRIGHT.map(|axis| scale(axis, CLOTH)), translate: cloth_at };
+        world.shape(&moved.shape(&cloth, cloth.triangles.clone()), material, None, false)?;
     }
 
     // A large key light from the upper left, a strip on the right that draws a rim, and a faint sky.
@@ -59,6 +69,9 @@ pub fn studio(material: Arc<dyn Shader<3>>, show: Show) -> Result<(World<3>, Cam
     };
     Ok((world.build()?, camera))
 }
+
+/// Size of the cloth in the studio over that in its file.
+const CLOTH: f32 = 2.1;
 
 const LENS: Camera = Camera {
     position: [0.0; 3],
@@ -109,9 +122,8 @@ fn panel(at: Vec3, aim: Vec3, [width, height]: [f32; 2]) -> Shape {
     }
 }
 
-fn moved(mut shape: Shape, size: f32, to: Vec3) -> Shape {
-    for position in &mut shape.positions {
-        *position = add(scale(*position, size), to);
-    }
-    shape
+/// The cloth of [`generate::drape`], whose fall takes seconds to compute, from a file.
+fn cloth() -> Geometry {
+    const FILE: &[u8] = include_bytes!("../assets/drape.ply");
+    ply::parse(Path::new("drape.ply"), FILE).expect("a file that comes with the program").complete()
 }

@@ -1,7 +1,7 @@
 //! Tiles to threads: who renders what, when, and how far the whole is.
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -156,13 +156,13 @@ pub fn render<const C: usize>(
         state: Mutex::new(State { film, tiles, running: threads }),
         finished: Condvar::new(),
     };
-    let ended = AtomicUsize::new(0);
+    let ended = AtomicBool::new(false);
     let worker = || {
         let _leaving = Leaving(&shared);
         let mut wave = Wave::new(world, &view, settings.integrator, settings.backend);
         while let Some(job) = jobs.next() {
             let late = settings.time.is_some_and(|limit| begun.elapsed() >= limit) && !job.first;
-            if late || ended.load(Ordering::Relaxed) != 0 {
+            if late || ended.load(Ordering::Relaxed) {
                 break;
             }
             let mut seen = Film::new(job.rect);
@@ -176,14 +176,17 @@ pub fn render<const C: usize>(
         let handles: Vec<_> = (0..threads).map(|_| scope.spawn(worker)).collect();
         let mut state = shared.lock();
         while state.running > 0 {
-            let waited = shared.finished.wait_timeout(state, Duration::from_millis(100));
-            drop(waited.unwrap_or_else(PoisonError::into_inner));
+            drop(state);
             let done = done.load(Ordering::Relaxed);
             let progress = Progress { done, total, elapsed: begun.elapsed(), shared: &shared };
             if !watch(&progress) {
-                ended.store(1, Ordering::Relaxed);
+                ended.store(true, Ordering::Relaxed);
             }
             state = shared.lock();
+            if state.running > 0 {
+                let waited = shared.finished.wait_timeout(state, Duration::from_millis(100));
+                state = waited.unwrap_or_else(PoisonError::into_inner).0;
+            }
         }
         drop(state);
         let mut stats = Stats::default();

@@ -210,7 +210,7 @@ fn weights<const C: usize>(width: usize, height: usize, texels: &[[f32; C]]) -> 
         let (x, y) = (at % width, at / width);
         let columns = [x + width - 1, x, x + 1].map(|x| x % width);
         let rows = [y.saturating_sub(1), y, (y + 1).min(height - 1)];
-        let sum: f64 = rows.iter().flat_map(|y| columns.iter().map(|x| grey[y * width + x])).sum();
+        let sum: f64 = rows.iter().map(|y| columns.iter().map(|x| grey[y * width + x]).sum::<f64>()).sum();
         (sum / 9.0 + floor) * sine(y)
     };
     ((0..grey.len()).map(blurred).collect(), mean)

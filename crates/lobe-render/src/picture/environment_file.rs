@@ -48,7 +48,7 @@ fn exr(path: &Path, bytes: &[u8]) -> Result<Texels, PictureError> {
 
 fn hdr(path: &Path, bytes: &[u8]) -> Result<Texels, PictureError> {
     const EXPECTED: &str = "an OpenEXR or Radiance HDR file";
-    let wrong = |error: zune_hdr::errors::HdrDecodeErrors| content(path, format!("{error:?}"), EXPECTED);
+    let wrong = |error: zune_hdr::HdrDecodeErrors| content(path, format!("{error:?}"), EXPECTED);
     let mut decoder = zune_hdr::HdrDecoder::new(zune_core::bytestream::ZCursor::new(bytes));
     decoder.decode_headers().map_err(wrong)?;
     let (width, height) = decoder.dimensions().ok_or_else(|| content(path, "no size", EXPECTED))?;

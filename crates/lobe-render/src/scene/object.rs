@@ -6,8 +6,7 @@ use lobe_mesh::{Geometry, Shading, generate, shapes};
 
 use super::Reading;
 use super::node::{Node, SceneError};
-use crate::vec3::{Vec3, add, cross, dot, scale, sub, unit};
-use crate::world::Shape;
+use crate::place::Place;
 
 const SHAPES: &str = "sphere, plane, disk, cuboid, knot, ball or drape";
 
@@ -21,7 +20,7 @@ pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(),
         };
         let geometry = if shading == Shading::Flat { geometry.with_normals(shading) } else { geometry };
         let geometry = geometry.complete();
-        let place = Place::read(&node)?;
+        let place = self::place(&node)?;
         let radiance = node.colour("radiance", f64::MAX)?;
         let two_sided = node.flag("two_sided")?;
         let material = named(&node, reading, "material")?;
@@ -105,56 +104,18 @@ fn groups(
 }
 
 /// Scaled, then turned about x, y and z in this order, then moved.
-struct Place {
-    /// Images of the axes.
-    axes: [Vec3; 3],
-    translate: Vec3,
-}
-
-impl Place {
-    fn read(node: &Node<'_, '_>) -> Result<Self, SceneError> {
-        let size = |x: f64| (1e-6..=1e6).contains(&x);
-        let scale = node.number("scale", "a number from 1e-6 to 1e6", size)?.unwrap_or(1.0);
-        let turn = node.three("rotate", "three angles in degrees", |x| x.abs() <= 3600.0)?.unwrap_or([0.0; 3]);
-        let translate = node.vector("translate")?.unwrap_or([0.0; 3]);
-        let mut axes = [[scale, 0.0, 0.0], [0.0, scale, 0.0], [0.0, 0.0, scale]];
-        for (axis, degrees) in turn.into_iter().enumerate() {
-            let (sin, cos) = libm::sincos(degrees.to_radians());
-            let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
-            for image in &mut axes {
-                (image[a], image[b]) = (cos * image[a] - sin * image[b], sin * image[a] + cos * image[b]);
-            }
+fn place(node: &Node<'_, '_>) -> Result<Place, SceneError> {
+    let size = |x: f64| (1e-6..=1e6).contains(&x);
+    let scale = node.number("scale", "a number from 1e-6 to 1e6", size)?.unwrap_or(1.0);
+    let turn = node.three("rotate", "three angles in degrees", |x| x.abs() <= 3600.0)?.unwrap_or([0.0; 3]);
+    let translate = node.vector("translate")?.unwrap_or([0.0; 3]);
+    let mut axes = [[scale, 0.0, 0.0], [0.0, scale, 0.0], [0.0, 0.0, scale]];
+    for (axis, degrees) in turn.into_iter().enumerate() {
+        let (sin, cos) = libm::sincos(degrees.to_radians());
+        let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
+        for image in &mut axes {
+            (image[a], image[b]) = (cos * image[a] - sin * image[b], sin * image[a] + cos * image[b]);
         }
-        Ok(Place { axes: axes.map(|axis| axis.map(|x| x as f32)), translate })
     }
-
-    fn direction(&self, [x, y, z]: Vec3) -> Vec3 {
-        let [a, b, c] = self.axes;
-        add(add(scale(a, x), scale(b, y)), scale(c, z))
-    }
-
-    /// Triangles of a mesh that has normals and tangents, with the vertices that they need.
-    fn shape(&self, geometry: &Geometry, triangles: Vec<[u32; 3]>) -> Shape {
-        let mut numbers: BTreeMap<u32, u32> = BTreeMap::new();
-        let mut shape = Shape::default();
-        let (normals, tangents) = (geometry.normals.as_deref(), geometry.tangents.as_deref());
-        for corners in triangles {
-            shape.triangles.push(corners.map(|old| {
-                *numbers.entry(old).or_insert_with(|| {
-                    let at = old as usize;
-                    let normal = normals.map_or([0.0, 0.0, 1.0], |normals| normals[at]);
-                    let normal = unit(self.direction(normal)).unwrap_or(normal);
-                    let [x, y, z, w] = tangents.map_or([1.0, 0.0, 0.0, 1.0], |tangents| tangents[at]);
-                    let along = self.direction([x, y, z]);
-                    let [x, y, z] = unit(sub(along, scale(normal, dot(along, normal))))
-                        .unwrap_or_else(|| cross(normal, [normal[1], normal[2], normal[0]]));
-                    shape.positions.push(add(self.direction(geometry.positions[at]), self.translate));
-                    shape.normals.push(normal);
-                    shape.tangents.push([x, y, z, w]);
-                    shape.positions.len() as u32 - 1
-                })
-            }));
-        }
-        shape
-    }
+    Ok(Place { axes: axes.map(|axis| axis.map(|x| x as f32)), translate })
 }

@@ -6,8 +6,7 @@ use std::sync::Arc;
 use lobe::{Material, OpenError, Options};
 use lobe_formats::{Document, FormatError, Specular};
 use lobe_table::rgl::{RglOptions, RglTable};
-use lobe_table::sampling::SamplerError;
-use lobe_table::{Scatter, Table, TableError};
+use lobe_table::{SamplerError, Scatter, Table, TableError};
 
 use super::{
     Backend, Delta, DeltaShader, Evaluate, Proxied, Reduction, RglShader, Shader, Sided, TableShader,

@@ -7,8 +7,7 @@ use std::sync::Arc;
 
 use lobe_model::Model;
 use lobe_table::coords::angles_to_directions;
-use lobe_table::sampling::{self, Given, Sampler, SamplerError};
-use lobe_table::{Channels, Edges, Samples, Scatter, Table};
+use lobe_table::{Channels, Edges, Given, Sampler, SamplerError, Samples, Scatter, Table};
 
 use super::table::{Build, Density, Draw, firsts};
 use super::{Backend, Evaluated, Sampled, Scratch, Shader, albedo_of, times_cosine};
@@ -105,7 +104,7 @@ impl<E: Evaluate> Shader<3> for Proxied<E> {
     ) {
         let Scratch { values, pairs } = scratch;
         values.resize(wo.len(), 0.0);
-        let sampled = sampling::Sampled { directions: &mut *out.wi, weights: values, pdfs: &mut *out.pdf };
+        let sampled = lobe_table::Sampled { directions: &mut *out.wi, weights: values, pdfs: &mut *out.pdf };
         backend.run(Draw { sampler: &self.sampler, given: Given::Light, wo, u: firsts(u, pairs), sampled });
         self.material.values(backend, out.wi, wo, out.weight);
         times_cosine(out.weight, out.wi);

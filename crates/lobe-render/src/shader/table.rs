@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use lobe_lane::{Kernel, Lanes};
-use lobe_table::sampling::{self, Given, Sampler, SamplerError, SamplerOptions};
-use lobe_table::{Scatter, Table};
+use lobe_table::{Given, Sampler, SamplerError, SamplerOptions, Scatter, Table};
 
 use super::{Backend, Evaluated, Reduction, Sampled, Scratch, Shader, albedo_of, times_cosine};
 
@@ -75,7 +74,7 @@ impl Shader<3> for TableShader {
             values
         };
         let (directions, pdfs) = (out.wi, out.pdf);
-        let sampled = sampling::Sampled { directions, weights, pdfs };
+        let sampled = lobe_table::Sampled { directions, weights, pdfs };
         backend.run(Draw { sampler: &self.sampler, given: Given::Viewer, wo, u: firsts(u, pairs), sampled });
         if !self.reduction.is_identity() {
             self.reduction.apply(&scratch.values, out.weight);
@@ -129,7 +128,7 @@ pub(super) struct Draw<'a> {
     pub(super) given: Given,
     pub(super) wo: &'a [[f32; 3]],
     pub(super) u: &'a [[f32; 2]],
-    pub(super) sampled: sampling::Sampled<'a>,
+    pub(super) sampled: lobe_table::Sampled<'a>,
 }
 
 impl Kernel for Draw<'_> {

@@ -6,7 +6,7 @@ use super::{Carried, Wave};
 use crate::integrator::Integrator;
 use crate::random::Use;
 use crate::shader::{Delta, Sampled};
-use crate::vec3::Vec3;
+use crate::vec3::{Vec3, dot, scale, sub};
 
 /// Directions drawn by materials.
 #[derive(Debug)]
@@ -82,8 +82,13 @@ impl<const C: usize> Wave<'_, C> {
     fn follow_way(&mut self, index: usize, local: Vec3, weight: [f32; C], least: f32) {
         let vertex = &self.queue.sorted[index];
         let throughput: [f32; C] = std::array::from_fn(|k| vertex.carried.throughput[k] * weight[k]);
-        let wi = vertex.hit.world(local);
-        if throughput.iter().any(|t| *t > least) && vertex.hit.sees(wi, local) {
+        let mut wi = vertex.hit.world(local);
+        if !vertex.hit.sees(wi, local) {
+            // At the silhouette of facets that a smooth normal hides, the direction is turned back out of the facet.
+            let normal = vertex.hit.geometric;
+            wi = sub(wi, scale(normal, 2.0 * dot(normal, wi)));
+        }
+        if throughput.iter().any(|t| *t > least) {
             self.batch.rays.push(vertex.hit.leave(vertex.hit.position, wi), wi, 0.0, f32::INFINITY);
             self.carried.push(Carried { slot: vertex.carried.slot, throughput, pdf: f32::INFINITY });
         }

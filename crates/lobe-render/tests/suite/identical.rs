@@ -49,7 +49,7 @@ fn parts_of_the_picture_and_of_the_samples_add_up() {
 #[test]
 fn what_was_stopped_goes_on() {
     let world = mixed();
-    let settings = settings(SIZE, 40, PATH);
+    let settings = settings(SIZE, 100, PATH);
     let whole = picture(&world, &settings);
     // Stopped at the first look, and then again at the third.
     let mut film = Film::new(settings.window);
@@ -58,21 +58,21 @@ fn what_was_stopped_goes_on() {
         let watch = |_: &_| seen.fetch_add(1, Ordering::Relaxed) + 1 < looks;
         film = render(&world, &settings, film, watch).unwrap().0;
     }
-    assert!(film.samples().0 < 40, "it was stopped");
+    assert!(film.samples().0 < 100, "it was stopped");
     assert!(whole == render(&world, &settings, film, |_| true).unwrap().0);
 }
 
 #[test]
 fn copies_made_on_the_way_have_the_first_samples() {
     let world = mixed();
-    let settings = settings(SIZE, 40, PATH);
+    let settings = settings(SIZE, 100, PATH);
     let mut copies = Vec::new();
     let whole = render(&world, &settings, Film::new(settings.window), |progress| {
         copies.push(progress.film());
         true
     });
     let whole = whole.unwrap().0;
-    let middle = copies.into_iter().find(|film| film.samples().1 > 0 && film.samples().0 < 40);
+    let middle = copies.into_iter().find(|film| film.samples().1 > 0 && film.samples().0 < 100);
     let middle = middle.expect("a look while it is being rendered");
     assert!(whole == render(&world, &settings, middle, |_| true).unwrap().0);
 }

@@ -5,3 +5,4 @@ mod direct;
 mod files;
 mod furnace;
 mod identical;
+mod scenes;
