@@ -83,7 +83,10 @@ impl<const C: usize> Wave<'_, C> {
     /// Draws a place on a light for each hit that has a value for pairs of directions.
     fn ask(&mut self, depth: u32, light: Option<usize>) {
         let Direct { wi, wo, asked, parts, .. } = &mut self.direct;
-        (wi.clear(), wo.clear(), asked.clear(), parts.clear());
+        wi.clear();
+        wo.clear();
+        asked.clear();
+        parts.clear();
         let lights = &self.world.lights;
         // Each light of a round has numbers of its own.
         let set = Use::Light(depth + 64 * light.unwrap_or(0) as u32);

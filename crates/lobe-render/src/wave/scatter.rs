@@ -99,7 +99,8 @@ impl<const C: usize> Wave<'_, C> {
         let begun = Instant::now();
         let (material, range) = &self.queue.parts[part];
         let Scattered { wo, u, wi, weight, pdf } = &mut self.scattered;
-        (wo.clear(), u.clear());
+        wo.clear();
+        u.clear();
         for vertex in &self.queue.sorted[range.clone()] {
             let [a, b, c, _] = vertex.sequence.four(Use::Scatter(depth));
             wo.push(vertex.hit.wo);

@@ -1,7 +1,5 @@
 //! Pictures that have to be the same bits, however they are made.
 
-use std::sync::atomic::{AtomicU32, Ordering};
-
 use lobe_render::shader::Backend;
 use lobe_render::{Film, Integrator, Rect, Settings, render};
 
@@ -54,9 +52,12 @@ fn what_was_stopped_goes_on() {
     // Stopped at the first look, and then again at the third.
     let mut film = Film::new(settings.window);
     for looks in [1, 3] {
-        let seen = AtomicU32::new(0);
-        let watch = |_: &_| seen.fetch_add(1, Ordering::Relaxed) + 1 < looks;
-        film = render(&world, &settings, film, watch).unwrap().0;
+        let mut seen = 0;
+        let stopped = render(&world, &settings, film, |_| {
+            seen += 1;
+            seen < looks
+        });
+        film = stopped.unwrap().0;
     }
     assert!(film.samples().0 < 100, "it was stopped");
     assert!(whole == render(&world, &settings, film, |_| true).unwrap().0);
