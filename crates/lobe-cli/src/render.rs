@@ -14,7 +14,8 @@ use crate::progress::Bar;
 
 /// Render a scene file to EXR or PNG.
 #[derive(clap::Args)]
-#[command(after_help = "The picture does not depend on threads, tiles, or the order of work. With --strict it does not depend on the
+#[command(
+    after_help = "The picture does not depend on threads, tiles, or the order of work. With --strict it does not depend on the
 instructions of the machine either.
 
 Every 30 seconds the picture so far is written; an EXR file then also has the exact sums that --resume goes on
@@ -26,7 +27,8 @@ Examples:
   lobe render scene.toml -o picture.exr --time 10m --resume
   lobe render scene.toml -o part2.exr --tile 2/4           on the second of four machines
   lobe render scene.toml -o more.exr --samples-range 64..128
-  lobe merge part*.exr -o picture.exr")]
+  lobe merge part*.exr -o picture.exr"
+)]
 pub struct Args {
     /// The scene, a TOML file.
     scene: PathBuf,
@@ -130,7 +132,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     };
     let samples = args.samples_range.clone().unwrap_or(0..total);
     if samples.end > total {
-        return Err(Failure::Usage(format!("--samples-range: found samples up to {}; expected {total} at most", samples.end)));
+        return Err(Failure::Usage(format!(
+            "--samples-range: found samples up to {}; expected {total} at most",
+            samples.end
+        )));
     }
     let window = window(args, scene.size)?;
     let meta = Meta { scene: scene.hash.clone(), size: scene.size, window, samples: samples.clone(), total };
@@ -190,7 +195,8 @@ fn window(args: &Args, size: [u32; 2]) -> Result<Rect, Failure> {
     match whole.intersection(&crop) {
         Some(inside) if inside == crop => Ok(crop),
         _ => {
-            let message = format!("--crop: found pixels outside of the picture; expected up to {},{}", size[0], size[1]);
+            let message =
+                format!("--crop: found pixels outside of the picture; expected up to {},{}", size[0], size[1]);
             Err(Failure::Usage(message))
         }
     }

@@ -67,8 +67,7 @@ pub fn merge(paths: &[impl AsRef<Path>], gaps: bool) -> Result<(Film<3>, Meta), 
         parts.push((path.into(), film, meta));
     }
     let (_, _, meta) = parts.first().ok_or(MergeError::Nothing)?.clone();
-    let found: u64 =
-        parts.iter().flat_map(|(_, film, _)| film.pixels()).map(|pixel| u64::from(pixel.samples)).sum();
+    let found: u64 = parts.iter().flat_map(|(_, film, _)| film.pixels()).map(|pixel| u64::from(pixel.samples)).sum();
     let expected = u64::from(meta.size[0]) * u64::from(meta.size[1]) * u64::from(meta.total);
     if found != expected && !gaps {
         return Err(MergeError::Gaps { found, expected });

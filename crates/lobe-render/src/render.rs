@@ -152,10 +152,7 @@ pub fn render<const C: usize>(
     let left: u64 = tiles.iter().map(|t| t.rect.area() as u64 * u64::from(samples.end.saturating_sub(t.next))).sum();
     let done = AtomicU64::new(total - left);
     let threads = settings.threads.max(1);
-    let shared = Shared {
-        state: Mutex::new(State { film, tiles, running: threads }),
-        finished: Condvar::new(),
-    };
+    let shared = Shared { state: Mutex::new(State { film, tiles, running: threads }), finished: Condvar::new() };
     let ended = AtomicBool::new(false);
     let worker = || {
         let _leaving = Leaving(&shared);
@@ -218,9 +215,7 @@ fn tiles<const C: usize>(film: &Film<C>, samples: &Range<u32>) -> Result<Vec<Til
             let rect = Rect { x, y, width: TILE, height: TILE };
             let rect = rect.intersection(&window).expect("a tile of the window");
             let done = film.pixels()[film.index(x, y)].samples;
-            let even = rect
-                .rows()
-                .all(|y| rect.columns().all(|x| film.pixels()[film.index(x, y)].samples == done));
+            let even = rect.rows().all(|y| rect.columns().all(|x| film.pixels()[film.index(x, y)].samples == done));
             let next = samples.start.checked_add(done).filter(|_| even).ok_or(RenderError::Uneven)?;
             tiles.push(Tile { rect, next, early: Vec::new() });
         }

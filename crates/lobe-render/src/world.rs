@@ -164,9 +164,7 @@ impl<const C: usize> WorldBuilder<C> {
 
 fn finite<const N: usize>(attribute: &'static str, values: &[[f32; N]]) -> Result<(), WorldError> {
     let bad = values.as_flattened().iter().position(|x| !x.is_finite());
-    bad.map_or(Ok(()), |at| {
-        Err(WorldError::NotFinite { attribute, vertex: at / N, found: values.as_flattened()[at] })
-    })
+    bad.map_or(Ok(()), |at| Err(WorldError::NotFinite { attribute, vertex: at / N, found: values.as_flattened()[at] }))
 }
 
 /// Triangles, materials and lights, ready to be rendered with `C` channels.

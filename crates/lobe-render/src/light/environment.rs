@@ -80,12 +80,7 @@ impl<const C: usize> Environment<C> {
     ///
     /// # Errors
     /// Where the texels are not that many, negative or not finite.
-    pub fn image(
-        width: usize,
-        height: usize,
-        texels: Vec<[f32; C]>,
-        turn: f32,
-    ) -> Result<Self, EnvironmentError> {
+    pub fn image(width: usize, height: usize, texels: Vec<[f32; C]>, turn: f32) -> Result<Self, EnvironmentError> {
         if texels.is_empty() || width.checked_mul(height) != Some(texels.len()) {
             return Err(EnvironmentError::Size { found: texels.len(), width, height });
         }
@@ -250,7 +245,8 @@ mod tests {
             let y = 1.0 - 2.0 * u[0];
             let (sin, cos) = (TAU * u[1]).sin_cos();
             let r = (1.0 - y * y).sqrt();
-            exact += f64::from(light.radiance([r * cos, y, r * sin])[0]) * 4.0 * std::f64::consts::PI / f64::from(n * n);
+            exact +=
+                f64::from(light.radiance([r * cos, y, r * sin])[0]) * 4.0 * std::f64::consts::PI / f64::from(n * n);
         }
         assert!(angle < 2e-3, "{angle} of the densities differ");
         assert!((radiance / exact - 1.0).abs() < 0.02, "{radiance} drawn, {exact} summed");

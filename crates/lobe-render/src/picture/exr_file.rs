@@ -8,8 +8,8 @@ use std::io::Cursor;
 use std::path::Path;
 
 use exr::prelude::{
-    AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, IntegerBounds, Layer, LayerAttributes, Text,
-    Vec2, WritableImage, ReadChannels, ReadLayers,
+    AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, IntegerBounds, Layer, LayerAttributes,
+    ReadChannels, ReadLayers, Text, Vec2, WritableImage,
 };
 
 use super::{Meta, PictureError, replace};

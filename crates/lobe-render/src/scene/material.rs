@@ -57,9 +57,7 @@ fn model(node: &Node<'_, '_>, name: &str) -> Result<Arc<dyn Shader<3>>, SceneErr
     };
     match name {
         "lambert" => Ok(Arc::new(Lambert { albedo: node.required_colour("albedo", 1.0)? })),
-        "mirror" => {
-            Ok(Arc::new(DeltaShader(Delta::Mirror(node.colour("reflectance", 1.0)?.unwrap_or([1.0; 3])))))
-        }
+        "mirror" => Ok(Arc::new(DeltaShader(Delta::Mirror(node.colour("reflectance", 1.0)?.unwrap_or([1.0; 3]))))),
         "glass" => {
             let index = node.number("eta", "a refractive index from 1 to 5", |x| (1.0..=5.0).contains(&x))?;
             let tint = node.colour("tint", 1.0)?.unwrap_or([1.0; 3]);

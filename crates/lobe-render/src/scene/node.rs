@@ -150,12 +150,7 @@ impl<'s, 't> Node<'s, 't> {
     }
 
     /// A number that `fits`, described by `expected`.
-    pub fn number(
-        &self,
-        key: &str,
-        expected: &str,
-        fits: impl Fn(f64) -> bool,
-    ) -> Result<Option<f64>, SceneError> {
+    pub fn number(&self, key: &str, expected: &str, fits: impl Fn(f64) -> bool) -> Result<Option<f64>, SceneError> {
         let Some(value) = self.get(key) else { return Ok(None) };
         match number(value.get_ref()) {
             Some(found) if fits(found) => Ok(Some(found)),
@@ -171,12 +166,7 @@ impl<'s, 't> Node<'s, 't> {
     }
 
     /// An array of three numbers of which each `fits`.
-    pub fn three(
-        &self,
-        key: &str,
-        expected: &str,
-        fits: impl Fn(f64) -> bool,
-    ) -> Result<Option<[f64; 3]>, SceneError> {
+    pub fn three(&self, key: &str, expected: &str, fits: impl Fn(f64) -> bool) -> Result<Option<[f64; 3]>, SceneError> {
         let Some(value) = self.get(key) else { return Ok(None) };
         let numbers = value.get_ref().as_array().and_then(|array| {
             array.iter().map(|value| number(value.get_ref()).filter(|x| fits(*x))).collect::<Option<Vec<f64>>>()

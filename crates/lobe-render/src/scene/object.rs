@@ -79,11 +79,7 @@ fn named(node: &Node<'_, '_>, reading: &Reading<'_>, key: &str) -> Result<usize,
 }
 
 /// For each group of triangles the material that `materials` has for the name of its material or its own.
-fn groups(
-    node: &Node<'_, '_>,
-    reading: &Reading<'_>,
-    geometry: &Geometry,
-) -> Result<Vec<Option<usize>>, SceneError> {
+fn groups(node: &Node<'_, '_>, reading: &Reading<'_>, geometry: &Geometry) -> Result<Vec<Option<usize>>, SceneError> {
     let Some(table) = node.child("materials")? else { return Ok(vec![None; geometry.groups.len()]) };
     let mut found = vec![None; geometry.groups.len()];
     for name in table.keys() {

@@ -8,9 +8,7 @@ use lobe_formats::{Document, FormatError, Specular};
 use lobe_table::rgl::{RglOptions, RglTable};
 use lobe_table::{SamplerError, Scatter, Table, TableError};
 
-use super::{
-    Backend, Delta, DeltaShader, Evaluate, Proxied, Reduction, RglShader, Shader, Sided, TableShader,
-};
+use super::{Backend, Delta, DeltaShader, Evaluate, Proxied, Reduction, RglShader, Shader, Sided, TableShader};
 
 /// Why a file makes no material.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -78,24 +78,10 @@ pub trait Shader<const C: usize>: Debug + Send + Sync {
     fn albedo(&self) -> [f32; C];
 
     /// Values and densities of pairs of directions. All slices are equally long.
-    fn eval(
-        &self,
-        backend: Backend,
-        wi: &[[f32; 3]],
-        wo: &[[f32; 3]],
-        out: Evaluated<'_, C>,
-        scratch: &mut Scratch,
-    );
+    fn eval(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: Evaluated<'_, C>, scratch: &mut Scratch);
 
     /// Draws a `wi` for each `wo` from three numbers in `[0, 1)`. All slices are equally long.
-    fn sample(
-        &self,
-        backend: Backend,
-        wo: &[[f32; 3]],
-        u: &[[f32; 3]],
-        out: Sampled<'_, C>,
-        scratch: &mut Scratch,
-    );
+    fn sample(&self, backend: Backend, wo: &[[f32; 3]], u: &[[f32; 3]], out: Sampled<'_, C>, scratch: &mut Scratch);
 }
 
 /// The mean weight of directions that a shader draws for a viewer 30 degrees from the normal: its albedo there.

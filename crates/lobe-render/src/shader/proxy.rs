@@ -37,8 +37,7 @@ pub struct Proxied<E> {
 /// Knots of the table in degrees; theta is finest at the mirror direction.
 const SIGMA: [f64; 10] = [0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 88.0];
 const PSI: [f64; 8] = [0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0];
-const THETA: [f64; 15] =
-    [0.0, 1.0, 2.0, 4.0, 6.0, 9.0, 13.0, 18.0, 25.0, 35.0, 50.0, 70.0, 100.0, 140.0, 180.0];
+const THETA: [f64; 15] = [0.0, 1.0, 2.0, 4.0, 6.0, 9.0, 13.0, 18.0, 25.0, 35.0, 50.0, 70.0, 100.0, 140.0, 180.0];
 const PHI: [f64; 12] = [0.0, 30.0, 60.0, 90.0, 120.0, 150.0, 180.0, 210.0, 240.0, 270.0, 300.0, 330.0];
 
 impl<E: Evaluate> Proxied<E> {
@@ -94,14 +93,7 @@ impl<E: Evaluate> Shader<3> for Proxied<E> {
         backend.run(Density { sampler: &self.sampler, given: Given::Light, wi: wo, wo: wi, pdf: out.pdf });
     }
 
-    fn sample(
-        &self,
-        backend: Backend,
-        wo: &[[f32; 3]],
-        u: &[[f32; 3]],
-        out: Sampled<'_, 3>,
-        scratch: &mut Scratch,
-    ) {
+    fn sample(&self, backend: Backend, wo: &[[f32; 3]], u: &[[f32; 3]], out: Sampled<'_, 3>, scratch: &mut Scratch) {
         let Scratch { values, pairs } = scratch;
         values.resize(wo.len(), 0.0);
         let sampled = lobe_table::Sampled { directions: &mut *out.wi, weights: values, pdfs: &mut *out.pdf };

@@ -11,8 +11,7 @@ pub struct Reduction {
 }
 
 /// XYZ to linear sRGB: IEC 61966-2-1.
-const XYZ_TO_RGB: [[f64; 3]; 3] =
-    [[3.2406, -1.5372, -0.4986], [-0.9689, 1.8758, 0.0415], [0.0557, -0.2040, 1.0570]];
+const XYZ_TO_RGB: [[f64; 3]; 3] = [[3.2406, -1.5372, -0.4986], [-0.9689, 1.8758, 0.0415], [0.0557, -0.2040, 1.0570]];
 
 impl Reduction {
     /// The reduction for these channels.

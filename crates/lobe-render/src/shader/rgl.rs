@@ -29,14 +29,7 @@ impl Shader<3> for RglShader {
         self.albedo
     }
 
-    fn eval(
-        &self,
-        backend: Backend,
-        wi: &[[f32; 3]],
-        wo: &[[f32; 3]],
-        out: Evaluated<'_, 3>,
-        scratch: &mut Scratch,
-    ) {
+    fn eval(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: Evaluated<'_, 3>, scratch: &mut Scratch) {
         if self.reduction.is_identity() {
             let wanted = Wanted::ValuesAndPdf(out.f.as_flattened_mut(), out.pdf);
             backend.run(self.table.batch(wo, wi, wanted));
@@ -48,14 +41,7 @@ impl Shader<3> for RglShader {
         times_cosine(out.f, wi);
     }
 
-    fn sample(
-        &self,
-        backend: Backend,
-        wo: &[[f32; 3]],
-        u: &[[f32; 3]],
-        out: Sampled<'_, 3>,
-        scratch: &mut Scratch,
-    ) {
+    fn sample(&self, backend: Backend, wo: &[[f32; 3]], u: &[[f32; 3]], out: Sampled<'_, 3>, scratch: &mut Scratch) {
         let Scratch { values, pairs } = scratch;
         let weights = if self.reduction.is_identity() {
             out.weight.as_flattened_mut()

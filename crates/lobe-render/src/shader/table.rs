@@ -38,14 +38,7 @@ impl Shader<3> for TableShader {
         self.albedo
     }
 
-    fn eval(
-        &self,
-        backend: Backend,
-        wi: &[[f32; 3]],
-        wo: &[[f32; 3]],
-        out: Evaluated<'_, 3>,
-        scratch: &mut Scratch,
-    ) {
+    fn eval(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: Evaluated<'_, 3>, scratch: &mut Scratch) {
         let table = self.sampler.table();
         if self.reduction.is_identity() {
             backend.run(table.batch(wi, wo, out.f.as_flattened_mut()));
@@ -58,14 +51,7 @@ impl Shader<3> for TableShader {
         backend.run(Density { sampler: &self.sampler, given: Given::Viewer, wi, wo, pdf: out.pdf });
     }
 
-    fn sample(
-        &self,
-        backend: Backend,
-        wo: &[[f32; 3]],
-        u: &[[f32; 3]],
-        out: Sampled<'_, 3>,
-        scratch: &mut Scratch,
-    ) {
+    fn sample(&self, backend: Backend, wo: &[[f32; 3]], u: &[[f32; 3]], out: Sampled<'_, 3>, scratch: &mut Scratch) {
         let Scratch { values, pairs } = scratch;
         let weights = if self.reduction.is_identity() {
             out.weight.as_flattened_mut()

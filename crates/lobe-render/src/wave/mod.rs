@@ -220,8 +220,7 @@ fn background<const C: usize>(world: &World<C>, direction: Vec3, pdf: f32) -> Op
 fn emission<const C: usize>(world: &World<C>, index: usize, hit: &Hit, way: (Vec3, f32, f32)) -> [f32; C] {
     let (direction, distance, pdf) = way;
     let Light::Area(area) = &world.lights.all[index] else { return [0.0; C] };
-    let share =
-        against(pdf, || world.lights.chance(index) * area.pdf(distance, dot(hit.geometric, direction)));
+    let share = against(pdf, || world.lights.chance(index) * area.pdf(distance, dot(hit.geometric, direction)));
     area.emitted(hit.front).map(|x| x * share)
 }
 

@@ -6,9 +6,7 @@ use std::sync::Arc;
 use lobe::Edges;
 use lobe_render::light::{Environment, Light};
 use lobe_render::shader::{Backend, Delta, DeltaShader, Lambert, Shader, TableShader};
-use lobe_render::{
-    Camera, Film, Filter, Integrator, Rect, Settings, Shape, World, WorldBuilder, render,
-};
+use lobe_render::{Camera, Film, Filter, Integrator, Rect, Settings, Shape, World, WorldBuilder, render};
 use lobe_table::Table;
 
 pub const PATH: Integrator = Integrator::Path { depth: 8, limit: f32::INFINITY };
@@ -30,7 +28,8 @@ pub fn sphere(center: [f32; 3], radius: f32) -> Shape {
     let mut shape = Shape::default();
     for j in 0..=N / 2 {
         for i in 0..=N {
-            let (theta, phi) = (std::f32::consts::TAU * j as f32 / N as f32, std::f32::consts::TAU * i as f32 / N as f32);
+            let (theta, phi) =
+                (std::f32::consts::TAU * j as f32 / N as f32, std::f32::consts::TAU * i as f32 / N as f32);
             let normal = [theta.sin() * phi.sin(), theta.cos(), theta.sin() * phi.cos()];
             shape.positions.push([0, 1, 2].map(|k| center[k] + radius * normal[k]));
             shape.normals.push(normal);

@@ -62,7 +62,11 @@ fn a_measured_plane_under_a_point_light() {
             for k in 0..3 {
                 let expected = f64::from(f[k]) * f64::from(wi[2]) * f64::from(intensity[k]) / r2;
                 let error = (f64::from(seen[k]) / expected - 1.0).abs();
-                assert!(expected > 1e-3 && error < 1e-5, "{integrator:?}, turned by {turn}: {} for {expected}", seen[k]);
+                assert!(
+                    expected > 1e-3 && error < 1e-5,
+                    "{integrator:?}, turned by {turn}: {} for {expected}",
+                    seen[k]
+                );
             }
         }
     }

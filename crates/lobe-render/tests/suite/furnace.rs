@@ -74,10 +74,8 @@ fn nothing_occludes_a_convex_thing() {
     let (largest, _) = from_white(&furnace(lambert(1.0)), Integrator::Ambient { distance: f32::INFINITY });
     // Pixels beside the sphere are black, as there is no surface.
     assert_eq!(largest, 1.0);
-    let film = picture(
-        &furnace(lambert(1.0)),
-        &settings([48, 40], 16, Integrator::Ambient { distance: f32::INFINITY }),
-    );
+    let film =
+        picture(&furnace(lambert(1.0)), &settings([48, 40], 16, Integrator::Ambient { distance: f32::INFINITY }));
     let middle = film.pixels()[film.index(24, 20)];
     assert!((middle.mean_radiance()[0] - 1.0).abs() < 1e-6, "{:?}", middle.mean_radiance());
 }

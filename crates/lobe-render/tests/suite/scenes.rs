@@ -92,7 +92,12 @@ fn mistakes_are_named_with_their_line_and_key() {
         ("shape = \"plane\"", "shape = \"flat\"", 23, "object[0].shape: found `flat`; expected sphere"),
         ("shape = \"plane\"", "file = \"nowhere.ply\"", 23, "object[0].file"),
         ("size = 4", "sise = 4", 24, "object[0].sise: no such key"),
-        ("material = \"gold\"", "material = \"silver\"", 31, "found `silver`; expected one of the materials: cloth, gold"),
+        (
+            "material = \"gold\"",
+            "material = \"silver\"",
+            31,
+            "found `silver`; expected one of the materials: cloth, gold",
+        ),
         ("radius = 0.5", "radius = \"big\"", 29, "object[1].radius: found `big`"),
         ("translate = [0, 0.5, 0]", "translate = [0, inf, 0]", 30, "object[1].translate"),
         ("kind = \"point\"", "kind = \"neon\"", 34, "light[0].kind: found `neon`; expected point"),
