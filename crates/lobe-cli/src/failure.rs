@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use lobe::OpenError;
 use lobe_formats::FormatError;
+use lobe_render::picture::PictureError;
 
 /// Why a command stopped.
 #[derive(Debug)]
@@ -53,6 +54,12 @@ impl From<OpenError> for Failure {
             OpenError::Backend(error) => Failure::Usage(format!("LOBE_BACKEND: {error}")),
             error => Failure::File(error.to_string()),
         }
+    }
+}
+
+impl From<PictureError> for Failure {
+    fn from(error: PictureError) -> Self {
+        Failure::File(error.to_string())
     }
 }
 

@@ -14,11 +14,14 @@ mod generate;
 mod info;
 mod lossless;
 mod measure;
+mod merge;
 mod output;
 mod pairs;
 mod plot;
+mod preview;
 mod probe;
 mod progress;
+mod render;
 mod resample;
 mod shell;
 mod surface;
@@ -50,6 +53,9 @@ enum Command {
     Albedo(albedo::Args),
     Compare(compare::Args),
     Plot(plot::Args),
+    Preview(preview::Args),
+    Render(render::Args),
+    Merge(merge::Args),
     Convert(Box<convert::Args>),
     Resample(resample::Args),
     Generate(Box<generate::Args>),
@@ -65,6 +71,9 @@ fn main() -> ExitCode {
         Command::Albedo(args) => albedo::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Plot(args) => plot::run(&args),
+        Command::Preview(args) => preview::run(&args),
+        Command::Render(args) => render::run(&args),
+        Command::Merge(args) => merge::run(&args),
         Command::Convert(args) => convert::run(&args),
         Command::Resample(args) => resample::run(&args),
         Command::Generate(args) => generate::run(&args),

@@ -34,3 +34,32 @@ impl Drop for Progress {
         self.0.finish_and_clear();
     }
 }
+
+/// A bar of work that ends with its samples or its time, whichever is first; nothing where the standard error is none.
+pub struct Bar(ProgressBar);
+
+impl Bar {
+    /// A bar, or none.
+    pub fn new(quiet: bool) -> Self {
+        let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+        let style = ProgressStyle::with_template("{wide_bar} {percent:>3}%  {elapsed} / {eta} left  {msg}")
+            .expect("a template that is right");
+        Bar(ProgressBar::with_draw_target(Some(0), target).with_style(style))
+    }
+
+    /// Shows how many samples are done, and how much of the time that there is at most.
+    pub fn show(&self, done: u64, total: u64, time: Option<(Duration, Duration)>) {
+        let share = done as f64 / total.max(1) as f64;
+        // Whichever limit is nearer.
+        let timed = time.map_or(0.0, |(elapsed, limit)| elapsed.as_secs_f64() / limit.as_secs_f64().max(1e-9));
+        const STEPS: f64 = 10_000.0;
+        self.0.set_length(STEPS as u64);
+        self.0.set_position((STEPS * share.max(timed).min(1.0)) as u64);
+        self.0.set_message(format!("{:.1} M samples", done as f64 / 1e6));
+    }
+
+    /// Takes the bar away.
+    pub fn finish(&self) {
+        self.0.finish_and_clear();
+    }
+}

@@ -1,0 +1,105 @@
+//! `lobe preview`: a material on a ball and on a cloth, without a scene.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::ValueEnum;
+use lobe::{Lookup, Options};
+use lobe_render::picture::{Meta, ToneMap, write_exr, write_png};
+use lobe_render::preview::{Show, studio};
+use lobe_render::shader::open;
+use lobe_render::{Film, Filter, Integrator, Rect, Settings, render};
+
+use crate::failure::Failure;
+use crate::render::{Kind, Machine};
+
+/// Show a measured material on a ball and on a draped cloth.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  lobe preview paint.bsdf -o paint.png
+  lobe preview velvet.ddr -o velvet.png --show cloth --samples 128 --size 1600x1200
+
+A tangent of the cloth runs along its weft, so that psi of an anisotropic material follows the weave.")]
+pub struct Args {
+    /// The file of a measured BRDF or BSDF, of any format that lobe opens.
+    material: PathBuf,
+    /// The picture, .png or .exr.
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// What to show it on.
+    #[arg(long, value_enum, default_value = "both")]
+    show: Shown,
+    /// Columns and rows.
+    #[arg(long, value_name = "WxH", default_value = "800x600", value_parser = parse_size)]
+    size: [u32; 2],
+    /// Samples a pixel.
+    #[arg(long, value_name = "N", default_value_t = 48, value_parser = clap::value_parser!(u32).range(1..65_537))]
+    samples: u32,
+    /// Stop after this time at the latest; every pixel has a sample by then.
+    #[arg(long, value_name = "TIME", default_value = "20s", value_parser = humantime::parse_duration)]
+    time: Duration,
+    /// For PNG: multiply radiance by two to this power.
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    exposure: f32,
+    #[command(flatten)]
+    machine: Machine,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Shown {
+    /// The ball beside the cloth.
+    Both,
+    /// The ball alone.
+    Ball,
+    /// The cloth alone.
+    Cloth,
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let pair = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    pair.filter(|size: &[u32; 2]| size.iter().all(|n| (1..=8192).contains(n)))
+        .ok_or_else(|| "expected WxH, such as 800x600, up to 8192x8192".into())
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let kind = Kind::of(&args.output)?;
+    let backend = args.machine.backend()?;
+    // A grid of half and difference angles that is not interpolated shows its bins.
+    let options = Options { lookup: Lookup::Linear, ..Options::default() };
+    let material = open(&args.material, &options).map_err(|error| Failure::File(error.to_string()))?;
+    let show = match args.show {
+        Shown::Both => Show::Both,
+        Shown::Ball => Show::Ball,
+        Shown::Cloth => Show::Cloth,
+    };
+    let (world, camera) = studio(material, show).map_err(|error| Failure::File(error.to_string()))?;
+    let window = Rect { x: 0, y: 0, width: args.size[0], height: args.size[1] };
+    let settings = Settings {
+        camera,
+        size: args.size,
+        window,
+        filter: Filter::Tent,
+        integrator: Integrator::Path { depth: 4, limit: 4.0 },
+        samples: 0..args.samples,
+        backend,
+        threads: args.machine.threads(),
+        time: Some(args.time),
+    };
+    let bar = args.machine.bar();
+    let rendered = render(&world, &settings, Film::new(window), |progress| {
+        bar.show(progress.done, progress.total, Some((progress.elapsed, args.time)));
+        true
+    });
+    bar.finish();
+    let (film, _) = rendered.map_err(|error| Failure::Usage(error.to_string()))?;
+    match kind {
+        Kind::Png => write_png(&args.output, &film, ToneMap { exposure: args.exposure })?,
+        Kind::Exr => {
+            let scene = "preview".into();
+            let meta = Meta { scene, size: args.size, window, samples: 0..args.samples, total: args.samples };
+            write_exr(&args.output, &film, &meta, false)?;
+        }
+    }
+    Ok(())
+}

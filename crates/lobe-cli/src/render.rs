@@ -1,0 +1,292 @@
+//! `lobe render`: pictures of scenes.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use lobe::Backend;
+use lobe_render::picture::{Meta, ToneMap, read_partial, write_exr, write_png};
+use lobe_render::scene::Scene;
+use lobe_render::{Film, Rect, Settings, render};
+
+use crate::failure::Failure;
+use crate::progress::Bar;
+
+/// Render a scene file to EXR or PNG.
+#[derive(clap::Args)]
+#[command(
+    after_help = "The picture does not depend on threads, tiles, or the order of work. With --strict it does not depend on the
+instructions of the machine either.
+
+Every 30 seconds the picture so far is written; an EXR file then also has the exact sums that --resume goes on
+with. A PNG has them beside it, in OUT.part.exr.
+
+Examples:
+  lobe render scene.toml -o picture.exr
+  lobe render scene.toml -o look.png --samples 16 --crop 100,50,300,250
+  lobe render scene.toml -o picture.exr --time 10m --resume
+  lobe render scene.toml -o part2.exr --tile 2/4           on the second of four machines
+  lobe render scene.toml -o more.exr --samples-range 64..128
+  lobe merge part*.exr -o picture.exr"
+)]
+pub struct Args {
+    /// The scene, a TOML file.
+    scene: PathBuf,
+    /// The picture, .exr or .png.
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// Samples a pixel, in place of what the scene says.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..u32::MAX as i64))]
+    samples: Option<u32>,
+    /// Stop after this time, such as 90s or 10m, at the latest; every pixel has a sample by then.
+    #[arg(long, value_name = "TIME", value_parser = humantime::parse_duration)]
+    time: Option<Duration>,
+    /// Render the pixels from column X0 and row Y0 up to but without X1 and Y1, counted from the upper left.
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = parse_crop)]
+    crop: Option<Rect>,
+    /// Render part I of N, counted from 1, and write it so that `lobe merge` can add it to the others.
+    #[arg(long, value_name = "I/N", value_parser = parse_tile, conflicts_with = "crop")]
+    tile: Option<(u32, u32)>,
+    /// Render these of the samples only, and write them so that `lobe merge` can add them to the others.
+    #[arg(long, value_name = "A..B", value_parser = parse_range, conflicts_with = "time")]
+    samples_range: Option<Range<u32>>,
+    /// How often the picture so far is written.
+    #[arg(long, value_name = "TIME", default_value = "30s", value_parser = humantime::parse_duration)]
+    write_every: Duration,
+    /// Go on with the file that a rendering which was stopped has left.
+    #[arg(long)]
+    resume: bool,
+    #[command(flatten)]
+    machine: Machine,
+}
+
+/// How to use the machine; the picture does not depend on it, but for the last digits on other backends.
+#[derive(clap::Args)]
+pub struct Machine {
+    /// How many threads; by default one for each of the machine's.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..1025))]
+    threads: Option<u16>,
+    /// The instructions: scalar, sse2, sse4.1 or avx2; by default the best of this machine.
+    #[arg(long, value_name = "NAME")]
+    backend: Option<String>,
+    /// Round the same on all machines and instructions, a little more slowly.
+    #[arg(long)]
+    strict: bool,
+    /// Show no progress.
+    #[arg(long)]
+    quiet: bool,
+}
+
+impl Machine {
+    /// The backend that was asked for.
+    pub fn backend(&self) -> Result<Backend, Failure> {
+        let backend = match &self.backend {
+            Some(name) => Backend::named(name).map_err(|error| Failure::Usage(error.to_string()))?,
+            None => Backend::detect().map_err(|error| Failure::Usage(format!("LOBE_BACKEND: {error}")))?,
+        };
+        Ok(if self.strict { backend.strict() } else { backend })
+    }
+
+    /// How many threads.
+    pub fn threads(&self) -> usize {
+        self.threads.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
+    }
+
+    /// A progress bar, unless none is wanted.
+    pub fn bar(&self) -> Bar {
+        Bar::new(self.quiet)
+    }
+}
+
+fn parse_crop(text: &str) -> Result<Rect, String> {
+    let numbers: Vec<u32> =
+        text.split(',').map(|part| part.trim().parse::<u32>()).collect::<Result<_, _>>().map_err(|e| e.to_string())?;
+    match numbers[..] {
+        [x0, y0, x1, y1] if x0 < x1 && y0 < y1 => Ok(Rect { x: x0, y: y0, width: x1 - x0, height: y1 - y0 }),
+        _ => Err("expected X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1".into()),
+    }
+}
+
+fn parse_tile(text: &str) -> Result<(u32, u32), String> {
+    let pair = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+    pair.filter(|&(i, n): &(u32, u32)| 1 <= i && i <= n).ok_or_else(|| "expected I/N with 1 <= I <= N".into())
+}
+
+fn parse_range(text: &str) -> Result<Range<u32>, String> {
+    let pair = text.split_once("..").and_then(|(a, b)| Some(a.parse().ok()?..b.parse().ok()?));
+    pair.filter(|range: &Range<u32>| !range.is_empty()).ok_or_else(|| "expected A..B with A < B".into())
+}
+
+/// With a time limit alone there is no other.
+const UNLIMITED: u32 = 1 << 20;
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let kind = Kind::of(&args.output)?;
+    let backend = args.machine.backend()?;
+    let scene = Scene::open(&args.scene).map_err(|error| Failure::File(error.to_string()))?;
+    let total = match (args.samples, args.time) {
+        (Some(samples), _) => samples,
+        (None, Some(_)) => UNLIMITED,
+        (None, None) => scene.samples.max(args.samples_range.as_ref().map_or(0, |range| range.end)),
+    };
+    let samples = args.samples_range.clone().unwrap_or(0..total);
+    if samples.end > total {
+        return Err(Failure::Usage(format!(
+            "--samples-range: found samples up to {}; expected {total} at most",
+            samples.end
+        )));
+    }
+    let window = window(args, scene.size)?;
+    let meta = Meta { scene: scene.hash.clone(), size: scene.size, window, samples: samples.clone(), total };
+    let partial = args.tile.is_some() || args.samples_range.is_some();
+    if partial && kind == Kind::Png {
+        let message = format!("{}: found a PNG file; expected .exr, which holds exact sums", args.output.display());
+        return Err(Failure::Usage(message));
+    }
+    let output = Output { path: &args.output, kind, tone: ToneMap { exposure: scene.exposure }, meta };
+    let film = if args.resume { output.resume()? } else { Film::new(window) };
+    let settings = Settings {
+        camera: scene.camera,
+        size: scene.size,
+        window,
+        filter: scene.filter,
+        integrator: scene.integrator,
+        samples,
+        backend,
+        threads: args.machine.threads(),
+        time: args.time,
+    };
+    let bar = args.machine.bar();
+    let (mut written, mut failed) = (Instant::now(), None);
+    let rendered = render(&scene.world, &settings, film, |progress| {
+        bar.show(progress.done, progress.total, settings.time.map(|limit| (progress.elapsed, limit)));
+        if written.elapsed() >= args.write_every {
+            failed = output.write_part(&progress.film()).err();
+            written = Instant::now();
+        }
+        failed.is_none()
+    });
+    bar.finish();
+    if let Some(failure) = failed {
+        return Err(failure);
+    }
+    let (film, stats) = rendered.map_err(|error| Failure::Usage(error.to_string()))?;
+    if stats.invalid > 0 {
+        eprintln!("warning: {} samples were no finite numbers and count as black", stats.invalid);
+    }
+    output.write(&film, partial)
+}
+
+/// The pixels to render.
+fn window(args: &Args, size: [u32; 2]) -> Result<Rect, Failure> {
+    let whole = Rect { x: 0, y: 0, width: size[0], height: size[1] };
+    if let Some((tile, tiles)) = args.tile {
+        // Strips of rows, as equal as can be.
+        let row = |tile: u32| (u64::from(size[1]) * u64::from(tile) / u64::from(tiles)) as u32;
+        let (y, end) = (row(tile - 1), row(tile));
+        if y == end {
+            let message = format!("--tile: found {tiles} parts of {} rows; expected at most as many", size[1]);
+            return Err(Failure::Usage(message));
+        }
+        return Ok(Rect { x: 0, y, width: size[0], height: end - y });
+    }
+    let crop = args.crop.unwrap_or(whole);
+    match whole.intersection(&crop) {
+        Some(inside) if inside == crop => Ok(crop),
+        _ => {
+            let message =
+                format!("--crop: found pixels outside of the picture; expected up to {},{}", size[0], size[1]);
+            Err(Failure::Usage(message))
+        }
+    }
+}
+
+/// The kinds of files that pictures are written to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// OpenEXR.
+    Exr,
+    /// PNG.
+    Png,
+}
+
+impl Kind {
+    /// The kind that the name of a file asks for.
+    pub fn of(path: &Path) -> Result<Self, Failure> {
+        let is = |extension: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
+        match (is("exr"), is("png")) {
+            (true, _) => Ok(Kind::Exr),
+            (_, true) => Ok(Kind::Png),
+            _ => Err(Failure::Usage(format!("{}: expected a name that ends in .exr or .png", path.display()))),
+        }
+    }
+}
+
+/// Where the picture goes.
+struct Output<'a> {
+    path: &'a Path,
+    kind: Kind,
+    tone: ToneMap,
+    meta: Meta,
+}
+
+impl Output<'_> {
+    /// The file that a rendering which was stopped leaves.
+    fn part(&self) -> PathBuf {
+        match self.kind {
+            Kind::Exr => self.path.into(),
+            Kind::Png => {
+                let mut name = self.path.as_os_str().to_owned();
+                name.push(".part.exr");
+                name.into()
+            }
+        }
+    }
+
+    /// The film so far: to look at, and to go on with.
+    fn write_part(&self, film: &Film<3>) -> Result<(), Failure> {
+        write_exr(&self.part(), film, &self.meta, true)?;
+        if self.kind == Kind::Png {
+            write_png(self.path, film, self.tone)?;
+        }
+        Ok(())
+    }
+
+    fn write(&self, film: &Film<3>, partial: bool) -> Result<(), Failure> {
+        match self.kind {
+            Kind::Exr => write_exr(self.path, film, &self.meta, partial)?,
+            Kind::Png => {
+                write_png(self.path, film, self.tone)?;
+                // Only a rendering that took long has left one.
+                match std::fs::remove_file(self.part()) {
+                    Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                        return Err(Failure::File(format!("{}: {error}", self.part().display())));
+                    }
+                    _ => {}
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The film that an earlier rendering has left; an empty one where there is none.
+    fn resume(&self) -> Result<Film<3>, Failure> {
+        let part = self.part();
+        if !part.exists() {
+            return Ok(Film::new(self.meta.window));
+        }
+        let (film, meta) = read_partial(&part)?;
+        let same = meta.scene == self.meta.scene
+            && (meta.size, meta.window) == (self.meta.size, self.meta.window)
+            && meta.samples.start == self.meta.samples.start;
+        if !same {
+            let message = format!(
+                "{}: found a part of another picture, or of other pixels or samples of it; expected this one's",
+                part.display()
+            );
+            return Err(Failure::Usage(message));
+        }
+        Ok(film)
+    }
+}

@@ -1,0 +1,41 @@
+//! Pictures of measured materials: a renderer whose tiles are waves of paths on SIMD lanes.
+//!
+//! A tile is rendered as a wave: all of its paths at the same depth. Camera rays are traced in packets, hits are sorted
+//! by material, each material is evaluated and sampled in full lanes for all of its hits at once, shadow rays are
+//! traced, and what goes on is the next wave.
+//!
+//! - [`World`] has triangles, materials ([`shader`]) and lights ([`light`]); [`scene`] reads it from a file.
+//! - [`render`] makes a [`Film`] of it by an [`Integrator`]; [`picture`] writes films as EXR and PNG.
+//! - Random numbers depend on pixel, sample and dimension only, and a film sums in integers. So the picture does not
+//!   depend on threads, tiles, machines or the order of work; on backends in strict form not on the backend either.
+//!
+//! Channels are a parameter of nearly everything (`C`); materials of files come in linear sRGB (`C` = 3).
+//!
+//! Coordinates are right-handed with +y up. Lengths are in any unit, angles in radians; radiance in W/(m^2 sr) or any
+//! multiple of it.
+#![forbid(unsafe_code)]
+
+mod camera;
+mod film;
+mod integrator;
+pub mod light;
+mod merge;
+pub mod picture;
+mod place;
+pub mod preview;
+mod random;
+mod render;
+pub mod scene;
+pub mod shader;
+mod stats;
+mod vec3;
+mod wave;
+mod world;
+
+pub use camera::{Camera, CameraError, Filter};
+pub use film::{Film, Pixel, Rect, Seen};
+pub use integrator::Integrator;
+pub use merge::{MergeError, merge};
+pub use render::{Progress, RenderError, Settings, render};
+pub use stats::Stats;
+pub use world::{Shape, World, WorldBuilder, WorldError};

@@ -1,0 +1,272 @@
+//! Radiance from all directions: an image of longitude and latitude.
+
+use std::f32::consts::{PI, TAU};
+
+use super::Lit;
+use crate::vec3::Vec3;
+
+/// What is wrong with an environment.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum EnvironmentError {
+    /// The texels do not fill the image, or there are none.
+    #[error("{found} texels; expected {width} x {height} of them, at least one")]
+    Size {
+        /// How many there are.
+        found: usize,
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+    /// A radiance that is negative or no finite number.
+    #[error("radiance {value} at column {x} of row {y}; expected a finite number that is not negative")]
+    Radiance {
+        /// Column, from the left.
+        x: usize,
+        /// Row, from the top.
+        y: usize,
+        /// The radiance.
+        value: f32,
+    },
+}
+
+/// Light from infinitely far away, interpolated linearly between the middles of texels.
+///
+/// Rows go from +y at the top to -y; the middle of the image is -z, its left quarter -x, its right quarter +x, as seen
+/// by a camera that looks along -z with +y up.
+#[derive(Clone, Debug)]
+pub struct Environment<const C: usize> {
+    width: usize,
+    height: usize,
+    texels: Vec<[f32; C]>,
+    /// Turn about +y, as a share of a whole one.
+    turn: f32,
+    mean: f64,
+    /// Sums of the weights of the rows up to and with each, the last being 1.
+    rows: Vec<f32>,
+    /// For each row the sums of the weights of its columns, the last of each being 1.
+    columns: Vec<f32>,
+    /// Density of a texel over the unit square.
+    density: Vec<f32>,
+}
+
+impl<const C: usize> Environment<C> {
+    /// The same radiance from everywhere.
+    ///
+    /// # Errors
+    /// Where it is negative or not finite.
+    pub fn constant(radiance: [f32; C]) -> Result<Self, EnvironmentError> {
+        Environment::image(1, 1, vec![radiance], 0.0)
+    }
+
+    /// From the radiance straight up over that of the horizon to that straight down, smooth in the height.
+    ///
+    /// # Errors
+    /// Where a radiance is negative or not finite.
+    pub fn gradient(zenith: [f32; C], horizon: [f32; C], ground: [f32; C]) -> Result<Self, EnvironmentError> {
+        const ROWS: usize = 128;
+        let mut texels = Vec::with_capacity(2 * ROWS);
+        for row in 0..ROWS {
+            let height = libm::cosf(PI * (row as f32 + 0.5) / ROWS as f32);
+            let end = if height > 0.0 { zenith } else { ground };
+            let t = height.abs().sqrt();
+            let texel = std::array::from_fn(|k| horizon[k] + t * (end[k] - horizon[k]));
+            texels.extend([texel; 2]);
+        }
+        Environment::image(2, ROWS, texels, 0.0)
+    }
+
+    /// An image of `height` rows from the top, turned about +y by an angle in radians.
+    ///
+    /// # Errors
+    /// Where the texels are not that many, negative or not finite.
+    pub fn image(width: usize, height: usize, texels: Vec<[f32; C]>, turn: f32) -> Result<Self, EnvironmentError> {
+        if texels.is_empty() || width.checked_mul(height) != Some(texels.len()) {
+            return Err(EnvironmentError::Size { found: texels.len(), width, height });
+        }
+        for (at, texel) in texels.iter().enumerate() {
+            if let Some(&value) = texel.iter().find(|value| !(value.is_finite() && **value >= 0.0)) {
+                return Err(EnvironmentError::Radiance { x: at % width, y: at / width, value });
+            }
+        }
+        let (weights, mean) = weights(width, height, &texels);
+        let mut environment = Environment {
+            width,
+            height,
+            texels,
+            turn: turn / TAU,
+            mean,
+            rows: Vec::with_capacity(height),
+            columns: Vec::with_capacity(weights.len()),
+            density: Vec::with_capacity(weights.len()),
+        };
+        let total: f64 = weights.iter().sum();
+        let mut sum = 0.0;
+        for row in weights.chunks_exact(width) {
+            let across: f64 = row.iter().sum();
+            sum += across;
+            environment.rows.push((sum / total) as f32);
+            let mut along = 0.0;
+            for weight in row {
+                along += weight;
+                environment.columns.push((along / across) as f32);
+                environment.density.push((weight / total * (width * height) as f64) as f32);
+            }
+        }
+        Ok(environment)
+    }
+
+    /// Mean radiance over all directions and channels.
+    pub fn mean(&self) -> f64 {
+        self.mean
+    }
+
+    /// Radiance from the unit direction `wi`.
+    pub fn radiance(&self, wi: [f32; 3]) -> [f32; C] {
+        if self.texels.len() == 1 {
+            return self.texels[0];
+        }
+        let (u, v) = self.place(wi);
+        let (x, y) = (u * self.width as f32 - 0.5, (v * self.height as f32 - 0.5).max(0.0));
+        let (left, top) = (x.floor(), y.floor());
+        let (fx, fy) = (x - left, y - top);
+        // The circle is closed; the poles are not crossed.
+        let column = |offset: usize| (left as i64 + offset as i64).rem_euclid(self.width as i64) as usize;
+        let row = |offset: usize| (top as usize + offset).min(self.height - 1) * self.width;
+        let corner = |dy: usize, dx: usize| &self.texels[row(dy) + column(dx)];
+        let (a, b, c, d) = (corner(0, 0), corner(0, 1), corner(1, 0), corner(1, 1));
+        std::array::from_fn(|k| {
+            let upper = a[k] + fx * (b[k] - a[k]);
+            let lower = c[k] + fx * (d[k] - c[k]);
+            (upper + fy * (lower - upper)).max(0.0)
+        })
+    }
+
+    /// The density over solid angle, 1/sr, with which the unit direction `wi` is drawn.
+    pub(crate) fn pdf(&self, wi: Vec3) -> f32 {
+        if self.texels.len() == 1 {
+            return 0.25 / PI;
+        }
+        let (u, v) = self.place(wi);
+        let cell = |x: f32, n: usize| ((x * n as f32) as usize).min(n - 1);
+        let density = self.density[cell(v, self.height) * self.width + cell(u, self.width)];
+        density / (TAU * PI * sin_of(wi))
+    }
+
+    /// Draws a direction about in proportion to radiance.
+    pub(crate) fn draw(&self, [u, v]: [f32; 2]) -> Option<Lit<C>> {
+        if self.texels.len() == 1 {
+            let y = 1.0 - 2.0 * v;
+            let radius = (1.0 - y * y).max(0.0).sqrt();
+            let (sin, cos) = libm::sincosf(TAU * u);
+            let (wi, distance) = ([radius * cos, y, radius * sin], f32::INFINITY);
+            return Some(Lit { wi, distance, radiance: self.texels[0], pdf: Some(0.25 / PI) });
+        }
+        let (row, fy) = search(&self.rows, v);
+        let (column, fx) = search(&self.columns[row * self.width..][..self.width], u);
+        let turned = (column as f32 + fx) / self.width as f32 + self.turn;
+        let theta = (row as f32 + fy) / self.height as f32 * PI;
+        let (sin, cos) = libm::sincosf(theta);
+        let (sin_phi, cos_phi) = libm::sincosf((turned - 0.5) * TAU);
+        let wi = [sin * sin_phi, cos, -sin * cos_phi];
+        let pdf = self.density[row * self.width + column] / (TAU * PI * sin_of(wi));
+        let lit = Lit { wi, distance: f32::INFINITY, radiance: self.radiance(wi), pdf: Some(pdf) };
+        (pdf > 0.0 && pdf.is_finite()).then_some(lit)
+    }
+
+    /// Where in the unit square a direction is.
+    fn place(&self, [x, y, z]: Vec3) -> (f32, f32) {
+        let u = libm::atan2f(x, -z) / TAU + 0.5 - self.turn;
+        let u = u - u.floor();
+        (if u < 1.0 { u } else { 0.0 }, libm::acosf(y.clamp(-1.0, 1.0)) / PI)
+    }
+}
+
+/// Sine of the angle to the axis, never 0.
+fn sin_of([x, _, z]: Vec3) -> f32 {
+    (x * x + z * z).sqrt().max(1e-6)
+}
+
+/// What texels are drawn by: the mean of a texel and its neighbours, which are what the interpolation reads, times the
+/// solid angle. Returns also the mean radiance over the sphere.
+fn weights<const C: usize>(width: usize, height: usize, texels: &[[f32; C]]) -> (Vec<f64>, f64) {
+    let grey: Vec<f64> =
+        texels.iter().map(|texel| texel.iter().map(|x| f64::from(*x)).sum::<f64>() / C as f64).collect();
+    let sine = |y: usize| libm::sin(std::f64::consts::PI * (y as f64 + 0.5) / height as f64);
+    let (mut sum, mut angle) = (0.0, 0.0);
+    for (y, row) in grey.chunks_exact(width).enumerate() {
+        sum += sine(y) * row.iter().sum::<f64>();
+        angle += sine(y) * width as f64;
+    }
+    let mean = sum / angle;
+    // A hundredth of the mean everywhere: no direction has no chance.
+    let floor = if mean > 0.0 { 0.01 * mean } else { 1.0 };
+    let blurred = |at: usize| {
+        let (x, y) = (at % width, at / width);
+        let columns = [x + width - 1, x, x + 1].map(|x| x % width);
+        let rows = [y.saturating_sub(1), y, (y + 1).min(height - 1)];
+        let sum: f64 = rows.iter().map(|y| columns.iter().map(|x| grey[y * width + x]).sum::<f64>()).sum();
+        (sum / 9.0 + floor) * sine(y)
+    };
+    ((0..grey.len()).map(blurred).collect(), mean)
+}
+
+/// The interval of rising sums that holds `u`, and how far into it.
+fn search(sums: &[f32], u: f32) -> (usize, f32) {
+    let index = sums.partition_point(|&sum| sum <= u).min(sums.len() - 1);
+    let before = if index == 0 { 0.0 } else { sums[index - 1] };
+    let share = (u - before) / (sums[index] - before).max(f32::MIN_POSITIVE);
+    (index, share.clamp(0.0, 1.0 - f32::EPSILON))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sun() -> Environment<1> {
+        let mut texels = vec![[0.5f32]; 32 * 16];
+        texels[3 * 32 + 20] = [1000.0];
+        Environment::image(32, 16, texels, 0.7).unwrap()
+    }
+
+    #[test]
+    fn drawing_is_in_proportion_to_its_density() {
+        let light = sun();
+        let n = 400;
+        let (mut radiance, mut exact, mut angle) = (0.0, 0.0, 0.0);
+        for i in 0..n * n {
+            let u = [((i / n) as f32 + 0.5) / n as f32, ((i % n) as f32 + 0.5) / n as f32];
+            let lit = light.draw(u).unwrap();
+            let pdf = light.pdf(lit.wi);
+            let drawn = lit.pdf.unwrap();
+            // Rounding puts a few directions of an edge into the next texel.
+            angle += f64::from(((pdf - drawn).abs() > 1e-3 * drawn) as u8) / f64::from(n * n);
+            radiance += f64::from(lit.radiance[0] / drawn) / f64::from(n * n);
+            let y = 1.0 - 2.0 * u[0];
+            let (sin, cos) = (TAU * u[1]).sin_cos();
+            let r = (1.0 - y * y).sqrt();
+            exact +=
+                f64::from(light.radiance([r * cos, y, r * sin])[0]) * 4.0 * std::f64::consts::PI / f64::from(n * n);
+        }
+        assert!(angle < 2e-3, "{angle} of the densities differ");
+        assert!((radiance / exact - 1.0).abs() < 0.02, "{radiance} drawn, {exact} summed");
+    }
+
+    #[test]
+    fn directions_are_where_a_camera_sees_them() {
+        let mut texels = vec![[0.0f32]; 8 * 4];
+        texels[8 + 5] = [1.0];
+        let light = Environment::image(8, 4, texels, 0.0).unwrap();
+        // Column 5.5 of 8 is 3/16 of a turn right of -z; row 1.5 of 4 is pi/8 above the horizon.
+        let (phi, theta) = (TAU * 3.0 / 16.0, PI * 3.0 / 8.0);
+        let wi = [theta.sin() * phi.sin(), theta.cos(), -theta.sin() * phi.cos()];
+        assert!((light.radiance(wi)[0] - 1.0).abs() < 1e-5, "{:?}", light.radiance(wi));
+    }
+
+    #[test]
+    fn bad_images_are_refused() {
+        assert!(matches!(Environment::image(2, 2, vec![[0.0]; 3], 0.0), Err(EnvironmentError::Size { found: 3, .. })));
+        let error = Environment::image(2, 1, vec![[0.0], [f32::NAN]], 0.0).unwrap_err();
+        assert!(error.to_string().contains("column 1 of row 0"), "{error}");
+    }
+}

@@ -1,0 +1,43 @@
+//! From radiance to what a screen shows.
+
+/// A tone map: exposure, a shoulder, and the curve of sRGB.
+///
+/// Radiance is multiplied by `2^exposure`. Up to 0.7 it is then shown as it is, so that colours of materials stay what
+/// they are; what is brighter approaches 1 along `1 - 0.3 exp((0.7 - x) / 0.3)`, which goes on with the same slope, so
+/// that highlights do not end in flat patches. Last comes the transfer function of IEC 61966-2-1.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ToneMap {
+    /// In stops.
+    pub exposure: f32,
+}
+
+/// Where the shoulder begins.
+const SHOULDER: f32 = 0.7;
+
+impl ToneMap {
+    /// The byte for a radiance.
+    pub fn byte(&self, radiance: f32) -> u8 {
+        let x = radiance * libm::exp2f(self.exposure);
+        let x = if x > SHOULDER { 1.0 - (1.0 - SHOULDER) * libm::expf((SHOULDER - x) / (1.0 - SHOULDER)) } else { x };
+        (255.0 * srgb(x.clamp(0.0, 1.0)) + 0.5) as u8
+    }
+}
+
+/// The transfer function of sRGB.
+fn srgb(x: f32) -> f32 {
+    if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * libm::powf(x, 1.0 / 2.4) - 0.055 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn greys_are_those_of_srgb_and_highlights_do_not_clip() {
+        let tone = ToneMap::default();
+        assert_eq!([0.0, 0.18, 0.5].map(|x| tone.byte(x)), [0, 118, 188]);
+        assert!(tone.byte(1.0) < tone.byte(1.5) && tone.byte(1.5) < tone.byte(3.0));
+        assert_eq!((tone.byte(-1.0), tone.byte(f32::INFINITY), tone.byte(f32::NAN)), (0, 255, 0));
+        assert_eq!(ToneMap { exposure: 1.0 }.byte(0.09), tone.byte(0.18));
+    }
+}

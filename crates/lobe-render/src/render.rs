@@ -1,0 +1,271 @@
+//! Tiles to threads: who renders what, when, and how far the whole is.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use crate::camera::{Camera, CameraError, Filter, View};
+use crate::film::{Film, Rect};
+use crate::integrator::Integrator;
+use crate::shader::Backend;
+use crate::stats::Stats;
+use crate::wave::Wave;
+use crate::world::World;
+
+/// What to render and how.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// Where the picture is taken from.
+    pub camera: Camera,
+    /// Columns and rows of the whole picture, each in `1 ..= 65536`.
+    pub size: [u32; 2],
+    /// The pixels to render, inside of the picture.
+    pub window: Rect,
+    /// How samples are spread around a pixel.
+    pub filter: Filter,
+    /// How radiance is found.
+    pub integrator: Integrator,
+    /// The numbers of the samples to render.
+    pub samples: Range<u32>,
+    /// The lanes; in strict form the picture is the same bits on every machine.
+    pub backend: Backend,
+    /// How many threads; the picture does not depend on it.
+    pub threads: usize,
+    /// After this time no more samples are begun, but every pixel gets one.
+    pub time: Option<Duration>,
+}
+
+/// Why nothing can be rendered.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RenderError {
+    /// The camera makes no rays.
+    #[error(transparent)]
+    Camera(#[from] CameraError),
+    /// The window is empty or not inside of the picture.
+    #[error("the window {window:?} of a picture of {} x {}; expected a window inside of it that is not empty", size[0], size[1])]
+    Window {
+        /// What was asked for.
+        window: Rect,
+        /// The picture.
+        size: [u32; 2],
+    },
+    /// The film to go on with has another window.
+    #[error("a film of the window {found:?}; expected {expected:?}")]
+    Film {
+        /// Its window.
+        found: Rect,
+        /// That of the settings.
+        expected: Rect,
+    },
+    /// The film to go on with was not written by a rendering of this window.
+    #[error("a film whose samples differ within a tile; expected one that a rendering of the same window has begun")]
+    Uneven,
+}
+
+/// Tiles are squares of this many pixels a side: one sample of a tile is one wave.
+const TILE: u32 = 64;
+
+/// How far a rendering is.
+pub struct Progress<'a, const C: usize> {
+    /// Samples done, those of an earlier rendering that goes on with them.
+    pub done: u64,
+    /// Samples to do, or as many as there would be without a time limit.
+    pub total: u64,
+    /// Time since the beginning.
+    pub elapsed: Duration,
+    shared: &'a Shared<C>,
+}
+
+impl<const C: usize> Progress<'_, C> {
+    /// A copy of the film as it is: whole samples, the first ones of each pixel.
+    pub fn film(&self) -> Film<C> {
+        self.shared.lock().film.clone()
+    }
+}
+
+/// What the threads share.
+struct Shared<const C: usize> {
+    state: Mutex<State<C>>,
+    finished: Condvar,
+}
+
+struct State<const C: usize> {
+    film: Film<C>,
+    tiles: Vec<Tile<C>>,
+    running: usize,
+}
+
+/// The pixels of a tile. Samples are added in order, so that a film which is written in between has the first ones.
+struct Tile<const C: usize> {
+    rect: Rect,
+    /// The next sample to be added.
+    next: u32,
+    /// Samples that were done before those that come before them.
+    early: Vec<(Range<u32>, Film<C>)>,
+}
+
+impl<const C: usize> Shared<C> {
+    /// A thread that panicked leaves whole samples behind, and its panic goes on when the threads are joined.
+    fn lock(&self) -> MutexGuard<'_, State<C>> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl<const C: usize> State<C> {
+    fn add(&mut self, tile: usize, samples: Range<u32>, seen: Film<C>) {
+        let State { film, tiles, .. } = self;
+        let tile = &mut tiles[tile];
+        tile.early.push((samples, seen));
+        while let Some(at) = tile.early.iter().position(|(samples, _)| samples.start == tile.next) {
+            let (samples, seen) = tile.early.swap_remove(at);
+            film.merge(&seen);
+            tile.next = samples.end;
+        }
+    }
+}
+
+/// Renders, going on with a film that has some of the samples already. `watch` is called from this thread every
+/// tenth of a second or so, and ends the rendering when it returns `false`.
+///
+/// # Errors
+/// [`RenderError`] where the settings make no sense.
+pub fn render<const C: usize>(
+    world: &World<C>,
+    settings: &Settings,
+    film: Film<C>,
+    mut watch: impl FnMut(&Progress<'_, C>) -> bool,
+) -> Result<(Film<C>, Stats), RenderError> {
+    let Settings { size, window, samples, .. } = settings.clone();
+    let whole = Rect { x: 0, y: 0, width: size[0], height: size[1] };
+    if window.area() == 0 || whole.intersection(&window) != Some(window) {
+        return Err(RenderError::Window { window, size });
+    }
+    if film.window() != window {
+        return Err(RenderError::Film { found: film.window(), expected: window });
+    }
+    let view = View::new(&settings.camera, size, settings.filter)?;
+    let tiles = tiles(&film, &samples)?;
+    let jobs = Jobs::new(&tiles, samples.clone());
+    let begun = Instant::now();
+    let total = window.area() as u64 * u64::from(samples.end.saturating_sub(samples.start));
+    let left: u64 = tiles.iter().map(|t| t.rect.area() as u64 * u64::from(samples.end.saturating_sub(t.next))).sum();
+    let done = AtomicU64::new(total - left);
+    let threads = settings.threads.max(1);
+    let shared = Shared { state: Mutex::new(State { film, tiles, running: threads }), finished: Condvar::new() };
+    let ended = AtomicBool::new(false);
+    let worker = || {
+        let _leaving = Leaving(&shared);
+        let mut wave = Wave::new(world, &view, settings.integrator, settings.backend);
+        while let Some(job) = jobs.next() {
+            let late = settings.time.is_some_and(|limit| begun.elapsed() >= limit) && !job.first;
+            if late || ended.load(Ordering::Relaxed) {
+                break;
+            }
+            let mut seen = Film::new(job.rect);
+            wave.render(job.rect, job.samples.clone(), &mut seen);
+            done.fetch_add(job.rect.area() as u64 * u64::from(job.samples.end - job.samples.start), Ordering::Relaxed);
+            shared.lock().add(job.tile, job.samples, seen);
+        }
+        wave.stats
+    };
+    let stats = std::thread::scope(|scope| {
+        let handles: Vec<_> = (0..threads).map(|_| scope.spawn(worker)).collect();
+        let mut state = shared.lock();
+        while state.running > 0 {
+            drop(state);
+            let done = done.load(Ordering::Relaxed);
+            let progress = Progress { done, total, elapsed: begun.elapsed(), shared: &shared };
+            if !watch(&progress) {
+                ended.store(true, Ordering::Relaxed);
+            }
+            state = shared.lock();
+            if state.running > 0 {
+                let waited = shared.finished.wait_timeout(state, Duration::from_millis(100));
+                state = waited.unwrap_or_else(PoisonError::into_inner).0;
+            }
+        }
+        drop(state);
+        let mut stats = Stats::default();
+        for handle in handles {
+            stats += handle.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        }
+        stats
+    });
+    let state = shared.state.into_inner().unwrap_or_else(PoisonError::into_inner);
+    Ok((state.film, stats))
+}
+
+/// Says that a thread has ended, also by a panic.
+struct Leaving<'a, const C: usize>(&'a Shared<C>);
+
+impl<const C: usize> Drop for Leaving<'_, C> {
+    fn drop(&mut self) {
+        self.0.lock().running -= 1;
+        self.0.finished.notify_all();
+    }
+}
+
+/// The tiles of a window, and how many samples each has.
+fn tiles<const C: usize>(film: &Film<C>, samples: &Range<u32>) -> Result<Vec<Tile<C>>, RenderError> {
+    let window = film.window();
+    let mut tiles = Vec::new();
+    for y in window.rows().step_by(TILE as usize) {
+        for x in window.columns().step_by(TILE as usize) {
+            let rect = Rect { x, y, width: TILE, height: TILE };
+            let rect = rect.intersection(&window).expect("a tile of the window");
+            let done = film.pixels()[film.index(x, y)].samples;
+            let even = rect.rows().all(|y| rect.columns().all(|x| film.pixels()[film.index(x, y)].samples == done));
+            let next = samples.start.checked_add(done).filter(|_| even).ok_or(RenderError::Uneven)?;
+            tiles.push(Tile { rect, next, early: Vec::new() });
+        }
+    }
+    Ok(tiles)
+}
+
+/// Part of the work.
+struct Job {
+    tile: usize,
+    rect: Rect,
+    samples: Range<u32>,
+    /// Whether these are the first samples of its pixels.
+    first: bool,
+}
+
+/// The work in the order in which it is given out: few samples of all tiles, then more.
+struct Jobs {
+    /// For each tile its pixels and the first sample that is left.
+    tiles: Vec<(Rect, u32)>,
+    /// Where passes end, rising.
+    passes: Vec<u32>,
+    start: u32,
+    next: AtomicUsize,
+}
+
+impl Jobs {
+    fn new<const C: usize>(tiles: &[Tile<C>], samples: Range<u32>) -> Self {
+        let mut passes = Vec::new();
+        let (mut end, mut size) = (samples.start, 1);
+        while end < samples.end {
+            end = samples.end.min(end.saturating_add(size));
+            passes.push(end);
+            size = (2 * size).min(16);
+        }
+        let tiles = tiles.iter().map(|tile| (tile.rect, tile.next)).collect();
+        Jobs { tiles, passes, start: samples.start, next: AtomicUsize::new(0) }
+    }
+
+    /// The next job that has not been done before.
+    fn next(&self) -> Option<Job> {
+        loop {
+            let number = self.next.fetch_add(1, Ordering::Relaxed);
+            let (pass, tile) = (number / self.tiles.len(), number % self.tiles.len());
+            let end = *self.passes.get(pass)?;
+            let begin = if pass == 0 { self.start } else { self.passes[pass - 1] };
+            let (rect, left) = self.tiles[tile];
+            if left < end {
+                return Some(Job { tile, rect, samples: begin.max(left)..end, first: pass == 0 });
+            }
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! `[[light]]`: points, spots, directions and the environment. Shapes that shine are objects.
+
+use super::Reading;
+use super::node::{Node, SceneError};
+use crate::light::{Environment, Light};
+use crate::picture::read_environment;
+use crate::vec3::{neg, sub, unit};
+
+pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(), SceneError> {
+    let mut surrounded = false;
+    for node in root.children("light")? {
+        let light = match node.required_text("kind", "point, spot, directional or environment")? {
+            "point" => Light::Point {
+                position: node.required_vector("position")?,
+                intensity: node.required_colour("intensity", f64::MAX)?,
+            },
+            "spot" => spot(&node)?,
+            "directional" => {
+                let direction = node.required_vector("direction")?;
+                let toward = unit(neg(direction)).ok_or_else(|| {
+                    node.error("direction", "found a direction of no length; expected the way that light goes")
+                })?;
+                Light::Directional { toward, irradiance: node.required_colour("irradiance", f64::MAX)? }
+            }
+            "environment" => {
+                if std::mem::replace(&mut surrounded, true) {
+                    return Err(node.error("kind", "found a second environment; expected one at most"));
+                }
+                Light::Environment(environment(&node, reading)?)
+            }
+            found => {
+                let message = format!("found `{found}`; expected point, spot, directional or environment");
+                return Err(node.error("kind", message));
+            }
+        };
+        node.finish()?;
+        reading.world.light(light);
+    }
+    Ok(())
+}
+
+fn spot(node: &Node<'_, '_>) -> Result<Light<3>, SceneError> {
+    let position = node.required_vector("position")?;
+    let target = node.required_vector("target")?;
+    let direction = unit(sub(target, position))
+        .ok_or_else(|| node.error("target", "found the place of the light; expected another place"))?;
+    let half = "degrees above 0 and up to 180";
+    let angle = node.number("angle", half, |x| x > 0.0 && x <= 180.0)?.unwrap_or(45.0);
+    let inner = node.number("inner_angle", "degrees from 0 to `angle`", |x| (0.0..=angle).contains(&x))?;
+    let cos = |angle: f64| libm::cos(0.5 * angle.to_radians()) as f32;
+    let falloff = [cos(inner.unwrap_or(0.8 * angle)), cos(angle)];
+    Ok(Light::Spot { position, direction, intensity: node.required_colour("intensity", f64::MAX)?, falloff })
+}
+
+/// An image, one radiance from everywhere, or a gradient from the zenith over the horizon to the ground.
+fn environment(node: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<Environment<3>, SceneError> {
+    if let Some(path) = reading.file(node, "file")? {
+        let turn = node.number("turn", "degrees from -360 to 360", |x| x.abs() <= 360.0)?.unwrap_or(0.0);
+        let scale = node.number("scale", "a number from 0 to 1e9", |x| (0.0..=1e9).contains(&x))?.unwrap_or(1.0);
+        return read_environment(&path, turn.to_radians() as f32, scale as f32)
+            .map_err(|error| node.error("file", error.to_string()));
+    }
+    if let Some(radiance) = node.colour("radiance", f64::MAX)? {
+        return Environment::constant(radiance).map_err(|error| node.error("radiance", error.to_string()));
+    }
+    let zenith = node.required_colour("zenith", f64::MAX)?;
+    let horizon = node.required_colour("horizon", f64::MAX)?;
+    let ground = node.colour("ground", f64::MAX)?.unwrap_or(horizon);
+    Environment::gradient(zenith, horizon, ground).map_err(|error| node.error("zenith", error.to_string()))
+}

@@ -1,0 +1,118 @@
+//! Scenes in TOML files. The format is described in `docs/scenes.md`.
+
+mod light;
+mod material;
+mod node;
+mod object;
+mod view;
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+
+use crate::camera::{Camera, Filter};
+use crate::integrator::Integrator;
+use crate::world::{World, WorldBuilder};
+use node::{Node, Source};
+
+pub use node::SceneError;
+
+/// What a scene file says.
+#[derive(Debug)]
+pub struct Scene {
+    /// Shapes, materials and lights.
+    pub world: World<3>,
+    /// Where the picture is taken from.
+    pub camera: Camera,
+    /// Columns and rows.
+    pub size: [u32; 2],
+    /// How samples are spread around a pixel.
+    pub filter: Filter,
+    /// For pictures that are tone-mapped, in stops.
+    pub exposure: f32,
+    /// How radiance is found.
+    pub integrator: Integrator,
+    /// Samples a pixel.
+    pub samples: u32,
+    /// A hash of the scene file and of all files that it names, in hexadecimal.
+    pub hash: String,
+}
+
+/// What is collected while a scene is read.
+struct Reading<'p> {
+    /// Where relative paths begin.
+    folder: &'p Path,
+    world: WorldBuilder<3>,
+    materials: BTreeMap<String, usize>,
+    hash: Sha256,
+}
+
+impl Reading<'_> {
+    /// The path of a file that a key names. Its content goes into the hash of the scene.
+    fn file(&mut self, node: &Node<'_, '_>, key: &str) -> Result<Option<std::path::PathBuf>, SceneError> {
+        let Some(name) = node.text(key)? else { return Ok(None) };
+        let path = self.folder.join(name);
+        let unreadable = |error: std::io::Error| node.error(key, format!("{}: {error}", path.display()));
+        let mut files = vec![path.clone()];
+        if path.is_dir() {
+            let entries = std::fs::read_dir(&path).and_then(|dir| dir.collect::<Result<Vec<_>, _>>());
+            files = entries.map_err(unreadable)?.into_iter().map(|entry| entry.path()).collect();
+            files.retain(|file| file.is_file());
+            files.sort();
+        }
+        for file in files {
+            let bytes = std::fs::read(file).map_err(unreadable)?;
+            self.hash.update(bytes.len().to_le_bytes());
+            self.hash.update(bytes);
+        }
+        Ok(Some(path))
+    }
+}
+
+impl Scene {
+    /// Reads a scene file and everything that it names; paths in it begin at its folder.
+    ///
+    /// # Errors
+    /// [`SceneError`] names the file, the line and the key.
+    pub fn open(path: &Path) -> Result<Self, SceneError> {
+        let whole = |message: String| SceneError { file: path.into(), line: 1, key: String::new(), message };
+        let bytes = std::fs::read(path).map_err(|error| whole(error.to_string()))?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let at = error.utf8_error().valid_up_to();
+            whole(format!("found byte {} that is no UTF-8; expected text", at))
+        })?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Scene::parse(path, folder, &text)
+    }
+
+    /// Reads the text of a scene; paths in it begin at `folder`, and `file` is what errors name.
+    ///
+    /// # Errors
+    /// As [`open`](Scene::open).
+    pub fn parse(file: &Path, folder: &Path, text: &str) -> Result<Self, SceneError> {
+        let source = Source { file, text };
+        let table = source.table()?;
+        let root = Node::new(&source, "", 0, table.get_ref());
+        let mut hash = Sha256::new();
+        hash.update(text.as_bytes());
+        let mut reading = Reading { folder, world: WorldBuilder::new(), materials: BTreeMap::new(), hash };
+
+        let camera = view::camera(&root)?;
+        let (size, filter, exposure) = view::film(&root)?;
+        let (integrator, samples) = view::integrator(&root)?;
+        material::read(&root, &mut reading)?;
+        object::read(&root, &mut reading)?;
+        light::read(&root, &mut reading)?;
+        root.finish()?;
+
+        let world = reading.world.build().map_err(|error| source.error(0, "", error.to_string()))?;
+        let digest = reading.hash.finalize();
+        let hash = digest.iter().take(16).fold(String::new(), |mut hex, byte| {
+            write!(hex, "{byte:02x}").expect("writing to memory");
+            hex
+        });
+        Ok(Scene { world, camera, size, filter, exposure, integrator, samples, hash })
+    }
+}

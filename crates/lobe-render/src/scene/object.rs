@@ -1,0 +1,117 @@
+//! `[[object]]`: a mesh file or a shape by its name, of a material, somewhere in the world.
+
+use std::collections::BTreeMap;
+
+use lobe_mesh::{Geometry, Shading, generate, shapes};
+
+use super::Reading;
+use super::node::{Node, SceneError};
+use crate::place::Place;
+
+const SHAPES: &str = "sphere, plane, disk, cuboid, knot, ball or drape";
+
+pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(), SceneError> {
+    for node in root.children("object")? {
+        let geometry = geometry(&node, reading)?;
+        let shading = match node.text("shading")? {
+            None | Some("smooth") => Shading::Smooth,
+            Some("flat") => Shading::Flat,
+            Some(found) => return Err(node.error("shading", format!("found `{found}`; expected smooth or flat"))),
+        };
+        let geometry = if shading == Shading::Flat { geometry.with_normals(shading) } else { geometry };
+        let geometry = geometry.complete();
+        let place = self::place(&node)?;
+        let radiance = node.colour("radiance", f64::MAX)?;
+        let two_sided = node.flag("two_sided")?;
+        let material = named(&node, reading, "material")?;
+        let by_group = groups(&node, reading, &geometry)?;
+        node.finish()?;
+        // One shape a group of triangles with another material.
+        let mut shapes: BTreeMap<usize, Vec<[u32; 3]>> = BTreeMap::new();
+        for (group, number) in geometry.groups.iter().zip(by_group) {
+            let range = group.triangles.start as usize..group.triangles.end as usize;
+            shapes.entry(number.unwrap_or(material)).or_default().extend(&geometry.triangles[range]);
+        }
+        for (material, triangles) in shapes {
+            let shape = place.shape(&geometry, triangles);
+            let added = reading.world.shape(&shape, material, radiance, two_sided);
+            added.map_err(|error| node.error("", error.to_string()))?;
+        }
+    }
+    Ok(())
+}
+
+fn geometry(node: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<Geometry, SceneError> {
+    let positive = |key: &str, default: f64| {
+        let found = node.number(key, "a number above 0 and up to 1e6", |x| x > 1e-6 && x <= 1e6)?;
+        Ok::<f32, SceneError>(found.unwrap_or(default) as f32)
+    };
+    match (reading.file(node, "file")?, node.text("shape")?) {
+        (Some(path), None) => lobe_mesh::read(&path).map_err(|error| node.error("file", error.to_string())),
+        (None, Some(shape)) => {
+            let segments = node.whole("segments", 3..=2048)?;
+            Ok(match shape {
+                "sphere" => shapes::sphere(positive("radius", 1.0)?, segments.unwrap_or(128)),
+                "plane" => shapes::plane(positive("size", 1.0)?, segments.unwrap_or(1)),
+                "disk" => shapes::disk(positive("radius", 1.0)?, segments.unwrap_or(64)),
+                "cuboid" => {
+                    let edge = "three numbers above 0 and up to 1e6";
+                    let size = node.three("size", edge, |x| x > 1e-6 && x <= 1e6)?.unwrap_or([1.0; 3]);
+                    shapes::cuboid(size.map(|x| x as f32), segments.unwrap_or(1))
+                }
+                "knot" => generate::knot(),
+                "ball" => generate::ball(),
+                "drape" => generate::drape(&generate::Drape::default()),
+                found => return Err(node.error("shape", format!("found `{found}`; expected {SHAPES}"))),
+            })
+        }
+        _ => Err(node.error("", "found no or too many keys; expected either `file` or `shape`")),
+    }
+}
+
+/// The number of a material that a key names.
+fn named(node: &Node<'_, '_>, reading: &Reading<'_>, key: &str) -> Result<usize, SceneError> {
+    let name = node.required_text(key, "the name of a material")?;
+    reading.materials.get(name).copied().ok_or_else(|| {
+        let known: Vec<&str> = reading.materials.keys().map(String::as_str).collect();
+        node.error(key, format!("found `{name}`; expected one of the materials: {}", known.join(", ")))
+    })
+}
+
+/// For each group of triangles the material that `materials` has for the name of its material or its own.
+fn groups(node: &Node<'_, '_>, reading: &Reading<'_>, geometry: &Geometry) -> Result<Vec<Option<usize>>, SceneError> {
+    let Some(table) = node.child("materials")? else { return Ok(vec![None; geometry.groups.len()]) };
+    let mut found = vec![None; geometry.groups.len()];
+    for name in table.keys() {
+        let number = named(&table, reading, &name)?;
+        let mut used = false;
+        for (group, found) in geometry.groups.iter().zip(&mut found) {
+            if group.material.as_deref() == Some(&*name) || group.name == name {
+                (*found, used) = (Some(number), true);
+            }
+        }
+        if !used {
+            let names: Vec<&str> =
+                geometry.groups.iter().map(|group| group.material.as_deref().unwrap_or(&group.name)).collect();
+            return Err(table.error(&name, format!("no such group in the mesh; expected one of {}", names.join(", "))));
+        }
+    }
+    Ok(found)
+}
+
+/// Scaled, then turned about x, y and z in this order, then moved.
+fn place(node: &Node<'_, '_>) -> Result<Place, SceneError> {
+    let size = |x: f64| (1e-6..=1e6).contains(&x);
+    let scale = node.number("scale", "a number from 1e-6 to 1e6", size)?.unwrap_or(1.0);
+    let turn = node.three("rotate", "three angles in degrees", |x| x.abs() <= 3600.0)?.unwrap_or([0.0; 3]);
+    let translate = node.vector("translate")?.unwrap_or([0.0; 3]);
+    let mut axes = [[scale, 0.0, 0.0], [0.0, scale, 0.0], [0.0, 0.0, scale]];
+    for (axis, degrees) in turn.into_iter().enumerate() {
+        let (sin, cos) = libm::sincos(degrees.to_radians());
+        let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
+        for image in &mut axes {
+            (image[a], image[b]) = (cos * image[a] - sin * image[b], sin * image[a] + cos * image[b]);
+        }
+    }
+    Ok(Place { axes: axes.map(|axis| axis.map(|x| x as f32)), translate })
+}

@@ -1,0 +1,73 @@
+//! `[camera]`, `[film]` and `[integrator]`.
+
+use super::node::{Node, SceneError};
+use crate::camera::{Camera, Filter, View};
+use crate::integrator::Integrator;
+
+/// The largest side of a picture.
+const SIDE: u32 = 65_536;
+/// The most pixels of a picture: what its sums take in memory is a hundred and fifty times that.
+const AREA: u64 = 1 << 27;
+
+pub(super) fn camera(root: &Node<'_, '_>) -> Result<Camera, SceneError> {
+    let Some(node) = root.child("camera")? else {
+        return Err(root.error("camera", "found nothing; expected the table [camera]"));
+    };
+    let degrees = "degrees above 0 and below 180";
+    let length = "a number from 0 to 1e6";
+    let camera = Camera {
+        position: node.required_vector("position")?,
+        target: node.required_vector("target")?,
+        up: node.vector("up")?.unwrap_or([0.0, 1.0, 0.0]),
+        field_of_view: node
+            .number("field_of_view", degrees, |x| x > 0.01 && x < 179.9)?
+            .map_or(40f32.to_radians(), |x| x.to_radians() as f32),
+        lens_radius: node.number("lens_radius", length, |x| (0.0..=1e6).contains(&x))?.unwrap_or(0.0) as f32,
+        focus_distance: node
+            .number("focus_distance", "a number above 0 and up to 1e9", |x| x > 1e-9 && x <= 1e9)?
+            .map(|x| x as f32),
+    };
+    node.finish()?;
+    View::new(&camera, [1, 1], Filter::Box).map_err(|error| node.error("target", error.to_string()))?;
+    Ok(camera)
+}
+
+pub(super) fn film(root: &Node<'_, '_>) -> Result<([u32; 2], Filter, f32), SceneError> {
+    let Some(node) = root.child("film")? else { return Ok(([800, 600], Filter::default(), 0.0)) };
+    let size = [node.whole("width", 1..=SIDE)?.unwrap_or(800), node.whole("height", 1..=SIDE)?.unwrap_or(600)];
+    if u64::from(size[0]) * u64::from(size[1]) > AREA {
+        let message = format!("found {} x {} pixels; expected {AREA} at most", size[0], size[1]);
+        return Err(node.error("width", message));
+    }
+    let filter = match node.text("filter")? {
+        None | Some("tent") => Filter::Tent,
+        Some("box") => Filter::Box,
+        Some(found) => return Err(node.error("filter", format!("found `{found}`; expected box or tent"))),
+    };
+    let exposure = node.number("exposure", "stops from -30 to 30", |x| x.abs() <= 30.0)?.unwrap_or(0.0);
+    node.finish()?;
+    Ok((size, filter, exposure as f32))
+}
+
+pub(super) fn integrator(root: &Node<'_, '_>) -> Result<(Integrator, u32), SceneError> {
+    const DEFAULT: (Integrator, u32) = (Integrator::Path { depth: 8, limit: f32::INFINITY }, 64);
+    let Some(node) = root.child("integrator")? else { return Ok(DEFAULT) };
+    let positive = |key: &str| node.number(key, "a number above 0", |x| x > 0.0 && x as f32 > 0.0);
+    let kind = node.text("kind")?.unwrap_or("path");
+    let integrator = match kind {
+        "path" => Integrator::Path {
+            depth: node.whole("depth", 1..=1000)?.unwrap_or(8),
+            limit: positive("limit")?.map_or(f32::INFINITY, |x| x as f32),
+        },
+        "whitted" => Integrator::Whitted { depth: node.whole("depth", 1..=32)?.unwrap_or(8) },
+        "ao" => Integrator::Ambient { distance: positive("distance")?.map_or(f32::INFINITY, |x| x as f32) },
+        "normals" => Integrator::Normals,
+        found => {
+            let message = format!("found `{found}`; expected path, whitted, ao or normals");
+            return Err(node.error("kind", message));
+        }
+    };
+    let samples = node.whole("samples", 1..=u32::MAX - 1)?.unwrap_or(DEFAULT.1);
+    node.finish()?;
+    Ok((integrator, samples))
+}

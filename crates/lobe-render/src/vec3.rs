@@ -1,0 +1,78 @@
+//! Vectors of three floats. Nothing here is fused or reassociated, so the bits are the same on every machine.
+
+/// A point, a direction or a normal.
+pub(crate) type Vec3 = [f32; 3];
+
+pub(crate) fn add(a: Vec3, b: Vec3) -> Vec3 {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+pub(crate) fn sub(a: Vec3, b: Vec3) -> Vec3 {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+pub(crate) fn scale(a: Vec3, s: f32) -> Vec3 {
+    [a[0] * s, a[1] * s, a[2] * s]
+}
+
+pub(crate) fn neg(a: Vec3) -> Vec3 {
+    [-a[0], -a[1], -a[2]]
+}
+
+pub(crate) fn dot(a: Vec3, b: Vec3) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub(crate) fn cross(a: Vec3, b: Vec3) -> Vec3 {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+pub(crate) fn length(a: Vec3) -> f32 {
+    dot(a, a).sqrt()
+}
+
+/// The unit vector along `a`; `None` where it points nowhere.
+pub(crate) fn unit(a: Vec3) -> Option<Vec3> {
+    // Scaled by the largest component first, so that no square overflows or vanishes.
+    let largest = a.iter().fold(0.0f32, |largest, c| largest.max(c.abs()));
+    if !(largest > 0.0 && largest.is_finite()) {
+        return None;
+    }
+    let a = a.map(|c| c / largest);
+    Some(scale(a, 1.0 / length(a)))
+}
+
+/// A unit vector perpendicular to the unit vector `n`.
+pub(crate) fn perpendicular(n: Vec3) -> Vec3 {
+    // The axis that `n` has least of, so that the cross product is never short.
+    let [x, y, z] = n.map(f32::abs);
+    let axis = if x <= y && x <= z {
+        [1.0, 0.0, 0.0]
+    } else if y <= z {
+        [0.0, 1.0, 0.0]
+    } else {
+        [0.0, 0.0, 1.0]
+    };
+    let along = cross(n, axis);
+    scale(along, 1.0 / length(along))
+}
+
+/// A direction drawn in proportion to its cosine with +z: the disk of Shirley and Chiu 1997 ("A Low Distortion Map
+/// Between Disk and Square"), lifted to the hemisphere. Its density is `z / pi`.
+pub(crate) fn cosine_hemisphere(u: [f32; 2]) -> Vec3 {
+    let [x, y] = disk(u);
+    [x, y, (1.0 - x * x - y * y).max(1e-12).sqrt()]
+}
+
+/// A point of the unit disk, uniform in area.
+pub(crate) fn disk([u, v]: [f32; 2]) -> [f32; 2] {
+    let (a, b) = (2.0 * u - 1.0, 2.0 * v - 1.0);
+    if a == 0.0 && b == 0.0 {
+        return [0.0; 2];
+    }
+    let quarter = std::f32::consts::FRAC_PI_4;
+    let (radius, angle) = if a.abs() > b.abs() { (a, quarter * (b / a)) } else { (b, quarter * (2.0 - a / b)) };
+    // Of `libm`, whose bits do not depend on the machine.
+    let (sin, cos) = libm::sincosf(angle);
+    [radius * cos, radius * sin]
+}

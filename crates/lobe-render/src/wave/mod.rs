@@ -1,0 +1,285 @@
+//! A wave: the paths of a tile, all at the same depth, their state in the cache.
+//!
+//! Camera packets are traced; the hits are sorted by material; each material is evaluated and sampled in full lanes for
+//! all of its hits; shadow rays are traced; what goes on is the next wave.
+
+mod direct;
+mod queue;
+mod rays;
+mod scatter;
+
+use std::time::Instant;
+
+use lobe_trace::{Intersect, MISS, RayClass};
+
+use crate::camera::View;
+use crate::film::{Film, Rect, Seen};
+use crate::integrator::Integrator;
+use crate::light::Light;
+use crate::random::{Sequence, Use};
+use crate::shader::{Backend, Scratch};
+use crate::stats::Stats;
+use crate::vec3::{Vec3, dot};
+use crate::world::{Hit, World};
+use direct::Direct;
+use queue::Queue;
+use rays::Batch;
+use scatter::Scattered;
+
+/// About how many paths are under way at once: their state, a few hundred bytes each, stays in the second cache, and a
+/// material that covers a hundredth of them still fills its lanes.
+pub(crate) const PATHS: usize = 4096;
+
+/// Where a path came from and what it has seen.
+#[derive(Clone, Copy, Debug)]
+struct Slot<const C: usize> {
+    pixel: [u32; 2],
+    sequence: Sequence,
+    seen: Seen<C>,
+}
+
+/// What a ray carries. With `whitted`, several rays have the same slot.
+#[derive(Clone, Copy, Debug)]
+struct Carried<const C: usize> {
+    slot: u32,
+    /// What radiance that comes along the ray is multiplied by.
+    throughput: [f32; C],
+    /// The density with which the direction was drawn; infinite where it could be no other.
+    pdf: f32,
+}
+
+/// A hit of a ray.
+#[derive(Clone, Copy, Debug)]
+struct Vertex<const C: usize> {
+    hit: Hit,
+    carried: Carried<C>,
+    sequence: Sequence,
+}
+
+/// One thread's memory for waves over one scene.
+pub(crate) struct Wave<'w, const C: usize> {
+    world: &'w World<C>,
+    view: &'w View,
+    integrator: Integrator,
+    backend: Backend,
+    slots: Vec<Slot<C>>,
+    batch: Batch,
+    carried: Vec<Carried<C>>,
+    found: Vec<Vertex<C>>,
+    queue: Queue<C>,
+    direct: Direct<C>,
+    scattered: Scattered<C>,
+    scratch: Scratch,
+    pub stats: Stats,
+}
+
+impl<'w, const C: usize> Wave<'w, C> {
+    pub fn new(world: &'w World<C>, view: &'w View, integrator: Integrator, backend: Backend) -> Self {
+        Wave {
+            world,
+            view,
+            integrator,
+            backend,
+            slots: Vec::new(),
+            batch: Batch::default(),
+            carried: Vec::new(),
+            found: Vec::new(),
+            queue: Queue::default(),
+            direct: Direct::default(),
+            scattered: Scattered::default(),
+            scratch: Scratch::default(),
+            stats: Stats::default(),
+        }
+    }
+
+    /// Follows the samples of a tile and adds what they see to a film that has it.
+    pub fn render(&mut self, tile: Rect, samples: std::ops::Range<u32>, film: &mut Film<C>) {
+        let begun = Instant::now();
+        let pixels = morton(tile);
+        let together = (PATHS / pixels.len()).max(1);
+        let mut from = samples.start;
+        while from < samples.end {
+            let until = samples.end.min(from.saturating_add(together as u32));
+            self.begin(&pixels, from..until);
+            self.follow();
+            for slot in &self.slots {
+                let at = film.index(slot.pixel[0], slot.pixel[1]);
+                let finite = film.pixels_mut()[at].add(&slot.seen);
+                self.stats.invalid += u64::from(!finite);
+            }
+            from = until;
+        }
+        self.stats.total += begun.elapsed();
+    }
+
+    /// Camera rays, packets of neighbours.
+    fn begin(&mut self, pixels: &[[u32; 2]], samples: std::ops::Range<u32>) {
+        self.slots.clear();
+        self.carried.clear();
+        self.batch.clear();
+        for sample in samples {
+            for &pixel in pixels {
+                let sequence = Sequence::new(pixel, sample);
+                let (origin, direction) = self.view.ray(pixel, sequence.four(Use::Camera));
+                self.batch.rays.push(origin, direction, 0.0, f32::INFINITY);
+                let slot = self.slots.len() as u32;
+                self.carried.push(Carried { slot, throughput: [1.0; C], pdf: f32::INFINITY });
+                self.slots.push(Slot { pixel, sequence, seen: Seen::NOTHING });
+            }
+        }
+        self.stats.samples += self.slots.len() as u64;
+    }
+
+    /// From the camera on, depth by depth.
+    fn follow(&mut self) {
+        let mut class = RayClass::Camera;
+        let last = self.integrator.depth();
+        for depth in 0..=last {
+            if self.carried.is_empty() {
+                break;
+            }
+            self.trace(class);
+            self.meet(depth);
+            match self.integrator {
+                Integrator::Normals => self.show_normals(),
+                Integrator::Ambient { distance } => self.ambient(class, distance),
+                Integrator::Path { .. } | Integrator::Whitted { .. } if depth < last => {
+                    let begun = Instant::now();
+                    self.queue.sort(&mut self.found, self.world.materials.len());
+                    self.stats.sort += begun.elapsed();
+                    self.light(class, depth);
+                    let specular = self.scatter(depth);
+                    class = class.bounce(specular);
+                }
+                Integrator::Path { .. } | Integrator::Whitted { .. } => break,
+            }
+        }
+    }
+
+    fn trace(&mut self, class: RayClass) {
+        let begun = Instant::now();
+        let Batch { rays, hits } = &mut self.batch;
+        rays::fit(hits, rays.len());
+        self.backend.run(Intersect::new(&self.world.scene, class, rays.view(), hits.view()));
+        self.stats.trace += begun.elapsed();
+        self.stats.rays += rays.len() as u64;
+    }
+
+    /// What the rays met: light, or a surface, or nothing.
+    fn meet(&mut self, depth: u32) {
+        let begun = Instant::now();
+        self.found.clear();
+        let debugging = self.integrator.is_debugging();
+        for (i, carried) in self.carried.iter().enumerate() {
+            let direction = self.batch.direction(i);
+            let slot = &mut self.slots[carried.slot as usize];
+            if self.batch.hits.primitive[i] == MISS {
+                if !debugging && let Some(radiance) = background(self.world, direction, carried.pdf) {
+                    add(&mut slot.seen.radiance, carried.throughput, radiance, self.integrator.limit(depth));
+                }
+                continue;
+            }
+            let uv = [self.batch.hits.u[i], self.batch.hits.v[i]];
+            let hit = self.world.hit(self.batch.hits.primitive[i], uv, direction);
+            if depth == 0 {
+                slot.seen.normal = hit.frame[2];
+                slot.seen.albedo = self.world.materials[hit.material as usize].albedo();
+                slot.seen.depth = self.batch.hits.t[i];
+                slot.seen.material = hit.material + 1;
+            }
+            if !debugging && let Some(light) = hit.light {
+                let way = (direction, self.batch.hits.t[i], carried.pdf);
+                let radiance = emission(self.world, light as usize, &hit, way);
+                add(&mut slot.seen.radiance, carried.throughput, radiance, self.integrator.limit(depth));
+            }
+            self.found.push(Vertex { hit, carried: *carried, sequence: slot.sequence });
+        }
+        self.stats.meet += begun.elapsed();
+    }
+
+    /// The shading normal as a colour.
+    fn show_normals(&mut self) {
+        for vertex in &self.found {
+            let normal = vertex.hit.frame[2];
+            let seen = &mut self.slots[vertex.carried.slot as usize].seen;
+            seen.radiance = std::array::from_fn(|k| 0.5 + 0.5 * normal[k.min(2)]);
+        }
+        self.carried.clear();
+    }
+}
+
+/// Radiance from where there is no surface, for a ray whose direction was drawn with that density.
+fn background<const C: usize>(world: &World<C>, direction: Vec3, pdf: f32) -> Option<[f32; C]> {
+    let index = world.lights.environment?;
+    let Light::Environment(environment) = &world.lights.all[index] else { return None };
+    let share = against(pdf, || world.lights.chance(index) * environment.pdf(direction));
+    Some(environment.radiance(direction).map(|x| x * share))
+}
+
+/// Radiance from a surface that shines, for a ray whose direction was drawn with that density.
+fn emission<const C: usize>(world: &World<C>, index: usize, hit: &Hit, way: (Vec3, f32, f32)) -> [f32; C] {
+    let (direction, distance, pdf) = way;
+    let Light::Area(area) = &world.lights.all[index] else { return [0.0; C] };
+    let share = against(pdf, || world.lights.chance(index) * area.pdf(distance, dot(hit.geometric, direction)));
+    area.emitted(hit.front).map(|x| x * share)
+}
+
+/// The share of a sample that was drawn with density `pdf` where another way would have drawn it with density `other`:
+/// the power heuristic of Veach 1997 ("Robust Monte Carlo Methods for Light Transport Simulation", section 9.2.4).
+fn against(pdf: f32, other: impl FnOnce() -> f32) -> f32 {
+    if pdf == f32::INFINITY {
+        return 1.0;
+    }
+    let ratio = other() / pdf;
+    1.0 / (1.0 + ratio * ratio)
+}
+
+/// Adds `throughput * radiance`, no channel of it more than `limit`.
+fn add<const C: usize>(sum: &mut [f32; C], throughput: [f32; C], radiance: [f32; C], limit: f32) {
+    for k in 0..C {
+        // Written so that what is no number stays one, to be counted.
+        let value = throughput[k] * radiance[k];
+        sum[k] += if value > limit { limit } else { value };
+    }
+}
+
+/// The pixels of a tile, neighbours close to each other: Morton's order.
+fn morton(tile: Rect) -> Vec<[u32; 2]> {
+    let side = tile.width.max(tile.height).next_power_of_two();
+    let mut pixels = Vec::with_capacity(tile.area());
+    for code in 0..u64::from(side) * u64::from(side) {
+        let [x, y] = [every_other_bit(code), every_other_bit(code >> 1)];
+        if x < tile.width && y < tile.height {
+            pixels.push([tile.x + x, tile.y + y]);
+        }
+    }
+    pixels
+}
+
+fn every_other_bit(code: u64) -> u32 {
+    (0..32).fold(0, |bits, k| bits | ((code >> (2 * k) & 1) as u32) << k)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_pixel_of_a_tile_once_and_neighbours_together() {
+        let tile = Rect { x: 10, y: 20, width: 13, height: 7 };
+        let pixels = morton(tile);
+        assert_eq!(pixels.len(), 13 * 7);
+        assert_eq!(pixels[..4], [[10, 20], [11, 20], [10, 21], [11, 21]]);
+        let mut sorted = pixels.clone();
+        sorted.sort();
+        sorted.dedup();
+        assert_eq!(sorted.len(), pixels.len());
+    }
+
+    #[test]
+    fn shares_of_two_ways_are_one() {
+        let (a, b) = (0.3f32, 2.0f32);
+        assert!((against(a, || b) + against(b, || a) - 1.0).abs() < 1e-6);
+        assert_eq!(against(f32::INFINITY, || 1.0), 1.0);
+    }
+}

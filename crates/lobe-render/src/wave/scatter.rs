@@ -1,0 +1,144 @@
+//! The next rays of the paths.
+
+use std::time::Instant;
+
+use super::{Carried, Wave};
+use crate::integrator::Integrator;
+use crate::random::Use;
+use crate::shader::{Delta, Sampled};
+use crate::vec3::{Vec3, dot, scale, sub};
+
+/// Directions drawn by materials.
+#[derive(Debug)]
+pub(super) struct Scattered<const C: usize> {
+    wo: Vec<Vec3>,
+    u: Vec<[f32; 3]>,
+    wi: Vec<Vec3>,
+    weight: Vec<[f32; C]>,
+    pdf: Vec<f32>,
+}
+
+impl<const C: usize> Default for Scattered<C> {
+    fn default() -> Self {
+        Scattered { wo: Vec::new(), u: Vec::new(), wi: Vec::new(), weight: Vec::new(), pdf: Vec::new() }
+    }
+}
+
+/// A ray of `whitted` that carries less than this is not followed.
+const NEGLIGIBLE: f32 = 1e-3;
+/// From this depth on paths end by chance.
+const ROULETTE: u32 = 3;
+
+impl<const C: usize> Wave<'_, C> {
+    /// Draws the next rays of the sorted hits. Returns whether all of them are mirrored or refracted.
+    pub(super) fn scatter(&mut self, depth: u32) -> bool {
+        self.carried.clear();
+        self.batch.clear();
+        let mut specular = true;
+        for part in 0..self.queue.parts.len() {
+            let material = self.queue.parts[part].0;
+            match (self.world.materials[material].delta(), self.integrator) {
+                (Some(delta), _) => self.part_of_ways(part, delta, depth),
+                (None, Integrator::Path { .. }) => {
+                    specular = false;
+                    self.draw(part, depth);
+                    self.continue_drawn(part, depth);
+                }
+                (None, _) => {}
+            }
+        }
+        specular
+    }
+
+    /// Rays along the exact directions of a smooth surface: one of them by chance, or all.
+    fn part_of_ways(&mut self, part: usize, delta: &Delta<C>, depth: u32) {
+        let begun = Instant::now();
+        for index in self.queue.parts[part].1.clone() {
+            let vertex = self.queue.sorted[index];
+            let (mirror, through) = delta.ways(vertex.hit.wo);
+            let ways = [Some(mirror), through].into_iter().flatten();
+            if matches!(self.integrator, Integrator::Whitted { .. }) {
+                for way in ways {
+                    self.follow_way(index, way.wi, way.weight, NEGLIGIBLE);
+                }
+                continue;
+            }
+            let size = |weight: [f32; C]| weight.into_iter().sum::<f32>();
+            let (a, b) = (size(mirror.weight), through.map_or(0.0, |way| size(way.weight)));
+            if a + b <= 0.0 {
+                continue;
+            }
+            let chance = a / (a + b);
+            let u = vertex.sequence.four(Use::Scatter(depth))[2];
+            let (way, chance) = match through {
+                Some(way) if u >= chance => (way, 1.0 - chance),
+                _ => (mirror, chance),
+            };
+            self.follow_way(index, way.wi, way.weight.map(|w| w / chance), 0.0);
+        }
+        self.stats.scatter += begun.elapsed();
+    }
+
+    fn follow_way(&mut self, index: usize, local: Vec3, weight: [f32; C], least: f32) {
+        let vertex = &self.queue.sorted[index];
+        let throughput: [f32; C] = std::array::from_fn(|k| vertex.carried.throughput[k] * weight[k]);
+        let mut wi = vertex.hit.world(local);
+        if !vertex.hit.sees(wi, local) {
+            // At the silhouette of facets that a smooth normal hides, the direction is turned back out of the facet.
+            let normal = vertex.hit.geometric;
+            wi = sub(wi, scale(normal, 2.0 * dot(normal, wi)));
+        }
+        if throughput.iter().any(|t| *t > least) {
+            self.batch.rays.push(vertex.hit.leave(vertex.hit.position, wi), wi, 0.0, f32::INFINITY);
+            self.carried.push(Carried { slot: vertex.carried.slot, throughput, pdf: f32::INFINITY });
+        }
+    }
+
+    /// One material's hits, in full lanes.
+    fn draw(&mut self, part: usize, depth: u32) {
+        let begun = Instant::now();
+        let (material, range) = &self.queue.parts[part];
+        let Scattered { wo, u, wi, weight, pdf } = &mut self.scattered;
+        wo.clear();
+        u.clear();
+        for vertex in &self.queue.sorted[range.clone()] {
+            let [a, b, c, _] = vertex.sequence.four(Use::Scatter(depth));
+            wo.push(vertex.hit.wo);
+            u.push([a, b, c]);
+        }
+        wi.resize(wo.len(), [0.0; 3]);
+        weight.resize(wo.len(), [0.0; C]);
+        pdf.resize(wo.len(), 0.0);
+        self.stats.scatter += begun.elapsed();
+        let begun = Instant::now();
+        let out = Sampled { wi, weight, pdf };
+        self.world.materials[*material].sample(self.backend, wo, u, out, &mut self.scratch);
+        self.stats.lanes(wo.len(), self.backend.lanes());
+        self.stats.material += begun.elapsed();
+    }
+
+    /// Rays along the directions drawn, as far as they carry something and chance lets them.
+    fn continue_drawn(&mut self, part: usize, depth: u32) {
+        let begun = Instant::now();
+        let Scattered { wi, weight, pdf, .. } = &self.scattered;
+        let range = self.queue.parts[part].1.clone();
+        for (i, vertex) in self.queue.sorted[range].iter().enumerate() {
+            let mut throughput: [f32; C] = std::array::from_fn(|k| vertex.carried.throughput[k] * weight[i][k]);
+            let most = throughput.iter().fold(0.0f32, |most, t| most.max(*t));
+            let world = vertex.hit.world(wi[i]);
+            if !(pdf[i] > 0.0 && most > 0.0) || !vertex.hit.sees(world, wi[i]) {
+                continue;
+            }
+            if depth >= ROULETTE {
+                let chance = most.min(0.95);
+                if vertex.sequence.four(Use::Light(depth))[3] >= chance {
+                    continue;
+                }
+                throughput = throughput.map(|t| t / chance);
+            }
+            self.batch.rays.push(vertex.hit.leave(vertex.hit.position, world), world, 0.0, f32::INFINITY);
+            self.carried.push(Carried { slot: vertex.carried.slot, throughput, pdf: pdf[i] });
+        }
+        self.stats.scatter += begun.elapsed();
+    }
+}

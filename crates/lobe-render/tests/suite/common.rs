@@ -1,0 +1,117 @@
+//! Small worlds.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use lobe::Edges;
+use lobe_render::light::{Environment, Light};
+use lobe_render::shader::{Backend, Delta, DeltaShader, Lambert, Shader, TableShader};
+use lobe_render::{Camera, Film, Filter, Integrator, Rect, Settings, Shape, World, WorldBuilder, render};
+use lobe_table::Table;
+
+pub const PATH: Integrator = Integrator::Path { depth: 8, limit: f32::INFINITY };
+
+/// A square of side 2 in the plane y = 0 that faces +y; its tangent is turned about +y.
+pub fn plane(turn: f32) -> Shape {
+    let (sin, cos) = turn.sin_cos();
+    Shape {
+        positions: vec![[-1.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 0.0, -1.0], [-1.0, 0.0, -1.0]],
+        normals: vec![[0.0, 1.0, 0.0]; 4],
+        tangents: vec![[cos, 0.0, -sin, 1.0]; 4],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+    }
+}
+
+/// A sphere with smooth normals.
+pub fn sphere(center: [f32; 3], radius: f32) -> Shape {
+    const N: u32 = 64;
+    let mut shape = Shape::default();
+    for j in 0..=N / 2 {
+        for i in 0..=N {
+            let (theta, phi) =
+                (std::f32::consts::TAU * j as f32 / N as f32, std::f32::consts::TAU * i as f32 / N as f32);
+            let normal = [theta.sin() * phi.sin(), theta.cos(), theta.sin() * phi.cos()];
+            shape.positions.push([0, 1, 2].map(|k| center[k] + radius * normal[k]));
+            shape.normals.push(normal);
+            shape.tangents.push([phi.cos(), 0.0, -phi.sin(), 1.0]);
+        }
+    }
+    for j in 0..N / 2 {
+        for i in 0..N {
+            let [a, b] = [j * (N + 1) + i, (j + 1) * (N + 1) + i];
+            shape.triangles.extend([[a, b, b + 1], [a, b + 1, a + 1]]);
+        }
+    }
+    shape
+}
+
+/// The fixture of a woven cloth.
+pub fn cloth() -> Table {
+    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/cloth-17x7x17x13.ddr");
+    match lobe_formats::open(&file).unwrap().1 {
+        lobe_formats::Document::Table(measured) => Table::new(&measured.data, &Edges::default()).unwrap(),
+        _ => panic!("the fixture is a specular table"),
+    }
+}
+
+pub fn lambert(albedo: f32) -> Arc<dyn Shader<3>> {
+    Arc::new(Lambert { albedo: [albedo; 3] })
+}
+
+/// Something of everything: cloth, glass, a mirror, a lamp, a sky, a point light.
+pub fn mixed() -> World<3> {
+    let mut world = WorldBuilder::new();
+    let materials: Vec<usize> = [
+        Arc::new(TableShader::new(cloth()).unwrap()) as Arc<dyn Shader<3>>,
+        Arc::new(DeltaShader(Delta::Glass { eta: 1.5, tint: [1.0, 0.9, 0.8] })),
+        Arc::new(DeltaShader(Delta::Mirror([0.9; 3]))),
+        lambert(0.5),
+    ]
+    .into_iter()
+    .map(|shader| world.material(shader))
+    .collect();
+    let floor = Shape { positions: plane(0.4).positions.iter().map(|p| p.map(|x| 3.0 * x)).collect(), ..plane(0.4) };
+    world.shape(&floor, materials[0], None, false).unwrap();
+    world.shape(&sphere([-0.9, 0.6, 0.0], 0.5), materials[1], None, false).unwrap();
+    world.shape(&sphere([0.9, 0.6, 0.0], 0.5), materials[2], None, false).unwrap();
+    world.shape(&sphere([0.0, 0.5, -1.0], 0.5), materials[0], None, false).unwrap();
+    world.shape(&sphere([0.0, 3.0, 1.0], 0.3), materials[3], Some([12.0, 11.0, 9.0]), false).unwrap();
+    world.light(Light::Environment(Environment::gradient([0.3, 0.4, 0.8], [0.5; 3], [0.1; 3]).unwrap()));
+    world.light(Light::Point { position: [2.0, 2.0, 2.0], intensity: [3.0; 3] });
+    world.build().unwrap()
+}
+
+pub fn settings(size: [u32; 2], samples: u32, integrator: Integrator) -> Settings {
+    let camera = Camera {
+        position: [0.0, 1.2, 4.0],
+        target: [0.0, 0.5, 0.0],
+        up: [0.0, 1.0, 0.0],
+        field_of_view: 0.8,
+        lens_radius: 0.02,
+        focus_distance: None,
+    };
+    let window = Rect { x: 0, y: 0, width: size[0], height: size[1] };
+    Settings {
+        camera,
+        size,
+        window,
+        filter: Filter::Tent,
+        integrator,
+        samples: 0..samples,
+        backend: Backend::best(),
+        threads: 2,
+        time: None,
+    }
+}
+
+pub fn picture(world: &World<3>, settings: &Settings) -> Film<3> {
+    let (film, stats) = render(world, settings, Film::new(settings.window), |_| true).unwrap();
+    assert_eq!(stats.invalid, 0, "samples that are no numbers");
+    film
+}
+
+/// The mean over all pixels and channels.
+pub fn mean(film: &Film<3>) -> f64 {
+    let sum: f64 = film.pixels().iter().flat_map(|pixel| pixel.mean_radiance()).map(f64::from).sum();
+    sum / (3 * film.pixels().len()) as f64
+}

@@ -1,0 +1,8 @@
+//! Pictures whose values are known, and pictures that have to be the same bits.
+
+mod common;
+mod direct;
+mod files;
+mod furnace;
+mod identical;
+mod scenes;
