@@ -188,6 +188,8 @@ pub(crate) struct Hit {
     pub geometric: Vec3,
     /// Whether the ray met the side that the corners are counterclockwise from.
     pub front: bool,
+    /// How far off the surface rays begin.
+    step: f32,
     /// The frame of the material: x along the tangent, z along the shading normal.
     pub frame: [Vec3; 3],
     /// Back along the ray, in the frame.
@@ -216,10 +218,7 @@ impl Hit {
 
     /// A ray's origin at this place, off the surface on the side that `direction` leads to.
     pub fn leave(&self, from: Vec3, direction: Vec3) -> Vec3 {
-        let reach = from.iter().fold(0.0f32, |reach, x| reach.max(x.abs()));
-        // Some tens of units in the last place of the largest coordinate, about what computing the place has lost.
-        let step = (reach / 131_072.0).max(1e-9);
-        let step = if dot(self.geometric, direction) < 0.0 { -step } else { step };
+        let step = if dot(self.geometric, direction) < 0.0 { -self.step } else { self.step };
         add(from, scale(self.geometric, step))
     }
 }
@@ -240,6 +239,10 @@ impl<const C: usize> World<C> {
         let mesh = self.scene.mesh_of(0);
         let corners = mesh.triangles()[triangle as usize].map(|index| index as usize);
         let [a, b, c] = mesh.corners(triangle as usize);
+        // A hundred units in the last place or so of the largest coordinate of the triangle: what finding the place, and
+        // meeting the triangle again, lose.
+        let reach = [a, b, c].as_flattened().iter().fold(0.0f32, |reach, x| reach.max(x.abs()));
+        let step = (reach / 65_536.0).max(1e-9);
         let (ab, ac) = (sub(b, a), sub(c, a));
         let position = add(a, add(scale(ab, u), scale(ac, v)));
         let toward = neg(direction);
@@ -276,7 +279,7 @@ impl<const C: usize> World<C> {
         let frame = [t, scale(cross(normal, t), handedness), normal];
         let lifted = lift(position, [a, b, c], normals, [w, u, v], side);
         let wo = frame.map(|axis| dot(axis, toward));
-        Hit { position, lifted, geometric, front, frame, wo, material: part.material, light: part.light }
+        Hit { position, lifted, geometric, front, step, frame, wo, material: part.material, light: part.light }
     }
 }
 
