@@ -53,8 +53,8 @@ fn encode(film: &Film<3>, meta: &Meta, partial: bool) -> exr::error::Result<Vec<
         }
     }
     let window = film.window();
-    let mut attributes = LayerAttributes::default();
-    attributes.layer_position = Vec2(window.x as i32, window.y as i32);
+    let mut attributes =
+        LayerAttributes { layer_position: Vec2(window.x as i32, window.y as i32), ..LayerAttributes::default() };
     // One attribute only: the library writes those that it does not know in any order.
     attributes.other.insert(Text::from(ATTRIBUTE), AttributeValue::Text(Text::from(meta.to_string().as_str())));
     // Parts are written often and read once.
@@ -115,7 +115,7 @@ pub fn read_partial(path: &Path) -> Result<(Film<3>, Meta), PictureError> {
         return Err(wrong(format!("{} x {} pixels of the window {:?}", layer.size.0, layer.size.1, meta.window)));
     }
     let column = |name: &str| {
-        let found = layer.channel_data.list.iter().find(|channel| channel.name == Text::from(name));
+        let found = layer.channel_data.list.iter().find(|channel| channel.name.eq(name));
         found.map(|channel| &channel.sample_data).ok_or_else(|| wrong(format!("no channel `{name}`")))
     };
     let whole = |name: &str| match column(name)? {

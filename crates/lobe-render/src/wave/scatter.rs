@@ -126,7 +126,9 @@ impl<const C: usize> Wave<'_, C> {
             let mut throughput: [f32; C] = std::array::from_fn(|k| vertex.carried.throughput[k] * weight[i][k]);
             let most = throughput.iter().fold(0.0f32, |most, t| most.max(*t));
             let world = vertex.hit.world(wi[i]);
-            if !(pdf[i] > 0.0 && most > 0.0) || !vertex.hit.sees(world, wi[i]) {
+            // NaN is no more than 0 either.
+            let goes_on = pdf[i] > 0.0 && most > 0.0 && vertex.hit.sees(world, wi[i]);
+            if !goes_on {
                 continue;
             }
             if depth >= ROULETTE {
