@@ -9,7 +9,7 @@ use super::{Wave, against, rays};
 use crate::integrator::Integrator;
 use crate::random::Use;
 use crate::shader::Evaluated;
-use crate::vec3::{Vec3, cosine_hemisphere};
+use crate::vec3::{Vec3, add, cosine_hemisphere, length, scale, sub, unit};
 
 /// Pairs of directions to be evaluated, and the shadow rays to be traced for them.
 #[derive(Debug)]
@@ -161,8 +161,15 @@ impl<const C: usize> Wave<'_, C> {
                 continue;
             }
             let origin = vertex.hit.leave(vertex.hit.lifted, asked.wi);
+            let (direction, distance) = if asked.distance.is_finite() {
+                // From where the ray begins to the same place on the light, which is not as far.
+                let way = sub(add(vertex.hit.position, scale(asked.wi, asked.distance)), origin);
+                (unit(way).unwrap_or(asked.wi), length(way))
+            } else {
+                (asked.wi, asked.distance)
+            };
             // Just short of the light, which is a surface itself.
-            shadow.push(origin, asked.wi, 0.0, asked.distance * 0.9999);
+            shadow.push(origin, direction, 0.0, distance * 0.9999);
             carried.push((vertex.carried.slot, value));
         }
     }

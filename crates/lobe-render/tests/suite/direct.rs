@@ -77,12 +77,13 @@ fn a_point_light_behind_an_obstacle_gives_nothing() {
     let mut world = WorldBuilder::new();
     let white = world.material(lambert(1.0));
     world.shape(&plane(0.0), white, None, false).unwrap();
-    world.shape(&sphere([0.0, 2.0, 0.0], 0.5), white, None, false).unwrap();
+    world.shape(&sphere([0.0, 2.0, 0.0], 0.3), white, None, false).unwrap();
     world.light(Light::Point { position: [0.0, 4.0, 0.0], intensity: [10.0; 3] });
     let world = world.build().unwrap();
     let mut settings = settings([1, 1], 4, Integrator::Whitted { depth: 1 });
     let at = |x: f32| Camera { position: [x, 1.0, 0.3], target: [x, 0.0, 0.0], field_of_view: 1e-3, ..settings.camera };
-    let (dark, bright) = (at(0.0), at(0.9));
+    // The sphere's shadow is a disk of radius 4 tan(asin(0.3 / 2)) = 0.61.
+    let (dark, bright) = (at(0.5), at(0.9));
     settings.camera = dark;
     assert_eq!(mean(&picture(&world, &settings)), 0.0);
     settings.camera = bright;
