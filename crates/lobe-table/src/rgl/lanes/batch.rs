@@ -87,7 +87,7 @@ impl RglTable {
 
     /// The passes that values and densities share: where the queries `0..n` are in the tables.
     #[inline(always)]
-    fn locate<L: Lanes, B: BlockOfDirections, const SLICES: usize, const CORNERS: usize>(
+    fn locate<L: Lanes, B: BlockOfDirections, const SLICES: usize>(
         &self,
         lanes: L,
         n: usize,
@@ -100,7 +100,7 @@ impl RglTable {
         angles::half(lanes, n, frame, u_m);
         self.blend::<L, SLICES>(lanes, n, &mut frame.valid, incident, blend);
         places.find(lanes, n, &self.vndf.grid, &blend.slice, u_m);
-        invert::run::<L, SLICES, CORNERS>(lanes, n, &self.vndf, (u_m, blend), places, s, density);
+        invert::run::<L, SLICES>(lanes, n, &self.vndf, (u_m, blend), places, s, density);
     }
 
     /// The slices that queries `0..n` blend; none where they are not `valid`. The angles turn into fractions.
@@ -144,7 +144,7 @@ pub(super) struct Scratch {
     pub(super) s: [Column; 2],
     places: Places,
     pub(super) density: Column,
-    weights: [Column; MAX_CORNERS],
+    pub(super) weights: [Column; MAX_CORNERS],
     tile: Tile,
 }
 
@@ -195,13 +195,13 @@ impl<D: Directions> Batch<'_, D> {
             let left = (count - at).min(BLOCK);
             let n = left.next_multiple_of(L::LANES);
             let block = (wi.block(at, &mut padding.0), wo.block(at, &mut padding.1));
-            table.locate::<L, _, SLICES, PAIRS>(lanes, n, (block, cosine), &mut scratch);
+            table.locate::<L, _, SLICES>(lanes, n, (block, cosine), &mut scratch);
             if let Some(values) = &mut values {
                 let target = &mut values[at * channels..][..left * channels];
                 table.values::<L, SLICES, PAIRS, FOURS>(lanes, n, &mut scratch, target);
             }
             if let Some(pdf) = &mut pdf {
-                table.density::<L, SLICES, PAIRS>(lanes, n, &mut scratch);
+                table.density::<L, SLICES>(lanes, n, &mut scratch);
                 pdf[at..][..left].copy_from_slice(&scratch.density.0[..left]);
             }
             at += left;
@@ -229,10 +229,10 @@ impl RglTable {
 
     /// The density over solid angle of the located queries `0..n`, in place of that of the visible normals.
     #[inline(always)]
-    fn density<L: Lanes, const SLICES: usize, const PAIRS: usize>(&self, lanes: L, n: usize, scratch: &mut Scratch) {
+    fn density<L: Lanes, const SLICES: usize>(&self, lanes: L, n: usize, scratch: &mut Scratch) {
         let Scratch { frame, blend, u_m, places, s, density, .. } = scratch;
         places.find(lanes, n, &self.luminance.grid, &blend.slice, s);
-        invert::multiply_density::<L, SLICES, PAIRS>(lanes, n, &self.luminance, blend, places, density);
+        invert::multiply_density::<L, SLICES>(lanes, n, &self.luminance, blend, places, density);
         let mut query = 0;
         while query < n {
             let sin_m = frame.sin2_m.load(lanes, query).sqrt();

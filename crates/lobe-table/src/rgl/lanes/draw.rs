@@ -6,119 +6,197 @@
 use lobe_lane::{Floats, Ints, Lanes};
 
 use super::invert::{self, Blend};
-use super::warp::Warp;
+use super::warp::{Entries, STRIDE, Warp};
 use crate::passes::block::Column;
+use crate::passes::weights::MAX_CORNERS;
 
 /// The open interval: at 0 and 1 rows without density would be chosen.
 const EDGE: f32 = 1.0 / (1 << 24) as f32;
 
+/// Where each query of a block is in its search: an entry of the table, and the first beyond the ones searched.
+struct Search {
+    here: Column<i32>,
+    end: Column<i32>,
+}
+
 /// Replaces the uniform positions `u` of queries `0..n` by positions with the density of the blended slices, and
-/// multiplies `density` by the density there.
+/// multiplies `density` by the density there. `corners` is overwritten.
 #[inline(always)]
-pub(super) fn run<L: Lanes, const SLICES: usize, const CORNERS: usize>(
+pub(super) fn run<L: Lanes, const SLICES: usize>(
     lanes: L,
     n: usize,
     warp: &Warp,
     blend: &Blend,
+    corners: &mut [Column; MAX_CORNERS],
     u: &mut [Column; 2],
     density: &mut Column,
 ) {
-    rows::<L, SLICES>(lanes, n, warp, blend, u);
-    columns::<L, SLICES, CORNERS>(lanes, n, warp, blend, u, density);
+    let (ends, coarse, fine) = (warp.ends(), warp.coarse(), warp.fine());
+    let mut search = Search { here: Column::<i32>::ZERO, end: Column::<i32>::ZERO };
+    let (low, high) = (lanes.splat(EDGE), lanes.splat(1.0 - EDGE));
+    let mut query = 0;
+    while query < n {
+        let first = ends.of_slice(lanes, blend.slice.load(lanes, query));
+        search.begin(lanes, query, first, &ends);
+        let mut axis = 0;
+        while axis < 2 {
+            let inside = u[axis].load(lanes, query).max(low).min(high);
+            u[axis].store(lanes, query, inside);
+            axis += 1;
+        }
+        query += L::LANES;
+    }
+    search.run::<L, SLICES, 2>(lanes, n, &ends, ends.count, &blend.weights, &u[1]);
+    turn::<L, SLICES>(lanes, n, warp, blend, (&mut search, corners), u);
+    search.run::<L, SLICES, 4>(lanes, n, &coarse, coarse.count, corners, &u[0]);
+    refine(lanes, n, warp, blend, &mut search, &u[1]);
+    search.run::<L, SLICES, 4>(lanes, n, &fine, fine.count.min(STRIDE as i32), corners, &u[0]);
+    end::<L, SLICES>(lanes, n, warp, blend, &search, u, density);
 }
 
-/// Draws the rows by their marginal distribution: `u.y` becomes row and fraction in one number, and `u.x` the integral to be
-/// reached in that row.
-#[inline(always)]
-fn rows<L: Lanes, const SLICES: usize>(lanes: L, n: usize, warp: &Warp, blend: &Blend, u: &mut [Column; 2]) {
-    let block = warp.rows::<SLICES>();
-    let [row_stride, slice_stride] = warp.row_strides().map(|stride| lanes.splat_int(stride));
-    let cells = warp.grid.cells[1];
-    let count = lanes.splat_int(cells as i32);
-    let (low, high) = (lanes.splat(EDGE), lanes.splat(1.0 - EDGE));
-    // The last row below which there is less than `y`.
-    let mut found = Column::<i32>::ZERO;
-    let mut step = cells.next_power_of_two() / 2;
-    while step > 0 {
-        let mut query = 0;
-        while query < n {
-            let weights = invert::slices::<L, SLICES>(lanes, query, blend);
-            let first = blend.slice.load(lanes, query) * slice_stride;
-            let y = u[1].load(lanes, query).max(low).min(high);
-            let row = found.load(lanes, query);
-            let next = row + lanes.splat_int(step as i32);
-            let [_, _, below] = invert::rows(lanes, &block, first + next * row_stride, weights);
-            found.store(lanes, query, lanes.select_int(next.lt(count) & below.lt(y), next, row));
-            query += L::LANES;
-        }
-        step /= 2;
+impl Search {
+    #[inline(always)]
+    fn begin<L: Lanes>(&mut self, lanes: L, query: usize, first: L::I, entries: &Entries<'_>) {
+        self.here.store(lanes, query, first);
+        self.end.store(lanes, query, first + lanes.splat_int(entries.count * entries.stride));
     }
+
+    /// Moves queries `0..n` to the last of `count` entries whose first `TERMS` floats, weighted and summed over the slices, are less
+    /// than `target`.
+    #[inline(always)]
+    fn run<L: Lanes, const SLICES: usize, const TERMS: usize>(
+        &mut self,
+        lanes: L,
+        n: usize,
+        entries: &Entries<'_>,
+        count: i32,
+        weights: &[Column; MAX_CORNERS],
+        target: &Column,
+    ) {
+        let azimuth = lanes.splat_int(entries.azimuth);
+        let mut step = (count as u32).next_power_of_two() as i32 / 2;
+        while step > 0 {
+            let stride = lanes.splat_int(step * entries.stride);
+            let mut query = 0;
+            while query < n {
+                let here = self.here.load(lanes, query);
+                let next = here + stride;
+                let (mut at, mut sum) = (next, lanes.splat(0.0));
+                let mut slice = 0;
+                while slice < SLICES {
+                    let [entry] = lanes.gather_quads(&entries.block, at);
+                    let mut term = 0;
+                    while term < TERMS {
+                        let weight = weights[slice / 2 * TERMS + term].load(lanes, query);
+                        sum = lanes.mul_add(entry[term], weight, sum);
+                        term += 1;
+                    }
+                    at = at + azimuth;
+                    slice += 2;
+                }
+                let below = next.lt(self.end.load(lanes, query)) & sum.lt(target.load(lanes, query));
+                self.here.store(lanes, query, lanes.select_int(below, next, here));
+                query += L::LANES;
+            }
+            step /= 2;
+        }
+    }
+}
+
+/// From the rows that were found to the columns to be searched: `u.y` becomes row and fraction in one number, and `u.x` the
+/// integral to be reached in that row.
+#[inline(always)]
+fn turn<L: Lanes, const SLICES: usize>(
+    lanes: L,
+    n: usize,
+    warp: &Warp,
+    blend: &Blend,
+    (search, corners): (&mut Search, &mut [Column; MAX_CORNERS]),
+    u: &mut [Column; 2],
+) {
+    let block = warp.rows();
+    let (ends, coarse) = (warp.ends(), warp.coarse());
+    let rows_per_float = lanes.splat(1.0 / ends.stride as f32);
     let mut query = 0;
     while query < n {
         let weights = invert::slices::<L, SLICES>(lanes, query, blend);
-        let first = blend.slice.load(lanes, query) * slice_stride;
-        let y = u[1].load(lanes, query).max(low).min(high);
-        let row = found.load(lanes, query);
-        let [here, next, below] = invert::rows(lanes, &block, first + row * row_stride, weights);
-        let fraction = solve(lanes, here, next, y - below);
-        let x = u[0].load(lanes, query).max(low).min(high);
-        u[0].store(lanes, query, x * lanes.mul_add(fraction, next - here, here));
-        u[1].store(lanes, query, row.to_float() + fraction);
+        let slice = blend.slice.load(lanes, query);
+        let here = search.here.load(lanes, query);
+        let found = (here - ends.of_slice(lanes, slice)).to_float() * rows_per_float;
+        let [this, next, below] = invert::rows(lanes, warp, &block, here, weights);
+        let y = solve(lanes, this, next, u[1].load(lanes, query) - below);
+        u[0].store(lanes, query, u[0].load(lanes, query) * lanes.mul_add(y, next - this, this));
+        u[1].store(lanes, query, found + y);
+
+        let (row, y) = split(lanes, warp, found + y);
+        let ends = [lanes.splat(1.0) - y, y];
+        let mut corner = 0;
+        while corner < 2 * SLICES {
+            corners[corner].store(lanes, query, weights[corner / 2] * ends[corner % 2]);
+            corner += 1;
+        }
+        search.begin(lanes, query, coarse.of_row(lanes, slice, row), &coarse);
         query += L::LANES;
     }
 }
 
-/// Draws the columns by the conditional distribution of the rows drawn.
+/// From the coarse texels that were found to the texels between them and the next.
 #[inline(always)]
-fn columns<L: Lanes, const SLICES: usize, const CORNERS: usize>(
+fn refine<L: Lanes>(lanes: L, n: usize, warp: &Warp, blend: &Blend, search: &mut Search, place: &Column) {
+    let (coarse, fine) = (warp.coarse(), warp.fine());
+    let scale = lanes.splat_int(STRIDE as i32 * fine.stride / coarse.stride);
+    let length = lanes.splat_int(fine.count * fine.stride);
+    let mut query = 0;
+    while query < n {
+        let (row, _) = split(lanes, warp, place.load(lanes, query));
+        let slice = blend.slice.load(lanes, query);
+        let found = search.here.load(lanes, query) - coarse.of_row(lanes, slice, row);
+        let first = fine.of_row(lanes, slice, row);
+        search.here.store(lanes, query, first + found * scale);
+        search.end.store(lanes, query, first + length);
+        query += L::LANES;
+    }
+}
+
+/// From the columns that were found to positions.
+#[inline(always)]
+fn end<L: Lanes, const SLICES: usize>(
     lanes: L,
     n: usize,
     warp: &Warp,
     blend: &Blend,
+    search: &Search,
     u: &mut [Column; 2],
     density: &mut Column,
 ) {
-    let block = warp.texels::<CORNERS>();
+    let (block, fine) = (warp.cells(), warp.fine());
     let placer = warp.grid.placer(lanes);
-    let [columns, rows] = warp.grid.cells;
-    let [count, last_row] = [columns, rows - 1].map(|cells| lanes.splat_int(cells as i32));
+    let columns_per_float = lanes.splat(1.0 / fine.stride as f32);
     let scale = lanes.splat(warp.scale);
-    let mut found = Column::<i32>::ZERO;
-    let mut step = columns.next_power_of_two() / 2;
-    while step > 0 {
-        let mut query = 0;
-        while query < n {
-            let weights = invert::slices::<L, SLICES>(lanes, query, blend);
-            let (x, place) = (u[0].load(lanes, query), u[1].load(lanes, query));
-            let row = place.to_int().min(last_row);
-            let y = place - row.to_float();
-            let first = placer.slice(blend.slice.load(lanes, query));
-            let column = found.load(lanes, query);
-            let next = column + lanes.splat_int(step as i32);
-            let base = first + placer.texel([next, row]);
-            let [_, _, before] = invert::columns::<L, SLICES, CORNERS>(lanes, &block, base, weights, y);
-            found.store(lanes, query, lanes.select_int(next.lt(count) & before.lt(x), next, column));
-            query += L::LANES;
-        }
-        step /= 2;
-    }
     let mut query = 0;
     while query < n {
         let weights = invert::slices::<L, SLICES>(lanes, query, blend);
-        let (x, place) = (u[0].load(lanes, query), u[1].load(lanes, query));
-        let row = place.to_int().min(last_row);
-        let y = place - row.to_float();
-        let first = placer.slice(blend.slice.load(lanes, query));
-        let column = found.load(lanes, query);
-        let base = first + placer.texel([column, row]);
-        let [left, right, before] = invert::columns::<L, SLICES, CORNERS>(lanes, &block, base, weights, y);
-        let fraction = solve(lanes, left, right, x - before);
-        let here = lanes.mul_add(fraction, right - left, left) * scale;
-        density.store(lanes, query, density.load(lanes, query) * here);
-        u[0].store(lanes, query, placer.position(0, column.to_float() + fraction));
+        let place = u[1].load(lanes, query);
+        let (row, y) = split(lanes, warp, place);
+        let here = search.here.load(lanes, query);
+        let first = fine.of_row(lanes, blend.slice.load(lanes, query), row);
+        let found = (here - first).to_float() * columns_per_float;
+        let [left, right, before] = invert::columns(lanes, warp, &block, here, weights, y);
+        let x = solve(lanes, left, right, u[0].load(lanes, query) - before);
+        let value = lanes.mul_add(x, right - left, left) * scale;
+        density.store(lanes, query, density.load(lanes, query) * value);
+        u[0].store(lanes, query, placer.position(0, found + x));
         u[1].store(lanes, query, placer.position(1, place));
         query += L::LANES;
     }
+}
+
+/// A row and a fraction into it from their sum. Both are read back from it, so that a fraction that was rounded up to 1
+/// is at the next row.
+#[inline(always)]
+fn split<L: Lanes>(lanes: L, warp: &Warp, place: L::F) -> (L::I, L::F) {
+    let row = place.to_int().min(lanes.splat_int(warp.grid.cells[1] as i32 - 1));
+    (row, place - row.to_float())
 }
 
 /// The `t` in `[0, 1]` at which the integral from 0 to `t` of a function that goes linearly from `a` at 0 to `b` at 1 is `q`;

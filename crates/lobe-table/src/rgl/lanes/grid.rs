@@ -131,3 +131,9 @@ pub(super) fn offsets<const CORNERS: usize>(slices: [usize; 2], stride: usize, w
         steps.iter().rev().enumerate().map(|(bit, step)| if corner >> bit & 1 == 1 { *step } else { 0 }).sum()
     })
 }
+
+/// The pattern without the azimuth, the slowest axis: the first half of the corners.
+#[inline(always)]
+pub(super) fn first<const N: usize, const ALL: usize>(offsets: &[usize; ALL]) -> [usize; N] {
+    *offsets.first_chunk().expect("no more corners than there are")
+}

@@ -21,31 +21,32 @@ impl Blend {
 }
 
 /// The row of a cell and the next, blended: at a fraction between them the density, in cells, at the left and the right
-/// end, and the integral up to the left end. `SLICES` is half of `CORNERS`.
+/// end, and the integral up to the left end.
 #[inline(always)]
-pub(super) fn columns<L: Lanes, const SLICES: usize, const CORNERS: usize>(
+pub(super) fn columns<L: Lanes, const SLICES: usize>(
     lanes: L,
-    texels: &Block<'_, CORNERS, 4>,
-    base: L::I,
+    warp: &Warp,
+    cells: &Block<'_, 3, 4>,
+    mut base: L::I,
     weights: [L::F; SLICES],
     y: L::F,
 ) -> [L::F; 3] {
-    let corners = lanes.gather_quads(texels, base);
-    let lower = lanes.splat(1.0) - y;
+    let azimuth = lanes.splat_int(warp.fine().azimuth);
+    let ends = [lanes.splat(1.0) - y, y];
     let mut sums = [lanes.splat(0.0); 3];
     let mut slice = 0;
     while slice < SLICES {
-        let [above, below] = [weights[slice] * lower, weights[slice] * y];
-        let mut row = 0;
-        while row < 2 {
-            let weight = if row == 0 { above } else { below };
-            let [left, integral, right, _] = corners[2 * slice + row];
-            sums[0] = lanes.mul_add(left, weight, sums[0]);
-            sums[1] = lanes.mul_add(right, weight, sums[1]);
-            sums[2] = lanes.mul_add(integral, weight, sums[2]);
-            row += 1;
+        let [integral, left, right] = lanes.gather_quads(cells, base);
+        let mut corner = 0;
+        while corner < 4 {
+            let weight = weights[slice + corner / 2] * ends[corner % 2];
+            sums[0] = lanes.mul_add(left[corner], weight, sums[0]);
+            sums[1] = lanes.mul_add(right[corner], weight, sums[1]);
+            sums[2] = lanes.mul_add(integral[corner], weight, sums[2]);
+            corner += 1;
         }
-        slice += 1;
+        base = base + azimuth;
+        slice += 2;
     }
     sums
 }
@@ -54,20 +55,26 @@ pub(super) fn columns<L: Lanes, const SLICES: usize, const CORNERS: usize>(
 #[inline(always)]
 pub(super) fn rows<L: Lanes, const SLICES: usize>(
     lanes: L,
-    rows: &Block<'_, SLICES, 4>,
-    base: L::I,
+    warp: &Warp,
+    rows: &Block<'_, 2, 4>,
+    mut base: L::I,
     weights: [L::F; SLICES],
 ) -> [L::F; 3] {
-    let corners = lanes.gather_quads(rows, base);
+    let azimuth = lanes.splat_int(warp.ends().azimuth);
     let mut sums = [lanes.splat(0.0); 3];
     let mut slice = 0;
     while slice < SLICES {
+        let [here, next] = lanes.gather_quads(rows, base);
         let mut k = 0;
-        while k < 3 {
-            sums[k] = lanes.mul_add(corners[slice][k], weights[slice], sums[k]);
+        while k < 2 {
+            let weight = weights[slice + k];
+            sums[0] = lanes.mul_add(here[2 + k], weight, sums[0]);
+            sums[1] = lanes.mul_add(next[2 + k], weight, sums[1]);
+            sums[2] = lanes.mul_add(here[k], weight, sums[2]);
             k += 1;
         }
-        slice += 1;
+        base = base + azimuth;
+        slice += 2;
     }
     sums
 }
@@ -92,7 +99,7 @@ fn integral<L: Lanes>(lanes: L, a: L::F, b: L::F, t: L::F) -> L::F {
 
 /// Fills `s`, the uniform positions of queries `0..n`, and the density over the unit square at `places`.
 #[inline(always)]
-pub(super) fn run<L: Lanes, const SLICES: usize, const CORNERS: usize>(
+pub(super) fn run<L: Lanes, const SLICES: usize>(
     lanes: L,
     n: usize,
     warp: &Warp,
@@ -101,9 +108,9 @@ pub(super) fn run<L: Lanes, const SLICES: usize, const CORNERS: usize>(
     s: &mut [Column; 2],
     density: &mut Column,
 ) {
-    let (texels, row_block) = (warp.texels::<CORNERS>(), warp.rows::<SLICES>());
+    let (cells, row_block) = (warp.cells(), warp.rows());
     let placer = warp.grid.placer(lanes);
-    let [row_stride, slice_stride] = warp.row_strides().map(|stride| lanes.splat_int(stride));
+    let ends = warp.ends();
     let scale = lanes.splat(warp.scale);
 
     // The integral of the row so far, first on its own: the texels of the two loads are far apart.
@@ -112,7 +119,7 @@ pub(super) fn run<L: Lanes, const SLICES: usize, const CORNERS: usize>(
         let weights = slices::<L, SLICES>(lanes, query, blend);
         let [x, y] = [places.fractions[0].load(lanes, query), places.fractions[1].load(lanes, query)];
         let base = places.base.load(lanes, query);
-        let [left, right, before] = columns::<L, SLICES, CORNERS>(lanes, &texels, base, weights, y);
+        let [left, right, before] = columns(lanes, warp, &cells, base, weights, y);
         s[0].store(lanes, query, before + integral(lanes, left, right, x));
         density.store(lanes, query, lanes.mul_add(x, right - left, left) * scale);
         query += L::LANES;
@@ -123,8 +130,8 @@ pub(super) fn run<L: Lanes, const SLICES: usize, const CORNERS: usize>(
         let weights = slices::<L, SLICES>(lanes, query, blend);
         let y = places.fractions[1].load(lanes, query);
         let (cells, _) = placer.cells(lanes, [u[0].load(lanes, query), u[1].load(lanes, query)]);
-        let base = cells[1] * row_stride + blend.slice.load(lanes, query) * slice_stride;
-        let [here, next, below] = rows(lanes, &row_block, base, weights);
+        let base = cells[1] * lanes.splat_int(ends.stride) + ends.of_slice(lanes, blend.slice.load(lanes, query));
+        let [here, next, below] = rows(lanes, warp, &row_block, base, weights);
         let total = lanes.mul_add(y, next - here, here);
         let x = (s[0].load(lanes, query) / total).masked(lanes.splat(0.0).lt(total));
         s[0].store(lanes, query, x);
@@ -135,7 +142,7 @@ pub(super) fn run<L: Lanes, const SLICES: usize, const CORNERS: usize>(
 
 /// The density over the unit square at `places` of queries `0..n`, multiplied into `density`.
 #[inline(always)]
-pub(super) fn multiply_density<L: Lanes, const SLICES: usize, const CORNERS: usize>(
+pub(super) fn multiply_density<L: Lanes, const SLICES: usize>(
     lanes: L,
     n: usize,
     warp: &Warp,
@@ -143,14 +150,14 @@ pub(super) fn multiply_density<L: Lanes, const SLICES: usize, const CORNERS: usi
     places: &Places,
     density: &mut Column,
 ) {
-    let texels = warp.texels::<CORNERS>();
+    let cells = warp.cells();
     let scale = lanes.splat(warp.scale);
     let mut query = 0;
     while query < n {
         let weights = slices::<L, SLICES>(lanes, query, blend);
         let [x, y] = [places.fractions[0].load(lanes, query), places.fractions[1].load(lanes, query)];
         let base = places.base.load(lanes, query);
-        let [left, right, _] = columns::<L, SLICES, CORNERS>(lanes, &texels, base, weights, y);
+        let [left, right, _] = columns(lanes, warp, &cells, base, weights, y);
         let here = lanes.mul_add(x, right - left, left) * scale;
         density.store(lanes, query, density.load(lanes, query) * here);
         query += L::LANES;

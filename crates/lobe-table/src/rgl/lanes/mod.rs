@@ -68,7 +68,7 @@ pub struct RglTable {
 }
 
 impl RglTable {
-    /// Normalises the distributions and lays everything out: about 8 bytes a texel of the distributions, and 16 bytes a
+    /// Normalises the distributions and lays everything out: about 34 bytes a texel of the distributions, and 16 bytes a
     /// texel of RGB.
     ///
     /// # Errors

@@ -87,7 +87,7 @@ impl<D: Directions> Sampling<'_, D> {
             let left = (count - at).min(BLOCK);
             let n = left.next_multiple_of(L::LANES);
             let block = wi.block(at, &mut padding);
-            let Scratch { frame, incident, blend, u_m, s, density, .. } = &mut scratch;
+            let Scratch { frame, incident, blend, u_m, s, density, weights, .. } = &mut scratch;
             reflect::incident(lanes, n, block, table.symmetry, frame);
             angles::incident(lanes, n, table.azimuthal, frame, incident);
             table.blend::<L, SLICES>(lanes, n, &mut frame.valid, incident, blend);
@@ -100,9 +100,9 @@ impl<D: Directions> Sampling<'_, D> {
                 s[1].0[query] = uniform[second];
             }
             *density = Column([1.0; BLOCK]);
-            draw::run::<L, SLICES, PAIRS>(lanes, n, &table.luminance, blend, s, density);
+            draw::run::<L, SLICES>(lanes, n, &table.luminance, blend, weights, s, density);
             *u_m = *s;
-            draw::run::<L, SLICES, PAIRS>(lanes, n, &table.vndf, blend, u_m, density);
+            draw::run::<L, SLICES>(lanes, n, &table.vndf, blend, weights, u_m, density);
             reflect::run(lanes, n, (block, table.symmetry), (u_m, frame), &mut wo, density);
             let weights = &mut drawn.weights[at * channels..][..left * channels];
             table.values::<L, SLICES, PAIRS, FOURS>(lanes, n, &mut scratch, weights);

@@ -2,9 +2,8 @@
 
 use lobe_lane::{Block, Lanes};
 
-use super::grid::{Grid, Places, offsets};
+use super::grid::{Grid, Places, first, offsets};
 use super::invert::Blend;
-use super::warp::first;
 use crate::invalid::Invalid;
 use crate::passes::block::{BLOCK, Column};
 use crate::passes::texels::{self, Tile};

@@ -1,88 +1,161 @@
 //! Densities on the unit square with their cumulative distributions, laid out for lanes.
 
-use lobe_lane::Block;
+use lobe_lane::{Block, Lanes};
 
-use super::grid::{Grid, offsets};
+use super::grid::Grid;
 use crate::invalid::Invalid;
 use crate::rgl::{Images, marginal};
 use crate::storage::Storage;
 
 /// Normalised slices: what [`rgl::Warp`](crate::rgl::Warp) is in `f64`.
 ///
-/// The density and the conditional integral of a texel lie side by side, so that one load of four floats brings what a
-/// row of a cell needs: density and integral at its left, density at its right end.
+/// A blend reads the same texel of two neighbouring zenith angles, and a cell two neighbouring rows. All four lie side by
+/// side, so that a step of a search takes one load of four floats, and what a density needs shares one or two lines of
+/// the cache. The price is that every texel is kept four times.
 #[derive(Clone, Debug)]
 pub(super) struct Warp {
     pub(super) grid: Grid,
+    /// For a texel, its slice and row first: the integrals up to it of (this slice, this row), (this slice, next row),
+    /// (next slice, this row), (next slice, next row); then their densities.
     texels: Storage<f32>,
-    /// For each row of a slice its integral, that of the next row, and the integral of the slice below it; a fourth
-    /// float is not used.
+    /// The integrals of every [`STRIDE`]th texel by themselves, four floats each: the first steps of a search stay in a
+    /// table that the second cache holds.
+    coarse: Storage<f32>,
+    /// For a row: the integral of what lies below it in this slice and the next, then its own integral in both.
     rows: Storage<f32>,
-    row_offsets: [usize; 4],
-    texel_offsets: [usize; 8],
+    /// Slices of an azimuth; 0 where there is only one, which is its own neighbour.
+    zeniths: usize,
     /// Cells of the unit square: from a density in cells to one on the square.
     pub(super) scale: f32,
 }
 
-/// Floats of a row of [`Warp::rows`].
+/// Floats of a texel of [`Warp::texels`], and of a row of [`Warp::rows`].
+const TEXEL: usize = 8;
 const ROW: usize = 4;
+/// Texels of [`Warp::texels`] for one of [`Warp::coarse`], and the floats of that one.
+pub(super) const STRIDE: usize = 8;
+const COARSE: usize = 4;
 
 impl Warp {
     /// Normalises and lays out `slices` (azimuths, zenith angles) images.
     pub(super) fn new(part: &'static str, images: &Images, slices: [usize; 2]) -> Result<Self, Invalid> {
         let [height, width] = images.size();
-        let (grid, len) = Grid::new(part, images, [images.slices(), height, width], 2)?;
+        let [azimuths, zeniths] = slices;
+        let (grid, len) = Grid::new(part, images, [images.slices(), height - 1, width], TEXEL)?;
         let exact = marginal::Warp::new(images);
         let (mut texels, mut rows) = (Storage::zeros(len), Storage::zeros(images.slices() * height * ROW));
-        let mut nodes = texels.as_mut_slice().chunks_exact_mut(2);
+        let coarse_len = images.slices() * (height - 1) * coarse_columns(width - 1) * COARSE;
+        let mut coarse = Storage::zeros(coarse_len);
+        let mut skips = coarse.as_mut_slice().chunks_exact_mut(COARSE);
+        let mut nodes = texels.as_mut_slice().chunks_exact_mut(TEXEL);
         let mut ends = rows.as_mut_slice().chunks_exact_mut(ROW);
         for slice in 0..images.slices() {
-            for row in 0..height {
+            // The last zenith angle has no next.
+            let next = if (slice + 1) % zeniths == 0 { slice } else { slice + 1 };
+            for row in 0..height - 1 {
                 for col in 0..width {
-                    let node = exact.node(slice, row, col).map(|x| x as f32);
-                    nodes.next().expect("a node a texel").copy_from_slice(&node);
+                    let corners = [(slice, row), (slice, row + 1), (next, row), (next, row + 1)];
+                    let node = nodes.next().expect("a node a texel");
+                    for (corner, (slice, row)) in corners.into_iter().enumerate() {
+                        let [density, integral] = exact.node(slice, row, col);
+                        (node[corner], node[4 + corner]) = (integral as f32, density as f32);
+                    }
+                    if col % STRIDE == 0 && col < width - 1 {
+                        skips.next().expect("a place for some").copy_from_slice(&node[..4]);
+                    }
                 }
-                let ([here, below], [next, _]) = (exact.row(slice, row), exact.row(slice, (row + 1).min(height - 1)));
-                ends.next().expect("an entry a row").copy_from_slice(&[here as f32, next as f32, below as f32, 0.0]);
+            }
+            for row in 0..height {
+                let ([this, below], [other, other_below]) = (exact.row(slice, row), exact.row(next, row));
+                let entry = [below, other_below, this, other].map(|x| x as f32);
+                ends.next().expect("an entry a row").copy_from_slice(&entry);
             }
         }
-        let [_, row, slice] = grid.strides;
         Ok(Warp {
+            zeniths: if azimuths > 1 { zeniths } else { 0 },
             grid,
             texels,
             rows,
-            row_offsets: offsets(slices, height * ROW, &[]),
-            texel_offsets: offsets(slices, slice, &[row]),
+            coarse,
             scale: exact.cells() as f32,
         })
     }
 
-    /// For a base at a cell: the upper and lower row of the cell in each slice of a blend.
+    /// For a base at a cell: the integrals at its left, and the densities at its left and right.
     #[inline(always)]
-    pub(super) fn texels<const CORNERS: usize>(&self) -> Block<'_, CORNERS, 4> {
-        Block::new(self.texels.as_slice(), first(&self.texel_offsets))
+    pub(super) fn cells(&self) -> Block<'_, 3, 4> {
+        Block::new(self.texels.as_slice(), [0, 4, TEXEL + 4])
     }
 
-    /// For a base at a row: that row in each slice of a blend.
+    /// For a base at a row: that row and the next.
     #[inline(always)]
-    pub(super) fn rows<const SLICES: usize>(&self) -> Block<'_, SLICES, 4> {
-        Block::new(self.rows.as_slice(), first(&self.row_offsets))
+    pub(super) fn rows(&self) -> Block<'_, 2, 4> {
+        Block::new(self.rows.as_slice(), [0, ROW])
     }
 
-    /// Floats from a row to the next and from a slice to the next, in [`rows`](Self::rows).
+    /// The integrals up to the rows, without columns.
     #[inline(always)]
-    pub(super) fn row_strides(&self) -> [i32; 2] {
-        let rows = self.grid.cells[1] + 1;
-        [ROW as i32, (ROW * rows) as i32]
+    pub(super) fn ends(&self) -> Entries<'_> {
+        let rows = self.grid.cells[1];
+        self.entries(&self.rows, rows, [ROW, 0, (rows + 1) * ROW])
+    }
+
+    /// The integrals up to the columns.
+    #[inline(always)]
+    pub(super) fn fine(&self) -> Entries<'_> {
+        self.entries(&self.texels, self.grid.cells[0], self.grid.strides)
+    }
+
+    /// The integrals up to every [`STRIDE`]th column.
+    #[inline(always)]
+    pub(super) fn coarse(&self) -> Entries<'_> {
+        let [columns, rows] = self.grid.cells;
+        let count = coarse_columns(columns);
+        self.entries(&self.coarse, count, [COARSE, count * COARSE, rows * count * COARSE])
+    }
+
+    #[inline(always)]
+    fn entries<'a>(&self, floats: &'a Storage<f32>, count: usize, strides: [usize; 3]) -> Entries<'a> {
+        let [stride, row, slice] = strides.map(|stride| stride as i32);
+        let azimuth = self.zeniths as i32 * slice;
+        Entries { block: Block::new(floats.as_slice(), [0]), count: count as i32, stride, row, slice, azimuth }
     }
 
     pub(super) fn bytes(&self) -> usize {
-        self.texels.bytes() + self.rows.bytes()
+        self.texels.bytes() + self.rows.bytes() + self.coarse.bytes()
     }
 }
 
-/// The pattern without the azimuth, the slowest axis: the first half of the corners.
+/// How many of so many columns have a coarse texel.
 #[inline(always)]
-pub(super) fn first<const N: usize, const ALL: usize>(offsets: &[usize; ALL]) -> [usize; N] {
-    *offsets.first_chunk().expect("no more corners than there are")
+fn coarse_columns(columns: usize) -> usize {
+    columns.div_ceil(STRIDE)
+}
+
+/// A table to search: ascending entries of four floats, one behind the other, for each row of each slice.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Entries<'a> {
+    pub(super) block: Block<'a, 1, 4>,
+    /// Entries that a search chooses from.
+    pub(super) count: i32,
+    /// Floats from an entry to the next, from a row to the next, from a slice to the next, and to the slice of the next
+    /// azimuth.
+    pub(super) stride: i32,
+    pub(super) row: i32,
+    pub(super) slice: i32,
+    pub(super) azimuth: i32,
+}
+
+impl Entries<'_> {
+    /// Where a slice begins.
+    #[inline(always)]
+    pub(super) fn of_slice<L: Lanes>(&self, lanes: L, slice: L::I) -> L::I {
+        slice * lanes.splat_int(self.slice)
+    }
+
+    /// Where a row of a slice begins.
+    #[inline(always)]
+    pub(super) fn of_row<L: Lanes>(&self, lanes: L, slice: L::I, row: L::I) -> L::I {
+        self.of_slice(lanes, slice) + row * lanes.splat_int(self.row)
+    }
 }
