@@ -72,18 +72,29 @@ pub fn large_anisotropic() -> Samples {
 
 /// A material of the sizes that the RGB files of the EPFL database have, of smooth values.
 pub fn rgl() -> Rgl {
-    let theta_i: Vec<f32> = (0..8).map(|i| 1.4 * i as f32 / 7.0).collect();
+    smooth_rgl(vec![0.0], 8, [128, 32], Channels::Rgb, true)
+}
+
+/// A smaller one that is anisotropic and spectral, without the microfacet factor.
+pub fn rgl_anisotropic() -> Rgl {
+    let phi_i = (0..6).map(|i| std::f32::consts::PI * (0.4 * i as f32 - 1.0)).collect();
+    let nanometres = (0..11).map(|i| 400.0 + 30.0 * f64::from(i)).collect();
+    smooth_rgl(phi_i, 4, [24, 12], Channels::Spectral(nanometres), false)
+}
+
+fn smooth_rgl(phi_i: Vec<f32>, zeniths: usize, [fine, coarse]: [usize; 2], channels: Channels, jacobian: bool) -> Rgl {
+    let slices = phi_i.len() * zeniths;
     Rgl::new(Parts {
         description: "waves".into(),
-        phi_i: vec![0.0],
-        ndf: waves("ndf", [1, 2, 128], 0.1),
-        sigma: waves("sigma", [1, 2, 128], 0.3),
-        vndf: waves("vndf", [theta_i.len(), 128, 128], 0.1),
-        luminance: waves("luminance", [theta_i.len(), 32, 32], 0.1),
-        channels: Channels::Rgb,
-        spectra: waves("rgb", [3 * theta_i.len(), 32, 32], 0.1),
-        theta_i,
-        jacobian: true,
+        phi_i,
+        theta_i: (0..zeniths).map(|i| 1.4 * i as f32 / (zeniths - 1) as f32).collect(),
+        ndf: waves("ndf", [1, 2, fine], 0.1),
+        sigma: waves("sigma", [1, 2, fine], 0.3),
+        vndf: waves("vndf", [slices, fine, fine], 0.1),
+        luminance: waves("luminance", [slices, coarse, coarse], 0.1),
+        spectra: waves("spectra", [channels.count() * slices, coarse, coarse], 0.1),
+        channels,
+        jacobian,
         valid: None,
     })
     .expect("a valid material")

@@ -19,7 +19,7 @@ const PSI: f64 = 2.0 * bounds::AZIMUTH.abs + TANGENT + LAST_PLACE;
 /// Roundings between the sines of the angles and the vector across the zenith, both forms together.
 const ACROSS: f64 = 45.0 * UNIT;
 /// Roundings of weights and sums of up to 16 corners, both forms together.
-const SUM: f64 = 44.0 * UNIT;
+pub(super) const SUM: f64 = 44.0 * UNIT;
 /// How far outside an axis a query counts as inside, as the table has it.
 const INSIDE: f64 = 1e-6;
 
@@ -67,6 +67,11 @@ impl<'a> FusedBound<'a> {
             }
         }
         bound
+    }
+
+    /// The largest value of the table, without its sign.
+    pub(super) fn largest(&self) -> f64 {
+        self.largest
     }
 
     /// The largest difference between the values at two knots of an axis.

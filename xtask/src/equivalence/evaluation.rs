@@ -15,7 +15,7 @@ pub(super) fn record<L: Lanes>(lanes: L) -> Vec<Record> {
 }
 
 fn evaluate<L: Lanes>(lanes: L, case: &Case) -> Vec<Record> {
-    let Case { name, table, queries, bounds } = case;
+    let Case { name, table, queries, bounds, .. } = case;
     let channels = table.channel_count();
     let Queries { wi, wo } = queries;
     let mut vectors = vec![f32::NAN; wi.len() * channels];

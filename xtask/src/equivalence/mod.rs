@@ -7,12 +7,15 @@
 mod axes;
 mod bound;
 mod evaluation;
+mod interpolation;
 mod lanes;
 mod math;
 mod memory;
 mod patterns;
 mod record;
 mod report;
+mod rgl;
+mod sampling;
 mod subject;
 mod tables;
 mod texels;
@@ -43,12 +46,29 @@ pub enum Property {
     Axes,
     /// Whole evaluations.
     Evaluation,
+    /// Interpolation at known angles.
+    Interpolation,
+    /// Materials of the EPFL database: values, densities, samples.
+    Rgl,
+    /// Samples of tables and their densities.
+    Sampling,
 }
 
 impl Property {
     /// All of them.
-    pub const ALL: [Property; 8] =
-        [Self::Floats, Self::Ints, Self::Masks, Self::Memory, Self::Texels, Self::Math, Self::Axes, Self::Evaluation];
+    pub const ALL: [Property; 11] = [
+        Self::Floats,
+        Self::Ints,
+        Self::Masks,
+        Self::Memory,
+        Self::Texels,
+        Self::Math,
+        Self::Axes,
+        Self::Evaluation,
+        Self::Interpolation,
+        Self::Rgl,
+        Self::Sampling,
+    ];
 
     /// The name in the printed table.
     pub fn name(self) -> &'static str {
@@ -61,6 +81,9 @@ impl Property {
             Property::Math => "math",
             Property::Axes => "axes",
             Property::Evaluation => "evaluation",
+            Property::Interpolation => "interpolation",
+            Property::Rgl => "rgl",
+            Property::Sampling => "sampling",
         }
     }
 
@@ -75,6 +98,9 @@ impl Property {
             Property::Math => lanes.vectorize(math::Functions),
             Property::Axes => lanes.vectorize(axes::Searches),
             Property::Evaluation => evaluation::record(lanes),
+            Property::Interpolation => interpolation::record(lanes),
+            Property::Rgl => rgl::record(lanes),
+            Property::Sampling => sampling::record(lanes),
         }
     }
 }

@@ -20,6 +20,8 @@ pub(super) struct Case {
     /// What the results are called; several cases share a name.
     pub(super) name: String,
     pub(super) table: Table,
+    /// The largest value of the table, without its sign.
+    pub(super) largest: f64,
     pub(super) queries: Queries,
     /// For each query how far the fused form may be away; none for queries that are not unit vectors.
     pub(super) bounds: Option<Vec<Allowed>>,
@@ -85,7 +87,7 @@ fn add(cases: &mut Vec<Case>, name: &str, samples: &Samples, edges: &Edges) {
         };
         let bounds = || queries.wi.iter().zip(&queries.wo).map(allowed).collect();
         let (name, bounds) = (format!("{name}, {set}"), unit.then(bounds));
-        cases.push(Case { name, table: table.clone(), queries, bounds });
+        cases.push(Case { name, table: table.clone(), largest: bound.largest(), queries, bounds });
     }
 }
 
@@ -149,7 +151,7 @@ fn random(seed: u64, channels: usize, anisotropic: bool, scatter: Scatter) -> Sa
     }
 }
 
-fn workload(input: Input) -> Queries {
+pub(super) fn workload(input: Input) -> Queries {
     let pairs: Pairs = input.pairs(QUERIES);
     let (wi, wo) = pairs.vectors();
     Queries { wi, wo }
@@ -157,7 +159,7 @@ fn workload(input: Input) -> Queries {
 
 /// All pairs of the normal and its neighbours, grazing directions, mirror images, directions below the horizon, and
 /// such as are none.
-fn adversarial() -> Queries {
+pub(super) fn adversarial() -> Queries {
     let mut directions = vec![
         [0.0, 0.0, 1.0],
         [-0.0, -0.0, 1.0],

@@ -3,6 +3,7 @@
 mod bars;
 mod curve;
 mod equivalence;
+mod formats;
 mod machine;
 mod measure;
 mod page;
@@ -22,6 +23,8 @@ use serde::Serialize;
 
 use equivalence::EquivalenceSummary;
 use rows::Row;
+
+use crate::golden::Comparison;
 
 pub(crate) use machine::Machine;
 pub(crate) use rows::{nanoseconds, times};
@@ -51,6 +54,7 @@ struct Report {
     quick: bool,
     rows: Vec<Row>,
     equivalence: EquivalenceSummary,
+    formats: Vec<Comparison>,
 }
 
 /// Measures, prints and writes.
@@ -61,7 +65,13 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
     let machine = Machine::here();
     let plan = if options.quick { measure::Plan::QUICK } else { measure::Plan::FULL };
     let rows = measure::all(plan, &options.only)?;
-    let report = Report { machine, quick: options.quick, rows, equivalence: equivalence::summary() };
+    let report = Report {
+        machine,
+        quick: options.quick,
+        rows,
+        equivalence: equivalence::summary(),
+        formats: formats::compare()?,
+    };
 
     terminal::print(&report);
     std::fs::create_dir_all(&options.out).with_context(|| format!("cannot create {}", options.out.display()))?;

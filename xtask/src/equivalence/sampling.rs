@@ -1,0 +1,72 @@
+//! Samples of tables, and their densities.
+
+use std::sync::Arc;
+
+use lobe_lane::Lanes;
+use lobe_table::{Edges, Given, Sampled, Sampler, SamplerOptions};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg32;
+
+use super::record::{Bound, Record};
+use super::tables::{Case, Queries, adversarial, cases};
+
+/// Every table once, with a sampler that this backend built.
+pub(super) fn record<L: Lanes>(lanes: L) -> Vec<Record> {
+    let is_wanted = |case: &&Case| case.name.ends_with("incoherent") && *case.table.edges() == Edges::default();
+    cases().iter().filter(is_wanted).flat_map(|case| sample(lanes, case)).collect()
+}
+
+/// A histogram has steps, and a draw beside one may fall on either side, so the fused form promises no bits: that its
+/// samples have their density is for statistics to show.
+fn sample<L: Lanes>(lanes: L, case: &Case) -> Vec<Record> {
+    let channels = case.table.channel_count();
+    let sampler = Sampler::new(lanes, Arc::new(case.table.clone()), &SamplerOptions::default());
+    let sampler = sampler.expect("options that suit every table");
+    let name = case.name.trim_end_matches(", incoherent");
+    let mut queries = case.queries.clone();
+    let Queries { wi, wo } = adversarial();
+    queries.wi.extend(wi);
+    queries.wo.extend(wo);
+    let count = queries.wi.len();
+    let u = numbers(count);
+
+    let mut records = Vec::new();
+    for given in [Given::Light, Given::Viewer] {
+        let mut directions = vec![[f32::NAN; 3]; count];
+        let (mut weights, mut pdfs, mut densities) =
+            (vec![f32::NAN; count * channels], vec![f32::NAN; count], vec![f32::NAN; count]);
+        let out = Sampled { directions: &mut directions, weights: &mut weights, pdfs: &mut pdfs };
+        sampler.sample_batch(lanes, given, &queries.wi, &u, out);
+        sampler.pdf_batch(lanes, given, &queries.wi, &queries.wo, &mut densities);
+
+        let agrees = (0..count).map(|query| {
+            let mut weight = vec![f32::NAN; channels];
+            let (direction, pdf) = sampler.sample(lanes, given, queries.wi[query], u[query], &mut weight);
+            let found = direction.iter().chain([&pdf]).chain(&weight);
+            let expected = directions[query].iter().chain([&pdfs[query]]).chain(&weights[query * channels..]);
+            found.zip(expected).all(|(a, b)| a.to_bits() == b.to_bits())
+        });
+        records.push(Record::exact(format!("{name}: single sample as batch"), agrees.collect::<Vec<bool>>()));
+        let results = [
+            ("directions", directions.into_flattened()),
+            ("densities of samples", pdfs),
+            ("weights", weights),
+            ("densities", densities),
+        ];
+        records.extend(
+            results.map(|(what, values)| Record::bounded(format!("{name}: {what}"), values, Bound::StrictOnly)),
+        );
+    }
+    records
+}
+
+/// Pairs of numbers, among them the ends of what is allowed, and what is not.
+pub(super) fn numbers(count: usize) -> Vec<[f32; 2]> {
+    let mut rng = Pcg32::seed_from_u64(12);
+    let mut u: Vec<[f32; 2]> = (0..count).map(|_| [rng.random(), rng.random()]).collect();
+    let ends = [0.0, 1.0, 1.0 - f32::EPSILON / 2.0, -1.0, f32::NAN];
+    for (k, pair) in u.iter_mut().take(ends.len() * ends.len()).enumerate() {
+        *pair = [ends[k % ends.len()], ends[k / ends.len()]];
+    }
+    u
+}
