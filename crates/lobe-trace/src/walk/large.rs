@@ -9,7 +9,7 @@ use super::Walk;
 use super::stack::LargeEntry;
 use crate::block::{Block, Found, RAYS, first_ray};
 use crate::bvh::Node;
-use crate::leaves::Leaves;
+use crate::leaves::{Bounded, Leaves};
 use crate::slab::{Beam, Sides, SlabRay, child_bits, least_lane};
 
 #[inline(always)]
@@ -85,7 +85,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                 live |= (group_meets(lanes, &sides, node, slot, rays, found, at) as u64) << at;
                 at += L::LANES;
             }
-            leaves.packet(lanes, child, rays, live, found);
+            leaves.packet(lanes, child, rays, live, found, Some(Bounded { beam: &beam, end: farthest }));
             farthest = farthest_best(lanes, found);
         }
     }

@@ -18,23 +18,24 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
     let t_min = lanes.splat(rays.t_min[ray]);
     let nodes = bvh.nodes.as_slice();
     let stack = stacks.single.as_mut_slice();
-    let mut keys = [0.0; MAX_LANES];
+    let ready = leaves.ready(lanes, rays, ray);
+    let mut best = found.t[ray];
     let mut waiting = 0;
     let mut child = from;
     loop {
         if child.is_leaf() {
-            leaves.single(lanes, child, rays, ray, found);
+            leaves.single(lanes, child, rays, ray, ready, found);
+            best = found.t[ray];
         } else {
             let node = &nodes[child.index()];
-            let best = lanes.splat(found.t[ray]);
+            let mut enters = [t_min; W];
             let mut bits = 0;
             let mut slot = 0;
             while slot < W {
                 let [near, far] = sides.children(lanes, node, slot);
                 let [enter, leave] = slab.interval(lanes, near, far);
-                let enter = enter.max(t_min);
-                bits |= child_bits::<L, W>(enter.le(leave.min(best)), slot);
-                lanes.store(&mut keys[slot..], enter);
+                enters[slot / L::LANES] = enter.max(t_min);
+                bits |= child_bits::<L, W>(enters[slot / L::LANES].le(leave.min(lanes.splat(best))), slot);
                 slot += L::LANES;
             }
             // Most often one child is met, or none.
@@ -42,23 +43,49 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                 child = node.children[bits.trailing_zeros() as usize & (W - 1)];
                 continue;
             }
-            // Sorted in among themselves, the nearest on top.
-            let floor = waiting;
-            while bits != 0 {
-                let slot = bits.trailing_zeros() as usize & (W - 1);
-                bits &= bits - 1;
-                let entry = Entry { key: keys[slot], child: node.children[slot] };
-                let mut place = waiting;
-                while place > floor && stack[place - 1].key < entry.key {
-                    stack[place] = stack[place - 1];
-                    place -= 1;
+            if bits != 0 {
+                let mut keys = [0.0; MAX_LANES];
+                let mut slot = 0;
+                while slot < W {
+                    lanes.store(&mut keys[slot..], enters[slot / L::LANES]);
+                    slot += L::LANES;
                 }
-                stack[place] = entry;
+                let mut next = || {
+                    let slot = bits.trailing_zeros() as usize & (W - 1);
+                    bits &= bits - 1;
+                    (Entry { key: keys[slot], child: node.children[slot] }, bits == 0)
+                };
+                // The nearer of the first two; the others wait, sorted in among themselves, the nearest on top.
+                let ((one, _), (other, both)) = (next(), next());
+                let (near, far) = if other.key < one.key { (other, one) } else { (one, other) };
+                let floor = waiting;
+                stack[waiting] = far;
                 waiting += 1;
+                if both {
+                    child = near.child;
+                    continue;
+                }
+                stack[waiting] = near;
+                waiting += 1;
+                loop {
+                    let (entry, last) = next();
+                    let mut place = waiting;
+                    while place > floor && stack[place - 1].key < entry.key {
+                        stack[place] = stack[place - 1];
+                        place -= 1;
+                    }
+                    stack[place] = entry;
+                    waiting += 1;
+                    if last {
+                        break;
+                    }
+                }
+                waiting -= 1;
+                child = stack[waiting].child;
+                continue;
             }
         }
         // A child that begins exactly at the best hit may still hold one that wins the tie.
-        let best = found.t[ray];
         loop {
             if waiting == 0 {
                 return;
