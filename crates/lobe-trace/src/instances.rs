@@ -66,6 +66,9 @@ impl<const W: usize> Leaves for Instances<'_, W> {
     fn ready<L: Lanes>(&self, _lanes: L, _rays: &Block, _ray: usize) {}
 
     #[inline(always)]
+    fn prefetch<L: Lanes>(&self, _lanes: L, _leaf: Child) {}
+
+    #[inline(always)]
     fn packet<L: Lanes>(
         &mut self,
         lanes: L,
@@ -89,7 +92,7 @@ impl<const W: usize> Leaves for Instances<'_, W> {
             at += L::LANES;
         }
         let tree = &scene.trees[instance.mesh];
-        let leaves = &mut Triangles { blocks: &tree.blocks, instance: leaf.first() as i32, carried: true, any: self.any };
+        let leaves = &mut Triangles::new(&tree.blocks, leaf.first(), true, self.any);
         let walk = Walk { bvh: &tree.bvh, leaves, rays: &*self.local, found, stacks: &mut *self.stacks };
         walk.trace(lanes, self.form, carried);
     }
@@ -101,7 +104,7 @@ impl<const W: usize> Leaves for Instances<'_, W> {
         let at = first_ray::<L>(ray);
         let bits = self.carry(lanes, instance, rays, at, 1 << (ray - at));
         let tree = &scene.trees[instance.mesh];
-        let leaves = &mut Triangles { blocks: &tree.blocks, instance: leaf.first() as i32, carried: true, any: self.any };
+        let leaves = &mut Triangles::new(&tree.blocks, leaf.first(), true, self.any);
         let walk = Walk { bvh: &tree.bvh, leaves, rays: &*self.local, found, stacks: &mut *self.stacks };
         walk.trace(lanes, Form::Single, (bits as u64) << at);
     }

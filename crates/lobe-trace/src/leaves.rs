@@ -1,6 +1,6 @@
 //! What stands in the leaves of a tree: triangles, or instances of trees of triangles.
 
-use lobe_lane::{Floats, Ints, Lanes, Mask};
+use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
 
 use crate::block::{Block, Found, RAYS, first_ray, group_bits, mask_of};
 use crate::bvh::Child;
@@ -15,6 +15,9 @@ pub(crate) trait Leaves {
 
     /// See [`Ready`](Leaves::Ready).
     fn ready<L: Lanes>(&self, lanes: L, rays: &Block, ray: usize) -> Self::Ready<L>;
+
+    /// Has the caches bring a leaf in that may be met.
+    fn prefetch<L: Lanes>(&self, lanes: L, leaf: Child);
 
     /// Several rays of one octant have met the leaf: those of `live`, a bit each. What the beam around them does not
     /// meet is left out.
@@ -48,39 +51,68 @@ pub(crate) struct Bounded<'a> {
 }
 
 /// Triangles of one instance.
-#[derive(Clone, Copy)]
 pub(crate) struct Triangles<'a> {
-    pub blocks: &'a [TriangleBlock],
-    /// The number of the instance, and whether rays were carried into its space: then hits are kept inside its box.
-    pub instance: i32,
-    /// See [`instance`](Triangles::instance).
-    pub carried: bool,
+    blocks: &'a [TriangleBlock],
+    instance: i32,
+    /// Rays were carried into the instance's space: hits are kept inside its box.
+    carried: bool,
     /// Any hit is enough.
-    pub any: bool,
+    any: bool,
+    /// The boxes of the triangles of the block that was tested last, in the order of a node's rows.
+    boxes: [[f32; MAX_LANES]; 6],
 }
 
 /// The bits of all triangles of a block.
 const ALL: u32 = (1 << SLOTS) - 1;
 
-/// The bits of the triangles of a block whose boxes the beam meets.
-#[inline(always)]
-fn met<L: Lanes>(lanes: L, block: &TriangleBlock, sides: &Sides, beam: Bounded<'_>) -> u32 {
-    let mut bits = 0;
-    let mut slot = 0;
-    while slot < SLOTS {
-        let [near, far] = block.boxes(lanes, slot, sides);
-        let [enter, leave] = beam.beam.interval(lanes, near, far);
-        bits |= enter.le(leave.min(lanes.splat(beam.end))).bits() << slot;
-        slot += L::LANES;
+impl<'a> Triangles<'a> {
+    pub fn new(blocks: &'a [TriangleBlock], instance: usize, carried: bool, any: bool) -> Self {
+        Triangles { blocks, instance: instance as i32, carried, any, boxes: [[0.0; MAX_LANES]; 6] }
     }
-    bits & ALL
 }
 
 impl Triangles<'_> {
-    /// Tests triangles of a block, those of `slots`, against rays of a group that have one octant and one major axis.
+    /// Works out the boxes of a block's triangles.
+    #[inline(always)]
+    fn fit<L: Lanes>(&mut self, lanes: L, block: &TriangleBlock) {
+        let mut slot = 0;
+        while slot < SLOTS {
+            let [lower, upper] = block.extent(lanes, slot);
+            let mut axis = 0;
+            while axis < 3 {
+                lanes.store(&mut self.boxes[2 * axis][slot..], lower[axis]);
+                lanes.store(&mut self.boxes[2 * axis + 1][slot..], upper[axis]);
+                axis += 1;
+            }
+            slot += L::LANES;
+        }
+    }
+
+    /// The bits of the triangles of a block whose boxes the beam meets.
+    #[inline(always)]
+    fn met<L: Lanes>(&mut self, lanes: L, block: &TriangleBlock, sides: &Sides, beam: Bounded<'_>) -> u32 {
+        self.fit(lanes, block);
+        let mut bits = 0;
+        let mut slot = 0;
+        while slot < SLOTS {
+            let [mut near, mut far] = [[lanes.splat(0.0); 3]; 2];
+            let mut axis = 0;
+            while axis < 3 {
+                near[axis] = lanes.load(&self.boxes[sides.near[axis]][slot..]);
+                far[axis] = lanes.load(&self.boxes[sides.far[axis]][slot..]);
+                axis += 1;
+            }
+            let [enter, leave] = beam.beam.interval(lanes, near, far);
+            bits |= enter.le(leave.min(lanes.splat(beam.end))).bits() << slot;
+            slot += L::LANES;
+        }
+        bits & ALL
+    }
+
+    /// Tests triangles of a block, those of `slots`, whose boxes are at hand, against rays of a group that have one octant and one major axis.
     #[inline(always)]
     fn group<L: Lanes>(
-        &self,
+        &mut self,
         lanes: L,
         (block, slots): (&TriangleBlock, u32),
         (rays, at, bits): (&Block, usize, u32),
@@ -99,7 +131,13 @@ impl Triangles<'_> {
             if !candidates.mask.any() {
                 continue;
             }
-            let [near, far] = block.one_box(lanes, slot, sides);
+            let [mut near, mut far] = [[lanes.splat(0.0); 3]; 2];
+            let mut axis = 0;
+            while axis < 3 {
+                near[axis] = lanes.splat(self.boxes[sides.near[axis]][slot & (SLOTS - 1)]);
+                far[axis] = lanes.splat(self.boxes[sides.far[axis]][slot & (SLOTS - 1)]);
+                axis += 1;
+            }
             let own = SlabRay::group(lanes, rays, at).interval(lanes, near, far);
             let (mut t, mut hit) = (candidates.t, candidates.mask);
             // t is moved into where the ray is inside the boxes of the triangle and of the instance. So every box around
@@ -140,7 +178,7 @@ impl Triangles<'_> {
         lanes: L,
         block: &TriangleBlock,
         (rays, index): (&Block, usize),
-        (ray, axes, sides): OneRay<L>,
+        (ray, axes): OneRay<L>,
         found: &mut Found,
     ) {
         let all = lanes.first_n(SLOTS);
@@ -148,8 +186,8 @@ impl Triangles<'_> {
         while slot < SLOTS {
             let candidates = ray.test(lanes, block.several(lanes, slot, axes), all);
             if candidates.mask.any() {
-                let [near, far] = block.boxes(lanes, slot, &sides);
-                let own = SlabRay::single(lanes, rays, index).interval(lanes, near, far);
+                let [lower, upper] = block.extent(lanes, slot);
+                let own = SlabRay::single(lanes, rays, index).interval_any(lanes, lower, upper);
                 let (mut t, mut hit) = (candidates.t, candidates.mask);
                 if self.carried {
                     let instance = [lanes.splat(rays.enter[index]), lanes.splat(rays.leave[index])];
@@ -180,16 +218,22 @@ impl Triangles<'_> {
     }
 }
 
-/// What triangle tests know of one ray: the ray in all lanes, the order of its axes, and the sides of boxes it meets.
-type OneRay<L> = (ShearRay<L>, [usize; 3], Sides);
+/// What triangle tests know of one ray: the ray in all lanes, and the order of its axes.
+type OneRay<L> = (ShearRay<L>, [usize; 3]);
 
 impl Leaves for Triangles<'_> {
     type Ready<L: Lanes> = OneRay<L>;
 
     #[inline(always)]
     fn ready<L: Lanes>(&self, lanes: L, rays: &Block, ray: usize) -> OneRay<L> {
-        let axes = axes_of(rays.major[ray & (RAYS - 1)]);
-        (ShearRay::single(lanes, rays, ray), axes, Sides::of(rays.octant(ray)))
+        (ShearRay::single(lanes, rays, ray), axes_of(rays.major[ray & (RAYS - 1)]))
+    }
+
+    #[inline(always)]
+    fn prefetch<L: Lanes>(&self, lanes: L, leaf: Child) {
+        if let Some(block) = self.blocks.get(leaf.first()) {
+            block.prefetch(lanes);
+        }
     }
 
     #[inline(always)]
@@ -209,8 +253,11 @@ impl Leaves for Triangles<'_> {
             let block = &blocks[index];
             index += 1;
             let slots = match beam {
-                Some(beam) => met(lanes, block, &sides, beam),
-                None => ALL,
+                Some(beam) => self.met(lanes, block, &sides, beam),
+                None => {
+                    self.fit(lanes, block);
+                    ALL
+                }
             };
             let mut live = if slots == 0 { 0 } else { live };
             while live != 0 {

@@ -1,9 +1,8 @@
 //! The triangles of a leaf, four side by side.
 
-use lobe_lane::Lanes;
+use lobe_lane::{Floats, Lanes};
 
 use crate::bvh::{Binary, Child, WideBvh};
-use crate::slab::Sides;
 use crate::{Aabb, Mesh};
 
 /// Triangles of a block: more would stand empty in most leaves.
@@ -12,56 +11,54 @@ pub(crate) const SLOTS: usize = 4;
 /// Corners of triangles, a triangle a lane: `[corner][axis]`.
 pub(crate) type Corners<L> = [[<L as Lanes>::F; 3]; 3];
 
-/// Four triangles in four cache lines, the last of which only hits and tests of whole packets touch. Row `row` has the
-/// numbers `row SLOTS ..` of a triangle each: coordinate `axis` of corner `corner` is row `3 corner + axis`, then come
-/// the triangles' own numbers as bits, and their boxes in the order of a node's rows.
+/// Four triangles in three cache lines. Coordinate `axis` of corner `corner` of triangle `slot` is
+/// `floats[(3 corner + axis) SLOTS + slot]`; the triangles' numbers follow as bits.
 #[derive(Clone, Debug)]
-#[repr(C, align(64))]
+#[repr(C, align(32))]
 pub(crate) struct TriangleBlock {
-    floats: [f32; 16 * SLOTS],
+    floats: [f32; 10 * SLOTS],
 }
 
 impl TriangleBlock {
-    const NUMBERS: usize = 9;
-    const BOXES: usize = 10;
+    const NUMBERS: usize = 9 * SLOTS;
 
     fn new(mesh: &Mesh, triangles: &[u32]) -> Self {
         // NaN in empty slots: no comparison holds for them.
-        let mut floats = [f32::NAN; 16 * SLOTS];
+        let mut floats = [f32::NAN; 10 * SLOTS];
         for slot in 0..SLOTS {
             let number = triangles.get(slot).map_or(-1, |&triangle| triangle as i32);
-            floats[Self::NUMBERS * SLOTS + slot] = f32::from_bits(number as u32);
+            floats[Self::NUMBERS + slot] = f32::from_bits(number as u32);
         }
         for (slot, &triangle) in triangles.iter().enumerate() {
-            let corners = mesh.corners(triangle as usize);
-            for (row, &x) in corners.as_flattened().iter().enumerate() {
+            for (row, &x) in mesh.corners(triangle as usize).as_flattened().iter().enumerate() {
                 floats[row * SLOTS + slot] = x;
-            }
-            for (row, bound) in Aabb::of(corners).rows().into_iter().enumerate() {
-                floats[(Self::BOXES + row) * SLOTS + slot] = bound;
             }
         }
         TriangleBlock { floats }
     }
 
+    /// Has the caches bring it in.
     #[inline(always)]
-    fn at(&self, row: usize, slot: usize) -> f32 {
-        self.floats[(row * SLOTS + slot) & (16 * SLOTS - 1)]
+    pub fn prefetch<L: Lanes>(&self, lanes: L) {
+        lanes.prefetch(&self.floats);
+        lanes.prefetch(&self.floats[16..]);
+        lanes.prefetch(&self.floats[32..]);
     }
 
     /// The number of a triangle in its mesh; negative where the slot is empty.
     #[inline(always)]
     pub fn number(&self, slot: usize) -> i32 {
-        self.at(Self::NUMBERS, slot).to_bits() as i32
+        self.floats[Self::NUMBERS + (slot & (SLOTS - 1))].to_bits() as i32
     }
 
     /// The corners of one triangle in all lanes, their coordinates in the order of `axes`.
     #[inline(always)]
     pub fn one<L: Lanes>(&self, lanes: L, slot: usize, axes: [usize; 3]) -> Corners<L> {
+        let slot = slot & (SLOTS - 1);
         let mut corners = [[lanes.splat(0.0); 3]; 3];
         let mut at = 0;
         while at < 9 {
-            corners[at / 3][at % 3] = lanes.splat(self.at(at / 3 * 3 + axes[at % 3], slot));
+            corners[at / 3][at % 3] = lanes.splat(self.floats[(at / 3 * 3 + axes[at % 3]) * SLOTS + slot]);
             at += 1;
         }
         corners
@@ -70,55 +67,26 @@ impl TriangleBlock {
     /// The corners of the triangles from `slot` on, a triangle a lane; what is beyond the last is to be ignored.
     #[inline(always)]
     pub fn several<L: Lanes>(&self, lanes: L, slot: usize, axes: [usize; 3]) -> Corners<L> {
+        let slot = slot & (SLOTS - 1);
         let mut corners = [[lanes.splat(0.0); 3]; 3];
         let mut at = 0;
         while at < 9 {
-            // The last corner stands in row 8: 16 floats follow it.
-            let first = (at / 3 * 3 + axes[at % 3]) * SLOTS + slot;
-            corners[at / 3][at % 3] = lanes.load(&self.floats[first..]);
+            let row = &self.floats[(at / 3 * 3 + axes[at % 3]) * SLOTS + slot..];
+            // Eight floats follow the last row's beginning.
+            corners[at / 3][at % 3] = if L::LANES <= 2 * SLOTS { lanes.load(row) } else { lanes.load_partial(row) };
             at += 1;
         }
         corners
     }
 
-    /// The planes of the box of one triangle that rays meet first and last, in all lanes.
+    /// The lower and the upper corners of the boxes of the triangles from `slot` on, a triangle a lane.
     #[inline(always)]
-    pub fn one_box<L: Lanes>(&self, lanes: L, slot: usize, sides: &Sides) -> [[L::F; 3]; 2] {
-        let mut planes = [[lanes.splat(0.0); 3]; 2];
-        let mut axis = 0;
-        while axis < 3 {
-            planes[0][axis] = lanes.splat(self.at(Self::BOXES + sides.near[axis], slot));
-            planes[1][axis] = lanes.splat(self.at(Self::BOXES + sides.far[axis], slot));
-            axis += 1;
-        }
-        planes
-    }
-
-    /// The same of the triangles from `slot` on, a triangle a lane.
-    #[inline(always)]
-    pub fn boxes<L: Lanes>(&self, lanes: L, slot: usize, sides: &Sides) -> [[L::F; 3]; 2] {
-        let mut planes = [[lanes.splat(0.0); 3]; 2];
-        let mut axis = 0;
-        while axis < 3 {
-            planes[0][axis] = self.row(lanes, Self::BOXES + sides.near[axis], slot);
-            planes[1][axis] = self.row(lanes, Self::BOXES + sides.far[axis], slot);
-            axis += 1;
-        }
-        planes
-    }
-
-    /// What stands in a row from `slot` on, zeros beyond its end.
-    #[inline(always)]
-    fn row<L: Lanes>(&self, lanes: L, row: usize, slot: usize) -> L::F {
-        let first = (row * SLOTS + slot) & (16 * SLOTS - 1);
-        if L::LANES < SLOTS {
-            return lanes.load(&self.floats[first..]);
-        }
-        let first = first & (15 * SLOTS);
-        if L::LANES == SLOTS {
-            return lanes.load(&self.floats[first..]);
-        }
-        lanes.first_four([self.floats[first], self.floats[first + 1], self.floats[first + 2], self.floats[first + 3]])
+    pub fn extent<L: Lanes>(&self, lanes: L, slot: usize) -> [[L::F; 3]; 2] {
+        let [a, b, c] = self.several(lanes, slot, [0, 1, 2]);
+        [
+            [a[0].min(b[0]).min(c[0]), a[1].min(b[1]).min(c[1]), a[2].min(b[2]).min(c[2])],
+            [a[0].max(b[0]).max(c[0]), a[1].max(b[1]).max(c[1]), a[2].max(b[2]).max(c[2])],
+        ]
     }
 }
 

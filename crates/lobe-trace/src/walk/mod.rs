@@ -9,7 +9,7 @@ use lobe_lane::{Kernel, Lanes};
 
 use crate::Form;
 use crate::block::{Block, Found, RAYS, group_bits, mask_of};
-use crate::bvh::{Child, WideBvh};
+use crate::bvh::{Child, Node, WideBvh};
 use crate::leaves::Leaves;
 
 pub(crate) use stack::Stacks;
@@ -107,5 +107,15 @@ impl<V: Leaves, const W: usize> Kernel for Large<'_, V, W> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         large::walk(lanes, self.0, self.1);
+    }
+}
+
+/// Has the caches bring in what waits.
+#[inline(always)]
+fn prefetch<L: Lanes, V: Leaves, const W: usize>(lanes: L, nodes: &[Node<W>], leaves: &V, child: Child) {
+    if child.is_leaf() {
+        leaves.prefetch(lanes, child);
+    } else if let Some(node) = nodes.get(child.index()) {
+        node.prefetch(lanes);
     }
 }

@@ -2,10 +2,10 @@
 
 use lobe_lane::{Floats, Lanes, MAX_LANES};
 
-use super::Walk;
 use super::stack::Entry;
+use super::{Walk, prefetch};
 use crate::block::RAYS;
-use crate::bvh::Child;
+use crate::bvh::{Child, Node};
 use crate::leaves::Leaves;
 use crate::slab::{Sides, SlabRay, child_bits};
 
@@ -50,25 +50,26 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                     lanes.store(&mut keys[slot..], enters[slot / L::LANES]);
                     slot += L::LANES;
                 }
-                let mut next = || {
-                    let slot = bits.trailing_zeros() as usize & (W - 1);
-                    bits &= bits - 1;
-                    (Entry { key: keys[slot], child: node.children[slot] }, bits == 0)
-                };
                 // The nearer of the first two; the others wait, sorted in among themselves, the nearest on top.
-                let ((one, _), (other, both)) = (next(), next());
+                let one = entry(node, &keys, bits);
+                bits &= bits - 1;
+                let other = entry(node, &keys, bits);
+                bits &= bits - 1;
                 let (near, far) = if other.key < one.key { (other, one) } else { (one, other) };
+                prefetch(lanes, nodes, leaves, far.child);
                 let floor = waiting;
                 stack[waiting] = far;
                 waiting += 1;
-                if both {
+                if bits == 0 {
                     child = near.child;
                     continue;
                 }
                 stack[waiting] = near;
                 waiting += 1;
-                loop {
-                    let (entry, last) = next();
+                while bits != 0 {
+                    let entry = entry(node, &keys, bits);
+                    bits &= bits - 1;
+                    prefetch(lanes, nodes, leaves, entry.child);
                     let mut place = waiting;
                     while place > floor && stack[place - 1].key < entry.key {
                         stack[place] = stack[place - 1];
@@ -76,9 +77,6 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                     }
                     stack[place] = entry;
                     waiting += 1;
-                    if last {
-                        break;
-                    }
                 }
                 waiting -= 1;
                 child = stack[waiting].child;
@@ -97,4 +95,11 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
             }
         }
     }
+}
+
+/// The first child of `bits`.
+#[inline(always)]
+fn entry<const W: usize>(node: &Node<W>, keys: &[f32; MAX_LANES], bits: u32) -> Entry {
+    let slot = bits.trailing_zeros() as usize & (W - 1);
+    Entry { key: keys[slot], child: node.children[slot] }
 }
