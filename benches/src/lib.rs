@@ -4,4 +4,5 @@ pub mod baseline;
 pub mod clock;
 pub mod contest;
 pub mod tables;
+pub mod tracing;
 pub mod workload;

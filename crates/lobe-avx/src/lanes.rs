@@ -77,6 +77,10 @@ impl Lanes for Avx2 {
         memory::store_int(self, dst, x.0);
     }
     #[inline(always)]
+    fn prefetch<T>(self, place: &[T]) {
+        memory::prefetch(self, place);
+    }
+    #[inline(always)]
     fn load_xyz(self, src: &[[f32; 3]]) -> [Floats; 3] {
         let flat = src[..8].as_flattened();
         // In each half: a = x0 y0 z0 x1, b = y1 z1 x2 y2, c = z2 x3 y3 z3

@@ -23,6 +23,12 @@ pub(crate) fn store8(_proof: Avx2, dst: &mut [f32], x: __m256) {
 }
 
 #[inline(always)]
+pub(crate) fn prefetch<T>(_proof: Avx2, place: &[T]) {
+    // SAFETY: a prefetch reads nothing that a program could see and never faults; every x86_64 has it.
+    unsafe { _mm_prefetch::<_MM_HINT_T0>(place.as_ptr().cast()) }
+}
+
+#[inline(always)]
 pub(crate) fn load4(_proof: Avx2, src: &[f32]) -> __m128 {
     let src = &src[..4];
     // SAFETY: `src` has four floats; the token proves AVX; the load needs no alignment.

@@ -121,6 +121,9 @@ pub trait Lanes: Texels {
         let n = dst.len();
         dst.copy_from_slice(&buffer[..n]);
     }
+    /// Has the cache line where a slice begins brought in, where the backend can: it will be read soon.
+    #[inline(always)]
+    fn prefetch<T>(self, _place: &[T]) {}
     /// `LANES` vectors of three floats, as `[x, y, z]`.
     ///
     /// # Panics

@@ -101,6 +101,11 @@ impl<L: Lanes> Lanes for Strict<L> {
     }
 
     #[inline(always)]
+    fn prefetch<T>(self, place: &[T]) {
+        self.0.prefetch(place);
+    }
+
+    #[inline(always)]
     fn load_xyz(self, src: &[[f32; 3]]) -> [L::F; 3] {
         self.0.load_xyz(src)
     }

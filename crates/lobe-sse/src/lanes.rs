@@ -73,6 +73,10 @@ impl<V: Level> Lanes for Sse<V> {
         memory::store_int(dst, x.0);
     }
     #[inline(always)]
+    fn prefetch<T>(self, place: &[T]) {
+        memory::prefetch(place);
+    }
+    #[inline(always)]
     fn load_xyz(self, src: &[[f32; 3]]) -> [Floats<V>; 3] {
         let flat = src[..4].as_flattened();
         // a = x0 y0 z0 x1, b = y1 z1 x2 y2, c = z2 x3 y3 z3

@@ -5,6 +5,12 @@ use core::arch::x86_64::*;
 use lobe_lane::Block;
 
 #[inline(always)]
+pub(crate) fn prefetch<T>(place: &[T]) {
+    // SAFETY: a prefetch reads nothing that a program could see and never faults; every x86_64 has it.
+    unsafe { _mm_prefetch::<_MM_HINT_T0>(place.as_ptr().cast()) }
+}
+
+#[inline(always)]
 pub(crate) fn load(src: &[f32]) -> __m128 {
     let src = &src[..4];
     // SAFETY: `src` has four floats; SSE2 is the baseline of x86_64; the load needs no alignment.

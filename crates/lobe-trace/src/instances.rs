@@ -4,7 +4,7 @@ use lobe_lane::{Lanes, Mask};
 
 use crate::block::{Block, Found, RAYS, first_ray, group_bits, group_rows, mask_of};
 use crate::bvh::Child;
-use crate::leaves::{Leaves, Triangles};
+use crate::leaves::{Bounded, Leaves, Triangles};
 use crate::packet::Packet;
 use crate::scene::{Instance, Scene};
 use crate::slab::SlabRay;
@@ -60,8 +60,24 @@ fn carried<L: Lanes>(lanes: L, map: &Affine, x: [L::F; 3], w: f32) -> [L::F; 3] 
 }
 
 impl<const W: usize> Leaves for Instances<'_, W> {
+    type Ready<L: Lanes> = ();
+
     #[inline(always)]
-    fn packet<L: Lanes>(&mut self, lanes: L, leaf: Child, rays: &Block, live: u64, found: &mut Found) {
+    fn ready<L: Lanes>(&self, _lanes: L, _rays: &Block, _ray: usize) {}
+
+    #[inline(always)]
+    fn prefetch<L: Lanes>(&self, _lanes: L, _leaf: Child) {}
+
+    #[inline(always)]
+    fn packet<L: Lanes>(
+        &mut self,
+        lanes: L,
+        leaf: Child,
+        rays: &Block,
+        live: u64,
+        found: &mut Found,
+        _beam: Option<Bounded<'_>>,
+    ) {
         let scene = self.scene;
         let instance = &scene.instances[leaf.first()];
         let mut carried = 0;
@@ -76,19 +92,19 @@ impl<const W: usize> Leaves for Instances<'_, W> {
             at += L::LANES;
         }
         let tree = &scene.trees[instance.mesh];
-        let leaves = &mut Triangles { blocks: &tree.blocks, instance: leaf.first() as i32, any: self.any };
+        let leaves = &mut Triangles::new(&tree.blocks, leaf.first(), true, self.any);
         let walk = Walk { bvh: &tree.bvh, leaves, rays: &*self.local, found, stacks: &mut *self.stacks };
         walk.trace(lanes, self.form, carried);
     }
 
     #[inline(always)]
-    fn single<L: Lanes>(&mut self, lanes: L, leaf: Child, rays: &Block, ray: usize, found: &mut Found) {
+    fn single<L: Lanes>(&mut self, lanes: L, leaf: Child, rays: &Block, ray: usize, (): (), found: &mut Found) {
         let scene = self.scene;
         let instance = &scene.instances[leaf.first()];
         let at = first_ray::<L>(ray);
         let bits = self.carry(lanes, instance, rays, at, 1 << (ray - at));
         let tree = &scene.trees[instance.mesh];
-        let leaves = &mut Triangles { blocks: &tree.blocks, instance: leaf.first() as i32, any: self.any };
+        let leaves = &mut Triangles::new(&tree.blocks, leaf.first(), true, self.any);
         let walk = Walk { bvh: &tree.bvh, leaves, rays: &*self.local, found, stacks: &mut *self.stacks };
         walk.trace(lanes, Form::Single, (bits as u64) << at);
     }

@@ -69,8 +69,8 @@ impl<L: Lanes> SlabRay<L> {
 /// Which rows of a node hold the planes that rays of an octant meet first and last.
 #[derive(Clone, Copy)]
 pub(crate) struct Sides {
-    near: [usize; 3],
-    far: [usize; 3],
+    pub near: [usize; 3],
+    pub far: [usize; 3],
 }
 
 impl Sides {

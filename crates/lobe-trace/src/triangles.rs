@@ -1,6 +1,6 @@
 //! The triangles of a leaf, four side by side.
 
-use lobe_lane::Lanes;
+use lobe_lane::{Floats, Lanes};
 
 use crate::bvh::{Binary, Child, WideBvh};
 use crate::{Aabb, Mesh};
@@ -12,12 +12,11 @@ pub(crate) const SLOTS: usize = 4;
 pub(crate) type Corners<L> = [[<L as Lanes>::F; 3]; 3];
 
 /// Four triangles in three cache lines. Coordinate `axis` of corner `corner` of triangle `slot` is
-/// `floats[(3 corner + axis) SLOTS + slot]`; the triangles' numbers follow as bits. What stands behind them is never
-/// used: it lets a row be loaded as 16 floats.
+/// `floats[(3 corner + axis) SLOTS + slot]`; the triangles' numbers follow as bits.
 #[derive(Clone, Debug)]
-#[repr(C, align(64))]
+#[repr(C, align(32))]
 pub(crate) struct TriangleBlock {
-    floats: [f32; 48],
+    floats: [f32; 10 * SLOTS],
 }
 
 impl TriangleBlock {
@@ -25,31 +24,31 @@ impl TriangleBlock {
 
     fn new(mesh: &Mesh, triangles: &[u32]) -> Self {
         // NaN in empty slots: no comparison holds for them.
-        let mut floats = [f32::NAN; 48];
+        let mut floats = [f32::NAN; 10 * SLOTS];
         for slot in 0..SLOTS {
             let number = triangles.get(slot).map_or(-1, |&triangle| triangle as i32);
             floats[Self::NUMBERS + slot] = f32::from_bits(number as u32);
         }
         for (slot, &triangle) in triangles.iter().enumerate() {
-            for (corner, position) in mesh.corners(triangle as usize).iter().enumerate() {
-                for (axis, &x) in position.iter().enumerate() {
-                    floats[(3 * corner + axis) * SLOTS + slot] = x;
-                }
+            for (row, &x) in mesh.corners(triangle as usize).as_flattened().iter().enumerate() {
+                floats[row * SLOTS + slot] = x;
             }
         }
         TriangleBlock { floats }
+    }
+
+    /// Has the caches bring it in.
+    #[inline(always)]
+    pub fn prefetch<L: Lanes>(&self, lanes: L) {
+        lanes.prefetch(&self.floats);
+        lanes.prefetch(&self.floats[16..]);
+        lanes.prefetch(&self.floats[32..]);
     }
 
     /// The number of a triangle in its mesh; negative where the slot is empty.
     #[inline(always)]
     pub fn number(&self, slot: usize) -> i32 {
         self.floats[Self::NUMBERS + (slot & (SLOTS - 1))].to_bits() as i32
-    }
-
-    /// A coordinate of triangle `slot` and those of its followers behind it, 16 floats in all at slot 0.
-    #[inline(always)]
-    fn from(&self, corner: usize, axis: usize, slot: usize) -> &[f32] {
-        &self.floats[(3 * corner + axis) * SLOTS + slot..]
     }
 
     /// The corners of one triangle in all lanes, their coordinates in the order of `axes`.
@@ -59,7 +58,7 @@ impl TriangleBlock {
         let mut corners = [[lanes.splat(0.0); 3]; 3];
         let mut at = 0;
         while at < 9 {
-            corners[at / 3][at % 3] = lanes.splat(self.from(at / 3, axes[at % 3], slot)[0]);
+            corners[at / 3][at % 3] = lanes.splat(self.floats[(at / 3 * 3 + axes[at % 3]) * SLOTS + slot]);
             at += 1;
         }
         corners
@@ -72,10 +71,22 @@ impl TriangleBlock {
         let mut corners = [[lanes.splat(0.0); 3]; 3];
         let mut at = 0;
         while at < 9 {
-            corners[at / 3][at % 3] = lanes.load(self.from(at / 3, axes[at % 3], slot));
+            let row = &self.floats[(at / 3 * 3 + axes[at % 3]) * SLOTS + slot..];
+            // Eight floats follow the last row's beginning.
+            corners[at / 3][at % 3] = if L::LANES <= 2 * SLOTS { lanes.load(row) } else { lanes.load_partial(row) };
             at += 1;
         }
         corners
+    }
+
+    /// The lower and the upper corners of the boxes of the triangles from `slot` on, a triangle a lane.
+    #[inline(always)]
+    pub fn extent<L: Lanes>(&self, lanes: L, slot: usize) -> [[L::F; 3]; 2] {
+        let [a, b, c] = self.several(lanes, slot, [0, 1, 2]);
+        [
+            [a[0].min(b[0]).min(c[0]), a[1].min(b[1]).min(c[1]), a[2].min(b[2]).min(c[2])],
+            [a[0].max(b[0]).max(c[0]), a[1].max(b[1]).max(c[1]), a[2].max(b[2]).max(c[2])],
+        ]
     }
 }
 

@@ -66,14 +66,15 @@ impl<L: Lanes> ShearRay<L> {
         let mut u = x[2] * y[1] - y[2] * x[1];
         let mut v = x[0] * y[2] - y[0] * x[2];
         let mut w = x[1] * y[0] - y[1] * x[0];
-        let inside = u.min(v).min(w).ge(zero) | u.max(v).max(w).le(zero);
-        let mut mask = live & inside;
+        let (least, most) = (u.min(v).min(w), u.max(v).max(w));
+        let mut mask = live & (least.ge(zero) | most.le(zero));
         if !mask.any() {
             return Candidates { mask, t: zero, u: zero, v: zero };
         }
         let mut sum = u + v + w;
-        let unsure = u.eq(zero) | v.eq(zero) | w.eq(zero) | sum.abs().lt(lanes.splat(TINY));
-        if (unsure & mask).any() {
+        // Where the signs agree, the edge function that is zero is the least or the most of the three.
+        let unsure = mask & (least.eq(zero) | most.eq(zero) | sum.abs().lt(lanes.splat(TINY)));
+        if unsure.any() {
             let mut edges = Edges { x: [[0.0; MAX_LANES]; 3], y: [[0.0; MAX_LANES]; 3] };
             let mut corner = 0;
             while corner < 3 {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::contest::Contest;
 use super::exchange::Exchange;
-use super::{analytic, interpolation, material, trigonometry};
+use super::{analytic, interpolation, material, tracing, trigonometry};
 
 /// Those whose names begin like one of `only`, or all. Files and tasks go to `exchange`.
 ///
@@ -15,6 +15,12 @@ pub fn all(data: &Path, exchange: &mut Exchange, only: &[String]) -> anyhow::Res
     contests.extend(interpolation::all(exchange)?);
     contests.extend(analytic::all(exchange)?);
     contests.extend(material::all(data, exchange)?);
+    // Large scenes, not made for nothing.
+    if only.is_empty()
+        || only.iter().any(|start| start.starts_with(tracing::PREFIX) || tracing::PREFIX.starts_with(start.as_str()))
+    {
+        contests.extend(tracing::all(data, exchange)?);
+    }
     contests.retain(|contest| only.is_empty() || only.iter().any(|start| contest.name().starts_with(start.as_str())));
     Ok(contests)
 }

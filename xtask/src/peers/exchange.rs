@@ -68,6 +68,11 @@ impl Exchange {
         Ok(path)
     }
 
+    /// Where all files are.
+    pub fn directory(&self) -> &Path {
+        &self.directory
+    }
+
     /// What the arc cosine is taken of.
     pub fn cosines(&self) -> PathBuf {
         self.directory.join("cosines.f32")

@@ -1,16 +1,18 @@
-//! Where the peers come from: wheels in a virtual environment, and SLEEF with the system's C compiler.
+//! Where the peers come from: wheels in a virtual environment, SLEEF and Embree with the system's C compiler.
 
 use std::path::Path;
 use std::process::Command;
 
 use anyhow::{Context, bail};
 
+use super::exchange::Exchange;
+
 /// The wheels: package and version, so that figures compare from one day to another.
 const WHEELS: [(&str, &str); 3] = [("interpn", "0.11.2"), ("mitsuba", "3.9.1"), ("scipy", "1.17.1")];
 
 /// The programs by name, ready to be started, or why they cannot be. `tasks` is for those that are told of their tasks in
-/// a file, `cosines` is what the arc cosine is taken of.
-pub fn all(out: &Path, tasks: &Path, cosines: &Path) -> Vec<(&'static str, anyhow::Result<Command>)> {
+/// a file, `exchange` has the files of the others.
+pub fn all(out: &Path, tasks: &Path, exchange: &Exchange) -> Vec<(&'static str, anyhow::Result<Command>)> {
     let environment = environment(out).map_err(|error| format!("{error:#}"));
     let wheel = |(package, version): (&'static str, &str)| {
         let command = environment.clone().map_err(anyhow::Error::msg).and_then(|python| {
@@ -24,7 +26,15 @@ pub fn all(out: &Path, tasks: &Path, cosines: &Path) -> Vec<(&'static str, anyho
         (package, command)
     };
     let mut programs: Vec<_> = WHEELS.into_iter().map(wheel).collect();
-    programs.push(("sleef", sleef(out, cosines)));
+    let sleef = Source { name: "acos", text: include_str!("acos.c"), libraries: &["sleef"], package: "libsleef-dev" };
+    programs.push(("sleef", sleef.compiled(out, &exchange.cosines())));
+    let embree = Source {
+        name: "embree",
+        text: include_str!("embree.c"),
+        libraries: &["embree3", "m"],
+        package: "libembree-dev",
+    };
+    programs.push(("embree", embree.compiled(out, exchange.directory())));
     programs
 }
 
@@ -50,19 +60,32 @@ fn install(python: &Path, package: &str, version: &str) -> anyhow::Result<()> {
     finish(Command::new(python).args(pip).arg(format!("{package}=={version}")))
 }
 
-/// Compiles the program that calls SLEEF.
-fn sleef(out: &Path, cosines: &Path) -> anyhow::Result<Command> {
-    if !(cfg!(target_arch = "x86_64") && lobe::Backend::named("avx2").is_ok()) {
-        bail!("this processor has no AVX2");
+/// A program in C that calls a library of the system.
+struct Source {
+    name: &'static str,
+    text: &'static str,
+    libraries: &'static [&'static str],
+    /// That has the library in Debian.
+    package: &'static str,
+}
+
+impl Source {
+    /// The program, with its only argument.
+    fn compiled(&self, out: &Path, argument: &Path) -> anyhow::Result<Command> {
+        if !(cfg!(target_arch = "x86_64") && lobe::Backend::named("avx2").is_ok()) {
+            bail!("this processor has no AVX2");
+        }
+        let program = out.join(self.name);
+        let source = program.with_extension("c");
+        std::fs::write(&source, self.text)?;
+        let mut compiler = Command::new("cc");
+        compiler.args(["-std=c11", "-D_POSIX_C_SOURCE=199309L", "-O3", "-mavx2", "-mfma", "-o"]).arg(&program);
+        compiler.arg(&source).args(self.libraries.iter().map(|library| format!("-l{library}")));
+        finish(&mut compiler).with_context(|| format!("Debian has it as {}", self.package))?;
+        let mut command = Command::new(program);
+        command.arg(argument);
+        Ok(command)
     }
-    let (source, program) = (out.join("acos.c"), out.join("acos"));
-    std::fs::write(&source, include_str!("acos.c"))?;
-    let mut compiler = Command::new("cc");
-    compiler.args(["-std=c11", "-D_POSIX_C_SOURCE=199309L", "-O3", "-mavx2", "-mfma", "-o"]).arg(&program);
-    finish(compiler.arg(&source).arg("-lsleef")).context("Debian has it as libsleef-dev")?;
-    let mut command = Command::new(program);
-    command.arg(cosines);
-    Ok(command)
 }
 
 /// Runs a command to its end.

@@ -14,6 +14,7 @@ mod material;
 mod processor;
 mod program;
 mod record;
+mod tracing;
 mod trigonometry;
 
 use std::path::{Path, PathBuf};
@@ -65,7 +66,7 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
     let tasks = exchange.write_tasks()?;
 
     let mut programs = Programs::default();
-    for (name, command) in install::all(&out, &tasks, &exchange.cosines()) {
+    for (name, command) in install::all(&out, &tasks, &exchange) {
         println!("{name}: starting");
         programs.add(name, command.and_then(|command| Program::start(command, &out.join(format!("{name}.log")))));
     }
@@ -74,6 +75,9 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
     }
     if material::files(&data).is_empty() {
         println!("EPFL materials: left out, no rgl_bsdf/*.bsdf in {}", data.display());
+    }
+    if !tracing::statue_file(&data).is_file() {
+        println!("statue: left out, no {}", tracing::statue_file(&data).display());
     }
     contests.retain_mut(|contest| contest.keep_present(&programs));
 

@@ -1,5 +1,7 @@
 //! The wide node: the boxes of all children side by side.
 
+use lobe_lane::Lanes;
+
 use crate::Aabb;
 
 /// A child of a node: another node, or a leaf's run of up to eight leaf blocks.
@@ -62,6 +64,15 @@ impl<const W: usize> Node<W> {
         let (low, high) = ([f32::INFINITY; W], [f32::NEG_INFINITY; W]);
         Node { bounds: [low, high, low, high, low, high], children: [Child(0); W], count: 0 }
     };
+
+    /// Has the caches bring it in.
+    #[inline(always)]
+    pub fn prefetch<L: Lanes>(&self, lanes: L) {
+        lanes.prefetch(&self.bounds[0]);
+        lanes.prefetch(&self.bounds[2]);
+        lanes.prefetch(&self.bounds[4]);
+        lanes.prefetch(&self.children);
+    }
 
     pub fn push(&mut self, bounds: Aabb, child: Child) {
         for (row, bound) in self.bounds.iter_mut().zip(bounds.rows()) {

@@ -33,14 +33,10 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
     let mut bits = live;
     loop {
         if bits.count_ones() <= few {
-            while bits != 0 {
-                let ray = at + bits.trailing_zeros() as usize;
-                bits &= bits - 1;
-                let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
-                enter(lanes, Single { walk, from: child, ray });
-            }
+            let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
+            enter(lanes, Single { walk, from: child, live: (bits as u64) << at });
         } else if child.is_leaf() {
-            leaves.packet(lanes, child, rays, (bits as u64) << at, found);
+            leaves.packet(lanes, child, rays, (bits as u64) << at, found, None);
         } else {
             let node = &nodes[child.index()];
             let best = lanes.load(&found.t[at..]);

@@ -5,11 +5,11 @@
 
 use lobe_lane::{Floats, Lanes, MAX_LANES, Mask};
 
-use super::Walk;
 use super::stack::LargeEntry;
+use super::{Walk, prefetch};
 use crate::block::{Block, Found, RAYS, first_ray};
 use crate::bvh::Node;
-use crate::leaves::Leaves;
+use crate::leaves::{Bounded, Leaves};
 use crate::slab::{Beam, Sides, SlabRay, child_bits, least_lane};
 
 #[inline(always)]
@@ -42,6 +42,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
             let slot = bits.trailing_zeros() as usize & (W - 1);
             bits &= bits - 1;
             let entry = LargeEntry { key: keys[slot], node: current as u32, slot: slot as u32, first };
+            prefetch(lanes, nodes, leaves, node.children[slot]);
             let mut place = waiting;
             while place > floor && stack[place - 1].key < entry.key {
                 stack[place] = stack[place - 1];
@@ -85,7 +86,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                 live |= (group_meets(lanes, &sides, node, slot, rays, found, at) as u64) << at;
                 at += L::LANES;
             }
-            leaves.packet(lanes, child, rays, live, found);
+            leaves.packet(lanes, child, rays, live, found, Some(Bounded { beam: &beam, end: farthest }));
             farthest = farthest_best(lanes, found);
         }
     }

@@ -9,7 +9,7 @@ use lobe_lane::{Kernel, Lanes};
 
 use crate::Form;
 use crate::block::{Block, Found, RAYS, group_bits, mask_of};
-use crate::bvh::{Child, WideBvh};
+use crate::bvh::{Child, Node, WideBvh};
 use crate::leaves::Leaves;
 
 pub(crate) use stack::Stacks;
@@ -32,21 +32,21 @@ impl<V: Leaves, const W: usize> Walk<'_, V, W> {
             enter(lanes, Large(Walk { bvh, leaves, rays, found, stacks }, live));
             return;
         }
-        let mut at = 0;
+        let mut alone = live;
+        let mut at = if form == Form::Single { RAYS } else { 0 };
         while at < RAYS {
-            let mut bits = group_bits::<L>(live, at);
-            if form != Form::Single && bits != 0 && rays.group_is_coherent(lanes, at, mask_of(lanes, bits)) {
+            let bits = group_bits::<L>(live, at);
+            if bits != 0 && rays.group_is_coherent(lanes, at, mask_of(lanes, bits)) {
                 let few = if form == Form::Packet { 0 } else { group::FEW };
-                enter(lanes, Group { walk: Walk { bvh, leaves, rays, found, stacks }, at, live: bits, few });
-                bits = 0;
-            }
-            while bits != 0 {
-                let ray = at + bits.trailing_zeros() as usize;
-                bits &= bits - 1;
                 let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
-                enter(lanes, Single { walk, from: Child::node(0), ray });
+                enter(lanes, Group { walk, at, live: bits, few });
+                alone &= !((bits as u64) << at);
             }
             at += L::LANES;
+        }
+        if alone != 0 {
+            let walk = Walk { bvh, leaves, rays, found, stacks };
+            enter(lanes, Single { walk, from: Child::node(0), live: alone });
         }
     }
 }
@@ -58,11 +58,11 @@ fn enter<L: Lanes, K: Kernel>(lanes: L, walk: K) -> K::Out {
     lanes.vectorize(walk)
 }
 
-/// One ray, from a child on.
+/// Rays one by one, from a child on.
 struct Single<'a, V, const W: usize> {
     walk: Walk<'a, V, W>,
     from: Child,
-    ray: usize,
+    live: u64,
 }
 
 impl<V: Leaves, const W: usize> Kernel for Single<'_, V, W> {
@@ -70,7 +70,14 @@ impl<V: Leaves, const W: usize> Kernel for Single<'_, V, W> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        single::walk(lanes, self.walk, self.from, self.ray);
+        let Walk { bvh, leaves, rays, found, stacks } = self.walk;
+        let mut live = self.live;
+        while live != 0 {
+            let ray = live.trailing_zeros() as usize;
+            live &= live - 1;
+            let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
+            single::walk(lanes, walk, self.from, ray);
+        }
     }
 }
 
@@ -100,5 +107,15 @@ impl<V: Leaves, const W: usize> Kernel for Large<'_, V, W> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         large::walk(lanes, self.0, self.1);
+    }
+}
+
+/// Has the caches bring in what waits.
+#[inline(always)]
+fn prefetch<L: Lanes, V: Leaves, const W: usize>(lanes: L, nodes: &[Node<W>], leaves: &V, child: Child) {
+    if child.is_leaf() {
+        leaves.prefetch(lanes, child);
+    } else if let Some(node) = nodes.get(child.index()) {
+        node.prefetch(lanes);
     }
 }

@@ -2,10 +2,10 @@
 
 use lobe_lane::{Floats, Lanes, MAX_LANES};
 
-use super::Walk;
 use super::stack::Entry;
+use super::{Walk, prefetch};
 use crate::block::RAYS;
-use crate::bvh::Child;
+use crate::bvh::{Child, Node};
 use crate::leaves::Leaves;
 use crate::slab::{Sides, SlabRay, child_bits};
 
@@ -18,23 +18,24 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
     let t_min = lanes.splat(rays.t_min[ray]);
     let nodes = bvh.nodes.as_slice();
     let stack = stacks.single.as_mut_slice();
-    let mut keys = [0.0; MAX_LANES];
+    let ready = leaves.ready(lanes, rays, ray);
+    let mut best = found.t[ray];
     let mut waiting = 0;
     let mut child = from;
     loop {
         if child.is_leaf() {
-            leaves.single(lanes, child, rays, ray, found);
+            leaves.single(lanes, child, rays, ray, ready, found);
+            best = found.t[ray];
         } else {
             let node = &nodes[child.index()];
-            let best = lanes.splat(found.t[ray]);
+            let mut enters = [t_min; W];
             let mut bits = 0;
             let mut slot = 0;
             while slot < W {
                 let [near, far] = sides.children(lanes, node, slot);
                 let [enter, leave] = slab.interval(lanes, near, far);
-                let enter = enter.max(t_min);
-                bits |= child_bits::<L, W>(enter.le(leave.min(best)), slot);
-                lanes.store(&mut keys[slot..], enter);
+                enters[slot / L::LANES] = enter.max(t_min);
+                bits |= child_bits::<L, W>(enters[slot / L::LANES].le(leave.min(lanes.splat(best))), slot);
                 slot += L::LANES;
             }
             // Most often one child is met, or none.
@@ -42,23 +43,47 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                 child = node.children[bits.trailing_zeros() as usize & (W - 1)];
                 continue;
             }
-            // Sorted in among themselves, the nearest on top.
-            let floor = waiting;
-            while bits != 0 {
-                let slot = bits.trailing_zeros() as usize & (W - 1);
-                bits &= bits - 1;
-                let entry = Entry { key: keys[slot], child: node.children[slot] };
-                let mut place = waiting;
-                while place > floor && stack[place - 1].key < entry.key {
-                    stack[place] = stack[place - 1];
-                    place -= 1;
+            if bits != 0 {
+                let mut keys = [0.0; MAX_LANES];
+                let mut slot = 0;
+                while slot < W {
+                    lanes.store(&mut keys[slot..], enters[slot / L::LANES]);
+                    slot += L::LANES;
                 }
-                stack[place] = entry;
+                // The nearer of the first two; the others wait, sorted in among themselves, the nearest on top.
+                let one = entry(node, &keys, bits);
+                bits &= bits - 1;
+                let other = entry(node, &keys, bits);
+                bits &= bits - 1;
+                let (near, far) = if other.key < one.key { (other, one) } else { (one, other) };
+                prefetch(lanes, nodes, leaves, far.child);
+                let floor = waiting;
+                stack[waiting] = far;
                 waiting += 1;
+                if bits == 0 {
+                    child = near.child;
+                    continue;
+                }
+                stack[waiting] = near;
+                waiting += 1;
+                while bits != 0 {
+                    let entry = entry(node, &keys, bits);
+                    bits &= bits - 1;
+                    prefetch(lanes, nodes, leaves, entry.child);
+                    let mut place = waiting;
+                    while place > floor && stack[place - 1].key < entry.key {
+                        stack[place] = stack[place - 1];
+                        place -= 1;
+                    }
+                    stack[place] = entry;
+                    waiting += 1;
+                }
+                waiting -= 1;
+                child = stack[waiting].child;
+                continue;
             }
         }
         // A child that begins exactly at the best hit may still hold one that wins the tie.
-        let best = found.t[ray];
         loop {
             if waiting == 0 {
                 return;
@@ -70,4 +95,11 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
             }
         }
     }
+}
+
+/// The first child of `bits`.
+#[inline(always)]
+fn entry<const W: usize>(node: &Node<W>, keys: &[f32; MAX_LANES], bits: u32) -> Entry {
+    let slot = bits.trailing_zeros() as usize & (W - 1);
+    Entry { key: keys[slot], child: node.children[slot] }
 }
