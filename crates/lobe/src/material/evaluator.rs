@@ -86,8 +86,3 @@ pub(super) fn unit(direction: [f32; 3]) -> Option<[f64; 3]> {
     let length = v.iter().map(|c| c * c).sum::<f64>().sqrt();
     (length.is_finite() && length > 0.0).then(|| v.map(|c| c / length))
 }
-
-/// Rounds the channels of a value.
-pub(super) fn round(texel: &mut [f32], value: &[f64]) {
-    texel.iter_mut().zip(value).for_each(|(out, value)| *out = *value as f32);
-}

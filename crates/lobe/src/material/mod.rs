@@ -16,9 +16,11 @@ use std::path::Path;
 
 use lobe_formats::sheet::{Data, Side};
 use lobe_formats::{Document, Format};
+use lobe_table::half_diff::HalfDiffTable;
+pub use lobe_table::half_diff::Lookup;
 use lobe_table::mueller::Matrix;
 use lobe_table::rgl::{RglOptions, RglTable};
-use lobe_table::utia::Decode;
+use lobe_table::utia::{Decode, UtiaTable};
 use lobe_table::{Channels, Edges, Scatter};
 
 use crate::{Backend, Brdf, OpenError};
@@ -28,16 +30,6 @@ pub use kind::Kind;
 use mirror::Mirror;
 pub(crate) use mirror::mirrored;
 pub(crate) use sheet::flipped;
-
-/// How to look up values on a grid of half and difference angles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Lookup {
-    /// The value of the bin, as the reader of the MERL database does it.
-    #[default]
-    Nearest,
-    /// Linear between the middles of the bins.
-    Linear,
-}
 
 /// What a file leaves open.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -100,8 +92,8 @@ impl Parts {
 /// A measured material in the form in which it was measured: nothing is resampled.
 ///
 /// `wi` points to the light and `wo` to the viewer: unit vectors away from the surface, normal on +z. Values are `f` in
-/// 1/sr, without the cosine, one a channel. Specular tables and the materials of the EPFL database are evaluated in the
-/// SIMD lanes of the backend, the other representations in `f64`, pair by pair.
+/// 1/sr, without the cosine, one a channel. All representations are evaluated in the SIMD lanes of the backend but spherical
+/// grids and scattered samples, which are evaluated in `f64`, pair by pair.
 ///
 /// ```no_run
 /// let material = lobe::Material::open("paint.bsdf")?;
@@ -148,21 +140,28 @@ impl Material {
     pub fn new(path: &Path, format: Format, document: Document, options: &Options) -> Result<Self, OpenError> {
         let source = document.source().to_vec();
         let not_a_table = |found: &'static str| OpenError::NotATable { file: path.display().to_string(), found };
+        let too_large = |error| OpenError::TooLarge { file: path.display().to_string(), source: error };
+        let backend = Backend::detect()?;
         let evaluator: Box<dyn Evaluator> = match document {
             Document::Table(measured) => Box::new(Brdf::new(&measured.data, &options.edges)?),
             Document::Spherical(measured) => Box::new(measured.data),
             Document::Scattered(measured) => Box::new(measured.data),
             Document::Rgl(measured) => {
-                let table = RglTable::new(&measured.data, RglOptions::default());
-                let too_large = |error| OpenError::TooLarge { file: path.display().to_string(), source: error };
-                Box::new(rgl::Parametrised { table: table.map_err(too_large)?, backend: Backend::detect()? })
+                let table = RglTable::new(&measured.data, RglOptions::default()).map_err(too_large)?;
+                Box::new(rgl::Parametrised { table, backend })
             }
             Document::HalfDiff(measured) => {
-                Box::new(half_diff::HalfDifference { data: measured.data, lookup: options.lookup })
+                let table = HalfDiffTable::new(&measured.data).map_err(too_large)?;
+                Box::new(half_diff::HalfDifference { table, lookup: options.lookup, backend })
             }
-            Document::Utia(measured) => Box::new(utia::UtiaGrid { data: measured.data, decode: options.decode }),
-            Document::Mueller(measured) => Box::new(mueller::Polarised::new(measured.data)),
-            Document::Window(measured) => Box::new(window::Bands::new(measured.data)),
+            Document::Utia(measured) => {
+                let table = UtiaTable::new(&measured.data, options.decode).map_err(too_large)?;
+                Box::new(utia::UtiaGrid { table, backend })
+            }
+            Document::Mueller(measured) => {
+                Box::new(mueller::Polarised::new(measured.data, backend).map_err(too_large)?)
+            }
+            Document::Window(measured) => Box::new(window::Bands::new(measured.data, backend).map_err(too_large)?),
             Document::Sheet(measured) => {
                 let mut parts = Parts::default();
                 for part in measured.data {
@@ -172,7 +171,7 @@ impl Material {
             }
             _ => return Err(not_a_table("a mirror reflectance")),
         };
-        Ok(Material { format, source, evaluator, mirrors: Vec::new(), backend: Backend::detect()? })
+        Ok(Material { format, source, evaluator, mirrors: Vec::new(), backend })
     }
 
     /// A sheet of which both sides, and both ways through, were measured into files of their own: those measured with

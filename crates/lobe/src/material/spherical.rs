@@ -1,4 +1,4 @@
-//! Spherical coordinates, on a grid or scattered, by their `f64` references.
+//! Spherical coordinates, on a grid or scattered, in `f64`.
 
 use lobe_table::scattered::Scattered;
 use lobe_table::spherical_grid::SphericalGrid;
@@ -30,7 +30,8 @@ impl Evaluator for SphericalGrid {
     }
 
     fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        pair_by_pair(wi, wo, out, |wi, wo, texel| texel.copy_from_slice(&self.eval(wi, wo)));
+        let mut sum = vec![0.0; self.channels().count()];
+        pair_by_pair(wi, wo, out, |wi, wo, texel| self.eval_into(wi, wo, &mut sum, texel));
     }
 }
 
@@ -57,6 +58,7 @@ impl Evaluator for Scattered {
     }
 
     fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        pair_by_pair(wi, wo, out, |wi, wo, texel| texel.copy_from_slice(&self.eval(wi, wo)));
+        let mut sum = vec![0.0; self.channels().count()];
+        pair_by_pair(wi, wo, out, |wi, wo, texel| self.eval_into(wi, wo, &mut sum, texel));
     }
 }
