@@ -21,7 +21,7 @@ macro_rules! tests {
         mod $backend {
             tests! { @properties $subject $form:
                 floats Floats; ints Ints; masks Masks; memory Memory; texels Texels; math Math; axes Axes;
-                evaluation Evaluation;
+                evaluation Evaluation; representations Representations;
             }
         }
     )*};

@@ -13,6 +13,7 @@ mod memory;
 mod patterns;
 mod record;
 mod report;
+mod representations;
 mod subject;
 mod tables;
 mod texels;
@@ -41,14 +42,25 @@ pub enum Property {
     Math,
     /// Searches of axes.
     Axes,
-    /// Whole evaluations.
+    /// Whole evaluations of specular tables.
     Evaluation,
+    /// Whole evaluations of other representations.
+    Representations,
 }
 
 impl Property {
     /// All of them.
-    pub const ALL: [Property; 8] =
-        [Self::Floats, Self::Ints, Self::Masks, Self::Memory, Self::Texels, Self::Math, Self::Axes, Self::Evaluation];
+    pub const ALL: [Property; 9] = [
+        Self::Floats,
+        Self::Ints,
+        Self::Masks,
+        Self::Memory,
+        Self::Texels,
+        Self::Math,
+        Self::Axes,
+        Self::Evaluation,
+        Self::Representations,
+    ];
 
     /// The name in the printed table.
     pub fn name(self) -> &'static str {
@@ -61,6 +73,7 @@ impl Property {
             Property::Math => "math",
             Property::Axes => "axes",
             Property::Evaluation => "evaluation",
+            Property::Representations => "representations",
         }
     }
 
@@ -75,6 +88,7 @@ impl Property {
             Property::Math => lanes.vectorize(math::Functions),
             Property::Axes => lanes.vectorize(axes::Searches),
             Property::Evaluation => evaluation::record(lanes),
+            Property::Representations => representations::record(lanes),
         }
     }
 }

@@ -149,7 +149,7 @@ fn random(seed: u64, channels: usize, anisotropic: bool, scatter: Scatter) -> Sa
     }
 }
 
-fn workload(input: Input) -> Queries {
+pub(super) fn workload(input: Input) -> Queries {
     let pairs: Pairs = input.pairs(QUERIES);
     let (wi, wo) = pairs.vectors();
     Queries { wi, wo }
@@ -157,7 +157,7 @@ fn workload(input: Input) -> Queries {
 
 /// All pairs of the normal and its neighbours, grazing directions, mirror images, directions below the horizon, and
 /// such as are none.
-fn adversarial() -> Queries {
+pub(super) fn adversarial() -> Queries {
     let mut directions = vec![
         [0.0, 0.0, 1.0],
         [-0.0, -0.0, 1.0],
@@ -195,7 +195,7 @@ fn adversarial() -> Queries {
 }
 
 /// Vectors of any length: outside what is promised but for the bits of the strict form.
-fn not_unit() -> Queries {
+pub(super) fn not_unit() -> Queries {
     let mut rng = Pcg32::seed_from_u64(5);
     let mut vector = || {
         let scale = 10f32.powi(rng.random_range(-3..2));

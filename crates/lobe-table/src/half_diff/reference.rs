@@ -6,6 +6,7 @@ use std::ops::RangeInclusive;
 use super::HalfDiff;
 use crate::direction::half_difference;
 use crate::passes::half_vector;
+use crate::passes::weights::SUM;
 
 impl HalfDiff {
     /// The bin that a pair of directions falls into.
@@ -55,7 +56,7 @@ impl HalfDiff {
         if total > 0.0 { sum.map(|value| value / total) } else { sum }
     }
 
-    /// All values that [`eval_nearest`](Self::eval_nearest) may have in the lanes of a [`HalfDiffTable`]: the one of the bin,
+    /// All values that [`eval_nearest`](Self::eval_nearest) may have in the lanes of a [`HalfDiffTable`](super::HalfDiffTable): the one of the bin,
     /// and where the directions are within rounding of another bin, the one of that too.
     pub fn candidates(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<[f64; 3]> {
         if wi[2] <= 0.0 || wo[2] <= 0.0 {
@@ -88,7 +89,7 @@ impl HalfDiff {
         })
     }
 
-    /// How far, in bins along each axis, the place of a pair in the lanes of a [`HalfDiffTable`] may be from the true one.
+    /// How far, in bins along each axis, the place of a pair in the lanes of a [`HalfDiffTable`](super::HalfDiffTable) may be from the true one.
     ///
     /// The bins of `theta_h` are narrowest at the peak, and near it and near `theta_d = 0` an azimuth is hardly known.
     pub fn rounding(&self, wi: [f64; 3], wo: [f64; 3]) -> [f64; 3] {
@@ -103,6 +104,13 @@ impl HalfDiff {
             difference / FRAC_PI_2 * d + last(d),
             azimuth / self.period() * p + last(p),
         ]
+    }
+
+    /// How far [`eval_linear`](Self::eval_linear) may be off in the lanes of a [`HalfDiffTable`](super::HalfDiffTable), in parts
+    /// of the largest difference of two values, where all bins were measured.
+    pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
+        // Between the middles of two bins, a bin apart, the value changes by their difference.
+        self.rounding(wi, wo).iter().sum::<f64>() + SUM
     }
 
     /// The place in bins along each axis, with the number of bins.

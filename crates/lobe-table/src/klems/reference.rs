@@ -1,6 +1,7 @@
 //! The evaluation of a [`KlemsMatrix`] one query at a time in `f64`: what the lanes are compared with.
 
 use super::{AngleBasis, KlemsMatrix, SAME_BOUND};
+use crate::direction::phi;
 use crate::passes::unit::SPHERICAL;
 
 impl AngleBasis {
@@ -15,7 +16,7 @@ impl AngleBasis {
         for (index, ring) in self.rings.iter().enumerate() {
             let is_horizon = index + 1 == self.rings.len() && ring.upper >= 90.0 - SAME_BOUND;
             if theta < ring.upper || (is_horizon && theta <= 90.0) {
-                let turn = y.atan2(x).to_degrees().rem_euclid(360.0) / 360.0;
+                let turn = phi([x, y, z]).to_degrees().rem_euclid(360.0) / 360.0;
                 let sector = (turn * f64::from(ring.patches) + 0.5) as usize;
                 return Some(first + sector % ring.patches as usize);
             }

@@ -1,9 +1,12 @@
 //! The evaluation of a [`Mueller`] one query at a time in `f64`: what the lanes are compared with.
 
+use std::f64::consts::PI;
+
 use super::{ELEMENTS, Matrix, Mueller};
 use crate::direction::{Vector, cross, dot, half_difference, normalize, phi, rotate_z};
 use crate::knots::cell;
 use crate::passes::half_vector;
+use crate::passes::weights::SUM;
 
 impl Mueller {
     /// The Mueller matrix in 1/sr, without the cosine, for light that comes from `wi` and leaves along `wo`.
@@ -49,6 +52,22 @@ impl Mueller {
         }
         matrix[0][0] = matrix[0][0].max(0.0);
         Some(matrix)
+    }
+
+    /// How far a value may be off in the lanes of a [`MuellerTable`](super::MuellerTable), in parts of the largest first element
+    /// of a matrix, where all matrices around were measured.
+    pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
+        let at = coordinates(wi, wo);
+        let errors = rounding(at);
+        // The two ends of `phi_d` have values of their own.
+        if PI - at[0].abs() <= errors[0] {
+            return 1.0;
+        }
+        let steepest = |axis: usize| {
+            let widths = self.knots[axis].windows(2).map(|ends| f64::from(ends[1]) - f64::from(ends[0]));
+            widths.fold(0.0_f64, |steepest, width| steepest.max(1.0 / width))
+        };
+        (0..3).map(|axis| errors[axis] * steepest(axis)).sum::<f64>() + SUM
     }
 }
 

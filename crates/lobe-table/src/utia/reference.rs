@@ -2,6 +2,8 @@
 
 use super::{Decode, PHIS, PLANE, SCALE, STEPS, THETAS, Utia};
 use crate::direction::{phi, theta, wrap};
+use crate::passes::unit::SPHERICAL;
+use crate::passes::weights::SUM;
 
 impl Utia {
     /// The value for light from `wi` seen from `wo`; 0 where a direction is not above the surface.
@@ -9,7 +11,9 @@ impl Utia {
         if wi[2] <= 0.0 || wo[2] <= 0.0 {
             return [0.0; 3];
         }
-        self.eval_angles([theta(wi), phi(wi)], [theta(wo), phi(wo)], decode)
+        // Rounding may put a direction that is just above the horizon just beyond a quarter turn.
+        let angles = |w: [f64; 3]| [theta(w).min(std::f64::consts::FRAC_PI_2), phi(w)];
+        self.eval_angles(angles(wi), angles(wo), decode)
     }
 
     /// The value at zenith angles and azimuths `[theta, phi]` in radians.
@@ -39,6 +43,15 @@ impl Utia {
             Decode::Raw => sum,
             Decode::Srgb => sum.map(|v| 100.0 * if v > 0.0375 { ((v + 0.055) / 1.055).powf(2.4) } else { v / 12.92 }),
         }
+    }
+
+    /// How far a [raw](Decode::Raw) value may be off in the lanes of a [`UtiaTable`](super::UtiaTable), in parts of the largest
+    /// one.
+    pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
+        // Beyond the last zenith angle the sizes of the two weights of the line that goes on add up to more than 1.
+        let stretch = |w: [f64; 3]| 1.0 + 2.0 * (zenith(theta(w)).1 - 1.0).max(0.0);
+        let cells = STEPS.iter().map(|step| 2.0 * SPHERICAL / step.to_radians());
+        (cells.sum::<f64>() + SUM) * stretch(wi) * stretch(wo)
     }
 }
 

@@ -64,8 +64,7 @@ fn linear_look_up_is_that_of_the_reference() {
             for query in 0..COUNT - NOWHERE {
                 let (wi, wo) = pairs.exact(query);
                 let expected = data.eval_linear(wi, wo);
-                // Values are between 0 and 1, so that a place that is off by a part of a bin changes them by no more.
-                let bound = data.rounding(wi, wo).iter().sum::<f64>() + 4e-6;
+                let bound = data.bound(wi, wo);
                 for channel in 0..3 {
                     let error = (f64::from(values[3 * query + channel]) - expected[channel]).abs();
                     assert!(error <= bound, "{bins:?} {form} {query}: {error:e} > {bound:e}: {wi:?} {wo:?}");

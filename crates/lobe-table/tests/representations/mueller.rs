@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use lobe_lane::Lanes;
 use lobe_table::Soa;
-use lobe_table::mueller::{Mueller, MuellerTable, coordinates, rounding};
+use lobe_table::mueller::{Mueller, MuellerTable};
 
 use super::common::{COUNT, Evaluate, NOWHERE, Pairs, evaluate};
 
@@ -39,21 +39,6 @@ fn reference(data: &Mueller, wi: [f64; 3], wo: [f64; 3], channel: usize) -> f64 
     data.in_plane(wi, wo, f64::from(data.knots()[3][channel])).map_or(0.0, |matrix| matrix[0][0])
 }
 
-/// The largest change, of values between 0 and 1, that the rounding of the coordinates of a pair can make.
-fn bound(data: &Mueller, wi: [f64; 3], wo: [f64; 3]) -> f64 {
-    let at = coordinates(wi, wo);
-    let errors = rounding(at);
-    // The two ends of `phi_d` have values of their own.
-    if PI - at[0].abs() <= errors[0] {
-        return 1.0;
-    }
-    let steepest = |axis: usize| {
-        let widths = data.knots()[axis].windows(2).map(|ends| f64::from(ends[1] - ends[0]));
-        widths.fold(0.0_f64, |steepest, width| steepest.max(1.0 / width))
-    };
-    (0..3).map(|axis| errors[axis] * steepest(axis)).sum::<f64>() + 4e-6
-}
-
 #[test]
 fn values_are_those_of_the_reference() {
     let pairs = Pairs::new(false);
@@ -64,7 +49,7 @@ fn values_are_those_of_the_reference() {
             let mut worst = 0.0_f64;
             for query in 0..COUNT - NOWHERE {
                 let (wi, wo) = pairs.exact(query);
-                let bound = bound(&data, wi, wo);
+                let bound = data.bound(wi, wo);
                 for channel in 0..wavelengths {
                     let found = f64::from(values[query * wavelengths + channel]);
                     let error = (found - reference(&data, wi, wo, channel)).abs();

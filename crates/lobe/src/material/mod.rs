@@ -141,27 +141,24 @@ impl Material {
         let source = document.source().to_vec();
         let not_a_table = |found: &'static str| OpenError::NotATable { file: path.display().to_string(), found };
         let too_large = |error| OpenError::TooLarge { file: path.display().to_string(), source: error };
-        let backend = Backend::detect()?;
         let evaluator: Box<dyn Evaluator> = match document {
             Document::Table(measured) => Box::new(Brdf::new(&measured.data, &options.edges)?),
             Document::Spherical(measured) => Box::new(measured.data),
             Document::Scattered(measured) => Box::new(measured.data),
             Document::Rgl(measured) => {
                 let table = RglTable::new(&measured.data, RglOptions::default()).map_err(too_large)?;
-                Box::new(rgl::Parametrised { table, backend })
+                Box::new(rgl::Parametrised { table })
             }
             Document::HalfDiff(measured) => {
                 let table = HalfDiffTable::new(&measured.data).map_err(too_large)?;
-                Box::new(half_diff::HalfDifference { table, lookup: options.lookup, backend })
+                Box::new(half_diff::HalfDifference { table, lookup: options.lookup })
             }
             Document::Utia(measured) => {
                 let table = UtiaTable::new(&measured.data, options.decode).map_err(too_large)?;
-                Box::new(utia::UtiaGrid { table, backend })
+                Box::new(utia::UtiaGrid { table })
             }
-            Document::Mueller(measured) => {
-                Box::new(mueller::Polarised::new(measured.data, backend).map_err(too_large)?)
-            }
-            Document::Window(measured) => Box::new(window::Bands::new(measured.data, backend).map_err(too_large)?),
+            Document::Mueller(measured) => Box::new(mueller::Polarised::new(measured.data).map_err(too_large)?),
+            Document::Window(measured) => Box::new(window::Bands::new(measured.data).map_err(too_large)?),
             Document::Sheet(measured) => {
                 let mut parts = Parts::default();
                 for part in measured.data {
@@ -171,7 +168,7 @@ impl Material {
             }
             _ => return Err(not_a_table("a mirror reflectance")),
         };
-        Ok(Material { format, source, evaluator, mirrors: Vec::new(), backend })
+        Ok(Material { format, source, evaluator, mirrors: Vec::new(), backend: Backend::detect()? })
     }
 
     /// A sheet of which both sides, and both ways through, were measured into files of their own: those measured with
@@ -211,8 +208,7 @@ impl Material {
     }
 
     /// The same material on another backend.
-    pub fn with_backend(mut self, backend: Backend) -> Self {
-        self.evaluator.set_backend(backend);
+    pub fn with_backend(self, backend: Backend) -> Self {
         Material { backend, ..self }
     }
 
@@ -304,21 +300,29 @@ impl Material {
     /// # Panics
     /// Where there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
     pub fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        self.eval_batch_on(self.backend, wi, wo, out);
+    }
+
+    /// As [`eval_batch`](Material::eval_batch), on the backend given: for a renderer that chooses one for all of a picture.
+    ///
+    /// # Panics
+    /// As [`eval_batch`](Material::eval_batch).
+    pub fn eval_batch_on(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         assert_eq!(wi.len(), wo.len(), "as many wi as wo");
         assert_eq!(out.len(), wi.len() * self.channel_count(), "one output a query and channel");
-        self.evaluator.eval_batch(wi, wo, out);
+        self.evaluator.eval_batch(backend, wi, wo, out);
     }
 
     /// The density of [`sample`](Material::sample) over the solid angle of `wi`, in 1/sr. `None` where the
     /// representation has no sampler.
     pub fn pdf(&self, wi: [f32; 3], wo: [f32; 3]) -> Option<f32> {
-        self.evaluator.pdf(wi, wo)
+        self.evaluator.pdf(self.backend, wi, wo)
     }
 
     /// Draws a direction to the light for a viewer from two numbers in `[0, 1)`. `None` where the representation has no
     /// sampler.
     pub fn sample(&self, wo: [f32; 3], uniform: [f32; 2]) -> Option<Sample> {
-        self.evaluator.sample(wo, uniform)
+        self.evaluator.sample(self.backend, wo, uniform)
     }
 
     /// The Mueller matrix in 1/sr for light from `wi` to `wo` at a wavelength in nm, in the Stokes frames of

@@ -12,13 +12,12 @@ pub(super) struct Polarised {
     data: Mueller,
     table: MuellerTable,
     channels: Channels,
-    backend: Backend,
 }
 
 impl Polarised {
-    pub(super) fn new(data: Mueller, backend: Backend) -> Result<Self, Invalid> {
+    pub(super) fn new(data: Mueller) -> Result<Self, Invalid> {
         let channels = Channels::Spectral(data.knots()[3].iter().map(|nm| f64::from(*nm)).collect());
-        Ok(Polarised { table: MuellerTable::new(&data)?, data, channels, backend })
+        Ok(Polarised { table: MuellerTable::new(&data)?, data, channels })
     }
 }
 
@@ -43,12 +42,8 @@ impl Evaluator for Polarised {
         front && scatter == Scatter::Reflection
     }
 
-    fn set_backend(&mut self, backend: Backend) {
-        self.backend = backend;
-    }
-
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        self.backend.run(self.table.batch(wi, wo, out));
+    fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        backend.run(self.table.batch(wi, wo, out));
     }
 
     fn mueller(&self, wi: [f32; 3], wo: [f32; 3], nm: f64) -> Option<Matrix> {

@@ -5,7 +5,7 @@ use lobe_table::spherical_grid::SphericalGrid;
 use lobe_table::{Channels, Scatter};
 
 use super::evaluator::{Evaluator, pair_by_pair};
-use crate::Kind;
+use crate::{Backend, Kind};
 
 impl Evaluator for SphericalGrid {
     fn kind(&self) -> Kind {
@@ -29,7 +29,7 @@ impl Evaluator for SphericalGrid {
         self.scatter() == scatter && (front || scatter == Scatter::Transmission)
     }
 
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+    fn eval_batch(&self, _: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         let mut sum = vec![0.0; self.channels().count()];
         pair_by_pair(wi, wo, out, |wi, wo, texel| self.eval_into(wi, wo, &mut sum, texel));
     }
@@ -57,7 +57,7 @@ impl Evaluator for Scattered {
         self.scatter() == scatter && (front || scatter == Scatter::Transmission)
     }
 
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+    fn eval_batch(&self, _: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         let mut sum = vec![0.0; self.channels().count()];
         pair_by_pair(wi, wo, out, |wi, wo, texel| self.eval_into(wi, wo, &mut sum, texel));
     }

@@ -9,7 +9,6 @@ use crate::{Backend, Kind};
 #[derive(Debug)]
 pub(super) struct UtiaGrid {
     pub(super) table: UtiaTable,
-    pub(super) backend: Backend,
 }
 
 impl Evaluator for UtiaGrid {
@@ -33,11 +32,7 @@ impl Evaluator for UtiaGrid {
         front && scatter == Scatter::Reflection
     }
 
-    fn set_backend(&mut self, backend: Backend) {
-        self.backend = backend;
-    }
-
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        self.backend.run(self.table.batch(wi, wo, out));
+    fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        backend.run(self.table.batch(wi, wo, out));
     }
 }

@@ -14,14 +14,13 @@ pub(super) struct Bands {
     table: WindowTable,
     channels: Channels,
     kind: Kind,
-    backend: Backend,
 }
 
 impl Bands {
-    pub(super) fn new(data: WindowXml, backend: Backend) -> Result<Self, Invalid> {
+    pub(super) fn new(data: WindowXml) -> Result<Self, Invalid> {
         let (names, windows) = data.bands.into_iter().map(|band| (band.wavelength, band.window)).unzip();
         let table = WindowTable::new(windows)?;
-        let mut bands = Bands { table, channels: Channels::Named(names), kind: Kind::Klems, backend };
+        let mut bands = Bands { table, channels: Channels::Named(names), kind: Kind::Klems };
         if bands.components().any(|component| matches!(component, Component::Tree(_))) {
             bands.kind = Kind::TensorTree;
         }
@@ -97,11 +96,7 @@ impl Evaluator for Bands {
         }
     }
 
-    fn set_backend(&mut self, backend: Backend) {
-        self.backend = backend;
-    }
-
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        self.backend.run(self.table.batch(wi, wo, out));
+    fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        backend.run(self.table.batch(wi, wo, out));
     }
 }
