@@ -2,7 +2,13 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use lobe::table::half_diff::HalfDiff;
+use lobe::table::klems::{AngleBasis, KlemsMatrix};
+use lobe::table::mueller::Mueller;
 use lobe::table::rgl::{Images, Parts, Rgl};
+use lobe::table::tensor_tree::{Node, Rank, TensorTree};
+use lobe::table::utia::{PLANE, Utia};
+use lobe::table::window::{Block, Component, Window};
 use lobe::{Channels, Samples, Scatter};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -113,4 +119,75 @@ fn waves(part: &'static str, [slices, height, width]: [usize; 3], low: f32) -> I
         }
     }
     Images::new(part, [slices, height, width], texels).expect("valid images")
+}
+
+/// A number in `(0, 1]` for each index, of which neighbours have others.
+fn value(index: usize) -> f32 {
+    (1 + index * 7919 % 10_007) as f32 / 10_007.0
+}
+
+/// A grid of that many bins, as those of the MERL database are `[90, 90, 180]`.
+pub fn half_difference(bins: [usize; 3]) -> HalfDiff {
+    HalfDiff::new(bins, (0..3 * bins.iter().product::<usize>()).map(value).collect()).expect("a valid grid")
+}
+
+/// A grid of the UTIA database.
+pub fn utia() -> Utia {
+    Utia::new((0..3 * PLANE).map(|index| f64::from(value(index))).collect()).expect("a valid grid")
+}
+
+/// Mueller matrices of the sizes of the small files of the KAIST database, over five wavelengths.
+pub fn mueller() -> Mueller {
+    let graded =
+        |n: usize, from: f32, to: f32| (0..n).map(|i| from + (to - from) * i as f32 / (n - 1) as f32).collect();
+    let half_turn = std::f32::consts::PI;
+    let knots: [Vec<f32>; 4] = [
+        graded(22, -half_turn, half_turn),
+        graded(9, 0.0, half_turn / 2.0),
+        graded(9, 0.0, half_turn / 2.0),
+        graded(5, 450.0, 650.0),
+    ];
+    let count = 16 * knots.iter().map(Vec::len).product::<usize>();
+    Mueller::new(knots, (0..count).map(value).collect()).expect("valid matrices")
+}
+
+/// A sheet with the full Klems basis on both sides.
+pub fn klems() -> Window {
+    let basis = AngleBasis::full();
+    let values: Vec<f32> = (0..basis.patches().pow(2)).map(value).collect();
+    window(|| Component::Klems(KlemsMatrix::new(basis.clone(), basis.clone(), values.clone()).expect("a valid matrix")))
+}
+
+/// A sheet of trees that are divided three to six times.
+pub fn tensor_tree(rank: Rank) -> Window {
+    let dimensions = rank.dimensions();
+    let children = 1 << dimensions;
+    let (mut nodes, mut count) = (vec![Node::Branch(1)], 0_usize);
+    // The children of the root, of which every third is divided again.
+    let divided = |child: usize| child % 3 == 0;
+    let mut next = 1 + children;
+    for child in 0..children {
+        if divided(child) {
+            nodes.push(Node::Branch(next as u32));
+            next += children;
+        } else {
+            nodes.push(Node::Leaf { first: count as u32, level: 2 });
+            count += 1 << (2 * dimensions);
+        }
+    }
+    for grandchild in 0..children * (0..children).filter(|&child| divided(child)).count() {
+        let level = 1 + (grandchild % 2) as u32;
+        nodes.push(Node::Leaf { first: count as u32, level });
+        count += 1 << (level as usize * dimensions);
+    }
+    let values: Vec<f32> = (0..count).map(value).collect();
+    window(|| Component::Tree(TensorTree::new(rank, nodes.clone(), values.clone()).expect("a valid tree")))
+}
+
+fn window(component: impl Fn() -> Component) -> Window {
+    let mut window = Window::default();
+    for block in Block::ALL {
+        window.set(block, component());
+    }
+    window
 }

@@ -22,6 +22,7 @@ macro_rules! tests {
             tests! { @properties $subject $form:
                 floats Floats; ints Ints; masks Masks; memory Memory; texels Texels; math Math; axes Axes;
                 evaluation Evaluation; interpolation Interpolation; rgl Rgl; sampling Sampling;
+                representations Representations;
             }
         }
     )*};

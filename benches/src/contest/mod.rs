@@ -8,6 +8,7 @@ mod backends;
 mod evaluation;
 mod interpolation;
 mod large;
+mod representations;
 mod rgl;
 mod sampling;
 mod search;
@@ -36,7 +37,7 @@ pub struct Question {
 }
 
 /// All questions, in the order of the report.
-pub const QUESTIONS: [Question; 21] = [
+pub const QUESTIONS: [Question; 27] = [
     Question { id: "acos", title: "Arc cosine, eight terms", unit: "value", least: 1, build: acos::eight_terms },
     Question {
         id: "acos-paper",
@@ -126,6 +127,36 @@ pub const QUESTIONS: [Question; 21] = [
         unit: "sample",
         least: 1,
         build: rgl::sample,
+    },
+    Question {
+        id: "half-diff",
+        title: "Half-difference grid, nearest bin",
+        unit: "evaluation",
+        least: 1,
+        build: representations::half_difference,
+    },
+    Question {
+        id: "half-diff-linear",
+        title: "Half-difference grid, interpolated",
+        unit: "evaluation",
+        least: 1,
+        build: representations::half_difference_linear,
+    },
+    Question { id: "utia", title: "UTIA grid", unit: "evaluation", least: 1, build: representations::utia },
+    Question { id: "klems", title: "Klems matrices", unit: "evaluation", least: 1, build: representations::klems },
+    Question {
+        id: "tensor-tree",
+        title: "Tensor trees",
+        unit: "evaluation",
+        least: 1,
+        build: representations::tensor_tree,
+    },
+    Question {
+        id: "mueller",
+        title: "Mueller matrices, five wavelengths",
+        unit: "evaluation",
+        least: 1,
+        build: representations::mueller,
     },
     Question {
         id: "iso-sample",

@@ -31,3 +31,6 @@ pub const DOUBLE_ATAN: Bound = Bound { abs: 1.6e-7, ulp: 1.5 };
 /// Of both results of [`sin_cos`](crate::sin_cos) for angles of up to 8192 rad. Near the zeros of either the absolute
 /// error holds and the ULP bound does not: it is given for angles in `[0, pi/4]`.
 pub const SIN_COS: Bound = Bound { abs: 1.5e-7, ulp: 2.0 };
+/// Of [`fifth_root`](crate::fifth_root) of numbers in `[1e-30, 1e30]`; its error is relative, so that the absolute bound is
+/// that of results of up to 1.
+pub const FIFTH_ROOT: Bound = Bound { abs: 2e-7, ulp: 2.5 };

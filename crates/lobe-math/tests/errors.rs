@@ -13,6 +13,7 @@ enum Function {
     Azimuth,
     Sin,
     Cos,
+    FifthRoot,
 }
 
 /// Applies a function of two arguments to slices whose length is a multiple of the lanes.
@@ -36,6 +37,7 @@ impl Kernel for Apply<'_> {
                 Function::Azimuth => lobe_math::azimuth(lanes, b, a),
                 Function::Sin => lobe_math::sin_cos(lanes, a).0,
                 Function::Cos => lobe_math::sin_cos(lanes, a).1,
+                Function::FifthRoot => lobe_math::fifth_root(lanes, a),
             };
             lanes.store(&mut out[at..], value);
             at += L::LANES;
@@ -116,6 +118,13 @@ fn check_all<L: Lanes>(lanes: L) {
     let only_abs = Bound { ulp: f64::INFINITY, ..bounds::SIN_COS };
     check(&name, "sin wide", only_abs, unary(Function::Sin, f64::sin, &wide).into_iter());
     check(&name, "cos wide", only_abs, unary(Function::Cos, f64::cos, &wide).into_iter());
+
+    let fifth = |x: f64| x.powf(0.2);
+    let parts: Vec<f32> = (0..1 << 16).map(|i| 10f64.powf(-30.0 * f64::from(i) / 65536.0) as f32).collect();
+    check(&name, "fifth root", bounds::FIFTH_ROOT, unary(Function::FifthRoot, fifth, &parts).into_iter());
+    let large: Vec<f32> = parts.iter().map(|x| 1.0 / x).collect();
+    let only_ulp = Bound { abs: 1e6 * bounds::FIFTH_ROOT.abs, ..bounds::FIFTH_ROOT };
+    check(&name, "fifth root", only_ulp, unary(Function::FifthRoot, fifth, &large).into_iter());
 }
 
 #[test]

@@ -4,7 +4,8 @@
 //! [`Table`] is both made ready to be evaluated on any [`lobe_lane`] backend. [`mod@reference`] is the same evaluation in
 //! `f64`, written for the reader; [`coords`] explains the four angles.
 //!
-//! The other modules hold the representations that materials are measured in elsewhere, each with its evaluation in `f64`.
+//! The other modules hold the representations that materials are measured in elsewhere, each with its evaluation in `f64` and,
+//! but for spherical grids and scattered samples, made ready for lanes.
 #![forbid(unsafe_code)]
 
 mod axis;

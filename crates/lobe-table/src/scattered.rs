@@ -74,6 +74,9 @@ struct Incidence {
 ///
 /// Where all incident directions have one azimuth the material is taken for isotropic. Where the outgoing directions of
 /// an isotropic material are all on one side of the plane of incidence, the other side is their mirror image.
+///
+/// They are evaluated in `f64`, a pair at a time, and have no form in lanes: finding the triangle of a point is a walk from
+/// neighbour to neighbour that takes another way for every pair, so that lanes would wait for each other.
 #[derive(Clone, Debug)]
 pub struct Scattered {
     scatter: Scatter,
@@ -182,17 +185,29 @@ impl Scattered {
     /// transmission was. The two sides of the surface are taken for alike.
     pub fn eval(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f32> {
         let count = self.channels.count();
+        let (mut sum, mut out) = (vec![0.0; count], vec![0.0; count]);
+        self.eval_into(wi, wo, &mut sum, &mut out);
+        out
+    }
+
+    /// As [`eval`](Self::eval), into `out`; `sum` holds the channels while they are added up. Many pairs share both.
+    ///
+    /// # Panics
+    /// Where one of the two is shorter than there are channels.
+    pub fn eval_into(&self, wi: [f64; 3], wo: [f64; 3], sum: &mut [f64], out: &mut [f32]) {
+        let count = self.channels.count();
+        let (sum, out) = (&mut sum[..count], &mut out[..count]);
+        sum.fill(0.0);
         let sides = wi[2] * wo[2];
         let is_measured = match self.scatter {
             Scatter::Reflection => sides > 0.0,
             Scatter::Transmission => sides < 0.0,
         };
         if !is_measured {
-            return vec![0.0; count];
+            return out.fill(0.0);
         }
         let theta = wi[0].hypot(wi[1]).atan2(wi[2].abs());
         let phi = wi[1].atan2(wi[0]);
-        let mut sum = vec![0.0_f64; count];
         for (index, weight) in self.mesh.weights(project(theta, place(phi, self.is_isotropic))) {
             if weight == 0.0 {
                 continue;
@@ -212,7 +227,7 @@ impl Scattered {
                 sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * share * f64::from(*value));
             }
         }
-        sum.into_iter().map(|value| value as f32).collect()
+        out.iter_mut().zip(sum).for_each(|(out, value)| *out = *value as f32);
     }
 }
 

@@ -10,6 +10,10 @@ use crate::{Channels, SamplesError, Scatter};
 /// Polar angles are in `[0, pi/2]`, from the normal on the side of their direction; azimuths in `[0, 2 pi]`; all strictly
 /// ascending. A grid with one `phi_i` is isotropic: only the difference of the azimuths counts. Values are `f` in 1/sr,
 /// without the cosine, `[theta_i][phi_i][theta_o][phi_o][channel]`.
+///
+/// It is evaluated in `f64`, a pair at a time, and has no form in lanes: the files are small, most are one of the several
+/// measurements of a sheet, among which the sides of each pair choose, and what is to be fast is resampled into a
+/// [`Table`](crate::Table), whose coordinates follow the peak.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SphericalGrid {
     scatter: Scatter,
@@ -115,13 +119,26 @@ impl SphericalGrid {
     /// the surface are taken for alike.
     pub fn eval(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f32> {
         let count = self.channels.count();
+        let (mut sum, mut out) = (vec![0.0; count], vec![0.0; count]);
+        self.eval_into(wi, wo, &mut sum, &mut out);
+        out
+    }
+
+    /// As [`eval`](Self::eval), into `out`; `sum` holds the channels while they are added up. Many pairs share both.
+    ///
+    /// # Panics
+    /// Where one of the two is shorter than there are channels.
+    pub fn eval_into(&self, wi: [f64; 3], wo: [f64; 3], sum: &mut [f64], out: &mut [f32]) {
+        let count = self.channels.count();
+        let (sum, out) = (&mut sum[..count], &mut out[..count]);
+        sum.fill(0.0);
         let sides = wi[2] * wo[2];
         let is_measured = match self.scatter {
             Scatter::Reflection => sides > 0.0,
             Scatter::Transmission => sides < 0.0,
         };
         if !is_measured {
-            return vec![0.0; count];
+            return out.fill(0.0);
         }
         let polar = |[x, y, z]: [f64; 3]| x.hypot(y).atan2(z.abs());
         let azimuth = |[x, y, _]: [f64; 3]| y.atan2(x);
@@ -139,7 +156,6 @@ impl SphericalGrid {
                 azimuth => periodic(&self.knots[3], azimuth),
             },
         ];
-        let mut sum = vec![0.0_f64; count];
         for corner in 0..16_usize {
             let (mut at, mut weight) = (0, 1.0);
             for (axis, [lower, upper]) in cells.iter().enumerate() {
@@ -150,7 +166,7 @@ impl SphericalGrid {
             let values = &self.values[at * count..][..count];
             sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * f64::from(*value));
         }
-        sum.into_iter().map(|value| value as f32).collect()
+        out.iter_mut().zip(sum).for_each(|(out, value)| *out = *value as f32);
     }
 }
 

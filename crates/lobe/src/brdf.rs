@@ -62,7 +62,7 @@ pub enum OpenError {
 #[derive(Clone, Debug)]
 pub struct Brdf {
     table: Arc<Table>,
-    pub(crate) backend: Backend,
+    backend: Backend,
 }
 
 impl Brdf {

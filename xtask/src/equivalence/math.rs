@@ -24,10 +24,14 @@ impl Kernel for Functions {
         let turns: Vec<f32> = (0..1 << 14).map(|i| (i as f32 / (1 << 13) as f32 - 1.0) * 8192.0).collect();
         angles(lanes, &turns, true, &mut records);
 
+        let numbers: Vec<f32> = (0..1 << 14).map(|i| (f64::from(i) * -0.004).exp() as f32).collect();
+        roots(lanes, &numbers, true, &mut records);
+
         let (x, y) = patterns::pairs(&patterns::floats());
         one_argument(lanes, &x, &y, false, &mut records);
         two_arguments(lanes, &x, &y, false, &mut records);
         angles(lanes, &x, false, &mut records);
+        roots(lanes, &x, false, &mut records);
         records
     }
 }
@@ -77,6 +81,13 @@ fn angles<L: Lanes>(lanes: L, xs: &[f32], domain: bool, records: &mut Vec<Record
     record! { lanes, records, domain, xs, xs;
         "sin" bounds::SIN_COS.abs, |x, _| lobe_math::sin_cos(lanes, x).0;
         "cos" bounds::SIN_COS.abs, |x, _| lobe_math::sin_cos(lanes, x).1;
+    }
+}
+
+#[inline(always)]
+fn roots<L: Lanes>(lanes: L, xs: &[f32], domain: bool, records: &mut Vec<Record>) {
+    record! { lanes, records, domain, xs, xs;
+        "fifth_root" bounds::FIFTH_ROOT.abs, |x, _| lobe_math::fifth_root(lanes, x);
     }
 }
 

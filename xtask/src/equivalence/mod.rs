@@ -14,6 +14,7 @@ mod memory;
 mod patterns;
 mod record;
 mod report;
+mod representations;
 mod rgl;
 mod sampling;
 mod subject;
@@ -44,7 +45,7 @@ pub enum Property {
     Math,
     /// Searches of axes.
     Axes,
-    /// Whole evaluations.
+    /// Whole evaluations of specular tables.
     Evaluation,
     /// Interpolation at known angles.
     Interpolation,
@@ -52,11 +53,13 @@ pub enum Property {
     Rgl,
     /// Samples of tables and their densities.
     Sampling,
+    /// Whole evaluations of other representations.
+    Representations,
 }
 
 impl Property {
     /// All of them.
-    pub const ALL: [Property; 11] = [
+    pub const ALL: [Property; 12] = [
         Self::Floats,
         Self::Ints,
         Self::Masks,
@@ -68,6 +71,7 @@ impl Property {
         Self::Interpolation,
         Self::Rgl,
         Self::Sampling,
+        Self::Representations,
     ];
 
     /// The name in the printed table.
@@ -84,6 +88,7 @@ impl Property {
             Property::Interpolation => "interpolation",
             Property::Rgl => "rgl",
             Property::Sampling => "sampling",
+            Property::Representations => "representations",
         }
     }
 
@@ -101,6 +106,7 @@ impl Property {
             Property::Interpolation => interpolation::record(lanes),
             Property::Rgl => rgl::record(lanes),
             Property::Sampling => sampling::record(lanes),
+            Property::Representations => representations::record(lanes),
         }
     }
 }

@@ -197,7 +197,7 @@ pub(super) fn adversarial() -> Queries {
 }
 
 /// Vectors of any length: outside what is promised but for the bits of the strict form.
-fn not_unit() -> Queries {
+pub(super) fn not_unit() -> Queries {
     let mut rng = Pcg32::seed_from_u64(5);
     let mut vector = || {
         let scale = 10f32.powi(rng.random_range(-3..2));

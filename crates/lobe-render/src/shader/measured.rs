@@ -102,12 +102,12 @@ struct Reduced {
 }
 
 impl Evaluate for Reduced {
-    fn values(&self, _: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [[f32; 3]]) {
+    fn values(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [[f32; 3]]) {
         if self.reduction.is_identity() {
-            return self.material.eval_batch(wi, wo, out.as_flattened_mut());
+            return self.material.eval_batch_on(backend, wi, wo, out.as_flattened_mut());
         }
         let mut values = vec![0.0; wi.len() * self.reduction.channels()];
-        self.material.eval_batch(wi, wo, &mut values);
+        self.material.eval_batch_on(backend, wi, wo, &mut values);
         self.reduction.apply(&values, out);
     }
 }

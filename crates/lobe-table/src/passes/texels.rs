@@ -29,20 +29,74 @@ pub(crate) fn rgb<L: Lanes, T: Stored, const CORNERS: usize>(
         // A few queries a turn, which the compiler writes out: the loop itself would be a tenth of the work.
         let mut query = first;
         while query < first + L::LANES {
-            let pairs = T::octs(lanes, corners, base.one(query) as u32 as usize);
-            let mut sum = pairs[0] * lanes.oct_splat(weights[0].one(query));
-            let mut corner = 1;
-            while corner < CORNERS {
-                sum = lanes.oct_mul_add(pairs[corner], lanes.oct_splat(weights[corner].one(query)), sum);
-                corner += 1;
-            }
-            let [low, high] = lanes.oct_halves(sum);
+            let [low, high] = pair(lanes, query, corners, (base, weights));
             let texel = lanes.quad_mul_add(lanes.quad_splat(phi.one(query)), high - low, low);
             // Each store writes a float too many, which the next one overwrites.
             lanes.quad_store(&mut tile[3 * (query & (BLOCK - 1))..][..4], lanes.quad_max(texel, floor));
             query += 1;
         }
         first += L::LANES;
+    }
+}
+
+/// As [`rgb`], with texels that say by their fourth float whether there is a value: those without one are 0 all through and
+/// take no part in the average. 0 where there is none at all.
+#[inline(always)]
+pub(crate) fn measured<L: Lanes, T: Stored, const CORNERS: usize>(
+    lanes: L,
+    n: usize,
+    corners: &Block<'_, CORNERS, 8, T>,
+    ((base, weights), phi): (Located<'_>, &Column),
+    tile: &mut Tile,
+) {
+    let mut query = 0;
+    while query < n {
+        let [low, high] = pair(lanes, query, corners, (base, weights));
+        // Nothing is subtracted, so that a small part of what was measured keeps its digits when it is all that there is.
+        let upper = phi.one(query);
+        let texel = lanes.quad_mul_add(lanes.quad_splat(upper), high, low * lanes.quad_splat(1.0 - upper));
+        let mut four = [0.0; 4];
+        lanes.quad_store(&mut four, texel);
+        let scale = if four[3] > 0.0 { 1.0 / four[3] } else { 0.0 };
+        // Each store writes a float too many, which the next one overwrites.
+        lanes.quad_store(&mut tile[3 * (query & (BLOCK - 1))..][..4], texel * lanes.quad_splat(scale));
+        query += 1;
+    }
+}
+
+/// The weighted sum of the texel pairs of one query: the lower and the upper neighbour in phi.
+#[inline(always)]
+fn pair<L: Lanes, T: Stored, const CORNERS: usize>(
+    lanes: L,
+    query: usize,
+    corners: &Block<'_, CORNERS, 8, T>,
+    (base, weights): Located<'_>,
+) -> [L::Quad; 2] {
+    let pairs = T::octs(lanes, corners, base.one(query) as u32 as usize);
+    let mut sum = pairs[0] * lanes.oct_splat(weights[0].one(query));
+    let mut corner = 1;
+    while corner < CORNERS {
+        sum = lanes.oct_mul_add(pairs[corner], lanes.oct_splat(weights[corner].one(query)), sum);
+        corner += 1;
+    }
+    lanes.oct_halves(sum)
+}
+
+/// One texel of up to three channels a query, as it is stored.
+#[inline(always)]
+pub(crate) fn nearest<L: Lanes, T: Stored>(
+    lanes: L,
+    n: usize,
+    texels: &Block<'_, 1, 4, T>,
+    base: &Column<i32>,
+    tile: &mut Tile,
+) {
+    let mut query = 0;
+    while query < n {
+        let [texel] = T::quads(lanes, texels, base.one(query) as u32 as usize);
+        // Each store writes a float too many, which the next one overwrites.
+        lanes.quad_store(&mut tile[3 * (query & (BLOCK - 1))..][..4], texel);
+        query += 1;
     }
 }
 

@@ -7,6 +7,9 @@ use super::block::Column;
 /// The largest number of corners: both ends of four axes.
 pub(crate) const MAX_CORNERS: usize = 16;
 
+/// What the roundings of the weights and of a sum of up to 16 corners amount to, in parts of the largest value.
+pub(crate) const SUM: f64 = 4e-6;
+
 /// The weight of each corner over the axes whose fractions are given, the last axis fastest, for queries `0..n`: the
 /// first `2^AXES` columns of `weights`. They add up to `scale`, or to 0 for queries that
 /// are not valid.

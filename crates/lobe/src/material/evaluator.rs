@@ -41,19 +41,16 @@ pub(super) trait Evaluator: Debug + Send + Sync {
         Native::None
     }
 
-    /// Evaluates on this backend from now on, where there are lanes.
-    fn set_backend(&mut self, _backend: Backend) {}
-
     /// `f` in 1/sr of every pair: `out[query * channels + channel]`. The slices fit together.
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]);
+    fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]);
 
     /// The density of [`sample`](Self::sample) over the solid angle of `wi`, in 1/sr, where there is a sampler.
-    fn pdf(&self, _wi: [f32; 3], _wo: [f32; 3]) -> Option<f32> {
+    fn pdf(&self, _: Backend, _wi: [f32; 3], _wo: [f32; 3]) -> Option<f32> {
         None
     }
 
     /// Draws a direction to the light from two numbers in `[0, 1)`, where there is a sampler.
-    fn sample(&self, _wo: [f32; 3], _uniform: [f32; 2]) -> Option<Sample> {
+    fn sample(&self, _: Backend, _wo: [f32; 3], _uniform: [f32; 2]) -> Option<Sample> {
         None
     }
 
@@ -85,9 +82,4 @@ pub(super) fn unit(direction: [f32; 3]) -> Option<[f64; 3]> {
     let v = direction.map(f64::from);
     let length = v.iter().map(|c| c * c).sum::<f64>().sqrt();
     (length.is_finite() && length > 0.0).then(|| v.map(|c| c / length))
-}
-
-/// Rounds the channels of a value.
-pub(super) fn round(texel: &mut [f32], value: &[f64]) {
-    texel.iter_mut().zip(value).for_each(|(out, value)| *out = *value as f32);
 }

@@ -1,14 +1,14 @@
-//! Grids of half and difference angles, by their `f64` reference.
+//! Grids of half and difference angles, in SIMD lanes.
 
-use lobe_table::half_diff::HalfDiff;
+use lobe_table::half_diff::{HalfDiffTable, Lookup};
 use lobe_table::{Channels, Scatter};
 
-use super::evaluator::{Evaluator, pair_by_pair, round};
-use crate::{Kind, Lookup};
+use super::evaluator::Evaluator;
+use crate::{Backend, Kind};
 
 #[derive(Debug)]
 pub(super) struct HalfDifference {
-    pub(super) data: HalfDiff,
+    pub(super) table: HalfDiffTable,
     pub(super) lookup: Lookup,
 }
 
@@ -22,7 +22,7 @@ impl Evaluator for HalfDifference {
     }
 
     fn bytes(&self) -> usize {
-        size_of_val(self.data.values())
+        self.table.bytes()
     }
 
     fn is_isotropic(&self) -> bool {
@@ -33,13 +33,7 @@ impl Evaluator for HalfDifference {
         front && scatter == Scatter::Reflection
     }
 
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        pair_by_pair(wi, wo, out, |wi, wo, texel| {
-            let value = match self.lookup {
-                Lookup::Nearest => self.data.eval_nearest(wi, wo),
-                Lookup::Linear => self.data.eval_linear(wi, wo),
-            };
-            round(texel, &value);
-        });
+    fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        backend.run(self.table.batch(self.lookup, wi, wo, out));
     }
 }

@@ -16,9 +16,11 @@ use std::path::Path;
 
 use lobe_formats::sheet::{Data, Side};
 use lobe_formats::{Document, Format};
+use lobe_table::half_diff::HalfDiffTable;
+pub use lobe_table::half_diff::Lookup;
 use lobe_table::mueller::Matrix;
 use lobe_table::rgl::{RglOptions, RglTable};
-use lobe_table::utia::Decode;
+use lobe_table::utia::{Decode, UtiaTable};
 use lobe_table::{Channels, Edges, Scatter};
 
 use crate::{Backend, Brdf, OpenError};
@@ -28,16 +30,6 @@ pub use kind::Kind;
 use mirror::Mirror;
 pub(crate) use mirror::mirrored;
 pub(crate) use sheet::flipped;
-
-/// How to look up values on a grid of half and difference angles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Lookup {
-    /// The value of the bin, as the reader of the MERL database does it.
-    #[default]
-    Nearest,
-    /// Linear between the middles of the bins.
-    Linear,
-}
 
 /// What a file leaves open.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -100,8 +92,8 @@ impl Parts {
 /// A measured material in the form in which it was measured: nothing is resampled.
 ///
 /// `wi` points to the light and `wo` to the viewer: unit vectors away from the surface, normal on +z. Values are `f` in
-/// 1/sr, without the cosine, one a channel. Specular tables and the materials of the EPFL database are evaluated in the
-/// SIMD lanes of the backend, the other representations in `f64`, pair by pair.
+/// 1/sr, without the cosine, one a channel. All representations are evaluated in the SIMD lanes of the backend but spherical
+/// grids and scattered samples, which are evaluated in `f64`, pair by pair.
 ///
 /// ```no_run
 /// let material = lobe::Material::open("paint.bsdf")?;
@@ -148,21 +140,25 @@ impl Material {
     pub fn new(path: &Path, format: Format, document: Document, options: &Options) -> Result<Self, OpenError> {
         let source = document.source().to_vec();
         let not_a_table = |found: &'static str| OpenError::NotATable { file: path.display().to_string(), found };
+        let too_large = |error| OpenError::TooLarge { file: path.display().to_string(), source: error };
         let evaluator: Box<dyn Evaluator> = match document {
             Document::Table(measured) => Box::new(Brdf::new(&measured.data, &options.edges)?),
             Document::Spherical(measured) => Box::new(measured.data),
             Document::Scattered(measured) => Box::new(measured.data),
             Document::Rgl(measured) => {
-                let table = RglTable::new(&measured.data, RglOptions::default());
-                let too_large = |error| OpenError::TooLarge { file: path.display().to_string(), source: error };
-                Box::new(rgl::Parametrised { table: table.map_err(too_large)?, backend: Backend::detect()? })
+                let table = RglTable::new(&measured.data, RglOptions::default()).map_err(too_large)?;
+                Box::new(rgl::Parametrised { table })
             }
             Document::HalfDiff(measured) => {
-                Box::new(half_diff::HalfDifference { data: measured.data, lookup: options.lookup })
+                let table = HalfDiffTable::new(&measured.data).map_err(too_large)?;
+                Box::new(half_diff::HalfDifference { table, lookup: options.lookup })
             }
-            Document::Utia(measured) => Box::new(utia::UtiaGrid { data: measured.data, decode: options.decode }),
-            Document::Mueller(measured) => Box::new(mueller::Polarised::new(measured.data)),
-            Document::Window(measured) => Box::new(window::Bands::new(measured.data)),
+            Document::Utia(measured) => {
+                let table = UtiaTable::new(&measured.data, options.decode).map_err(too_large)?;
+                Box::new(utia::UtiaGrid { table })
+            }
+            Document::Mueller(measured) => Box::new(mueller::Polarised::new(measured.data).map_err(too_large)?),
+            Document::Window(measured) => Box::new(window::Bands::new(measured.data).map_err(too_large)?),
             Document::Sheet(measured) => {
                 let mut parts = Parts::default();
                 for part in measured.data {
@@ -212,8 +208,7 @@ impl Material {
     }
 
     /// The same material on another backend.
-    pub fn with_backend(mut self, backend: Backend) -> Self {
-        self.evaluator.set_backend(backend);
+    pub fn with_backend(self, backend: Backend) -> Self {
         Material { backend, ..self }
     }
 
@@ -305,21 +300,29 @@ impl Material {
     /// # Panics
     /// Where there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
     pub fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        self.eval_batch_on(self.backend, wi, wo, out);
+    }
+
+    /// As [`eval_batch`](Material::eval_batch), on the backend given: for a renderer that chooses one for all of a picture.
+    ///
+    /// # Panics
+    /// As [`eval_batch`](Material::eval_batch).
+    pub fn eval_batch_on(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         assert_eq!(wi.len(), wo.len(), "as many wi as wo");
         assert_eq!(out.len(), wi.len() * self.channel_count(), "one output a query and channel");
-        self.evaluator.eval_batch(wi, wo, out);
+        self.evaluator.eval_batch(backend, wi, wo, out);
     }
 
     /// The density of [`sample`](Material::sample) over the solid angle of `wi`, in 1/sr. `None` where the
     /// representation has no sampler.
     pub fn pdf(&self, wi: [f32; 3], wo: [f32; 3]) -> Option<f32> {
-        self.evaluator.pdf(wi, wo)
+        self.evaluator.pdf(self.backend, wi, wo)
     }
 
     /// Draws a direction to the light for a viewer from two numbers in `[0, 1)`. `None` where the representation has no
     /// sampler.
     pub fn sample(&self, wo: [f32; 3], uniform: [f32; 2]) -> Option<Sample> {
-        self.evaluator.sample(wo, uniform)
+        self.evaluator.sample(self.backend, wo, uniform)
     }
 
     /// The Mueller matrix in 1/sr for light from `wi` to `wo` at a wavelength in nm, in the Stokes frames of

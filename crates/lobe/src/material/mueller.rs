@@ -1,21 +1,23 @@
-//! Mueller matrices, by their `f64` reference. The value of a pair of directions is that of unpolarised light.
+//! Mueller matrices. The value of a pair of directions is that of unpolarised light, in SIMD lanes; whole matrices are
+//! computed one at a time in `f64`.
 
-use lobe_table::mueller::{Matrix, Mueller};
-use lobe_table::{Channels, Scatter};
+use lobe_table::mueller::{Matrix, Mueller, MuellerTable};
+use lobe_table::{Channels, Invalid, Scatter};
 
-use super::evaluator::{Evaluator, pair_by_pair, unit};
-use crate::Kind;
+use super::evaluator::{Evaluator, unit};
+use crate::{Backend, Kind};
 
 #[derive(Debug)]
 pub(super) struct Polarised {
     data: Mueller,
+    table: MuellerTable,
     channels: Channels,
 }
 
 impl Polarised {
-    pub(super) fn new(data: Mueller) -> Self {
+    pub(super) fn new(data: Mueller) -> Result<Self, Invalid> {
         let channels = Channels::Spectral(data.knots()[3].iter().map(|nm| f64::from(*nm)).collect());
-        Polarised { data, channels }
+        Ok(Polarised { table: MuellerTable::new(&data)?, data, channels })
     }
 }
 
@@ -29,7 +31,7 @@ impl Evaluator for Polarised {
     }
 
     fn bytes(&self) -> usize {
-        size_of_val(self.data.values())
+        size_of_val(self.data.values()) + self.table.bytes()
     }
 
     fn is_isotropic(&self) -> bool {
@@ -40,14 +42,8 @@ impl Evaluator for Polarised {
         front && scatter == Scatter::Reflection
     }
 
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        let wavelengths = &self.data.knots()[3];
-        pair_by_pair(wi, wo, out, |wi, wo, texel| {
-            for (out, nm) in texel.iter_mut().zip(wavelengths) {
-                let matrix = self.data.in_plane(wi, wo, f64::from(*nm));
-                *out = matrix.map_or(0.0, |matrix| matrix[0][0] as f32);
-            }
-        });
+    fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        backend.run(self.table.batch(wi, wo, out));
     }
 
     fn mueller(&self, wi: [f32; 3], wo: [f32; 3], nm: f64) -> Option<Matrix> {

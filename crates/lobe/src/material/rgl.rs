@@ -10,7 +10,6 @@ use crate::{Backend, Kind, Sample};
 #[derive(Debug)]
 pub(super) struct Parametrised {
     pub(super) table: RglTable,
-    pub(super) backend: Backend,
 }
 
 impl Evaluator for Parametrised {
@@ -38,24 +37,20 @@ impl Evaluator for Parametrised {
         Native::Rgl(&self.table)
     }
 
-    fn set_backend(&mut self, backend: Backend) {
-        self.backend = backend;
+    fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        backend.run(self.table.batch(wi, wo, Wanted::Values(out)));
     }
 
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        self.backend.run(self.table.batch(wi, wo, Wanted::Values(out)));
-    }
-
-    fn pdf(&self, wi: [f32; 3], wo: [f32; 3]) -> Option<f32> {
+    fn pdf(&self, backend: Backend, wi: [f32; 3], wo: [f32; 3]) -> Option<f32> {
         let mut pdf = [0.0];
-        self.backend.run(self.table.batch([wo].as_slice(), [wi].as_slice(), Wanted::Pdf(&mut pdf)));
+        backend.run(self.table.batch([wo].as_slice(), [wi].as_slice(), Wanted::Pdf(&mut pdf)));
         Some(pdf[0])
     }
 
-    fn sample(&self, wo: [f32; 3], uniform: [f32; 2]) -> Option<Sample> {
+    fn sample(&self, backend: Backend, wo: [f32; 3], uniform: [f32; 2]) -> Option<Sample> {
         let (mut wi, mut pdf, mut weights) = ([[0.0; 3]], [0.0], vec![0.0; self.table.channel_count()]);
         let drawn = Drawn { wo: &mut wi, pdf: &mut pdf, weights: &mut weights };
-        self.backend.run(self.table.sampling([wo].as_slice(), &[uniform], UniformOrder::default(), drawn));
+        backend.run(self.table.sampling([wo].as_slice(), &[uniform], UniformOrder::default(), drawn));
         Some(Sample { wi: wi[0], pdf: pdf[0] })
     }
 }

@@ -72,12 +72,8 @@ impl Evaluator for Sheet {
         self.measures(front, scatter) || (scatter == Scatter::Transmission && self.measures(!front, scatter))
     }
 
-    fn set_backend(&mut self, backend: Backend) {
-        self.parts.iter_mut().for_each(|part| part.evaluator.set_backend(backend));
-    }
-
     /// Transmission that was measured in one direction only is the same in the other one (Helmholtz reciprocity).
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+    fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         let channels = self.channels.count();
         out.fill(0.0);
         let through = [true, false].map(|front| self.measures(front, Scatter::Transmission));
@@ -99,7 +95,7 @@ impl Evaluator for Sheet {
                 }
             }
             let mut values = vec![0.0; queries.len() * channels];
-            part.evaluator.eval_batch(&lights, &viewers, &mut values);
+            part.evaluator.eval_batch(backend, &lights, &viewers, &mut values);
             for (&query, value) in queries.iter().zip(values.chunks_exact(channels)) {
                 out[query * channels..][..channels].copy_from_slice(value);
             }

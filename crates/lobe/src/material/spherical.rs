@@ -1,11 +1,11 @@
-//! Spherical coordinates, on a grid or scattered, by their `f64` references.
+//! Spherical coordinates, on a grid or scattered, in `f64`.
 
 use lobe_table::scattered::Scattered;
 use lobe_table::spherical_grid::SphericalGrid;
 use lobe_table::{Channels, Scatter};
 
 use super::evaluator::{Evaluator, pair_by_pair};
-use crate::Kind;
+use crate::{Backend, Kind};
 
 impl Evaluator for SphericalGrid {
     fn kind(&self) -> Kind {
@@ -29,8 +29,9 @@ impl Evaluator for SphericalGrid {
         self.scatter() == scatter && (front || scatter == Scatter::Transmission)
     }
 
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        pair_by_pair(wi, wo, out, |wi, wo, texel| texel.copy_from_slice(&self.eval(wi, wo)));
+    fn eval_batch(&self, _: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        let mut sum = vec![0.0; self.channels().count()];
+        pair_by_pair(wi, wo, out, |wi, wo, texel| self.eval_into(wi, wo, &mut sum, texel));
     }
 }
 
@@ -56,7 +57,8 @@ impl Evaluator for Scattered {
         self.scatter() == scatter && (front || scatter == Scatter::Transmission)
     }
 
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        pair_by_pair(wi, wo, out, |wi, wo, texel| texel.copy_from_slice(&self.eval(wi, wo)));
+    fn eval_batch(&self, _: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        let mut sum = vec![0.0; self.channels().count()];
+        pair_by_pair(wi, wo, out, |wi, wo, texel| self.eval_into(wi, wo, &mut sum, texel));
     }
 }

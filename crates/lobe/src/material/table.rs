@@ -31,11 +31,7 @@ impl Evaluator for Brdf {
         Native::Table(self)
     }
 
-    fn set_backend(&mut self, backend: Backend) {
-        self.backend = backend;
-    }
-
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        Brdf::eval_batch(self, wi, wo, out);
+    fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        Brdf::eval_batch(&self.clone().with_backend(backend), wi, wo, out);
     }
 }

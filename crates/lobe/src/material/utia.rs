@@ -1,15 +1,14 @@
-//! The grid of the UTIA database, by its `f64` reference.
+//! The grid of the UTIA database, in SIMD lanes.
 
-use lobe_table::utia::{Decode, Utia};
+use lobe_table::utia::UtiaTable;
 use lobe_table::{Channels, Scatter};
 
-use super::evaluator::{Evaluator, pair_by_pair, round};
-use crate::Kind;
+use super::evaluator::Evaluator;
+use crate::{Backend, Kind};
 
 #[derive(Debug)]
 pub(super) struct UtiaGrid {
-    pub(super) data: Utia,
-    pub(super) decode: Decode,
+    pub(super) table: UtiaTable,
 }
 
 impl Evaluator for UtiaGrid {
@@ -22,7 +21,7 @@ impl Evaluator for UtiaGrid {
     }
 
     fn bytes(&self) -> usize {
-        size_of_val(self.data.values())
+        self.table.bytes()
     }
 
     fn is_isotropic(&self) -> bool {
@@ -33,7 +32,7 @@ impl Evaluator for UtiaGrid {
         front && scatter == Scatter::Reflection
     }
 
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        pair_by_pair(wi, wo, out, |wi, wo, texel| round(texel, &self.data.eval(wi, wo, self.decode)));
+    fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        backend.run(self.table.batch(wi, wo, out));
     }
 }

@@ -1,29 +1,30 @@
-//! Klems matrices and tensor trees, by their `f64` reference. Each band of wavelengths is a channel.
+//! Klems matrices and tensor trees, in SIMD lanes. Each band of wavelengths is a channel.
 
 use lobe_formats::window_xml::WindowXml;
 use lobe_table::klems::KlemsMatrix;
 use lobe_table::tensor_tree::Rank;
-use lobe_table::window::{Block, Component};
-use lobe_table::{Channels, Scatter};
+use lobe_table::window::{Block, Component, WindowTable};
+use lobe_table::{Channels, Invalid, Scatter};
 
-use super::evaluator::{Evaluator, Native, pair_by_pair};
-use crate::Kind;
+use super::evaluator::{Evaluator, Native};
+use crate::{Backend, Kind};
 
 #[derive(Debug)]
 pub(super) struct Bands {
-    data: WindowXml,
+    table: WindowTable,
     channels: Channels,
     kind: Kind,
 }
 
 impl Bands {
-    pub(super) fn new(data: WindowXml) -> Self {
-        let channels = Channels::Named(data.bands.iter().map(|band| band.wavelength.clone()).collect());
-        let mut bands = Bands { data, channels, kind: Kind::Klems };
+    pub(super) fn new(data: WindowXml) -> Result<Self, Invalid> {
+        let (names, windows) = data.bands.into_iter().map(|band| (band.wavelength, band.window)).unzip();
+        let table = WindowTable::new(windows)?;
+        let mut bands = Bands { table, channels: Channels::Named(names), kind: Kind::Klems };
         if bands.components().any(|component| matches!(component, Component::Tree(_))) {
             bands.kind = Kind::TensorTree;
         }
-        bands
+        Ok(bands)
     }
 }
 
@@ -35,7 +36,7 @@ impl<'a> Patches<'a> {
     /// The matrices of one block, a band after the other; `None` where a band does not have it.
     pub(crate) fn block(&self, front: bool, scatter: Scatter) -> Option<Vec<&'a KlemsMatrix>> {
         let block = block(front, scatter);
-        self.0.data.bands.iter().map(|band| band.window.block(block).and_then(as_matrix)).collect()
+        self.0.table.bands().iter().map(|band| band.block(block).and_then(as_matrix)).collect()
     }
 }
 
@@ -58,7 +59,7 @@ fn block(front: bool, scatter: Scatter) -> Block {
 
 impl Bands {
     fn components(&self) -> impl Iterator<Item = &Component> {
-        self.data.bands.iter().flat_map(|band| Block::ALL.into_iter().filter_map(|block| band.window.block(block)))
+        self.table.bands().iter().flat_map(|band| Block::ALL.into_iter().filter_map(|block| band.block(block)))
     }
 }
 
@@ -72,11 +73,7 @@ impl Evaluator for Bands {
     }
 
     fn bytes(&self) -> usize {
-        let values = self.components().map(|component| match component {
-            Component::Klems(matrix) => size_of_val(matrix.values()),
-            Component::Tree(tree) => size_of_val(tree.nodes()) + size_of_val(tree.values()),
-        });
-        values.sum()
+        self.table.bytes()
     }
 
     fn is_isotropic(&self) -> bool {
@@ -88,7 +85,7 @@ impl Evaluator for Bands {
 
     /// One block of transmission stands for the other one too.
     fn holds(&self, front: bool, scatter: Scatter) -> bool {
-        let has = |front| self.data.bands.iter().any(|band| band.window.block(block(front, scatter)).is_some());
+        let has = |front| self.table.bands().iter().any(|band| band.block(block(front, scatter)).is_some());
         has(front) || (scatter == Scatter::Transmission && has(!front))
     }
 
@@ -99,11 +96,7 @@ impl Evaluator for Bands {
         }
     }
 
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        pair_by_pair(wi, wo, out, |wi, wo, texel| {
-            for (out, band) in texel.iter_mut().zip(&self.data.bands) {
-                *out = band.window.eval(wi, wo) as f32;
-            }
-        });
+    fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        backend.run(self.table.batch(wi, wo, out));
     }
 }

@@ -3,6 +3,13 @@
 //! A basis cuts a hemisphere into rings of polar angle and each ring into equal sectors of azimuth, the first of which
 //! is centred on +x (J. H. Klems, "A new method for predicting the solar heat gain of complex fenestration systems",
 //! ASHRAE Transactions 100(1), 1994). Nothing is interpolated: a value belongs to a whole patch.
+//!
+//! The evaluation in SIMD lanes is that of [`WindowTable`](crate::window::WindowTable).
+
+pub(crate) mod lanes;
+mod reference;
+#[cfg(test)]
+mod tests;
 
 use thiserror::Error;
 
@@ -135,26 +142,6 @@ impl AngleBasis {
         self.patches
     }
 
-    /// The patch that holds the unit vector `direction`, whose z must not be negative; `None` beyond the last ring.
-    ///
-    /// Neighbouring patches meet without a gap, so that a change in the last bit of a direction that lies on a bound
-    /// changes its patch.
-    pub fn patch(&self, direction: [f64; 3]) -> Option<usize> {
-        let [x, y, z] = direction;
-        let theta = z.clamp(-1.0, 1.0).acos().to_degrees();
-        let mut first = 0;
-        for (index, ring) in self.rings.iter().enumerate() {
-            let is_horizon = index + 1 == self.rings.len() && ring.upper >= 90.0 - SAME_BOUND;
-            if theta < ring.upper || (is_horizon && theta <= 90.0) {
-                let turn = y.atan2(x).to_degrees().rem_euclid(360.0) / 360.0;
-                let sector = (turn * f64::from(ring.patches) + 0.5) as usize;
-                return Some(first + sector % ring.patches as usize);
-            }
-            first += ring.patches as usize;
-        }
-        None
-    }
-
     /// The solid angle of a patch projected on the surface, in sr: `pi (cos^2 lower - cos^2 upper) / patches`.
     ///
     /// # Panics
@@ -215,17 +202,6 @@ impl KlemsMatrix {
         &self.values
     }
 
-    /// The value for light from `wi` to `wo`, unit vectors that point away from the surface, each on either side.
-    /// Zero where a direction is beyond the last ring of its basis.
-    pub fn eval(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
-        let incident = self.incident.patch([-wi[0], -wi[1], wi[2].abs()]);
-        let exit = self.exit.patch([wo[0], wo[1], wo[2].abs()]);
-        match (incident, exit) {
-            (Some(incident), Some(exit)) => f64::from(self.values[incident * self.exit.patches + exit]),
-            _ => 0.0,
-        }
-    }
-
     /// The share of the light arriving through `incident` that leaves: the sum of `f` times projected solid angle.
     ///
     /// # Panics
@@ -233,60 +209,5 @@ impl KlemsMatrix {
     pub fn albedo(&self, incident: usize) -> f64 {
         let row = &self.values[incident * self.exit.patches..][..self.exit.patches];
         row.iter().enumerate().map(|(exit, &f)| f64::from(f) * self.exit.projected_solid_angle(exit)).sum()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn standard_bases_cover_the_hemisphere() {
-        for (basis, patches) in [(AngleBasis::full(), 145), (AngleBasis::half(), 77), (AngleBasis::quarter(), 41)] {
-            assert_eq!(basis.patches(), patches);
-            assert_eq!(AngleBasis::new(basis.name(), basis.rings().to_vec()), Ok(basis.clone()));
-            let total: f64 = (0..patches).map(|patch| basis.projected_solid_angle(patch)).sum();
-            assert!((total - std::f64::consts::PI).abs() < 1e-12, "{} covers {total}", basis.name());
-        }
-    }
-
-    #[test]
-    fn patches_are_counted_from_a_sector_centred_on_x() {
-        let basis = AngleBasis::full();
-        let at = |theta: f64, phi: f64| {
-            let ((s, c), (sp, cp)) = (theta.to_radians().sin_cos(), phi.to_radians().sin_cos());
-            basis.patch([s * cp, s * sp, c])
-        };
-        assert_eq!(at(0.0, 0.0), Some(0));
-        assert_eq!(at(10.0, 0.0), Some(1));
-        assert_eq!(at(10.0, 22.0), Some(1));
-        assert_eq!(at(10.0, -22.0), Some(1));
-        assert_eq!(at(10.0, 23.0), Some(2));
-        assert_eq!(at(20.0, 90.0), Some(9 + 4));
-        assert_eq!(basis.patch([1.0, 0.0, 0.0]), Some(133));
-    }
-
-    #[test]
-    fn light_straight_through_has_equal_indices() {
-        let basis = AngleBasis::quarter();
-        let n = basis.patches();
-        let values = (0..n * n).map(|at| if at / n == at % n { 1.0 } else { 0.0 }).collect();
-        let matrix = KlemsMatrix::new(basis.clone(), basis, values).expect("a square matrix");
-        let (s, c) = 0.7_f64.sin_cos();
-        assert_eq!(matrix.eval([s * 0.6, s * 0.8, c], [-s * 0.6, -s * 0.8, -c]), 1.0);
-        assert_eq!(matrix.eval([s * 0.6, s * 0.8, c], [s * 0.6, s * 0.8, -c]), 0.0);
-    }
-
-    #[test]
-    fn bad_rings_are_refused() {
-        let ring = |lower, upper, patches| Ring { lower, upper, patches };
-        let new = |rings| AngleBasis::new("bad", rings);
-        assert_eq!(new(vec![]), Err(KlemsError::NoRings));
-        assert!(matches!(new(vec![ring(1.0, 90.0, 1)]), Err(KlemsError::Bounds { index: 0, .. })));
-        assert!(matches!(new(vec![ring(0.0, 5.0, 1), ring(6.0, 90.0, 1)]), Err(KlemsError::Bounds { index: 1, .. })));
-        assert!(matches!(new(vec![ring(0.0, f64::NAN, 1)]), Err(KlemsError::Bounds { .. })));
-        assert!(matches!(new(vec![ring(0.0, 91.0, 1)]), Err(KlemsError::Bounds { .. })));
-        assert!(matches!(new(vec![ring(0.0, 90.0, 0)]), Err(KlemsError::Patches { .. })));
-        assert!(matches!(new(vec![ring(0.0, 90.0, u32::MAX)]), Err(KlemsError::Patches { .. })));
     }
 }

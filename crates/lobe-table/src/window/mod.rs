@@ -1,7 +1,16 @@
 //! A sheet of material with two sides: which block of values answers for which pair of directions.
+//!
+//! A [`Window`] has the blocks of one band of wavelengths, with their evaluation in `f64`; a [`WindowTable`] has several
+//! bands, made ready for evaluation in SIMD lanes.
+
+mod lanes;
+#[cfg(test)]
+mod tests;
 
 use crate::klems::KlemsMatrix;
 use crate::tensor_tree::TensorTree;
+
+pub use lanes::WindowTable;
 
 /// The values of one block, in the form its file has them.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +27,15 @@ impl Component {
         match self {
             Component::Klems(matrix) => matrix.eval(wi, wo),
             Component::Tree(tree) => tree.eval(wi, wo),
+        }
+    }
+
+    /// All values that [`eval`](Self::eval) may have in the lanes: where directions are within rounding of the border of two
+    /// patches or cells, those of both.
+    pub fn candidates(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f64> {
+        match self {
+            Component::Klems(matrix) => matrix.candidates(wi, wo),
+            Component::Tree(tree) => tree.candidates(wi, wo),
         }
     }
 }
@@ -39,6 +57,15 @@ impl Block {
     /// All blocks, in the order in which [`Window`] keeps them.
     pub const ALL: [Block; 4] =
         [Block::TransmissionFront, Block::TransmissionBack, Block::ReflectionFront, Block::ReflectionBack];
+
+    /// The block from which the values of this one may be taken with the directions exchanged (Helmholtz reciprocity).
+    fn reverse(self) -> Option<Block> {
+        match self {
+            Block::TransmissionFront => Some(Block::TransmissionBack),
+            Block::TransmissionBack => Some(Block::TransmissionFront),
+            Block::ReflectionFront | Block::ReflectionBack => None,
+        }
+    }
 
     /// The block for light from `wi` to `wo`; `None` where either grazes the surface.
     ///
@@ -77,50 +104,19 @@ impl Window {
     /// A transmission block that is missing is the other one with the directions exchanged (Helmholtz reciprocity). A
     /// side without values, and light that grazes the surface, give 0.
     pub fn eval(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
-        let Some(block) = Block::of(wi, wo) else { return 0.0 };
-        if let Some(component) = self.block(block) {
-            return component.eval(wi, wo);
-        }
-        let reverse = match block {
-            Block::TransmissionFront => self.block(Block::TransmissionBack),
-            Block::TransmissionBack => self.block(Block::TransmissionFront),
-            Block::ReflectionFront | Block::ReflectionBack => None,
-        };
-        reverse.map_or(0.0, |component| component.eval(wo, wi))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::klems::AngleBasis;
-
-    #[test]
-    fn the_sides_choose_the_block() {
-        let (up, down) = ([0.0, 0.0, 1.0], [0.0, 0.0, -1.0]);
-        let basis = AngleBasis::quarter();
-        let mut window = Window::default();
-        for (index, block) in Block::ALL.into_iter().enumerate() {
-            let values = vec![index as f32 + 1.0; basis.patches().pow(2)];
-            let matrix = KlemsMatrix::new(basis.clone(), basis.clone(), values).expect("a square matrix");
-            assert_eq!(window.set(block, Component::Klems(matrix)), None);
-        }
-        let found = [(down, up), (up, down), (down, down), (up, up)].map(|(wi, wo)| window.eval(wi, wo));
-        assert_eq!(found, [1.0, 2.0, 3.0, 4.0]);
-        assert_eq!(window.eval([1.0, 0.0, 0.0], up), 0.0);
+        self.answer(wi, wo).map_or(0.0, |(component, wi, wo)| component.eval(wi, wo))
     }
 
-    #[test]
-    fn one_transmission_block_serves_both_ways() {
-        let basis = AngleBasis::quarter();
-        let n = basis.patches();
-        let values = (0..n * n).map(|at| at as f32).collect();
-        let matrix = KlemsMatrix::new(basis.clone(), basis, values).expect("a square matrix");
-        let mut window = Window::default();
-        window.set(Block::TransmissionBack, Component::Klems(matrix.clone()));
-        let (above, below) = ([0.6, 0.0, 0.8], [0.0, 0.28, -0.96]);
-        assert_eq!(window.eval(above, below), matrix.eval(above, below));
-        assert_eq!(window.eval(below, above), matrix.eval(above, below));
-        assert_eq!(window.eval(above, above), 0.0);
+    /// All values that [`eval`](Self::eval) may have in the lanes of a [`WindowTable`]: where directions are within rounding of
+    /// the border of two patches or cells, those of both.
+    pub fn candidates(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f64> {
+        self.answer(wi, wo).map_or(vec![0.0], |(component, wi, wo)| component.candidates(wi, wo))
+    }
+
+    /// The block that answers for light from `wi` to `wo`, and with which directions.
+    fn answer(&self, wi: [f64; 3], wo: [f64; 3]) -> Option<(&Component, [f64; 3], [f64; 3])> {
+        let block = Block::of(wi, wo)?;
+        let own = self.block(block).map(|component| (component, wi, wo));
+        own.or_else(|| Some((self.block(block.reverse()?)?, wo, wi)))
     }
 }

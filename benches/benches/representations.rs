@@ -1,0 +1,12 @@
+//! How fast are representations evaluated that are no specular tables?
+
+mod common;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+
+fn representations(criterion: &mut Criterion) {
+    common::bench(criterion, &["half-diff", "half-diff-linear", "utia", "klems", "tensor-tree", "mueller"]);
+}
+
+criterion_group!(benches, representations);
+criterion_main!(benches);

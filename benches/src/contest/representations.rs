@@ -1,0 +1,166 @@
+//! Representations that are no specular tables, in lanes against their `f64` reference one pair at a time.
+
+use std::rc::Rc;
+
+use lobe::table::half_diff::{HalfDiffTable, Lookup};
+use lobe::table::mueller::MuellerTable;
+use lobe::table::tensor_tree::Rank;
+use lobe::table::utia::UtiaTable;
+use lobe::table::window::{Window, WindowTable};
+use lobe::{Backend, Decode, Soa};
+
+use super::{Contender, Contest, Tolerance, backends};
+use crate::tables;
+use crate::workload::{Input, Pairs};
+
+/// Of cells that are chosen and not interpolated: the stored value.
+const STORED: Tolerance = Tolerance { max: 1e-7, rms: 1e-7 };
+/// Of interpolated values, of queries whose bound is at most this.
+const LINEAR: Tolerance = Tolerance { max: SURE, rms: 2e-5 };
+const SURE: f64 = 5e-4;
+
+/// What answers a query in `f64`.
+type One = dyn Fn([f64; 3], [f64; 3], &mut [f64]);
+/// What answers all of them on a backend.
+type All = dyn Fn(Backend, [Soa<'_>; 2], &mut [f32]);
+
+/// RGB of the nearest bin of a table of the size of the MERL database.
+pub fn half_difference(input: Input, count: usize) -> Contest {
+    let data = Rc::new(tables::half_difference([90, 90, 180]));
+    let table = HalfDiffTable::new(&data).expect("a grid that lanes can index");
+    let one = data.clone();
+    contest(
+        (input, count, 3, STORED),
+        move |wi, wo| data.candidates(wi, wo).len() == 1,
+        Rc::new(move |wi, wo, out| out.copy_from_slice(&one.eval_nearest(wi, wo))),
+        Rc::new(move |backend, [wi, wo], out| backend.run(table.batch(Lookup::Nearest, wi, wo, out))),
+    )
+}
+
+/// The same table, interpolated between the middles of its bins.
+pub fn half_difference_linear(input: Input, count: usize) -> Contest {
+    let data = Rc::new(tables::half_difference([90, 90, 180]));
+    let table = HalfDiffTable::new(&data).expect("a grid that lanes can index");
+    let one = data.clone();
+    contest(
+        (input, count, 3, LINEAR),
+        move |wi, wo| data.bound(wi, wo) < SURE,
+        Rc::new(move |wi, wo, out| out.copy_from_slice(&one.eval_linear(wi, wo))),
+        Rc::new(move |backend, [wi, wo], out| backend.run(table.batch(Lookup::Linear, wi, wo, out))),
+    )
+}
+
+/// RGB of the grid of the UTIA database.
+pub fn utia(input: Input, count: usize) -> Contest {
+    let data = Rc::new(tables::utia());
+    let table = UtiaTable::new(&data, Decode::Raw).expect("a valid grid");
+    let one = data.clone();
+    contest(
+        (input, count, 3, LINEAR),
+        move |wi, wo| data.bound(wi, wo) < SURE,
+        Rc::new(move |wi, wo, out| out.copy_from_slice(&one.eval(wi, wo, Decode::Raw))),
+        Rc::new(move |backend, [wi, wo], out| backend.run(table.batch(wi, wo, out))),
+    )
+}
+
+/// Five wavelengths of Mueller matrices, as unpolarised light sees them.
+pub fn mueller(input: Input, count: usize) -> Contest {
+    let data = Rc::new(tables::mueller());
+    let table = MuellerTable::new(&data).expect("a small table");
+    let (one, width) = (data.clone(), table.channel_count());
+    let in_f64 = move |wi, wo, out: &mut [f64]| {
+        for (out, nm) in out.iter_mut().zip(&one.knots()[3]) {
+            *out = one.in_plane(wi, wo, f64::from(*nm)).map_or(0.0, |matrix| matrix[0][0]);
+        }
+    };
+    contest(
+        (input, count, width, LINEAR),
+        move |wi, wo| data.bound(wi, wo) < SURE,
+        Rc::new(in_f64),
+        Rc::new(move |backend, [wi, wo], out| backend.run(table.batch(wi, wo, out))),
+    )
+}
+
+/// One band of the full Klems basis.
+pub fn klems(input: Input, count: usize) -> Contest {
+    sheet(tables::klems(), input, count)
+}
+
+/// One band of a tree over two squares.
+pub fn tensor_tree(input: Input, count: usize) -> Contest {
+    sheet(tables::tensor_tree(Rank::Four), input, count)
+}
+
+fn sheet(window: Window, input: Input, count: usize) -> Contest {
+    let table = WindowTable::new(vec![window.clone()]).expect("a small sheet");
+    let window = Rc::new(window);
+    let one = window.clone();
+    let sure = move |wi, wo| {
+        let candidates = window.candidates(wi, wo);
+        candidates.iter().all(|value| *value == candidates[0])
+    };
+    contest(
+        (input, count, 1, STORED),
+        sure,
+        Rc::new(move |wi, wo, out| out[0] = one.eval(wi, wo)),
+        Rc::new(move |backend, [wi, wo], out| backend.run(table.batch(wi, wo, out))),
+    )
+}
+
+/// Queries of which not `sure`ly known is what lanes give, next to the border of two cells, are replaced by the one before.
+fn contest(
+    (input, count, width, tolerance): (Input, usize, usize, Tolerance),
+    sure: impl Fn([f64; 3], [f64; 3]) -> bool,
+    one: Rc<One>,
+    all: Rc<All>,
+) -> Contest {
+    let pairs = Rc::new(only(input.pairs(count), sure));
+    let in_f64 = {
+        let pairs = pairs.clone();
+        move |out: &mut Vec<f64>| {
+            for (query, out) in out.chunks_exact_mut(width).enumerate() {
+                let (wi, wo) = pairs.get(query);
+                one(unit(wi), unit(wo), out);
+            }
+        }
+    };
+    let mut expected = vec![f64::NAN; width * count];
+    in_f64(&mut expected);
+    let contenders = backends().into_iter().map(|named| {
+        let (pairs, all) = (pairs.clone(), all.clone());
+        let run = move |out: &mut Vec<f32>| {
+            all(named.backend, [&pairs.wi, &pairs.wo].map(|[x, y, z]| Soa::new(x, y, z)), out);
+        };
+        Contender::new(named.name, tolerance, vec![f32::NAN; width * count], run, Vec::clone)
+    });
+    let contenders = contenders.collect();
+    let baseline = Contender::new("f64", STORED, vec![f64::NAN; width * count], in_f64, |out| {
+        out.iter().map(|&value| value as f32).collect()
+    });
+    Contest { count, baselines: vec![baseline], contenders, expected }
+}
+
+fn only(mut pairs: Pairs, sure: impl Fn([f64; 3], [f64; 3]) -> bool) -> Pairs {
+    let is_sure = |pairs: &Pairs, at: usize| {
+        let (wi, wo) = pairs.get(at);
+        sure(unit(wi), unit(wo))
+    };
+    let mut last = (0..pairs.len()).find(|&at| is_sure(&pairs, at)).expect("a query far from any border");
+    for at in 0..pairs.len() {
+        if is_sure(&pairs, at) {
+            last = at;
+            continue;
+        }
+        for k in 0..3 {
+            pairs.wi[k][at] = pairs.wi[k][last];
+            pairs.wo[k][at] = pairs.wo[k][last];
+        }
+    }
+    pairs
+}
+
+fn unit(w: [f32; 3]) -> [f64; 3] {
+    let w = w.map(f64::from);
+    let length = w.iter().map(|x| x * x).sum::<f64>().sqrt();
+    w.map(|x| x / length)
+}

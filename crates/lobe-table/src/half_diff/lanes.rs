@@ -1,0 +1,230 @@
+//! A [`HalfDiff`] made ready to be evaluated in SIMD lanes.
+
+use std::f32::consts::FRAC_2_PI;
+
+use lobe_lane::{Block, Floats, Ints, Kernel, Lanes};
+
+use super::{HalfDiff, Lookup};
+use crate::directions::{BlockOfDirections, Directions};
+use crate::invalid::Invalid;
+use crate::passes::batch::{Batch, Blockwise};
+use crate::passes::block::{BLOCK, Column};
+use crate::passes::half_vector::HalfVector;
+use crate::passes::texels::{self, Tile};
+use crate::passes::weights::{self, MAX_CORNERS};
+use crate::storage::Storage;
+
+/// Floats of a bin: three channels, and 1 where the bin was measured. All four are 0 where it was not.
+const TEXEL: usize = 4;
+
+/// A [`HalfDiff`] laid out for evaluation in SIMD lanes.
+///
+/// The values are those of [`HalfDiff::eval_nearest`] and [`HalfDiff::eval_linear`], in `f32`: `f` in 1/sr, linear RGB. The
+/// directions need not be unit vectors, but their lengths have to be between 1e-15 and 1e15. A query that is within rounding
+/// of the border of two bins may be given to either, see [`HalfDiff::candidates`].
+///
+/// In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
+#[derive(Clone, Debug)]
+pub struct HalfDiffTable {
+    bins: [usize; 3],
+    period: f32,
+    /// Floats from a bin to the next along `theta_h`, `theta_d` and `phi_d`.
+    strides: [usize; 3],
+    /// `[theta_h][theta_d][phi_d]`, the first `phi_d` again after the last; and a dark bin at the end.
+    texels: Storage<f32>,
+}
+
+impl HalfDiffTable {
+    /// Lays out the bins: 16 bytes each.
+    ///
+    /// # Errors
+    /// [`Invalid`] where the bins are more than the 32-bit index of a lane reaches.
+    pub fn new(data: &HalfDiff) -> Result<Self, Invalid> {
+        let [h, d, p] = data.bins();
+        let row = (p + 1).checked_mul(TEXEL);
+        let slice = row.and_then(|row| row.checked_mul(d));
+        let len = slice.and_then(|slice| slice.checked_mul(h)?.checked_add(TEXEL));
+        let (Some(row), Some(slice), Some(len)) = (row, slice, len.filter(|len| i32::try_from(*len).is_ok())) else {
+            let found = format!("{:?} bins", data.bins());
+            return Err(Invalid::new("dims", found, "a table that a 32-bit index reaches"));
+        };
+        let mut texels = Storage::zeros(len);
+        let mut target = texels.as_mut_slice().chunks_exact_mut(TEXEL);
+        for theta_h in 0..h {
+            for theta_d in 0..d {
+                for phi_d in 0..=p {
+                    let target = target.next().expect("a texel a bin");
+                    let bin = [theta_h, theta_d, phi_d % p];
+                    if data.is_measured(bin) {
+                        let [r, g, b] = data.texel(bin);
+                        target.copy_from_slice(&[r, g, b, 1.0]);
+                    }
+                }
+            }
+        }
+        Ok(HalfDiffTable { bins: [h, d, p], period: data.period() as f32, strides: [slice, row, TEXEL], texels })
+    }
+
+    /// Bytes of memory that the table takes.
+    pub fn bytes(&self) -> usize {
+        self.texels.bytes()
+    }
+
+    /// Evaluates `f` in 1/sr of many pairs on the backend given: `out[3 * query + channel]`.
+    ///
+    /// # Panics
+    /// As [`batch`](Self::batch).
+    pub fn eval_batch<L: Lanes, D: Directions>(&self, lanes: L, lookup: Lookup, wi: D, wo: D, out: &mut [f32]) {
+        lanes.vectorize(self.batch(lookup, wi, wo, out));
+    }
+
+    /// The evaluation of many pairs as a kernel: `out[3 * query + channel]`, in 1/sr.
+    ///
+    /// `wi` and `wo` are slices of vectors, or [`Soa`](crate::Soa) of components.
+    ///
+    /// # Panics
+    /// Where there are not as many `wi` as `wo`, or `out` is not three times as long.
+    pub fn batch<'a, D: Directions + 'a>(
+        &'a self,
+        lookup: Lookup,
+        wi: D,
+        wo: D,
+        out: &'a mut [f32],
+    ) -> impl Kernel<Out = ()> + 'a {
+        Batch::new(Evaluator { table: self, lookup }, wi, wo, out)
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Evaluator<'a> {
+    table: &'a HalfDiffTable,
+    lookup: Lookup,
+}
+
+/// What the passes of a block hand on.
+struct Scratch {
+    angles: HalfVector,
+    base: Column<i32>,
+    /// Places in bins along `theta_h`, `theta_d` and `phi_d`; then the fractions between the middles of two.
+    places: [Column; 3],
+    weights: [Column; MAX_CORNERS],
+    tile: Tile,
+}
+
+impl Blockwise for Evaluator<'_> {
+    type Scratch = Scratch;
+    const SCRATCH: Scratch = Scratch {
+        angles: HalfVector::ZERO,
+        base: Column::<i32>::ZERO,
+        places: [Column::<f32>::ZERO; 3],
+        weights: [Column::<f32>::ZERO; MAX_CORNERS],
+        tile: [0.0; 3 * BLOCK + 1],
+    };
+
+    fn channel_count(self) -> usize {
+        3
+    }
+
+    #[inline(always)]
+    fn block<L: Lanes, B: BlockOfDirections>(
+        self,
+        lanes: L,
+        count: usize,
+        directions: (B, B),
+        scratch: &mut Scratch,
+        out: &mut [f32],
+    ) {
+        let table = self.table;
+        let n = count.next_multiple_of(L::LANES);
+        scratch.angles.run::<L, B, false>(lanes, n, directions);
+        table.places(lanes, n, scratch);
+        match self.lookup {
+            Lookup::Nearest => {
+                table.bins(lanes, n, scratch);
+                let block = Block::new(table.texels.as_slice(), [0]);
+                texels::nearest(lanes, n, &block, &scratch.base, &mut scratch.tile);
+            }
+            Lookup::Linear => {
+                table.middles(lanes, n, scratch);
+                let Scratch { angles, base, places: [h, d, p], weights, tile } = scratch;
+                weights::run(lanes, n, [h, d], (&angles.valid, 1.0), weights);
+                let block = Block::new(table.texels.as_slice(), table.corners());
+                texels::measured(lanes, n, &block, ((base, weights), p), tile);
+            }
+        }
+        out.copy_from_slice(&scratch.tile[..out.len()]);
+    }
+}
+
+impl HalfDiffTable {
+    /// Where the next bins of `theta_h` and `theta_d` are; those of `phi_d` come along.
+    #[inline(always)]
+    fn corners(&self) -> [usize; 4] {
+        let [h, d] = [0, 1].map(|axis: usize| if self.bins[axis] > 1 { self.strides[axis] } else { 0 });
+        [0, d, h, h + d]
+    }
+
+    /// Angles to places in bins.
+    #[inline(always)]
+    fn places<L: Lanes>(&self, lanes: L, n: usize, scratch: &mut Scratch) {
+        let Scratch { angles, places: [h, d, p], .. } = scratch;
+        let bins = self.bins.map(|bins| bins as f32);
+        let [h_bins, d_scale, p_scale] =
+            [bins[0], bins[1] * FRAC_2_PI, bins[2] / self.period].map(|scale| lanes.splat(scale));
+        let (quarter_turns, period, zero) = (lanes.splat(FRAC_2_PI), lanes.splat(self.period), lanes.splat(0.0));
+        let mut query = 0;
+        while query < n {
+            h.store(lanes, query, (angles.theta_h.load(lanes, query) * quarter_turns).sqrt() * h_bins);
+            d.store(lanes, query, angles.theta_d.load(lanes, query) * d_scale);
+            let phi = angles.phi_d.load(lanes, query);
+            p.store(lanes, query, (phi + period.masked(phi.lt(zero))) * p_scale);
+            query += L::LANES;
+        }
+    }
+
+    /// Places to the bins that they lie in; the dark one where a query is not valid.
+    #[inline(always)]
+    fn bins<L: Lanes>(&self, lanes: L, n: usize, scratch: &mut Scratch) {
+        let Scratch { angles, base, places: [h, d, p], .. } = scratch;
+        let [h_last, d_last, p_last] = self.bins.map(|bins| lanes.splat_int(bins as i32 - 1));
+        let [h_stride, d_stride, p_stride] = self.strides.map(|stride| lanes.splat_int(stride as i32));
+        let (zero, dark) = (lanes.splat_int(0), lanes.splat_int(-1));
+        let mut query = 0;
+        while query < n {
+            let h = h.load(lanes, query).to_int().min(h_last);
+            let d = d.load(lanes, query).to_int().min(d_last);
+            let p = p.load(lanes, query).to_int().min(p_last);
+            let bin = h * h_stride + d * d_stride + p * p_stride;
+            // An index outside the table is taken for its last, the dark bin.
+            let valid = angles.valid.load(lanes, query).lt(zero);
+            base.store(lanes, query, lanes.select_int(valid, bin, dark));
+            query += L::LANES;
+        }
+    }
+
+    /// Places to the lower of the two bins whose middles they are between, and the fractions between these.
+    #[inline(always)]
+    fn middles<L: Lanes>(&self, lanes: L, n: usize, scratch: &mut Scratch) {
+        let Scratch { base, places, .. } = scratch;
+        *base = Column::<i32>::ZERO;
+        let (half, zero) = (lanes.splat(0.5), lanes.splat(0.0));
+        for (axis, place) in places.iter_mut().enumerate() {
+            let bins = self.bins[axis];
+            let is_circle = axis == 2;
+            // Beyond the first and last middle the value is constant; on a circle the first bin comes again.
+            let (end, last) = if is_circle { (bins, bins - 1) } else { (bins - 1, bins.saturating_sub(2)) };
+            let (end, last) = (lanes.splat(end as f32), lanes.splat_int(last as i32));
+            let turn = if is_circle { end } else { zero };
+            let stride = lanes.splat_int(self.strides[axis] as i32);
+            let mut query = 0;
+            while query < n {
+                let x = place.load(lanes, query) - half;
+                let x = (x + turn.masked(x.lt(zero))).max(zero).min(end);
+                let low = x.to_int().min(last);
+                place.store(lanes, query, x - low.to_float());
+                base.store(lanes, query, base.load(lanes, query) + low * stride);
+                query += L::LANES;
+            }
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! Directions to half and difference angles: the coordinates of Rusinkiewicz, "A New Change of Variables for Efficient BRDF
+//! Representation", 1998.
+//!
+//! With unit vectors, the half vector lies along the sum `h = wi + wo`, and the difference `d = wi - wo` lies across it. Both
+//! are exact to the rounding of the directions near the peak, where products lose their digits; and as
+//! `|h| = 2 cos(theta_d)` and `|d| = 2 sin(theta_d)`, no rotation into the frame of the half vector has to be computed.
+
+use lobe_lane::{Floats, Lanes};
+
+use super::block::Column;
+use super::unit::unit;
+use crate::directions::BlockOfDirections;
+
+/// The angles of a block of queries.
+#[derive(Clone, Copy)]
+pub(crate) struct HalfVector {
+    /// `theta_h` and `theta_d`; before, the tangents of their halves.
+    pub(crate) theta_h: Column,
+    pub(crate) theta_d: Column,
+    /// `phi_d` in `[-pi, pi]`; before, `wi` across the half vector, away from the normal and toward the side.
+    pub(crate) phi_d: Column,
+    side: Column,
+    /// All bits set where both directions point above the horizon.
+    pub(crate) valid: Column<i32>,
+}
+
+impl HalfVector {
+    pub(crate) const ZERO: Self = HalfVector {
+        theta_h: Column::<f32>::ZERO,
+        theta_d: Column::<f32>::ZERO,
+        phi_d: Column::<f32>::ZERO,
+        side: Column::<f32>::ZERO,
+        valid: Column::<i32>::ZERO,
+    };
+
+    /// Fills the angles of queries `0..n`. `n` is a multiple of the lanes.
+    ///
+    /// Where the half vector is the normal its azimuth is that of `wo` where it is `VIEWED`, else 0.
+    #[inline(always)]
+    pub(crate) fn run<L: Lanes, B: BlockOfDirections, const VIEWED: bool>(
+        &mut self,
+        lanes: L,
+        n: usize,
+        directions: (B, B),
+    ) {
+        self.frame::<L, B, VIEWED>(lanes, n, directions);
+        let mut query = 0;
+        while query < n {
+            self.theta_h.store(lanes, query, lobe_math::double_atan(lanes, self.theta_h.load(lanes, query)));
+            self.theta_d.store(lanes, query, lobe_math::double_atan(lanes, self.theta_d.load(lanes, query)));
+            query += L::LANES;
+        }
+        let mut query = 0;
+        while query < n {
+            let phi = lobe_math::atan2(lanes, self.side.load(lanes, query), self.phi_d.load(lanes, query));
+            self.phi_d.store(lanes, query, phi);
+            query += L::LANES;
+        }
+    }
+
+    /// What the angles are computed from.
+    #[inline(always)]
+    fn frame<L: Lanes, B: BlockOfDirections, const VIEWED: bool>(&mut self, lanes: L, n: usize, (wi, wo): (B, B)) {
+        let (zero, one, two) = (lanes.splat(0.0), lanes.splat(1.0), lanes.splat(2.0));
+        let pole = lanes.splat(POLE2);
+        let mut query = 0;
+        while query < n {
+            let (wi, wo) = (wi.load(lanes, query), wo.load(lanes, query));
+            let above = zero.lt(wi[2]) & zero.lt(wo[2]);
+            let ([ix, iy, iz], lit) = unit(lanes, wi);
+            let ([ox, oy, oz], seen) = unit(lanes, wo);
+
+            let (hx, hy, hz) = (ix + ox, iy + oy, iz + oz);
+            let (dx, dy, dz) = (ix - ox, iy - oy, iz - oz);
+            let across2 = lanes.mul_add(hx, hx, hy * hy);
+            // A half vector along the horizon may be of no length in rounding.
+            let h = lanes.mul_add(hz, hz, across2).max(pole).sqrt();
+            let d = lanes.mul_add(dx, dx, lanes.mul_add(dy, dy, dz * dz)).sqrt();
+            self.theta_h.store(lanes, query, across2.sqrt() / (h + hz));
+            self.theta_d.store(lanes, query, d / (two + h));
+
+            // The azimuth of the half vector, of any length; at the pole the vector across is in the horizontal plane.
+            let tilted = pole.lt(across2);
+            let (mut x, mut y) = (one, zero);
+            if VIEWED {
+                let aside = pole.lt(lanes.mul_add(ox, ox, oy * oy));
+                (x, y) = (lanes.select(aside, ox, one), oy.masked(aside));
+            }
+            let (x, y) = (lanes.select(tilted, hx, x), lanes.select(tilted, hy, y));
+            let along = lanes.mul_add(x, dx, y * dy);
+            let side = lanes.mul_add(x, dy, -(y * dx));
+            let away = lanes.mul_add(hz, along, -(across2.masked(tilted) * dz)) / h;
+            self.phi_d.store(lanes, query, away);
+            self.side.store(lanes, query, side);
+            let valid = above & lit & seen;
+            self.valid.store(lanes, query, lanes.select_int(valid, lanes.splat_int(-1), lanes.splat_int(0)));
+            query += L::LANES;
+        }
+    }
+}
+
+/// Closer to the normal than the root of this sine, the half vector is the normal: the sum of two unit vectors is not known
+/// better.
+const POLE2: f32 = 1e-15;
+
+/// What is left of the roundings of two unit vectors, their sum and their difference.
+const VECTOR: f64 = 6e-7;
+/// What is left of those of an angle of up to a turn.
+const ANGLE: f64 = 1e-6;
+
+/// How far `theta_h`, `theta_d` and `phi_d` of the lanes may be from those of exact arithmetic, in radians.
+///
+/// The half vector is of length `2 cos(theta_d)`, so that an error of the directions counts for more where they graze the
+/// surface on opposite sides; and its azimuth says little near the normal, as that of `wi` does near the half vector.
+pub(crate) fn rounding(theta_h: f64, theta_d: f64) -> [f64; 3] {
+    let (half, difference) = (2.0 * theta_d.cos().abs(), 2.0 * theta_d.sin());
+    [VECTOR / half + ANGLE, VECTOR + ANGLE, VECTOR / (half * theta_h.sin()) + VECTOR / difference + ANGLE]
+}

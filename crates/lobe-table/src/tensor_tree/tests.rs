@@ -1,0 +1,49 @@
+use super::*;
+
+#[test]
+fn the_map_keeps_the_axes_and_the_diagonals() {
+    let half = 0.5_f64.sqrt();
+    let wanted = [
+        ([0.0, 0.0], [0.5, 0.5]),
+        ([1.0, 0.0], [1.0, 0.5]),
+        ([0.0, 1.0], [0.5, 1.0]),
+        ([-1.0, 0.0], [0.0, 0.5]),
+        ([0.0, -1.0], [0.5, 0.0]),
+        ([half, half], [1.0, 1.0]),
+        ([-half, half], [0.0, 1.0]),
+        ([-half, -half], [0.0, 0.0]),
+        ([half, -half], [1.0, 0.0]),
+    ];
+    for ([x, y], [a, b]) in wanted {
+        let [c, d] = square(x, y);
+        assert!((a - c).abs() < 1e-12 && (b - d).abs() < 1e-12, "({x}, {y}) -> ({c}, {d}), not ({a}, {b})");
+    }
+}
+
+#[test]
+fn children_and_cells_are_in_opposite_orders() {
+    // The low half along dimension 0, the first child's bit 0, holds a grid; dimension 0 varies slowest in a grid.
+    let mut nodes = vec![Node::Branch(1)];
+    nodes.push(Node::Leaf { first: 0, level: 1 });
+    nodes.extend((8..15).map(|first| Node::Leaf { first, level: 0 }));
+    let tree = TensorTree::new(Rank::Three, nodes, (0..15).map(|v| v as f32).collect()).expect("a tree");
+    assert_eq!(tree.at([0.3, 0.1, 0.1, 0.0]), 4.0);
+    assert_eq!(tree.at([0.1, 0.1, 0.3, 0.0]), 1.0);
+    assert_eq!(tree.at([0.6, 0.1, 0.1, 0.0]), 8.0);
+    assert_eq!(tree.at([0.1, 0.1, 0.6, 0.0]), 11.0);
+    assert_eq!(tree.at([1.0, 1.0, 1.0, 0.0]), 14.0);
+}
+
+#[test]
+fn trees_that_are_none_are_refused() {
+    let leaf = Node::Leaf { first: 0, level: 0 };
+    let new = |nodes| TensorTree::new(Rank::Three, nodes, vec![1.0]);
+    assert_eq!(new(vec![]), Err(TreeError::Empty));
+    assert_eq!(new(vec![Node::Branch(0)]), Err(TreeError::Children { node: 0, first: 0 }));
+    assert_eq!(new(vec![Node::Branch(u32::MAX)]), Err(TreeError::Children { node: 0, first: u32::MAX }));
+    assert_eq!(new(vec![leaf, leaf]), Err(TreeError::Parents { node: 1, parents: 0 }));
+    assert_eq!(new(vec![Node::Leaf { first: 0, level: 1 }]), Err(TreeError::Values { node: 0 }));
+    assert_eq!(new(vec![Node::Leaf { first: 0, level: 22 }]), Err(TreeError::Values { node: 0 }));
+    assert_eq!(new(vec![Node::Leaf { first: 0, level: 25 }]), Err(TreeError::Depth { node: 0 }));
+    assert_eq!(TensorTree::new(Rank::Three, vec![leaf], vec![f32::NAN]), Err(TreeError::ValueNotFinite { index: 0 }));
+}

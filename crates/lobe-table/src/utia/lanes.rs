@@ -1,0 +1,136 @@
+//! A [`Utia`] made ready to be evaluated in SIMD lanes.
+
+use lobe_lane::{Floats, Kernel, Lanes};
+
+use super::{Decode, PHIS, PLANE, SCALE, STEPS, THETAS, Utia};
+use crate::directions::{BlockOfDirections, Directions};
+use crate::eval::Scratch;
+use crate::invalid::Invalid;
+use crate::passes::batch::{Batch, Blockwise};
+use crate::passes::unit::{spherical, unit};
+use crate::{Channels, Edge, Edges, Samples, Scatter, Table};
+
+/// A [`Utia`] laid out for evaluation in SIMD lanes.
+///
+/// The values are those of [`Utia::eval`], in `f32`. The directions need not be unit vectors, but their lengths have to be
+/// between 1e-15 and 1e15. In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
+#[derive(Clone, Debug)]
+pub struct UtiaTable {
+    /// The grid as a table whose four angles are the two zenith angles and azimuths: interpolation does not ask what an
+    /// angle stands for.
+    table: Table,
+    decode: Decode,
+}
+
+impl UtiaTable {
+    /// Lays out the values, 16 bytes each.
+    ///
+    /// # Errors
+    /// [`Invalid`] where a value is beyond the range of `f32`.
+    pub fn new(data: &Utia, decode: Decode) -> Result<Self, Invalid> {
+        let knots = |count: usize, step: f64| (0..count).map(|index| (index as f64 * step).to_radians()).collect();
+        let [thetas, phis]: [Vec<f64>; 2] = [knots(THETAS, STEPS[0]), knots(PHIS, STEPS[1])];
+        let stored = |value: f64| if decode == Decode::Raw { value } else { value.max(0.0) / SCALE };
+        let planes = data.values();
+        let values: Vec<f32> =
+            (0..PLANE).flat_map(|at| [0, 1, 2].map(|channel| stored(planes[channel * PLANE + at]) as f32)).collect();
+        // Zenith angles beyond the last knot continue the line, as the reader of the database does.
+        let edges =
+            Edges { axes: [Edge::Extrapolate, Edge::Periodic, Edge::Extrapolate, Edge::Periodic], non_negative: false };
+        let knots = [thetas.clone(), phis.clone(), thetas, phis];
+        let beyond = |found: String| Invalid::new("values", found, "values that an f32 holds");
+        let samples = Samples::new(Scatter::Reflection, knots, Channels::Rgb, values);
+        let samples = samples.map_err(|error| beyond(error.to_string()))?;
+        let table = Table::new(&samples, &edges).map_err(|error| beyond(error.to_string()))?;
+        Ok(UtiaTable { table, decode })
+    }
+
+    /// Bytes of memory that the table takes.
+    pub fn bytes(&self) -> usize {
+        self.table.bytes()
+    }
+
+    /// Evaluates many pairs on the backend given: `out[3 * query + channel]`.
+    ///
+    /// # Panics
+    /// As [`batch`](Self::batch).
+    pub fn eval_batch<L: Lanes, D: Directions>(&self, lanes: L, wi: D, wo: D, out: &mut [f32]) {
+        lanes.vectorize(self.batch(wi, wo, out));
+    }
+
+    /// The evaluation of many pairs as a kernel: `out[3 * query + channel]`.
+    ///
+    /// `wi` and `wo` are slices of vectors, or [`Soa`](crate::Soa) of components.
+    ///
+    /// # Panics
+    /// Where there are not as many `wi` as `wo`, or `out` is not three times as long.
+    pub fn batch<'a, D: Directions + 'a>(&'a self, wi: D, wo: D, out: &'a mut [f32]) -> impl Kernel<Out = ()> + 'a {
+        Batch::new(self, wi, wo, out)
+    }
+}
+
+impl Blockwise for &UtiaTable {
+    type Scratch = Scratch;
+    const SCRATCH: Scratch = Scratch::ZERO;
+
+    fn channel_count(self) -> usize {
+        3
+    }
+
+    #[inline(always)]
+    fn block<L: Lanes, B: BlockOfDirections>(
+        self,
+        lanes: L,
+        count: usize,
+        directions: (B, B),
+        scratch: &mut Scratch,
+        out: &mut [f32],
+    ) {
+        let n = count.next_multiple_of(L::LANES);
+        angles(lanes, n, directions, scratch);
+        self.table.find(lanes, n, scratch);
+        self.table.texels(lanes, count, &self.table.layout.texels(), scratch, (0, 3), out);
+        if self.decode == Decode::Srgb {
+            undo_curve(lanes, out);
+        }
+    }
+}
+
+/// Zenith angles and azimuths of queries `0..n`, and which of them are above the surface.
+#[inline(always)]
+fn angles<L: Lanes, B: BlockOfDirections>(lanes: L, n: usize, (wi, wo): (B, B), scratch: &mut Scratch) {
+    let zero = lanes.splat(0.0);
+    let mut query = 0;
+    while query < n {
+        let (wi, wo) = (wi.load(lanes, query), wo.load(lanes, query));
+        let above = zero.lt(wi[2]) & zero.lt(wo[2]);
+        let ((wi, lit), (wo, seen)) = (unit(lanes, wi), unit(lanes, wo));
+        let ([theta_i, phi_i], [theta_o, phi_o]) = (spherical(lanes, wi), spherical(lanes, wo));
+        let [first, second, third, fourth] = &mut scratch.axes;
+        first.store(lanes, query, theta_i);
+        second.store(lanes, query, phi_i);
+        third.store(lanes, query, theta_o);
+        fourth.store(lanes, query, phi_o);
+        let valid = lanes.select_int(above & lit & seen, lanes.splat_int(-1), lanes.splat_int(0));
+        scratch.frame.valid.store(lanes, query, valid);
+        query += L::LANES;
+    }
+}
+
+/// [`Decode::Srgb`] after the interpolation.
+#[inline(always)]
+fn undo_curve<L: Lanes>(lanes: L, values: &mut [f32]) {
+    let mut at = 0;
+    while at < values.len() {
+        let value = lanes.load_partial(&values[at..]);
+        let base = (value + lanes.splat(0.055)) * lanes.splat(1.0 / 1.055);
+        // To the power of 2.4: the square, times the square of the fifth root.
+        let root = lobe_math::fifth_root(lanes, base.max(lanes.splat(f32::MIN_POSITIVE)));
+        let power = base * root;
+        let curved = lanes.splat(100.0) * (power * power);
+        let straight = value * lanes.splat(100.0 / 12.92);
+        let is_curved = lanes.splat(0.0375).lt(value);
+        lanes.store_partial(&mut values[at..], lanes.select(is_curved, curved, straight));
+        at += L::LANES;
+    }
+}

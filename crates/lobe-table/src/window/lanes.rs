@@ -1,0 +1,343 @@
+//! Sheets made ready to be evaluated in SIMD lanes.
+
+use lobe_lane::{Floats, Ints, Kernel, Lanes, Mask};
+
+use super::{Block, Component, Window};
+use crate::directions::{BlockOfDirections, Directions};
+use crate::invalid::Invalid;
+use crate::klems::KlemsMatrix;
+use crate::klems::lanes::{PatchScratch, Patches};
+use crate::passes::batch::{Batch, Blockwise};
+use crate::passes::block::Column;
+use crate::passes::unit::unit;
+use crate::tensor_tree::lanes::{Walk, positions};
+use crate::tensor_tree::{Rank, TensorTree};
+
+/// The bands of wavelengths of a sheet, made ready for evaluation in SIMD lanes.
+///
+/// The values are those of [`Window::eval`], `f` in 1/sr, one channel a band. The directions need not be unit vectors, but
+/// their lengths have to be between 1e-15 and 1e15. A query that is within rounding of the border of two patches or cells may
+/// be given to either, see [`Window::candidates`].
+///
+/// In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
+#[derive(Clone, Debug)]
+pub struct WindowTable {
+    bands: Vec<Window>,
+    /// By [`Block`]: what answers for it.
+    groups: [Vec<Group>; 4],
+}
+
+/// Bands whose values are found in the same place, for light from one side to one side.
+#[derive(Clone, Debug)]
+struct Group {
+    /// The block that holds the values: the reverse one, with the directions exchanged, or the own.
+    source: Block,
+    exchanged: bool,
+    members: Members,
+}
+
+#[derive(Clone, Debug)]
+enum Members {
+    /// The patches of light arriving and leaving, and the bands.
+    Klems(Box<[Patches; 2]>, Vec<usize>),
+    /// The bands, each with a tree of its own.
+    Trees(Rank, Vec<(usize, Walk)>),
+}
+
+impl WindowTable {
+    /// Makes the bands ready. The values stay where they are.
+    ///
+    /// # Errors
+    /// [`Invalid`] where the values are more than the 32-bit index of a lane reaches, or the rings of a basis are too narrow.
+    pub fn new(bands: Vec<Window>) -> Result<Self, Invalid> {
+        let mut groups: [Vec<Group>; 4] = Default::default();
+        for (groups, block) in groups.iter_mut().zip(Block::ALL) {
+            for (band, window) in bands.iter().enumerate() {
+                let sources = [Some((block, false)), block.reverse().map(|reverse| (reverse, true))];
+                let answer = sources.into_iter().flatten().find_map(|(source, exchanged)| {
+                    window.block(source).map(|component| (component, source, exchanged))
+                });
+                if let Some((component, source, exchanged)) = answer {
+                    add(groups, band, component, (source, exchanged))?;
+                }
+            }
+        }
+        Ok(WindowTable { bands, groups })
+    }
+
+    /// The bands.
+    pub fn bands(&self) -> &[Window] {
+        &self.bands
+    }
+
+    /// Bytes of memory that the table takes.
+    pub fn bytes(&self) -> usize {
+        let blocks = self.bands.iter().flat_map(|band| Block::ALL.into_iter().filter_map(|block| band.block(block)));
+        let values = blocks.map(|component| match component {
+            Component::Klems(matrix) => size_of_val(matrix.values()),
+            Component::Tree(tree) => size_of_val(tree.nodes()) + size_of_val(tree.values()),
+        });
+        let walks = self.groups.iter().flatten().map(|group| match &group.members {
+            Members::Klems(..) => 0,
+            Members::Trees(_, trees) => trees.iter().map(|(_, walk)| walk.bytes()).sum::<usize>(),
+        });
+        values.sum::<usize>() + walks.sum::<usize>()
+    }
+
+    /// Evaluates `f` in 1/sr of many pairs on the backend given: `out[query * bands + band]`.
+    ///
+    /// # Panics
+    /// As [`batch`](Self::batch).
+    pub fn eval_batch<L: Lanes, D: Directions>(&self, lanes: L, wi: D, wo: D, out: &mut [f32]) {
+        lanes.vectorize(self.batch(wi, wo, out));
+    }
+
+    /// The evaluation of many pairs as a kernel: `out[query * bands + band]`, in 1/sr.
+    ///
+    /// `wi` and `wo` are slices of vectors, or [`Soa`](crate::Soa) of components.
+    ///
+    /// # Panics
+    /// Where there are not as many `wi` as `wo`, or `out` is not that many times the bands long.
+    pub fn batch<'a, D: Directions + 'a>(&'a self, wi: D, wo: D, out: &'a mut [f32]) -> impl Kernel<Out = ()> + 'a {
+        Batch::new(self, wi, wo, out)
+    }
+}
+
+/// Adds a band to the group that it fits, or to a new one.
+fn add(
+    groups: &mut Vec<Group>,
+    band: usize,
+    component: &Component,
+    (source, exchanged): (Block, bool),
+) -> Result<(), Invalid> {
+    let alike = groups.iter_mut().filter(|group| group.exchanged == exchanged);
+    match component {
+        Component::Klems(matrix) => {
+            if i32::try_from(matrix.values().len()).is_err() {
+                let found = format!("{} values", matrix.values().len());
+                return Err(Invalid::new("ScatteringData", found, "a matrix that a 32-bit index reaches"));
+            }
+            let fitting = alike.filter_map(|group| match &mut group.members {
+                Members::Klems(bases, bands)
+                    if bases[0].basis() == matrix.incident() && bases[1].basis() == matrix.exit() =>
+                {
+                    Some(bands)
+                }
+                _ => None,
+            });
+            match fitting.into_iter().next() {
+                Some(bands) => bands.push(band),
+                None => {
+                    let bases = Box::new([Patches::new(matrix.incident())?, Patches::new(matrix.exit())?]);
+                    groups.push(Group { source, exchanged, members: Members::Klems(bases, vec![band]) });
+                }
+            }
+        }
+        Component::Tree(tree) => {
+            let walk = Walk::new(tree)?;
+            let fitting = alike.filter_map(|group| match &mut group.members {
+                Members::Trees(rank, trees) if *rank == tree.rank() => Some(trees),
+                _ => None,
+            });
+            match fitting.into_iter().next() {
+                Some(trees) => trees.push((band, walk)),
+                None => {
+                    groups.push(Group { source, exchanged, members: Members::Trees(tree.rank(), vec![(band, walk)]) })
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What the passes of a block hand on.
+pub(crate) struct Scratch {
+    wi: [Column; 3],
+    wo: [Column; 3],
+    /// Which [`Block`] a query is for; -1 where for none.
+    side: Column<i32>,
+    valid: Column<i32>,
+    patches: PatchScratch,
+    /// The patches of light arriving and leaving; then the index of the pair in the first.
+    pair: [Column<i32>; 2],
+    positions: [Column; 4],
+    value: Column,
+}
+
+impl Blockwise for &WindowTable {
+    type Scratch = Scratch;
+    const SCRATCH: Scratch = Scratch {
+        wi: [Column::<f32>::ZERO; 3],
+        wo: [Column::<f32>::ZERO; 3],
+        side: Column::<i32>::ZERO,
+        valid: Column::<i32>::ZERO,
+        patches: PatchScratch::ZERO,
+        pair: [Column::<i32>::ZERO; 2],
+        positions: [Column::<f32>::ZERO; 4],
+        value: Column::<f32>::ZERO,
+    };
+
+    fn channel_count(self) -> usize {
+        self.bands.len()
+    }
+
+    #[inline(always)]
+    fn block<L: Lanes, B: BlockOfDirections>(
+        self,
+        lanes: L,
+        count: usize,
+        directions: (B, B),
+        scratch: &mut Scratch,
+        out: &mut [f32],
+    ) {
+        let n = count.next_multiple_of(L::LANES);
+        let seen = scratch.sides(lanes, n, directions);
+        out.fill(0.0);
+        // Queries of one block are usually for one side, so that the passes for the others have nothing to do.
+        let mut block = 0;
+        while block < 4 {
+            if seen[block] {
+                for group in &self.groups[block] {
+                    scratch.begin(lanes, n, block);
+                    group.run(lanes, (count, n), &self.bands, scratch, out);
+                }
+            }
+            block += 1;
+        }
+    }
+}
+
+impl Scratch {
+    /// Unit vectors and sides of queries `0..n`, and for which blocks there are any.
+    #[inline(always)]
+    fn sides<L: Lanes, B: BlockOfDirections>(&mut self, lanes: L, n: usize, (wi, wo): (B, B)) -> [bool; 4] {
+        let (zero, none) = (lanes.splat(0.0), lanes.splat_int(0));
+        let mut seen = [false; 4];
+        let mut query = 0;
+        while query < n {
+            let (wi, wo) = (wi.load(lanes, query), wo.load(lanes, query));
+            let (from_above, to_above) = (zero.lt(wi[2]), zero.lt(wo[2]));
+            let across = (from_above | wi[2].lt(zero)) & (to_above | wo[2].lt(zero));
+            let ((wi, lit), (wo, seen_at)) = (unit(lanes, wi), unit(lanes, wo));
+            let mut axis = 0;
+            while axis < 3 {
+                self.wi[axis].store(lanes, query, wi[axis]);
+                self.wo[axis].store(lanes, query, wo[axis]);
+                axis += 1;
+            }
+            // The order of `Block`: by the side that light comes from, transmission first.
+            let from = lanes.select_int(from_above, lanes.splat_int(1), none);
+            let reflected = lanes.select_int(!(from_above ^ to_above), lanes.splat_int(2), none);
+            let side = lanes.select_int(across & lit & seen_at, from + reflected, lanes.splat_int(-1));
+            self.side.store(lanes, query, side);
+            let mut block = 0;
+            while block < 4 {
+                seen[block] |= side.eq(lanes.splat_int(block as i32)).any();
+                block += 1;
+            }
+            query += L::LANES;
+        }
+        seen
+    }
+
+    /// Makes the queries for a block the valid ones.
+    #[inline(always)]
+    fn begin<L: Lanes>(&mut self, lanes: L, n: usize, block: usize) {
+        let mut query = 0;
+        while query < n {
+            let own = self.side.load(lanes, query).eq(lanes.splat_int(block as i32));
+            self.valid.store(lanes, query, lanes.select_int(own, lanes.splat_int(-1), lanes.splat_int(0)));
+            query += L::LANES;
+        }
+    }
+}
+
+impl Group {
+    /// Adds the values of the valid ones of queries `0..count` to `out`, which is 0 for them.
+    #[inline(always)]
+    fn run<L: Lanes>(
+        &self,
+        lanes: L,
+        (count, n): (usize, usize),
+        bands: &[Window],
+        scratch: &mut Scratch,
+        out: &mut [f32],
+    ) {
+        let Scratch { wi, wo, valid, patches, pair: [arriving, leaving], positions: at, value, .. } = scratch;
+        let (from, to) = if self.exchanged { (&*wo, &*wi) } else { (&*wi, &*wo) };
+        match &self.members {
+            Members::Klems(bases, members) => {
+                let [incident, exit] = &**bases;
+                // Light arrives through the patch that it travels toward.
+                incident.find(lanes, n, (from, -1.0), patches, (arriving, valid));
+                exit.find(lanes, n, (to, 1.0), patches, (leaving, valid));
+                let stride = lanes.splat_int(exit.basis().patches() as i32);
+                let mut query = 0;
+                while query < n {
+                    let pair = arriving.load(lanes, query) * stride + leaving.load(lanes, query);
+                    arriving.store(lanes, query, pair);
+                    query += L::LANES;
+                }
+                for &band in members {
+                    if let Some(matrix) = matrix(bands[band].block(self.source)) {
+                        let mut query = 0;
+                        while query < n {
+                            value.store(lanes, query, lanes.gather(matrix.values(), arriving.load(lanes, query)));
+                            query += L::LANES;
+                        }
+                        scatter(lanes, (count, n), (value, valid), (band, bands.len()), out);
+                    }
+                }
+            }
+            Members::Trees(rank, members) => {
+                positions(lanes, n, *rank, (from, to), at);
+                for (band, walk) in members {
+                    if let Some(tree) = tree(bands[*band].block(self.source)) {
+                        match rank {
+                            Rank::Three => walk.run::<L, 3>(lanes, n, tree, at, value),
+                            Rank::Four => walk.run::<L, 4>(lanes, n, tree, at, value),
+                        }
+                        scatter(lanes, (count, n), (value, valid), (*band, bands.len()), out);
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn matrix(component: Option<&Component>) -> Option<&KlemsMatrix> {
+    match component? {
+        Component::Klems(matrix) => Some(matrix),
+        Component::Tree(_) => None,
+    }
+}
+
+fn tree(component: Option<&Component>) -> Option<&TensorTree> {
+    match component? {
+        Component::Klems(_) => None,
+        Component::Tree(tree) => Some(tree),
+    }
+}
+
+/// Adds the values of the valid queries to the channel of a band.
+#[inline(always)]
+fn scatter<L: Lanes>(
+    lanes: L,
+    (count, n): (usize, usize),
+    (value, valid): (&mut Column, &Column<i32>),
+    (band, channels): (usize, usize),
+    out: &mut [f32],
+) {
+    let zero = lanes.splat_int(0);
+    let mut query = 0;
+    while query < n {
+        let masked = value.load(lanes, query).masked(valid.load(lanes, query).lt(zero));
+        value.store(lanes, query, masked);
+        query += L::LANES;
+    }
+    let mut query = 0;
+    while query < count {
+        out[query * channels + band] += value.one(query);
+        query += 1;
+    }
+}

@@ -1,0 +1,84 @@
+//! Mueller matrices, as unpolarised light sees them.
+
+use std::f64::consts::PI;
+
+use lobe_lane::Lanes;
+use lobe_table::Soa;
+use lobe_table::mueller::{Mueller, MuellerTable};
+
+use super::common::{COUNT, Evaluate, NOWHERE, Pairs, evaluate};
+
+impl Evaluate for MuellerTable {
+    fn run<L: Lanes>(&self, lanes: L, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        self.eval_batch(lanes, wi, wo, out);
+    }
+
+    fn run_columns<L: Lanes>(&self, lanes: L, wi: Soa<'_>, wo: Soa<'_>, out: &mut [f32]) {
+        self.eval_batch(lanes, wi, wo, out);
+    }
+}
+
+/// `phi_d`, `theta_d` and `theta_h`, the first two equally spaced.
+fn knots(sizes: [usize; 3], wavelengths: usize) -> [Vec<f32>; 4] {
+    let part = |i: usize, n: usize| i as f32 / (n.max(2) - 1) as f32;
+    let [p, d, h] = sizes;
+    [
+        (0..p).map(|i| (2.0 * part(i, p) - 1.0) * PI as f32).collect(),
+        (0..d).map(|i| 1.5 * part(i, d)).collect(),
+        (0..h).map(|i| 1.4 * part(i, h) * part(i, h)).collect(),
+        (0..wavelengths).map(|i| 450.0 + 50.0 * i as f32).collect(),
+    ]
+}
+
+fn material(sizes: [usize; 3], wavelengths: usize, value: impl Fn(usize) -> f32) -> Mueller {
+    let count = sizes.iter().product::<usize>() * wavelengths * 16;
+    Mueller::new(knots(sizes, wavelengths), (0..count).map(value).collect()).expect("matrices")
+}
+
+fn reference(data: &Mueller, wi: [f64; 3], wo: [f64; 3], channel: usize) -> f64 {
+    data.in_plane(wi, wo, f64::from(data.knots()[3][channel])).map_or(0.0, |matrix| matrix[0][0])
+}
+
+#[test]
+fn values_are_those_of_the_reference() {
+    let pairs = Pairs::new(false);
+    for (sizes, wavelengths) in [([22, 9, 9], 5), ([5, 40, 7], 1), ([3, 2, 1], 8), ([1, 1, 1], 11), ([4, 3, 36], 9)] {
+        let data = material(sizes, wavelengths, |i| ((i / 16 * 37) % 101) as f32 / 101.0);
+        let table = MuellerTable::new(&data).expect("a small table");
+        for (form, values) in evaluate(&table, &pairs, wavelengths) {
+            let mut worst = 0.0_f64;
+            for query in 0..COUNT - NOWHERE {
+                let (wi, wo) = pairs.exact(query);
+                let bound = data.bound(wi, wo);
+                for channel in 0..wavelengths {
+                    let found = f64::from(values[query * wavelengths + channel]);
+                    let error = (found - reference(&data, wi, wo, channel)).abs();
+                    assert!(error <= bound, "{sizes:?} {form} {query}: {error:e} > {bound:e}: {wi:?} {wo:?}");
+                    worst = worst.max(error / bound);
+                }
+            }
+            println!("{sizes:?} {form}: at most {worst:.2} of the bound");
+        }
+    }
+}
+
+#[test]
+fn what_was_not_measured_is_dark() {
+    let pairs = Pairs::new(false);
+    let data = material([6, 5, 4], 3, |i| if i / 48 % 5 == 0 { f32::NAN } else { 0.5 });
+    let table = MuellerTable::new(&data).expect("a small table");
+    for (form, values) in evaluate(&table, &pairs, 3) {
+        let (mut differing, mut dark) = (0, 0);
+        for query in 0..COUNT - NOWHERE {
+            let (wi, wo) = pairs.exact(query);
+            let found = f64::from(values[3 * query + 1]);
+            assert!(found == 0.0 || (found - 0.5).abs() < 1e-5, "{form} {query}: {found}");
+            differing += usize::from((found - reference(&data, wi, wo, 1)).abs() > 1e-5);
+            dark += usize::from(found == 0.0);
+        }
+        assert!(dark > COUNT / 4 && dark < COUNT * 9 / 10, "{form}: {dark} dark");
+        assert!(differing < COUNT / 200, "{form}: {differing} differ");
+    }
+    let negative = MuellerTable::new(&material([6, 5, 4], 3, |_| -1.0)).expect("a small table");
+    assert!(evaluate(&negative, &pairs, 3)[0].1.iter().all(|value| *value == 0.0));
+}

@@ -1,0 +1,198 @@
+//! Whole evaluations of the representations that are no specular tables.
+
+use std::sync::OnceLock;
+
+use lobe_benches::tables::{half_difference, klems, mueller, tensor_tree, utia};
+use lobe_benches::workload::Input;
+use lobe_lane::{Kernel, Lanes};
+use lobe_table::half_diff::{HalfDiffTable, Lookup};
+use lobe_table::mueller::MuellerTable;
+use lobe_table::tensor_tree::Rank;
+use lobe_table::utia::{Decode, UtiaTable};
+use lobe_table::window::WindowTable;
+use lobe_table::{Directions, Soa};
+
+use super::record::{Bound, Record};
+use super::tables::{Queries, adversarial, not_unit, workload};
+
+/// A representation and what is asked of it.
+struct Case {
+    name: &'static str,
+    representation: Representation,
+    width: usize,
+    /// How far the lanes may be from the truth, or in the second place what they may choose among.
+    reference: Box<dyn Fn([f64; 3], [f64; 3]) -> f64 + Send + Sync>,
+}
+
+enum Representation {
+    HalfDiff(HalfDiffTable, Lookup),
+    Utia(UtiaTable),
+    Mueller(MuellerTable),
+    Window(WindowTable),
+}
+
+/// One way of evaluating one of them, compiled for a backend.
+struct Work<'a, D> {
+    representation: &'a Representation,
+    wi: D,
+    wo: D,
+    out: &'a mut [f32],
+}
+
+impl<D: Directions> Kernel for Work<'_, D> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Work { representation, wi, wo, out } = self;
+        match representation {
+            Representation::HalfDiff(table, lookup) => table.batch(*lookup, wi, wo, out).run(lanes),
+            Representation::Utia(table) => table.batch(wi, wo, out).run(lanes),
+            Representation::Mueller(table) => table.batch(wi, wo, out).run(lanes),
+            Representation::Window(table) => table.batch(wi, wo, out).run(lanes),
+        }
+    }
+}
+
+/// What every case records.
+pub(super) fn record<L: Lanes>(lanes: L) -> Vec<Record> {
+    let mut records = Vec::new();
+    for case in cases() {
+        for (set, queries, bounds) in &case.sets() {
+            evaluate(lanes, case, set, queries, bounds.as_deref(), &mut records);
+        }
+    }
+    records
+}
+
+impl Case {
+    /// Named queries, and for each how far the fused form may be away; none where nothing is promised.
+    fn sets(&self) -> [(&'static str, Queries, Option<Vec<f64>>); 4] {
+        let bounded = |queries: Queries| {
+            let pairs = queries.wi.iter().zip(&queries.wo);
+            // Both forms are as near to the truth as that.
+            let bound = |(&wi, &wo): (&[f32; 3], &[f32; 3])| {
+                unit(wi).zip(unit(wo)).map_or(0.0, |(wi, wo)| 2.0 * (self.reference)(wi, wo))
+            };
+            let bounds = pairs.map(bound).collect();
+            (queries, Some(bounds))
+        };
+        let (incoherent, a) = bounded(on_all_sides(workload(Input::Incoherent)));
+        let (coherent, b) = bounded(workload(Input::Coherent));
+        let (adversarial, c) = bounded(adversarial());
+        [
+            ("incoherent", incoherent, a),
+            ("coherent", coherent, b),
+            ("adversarial", adversarial, c),
+            ("not unit", not_unit(), None),
+        ]
+    }
+}
+
+fn evaluate<L: Lanes>(
+    lanes: L,
+    case: &Case,
+    set: &str,
+    Queries { wi, wo }: &Queries,
+    bounds: Option<&[f64]>,
+    records: &mut Vec<Record>,
+) {
+    let Case { name, representation, width, .. } = case;
+    let mut vectors = vec![f32::NAN; wi.len() * width];
+    lanes.vectorize(Work { representation, wi: wi.as_slice(), wo: wo.as_slice(), out: &mut vectors });
+    let mut components = vec![f32::NAN; vectors.len()];
+    let [[ix, iy, iz], [ox, oy, oz]] =
+        [wi, wo].map(|w| [0, 1, 2].map(|k| w.iter().map(|v| v[k]).collect::<Vec<f32>>()));
+    let (wi_columns, wo_columns) = (Soa::new(&ix, &iy, &iz), Soa::new(&ox, &oy, &oz));
+    lanes.vectorize(Work { representation, wi: wi_columns, wo: wo_columns, out: &mut components });
+
+    let agree = vectors.iter().zip(&components).map(|(a, b)| a.to_bits() == b.to_bits()).collect::<Vec<bool>>();
+    records.push(Record::exact(format!("{name}, {set}: components as vectors"), agree));
+    let finite = vectors.iter().map(|value| value.is_finite()).collect::<Vec<bool>>();
+    records.push(Record::exact(format!("{name}, {set}: finite"), finite));
+    let nowhere = vectors.chunks_exact(*width).zip(wi.iter().zip(wo)).filter(|(_, (wi, wo))| {
+        let none = |w: &[f32; 3]| unit(*w).is_none() || w[2] == 0.0;
+        none(wi) || none(wo)
+    });
+    let dark = nowhere.map(|(value, _)| value.iter().all(|x| *x == 0.0)).collect::<Vec<bool>>();
+    records.push(Record::exact(format!("{name}, {set}: 0 where there is no value"), dark));
+    let bound = match bounds {
+        None => Bound::StrictOnly,
+        Some(bounds) => Bound::Each(bounds.iter().flat_map(|bound| std::iter::repeat_n(*bound, *width)).collect()),
+    };
+    records.push(Record::bounded(format!("{name}, {set}: values"), vectors, bound));
+}
+
+/// All cases, made once. The tables of the benchmarks have values of at most 1, all different from each other.
+fn cases() -> &'static [Case] {
+    static CASES: OnceLock<Vec<Case>> = OnceLock::new();
+    CASES.get_or_init(|| {
+        let mut cases = Vec::new();
+        let half = half_difference([30, 20, 40]);
+        let table = HalfDiffTable::new(&half).expect("a small grid");
+        for lookup in [Lookup::Nearest, Lookup::Linear] {
+            let (name, half) =
+                (if lookup == Lookup::Linear { "half-difference, linear" } else { "half-difference" }, half.clone());
+            let reference: Box<dyn Fn(_, _) -> f64 + Send + Sync> = match lookup {
+                Lookup::Linear => Box::new(move |wi, wo| half.bound(wi, wo).min(0.5)),
+                Lookup::Nearest => Box::new(move |wi, wo| {
+                    let candidates = half.candidates(wi, wo);
+                    (0..3).map(|k| spread(candidates.iter().map(|value| value[k]))).fold(0.0, f64::max)
+                }),
+            };
+            let representation = Representation::HalfDiff(table.clone(), lookup);
+            cases.push(Case { name, representation, width: 3, reference });
+        }
+        let grid = utia();
+        let largest = grid.values().iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let table = UtiaTable::new(&grid, Decode::Raw).expect("a valid grid");
+        cases.push(Case {
+            name: "UTIA",
+            representation: Representation::Utia(table),
+            width: 3,
+            reference: Box::new(move |wi, wo| largest * grid.bound(wi, wo)),
+        });
+        let matrices = mueller();
+        let table = MuellerTable::new(&matrices).expect("a small table");
+        cases.push(Case {
+            name: "Mueller",
+            width: table.channel_count(),
+            representation: Representation::Mueller(table),
+            reference: Box::new(move |wi, wo| matrices.bound(wi, wo)),
+        });
+        let sheets = [
+            ("Klems", klems()),
+            ("tensor tree, 3", tensor_tree(Rank::Three)),
+            ("tensor tree, 4", tensor_tree(Rank::Four)),
+        ];
+        for (name, window) in sheets {
+            let table = WindowTable::new(vec![window.clone()]).expect("a small sheet");
+            let reference = Box::new(move |wi, wo| spread(window.candidates(wi, wo).into_iter()));
+            cases.push(Case { name, representation: Representation::Window(table), width: 1, reference });
+        }
+        cases
+    })
+}
+
+/// Half of how far the values that lanes may choose among are apart: 0 where they have no choice.
+fn spread(candidates: impl Iterator<Item = f64>) -> f64 {
+    let (least, most) =
+        candidates.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| (least.min(value), most.max(value)));
+    0.5 * (most - least)
+}
+
+/// Some of the queries from below, and some to below.
+fn on_all_sides(mut queries: Queries) -> Queries {
+    for (query, (wi, wo)) in queries.wi.iter_mut().zip(&mut queries.wo).enumerate() {
+        wi[2] *= if query % 5 == 3 { -1.0 } else { 1.0 };
+        wo[2] *= if query % 7 == 2 { -1.0 } else { 1.0 };
+    }
+    queries
+}
+
+/// The direction in `f64`; `None` where it points nowhere.
+fn unit(w: [f32; 3]) -> Option<[f64; 3]> {
+    let w = w.map(f64::from);
+    let length = w.iter().map(|x| x * x).sum::<f64>().sqrt();
+    (1e-15..1e15).contains(&length).then(|| w.map(|x| x / length))
+}
