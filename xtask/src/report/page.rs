@@ -8,6 +8,7 @@ use lobe_benches::workload::Input;
 use super::bars::bars;
 use super::curve::{Terms, curve};
 use super::equivalence::EquivalenceSummary;
+use super::grid::Grid;
 use super::machine::Machine;
 use super::paper::PaperTable;
 use super::rows::{self, Row};
@@ -31,6 +32,7 @@ pub fn html(report: &Report) -> String {
             body += &answer(rows, question, section.paper.as_ref());
         }
     }
+    body.extend(report.grids().iter().map(Grid::html));
     body += &figure_2();
     body += &about(machine);
     format!(
