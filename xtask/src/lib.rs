@@ -5,6 +5,7 @@ pub mod asm;
 pub mod equivalence;
 pub mod fixtures;
 pub mod golden;
+mod noise;
 #[cfg(target_os = "linux")]
 pub mod peers;
 pub mod pictures;

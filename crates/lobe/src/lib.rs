@@ -21,5 +21,5 @@ pub use lobe_table::{
     Axis, Channels, Directions, Edge, Edges, Function, Given, Precision, Sampled, SamplerError, SamplerOptions,
     Samples, Scatter, Soa, Table, luminance,
 };
-pub use material::{Kind, Lookup, Material, Options, Sample};
+pub use material::{Kind, Lookup, Material, Options};
 pub use sampler::Sampler;

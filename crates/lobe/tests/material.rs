@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
+use std::sync::Arc;
 
 use lobe::formats::sheet::{Data, Part, Side};
 use lobe::formats::{Document, Format, Measured, Specular};
@@ -9,7 +10,7 @@ use lobe::table::half_diff::HalfDiff;
 use lobe::table::mueller::Mueller;
 use lobe::table::rgl::{Images, Parts, Reference, Rgl};
 use lobe::table::spherical_grid::SphericalGrid;
-use lobe::{Channels, Kind, Lookup, Material, OpenError, Options, Samples, Scatter};
+use lobe::{Channels, Given, Kind, Lookup, Material, OpenError, Options, Sampler, SamplerOptions, Samples, Scatter};
 
 fn measured<T>(data: T) -> Measured<T> {
     Measured { data, source: vec![("by".into(), "hand".into())], tis: Vec::new() }
@@ -104,7 +105,6 @@ fn directions_that_point_nowhere_are_dark() {
     for nowhere in [[0.0; 3], [f32::NAN, 0.0, 1.0], [0.0, 0.0, f32::INFINITY]] {
         assert_eq!((value(&material, nowhere, UP), value(&material, UP, nowhere)), (vec![0.0; 3], vec![0.0; 3]));
     }
-    assert_eq!((material.pdf(UP, UP), material.sample(UP, [0.5, 0.5])), (None, None), "no sampler");
     assert_eq!(material.mueller(UP, UP, 500.0), None);
 }
 
@@ -143,25 +143,35 @@ fn rgl() -> Rgl {
 }
 
 #[test]
-fn rgl_values_are_indexed_by_the_light_and_samples_by_the_viewer() {
+fn rgl_values_are_indexed_by_the_light_and_samples_by_the_known_direction() {
     let data = rgl();
     let reference = Reference::new(&data);
-    let material = material(Document::Rgl(measured(data)));
+    let sampler = Sampler::new(Arc::new(material(Document::Rgl(measured(data)))), &SamplerOptions::default());
+    let sampler = sampler.expect("a sampler");
     let wo = [0.0, 0.28, 0.96];
     let wide = |w: [f32; 3]| w.map(f64::from);
     let mut expected = [0.0; 3];
     reference.eval(wide(UP), wide(wo), &mut expected);
-    for (found, expected) in value(&material, UP, wo).into_iter().zip(expected) {
+    for (found, expected) in value(sampler.material(), UP, wo).into_iter().zip(expected) {
         assert!((f64::from(found) / expected - 1.0).abs() < 1e-6, "{found}, not {expected}");
     }
-    let mut drawn = 0;
+    let (mut drawn, mut values) = (0, [0.0; 3]);
     for i in 0..100 {
         let uniform = [(i % 10) as f32 / 10.0 + 0.05, (i / 10) as f32 / 10.0 + 0.05];
-        let sample = material.sample(wo, uniform).expect("a sampler");
-        if sample.pdf > 0.0 {
-            let pdf = material.pdf(sample.wi, wo).expect("a sampler");
-            assert!((sample.pdf / pdf - 1.0).abs() < 1e-3, "{sample:?}: {pdf}");
-            assert!(sample.wi[2] > 0.0);
+        let mut weight = [f32::NAN; 3];
+        let (wi, pdf) = sampler.sample(Given::Viewer, wo, uniform, &mut weight);
+        if pdf > 0.0 {
+            let found = f64::from(sampler.pdf(Given::Viewer, wi, wo));
+            let expected = reference.pdf(wide(wo), wide(wi));
+            for density in [f64::from(pdf), found] {
+                assert!((density / expected - 1.0).abs() < 1e-3, "{wi:?}: {density}, not {expected}");
+            }
+            // The weight is that of the light that was found.
+            reference.eval(wide(wi), wide(wo), &mut values);
+            for (weight, value) in weight.into_iter().zip(values) {
+                let expected = value * f64::from(wi[2]) / f64::from(pdf);
+                assert!((f64::from(weight) / expected - 1.0).abs() < 1e-4, "{wi:?}: {weight}, not {expected}");
+            }
             drawn += 1;
         }
     }
@@ -174,11 +184,12 @@ fn rgl_values_are_indexed_by_the_light_and_samples_by_the_viewer() {
         for j in 0..m {
             let phi = (j as f64 + 0.5) / m as f64 * 2.0 * PI;
             let wi = [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()].map(|c| c as f32);
-            let pdf = material.pdf(wi, wo).expect("a sampler");
+            let pdf = sampler.pdf(Given::Viewer, wi, wo);
             sum += f64::from(pdf) * theta.sin() * FRAC_PI_2 / n as f64 * 2.0 * PI / m as f64;
         }
     }
     assert!((0.5..1.01).contains(&sum), "{sum}");
-    let below = material.sample(DOWN, [0.5, 0.5]).expect("a sampler");
-    assert_eq!((below.pdf, material.pdf(DOWN, UP)), (0.0, Some(0.0)));
+    let mut weight = [f32::NAN; 3];
+    let (_, pdf) = sampler.sample(Given::Viewer, DOWN, [0.5, 0.5], &mut weight);
+    assert_eq!((pdf, weight, sampler.pdf(Given::Viewer, UP, DOWN)), (0.0, [0.0; 3], 0.0));
 }

@@ -16,6 +16,7 @@ mod program;
 mod record;
 mod tracing;
 mod trigonometry;
+mod variance;
 
 use std::path::{Path, PathBuf};
 
@@ -60,7 +61,10 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
     let data = options.data.clone().unwrap_or_else(default_data);
     let mut exchange = Exchange::new(&out)?;
     let mut contests = contests::all(&data, &mut exchange, &options.only)?;
-    if contests.is_empty() {
+    let variance = variance::Question::NAME;
+    let is_asked = options.only.is_empty() || options.only.iter().any(|start| variance.starts_with(start.as_str()));
+    let variance = is_asked.then(|| variance::Question::new(&data, &mut exchange)).transpose()?;
+    if contests.is_empty() && variance.is_none() {
         bail!("no contest begins with {}", options.only.join(" or "));
     }
     let tasks = exchange.write_tasks()?;
@@ -92,9 +96,14 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
         rows.extend(contest.time(&mut programs, options.turns, &differences, || bar.inc(1))?);
     }
     bar.finish_and_clear();
+    let variances = match variance {
+        Some(question) => question.answer(&mut programs, &exchange)?,
+        None => Vec::new(),
+    };
 
     let missing = programs.missing().map(|(name, why)| [name.to_owned(), why]).collect();
-    let record = Record { machine, core, turns: options.turns, versions: programs.versions(), missing, rows };
+    let record =
+        Record { machine, core, turns: options.turns, versions: programs.versions(), missing, rows, variances };
     record.print();
     let json = out.join("peers.json");
     replace(&json, &(serde_json::to_string_pretty(&record)? + "\n"))?;

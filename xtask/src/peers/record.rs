@@ -6,6 +6,7 @@ use std::fmt::Write;
 use comfy_table::{CellAlignment, Table, presets};
 use serde::Serialize;
 
+use super::variance::{self, Variance};
 use crate::report::{Machine, nanoseconds, times};
 
 /// This library against one peer.
@@ -64,10 +65,12 @@ pub struct Record {
     pub missing: Vec<[String; 2]>,
     /// The figures.
     pub rows: Vec<Row>,
+    /// How noisy samples are.
+    pub variances: Vec<Variance>,
 }
 
 impl Record {
-    /// The table on the terminal.
+    /// The tables on the terminal.
     pub fn print(&self) {
         let mut table = Table::new();
         table.load_style(presets::UTF8_HORIZONTAL_ONLY);
@@ -79,6 +82,7 @@ impl Record {
             column.set_cell_alignment(CellAlignment::Right);
         }
         println!("{table}");
+        variance::print(&self.variances);
     }
 
     /// The page.
@@ -104,6 +108,7 @@ impl Record {
         for row in &self.rows {
             writeln!(page, "| {} |", row.cells().join(" | ")).expect("a string");
         }
+        page += &variance::markdown(&self.variances);
         page
     }
 }

@@ -33,12 +33,12 @@ impl Plan {
 ///
 /// # Errors
 /// Where there is no question of a name, or values are wrong; nothing is timed then.
-pub fn all(plan: Plan, only: &[String]) -> anyhow::Result<Vec<Row>> {
+pub fn all(plan: Plan, only: &[&String]) -> anyhow::Result<Vec<Row>> {
     if let Some(unknown) = only.iter().find(|id| Question::named(id).is_none()) {
         let ids: Vec<_> = QUESTIONS.iter().map(|question| question.id).collect();
         bail!("no question `{unknown}`; there are {}", ids.join(", "));
     }
-    let asked = |question: &Question| only.is_empty() || only.iter().any(|id| id == question.id);
+    let asked = |question: &Question| only.is_empty() || only.iter().any(|id| *id == question.id);
     let questions: Vec<_> = QUESTIONS.into_iter().filter(asked).collect();
     let mut contests: Vec<(Question, Input, Contest)> = Vec::new();
     let checks = (questions.len() * Input::ALL.len()) as u64;

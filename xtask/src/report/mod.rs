@@ -2,13 +2,16 @@
 
 mod bars;
 mod curve;
+mod energy;
 mod equivalence;
 mod formats;
+mod grid;
 mod machine;
 mod measure;
 mod page;
 mod paper;
 mod rows;
+mod samplers;
 mod sections;
 mod style;
 mod svg;
@@ -21,8 +24,11 @@ use anyhow::Context;
 use clap::Args;
 use serde::Serialize;
 
+use energy::Energy;
 use equivalence::EquivalenceSummary;
+use grid::Grid;
 use rows::Row;
+use samplers::SamplerCost;
 
 use crate::golden::Comparison;
 
@@ -36,7 +42,7 @@ pub struct Options {
     /// Fewer queries and rounds: under a minute, ratios within some 10 %
     #[arg(long)]
     quick: bool,
-    /// Only these questions, by their ids in report.json
+    /// Only these questions, by their ids in report.json, or `energy` or `samplers`
     #[arg(long, value_name = "ID", value_delimiter = ',')]
     only: Vec<String>,
     /// Also write the rows to this file
@@ -54,24 +60,38 @@ struct Report {
     quick: bool,
     rows: Vec<Row>,
     equivalence: EquivalenceSummary,
-    formats: Vec<Comparison>,
+    formats: Option<Vec<Comparison>>,
+    energy: Vec<Energy>,
+    samplers: Vec<SamplerCost>,
+}
+
+impl Report {
+    /// What is not about speed.
+    fn grids(&self) -> Vec<Grid> {
+        let mut grids = formats::grids(self.formats.as_deref());
+        grids.extend(energy::grids(&self.energy));
+        grids.extend(samplers::grids(&self.samplers));
+        grids
+    }
 }
 
 /// Measures, prints and writes.
 ///
 /// # Errors
-/// Where a contender's values are wrong, or a file cannot be written.
+/// Where a contender's values are wrong, or a file cannot be read or written.
 pub fn run(options: &Options) -> anyhow::Result<()> {
     let machine = Machine::here();
     let plan = if options.quick { measure::Plan::QUICK } else { measure::Plan::FULL };
-    let rows = measure::all(plan, &options.only)?;
-    let report = Report {
-        machine,
-        quick: options.quick,
-        rows,
-        equivalence: equivalence::summary(),
-        formats: formats::compare()?,
-    };
+    let is_section = |id: &&String| [formats::ID, energy::ID, samplers::ID].contains(&id.as_str());
+    let (sections, questions): (Vec<&String>, Vec<&String>) = options.only.iter().partition(is_section);
+    let is_all = options.only.is_empty();
+    let is_asked = |section: &str| is_all || sections.iter().any(|asked| *asked == section);
+    let rows = if is_all || !questions.is_empty() { measure::all(plan, &questions)? } else { Vec::new() };
+    let formats = is_asked(formats::ID).then(formats::compare).transpose()?;
+    let energy = if is_asked(energy::ID) { energy::all()? } else { Vec::new() };
+    let samplers = if is_asked(samplers::ID) { samplers::all(options.quick)? } else { Vec::new() };
+    let equivalence = equivalence::summary();
+    let report = Report { machine, quick: options.quick, rows, equivalence, formats, energy, samplers };
 
     terminal::print(&report);
     std::fs::create_dir_all(&options.out).with_context(|| format!("cannot create {}", options.out.display()))?;

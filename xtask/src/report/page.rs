@@ -8,11 +8,12 @@ use lobe_benches::workload::Input;
 use super::bars::bars;
 use super::curve::{Terms, curve};
 use super::equivalence::EquivalenceSummary;
+use super::grid::Grid;
 use super::machine::Machine;
 use super::paper::PaperTable;
 use super::rows::{self, Row};
 use super::svg::escape;
-use super::{Report, formats, sections, style};
+use super::{Report, sections, style};
 
 /// The whole document.
 pub fn html(report: &Report) -> String {
@@ -31,7 +32,7 @@ pub fn html(report: &Report) -> String {
             body += &answer(rows, question, section.paper.as_ref());
         }
     }
-    body += &formats::html(&report.formats);
+    body.extend(report.grids().iter().map(Grid::html));
     body += &figure_2();
     body += &about(machine);
     format!(

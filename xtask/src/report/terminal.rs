@@ -3,10 +3,11 @@
 use comfy_table::{CellAlignment, Table, presets};
 use lobe_benches::workload::Input;
 
+use super::grid::Grid;
 use super::rows::{self, Row};
-use super::{Report, formats, sections};
+use super::{Report, sections};
 
-/// Prints one table a question.
+/// Prints one table a question, and what is not about speed.
 pub fn print(report: &Report) {
     let machine = &report.machine;
     println!("{}, {} cores, {}", machine.cpu, machine.cores, machine.compiler);
@@ -25,7 +26,7 @@ pub fn print(report: &Report) {
             println!("{}", table(&report.rows, question.id));
         }
     }
-    println!("\n{}", formats::terminal(&report.formats));
+    report.grids().iter().for_each(Grid::print);
 }
 
 /// Backends down; for each input the time and the ratio to each baseline across.

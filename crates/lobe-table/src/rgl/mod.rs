@@ -26,6 +26,12 @@ use crate::samples::Channels;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
+/// The least area that the unit square is stretched to, at the pole of the half vector, where it would vanish and densities
+/// be infinite. It reaches 1.6e-7 rad around the pole, as far as directions in single precision are apart. The 1e-6 of the
+/// loader of the database reach 1.5e-5 rad: where visible normals are dense there, a four-hundredth of all samples would
+/// have a density that is too low.
+const LEAST_AREA: f64 = 1e-9;
+
 /// Images on the unit square, `[slice][row][column]`: the row is `u.y`, an azimuth; the column is `u.x`, a zenith angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Images {

@@ -1,7 +1,7 @@
 //! Evaluation of an [`Rgl`] one query at a time in `f64`: what the lanes are compared with.
 
-use super::Rgl;
 use super::marginal::{Blend, Warp, bilinear};
+use super::{LEAST_AREA, Rgl};
 use crate::direction::{Vector, add, dot, normalize, phi, scale, spherical, sub, theta};
 use crate::knots::cell;
 use crate::samples::Channels;
@@ -212,9 +212,9 @@ fn phi_to_u(phi: f64) -> f64 {
     (phi + PI) / TAU
 }
 
-/// From the density of the half vector on the unit square to that of `wo` over solid angle. The lower bound, at the
-/// pole of the half vector, is that of the reference loader.
+/// From the density of the half vector on the unit square to that of `wo` over solid angle, with the lower bound
+/// [`LEAST_AREA`] at the pole of the half vector.
 fn jacobian(cos: f64, u_x: f64, m: Vector) -> f64 {
     let sin_theta_m = (m[0] * m[0] + m[1] * m[1]).sqrt();
-    4.0 * cos * (2.0 * PI * PI * u_x * sin_theta_m).max(1e-6)
+    4.0 * cos * (2.0 * PI * PI * u_x * sin_theta_m).max(LEAST_AREA)
 }

@@ -162,9 +162,23 @@ impl Distribution {
         directions: &mut [[f32; 3]],
         pdfs: &mut [f32],
     ) {
+        lanes.vectorize(self.drawing(known, u, directions, pdfs));
+    }
+
+    /// The drawing of many directions as a kernel (see [`draw_batch`](Self::draw_batch)).
+    ///
+    /// # Panics
+    /// Where the slices do not have the same length.
+    pub fn drawing<'a>(
+        &'a self,
+        known: &'a [[f32; 3]],
+        u: &'a [[f32; 2]],
+        directions: &'a mut [[f32; 3]],
+        pdfs: &'a mut [f32],
+    ) -> impl Kernel<Out = ()> + 'a {
         let count = known.len();
         assert_eq!((u.len(), directions.len(), pdfs.len()), (count, count, count), "one of each a direction");
-        lanes.vectorize(Draws { distribution: self, known, u, directions, pdfs });
+        Draws { distribution: self, known, u, directions, pdfs }
     }
 
     /// The density of each of the `other` directions given the known one; 0 where one of them is none above the surface.
@@ -172,8 +186,21 @@ impl Distribution {
     /// # Panics
     /// Where the slices do not have the same length.
     pub fn pdf_batch<L: Lanes>(&self, lanes: L, known: &[[f32; 3]], other: &[[f32; 3]], pdfs: &mut [f32]) {
+        lanes.vectorize(self.densities(known, other, pdfs));
+    }
+
+    /// The densities of many pairs as a kernel (see [`pdf_batch`](Self::pdf_batch)).
+    ///
+    /// # Panics
+    /// Where the slices do not have the same length.
+    pub fn densities<'a>(
+        &'a self,
+        known: &'a [[f32; 3]],
+        other: &'a [[f32; 3]],
+        pdfs: &'a mut [f32],
+    ) -> impl Kernel<Out = ()> + 'a {
         assert_eq!((known.len(), other.len()), (pdfs.len(), pdfs.len()), "as many known as other and densities");
-        lanes.vectorize(Densities { distribution: self, known, other, pdfs });
+        Densities { distribution: self, known, other, pdfs }
     }
 
     /// How bright the surface is for light from each known direction: the integral of luminance times `f` times cosine,
@@ -182,8 +209,16 @@ impl Distribution {
     /// # Panics
     /// Where the slices do not have the same length.
     pub fn brightness_batch<L: Lanes>(&self, lanes: L, known: &[[f32; 3]], out: &mut [f32]) {
+        lanes.vectorize(self.brightnesses(known, out));
+    }
+
+    /// The brightness for many directions as a kernel (see [`brightness_batch`](Self::brightness_batch)).
+    ///
+    /// # Panics
+    /// Where the slices do not have the same length.
+    pub fn brightnesses<'a>(&'a self, known: &'a [[f32; 3]], out: &'a mut [f32]) -> impl Kernel<Out = ()> + 'a {
         assert_eq!(known.len(), out.len(), "a direction a result");
-        lanes.vectorize(Brightnesses { distribution: self, known, out });
+        Brightnesses { distribution: self, known, out }
     }
 
     /// A direction a lane and its density, inside a caller's own kernel; zeros where `known` is none above the surface
@@ -299,11 +334,11 @@ impl Kernel for Draws<'_> {
 }
 
 /// All densities of a batch.
-pub(super) struct Densities<'a> {
-    pub(super) distribution: &'a Distribution,
-    pub(super) known: &'a [[f32; 3]],
-    pub(super) other: &'a [[f32; 3]],
-    pub(super) pdfs: &'a mut [f32],
+struct Densities<'a> {
+    distribution: &'a Distribution,
+    known: &'a [[f32; 3]],
+    other: &'a [[f32; 3]],
+    pdfs: &'a mut [f32],
 }
 
 impl Kernel for Densities<'_> {

@@ -27,12 +27,12 @@ mod slices;
 
 use std::sync::Arc;
 
-use lobe_lane::{Floats, Lanes};
+use lobe_lane::{Floats, Kernel, Lanes};
 use thiserror::Error;
 
 use crate::Table;
 use crate::layout::{PHI, PSI, SIGMA, THETA};
-use distribution::{Densities, Plan};
+use distribution::Plan;
 use histogram::TableLight;
 use incident::Surface;
 use kernels::{Draws, One, OneDensity, factor, pair};
@@ -196,11 +196,25 @@ impl Sampler {
         u: &[[f32; 2]],
         out: Sampled<'_>,
     ) {
+        lanes.vectorize(self.sampling(given, directions, u, out));
+    }
+
+    /// The sampling of many directions as a kernel (see [`sample_batch`](Self::sample_batch)).
+    ///
+    /// # Panics
+    /// As [`sample_batch`](Self::sample_batch).
+    pub fn sampling<'a>(
+        &'a self,
+        given: Given,
+        directions: &'a [[f32; 3]],
+        u: &'a [[f32; 2]],
+        out: Sampled<'a>,
+    ) -> impl Kernel<Out = ()> + 'a {
         let count = directions.len();
         assert_eq!(u.len(), count, "a pair of numbers a direction");
         assert_eq!((out.directions.len(), out.pdfs.len()), (count, count), "an output a direction");
         assert_eq!(out.weights.len(), count * self.table.channel_count(), "a weight a direction and channel");
-        lanes.vectorize(Draws { sampler: self, given, directions, u, out });
+        Draws { sampler: self, given, directions, u, out }
     }
 
     /// The densities of many pairs, as [`pdf`](Sampler::pdf).
@@ -208,9 +222,8 @@ impl Sampler {
     /// # Panics
     /// Where there are not as many `wi` as `wo` and `pdfs`.
     pub fn pdf_batch<L: Lanes>(&self, lanes: L, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], pdfs: &mut [f32]) {
-        assert_eq!((wi.len(), wo.len()), (pdfs.len(), pdfs.len()), "as many wi as wo and densities");
         let (known, other) = pair(given, wi, wo);
-        lanes.vectorize(Densities { distribution: &self.distribution, known, other, pdfs });
+        self.distribution.pdf_batch(lanes, known, other, pdfs);
     }
 
     /// Samples a direction in each lane inside a caller's own kernel, as [`sample`](Sampler::sample); 0 in the lanes that

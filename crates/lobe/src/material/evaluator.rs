@@ -7,7 +7,7 @@ use lobe_table::rgl::RglTable;
 use lobe_table::{Channels, Scatter};
 
 use super::window::Patches;
-use crate::{Backend, Brdf, Kind, Sample};
+use crate::{Backend, Brdf, Kind};
 
 /// Representations that have a sampler of their own.
 pub(crate) enum Native<'a> {
@@ -43,16 +43,6 @@ pub(super) trait Evaluator: Debug + Send + Sync {
 
     /// `f` in 1/sr of every pair: `out[query * channels + channel]`. The slices fit together.
     fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]);
-
-    /// The density of [`sample`](Self::sample) over the solid angle of `wi`, in 1/sr, where there is a sampler.
-    fn pdf(&self, _: Backend, _wi: [f32; 3], _wo: [f32; 3]) -> Option<f32> {
-        None
-    }
-
-    /// Draws a direction to the light from two numbers in `[0, 1)`, where there is a sampler.
-    fn sample(&self, _: Backend, _wo: [f32; 3], _uniform: [f32; 2]) -> Option<Sample> {
-        None
-    }
 
     /// The Mueller matrix at a wavelength in nm, where the representation has polarisation.
     fn mueller(&self, _wi: [f32; 3], _wo: [f32; 3], _nm: f64) -> Option<Matrix> {

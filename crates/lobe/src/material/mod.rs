@@ -43,15 +43,6 @@ pub struct Options {
     pub decode: Decode,
 }
 
-/// A direction that was drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
-    /// To the light.
-    pub wi: [f32; 3],
-    /// The density over its solid angle, in 1/sr; 0 where the draw led below the surface and is to be dropped.
-    pub pdf: f32,
-}
-
 /// The measurements of a sheet as they are read.
 #[derive(Default)]
 struct Parts {
@@ -311,18 +302,6 @@ impl Material {
         assert_eq!(wi.len(), wo.len(), "as many wi as wo");
         assert_eq!(out.len(), wi.len() * self.channel_count(), "one output a query and channel");
         self.evaluator.eval_batch(backend, wi, wo, out);
-    }
-
-    /// The density of [`sample`](Material::sample) over the solid angle of `wi`, in 1/sr. `None` where the
-    /// representation has no sampler.
-    pub fn pdf(&self, wi: [f32; 3], wo: [f32; 3]) -> Option<f32> {
-        self.evaluator.pdf(self.backend, wi, wo)
-    }
-
-    /// Draws a direction to the light for a viewer from two numbers in `[0, 1)`. `None` where the representation has no
-    /// sampler.
-    pub fn sample(&self, wo: [f32; 3], uniform: [f32; 2]) -> Option<Sample> {
-        self.evaluator.sample(self.backend, wo, uniform)
     }
 
     /// The Mueller matrix in 1/sr for light from `wi` to `wo` at a wavelength in nm, in the Stokes frames of

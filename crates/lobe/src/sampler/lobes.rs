@@ -4,7 +4,7 @@ use lobe_table::{
     Distribution, DistributionError, DistributionOptions, Given, PatchSampler, Sampled, SamplerError, Scatter,
 };
 
-use super::kernels::{Brighten, BuildDistribution, Densities, Draw};
+use super::build::BuildDistribution;
 use super::weigh;
 use crate::Material;
 use crate::material::{Native, flipped, mirrored};
@@ -84,7 +84,7 @@ impl Lobes {
             match lobe {
                 Lobe::Histograms(distribution) => {
                     let known = pick(known, &queries, !front);
-                    backend.run(Brighten { distribution, known: &known, out: &mut brightness });
+                    backend.run(distribution.brightnesses(&known, &mut brightness));
                 }
                 Lobe::Patches(patches) => {
                     let of = |query: &usize| patches.brightness(known[*query]);
@@ -138,7 +138,7 @@ impl Lobes {
                 Lobe::Histograms(distribution) => {
                     let known = pick(known, &queries, !front);
                     let (directions, pdfs) = (drawn.as_mut_slice(), found.as_mut_slice());
-                    backend.run(Draw { distribution, known: &known, u: &u, directions, pdfs });
+                    backend.run(distribution.drawing(&known, &u, directions, pdfs));
                     if !front {
                         directions.iter_mut().for_each(|direction| *direction = flipped(*direction));
                     }
@@ -192,7 +192,7 @@ impl Lobes {
             match lobe {
                 Lobe::Histograms(distribution) => {
                     let [known, other] = [known, other].map(|from| pick(from, &queries, !front));
-                    backend.run(Densities { distribution, known: &known, other: &other, pdfs: &mut found });
+                    backend.run(distribution.densities(&known, &other, &mut found));
                 }
                 Lobe::Patches(patches) => {
                     let of = |query: &usize| patches.pdf(known[*query], other[*query]);

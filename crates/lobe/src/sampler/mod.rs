@@ -1,6 +1,6 @@
 //! Importance sampling of any material.
 
-mod kernels;
+mod build;
 mod lobes;
 
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use lobe_table::{Given, Sampled, SamplerError, SamplerOptions, luminance};
 
 use crate::Material;
 use crate::material::Native;
-use kernels::{BuildTable, Draw, PdfTable, SampleTable};
+use build::BuildTable;
 use lobes::Lobes;
 
 /// A material and what is needed to sample directions in proportion to luminance times `f` times cosine.
@@ -132,7 +132,7 @@ impl Sampler {
         assert_eq!((out.directions.len(), out.pdfs.len()), (count, count), "an output a direction");
         assert_eq!(out.weights.len(), count * channels, "a weight a direction and channel");
         match &self.scheme {
-            Scheme::Table(sampler) => backend.run(SampleTable { sampler, given, directions, u, out }),
+            Scheme::Table(sampler) => backend.run(sampler.sampling(given, directions, u, out)),
             Scheme::Rgl => {
                 let Native::Rgl(table) = self.material.native() else { return };
                 let drawn = Drawn { wo: out.directions, pdf: out.pdfs, weights: out.weights };
@@ -158,7 +158,7 @@ impl Sampler {
         let backend = self.material.backend();
         match &self.scheme {
             Scheme::Table(sampler) => {
-                backend.run(Draw { distribution: sampler.distribution(), known, u, directions, pdfs });
+                backend.run(sampler.distribution().drawing(known, u, directions, pdfs));
             }
             Scheme::Rgl => {
                 let mut weights = vec![0.0; count * self.material.channel_count()];
@@ -179,7 +179,7 @@ impl Sampler {
         let backend = self.material.backend();
         let (known, other) = if given == Given::Light { (wi, wo) } else { (wo, wi) };
         match &self.scheme {
-            Scheme::Table(sampler) => backend.run(PdfTable { sampler, given, wi, wo, pdfs }),
+            Scheme::Table(sampler) => backend.run(sampler.distribution().densities(known, other, pdfs)),
             Scheme::Rgl => {
                 let Native::Rgl(table) = self.material.native() else { return };
                 backend.run(table.batch(known, other, Wanted::Pdf(pdfs)));

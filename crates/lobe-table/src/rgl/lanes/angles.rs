@@ -8,6 +8,7 @@ use lobe_lane::{Floats, Lanes};
 use super::batch::Incident;
 use super::frame::Frame;
 use crate::passes::block::Column;
+use crate::rgl::LEAST_AREA;
 
 /// `1 / (2 pi)`.
 const TURNS_PER_RADIAN: f32 = 0.5 * FRAC_1_PI;
@@ -58,10 +59,10 @@ fn zenith<L: Lanes>(lanes: L, cos: L::F, sin2: L::F) -> L::F {
     lobe_math::acos_from(lanes, cos, sin2 / (lanes.splat(1.0) + cos))
 }
 
-/// From the density of the half vector on the unit square to that of `wo` over solid angle, as a divisor. The lower bound,
-/// at the pole of the half vector, is that of the loader of the database.
+/// From the density of the half vector on the unit square to that of `wo` over solid angle, as a divisor, with the lower
+/// bound [`LEAST_AREA`] at the pole of the half vector.
 #[inline(always)]
 pub(super) fn jacobian<L: Lanes>(lanes: L, cos_d: L::F, u_x: L::F, sin_m: L::F) -> L::F {
-    let area = (lanes.splat(2.0 * PI * PI) * u_x * sin_m).max(lanes.splat(1e-6));
+    let area = (lanes.splat(2.0 * PI * PI) * u_x * sin_m).max(lanes.splat(LEAST_AREA as f32));
     lanes.splat(4.0) * cos_d * area
 }

@@ -1,0 +1,194 @@
+//! How noisy samples are: the variance of the albedo from one sample, `f cos / pdf`, over the square of its mean; with
+//! Mitsuba's sampler, with this library's, and with directions drawn by their cosine, on the same files and numbers.
+
+use std::fmt::Write;
+use std::path::Path;
+use std::sync::Arc;
+
+use anyhow::{Context, bail};
+use comfy_table::{CellAlignment, Table, presets};
+use lobe::{Given, Material, Sampler, SamplerOptions};
+use serde::Serialize;
+use serde_json::json;
+
+use super::exchange::Exchange;
+use super::material;
+use super::program::Programs;
+use crate::noise;
+use crate::report::times;
+
+/// Polar angles of the known direction in degrees.
+const ANGLES: [f64; 8] = [0.0, 15.0, 30.0, 45.0, 60.0, 70.0, 80.0, 85.0];
+
+/// Samples a direction.
+const COUNT: usize = 1 << 17;
+
+/// By how much the albedos that Mitsuba and this library find may differ, relative: the numbers are the same, so they
+/// differ by rounding alone.
+const AGREEMENT: f64 = 1e-3;
+
+/// Relative variances of the luminance of a single sample.
+#[derive(Clone, Debug, Serialize)]
+pub struct Variance {
+    /// Of which material.
+    pub on: String,
+    /// Polar angle of the known direction in degrees.
+    pub degrees: f64,
+    /// Of Mitsuba's sampler.
+    pub mitsuba: f64,
+    /// Of this library's, the light being known: like Mitsuba, which traces from the viewer, it then looks up the file by
+    /// the known direction.
+    pub lobe: f64,
+    /// Of this library's, the viewer being known and the file being looked up by the light that is found.
+    pub viewer: f64,
+    /// Of a cosine distribution.
+    pub cosine: f64,
+}
+
+impl Variance {
+    fn cells(&self) -> [String; 7] {
+        let Variance { on, degrees, mitsuba, lobe, viewer, cosine } = self;
+        let figure = |variance: f64| format!("{variance:.4}");
+        let [mitsuba, viewer] = [figure(*mitsuba), figure(*viewer)];
+        let gain = times(cosine / lobe);
+        [on.clone(), format!("{degrees}°"), mitsuba, figure(*lobe), viewer, figure(*cosine), gain]
+    }
+}
+
+const HEADER: [&str; 7] = ["material", "angle", "Mitsuba", "lobe", "lobe, viewer given", "cosine", "cosine / lobe"];
+
+/// The table on the terminal.
+pub fn print(variances: &[Variance]) {
+    if variances.is_empty() {
+        return;
+    }
+    let mut table = Table::new();
+    table.load_style(presets::UTF8_HORIZONTAL_ONLY);
+    table.set_header(HEADER);
+    table.add_rows(variances.iter().map(Variance::cells));
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    println!("Relative variance of the albedo from one sample\n{table}");
+}
+
+/// The section of the page.
+pub fn markdown(variances: &[Variance]) -> String {
+    let mut section = String::new();
+    if variances.is_empty() {
+        return section;
+    }
+    section += READING;
+    writeln!(section, "| {} |\n|---|--:|--:|--:|--:|--:|--:|", HEADER.join(" | ")).expect("a string");
+    for variance in variances {
+        writeln!(section, "| {} |", variance.cells().join(" | ")).expect("a string");
+    }
+    section
+}
+
+const READING: &str = "
+## Noise of samples
+
+The variance of the albedo that one sample estimates, `f cos / pdf` in luminance, over the square of its mean: how many
+samples make an error of 100 %. `angle` is that of the known direction from the normal. Mitsuba and lobe get the same
+numbers. Both look up a file by the known direction, in Mitsuba that of the viewer, in lobe that of the light; in the
+column `viewer given` lobe's known direction is the viewer's, and the file is looked up by the light that is found.
+
+";
+
+/// The materials, their samplers and Mitsuba's tasks.
+pub struct Question {
+    /// In degrees from the normal, and as a direction.
+    known: Vec<(f64, [f32; 3])>,
+    uniforms: Vec<[f32; 2]>,
+    subjects: Vec<Subject>,
+}
+
+struct Subject {
+    name: String,
+    sampler: Sampler,
+    task: String,
+}
+
+impl Question {
+    /// By which it is asked for alone.
+    pub const NAME: &str = "variance";
+
+    /// Asks for samples of all files.
+    ///
+    /// # Errors
+    /// Where a file cannot be read or written.
+    pub fn new(data: &Path, exchange: &mut Exchange) -> anyhow::Result<Self> {
+        let uniforms = noise::uniforms(COUNT);
+        let direction = |(at, degrees): (usize, f64)| {
+            // Another azimuth each.
+            let ((sin, cos), (sin_phi, cos_phi)) = (degrees.to_radians().sin_cos(), (at as f64 * 2.4).sin_cos());
+            (degrees, [sin * cos_phi, sin * sin_phi, cos].map(|x| x as f32))
+        };
+        let known: Vec<_> = ANGLES.into_iter().enumerate().map(direction).collect();
+        let columns = [0, 1, 2].map(|k| known.iter().flat_map(|(_, w)| [w[k]; COUNT]).collect::<Vec<_>>());
+        let rows: Vec<&[f32]> = columns.iter().chain(&columns).map(Vec::as_slice).collect();
+        let pairs = exchange.floats("variance-pairs", &rows)?;
+        let numbers = [0, 1].map(|k| uniforms.iter().map(|u| u[k]).collect::<Vec<_>>().repeat(ANGLES.len()));
+        let uniforms_file = exchange.floats("variance-uniforms", &[&numbers[0], &numbers[1]])?;
+
+        let mut subjects = Vec::new();
+        for file in material::files(data) {
+            let file = file.canonicalize()?;
+            let name = file.file_stem().unwrap_or_default().to_string_lossy().trim_end_matches("_rgb").to_owned();
+            let material = Arc::new(Material::open(&file)?);
+            let sampler = Sampler::new(material, &SamplerOptions::default())?;
+            let task = format!("variance-{}", name.replace(' ', "_"));
+            let bsdf = json!({ "type": "measured", "filename": file });
+            exchange.task(&task, json!({ "bsdf": bsdf, "what": "sample", "pairs": pairs, "uniforms": uniforms_file }));
+            subjects.push(Subject { name, sampler, task });
+        }
+        Ok(Question { known, uniforms, subjects })
+    }
+
+    /// The variances of everybody; none where Mitsuba does not run.
+    ///
+    /// # Errors
+    /// Where Mitsuba breaks off, or finds another albedo.
+    pub fn answer(&self, programs: &mut Programs, exchange: &Exchange) -> anyhow::Result<Vec<Variance>> {
+        let mut answers = Vec::new();
+        if !programs.has("mitsuba") {
+            return Ok(answers);
+        }
+        for subject in &self.subjects {
+            let file = exchange.answer("mitsuba", &subject.task);
+            programs.write("mitsuba", &subject.task, &file)?;
+            // Directions, densities and weights.
+            let theirs = exchange.read(&file, 7 * COUNT * ANGLES.len())?;
+            std::fs::remove_file(&file)?;
+            let weights = &theirs[4 * COUNT * ANGLES.len()..];
+            for (known, weights) in self.known.iter().zip(weights.chunks(3 * COUNT)) {
+                let answer = subject.compare(*known, &self.uniforms, weights);
+                answers.push(answer.with_context(|| subject.name.clone())?);
+            }
+        }
+        Ok(answers)
+    }
+}
+
+impl Subject {
+    /// For one known direction; `theirs` are the weights that Mitsuba found.
+    fn compare(
+        &self,
+        (degrees, known): (f64, [f32; 3]),
+        uniforms: &[[f32; 2]],
+        theirs: &[f32],
+    ) -> anyhow::Result<Variance> {
+        let material = self.sampler.material();
+        let mitsuba = noise::of_weights(material, theirs);
+        let [lobe, viewer] =
+            [Given::Light, Given::Viewer].map(|given| noise::by_samples(&self.sampler, given, known, uniforms));
+        if (lobe.mean / mitsuba.mean - 1.0).abs() > AGREEMENT {
+            let [theirs, ours] = [mitsuba.mean, lobe.mean];
+            bail!("at {degrees} degrees the albedo is {theirs} by Mitsuba's samples and {ours} by lobe's");
+        }
+        let cosine = noise::by_cosine(material, known, uniforms);
+        let [mitsuba, lobe, viewer, cosine] = [mitsuba, lobe, viewer, cosine].map(|moments| moments.variance);
+        Ok(Variance { on: self.name.clone(), degrees, mitsuba, lobe, viewer, cosine })
+    }
+}
