@@ -4,6 +4,7 @@
 pub mod asm;
 pub mod equivalence;
 pub mod fixtures;
+pub mod gallery;
 #[cfg(target_os = "linux")]
 pub mod peers;
 pub mod pictures;

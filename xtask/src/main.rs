@@ -14,6 +14,7 @@ enum Command {
     Asm(xtask::asm::Args),
     Fixtures(xtask::fixtures::Args),
     Pictures(xtask::pictures::Args),
+    Gallery(xtask::gallery::Args),
 }
 
 fn main() -> anyhow::Result<()> {
@@ -26,5 +27,6 @@ fn main() -> anyhow::Result<()> {
         Command::Asm(args) => xtask::asm::run(&args),
         Command::Fixtures(args) => xtask::fixtures::run(&args),
         Command::Pictures(args) => xtask::pictures::run(&args),
+        Command::Gallery(args) => xtask::gallery::run(&args),
     }
 }

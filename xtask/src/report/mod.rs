@@ -7,6 +7,7 @@ mod machine;
 mod measure;
 mod page;
 mod paper;
+mod pictures;
 mod rows;
 mod sections;
 mod style;
@@ -21,11 +22,15 @@ use clap::Args;
 use serde::Serialize;
 
 use equivalence::EquivalenceSummary;
+use pictures::Pictures;
 use rows::Row;
 
 pub(crate) use machine::Machine;
 pub(crate) use rows::{nanoseconds, times};
 pub(crate) use write::replace;
+
+/// The id of the section of that name.
+const PICTURES: &str = "pictures";
 
 /// Options of `cargo xtask report`.
 #[derive(Args, Debug)]
@@ -33,7 +38,7 @@ pub struct Options {
     /// Fewer queries and rounds: under a minute, ratios within some 10 %
     #[arg(long)]
     quick: bool,
-    /// Only these questions, by their ids in report.json
+    /// Only these questions, by their ids in report.json; `pictures` is the section of that name
     #[arg(long, value_name = "ID", value_delimiter = ',')]
     only: Vec<String>,
     /// Also write the rows to this file
@@ -51,6 +56,7 @@ struct Report {
     quick: bool,
     rows: Vec<Row>,
     equivalence: EquivalenceSummary,
+    pictures: Option<Pictures>,
 }
 
 /// Measures, prints and writes.
@@ -60,8 +66,11 @@ struct Report {
 pub fn run(options: &Options) -> anyhow::Result<()> {
     let machine = Machine::here();
     let plan = if options.quick { measure::Plan::QUICK } else { measure::Plan::FULL };
-    let rows = measure::all(plan, &options.only)?;
-    let report = Report { machine, quick: options.quick, rows, equivalence: equivalence::summary() };
+    let (sections, questions): (Vec<_>, Vec<_>) = options.only.iter().cloned().partition(|id| id == PICTURES);
+    let rows = if sections.is_empty() || !questions.is_empty() { measure::all(plan, &questions)? } else { Vec::new() };
+    let wanted = options.only.is_empty() || !sections.is_empty();
+    let pictures = wanted.then(|| pictures::measure(options.quick)).transpose()?;
+    let report = Report { machine, quick: options.quick, rows, equivalence: equivalence::summary(), pictures };
 
     terminal::print(&report);
     std::fs::create_dir_all(&options.out).with_context(|| format!("cannot create {}", options.out.display()))?;

@@ -12,7 +12,7 @@ use super::machine::Machine;
 use super::paper::PaperTable;
 use super::rows::{self, Row};
 use super::svg::escape;
-use super::{Report, sections, style};
+use super::{Report, pictures, sections, style};
 
 /// The whole document.
 pub fn html(report: &Report) -> String {
@@ -31,6 +31,7 @@ pub fn html(report: &Report) -> String {
             body += &answer(rows, question, section.paper.as_ref());
         }
     }
+    body += &report.pictures.as_ref().map(pictures::html).unwrap_or_default();
     body += &figure_2();
     body += &about(machine);
     format!(

@@ -4,7 +4,7 @@ use comfy_table::{CellAlignment, Table, presets};
 use lobe_benches::workload::Input;
 
 use super::rows::{self, Row};
-use super::{Report, sections};
+use super::{Report, pictures, sections};
 
 /// Prints one table a question.
 pub fn print(report: &Report) {
@@ -25,6 +25,7 @@ pub fn print(report: &Report) {
             println!("{}", table(&report.rows, question.id));
         }
     }
+    report.pictures.iter().for_each(pictures::print);
 }
 
 /// Backends down; for each input the time and the ratio to each baseline across.
