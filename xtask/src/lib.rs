@@ -7,6 +7,5 @@ pub mod fixtures;
 pub mod gallery;
 #[cfg(target_os = "linux")]
 pub mod peers;
-pub mod pictures;
 pub mod report;
 pub mod sweep;
