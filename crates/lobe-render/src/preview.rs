@@ -103,3 +103,16 @@ pub(crate) fn cloth() -> Geometry {
     const FILE: &[u8] = include_bytes!("../assets/drape.ply");
     ply::parse(Path::new("drape.ply"), FILE).expect("a file that comes with the program").complete()
 }
+
+#[cfg(test)]
+mod tests {
+    /// A package has to have its own copy, and copies part ways.
+    #[test]
+    fn the_cloth_is_that_of_the_fixtures() {
+        let fixture = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/scenes/drape.ply");
+        match std::fs::read(fixture) {
+            Ok(bytes) => assert!(bytes == include_bytes!("../assets/drape.ply"), "copy {fixture} to assets"),
+            Err(error) => println!("skipped: {fixture}: {error}"),
+        }
+    }
+}
