@@ -28,7 +28,7 @@ pub struct Args {
 
 /// Makes every fixture and writes or checks it.
 pub fn run(args: &Args) -> Result<()> {
-    let fixtures = [tables::conductor(), tables::cloth()];
+    let fixtures = [tables::conductor(), tables::paint(), tables::cloth()];
     let steps = fixtures.iter().map(|fixture| fixture.steps() as u64).sum::<u64>() + scenes::SCENES.len() as u64;
     let bar =
         ProgressBar::new(steps).with_style(ProgressStyle::with_template("{bar:40} {percent:>3} % of {msg} {elapsed}")?);

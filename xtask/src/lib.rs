@@ -4,10 +4,10 @@
 pub mod asm;
 pub mod equivalence;
 pub mod fixtures;
+pub mod gallery;
 pub mod golden;
 mod noise;
 #[cfg(target_os = "linux")]
 pub mod peers;
-pub mod pictures;
 pub mod report;
 pub mod sweep;

@@ -13,7 +13,7 @@ enum Command {
     Sweep(xtask::sweep::Args),
     Asm(xtask::asm::Args),
     Fixtures(xtask::fixtures::Args),
-    Pictures(xtask::pictures::Args),
+    Gallery(xtask::gallery::Args),
 }
 
 fn main() -> anyhow::Result<()> {
@@ -25,6 +25,6 @@ fn main() -> anyhow::Result<()> {
         Command::Sweep(args) => xtask::sweep::run(&args),
         Command::Asm(args) => xtask::asm::run(&args),
         Command::Fixtures(args) => xtask::fixtures::run(&args),
-        Command::Pictures(args) => xtask::pictures::run(&args),
+        Command::Gallery(args) => xtask::gallery::run(&args),
     }
 }

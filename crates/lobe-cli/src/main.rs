@@ -24,6 +24,7 @@ mod progress;
 mod render;
 mod resample;
 mod shell;
+mod summary;
 mod surface;
 mod target;
 

@@ -67,7 +67,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let backend = args.machine.backend()?;
     // A grid of half and difference angles that is not interpolated shows its bins.
     let options = Options { lookup: Lookup::Linear, ..Options::default() };
-    let material = open(&args.material, &options).map_err(|error| Failure::File(error.to_string()))?;
+    let material = open(&args.material, &options, backend).map_err(|error| Failure::File(error.to_string()))?;
     let show = match args.show {
         Shown::Both => Show::Both,
         Shown::Ball => Show::Ball,

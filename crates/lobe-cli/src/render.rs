@@ -11,6 +11,7 @@ use lobe_render::{Film, Rect, Settings, render};
 
 use crate::failure::Failure;
 use crate::progress::Bar;
+use crate::summary::Summary;
 
 /// Render a scene file to EXR or PNG.
 #[derive(clap::Args)]
@@ -27,7 +28,8 @@ Examples:
   lobe render scene.toml -o picture.exr --time 10m --resume
   lobe render scene.toml -o part2.exr --tile 2/4           on the second of four machines
   lobe render scene.toml -o more.exr --samples-range 64..128
-  lobe merge part*.exr -o picture.exr"
+  lobe merge part*.exr -o picture.exr
+  lobe render scene.toml -o picture.png --json | jq .shares.materials"
 )]
 pub struct Args {
     /// The scene, a TOML file.
@@ -56,6 +58,9 @@ pub struct Args {
     /// Go on with the file that a rendering which was stopped has left.
     #[arg(long)]
     resume: bool,
+    /// Print what the rendering took as JSON.
+    #[arg(long)]
+    json: bool,
     #[command(flatten)]
     machine: Machine,
 }
@@ -124,7 +129,7 @@ const UNLIMITED: u32 = 1 << 20;
 pub fn run(args: &Args) -> Result<(), Failure> {
     let kind = Kind::of(&args.output)?;
     let backend = args.machine.backend()?;
-    let scene = Scene::open(&args.scene).map_err(|error| Failure::File(error.to_string()))?;
+    let scene = Scene::open(&args.scene, backend).map_err(|error| Failure::File(error.to_string()))?;
     let total = match (args.samples, args.time) {
         (Some(samples), _) => samples,
         (None, Some(_)) => UNLIMITED,
@@ -158,7 +163,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         time: args.time,
     };
     let bar = args.machine.bar();
-    let (mut written, mut failed) = (Instant::now(), None);
+    let begun = Instant::now();
+    let (mut written, mut failed) = (begun, None);
     let rendered = render(&scene.world, &settings, film, |progress| {
         bar.show(progress.done, progress.total, settings.time.map(|limit| (progress.elapsed, limit)));
         if written.elapsed() >= args.write_every {
@@ -175,7 +181,14 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if stats.invalid > 0 {
         eprintln!("warning: {} samples were no finite numbers and count as black", stats.invalid);
     }
-    output.write(&film, partial)
+    output.write(&film, partial)?;
+    let summary = Summary::new([window.width, window.height], film.samples(), begun.elapsed(), &stats);
+    if args.json {
+        println!("{}", serde_json::to_string_pretty(&summary)?);
+    } else if !args.machine.quiet {
+        println!("{}: {summary}", args.output.display());
+    }
+    Ok(())
 }
 
 /// The pixels to render.
@@ -255,7 +268,13 @@ impl Output<'_> {
 
     fn write(&self, film: &Film<3>, partial: bool) -> Result<(), Failure> {
         match self.kind {
-            Kind::Exr => write_exr(self.path, film, &self.meta, partial)?,
+            // What ended before its time says what it has, not what it was to have.
+            Kind::Exr if !partial => {
+                let samples = self.meta.samples.start..self.meta.samples.start + film.samples().1;
+                let total = self.meta.total.min(samples.end);
+                write_exr(self.path, film, &Meta { samples, total, ..self.meta.clone() }, false)?;
+            }
+            Kind::Exr => write_exr(self.path, film, &self.meta, true)?,
             Kind::Png => {
                 write_png(self.path, film, self.tone)?;
                 // Only a rendering that took long has left one.

@@ -163,6 +163,24 @@ fn time_crop_and_png() {
 }
 
 #[test]
+fn pictures_say_what_they_have_and_what_they_took() {
+    let folder = Folder::new();
+    let short = folder.run("render scene.toml -o short.exr --time 1ms --samples 100000 --json");
+    let took: serde_json::Value = serde_json::from_slice(&short.stdout).expect("JSON");
+    let most = took["samples"][1].as_u64().expect("a number");
+    assert!((1..100_000).contains(&most) && took["size"][0] == 80 && took["rays"].as_u64() > Some(4000), "{took}");
+    assert!(took["lanes"].as_f64() > Some(0.5) && took["lanes_in_use"].as_array().is_some(), "{took}");
+    let exr = folder.bytes("short.exr");
+    let says = |text: String| exr.windows(text.len()).any(|window| window == text.as_bytes());
+    assert!(says(format!("samples = [0, {most}]\ntotal = {most}")), "the samples that there are, {most}");
+
+    let line = folder.run("render scene.toml -o line.png");
+    let line = String::from_utf8_lossy(&line.stdout).into_owned();
+    assert!(line.starts_with("line.png: 80 x 50 pixels of 6 samples in ") && line.lines().count() == 1, "{line}");
+    assert!(folder.run("render scene.toml -o line.png --quiet").stdout.is_empty());
+}
+
+#[test]
 fn a_preview_of_a_file() {
     let folder = Folder::new();
     let fixture = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/conductor-7x8x13.ddr");

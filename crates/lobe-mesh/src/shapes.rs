@@ -82,6 +82,36 @@ pub fn cuboid(size: [f32; 3], segments: u32) -> Geometry {
     builder.finish()
 }
 
+/// A photographer's backdrop: a floor that bends into a wall behind it, so that no horizon is seen. `size` is its width and
+/// the height of the wall; the floor begins at z = `size` / 2 and bends up from z = -`size` / 6 on. u runs along +x, v back
+/// and up.
+pub fn cove(size: f32, segments: u32) -> Geometry {
+    let steps = segments.max(3) as usize;
+    let size = f64::from(size);
+    let (half, bend) = (size / 2.0, size / 6.0);
+    let length = half + bend + bend * PI / 2.0 + (size - bend);
+    let mut builder = Builder::default();
+    builder.patch(1, steps + 2, |i, j| {
+        let share = j.saturating_sub(1).min(steps) as f64 / steps as f64;
+        let [sine, cosine] = direction(share / 4.0);
+        // Floor, bend and wall; height, depth, and the way there.
+        let (y, z, way) = if j == 0 {
+            (0.0, half, 0.0)
+        } else if j == steps + 2 {
+            (size, -2.0 * bend, length)
+        } else {
+            (bend * (1.0 - cosine), -bend - bend * sine, half + bend + bend * share * PI / 2.0)
+        };
+        Vertex {
+            position: DVec3::new(half * (2.0 * i as f64 - 1.0), y, z),
+            normal: DVec3::new(0.0, cosine, sine),
+            tangent: DVec3::X,
+            uv: [i as f64, way / length],
+        }
+    });
+    builder.finish()
+}
+
 /// A square patch around `centre`, from there by `u` and `v` to both sides.
 fn square(builder: &mut Builder, centre: DVec3, u: DVec3, v: DVec3, cells: usize) {
     let share = |i: usize| i as f64 / cells as f64;

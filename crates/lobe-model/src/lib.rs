@@ -11,6 +11,7 @@
 mod albedo;
 mod blinn;
 pub mod cloth;
+mod coated;
 mod conductor;
 pub mod goniometer;
 mod halton;
@@ -26,6 +27,7 @@ mod ward;
 
 pub use albedo::albedo;
 pub use blinn::Blinn;
+pub use coated::Coated;
 pub use conductor::{Conductor, fresnel_conductor};
 pub use halton::halton;
 pub use lambert::Lambert;

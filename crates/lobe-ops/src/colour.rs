@@ -87,6 +87,11 @@ impl ToColour {
         Ok(ToColour { weights })
     }
 
+    /// `[X, Y, Z]` or `[R, G, B]` that each channel contributes where its value is 1.
+    pub fn weights(&self) -> &[[f64; 3]] {
+        &self.weights
+    }
+
     /// The colour of a value: one number a channel.
     pub fn apply(&self, texel: &[f32]) -> [f64; 3] {
         let mut colour = [0.0; 3];

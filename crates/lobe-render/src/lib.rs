@@ -37,5 +37,5 @@ pub use film::{Film, Pixel, Rect, Seen};
 pub use integrator::Integrator;
 pub use merge::{MergeError, merge};
 pub use render::{Progress, RenderError, Settings, render};
-pub use stats::Stats;
+pub use stats::{DEPTHS, Shading, Stats};
 pub use world::{Shape, World, WorldBuilder, WorldError};

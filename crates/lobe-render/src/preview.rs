@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use lobe_mesh::{Geometry, generate, ply};
+use lobe_mesh::{Geometry, generate, ply, shapes};
 
 use crate::camera::Camera;
 use crate::light::{Environment, Light};
@@ -34,7 +34,9 @@ pub fn studio(material: Arc<dyn Shader<3>>, show: Show) -> Result<(World<3>, Cam
     let backdrop = world.material(Arc::new(Lambert { albedo: [0.32; 3] }));
     let stand = world.material(Arc::new(Lambert { albedo: [0.12; 3] }));
     let black = world.material(Arc::new(Lambert { albedo: [0.0; 3] }));
-    world.shape(&cove(), backdrop, None, false)?;
+    let cove = shapes::cove(24.0, 24);
+    let moved = Place { axes: Place::UPRIGHT, translate: [0.0; 3] };
+    world.shape(&moved.shape(&cove, cove.triangles.clone()), backdrop, None, false)?;
 
     let (ball_at, cloth_at) = match show {
         Show::Both => ([-1.32, 0.0, 0.1], [1.42, 0.0, -0.1]),
@@ -82,32 +84,6 @@ const LENS: Camera = Camera {
     focus_distance: None,
 };
 
-/// A floor that bends into a wall behind it, so that no horizon is seen.
-fn cove() -> Shape {
-    const STEPS: usize = 24;
-    let (front, back, bend, top, half) = (12.0f32, -4.0f32, 4.0f32, 14.0f32, 24.0f32);
-    // Height and depth with the normal there.
-    let mut profile = vec![([0.0, front], [1.0, 0.0])];
-    for step in 0..=STEPS {
-        let (sin, cos) = libm::sincosf(std::f32::consts::FRAC_PI_2 * step as f32 / STEPS as f32);
-        profile.push(([bend * (1.0 - cos), back - bend * sin], [cos, sin]));
-    }
-    profile.push(([top, back - bend], [0.0, 1.0]));
-    let mut shape = Shape::default();
-    for ([y, z], [ny, nz]) in profile {
-        for x in [-half, half] {
-            shape.positions.push([x, y, z]);
-            shape.normals.push([0.0, ny, nz]);
-            shape.tangents.push([1.0, 0.0, 0.0, 1.0]);
-        }
-    }
-    for row in 0..shape.positions.len() as u32 / 2 - 1 {
-        let [a, b, c, d] = [0, 1, 2, 3].map(|k| 2 * row + k);
-        shape.triangles.extend([[a, b, d], [a, d, c]]);
-    }
-    shape
-}
-
 /// A rectangle that faces a point.
 fn panel(at: Vec3, aim: Vec3, [width, height]: [f32; 2]) -> Shape {
     let normal = unit(sub(aim, at)).expect("a panel is not where it aims");
@@ -123,7 +99,20 @@ fn panel(at: Vec3, aim: Vec3, [width, height]: [f32; 2]) -> Shape {
 }
 
 /// The cloth of [`generate::drape`], whose fall takes seconds to compute, from a file.
-fn cloth() -> Geometry {
+pub(crate) fn cloth() -> Geometry {
     const FILE: &[u8] = include_bytes!("../assets/drape.ply");
     ply::parse(Path::new("drape.ply"), FILE).expect("a file that comes with the program").complete()
+}
+
+#[cfg(test)]
+mod tests {
+    /// A package has to have its own copy, and copies part ways.
+    #[test]
+    fn the_cloth_is_that_of_the_fixtures() {
+        let fixture = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/scenes/drape.ply");
+        match std::fs::read(fixture) {
+            Ok(bytes) => assert!(bytes == include_bytes!("../assets/drape.ply"), "copy {fixture} to assets"),
+            Err(error) => println!("skipped: {fixture}: {error}"),
+        }
+    }
 }

@@ -28,7 +28,8 @@ pub struct Settings {
     pub integrator: Integrator,
     /// The numbers of the samples to render.
     pub samples: Range<u32>,
-    /// The lanes; in strict form the picture is the same bits on every machine.
+    /// The lanes that rays are traced in; materials have theirs. With both in strict form the picture is the same bits
+    /// on every machine.
     pub backend: Backend,
     /// How many threads; the picture does not depend on it.
     pub threads: usize,

@@ -3,6 +3,41 @@
 use std::ops::AddAssign;
 use std::time::Duration;
 
+/// What materials were asked for at one depth.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Shading {
+    /// Pairs of directions, and drawings.
+    pub queries: u64,
+    /// Lanes that were occupied by them, full or not.
+    pub occupied: u64,
+    /// How long it took.
+    pub time: Duration,
+}
+
+impl Shading {
+    /// The share of lanes that did work.
+    pub fn lanes_in_use(&self) -> f64 {
+        if self.occupied == 0 { 0.0 } else { self.queries as f64 / self.occupied as f64 }
+    }
+
+    /// Counts a batch of `n` queries on that many lanes.
+    pub(crate) fn count(&mut self, n: usize, lanes: usize) {
+        self.queries += n as u64;
+        self.occupied += n.next_multiple_of(lanes) as u64;
+    }
+}
+
+impl AddAssign for Shading {
+    fn add_assign(&mut self, other: Shading) {
+        self.queries += other.queries;
+        self.occupied += other.occupied;
+        self.time += other.time;
+    }
+}
+
+/// Depths that are told apart; the last one stands for all that are deeper.
+pub const DEPTHS: usize = 8;
+
 /// What a rendering took, summed over threads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stats {
@@ -12,16 +47,12 @@ pub struct Stats {
     pub rays: u64,
     /// Samples whose radiance was no finite number, and which count as black.
     pub invalid: u64,
-    /// Pairs of directions and drawings that materials were asked for.
-    pub queries: u64,
-    /// Lanes that were occupied by them, full or not.
-    pub occupied: u64,
+    /// Materials by the number of surfaces that the ray had met before: values, densities and drawn directions.
+    pub shading: [Shading; DEPTHS],
     /// Everything.
     pub total: Duration,
     /// Tracing rays.
     pub trace: Duration,
-    /// Materials: values, densities and drawn directions.
-    pub material: Duration,
     /// Positions and frames of hits, and the light that rays meet.
     pub meet: Duration,
     /// Sorting by material.
@@ -33,20 +64,26 @@ pub struct Stats {
 }
 
 impl Stats {
-    /// The share of lanes that did work while materials were evaluated.
-    pub fn lanes_in_use(&self) -> f64 {
-        if self.occupied == 0 { 0.0 } else { self.queries as f64 / self.occupied as f64 }
+    /// Materials at these depths together.
+    pub fn shading(&self, depths: impl IntoIterator<Item = usize>) -> Shading {
+        let mut sum = Shading::default();
+        depths.into_iter().filter_map(|depth| self.shading.get(depth)).for_each(|shading| sum += *shading);
+        sum
+    }
+
+    /// Materials at all depths together.
+    pub fn materials(&self) -> Shading {
+        self.shading(0..DEPTHS)
     }
 
     /// The share of the time that materials took.
     pub fn material_share(&self) -> f64 {
-        self.material.as_secs_f64() / self.total.as_secs_f64().max(1e-9)
+        self.materials().time.as_secs_f64() / self.total.as_secs_f64().max(1e-9)
     }
 
-    /// Counts a batch of `n` queries on that many lanes.
-    pub(crate) fn lanes(&mut self, n: usize, lanes: usize) {
-        self.queries += n as u64;
-        self.occupied += n.next_multiple_of(lanes) as u64;
+    /// What materials at a depth are counted in.
+    pub(crate) fn at(&mut self, depth: u32) -> &mut Shading {
+        &mut self.shading[(depth as usize).min(DEPTHS - 1)]
     }
 }
 
@@ -55,11 +92,9 @@ impl AddAssign for Stats {
         self.samples += other.samples;
         self.rays += other.rays;
         self.invalid += other.invalid;
-        self.queries += other.queries;
-        self.occupied += other.occupied;
+        self.shading.iter_mut().zip(other.shading).for_each(|(sum, shading)| *sum += shading);
         self.total += other.total;
         self.trace += other.trace;
-        self.material += other.material;
         self.meet += other.meet;
         self.sort += other.sort;
         self.lights += other.lights;

@@ -10,6 +10,7 @@ mod machine;
 mod measure;
 mod page;
 mod paper;
+mod pictures;
 mod rows;
 mod samplers;
 mod sections;
@@ -27,6 +28,7 @@ use serde::Serialize;
 use energy::Energy;
 use equivalence::EquivalenceSummary;
 use grid::Grid;
+use pictures::Pictures;
 use rows::Row;
 use samplers::SamplerCost;
 
@@ -42,7 +44,7 @@ pub struct Options {
     /// Fewer queries and rounds: under a minute, ratios within some 10 %
     #[arg(long)]
     quick: bool,
-    /// Only these questions, by their ids in report.json, or `energy` or `samplers`
+    /// Only these questions, by their ids in report.json, or `formats`, `energy`, `samplers` or `pictures`
     #[arg(long, value_name = "ID", value_delimiter = ',')]
     only: Vec<String>,
     /// Also write the rows to this file
@@ -63,6 +65,7 @@ struct Report {
     formats: Option<Vec<Comparison>>,
     energy: Vec<Energy>,
     samplers: Vec<SamplerCost>,
+    pictures: Option<Pictures>,
 }
 
 impl Report {
@@ -82,7 +85,7 @@ impl Report {
 pub fn run(options: &Options) -> anyhow::Result<()> {
     let machine = Machine::here();
     let plan = if options.quick { measure::Plan::QUICK } else { measure::Plan::FULL };
-    let is_section = |id: &&String| [formats::ID, energy::ID, samplers::ID].contains(&id.as_str());
+    let is_section = |id: &&String| [formats::ID, energy::ID, samplers::ID, pictures::ID].contains(&id.as_str());
     let (sections, questions): (Vec<&String>, Vec<&String>) = options.only.iter().partition(is_section);
     let is_all = options.only.is_empty();
     let is_asked = |section: &str| is_all || sections.iter().any(|asked| *asked == section);
@@ -90,8 +93,9 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
     let formats = is_asked(formats::ID).then(formats::compare).transpose()?;
     let energy = if is_asked(energy::ID) { energy::all()? } else { Vec::new() };
     let samplers = if is_asked(samplers::ID) { samplers::all(options.quick)? } else { Vec::new() };
+    let pictures = is_asked(pictures::ID).then(|| pictures::measure(options.quick)).transpose()?;
     let equivalence = equivalence::summary();
-    let report = Report { machine, quick: options.quick, rows, equivalence, formats, energy, samplers };
+    let report = Report { machine, quick: options.quick, rows, equivalence, formats, energy, samplers, pictures };
 
     terminal::print(&report);
     std::fs::create_dir_all(&options.out).with_context(|| format!("cannot create {}", options.out.display()))?;

@@ -14,6 +14,8 @@ pub fn encode_png(film: &Film<3>, tone: ToneMap) -> Vec<u8> {
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+    // Pictures are written once and looked at often.
+    encoder.set_compression(png::Compression::High);
     let mut writer = encoder.write_header().expect("writing to memory");
     writer.write_image_data(&bytes).expect("as many bytes as the header says");
     writer.finish().expect("writing to memory");

@@ -1,27 +1,38 @@
 //! `[material.NAME]`: a file of a measured material, or a model by its name.
 
+use std::fmt::Debug;
 use std::sync::Arc;
 
 use lobe::{Edges, Lookup, Options};
-use lobe_model::{Blinn, Conductor, Ggx, OrenNayar, Phong, Ward};
+use lobe_model::{Blinn, Coated, Conductor, Ggx, Model, OrenNayar, Phong, Ward};
 
 use super::Reading;
 use super::node::{Node, SceneError};
-use crate::shader::{Delta, DeltaShader, Evaluate, Lambert, Proxied, Shader, open};
+use crate::shader::{Backend, Delta, DeltaShader, Lambert, ModelShader, Shader, open, open_sheet};
 
-const MODELS: &str = "lambert, mirror, glass, oren-nayar, phong, blinn, ward or conductor";
+const MODELS: &str = "lambert, mirror, glass, oren-nayar, phong, blinn, ward, conductor or plastic";
 
 pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(), SceneError> {
     let Some(all) = root.child("material")? else { return Ok(()) };
     for name in all.keys() {
         let node = all.child(&name)?.expect("a key of the table");
-        let shader = match (reading.file(&node, "file")?, node.text("model")?) {
-            (Some(path), None) => {
+        let (file, model) = (reading.file(&node, "file")?, node.text("model")?);
+        let (front, back) = (reading.files(&node, "front")?, reading.files(&node, "back")?);
+        let shader = match (file, model, front.len() + back.len()) {
+            (Some(path), None, 0) => {
                 let options = options(&node)?;
-                open(&path, &options).map_err(|error| node.error("file", error.to_string()))?
+                open(&path, &options, reading.backend).map_err(|error| node.error("file", error.to_string()))?
             }
-            (None, Some(model)) => self::model(&node, model)?,
-            _ => return Err(node.error("", "found no or too many keys; expected either `file` or `model`")),
+            (None, None, 1..) => {
+                let key = if front.is_empty() { "back" } else { "front" };
+                open_sheet(&front, &back, &options(&node)?, reading.backend)
+                    .map_err(|error| node.error(key, error.to_string()))?
+            }
+            (None, Some(name), 0) => model_named(&node, name, reading.backend)?,
+            _ => {
+                let message = "found no or too many keys; expected either `file`, `model`, or `front` and `back`";
+                return Err(node.error("", message));
+            }
         };
         node.finish()?;
         let number = reading.world.material(shader);
@@ -48,7 +59,7 @@ fn options(node: &Node<'_, '_>) -> Result<Options, SceneError> {
     Ok(Options { edges, lookup, ..Options::default() })
 }
 
-fn model(node: &Node<'_, '_>, name: &str) -> Result<Arc<dyn Shader<3>>, SceneError> {
+fn model_named(node: &Node<'_, '_>, name: &str, backend: Backend) -> Result<Arc<dyn Shader<3>>, SceneError> {
     let wide = |colour: [f32; 3]| colour.map(f64::from);
     let share = |key: &str| Ok::<_, SceneError>(wide(node.required_colour(key, 1.0)?));
     let exponent = || {
@@ -66,14 +77,20 @@ fn model(node: &Node<'_, '_>, name: &str) -> Result<Arc<dyn Shader<3>>, SceneErr
         "oren-nayar" => {
             let radians = |x: f64| (0.0..=1.5).contains(&x);
             let roughness = node.number("roughness", "radians from 0 to 1.5", radians)?.unwrap_or(0.3);
-            proxied(node, OrenNayar { albedo: share("albedo")?, roughness })
+            modelled(node, backend, OrenNayar { albedo: share("albedo")?, roughness })
         }
-        "phong" => proxied(node, Phong { specular: share("specular")?, exponent: exponent()? }),
-        "blinn" => proxied(node, Blinn { specular: share("specular")?, exponent: exponent()? }),
-        "ward" => proxied(node, Ward { specular: share("specular")?, alpha: alpha(node)? }),
+        "phong" => modelled(node, backend, Phong { specular: share("specular")?, exponent: exponent()? }),
+        "blinn" => modelled(node, backend, Blinn { specular: share("specular")?, exponent: exponent()? }),
+        "ward" => modelled(node, backend, Ward { specular: share("specular")?, alpha: alpha(node)? }),
         "conductor" => {
             let any = |key: &str| Ok::<_, SceneError>(wide(node.required_colour(key, f64::MAX)?));
-            proxied(node, Conductor { ggx: Ggx { alpha: alpha(node)? }, eta: any("eta")?, k: any("k")? })
+            modelled(node, backend, Conductor { ggx: Ggx { alpha: alpha(node)? }, eta: any("eta")?, k: any("k")? })
+        }
+        "plastic" => {
+            let index = node.number("eta", "a refractive index from 1 to 5", |x| (1.0..=5.0).contains(&x))?;
+            let base = lobe_model::Lambert { albedo: share("albedo")? };
+            let coat = Coated { base, ggx: Ggx { alpha: alpha(node)? }, eta: index.unwrap_or(1.5) };
+            modelled(node, backend, coat)
         }
         found => Err(node.error("model", format!("found `{found}`; expected {MODELS}"))),
     }
@@ -86,7 +103,11 @@ fn alpha(node: &Node<'_, '_>) -> Result<[f64; 2], SceneError> {
     Ok([x, read("alpha_y")?.unwrap_or(x)])
 }
 
-fn proxied(node: &Node<'_, '_>, model: impl Evaluate + 'static) -> Result<Arc<dyn Shader<3>>, SceneError> {
-    let shader = Proxied::new(model).map_err(|error| node.error("model", error.to_string()))?;
+fn modelled(
+    node: &Node<'_, '_>,
+    backend: Backend,
+    model: impl Model + Debug + Send + Sync + 'static,
+) -> Result<Arc<dyn Shader<3>>, SceneError> {
+    let shader = ModelShader::new(model, backend).map_err(|error| node.error("model", error.to_string()))?;
     Ok(Arc::new(shader))
 }

@@ -8,12 +8,13 @@ mod view;
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
 use crate::camera::{Camera, Filter};
 use crate::integrator::Integrator;
+use crate::shader::Backend;
 use crate::world::{World, WorldBuilder};
 use node::{Node, Source};
 
@@ -45,14 +46,24 @@ struct Reading<'p> {
     /// Where relative paths begin.
     folder: &'p Path,
     world: WorldBuilder<3>,
+    /// What materials run on.
+    backend: Backend,
     materials: BTreeMap<String, usize>,
     hash: Sha256,
 }
 
 impl Reading<'_> {
     /// The path of a file that a key names. Its content goes into the hash of the scene.
-    fn file(&mut self, node: &Node<'_, '_>, key: &str) -> Result<Option<std::path::PathBuf>, SceneError> {
-        let Some(name) = node.text(key)? else { return Ok(None) };
+    fn file(&mut self, node: &Node<'_, '_>, key: &str) -> Result<Option<PathBuf>, SceneError> {
+        node.text(key)?.map(|name| self.named_file(node, key, name)).transpose()
+    }
+
+    /// As [`file`](Self::file), of an array of names; empty where there is no such key.
+    fn files(&mut self, node: &Node<'_, '_>, key: &str) -> Result<Vec<PathBuf>, SceneError> {
+        node.texts(key)?.into_iter().map(|name| self.named_file(node, key, name)).collect()
+    }
+
+    fn named_file(&mut self, node: &Node<'_, '_>, key: &str, name: &str) -> Result<PathBuf, SceneError> {
         let path = self.folder.join(name);
         let unreadable = |error: std::io::Error| node.error(key, format!("{}: {error}", path.display()));
         let mut files = vec![path.clone()];
@@ -67,16 +78,16 @@ impl Reading<'_> {
             self.hash.update(bytes.len().to_le_bytes());
             self.hash.update(bytes);
         }
-        Ok(Some(path))
+        Ok(path)
     }
 }
 
 impl Scene {
-    /// Reads a scene file and everything that it names; paths in it begin at its folder.
+    /// Reads a scene file and everything that it names; paths in it begin at its folder. Materials run on `backend`.
     ///
     /// # Errors
     /// [`SceneError`] names the file, the line and the key.
-    pub fn open(path: &Path) -> Result<Self, SceneError> {
+    pub fn open(path: &Path, backend: Backend) -> Result<Self, SceneError> {
         let whole = |message: String| SceneError { file: path.into(), line: 1, key: String::new(), message };
         let bytes = std::fs::read(path).map_err(|error| whole(error.to_string()))?;
         let text = String::from_utf8(bytes).map_err(|error| {
@@ -84,20 +95,20 @@ impl Scene {
             whole(format!("found byte {} that is no UTF-8; expected text", at))
         })?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        Scene::parse(path, folder, &text)
+        Scene::parse(path, folder, &text, backend)
     }
 
     /// Reads the text of a scene; paths in it begin at `folder`, and `file` is what errors name.
     ///
     /// # Errors
     /// As [`open`](Scene::open).
-    pub fn parse(file: &Path, folder: &Path, text: &str) -> Result<Self, SceneError> {
+    pub fn parse(file: &Path, folder: &Path, text: &str, backend: Backend) -> Result<Self, SceneError> {
         let source = Source { file, text };
         let table = source.table()?;
         let root = Node::new(&source, "", 0, table.get_ref());
         let mut hash = Sha256::new();
         hash.update(text.as_bytes());
-        let mut reading = Reading { folder, world: WorldBuilder::new(), materials: BTreeMap::new(), hash };
+        let mut reading = Reading { folder, world: WorldBuilder::new(), backend, materials: BTreeMap::new(), hash };
 
         let camera = view::camera(&root)?;
         let (size, filter, exposure) = view::film(&root)?;

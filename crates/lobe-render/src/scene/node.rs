@@ -140,6 +140,14 @@ impl<'s, 't> Node<'s, 't> {
         self.text(key)?.ok_or_else(|| self.missing(key, expected))
     }
 
+    /// An array of texts; none where there is no such key.
+    pub fn texts(&self, key: &str) -> Result<Vec<&'s str>, SceneError> {
+        let Some(value) = self.get(key) else { return Ok(Vec::new()) };
+        let texts =
+            value.get_ref().as_array().and_then(|array| array.iter().map(|text| text.get_ref().as_str()).collect());
+        texts.map_or_else(|| self.wrong(key, value, "an array of texts in quotes"), Ok)
+    }
+
     /// `true` or `false`; `false` where there is no such key.
     pub fn flag(&self, key: &str) -> Result<bool, SceneError> {
         let Some(value) = self.get(key) else { return Ok(false) };

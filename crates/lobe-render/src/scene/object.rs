@@ -7,8 +7,9 @@ use lobe_mesh::{Geometry, Shading, generate, shapes};
 use super::Reading;
 use super::node::{Node, SceneError};
 use crate::place::Place;
+use crate::preview;
 
-const SHAPES: &str = "sphere, plane, disk, cuboid, knot, ball or drape";
+const SHAPES: &str = "sphere, plane, disk, cuboid, cove, knot, ball or drape";
 
 pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(), SceneError> {
     for node in root.children("object")? {
@@ -59,9 +60,10 @@ fn geometry(node: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<Geometry, 
                     let size = node.three("size", edge, |x| x > 1e-6 && x <= 1e6)?.unwrap_or([1.0; 3]);
                     shapes::cuboid(size.map(|x| x as f32), segments.unwrap_or(1))
                 }
+                "cove" => shapes::cove(positive("size", 1.0)?, segments.unwrap_or(32)),
                 "knot" => generate::knot(),
                 "ball" => generate::ball(),
-                "drape" => generate::drape(&generate::Drape::default()),
+                "drape" => preview::cloth(),
                 found => return Err(node.error("shape", format!("found `{found}`; expected {SHAPES}"))),
             })
         }

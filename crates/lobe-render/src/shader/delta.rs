@@ -1,6 +1,6 @@
 //! Surfaces that send a ray into one or two exact directions.
 
-use super::{Backend, Evaluated, Sampled, Scratch, Shader};
+use super::{Evaluated, Sampled, Scratch, Shader};
 use crate::vec3::Vec3;
 
 /// One of the directions that light comes from, and the share of it that goes on to the viewer.
@@ -99,12 +99,12 @@ impl<const C: usize> Shader<C> for DeltaShader<C> {
         [1.0; C]
     }
 
-    fn eval(&self, _: Backend, _: &[[f32; 3]], _: &[[f32; 3]], out: Evaluated<'_, C>, _: &mut Scratch) {
+    fn eval(&self, _: &[[f32; 3]], _: &[[f32; 3]], out: Evaluated<'_, C>, _: &mut Scratch) {
         out.f.fill([0.0; C]);
         out.pdf.fill(0.0);
     }
 
-    fn sample(&self, _: Backend, _: &[[f32; 3]], _: &[[f32; 3]], out: Sampled<'_, C>, _: &mut Scratch) {
+    fn sample(&self, _: &[[f32; 3]], _: &[[f32; 2]], out: Sampled<'_, C>, _: &mut Scratch) {
         out.weight.fill([0.0; C]);
         out.pdf.fill(0.0);
     }

@@ -1,14 +1,12 @@
-//! Opening files of measured materials.
+//! Measured materials: files of any format, evaluated and sampled in lanes wherever their representation is.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use lobe::{Material, OpenError, Options};
-use lobe_formats::{Document, FormatError, Specular};
-use lobe_table::rgl::{RglOptions, RglTable};
-use lobe_table::{SamplerError, Scatter, Table, TableError};
+use lobe::formats::{Document, FormatError, Specular};
+use lobe::{Given, Material, OpenError, Options, Sampler, SamplerError, SamplerOptions, Scatter};
 
-use super::{Backend, Delta, DeltaShader, Evaluate, Proxied, Reduction, RglShader, Shader, Sided, TableShader};
+use super::{Backend, Delta, DeltaShader, Evaluated, Reduction, Sampled, Scratch, Shader, albedo_of, times_cosine};
 
 /// Why a file makes no material.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -19,14 +17,6 @@ pub enum MaterialError {
     /// What it holds cannot be evaluated.
     #[error(transparent)]
     Open(#[from] OpenError),
-    /// The data are too large for a table.
-    #[error("{file}: {why}")]
-    Table {
-        /// The file.
-        file: PathBuf,
-        /// What is wrong.
-        why: TableError,
-    },
     /// Directions cannot be drawn for it.
     #[error("{file}: {why}")]
     Sampler {
@@ -35,50 +25,40 @@ pub enum MaterialError {
         /// What is wrong.
         why: SamplerError,
     },
-    /// It is larger than a lane's integers can index.
-    #[error("{file}: {why}")]
-    Size {
-        /// The file.
-        file: PathBuf,
-        /// What is wrong.
-        why: String,
-    },
 }
 
 /// Opens any file that [`lobe`] opens as a material of a picture.
 ///
 /// # Errors
 /// [`MaterialError`] names the file.
-pub fn open(path: &Path, options: &Options) -> Result<Arc<dyn Shader<3>>, MaterialError> {
-    let (format, document) = lobe_formats::open(path)?;
-    let sampler = |why| MaterialError::Sampler { file: path.into(), why };
-    Ok(match document {
-        Document::Table(measured) => {
-            let table = Table::new(&measured.data, &options.edges)
-                .map_err(|why| MaterialError::Table { file: path.into(), why })?;
-            Arc::new(TableShader::new(table).map_err(sampler)?)
-        }
-        Document::Rgl(measured) => {
-            let table = RglTable::new(&measured.data, RglOptions::default())
-                .map_err(|why| MaterialError::Size { file: path.into(), why: why.to_string() })?;
-            Arc::new(RglShader::new(table))
-        }
-        Document::Specular(measured) if measured.data.scatter() == Scatter::Reflection => {
-            Arc::new(DeltaShader(mirror(&measured.data)))
-        }
-        document => {
-            let two_sided = match &document {
-                Document::Window(_) | Document::Sheet(_) => true,
-                Document::Spherical(measured) => measured.data.scatter() == Scatter::Transmission,
-                Document::Scattered(measured) => measured.data.scatter() == Scatter::Transmission,
-                _ => false,
-            };
-            let material = Material::new(path, format, document, options)?;
-            let reduction = Reduction::new(material.channels());
-            let reduced = Reduced { material, reduction };
-            if two_sided { Arc::new(Sided::new(reduced)) } else { Arc::new(Proxied::new(reduced).map_err(sampler)?) }
-        }
-    })
+pub fn open(path: &Path, options: &Options, backend: Backend) -> Result<Arc<dyn Shader<3>>, MaterialError> {
+    let (format, document) = lobe::formats::open(path)?;
+    if let Document::Specular(measured) = &document
+        && measured.data.scatter() == Scatter::Reflection
+    {
+        return Ok(Arc::new(DeltaShader(mirror(&measured.data))));
+    }
+    prepare(Material::new(path, format, document, options)?, path, backend)
+}
+
+/// Opens the files of a sheet, measured with light on its front and on its back, as
+/// [`Material::open_sheet`] does.
+///
+/// # Errors
+/// [`MaterialError`] names the file.
+pub fn open_sheet(
+    front: &[PathBuf],
+    back: &[PathBuf],
+    options: &Options,
+    backend: Backend,
+) -> Result<Arc<dyn Shader<3>>, MaterialError> {
+    let first = front.iter().chain(back).next().cloned().unwrap_or_default();
+    prepare(Material::open_sheet(front, back, options)?, &first, backend)
+}
+
+fn prepare(material: Material, path: &Path, backend: Backend) -> Result<Arc<dyn Shader<3>>, MaterialError> {
+    let shader = MeasuredShader::new(material.with_backend(backend));
+    Ok(Arc::new(shader.map_err(|why| MaterialError::Sampler { file: path.into(), why })?))
 }
 
 /// Reflectance by the angle of the light, averaged over its azimuths.
@@ -94,20 +74,67 @@ fn mirror(specular: &Specular) -> Delta<3> {
     Delta::Measured(shares.collect())
 }
 
-/// A material in the channels of the picture.
+/// A material and its sampler, in the channels of the picture. It runs on the backend of the material.
 #[derive(Debug)]
-struct Reduced {
-    material: Material,
+pub struct MeasuredShader {
+    sampler: Sampler,
     reduction: Reduction,
+    transmits: bool,
+    albedo: [f32; 3],
 }
 
-impl Evaluate for Reduced {
-    fn values(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [[f32; 3]]) {
+impl MeasuredShader {
+    /// Builds the distributions that directions are drawn by.
+    ///
+    /// # Errors
+    /// Where there is no sampler for the material.
+    pub fn new(material: Material) -> Result<Self, SamplerError> {
+        let transmits = material.holds(true, Scatter::Transmission)
+            || [Scatter::Reflection, Scatter::Transmission].into_iter().any(|way| material.holds(false, way));
+        let reduction = Reduction::new(material.channels());
+        let sampler = Sampler::new(Arc::new(material), &SamplerOptions::default())?;
+        let mut shader = MeasuredShader { sampler, reduction, transmits, albedo: [0.0; 3] };
+        shader.albedo = albedo_of(&shader);
+        Ok(shader)
+    }
+}
+
+impl Shader<3> for MeasuredShader {
+    fn transmits(&self) -> bool {
+        self.transmits
+    }
+
+    fn albedo(&self) -> [f32; 3] {
+        self.albedo
+    }
+
+    fn eval(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: Evaluated<'_, 3>, scratch: &mut Scratch) {
+        let material = self.sampler.material();
         if self.reduction.is_identity() {
-            return self.material.eval_batch_on(backend, wi, wo, out.as_flattened_mut());
+            material.eval_batch(wi, wo, out.f.as_flattened_mut());
+        } else {
+            let values = scratch.values(wi.len() * self.reduction.channels());
+            material.eval_batch(wi, wo, values);
+            self.reduction.apply(values, out.f);
         }
-        let mut values = vec![0.0; wi.len() * self.reduction.channels()];
-        self.material.eval_batch_on(backend, wi, wo, &mut values);
-        self.reduction.apply(&values, out);
+        times_cosine(out.f, wi);
+        self.sampler.pdf_batch(Given::Viewer, wi, wo, out.pdf);
+    }
+
+    /// Mirrors that were measured beside the values are drawn too: their density is infinite.
+    fn sample(&self, wo: &[[f32; 3]], u: &[[f32; 2]], out: Sampled<'_, 3>, scratch: &mut Scratch) {
+        let Sampled { wi, weight, pdf } = out;
+        if self.reduction.is_identity() {
+            let sampled = lobe::Sampled { directions: wi, weights: weight.as_flattened_mut(), pdfs: pdf };
+            self.sampler.sample_batch(Given::Viewer, wo, u, sampled);
+        } else {
+            let values = scratch.values(wo.len() * self.reduction.channels());
+            let sampled = lobe::Sampled { directions: wi, weights: values, pdfs: pdf };
+            self.sampler.sample_batch(Given::Viewer, wo, u, sampled);
+            self.reduction.apply(values, weight);
+        }
+        for weight in weight {
+            *weight = weight.map(|w| w.max(0.0));
+        }
     }
 }

@@ -1,28 +1,23 @@
 //! Materials as a renderer needs them: batches of values with densities, and batches of drawn directions.
 //!
 //! Directions are unit vectors in the frame of the surface, normal on +z; `wo` leads to the viewer and is known, `wi` to
-//! the light and is drawn. A batch is of one material and as long as can be, so that all lanes are in use.
+//! the light and is drawn. A batch is of one material and as long as can be, so that all lanes are in use. Materials run
+//! on the backend that they were made with.
 
 mod delta;
 mod lambert;
 mod measured;
-mod proxy;
+mod model;
 mod reduce;
-mod rgl;
-mod sided;
-mod table;
 
 use std::fmt::Debug;
 
 pub use delta::{Delta, DeltaShader, Way};
 pub use lambert::Lambert;
 pub use lobe::Backend;
-pub use measured::{MaterialError, open};
-pub use proxy::{Evaluate, Proxied};
+pub use measured::{MaterialError, MeasuredShader, open, open_sheet};
+pub use model::ModelShader;
 pub use reduce::Reduction;
-pub use rgl::RglShader;
-pub use sided::Sided;
-pub use table::TableShader;
 
 /// Where values go, one entry a pair of directions.
 #[derive(Debug)]
@@ -40,7 +35,7 @@ pub struct Sampled<'a, const C: usize> {
     pub wi: &'a mut [[f32; 3]],
     /// `f` times `|cos theta_i|` over the density; 0 where nothing was drawn.
     pub weight: &'a mut [[f32; C]],
-    /// The densities, 1/sr; 0 where nothing was drawn.
+    /// The densities, 1/sr; 0 where nothing was drawn, infinite where the direction could be no other.
     pub pdf: &'a mut [f32],
 }
 
@@ -48,7 +43,6 @@ pub struct Sampled<'a, const C: usize> {
 #[derive(Debug, Default)]
 pub struct Scratch {
     values: Vec<f32>,
-    pairs: Vec<[f32; 2]>,
 }
 
 impl Scratch {
@@ -78,10 +72,10 @@ pub trait Shader<const C: usize>: Debug + Send + Sync {
     fn albedo(&self) -> [f32; C];
 
     /// Values and densities of pairs of directions. All slices are equally long.
-    fn eval(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: Evaluated<'_, C>, scratch: &mut Scratch);
+    fn eval(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: Evaluated<'_, C>, scratch: &mut Scratch);
 
-    /// Draws a `wi` for each `wo` from three numbers in `[0, 1)`. All slices are equally long.
-    fn sample(&self, backend: Backend, wo: &[[f32; 3]], u: &[[f32; 3]], out: Sampled<'_, C>, scratch: &mut Scratch);
+    /// Draws a `wi` for each `wo` from two numbers in `[0, 1)`. All slices are equally long.
+    fn sample(&self, wo: &[[f32; 3]], u: &[[f32; 2]], out: Sampled<'_, C>, scratch: &mut Scratch);
 }
 
 /// The mean weight of directions that a shader draws for a viewer 30 degrees from the normal: its albedo there.
@@ -89,14 +83,11 @@ fn albedo_of<const C: usize>(shader: &impl Shader<C>) -> [f32; C] {
     const SIDE: usize = 24;
     let n = SIDE * SIDE;
     let place = |i: usize| (i as f32 + 0.5) / SIDE as f32;
-    // A third number that has nothing to do with the others.
-    let u: Vec<[f32; 3]> =
-        (0..n).map(|i| [place(i % SIDE), place(i / SIDE), (i * 5 % 7) as f32 / 7.0 + 1.0 / 14.0]).collect();
+    let u: Vec<[f32; 2]> = (0..n).map(|i| [place(i % SIDE), place(i / SIDE)]).collect();
     let wo = vec![[0.5, 0.0, 0.75f32.sqrt()]; n];
     let (mut wi, mut weight, mut pdf) = (vec![[0.0; 3]; n], vec![[0.0; C]; n], vec![0.0; n]);
     let out = Sampled { wi: &mut wi, weight: &mut weight, pdf: &mut pdf };
-    // In strict form: the picture of albedos is to be the same everywhere.
-    shader.sample(Backend::best().strict(), &wo, &u, out, &mut Scratch::default());
+    shader.sample(&wo, &u, out, &mut Scratch::default());
     std::array::from_fn(|k| (weight.iter().map(|w| f64::from(w[k])).sum::<f64>() / n as f64).clamp(0.0, 1.0) as f32)
 }
 

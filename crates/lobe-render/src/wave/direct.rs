@@ -69,7 +69,7 @@ impl<const C: usize> Wave<'_, C> {
         let begun = Instant::now();
         self.ask(depth, light);
         self.stats.lights += begun.elapsed();
-        self.evaluate();
+        self.evaluate(depth);
         let begun = Instant::now();
         self.answer(depth);
         self.stats.lights += begun.elapsed();
@@ -125,7 +125,7 @@ impl<const C: usize> Wave<'_, C> {
     }
 
     /// Material by material, in full lanes.
-    fn evaluate(&mut self) {
+    fn evaluate(&mut self, depth: u32) {
         let begun = Instant::now();
         let Direct { wi, wo, f, pdf, parts, .. } = &mut self.direct;
         f.resize(wi.len(), [0.0; C]);
@@ -133,10 +133,10 @@ impl<const C: usize> Wave<'_, C> {
         for (material, range) in &*parts {
             let out = Evaluated { f: &mut f[range.clone()], pdf: &mut pdf[range.clone()] };
             let shader = &self.world.materials[*material];
-            shader.eval(self.backend, &wi[range.clone()], &wo[range.clone()], out, &mut self.scratch);
-            self.stats.lanes(range.len(), self.backend.lanes());
+            shader.eval(&wi[range.clone()], &wo[range.clone()], out, &mut self.scratch);
+            self.stats.at(depth).count(range.len(), self.backend.lanes());
         }
-        self.stats.material += begun.elapsed();
+        self.stats.at(depth).time += begun.elapsed();
     }
 
     /// Shadow rays for the light that the materials send on.

@@ -12,7 +12,7 @@ use crate::vec3::{Vec3, dot, scale, sub};
 #[derive(Debug)]
 pub(super) struct Scattered<const C: usize> {
     wo: Vec<Vec3>,
-    u: Vec<[f32; 3]>,
+    u: Vec<[f32; 2]>,
     wi: Vec<Vec3>,
     weight: Vec<[f32; C]>,
     pdf: Vec<f32>,
@@ -102,9 +102,9 @@ impl<const C: usize> Wave<'_, C> {
         wo.clear();
         u.clear();
         for vertex in &self.queue.sorted[range.clone()] {
-            let [a, b, c, _] = vertex.sequence.four(Use::Scatter(depth));
+            let [a, b, ..] = vertex.sequence.four(Use::Scatter(depth));
             wo.push(vertex.hit.wo);
-            u.push([a, b, c]);
+            u.push([a, b]);
         }
         wi.resize(wo.len(), [0.0; 3]);
         weight.resize(wo.len(), [0.0; C]);
@@ -112,9 +112,9 @@ impl<const C: usize> Wave<'_, C> {
         self.stats.scatter += begun.elapsed();
         let begun = Instant::now();
         let out = Sampled { wi, weight, pdf };
-        self.world.materials[*material].sample(self.backend, wo, u, out, &mut self.scratch);
-        self.stats.lanes(wo.len(), self.backend.lanes());
-        self.stats.material += begun.elapsed();
+        self.world.materials[*material].sample(wo, u, out, &mut self.scratch);
+        self.stats.at(depth).count(wo.len(), self.backend.lanes());
+        self.stats.at(depth).time += begun.elapsed();
     }
 
     /// Rays along the directions drawn, as far as they carry something and chance lets them.

@@ -1,13 +1,12 @@
 //! Small worlds.
 
-use std::path::PathBuf;
+use std::path::Path;
 use std::sync::Arc;
 
-use lobe::Edges;
+use lobe::Options;
 use lobe_render::light::{Environment, Light};
-use lobe_render::shader::{Backend, Delta, DeltaShader, Lambert, Shader, TableShader};
+use lobe_render::shader::{Backend, Delta, DeltaShader, Lambert, Shader, open};
 use lobe_render::{Camera, Film, Filter, Integrator, Rect, Settings, Shape, World, WorldBuilder, render};
-use lobe_table::Table;
 
 pub const PATH: Integrator = Integrator::Path { depth: 8, limit: f32::INFINITY };
 
@@ -46,12 +45,10 @@ pub fn sphere(center: [f32; 3], radius: f32) -> Shape {
 }
 
 /// The fixture of a woven cloth.
-pub fn cloth() -> Table {
-    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/cloth-17x7x17x13.ddr");
-    match lobe_formats::open(&file).unwrap().1 {
-        lobe_formats::Document::Table(measured) => Table::new(&measured.data, &Edges::default()).unwrap(),
-        _ => panic!("the fixture is a specular table"),
-    }
+pub const CLOTH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/cloth-17x7x17x13.ddr");
+
+pub fn cloth(backend: Backend) -> Arc<dyn Shader<3>> {
+    open(Path::new(CLOTH), &Options::default(), backend).unwrap()
 }
 
 pub fn lambert(albedo: f32) -> Arc<dyn Shader<3>> {
@@ -60,9 +57,14 @@ pub fn lambert(albedo: f32) -> Arc<dyn Shader<3>> {
 
 /// Something of everything: cloth, glass, a mirror, a lamp, a sky, a point light.
 pub fn mixed() -> World<3> {
+    mixed_on(Backend::best())
+}
+
+/// The same with materials that run on a backend.
+pub fn mixed_on(backend: Backend) -> World<3> {
     let mut world = WorldBuilder::new();
     let materials: Vec<usize> = [
-        Arc::new(TableShader::new(cloth()).unwrap()) as Arc<dyn Shader<3>>,
+        cloth(backend),
         Arc::new(DeltaShader(Delta::Glass { eta: 1.5, tint: [1.0, 0.9, 0.8] })),
         Arc::new(DeltaShader(Delta::Mirror([0.9; 3]))),
         lambert(0.5),

@@ -1,10 +1,8 @@
 //! One surface, one light: `f cos / r^2`.
 
-use std::sync::Arc;
-
 use lobe::Brdf;
 use lobe_render::light::Light;
-use lobe_render::shader::{Backend, TableShader};
+use lobe_render::shader::Backend;
 use lobe_render::{Camera, Filter, Integrator, WorldBuilder};
 
 use super::common::*;
@@ -20,10 +18,8 @@ fn unit(a: [f64; 3]) -> [f64; 3] {
 
 #[test]
 fn a_measured_plane_under_a_point_light() {
-    let table = cloth();
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/cloth-17x7x17x13.ddr");
-    let brdf = Brdf::open(file).unwrap().with_backend(Backend::best().strict());
-    let shader = Arc::new(TableShader::new(table).unwrap());
+    let brdf = Brdf::open(CLOTH).unwrap().with_backend(Backend::best().strict());
+    let shader = cloth(Backend::best().strict());
     for (turn, light, eye) in [
         (0.0f32, [0.4f64, 1.0, 0.3], [-0.7f64, 1.1, 0.2]),
         (0.7, [0.4, 1.0, 0.3], [-0.7, 1.1, 0.2]),

@@ -1,12 +1,13 @@
 //! Inside of an even white sky, what loses no light cannot be seen.
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use lobe::Edges;
+use lobe::{Channels, Options, Samples, Scatter};
+use lobe_model::{Conductor, Ggx};
 use lobe_render::light::{AreaLight, Environment, Light};
-use lobe_render::shader::{Delta, DeltaShader, Proxied, Shader, Sided, TableShader};
+use lobe_render::shader::{Backend, Delta, DeltaShader, ModelShader, Shader, open, open_sheet};
 use lobe_render::{Integrator, World, WorldBuilder};
-use lobe_table::{Channels, Samples, Scatter, Table};
 
 use super::common::*;
 
@@ -18,18 +19,16 @@ fn furnace(shader: Arc<dyn Shader<3>>) -> World<3> {
     world.build().unwrap()
 }
 
-/// A table whose every value is `1 / pi`.
-fn white_table() -> Table {
-    let radians = |knots: &[f64]| knots.iter().map(|x| x.to_radians()).collect::<Vec<_>>();
-    let knots = [
-        radians(&[0.0, 30.0, 60.0, 90.0]),
-        radians(&[0.0, 120.0, 240.0]),
-        radians(&[0.0, 10.0, 40.0, 90.0, 180.0]),
-        radians(&[0.0, 90.0, 180.0, 270.0]),
-    ];
-    let values = vec![std::f32::consts::FRAC_1_PI; 4 * 3 * 5 * 4];
-    let samples = Samples::new(Scatter::Reflection, knots, Channels::Mono, values).unwrap();
-    Table::new(&samples, &Edges::default()).unwrap()
+/// A file whose every value is `albedo / pi`.
+fn even(folder: &Path, scatter: Scatter, albedo: f32) -> PathBuf {
+    // As many nodes as a small measurement has: directions are drawn by histograms of the size of the table.
+    let steps = |n: usize, step: f64| (0..n).map(|i| (step * i as f64).to_radians()).collect::<Vec<_>>();
+    let knots = [steps(10, 10.0), steps(3, 120.0), steps(19, 10.0), steps(12, 30.0)];
+    let values = vec![albedo * std::f32::consts::FRAC_1_PI; 10 * 3 * 19 * 12];
+    let samples = Samples::new(scatter, knots, Channels::Mono, values).unwrap();
+    let path = folder.join(if scatter == Scatter::Reflection { "even.ddr" } else { "even.ddt" });
+    lobe::formats::ddr::write(&samples, &path).unwrap();
+    path
 }
 
 /// The largest difference of a pixel from 1, and that of the mean.
@@ -42,12 +41,14 @@ fn from_white(world: &World<3>, integrator: Integrator) -> (f64, f64) {
 
 #[test]
 fn white_surfaces_vanish_in_a_white_sky() {
+    let folder = tempfile::tempdir().unwrap();
+    let white = even(folder.path(), Scatter::Reflection, 1.0);
+    let table = open(&white, &Options::default(), Backend::best()).unwrap();
     let oren_nayar = lobe_model::OrenNayar { albedo: [1.0; 3], roughness: 0.0 };
-    let shaders: [(&str, Arc<dyn Shader<3>>, f64, f64); 5] = [
+    let shaders: [(&str, Arc<dyn Shader<3>>, f64, f64); 4] = [
         ("lambert", lambert(1.0), 0.08, 2e-3),
-        ("table", Arc::new(TableShader::new(white_table()).unwrap()), 0.25, 3e-3),
-        ("proxied", Arc::new(Proxied::new(oren_nayar).unwrap()), 0.25, 3e-3),
-        ("sided", Arc::new(Sided::new(oren_nayar)), 0.25, 3e-3),
+        ("table", table, 0.25, 3e-3),
+        ("model", Arc::new(ModelShader::new(oren_nayar, Backend::best()).unwrap()), 0.25, 3e-3),
         ("mirror", Arc::new(DeltaShader(Delta::Mirror([1.0; 3]))), 0.05, 1e-3),
     ];
     for (name, shader, pixel, whole) in shaders {
@@ -70,6 +71,16 @@ fn glass_loses_nothing_when_all_of_its_rays_are_followed() {
 }
 
 #[test]
+fn a_sheet_that_reflects_half_and_lets_half_through_vanishes() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = [Scatter::Reflection, Scatter::Transmission].map(|scatter| even(folder.path(), scatter, 0.5));
+    let sheet = open_sheet(&files, &files, &Options::default(), Backend::best()).unwrap();
+    assert!(sheet.transmits());
+    let (largest, mean) = from_white(&furnace(sheet), Integrator::Path { depth: 40, limit: f32::INFINITY });
+    assert!(largest < 0.3 && mean < 3e-3, "a pixel is {largest} off, the mean {mean}");
+}
+
+#[test]
 fn nothing_occludes_a_convex_thing() {
     let (largest, _) = from_white(&furnace(lambert(1.0)), Integrator::Ambient { distance: f32::INFINITY });
     // Pixels beside the sphere are black, as there is no surface.
@@ -80,18 +91,49 @@ fn nothing_occludes_a_convex_thing() {
     assert!((middle.mean_radiance()[0] - 1.0).abs() < 1e-6, "{:?}", middle.mean_radiance());
 }
 
-#[test]
-fn drawing_lights_and_drawing_materials_find_the_same_light() {
-    // A lamp above a cloth: by its lights alone, and by both together.
+/// A lamp above a square, by its lights alone, and by lights and materials together.
+fn assert_the_same_light(name: &str, material: Arc<dyn Shader<3>>) {
     let mut world = WorldBuilder::new();
-    let cloth = world.material(Arc::new(TableShader::new(cloth()).unwrap()));
+    let material = world.material(material);
     let black = world.material(lambert(0.0));
-    world.shape(&plane(0.3), cloth, None, false).unwrap();
+    world.shape(&plane(0.3), material, None, false).unwrap();
     world.shape(&sphere([0.3, 1.5, 0.2], 0.4), black, Some([5.0, 6.0, 7.0]), false).unwrap();
     let world = world.build().unwrap();
-    let both = mean(&picture(&world, &settings([40, 40], 128, Integrator::Path { depth: 1, limit: f32::INFINITY })));
-    let lights = mean(&picture(&world, &settings([40, 40], 128, Integrator::Whitted { depth: 1 })));
-    assert!(both > 0.05, "{both}");
-    assert!((both / lights - 1.0).abs() < 5e-3, "{both} with both, {lights} with lights");
+    let of = |integrator| mean(&picture(&world, &settings([40, 40], 128, integrator)));
+    let both = of(Integrator::Path { depth: 1, limit: f32::INFINITY });
+    let lights = of(Integrator::Whitted { depth: 1 });
+    assert!(both > 0.05, "{name}: {both}");
+    assert!((both / lights - 1.0).abs() < 5e-3, "{name}: {both} with both, {lights} with lights");
+}
+
+#[test]
+fn drawing_lights_and_drawing_materials_find_the_same_light() {
     assert!(AreaLight::<3>::new(vec![], [1.0; 3], false).is_none());
+    assert_the_same_light("cloth", cloth(Backend::best()));
+    let gold = Ggx { alpha: [0.1, 0.3] };
+    let gold = Conductor { ggx: gold, eta: [0.143, 0.375, 1.442], k: [3.983, 2.386, 1.603] };
+    assert_the_same_light("gold", Arc::new(ModelShader::new(gold, Backend::best()).unwrap()));
+
+    let shared = std::env::var_os("LOBE_SHARED").map(PathBuf::from);
+    let shared = shared.unwrap_or_else(|| concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared").into());
+    for name in [
+        "rgl_bsdf/vch_golden_yellow_rgb.bsdf",
+        "klems_xml/metalGrate.xml",
+        "tensortree_xml/blindsT3.xml",
+        "mdl_mbsdf/carpaint_blue.mbsdf",
+        "kaist_pbsdf/spectralon_lowres.pbsdf",
+        "cornell_brdf/garnet_red.brdf",
+        "speos_anisotropicbsdf/aniso_bsdf.anisotropicbsdf",
+        "zemax_bsdf/MagicBlack.bsdf",
+    ] {
+        let file = shared.join("data").join(name);
+        if !file.exists() {
+            println!("skipped {name}, which is not in {}", shared.display());
+            continue;
+        }
+        match open(&file, &Options::default(), Backend::best()) {
+            Ok(material) => assert_the_same_light(name, material),
+            Err(error) => panic!("{name}: {error}"),
+        }
+    }
 }

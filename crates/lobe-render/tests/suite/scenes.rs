@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use lobe_render::Integrator;
 use lobe_render::scene::Scene;
+use lobe_render::shader::Backend;
 
 use super::common::*;
 
 fn parse(text: &str) -> Result<Scene, String> {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../fixtures");
-    Scene::parse(Path::new("scene.toml"), &folder, text).map_err(|error| error.to_string())
+    Scene::parse(Path::new("scene.toml"), &folder, text, Backend::best()).map_err(|error| error.to_string())
 }
 
 const GOOD: &str = r#"[camera]
@@ -84,6 +85,14 @@ fn mistakes_are_named_with_their_line_and_key() {
         ("width = 32", "width = 32.5", 7, "film.width: found 32.5"),
         ("samples = 4", "samples = -1", 11, "integrator.samples: found -1"),
         ("samples = 4", "kind = \"magic\"", 11, "integrator.kind: found `magic`; expected path"),
+        ("file = \"cloth-17x7x17x13.ddr\"", "front = [\"nowhere.ddr\"]", 14, "material.cloth.front"),
+        ("file = \"cloth-17x7x17x13.ddr\"", "back = \"nowhere.ddr\"", 14, "expected an array of texts"),
+        (
+            "model = \"conductor\"",
+            "model = \"conductor\"\nfront = [\"README.md\"]",
+            16,
+            "material.gold: found no or too",
+        ),
         ("cloth-17x7x17x13.ddr", "nowhere.ddr", 14, "material.cloth.file"),
         ("cloth-17x7x17x13.ddr", "README.md", 14, "content of no known format"),
         ("model = \"conductor\"", "model = \"gold\"", 17, "material.gold.model: found `gold`; expected lambert"),
@@ -124,7 +133,7 @@ fn meshes_with_bad_numbers_are_errors() {
         std::fs::write(folder.path().join("mesh.obj"), mesh).unwrap();
         let text = GOOD.replacen("shape = \"plane\"\nsize = 4", "file = \"mesh.obj\"", 1);
         let text = text.replacen("file = \"cloth-17x7x17x13.ddr\"", "model = \"lambert\"\nalbedo = 0.5", 1);
-        Scene::parse(Path::new("scene.toml"), folder.path(), &text).map_err(|error| error.to_string())
+        Scene::parse(Path::new("scene.toml"), folder.path(), &text, Backend::best()).map_err(|error| error.to_string())
     };
     assert!(scene("v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n").is_ok());
     for bad in ["v 0 0 nan\nv 1 0 0\nv 0 0 1\nf 1 2 3\n", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 4\n", "v 0 0\nf 1 1 1\n"] {
@@ -145,9 +154,9 @@ fn files_that_are_no_text() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, [b'[', 0xff, 0xfe]).unwrap();
-    let error = Scene::open(&path).unwrap_err().to_string();
+    let error = Scene::open(&path, Backend::best()).unwrap_err().to_string();
     assert!(error.contains("scene.toml:1: ") && error.contains("UTF-8"), "{error}");
-    let error = Scene::open(&folder.path().join("missing.toml")).unwrap_err().to_string();
+    let error = Scene::open(&folder.path().join("missing.toml"), Backend::best()).unwrap_err().to_string();
     assert!(error.contains("missing.toml:1: "), "{error}");
     for text in ["", "[camera]", "camera = 3", "[[camera]]", "object = 1"] {
         assert!(parse(text).is_err(), "{text}");

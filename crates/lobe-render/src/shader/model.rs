@@ -1,0 +1,118 @@
+//! Analytic models: evaluated one pair at a time, sampled by histograms of what they answer.
+
+use std::fmt::Debug;
+
+use lobe::{Kernel, Lanes, Scatter};
+use lobe_model::{Model, Rgb, is_isotropic};
+use lobe_table::{Distribution, DistributionError, DistributionOptions};
+
+use super::{Backend, Evaluated, Sampled, Scratch, Shader, albedo_of, times_cosine};
+
+/// A model that reflects, and the distribution that directions are drawn by.
+#[derive(Debug)]
+pub struct ModelShader<M> {
+    model: M,
+    distribution: Distribution,
+    backend: Backend,
+    albedo: [f32; 3],
+}
+
+/// The most memory that the histograms of a model take: the sharpest peaks of `alpha` = 0.01 are followed.
+const BYTES: usize = 4 << 20;
+
+impl<M: Model + Debug + Send + Sync> ModelShader<M> {
+    /// Measures where the model sends light; it is the model itself that is seen.
+    ///
+    /// # Errors
+    /// Where the model answers what no distribution can be made of.
+    pub fn new(model: M, backend: Backend) -> Result<Self, DistributionError> {
+        let options = DistributionOptions::unknown(Scatter::Reflection, is_isotropic(&Rgb(&model)), BYTES);
+        let mut colours = Vec::new();
+        // Models are reciprocal, so it does not matter that the known direction is the viewer's.
+        let light = |wo: &[[f32; 3]], wi: &[[f32; 3]], out: &mut [f32]| {
+            colours.resize(wi.len(), [0.0; 3]);
+            values(&model, wi, wo, &mut colours);
+            out.iter_mut().zip(&colours).for_each(|(out, [r, g, b])| *out = 0.2126 * r + 0.7152 * g + 0.0722 * b);
+        };
+        let distribution = backend.run(Build { options: &options, light })?;
+        let mut shader = ModelShader { model, distribution, backend, albedo: [0.0; 3] };
+        shader.albedo = albedo_of(&shader);
+        Ok(shader)
+    }
+}
+
+/// `f` in 1/sr of many pairs.
+fn values(model: &impl Model, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [[f32; 3]]) {
+    for ((wi, wo), out) in wi.iter().zip(wo).zip(out) {
+        *out = model.f(wi.map(f64::from), wo.map(f64::from)).map(|x| x as f32);
+    }
+}
+
+impl<M: Model + Debug + Send + Sync> Shader<3> for ModelShader<M> {
+    fn albedo(&self) -> [f32; 3] {
+        self.albedo
+    }
+
+    fn eval(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: Evaluated<'_, 3>, _: &mut Scratch) {
+        values(&self.model, wi, wo, out.f);
+        times_cosine(out.f, wi);
+        self.backend.run(Densities { distribution: &self.distribution, wi, wo, pdf: out.pdf });
+    }
+
+    fn sample(&self, wo: &[[f32; 3]], u: &[[f32; 2]], out: Sampled<'_, 3>, _: &mut Scratch) {
+        let Sampled { wi, weight, pdf } = out;
+        self.backend.run(Draw { distribution: &self.distribution, wo, u, wi, pdf });
+        values(&self.model, wi, wo, weight);
+        times_cosine(weight, wi);
+        for (weight, &pdf) in weight.iter_mut().zip(&*pdf) {
+            *weight = if pdf > 0.0 { weight.map(|w| w / pdf) } else { [0.0; 3] };
+        }
+    }
+}
+
+struct Build<'a, F> {
+    options: &'a DistributionOptions,
+    light: F,
+}
+
+impl<F: FnMut(&[[f32; 3]], &[[f32; 3]], &mut [f32])> Kernel for Build<'_, F> {
+    type Out = Result<Distribution, DistributionError>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> Self::Out {
+        Distribution::of_function(lanes, self.options, self.light, &mut |_, _| {})
+    }
+}
+
+struct Draw<'a> {
+    distribution: &'a Distribution,
+    wo: &'a [[f32; 3]],
+    u: &'a [[f32; 2]],
+    wi: &'a mut [[f32; 3]],
+    pdf: &'a mut [f32],
+}
+
+impl Kernel for Draw<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        self.distribution.draw_batch(lanes, self.wo, self.u, self.wi, self.pdf);
+    }
+}
+
+struct Densities<'a> {
+    distribution: &'a Distribution,
+    wi: &'a [[f32; 3]],
+    wo: &'a [[f32; 3]],
+    pdf: &'a mut [f32],
+}
+
+impl Kernel for Densities<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        self.distribution.pdf_batch(lanes, self.wo, self.wi, self.pdf);
+    }
+}

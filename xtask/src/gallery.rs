@@ -1,0 +1,172 @@
+//! `xtask gallery`: pictures of the scenes in fixtures/scenes, and a page with them.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+use indicatif::{ProgressBar, ProgressStyle};
+use lobe::Backend;
+use lobe_render::picture::{ToneMap, write_png};
+use lobe_render::scene::Scene;
+use lobe_render::{Film, Rect, Settings, render};
+
+use crate::report::replace;
+
+/// Render the scenes in fixtures/scenes into docs/pictures, and write docs/gallery.md.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Only these scenes, by the names of their files; docs/gallery.md is not written then
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    only: Vec<String>,
+    /// Samples a pixel, in place of what the scenes say: for a look; docs/gallery.md is not written then
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..65_537))]
+    samples: Option<u32>,
+    /// Where pictures go
+    #[arg(long, value_name = "DIR", default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/pictures"))]
+    pictures: PathBuf,
+}
+
+/// A picture of the gallery.
+struct Picture {
+    /// Of the scene in fixtures/scenes and of the picture, without their extensions.
+    name: &'static str,
+    title: &'static str,
+    /// What there is to see.
+    caption: &'static str,
+}
+
+const PICTURES: [Picture; 3] = [
+    Picture {
+        name: "cloth-metal-paint",
+        title: "Cloth, metal and paint",
+        caption: "Fig. 3 of the paper in terms of this project. The cloth that has fallen on a sphere is shot silk: its table \
+                  of 17 x 7 x 17 x 13 angles was measured on a simulated weave of blue warp and orange weft, and each fold \
+                  shows the one or the other. The knot is brushed along itself, so its highlights run around it. The ball \
+                  is car paint, a table with a clear coat that mirrors the lamps. Everything throws shadows and is \
+                  reflected.",
+    },
+    Picture {
+        name: "material-balls",
+        title: "Material balls",
+        caption: "In front the tables of `fixtures`: silk, gold with dust on it, car paint. Behind them models that are \
+                  evaluated as they are: green and white plastic, brushed aluminium, copper.",
+    },
+    Picture {
+        name: "knot-at-dusk",
+        title: "Knot at dusk",
+        caption: "The table of gold under a sky that is bright at the horizon, beside a glass ball and a ball of silk on a \
+                  wet floor.",
+    },
+];
+
+const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../fixtures/scenes");
+const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/gallery.md");
+
+/// Renders, and writes the pictures and the page.
+///
+/// # Errors
+/// Where a scene is wrong or a file cannot be written.
+pub fn run(args: &Args) -> Result<()> {
+    std::fs::create_dir_all(&args.pictures).with_context(|| format!("making {}", args.pictures.display()))?;
+    if let Some(unknown) = args.only.iter().find(|name| PICTURES.iter().all(|picture| picture.name != *name)) {
+        let names: Vec<_> = PICTURES.iter().map(|picture| picture.name).collect();
+        anyhow::bail!("no scene `{unknown}`; there are {}", names.join(", "));
+    }
+    for picture in &PICTURES {
+        if args.only.is_empty() || args.only.iter().any(|name| name == picture.name) {
+            picture.render(&args.pictures, args.samples)?;
+        }
+    }
+    if args.only.is_empty() && args.samples.is_none() {
+        replace(Path::new(PAGE), &page()?)?;
+        println!("{PAGE}");
+    }
+    Ok(())
+}
+
+impl Picture {
+    /// In strict form: the pictures are the same bytes on every machine.
+    fn scene(&self) -> Result<Scene> {
+        let path = Path::new(SCENES).join(self.name).with_extension("toml");
+        Ok(Scene::open(&path, Backend::detect()?.strict())?)
+    }
+
+    fn render(&self, folder: &Path, samples: Option<u32>) -> Result<()> {
+        let scene = self.scene()?;
+        let window = Rect { x: 0, y: 0, width: scene.size[0], height: scene.size[1] };
+        let settings = Settings {
+            camera: scene.camera,
+            size: scene.size,
+            window,
+            filter: scene.filter,
+            integrator: scene.integrator,
+            samples: 0..samples.unwrap_or(scene.samples),
+            backend: Backend::detect()?.strict(),
+            threads: std::thread::available_parallelism().map_or(1, usize::from),
+            time: None,
+        };
+        let style = ProgressStyle::with_template("{bar:32} {percent:>3} % {eta:>4} {msg}").expect("a valid template");
+        let bar = ProgressBar::new(1).with_style(style).with_message(self.name);
+        let begun = Instant::now();
+        let (film, _) = render(&scene.world, &settings, Film::new(window), |progress| {
+            bar.set_length(progress.total);
+            bar.set_position(progress.done);
+            true
+        })?;
+        bar.finish_and_clear();
+        let path = folder.join(self.name).with_extension("png");
+        write_png(&path, &film, ToneMap { exposure: scene.exposure })?;
+        println!("{} in {:.0} s", path.display(), begun.elapsed().as_secs_f64());
+        Ok(())
+    }
+}
+
+/// The text of docs/gallery.md.
+fn page() -> Result<String> {
+    let mut text = String::from(
+        "# Gallery\n\n\
+         The scenes are in [fixtures/scenes](../fixtures/scenes), and everything in them comes from this project: the cloth \
+         was\nlet fall, the weave was simulated, the tables were computed. `cargo xtask gallery` renders the pictures and \
+         writes\nthis page.\n",
+    );
+    for picture in &PICTURES {
+        let Picture { name, title, caption } = picture;
+        let scene = picture.scene()?;
+        let [width, height] = scene.size;
+        let (samples, triangles) = (scene.samples, scene.world.triangles());
+        _ = write!(
+            text,
+            "\n## {title}\n\n![{title}](pictures/{name}.png)\n\n{caption}\n\n\
+             {width} x {height} pixels, {samples} samples each, {triangles} triangles.\n\n\
+             ```sh\nlobe render fixtures/scenes/{name}.toml -o {name}.png --strict\n```\n"
+        );
+    }
+    Ok(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_scene_is_in_the_gallery_and_the_page_is_up_to_date() {
+        let mut scenes = Vec::new();
+        for entry in std::fs::read_dir(SCENES).expect("fixtures/scenes") {
+            let path = entry.expect("an entry").path();
+            if path.extension().is_some_and(|extension| extension == "toml") {
+                scenes.push(path.file_stem().expect("a name").to_string_lossy().into_owned());
+            }
+        }
+        scenes.sort();
+        let mut names: Vec<_> = PICTURES.iter().map(|picture| picture.name.to_owned()).collect();
+        names.sort();
+        assert_eq!(scenes, names);
+        assert_eq!(std::fs::read_to_string(PAGE).expect("docs/gallery.md"), page().expect("scenes"));
+        for name in names {
+            let path = Path::new(SCENES).join("../../docs/pictures").join(name).with_extension("png");
+            let bytes = std::fs::metadata(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display())).len();
+            assert!(bytes < 400_000, "{}: {bytes} bytes", path.display());
+        }
+    }
+}
