@@ -153,7 +153,7 @@ pub fn tensor_tree(rank: Rank) -> Window {
     let children = 1 << dimensions;
     let (mut nodes, mut count) = (vec![Node::Branch(1)], 0_usize);
     // The children of the root, of which every third is divided again.
-    let divided = |child: usize| child % 3 == 0;
+    let divided = |child: usize| child.is_multiple_of(3);
     let mut next = 1 + children;
     for child in 0..children {
         if divided(child) {
