@@ -26,8 +26,8 @@ struct Case {
 
 enum Representation {
     HalfDiff(HalfDiffTable, Lookup),
-    Utia(UtiaTable),
-    Mueller(MuellerTable),
+    Utia(Box<UtiaTable>),
+    Mueller(Box<MuellerTable>),
     Window(WindowTable),
 }
 
@@ -148,7 +148,7 @@ fn cases() -> &'static [Case] {
         let table = UtiaTable::new(&grid, Decode::Raw).expect("a valid grid");
         cases.push(Case {
             name: "UTIA",
-            representation: Representation::Utia(table),
+            representation: Representation::Utia(Box::new(table)),
             width: 3,
             reference: Box::new(move |wi, wo| largest * grid.bound(wi, wo)),
         });
@@ -157,7 +157,7 @@ fn cases() -> &'static [Case] {
         cases.push(Case {
             name: "Mueller",
             width: table.channel_count(),
-            representation: Representation::Mueller(table),
+            representation: Representation::Mueller(Box::new(table)),
             reference: Box::new(move |wi, wo| matrices.bound(wi, wo)),
         });
         let sheets = [

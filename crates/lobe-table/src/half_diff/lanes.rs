@@ -168,13 +168,14 @@ impl HalfDiffTable {
     #[inline(always)]
     fn places<L: Lanes>(&self, lanes: L, n: usize, scratch: &mut Scratch) {
         let Scratch { angles, places: [h, d, p], .. } = scratch;
-        let bins = self.bins.map(|bins| bins as f32);
-        let [h_bins, d_scale, p_scale] =
-            [bins[0], bins[1] * FRAC_2_PI, bins[2] / self.period].map(|scale| lanes.splat(scale));
+        let [h_bins, d_bins, p_bins] = self.bins;
+        let h_scale = lanes.splat(h_bins as f32);
+        let d_scale = lanes.splat(d_bins as f32 * FRAC_2_PI);
+        let p_scale = lanes.splat(p_bins as f32 / self.period);
         let (quarter_turns, period, zero) = (lanes.splat(FRAC_2_PI), lanes.splat(self.period), lanes.splat(0.0));
         let mut query = 0;
         while query < n {
-            h.store(lanes, query, (angles.theta_h.load(lanes, query) * quarter_turns).sqrt() * h_bins);
+            h.store(lanes, query, (angles.theta_h.load(lanes, query) * quarter_turns).sqrt() * h_scale);
             d.store(lanes, query, angles.theta_d.load(lanes, query) * d_scale);
             let phi = angles.phi_d.load(lanes, query);
             p.store(lanes, query, (phi + period.masked(phi.lt(zero))) * p_scale);
@@ -186,8 +187,11 @@ impl HalfDiffTable {
     #[inline(always)]
     fn bins<L: Lanes>(&self, lanes: L, n: usize, scratch: &mut Scratch) {
         let Scratch { angles, base, places: [h, d, p], .. } = scratch;
-        let [h_last, d_last, p_last] = self.bins.map(|bins| lanes.splat_int(bins as i32 - 1));
-        let [h_stride, d_stride, p_stride] = self.strides.map(|stride| lanes.splat_int(stride as i32));
+        let last = |axis: usize| self.bins[axis] as i32 - 1;
+        let (h_last, d_last, p_last) = (lanes.splat_int(last(0)), lanes.splat_int(last(1)), lanes.splat_int(last(2)));
+        let [h_stride, d_stride, p_stride] = self.strides;
+        let (h_stride, d_stride) = (lanes.splat_int(h_stride as i32), lanes.splat_int(d_stride as i32));
+        let p_stride = lanes.splat_int(p_stride as i32);
         let (zero, dark) = (lanes.splat_int(0), lanes.splat_int(-1));
         let mut query = 0;
         while query < n {

@@ -77,7 +77,8 @@ impl Patches {
         PatchScratch { theta, phi, ring }: &mut PatchScratch,
         (patch, valid): (&mut Column<i32>, &mut Column<i32>),
     ) {
-        let [zero, half, sign, end] = [0.0, 0.5, sign, self.end].map(|x| lanes.splat(x));
+        let (zero, half) = (lanes.splat(0.0), lanes.splat(0.5));
+        let (sign, end) = (lanes.splat(sign), lanes.splat(self.end));
         let none = lanes.splat_int(0);
         let [x, y, z] = toward;
         let mut query = 0;

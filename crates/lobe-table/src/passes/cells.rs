@@ -42,7 +42,8 @@ impl<L: Lanes> Visitor<L> for Pass<'_, L> {
         if axis.edge() == Edge::Zero {
             leave_out(lanes, n, axis, angle, valid);
         }
-        let [low, high] = axis.bounds.clamp.map(|bound| lanes.splat(bound));
+        let [low, high] = axis.bounds.clamp;
+        let (low, high) = (lanes.splat(low), lanes.splat(high));
         let stride = lanes.splat_int(stride as i32);
         // Few axes begin above 0, so few have to be turned.
         if axis.bounds.turn_below > 0.0 {
