@@ -30,7 +30,8 @@ pub fn of_weights(material: &Material, weights: &[f32]) -> Moments {
         (count, sum, squares) = (count + 1.0, sum + value, squares + value * value);
     }
     let mean = sum / count;
-    Moments { mean, variance: squares / count / (mean * mean) - 1.0 }
+    // Rounding could put that of equal values below 0.
+    Moments { mean, variance: (squares / count / (mean * mean) - 1.0).max(0.0) }
 }
 
 /// Of samples for one direction above the surface.

@@ -106,7 +106,7 @@ fn of(name: &str, format: Format, document: Document) -> anyhow::Result<Energy> 
             light: [sigma, psi],
             albedo,
             by_samples: by_samples.mean,
-            error: by_samples.mean * (by_samples.variance.max(0.0) / COUNT as f64).sqrt(),
+            error: by_samples.mean * (by_samples.variance / COUNT as f64).sqrt(),
             density,
             variance: by_samples.variance,
             variance_by_cosine: by_cosine.variance,

@@ -43,8 +43,8 @@ pub struct SamplerCost {
 pub fn all(quick: bool) -> anyhow::Result<Vec<SamplerCost>> {
     let table = |samples: Samples| Document::Table(Measured { data: samples, source: Vec::new(), tis: Vec::new() });
     let mut costs = vec![
-        cost("7 × 8 × 13", table(tables::isotropic()), (0.05, 5))?,
-        cost("17 × 7 × 17 × 13", table(tables::anisotropic()), (0.05, 5))?,
+        cost("7 × 8 × 13", table(tables::isotropic()), (0.05, 20))?,
+        cost("17 × 7 × 17 × 13", table(tables::anisotropic()), (0.05, 20))?,
     ];
     if !quick {
         let mut rng = Pcg32::seed_from_u64(7);
@@ -91,7 +91,7 @@ pub fn grids(costs: &[SamplerCost]) -> Vec<Grid> {
     vec![Grid {
         title: "Sampling tables",
         reading: READING.into(),
-        header: &["material", "material", "sampler", "ratio", "time to build", "goal"],
+        header: &["material", "size", "sampler", "ratio", "time to build", "goal"],
         rows: costs.iter().map(row).collect(),
     }]
 }
