@@ -50,6 +50,16 @@ fn flat_shapes_have_their_areas_and_face_up() {
 }
 
 #[test]
+fn a_cove_bends_from_the_floor_into_the_wall() {
+    let cove = shapes::cove(6.0, 64);
+    assert_eq!(cove.bounds(), Some(([-3.0, 0.0, -2.0], [3.0, 6.0, 3.0])));
+    // Floor, a quarter of a circle, and wall.
+    let length = 4.0 + PI / 2.0 + 5.0;
+    assert!((cove.area() / (6.0 * length) - 1.0).abs() < 1e-4, "{} of {}", cove.area(), 6.0 * length);
+    assert_frames(&cove, 0.9999);
+}
+
+#[test]
 fn a_cuboid_has_six_faces() {
     let cuboid = shapes::cuboid([1.0, 2.0, 3.0], 3);
     assert!((cuboid.area() - 22.0).abs() < 1e-5);
