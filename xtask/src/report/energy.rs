@@ -172,18 +172,18 @@ pub fn grids(energies: &[Energy]) -> Vec<Grid> {
         ]
     };
     vec![
-        Grid {
-            title: "Energy",
-            reading: BY_LIGHT.into(),
-            header: &["material", "light", "albedo", "by samples", "∫ density", "variance", "by cosine", "gain"],
-            rows: energies.iter().flat_map(by_light).collect(),
-        },
-        Grid {
-            title: "Energy and reciprocity",
-            reading: WHOLE.into(),
-            header: &["material", "largest albedo", "reciprocity, rms", "median"],
-            rows: energies.iter().map(whole).collect(),
-        },
+        Grid::new(
+            "Energy",
+            BY_LIGHT,
+            ["material", "light", "albedo", "by samples", "∫ density", "variance", "by cosine", "gain"],
+            energies.iter().flat_map(by_light).collect(),
+        ),
+        Grid::new(
+            "Energy and reciprocity",
+            WHOLE,
+            ["material", "largest albedo", "reciprocity, rms", "median"],
+            energies.iter().map(whole).collect(),
+        ),
     ]
 }
 

@@ -18,11 +18,13 @@ pub fn compare() -> anyhow::Result<Vec<Comparison>> {
 
 /// The table; none where it was not asked for.
 pub fn grids(comparisons: Option<&[Comparison]>) -> Vec<Grid> {
-    let grid = |comparisons: &[Comparison]| Grid {
-        title: "Formats",
-        reading: reading(comparisons),
-        header: &["file", "reader", "pairs", "largest error", "allowed", "against"],
-        rows: comparisons.iter().map(row).collect(),
+    let grid = |comparisons: &[Comparison]| {
+        Grid::new(
+            "Formats",
+            reading(comparisons),
+            ["file", "reader", "pairs", "largest error", "allowed", "against"],
+            comparisons.iter().map(row).collect(),
+        )
     };
     comparisons.map(grid).into_iter().collect()
 }

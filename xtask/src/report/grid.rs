@@ -1,7 +1,5 @@
 //! Tables of figures that are no ratios of speeds, as text in cells: the same on the terminal and on the page.
 
-use std::fmt::Write;
-
 use comfy_table::{CellAlignment, Table, presets};
 
 use super::svg::escape;
@@ -9,50 +7,60 @@ use super::svg::escape;
 /// A heading, what there is to know, and rows of cells; the first column names the row.
 #[derive(Clone, Debug)]
 pub struct Grid {
-    /// Heading.
-    pub title: &'static str,
-    /// How to read it.
-    pub reading: String,
-    /// The heads of the columns.
-    pub header: &'static [&'static str],
-    /// One cell a column; where there are no rows, the reading says why.
-    pub rows: Vec<Vec<String>>,
+    title: &'static str,
+    reading: String,
+    header: Vec<String>,
+    rows: Vec<Vec<String>>,
+    notes: Vec<String>,
 }
 
 impl Grid {
+    /// A table with a heading and how to read it. Where there are no rows, the reading says why.
+    pub fn new(
+        title: &'static str,
+        reading: impl Into<String>,
+        header: impl IntoIterator<Item: Into<String>>,
+        rows: Vec<Vec<String>>,
+    ) -> Self {
+        let header = header.into_iter().map(Into::into).collect();
+        Grid { title, reading: reading.into(), header, rows, notes: Vec::new() }
+    }
+
+    /// With what follows the table, a line or paragraph each.
+    pub fn with_notes(self, notes: Vec<String>) -> Self {
+        Grid { notes, ..self }
+    }
+
     /// On the terminal.
     pub fn print(&self) {
-        if self.rows.is_empty() {
-            return println!("\n{}\n{}", self.title, self.reading);
+        println!("\n{}\n{}", self.title, self.reading);
+        if !self.rows.is_empty() {
+            let mut table = Table::new();
+            table.load_style(presets::UTF8_HORIZONTAL_ONLY);
+            table.set_header(&self.header);
+            table.add_rows(&self.rows);
+            for column in table.column_iter_mut().skip(1) {
+                column.set_cell_alignment(CellAlignment::Right);
+            }
+            println!("{table}");
         }
-        let mut table = Table::new();
-        table.load_style(presets::UTF8_HORIZONTAL_ONLY);
-        table.set_header(self.header);
-        table.add_rows(&self.rows);
-        for column in table.column_iter_mut().skip(1) {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-        println!("\n{}\n{table}", self.title);
+        self.notes.iter().for_each(|note| println!("{note}"));
     }
 
     /// As a section of the page.
     pub fn html(&self) -> String {
-        let cells = |tag: &str, texts: &mut dyn Iterator<Item = &str>| -> String {
-            texts.map(|text| format!("<{tag}>{}</{tag}>", escape(text))).collect()
+        let cells = |tag: &str, texts: &[String]| -> String {
+            texts.iter().map(|text| format!("<{tag}>{}</{tag}>", escape(text))).collect()
         };
-        let head = cells("th", &mut self.header.iter().copied());
-        let mut lines = String::new();
-        for row in &self.rows {
-            let row = cells("td", &mut row.iter().map(String::as_str));
-            write!(lines, "<tr>{row}</tr>").expect("a string");
+        let mut text = format!("<h2>{}</h2><p>{}</p>", escape(self.title), escape(&self.reading));
+        if !self.rows.is_empty() {
+            let head = cells("th", &self.header);
+            let lines: String = self.rows.iter().map(|row| format!("<tr>{}</tr>", cells("td", row))).collect();
+            text += &format!(
+                r#"<div class="wide"><table><thead><tr>{head}</tr></thead><tbody>{lines}</tbody></table></div>"#
+            );
         }
-        if self.rows.is_empty() {
-            return format!(r#"<h2>{}</h2><p class="note">{}</p>"#, escape(self.title), escape(&self.reading));
-        }
-        format!(
-            r#"<h2>{}</h2><p>{}</p><div class="wide"><table><thead><tr>{head}</tr></thead><tbody>{lines}</tbody></table></div>"#,
-            escape(self.title),
-            escape(&self.reading)
-        )
+        text.extend(self.notes.iter().map(|note| format!("<p>{}</p>", escape(note))));
+        text
     }
 }

@@ -74,6 +74,7 @@ impl Report {
         let mut grids = formats::grids(self.formats.as_deref());
         grids.extend(energy::grids(&self.energy));
         grids.extend(samplers::grids(&self.samplers));
+        grids.extend(self.pictures.as_ref().map(Pictures::grid));
         grids
     }
 }

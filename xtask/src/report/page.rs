@@ -13,7 +13,7 @@ use super::machine::Machine;
 use super::paper::PaperTable;
 use super::rows::{self, Row};
 use super::svg::escape;
-use super::{Report, pictures, sections, style};
+use super::{Report, sections, style};
 
 /// The whole document.
 pub fn html(report: &Report) -> String {
@@ -33,7 +33,6 @@ pub fn html(report: &Report) -> String {
         }
     }
     body.extend(report.grids().iter().map(Grid::html));
-    body += &report.pictures.as_ref().map(pictures::html).unwrap_or_default();
     body += &figure_2();
     body += &about(machine);
     format!(

@@ -11,7 +11,6 @@ use lobe_render::{DEPTHS, Film, Settings, Stats, World, render};
 use serde::Serialize;
 
 use packets::Packets;
-pub use show::{html, print};
 
 /// By which it is asked for alone.
 pub const ID: &str = "pictures";

@@ -88,12 +88,12 @@ pub fn grids(costs: &[SamplerCost]) -> Vec<Grid> {
     if costs.is_empty() {
         return Vec::new();
     }
-    vec![Grid {
-        title: "Sampling tables",
-        reading: READING.into(),
-        header: &["material", "size", "sampler", "ratio", "time to build", "goal"],
-        rows: costs.iter().map(row).collect(),
-    }]
+    vec![Grid::new(
+        "Sampling tables",
+        READING,
+        ["material", "size", "sampler", "ratio", "time to build", "goal"],
+        costs.iter().map(row).collect(),
+    )]
 }
 
 const READING: &str = "What a sampler takes beside its material, at most one and a half times as much where the material is not tiny, and how long it \

@@ -5,7 +5,7 @@ use lobe_benches::workload::Input;
 
 use super::grid::Grid;
 use super::rows::{self, Row};
-use super::{Report, pictures, sections};
+use super::{Report, sections};
 
 /// Prints one table a question, and what is not about speed.
 pub fn print(report: &Report) {
@@ -27,7 +27,6 @@ pub fn print(report: &Report) {
         }
     }
     report.grids().iter().for_each(Grid::print);
-    report.pictures.iter().for_each(pictures::print);
 }
 
 /// Backends down; for each input the time and the ratio to each baseline across.

@@ -1,46 +1,19 @@
-//! The section on the terminal and on the page.
-
-use std::fmt::Write;
-
-use comfy_table::{CellAlignment, Table, presets};
+//! The section in words and cells.
 
 use super::Pictures;
+use crate::report::grid::Grid;
 use crate::report::rows::{nanoseconds, times};
-use crate::report::svg::escape;
-
-/// Prints the section.
-pub fn print(pictures: &Pictures) {
-    println!("\nPictures\n{}", pictures.sentence());
-    let mut table = Table::new();
-    table.load_style(presets::UTF8_HORIZONTAL_ONLY);
-    table.set_header(pictures.head());
-    pictures.lines().into_iter().for_each(|line| {
-        table.add_row(line);
-    });
-    table.column_iter_mut().skip(1).for_each(|column| column.set_cell_alignment(CellAlignment::Right));
-    println!("{table}");
-    pictures.notes().iter().for_each(|note| println!("{note}"));
-}
-
-/// The section of the page.
-pub fn html(pictures: &Pictures) -> String {
-    let cells = |tag: &str, cells: Vec<String>| -> String {
-        cells.iter().map(|cell| format!("<{tag}>{}</{tag}>", escape(cell))).collect()
-    };
-    let mut text = format!("<h2>Pictures</h2><p>{}</p>", escape(&pictures.sentence()));
-    let head = cells("th", pictures.head());
-    let lines: String = pictures.lines().into_iter().map(|line| format!("<tr>{}</tr>", cells("td", line))).collect();
-    write!(text, r#"<div class="wide"><table><thead><tr>{head}</tr></thead><tbody>{lines}</tbody></table></div>"#)
-        .expect("a string");
-    let notes: String = pictures.notes().iter().map(|note| format!("<p>{}</p>", escape(note))).collect();
-    text + &notes
-}
 
 fn percent(share: f64) -> String {
     format!("{:.0} %", 100.0 * share)
 }
 
 impl Pictures {
+    /// The table.
+    pub fn grid(&self) -> Grid {
+        Grid::new("Pictures", self.sentence(), self.head(), self.lines()).with_notes(self.notes())
+    }
+
     fn sentence(&self) -> String {
         format!(
             "Frames of {} triangles in {} materials, a measured table of 17 × 7 × 17 × 13 each, on one thread. Hits are \
