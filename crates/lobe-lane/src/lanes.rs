@@ -166,6 +166,18 @@ pub trait Lanes: Texels {
         self.store_int(&mut buffer, x);
         buffer[lane & (Self::LANES - 1)]
     }
+    /// A vector in every lane.
+    #[inline(always)]
+    fn splat_xyz(self, [x, y, z]: [f32; 3]) -> [Self::F; 3] {
+        [self.splat(x), self.splat(y), self.splat(z)]
+    }
+
+    /// The vector in lane `lane` (modulo `LANES`).
+    #[inline(always)]
+    fn extract_xyz(self, [x, y, z]: [Self::F; 3], lane: usize) -> [f32; 3] {
+        [self.extract(x, lane), self.extract(y, lane), self.extract(z, lane)]
+    }
+
     /// Float in lane `lane` (modulo `LANES`).
     #[inline(always)]
     fn extract(self, x: Self::F, lane: usize) -> f32 {

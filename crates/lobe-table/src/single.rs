@@ -98,9 +98,9 @@ fn angles<L: Lanes>(lanes: L, table: &Table, wi: [f32; 3], wo: [f32; 3]) -> ([f3
     let ([ax, ay, cos_zenith], sin_zenith) = match &table.refraction {
         None => ([ix, iy, iz], sin),
         Some(offset) => {
-            let [wi, psi] = [[ix, iy, iz], [cos_psi, sin_psi, 0.0]].map(|v| v.map(|x| lanes.splat(x)));
-            let (opposite, sin) = Refracted(offset).opposite(lanes, wi, lanes.splat(sin), [psi[0], psi[1]]);
-            (opposite.map(|x| lanes.extract(x, 0)), lanes.extract(sin, 0))
+            let (wi, psi) = (lanes.splat_xyz([ix, iy, iz]), [lanes.splat(cos_psi), lanes.splat(sin_psi)]);
+            let (opposite, sin) = Refracted(offset).opposite(lanes, wi, lanes.splat(sin), psi);
+            (lanes.extract_xyz(opposite, 0), lanes.extract(sin, 0))
         }
     };
     let (dx, dy, dz) = (ox + ax, oy + ay, oz - cos_zenith);

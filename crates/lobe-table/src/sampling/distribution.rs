@@ -350,7 +350,7 @@ impl Kernel for Densities<'_> {
         let mut at = 0;
         while at < pdfs.len() {
             let end = pdfs.len().min(at + L::LANES);
-            let [known, other] = [known, other].map(|w| load(lanes, &w[at..end]));
+            let (known, other) = (load(lanes, &known[at..end]), load(lanes, &other[at..end]));
             lanes.store_partial(&mut pdfs[at..end], distribution.pdf_lanes(lanes, known, other));
             at = end;
         }

@@ -77,7 +77,7 @@ impl<T: Light> Kernel for Histogram<'_, T> {
     fn run<L: Lanes>(self, lanes: L) -> Vec<Bin> {
         let Histogram { light, surface, incident, phi, root_v, points } = self;
         let columns = root_v.len() - 1;
-        let incident_lanes = Incident::new(lanes, surface, incident.map(|x| lanes.splat(x)));
+        let incident_lanes = Incident::new(lanes, surface, lanes.splat_xyz(incident));
 
         let v = midpoints(root_v, points, |root| root * root);
         let mut scattered = vec![[0.0f32; 3]; v.len()];
@@ -100,7 +100,7 @@ impl<T: Light> Kernel for Histogram<'_, T> {
                     let direction = incident_lanes.direction(lanes, rest, azimuth);
                     let mut k = 0;
                     while k < L::LANES.min(v.len() - at) {
-                        scattered[at + k] = direction.map(|x| lanes.extract(x, k));
+                        scattered[at + k] = lanes.extract_xyz(direction, k);
                         k += 1;
                     }
                     at += L::LANES;

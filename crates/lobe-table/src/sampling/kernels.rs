@@ -47,10 +47,10 @@ impl Kernel for One<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> ([f32; 3], f32) {
         let One { sampler, given, direction, u, weight } = self;
-        let [known, u] = [direction, [u[0], u[1], 0.0]].map(|x| x.map(|x| lanes.splat(x)));
-        let (sampled, pdf) = sampler.distribution.draw_lanes(lanes, known, [u[0], u[1]], lanes.first_n(L::LANES));
+        let (known, u) = (lanes.splat_xyz(direction), [lanes.splat(u[0]), lanes.splat(u[1])]);
+        let (sampled, pdf) = sampler.distribution.draw_lanes(lanes, known, u, lanes.first_n(L::LANES));
         let factor = lanes.extract(factor(lanes, sampled[2], pdf), 0);
-        let sampled = sampled.map(|x| lanes.extract(x, 0));
+        let sampled = lanes.extract_xyz(sampled, 0);
         let (wi, wo) = pair(given, direction, sampled);
         sampler.table.single(wi, wo, weight).run(lanes);
         let mut channel = 0;
@@ -75,8 +75,7 @@ impl Kernel for OneDensity<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> f32 {
-        let [wi, wo] = [self.wi, self.wo].map(|w| w.map(|x| lanes.splat(x)));
-        let (known, other) = pair(self.given, wi, wo);
+        let (known, other) = pair(self.given, lanes.splat_xyz(self.wi), lanes.splat_xyz(self.wo));
         lanes.extract(self.sampler.distribution.pdf_lanes(lanes, known, other), 0)
     }
 }

@@ -45,11 +45,13 @@ impl Grid {
     /// The grid in the registers of a backend.
     #[inline(always)]
     pub(super) fn placer<L: Lanes>(&self, lanes: L) -> Placer<L> {
+        let [x, y] = self.cells;
+        let [column, row, slice] = self.strides;
         Placer {
             one: lanes.splat(1.0),
-            cells: self.cells.map(|cells| lanes.splat(cells as f32)),
-            last: self.cells.map(|cells| lanes.splat_int(cells as i32 - 1)),
-            strides: self.strides.map(|stride| lanes.splat_int(stride as i32)),
+            cells: [lanes.splat(x as f32), lanes.splat(y as f32)],
+            last: [lanes.splat_int(x as i32 - 1), lanes.splat_int(y as i32 - 1)],
+            strides: [lanes.splat_int(column as i32), lanes.splat_int(row as i32), lanes.splat_int(slice as i32)],
         }
     }
 }
