@@ -177,6 +177,10 @@ fn mitsuba_mueller(backend: Backend, file: &Path, path: &Path) -> anyhow::Result
 }
 
 /// Materials of the EPFL database at a few angles: `theta_i`, `theta_o` and `phi` in degrees, and `f`.
+///
+/// A pair in mirror directions has the normal for its half vector, and around that an azimuth in the rounding of the
+/// directions alone; the tables are not the same from all azimuths. Such pairs, which are mirror directions to the last
+/// digit in `f64`, are none in lanes; the `f64` reference is held to them by the tests of `lobe-formats`.
 fn mitsuba_values(backend: Backend, shared: &Path, path: &Path) -> anyhow::Result<Vec<Comparison>> {
     let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
     let files: serde_json::Map<String, serde_json::Value> =
@@ -188,6 +192,7 @@ fn mitsuba_values(backend: Backend, shared: &Path, path: &Path) -> anyhow::Resul
         let subject = Subject::open(backend, &shared.join("data").join(&file), &Options::default())?;
         let answers: Vec<Answer> = evals
             .into_iter()
+            .filter(|(i, o, phi, _)| !(*i > 0.0 && i == o && *phi == 180.0))
             .map(|(i, o, phi, outputs)| Answer { inputs: [i, o, phi].map(f64::to_radians).to_vec(), outputs })
             .collect();
         let pair = |answer: &Answer| {
