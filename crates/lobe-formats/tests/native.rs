@@ -2,16 +2,12 @@
 
 mod common;
 
-use common::{Worst, golden, relative, shared, unit};
+use common::{Worst, golden, merl_formula, relative, shared, spherical, unit, utia_numbers};
 use lobe_formats::{mbsdf, merl, pbsdf, tensor, utia};
 use lobe_table::spherical_grid::SphericalGrid;
 use lobe_table::utia::Decode;
 use std::fs;
 use std::path::Path;
-
-fn spherical([theta, phi]: [f64; 2]) -> [f64; 3] {
-    [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
-}
 
 #[test]
 fn mueller_matrices_match_mitsuba() {
@@ -70,14 +66,7 @@ fn the_real_diffuser_depolarises() {
 #[test]
 fn merl_bins_match_the_reader_of_the_database() {
     let Some(shared) = shared() else { return };
-    let mut bytes: Vec<u8> = [90i32, 90, 180].iter().flat_map(|n| n.to_le_bytes()).collect();
-    for scale in [1.0, 1.15, 1.66] {
-        for bin in 0..90 * 90 * 180 {
-            let (h, d, p) = (bin / (90 * 180), bin / 180 % 90, bin % 180);
-            let code = 1e4 * f64::from(h) + 100.0 * f64::from(d) + f64::from(p) / 2.0;
-            bytes.extend_from_slice(&(1500.0 * code / scale).to_le_bytes());
-        }
-    }
+    let bytes = merl_formula();
     assert_eq!(bytes.len(), 34_992_012);
     assert!(merl::matches(&bytes));
     let material = merl::read(&bytes, Path::new("formula.binary")).expect("a MERL material");
@@ -94,12 +83,7 @@ fn merl_bins_match_the_reader_of_the_database() {
 #[test]
 fn utia_values_match_the_reader_of_the_database() {
     let Some(shared) = shared() else { return };
-    let mut state = 12345u32;
-    let mut bytes = Vec::new();
-    for _ in 0..248_832 {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        bytes.extend_from_slice(&(0.01 + 60.0 * f64::from(state) / 4_294_967_296.0).to_le_bytes());
-    }
+    let bytes = utia_numbers();
     let material = utia::read(&bytes, Path::new("lcg.bin")).expect("a UTIA material");
     assert!(utia::to_bytes(&material) == bytes, "what is written is what was read");
     let queries = golden(&shared.join("golden/utia_lcg.txt"));

@@ -4,7 +4,7 @@ mod common;
 
 use std::path::Path;
 
-use common::{bytes, direction, files, golden, shared};
+use common::{bytes, direction, files, golden, shared, sheets};
 use lobe_formats::window_xml;
 use lobe_table::window::Window;
 
@@ -21,17 +21,13 @@ const PERTURBATION: f64 = 3.5e-4;
 #[test]
 fn synthetic_files_agree_with_the_reference() {
     let Some(shared) = shared() else { return };
-    let folder = shared.join("golden");
+    let [synthetic, _] = sheets(&shared);
     let mut count = 0;
-    for name in ["klems_quarter_columns", "klems_quarter_rows", "klems_half", "tensortree3", "tensortree4"] {
-        let xml = folder.join(format!("{name}.xml"));
-        if !xml.is_file() {
-            println!("SKIPPED: {} is not there", xml.display());
-            continue;
-        }
+    for (xml, answers) in synthetic {
+        let name = xml.file_stem().expect("a name").to_string_lossy();
         let window = visible(&xml);
         let (mut exact, mut perturbed) = (0.0_f64, 0.0_f64);
-        for (query, answer) in golden(&folder.join(format!("{name}.radiance.txt"))) {
+        for (query, answer) in golden(&answers) {
             let (wi, wo) = (direction(&query, 0), direction(&query, 3));
             let found = window.eval(wi, wo);
             let error = |wanted: f64| (found - wanted).abs() / wanted.abs().max(1e-12);
@@ -49,18 +45,13 @@ fn synthetic_files_agree_with_the_reference() {
 #[test]
 fn real_files_agree_with_the_reference() {
     let Some(shared) = shared() else { return };
-    let data = shared.join("data");
+    let [_, real] = sheets(&shared);
     let mut count = 0;
-    for path in files(&shared.join("golden")) {
-        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
-        let Some(xml) = name.strip_prefix("real_").and_then(|name| name.strip_suffix(".radiance.txt")) else {
-            continue;
-        };
-        let folders = ["klems_xml", "tensortree_xml"].map(|folder| data.join(folder).join(xml));
-        let xml = folders.iter().find(|path| path.is_file()).unwrap_or_else(|| panic!("{xml} is not there"));
-        let window = visible(xml);
+    for (xml, answers) in real {
+        let name = xml.file_name().expect("a name").to_string_lossy();
+        let window = visible(&xml);
         let mut worst = 0.0_f64;
-        for (query, answer) in golden(&path) {
+        for (query, answer) in golden(&answers) {
             let (wi, wo) = (direction(&query, 0), direction(&query, 3));
             let (found, wanted) = (window.eval(wi, wo), answer[0]);
             let error = (found - wanted).abs() / wanted.abs().max(1e-12);

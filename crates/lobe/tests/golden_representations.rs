@@ -6,7 +6,7 @@ mod common;
 
 use std::path::Path;
 
-use common::{Worst, direction, golden, shared, unit};
+use common::{Worst, direction, golden, merl_formula, shared, sheets, spherical, unit, utia_numbers};
 use lobe::formats::{Document, Format, merl, utia};
 use lobe::{Backend, Material, Options};
 
@@ -18,10 +18,6 @@ fn backends() -> Vec<Backend> {
 fn material(format: Format, bytes: &[u8], path: &Path) -> Material {
     let document = lobe::formats::read(format, bytes, path).unwrap_or_else(|error| panic!("{error}"));
     Material::new(path, format, document, &Options::default()).unwrap_or_else(|error| panic!("{error}"))
-}
-
-fn spherical([theta, phi]: [f64; 2]) -> [f64; 3] {
-    [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
 }
 
 fn narrow(pairs: &[([f64; 3], [f64; 3])]) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
@@ -59,14 +55,7 @@ fn rounded((wi, wo): ([f64; 3], [f64; 3])) -> ([f64; 3], [f64; 3]) {
 #[test]
 fn merl_bins_agree_with_the_reader_of_the_database() {
     let Some(shared) = shared() else { return };
-    let mut bytes: Vec<u8> = [90i32, 90, 180].iter().flat_map(|n| n.to_le_bytes()).collect();
-    for scale in [1.0, 1.15, 1.66] {
-        for bin in 0..90 * 90 * 180 {
-            let (h, d, p) = (bin / (90 * 180), bin / 180 % 90, bin % 180);
-            let code = 1e4 * f64::from(h) + 100.0 * f64::from(d) + f64::from(p) / 2.0;
-            bytes.extend_from_slice(&(1500.0 * code / scale).to_le_bytes());
-        }
-    }
+    let bytes = merl_formula();
     let path = Path::new("formula.binary");
     let data = merl::read(&bytes, path).expect("a MERL material");
     let queries = golden(&shared.join("golden/merl_formula.txt"));
@@ -94,12 +83,7 @@ fn merl_bins_agree_with_the_reader_of_the_database() {
 #[test]
 fn utia_values_agree_with_the_reader_of_the_database() {
     let Some(shared) = shared() else { return };
-    let mut state = 12345u32;
-    let mut bytes = Vec::new();
-    for _ in 0..248_832 {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        bytes.extend_from_slice(&(0.01 + 60.0 * f64::from(state) / 4_294_967_296.0).to_le_bytes());
-    }
+    let bytes = utia_numbers();
     let path = Path::new("lcg.bin");
     let data = utia::read(&bytes, path).expect("a UTIA material");
     let queries = golden(&shared.join("golden/utia_lcg.txt"));
@@ -181,24 +165,8 @@ fn check_sheet(xml: &Path, answers: &Path, exact: Option<usize>) -> usize {
 #[test]
 fn sheets_agree_with_radiance() {
     let Some(shared) = shared() else { return };
-    let folder = shared.join("golden");
-    let mut count = 0;
-    for name in ["klems_quarter_columns", "klems_quarter_rows", "klems_half", "tensortree3", "tensortree4"] {
-        let xml = folder.join(format!("{name}.xml"));
-        if !xml.is_file() {
-            println!("SKIPPED: {} is not there", xml.display());
-            continue;
-        }
-        count += check_sheet(&xml, &folder.join(format!("{name}.radiance.txt")), Some(1));
-    }
-    for path in common::files(&folder) {
-        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
-        let Some(xml) = name.strip_prefix("real_").and_then(|name| name.strip_suffix(".radiance.txt")) else {
-            continue;
-        };
-        let folders = ["klems_xml", "tensortree_xml"].map(|folder| shared.join("data").join(folder).join(xml));
-        let xml = folders.iter().find(|path| path.is_file()).unwrap_or_else(|| panic!("{xml} is not there"));
-        count += check_sheet(xml, &path, None);
-    }
+    let [synthetic, real] = sheets(&shared);
+    let exact = synthetic.iter().map(|(xml, answers)| check_sheet(xml, answers, Some(1))).sum::<usize>();
+    let count = exact + real.iter().map(|(xml, answers)| check_sheet(xml, answers, None)).sum::<usize>();
     assert!(count >= 4000, "{count} answers");
 }

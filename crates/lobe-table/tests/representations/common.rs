@@ -103,24 +103,29 @@ pub fn evaluate<E: Evaluate>(evaluator: &E, pairs: &Pairs, width: usize) -> Vec<
         assert!(value.iter().all(|x| *x == 0.0), "query {query}: {value:?}");
     }
 
-    #[allow(unused_mut, reason = "only some processors have a fused form")]
-    let mut forms = vec![("strict", scalar.clone())];
-    #[cfg(target_arch = "x86_64")]
-    {
-        same(&on(evaluator, lobe_sse::Sse2::new(), pairs, width), "sse2");
-        match lobe_sse::Sse41::detect() {
-            Some(lanes) => same(&on(evaluator, lanes, pairs, width), "sse4.1"),
-            None => println!("SKIPPED: this CPU has no SSE4.1"),
-        }
-        match lobe_avx::Avx2::detect() {
-            Some(lanes) => {
-                same(&on(evaluator, lanes.strict(), pairs, width), "avx2 strict");
-                forms.push(("fused", on(evaluator, lanes, pairs, width)));
-            }
-            None => println!("SKIPPED: this CPU has no AVX2"),
-        }
+    let fused = native(evaluator, pairs, width, &same);
+    [("strict", scalar.clone())].into_iter().chain(fused.map(|values| ("fused", values))).collect()
+}
+
+/// Holds the backends of this processor to the strict values; the fused ones, where it has them.
+#[cfg(target_arch = "x86_64")]
+fn native<E: Evaluate>(evaluator: &E, pairs: &Pairs, width: usize, same: &dyn Fn(&[f32], &str)) -> Option<Vec<f32>> {
+    same(&on(evaluator, lobe_sse::Sse2::new(), pairs, width), "sse2");
+    match lobe_sse::Sse41::detect() {
+        Some(lanes) => same(&on(evaluator, lanes, pairs, width), "sse4.1"),
+        None => println!("SKIPPED: this CPU has no SSE4.1"),
     }
-    forms
+    let Some(lanes) = lobe_avx::Avx2::detect() else {
+        println!("SKIPPED: this CPU has no AVX2");
+        return None;
+    };
+    same(&on(evaluator, lanes.strict(), pairs, width), "avx2 strict");
+    Some(on(evaluator, lanes, pairs, width))
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+fn native<E: Evaluate>(_: &E, _: &Pairs, _: usize, _: &dyn Fn(&[f32], &str)) -> Option<Vec<f32>> {
+    None
 }
 
 fn on<E: Evaluate, L: Lanes>(evaluator: &E, lanes: L, pairs: &Pairs, width: usize) -> Vec<f32> {
