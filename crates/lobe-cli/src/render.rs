@@ -16,11 +16,11 @@ use crate::summary::Summary;
 /// Render a scene file to EXR or PNG.
 #[derive(clap::Args)]
 #[command(
-    after_help = "The picture does not depend on threads, tiles, or the order of work. With --strict it does not depend on the
-instructions of the machine either.
+    after_help = "The picture does not depend on threads, tiles, or the order of work. With --strict it does not depend \
+on the instructions of the machine either.
 
-Every 30 seconds the picture so far is written; an EXR file then also has the exact sums that --resume goes on
-with. A PNG has them beside it, in OUT.part.exr.
+Every 30 seconds the picture so far is written; an EXR file then also has the exact sums that --resume goes \
+on with. A PNG has them beside it, in OUT.part.exr.
 
 Examples:
   lobe render scene.toml -o picture.exr

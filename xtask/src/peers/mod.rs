@@ -29,8 +29,12 @@ use exchange::Exchange;
 use program::{Program, Programs};
 use record::Record;
 
-/// Options of `cargo xtask peers`.
+/// Compare speed, values and noise with other libraries, in one run; what cannot be installed is left out
 #[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  cargo xtask peers
+  cargo xtask peers --only rgl --only variance --turns 6
+  cargo xtask peers --record")]
 pub struct Options {
     /// Turns that everybody gets
     #[arg(long, value_name = "COUNT", default_value_t = 12)]

@@ -38,8 +38,12 @@ pub(crate) use machine::Machine;
 pub(crate) use rows::{nanoseconds, times};
 pub(crate) use write::replace;
 
-/// Options of `cargo xtask report`.
+/// Measure this machine: equivalence, the paper's tables, everything beyond them, as a page and on the terminal
 #[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  cargo xtask report
+  cargo xtask report --quick --only iso,aniso
+  cargo xtask report --only formats --json formats.json")]
 pub struct Options {
     /// Fewer queries and rounds: under a minute, ratios within some 10 %
     #[arg(long)]

@@ -60,7 +60,7 @@ pub(super) fn draw(subject: &Subject, view: &View, progress: &dyn Progress) -> S
     let away = if scatters == [Scatter::Transmission] { "straight side" } else { "mirror side" };
     svg.text(end, Text { anchor: Anchor::End, ..note }, away);
     let upward = Text { is_upward: true, ..MIDDLE };
-    svg.rich([MARGIN + 12.0, 0.5 * (TOP + bottom)], upward, "f (1/sr)");
+    svg.rich([MARGIN + 4.0, 0.5 * (TOP + bottom)], upward, "f (1/sr)");
     let title = format!("{}: f against the viewing angle in the plane of incidence", subject.name());
     svg.finish((WIDTH, bottom + 72.0), view.width, &title)
 }
