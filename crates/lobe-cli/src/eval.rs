@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, ValueEnum};
 use lobe::formats::Document;
-use lobe::{Edges, Lookup, Material, Options};
+use lobe::{Edges, Given, Lookup, Material, Options};
 use lobe_table::coords::angles_to_directions;
 use lobe_table::reference::zenith;
 use serde::Serialize;
@@ -49,6 +49,9 @@ pub struct Args {
     /// How grids of half and difference angles (MERL) are looked up.
     #[arg(long, value_enum, default_value = "nearest")]
     lookup: LookupRule,
+    /// Which direction the tables of the EPFL database (RGL) are indexed by.
+    #[arg(long, value_enum, default_value = "light")]
+    indexed_by: IndexRule,
     /// Print this channel only, by the name that `lobe info` shows: Y, R, 550nm. May be given again.
     #[arg(long = "channel", value_name = "NAME")]
     channels: Vec<String>,
@@ -88,6 +91,14 @@ enum LookupRule {
     Linear,
 }
 
+#[derive(Clone, Copy, ValueEnum)]
+enum IndexRule {
+    /// The light, as they were measured.
+    Light,
+    /// The viewer, as in renderers that trace from the camera.
+    Viewer,
+}
+
 #[derive(Serialize)]
 struct Answer<'a> {
     wi: [f64; 3],
@@ -102,7 +113,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         LookupRule::Nearest => Lookup::Nearest,
         LookupRule::Linear => Lookup::Linear,
     };
-    let options = Options { edges: args.edge.edges(), lookup, ..Options::default() };
+    let indexed_by = match args.indexed_by {
+        IndexRule::Light => Given::Light,
+        IndexRule::Viewer => Given::Viewer,
+    };
+    let options = Options { edges: args.edge.edges(), lookup, indexed_by, ..Options::default() };
     let (format, document) = lobe::formats::open(&args.file)?;
     let pairs = match (args.wi, args.wo, args.angles, &args.pairs) {
         (Some(wi), Some(wo), ..) => vec![Pair { wi, wo }],

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::ValueEnum;
-use lobe::{Lookup, Options};
+use lobe::{Given, Lookup, Options};
 use lobe_render::picture::{Meta, ToneMap, write_exr, write_png};
 use lobe_render::preview::{Show, studio};
 use lobe_render::shader::open;
@@ -65,8 +65,8 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let kind = Kind::of(&args.output)?;
     let backend = args.machine.backend()?;
-    // A grid of half and difference angles that is not interpolated shows its bins.
-    let options = Options { lookup: Lookup::Linear, ..Options::default() };
+    // A grid of half and difference angles that is not interpolated shows its bins; light is looked for from the camera.
+    let options = Options { lookup: Lookup::Linear, indexed_by: Given::Viewer, ..Options::default() };
     let material = open(&args.material, &options, backend).map_err(|error| Failure::File(error.to_string()))?;
     let show = match args.show {
         Shown::Both => Show::Both,

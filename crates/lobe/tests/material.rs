@@ -142,41 +142,58 @@ fn rgl() -> Rgl {
     Rgl::new(parts).expect("a material")
 }
 
+fn rgl_sampler(data: Rgl, indexed_by: Given) -> Sampler {
+    let options = Options { indexed_by, ..Options::default() };
+    let material = open(Document::Rgl(measured(data)), &options).expect("a material");
+    Sampler::new(Arc::new(material), &SamplerOptions::default()).expect("a sampler")
+}
+
 #[test]
-fn rgl_values_are_indexed_by_the_light_and_samples_by_the_known_direction() {
+fn rgl_values_are_indexed_as_asked_and_samples_by_the_known_direction() {
     let data = rgl();
     let reference = Reference::new(&data);
-    let sampler = Sampler::new(Arc::new(material(Document::Rgl(measured(data)))), &SamplerOptions::default());
-    let sampler = sampler.expect("a sampler");
-    let wo = [0.0, 0.28, 0.96];
     let wide = |w: [f32; 3]| w.map(f64::from);
-    let mut expected = [0.0; 3];
-    reference.eval(wide(UP), wide(wo), &mut expected);
-    for (found, expected) in value(sampler.material(), UP, wo).into_iter().zip(expected) {
-        assert!((f64::from(found) / expected - 1.0).abs() < 1e-6, "{found}, not {expected}");
-    }
-    let (mut drawn, mut values) = (0, [0.0; 3]);
-    for i in 0..100 {
-        let uniform = [(i % 10) as f32 / 10.0 + 0.05, (i / 10) as f32 / 10.0 + 0.05];
-        let mut weight = [f32::NAN; 3];
-        let (wi, pdf) = sampler.sample(Given::Viewer, wo, uniform, &mut weight);
-        if pdf > 0.0 {
-            let found = f64::from(sampler.pdf(Given::Viewer, wi, wo));
-            let expected = reference.pdf(wide(wo), wide(wi));
-            for density in [f64::from(pdf), found] {
-                assert!((density / expected - 1.0).abs() < 1e-3, "{wi:?}: {density}, not {expected}");
+    for indexed_by in [Given::Light, Given::Viewer] {
+        let sampler = rgl_sampler(data.clone(), indexed_by);
+        let expected = |wi, wo| {
+            let mut values = [0.0; 3];
+            let (index, other) = if indexed_by == Given::Light { (wi, wo) } else { (wo, wi) };
+            reference.eval(wide(index), wide(other), &mut values);
+            values
+        };
+        let known = [0.0, 0.28, 0.96];
+        for (found, expected) in value(sampler.material(), UP, known).into_iter().zip(expected(UP, known)) {
+            assert!((f64::from(found) / expected - 1.0).abs() < 1e-6, "{found}, not {expected}");
+        }
+        for given in [Given::Light, Given::Viewer] {
+            let mut drawn = 0;
+            for i in 0..100 {
+                let uniform = [(i % 10) as f32 / 10.0 + 0.05, (i / 10) as f32 / 10.0 + 0.05];
+                let mut weight = [f32::NAN; 3];
+                let (other, pdf) = sampler.sample(given, known, uniform, &mut weight);
+                if pdf == 0.0 {
+                    continue;
+                }
+                let (wi, wo) = if given == Given::Light { (known, other) } else { (other, known) };
+                let density = reference.pdf(wide(known), wide(other));
+                for found in [pdf, sampler.pdf(given, wi, wo)] {
+                    assert!((f64::from(found) / density - 1.0).abs() < 1e-3, "{other:?}: {found}, not {density}");
+                }
+                for (weight, value) in weight.into_iter().zip(expected(wi, wo)) {
+                    let expected = value * f64::from(other[2]) / f64::from(pdf);
+                    assert!((f64::from(weight) / expected - 1.0).abs() < 1e-4, "{other:?}: {weight}, not {expected}");
+                }
+                drawn += 1;
             }
-            // The weight is that of the light that was found.
-            reference.eval(wide(wi), wide(wo), &mut values);
-            for (weight, value) in weight.into_iter().zip(values) {
-                let expected = value * f64::from(wi[2]) / f64::from(pdf);
-                assert!((f64::from(weight) / expected - 1.0).abs() < 1e-4, "{wi:?}: {weight}, not {expected}");
-            }
-            drawn += 1;
+            assert!(drawn > 50, "{drawn}");
         }
     }
-    assert!(drawn > 50, "{drawn}");
-    // Over the hemisphere the density is what does not fall below the surface.
+}
+
+#[test]
+fn rgl_densities_miss_what_falls_below_the_surface() {
+    let sampler = rgl_sampler(rgl(), Given::Light);
+    let wo = [0.0, 0.28, 0.96];
     let (n, m) = (200, 400);
     let mut sum = 0.0;
     for i in 0..n {

@@ -1,14 +1,16 @@
 //! Whether light is kept: albedos by quadrature and by samples, the integrals of densities, reciprocity.
 
+use std::f64::consts::{PI, TAU};
 use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::Context;
 use lobe::formats::{Document, Format, Measured};
+use lobe::table::coords::angles_to_directions;
 use lobe::{Given, Material, Options, Sampler, SamplerOptions, luminance};
 use lobe_model::{Lambert, goniometer};
 use lobe_ops::albedo::albedo_of;
-use lobe_ops::hemisphere::{Effort, integrate};
+use lobe_ops::hemisphere::Effort;
 use lobe_ops::reciprocity::reciprocity;
 use lobe_ops::{Aspect, Subject};
 use serde::Serialize;
@@ -26,6 +28,10 @@ const PSIS: [f64; 2] = [0.0, 80.0];
 
 /// Samples a direction of the light.
 const COUNT: usize = 1 << 18;
+
+/// Points that densities are summed over, and how many at a time.
+const POINTS: usize = 1 << 21;
+const CHUNK: usize = 1 << 12;
 
 /// Pairs of directions that are exchanged, with polar angles up to 80 degrees.
 const PAIRS: usize = 20_000;
@@ -101,7 +107,7 @@ fn of(name: &str, format: Format, document: Document) -> anyhow::Result<Energy> 
         let albedo = albedo.values.iter().zip(&weights).map(|(value, &y)| value * f64::from(y)).sum();
         let by_samples = noise::by_samples(&sampler, Given::Light, direction(light), &uniforms);
         let by_cosine = noise::by_cosine(&subject.material, direction(light), &uniforms);
-        let density = density(&sampler, &subject, light);
+        let density = density(&sampler, light);
         incidences.push(Incidence {
             light: [sigma, psi],
             albedo,
@@ -127,18 +133,26 @@ fn direction([theta, phi]: [f64; 2]) -> [f32; 3] {
     [sin * cos_phi, sin * sin_phi, cos].map(|x| x as f32)
 }
 
-/// The integral of the density over the hemisphere.
-fn density(sampler: &Sampler, subject: &Subject, light: [f64; 2]) -> f64 {
-    let panels = subject.panels(Aspect::REFLECTION, light);
-    let effort = Effort { tolerance: 1e-4, evaluations: 10_000_000 };
-    let integral = integrate(&panels, 1, effort, |viewers, out| {
-        let known = vec![direction(light); viewers.len()];
-        let viewers: Vec<[f32; 3]> = viewers.iter().map(|viewer| viewer.map(|x| x as f32)).collect();
-        sampler.pdf_batch(Given::Light, &known, &viewers, out);
-        // The integral is one of values times cosine.
-        out.iter_mut().zip(&viewers).for_each(|(pdf, viewer)| *pdf /= viewer[2]);
-    });
-    integral.values[0]
+/// The integral of the density over the hemisphere, in polar coordinates about the mirror direction.
+///
+/// A density by histograms has steps that no panel ends at, so it is summed over points of which no two share an angle: the
+/// additive recurrence of the plastic number (Roberts 2018).
+fn density(sampler: &Sampler, [sigma, psi]: [f64; 2]) -> f64 {
+    let place = |point: usize| {
+        let [u, w] = [0.754_877_666_246_693, 0.569_840_290_998_053].map(|step| (point as f64 * step).fract());
+        // The peak is at theta = 0, and points are as dense there as it is narrow.
+        let theta = PI * u * u;
+        let (_, viewer) = angles_to_directions([sigma, psi, theta, TAU * w], |sigma| sigma);
+        (viewer.map(|x| x as f32), 2.0 * PI * u * theta.sin() * TAU)
+    };
+    let light = direction([sigma, psi]);
+    let chunk = |first: usize| {
+        let (viewers, areas): (Vec<[f32; 3]>, Vec<f64>) = (first..first + CHUNK).map(place).unzip();
+        let mut pdfs = vec![0.0; CHUNK];
+        sampler.pdf_batch(Given::Light, &[light; CHUNK], &viewers, &mut pdfs);
+        pdfs.into_iter().zip(areas).map(|(pdf, area)| f64::from(pdf) * area).sum::<f64>()
+    };
+    (0..POINTS).step_by(CHUNK).map(chunk).sum::<f64>() / POINTS as f64
 }
 
 /// What is shown: by the direction of the light, and of each material.

@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use lobe::{Edges, Lookup, Options};
+use lobe::{Edges, Given, Lookup, Options};
 use lobe_model::{Blinn, Coated, Conductor, Ggx, Model, OrenNayar, Phong, Ward};
 
 use super::Reading;
@@ -56,7 +56,12 @@ fn options(node: &Node<'_, '_>) -> Result<Options, SceneError> {
         Some("nearest") => Lookup::Nearest,
         Some(found) => return Err(node.error("lookup", format!("found `{found}`; expected linear or nearest"))),
     };
-    Ok(Options { edges, lookup, ..Options::default() })
+    let indexed_by = match node.text("indexed_by")? {
+        None | Some("viewer") => Given::Viewer,
+        Some("light") => Given::Light,
+        Some(found) => return Err(node.error("indexed_by", format!("found `{found}`; expected viewer or light"))),
+    };
+    Ok(Options { edges, lookup, indexed_by, ..Options::default() })
 }
 
 fn model_named(node: &Node<'_, '_>, name: &str, backend: Backend) -> Result<Arc<dyn Shader<3>>, SceneError> {

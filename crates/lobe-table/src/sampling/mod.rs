@@ -48,9 +48,10 @@ pub use patches::PatchSampler;
 /// the light is sampled as if the material were reciprocal, that is from the distribution of what a light at the viewer's
 /// place would scatter. The weight has the true `f(wi, wo)`, so estimates are right for every material; where the data
 /// are far from reciprocal, or a BTDF refracts, they are noisier.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Given {
     /// `wi` is given and `wo` sampled.
+    #[default]
     Light,
     /// `wo` is given and `wi` sampled.
     Viewer,

@@ -38,6 +38,27 @@ fn meet(origin: V, direction: V, corners: [V; 3]) -> Option<Meeting> {
     (t.is_finite() && u.is_finite() && v.is_finite()).then(|| Meeting { t, inside: u.min(v).min(1.0 - u - v), doubt })
 }
 
+/// One corner of a triangle and the edges from it.
+type Wedge = [V; 3];
+
+fn wedges(mesh: &Mesh) -> Vec<Wedge> {
+    let wedge = |triangle| {
+        let [a, b, c] = corners(mesh, triangle);
+        [a, sub(b, a), sub(c, a)]
+    };
+    (0..mesh.triangles().len()).map(wedge).collect()
+}
+
+/// Whether a line meets a triangle: what [`meet`] would find to be inside, without its divisions, for many triangles.
+fn crosses(origin: V, direction: V, [a, e, f]: &Wedge) -> bool {
+    let p = cross(direction, *f);
+    let determinant = dot(*e, p);
+    let s = sub(origin, *a);
+    let sign = determinant.signum();
+    let (u, v) = (sign * dot(s, p), sign * dot(direction, cross(s, *e)));
+    u.min(v).min(determinant.abs() - (u + v)) >= -1e-12 * determinant.abs()
+}
+
 /// A ray in the space of an instance.
 fn carried(map: &Affine, origin: V, direction: V) -> (V, V) {
     let m = map.rows.map(|row| row.map(f64::from));
@@ -54,6 +75,7 @@ fn corners(mesh: &Mesh, triangle: usize) -> [V; 3] {
 /// met at one place, or an end of the interval is there, within what single precision can tell.
 pub fn check<const W: usize>(scene: &Scene<W>, rays: &RaySoA, hits: &HitSoA, name: &str) -> usize {
     let inverses: Vec<Affine> = (0..scene.instance_count()).map(|i| scene.to_world(i).inverse().unwrap()).collect();
+    let wedges: Vec<Vec<Wedge>> = (0..scene.instance_count()).map(|i| wedges(scene.mesh_of(i))).collect();
     let mut count = 0;
     let mut explained = 0;
     for ray in 0..rays.len() {
@@ -64,7 +86,10 @@ pub fn check<const W: usize>(scene: &Scene<W>, rays: &RaySoA, hits: &HitSoA, nam
         for (instance, inverse) in inverses.iter().enumerate() {
             let mesh = scene.mesh_of(instance);
             let (origin, direction) = carried(inverse, origin, direction);
-            for triangle in 0..mesh.triangles().len() {
+            for (triangle, wedge) in wedges[instance].iter().enumerate() {
+                if !crosses(origin, direction, wedge) {
+                    continue;
+                }
                 let Some(meeting) = meet(origin, direction, corners(mesh, triangle)) else { continue };
                 let nearest = best.is_none_or(|(best, ..)| meeting.t < best.t);
                 if meeting.inside >= 0.0 && (t_min..=t_max).contains(&meeting.t) && nearest {

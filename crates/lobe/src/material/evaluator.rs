@@ -3,16 +3,16 @@
 use std::fmt::Debug;
 
 use lobe_table::mueller::Matrix;
-use lobe_table::rgl::RglTable;
 use lobe_table::{Channels, Scatter};
 
+use super::rgl::Parametrised;
 use super::window::Patches;
 use crate::{Backend, Brdf, Kind};
 
 /// Representations that have a sampler of their own.
 pub(crate) enum Native<'a> {
     Table(&'a Brdf),
-    Rgl(&'a RglTable),
+    Rgl(&'a Parametrised),
     Klems(Patches<'a>),
     None,
 }

@@ -21,7 +21,7 @@ pub use lobe_table::half_diff::Lookup;
 use lobe_table::mueller::Matrix;
 use lobe_table::rgl::{RglOptions, RglTable};
 use lobe_table::utia::{Decode, UtiaTable};
-use lobe_table::{Channels, Edges, Scatter};
+use lobe_table::{Channels, Edges, Given, Scatter};
 
 use crate::{Backend, Brdf, OpenError};
 use evaluator::Evaluator;
@@ -41,6 +41,10 @@ pub struct Options {
     pub lookup: Lookup,
     /// What to make of the numbers of the UTIA database, whose unit is not documented.
     pub decode: Decode,
+    /// Which direction finds the slice of a material of the EPFL database: the light, as it was measured, or the viewer,
+    /// as renderers that trace from the camera do (Mitsuba, pbrt). They differ as far as the data are not reciprocal. The
+    /// direction given is the one that is best sampled by.
+    pub indexed_by: Given,
 }
 
 /// The measurements of a sheet as they are read.
@@ -138,7 +142,7 @@ impl Material {
             Document::Scattered(measured) => Box::new(measured.data),
             Document::Rgl(measured) => {
                 let table = RglTable::new(&measured.data, RglOptions::default()).map_err(too_large)?;
-                Box::new(rgl::Parametrised { table })
+                Box::new(rgl::Parametrised { table, indexed_by: options.indexed_by })
             }
             Document::HalfDiff(measured) => {
                 let table = HalfDiffTable::new(&measured.data).map_err(too_large)?;

@@ -1,15 +1,16 @@
 //! The EPFL database, in SIMD lanes.
 
 use lobe_table::rgl::{RglTable, Wanted};
-use lobe_table::{Channels, Scatter};
+use lobe_table::{Channels, Given, Scatter};
 
 use super::evaluator::{Evaluator, Native};
 use crate::{Backend, Kind};
 
-/// Values are indexed by the light, as they were measured.
+/// A table, and which direction it is indexed by.
 #[derive(Debug)]
-pub(super) struct Parametrised {
-    pub(super) table: RglTable,
+pub(crate) struct Parametrised {
+    pub(crate) table: RglTable,
+    pub(crate) indexed_by: Given,
 }
 
 impl Evaluator for Parametrised {
@@ -34,10 +35,11 @@ impl Evaluator for Parametrised {
     }
 
     fn native(&self) -> Native<'_> {
-        Native::Rgl(&self.table)
+        Native::Rgl(self)
     }
 
     fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        backend.run(self.table.batch(wi, wo, Wanted::Values(out)));
+        let (index, other) = if self.indexed_by == Given::Light { (wi, wo) } else { (wo, wi) };
+        backend.run(self.table.batch(index, other, Wanted::Values(out)));
     }
 }

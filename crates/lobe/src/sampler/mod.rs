@@ -134,13 +134,15 @@ impl Sampler {
         match &self.scheme {
             Scheme::Table(sampler) => backend.run(sampler.sampling(given, directions, u, out)),
             Scheme::Rgl => {
-                let Native::Rgl(table) = self.material.native() else { return };
+                let Native::Rgl(rgl) = self.material.native() else { return };
                 let drawn = Drawn { wo: out.directions, pdf: out.pdfs, weights: out.weights };
-                backend.run(table.sampling(directions, u, UniformOrder::default(), drawn));
-                if given == Given::Viewer {
-                    // Values are those of the light that was found, not those with the directions exchanged.
-                    self.material.eval_batch(out.directions, directions, out.weights);
-                    weigh(out.weights, channels, out.directions, out.pdfs);
+                backend.run(rgl.table.sampling(directions, u, UniformOrder::default(), drawn));
+                if given != rgl.indexed_by {
+                    // These are the weights with light and viewer exchanged.
+                    let found = &*out.directions;
+                    let (wi, wo) = if given == Given::Light { (directions, found) } else { (found, directions) };
+                    self.material.eval_batch(wi, wo, out.weights);
+                    weigh(out.weights, channels, found, out.pdfs);
                 }
             }
             Scheme::Lobes(lobes) => lobes.sample(&self.material, given, directions, u, out),
@@ -181,8 +183,8 @@ impl Sampler {
         match &self.scheme {
             Scheme::Table(sampler) => backend.run(sampler.distribution().densities(known, other, pdfs)),
             Scheme::Rgl => {
-                let Native::Rgl(table) = self.material.native() else { return };
-                backend.run(table.batch(known, other, Wanted::Pdf(pdfs)));
+                let Native::Rgl(rgl) = self.material.native() else { return };
+                backend.run(rgl.table.batch(known, other, Wanted::Pdf(pdfs)));
             }
             Scheme::Lobes(lobes) => lobes.pdf(&self.material, known, other, pdfs),
         }
