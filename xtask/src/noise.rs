@@ -44,16 +44,18 @@ pub fn by_samples(sampler: &Sampler, given: Given, known: [f32; 3], uniforms: &[
     of_weights(sampler.material(), &weights)
 }
 
-/// Of directions to the viewer that are drawn by their cosine for a direction of the light.
-pub fn by_cosine(material: &Material, light: [f32; 3], uniforms: &[[f32; 2]]) -> Moments {
+/// Of directions that are drawn by their cosine for one direction above the surface.
+pub fn by_cosine(material: &Material, given: Given, known: [f32; 3], uniforms: &[[f32; 2]]) -> Moments {
     let draw = |&[u, w]: &[f32; 2]| {
         let (sin, cos) = (f64::from(w) * TAU).sin_cos();
         let radius = f64::from(u).sqrt();
         [radius * cos, radius * sin, (1.0 - f64::from(u)).sqrt()].map(|x| x as f32)
     };
-    let viewers: Vec<[f32; 3]> = uniforms.iter().map(draw).collect();
-    let mut weights = vec![0.0; material.channel_count() * viewers.len()];
-    material.eval_batch(&vec![light; viewers.len()], &viewers, &mut weights);
+    let drawn: Vec<[f32; 3]> = uniforms.iter().map(draw).collect();
+    let known = vec![known; drawn.len()];
+    let (wi, wo) = if given == Given::Light { (&known, &drawn) } else { (&drawn, &known) };
+    let mut weights = vec![0.0; material.channel_count() * drawn.len()];
+    material.eval_batch(wi, wo, &mut weights);
     weights.iter_mut().for_each(|weight| *weight *= PI as f32);
     of_weights(material, &weights)
 }

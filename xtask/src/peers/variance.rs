@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use anyhow::{Context, bail};
 use comfy_table::{CellAlignment, Table, presets};
-use lobe::{Given, Material, Sampler, SamplerOptions};
+use lobe::{Given, Material, Options, Sampler, SamplerOptions};
 use serde::Serialize;
 use serde_json::json;
 
@@ -36,26 +36,25 @@ pub struct Variance {
     pub degrees: f64,
     /// Of Mitsuba's sampler.
     pub mitsuba: f64,
-    /// Of this library's, the light being known: like Mitsuba, which traces from the viewer, it then looks up the file by
-    /// the known direction.
+    /// Of this library's, the file being indexed by the viewer, who is known, as in Mitsuba.
     pub lobe: f64,
-    /// Of this library's, the viewer being known and the file being looked up by the light that is found.
-    pub viewer: f64,
+    /// Of this library's, the file being indexed by the light that is found.
+    pub by_light: f64,
     /// Of a cosine distribution.
     pub cosine: f64,
 }
 
 impl Variance {
     fn cells(&self) -> [String; 7] {
-        let Variance { on, degrees, mitsuba, lobe, viewer, cosine } = self;
+        let Variance { on, degrees, mitsuba, lobe, by_light, cosine } = self;
         let figure = |variance: f64| format!("{variance:.4}");
-        let [mitsuba, viewer] = [figure(*mitsuba), figure(*viewer)];
+        let [mitsuba, by_light] = [figure(*mitsuba), figure(*by_light)];
         let gain = times(cosine / lobe);
-        [on.clone(), format!("{degrees}°"), mitsuba, figure(*lobe), viewer, figure(*cosine), gain]
+        [on.clone(), format!("{degrees}°"), mitsuba, figure(*lobe), by_light, figure(*cosine), gain]
     }
 }
 
-const HEADER: [&str; 7] = ["material", "angle", "Mitsuba", "lobe", "lobe, viewer given", "cosine", "cosine / lobe"];
+const HEADER: [&str; 7] = ["material", "angle", "Mitsuba", "lobe", "lobe, by light", "cosine", "cosine / lobe"];
 
 /// The table on the terminal.
 pub fn print(variances: &[Variance]) {
@@ -90,9 +89,9 @@ const READING: &str = "
 ## Noise of samples
 
 The variance of the albedo that one sample estimates, `f cos / pdf` in luminance, over the square of its mean: how many
-samples make an error of 100 %. `angle` is that of the known direction from the normal. Mitsuba and lobe get the same
-numbers. Both look up a file by the known direction, in Mitsuba that of the viewer, in lobe that of the light; in the
-column `viewer given` lobe's known direction is the viewer's, and the file is looked up by the light that is found.
+samples make an error of 100 %. `angle` is that of the viewer from the normal, who is known. Mitsuba and lobe get the same
+numbers. Both index a file by the viewer; in the column `by light` lobe indexes it by the light that is found, as it was
+measured.
 
 ";
 
@@ -107,6 +106,7 @@ pub struct Question {
 struct Subject {
     name: String,
     sampler: Sampler,
+    by_light: Sampler,
     task: String,
 }
 
@@ -136,12 +136,15 @@ impl Question {
         for file in material::files(data) {
             let file = file.canonicalize()?;
             let name = file.file_stem().unwrap_or_default().to_string_lossy().trim_end_matches("_rgb").to_owned();
-            let material = Arc::new(Material::open(&file)?);
-            let sampler = Sampler::new(material, &SamplerOptions::default())?;
+            let sampler = |indexed_by| -> anyhow::Result<Sampler> {
+                let material = Material::open_with(&file, &Options { indexed_by, ..Options::default() })?;
+                Ok(Sampler::new(Arc::new(material), &SamplerOptions::default())?)
+            };
+            let (by_light, sampler) = (sampler(Given::Light)?, sampler(Given::Viewer)?);
             let task = format!("variance-{}", name.replace(' ', "_"));
             let bsdf = json!({ "type": "measured", "filename": file });
             exchange.task(&task, json!({ "bsdf": bsdf, "what": "sample", "pairs": pairs, "uniforms": uniforms_file }));
-            subjects.push(Subject { name, sampler, task });
+            subjects.push(Subject { name, sampler, by_light, task });
         }
         Ok(Question { known, uniforms, subjects })
     }
@@ -181,14 +184,14 @@ impl Subject {
     ) -> anyhow::Result<Variance> {
         let material = self.sampler.material();
         let mitsuba = noise::of_weights(material, theirs);
-        let [lobe, viewer] =
-            [Given::Light, Given::Viewer].map(|given| noise::by_samples(&self.sampler, given, known, uniforms));
+        let [lobe, by_light] =
+            [&self.sampler, &self.by_light].map(|sampler| noise::by_samples(sampler, Given::Viewer, known, uniforms));
         if (lobe.mean / mitsuba.mean - 1.0).abs() > AGREEMENT {
             let [theirs, ours] = [mitsuba.mean, lobe.mean];
             bail!("at {degrees} degrees the albedo is {theirs} by Mitsuba's samples and {ours} by lobe's");
         }
-        let cosine = noise::by_cosine(material, known, uniforms);
-        let [mitsuba, lobe, viewer, cosine] = [mitsuba, lobe, viewer, cosine].map(|moments| moments.variance);
-        Ok(Variance { on: self.name.clone(), degrees, mitsuba, lobe, viewer, cosine })
+        let cosine = noise::by_cosine(material, Given::Viewer, known, uniforms);
+        let [mitsuba, lobe, by_light, cosine] = [mitsuba, lobe, by_light, cosine].map(|moments| moments.variance);
+        Ok(Variance { on: self.name.clone(), degrees, mitsuba, lobe, by_light, cosine })
     }
 }

@@ -106,7 +106,7 @@ fn of(name: &str, format: Format, document: Document) -> anyhow::Result<Energy> 
         let weights = luminance(subject.material.channels());
         let albedo = albedo.values.iter().zip(&weights).map(|(value, &y)| value * f64::from(y)).sum();
         let by_samples = noise::by_samples(&sampler, Given::Light, direction(light), &uniforms);
-        let by_cosine = noise::by_cosine(&subject.material, direction(light), &uniforms);
+        let by_cosine = noise::by_cosine(&subject.material, Given::Light, direction(light), &uniforms);
         let density = density(&sampler, light);
         incidences.push(Incidence {
             light: [sigma, psi],
