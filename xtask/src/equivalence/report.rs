@@ -5,6 +5,7 @@ use std::path::Path;
 
 use anyhow::{Context, ensure};
 use comfy_table::{CellAlignment, Table, presets};
+use indicatif::HumanCount;
 use serde::Serialize;
 
 use super::{Check, Form, Property, Subject, compare, facade_agrees, reference};
@@ -86,6 +87,7 @@ impl Outcome {
             }
         }
         let words = |(backend, form, items, differing, ok): (&str, Form, usize, usize, bool)| {
+            let [items, differing] = [items, differing].map(|count| HumanCount(count as u64));
             let verdict = match (form, ok) {
                 (_, false) => "FAILED".to_string(),
                 (Form::Strict, _) => format!("{items} results, all the same bits"),
