@@ -1,20 +1,20 @@
-//! The triangles of a leaf, four side by side.
+//! The triangles of a leaf, eight side by side.
 
 use lobe_lane::{Floats, Lanes};
 
 use crate::bvh::{Binary, Child, WideBvh};
 use crate::{Aabb, Mesh};
 
-/// Triangles of a block: more would stand empty in most leaves.
-pub(crate) const SLOTS: usize = 4;
+/// Triangles of a block, which fill the lanes of the widest backends.
+pub(crate) const SLOTS: usize = 8;
 
 /// Corners of triangles, a triangle a lane: `[corner][axis]`.
 pub(crate) type Corners<L> = [[<L as Lanes>::F; 3]; 3];
 
-/// Four triangles in three cache lines. Coordinate `axis` of corner `corner` of triangle `slot` is
+/// Eight triangles in five cache lines. Coordinate `axis` of corner `corner` of triangle `slot` is
 /// `floats[(3 corner + axis) SLOTS + slot]`; the triangles' numbers follow as bits.
 #[derive(Clone, Debug)]
-#[repr(C, align(32))]
+#[repr(C, align(64))]
 pub(crate) struct TriangleBlock {
     floats: [f32; 10 * SLOTS],
 }
@@ -40,9 +40,11 @@ impl TriangleBlock {
     /// Has the caches bring it in.
     #[inline(always)]
     pub fn prefetch<L: Lanes>(&self, lanes: L) {
-        lanes.prefetch(&self.floats);
-        lanes.prefetch(&self.floats[16..]);
-        lanes.prefetch(&self.floats[32..]);
+        let mut line = 0;
+        while line < self.floats.len() {
+            lanes.prefetch(&self.floats[line..]);
+            line += 16;
+        }
     }
 
     /// The number of a triangle in its mesh; negative where the slot is empty.
@@ -72,8 +74,7 @@ impl TriangleBlock {
         let mut at = 0;
         while at < 9 {
             let row = &self.floats[(at / 3 * 3 + axes[at % 3]) * SLOTS + slot..];
-            // Eight floats follow the last row's beginning.
-            corners[at / 3][at % 3] = if L::LANES <= 2 * SLOTS { lanes.load(row) } else { lanes.load_partial(row) };
+            corners[at / 3][at % 3] = if L::LANES <= SLOTS { lanes.load(row) } else { lanes.load_partial(row) };
             at += 1;
         }
         corners
@@ -98,16 +99,13 @@ pub(crate) struct Tree<const W: usize> {
 }
 
 impl<const W: usize> Tree<W> {
-    /// Up to two blocks a leaf: the cost of a tree changes little from 2 to 16 triangles.
-    const LEAF: usize = 2 * SLOTS;
-
     pub fn build(mesh: &Mesh) -> Self {
         let seen: Vec<u32> =
             (0..mesh.triangles().len() as u32).filter(|&triangle| can_be_hit(mesh, triangle)).collect();
         let boxes: Vec<Aabb> = seen.iter().map(|&triangle| Aabb::of(mesh.corners(triangle as usize))).collect();
-        let binary = Binary::build(&boxes, Self::LEAF);
+        let binary = Binary::build(&boxes);
         let mut blocks = Vec::with_capacity(seen.len() / 2);
-        let bvh = WideBvh::collapse(&binary, |places| {
+        let bvh = WideBvh::collapse(&binary, SLOTS, |places| {
             let first = blocks.len();
             for run in places.chunks(SLOTS) {
                 let mut triangles = [0; SLOTS];
