@@ -133,22 +133,18 @@ impl Block {
         lanes.uniform(lanes.load_int(&self.octant[first_ray::<L>(at)..]), live).0
     }
 
-    /// `true` where all live rays point into one octant.
+    /// Those of `live` that point into an octant and begin at `t >= 0`.
     #[inline(always)]
-    pub fn is_coherent<L: Lanes>(&self, lanes: L, live: u64) -> bool {
-        if live == 0 {
-            return false;
-        }
-        let octant = lanes.splat_int(self.octant(live.trailing_zeros() as usize) as i32);
+    pub fn of_octant<L: Lanes>(&self, lanes: L, octant: usize, live: u64) -> u64 {
+        let octant = lanes.splat_int(octant as i32);
+        let mut same = 0;
         let mut at = 0;
         while at < RAYS {
-            let different = !lanes.load_int(&self.octant[at..]).eq(octant);
-            if group_bits::<L>(live, at) & different.bits() != 0 {
-                return false;
-            }
+            let forward = lanes.load(&self.t_min[at..]).ge(lanes.splat(0.0));
+            same |= ((lanes.load_int(&self.octant[at..]).eq(octant) & forward).bits() as u64) << at;
             at += L::LANES;
         }
-        true
+        same & live
     }
 }
 

@@ -3,8 +3,9 @@
 use lobe_lane::{Lanes, Mask};
 
 use crate::block::{Block, Found, RAYS, first_ray, group_bits, group_rows, mask_of};
+use crate::bundles::Bundles;
 use crate::bvh::Child;
-use crate::leaves::{Bounded, Leaves, Triangles};
+use crate::leaves::{Leaves, Triangles};
 use crate::packet::Packet;
 use crate::scene::{Instance, Scene};
 use crate::slab::SlabRay;
@@ -76,7 +77,7 @@ impl<const W: usize> Leaves for Instances<'_, W> {
         rays: &Block,
         live: u64,
         found: &mut Found,
-        _beam: Option<Bounded<'_>>,
+        _bundles: Option<&Bundles>,
     ) {
         let scene = self.scene;
         let instance = &scene.instances[leaf.first()];

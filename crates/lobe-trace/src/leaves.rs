@@ -3,8 +3,9 @@
 use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
 
 use crate::block::{Block, Found, RAYS, first_ray, group_bits, mask_of};
+use crate::bundles::Bundles;
 use crate::bvh::Child;
-use crate::slab::{Beam, Sides, SlabRay};
+use crate::slab::{Sides, SlabRay};
 use crate::triangles::{SLOTS, TriangleBlock};
 use crate::woop::{ShearRay, axes_of};
 
@@ -19,8 +20,8 @@ pub(crate) trait Leaves {
     /// Has the caches bring a leaf in that may be met.
     fn prefetch<L: Lanes>(&self, lanes: L, leaf: Child);
 
-    /// Several rays of one octant have met the leaf: those of `live`, a bit each. What the beam around them does not
-    /// meet is left out.
+    /// Several rays of one octant have met the leaf: those of `live`, a bit each. What their bundles, where they have
+    /// some, do not meet is left out.
     fn packet<L: Lanes>(
         &mut self,
         lanes: L,
@@ -28,7 +29,7 @@ pub(crate) trait Leaves {
         rays: &Block,
         live: u64,
         found: &mut Found,
-        beam: Option<Bounded<'_>>,
+        bundles: Option<&Bundles>,
     );
 
     /// One ray has met the leaf.
@@ -41,13 +42,6 @@ pub(crate) trait Leaves {
         ready: Self::Ready<L>,
         found: &mut Found,
     );
-}
-
-/// A beam, and beyond where none of its rays looks.
-#[derive(Clone, Copy)]
-pub(crate) struct Bounded<'a> {
-    pub beam: &'a Beam,
-    pub end: f32,
 }
 
 /// Triangles of one instance.
@@ -88,10 +82,9 @@ impl Triangles<'_> {
         }
     }
 
-    /// The bits of the triangles of a block whose boxes the beam meets.
+    /// The bits of the triangles, their boxes at hand, that bundles of rays meet.
     #[inline(always)]
-    fn met<L: Lanes>(&mut self, lanes: L, block: &TriangleBlock, sides: &Sides, beam: Bounded<'_>) -> u32 {
-        self.fit(lanes, block);
+    fn met<L: Lanes>(&self, lanes: L, sides: &Sides, bundles: &Bundles, rays: u64) -> u32 {
         let mut bits = 0;
         let mut slot = 0;
         while slot < SLOTS {
@@ -102,8 +95,13 @@ impl Triangles<'_> {
                 far[axis] = lanes.load(&self.boxes[sides.far[axis]][slot..]);
                 axis += 1;
             }
-            let [enter, leave] = beam.beam.interval(lanes, near, far);
-            bits |= enter.le(leave.min(lanes.splat(beam.end))).bits() << slot;
+            let mut bundle = Bundles::of(rays.trailing_zeros() as usize);
+            let last = Bundles::of(63 - rays.leading_zeros() as usize);
+            while bundle <= last {
+                let [enter, leave] = bundles.interval(lanes, bundle, near, far);
+                bits |= enter.le(leave).bits() << slot;
+                bundle += 1;
+            }
             slot += L::LANES;
         }
         bits & ALL
@@ -244,7 +242,7 @@ impl Leaves for Triangles<'_> {
         rays: &Block,
         live: u64,
         found: &mut Found,
-        beam: Option<Bounded<'_>>,
+        bundles: Option<&Bundles>,
     ) {
         let sides = Sides::of(rays.octant(live.trailing_zeros() as usize));
         let blocks = &self.blocks[leaf.first()..leaf.first() + leaf.blocks()];
@@ -252,18 +250,19 @@ impl Leaves for Triangles<'_> {
         while index < blocks.len() {
             let block = &blocks[index];
             index += 1;
-            let slots = match beam {
-                Some(beam) => self.met(lanes, block, &sides, beam),
-                None => {
-                    self.fit(lanes, block);
-                    ALL
-                }
-            };
-            let mut live = if slots == 0 { 0 } else { live };
+            self.fit(lanes, block);
+            let mut live = live;
             while live != 0 {
                 let at = first_ray::<L>(live.trailing_zeros() as usize);
                 let mut bits = group_bits::<L>(live, at);
                 live ^= (bits as u64) << at;
+                let slots = match bundles {
+                    Some(bundles) => self.met(lanes, &sides, bundles, (bits as u64) << at),
+                    None => ALL,
+                };
+                if slots == 0 {
+                    continue;
+                }
                 // A ray at a time takes all triangles at once: better where rays are fewer.
                 if L::LANES >= SLOTS && bits.count_ones() < slots.count_ones() {
                     while bits != 0 {

@@ -30,6 +30,7 @@
 
 mod aabb;
 mod block;
+mod bundles;
 mod bvh;
 mod class;
 mod instances;

@@ -9,13 +9,13 @@ pub(crate) struct Entry {
     pub child: Child,
 }
 
-/// A child of a node to be visited by the groups from `first` on; `key` is below where any ray enters it.
+/// A child of a node to be visited by some bundles, a bit each; `key` is below where any of their rays enters it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LargeEntry {
     pub key: f32,
     pub node: u32,
     pub slot: u32,
-    pub first: u32,
+    pub bundles: u32,
 }
 
 /// Room for one walk of each kind over a tree.
@@ -36,7 +36,7 @@ impl Stacks {
             single: vec![entry; depth],
             group: vec![Child::node(0); depth],
             enter: vec![[0.0; lobe_lane::MAX_LANES]; depth],
-            large: vec![LargeEntry { key: 0.0, node: 0, slot: 0, first: 0 }; depth],
+            large: vec![LargeEntry { key: 0.0, node: 0, slot: 0, bundles: 0 }; depth],
         }
     }
 }

@@ -1,0 +1,199 @@
+//! Eight rays of one octant tested like one: what a walk of 64 rays asks of the inner nodes.
+
+use lobe_lane::{Block as Pattern, Floats, Ints, Lanes, MAX_LANES, Mask};
+
+use crate::block::{Block, Found, RAYS, Row, first_ray, group_bits, mask_of};
+use crate::slab::least_lane;
+
+/// Rays of a bundle.
+const RAYS_EACH: usize = 8;
+
+/// Bundles of a block.
+const BUNDLES: usize = RAYS / RAYS_EACH;
+
+/// One float a bundle; the others are room for as many lanes as there may be.
+type Line = [f32; MAX_LANES];
+
+/// The bundles of a block, of rays that begin at `t >= 0`.
+///
+/// A plane ahead of all origins of a bundle is met no sooner than by a ray from the nearest of them with the inverse of
+/// smallest magnitude, and no later than by one from the farthest with the largest. A plane behind some origin gives a
+/// number below zero for the near planes, which says nothing where no ray begins below zero, and rightly ends the bundle
+/// for the far planes. So a bundle is a ray with two origins and two inverses. The rays' pad is taken twice, since this
+/// test rounds differently from theirs.
+pub(crate) struct Bundles {
+    /// `(plane - origin) * inverse` is `plane * inverse + near` for the planes met first.
+    inverse_near: [Line; 3],
+    near: [Line; 3],
+    /// The same for the planes met last.
+    inverse_far: [Line; 3],
+    far: [Line; 3],
+    t_min: Line,
+    /// Where the last ray of each bundle ends as things stand.
+    end: Line,
+    /// How far apart the rays of a bundle may be at `t` along the axis where they are farthest: `spread + t fan`.
+    spread: Line,
+    fan: Line,
+    /// The rays of all bundles.
+    live: u64,
+}
+
+impl Bundles {
+    /// The rays of `live`, all of one octant.
+    #[inline(always)]
+    pub fn around<L: Lanes>(lanes: L, rays: &Block, found: &Found, octant: usize, live: u64) -> Self {
+        let row = [0.0; MAX_LANES];
+        let mut bundles = Bundles {
+            inverse_near: [row; 3],
+            near: [row; 3],
+            inverse_far: [row; 3],
+            far: [row; 3],
+            t_min: row,
+            end: [f32::NEG_INFINITY; MAX_LANES],
+            spread: row,
+            fan: row,
+            live,
+        };
+        let mut bits = [0; MAX_LANES];
+        let mut bundle = 0;
+        while bundle < BUNDLES {
+            bits[bundle] = (live >> (bundle * RAYS_EACH)) as i32 & ((1 << RAYS_EACH) - 1);
+            bundle += 1;
+        }
+        let mut first = 0;
+        while first < BUNDLES {
+            let bits = lanes.load_int(&bits[first..]);
+            let [t_min, _] = extremes(lanes, &rays.t_min, first, bits);
+            lanes.store(&mut bundles.t_min[first..], t_min);
+            let [_, pad] = extremes(lanes, &rays.pad, first, bits);
+            let wide = pad + pad;
+            let (mut spread, mut fan) = (lanes.splat(0.0), lanes.splat(0.0));
+            let mut axis = 0;
+            while axis < 3 {
+                let [low, high] = extremes(lanes, &rays.origin[axis], first, bits);
+                let [least, greatest] = extremes(lanes, &rays.inverse[axis], first, bits);
+                let [ahead, behind, slow, fast] = if octant >> axis & 1 != 0 {
+                    [low - wide, high + wide, greatest, least]
+                } else {
+                    [high + wide, low - wide, least, greatest]
+                };
+                let [left, right] = extremes(lanes, &rays.direction[axis], first, bits);
+                spread = spread.max(high - low);
+                fan = fan.max(right - left);
+                // Of a bundle without rays these are not numbers, and it is never asked.
+                lanes.store(&mut bundles.inverse_near[axis][first..], slow);
+                lanes.store(&mut bundles.near[axis][first..], -(ahead * slow));
+                lanes.store(&mut bundles.inverse_far[axis][first..], fast);
+                lanes.store(&mut bundles.far[axis][first..], -(behind * fast));
+                axis += 1;
+            }
+            lanes.store(&mut bundles.spread[first..], spread);
+            lanes.store(&mut bundles.fan[first..], fan);
+            first += L::LANES;
+        }
+        bundles.shorten(lanes, found, bundles.all());
+        bundles
+    }
+
+    /// A bit for each bundle that has rays.
+    #[inline(always)]
+    pub fn all(&self) -> u32 {
+        let mut all = 0;
+        let mut bundle = 0;
+        while bundle < BUNDLES {
+            all |= u32::from(self.live >> (bundle * RAYS_EACH) & ((1 << RAYS_EACH) - 1) != 0) << bundle;
+            bundle += 1;
+        }
+        all
+    }
+
+    /// The rays of bundles.
+    #[inline(always)]
+    pub fn rays(&self, bundles: u32) -> u64 {
+        // Bit `b` goes to byte `b`, and from there to all bits of the byte.
+        let spread = (bundles as u64 * 0x0101_0101_0101_0101) & 0x8040_2010_0804_0201;
+        let high = (spread + 0x7f7f_7f7f_7f7f_7f7f) >> 7 & 0x0101_0101_0101_0101;
+        (high * 0xff) & self.live
+    }
+
+    /// The bundle of a ray.
+    #[inline(always)]
+    pub fn of(ray: usize) -> usize {
+        ray / RAYS_EACH & (BUNDLES - 1)
+    }
+
+    /// A box a lane: below what t no ray of the bundle is inside the box, and above what t none is or still looks.
+    #[inline(always)]
+    pub fn interval<L: Lanes>(&self, lanes: L, bundle: usize, near: [L::F; 3], far: [L::F; 3]) -> [L::F; 2] {
+        let bundle = bundle & (BUNDLES - 1);
+        let mut enter = lanes.splat(self.t_min[bundle]);
+        let mut leave = lanes.splat(self.end[bundle]);
+        let mut axis = 0;
+        while axis < 3 {
+            let [slow, fast] =
+                [lanes.splat(self.inverse_near[axis][bundle]), lanes.splat(self.inverse_far[axis][bundle])];
+            enter = enter.max(lanes.mul_add(near[axis], slow, lanes.splat(self.near[axis][bundle])));
+            leave = leave.min(lanes.mul_add(far[axis], fast, lanes.splat(self.far[axis][bundle])));
+            axis += 1;
+        }
+        [enter, leave]
+    }
+
+    /// How far apart the rays of a bundle may be at `t`.
+    #[inline(always)]
+    pub fn width<L: Lanes>(&self, lanes: L, bundle: usize, t: L::F) -> L::F {
+        let bundle = bundle & (BUNDLES - 1);
+        lanes.mul_add(t, lanes.splat(self.fan[bundle]), lanes.splat(self.spread[bundle]))
+    }
+
+    /// Those of `bundles` that have rays which look as far as `t`.
+    #[inline(always)]
+    pub fn looking<L: Lanes>(&self, lanes: L, bundles: u32, t: f32) -> u32 {
+        let mut bits = 0;
+        let mut first = 0;
+        while first < BUNDLES {
+            bits |= lanes.splat(t).le(lanes.load(&self.end[first..])).bits() << first;
+            first += L::LANES;
+        }
+        bits & bundles
+    }
+
+    /// Learns where rays of `bundles` end now.
+    #[inline(always)]
+    pub fn shorten<L: Lanes>(&mut self, lanes: L, found: &Found, bundles: u32) {
+        let mut left = bundles;
+        while left != 0 {
+            let bundle = left.trailing_zeros() as usize & (BUNDLES - 1);
+            left &= left - 1;
+            let rays = self.rays(1 << bundle);
+            let mut most = lanes.splat(f32::NEG_INFINITY);
+            let mut at = bundle * RAYS_EACH;
+            while at < (bundle + 1) * RAYS_EACH {
+                let group = first_ray::<L>(at);
+                let there = mask_of(lanes, group_bits::<L>(rays, group));
+                most = most.max(lanes.select(there, lanes.load(&found.t[group..]), lanes.splat(f32::NEG_INFINITY)));
+                at += L::LANES;
+            }
+            self.end[bundle] = -least_lane(lanes, -most);
+        }
+    }
+}
+
+/// The least and the greatest number of the bundles from `first` on, a bundle a lane, of those rays that have a bit.
+#[inline(always)]
+fn extremes<L: Lanes>(lanes: L, row: &Row, first: usize, bits: L::I) -> [L::F; 2] {
+    let (most, least) = (lanes.splat(f32::INFINITY), lanes.splat(f32::NEG_INFINITY));
+    let base = (lanes.iota() + lanes.splat_int(first as i32)) * lanes.splat_int(RAYS_EACH as i32);
+    let columns = lanes.gather_quads(&Pattern::new(row, [0, 4]), base);
+    let (mut low, mut high) = (most, least);
+    let mut ray = 0;
+    while ray < RAYS_EACH {
+        let bit = lanes.splat_int(1 << ray);
+        let there = (bits & bit).eq(bit);
+        let x = columns[ray / 4][ray % 4];
+        low = low.min(lanes.select(there, x, most));
+        high = high.max(lanes.select(there, x, least));
+        ray += 1;
+    }
+    [low, high]
+}
