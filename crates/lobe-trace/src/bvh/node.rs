@@ -29,6 +29,16 @@ impl Child {
         self.0 & Self::LEAF != 0
     }
 
+    #[inline(always)]
+    pub fn bits(self) -> u32 {
+        self.0
+    }
+
+    #[inline(always)]
+    pub fn from_bits(bits: u32) -> Self {
+        Child(bits)
+    }
+
     /// The index of an inner node.
     #[inline(always)]
     pub fn index(self) -> usize {
