@@ -28,7 +28,8 @@ pub(crate) struct Bundles {
     /// The same for the planes met last.
     inverse_far: [Line; 3],
     far: [Line; 3],
-    t_min: Line,
+    /// Before it no ray of any bundle begins.
+    t_min: f32,
     /// Where the last ray of each bundle ends as things stand.
     end: Line,
     /// How far apart the rays of a bundle may be at `t` along the axis where they are farthest: `spread + t fan`.
@@ -48,7 +49,7 @@ impl Bundles {
             near: [row; 3],
             inverse_far: [row; 3],
             far: [row; 3],
-            t_min: row,
+            t_min: 0.0,
             end: [f32::NEG_INFINITY; MAX_LANES],
             spread: row,
             fan: row,
@@ -60,13 +61,18 @@ impl Bundles {
             bits[bundle] = (live >> (bundle * RAYS_EACH)) as i32 & ((1 << RAYS_EACH) - 1);
             bundle += 1;
         }
+        let (mut t_min, mut pad) = (lanes.splat(f32::INFINITY), lanes.splat(0.0));
+        let mut at = 0;
+        while at < RAYS {
+            t_min = t_min.min(lanes.load(&rays.t_min[at..]));
+            pad = pad.max(lanes.load(&rays.pad[at..]));
+            at += L::LANES;
+        }
+        bundles.t_min = least_lane(lanes, t_min.max(lanes.splat(0.0)));
+        let wide = lanes.splat(-2.0 * least_lane(lanes, -pad));
         let mut first = 0;
         while first < BUNDLES {
             let bits = lanes.load_int(&bits[first..]);
-            let [t_min, _] = extremes(lanes, &rays.t_min, first, bits);
-            lanes.store(&mut bundles.t_min[first..], t_min);
-            let [_, pad] = extremes(lanes, &rays.pad, first, bits);
-            let wide = pad + pad;
             let (mut spread, mut fan) = (lanes.splat(0.0), lanes.splat(0.0));
             let mut axis = 0;
             while axis < 3 {
@@ -77,9 +83,9 @@ impl Bundles {
                 } else {
                     [high + wide, low - wide, least, greatest]
                 };
-                let [left, right] = extremes(lanes, &rays.direction[axis], first, bits);
+                let one = lanes.splat(1.0);
                 spread = spread.max(high - low);
-                fan = fan.max(right - left);
+                fan = fan.max((one / slow - one / fast).abs());
                 // Of a bundle without rays these are not numbers, and it is never asked.
                 lanes.store(&mut bundles.inverse_near[axis][first..], slow);
                 lanes.store(&mut bundles.near[axis][first..], -(ahead * slow));
@@ -91,7 +97,7 @@ impl Bundles {
             lanes.store(&mut bundles.fan[first..], fan);
             first += L::LANES;
         }
-        bundles.shorten(lanes, found, bundles.all());
+        bundles.shorten(lanes, found, live);
         bundles
     }
 
@@ -126,7 +132,7 @@ impl Bundles {
     #[inline(always)]
     pub fn interval<L: Lanes>(&self, lanes: L, bundle: usize, near: [L::F; 3], far: [L::F; 3]) -> [L::F; 2] {
         let bundle = bundle & (BUNDLES - 1);
-        let mut enter = lanes.splat(self.t_min[bundle]);
+        let mut enter = lanes.splat(self.t_min);
         let mut leave = lanes.splat(self.end[bundle]);
         let mut axis = 0;
         while axis < 3 {
@@ -158,14 +164,15 @@ impl Bundles {
         bits & bundles
     }
 
-    /// Learns where rays of `bundles` end now.
+    /// Learns where the bundles of some rays end now.
     #[inline(always)]
-    pub fn shorten<L: Lanes>(&mut self, lanes: L, found: &Found, bundles: u32) {
-        let mut left = bundles;
+    pub fn shorten<L: Lanes>(&mut self, lanes: L, found: &Found, some: u64) {
+        let mut left = some;
         while left != 0 {
-            let bundle = left.trailing_zeros() as usize & (BUNDLES - 1);
-            left &= left - 1;
-            let rays = self.rays(1 << bundle);
+            let bundle = Self::of(left.trailing_zeros() as usize);
+            let all = ((1 << RAYS_EACH) - 1) << (bundle * RAYS_EACH);
+            left &= !all;
+            let rays = self.live & all;
             let mut most = lanes.splat(f32::NEG_INFINITY);
             let mut at = bundle * RAYS_EACH;
             while at < (bundle + 1) * RAYS_EACH {

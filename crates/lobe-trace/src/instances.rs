@@ -78,7 +78,7 @@ impl<const W: usize> Leaves for Instances<'_, W> {
         live: u64,
         found: &mut Found,
         _bundles: Option<&Bundles>,
-    ) {
+    ) -> u64 {
         let scene = self.scene;
         let instance = &scene.instances[leaf.first()];
         let mut carried = 0;
@@ -96,6 +96,7 @@ impl<const W: usize> Leaves for Instances<'_, W> {
         let leaves = &mut Triangles::new(&tree.blocks, leaf.first(), true, self.any);
         let walk = Walk { bvh: &tree.bvh, leaves, rays: &*self.local, found, stacks: &mut *self.stacks };
         walk.trace(lanes, self.form, carried);
+        carried
     }
 
     #[inline(always)]

@@ -21,7 +21,7 @@ pub(crate) trait Leaves {
     fn prefetch<L: Lanes>(&self, lanes: L, leaf: Child);
 
     /// Several rays of one octant have met the leaf: those of `live`, a bit each. What their bundles, where they have
-    /// some, do not meet is left out.
+    /// some, do not meet is left out. Returns which rays may have been hit.
     fn packet<L: Lanes>(
         &mut self,
         lanes: L,
@@ -30,7 +30,7 @@ pub(crate) trait Leaves {
         live: u64,
         found: &mut Found,
         bundles: Option<&Bundles>,
-    );
+    ) -> u64;
 
     /// One ray has met the leaf.
     fn single<L: Lanes>(
@@ -116,12 +116,13 @@ impl Triangles<'_> {
         (rays, at, bits): (&Block, usize, u32),
         sides: &Sides,
         found: &mut Found,
-    ) {
+    ) -> u32 {
         let at = first_ray::<L>(at);
         let axes = axes_of(rays.major[(at + bits.trailing_zeros() as usize) & (RAYS - 1)]);
         let live = mask_of(lanes, bits);
         let ray = ShearRay::group(lanes, rays, at);
         let mut slots = slots;
+        let mut some = 0;
         while slots != 0 {
             let slot = slots.trailing_zeros() as usize;
             slots &= slots - 1;
@@ -159,14 +160,16 @@ impl Triangles<'_> {
             // Of two hits at one place the smaller numbers win, whoever comes first.
             let first = number.lt(old_number) | (number.eq(old_number) & other.lt(old_other));
             let hit = hit & (t.lt(best) | first);
+            some |= hit.bits();
             let t = if self.any { lanes.splat(f32::NEG_INFINITY) } else { t };
-            let (u, v) = (lanes.load(&found.u[at..]), lanes.load(&found.v[at..]));
+            let (u, v) = (lanes.load_int(&found.u[at..]), lanes.load_int(&found.v[at..]));
             lanes.store(&mut found.t[at..], lanes.select(hit, t, best));
-            lanes.store(&mut found.u[at..], lanes.select(hit, candidates.u, u));
-            lanes.store(&mut found.v[at..], lanes.select(hit, candidates.v, v));
+            lanes.store_int(&mut found.u[at..], lanes.select_int(hit, candidates.u.bits(), u));
+            lanes.store_int(&mut found.v[at..], lanes.select_int(hit, candidates.v.bits(), v));
             lanes.store_int(&mut found.primitive[at..], lanes.select_int(hit, number, old_number));
             lanes.store_int(&mut found.instance[at..], lanes.select_int(hit, other, old_other));
         }
+        some
     }
 
     /// Tests all triangles of a block against one ray.
@@ -178,7 +181,8 @@ impl Triangles<'_> {
         (rays, index): (&Block, usize),
         (ray, axes): OneRay<L>,
         found: &mut Found,
-    ) {
+    ) -> bool {
+        let mut any = false;
         let all = lanes.first_n(SLOTS);
         let mut slot = 0;
         while slot < SLOTS {
@@ -203,9 +207,10 @@ impl Triangles<'_> {
                     let best = found.t[index];
                     let old = (found.primitive[index], found.instance[index]);
                     if t < best || (t == best && (number, self.instance) < old) {
+                        any = true;
                         found.t[index] = if self.any { f32::NEG_INFINITY } else { t };
-                        found.u[index] = lanes.extract(candidates.u, lane);
-                        found.v[index] = lanes.extract(candidates.v, lane);
+                        found.u[index] = lanes.extract_int(candidates.u.bits(), lane);
+                        found.v[index] = lanes.extract_int(candidates.v.bits(), lane);
                         found.primitive[index] = number;
                         found.instance[index] = self.instance;
                     }
@@ -213,6 +218,7 @@ impl Triangles<'_> {
             }
             slot += if L::LANES < SLOTS { L::LANES } else { SLOTS };
         }
+        any
     }
 }
 
@@ -243,7 +249,8 @@ impl Leaves for Triangles<'_> {
         live: u64,
         found: &mut Found,
         bundles: Option<&Bundles>,
-    ) {
+    ) -> u64 {
+        let mut hit = 0;
         let sides = Sides::of(rays.octant(live.trailing_zeros() as usize));
         let blocks = &self.blocks[leaf.first()..leaf.first() + leaf.blocks()];
         let mut index = 0;
@@ -268,7 +275,8 @@ impl Leaves for Triangles<'_> {
                     while bits != 0 {
                         let ray = (at + bits.trailing_zeros() as usize) & (RAYS - 1);
                         bits &= bits - 1;
-                        self.one(lanes, block, (rays, ray), self.ready(lanes, rays, ray), found);
+                        let any = self.one(lanes, block, (rays, ray), self.ready(lanes, rays, ray), found);
+                        hit |= u64::from(any) << ray;
                     }
                 }
                 let majors = lanes.load_int(&rays.major[at..]);
@@ -276,11 +284,13 @@ impl Leaves for Triangles<'_> {
                     // Once, but where the group looks along a diagonal.
                     let major = rays.major[(at + bits.trailing_zeros() as usize) & (RAYS - 1)];
                     let same = majors.eq(lanes.splat_int(major)).bits() & bits;
-                    self.group(lanes, (block, slots), (rays, at, same), &sides, found);
+                    let some = self.group(lanes, (block, slots), (rays, at, same), &sides, found);
+                    hit |= (some as u64) << at;
                     bits &= !same;
                 }
             }
         }
+        hit
     }
 
     #[inline(always)]

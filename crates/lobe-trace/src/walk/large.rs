@@ -116,8 +116,8 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                 live |= ((group_meets(lanes, &sides, node, slot, rays, found, at) & bits) as u64) << at;
             }
             if live != 0 {
-                leaves.packet(lanes, child, rays, live, found, Some(&bundles));
-                bundles.shorten(lanes, found, asking);
+                let hit = leaves.packet(lanes, child, rays, live, found, Some(&bundles));
+                bundles.shorten(lanes, found, hit);
             }
         }
     }
