@@ -67,6 +67,11 @@ impl<const W: usize> Leaves for Instances<'_, W> {
     fn ready<L: Lanes>(&self, _lanes: L, _rays: &Block, _ray: usize) {}
 
     #[inline(always)]
+    fn any(&self) -> bool {
+        self.any
+    }
+
+    #[inline(always)]
     fn prefetch<L: Lanes>(&self, _lanes: L, _leaf: Child) {}
 
     #[inline(always)]

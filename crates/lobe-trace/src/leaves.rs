@@ -17,6 +17,9 @@ pub(crate) trait Leaves {
     /// See [`Ready`](Leaves::Ready).
     fn ready<L: Lanes>(&self, lanes: L, rays: &Block, ray: usize) -> Self::Ready<L>;
 
+    /// Any hit is enough.
+    fn any(&self) -> bool;
+
     /// Has the caches bring a leaf in that may be met.
     fn prefetch<L: Lanes>(&self, lanes: L, leaf: Child);
 
@@ -55,6 +58,9 @@ pub(crate) struct Triangles<'a> {
     /// The boxes of the triangles of the block that was tested last, in the order of a node's rows.
     boxes: [[f32; MAX_LANES]; 6],
 }
+
+/// How few rays of a leaf are traced one by one against all triangles of a block.
+const FEW: u32 = 10;
 
 /// The bits of all triangles of a block.
 const ALL: u32 = (1 << SLOTS) - 1;
@@ -234,6 +240,11 @@ impl Leaves for Triangles<'_> {
     }
 
     #[inline(always)]
+    fn any(&self) -> bool {
+        self.any
+    }
+
+    #[inline(always)]
     fn prefetch<L: Lanes>(&self, lanes: L, leaf: Child) {
         if let Some(block) = self.blocks.get(leaf.first()) {
             block.prefetch(lanes);
@@ -257,8 +268,17 @@ impl Leaves for Triangles<'_> {
         while index < blocks.len() {
             let block = &blocks[index];
             index += 1;
-            self.fit(lanes, block);
             let mut live = live;
+            if L::LANES >= SLOTS && live.count_ones() <= FEW {
+                while live != 0 {
+                    let ray = live.trailing_zeros() as usize & (RAYS - 1);
+                    live &= live - 1;
+                    let any = self.one(lanes, block, (rays, ray), self.ready(lanes, rays, ray), found);
+                    hit |= u64::from(any) << ray;
+                }
+                continue;
+            }
+            self.fit(lanes, block);
             while live != 0 {
                 let at = first_ray::<L>(live.trailing_zeros() as usize);
                 let mut bits = group_bits::<L>(live, at);

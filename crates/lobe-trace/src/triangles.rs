@@ -103,7 +103,7 @@ impl<const W: usize> Tree<W> {
         let seen: Vec<u32> =
             (0..mesh.triangles().len() as u32).filter(|&triangle| can_be_hit(mesh, triangle)).collect();
         let boxes: Vec<Aabb> = seen.iter().map(|&triangle| Aabb::of(mesh.corners(triangle as usize))).collect();
-        let binary = Binary::build(&boxes);
+        let binary = Binary::build(&boxes, true);
         let mut blocks = Vec::with_capacity(seen.len() / 2);
         let bvh = WideBvh::collapse(&binary, SLOTS, |places| {
             let first = blocks.len();

@@ -17,7 +17,7 @@ use crate::slab::{Sides, SlabRay, child_bits};
 const WIDE: f32 = 0.25;
 
 /// How few rays of an octant are traced one by one.
-pub(super) const FEW: u32 = 4;
+pub(super) const FEW: u32 = 6;
 
 #[inline(always)]
 pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_, V, W>, live: u64) {
@@ -57,7 +57,8 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
             lanes.store_int(&mut meeting[slot..], who);
             slot += L::LANES;
         }
-        let floor = waiting;
+        // The nearest first; where any hit is enough, as they come.
+        let floor = if leaves.any() { usize::MAX } else { waiting };
         while bits != 0 {
             let slot = bits.trailing_zeros() as usize & (W - 1);
             bits &= bits - 1;
