@@ -5,10 +5,11 @@ use lobe_lane::{Lanes, Mask};
 use crate::block::{Block, Found, RAYS, first_ray, group_bits, group_rows, mask_of};
 use crate::bundles::Bundles;
 use crate::bvh::Child;
-use crate::leaves::{Leaves, Triangles};
+use crate::leaves::Leaves;
 use crate::packet::Packet;
 use crate::scene::{Instance, Scene};
 use crate::slab::SlabRay;
+use crate::triangle_leaves::Triangles;
 use crate::walk::{Stacks, Walk};
 use crate::{Affine, Form};
 

@@ -44,6 +44,7 @@ mod scene;
 mod slab;
 mod trace;
 mod transform;
+mod triangle_leaves;
 mod triangles;
 mod walk;
 mod woop;

@@ -4,10 +4,10 @@ use lobe_lane::{Floats, Ints, Kernel, Lanes, Mask};
 
 use crate::block::{Block, Found, RAYS, first_ray};
 use crate::instances::Instances;
-use crate::leaves::Triangles;
 use crate::packet::{Packet, PacketHits};
 use crate::rays::{Hits, MISS, Rays};
 use crate::scene::Scene;
+use crate::triangle_leaves::Triangles;
 use crate::walk::{Stacks, Walk};
 use crate::{Form, RayClass};
 

@@ -22,17 +22,13 @@ pub(crate) struct TriangleBlock {
 impl TriangleBlock {
     const NUMBERS: usize = 9 * SLOTS;
 
-    fn new(mesh: &Mesh, triangles: &[u32]) -> Self {
-        // NaN in empty slots: no comparison holds for them.
-        let mut floats = [f32::NAN; 10 * SLOTS];
-        for slot in 0..SLOTS {
-            let number = triangles.get(slot).map_or(-1, |&triangle| triangle as i32);
-            floats[Self::NUMBERS + slot] = f32::from_bits(number as u32);
-        }
-        for (slot, &triangle) in triangles.iter().enumerate() {
+    fn new(mesh: &Mesh, triangles: impl Iterator<Item = u32>) -> Self {
+        let mut floats = [0.0; 10 * SLOTS];
+        for (slot, triangle) in triangles.take(SLOTS).enumerate() {
             for (row, &x) in mesh.corners(triangle as usize).as_flattened().iter().enumerate() {
                 floats[row * SLOTS + slot] = x;
             }
+            floats[Self::NUMBERS + slot] = f32::from_bits(triangle);
         }
         TriangleBlock { floats }
     }
@@ -47,7 +43,7 @@ impl TriangleBlock {
         }
     }
 
-    /// The number of a triangle in its mesh; negative where the slot is empty.
+    /// The number of a triangle in its mesh.
     #[inline(always)]
     pub fn number(&self, slot: usize) -> i32 {
         self.floats[Self::NUMBERS + (slot & (SLOTS - 1))].to_bits() as i32
@@ -80,6 +76,15 @@ impl TriangleBlock {
         corners
     }
 
+    /// A row of the box of one triangle: lower x, upper x, lower y, ...
+    #[inline(always)]
+    pub fn side(&self, slot: usize, row: usize) -> f32 {
+        let corner = |corner: usize| self.floats[(3 * corner + row / 2) * SLOTS + (slot & (SLOTS - 1))];
+        // As lanes do it, also where zeros of both signs meet.
+        let pick = |a: f32, b: f32| if (row % 2 == 0 && a < b) || (row % 2 != 0 && a > b) { a } else { b };
+        pick(pick(corner(0), corner(1)), corner(2))
+    }
+
     /// The lower and the upper corners of the boxes of the triangles from `slot` on, a triangle a lane.
     #[inline(always)]
     pub fn extent<L: Lanes>(&self, lanes: L, slot: usize) -> [[L::F; 3]; 2] {
@@ -106,13 +111,9 @@ impl<const W: usize> Tree<W> {
         let binary = Binary::build(&boxes, true);
         let mut blocks = Vec::with_capacity(seen.len() / 2);
         let bvh = WideBvh::collapse(&binary, SLOTS, |places| {
-            let first = blocks.len();
-            for run in places.chunks(SLOTS) {
-                let mut triangles = [0; SLOTS];
-                run.iter().zip(&mut triangles).for_each(|(&place, triangle)| *triangle = seen[place as usize]);
-                blocks.push(TriangleBlock::new(mesh, &triangles[..run.len()]));
-            }
-            Child::leaf(first, blocks.len() - first)
+            let triangles = places.iter().map(|&place| seen[place as usize]);
+            blocks.push(TriangleBlock::new(mesh, triangles));
+            Child::leaf(blocks.len() - 1, places.len())
         });
         Tree { bvh, blocks }
     }
