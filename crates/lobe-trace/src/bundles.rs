@@ -3,6 +3,7 @@
 use lobe_lane::{Block as Pattern, Floats, Ints, Lanes, MAX_LANES, Mask};
 
 use crate::block::{Block, Found, RAYS, Row, first_ray, group_bits, mask_of};
+use crate::hull::Edges;
 use crate::slab::least_lane;
 
 /// Rays of a bundle.
@@ -14,19 +15,11 @@ const BUNDLES: usize = RAYS / RAYS_EACH;
 /// One float a bundle; the others are room for as many lanes as there may be.
 type Line = [f32; MAX_LANES];
 
-/// The bundles of a block, of rays that begin at `t >= 0`.
-///
-/// A plane ahead of all origins of a bundle is met no sooner than by a ray from the nearest of them with the inverse of
-/// smallest magnitude, and no later than by one from the farthest with the largest. A plane behind some origin gives a
-/// number below zero for the near planes, which says nothing where no ray begins below zero, and rightly ends the bundle
-/// for the far planes. So a bundle is a ray with two origins and two inverses. The rays' pad is taken twice, since this
-/// test rounds differently from theirs.
+/// The hulls of the bundles of a block; see [`Edges`].
 pub(crate) struct Bundles {
-    /// `(plane - origin) * inverse` is `plane * inverse + near` for the planes met first.
-    inverse_near: [Line; 3],
+    slow: [Line; 3],
     near: [Line; 3],
-    /// The same for the planes met last.
-    inverse_far: [Line; 3],
+    fast: [Line; 3],
     far: [Line; 3],
     /// Before it no ray of any bundle begins.
     t_min: f32,
@@ -45,9 +38,9 @@ impl Bundles {
     pub fn around<L: Lanes>(lanes: L, rays: &Block, found: &Found, octant: usize, live: u64) -> Self {
         let row = [0.0; MAX_LANES];
         let mut bundles = Bundles {
-            inverse_near: [row; 3],
+            slow: [row; 3],
             near: [row; 3],
-            inverse_far: [row; 3],
+            fast: [row; 3],
             far: [row; 3],
             t_min: 0.0,
             end: [f32::NEG_INFINITY; MAX_LANES],
@@ -69,7 +62,7 @@ impl Bundles {
             at += L::LANES;
         }
         bundles.t_min = least_lane(lanes, t_min.max(lanes.splat(0.0)));
-        let wide = lanes.splat(-2.0 * least_lane(lanes, -pad));
+        let pad = lanes.splat(-least_lane(lanes, -pad));
         let mut first = 0;
         while first < BUNDLES {
             let bits = lanes.load_int(&bits[first..]);
@@ -77,20 +70,16 @@ impl Bundles {
             let mut axis = 0;
             while axis < 3 {
                 let [low, high] = extremes(lanes, &rays.origin[axis], first, bits);
-                let [least, greatest] = extremes(lanes, &rays.inverse[axis], first, bits);
-                let [ahead, behind, slow, fast] = if octant >> axis & 1 != 0 {
-                    [low - wide, high + wide, greatest, least]
-                } else {
-                    [high + wide, low - wide, least, greatest]
-                };
+                let inverses = extremes(lanes, &rays.inverse[axis], first, bits);
+                // Of a bundle without rays these are not numbers, and it is never asked.
+                let edges = Edges::<L>::new(octant >> axis & 1 != 0, [low, high], inverses, pad);
                 let one = lanes.splat(1.0);
                 spread = spread.max(high - low);
-                fan = fan.max((one / slow - one / fast).abs());
-                // Of a bundle without rays these are not numbers, and it is never asked.
-                lanes.store(&mut bundles.inverse_near[axis][first..], slow);
-                lanes.store(&mut bundles.near[axis][first..], -(ahead * slow));
-                lanes.store(&mut bundles.inverse_far[axis][first..], fast);
-                lanes.store(&mut bundles.far[axis][first..], -(behind * fast));
+                fan = fan.max((one / edges.slow - one / edges.fast).abs());
+                lanes.store(&mut bundles.slow[axis][first..], edges.slow);
+                lanes.store(&mut bundles.near[axis][first..], edges.near);
+                lanes.store(&mut bundles.fast[axis][first..], edges.fast);
+                lanes.store(&mut bundles.far[axis][first..], edges.far);
                 axis += 1;
             }
             lanes.store(&mut bundles.spread[first..], spread);
@@ -136,8 +125,7 @@ impl Bundles {
         let mut leave = lanes.splat(self.end[bundle]);
         let mut axis = 0;
         while axis < 3 {
-            let [slow, fast] =
-                [lanes.splat(self.inverse_near[axis][bundle]), lanes.splat(self.inverse_far[axis][bundle])];
+            let [slow, fast] = [lanes.splat(self.slow[axis][bundle]), lanes.splat(self.fast[axis][bundle])];
             enter = enter.max(lanes.mul_add(near[axis], slow, lanes.splat(self.near[axis][bundle])));
             leave = leave.min(lanes.mul_add(far[axis], fast, lanes.splat(self.far[axis][bundle])));
             axis += 1;

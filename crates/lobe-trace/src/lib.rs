@@ -33,6 +33,7 @@ mod block;
 mod bundles;
 mod bvh;
 mod class;
+mod hull;
 mod instances;
 mod leaves;
 mod mesh;
