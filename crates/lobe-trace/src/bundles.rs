@@ -114,7 +114,7 @@ impl Bundles {
     /// The bundle of a ray.
     #[inline(always)]
     pub fn of(ray: usize) -> usize {
-        ray / RAYS_EACH & (BUNDLES - 1)
+        (ray / RAYS_EACH) & (BUNDLES - 1)
     }
 
     /// A box a lane: below what t no ray of the bundle is inside the box, and above what t none is or still looks.

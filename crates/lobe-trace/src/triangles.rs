@@ -79,10 +79,17 @@ impl TriangleBlock {
     /// A row of the box of one triangle: lower x, upper x, lower y, ...
     #[inline(always)]
     pub fn side(&self, slot: usize, row: usize) -> f32 {
-        let corner = |corner: usize| self.floats[(3 * corner + row / 2) * SLOTS + (slot & (SLOTS - 1))];
-        // As lanes do it, also where zeros of both signs meet.
-        let pick = |a: f32, b: f32| if (row % 2 == 0 && a < b) || (row % 2 != 0 && a > b) { a } else { b };
-        pick(pick(corner(0), corner(1)), corner(2))
+        let (axis, upper) = (row / 2, row & 1 != 0);
+        let mut side = self.floats[axis * SLOTS + (slot & (SLOTS - 1))];
+        let mut corner = 1;
+        while corner < 3 {
+            let x = self.floats[(3 * corner + axis) * SLOTS + (slot & (SLOTS - 1))];
+            // As lanes do it, also where zeros of both signs meet: the later one stays.
+            let first = if upper { side > x } else { side < x };
+            side = if first { side } else { x };
+            corner += 1;
+        }
+        side
     }
 
     /// The lower and the upper corners of the boxes of the triangles from `slot` on, a triangle a lane.

@@ -6,15 +6,18 @@
 use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
 
 use super::stack::LargeEntry;
-use super::{Walk, prefetch};
+use super::{Single, Walk, enter, prefetch};
 use crate::block::{Block, Found, first_ray, group_bits};
 use crate::bundles::Bundles;
 use crate::bvh::Node;
 use crate::leaves::Leaves;
 use crate::slab::{Sides, SlabRay, child_bits};
 
-/// How many times its own size a box is wider than the rays of a bundle where the bundle need not be looked at closely.
+/// The part of a box that a bundle may be wide and still be taken at its word that a ray of it meets the box.
 const WIDE: f32 = 0.25;
+
+/// How few rays of the last bundle that meets a child go on one by one.
+const ALONE: u32 = 4;
 
 /// How few rays of an octant are traced one by one.
 pub(super) const FEW: u32 = 6;
@@ -26,7 +29,8 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
     let sides = Sides::of(octant);
     let mut bundles = Bundles::around(lanes, rays, found, octant, live);
     let nodes = bvh.nodes.as_slice();
-    let stack = stacks.large.as_mut_slice();
+    // Taken out, so that single rays can have the other stacks; put back at the end.
+    let mut stack = std::mem::take(&mut stacks.large);
     let (mut keys, mut meeting) = ([0.0; MAX_LANES], [0; MAX_LANES]);
     let never = lanes.splat(f32::INFINITY);
     let mut waiting = 0;
@@ -75,6 +79,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
         }
         loop {
             if waiting == 0 {
+                stacks.large = stack;
                 return;
             }
             waiting -= 1;
@@ -106,6 +111,13 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                     continue;
                 }
                 asking &= !0 << Bundles::of(left.trailing_zeros() as usize);
+                if asking.is_power_of_two() && live.count_ones() <= ALONE && L::LANES >= 8 {
+                    let live = (live as u64) << first_ray::<L>(left.trailing_zeros() as usize);
+                    let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
+                    enter(lanes, Single { walk, from: child, live });
+                    bundles.shorten(lanes, found, live);
+                    continue;
+                }
                 break;
             }
             let mut left = bundles.rays(asking);
