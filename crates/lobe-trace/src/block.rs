@@ -16,7 +16,7 @@ pub(crate) type Row = [f32; RAYS];
 ///
 /// A plane `x = p` is met at `p inverse + near` by a box test that must not miss. It is moved by the ray's *pad*
 /// against the ray for the near planes (`near`) and along it for the far planes (`far`). The pad of `2^-20` of the
-/// largest magnitude there is covers what the box test and the triangle test lose by rounding: at most 4 and 6
+/// largest magnitude there is covers what the box test and the triangle test lose by rounding: at most 4 and 8
 /// half-units in the last place of it.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
@@ -90,11 +90,13 @@ impl Block {
         // ray by less than the pad.
         let floor = lanes.select(valid, largest, lanes.splat(1.0)) * lanes.splat(1.0 / 1_073_741_824.0);
         let mut octant = lanes.splat_int(0);
+        let mut inverses = origin;
         let mut axis = 0;
         while axis < 3 {
             let (o, d) = (origin[axis], direction[axis]);
             let steep = lanes.select(d.abs().lt(floor), floor.mul_sign(d), d);
             let inverse = lanes.splat(1.0) / steep;
+            inverses[axis] = inverse;
             let shift = pad.mul_sign(d);
             lanes.store(&mut self.origin[axis][at..], o);
             lanes.store(&mut self.direction[axis][at..], d);
@@ -105,10 +107,11 @@ impl Block {
             octant = octant | (sign * lanes.splat_int(1 << axis));
             axis += 1;
         }
-        let [x, y, z] = turned(lanes, is_x, is_y, direction);
-        lanes.store(&mut self.shear[0][at..], -(x / z));
-        lanes.store(&mut self.shear[1][at..], -(y / z));
-        lanes.store(&mut self.shear[2][at..], lanes.splat(1.0) / z);
+        let [x, y, _] = turned(lanes, is_x, is_y, direction);
+        let [.., inverse] = turned(lanes, is_x, is_y, inverses);
+        lanes.store(&mut self.shear[0][at..], -(x * inverse));
+        lanes.store(&mut self.shear[1][at..], -(y * inverse));
+        lanes.store(&mut self.shear[2][at..], inverse);
         let [x, y, z] = turned(lanes, is_x, is_y, origin);
         lanes.store(&mut self.pivot[0][at..], x);
         lanes.store(&mut self.pivot[1][at..], y);
@@ -133,22 +136,18 @@ impl Block {
         lanes.uniform(lanes.load_int(&self.octant[first_ray::<L>(at)..]), live).0
     }
 
-    /// `true` where all live rays point into one octant.
+    /// Those of `live` that point into an octant and begin at `t >= 0`.
     #[inline(always)]
-    pub fn is_coherent<L: Lanes>(&self, lanes: L, live: u64) -> bool {
-        if live == 0 {
-            return false;
-        }
-        let octant = lanes.splat_int(self.octant(live.trailing_zeros() as usize) as i32);
+    pub fn of_octant<L: Lanes>(&self, lanes: L, octant: usize, live: u64) -> u64 {
+        let octant = lanes.splat_int(octant as i32);
+        let mut same = 0;
         let mut at = 0;
         while at < RAYS {
-            let different = !lanes.load_int(&self.octant[at..]).eq(octant);
-            if group_bits::<L>(live, at) & different.bits() != 0 {
-                return false;
-            }
+            let forward = lanes.load(&self.t_min[at..]).ge(lanes.splat(0.0));
+            same |= ((lanes.load_int(&self.octant[at..]).eq(octant) & forward).bits() as u64) << at;
             at += L::LANES;
         }
-        true
+        same & live
     }
 }
 
@@ -210,8 +209,11 @@ pub(crate) fn mask_of<L: Lanes>(lanes: L, bits: u32) -> L::M {
 pub(crate) struct Found {
     /// The best so far; the ray's end before the first. `-inf` once it is enough to know of a hit.
     pub t: Row,
-    pub u: Row,
-    pub v: Row,
+    /// As bits: rows of integers are written whole. Of floats that a mask chooses compilers make masked stores, which
+    /// some processors take 40 steps for.
+    pub u: [i32; RAYS],
+    /// As bits.
+    pub v: [i32; RAYS],
     /// [`Found::NONE`] where nothing has been hit.
     pub primitive: [i32; RAYS],
     pub instance: [i32; RAYS],
@@ -222,18 +224,18 @@ impl Found {
     pub const NONE: i32 = i32::MAX;
 
     pub fn new() -> Self {
-        let (row, none) = ([0.0; RAYS], [Self::NONE; RAYS]);
-        Found { t: row, u: row, v: row, primitive: none, instance: none }
+        let none = [Self::NONE; RAYS];
+        Found { t: [0.0; RAYS], u: [0; RAYS], v: [0; RAYS], primitive: none, instance: none }
     }
 
     /// Forgets the hits of a group and sets its end.
     #[inline(always)]
     pub fn reset<L: Lanes>(&mut self, lanes: L, at: usize, t_max: L::F) {
         let at = first_ray::<L>(at);
-        let (zero, none) = (lanes.splat(0.0), lanes.splat_int(Self::NONE));
+        let (zero, none) = (lanes.splat_int(0), lanes.splat_int(Self::NONE));
         lanes.store(&mut self.t[at..], t_max);
-        lanes.store(&mut self.u[at..], zero);
-        lanes.store(&mut self.v[at..], zero);
+        lanes.store_int(&mut self.u[at..], zero);
+        lanes.store_int(&mut self.v[at..], zero);
         lanes.store_int(&mut self.primitive[at..], none);
         lanes.store_int(&mut self.instance[at..], none);
     }

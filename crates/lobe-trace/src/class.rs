@@ -46,15 +46,15 @@ impl RayClass {
 }
 
 /// A way through the tree. The class of a ray chooses it; it is public so that tests and measurements can compare.
-/// Rays whose directions differ in a sign are traced one by one whatever the form.
+/// Packets whose directions differ in a sign are taken apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Form {
     /// A lane a ray, with masks (Wald, Slusallek, Benthin, Wagner 2001).
     Packet,
     /// [`Packet`](Form::Packet) until few rays are live, then [`Single`](Form::Single) for each of them.
     Hybrid,
-    /// 64 rays at once: all children of a node against the interval of the rays, then groups of lanes from the first
-    /// one that meets the box.
+    /// Up to 64 rays at once, those of one octant: all children of a node against bundles of eight rays, the rays
+    /// themselves at the leaves. Few rays of an octant, and rays that begin before zero, go one by one.
     Large,
     /// A lane a child: one ray against all boxes of a node.
     Single,

@@ -3,11 +3,13 @@
 use lobe_lane::{Lanes, Mask};
 
 use crate::block::{Block, Found, RAYS, first_ray, group_bits, group_rows, mask_of};
+use crate::bundles::Bundles;
 use crate::bvh::Child;
-use crate::leaves::{Bounded, Leaves, Triangles};
+use crate::leaves::Leaves;
 use crate::packet::Packet;
 use crate::scene::{Instance, Scene};
 use crate::slab::SlabRay;
+use crate::triangle_leaves::Triangles;
 use crate::walk::{Stacks, Walk};
 use crate::{Affine, Form};
 
@@ -66,6 +68,11 @@ impl<const W: usize> Leaves for Instances<'_, W> {
     fn ready<L: Lanes>(&self, _lanes: L, _rays: &Block, _ray: usize) {}
 
     #[inline(always)]
+    fn any(&self) -> bool {
+        self.any
+    }
+
+    #[inline(always)]
     fn prefetch<L: Lanes>(&self, _lanes: L, _leaf: Child) {}
 
     #[inline(always)]
@@ -76,8 +83,8 @@ impl<const W: usize> Leaves for Instances<'_, W> {
         rays: &Block,
         live: u64,
         found: &mut Found,
-        _beam: Option<Bounded<'_>>,
-    ) {
+        _bundles: Option<&Bundles>,
+    ) -> u64 {
         let scene = self.scene;
         let instance = &scene.instances[leaf.first()];
         let mut carried = 0;
@@ -95,6 +102,7 @@ impl<const W: usize> Leaves for Instances<'_, W> {
         let leaves = &mut Triangles::new(&tree.blocks, leaf.first(), true, self.any);
         let walk = Walk { bvh: &tree.bvh, leaves, rays: &*self.local, found, stacks: &mut *self.stacks };
         walk.trace(lanes, self.form, carried);
+        carried
     }
 
     #[inline(always)]

@@ -4,9 +4,9 @@
 //! the kernels [`Intersect`] (nearest hits) and [`Occluded`] (any hit) on any [`lobe_lane`] backend; a caller's own
 //! kernel traces as many rays as it has lanes by a [`Tracer`].
 //!
-//! - **The class of a ray chooses the way through the tree** ([`RayClass`]): 64 rays at once for the camera and point
-//!   lights, a lane a ray for mirrors, one ray against all boxes of a node after a diffuse bounce. Rays that do not fit
-//!   together are traced one by one.
+//! - **The class of a ray chooses the way through the tree** ([`RayClass`]): 64 rays at once for the camera, mirrors and
+//!   lights, one ray against all boxes of a node after a diffuse bounce. Rays that do not fit together are traced one by
+//!   one.
 //! - **The way does not change the answer.** Box tests are conservative, hits lie inside the boxes they are found in,
 //!   and of hits at the same t the smaller (primitive, instance) wins. On [`strict`](lobe_lane::Lanes::strict) backends
 //!   hits are the same bits on every backend and width as well; others differ by the rounding of t, u and v.
@@ -30,8 +30,10 @@
 
 mod aabb;
 mod block;
+mod bundles;
 mod bvh;
 mod class;
+mod hull;
 mod instances;
 mod leaves;
 mod mesh;
@@ -43,6 +45,7 @@ mod scene;
 mod slab;
 mod trace;
 mod transform;
+mod triangle_leaves;
 mod triangles;
 mod walk;
 mod woop;

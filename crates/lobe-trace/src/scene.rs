@@ -86,8 +86,8 @@ impl SceneBuilder {
         // Instances of empty meshes have no box to be sorted by.
         let seen: Vec<usize> = (0..instances.len()).filter(|&i| instances[i].bounds != Aabb::EMPTY).collect();
         let boxes: Vec<Aabb> = seen.iter().map(|&i| instances[i].bounds).collect();
-        let binary = Binary::build(&boxes, 1);
-        let top = WideBvh::collapse(&binary, |places| Child::leaf(seen[places[0] as usize], 1));
+        let binary = Binary::build(&boxes, false);
+        let top = WideBvh::collapse(&binary, 1, |places| Child::leaf(seen[places[0] as usize], 1));
         Ok(Scene { meshes: self.meshes, trees, instances, top })
     }
 }

@@ -5,7 +5,7 @@
 
 use lobe_lane::{Floats, Lanes, Mask};
 
-use crate::block::{Block, RAYS, group_rows, ray_rows};
+use crate::block::{Block, group_rows, ray_rows};
 use crate::bvh::Node;
 
 /// What a box test knows of rays, a value a lane.
@@ -114,81 +114,23 @@ fn children_row<L: Lanes, const W: usize>(lanes: L, row: &[f32; W], slot: usize)
     if L::LANES <= W { lanes.load(&row[slot & (W - L::LANES)..]) } else { lanes.load_partial(row) }
 }
 
-/// What is true of all rays of a coherent block.
-#[derive(Clone, Copy)]
-pub(crate) struct Beam {
-    near: [f32; 3],
-    far: [f32; 3],
-    inverse: [[f32; 2]; 3],
-    t_min: f32,
-}
-
-impl Beam {
-    /// Around the rays that are not dead: their own planes' pad is taken twice, since this test rounds differently.
-    #[inline(always)]
-    pub fn around<L: Lanes>(lanes: L, rays: &Block, octant: usize) -> Self {
-        let (most, least) = (lanes.splat(f32::INFINITY), lanes.splat(f32::NEG_INFINITY));
-        let mut beam = Beam { near: [0.0; 3], far: [0.0; 3], inverse: [[0.0; 2]; 3], t_min: 0.0 };
-        let mut first = most;
-        let mut axis = 0;
-        while axis < 3 {
-            let (mut low_o, mut high_o, mut low_i, mut high_i) = (most, least, most, least);
-            let mut at = 0;
-            while at < RAYS {
-                let t_min = lanes.load(&rays.t_min[at..]);
-                let there = t_min.lt(most);
-                let pad = lanes.load(&rays.pad[at..]);
-                let origin = lanes.load(&rays.origin[axis][at..]);
-                let inverse = lanes.load(&rays.inverse[axis][at..]);
-                let wide = pad + pad;
-                low_o = low_o.min(lanes.select(there, origin - wide, most));
-                high_o = high_o.max(lanes.select(there, origin + wide, least));
-                low_i = low_i.min(lanes.select(there, inverse, most));
-                high_i = high_i.max(lanes.select(there, inverse, least));
-                first = first.min(t_min);
-                at += L::LANES;
-            }
-            let (low, high) = (least_lane(lanes, low_o), -least_lane(lanes, -high_o));
-            let backward = octant >> axis & 1 != 0;
-            // Against the ray for the plane met first, along it for the one met last.
-            (beam.near[axis], beam.far[axis]) = if backward { (low, high) } else { (high, low) };
-            beam.inverse[axis] = [least_lane(lanes, low_i), -least_lane(lanes, -high_i)];
-            axis += 1;
-        }
-        beam.t_min = least_lane(lanes, first);
-        beam
-    }
-
-    /// A child a lane: below what t no ray of the beam enters the box, and above what t none leaves it.
-    #[inline(always)]
-    pub fn interval<L: Lanes>(&self, lanes: L, near: [L::F; 3], far: [L::F; 3]) -> [L::F; 2] {
-        let mut enter = lanes.splat(self.t_min);
-        let mut leave = lanes.splat(f32::INFINITY);
-        let mut axis = 0;
-        while axis < 3 {
-            let [low, high] = [lanes.splat(self.inverse[axis][0]), lanes.splat(self.inverse[axis][1])];
-            let ahead = near[axis] - lanes.splat(self.near[axis]);
-            let behind = far[axis] - lanes.splat(self.far[axis]);
-            enter = enter.max((ahead * low).min(ahead * high));
-            leave = leave.min((behind * low).max(behind * high));
-            axis += 1;
-        }
-        [enter, leave]
-    }
-}
-
 /// The smallest of all lanes.
 #[inline(always)]
 pub(crate) fn least_lane<L: Lanes>(lanes: L, x: L::F) -> f32 {
     let mut buffer = [f32::INFINITY; lobe_lane::MAX_LANES];
     lanes.store(&mut buffer, x);
-    let mut least = buffer[0];
-    let mut lane = 1;
-    while lane < L::LANES {
-        least = if buffer[lane] < least { buffer[lane] } else { least };
-        lane += 1;
+    // By halves: a chain of comparisons would be as long as there are lanes.
+    let mut half = L::LANES / 2;
+    while half > 0 {
+        let mut lane = 0;
+        while lane < half {
+            let (a, b) = (buffer[lane], buffer[lane + half]);
+            buffer[lane] = if a < b { a } else { b };
+            lane += 1;
+        }
+        half /= 2;
     }
-    least
+    buffer[0]
 }
 
 /// The bits of those of `W` children from `slot` on whose lanes are set, moved to their slots.

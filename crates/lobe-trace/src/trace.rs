@@ -4,10 +4,10 @@ use lobe_lane::{Floats, Ints, Kernel, Lanes, Mask};
 
 use crate::block::{Block, Found, RAYS, first_ray};
 use crate::instances::Instances;
-use crate::leaves::Triangles;
 use crate::packet::{Packet, PacketHits};
 use crate::rays::{Hits, MISS, Rays};
 use crate::scene::Scene;
+use crate::triangle_leaves::Triangles;
 use crate::walk::{Stacks, Walk};
 use crate::{Form, RayClass};
 
@@ -92,8 +92,8 @@ impl<'s, const W: usize> Tracer<'s, W> {
         PacketHits {
             mask,
             t: lanes.select(mask, lanes.load(&self.found.t[at..]), lanes.splat(f32::INFINITY)),
-            u: lanes.load(&self.found.u[at..]),
-            v: lanes.load(&self.found.v[at..]),
+            u: lanes.load_int(&self.found.u[at..]).as_float(),
+            v: lanes.load_int(&self.found.v[at..]).as_float(),
             primitive: lanes.select_int(mask, primitive, miss),
             instance: lanes.select_int(mask, lanes.load_int(&self.found.instance[at..]), miss),
         }

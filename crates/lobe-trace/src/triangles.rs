@@ -1,20 +1,20 @@
-//! The triangles of a leaf, four side by side.
+//! The triangles of a leaf, eight side by side.
 
 use lobe_lane::{Floats, Lanes};
 
 use crate::bvh::{Binary, Child, WideBvh};
 use crate::{Aabb, Mesh};
 
-/// Triangles of a block: more would stand empty in most leaves.
-pub(crate) const SLOTS: usize = 4;
+/// Triangles of a block, which fill the lanes of the widest backends.
+pub(crate) const SLOTS: usize = 8;
 
 /// Corners of triangles, a triangle a lane: `[corner][axis]`.
 pub(crate) type Corners<L> = [[<L as Lanes>::F; 3]; 3];
 
-/// Four triangles in three cache lines. Coordinate `axis` of corner `corner` of triangle `slot` is
+/// Eight triangles in five cache lines. Coordinate `axis` of corner `corner` of triangle `slot` is
 /// `floats[(3 corner + axis) SLOTS + slot]`; the triangles' numbers follow as bits.
 #[derive(Clone, Debug)]
-#[repr(C, align(32))]
+#[repr(C, align(64))]
 pub(crate) struct TriangleBlock {
     floats: [f32; 10 * SLOTS],
 }
@@ -22,17 +22,13 @@ pub(crate) struct TriangleBlock {
 impl TriangleBlock {
     const NUMBERS: usize = 9 * SLOTS;
 
-    fn new(mesh: &Mesh, triangles: &[u32]) -> Self {
-        // NaN in empty slots: no comparison holds for them.
-        let mut floats = [f32::NAN; 10 * SLOTS];
-        for slot in 0..SLOTS {
-            let number = triangles.get(slot).map_or(-1, |&triangle| triangle as i32);
-            floats[Self::NUMBERS + slot] = f32::from_bits(number as u32);
-        }
-        for (slot, &triangle) in triangles.iter().enumerate() {
+    fn new(mesh: &Mesh, triangles: impl Iterator<Item = u32>) -> Self {
+        let mut floats = [0.0; 10 * SLOTS];
+        for (slot, triangle) in triangles.take(SLOTS).enumerate() {
             for (row, &x) in mesh.corners(triangle as usize).as_flattened().iter().enumerate() {
                 floats[row * SLOTS + slot] = x;
             }
+            floats[Self::NUMBERS + slot] = f32::from_bits(triangle);
         }
         TriangleBlock { floats }
     }
@@ -40,12 +36,14 @@ impl TriangleBlock {
     /// Has the caches bring it in.
     #[inline(always)]
     pub fn prefetch<L: Lanes>(&self, lanes: L) {
-        lanes.prefetch(&self.floats);
-        lanes.prefetch(&self.floats[16..]);
-        lanes.prefetch(&self.floats[32..]);
+        let mut line = 0;
+        while line < self.floats.len() {
+            lanes.prefetch(&self.floats[line..]);
+            line += 16;
+        }
     }
 
-    /// The number of a triangle in its mesh; negative where the slot is empty.
+    /// The number of a triangle in its mesh.
     #[inline(always)]
     pub fn number(&self, slot: usize) -> i32 {
         self.floats[Self::NUMBERS + (slot & (SLOTS - 1))].to_bits() as i32
@@ -72,11 +70,26 @@ impl TriangleBlock {
         let mut at = 0;
         while at < 9 {
             let row = &self.floats[(at / 3 * 3 + axes[at % 3]) * SLOTS + slot..];
-            // Eight floats follow the last row's beginning.
-            corners[at / 3][at % 3] = if L::LANES <= 2 * SLOTS { lanes.load(row) } else { lanes.load_partial(row) };
+            corners[at / 3][at % 3] = if L::LANES <= SLOTS { lanes.load(row) } else { lanes.load_partial(row) };
             at += 1;
         }
         corners
+    }
+
+    /// A row of the box of one triangle: lower x, upper x, lower y, ...
+    #[inline(always)]
+    pub fn side(&self, slot: usize, row: usize) -> f32 {
+        let (axis, upper) = (row / 2, row & 1 != 0);
+        let mut side = self.floats[axis * SLOTS + (slot & (SLOTS - 1))];
+        let mut corner = 1;
+        while corner < 3 {
+            let x = self.floats[(3 * corner + axis) * SLOTS + (slot & (SLOTS - 1))];
+            // As lanes do it, also where zeros of both signs meet: the later one stays.
+            let first = if upper { side > x } else { side < x };
+            side = if first { side } else { x };
+            corner += 1;
+        }
+        side
     }
 
     /// The lower and the upper corners of the boxes of the triangles from `slot` on, a triangle a lane.
@@ -98,23 +111,16 @@ pub(crate) struct Tree<const W: usize> {
 }
 
 impl<const W: usize> Tree<W> {
-    /// Up to two blocks a leaf: the cost of a tree changes little from 2 to 16 triangles.
-    const LEAF: usize = 2 * SLOTS;
-
     pub fn build(mesh: &Mesh) -> Self {
         let seen: Vec<u32> =
             (0..mesh.triangles().len() as u32).filter(|&triangle| can_be_hit(mesh, triangle)).collect();
         let boxes: Vec<Aabb> = seen.iter().map(|&triangle| Aabb::of(mesh.corners(triangle as usize))).collect();
-        let binary = Binary::build(&boxes, Self::LEAF);
+        let binary = Binary::build(&boxes, true);
         let mut blocks = Vec::with_capacity(seen.len() / 2);
-        let bvh = WideBvh::collapse(&binary, |places| {
-            let first = blocks.len();
-            for run in places.chunks(SLOTS) {
-                let mut triangles = [0; SLOTS];
-                run.iter().zip(&mut triangles).for_each(|(&place, triangle)| *triangle = seen[place as usize]);
-                blocks.push(TriangleBlock::new(mesh, &triangles[..run.len()]));
-            }
-            Child::leaf(first, blocks.len() - first)
+        let bvh = WideBvh::collapse(&binary, SLOTS, |places| {
+            let triangles = places.iter().map(|&place| seen[place as usize]);
+            blocks.push(TriangleBlock::new(mesh, triangles));
+            Child::leaf(blocks.len() - 1, places.len())
         });
         Tree { bvh, blocks }
     }

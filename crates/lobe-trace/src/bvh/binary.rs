@@ -2,7 +2,7 @@
 
 use obvhs::aabb::Aabb as BuilderBox;
 use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::leaf_collapser::collapse;
+use obvhs::bvh2::node::Bvh2Node;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::PlocBuilder;
 use obvhs::{Boundable, BvhBuildParams};
@@ -13,17 +13,40 @@ use crate::Aabb;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BinaryNode {
     pub bounds: Aabb,
-    /// How many primitives a leaf has; 0 for an inner node.
-    pub count: usize,
-    /// A leaf's first place in the order of primitives; the first of an inner node's two neighbouring children.
-    pub first: usize,
+    /// The first place of its primitives in the order of primitives.
+    first: u32,
+    /// How many primitives it has.
+    count: u32,
+    /// Where its second child stands. The first one, of a node that has children, is its neighbour.
+    second: u32,
+}
+
+impl BinaryNode {
+    /// Without children.
+    pub fn is_single(&self) -> bool {
+        self.second == 0
+    }
+
+    pub fn count(&self) -> usize {
+        self.count as usize
+    }
+
+    /// The places of its primitives in the order of primitives.
+    pub fn members(&self) -> std::ops::Range<usize> {
+        self.first as usize..(self.first + self.count) as usize
+    }
+
+    pub fn second(&self) -> usize {
+        self.second as usize
+    }
 }
 
 /// A binary tree over boxes; node 0 is the root, and there is none where there are no boxes.
 #[derive(Debug)]
 pub(crate) struct Binary {
+    /// In the order of a depth-first walk.
     pub nodes: Vec<BinaryNode>,
-    /// The primitives in the order of the leaves.
+    /// The primitives in the order of that walk.
     pub order: Vec<u32>,
 }
 
@@ -36,9 +59,10 @@ impl Boundable for Primitive {
 }
 
 impl Binary {
-    /// Builds a tree over boxes with at most `leaf` of them in a leaf: parallel locally-ordered clustering (Meister and
-    /// Bittner 2018), then reinsertion, which gave 9 to 23 per cent cheaper trees than 16-bin SAH in the same time.
-    pub fn build(boxes: &[Aabb], leaf: usize) -> Self {
+    /// Builds a tree over boxes: parallel locally-ordered clustering (Meister and Bittner 2018), then reinsertion, which
+    /// gave 9 to 23 per cent cheaper trees than 16-bin SAH in the same time. With `pairs` two leaves of one parent are one:
+    /// where leaves hold more, hardly any pair is better parted.
+    pub fn build(boxes: &[Aabb], pairs: bool) -> Self {
         if boxes.is_empty() {
             return Binary { nodes: Vec::new(), order: Vec::new() };
         }
@@ -47,39 +71,55 @@ impl Binary {
         let scale = 1.0 / reach.max(f32::MIN_POSITIVE);
         let uneven = |(index, &bounds): (usize, &Aabb)| Primitive(loosened(bounds, index, scale));
         let primitives: Vec<Primitive> = boxes.iter().enumerate().map(uneven).collect();
-        let Bvh2 { nodes, primitive_indices, .. } = clustered(&primitives, leaf);
-        let nodes = nodes
-            .into_iter()
-            .map(|node| BinaryNode {
-                bounds: Aabb::EMPTY,
-                count: node.prim_count as usize,
-                first: node.first_index as usize,
-            })
-            .collect();
-        let mut tree = Binary { nodes, order: primitive_indices };
+        let mut tree = Self::walked(&clustered(&primitives), boxes.len(), pairs);
         tree.fit(boxes);
         tree
     }
 
-    /// Gives every node the box around its primitives.
-    fn fit(&mut self, boxes: &[Aabb]) {
-        let mut parents_first = Vec::with_capacity(self.nodes.len());
-        let mut waiting = vec![0];
-        while let Some(at) = waiting.pop() {
-            parents_first.push(at);
-            let node = self.nodes[at];
-            if node.count == 0 {
-                waiting.extend([node.first, node.first + 1]);
+    /// Puts nodes and primitives, of which the source has one a leaf, in the order of a depth-first walk.
+    fn walked(source: &Bvh2, primitives: usize, pairs: bool) -> Self {
+        let (mut nodes, mut order) = (Vec::with_capacity(source.nodes.len()), Vec::with_capacity(primitives));
+        // Nodes to come, and the node whose second child each is.
+        let mut waiting = vec![(0, None)];
+        while let Some((at, parent)) = waiting.pop() {
+            let node = &source.nodes[at];
+            let index = nodes.len() as u32;
+            if let Some(parent) = parent {
+                let parent: &mut BinaryNode = &mut nodes[parent as usize];
+                parent.second = index;
+            }
+            nodes.push(BinaryNode {
+                bounds: Aabb::EMPTY,
+                first: order.len() as u32,
+                count: node.prim_count,
+                second: 0,
+            });
+            let first = node.first_index as usize;
+            let mut add = |leaf: &Bvh2Node| order.push(source.primitive_indices[leaf.first_index as usize]);
+            if node.is_leaf() {
+                add(node);
+            } else if pairs && source.nodes[first..first + 2].iter().all(Bvh2Node::is_leaf) {
+                source.nodes[first..first + 2].iter().for_each(add);
+                nodes[index as usize].count = 2;
+            } else {
+                waiting.extend([(first + 1, Some(index)), (first, None)]);
             }
         }
-        for at in parents_first.into_iter().rev() {
+        Binary { nodes, order }
+    }
+
+    /// Gives every node its primitives and the box around them.
+    fn fit(&mut self, boxes: &[Aabb]) {
+        for at in (0..self.nodes.len()).rev() {
             let node = self.nodes[at];
-            self.nodes[at].bounds = if node.count == 0 {
-                self.nodes[node.first].bounds.union(self.nodes[node.first + 1].bounds)
+            let (bounds, count) = if node.is_single() {
+                let members = &self.order[node.members()];
+                (members.iter().fold(Aabb::EMPTY, |sum, &member| sum.union(boxes[member as usize])), node.count)
             } else {
-                let members = &self.order[node.first..node.first + node.count];
-                members.iter().fold(Aabb::EMPTY, |sum, &member| sum.union(boxes[member as usize]))
+                let [one, other] = [self.nodes[at + 1], self.nodes[node.second()]];
+                (one.bounds.union(other.bounds), one.count + other.count)
             };
+            self.nodes[at] = BinaryNode { bounds, count, ..node };
         }
     }
 }
@@ -87,14 +127,10 @@ impl Binary {
 /// The share of nodes that a round of reinsertion moves: the presets' 0.05 takes a third longer and traces no faster.
 const REINSERTED: f32 = 0.02;
 
-/// What a box test costs, in triangle tests. Leaves of few triangles suit rays that are traced one by one; below 1.5
-/// trees of a million triangles become too large for the caches.
-const BOX_COST: f32 = 2.0;
-
 /// The builder's own sequence for its medium preset, without the check that it adds in debug builds: that recurses as
-/// deep as the tree and refuses trees deeper than reinsertion was expected to make them. The second reinsertion, after
-/// leaves were joined, is left out: rays do not notice it.
-fn clustered(primitives: &[Primitive], leaf: usize) -> Bvh2 {
+/// deep as the tree and refuses trees deeper than reinsertion was expected to make them. Joining leaves is left to the
+/// wide tree, which knows what they cost.
+fn clustered(primitives: &[Primitive]) -> Bvh2 {
     let preset = BvhBuildParams::medium_build();
     let mut tree = PlocBuilder::with_capacity(primitives.len()).build(
         preset.ploc_search_distance,
@@ -104,7 +140,6 @@ fn clustered(primitives: &[Primitive], leaf: usize) -> Bvh2 {
         preset.search_depth_threshold,
     );
     ReinsertionOptimizer::default().run(&mut tree, REINSERTED, None);
-    collapse(&mut tree, leaf as u32, BOX_COST);
     tree
 }
 

@@ -4,14 +4,15 @@ use super::{Binary, Child, Node, WideBvh};
 use crate::Aabb;
 
 impl<const W: usize> WideBvh<W> {
-    /// Opens the child of the largest surface until a node has `W` of them (Wald, Benthin, Boulos 2008). `emit` makes
-    /// the leaf of a run of primitives. Nodes lie in the order of a depth-first walk, a subtree in one piece.
-    pub(crate) fn collapse(binary: &Binary, mut emit: impl FnMut(&[u32]) -> Child) -> Self {
+    /// Makes the wide tree of least cost with up to `leaf` primitives a leaf. `emit` makes the leaf of a run of
+    /// primitives. Nodes lie in the order of a depth-first walk, a subtree in one piece.
+    pub(crate) fn collapse(binary: &Binary, leaf: usize, mut emit: impl FnMut(&[u32]) -> Child) -> Self {
         const { assert!(W == 4 || W == 8, "nodes have 4 or 8 children") };
         let Some(root) = binary.nodes.first() else {
             return WideBvh { nodes: vec![Node::EMPTY], bounds: Aabb::EMPTY, stack: W };
         };
-        let mut nodes: Vec<Node<W>> = Vec::with_capacity(binary.nodes.len() / W + 1);
+        let plans = plans::<W>(binary, leaf);
+        let mut nodes: Vec<Node<W>> = Vec::with_capacity(binary.order.len() / W + 1);
         let mut waiting = vec![Waiting { at: 0, depth: 1, parent: 0, slot: 0 }];
         let mut deepest = 1;
         while let Some(Waiting { at, depth, parent, slot }) = waiting.pop() {
@@ -22,11 +23,11 @@ impl<const W: usize> WideBvh<W> {
                 parent.children[slot] = Child::node(index);
             }
             let mut node = Node::EMPTY;
-            let (open, count) = widen::<W>(binary, at);
-            for &child in open[..count].iter().rev() {
-                let source = binary.nodes[child];
-                let reference = if source.count > 0 {
-                    emit(&binary.order[source.first..source.first + source.count])
+            let (children, count) = widen::<W>(binary, &plans, at);
+            for &child in children[..count].iter().rev() {
+                let source = &binary.nodes[child];
+                let reference = if plans[child].is_leaf() {
+                    emit(&binary.order[source.members()])
                 } else {
                     waiting.push(Waiting { at: child, depth: depth + 1, parent: index, slot: node.count });
                     Child::node(0)
@@ -39,6 +40,9 @@ impl<const W: usize> WideBvh<W> {
     }
 }
 
+/// What a visit to a leaf costs, in visits to nodes.
+const LEAF_COST: f32 = 1.5;
+
 /// A binary node that is to become a wide one, and the slot of the parent that is to refer to it.
 struct Waiting {
     at: usize,
@@ -47,19 +51,88 @@ struct Waiting {
     slot: usize,
 }
 
-/// The up to `W` binary nodes that become the children of a wide one.
-fn widen<const W: usize>(binary: &Binary, at: usize) -> ([usize; W], usize) {
-    let mut open = [at; W];
-    let mut count = 1;
-    while count < W {
-        let inner = |&slot: &usize| binary.nodes[open[slot]].count == 0;
-        let area = |slot: &usize| binary.nodes[open[*slot]].bounds.half_area();
-        let widest = (0..count).filter(inner).max_by(|a, b| area(a).total_cmp(&area(b)));
-        let Some(slot) = widest else { break };
-        let first = binary.nodes[open[slot]].first;
-        open[slot] = first;
-        open[count] = first + 1;
-        count += 1;
+/// What becomes of a binary subtree: whether it is best as a leaf, and how its two children share `k` roots where it may
+/// be up to `k` subtrees of the wide tree, 4 bits for each `k`. Zero: it is better as one.
+#[derive(Clone, Copy, Default)]
+struct Plan(u32);
+
+impl Plan {
+    const LEAF: Self = Plan(1);
+
+    fn is_leaf(self) -> bool {
+        self.0 & 1 != 0
     }
-    (open, count)
+
+    fn set(&mut self, roots: usize, share: usize) {
+        self.0 |= (share as u32) << (4 * roots - 4);
+    }
+
+    fn share(self, roots: usize) -> usize {
+        if roots < 2 { 0 } else { (self.0 >> (4 * roots - 4) & 15) as usize }
+    }
+}
+
+/// The plans of least cost (Ylitie, Karras, Laine 2017): the chance of a ray to visit a node or a leaf is proportional
+/// to its surface.
+fn plans<const W: usize>(binary: &Binary, leaf: usize) -> Vec<Plan> {
+    let mut plans = vec![Plan::default(); binary.nodes.len()];
+    // Costs of subtrees whose parents are still to come, `[k - 1]` of at most `k` roots. Children come before their
+    // parents, second children before first ones.
+    let mut waiting: Vec<[f32; W]> = Vec::new();
+    for (node, plan) in binary.nodes.iter().zip(&mut plans).rev() {
+        let surface = node.bounds.half_area();
+        let whole = LEAF_COST * surface;
+        if node.is_single() {
+            *plan = Plan::LEAF;
+            waiting.push([whole; W]);
+            continue;
+        }
+        let (Some(one), Some(other)) = (waiting.pop(), waiting.pop()) else { break };
+        let mut own = [f32::INFINITY; W];
+        for roots in 2..=W {
+            let mut best = 1;
+            for share in 1..roots {
+                let cost = one[share - 1] + other[roots - share - 1];
+                if cost < own[roots - 1] {
+                    (own[roots - 1], best) = (cost, share);
+                }
+            }
+            plan.set(roots, best);
+        }
+        own[0] = own[W - 1] + surface;
+        if node.count() <= leaf && whole <= own[0] {
+            own[0] = whole;
+            plan.0 |= 1;
+        }
+        for roots in 2..W {
+            if own[0] < own[roots - 1] {
+                own[roots - 1] = own[0];
+                plan.0 &= !(15 << (4 * roots - 4));
+            }
+        }
+        waiting.push(own);
+    }
+    plans
+}
+
+/// The up to `W` binary nodes that become the children of a wide one.
+fn widen<const W: usize>(binary: &Binary, plans: &[Plan], at: usize) -> ([usize; W], usize) {
+    let (mut children, mut count) = ([at; W], 0);
+    // Subtrees and how many roots they may have, at least one each.
+    let (mut waiting, mut left) = ([(at, W); W], 1);
+    while left > 0 {
+        left -= 1;
+        let (subtree, roots) = waiting[left];
+        let share = plans[subtree].share(roots);
+        if share == 0 {
+            children[count] = subtree;
+            count += 1;
+        } else {
+            let node = &binary.nodes[subtree];
+            waiting[left] = (subtree + 1, share);
+            waiting[left + 1] = (node.second(), roots - share);
+            left += 2;
+        }
+    }
+    (children, count)
 }

@@ -4,29 +4,40 @@ use lobe_lane::Lanes;
 
 use crate::Aabb;
 
-/// A child of a node: another node, or a leaf's run of up to eight leaf blocks.
+/// A child of a node: another node, or a leaf of up to eight primitives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Child(u32);
 
 impl Child {
     const LEAF: u32 = 1 << 31;
-    /// The most blocks a leaf can have.
-    pub const MAX_BLOCKS: usize = 8;
+    /// The most primitives a leaf can have.
+    pub const MOST: usize = 8;
 
     pub fn node(index: usize) -> Self {
         assert!(index < Self::LEAF as usize, "a tree of more nodes than a reference can count");
         Child(index as u32)
     }
 
-    pub fn leaf(first: usize, blocks: usize) -> Self {
-        assert!(first < 1 << 28, "more leaf blocks than a reference can count");
-        assert!((1..=Self::MAX_BLOCKS).contains(&blocks), "a leaf of {blocks} blocks");
-        Child(Self::LEAF | ((blocks - 1) as u32) << 28 | first as u32)
+    /// Leaf number `first`, of `count` primitives.
+    pub fn leaf(first: usize, count: usize) -> Self {
+        assert!(first < 1 << 28, "more leaves than a reference can count");
+        assert!((1..=Self::MOST).contains(&count), "a leaf of {count} primitives");
+        Child(Self::LEAF | ((count - 1) as u32) << 28 | first as u32)
     }
 
     #[inline(always)]
     pub fn is_leaf(self) -> bool {
         self.0 & Self::LEAF != 0
+    }
+
+    #[inline(always)]
+    pub fn bits(self) -> u32 {
+        self.0
+    }
+
+    #[inline(always)]
+    pub fn from_bits(bits: u32) -> Self {
+        Child(bits)
     }
 
     /// The index of an inner node.
@@ -35,15 +46,15 @@ impl Child {
         self.0 as usize
     }
 
-    /// The first block of a leaf.
+    /// The number of a leaf.
     #[inline(always)]
     pub fn first(self) -> usize {
         (self.0 & 0x0fff_ffff) as usize
     }
 
-    /// How many blocks a leaf has.
+    /// How many primitives a leaf has.
     #[inline(always)]
-    pub fn blocks(self) -> usize {
+    pub fn count(self) -> usize {
         (self.0 >> 28 & 7) as usize + 1
     }
 }

@@ -5,6 +5,7 @@ use lobe_lane::{Floats, Lanes, MAX_LANES, Mask};
 use super::{Single, Walk, enter};
 use crate::block::{first_ray, mask_of};
 use crate::bvh::Child;
+use crate::hull::Hull;
 use crate::leaves::Leaves;
 use crate::slab::{Sides, SlabRay};
 
@@ -22,9 +23,15 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
     let Walk { bvh, leaves, rays, found, stacks } = walk;
     let at = first_ray::<L>(at);
     let slab = SlabRay::group(lanes, rays, at);
-    let sides = Sides::of(rays.octant(at + live.trailing_zeros() as usize));
+    let octant = rays.octant(at + live.trailing_zeros() as usize);
+    let sides = Sides::of(octant);
     let never = lanes.splat(f32::INFINITY);
-    let t_min = lanes.select(mask_of(lanes, live), lanes.load(&rays.t_min[at..]), never);
+    let there = mask_of(lanes, live);
+    let t_min = lanes.select(there, lanes.load(&rays.t_min[at..]), never);
+    let mut hull = Hull::around(lanes, rays, at, octant, there);
+    if let Some(hull) = &mut hull {
+        hull.shorten(lanes, lanes.load(&found.t[at..]), there);
+    }
     let nodes = bvh.nodes.as_slice();
     let mut enters = [[0.0; MAX_LANES]; W];
     let mut order = [(0.0, 0); W];
@@ -36,13 +43,24 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
             let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
             enter(lanes, Single { walk, from: child, live: (bits as u64) << at });
         } else if child.is_leaf() {
-            leaves.packet(lanes, child, rays, (bits as u64) << at, found, None);
+            let hit = leaves.packet(lanes, child, rays, (bits as u64) << at, found, None);
+            if let Some(hull) = &mut hull
+                && hit != 0
+            {
+                hull.shorten(lanes, lanes.load(&found.t[at..]), there);
+            }
         } else {
             let node = &nodes[child.index()];
             let best = lanes.load(&found.t[at..]);
             let mut hits = 0;
-            let mut slot = 0;
-            while slot < W {
+            // Rays are told apart only where their hull meets a child.
+            let mut met = match &hull {
+                Some(hull) => hull.children(lanes, node, &sides),
+                None => (1 << W) - 1,
+            };
+            while met != 0 {
+                let slot = met.trailing_zeros() as usize & (W - 1);
+                met &= met - 1;
                 let [near, far] = sides.child(lanes, node, slot);
                 let [enter, leave] = slab.interval(lanes, near, far);
                 let enter = enter.max(t_min);
@@ -60,7 +78,6 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
                     order[place] = (key, slot);
                     hits += 1;
                 }
-                slot += 1;
             }
             let mut place = 0;
             while place < hits {

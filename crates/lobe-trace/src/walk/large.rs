@@ -1,47 +1,73 @@
-//! A packet of 64 coherent rays.
+//! Up to 64 rays of one octant.
 //!
-//! All children of a node are tested at once against the interval of the rays, a child a lane. A child that survives is
-//! entered by the groups from the first one on that meets its box: most often the first that is tried.
+//! All children of a node are tested at once, a child a lane, against one bundle of eight rays after another. Rays are
+//! told apart only at the leaves.
 
-use lobe_lane::{Floats, Lanes, MAX_LANES, Mask};
+use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
 
 use super::stack::LargeEntry;
-use super::{Walk, prefetch};
-use crate::block::{Block, Found, RAYS, first_ray};
+use super::{Single, Walk, enter, prefetch};
+use crate::block::{Block, Found, first_ray, group_bits};
+use crate::bundles::Bundles;
 use crate::bvh::Node;
-use crate::leaves::{Bounded, Leaves};
-use crate::slab::{Beam, Sides, SlabRay, child_bits, least_lane};
+use crate::leaves::Leaves;
+use crate::slab::{Sides, SlabRay, child_bits};
+
+/// The part of a box that a bundle may be wide and still be taken at its word that a ray of it meets the box.
+const WIDE: f32 = 0.25;
+
+/// How few rays of the last bundle that meets a child go on one by one.
+const ALONE: u32 = 4;
+
+/// How few rays of an octant are traced one by one.
+pub(super) const FEW: u32 = 6;
 
 #[inline(always)]
 pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_, V, W>, live: u64) {
     let Walk { bvh, leaves, rays, found, stacks } = walk;
     let octant = rays.octant(live.trailing_zeros() as usize);
     let sides = Sides::of(octant);
-    let beam = Beam::around(lanes, rays, octant);
+    let mut bundles = Bundles::around(lanes, rays, found, octant, live);
     let nodes = bvh.nodes.as_slice();
-    let stack = stacks.large.as_mut_slice();
-    let mut keys = [0.0; MAX_LANES];
-    let mut farthest = farthest_best(lanes, found);
+    // Taken out, so that single rays can have the other stacks; put back at the end.
+    let mut stack = std::mem::take(&mut stacks.large);
+    let (mut keys, mut meeting) = ([0.0; MAX_LANES], [0; MAX_LANES]);
+    let never = lanes.splat(f32::INFINITY);
     let mut waiting = 0;
     let mut current = 0;
-    let mut first = 0;
+    let mut asking = bundles.all();
     loop {
         let node = &nodes[current];
-        let best = lanes.splat(farthest);
         let mut bits = 0;
         let mut slot = 0;
         while slot < W {
             let [near, far] = sides.children(lanes, node, slot);
-            let [enter, leave] = beam.interval(lanes, near, far);
-            bits |= child_bits::<L, W>(enter.le(leave.min(best)), slot);
-            lanes.store(&mut keys[slot..], enter);
+            let (mut key, mut who) = (never, lanes.splat_int(0));
+            let size = (far[0] - near[0]).abs().max((far[1] - near[1]).abs()).max((far[2] - near[2]).abs())
+                * lanes.splat(WIDE);
+            let mut left = asking;
+            while left != 0 {
+                let bundle = left.trailing_zeros();
+                left &= left - 1;
+                let [enter, leave] = bundles.interval(lanes, bundle as usize, near, far);
+                let meets = enter.le(leave);
+                key = key.min(lanes.select(meets, enter, never));
+                let narrow = bundles.width(lanes, bundle as usize, enter).le(size);
+                let bit = lanes.select_int(narrow, lanes.splat_int(0x101 << bundle), lanes.splat_int(1 << bundle));
+                who = who | lanes.select_int(meets, bit, lanes.splat_int(0));
+            }
+            bits |= child_bits::<L, W>(!who.eq(lanes.splat_int(0)), slot);
+            lanes.store(&mut keys[slot..], key);
+            lanes.store_int(&mut meeting[slot..], who);
             slot += L::LANES;
         }
-        let floor = waiting;
+        // The nearest first; where any hit is enough, as they come.
+        let floor = if leaves.any() { usize::MAX } else { waiting };
         while bits != 0 {
             let slot = bits.trailing_zeros() as usize & (W - 1);
             bits &= bits - 1;
-            let entry = LargeEntry { key: keys[slot], node: current as u32, slot: slot as u32, first };
+            let bundles = meeting[slot] as u32;
+            let entry = LargeEntry { key: keys[slot], node: current as u32, slot: slot as u32, bundles };
             prefetch(lanes, nodes, leaves, node.children[slot]);
             let mut place = waiting;
             while place > floor && stack[place - 1].key < entry.key {
@@ -53,41 +79,59 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
         }
         loop {
             if waiting == 0 {
+                stacks.large = stack;
                 return;
             }
             waiting -= 1;
             let entry = stack[waiting];
-            if entry.key > farthest {
+            asking = bundles.looking(lanes, entry.bundles, entry.key);
+            if asking == 0 {
                 continue;
             }
             let node = &nodes[entry.node as usize];
             let slot = entry.slot as usize & (W - 1);
             let child = node.children[slot];
-            let mut at = entry.first as usize;
-            let mut meets = 0;
-            while at < RAYS {
-                meets = group_meets(lanes, &sides, node, slot, rays, found, at);
-                if meets != 0 {
-                    break;
-                }
-                at += L::LANES;
-            }
-            if meets == 0 {
-                continue;
-            }
             if !child.is_leaf() {
                 current = child.index();
-                first = at as u32;
+                if asking & entry.bundles >> 8 != 0 {
+                    break;
+                }
+                let mut left = bundles.rays(asking);
+                let mut live = 0;
+                while left != 0 {
+                    let at = first_ray::<L>(left.trailing_zeros() as usize);
+                    let bits = group_bits::<L>(left, at);
+                    live = group_meets(lanes, &sides, node, slot, rays, found, at) & bits;
+                    if live != 0 {
+                        break;
+                    }
+                    left ^= (bits as u64) << at;
+                }
+                if live == 0 {
+                    continue;
+                }
+                asking &= !0 << Bundles::of(left.trailing_zeros() as usize);
+                if asking.is_power_of_two() && live.count_ones() <= ALONE && L::LANES >= 8 {
+                    let live = (live as u64) << first_ray::<L>(left.trailing_zeros() as usize);
+                    let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
+                    enter(lanes, Single { walk, from: child, live });
+                    bundles.shorten(lanes, found, live);
+                    continue;
+                }
                 break;
             }
-            let mut live = (meets as u64) << at;
-            at += L::LANES;
-            while at < RAYS {
-                live |= (group_meets(lanes, &sides, node, slot, rays, found, at) as u64) << at;
-                at += L::LANES;
+            let mut left = bundles.rays(asking);
+            let mut live = 0;
+            while left != 0 {
+                let at = first_ray::<L>(left.trailing_zeros() as usize);
+                let bits = group_bits::<L>(left, at);
+                left ^= (bits as u64) << at;
+                live |= ((group_meets(lanes, &sides, node, slot, rays, found, at) & bits) as u64) << at;
             }
-            leaves.packet(lanes, child, rays, live, found, Some(Bounded { beam: &beam, end: farthest }));
-            farthest = farthest_best(lanes, found);
+            if live != 0 {
+                let hit = leaves.packet(lanes, child, rays, live, found, Some(&bundles));
+                bundles.shorten(lanes, found, hit);
+            }
         }
     }
 }
@@ -108,16 +152,4 @@ fn group_meets<L: Lanes, const W: usize>(
     let [enter, leave] = SlabRay::group(lanes, rays, at).interval(lanes, near, far);
     let enter = enter.max(lanes.load(&rays.t_min[at..]));
     enter.le(leave.min(lanes.load(&found.t[at..]))).bits()
-}
-
-/// Where the last of the rays ends as things stand.
-#[inline(always)]
-fn farthest_best<L: Lanes>(lanes: L, found: &Found) -> f32 {
-    let mut most = lanes.load(&found.t);
-    let mut at = L::LANES;
-    while at < RAYS {
-        most = most.max(lanes.load(&found.t[at & (RAYS - L::LANES)..]));
-        at += L::LANES;
-    }
-    -least_lane(lanes, -most)
 }

@@ -28,12 +28,21 @@ impl<V: Leaves, const W: usize> Walk<'_, V, W> {
     #[inline(always)]
     pub fn trace<L: Lanes>(self, lanes: L, form: Form, live: u64) {
         let Walk { bvh, leaves, rays, found, stacks } = self;
-        if form == Form::Large && rays.is_coherent(lanes, live) {
-            enter(lanes, Large(Walk { bvh, leaves, rays, found, stacks }, live));
-            return;
-        }
         let mut alone = live;
-        let mut at = if form == Form::Single { RAYS } else { 0 };
+        if form == Form::Large {
+            let mut left = live;
+            while left != 0 {
+                let ray = left.trailing_zeros() as usize;
+                let together = rays.of_octant(lanes, rays.octant(ray), left);
+                left &= !(together | 1 << ray);
+                if together.count_ones() > large::FEW {
+                    let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
+                    enter(lanes, Large(walk, together));
+                    alone &= !together;
+                }
+            }
+        }
+        let mut at = if form == Form::Single || form == Form::Large { RAYS } else { 0 };
         while at < RAYS {
             let bits = group_bits::<L>(live, at);
             if bits != 0 && rays.group_is_coherent(lanes, at, mask_of(lanes, bits)) {

@@ -1,6 +1,6 @@
 //! One ray against all boxes of a node, a child a lane.
 
-use lobe_lane::{Floats, Lanes, MAX_LANES};
+use lobe_lane::{Floats, Ints, Lanes, MAX_LANES};
 
 use super::stack::Entry;
 use super::{Walk, prefetch};
@@ -20,6 +20,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
     let stack = stacks.single.as_mut_slice();
     let ready = leaves.ready(lanes, rays, ray);
     let mut best = found.t[ray];
+    let mut keys = [0; MAX_LANES];
     let mut waiting = 0;
     let mut child = from;
     loop {
@@ -28,14 +29,14 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
             best = found.t[ray];
         } else {
             let node = &nodes[child.index()];
-            let mut enters = [t_min; W];
             let mut bits = 0;
             let mut slot = 0;
             while slot < W {
                 let [near, far] = sides.children(lanes, node, slot);
                 let [enter, leave] = slab.interval(lanes, near, far);
-                enters[slot / L::LANES] = enter.max(t_min);
-                bits |= child_bits::<L, W>(enters[slot / L::LANES].le(leave.min(lanes.splat(best))), slot);
+                let enter = enter.max(t_min);
+                bits |= child_bits::<L, W>(enter.le(leave.min(lanes.splat(best))), slot);
+                lanes.store_int(&mut keys[slot..], ordered(lanes, enter));
                 slot += L::LANES;
             }
             // Most often one child is met, or none.
@@ -44,62 +45,63 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                 continue;
             }
             if bits != 0 {
-                let mut keys = [0.0; MAX_LANES];
-                let mut slot = 0;
-                while slot < W {
-                    lanes.store(&mut keys[slot..], enters[slot / L::LANES]);
-                    slot += L::LANES;
-                }
-                // The nearer of the first two; the others wait, sorted in among themselves, the nearest on top.
+                // The nearest is next; the others wait, the nearest of them on top. Which of two is nearer cannot be
+                // foreseen, so entries are sorted without branches.
                 let one = entry(node, &keys, bits);
                 bits &= bits - 1;
                 let other = entry(node, &keys, bits);
                 bits &= bits - 1;
-                let (near, far) = if other.key < one.key { (other, one) } else { (one, other) };
-                prefetch(lanes, nodes, leaves, far.child);
+                let (mut next, far) = (one.min(other), one.max(other));
+                prefetch(lanes, nodes, leaves, far.child());
                 let floor = waiting;
                 stack[waiting] = far;
                 waiting += 1;
-                if bits == 0 {
-                    child = near.child;
-                    continue;
-                }
-                stack[waiting] = near;
-                waiting += 1;
                 while bits != 0 {
-                    let entry = entry(node, &keys, bits);
+                    let other = entry(node, &keys, bits);
                     bits &= bits - 1;
-                    prefetch(lanes, nodes, leaves, entry.child);
-                    let mut place = waiting;
-                    while place > floor && stack[place - 1].key < entry.key {
-                        stack[place] = stack[place - 1];
-                        place -= 1;
+                    prefetch(lanes, nodes, leaves, other.child());
+                    let mut far = next.max(other);
+                    next = next.min(other);
+                    let mut place = floor;
+                    while place < waiting {
+                        let below = stack[place];
+                        stack[place] = below.max(far);
+                        far = below.min(far);
+                        place += 1;
                     }
-                    stack[place] = entry;
+                    stack[waiting] = far;
                     waiting += 1;
                 }
-                waiting -= 1;
-                child = stack[waiting].child;
+                child = next.child();
                 continue;
             }
         }
         // A child that begins exactly at the best hit may still hold one that wins the tie.
+        let end = Entry::until(best);
         loop {
             if waiting == 0 {
                 return;
             }
             waiting -= 1;
-            if stack[waiting].key <= best {
-                child = stack[waiting].child;
+            if stack[waiting] <= end {
+                child = stack[waiting].child();
                 break;
             }
         }
     }
 }
 
+/// Numbers whose order as integers is that of the floats.
+#[inline(always)]
+fn ordered<L: Lanes>(lanes: L, x: L::F) -> L::I {
+    let bits = x.bits();
+    let negative = lanes.splat_int(0) - bits.shr::<31>();
+    bits ^ (negative & lanes.splat_int(i32::MAX))
+}
+
 /// The first child of `bits`.
 #[inline(always)]
-fn entry<const W: usize>(node: &Node<W>, keys: &[f32; MAX_LANES], bits: u32) -> Entry {
+fn entry<const W: usize>(node: &Node<W>, keys: &[i32; MAX_LANES], bits: u32) -> Entry {
     let slot = bits.trailing_zeros() as usize & (W - 1);
-    Entry { key: keys[slot], child: node.children[slot] }
+    Entry::new(keys[slot], node.children[slot])
 }

@@ -2,20 +2,39 @@
 
 use crate::bvh::Child;
 
-/// A child to be visited and where the nearest ray enters it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Entry {
-    pub key: f32,
-    pub child: Child,
+/// A child to be visited and where the ray enters it, in one integer so that the nearest is the least.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Entry(i64);
+
+impl Entry {
+    /// `key` is an integer in the order of the floats.
+    #[inline(always)]
+    pub fn new(key: i32, child: Child) -> Self {
+        Entry((key as i64) << 32 | child.bits() as i64)
+    }
+
+    /// Not below any entry of a child that is entered at `t` or before.
+    #[inline(always)]
+    pub fn until(t: f32) -> Self {
+        // Both zeros are one place.
+        let bits = (t + 0.0).to_bits() as i32;
+        let key = bits ^ (bits >> 31 & i32::MAX);
+        Entry((key as i64) << 32 | u32::MAX as i64)
+    }
+
+    #[inline(always)]
+    pub fn child(self) -> Child {
+        Child::from_bits(self.0 as u32)
+    }
 }
 
-/// A child of a node to be visited by the groups from `first` on; `key` is below where any ray enters it.
+/// A child of a node to be visited by some bundles, a bit each; `key` is below where any of their rays enters it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LargeEntry {
     pub key: f32,
     pub node: u32,
     pub slot: u32,
-    pub first: u32,
+    pub bundles: u32,
 }
 
 /// Room for one walk of each kind over a tree.
@@ -31,12 +50,12 @@ pub(crate) struct Stacks {
 impl Stacks {
     /// For trees that keep at most `depth` references waiting.
     pub fn new(depth: usize) -> Self {
-        let entry = Entry { key: 0.0, child: Child::node(0) };
+        let entry = Entry::new(0, Child::node(0));
         Stacks {
             single: vec![entry; depth],
             group: vec![Child::node(0); depth],
             enter: vec![[0.0; lobe_lane::MAX_LANES]; depth],
-            large: vec![LargeEntry { key: 0.0, node: 0, slot: 0, first: 0 }; depth],
+            large: vec![LargeEntry { key: 0.0, node: 0, slot: 0, bundles: 0 }; depth],
         }
     }
 }

@@ -1,0 +1,107 @@
+//! Several rays tested against boxes like one.
+
+use lobe_lane::{Floats, Lanes, Mask};
+
+use crate::block::{Block, first_ray};
+use crate::bvh::Node;
+use crate::slab::{Sides, child_bits, least_lane};
+
+/// A ray with two origins and two inverses that stands for rays of one octant which begin at `t >= 0`:
+/// `(plane - origin) * inverse` is `plane * slow + near` for a plane that rays meet first, `plane * fast + far` for one
+/// that they meet last.
+///
+/// A plane ahead of all origins is met no sooner than by a ray from the nearest of them with the inverse of smallest
+/// magnitude, and no later than by one from the farthest with the largest. A plane behind some origin gives a number
+/// below zero for the near planes, which says nothing where no ray begins below zero, and rightly ends the rays for the
+/// far planes.
+#[derive(Clone, Copy)]
+pub(crate) struct Edges<L: Lanes> {
+    pub slow: L::F,
+    pub near: L::F,
+    pub fast: L::F,
+    pub far: L::F,
+}
+
+impl<L: Lanes> Edges<L> {
+    /// Along one axis, from the least and the greatest origins and inverses. The rays' `pad` is taken twice, since this
+    /// test rounds differently from theirs.
+    #[inline(always)]
+    pub fn new(backward: bool, [low, high]: [L::F; 2], [least, greatest]: [L::F; 2], pad: L::F) -> Self {
+        let wide = pad + pad;
+        let [ahead, behind, slow, fast] = if backward {
+            [low - wide, high + wide, greatest, least]
+        } else {
+            [high + wide, low - wide, least, greatest]
+        };
+        Edges { slow, near: -(ahead * slow), fast, far: -(behind * fast) }
+    }
+}
+
+/// The hull of a group, in all lanes.
+#[derive(Clone, Copy)]
+pub(crate) struct Hull<L: Lanes> {
+    edges: [Edges<L>; 3],
+    /// Before it no ray begins, and behind it none looks.
+    t_min: L::F,
+    end: L::F,
+}
+
+impl<L: Lanes> Hull<L> {
+    /// Around the rays of `live`; `None` where a ray begins before zero, or where there is but one lane.
+    #[inline(always)]
+    pub fn around(lanes: L, rays: &Block, at: usize, octant: usize, live: L::M) -> Option<Self> {
+        let at = first_ray::<L>(at);
+        let t_min = lanes.load(&rays.t_min[at..]);
+        if L::LANES == 1 || (t_min.lt(lanes.splat(0.0)) & live).any() {
+            return None;
+        }
+        let [t_min, _] = ends(lanes, t_min, live);
+        let [_, pad] = ends(lanes, lanes.load(&rays.pad[at..]), live);
+        let zero = lanes.splat(0.0);
+        let mut edges = [Edges { slow: zero, near: zero, fast: zero, far: zero }; 3];
+        let mut axis = 0;
+        while axis < 3 {
+            let origins = ends(lanes, lanes.load(&rays.origin[axis][at..]), live);
+            let inverses = ends(lanes, lanes.load(&rays.inverse[axis][at..]), live);
+            edges[axis] = Edges::new(octant >> axis & 1 != 0, origins, inverses, pad);
+            axis += 1;
+        }
+        Some(Hull { edges, t_min, end: lanes.splat(f32::INFINITY) })
+    }
+
+    /// Learns where the rays of `live` end now.
+    #[inline(always)]
+    pub fn shorten(&mut self, lanes: L, ends_at: L::F, live: L::M) {
+        let [_, end] = ends(lanes, ends_at, live);
+        self.end = end;
+    }
+
+    /// The bits of the children of a node that a ray may meet.
+    #[inline(always)]
+    pub fn children<const W: usize>(&self, lanes: L, node: &Node<W>, sides: &Sides) -> u32 {
+        let mut bits = 0;
+        let mut slot = 0;
+        while slot < W {
+            let [near, far] = sides.children(lanes, node, slot);
+            let (mut enter, mut leave) = (self.t_min, self.end);
+            let mut axis = 0;
+            while axis < 3 {
+                let edges = &self.edges[axis];
+                enter = enter.max(lanes.mul_add(near[axis], edges.slow, edges.near));
+                leave = leave.min(lanes.mul_add(far[axis], edges.fast, edges.far));
+                axis += 1;
+            }
+            bits |= child_bits::<L, W>(enter.le(leave), slot);
+            slot += L::LANES;
+        }
+        bits
+    }
+}
+
+/// The least and the greatest of the lanes of `live`, in all lanes.
+#[inline(always)]
+fn ends<L: Lanes>(lanes: L, x: L::F, live: L::M) -> [L::F; 2] {
+    let low = lanes.select(live, x, lanes.splat(f32::INFINITY));
+    let high = lanes.select(live, -x, lanes.splat(f32::INFINITY));
+    [lanes.splat(least_lane(lanes, low)), lanes.splat(-least_lane(lanes, high))]
+}
