@@ -90,6 +90,7 @@ impl<const C: usize> Wave<'_, C> {
         let lights = &self.world.lights;
         // Each light of a round has numbers of its own.
         let set = Use::Light(depth + 64 * light.unwrap_or(0) as u32);
+        self.numbers.draw(self.backend, self.queue.sorted.iter().map(|vertex| vertex.sequence), set);
         for (material, range) in &self.queue.parts {
             if self.world.materials[*material].delta().is_some() {
                 continue;
@@ -97,7 +98,7 @@ impl<const C: usize> Wave<'_, C> {
             let begin = asked.len();
             for index in range.clone() {
                 let vertex = &self.queue.sorted[index];
-                let [u, x, y, _] = vertex.sequence.four(set);
+                let [x, y, u, _] = self.numbers.of(index);
                 let (light, chance) = match light {
                     Some(light) => (light, 1.0),
                     None => lights.choose(u).expect("a light"),
@@ -195,8 +196,9 @@ impl<const C: usize> Wave<'_, C> {
         let Direct { rays: shadow, carried, .. } = &mut self.direct;
         rays::clear(shadow);
         carried.clear();
-        for vertex in &self.found {
-            let [x, y, ..] = vertex.sequence.four(Use::Scatter(0));
+        self.numbers.draw(self.backend, self.found.iter().map(|vertex| vertex.sequence), Use::Scatter(0));
+        for (at, vertex) in self.found.iter().enumerate() {
+            let [x, y, ..] = self.numbers.of(at);
             let mut local = cosine_hemisphere([x, y]);
             if vertex.hit.wo[2] < 0.0 {
                 local[2] = -local[2];

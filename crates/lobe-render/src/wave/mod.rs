@@ -16,7 +16,7 @@ use crate::camera::View;
 use crate::film::{Film, Rect, Seen};
 use crate::integrator::Integrator;
 use crate::light::Light;
-use crate::random::{Sequence, Use};
+use crate::random::{Numbers, Sequence, Use};
 use crate::shader::{Backend, Scratch};
 use crate::stats::Stats;
 use crate::vec3::{Vec3, dot};
@@ -69,6 +69,7 @@ pub(crate) struct Wave<'w, const C: usize> {
     queue: Queue<C>,
     direct: Direct<C>,
     scattered: Scattered<C>,
+    numbers: Numbers,
     scratch: Scratch,
     pub stats: Stats,
 }
@@ -87,6 +88,7 @@ impl<'w, const C: usize> Wave<'w, C> {
             queue: Queue::default(),
             direct: Direct::default(),
             scattered: Scattered::default(),
+            numbers: Numbers::default(),
             scratch: Scratch::default(),
             stats: Stats::default(),
         }
@@ -118,14 +120,14 @@ impl<'w, const C: usize> Wave<'w, C> {
         self.carried.clear();
         self.batch.clear();
         for sample in samples {
-            for &pixel in pixels {
-                let sequence = Sequence::new(pixel, sample);
-                let (origin, direction) = self.view.ray(pixel, sequence.four(Use::Camera));
-                self.batch.rays.push(origin, direction, 0.0, f32::INFINITY);
-                let slot = self.slots.len() as u32;
-                self.carried.push(Carried { slot, throughput: [1.0; C], pdf: f32::INFINITY });
-                self.slots.push(Slot { pixel, sequence, seen: Seen::NOTHING });
-            }
+            let slot = |&pixel| Slot { pixel, sequence: Sequence::new(pixel, sample), seen: Seen::NOTHING };
+            self.slots.extend(pixels.iter().map(slot));
+        }
+        self.numbers.draw(self.backend, self.slots.iter().map(|slot| slot.sequence), Use::Camera);
+        for (at, slot) in self.slots.iter().enumerate() {
+            let (origin, direction) = self.view.ray(slot.pixel, self.numbers.of(at));
+            self.batch.rays.push(origin, direction, 0.0, f32::INFINITY);
+            self.carried.push(Carried { slot: at as u32, throughput: [1.0; C], pdf: f32::INFINITY });
         }
         self.stats.samples += self.slots.len() as u64;
     }
@@ -212,8 +214,9 @@ impl<'w, const C: usize> Wave<'w, C> {
 fn background<const C: usize>(world: &World<C>, direction: Vec3, pdf: f32) -> Option<[f32; C]> {
     let index = world.lights.environment?;
     let Light::Environment(environment) = &world.lights.all[index] else { return None };
-    let share = against(pdf, || world.lights.chance(index) * environment.pdf(direction));
-    Some(environment.radiance(direction).map(|x| x * share))
+    let (radiance, density) = environment.seen(direction);
+    let share = against(pdf, || world.lights.chance(index) * density);
+    Some(radiance.map(|x| x * share))
 }
 
 /// Radiance from a surface that shines, for a ray whose direction was drawn with that density.

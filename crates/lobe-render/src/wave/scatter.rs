@@ -34,11 +34,15 @@ impl<const C: usize> Wave<'_, C> {
     pub(super) fn scatter(&mut self, depth: u32) -> bool {
         self.carried.clear();
         self.batch.clear();
+        let begun = Instant::now();
+        let sequences = self.queue.sorted.iter().map(|vertex| vertex.sequence);
+        self.numbers.draw(self.backend, sequences, Use::Scatter(depth));
+        self.stats.scatter += begun.elapsed();
         let mut specular = true;
         for part in 0..self.queue.parts.len() {
             let material = self.queue.parts[part].0;
             match (self.world.materials[material].delta(), self.integrator) {
-                (Some(delta), _) => self.part_of_ways(part, delta, depth),
+                (Some(delta), _) => self.part_of_ways(part, delta),
                 (None, Integrator::Path { .. }) => {
                     specular = false;
                     self.draw(part, depth);
@@ -51,7 +55,7 @@ impl<const C: usize> Wave<'_, C> {
     }
 
     /// Rays along the exact directions of a smooth surface: one of them by chance, or all.
-    fn part_of_ways(&mut self, part: usize, delta: &Delta<C>, depth: u32) {
+    fn part_of_ways(&mut self, part: usize, delta: &Delta<C>) {
         let begun = Instant::now();
         for index in self.queue.parts[part].1.clone() {
             let vertex = self.queue.sorted[index];
@@ -69,7 +73,7 @@ impl<const C: usize> Wave<'_, C> {
                 continue;
             }
             let chance = a / (a + b);
-            let u = vertex.sequence.four(Use::Scatter(depth))[2];
+            let u = self.numbers.of(index)[2];
             let (way, chance) = match through {
                 Some(way) if u >= chance => (way, 1.0 - chance),
                 _ => (mirror, chance),
@@ -101,11 +105,11 @@ impl<const C: usize> Wave<'_, C> {
         let Scattered { wo, u, wi, weight, pdf } = &mut self.scattered;
         wo.clear();
         u.clear();
-        for vertex in &self.queue.sorted[range.clone()] {
-            let [a, b, ..] = vertex.sequence.four(Use::Scatter(depth));
-            wo.push(vertex.hit.wo);
-            u.push([a, b]);
-        }
+        wo.extend(self.queue.sorted[range.clone()].iter().map(|vertex| vertex.hit.wo));
+        u.extend(range.clone().map(|index| {
+            let [a, b, ..] = self.numbers.of(index);
+            [a, b]
+        }));
         wi.resize(wo.len(), [0.0; 3]);
         weight.resize(wo.len(), [0.0; C]);
         pdf.resize(wo.len(), 0.0);
@@ -122,6 +126,7 @@ impl<const C: usize> Wave<'_, C> {
         let begun = Instant::now();
         let Scattered { wi, weight, pdf, .. } = &self.scattered;
         let range = self.queue.parts[part].1.clone();
+        let first = range.start;
         for (i, vertex) in self.queue.sorted[range].iter().enumerate() {
             let mut throughput: [f32; C] = std::array::from_fn(|k| vertex.carried.throughput[k] * weight[i][k]);
             let most = throughput.iter().fold(0.0f32, |most, t| most.max(*t));
@@ -133,7 +138,7 @@ impl<const C: usize> Wave<'_, C> {
             }
             if depth >= ROULETTE {
                 let chance = most.min(0.95);
-                if vertex.sequence.four(Use::Light(depth))[3] >= chance {
+                if self.numbers.of(first + i)[3] >= chance {
                     continue;
                 }
                 throughput = throughput.map(|t| t / chance);
