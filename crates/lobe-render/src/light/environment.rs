@@ -140,7 +140,13 @@ impl<const C: usize> Environment<C> {
         let column = |offset: i32| {
             let column = first + offset;
             let width = self.width as i32;
-            (if column < 0 { column + width } else if column >= width { column - width } else { column }) as usize
+            (if column < 0 {
+                column + width
+            } else if column >= width {
+                column - width
+            } else {
+                column
+            }) as usize
         };
         let row = |offset: usize| (top as usize + offset).min(self.height - 1) * self.width;
         let corner = |dy: usize, dx: i32| &self.texels[row(dy) + column(dx)];
@@ -173,7 +179,7 @@ impl<const C: usize> Environment<C> {
         let (sin, cos) = sin_cos(0.5 * place.1);
         let (sin_phi, cos_phi) = sin_cos(place.0 + self.turn - 0.5);
         let wi = [sin * sin_phi, cos, -sin * cos_phi];
-        let pdf = self.density[row * self.width + column] / (TAU * PI * sin_of(wi));
+        let pdf = self.density[row * self.width + column] / (TAU * PI * sin.max(1e-6));
         let lit = Lit { wi, distance: f32::INFINITY, radiance: self.interpolated(place), pdf: Some(pdf) };
         (pdf > 0.0 && pdf.is_finite()).then_some(lit)
     }

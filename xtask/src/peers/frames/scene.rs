@@ -44,7 +44,7 @@ const RADIANCE: [f32; 3] = [17.0, 16.0, 14.0];
 /// Surfaces that a path may meet.
 const DEPTH: u32 = 5;
 /// Columns and rows of the sky.
-const SKY: [usize; 2] = [256, 128];
+const SKY: [usize; 2] = [128, 64];
 
 const CAMERA: Camera = Camera {
     position: [0.0, 1.9, 7.6],
