@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::Context;
-use lobe::Backend;
+use lobe::{Backend, Given, Options};
 use lobe_mesh::{Geometry, Group, Parts, generate, ply, shapes};
 use lobe_render::light::{Environment, Light};
-use lobe_render::shader::{Lambert, Shader};
+use lobe_render::shader::{self, Lambert, Shader};
 use lobe_render::{Camera, Filter, Integrator, Rect, Settings, Shape, World, WorldBuilder};
 use serde_json::{Value, json};
 
@@ -81,16 +81,17 @@ impl Room {
         Room { parts, surfaces: surfaces.into() }
     }
 
-    /// For this renderer. Measured materials are looked up by the viewer, as Mitsuba does.
+    /// For this renderer, with measured materials looked up by one of the directions.
     ///
     /// # Errors
     /// Where a file cannot be read.
-    pub fn world(&self, backend: Backend) -> anyhow::Result<World<3>> {
+    pub fn world(&self, known: Given, backend: Backend) -> anyhow::Result<World<3>> {
         let mut world = WorldBuilder::new();
         for surface in &self.surfaces {
             let shader: Arc<dyn Shader<3>> = match surface {
                 Surface::Diffuse(albedo) => Arc::new(Lambert { albedo: *albedo }),
-                Surface::Measured(file) => Arc::new(ByViewer::open(file, backend)?),
+                Surface::Measured(file) if known == Given::Viewer => Arc::new(ByViewer::open(file, backend)?),
+                Surface::Measured(file) => shader::open(file, &Options::default(), backend)?,
             };
             world.material(shader);
         }
@@ -161,7 +162,7 @@ pub fn settings(size: [u32; 2], samples: std::ops::Range<u32>, backend: Backend,
     Settings {
         camera: CAMERA,
         size,
-        window: Rect { x: 0, y: 0, width: size[0], height: size[1] },
+        window: whole(size),
         filter: Filter::Box,
         integrator: Integrator::Path { depth: DEPTH, limit: f32::INFINITY },
         samples,
@@ -169,6 +170,11 @@ pub fn settings(size: [u32; 2], samples: std::ops::Range<u32>, backend: Backend,
         threads,
         time: None,
     }
+}
+
+/// All pixels of a picture.
+pub fn whole([width, height]: [u32; 2]) -> Rect {
+    Rect { x: 0, y: 0, width, height }
 }
 
 /// A smooth sky with a wide glow that shines into the room. The height of a row is a share of the whole; `turn` is where
