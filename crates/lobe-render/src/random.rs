@@ -1,19 +1,20 @@
 //! The numbers that a path is made of.
 //!
 //! They depend on the pixel, the number of the sample and the dimension, and on nothing else: not on threads, tiles or
-//! machines. Within a pixel they are pairs of Owen-scrambled Sobol sequences, shuffled apart (Burley 2020, "Practical
-//! Hash-based Owen Scrambling"), two pairs at a time; pixels are scrambled apart. All of it is arithmetic on integers,
-//! which compilers bring into lanes.
+//! machines. Within a pixel they are an Owen-scrambled Sobol sequence (Burley 2020, "Practical Hash-based Owen
+//! Scrambling"), four dimensions at a time; pixels are scrambled apart. The bits are those of the crate `sobol_burley`,
+//! which computes the four dimensions of one sample at once; here many samples are, in lanes.
 
 use lobe::{Backend, Ints, Kernel, Lanes};
 use lobe_lane::MAX_LANES;
+use sobol_burley::parts;
 
 /// What a set of four dimensions is used for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Use {
     /// Place in the pixel (2), place on the lens (2).
     Camera,
-    /// Where on a light (2), which light; at the vertex of that depth.
+    /// Which light, where on it (2); at the vertex of that depth.
     Light(u32),
     /// The direction (2), which of several ways, whether the path goes on; at the vertex of that depth.
     Scatter(u32),
@@ -26,8 +27,10 @@ pub(crate) struct Sequence {
     seed: u32,
 }
 
-/// Points of a pixel have numbers of 16 bits; further samples begin another scrambling.
+/// Sobol points are numbered with 16 bits; further samples begin another scrambling.
 const POINTS: u32 = 1 << 16;
+/// How many sets of four dimensions the sequence has.
+const SETS: u32 = sobol_burley::NUM_DIMENSION_SETS_4D;
 
 impl Sequence {
     /// The sequence of a pixel's sample.
@@ -65,7 +68,14 @@ impl Numbers {
             Use::Light(depth) => 1 + 2 * depth,
             Use::Scatter(depth) => 2 + 2 * depth,
         };
-        backend.run(Drawing { index, seed, set: set.wrapping_mul(STEP) as i32, numbers });
+        // Beyond the last dimension the sequence begins again, scrambled otherwise.
+        if set >= SETS {
+            seed.iter_mut().for_each(|seed| *seed = hash(*seed as u32 ^ (set / SETS)) as i32);
+        }
+        let set = set % SETS;
+        let vector = |bit: usize, dimension| parts::sobol_rev(0x8000_0000 >> bit, 4 * set + dimension) as i32;
+        let vectors = std::array::from_fn(|bit| [0, 1, 2, 3].map(|dimension| vector(bit, dimension)));
+        backend.run(Drawing { index, seed, set: set as i32, vectors, numbers });
     }
 
     /// What was drawn for a sequence.
@@ -78,6 +88,8 @@ struct Drawing<'a> {
     index: &'a [i32],
     seed: &'a [i32],
     set: i32,
+    /// What each bit of the index, the lowest first, contributes to each dimension, the order of the bits reversed.
+    vectors: [[i32; 4]; 16],
     numbers: &'a mut [Vec<f32>; 4],
 }
 
@@ -86,42 +98,34 @@ impl Kernel for Drawing<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        let Drawing { index, seed, set, numbers } = self;
+        let Drawing { index, seed, set, vectors, numbers } = self;
         let mut at = 0;
         while at < index.len() {
-            let reversed = reverse(lanes, lanes.load_int(&index[at..]));
-            let seed = mixed(lanes, lanes.load_int(&seed[at..]) ^ lanes.splat_int(set));
-            let [a, b] = pair(lanes, reversed, seed);
-            let [c, d] = pair(lanes, reversed, mixed(lanes, seed));
-            let [first, second, third, fourth] = &mut *numbers;
-            lanes.store(&mut first[at..], a);
-            lanes.store(&mut second[at..], b);
-            lanes.store(&mut third[at..], c);
-            lanes.store(&mut fourth[at..], d);
+            let seed = lanes.load_int(&seed[at..]);
+            let index = reversed(lanes, lanes.load_int(&index[at..]));
+            let mut index = scrambled(lanes, index, mixed(lanes, seed ^ lanes.splat_int(0x79c6_8e4a)));
+            let mut sobol = [lanes.splat_int(0); 4];
+            for vector in &vectors {
+                let bit = lanes.splat_int(0) - index.shr::<31>();
+                for k in 0..4 {
+                    sobol[k] = sobol[k] ^ (lanes.splat_int(vector[k]) & bit);
+                }
+                index = index.shl::<1>();
+            }
+            let seed = (seed * lanes.splat_int(0x9c8f_2d3b_u32 as i32)) ^ lanes.splat_int(set);
+            for k in 0..4 {
+                let scramble = mixed(lanes, seed ^ lanes.splat_int(SCRAMBLES[k] as i32));
+                let bits = reversed(lanes, scrambled(lanes, sobol[k], scramble));
+                let above = (bits.shr::<9>() | lanes.splat_int(0x3f80_0000)).as_float();
+                lanes.store(&mut numbers[k][at..], above - lanes.splat(1.0));
+            }
             at += L::LANES;
         }
     }
 }
 
-/// A point of the first two dimensions of Sobol's sequence, shuffled and scrambled; the bits of its number come reversed.
-#[inline(always)]
-fn pair<L: Lanes>(lanes: L, reversed: L::I, seed: L::I) -> [L::F; 2] {
-    let index = reverse(lanes, scrambled(lanes, reversed, seed));
-    // The bits of the second dimension from the lowest place up: the polynomial of the index at x + 1, modulo 2.
-    let mut second = index;
-    second = second ^ (second.shr::<16>() & lanes.splat_int(0x0000_ffff));
-    second = second ^ (second.shr::<8>() & lanes.splat_int(0x00ff_00ff));
-    second = second ^ (second.shr::<4>() & lanes.splat_int(0x0f0f_0f0f));
-    second = second ^ (second.shr::<2>() & lanes.splat_int(0x3333_3333));
-    second = second ^ (second.shr::<1>() & lanes.splat_int(0x5555_5555));
-    let [a, b] = [index, second];
-    let seed = mixed(lanes, seed ^ lanes.splat_int(STEP as i32));
-    let a = scrambled(lanes, a, seed);
-    let b = scrambled(lanes, b, mixed(lanes, seed));
-    // 24 bits are what a float holds.
-    let unit = lanes.splat(1.0 / 16_777_216.0);
-    [reverse(lanes, a).shr::<8>().to_float() * unit, reverse(lanes, b).shr::<8>().to_float() * unit]
-}
+/// What tells the four dimensions of a set apart.
+const SCRAMBLES: [u32; 4] = [0x912f_69ba, 0x174f_18ab, 0x691e_72ca, 0xb40c_c1b8];
 
 /// Owen's scrambling of numbers whose bits are in reverse order: the hash of Vegdahl 2021 ("Building a Better LK Hash"),
 /// in which each bit depends on those below it.
@@ -135,7 +139,7 @@ fn scrambled<L: Lanes>(lanes: L, x: L::I, seed: L::I) -> L::I {
 
 /// The order of the bits, reversed.
 #[inline(always)]
-fn reverse<L: Lanes>(lanes: L, x: L::I) -> L::I {
+fn reversed<L: Lanes>(lanes: L, x: L::I) -> L::I {
     let x = (x.shr::<1>() & lanes.splat_int(0x5555_5555)) | (x & lanes.splat_int(0x5555_5555)).shl::<1>();
     let x = (x.shr::<2>() & lanes.splat_int(0x3333_3333)) | (x & lanes.splat_int(0x3333_3333)).shl::<2>();
     let x = (x.shr::<4>() & lanes.splat_int(0x0f0f_0f0f)) | (x & lanes.splat_int(0x0f0f_0f0f)).shl::<4>();
@@ -143,25 +147,20 @@ fn reverse<L: Lanes>(lanes: L, x: L::I) -> L::I {
     x.shr::<16>() | x.shl::<16>()
 }
 
-/// From one seed to the next: the fraction of the golden ratio.
-const STEP: u32 = 0x9e37_79b9;
-/// Factors of the `lowbias32` mix of C. Wellons ("Prospecting for Hash Functions", 2018).
-const FACTORS: [u32; 2] = [0x7feb_352d, 0x846c_a68b];
-
-/// [`hash`] in lanes.
+/// [`parts::hash`] in lanes: the `lowbias32` mix of C. Wellons ("Prospecting for Hash Functions", 2018).
 #[inline(always)]
 fn mixed<L: Lanes>(lanes: L, x: L::I) -> L::I {
-    let [first, second] = FACTORS.map(|factor| lanes.splat_int(factor as i32));
-    let x = x + lanes.splat_int(STEP as i32);
-    let x = (x ^ x.shr::<16>()) * first;
-    let x = (x ^ x.shr::<15>()) * second;
+    let x = x ^ lanes.splat_int(0xe6fe_3beb_u32 as i32);
+    let x = (x ^ x.shr::<16>()) * lanes.splat_int(0x7feb_352d);
+    let x = (x ^ x.shr::<15>()) * lanes.splat_int(0x846c_a68b_u32 as i32);
     x ^ x.shr::<16>()
 }
 
+/// The same mix of a number that is moved first, which sets seeds of pixels apart from what is done with them.
 fn hash(mut x: u32) -> u32 {
-    x = x.wrapping_add(STEP);
-    x = (x ^ (x >> 16)).wrapping_mul(FACTORS[0]);
-    x = (x ^ (x >> 15)).wrapping_mul(FACTORS[1]);
+    x = x.wrapping_add(0x9e37_79b9);
+    x = (x ^ (x >> 16)).wrapping_mul(0x7feb_352d);
+    x = (x ^ (x >> 15)).wrapping_mul(0x846c_a68b);
     x ^ (x >> 16)
 }
 
@@ -176,44 +175,34 @@ mod tests {
     }
 
     #[test]
-    fn numbers_differ_by_pixel_sample_and_dimension() {
+    fn numbers_are_stratified_and_differ_by_pixel_sample_and_dimension() {
         let of = |pixel, sample, set| drawn("scalar", &[Sequence::new(pixel, sample)], set)[0];
+        let mut strata = [0; 16];
+        for sample in 0..16 {
+            strata[(of([3, 5], sample, Use::Scatter(2))[0] * 16.0) as usize] += 1;
+        }
+        assert_eq!(strata, [1; 16]);
         let one = of([3, 5], 7, Use::Light(1));
         for other in [
             of([5, 3], 7, Use::Light(1)),
             of([3, 5], 8, Use::Light(1)),
             of([3, 5], 7 + POINTS, Use::Light(1)),
             of([3, 5], 7, Use::Light(2)),
-            of([3, 5], 7, Use::Scatter(1)),
+            of([3, 5], 7, Use::Light(1 + SETS / 2)),
         ] {
-            assert!((0..4).all(|k| one[k] != other[k]));
+            assert_ne!(one, other);
         }
     }
 
-    /// Each of the rectangles of area 1/64 with sides that are powers of 2 has one of 64 points.
     #[test]
-    fn pairs_are_stratified_together() {
-        for pixel in 0..20 {
-            let sequences: Vec<_> = (0..64).map(|sample| Sequence::new([pixel, 9], sample)).collect();
-            let points = drawn("scalar", &sequences, Use::Light(3));
-            for (first, k) in [0, 2].into_iter().flat_map(|first| (0..=6).map(move |k| (first, k))) {
-                let (columns, rows) = (1 << k, 64 >> k);
-                let mut found = [0; 64];
-                for point in &points {
-                    let [x, y] = [point[first] * columns as f32, point[first + 1] * rows as f32];
-                    found[y as usize * columns + x as usize] += 1;
-                }
-                assert_eq!(found, [1; 64], "pixel {pixel}, {columns} x {rows}");
+    fn lanes_draw_what_the_crate_draws() {
+        let sequences: Vec<_> = (0..19).map(|i| Sequence::new([i, 3 * i], 3456 * i)).collect();
+        for (of, set) in [(Use::Camera, 0), (Use::Scatter(1), 4), (Use::Light(30), 61)] {
+            let expected = |s: &Sequence| sobol_burley::sample_4d(s.index, set, s.seed);
+            let expected: Vec<_> = sequences.iter().map(expected).collect();
+            for backend in Backend::available() {
+                assert_eq!(drawn(backend.name(), &sequences, of), expected, "{}, {of:?}", backend.name());
             }
-        }
-    }
-
-    #[test]
-    fn numbers_are_those_of_every_backend() {
-        let sequences: Vec<_> = (0..19).map(|i| Sequence::new([i, 3 * i], 100 * i)).collect();
-        let expected = drawn("scalar", &sequences, Use::Scatter(1));
-        for backend in Backend::available() {
-            assert_eq!(drawn(backend.name(), &sequences, Use::Scatter(1)), expected, "{}", backend.name());
         }
     }
 }

@@ -99,7 +99,7 @@ impl<const C: usize> Wave<'_, C> {
             for index in range.clone() {
                 let number = self.queue.order[index];
                 let hit = &self.hits[number as usize];
-                let [x, y, u, _] = self.numbers.of(index);
+                let [u, x, y, _] = self.numbers.of(index);
                 let (light, chance) = match light {
                     Some(light) => (light, 1.0),
                     None => lights.choose(u).expect("a light"),
