@@ -255,7 +255,7 @@ mod tests {
     #[test]
     fn sums_are_of_what_a_number_is() {
         let unit = Pixel::<1>::RADIANCE;
-        for value in [0.0, 1.0, -1.0, 0.1, 1e-30, 3e-20, -7.3e-19, 5.4210109e-20, 1e-44, 1234.567, 1_073_741_824.0] {
+        for value in [0.0, 1.0, -1.0, 0.1, 1e-30, 3e-20, -7.3e-19, 5.421_011e-20, 1e-44, 1234.567, 1_073_741_824.0] {
             assert_eq!(fixed(value), (f64::from(value) / unit) as i128, "{value}");
             assert_eq!(fixed(-value), (f64::from(-value) / unit) as i128, "-{value}");
         }

@@ -122,11 +122,9 @@ impl<const C: usize> Kernel for Meeting<'_, C> {
             for (lane, ray) in which.iter().enumerate() {
                 let ray = *ray as usize;
                 let [a, b, c, part] = world.triangles[found.primitive[ray] as usize];
-                let indices = [a, b, c];
-                for corner in 0..3 {
-                    let values = world.corners[indices[corner] as usize].0;
-                    for k in 0..10 {
-                        known.corners[corner][k][lane] = values[k];
+                for (corner, index) in [a, b, c].into_iter().enumerate() {
+                    for (k, value) in world.corners[index as usize].0.into_iter().enumerate() {
+                        known.corners[corner][k][lane] = value;
                     }
                 }
                 for k in 0..3 {
