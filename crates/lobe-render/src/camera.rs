@@ -74,6 +74,8 @@ impl View {
         let across = cross(forward, up);
         let right = unit(across).filter(|_| length(across) > 1e-4).ok_or(CameraError::Up)?;
         let top = cross(right, forward);
+        // All is sharp for a pinhole.
+        let pinhole = camera.lens_radius == 0.0;
         let tangent = libm::tanf(0.5 * camera.field_of_view);
         let aspect = width as f32 / height as f32;
         Ok(View {
@@ -82,7 +84,7 @@ impl View {
             right: scale(right, tangent * aspect),
             top: scale(top, tangent),
             lens: [scale(right, camera.lens_radius), scale(top, camera.lens_radius)],
-            focus: camera.focus_distance.unwrap_or_else(|| length(toward)),
+            focus: if pinhole { f32::INFINITY } else { camera.focus_distance.unwrap_or_else(|| length(toward)) },
             size: [width as f32, height as f32],
             filter,
         })
@@ -93,6 +95,9 @@ impl View {
         let place = |pixel: u32, u: f32, size: f32| 2.0 * ((pixel as f32 + 0.5 + self.filter.offset(u)) / size) - 1.0;
         let (px, py) = (place(x, u[0], self.size[0]), -place(y, u[1], self.size[1]));
         let through = add(self.forward, add(scale(self.right, px), scale(self.top, py)));
+        if self.focus == f32::INFINITY {
+            return (self.position, unit(through).unwrap_or(self.forward));
+        }
         let [lx, ly] = disk([u[2], u[3]]);
         let aside = add(scale(self.lens[0], lx), scale(self.lens[1], ly));
         let direction = sub(scale(through, self.focus), aside);

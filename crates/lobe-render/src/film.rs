@@ -104,7 +104,7 @@ impl<const C: usize> Pixel<C> {
         if finite {
             for (sum, value) in self.radiance.iter_mut().zip(seen.radiance) {
                 let value = value.clamp(-Self::BRIGHTEST, Self::BRIGHTEST);
-                *sum += (f64::from(value) / Self::RADIANCE) as i128;
+                *sum += fixed(value);
             }
         }
         let surface = |value: f32| (f64::from(value.clamp(-1.0, 1.0)) / Self::SURFACE) as i64;
@@ -154,6 +154,21 @@ impl<const C: usize> Pixel<C> {
     fn mean(&self, sum: f64) -> f32 {
         if self.samples == 0 { 0.0 } else { (sum / f64::from(self.samples)) as f32 }
     }
+}
+
+/// A finite number in units of `2^-64`, what is left over cut off.
+fn fixed(value: f32) -> i128 {
+    let bits = value.to_bits();
+    let exponent = (bits >> 23 & 0xff) as i32;
+    // Below the smallest normal number there is nothing to be seen.
+    if exponent == 0 {
+        return 0;
+    }
+    let mantissa = i128::from(bits & 0x7f_ffff | 0x80_0000);
+    // The mantissa is in units of 2^(exponent - 150).
+    let shift = exponent - 150 + 64;
+    let size = if shift >= 0 { mantissa << shift } else { mantissa >> (-shift).min(127) };
+    if value < 0.0 { -size } else { size }
 }
 
 /// The pixels of a window of a picture.
@@ -235,6 +250,15 @@ mod tests {
         assert_eq!(forward, merged);
         let mean = samples.iter().map(|seen| f64::from(seen.radiance[0])).sum::<f64>() / 200.0;
         assert!((f64::from(forward.mean_radiance()[0]) - mean).abs() < 1e-7 * mean);
+    }
+
+    #[test]
+    fn sums_are_of_what_a_number_is() {
+        let unit = Pixel::<1>::RADIANCE;
+        for value in [0.0, 1.0, -1.0, 0.1, 1e-30, 3e-20, -7.3e-19, 5.421_011e-20, 1e-44, 1234.567, 1_073_741_824.0] {
+            assert_eq!(fixed(value), (f64::from(value) / unit) as i128, "{value}");
+            assert_eq!(fixed(-value), (f64::from(-value) / unit) as i128, "-{value}");
+        }
     }
 
     #[test]

@@ -17,6 +17,7 @@
 
 mod camera;
 mod film;
+mod hit;
 mod integrator;
 pub mod light;
 mod merge;

@@ -2,16 +2,21 @@
 //!
 //! They depend on the pixel, the number of the sample and the dimension, and on nothing else: not on threads, tiles or
 //! machines. Within a pixel they are an Owen-scrambled Sobol sequence (Burley 2020, "Practical Hash-based Owen
-//! Scrambling"), four dimensions at a time; pixels are scrambled apart.
+//! Scrambling"), four dimensions at a time; pixels are scrambled apart. The bits are those of the crate `sobol_burley`,
+//! which computes the four dimensions of one sample at once; here many samples are, in lanes.
+
+use lobe::{Backend, Ints, Kernel, Lanes};
+use lobe_lane::MAX_LANES;
+use sobol_burley::parts;
 
 /// What a set of four dimensions is used for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Use {
     /// Place in the pixel (2), place on the lens (2).
     Camera,
-    /// Which light, where on it (2), whether the path goes on; at the vertex of that depth.
+    /// Which light, where on it (2); at the vertex of that depth.
     Light(u32),
-    /// The direction (2), which of several ways; at the vertex of that depth.
+    /// The direction (2), which of several ways, whether the path goes on; at the vertex of that depth.
     Scatter(u32),
 }
 
@@ -33,21 +38,125 @@ impl Sequence {
         let seed = hash(x ^ hash(y ^ hash(sample / POINTS)));
         Sequence { index: sample % POINTS, seed }
     }
+}
 
-    /// Four numbers in `[0, 1)`.
-    pub fn four(self, of: Use) -> [f32; 4] {
+/// Numbers in `[0, 1)` of many sequences, four for each.
+#[derive(Debug, Default)]
+pub(crate) struct Numbers {
+    /// Longer than there are sequences, so that all lanes are in the columns.
+    index: Vec<i32>,
+    seed: Vec<i32>,
+    numbers: [Vec<f32>; 4],
+}
+
+impl Numbers {
+    /// Draws for each of the sequences.
+    pub fn draw(&mut self, backend: Backend, sequences: impl Iterator<Item = Sequence>, of: Use) {
+        let Numbers { index, seed, numbers } = self;
+        index.clear();
+        seed.clear();
+        for sequence in sequences {
+            index.push(sequence.index as i32);
+            seed.push(sequence.seed as i32);
+        }
+        let n = index.len().next_multiple_of(MAX_LANES);
+        index.resize(n, 0);
+        seed.resize(n, 0);
+        numbers.iter_mut().for_each(|column| column.resize(n, 0.0));
         let set = match of {
             Use::Camera => 0,
             Use::Light(depth) => 1 + 2 * depth,
             Use::Scatter(depth) => 2 + 2 * depth,
         };
         // Beyond the last dimension the sequence begins again, scrambled otherwise.
-        let seed = if set < SETS { self.seed } else { hash(self.seed ^ (set / SETS)) };
-        sobol_burley::sample_4d(self.index, set % SETS, seed)
+        if set >= SETS {
+            seed.iter_mut().for_each(|seed| *seed = hash(*seed as u32 ^ (set / SETS)) as i32);
+        }
+        let set = set % SETS;
+        let vector = |bit: usize, dimension| parts::sobol_rev(0x8000_0000 >> bit, 4 * set + dimension) as i32;
+        let vectors = std::array::from_fn(|bit| [0, 1, 2, 3].map(|dimension| vector(bit, dimension)));
+        backend.run(Drawing { index, seed, set: set as i32, vectors, numbers });
+    }
+
+    /// What was drawn for a sequence.
+    pub fn of(&self, sequence: usize) -> [f32; 4] {
+        self.numbers.each_ref().map(|column| column[sequence])
     }
 }
 
-/// The `lowbias32` mix of C. Wellons ("Prospecting for Hash Functions", 2018).
+struct Drawing<'a> {
+    index: &'a [i32],
+    seed: &'a [i32],
+    set: i32,
+    /// What each bit of the index, the lowest first, contributes to each dimension, the order of the bits reversed.
+    vectors: [[i32; 4]; 16],
+    numbers: &'a mut [Vec<f32>; 4],
+}
+
+impl Kernel for Drawing<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Drawing { index, seed, set, vectors, numbers } = self;
+        let mut at = 0;
+        while at < index.len() {
+            let seed = lanes.load_int(&seed[at..]);
+            let index = reversed(lanes, lanes.load_int(&index[at..]));
+            let mut index = scrambled(lanes, index, mixed(lanes, seed ^ lanes.splat_int(0x79c6_8e4a)));
+            let mut sobol = [lanes.splat_int(0); 4];
+            for vector in &vectors {
+                let bit = lanes.splat_int(0) - index.shr::<31>();
+                for k in 0..4 {
+                    sobol[k] = sobol[k] ^ (lanes.splat_int(vector[k]) & bit);
+                }
+                index = index.shl::<1>();
+            }
+            let seed = (seed * lanes.splat_int(0x9c8f_2d3b_u32 as i32)) ^ lanes.splat_int(set);
+            for k in 0..4 {
+                let scramble = mixed(lanes, seed ^ lanes.splat_int(SCRAMBLES[k] as i32));
+                let bits = reversed(lanes, scrambled(lanes, sobol[k], scramble));
+                let above = (bits.shr::<9>() | lanes.splat_int(0x3f80_0000)).as_float();
+                lanes.store(&mut numbers[k][at..], above - lanes.splat(1.0));
+            }
+            at += L::LANES;
+        }
+    }
+}
+
+/// What tells the four dimensions of a set apart.
+const SCRAMBLES: [u32; 4] = [0x912f_69ba, 0x174f_18ab, 0x691e_72ca, 0xb40c_c1b8];
+
+/// Owen's scrambling of numbers whose bits are in reverse order: the hash of Vegdahl 2021 ("Building a Better LK Hash"),
+/// in which each bit depends on those below it.
+#[inline(always)]
+fn scrambled<L: Lanes>(lanes: L, x: L::I, seed: L::I) -> L::I {
+    let x = x ^ (x * lanes.splat_int(0x3d20_adea));
+    let x = (x + seed) * (seed.shr::<16>() | lanes.splat_int(1));
+    let x = x ^ (x * lanes.splat_int(0x0552_6c56));
+    x ^ (x * lanes.splat_int(0x53a2_2864))
+}
+
+/// The order of the bits, reversed.
+#[inline(always)]
+fn reversed<L: Lanes>(lanes: L, x: L::I) -> L::I {
+    let x = (x.shr::<1>() & lanes.splat_int(0x5555_5555)) | (x & lanes.splat_int(0x5555_5555)).shl::<1>();
+    let x = (x.shr::<2>() & lanes.splat_int(0x3333_3333)) | (x & lanes.splat_int(0x3333_3333)).shl::<2>();
+    let x = (x.shr::<4>() & lanes.splat_int(0x0f0f_0f0f)) | (x & lanes.splat_int(0x0f0f_0f0f)).shl::<4>();
+    let x = (x.shr::<8>() & lanes.splat_int(0x00ff_00ff)) | (x & lanes.splat_int(0x00ff_00ff)).shl::<8>();
+    x.shr::<16>() | x.shl::<16>()
+}
+
+/// [`parts::hash`] in lanes: the `lowbias32` mix of C. Wellons ("Prospecting for Hash Functions", 2018).
+#[inline(always)]
+fn mixed<L: Lanes>(lanes: L, x: L::I) -> L::I {
+    let x = x ^ lanes.splat_int(0xe6fe_3beb_u32 as i32);
+    let x = (x ^ x.shr::<16>()) * lanes.splat_int(0x7feb_352d);
+    let x = (x ^ x.shr::<15>()) * lanes.splat_int(0x846c_a68b_u32 as i32);
+    x ^ x.shr::<16>()
+}
+
+/// The same mix of a number that is moved first, which sets seeds of pixels apart from what is done with them.
 fn hash(mut x: u32) -> u32 {
     x = x.wrapping_add(0x9e37_79b9);
     x = (x ^ (x >> 16)).wrapping_mul(0x7feb_352d);
@@ -59,9 +168,15 @@ fn hash(mut x: u32) -> u32 {
 mod tests {
     use super::*;
 
+    fn drawn(backend: &str, sequences: &[Sequence], of: Use) -> Vec<[f32; 4]> {
+        let mut numbers = Numbers::default();
+        numbers.draw(Backend::named(backend).unwrap(), sequences.iter().copied(), of);
+        (0..sequences.len()).map(|at| numbers.of(at)).collect()
+    }
+
     #[test]
     fn numbers_are_stratified_and_differ_by_pixel_sample_and_dimension() {
-        let of = |pixel, sample, set| Sequence::new(pixel, sample).four(set);
+        let of = |pixel, sample, set| drawn("scalar", &[Sequence::new(pixel, sample)], set)[0];
         let mut strata = [0; 16];
         for sample in 0..16 {
             strata[(of([3, 5], sample, Use::Scatter(2))[0] * 16.0) as usize] += 1;
@@ -76,6 +191,18 @@ mod tests {
             of([3, 5], 7, Use::Light(1 + SETS / 2)),
         ] {
             assert_ne!(one, other);
+        }
+    }
+
+    #[test]
+    fn lanes_draw_what_the_crate_draws() {
+        let sequences: Vec<_> = (0..19).map(|i| Sequence::new([i, 3 * i], 3456 * i)).collect();
+        for (of, set) in [(Use::Camera, 0), (Use::Scatter(1), 4), (Use::Light(30), 61)] {
+            let expected = |s: &Sequence| sobol_burley::sample_4d(s.index, set, s.seed);
+            let expected: Vec<_> = sequences.iter().map(expected).collect();
+            for backend in Backend::available() {
+                assert_eq!(drawn(backend.name(), &sequences, of), expected, "{}, {of:?}", backend.name());
+            }
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::film::{Film, Rect};
 use crate::integrator::Integrator;
 use crate::shader::Backend;
 use crate::stats::Stats;
-use crate::wave::Wave;
+use crate::wave::{PATHS, Wave};
 use crate::world::World;
 
 /// What to render and how.
@@ -64,7 +64,7 @@ pub enum RenderError {
     Uneven,
 }
 
-/// Tiles are squares of this many pixels a side: one sample of a tile is one wave.
+/// Tiles are squares of this many pixels a side; a few samples of one are a wave.
 const TILE: u32 = 64;
 
 /// How far a rendering is.
@@ -147,7 +147,9 @@ pub fn render<const C: usize>(
     }
     let view = View::new(&settings.camera, size, settings.filter)?;
     let tiles = tiles(&film, &samples)?;
-    let jobs = Jobs::new(&tiles, samples.clone());
+    // Where time is short, every pixel gets its first sample soon; else waves are as large as they can be.
+    let first = if settings.time.is_some() { 1 } else { (PATHS as u32).div_ceil(TILE * TILE) };
+    let jobs = Jobs::new(&tiles, samples.clone(), first);
     let begun = Instant::now();
     let total = window.area() as u64 * u64::from(samples.end.saturating_sub(samples.start));
     let left: u64 = tiles.iter().map(|t| t.rect.area() as u64 * u64::from(samples.end.saturating_sub(t.next))).sum();
@@ -244,9 +246,10 @@ struct Jobs {
 }
 
 impl Jobs {
-    fn new<const C: usize>(tiles: &[Tile<C>], samples: Range<u32>) -> Self {
+    /// With so many samples in the first pass.
+    fn new<const C: usize>(tiles: &[Tile<C>], samples: Range<u32>, first: u32) -> Self {
         let mut passes = Vec::new();
-        let (mut end, mut size) = (samples.start, 1);
+        let (mut end, mut size) = (samples.start, first);
         while end < samples.end {
             end = samples.end.min(end.saturating_add(size));
             passes.push(end);

@@ -6,7 +6,7 @@ use lobe_trace::{Mesh, MeshError, Scene};
 
 use crate::light::{AreaLight, Light, Lights};
 use crate::shader::Shader;
-use crate::vec3::{Vec3, add, cross, dot, length, neg, perpendicular, scale, sub, unit};
+use crate::vec3::{length, sub};
 
 /// A mesh of one material.
 ///
@@ -77,12 +77,18 @@ pub struct WorldBuilder<const C: usize> {
 
 /// Triangles of one material, in the order of the mesh.
 #[derive(Clone, Copy, Debug)]
-struct Part {
+pub(crate) struct Part {
     /// One past its last triangle.
     end: u32,
-    material: u32,
-    light: Option<u32>,
+    pub material: u32,
+    pub light: Option<u32>,
+    /// 1 where light may pass through, else 0.
+    pub transmits: f32,
 }
+
+/// A vertex: its position, its normal and its tangent.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Corner(pub [f32; 10]);
 
 impl<const C: usize> WorldBuilder<C> {
     /// Nothing.
@@ -143,7 +149,8 @@ impl<const C: usize> WorldBuilder<C> {
         whole.normals.extend(&shape.normals);
         whole.tangents.extend(&shape.tangents);
         whole.triangles.extend(shape.triangles.iter().map(|corners| corners.map(|index| index + first as u32)));
-        self.parts.push(Part { end: end as u32, material: material as u32, light });
+        let transmits = f32::from(u8::from(self.materials[material].transmits()));
+        self.parts.push(Part { end: end as u32, material: material as u32, light, transmits });
         Ok(())
     }
 
@@ -153,12 +160,25 @@ impl<const C: usize> WorldBuilder<C> {
     /// Where there are more triangles than can be numbered.
     pub fn build(self) -> Result<World<C>, WorldError> {
         let Shape { positions, normals, tangents, triangles } = self.shape;
+        let vertices = positions.iter().zip(&normals).zip(&tangents);
+        let corners =
+            vertices.map(|(([x, y, z], [a, b, c]), [t, u, v, w])| Corner([*x, *y, *z, *a, *b, *c, *t, *u, *v, *w]));
+        let corners = corners.collect();
+        let mut part = 0;
+        let with_part = triangles.iter().enumerate().map(|(number, [a, b, c])| {
+            while self.parts[part].end as usize <= number {
+                part += 1;
+            }
+            [*a, *b, *c, part as u32]
+        });
+        let with_parts = with_part.collect();
         let scene: Scene = Scene::of_mesh(Mesh::new(positions, triangles)?);
         let bounds = scene.bounds();
         let diagonal = sub(bounds.upper, bounds.lower);
         let radius = if diagonal.iter().all(|d| *d >= 0.0) { 0.5 * f64::from(length(diagonal)) } else { 1.0 };
         let lights = Lights::new(self.lights, radius);
-        Ok(World { scene, normals, tangents, parts: self.parts, materials: self.materials, lights })
+        let (parts, materials) = (self.parts, self.materials);
+        Ok(World { scene, corners, triangles: with_parts, parts, materials, lights })
     }
 }
 
@@ -171,126 +191,18 @@ fn finite<const N: usize>(attribute: &'static str, values: &[[f32; N]]) -> Resul
 #[derive(Debug)]
 pub struct World<const C: usize> {
     pub(crate) scene: Scene,
-    normals: Vec<Vec3>,
-    tangents: Vec<[f32; 4]>,
-    parts: Vec<Part>,
+    /// What is known of each vertex, side by side: the cache brings it together.
+    pub(crate) corners: Vec<Corner>,
+    /// For each triangle its corners and the part that it belongs to.
+    pub(crate) triangles: Vec<[u32; 4]>,
+    pub(crate) parts: Vec<Part>,
     pub(crate) materials: Vec<Arc<dyn Shader<C>>>,
     pub(crate) lights: Lights<C>,
 }
-
-/// A place on a surface that a ray has hit.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Hit {
-    pub position: Vec3,
-    /// Where shadow rays begin: `position`, moved out of the facets that hide a smooth surface from itself.
-    pub lifted: Vec3,
-    /// Normal of the triangle, unit length, on the side of the shading normal.
-    pub geometric: Vec3,
-    /// Whether the ray met the side that the corners are counterclockwise from.
-    pub front: bool,
-    /// How far off the surface rays begin.
-    step: f32,
-    /// The frame of the material: x along the tangent, z along the shading normal.
-    pub frame: [Vec3; 3],
-    /// Back along the ray, in the frame.
-    pub wo: Vec3,
-    pub material: u32,
-    pub light: Option<u32>,
-}
-
-impl Hit {
-    /// A direction of the world in the frame.
-    pub fn local(&self, world: Vec3) -> Vec3 {
-        self.frame.map(|axis| dot(axis, world))
-    }
-
-    /// A direction of the frame in the world.
-    pub fn world(&self, local: Vec3) -> Vec3 {
-        let [t, b, n] = self.frame;
-        add(add(scale(t, local[0]), scale(b, local[1])), scale(n, local[2]))
-    }
-
-    /// Whether the direction is on the same side of the facet as of the smooth surface. Where it is not, light would
-    /// leak through the surface.
-    pub fn sees(&self, world: Vec3, local: Vec3) -> bool {
-        (dot(self.geometric, world) > 0.0) == (local[2] > 0.0)
-    }
-
-    /// A ray's origin at this place, off the surface on the side that `direction` leads to.
-    pub fn leave(&self, from: Vec3, direction: Vec3) -> Vec3 {
-        let step = if dot(self.geometric, direction) < 0.0 { -self.step } else { self.step };
-        add(from, scale(self.geometric, step))
-    }
-}
-
-/// How far `wo` stays above the smooth surface, at least: the sine of the angle.
-const GRAZING: f32 = 1e-3;
 
 impl<const C: usize> World<C> {
     /// How many triangles there are.
     pub fn triangles(&self) -> usize {
         self.parts.last().map_or(0, |part| part.end as usize)
     }
-
-    /// The place that a ray along the unit vector `direction` has hit.
-    pub(crate) fn hit(&self, primitive: i32, [u, v]: [f32; 2], direction: Vec3) -> Hit {
-        let triangle = primitive as u32;
-        let part = self.parts[self.parts.partition_point(|part| part.end <= triangle)];
-        let mesh = self.scene.mesh_of(0);
-        let corners = mesh.triangles()[triangle as usize].map(|index| index as usize);
-        let [a, b, c] = mesh.corners(triangle as usize);
-        // A hundred units in the last place or so of the largest coordinate of the triangle: what finding the place, and
-        // meeting the triangle again, lose.
-        let reach = [a, b, c].as_flattened().iter().fold(0.0f32, |reach, x| reach.max(x.abs()));
-        let step = (reach / 65_536.0).max(1e-9);
-        let (ab, ac) = (sub(b, a), sub(c, a));
-        let position = add(a, add(scale(ab, u), scale(ac, v)));
-        let toward = neg(direction);
-        // A triangle that was hit has an area; still, it may be too small for its square.
-        let mut geometric = unit(cross(ab, ac)).unwrap_or(toward);
-        let front = dot(geometric, toward) > 0.0;
-        let w = 1.0 - u - v;
-        let blend = |[a, b, c]: [Vec3; 3]| add(add(scale(a, w), scale(b, u)), scale(c, v));
-        let normals = corners.map(|index| self.normals[index]);
-        let mut normal = unit(blend(normals)).unwrap_or(geometric);
-        let tangents = corners.map(|index| self.tangents[index]);
-        let along = blend(tangents.map(|[x, y, z, _]| [x, y, z]));
-        let handedness = if tangents[0][3] < 0.0 { -1.0 } else { 1.0 };
-
-        if dot(geometric, normal) < 0.0 {
-            geometric = neg(geometric);
-        }
-        // What reflects only has two equal sides: the frame is turned about the tangent.
-        let transmits = self.materials[part.material as usize].transmits();
-        let behind = dot(geometric, toward) < 0.0;
-        let mut side = 1.0;
-        if behind && !transmits {
-            (geometric, normal, side) = (neg(geometric), neg(normal), -1.0);
-        }
-        let above = if behind && transmits { -1.0 } else { 1.0 };
-        let rise = above * dot(normal, toward);
-        if rise < GRAZING {
-            // A smooth normal that turns away from the viewer at the silhouette is turned back.
-            let lift = scale(toward, above * (GRAZING - rise));
-            normal = unit(add(normal, lift)).unwrap_or(geometric);
-        }
-        let flat = sub(along, scale(normal, dot(along, normal)));
-        let t = unit(flat).unwrap_or_else(|| perpendicular(normal));
-        let frame = [t, scale(cross(normal, t), handedness), normal];
-        let lifted = lift(position, [a, b, c], normals, [w, u, v], side);
-        let wo = frame.map(|axis| dot(axis, toward));
-        Hit { position, lifted, geometric, front, step, frame, wo, material: part.material, light: part.light }
-    }
-}
-
-/// The place moved to the smooth surface that the normals of the corners describe: Hanika 2021, "Hacking the Shadow
-/// Terminator" (Ray Tracing Gems II, chapter 4).
-fn lift(position: Vec3, corners: [Vec3; 3], normals: [Vec3; 3], weights: [f32; 3], side: f32) -> Vec3 {
-    let mut lifted = position;
-    for k in 0..3 {
-        let normal = scale(normals[k], side);
-        let below = (-dot(sub(position, corners[k]), normal)).max(0.0);
-        lifted = add(lifted, scale(normal, weights[k] * below));
-    }
-    lifted
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::contest::Contest;
 use super::exchange::Exchange;
-use super::{analytic, interpolation, material, tracing, trigonometry};
+use super::{analytic, frames, interpolation, material, tracing, trigonometry};
 
 /// Those whose names begin like one of `only`, or all. Files and tasks go to `exchange`.
 ///
@@ -16,10 +16,14 @@ pub fn all(data: &Path, exchange: &mut Exchange, only: &[String]) -> anyhow::Res
     contests.extend(analytic::all(exchange)?);
     contests.extend(material::all(data, exchange)?);
     // Large scenes, not made for nothing.
-    if only.is_empty()
-        || only.iter().any(|start| start.starts_with(tracing::PREFIX) || tracing::PREFIX.starts_with(start.as_str()))
-    {
+    let wants = |prefix: &str| {
+        only.is_empty() || only.iter().any(|start| start.starts_with(prefix) || prefix.starts_with(start.as_str()))
+    };
+    if wants(tracing::PREFIX) {
         contests.extend(tracing::all(data, exchange)?);
+    }
+    if wants(frames::PREFIX) {
+        contests.extend(frames::all(data, exchange)?);
     }
     contests.retain(|contest| only.is_empty() || only.iter().any(|start| contest.name().starts_with(start.as_str())));
     Ok(contests)

@@ -26,6 +26,16 @@ pub fn all(out: &Path, tasks: &Path, exchange: &Exchange) -> Vec<(&'static str, 
         (package, command)
     };
     let mut programs: Vec<_> = WHEELS.into_iter().map(wheel).collect();
+    for (name, variant) in [("mitsuba-llvm", "llvm_ad_rgb"), ("mitsuba-scalar", "scalar_rgb")] {
+        let command = environment.clone().map_err(anyhow::Error::msg).and_then(|python| {
+            let script = out.join("frames.py");
+            std::fs::write(&script, include_str!("frames.py"))?;
+            let mut command = Command::new(python);
+            command.arg(script).arg(variant).arg(tasks);
+            Ok(command)
+        });
+        programs.push((name, command));
+    }
     let sleef = Source { name: "acos", text: include_str!("acos.c"), libraries: &["sleef"], package: "libsleef-dev" };
     programs.push(("sleef", sleef.compiled(out, &exchange.cosines())));
     let embree = Source {

@@ -8,6 +8,7 @@ mod analytic;
 mod contest;
 mod contests;
 mod exchange;
+mod frames;
 mod install;
 mod interpolation;
 mod material;
@@ -65,10 +66,12 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
     let data = options.data.clone().unwrap_or_else(default_data);
     let mut exchange = Exchange::new(&out)?;
     let mut contests = contests::all(&data, &mut exchange, &options.only)?;
-    let variance = variance::Question::NAME;
-    let is_asked = options.only.is_empty() || options.only.iter().any(|start| variance.starts_with(start.as_str()));
-    let variance = is_asked.then(|| variance::Question::new(&data, &mut exchange)).transpose()?;
-    if contests.is_empty() && variance.is_none() {
+    let is_asked =
+        |name: &str| options.only.is_empty() || options.only.iter().any(|start| name.starts_with(start.as_str()));
+    let variance = is_asked(variance::Question::NAME).then(|| variance::Question::new(&data, &mut exchange));
+    let pictures = is_asked(frames::Question::NAME).then(|| frames::Question::new(&data, &mut exchange));
+    let (variance, pictures) = (variance.transpose()?, pictures.transpose()?);
+    if contests.is_empty() && variance.is_none() && pictures.is_none() {
         bail!("no contest begins with {}", options.only.join(" or "));
     }
     let tasks = exchange.write_tasks()?;
@@ -104,10 +107,22 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
         Some(question) => question.answer(&mut programs, &exchange)?,
         None => Vec::new(),
     };
+    let pictures = match pictures {
+        Some(question) => question.answer(&mut programs, &exchange, &difference_picture(options, &out))?,
+        None => Vec::new(),
+    };
 
     let missing = programs.missing().map(|(name, why)| [name.to_owned(), why]).collect();
-    let record =
-        Record { machine, core, turns: options.turns, versions: programs.versions(), missing, rows, variances };
+    let record = Record {
+        machine,
+        core,
+        turns: options.turns,
+        versions: programs.versions(),
+        missing,
+        rows,
+        variances,
+        pictures,
+    };
     record.print();
     let json = out.join("peers.json");
     replace(&json, &(serde_json::to_string_pretty(&record)? + "\n"))?;
@@ -118,6 +133,12 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
         println!("{}", page.display());
     }
     Ok(())
+}
+
+/// Where two renderers are shown side by side.
+fn difference_picture(options: &Options, out: &Path) -> PathBuf {
+    const NAME: &str = "mitsuba-difference.png";
+    if options.record { workspace().join("docs/pictures").join(NAME) } else { out.join(NAME) }
 }
 
 fn workspace() -> &'static Path {

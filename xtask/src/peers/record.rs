@@ -6,6 +6,7 @@ use std::fmt::Write;
 use comfy_table::{CellAlignment, Table, presets};
 use serde::Serialize;
 
+use super::frames::{self, Agreement};
 use super::variance::{self, Variance};
 use crate::report::{Machine, nanoseconds, times};
 
@@ -67,6 +68,8 @@ pub struct Record {
     pub rows: Vec<Row>,
     /// How noisy samples are.
     pub variances: Vec<Variance>,
+    /// How far pictures are from those of another renderer.
+    pub pictures: Vec<Agreement>,
 }
 
 impl Record {
@@ -83,6 +86,7 @@ impl Record {
         }
         println!("{table}");
         variance::print(&self.variances);
+        frames::print(&self.pictures);
     }
 
     /// The page.
@@ -109,6 +113,7 @@ impl Record {
             writeln!(page, "| {} |", row.cells().join(" | ")).expect("a string");
         }
         page += &variance::markdown(&self.variances);
+        page += &frames::markdown(&self.pictures);
         page
     }
 }

@@ -1,12 +1,13 @@
 //! Triangles that radiate.
 
 use super::Lit;
-use crate::vec3::{Vec3, add, cross, dot, length, scale, sub};
+use crate::vec3::{Vec3, add, cross, dot, length, scale, sub, unit};
 
 /// Triangles that radiate the same into all directions in front of them.
 #[derive(Clone, Debug)]
 pub struct AreaLight<const C: usize> {
-    triangles: Vec<[Vec3; 3]>,
+    /// For each triangle a corner, the ways from there to the others, and the unit normal.
+    triangles: Vec<[Vec3; 4]>,
     /// The sum of the areas up to and with each triangle, the last being 1.
     sums: Vec<f32>,
     area: f64,
@@ -29,7 +30,7 @@ impl<const C: usize> AreaLight<C> {
         let sound = area > 0.0 && area.is_finite();
         sound.then(|| AreaLight {
             sums: sums.into_iter().map(|sum| (sum / area) as f32).collect(),
-            triangles,
+            triangles: triangles.into_iter().map(parts).collect(),
             area,
             radiance,
             two_sided,
@@ -62,23 +63,27 @@ impl<const C: usize> AreaLight<C> {
         let index = self.sums.partition_point(|&sum| sum <= u).min(last);
         let before = if index == 0 { 0.0 } else { self.sums[index - 1] };
         let inside = ((u - before) / (self.sums[index] - before).max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
-        let [a, b, c] = self.triangles[index];
+        let [a, ab, ac, normal] = self.triangles[index];
         let root = inside.sqrt();
         let (wb, wc) = (root * (1.0 - v), root * v);
-        let place = add(a, add(scale(sub(b, a), wb), scale(sub(c, a), wc)));
+        let place = add(a, add(scale(ab, wb), scale(ac, wc)));
         let toward = sub(place, from);
         let distance = length(toward);
-        let normal = normal(self.triangles[index]);
-        let size = length(normal);
-        if distance <= 0.0 || size <= 0.0 {
+        if distance <= 0.0 {
             return None;
         }
         let wi = scale(toward, 1.0 / distance);
-        let cos = -dot(normal, wi) / size;
+        let cos = -dot(normal, wi);
         let faces = cos > 1e-6 || self.two_sided && cos < -1e-6;
         let pdf = self.pdf(distance, cos);
         (faces && pdf.is_finite()).then_some(Lit { wi, distance, radiance: self.radiance, pdf: Some(pdf) })
     }
+}
+
+/// A corner, the ways from there to the others, and the unit normal; 0 where there is no area.
+fn parts([a, b, c]: [Vec3; 3]) -> [Vec3; 4] {
+    let normal = unit(normal([a, b, c])).unwrap_or([0.0; 3]);
+    [a, sub(b, a), sub(c, a), normal]
 }
 
 /// Normal of a triangle, twice its area long.

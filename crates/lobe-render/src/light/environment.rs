@@ -3,7 +3,8 @@
 use std::f32::consts::{PI, TAU};
 
 use super::Lit;
-use crate::vec3::Vec3;
+use super::sums::Sums;
+use crate::vec3::{Vec3, sin_cos};
 
 /// What is wrong with an environment.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -42,10 +43,9 @@ pub struct Environment<const C: usize> {
     /// Turn about +y, as a share of a whole one.
     turn: f32,
     mean: f64,
-    /// Sums of the weights of the rows up to and with each, the last being 1.
-    rows: Vec<f32>,
-    /// For each row the sums of the weights of its columns, the last of each being 1.
-    columns: Vec<f32>,
+    rows: Sums,
+    /// One list a row.
+    columns: Sums,
     /// Density of a texel over the unit square.
     density: Vec<f32>,
 }
@@ -96,23 +96,15 @@ impl<const C: usize> Environment<C> {
             texels,
             turn: turn / TAU,
             mean,
-            rows: Vec::with_capacity(height),
-            columns: Vec::with_capacity(weights.len()),
+            rows: Sums::new(height),
+            columns: Sums::new(width),
             density: Vec::with_capacity(weights.len()),
         };
-        let total: f64 = weights.iter().sum();
-        let mut sum = 0.0;
-        for row in weights.chunks_exact(width) {
-            let across: f64 = row.iter().sum();
-            sum += across;
-            environment.rows.push((sum / total) as f32);
-            let mut along = 0.0;
-            for weight in row {
-                along += weight;
-                environment.columns.push((along / across) as f32);
-                environment.density.push((weight / total * (width * height) as f64) as f32);
-            }
-        }
+        let across: Vec<f64> = weights.chunks_exact(width).map(|row| row.iter().sum()).collect();
+        let total: f64 = across.iter().sum();
+        environment.rows.push(&across);
+        weights.chunks_exact(width).for_each(|row| environment.columns.push(row));
+        environment.density.extend(weights.iter().map(|weight| (weight / total * (width * height) as f64) as f32));
         Ok(environment)
     }
 
@@ -126,14 +118,38 @@ impl<const C: usize> Environment<C> {
         if self.texels.len() == 1 {
             return self.texels[0];
         }
-        let (u, v) = self.place(wi);
+        self.interpolated(self.place(wi))
+    }
+
+    /// Radiance from where there is no surface, and the density with which [`draw`](Environment::draw) finds it.
+    pub(crate) fn seen(&self, wi: Vec3) -> ([f32; C], f32) {
+        if self.texels.len() == 1 {
+            return (self.texels[0], 0.25 / PI);
+        }
+        let place = self.place(wi);
+        (self.interpolated(place), self.density_at(place) / (TAU * PI * sin_of(wi)))
+    }
+
+    /// Radiance at a place of the unit square.
+    fn interpolated(&self, (u, v): (f32, f32)) -> [f32; C] {
         let (x, y) = (u * self.width as f32 - 0.5, (v * self.height as f32 - 0.5).max(0.0));
         let (left, top) = (x.floor(), y.floor());
         let (fx, fy) = (x - left, y - top);
         // The circle is closed; the poles are not crossed.
-        let column = |offset: usize| (left as i64 + offset as i64).rem_euclid(self.width as i64) as usize;
+        let first = left as i32;
+        let column = |offset: i32| {
+            let column = first + offset;
+            let width = self.width as i32;
+            (if column < 0 {
+                column + width
+            } else if column >= width {
+                column - width
+            } else {
+                column
+            }) as usize
+        };
         let row = |offset: usize| (top as usize + offset).min(self.height - 1) * self.width;
-        let corner = |dy: usize, dx: usize| &self.texels[row(dy) + column(dx)];
+        let corner = |dy: usize, dx: i32| &self.texels[row(dy) + column(dx)];
         let (a, b, c, d) = (corner(0, 0), corner(0, 1), corner(1, 0), corner(1, 1));
         std::array::from_fn(|k| {
             let upper = a[k] + fx * (b[k] - a[k]);
@@ -142,15 +158,10 @@ impl<const C: usize> Environment<C> {
         })
     }
 
-    /// The density over solid angle, 1/sr, with which the unit direction `wi` is drawn.
-    pub(crate) fn pdf(&self, wi: Vec3) -> f32 {
-        if self.texels.len() == 1 {
-            return 0.25 / PI;
-        }
-        let (u, v) = self.place(wi);
+    /// The density over the unit square.
+    fn density_at(&self, (u, v): (f32, f32)) -> f32 {
         let cell = |x: f32, n: usize| ((x * n as f32) as usize).min(n - 1);
-        let density = self.density[cell(v, self.height) * self.width + cell(u, self.width)];
-        density / (TAU * PI * sin_of(wi))
+        self.density[cell(v, self.height) * self.width + cell(u, self.width)]
     }
 
     /// Draws a direction about in proportion to radiance.
@@ -158,19 +169,18 @@ impl<const C: usize> Environment<C> {
         if self.texels.len() == 1 {
             let y = 1.0 - 2.0 * v;
             let radius = (1.0 - y * y).max(0.0).sqrt();
-            let (sin, cos) = libm::sincosf(TAU * u);
+            let (sin, cos) = sin_cos(u);
             let (wi, distance) = ([radius * cos, y, radius * sin], f32::INFINITY);
             return Some(Lit { wi, distance, radiance: self.texels[0], pdf: Some(0.25 / PI) });
         }
-        let (row, fy) = search(&self.rows, v);
-        let (column, fx) = search(&self.columns[row * self.width..][..self.width], u);
-        let turned = (column as f32 + fx) / self.width as f32 + self.turn;
-        let theta = (row as f32 + fy) / self.height as f32 * PI;
-        let (sin, cos) = libm::sincosf(theta);
-        let (sin_phi, cos_phi) = libm::sincosf((turned - 0.5) * TAU);
+        let (row, fy) = self.rows.search(0, v);
+        let (column, fx) = self.columns.search(row, u);
+        let place = ((column as f32 + fx) / self.width as f32, (row as f32 + fy) / self.height as f32);
+        let (sin, cos) = sin_cos(0.5 * place.1);
+        let (sin_phi, cos_phi) = sin_cos(place.0 + self.turn - 0.5);
         let wi = [sin * sin_phi, cos, -sin * cos_phi];
-        let pdf = self.density[row * self.width + column] / (TAU * PI * sin_of(wi));
-        let lit = Lit { wi, distance: f32::INFINITY, radiance: self.radiance(wi), pdf: Some(pdf) };
+        let pdf = self.density[row * self.width + column] / (TAU * PI * sin.max(1e-6));
+        let lit = Lit { wi, distance: f32::INFINITY, radiance: self.interpolated(place), pdf: Some(pdf) };
         (pdf > 0.0 && pdf.is_finite()).then_some(lit)
     }
 
@@ -211,14 +221,6 @@ fn weights<const C: usize>(width: usize, height: usize, texels: &[[f32; C]]) -> 
     ((0..grey.len()).map(blurred).collect(), mean)
 }
 
-/// The interval of rising sums that holds `u`, and how far into it.
-fn search(sums: &[f32], u: f32) -> (usize, f32) {
-    let index = sums.partition_point(|&sum| sum <= u).min(sums.len() - 1);
-    let before = if index == 0 { 0.0 } else { sums[index - 1] };
-    let share = (u - before) / (sums[index] - before).max(f32::MIN_POSITIVE);
-    (index, share.clamp(0.0, 1.0 - f32::EPSILON))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -237,7 +239,7 @@ mod tests {
         for i in 0..n * n {
             let u = [((i / n) as f32 + 0.5) / n as f32, ((i % n) as f32 + 0.5) / n as f32];
             let lit = light.draw(u).unwrap();
-            let pdf = light.pdf(lit.wi);
+            let pdf = light.seen(lit.wi).1;
             let drawn = lit.pdf.unwrap();
             // Rounding puts a few directions of an edge into the next texel.
             angle += f64::from(((pdf - drawn).abs() > 1e-3 * drawn) as u8) / f64::from(n * n);

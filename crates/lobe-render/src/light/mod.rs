@@ -2,6 +2,7 @@
 
 mod area;
 mod environment;
+mod sums;
 
 pub use area::AreaLight;
 pub use environment::{Environment, EnvironmentError};

@@ -9,7 +9,7 @@ use super::{Wave, against, rays};
 use crate::integrator::Integrator;
 use crate::random::Use;
 use crate::shader::Evaluated;
-use crate::vec3::{Vec3, add, cosine_hemisphere, length, scale, sub, unit};
+use crate::vec3::{Vec3, add, cosine_hemisphere, length, scale, sub};
 
 /// Pairs of directions to be evaluated, and the shadow rays to be traced for them.
 #[derive(Debug)]
@@ -29,7 +29,7 @@ pub(super) struct Direct<const C: usize> {
 /// A place on a light, seen from a hit.
 #[derive(Clone, Copy, Debug)]
 struct Asked<const C: usize> {
-    vertex: u32,
+    hit: u32,
     wi: Vec3,
     distance: f32,
     /// Radiance over the density of the drawing.
@@ -82,36 +82,38 @@ impl<const C: usize> Wave<'_, C> {
 
     /// Draws a place on a light for each hit that has a value for pairs of directions.
     fn ask(&mut self, depth: u32, light: Option<usize>) {
+        // Each light of a round has numbers of its own.
+        let set = Use::Light(depth + 64 * light.unwrap_or(0) as u32);
+        self.draw_sorted(set);
         let Direct { wi, wo, asked, parts, .. } = &mut self.direct;
         wi.clear();
         wo.clear();
         asked.clear();
         parts.clear();
         let lights = &self.world.lights;
-        // Each light of a round has numbers of its own.
-        let set = Use::Light(depth + 64 * light.unwrap_or(0) as u32);
         for (material, range) in &self.queue.parts {
             if self.world.materials[*material].delta().is_some() {
                 continue;
             }
             let begin = asked.len();
             for index in range.clone() {
-                let vertex = &self.queue.sorted[index];
-                let [u, x, y, _] = vertex.sequence.four(set);
+                let number = self.queue.order[index];
+                let hit = &self.hits[number as usize];
+                let [u, x, y, _] = self.numbers.of(index);
                 let (light, chance) = match light {
                     Some(light) => (light, 1.0),
                     None => lights.choose(u).expect("a light"),
                 };
-                let Some(lit) = lights.all[light].draw(vertex.hit.position, [x, y]) else { continue };
-                let local = vertex.hit.local(lit.wi);
-                if !vertex.hit.sees(lit.wi, local) {
+                let Some(lit) = lights.all[light].draw(hit.position, [x, y]) else { continue };
+                let local = hit.local(lit.wi);
+                if !hit.sees(lit.wi, local) {
                     continue;
                 }
                 let density = lit.pdf.map_or(chance, |pdf| pdf * chance);
                 wi.push(local);
-                wo.push(vertex.hit.wo);
+                wo.push(hit.wo);
                 asked.push(Asked {
-                    vertex: index as u32,
+                    hit: number,
                     wi: lit.wi,
                     distance: lit.distance,
                     radiance: lit.radiance.map(|x| x / density),
@@ -147,30 +149,31 @@ impl<const C: usize> Wave<'_, C> {
         let weighs = matches!(self.integrator, Integrator::Path { .. });
         let limit = self.integrator.limit(depth + 1);
         for (i, asked) in asked.iter().enumerate() {
-            let vertex = &self.queue.sorted[asked.vertex as usize];
+            let (hit, arrived) = (&self.hits[asked.hit as usize], &self.arrived[asked.hit as usize]);
             let share = match asked.pdf {
                 Some(density) if weighs => against(density, || pdf[i]),
                 _ => 1.0,
             };
             let value: [f32; C] = std::array::from_fn(|k| {
-                let value = vertex.carried.throughput[k] * f[i][k] * asked.radiance[k] * share;
+                let value = arrived.throughput[k] * f[i][k] * asked.radiance[k] * share;
                 if value > limit { limit } else { value }
             });
             // Not a number must go on, to be counted.
             if value.iter().all(|x| *x == 0.0) {
                 continue;
             }
-            let origin = vertex.hit.leave(vertex.hit.lifted, asked.wi);
+            let origin = hit.leave(hit.lifted, asked.wi);
             let (direction, distance) = if asked.distance.is_finite() {
                 // From where the ray begins to the same place on the light, which is not as far.
-                let way = sub(add(vertex.hit.position, scale(asked.wi, asked.distance)), origin);
-                (unit(way).unwrap_or(asked.wi), length(way))
+                let way = sub(add(hit.position, scale(asked.wi, asked.distance)), origin);
+                let length = length(way);
+                (if length > 0.0 { scale(way, 1.0 / length) } else { asked.wi }, length)
             } else {
                 (asked.wi, asked.distance)
             };
             // Just short of the light, which is a surface itself.
             shadow.push(origin, direction, 0.0, distance * 0.9999);
-            carried.push((vertex.carried.slot, value));
+            carried.push((arrived.slot, value));
         }
     }
 
@@ -192,19 +195,21 @@ impl<const C: usize> Wave<'_, C> {
 
     /// Ambient occlusion: 1 where a direction drawn by the cosine meets nothing within a distance.
     pub(super) fn ambient(&mut self, class: RayClass, distance: f32) {
+        let sequences = self.arrived.iter().map(|carried| self.slots[carried.slot as usize].sequence);
+        self.numbers.draw(self.backend, sequences, Use::Scatter(0));
         let Direct { rays: shadow, carried, .. } = &mut self.direct;
         rays::clear(shadow);
         carried.clear();
-        for vertex in &self.found {
-            let [x, y, ..] = vertex.sequence.four(Use::Scatter(0));
+        for (at, (hit, arrived)) in self.hits.iter().zip(&self.arrived).enumerate() {
+            let [x, y, ..] = self.numbers.of(at);
             let mut local = cosine_hemisphere([x, y]);
-            if vertex.hit.wo[2] < 0.0 {
+            if hit.wo[2] < 0.0 {
                 local[2] = -local[2];
             }
-            let wi = vertex.hit.world(local);
-            if vertex.hit.sees(wi, local) {
-                shadow.push(vertex.hit.leave(vertex.hit.lifted, wi), wi, 0.0, distance);
-                carried.push((vertex.carried.slot, [1.0; C]));
+            let wi = hit.world(local);
+            if hit.sees(wi, local) {
+                shadow.push(hit.leave(hit.lifted, wi), wi, 0.0, distance);
+                carried.push((arrived.slot, [1.0; C]));
             }
         }
         self.shadow(class.shadow(false));

@@ -14,21 +14,22 @@ use lobe_trace::{Intersect, MISS, RayClass};
 
 use crate::camera::View;
 use crate::film::{Film, Rect, Seen};
+use crate::hit::Hit;
 use crate::integrator::Integrator;
 use crate::light::Light;
-use crate::random::{Sequence, Use};
+use crate::random::{Numbers, Sequence, Use};
 use crate::shader::{Backend, Scratch};
 use crate::stats::Stats;
 use crate::vec3::{Vec3, dot};
-use crate::world::{Hit, World};
+use crate::world::World;
 use direct::Direct;
 use queue::Queue;
 use rays::Batch;
 use scatter::Scattered;
 
-/// About how many paths are under way at once: their state, a few hundred bytes each, stays in the second cache, and a
-/// material that covers a hundredth of them still fills its lanes.
-pub(crate) const PATHS: usize = 4096;
+/// About how many paths are under way at once: a material that covers a hundredth of them still fills its lanes, and
+/// their state, a few hundred bytes each, stays in the cache.
+pub(crate) const PATHS: usize = 8192;
 
 /// Where a path came from and what it has seen.
 #[derive(Clone, Copy, Debug)]
@@ -48,14 +49,6 @@ struct Carried<const C: usize> {
     pdf: f32,
 }
 
-/// A hit of a ray.
-#[derive(Clone, Copy, Debug)]
-struct Vertex<const C: usize> {
-    hit: Hit,
-    carried: Carried<C>,
-    sequence: Sequence,
-}
-
 /// One thread's memory for waves over one scene.
 pub(crate) struct Wave<'w, const C: usize> {
     world: &'w World<C>,
@@ -65,10 +58,15 @@ pub(crate) struct Wave<'w, const C: usize> {
     slots: Vec<Slot<C>>,
     batch: Batch,
     carried: Vec<Carried<C>>,
-    found: Vec<Vertex<C>>,
-    queue: Queue<C>,
+    /// Which of the rays have hit something.
+    met: Vec<u32>,
+    /// Where, and what those rays carry.
+    hits: Vec<Hit>,
+    arrived: Vec<Carried<C>>,
+    queue: Queue,
     direct: Direct<C>,
     scattered: Scattered<C>,
+    numbers: Numbers,
     scratch: Scratch,
     pub stats: Stats,
 }
@@ -83,10 +81,13 @@ impl<'w, const C: usize> Wave<'w, C> {
             slots: Vec::new(),
             batch: Batch::default(),
             carried: Vec::new(),
-            found: Vec::new(),
+            met: Vec::new(),
+            hits: Vec::new(),
+            arrived: Vec::new(),
             queue: Queue::default(),
             direct: Direct::default(),
             scattered: Scattered::default(),
+            numbers: Numbers::default(),
             scratch: Scratch::default(),
             stats: Stats::default(),
         }
@@ -118,14 +119,14 @@ impl<'w, const C: usize> Wave<'w, C> {
         self.carried.clear();
         self.batch.clear();
         for sample in samples {
-            for &pixel in pixels {
-                let sequence = Sequence::new(pixel, sample);
-                let (origin, direction) = self.view.ray(pixel, sequence.four(Use::Camera));
-                self.batch.rays.push(origin, direction, 0.0, f32::INFINITY);
-                let slot = self.slots.len() as u32;
-                self.carried.push(Carried { slot, throughput: [1.0; C], pdf: f32::INFINITY });
-                self.slots.push(Slot { pixel, sequence, seen: Seen::NOTHING });
-            }
+            let slot = |&pixel| Slot { pixel, sequence: Sequence::new(pixel, sample), seen: Seen::NOTHING };
+            self.slots.extend(pixels.iter().map(slot));
+        }
+        self.numbers.draw(self.backend, self.slots.iter().map(|slot| slot.sequence), Use::Camera);
+        for (at, slot) in self.slots.iter().enumerate() {
+            let (origin, direction) = self.view.ray(slot.pixel, self.numbers.of(at));
+            self.batch.rays.push(origin, direction, 0.0, f32::INFINITY);
+            self.carried.push(Carried { slot: at as u32, throughput: [1.0; C], pdf: f32::INFINITY });
         }
         self.stats.samples += self.slots.len() as u64;
     }
@@ -145,7 +146,7 @@ impl<'w, const C: usize> Wave<'w, C> {
                 Integrator::Ambient { distance } => self.ambient(class, distance),
                 Integrator::Path { .. } | Integrator::Whitted { .. } if depth < last => {
                     let begun = Instant::now();
-                    self.queue.sort(&mut self.found, self.world.materials.len());
+                    self.queue.sort(&self.hits, self.world.materials.len());
                     self.stats.sort += begun.elapsed();
                     self.light(class, depth);
                     let specular = self.scatter(depth);
@@ -168,40 +169,54 @@ impl<'w, const C: usize> Wave<'w, C> {
     /// What the rays met: light, or a surface, or nothing.
     fn meet(&mut self, depth: u32) {
         let begun = Instant::now();
-        self.found.clear();
+        self.met.clear();
+        self.arrived.clear();
         let debugging = self.integrator.is_debugging();
+        let limit = self.integrator.limit(depth);
         for (i, carried) in self.carried.iter().enumerate() {
-            let direction = self.batch.direction(i);
-            let slot = &mut self.slots[carried.slot as usize];
-            if self.batch.hits.primitive[i] == MISS {
-                if !debugging && let Some(radiance) = background(self.world, direction, carried.pdf) {
-                    add(&mut slot.seen.radiance, carried.throughput, radiance, self.integrator.limit(depth));
-                }
+            if self.batch.hits.primitive[i] != MISS {
+                self.met.push(i as u32);
+                self.arrived.push(*carried);
+            } else if !debugging && let Some(radiance) = background(self.world, self.batch.direction(i), carried.pdf) {
+                add(&mut self.slots[carried.slot as usize].seen.radiance, carried.throughput, radiance, limit);
+            }
+        }
+        self.world.hits(self.backend, &self.met, &self.batch.rays, &self.batch.hits, &mut self.hits);
+        for ((hit, carried), ray) in self.hits.iter().zip(&self.arrived).zip(&self.met) {
+            if depth > 0 && hit.light.is_none() {
                 continue;
             }
-            let uv = [self.batch.hits.u[i], self.batch.hits.v[i]];
-            let hit = self.world.hit(self.batch.hits.primitive[i], uv, direction);
+            let i = *ray as usize;
+            let seen = &mut self.slots[carried.slot as usize].seen;
             if depth == 0 {
-                slot.seen.normal = hit.frame[2];
-                slot.seen.albedo = self.world.materials[hit.material as usize].albedo();
-                slot.seen.depth = self.batch.hits.t[i];
-                slot.seen.material = hit.material + 1;
+                seen.normal = hit.frame[2];
+                seen.albedo = self.world.materials[hit.material as usize].albedo();
+                seen.depth = self.batch.hits.t[i];
+                seen.material = hit.material + 1;
             }
             if !debugging && let Some(light) = hit.light {
-                let way = (direction, self.batch.hits.t[i], carried.pdf);
-                let radiance = emission(self.world, light as usize, &hit, way);
-                add(&mut slot.seen.radiance, carried.throughput, radiance, self.integrator.limit(depth));
+                let way = (self.batch.direction(i), self.batch.hits.t[i], carried.pdf);
+                let radiance = emission(self.world, light as usize, hit, way);
+                add(&mut seen.radiance, carried.throughput, radiance, limit);
             }
-            self.found.push(Vertex { hit, carried: *carried, sequence: slot.sequence });
         }
         self.stats.meet += begun.elapsed();
     }
 
+    /// Draws random numbers for the sorted hits, in their order.
+    fn draw_sorted(&mut self, of: Use) {
+        let sequences = self.queue.order.iter().map(|hit| {
+            let slot = self.arrived[*hit as usize].slot;
+            self.slots[slot as usize].sequence
+        });
+        self.numbers.draw(self.backend, sequences, of);
+    }
+
     /// The shading normal as a colour.
     fn show_normals(&mut self) {
-        for vertex in &self.found {
-            let normal = vertex.hit.frame[2];
-            let seen = &mut self.slots[vertex.carried.slot as usize].seen;
+        for (hit, carried) in self.hits.iter().zip(&self.arrived) {
+            let normal = hit.frame[2];
+            let seen = &mut self.slots[carried.slot as usize].seen;
             seen.radiance = std::array::from_fn(|k| 0.5 + 0.5 * normal[k.min(2)]);
         }
         self.carried.clear();
@@ -212,8 +227,9 @@ impl<'w, const C: usize> Wave<'w, C> {
 fn background<const C: usize>(world: &World<C>, direction: Vec3, pdf: f32) -> Option<[f32; C]> {
     let index = world.lights.environment?;
     let Light::Environment(environment) = &world.lights.all[index] else { return None };
-    let share = against(pdf, || world.lights.chance(index) * environment.pdf(direction));
-    Some(environment.radiance(direction).map(|x| x * share))
+    let (radiance, density) = environment.seen(direction);
+    let share = against(pdf, || world.lights.chance(index) * density);
+    Some(radiance.map(|x| x * share))
 }
 
 /// Radiance from a surface that shines, for a ray whose direction was drawn with that density.

@@ -2,31 +2,26 @@
 
 use std::ops::Range;
 
-use super::Vertex;
+use crate::hit::Hit;
 
 /// The hits of a wave, those of one material after those of another, in the order of the rays within each.
-#[derive(Debug)]
-pub(super) struct Queue<const C: usize> {
-    pub sorted: Vec<Vertex<C>>,
-    /// For each material that was hit its number and its part of `sorted`.
+#[derive(Debug, Default)]
+pub(super) struct Queue {
+    /// Numbers of hits.
+    pub order: Vec<u32>,
+    /// For each material that was hit its number and its part of `order`.
     pub parts: Vec<(usize, Range<usize>)>,
     counts: Vec<usize>,
 }
 
-impl<const C: usize> Default for Queue<C> {
-    fn default() -> Self {
-        Queue { sorted: Vec::new(), parts: Vec::new(), counts: Vec::new() }
-    }
-}
-
-impl<const C: usize> Queue<C> {
-    /// A counting sort. Where all hits are of one material they are not moved but taken.
-    pub fn sort(&mut self, found: &mut Vec<Vertex<C>>, materials: usize) {
-        let Queue { sorted, parts, counts } = self;
+impl Queue {
+    /// A counting sort.
+    pub fn sort(&mut self, hits: &[Hit], materials: usize) {
+        let Queue { order, parts, counts } = self;
         counts.clear();
         counts.resize(materials, 0);
-        for vertex in &*found {
-            counts[vertex.hit.material as usize] += 1;
+        for hit in hits {
+            counts[hit.material as usize] += 1;
         }
         parts.clear();
         let mut begin = 0;
@@ -38,13 +33,10 @@ impl<const C: usize> Queue<C> {
             *count = begin;
             begin = end;
         }
-        if parts.len() <= 1 {
-            return std::mem::swap(sorted, found);
-        }
-        sorted.clone_from(found);
-        for vertex in &*found {
-            let place = &mut counts[vertex.hit.material as usize];
-            sorted[*place] = *vertex;
+        order.resize(hits.len(), 0);
+        for (number, hit) in hits.iter().enumerate() {
+            let place = &mut counts[hit.material as usize];
+            order[*place] = number as u32;
             *place += 1;
         }
     }

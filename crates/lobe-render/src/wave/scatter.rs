@@ -34,11 +34,14 @@ impl<const C: usize> Wave<'_, C> {
     pub(super) fn scatter(&mut self, depth: u32) -> bool {
         self.carried.clear();
         self.batch.clear();
+        let begun = Instant::now();
+        self.draw_sorted(Use::Scatter(depth));
+        self.stats.scatter += begun.elapsed();
         let mut specular = true;
         for part in 0..self.queue.parts.len() {
             let material = self.queue.parts[part].0;
             match (self.world.materials[material].delta(), self.integrator) {
-                (Some(delta), _) => self.part_of_ways(part, delta, depth),
+                (Some(delta), _) => self.part_of_ways(part, delta),
                 (None, Integrator::Path { .. }) => {
                     specular = false;
                     self.draw(part, depth);
@@ -51,15 +54,15 @@ impl<const C: usize> Wave<'_, C> {
     }
 
     /// Rays along the exact directions of a smooth surface: one of them by chance, or all.
-    fn part_of_ways(&mut self, part: usize, delta: &Delta<C>, depth: u32) {
+    fn part_of_ways(&mut self, part: usize, delta: &Delta<C>) {
         let begun = Instant::now();
         for index in self.queue.parts[part].1.clone() {
-            let vertex = self.queue.sorted[index];
-            let (mirror, through) = delta.ways(vertex.hit.wo);
+            let hit = self.queue.order[index] as usize;
+            let (mirror, through) = delta.ways(self.hits[hit].wo);
             let ways = [Some(mirror), through].into_iter().flatten();
             if matches!(self.integrator, Integrator::Whitted { .. }) {
                 for way in ways {
-                    self.follow_way(index, way.wi, way.weight, NEGLIGIBLE);
+                    self.follow_way(hit, way.wi, way.weight, NEGLIGIBLE);
                 }
                 continue;
             }
@@ -69,28 +72,28 @@ impl<const C: usize> Wave<'_, C> {
                 continue;
             }
             let chance = a / (a + b);
-            let u = vertex.sequence.four(Use::Scatter(depth))[2];
+            let u = self.numbers.of(index)[2];
             let (way, chance) = match through {
                 Some(way) if u >= chance => (way, 1.0 - chance),
                 _ => (mirror, chance),
             };
-            self.follow_way(index, way.wi, way.weight.map(|w| w / chance), 0.0);
+            self.follow_way(hit, way.wi, way.weight.map(|w| w / chance), 0.0);
         }
         self.stats.scatter += begun.elapsed();
     }
 
-    fn follow_way(&mut self, index: usize, local: Vec3, weight: [f32; C], least: f32) {
-        let vertex = &self.queue.sorted[index];
-        let throughput: [f32; C] = std::array::from_fn(|k| vertex.carried.throughput[k] * weight[k]);
-        let mut wi = vertex.hit.world(local);
-        if !vertex.hit.sees(wi, local) {
+    fn follow_way(&mut self, hit: usize, local: Vec3, weight: [f32; C], least: f32) {
+        let (hit, arrived) = (&self.hits[hit], &self.arrived[hit]);
+        let throughput: [f32; C] = std::array::from_fn(|k| arrived.throughput[k] * weight[k]);
+        let mut wi = hit.world(local);
+        if !hit.sees(wi, local) {
             // At the silhouette of facets that a smooth normal hides, the direction is turned back out of the facet.
-            let normal = vertex.hit.geometric;
+            let normal = hit.geometric;
             wi = sub(wi, scale(normal, 2.0 * dot(normal, wi)));
         }
         if throughput.iter().any(|t| *t > least) {
-            self.batch.rays.push(vertex.hit.leave(vertex.hit.position, wi), wi, 0.0, f32::INFINITY);
-            self.carried.push(Carried { slot: vertex.carried.slot, throughput, pdf: f32::INFINITY });
+            self.batch.rays.push(hit.leave(hit.position, wi), wi, 0.0, f32::INFINITY);
+            self.carried.push(Carried { slot: arrived.slot, throughput, pdf: f32::INFINITY });
         }
     }
 
@@ -101,11 +104,11 @@ impl<const C: usize> Wave<'_, C> {
         let Scattered { wo, u, wi, weight, pdf } = &mut self.scattered;
         wo.clear();
         u.clear();
-        for vertex in &self.queue.sorted[range.clone()] {
-            let [a, b, ..] = vertex.sequence.four(Use::Scatter(depth));
-            wo.push(vertex.hit.wo);
-            u.push([a, b]);
-        }
+        wo.extend(self.queue.order[range.clone()].iter().map(|hit| self.hits[*hit as usize].wo));
+        u.extend(range.clone().map(|index| {
+            let [a, b, ..] = self.numbers.of(index);
+            [a, b]
+        }));
         wi.resize(wo.len(), [0.0; 3]);
         weight.resize(wo.len(), [0.0; C]);
         pdf.resize(wo.len(), 0.0);
@@ -122,24 +125,26 @@ impl<const C: usize> Wave<'_, C> {
         let begun = Instant::now();
         let Scattered { wi, weight, pdf, .. } = &self.scattered;
         let range = self.queue.parts[part].1.clone();
-        for (i, vertex) in self.queue.sorted[range].iter().enumerate() {
-            let mut throughput: [f32; C] = std::array::from_fn(|k| vertex.carried.throughput[k] * weight[i][k]);
+        let first = range.start;
+        for (i, number) in self.queue.order[range].iter().enumerate() {
+            let (hit, arrived) = (&self.hits[*number as usize], &self.arrived[*number as usize]);
+            let mut throughput: [f32; C] = std::array::from_fn(|k| arrived.throughput[k] * weight[i][k]);
             let most = throughput.iter().fold(0.0f32, |most, t| most.max(*t));
-            let world = vertex.hit.world(wi[i]);
+            let world = hit.world(wi[i]);
             // NaN is no more than 0 either.
-            let goes_on = pdf[i] > 0.0 && most > 0.0 && vertex.hit.sees(world, wi[i]);
+            let goes_on = pdf[i] > 0.0 && most > 0.0 && hit.sees(world, wi[i]);
             if !goes_on {
                 continue;
             }
             if depth >= ROULETTE {
                 let chance = most.min(0.95);
-                if vertex.sequence.four(Use::Light(depth))[3] >= chance {
+                if self.numbers.of(first + i)[3] >= chance {
                     continue;
                 }
                 throughput = throughput.map(|t| t / chance);
             }
-            self.batch.rays.push(vertex.hit.leave(vertex.hit.position, world), world, 0.0, f32::INFINITY);
-            self.carried.push(Carried { slot: vertex.carried.slot, throughput, pdf: pdf[i] });
+            self.batch.rays.push(hit.leave(hit.position, world), world, 0.0, f32::INFINITY);
+            self.carried.push(Carried { slot: arrived.slot, throughput, pdf: pdf[i] });
         }
         self.stats.scatter += begun.elapsed();
     }

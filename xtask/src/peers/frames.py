@@ -1,0 +1,112 @@
+"""Frames by Mitsuba 3 on request: `python frames.py VARIANT TASKS`.
+
+Answers the same requests as `peers.py`, but all of them with path-traced frames of scenes: `values` writes the linear RGB
+of two frames with other random numbers, rows from the top.
+"""
+
+import gc
+import importlib.metadata
+import json
+import os
+import sys
+import time
+
+# One core for all threads of Mitsuba; it counts cores when it is imported.
+os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
+
+import drjit as dr
+import mitsuba as mi
+import numpy as np
+
+
+class Frame:
+    """A scene, ready to be rendered."""
+
+    def __init__(self, task):
+        self.samples = task["samples"]
+        sky, camera = task["sky"], task["camera"]
+        texels = np.fromfile(sky["file"], "<f4").reshape(sky["rows"], sky["columns"], 3)
+        view = mi.ScalarTransform4f().look_at(camera["position"], camera["target"], camera["up"])
+        width, height = task["size"]
+        scene = {
+            "type": "scene",
+            "integrator": {"type": "path", "max_depth": task["max_depth"], "rr_depth": task["rr_depth"]},
+            "sky": {"type": "envmap", "bitmap": mi.Bitmap(texels)},
+            "sensor": {
+                "type": "perspective",
+                "fov_axis": "y",
+                "fov": camera["degrees"],
+                "to_world": view,
+                "sampler": {"type": "independent", "sample_count": self.samples},
+                "film": {
+                    "type": "hdrfilm",
+                    "width": width,
+                    "height": height,
+                    "pixel_format": "rgb",
+                    "component_format": "float32",
+                    "rfilter": {"type": "box"},
+                },
+            },
+        }
+        for number, surface in enumerate(task["surfaces"]):
+            scene[f"surface{number}"] = surface | {"id": f"surface{number}"}
+        for number, mesh in enumerate(task["meshes"]):
+            shape = {
+                "type": "ply",
+                "filename": mesh["filename"],
+                "bsdf": {"type": "ref", "id": f"surface{mesh['surface']}"},
+            }
+            if mesh["radiance"]:
+                shape["emitter"] = {"type": "area", "radiance": {"type": "rgb", "value": mesh["radiance"]}}
+            scene[f"mesh{number}"] = shape
+        self.scene = mi.load_dict(scene)
+        self.seed = 0
+
+    def run(self):
+        self.seed += 1
+        self.image = mi.render(self.scene, spp=self.samples, seed=self.seed)
+        dr.eval(self.image)
+        dr.sync_thread()
+
+    def values(self):
+        frames = []
+        for _ in range(2):
+            self.run()
+            frames.append(np.array(self.image, "<f4"))
+        return np.stack(frames)
+
+
+def main():
+    variant, tasks = sys.argv[1], json.load(open(sys.argv[2]))
+    mi.set_variant(variant)
+    # Measured values below zero are what the files hold, and no reason to write into the answers.
+    mi.set_log_level(mi.LogLevel.Error)
+    ready = {}
+
+    def prepared(name):
+        if name not in ready:
+            ready[name] = Frame(tasks[name])
+            # The first run compiles kernels.
+            ready[name].run()
+        return ready[name]
+
+    # Without a usable LLVM this ends the process, so do it before saying that all is well.
+    str(mi.Float(1) + 1)
+    print("ready", importlib.metadata.version("mitsuba"), flush=True)
+    gc.disable()
+    for line in sys.stdin:
+        what, name, argument = line.rstrip("\n").split(" ", 2)
+        frame = prepared(name)
+        if what == "run":
+            least = float("inf")
+            for _ in range(int(argument)):
+                start = time.process_time_ns()
+                frame.run()
+                least = min(least, time.process_time_ns() - start)
+            print(least * 1e-9, flush=True)
+        else:
+            np.asarray(frame.values(), "<f4").tofile(argument)
+            print("written", flush=True)
+
+
+main()
