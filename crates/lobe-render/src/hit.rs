@@ -5,7 +5,7 @@ use lobe_lane::Mask;
 use lobe_trace::{HitSoA, RaySoA};
 
 use crate::vec3::{Vec3, add, dot, scale};
-use crate::world::World;
+use crate::world::{Corner, World};
 
 /// A place on a surface that a ray has hit.
 #[derive(Clone, Copy, Debug)]
@@ -122,11 +122,10 @@ impl<const C: usize> Kernel for Meeting<'_, C> {
             for (lane, ray) in which.iter().enumerate() {
                 let ray = *ray as usize;
                 let [a, b, c, part] = world.triangles[found.primitive[ray] as usize];
-                for (corner, index) in [a, b, c].into_iter().enumerate() {
-                    for (k, value) in world.corners[index as usize].0.into_iter().enumerate() {
-                        known.corners[corner][k][lane] = value;
-                    }
-                }
+                let [first, second, third] = &mut known.corners;
+                spread(&world.corners[a as usize], first, lane);
+                spread(&world.corners[b as usize], second, lane);
+                spread(&world.corners[c as usize], third, lane);
                 for k in 0..3 {
                     known.direction[k][lane] = rays.direction[k][ray];
                 }
@@ -159,6 +158,16 @@ impl<const C: usize> Kernel for Meeting<'_, C> {
                 });
             }
         }
+    }
+}
+
+/// A number of a vertex to each column.
+#[inline(always)]
+fn spread(Corner(values): &Corner, columns: &mut [Column; 10], lane: usize) {
+    let mut k = 0;
+    while k < values.len() {
+        columns[k][lane] = values[k];
+        k += 1;
     }
 }
 
