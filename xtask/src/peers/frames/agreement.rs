@@ -37,7 +37,7 @@ pub struct Agreement {
     pub peer_noise: f64,
     /// The mean of this renderer's picture over that of the other's.
     pub mean: f64,
-    /// The mean where measured materials are looked up by the light, over that of the other's.
+    /// The mean where measured materials are indexed by the light, over that of the other's.
     pub mean_by_light: f64,
 }
 
@@ -61,7 +61,7 @@ impl Agreement {
     }
 }
 
-const HEADER: [&str; 7] = ["room", "noise", "Mitsuba's noise", "both", "difference", "of means", "looked up by light"];
+const HEADER: [&str; 7] = ["room", "noise", "Mitsuba's noise", "both", "difference", "of means", "indexed by light"];
 
 /// The table on the terminal.
 pub fn print(agreements: &[Agreement]) {
@@ -97,8 +97,8 @@ const READING: &str = "
 
 The same rooms path-traced by both, 96 samples a pixel, with a panel and a sky as lights: the root of the mean square over
 pixels and channels, relative to the pixel. Noise is estimated from two pictures each, with other random numbers; a
-`difference` as large as `both` noises together is no difference. Measured materials are looked up by the viewer, as Mitsuba
-does; the last column has the mean of the picture where they are looked up by the light. Below: lobe, Mitsuba, and the
+`difference` as large as `both` noises together is no difference. Measured materials are indexed by the viewer, as Mitsuba
+does; the last column has the mean of the picture where they are indexed by the light. Below: lobe, Mitsuba, and the
 difference of each pixel, white for none and full red or blue for four standard deviations.
 
 ";

@@ -3,7 +3,6 @@
 mod agreement;
 mod picture;
 mod scene;
-mod viewer;
 
 use std::path::Path;
 

@@ -12,8 +12,6 @@ use lobe_render::shader::{self, Lambert, Shader};
 use lobe_render::{Camera, Filter, Integrator, Rect, Settings, Shape, World, WorldBuilder};
 use serde_json::{Value, json};
 
-use super::viewer::ByViewer;
-
 /// What things are made of.
 #[derive(Clone, Debug)]
 pub enum Surface {
@@ -81,17 +79,16 @@ impl Room {
         Room { parts, surfaces: surfaces.into() }
     }
 
-    /// For this renderer, with measured materials looked up by one of the directions.
+    /// For this renderer, with measured materials indexed by one of the directions.
     ///
     /// # Errors
     /// Where a file cannot be read.
-    pub fn world(&self, known: Given, backend: Backend) -> anyhow::Result<World<3>> {
+    pub fn world(&self, indexed_by: Given, backend: Backend) -> anyhow::Result<World<3>> {
         let mut world = WorldBuilder::new();
         for surface in &self.surfaces {
             let shader: Arc<dyn Shader<3>> = match surface {
                 Surface::Diffuse(albedo) => Arc::new(Lambert { albedo: *albedo }),
-                Surface::Measured(file) if known == Given::Viewer => Arc::new(ByViewer::open(file, backend)?),
-                Surface::Measured(file) => shader::open(file, &Options::default(), backend)?,
+                Surface::Measured(file) => shader::open(file, &Options { indexed_by, ..Options::default() }, backend)?,
             };
             world.material(shader);
         }
