@@ -173,13 +173,18 @@ impl Kernel for Masks {
 
         let four = [3.0, 5.0, -1.0, 0.5];
         let expected = |lane: usize| four.get(lane).copied().unwrap_or(0.0);
-        let placed = |lane: usize| lanes.extract(lanes.first_four(four), lane) == expected(lane);
-        records.push(Record::exact("first_four, extract", (0..L::LANES).map(placed).collect::<Vec<bool>>()));
+        let mut placed = Vec::new();
+        let mut lane = 0;
+        while lane < L::LANES {
+            placed.push(lanes.extract(lanes.first_four(four), lane) == expected(lane));
+            lane += 1;
+        }
+        records.push(Record::exact("first_four, extract", placed));
 
         let iota = lanes.iota();
         let scaled = iota.to_float() * lanes.splat(1.5);
         let (mut whole, mut halves) = (Vec::new(), Vec::new());
-        let mut lane = 0;
+        lane = 0;
         while lane < 2 * MAX_LANES {
             let expected = (lane % L::LANES) as i32;
             whole.push(lanes.extract_int(iota, lane) == expected);
