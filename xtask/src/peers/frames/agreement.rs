@@ -234,14 +234,17 @@ fn deviations(ours: &Pair, theirs: &Pair) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg32;
+
     use super::*;
 
     #[test]
     fn noise_explains_noise_and_nothing_else() {
         // Noise of a hundredth in each of the two pictures of a pair.
-        let noisy = |seed: u32, level: f32| -> Vec<f32> {
-            let random = |at: u32| (at.wrapping_mul(2_654_435_761) ^ seed).wrapping_mul(2_246_822_519) >> 8;
-            (0..30_000).map(|at| level * (1.0 + 0.06 * (random(at) as f32 / 16_777_216.0 - 0.5))).collect()
+        let noisy = |seed: u64, level: f32| -> Vec<f32> {
+            let mut rng = Pcg32::seed_from_u64(seed);
+            (0..30_000).map(|_| level * (1.0 + 0.06 * (rng.random::<f32>() - 0.5))).collect()
         };
         let pair = |seed, level| Pair::new(&noisy(seed, level), &noisy(seed + 7, level));
         let same = compare("same", &pair(1, 1.0), &pair(1000, 1.0), 1.0);
