@@ -21,7 +21,7 @@ mod variance;
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, bail};
+use anyhow::{Context, bail, ensure};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -95,10 +95,18 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
     let core = processor::pin();
     let style = ProgressStyle::with_template("{bar:32} {percent:>3} % {eta:>4} {msg}").expect("a valid template");
     let bar = ProgressBar::new((contests.len() * (options.turns + 1)) as u64).with_style(style);
-    let mut rows = Vec::new();
+    let (mut rows, mut faults) = (Vec::new(), Vec::new());
     for mut contest in contests {
         bar.set_message(contest.name());
-        let differences = contest.check(&mut programs, &exchange)?;
+        // One that differs must not keep the others from being measured.
+        let differences = match contest.check(&mut programs, &exchange) {
+            Ok(differences) => differences,
+            Err(error) => {
+                faults.push(format!("{error:#}"));
+                bar.inc(options.turns as u64 + 1);
+                continue;
+            }
+        };
         bar.inc(1);
         rows.extend(contest.time(&mut programs, options.turns, &differences, || bar.inc(1))?);
     }
@@ -132,6 +140,7 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
         replace(&page, &record.markdown())?;
         println!("{}", page.display());
     }
+    ensure!(faults.is_empty(), "left out of the table: {}", faults.join("; "));
     Ok(())
 }
 
