@@ -73,7 +73,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         Shown::Ball => Show::Ball,
         Shown::Cloth => Show::Cloth,
     };
-    let (world, camera) = studio(material, show).map_err(|error| Failure::File(error.to_string()))?;
+    let (world, camera) = studio(material, show, backend).map_err(|error| Failure::File(error.to_string()))?;
     let window = Rect { x: 0, y: 0, width: args.size[0], height: args.size[1] };
     let settings = Settings {
         camera,

@@ -1,6 +1,10 @@
 //! Where the picture is taken from.
 
-use crate::vec3::{Vec3, add, cross, disk, length, scale, sub, unit};
+use lobe_lane::Lanes;
+use lobe_scalar::Reference;
+
+use crate::vec3::{Vec3, add, cross, length, scale, sub, unit};
+use crate::vectors::disk;
 
 /// A thin-lens camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,7 +102,8 @@ impl View {
         if self.focus == f32::INFINITY {
             return (self.position, unit(through).unwrap_or(self.forward));
         }
-        let [lx, ly] = disk([u[2], u[3]]);
+        let lanes = Reference::default();
+        let [lx, ly] = disk(lanes, [u[2], u[3]].map(|u| lanes.splat(u))).map(|x| lanes.extract(x, 0));
         let aside = add(scale(self.lens[0], lx), scale(self.lens[1], ly));
         let direction = sub(scale(through, self.focus), aside);
         // A focus that is not finite or not positive is refused before; the length is that of a vector along the view.

@@ -4,77 +4,131 @@ use lobe::{Backend, Floats, Kernel, Lanes};
 use lobe_lane::Mask;
 use lobe_trace::{HitSoA, RaySoA};
 
-use crate::vec3::{Vec3, add, dot, scale};
+use crate::columns::{Column, NOTHING, RAYS, load, store, vector};
+use crate::vec3::Vec3;
+use crate::vectors::{across, blend, either, largest, less, minus, perpendicular, plus, product, times, unit_or};
 use crate::world::{Corner, World};
 
-/// A place on a surface that a ray has hit.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Hit {
-    pub position: Vec3,
-    /// Where shadow rays begin: `position`, moved out of the facets that hide a smooth surface from itself.
-    pub lifted: Vec3,
-    /// Normal of the triangle, unit length, on the side of the shading normal.
-    pub geometric: Vec3,
-    /// Whether the ray met the side that the corners are counterclockwise from.
-    pub front: bool,
-    /// How far off the surface rays begin.
-    step: f32,
-    /// The frame of the material: x along the tangent, z along the shading normal.
-    pub frame: [Vec3; 3],
-    /// Back along the ray, in the frame.
-    pub wo: Vec3,
-    pub material: u32,
-    pub light: Option<u32>,
+/// Places on surfaces that rays have hit.
+#[derive(Debug, Default)]
+pub(crate) struct Hits {
+    blocks: Vec<Places>,
+    /// Which part of the world each is on.
+    parts: Vec<u32>,
+    /// Back along the rays, in the frames of the material.
+    wo: Vec<Vec3>,
 }
 
-impl Hit {
+/// A place a lane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place<L: Lanes> {
+    pub position: [L::F; 3],
+    /// Where shadow rays begin: `position`, moved out of the facets that hide a smooth surface from itself.
+    pub lifted: [L::F; 3],
+    /// Normal of the triangle, unit length, on the side of the shading normal.
+    pub geometric: [L::F; 3],
+    /// The frame of the material: x along the tangent, z along the shading normal.
+    pub frame: [[L::F; 3]; 3],
+    /// How far off the surface rays begin.
+    step: L::F,
+}
+
+impl<L: Lanes> Place<L> {
     /// A direction of the world in the frame.
-    pub fn local(&self, world: Vec3) -> Vec3 {
-        self.frame.map(|axis| dot(axis, world))
+    #[inline(always)]
+    pub fn local(&self, world: [L::F; 3]) -> [L::F; 3] {
+        [product::<L>(self.frame[0], world), product::<L>(self.frame[1], world), product::<L>(self.frame[2], world)]
     }
 
     /// A direction of the frame in the world.
-    pub fn world(&self, local: Vec3) -> Vec3 {
-        let [t, b, n] = self.frame;
-        add(add(scale(t, local[0]), scale(b, local[1])), scale(n, local[2]))
+    #[inline(always)]
+    pub fn world(&self, local: [L::F; 3]) -> [L::F; 3] {
+        blend::<L>(self.frame, local)
     }
 
     /// Whether the direction is on the same side of the facet as of the smooth surface. Where it is not, light would
     /// leak through the surface.
-    pub fn sees(&self, world: Vec3, local: Vec3) -> bool {
-        (dot(self.geometric, world) > 0.0) == (local[2] > 0.0)
+    #[inline(always)]
+    pub fn sees(&self, lanes: L, world: [L::F; 3], local: [L::F; 3]) -> L::M {
+        let zero = lanes.splat(0.0);
+        !(product::<L>(self.geometric, world).gt(zero) ^ local[2].gt(zero))
     }
 
-    /// A ray's origin at this place, off the surface on the side that `direction` leads to.
-    pub fn leave(&self, from: Vec3, direction: Vec3) -> Vec3 {
-        let step = if dot(self.geometric, direction) < 0.0 { -self.step } else { self.step };
-        add(from, scale(self.geometric, step))
-    }
-}
-
-impl<const C: usize> World<C> {
-    /// The places that some of the rays, which are of unit length, have hit; all of them have hit something.
-    pub(crate) fn hits(&self, backend: Backend, which: &[u32], rays: &RaySoA, found: &HitSoA, out: &mut Vec<Hit>) {
-        out.clear();
-        out.reserve(which.len());
-        backend.run(Meeting { world: self, which, rays, found, out });
+    /// The origin of a ray at this place, off the surface on the side that `direction` leads to.
+    #[inline(always)]
+    pub fn leave(&self, lanes: L, from: [L::F; 3], direction: [L::F; 3]) -> [L::F; 3] {
+        let below = product::<L>(self.geometric, direction).lt(lanes.splat(0.0));
+        plus::<L>(from, times::<L>(self.geometric, lanes.select(below, -self.step, self.step)))
     }
 }
 
-struct Meeting<'a, const C: usize> {
+impl Hits {
+    pub fn len(&self) -> usize {
+        self.parts.len()
+    }
+
+    /// Which part of the world each is on.
+    pub fn parts(&self) -> &[u32] {
+        &self.parts
+    }
+
+    /// Back along the rays, in the frames of the material.
+    pub fn wo(&self) -> &[Vec3] {
+        &self.wo
+    }
+
+    /// The shading normal.
+    pub fn normal(&self, hit: usize) -> Vec3 {
+        vector(&self.blocks[hit / RAYS].frame[2], hit % RAYS)
+    }
+
+    /// The cosine between the ray and the normal of the triangle, positive where the ray met the side that the corners
+    /// are counterclockwise from.
+    pub fn front(&self, hit: usize) -> f32 {
+        self.blocks[hit / RAYS].front[hit % RAYS]
+    }
+
+    /// The places from `at` on, which the number of lanes divides. Lanes beyond the last place have any numbers.
+    #[inline(always)]
+    pub fn places<L: Lanes>(&self, lanes: L, at: usize) -> Place<L> {
+        let (block, at) = (&self.blocks[at / RAYS], at & (RAYS - L::LANES));
+        Place {
+            position: load(lanes, &block.position, at),
+            lifted: load(lanes, &block.lifted, at),
+            geometric: load(lanes, &block.geometric, at),
+            frame: [
+                load(lanes, &block.frame[0], at),
+                load(lanes, &block.frame[1], at),
+                load(lanes, &block.frame[2], at),
+            ],
+            step: lanes.load(&block.step[at..]),
+        }
+    }
+
+    /// Finds the places that some of the rays, which are of unit length, have hit; all of them have hit something.
+    pub fn find<const C: usize>(
+        &mut self,
+        backend: Backend,
+        world: &World<C>,
+        which: &[u32],
+        rays: &RaySoA,
+        found: &HitSoA,
+    ) {
+        self.parts.clear();
+        self.wo.clear();
+        self.blocks.resize(which.len().div_ceil(RAYS), Places::NOTHING);
+        backend.run(Finding { world, which, rays, found, hits: self });
+    }
+}
+
+/// [`Hits::find`] in lanes.
+struct Finding<'a, const C: usize> {
     world: &'a World<C>,
     which: &'a [u32],
     rays: &'a RaySoA,
     found: &'a HitSoA,
-    out: &'a mut Vec<Hit>,
+    hits: &'a mut Hits,
 }
-
-/// Rays that are looked at together: enough that what was put together by scalars has left for the cache when lanes
-/// read it.
-const BLOCK: usize = 64;
-
-/// A number of each of them.
-type Column = [f32; BLOCK];
 
 /// What is known of some rays.
 struct Known {
@@ -86,39 +140,39 @@ struct Known {
     transmits: Column,
 }
 
-/// What is found out about them.
-struct Found {
+/// What is found out about them; see [`Place`].
+#[derive(Clone, Debug)]
+struct Places {
     position: [Column; 3],
     lifted: [Column; 3],
     geometric: [Column; 3],
     frame: [[Column; 3]; 3],
-    wo: [Column; 3],
     step: Column,
-    /// Positive where the ray met the front.
     front: Column,
 }
 
-const NOTHING: Column = [0.0; BLOCK];
+impl Places {
+    const NOTHING: Self = Places {
+        position: [NOTHING; 3],
+        lifted: [NOTHING; 3],
+        geometric: [NOTHING; 3],
+        frame: [[NOTHING; 3]; 3],
+        step: NOTHING,
+        front: NOTHING,
+    };
+}
 
-impl<const C: usize> Kernel for Meeting<'_, C> {
+impl<const C: usize> Kernel for Finding<'_, C> {
     type Out = ();
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        let Meeting { world, which, rays, found, out } = self;
+        let Finding { world, which, rays, found, hits } = self;
+        let Hits { blocks, parts, wo } = hits;
         let mut known =
             Known { corners: [[NOTHING; 10]; 3], direction: [NOTHING; 3], uv: [NOTHING; 2], transmits: NOTHING };
-        let mut places = Found {
-            position: [NOTHING; 3],
-            lifted: [NOTHING; 3],
-            geometric: [NOTHING; 3],
-            frame: [[NOTHING; 3]; 3],
-            wo: [NOTHING; 3],
-            step: NOTHING,
-            front: NOTHING,
-        };
-        for which in which.chunks(BLOCK) {
-            let mut parts = [0; BLOCK];
+        let mut back = [NOTHING; 3];
+        for (which, places) in which.chunks(RAYS).zip(blocks) {
             for (lane, ray) in which.iter().enumerate() {
                 let ray = *ray as usize;
                 let [a, b, c, part] = world.triangles[found.primitive[ray] as usize];
@@ -132,30 +186,15 @@ impl<const C: usize> Kernel for Meeting<'_, C> {
                 known.uv[0][lane] = found.u[ray];
                 known.uv[1][lane] = found.v[ray];
                 known.transmits[lane] = world.parts[part as usize].transmits;
-                parts[lane] = part;
+                parts.push(part);
             }
             let mut at = 0;
             while at < which.len() {
-                find(lanes, &known, &mut places, at);
+                store(lanes, &mut back, at, find(lanes, &known, places, at));
                 at += L::LANES;
             }
-            for (lane, part) in parts[..which.len()].iter().enumerate() {
-                let part = &world.parts[*part as usize];
-                out.push(Hit {
-                    position: vector(&places.position, lane),
-                    lifted: vector(&places.lifted, lane),
-                    geometric: vector(&places.geometric, lane),
-                    front: places.front[lane] > 0.0,
-                    step: places.step[lane],
-                    frame: [
-                        vector(&places.frame[0], lane),
-                        vector(&places.frame[1], lane),
-                        vector(&places.frame[2], lane),
-                    ],
-                    wo: vector(&places.wo, lane),
-                    material: part.material,
-                    light: part.light,
-                });
+            for lane in 0..which.len() {
+                wo.push(vector(&back, lane));
             }
         }
     }
@@ -174,8 +213,9 @@ fn spread(Corner(values): &Corner, columns: &mut [Column; 10], lane: usize) {
 /// How far `wo` stays above the smooth surface, at least: the sine of the angle.
 const GRAZING: f32 = 1e-3;
 
+/// Fills in `places`; returns the ways back along the rays, in the frames.
 #[inline(always)]
-fn find<L: Lanes>(lanes: L, known: &Known, places: &mut Found, at: usize) {
+fn find<L: Lanes>(lanes: L, known: &Known, places: &mut Places, at: usize) -> [L::F; 3] {
     let zero = lanes.splat(0.0);
     let one = lanes.splat(1.0);
     let [a, b, c] = [&known.corners[0], &known.corners[1], &known.corners[2]];
@@ -232,99 +272,15 @@ fn find<L: Lanes>(lanes: L, known: &Known, places: &mut Found, at: usize) {
         lifted = plus::<L>(lifted, times::<L>(normal, weights[k] * below));
     }
 
-    put(lanes, &mut places.position, at, position);
-    put(lanes, &mut places.lifted, at, lifted);
-    put(lanes, &mut places.geometric, at, geometric);
-    let mut wo = [zero; 3];
-    for k in 0..3 {
-        put(lanes, &mut places.frame[k], at, frame[k]);
-        wo[k] = product::<L>(frame[k], toward);
-    }
-    put(lanes, &mut places.wo, at, wo);
+    store(lanes, &mut places.position, at, position);
+    store(lanes, &mut places.lifted, at, lifted);
+    store(lanes, &mut places.geometric, at, geometric);
     lanes.store(&mut places.step[at..], step);
     lanes.store(&mut places.front[at..], front);
-}
-
-#[inline(always)]
-fn load<L: Lanes>(lanes: L, columns: &[Column], at: usize) -> [L::F; 3] {
-    [lanes.load(&columns[0][at..]), lanes.load(&columns[1][at..]), lanes.load(&columns[2][at..])]
-}
-
-#[inline(always)]
-fn put<L: Lanes>(lanes: L, columns: &mut [Column; 3], at: usize, vector: [L::F; 3]) {
+    let mut wo = [zero; 3];
     for k in 0..3 {
-        lanes.store(&mut columns[k][at..], vector[k]);
+        store(lanes, &mut places.frame[k], at, frame[k]);
+        wo[k] = product::<L>(frame[k], toward);
     }
-}
-
-#[inline(always)]
-fn vector(columns: &[Column; 3], at: usize) -> Vec3 {
-    [columns[0][at], columns[1][at], columns[2][at]]
-}
-
-#[inline(always)]
-fn blend<L: Lanes>([a, b, c]: [[L::F; 3]; 3], [u, v, w]: [L::F; 3]) -> [L::F; 3] {
-    plus::<L>(plus::<L>(times::<L>(a, u), times::<L>(b, v)), times::<L>(c, w))
-}
-
-#[inline(always)]
-fn plus<L: Lanes>(a: [L::F; 3], b: [L::F; 3]) -> [L::F; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-#[inline(always)]
-fn less<L: Lanes>(a: [L::F; 3], b: [L::F; 3]) -> [L::F; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-#[inline(always)]
-fn minus<L: Lanes>(a: [L::F; 3]) -> [L::F; 3] {
-    [-a[0], -a[1], -a[2]]
-}
-
-#[inline(always)]
-fn times<L: Lanes>(a: [L::F; 3], s: L::F) -> [L::F; 3] {
-    [a[0] * s, a[1] * s, a[2] * s]
-}
-
-#[inline(always)]
-fn product<L: Lanes>(a: [L::F; 3], b: [L::F; 3]) -> L::F {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-#[inline(always)]
-fn across<L: Lanes>(a: [L::F; 3], b: [L::F; 3]) -> [L::F; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-#[inline(always)]
-fn either<L: Lanes>(lanes: L, mask: L::M, a: [L::F; 3], b: [L::F; 3]) -> [L::F; 3] {
-    [lanes.select(mask, a[0], b[0]), lanes.select(mask, a[1], b[1]), lanes.select(mask, a[2], b[2])]
-}
-
-#[inline(always)]
-fn largest<L: Lanes>(a: [L::F; 3]) -> L::F {
-    a[0].abs().max(a[1].abs()).max(a[2].abs())
-}
-
-/// The unit vector along `a`, or `other` where it points nowhere.
-#[inline(always)]
-fn unit_or<L: Lanes>(lanes: L, a: [L::F; 3], other: [L::F; 3]) -> [L::F; 3] {
-    // Scaled by the largest component first, so that no square overflows or vanishes.
-    let size = largest::<L>(a);
-    let sound = lanes.splat(1e-30).lt(size) & size.lt(lanes.splat(1e30));
-    let one = lanes.splat(1.0);
-    let a = times::<L>(a, one / size);
-    either(lanes, sound, times::<L>(a, one / product::<L>(a, a).sqrt()), other)
-}
-
-/// A unit vector perpendicular to the unit vector `n`.
-#[inline(always)]
-fn perpendicular<L: Lanes>(lanes: L, n: [L::F; 3]) -> [L::F; 3] {
-    // Crossed with the axis that `n` has least of, so that the product is never short.
-    let zero = lanes.splat(0.0);
-    let [x, y, z] = [n[0].abs(), n[1].abs(), n[2].abs()];
-    let with_y_or_z = either(lanes, y.le(z), [-n[2], zero, n[0]], [n[1], -n[0], zero]);
-    let along = either(lanes, x.le(y) & x.le(z), [zero, n[2], -n[1]], with_y_or_z);
-    times::<L>(along, lanes.splat(1.0) / product::<L>(along, along).sqrt())
+    wo
 }

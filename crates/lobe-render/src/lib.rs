@@ -16,6 +16,7 @@
 #![forbid(unsafe_code)]
 
 mod camera;
+mod columns;
 mod film;
 mod hit;
 mod integrator;
@@ -30,6 +31,7 @@ pub mod scene;
 pub mod shader;
 mod stats;
 mod vec3;
+mod vectors;
 mod wave;
 mod world;
 

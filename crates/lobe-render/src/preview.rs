@@ -8,7 +8,7 @@ use lobe_mesh::{Geometry, generate, ply, shapes};
 use crate::camera::Camera;
 use crate::light::{Environment, Light};
 use crate::place::Place;
-use crate::shader::{Lambert, Shader};
+use crate::shader::{Backend, Lambert, Shader};
 use crate::vec3::{Vec3, add, cross, scale, sub, unit};
 use crate::world::{Shape, World, WorldBuilder, WorldError};
 
@@ -24,16 +24,16 @@ pub enum Show {
     Cloth,
 }
 
-/// The studio with a material in it, and the camera.
+/// The studio with a material in it, and the camera. What is there beside the material runs on the backend.
 ///
 /// # Errors
 /// Never for the shapes that come with the program.
-pub fn studio(material: Arc<dyn Shader<3>>, show: Show) -> Result<(World<3>, Camera), WorldError> {
+pub fn studio(material: Arc<dyn Shader<3>>, show: Show, backend: Backend) -> Result<(World<3>, Camera), WorldError> {
     let mut world = WorldBuilder::new();
     let material = world.material(material);
-    let backdrop = world.material(Arc::new(Lambert { albedo: [0.32; 3] }));
-    let stand = world.material(Arc::new(Lambert { albedo: [0.12; 3] }));
-    let black = world.material(Arc::new(Lambert { albedo: [0.0; 3] }));
+    let backdrop = world.material(Arc::new(Lambert::new([0.32; 3], backend)));
+    let stand = world.material(Arc::new(Lambert::new([0.12; 3], backend)));
+    let black = world.material(Arc::new(Lambert::new([0.0; 3], backend)));
     let cove = shapes::cove(24.0, 24);
     let moved = Place { axes: Place::UPRIGHT, translate: [0.0; 3] };
     world.shape(&moved.shape(&cove, cove.triangles.clone()), backdrop, None, false)?;

@@ -79,8 +79,17 @@ impl Numbers {
     }
 
     /// What was drawn for a sequence.
+    #[inline]
     pub fn of(&self, sequence: usize) -> [f32; 4] {
         self.numbers.each_ref().map(|column| column[sequence])
+    }
+
+    /// What was drawn for the sequences from `at` on, which the number of lanes divides. Lanes beyond the last sequence
+    /// have any numbers in `[0, 1)`.
+    #[inline(always)]
+    pub fn lanes<L: Lanes>(&self, lanes: L, at: usize) -> [L::F; 4] {
+        let [a, b, c, d] = &self.numbers;
+        [lanes.load(&a[at..]), lanes.load(&b[at..]), lanes.load(&c[at..]), lanes.load(&d[at..])]
     }
 }
 

@@ -23,6 +23,7 @@ impl RaySoA {
     }
 
     /// Adds a ray.
+    #[inline]
     pub fn push(&mut self, origin: [f32; 3], direction: [f32; 3], t_min: f32, t_max: f32) {
         for axis in 0..3 {
             self.origin[axis].push(origin[axis]);

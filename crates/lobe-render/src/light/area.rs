@@ -1,15 +1,18 @@
 //! Triangles that radiate.
 
+use lobe_lane::{Block, Floats, Lanes};
+
 use super::Lit;
-use crate::vec3::{Vec3, add, cross, dot, length, scale, sub, unit};
+use super::sums::Sums;
+use crate::vec3::{Vec3, cross, length, sub, unit};
+use crate::vectors::{less, plus, product, times};
 
 /// Triangles that radiate the same into all directions in front of them.
 #[derive(Clone, Debug)]
 pub struct AreaLight<const C: usize> {
     /// For each triangle a corner, the ways from there to the others, and the unit normal.
     triangles: Vec<[Vec3; 4]>,
-    /// The sum of the areas up to and with each triangle, the last being 1.
-    sums: Vec<f32>,
+    areas: Sums,
     area: f64,
     radiance: [f32; C],
     two_sided: bool,
@@ -19,22 +22,15 @@ impl<const C: usize> AreaLight<C> {
     /// A light of these triangles, counterclockwise seen from the front, with this radiance in W/(m^2 sr). `None` where
     /// they have no area.
     pub fn new(triangles: Vec<[[f32; 3]; 3]>, radiance: [f32; C], two_sided: bool) -> Option<Self> {
-        let mut area = 0.0;
-        let sums: Vec<f64> = triangles
-            .iter()
-            .map(|&triangle| {
-                area += f64::from(length(normal(triangle))) / 2.0;
-                area
-            })
-            .collect();
-        let sound = area > 0.0 && area.is_finite();
-        sound.then(|| AreaLight {
-            sums: sums.into_iter().map(|sum| (sum / area) as f32).collect(),
-            triangles: triangles.into_iter().map(parts).collect(),
-            area,
-            radiance,
-            two_sided,
-        })
+        let areas: Vec<f64> = triangles.iter().map(|&corners| f64::from(length(normal(corners))) / 2.0).collect();
+        let area: f64 = areas.iter().sum();
+        if !(area > 0.0 && area.is_finite()) {
+            return None;
+        }
+        let mut sums = Sums::new(areas.len());
+        sums.push(&areas);
+        let triangles = triangles.into_iter().map(parts).collect();
+        Some(AreaLight { triangles, areas: sums, area, radiance, two_sided })
     }
 
     /// Radiance in W/(m^2 sr).
@@ -52,31 +48,32 @@ impl<const C: usize> AreaLight<C> {
         if self.two_sided || front { self.radiance } else { [0.0; C] }
     }
 
-    /// The density over solid angle, 1/sr, of drawing a place that far away, whose normal has that cosine to the way.
-    pub(crate) fn pdf(&self, distance: f32, cos: f32) -> f32 {
-        distance * distance / (cos.abs().max(1e-9) * self.area as f32)
+    /// The density over solid angle, 1/sr, of drawing places that far away, whose normals have those cosines to the way.
+    #[inline(always)]
+    pub(crate) fn pdf<L: Lanes>(&self, lanes: L, distance: L::F, cos: L::F) -> L::F {
+        distance * distance / (cos.abs().max(lanes.splat(1e-9)) * lanes.splat(self.area as f32))
     }
 
-    /// Draws a place uniformly in area.
-    pub(crate) fn draw(&self, from: Vec3, [u, v]: [f32; 2]) -> Option<Lit<C>> {
-        let last = self.triangles.len() - 1;
-        let index = self.sums.partition_point(|&sum| sum <= u).min(last);
-        let before = if index == 0 { 0.0 } else { self.sums[index - 1] };
-        let inside = ((u - before) / (self.sums[index] - before).max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
-        let [a, ab, ac, normal] = self.triangles[index];
+    /// Draws places uniformly in area.
+    #[inline(always)]
+    pub(crate) fn draw<L: Lanes>(&self, lanes: L, from: [L::F; 3], [u, v]: [L::F; 2]) -> Lit<L, C> {
+        let (index, inside) = self.areas.search(lanes, lanes.splat_int(0), u);
+        let block = Block::new(self.triangles.as_flattened().as_flattened(), [0, 4, 8]);
+        let [a, b, c] = lanes.gather_quads(&block, index * lanes.splat_int(12));
+        let [corner, ab] = [[a[0], a[1], a[2]], [a[3], b[0], b[1]]];
+        let [ac, normal] = [[b[2], b[3], c[0]], [c[1], c[2], c[3]]];
+        let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
         let root = inside.sqrt();
-        let (wb, wc) = (root * (1.0 - v), root * v);
-        let place = add(a, add(scale(ab, wb), scale(ac, wc)));
-        let toward = sub(place, from);
-        let distance = length(toward);
-        if distance <= 0.0 {
-            return None;
-        }
-        let wi = scale(toward, 1.0 / distance);
-        let cos = -dot(normal, wi);
-        let faces = cos > 1e-6 || self.two_sided && cos < -1e-6;
-        let pdf = self.pdf(distance, cos);
-        (faces && pdf.is_finite()).then_some(Lit { wi, distance, radiance: self.radiance, pdf: Some(pdf) })
+        let (wb, wc) = (root * (one - v), root * v);
+        let place = plus::<L>(corner, plus::<L>(times::<L>(ab, wb), times::<L>(ac, wc)));
+        let toward = less::<L>(place, from);
+        let distance = product::<L>(toward, toward).sqrt();
+        let wi = times::<L>(toward, one / distance);
+        let cos = -product::<L>(normal, wi);
+        let facing = if self.two_sided { cos.abs() } else { cos };
+        let pdf = self.pdf(lanes, distance, cos);
+        let there = zero.lt(distance) & lanes.splat(1e-6).lt(facing) & pdf.lt(lanes.splat(f32::INFINITY));
+        Lit::new(lanes, wi, distance, self.radiance, pdf, there)
     }
 }
 
@@ -93,6 +90,9 @@ fn normal([a, b, c]: [Vec3; 3]) -> Vec3 {
 
 #[cfg(test)]
 mod tests {
+    use lobe_lane::Mask;
+    use lobe_scalar::Scalar;
+
     use super::*;
 
     #[test]
@@ -103,13 +103,16 @@ mod tests {
         assert!((light.area() - 4.0).abs() < 1e-12);
         let n = 128;
         let mut angle = 0.0;
+        let lanes = Scalar::<1>;
         for i in 0..n * n {
             let u = [((i / n) as f32 + 0.5) / n as f32, ((i % n) as f32 + 0.5) / n as f32];
-            let lit = light.draw([0.0; 3], u).unwrap();
-            angle += 1.0 / f64::from(lit.pdf.unwrap()) / f64::from(n * n);
+            let lit = light.draw(lanes, lanes.splat_xyz([0.0; 3]), u.map(|u| lanes.splat(u)));
+            assert!(lit.there.all());
+            angle += 1.0 / f64::from(lanes.extract(lit.pdf, 0)) / f64::from(n * n);
         }
         assert!((angle - 2.0 * std::f64::consts::PI / 3.0).abs() < 2e-3, "{angle}");
-        assert!(light.draw([0.0, 2.0, 0.0], [0.5; 2]).is_none(), "dark behind");
+        let behind = light.draw(lanes, lanes.splat_xyz([0.0, 2.0, 0.0]), [lanes.splat(0.5); 2]);
+        assert!(!behind.there.any(), "dark behind");
     }
 
     #[test]

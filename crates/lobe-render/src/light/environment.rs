@@ -2,9 +2,13 @@
 
 use std::f32::consts::{PI, TAU};
 
+use lobe_lane::{Block, Floats, Ints, Lanes};
+use lobe_scalar::Reference;
+
 use super::Lit;
 use super::sums::Sums;
-use crate::vec3::{Vec3, sin_cos};
+use crate::vec3::Vec3;
+use crate::vectors::sin_cos;
 
 /// What is wrong with an environment.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -39,7 +43,8 @@ pub enum EnvironmentError {
 pub struct Environment<const C: usize> {
     width: usize,
     height: usize,
-    texels: Vec<[f32; C]>,
+    /// Channels of each texel, as many as fill quads.
+    texels: Vec<f32>,
     /// Turn about +y, as a share of a whole one.
     turn: f32,
     mean: f64,
@@ -51,6 +56,9 @@ pub struct Environment<const C: usize> {
 }
 
 impl<const C: usize> Environment<C> {
+    /// Floats from one texel to the next.
+    const STRIDE: usize = C.next_multiple_of(4);
+
     /// The same radiance from everywhere.
     ///
     /// # Errors
@@ -93,13 +101,17 @@ impl<const C: usize> Environment<C> {
         let mut environment = Environment {
             width,
             height,
-            texels,
+            texels: Vec::with_capacity(texels.len() * Self::STRIDE),
             turn: turn / TAU,
             mean,
             rows: Sums::new(height),
             columns: Sums::new(width),
             density: Vec::with_capacity(weights.len()),
         };
+        for texel in texels {
+            environment.texels.extend(texel);
+            environment.texels.extend([0.0; 3].iter().take(Self::STRIDE - C));
+        }
         let across: Vec<f64> = weights.chunks_exact(width).map(|row| row.iter().sum()).collect();
         let total: f64 = across.iter().sum();
         environment.rows.push(&across);
@@ -115,73 +127,96 @@ impl<const C: usize> Environment<C> {
 
     /// Radiance from the unit direction `wi`.
     pub fn radiance(&self, wi: [f32; 3]) -> [f32; C] {
-        if self.texels.len() == 1 {
-            return self.texels[0];
-        }
-        self.interpolated(self.place(wi))
+        self.seen(wi).0
     }
 
     /// Radiance from where there is no surface, and the density with which [`draw`](Environment::draw) finds it.
     pub(crate) fn seen(&self, wi: Vec3) -> ([f32; C], f32) {
-        if self.texels.len() == 1 {
-            return (self.texels[0], 0.25 / PI);
+        let lanes = Reference::default();
+        let (u, v) = if self.is_constant() { (0.0, 0.0) } else { self.place(wi) };
+        let radiance = self.interpolated(lanes, [lanes.splat(u), lanes.splat(v)]).map(|x| lanes.extract(x, 0));
+        if self.is_constant() {
+            return (radiance, 0.25 / PI);
         }
-        let place = self.place(wi);
-        (self.interpolated(place), self.density_at(place) / (TAU * PI * sin_of(wi)))
-    }
-
-    /// Radiance at a place of the unit square.
-    fn interpolated(&self, (u, v): (f32, f32)) -> [f32; C] {
-        let (x, y) = (u * self.width as f32 - 0.5, (v * self.height as f32 - 0.5).max(0.0));
-        let (left, top) = (x.floor(), y.floor());
-        let (fx, fy) = (x - left, y - top);
-        // The circle is closed; the poles are not crossed.
-        let first = left as i32;
-        let column = |offset: i32| {
-            let column = first + offset;
-            let width = self.width as i32;
-            (if column < 0 {
-                column + width
-            } else if column >= width {
-                column - width
-            } else {
-                column
-            }) as usize
-        };
-        let row = |offset: usize| (top as usize + offset).min(self.height - 1) * self.width;
-        let corner = |dy: usize, dx: i32| &self.texels[row(dy) + column(dx)];
-        let (a, b, c, d) = (corner(0, 0), corner(0, 1), corner(1, 0), corner(1, 1));
-        std::array::from_fn(|k| {
-            let upper = a[k] + fx * (b[k] - a[k]);
-            let lower = c[k] + fx * (d[k] - c[k]);
-            (upper + fy * (lower - upper)).max(0.0)
-        })
-    }
-
-    /// The density over the unit square.
-    fn density_at(&self, (u, v): (f32, f32)) -> f32 {
         let cell = |x: f32, n: usize| ((x * n as f32) as usize).min(n - 1);
-        self.density[cell(v, self.height) * self.width + cell(u, self.width)]
+        let density = self.density[cell(v, self.height) * self.width + cell(u, self.width)];
+        (radiance, density / (TAU * PI * sin_of(wi)))
     }
 
-    /// Draws a direction about in proportion to radiance.
-    pub(crate) fn draw(&self, [u, v]: [f32; 2]) -> Option<Lit<C>> {
-        if self.texels.len() == 1 {
-            let y = 1.0 - 2.0 * v;
-            let radius = (1.0 - y * y).max(0.0).sqrt();
-            let (sin, cos) = sin_cos(u);
-            let (wi, distance) = ([radius * cos, y, radius * sin], f32::INFINITY);
-            return Some(Lit { wi, distance, radiance: self.texels[0], pdf: Some(0.25 / PI) });
+    fn is_constant(&self) -> bool {
+        self.density.len() == 1
+    }
+
+    /// Radiance at places of the unit square.
+    #[inline(always)]
+    fn interpolated<L: Lanes>(&self, lanes: L, [u, v]: [L::F; 2]) -> [L::F; C] {
+        let (zero, none, one) = (lanes.splat(0.0), lanes.splat_int(0), lanes.splat_int(1));
+        let half = lanes.splat(0.5);
+        let x = u * lanes.splat(self.width as f32) - half;
+        let y = (v * lanes.splat(self.height as f32) - half).max(zero);
+        // The circle is closed; the poles are not crossed.
+        let (width, height) = (lanes.splat_int(self.width as i32), lanes.splat_int(self.height as i32));
+        let before = x.lt(zero);
+        let left = x.to_int();
+        let fx = x - lanes.select(before, lanes.splat(-1.0), left.to_float());
+        let left = lanes.select_int(before, width - one, left);
+        let right = left + one;
+        let right = lanes.select_int(right.lt(width), right, none);
+        let top = y.to_int();
+        let fy = y - top.to_float();
+        let bottom = (top + one).min(height - one);
+        let block = Block::new(&self.texels, [0]);
+        let mut radiance = [zero; C];
+        let mut from = 0;
+        while from < C {
+            let mut corners = [[zero; 4]; 4];
+            let places = [(top, left), (top, right), (bottom, left), (bottom, right)];
+            let mut corner = 0;
+            while corner < 4 {
+                let (row, column) = places[corner];
+                let texel = (row * width + column) * lanes.splat_int(Self::STRIDE as i32);
+                [corners[corner]] = lanes.gather_quads(&block, texel + lanes.splat_int(from as i32));
+                corner += 1;
+            }
+            let [a, b, c, d] = corners;
+            let mut k = 0;
+            while k < 4 && from + k < C {
+                let upper = a[k] + fx * (b[k] - a[k]);
+                let lower = c[k] + fx * (d[k] - c[k]);
+                radiance[from + k] = (upper + fy * (lower - upper)).max(zero);
+                k += 1;
+            }
+            from += 4;
         }
-        let (row, fy) = self.rows.search(0, v);
-        let (column, fx) = self.columns.search(row, u);
-        let place = ((column as f32 + fx) / self.width as f32, (row as f32 + fy) / self.height as f32);
-        let (sin, cos) = sin_cos(0.5 * place.1);
-        let (sin_phi, cos_phi) = sin_cos(place.0 + self.turn - 0.5);
+        radiance
+    }
+
+    /// Draws directions about in proportion to radiance.
+    #[inline(always)]
+    pub(crate) fn draw<L: Lanes>(&self, lanes: L, [u, v]: [L::F; 2]) -> Lit<L, C> {
+        let (zero, one, half) = (lanes.splat(0.0), lanes.splat(1.0), lanes.splat(0.5));
+        let infinite = lanes.splat(f32::INFINITY);
+        if self.is_constant() {
+            let y = one - lanes.splat(2.0) * v;
+            let radius = (one - y * y).max(zero).sqrt();
+            let [sin, cos] = sin_cos(lanes, u);
+            let radiance = self.interpolated(lanes, [zero; 2]);
+            let (wi, pdf) = ([radius * cos, y, radius * sin], lanes.splat(0.25 / PI));
+            return Lit { wi, distance: infinite, radiance, pdf, there: zero.lt(one) };
+        }
+        let (row, fy) = self.rows.search(lanes, lanes.splat_int(0), v);
+        let (column, fx) = self.columns.search(lanes, row, u);
+        let place = [
+            (column.to_float() + fx) / lanes.splat(self.width as f32),
+            (row.to_float() + fy) / lanes.splat(self.height as f32),
+        ];
+        let [sin, cos] = sin_cos(lanes, half * place[1]);
+        let [sin_phi, cos_phi] = sin_cos(lanes, place[0] + lanes.splat(self.turn) - half);
         let wi = [sin * sin_phi, cos, -sin * cos_phi];
-        let pdf = self.density[row * self.width + column] / (TAU * PI * sin.max(1e-6));
-        let lit = Lit { wi, distance: f32::INFINITY, radiance: self.interpolated(place), pdf: Some(pdf) };
-        (pdf > 0.0 && pdf.is_finite()).then_some(lit)
+        let texel = row * lanes.splat_int(self.width as i32) + column;
+        let pdf = lanes.gather(&self.density, texel) / (lanes.splat(TAU * PI) * sin.max(lanes.splat(1e-6)));
+        let there = zero.lt(pdf) & pdf.lt(infinite);
+        Lit { wi, distance: infinite, radiance: self.interpolated(lanes, place), pdf, there }
     }
 
     /// Where in the unit square a direction is.
@@ -223,6 +258,8 @@ fn weights<const C: usize>(width: usize, height: usize, texels: &[[f32; C]]) -> 
 
 #[cfg(test)]
 mod tests {
+    use lobe_lane::Mask;
+
     use super::*;
 
     fn sun() -> Environment<1> {
@@ -234,16 +271,18 @@ mod tests {
     #[test]
     fn drawing_is_in_proportion_to_its_density() {
         let light = sun();
+        let lanes = Reference::default();
         let n = 400;
         let (mut radiance, mut exact, mut angle) = (0.0, 0.0, 0.0);
         for i in 0..n * n {
             let u = [((i / n) as f32 + 0.5) / n as f32, ((i % n) as f32 + 0.5) / n as f32];
-            let lit = light.draw(u).unwrap();
-            let pdf = light.seen(lit.wi).1;
-            let drawn = lit.pdf.unwrap();
+            let lit = light.draw(lanes, u.map(|u| lanes.splat(u)));
+            assert!(lit.there.all());
+            let pdf = light.seen(lanes.extract_xyz(lit.wi, 0)).1;
+            let drawn = lanes.extract(lit.pdf, 0);
             // Rounding puts a few directions of an edge into the next texel.
             angle += f64::from(((pdf - drawn).abs() > 1e-3 * drawn) as u8) / f64::from(n * n);
-            radiance += f64::from(lit.radiance[0] / drawn) / f64::from(n * n);
+            radiance += f64::from(lanes.extract(lit.radiance[0], 0) / drawn) / f64::from(n * n);
             let y = 1.0 - 2.0 * u[0];
             let (sin, cos) = (TAU * u[1]).sin_cos();
             let r = (1.0 - y * y).sqrt();

@@ -7,7 +7,10 @@ mod sums;
 pub use area::AreaLight;
 pub use environment::{Environment, EnvironmentError};
 
-use crate::vec3::{Vec3, dot, length, scale, sub};
+use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
+
+use crate::vectors::{either, less, product, times};
+use sums::Sums;
 
 /// A light of `C` channels.
 #[derive(Clone, Debug)]
@@ -44,36 +47,76 @@ pub enum Light<const C: usize> {
     Environment(Environment<C>),
 }
 
-/// A place on a light, drawn for a point.
+/// A place on a light a lane, drawn for points.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Lit<const C: usize> {
+pub(crate) struct Lit<L: Lanes, const C: usize> {
     /// Toward the light, unit length.
-    pub wi: Vec3,
+    pub wi: [L::F; 3],
     /// How far it is; may be infinite.
-    pub distance: f32,
+    pub distance: L::F,
     /// Radiance; where the light has no extent, the irradiance of a surface that faces it.
-    pub radiance: [f32; C],
-    /// Density over solid angle, 1/sr; `None` where the light has no extent.
-    pub pdf: Option<f32>,
+    pub radiance: [L::F; C],
+    /// Density over solid angle, 1/sr; infinite where the light has no extent.
+    pub pdf: L::F,
+    /// Whether light comes at all; where none does, the other numbers may be any.
+    pub there: L::M,
+}
+
+impl<L: Lanes, const C: usize> Lit<L, C> {
+    /// The same radiance in all lanes.
+    #[inline(always)]
+    fn new(lanes: L, wi: [L::F; 3], distance: L::F, radiance: [f32; C], pdf: L::F, there: L::M) -> Self {
+        let mut lit = Lit { wi, distance, radiance: [lanes.splat(0.0); C], pdf, there };
+        for (lit, radiance) in lit.radiance.iter_mut().zip(radiance) {
+            *lit = lanes.splat(radiance);
+        }
+        lit
+    }
+
+    /// The radiance multiplied.
+    #[inline(always)]
+    fn times(mut self, factor: L::F) -> Self {
+        for radiance in &mut self.radiance {
+            *radiance = *radiance * factor;
+        }
+        self
+    }
+
+    /// `other` in the lanes of `mask`.
+    #[inline(always)]
+    fn or(mut self, lanes: L, mask: L::M, other: Self) -> Self {
+        self.wi = either(lanes, mask, other.wi, self.wi);
+        self.distance = lanes.select(mask, other.distance, self.distance);
+        for (radiance, other) in self.radiance.iter_mut().zip(other.radiance) {
+            *radiance = lanes.select(mask, other, *radiance);
+        }
+        self.pdf = lanes.select(mask, other.pdf, self.pdf);
+        self.there = (mask & other.there) | (!mask & self.there);
+        self
+    }
 }
 
 impl<const C: usize> Light<C> {
-    /// Draws a place on it for the point `from`. `None` where no light comes.
-    pub(crate) fn draw(&self, from: Vec3, u: [f32; 2]) -> Option<Lit<C>> {
+    /// Draws places on it for the points `from`.
+    #[inline(always)]
+    fn draw<L: Lanes>(&self, lanes: L, from: [L::F; 3], u: [L::F; 2]) -> Lit<L, C> {
         match self {
-            Light::Point { position, intensity } => at(from, *position, *intensity),
+            Light::Point { position, intensity } => at(lanes, from, *position, *intensity),
             Light::Spot { position, direction, intensity, falloff: [full, none] } => {
-                let lit = at(from, *position, *intensity)?;
-                let cos = -dot(lit.wi, *direction);
-                let t = ((cos - none) / (full - none).max(1e-6)).clamp(0.0, 1.0);
-                let share = t * t * (3.0 - 2.0 * t);
-                (share > 0.0).then(|| Lit { radiance: lit.radiance.map(|x| x * share), ..lit })
+                let lit = at(lanes, from, *position, *intensity);
+                let cos = -product::<L>(lit.wi, lanes.splat_xyz(*direction));
+                let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
+                let t = (cos - lanes.splat(*none)) / lanes.splat((full - none).max(1e-6));
+                let t = t.max(zero).min(one);
+                let share = t * t * (lanes.splat(3.0) - lanes.splat(2.0) * t);
+                Lit { there: lit.there & zero.lt(share), ..lit.times(share) }
             }
             Light::Directional { toward, irradiance } => {
-                Some(Lit { wi: *toward, distance: f32::INFINITY, radiance: *irradiance, pdf: None })
+                let (wi, infinite) = (lanes.splat_xyz(*toward), lanes.splat(f32::INFINITY));
+                Lit::new(lanes, wi, infinite, *irradiance, infinite, infinite.eq(infinite))
             }
-            Light::Area(area) => area.draw(from, u),
-            Light::Environment(environment) => environment.draw(u),
+            Light::Area(area) => area.draw(lanes, from, u),
+            Light::Environment(environment) => environment.draw(lanes, u),
         }
     }
 
@@ -99,17 +142,16 @@ impl<const C: usize> Light<C> {
     }
 }
 
-/// A point light seen from a point.
-fn at<const C: usize>(from: Vec3, position: Vec3, intensity: [f32; C]) -> Option<Lit<C>> {
-    let toward = sub(position, from);
-    let distance = length(toward);
-    let near = 1.0 / (distance * distance);
-    (distance > 0.0 && near.is_finite()).then(|| Lit {
-        wi: scale(toward, 1.0 / distance),
-        distance,
-        radiance: intensity.map(|x| x * near),
-        pdf: None,
-    })
+/// A point light seen from points.
+#[inline(always)]
+fn at<L: Lanes, const C: usize>(lanes: L, from: [L::F; 3], position: [f32; 3], intensity: [f32; C]) -> Lit<L, C> {
+    let toward = less::<L>(lanes.splat_xyz(position), from);
+    let (zero, one, infinite) = (lanes.splat(0.0), lanes.splat(1.0), lanes.splat(f32::INFINITY));
+    let distance = product::<L>(toward, toward).sqrt();
+    let near = one / (distance * distance);
+    let wi = times::<L>(toward, one / distance);
+    let there = zero.lt(distance) & near.lt(infinite);
+    Lit::new(lanes, wi, distance, intensity, infinite, there).times(near)
 }
 
 /// All lights of a scene and the chance of each to be chosen.
@@ -118,8 +160,7 @@ pub(crate) struct Lights<const C: usize> {
     pub all: Vec<Light<C>>,
     /// The chance of each.
     chances: Vec<f32>,
-    /// The sum of the chances up to and with each.
-    sums: Vec<f32>,
+    sums: Sums,
     /// Which one is the environment.
     pub environment: Option<usize>,
 }
@@ -131,26 +172,60 @@ impl<const C: usize> Lights<C> {
         let total: f64 = powers.iter().sum();
         let equal = 1.0 / all.len().max(1) as f64;
         let by_power = |power: f64| if total > 0.0 { power / total } else { equal };
-        let chances: Vec<f32> = powers.iter().map(|&power| (0.5 * by_power(power) + 0.5 * equal) as f32).collect();
-        let sums = chances.iter().scan(0.0, |sum, chance| Some(add_to(sum, *chance))).collect();
+        let chances: Vec<f64> = powers.iter().map(|&power| 0.5 * by_power(power) + 0.5 * equal).collect();
+        let mut sums = Sums::new(all.len());
+        if !all.is_empty() {
+            sums.push(&chances);
+        }
         let environment = all.iter().position(|light| matches!(light, Light::Environment(_)));
-        Lights { all, chances, sums, environment }
+        Lights { all, chances: chances.into_iter().map(|chance| chance as f32).collect(), sums, environment }
     }
 
-    /// A light and its chance, for a number in `[0, 1)`. `None` where there are no lights.
-    pub fn choose(&self, u: f32) -> Option<(usize, f32)> {
-        let last = self.all.len().checked_sub(1)?;
-        let light = self.sums.partition_point(|&sum| sum <= u).min(last);
-        Some((light, self.chances[light]))
+    /// Draws places for the points `from`: on that light, or on lights chosen by the first number. The radiance is over
+    /// the density of the drawing. There must be a light.
+    #[inline(always)]
+    pub fn draw<L: Lanes>(
+        &self,
+        lanes: L,
+        light: Option<usize>,
+        from: [L::F; 3],
+        [choice, u, v]: [L::F; 3],
+    ) -> Lit<L, C> {
+        let (mut lit, chance) = match light {
+            Some(light) => (self.all[light].draw(lanes, from, [u, v]), lanes.splat(1.0)),
+            None => {
+                let (chosen, _) = self.sums.search(lanes, lanes.splat_int(0), choice);
+                (self.draw_on(lanes, chosen, from, [u, v]), lanes.gather(&self.chances, chosen))
+            }
+        };
+        let density = lit.pdf * chance;
+        let extended = lit.pdf.lt(lanes.splat(f32::INFINITY));
+        let divisor = lanes.select(extended, density, chance);
+        for radiance in &mut lit.radiance {
+            *radiance = *radiance / divisor;
+        }
+        Lit { pdf: density, ..lit }
+    }
+
+    /// Places on as many lights as there are in the lanes.
+    #[inline(always)]
+    fn draw_on<L: Lanes>(&self, lanes: L, chosen: L::I, from: [L::F; 3], u: [L::F; 2]) -> Lit<L, C> {
+        let mut numbers = [0; MAX_LANES];
+        lanes.store_int(&mut numbers, chosen);
+        let zero = lanes.splat(0.0);
+        let mut lit = Lit::new(lanes, [zero; 3], zero, [0.0; C], zero, zero.lt(zero));
+        let mut left = (1u32 << L::LANES) - 1;
+        while left != 0 {
+            let number = numbers[left.trailing_zeros() as usize & (MAX_LANES - 1)];
+            let here = chosen.eq(lanes.splat_int(number));
+            lit = lit.or(lanes, here, self.all[number as usize].draw(lanes, from, u));
+            left &= !here.bits();
+        }
+        lit
     }
 
     /// The chance of a light.
     pub fn chance(&self, light: usize) -> f32 {
         self.chances[light]
     }
-}
-
-fn add_to(sum: &mut f32, chance: f32) -> f32 {
-    *sum += chance;
-    *sum
 }

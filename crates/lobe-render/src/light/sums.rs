@@ -1,13 +1,16 @@
 //! Drawing from lists of weights.
 
+use lobe_lane::{Floats, Ints, Lanes, Mask};
+
 /// Lists of `n` weights each, ready to be drawn from.
 #[derive(Clone, Debug)]
 pub(super) struct Sums {
     n: usize,
-    /// The sums of the weights up to and with each, the last of a list being 1.
-    sums: Vec<f32>,
-    /// For each of `n` equal parts of the unit interval the first entry whose sum is above where the part begins.
-    guide: Vec<u32>,
+    /// The sums of the weights before and with each entry, from 0 to 1 in a list.
+    sums: Vec<[f32; 2]>,
+    /// For each of `n` equal parts of the unit interval the first entry whose sum is above where the part begins. Whole
+    /// numbers, as floats: those are what lanes gather.
+    guide: Vec<f32>,
 }
 
 impl Sums {
@@ -22,40 +25,48 @@ impl Sums {
         let mut sum = 0.0;
         let from = self.sums.len();
         self.sums.extend(weights.iter().map(|weight| {
+            let before = (sum / total) as f32;
             sum += weight;
-            (sum / total) as f32
+            [before, (sum / total) as f32]
         }));
         let sums = &self.sums[from..];
         let mut entry = 0;
         for part in 0..self.n {
-            let begin = part as f32 / self.n as f32;
-            while entry + 1 < sums.len() && sums[entry] <= begin {
+            // A little early: rounding may put a number into the part after its own.
+            let begin = part as f32 / self.n as f32 * (1.0 - 4.0 * f32::EPSILON);
+            while entry + 1 < sums.len() && sums[entry][1] <= begin {
                 entry += 1;
             }
-            self.guide.push(entry as u32);
+            self.guide.push(entry as f32);
         }
     }
 
-    /// The entry of a list that `u` in `[0, 1)` falls on, and how far into it.
-    pub fn search(&self, list: usize, u: f32) -> (usize, f32) {
-        let sums = &self.sums[list * self.n..][..self.n];
-        let part = ((u * self.n as f32) as usize).min(self.n - 1);
-        let mut entry = self.guide[list * self.n + part] as usize;
-        // Rounding may have put `u` into the part after its own.
-        while entry > 0 && sums[entry - 1] > u {
-            entry -= 1;
+    /// The entries of lists that `u` in `[0, 1)` falls on, and how far into them.
+    #[inline(always)]
+    pub fn search<L: Lanes>(&self, lanes: L, list: L::I, u: L::F) -> (L::I, L::F) {
+        let n = lanes.splat_int(self.n as i32);
+        let (one, last) = (lanes.splat_int(1), n - lanes.splat_int(1));
+        let first = list * n;
+        let part = (u * lanes.splat(self.n as f32)).to_int().min(last);
+        let mut entry = lanes.gather(&self.guide, first + part).to_int();
+        let mut sums = lanes.gather_pair(&self.sums, first + entry);
+        loop {
+            let further = sums[1].le(u) & entry.lt(last);
+            if !further.any() {
+                break;
+            }
+            entry = lanes.select_int(further, entry + one, entry);
+            sums = lanes.gather_pair(&self.sums, first + entry);
         }
-        while entry + 1 < self.n && sums[entry] <= u {
-            entry += 1;
-        }
-        let before = if entry == 0 { 0.0 } else { sums[entry - 1] };
-        let share = (u - before) / (sums[entry] - before).max(f32::MIN_POSITIVE);
-        (entry, share.clamp(0.0, 1.0 - f32::EPSILON))
+        let share = (u - sums[0]) / (sums[1] - sums[0]).max(lanes.splat(f32::MIN_POSITIVE));
+        (entry, share.max(lanes.splat(0.0)).min(lanes.splat(1.0 - f32::EPSILON)))
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use lobe_scalar::Scalar;
+
     use super::*;
 
     #[test]
@@ -64,13 +75,18 @@ mod tests {
         let mut sums = Sums::new(37);
         sums.push(&[1.0; 37]);
         sums.push(&weights);
+        let lanes = Scalar::<4>;
+        let list = &sums.sums[37..];
         for i in 0..10_000 {
-            let u = i as f32 / 10_000.0;
-            let (entry, share) = sums.search(1, u);
-            let list = &sums.sums[37..];
-            assert_eq!(entry, list.partition_point(|&sum| sum <= u), "{u}");
-            let before = if entry == 0 { 0.0 } else { list[entry - 1] };
-            assert!((before + share * (list[entry] - before) - u).abs() < 1e-6);
+            let u: [f32; 4] = std::array::from_fn(|lane| ((i + 2311 * lane) % 10_000) as f32 / 10_000.0);
+            let (entry, share) = sums.search(lanes, lanes.splat_int(1), lanes.load(&u));
+            for (lane, &u) in u.iter().enumerate() {
+                let entry = lanes.extract_int(entry, lane) as usize;
+                assert_eq!(entry, list.partition_point(|&[_, sum]| sum <= u), "{u}");
+                let [before, sum] = list[entry];
+                let share = lanes.extract(share, lane);
+                assert!((before + share * (sum - before) - u).abs() < 1e-6);
+            }
         }
     }
 }

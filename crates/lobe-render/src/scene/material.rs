@@ -72,7 +72,7 @@ fn model_named(node: &Node<'_, '_>, name: &str, backend: Backend) -> Result<Arc<
         found.ok_or_else(|| node.error("exponent", "found nothing; expected a number"))
     };
     match name {
-        "lambert" => Ok(Arc::new(Lambert { albedo: node.required_colour("albedo", 1.0)? })),
+        "lambert" => Ok(Arc::new(Lambert::new(node.required_colour("albedo", 1.0)?, backend))),
         "mirror" => Ok(Arc::new(DeltaShader(Delta::Mirror(node.colour("reflectance", 1.0)?.unwrap_or([1.0; 3]))))),
         "glass" => {
             let index = node.number("eta", "a refractive index from 1 to 5", |x| (1.0..=5.0).contains(&x))?;

@@ -3,50 +3,78 @@
 use std::ops::Range;
 use std::time::Instant;
 
+use lobe::{Floats, Kernel, Lanes};
+use lobe_lane::{MAX_LANES, Mask};
+use lobe_scalar::Reference;
 use lobe_trace::{Occluded, RayClass, RaySoA};
 
+use super::leave::{From, Leaving, leave};
 use super::{Wave, against, rays};
+use crate::columns::{Column, NOTHING, RAYS, store, vector};
+use crate::hit::Hits;
 use crate::integrator::Integrator;
-use crate::random::Use;
+use crate::light::Lights;
+use crate::random::{Numbers, Use};
 use crate::shader::Evaluated;
-use crate::vec3::{Vec3, add, cosine_hemisphere, length, scale, sub};
+use crate::vec3::Vec3;
+use crate::vectors::{cosine_hemisphere, either, less, plus, product, times};
 
 /// Pairs of directions to be evaluated, and the shadow rays to be traced for them.
 #[derive(Debug)]
 pub(super) struct Direct<const C: usize> {
+    asked: Vec<Asked<C>>,
+    /// The hits that light may reach, and their pairs of directions.
+    reached: Vec<u32>,
     wi: Vec<Vec3>,
     wo: Vec<Vec3>,
     f: Vec<[f32; C]>,
     pdf: Vec<f32>,
-    asked: Vec<Asked<C>>,
+    /// For each material its part of them.
     parts: Vec<(usize, Range<usize>)>,
+    leaving: Vec<Leaving>,
     rays: RaySoA,
     /// For each shadow ray whose slot it is and what arrives if nothing is in the way.
     carried: Vec<(u32, [f32; C])>,
     hidden: Vec<bool>,
 }
 
-/// A place on a light, seen from a hit.
-#[derive(Clone, Copy, Debug)]
+/// Places on lights, seen from 64 hits.
+#[derive(Clone, Debug)]
 struct Asked<const C: usize> {
-    hit: u32,
-    wi: Vec3,
-    distance: f32,
+    /// Toward the light, in the frame of the material.
+    wi: [Column; 3],
+    /// The shadow ray.
+    origin: [Column; 3],
+    direction: [Column; 3],
+    t_max: Column,
     /// Radiance over the density of the drawing.
-    radiance: [f32; C],
-    /// That density; `None` for lights without extent.
-    pdf: Option<f32>,
+    radiance: [Column; C],
+    /// That density; infinite for lights without extent.
+    pdf: Column,
+}
+
+impl<const C: usize> Asked<C> {
+    const NOTHING: Self = Asked {
+        wi: [NOTHING; 3],
+        origin: [NOTHING; 3],
+        direction: [NOTHING; 3],
+        t_max: NOTHING,
+        radiance: [NOTHING; C],
+        pdf: NOTHING,
+    };
 }
 
 impl<const C: usize> Default for Direct<C> {
     fn default() -> Self {
         Direct {
+            asked: Vec::new(),
+            reached: Vec::new(),
             wi: Vec::new(),
             wo: Vec::new(),
             f: Vec::new(),
             pdf: Vec::new(),
-            asked: Vec::new(),
             parts: Vec::new(),
+            leaving: Vec::new(),
             rays: RaySoA::default(),
             carried: Vec::new(),
             hidden: Vec::new(),
@@ -83,55 +111,45 @@ impl<const C: usize> Wave<'_, C> {
     /// Draws a place on a light for each hit that has a value for pairs of directions.
     fn ask(&mut self, depth: u32, light: Option<usize>) {
         // Each light of a round has numbers of its own.
-        let set = Use::Light(depth + 64 * light.unwrap_or(0) as u32);
-        self.draw_sorted(set);
-        let Direct { wi, wo, asked, parts, .. } = &mut self.direct;
-        wi.clear();
-        wo.clear();
-        asked.clear();
+        self.draw(Use::Light(depth + 64 * light.unwrap_or(0) as u32));
+        let Direct { asked, reached, wi, wo, parts, .. } = &mut self.direct;
+        let n = self.hits.len();
+        asked.resize(n.div_ceil(RAYS), Asked::NOTHING);
+        // One more, to be written over.
+        reached.resize(n + 1, 0);
+        wi.resize(n + 1, [0.0; 3]);
+        wo.resize(n + 1, [0.0; 3]);
         parts.clear();
-        let lights = &self.world.lights;
+        let mut count = 0;
         for (material, range) in &self.queue.parts {
             if self.world.materials[*material].delta().is_some() {
                 continue;
             }
-            let begin = asked.len();
-            for index in range.clone() {
-                let number = self.queue.order[index];
-                let hit = &self.hits[number as usize];
-                let [u, x, y, _] = self.numbers.of(index);
-                let (light, chance) = match light {
-                    Some(light) => (light, 1.0),
-                    None => lights.choose(u).expect("a light"),
-                };
-                let Some(lit) = lights.all[light].draw(hit.position, [x, y]) else { continue };
-                let local = hit.local(lit.wi);
-                if !hit.sees(lit.wi, local) {
-                    continue;
-                }
-                let density = lit.pdf.map_or(chance, |pdf| pdf * chance);
-                wi.push(local);
-                wo.push(hit.wo);
-                asked.push(Asked {
-                    hit: number,
-                    wi: lit.wi,
-                    distance: lit.distance,
-                    radiance: lit.radiance.map(|x| x / density),
-                    pdf: lit.pdf.map(|_| density),
-                });
-            }
-            if asked.len() > begin {
-                parts.push((*material, begin..asked.len()));
+            let begin = count;
+            count += self.backend.run(Asking {
+                lights: &self.world.lights,
+                light,
+                hits: &self.hits,
+                range: range.clone(),
+                numbers: &self.numbers,
+                asked,
+                reached: &mut reached[begin..],
+                wi: &mut wi[begin..],
+                wo: &mut wo[begin..],
+            });
+            if count > begin {
+                parts.push((*material, begin..count));
             }
         }
+        reached.truncate(count);
     }
 
     /// Material by material, in full lanes.
     fn evaluate(&mut self, depth: u32) {
         let begun = Instant::now();
-        let Direct { wi, wo, f, pdf, parts, .. } = &mut self.direct;
-        f.resize(wi.len(), [0.0; C]);
-        pdf.resize(wi.len(), 0.0);
+        let Direct { reached, wi, wo, f, pdf, parts, .. } = &mut self.direct;
+        f.resize(reached.len(), [0.0; C]);
+        pdf.resize(reached.len(), 0.0);
         for (material, range) in &*parts {
             let out = Evaluated { f: &mut f[range.clone()], pdf: &mut pdf[range.clone()] };
             let shader = &self.world.materials[*material];
@@ -143,36 +161,24 @@ impl<const C: usize> Wave<'_, C> {
 
     /// Shadow rays for the light that the materials send on.
     fn answer(&mut self, depth: u32) {
-        let Direct { asked, f, pdf, rays: shadow, carried, .. } = &mut self.direct;
+        let Direct { asked, reached, f, pdf, rays: shadow, carried, .. } = &mut self.direct;
         rays::clear(shadow);
         carried.clear();
         let weighs = matches!(self.integrator, Integrator::Path { .. });
         let limit = self.integrator.limit(depth + 1);
-        for (i, asked) in asked.iter().enumerate() {
-            let (hit, arrived) = (&self.hits[asked.hit as usize], &self.arrived[asked.hit as usize]);
-            let share = match asked.pdf {
-                Some(density) if weighs => against(density, || pdf[i]),
-                _ => 1.0,
-            };
+        for (i, &hit) in reached.iter().enumerate() {
+            let (asked, at) = (&asked[hit as usize / RAYS], hit as usize % RAYS);
+            let arrived = &self.arrived[hit as usize];
+            let share = if weighs { against(asked.pdf[at], || pdf[i]) } else { 1.0 };
             let value: [f32; C] = std::array::from_fn(|k| {
-                let value = arrived.throughput[k] * f[i][k] * asked.radiance[k] * share;
+                let value = arrived.throughput[k] * f[i][k] * asked.radiance[k][at] * share;
                 if value > limit { limit } else { value }
             });
             // Not a number must go on, to be counted.
             if value.iter().all(|x| *x == 0.0) {
                 continue;
             }
-            let origin = hit.leave(hit.lifted, asked.wi);
-            let (direction, distance) = if asked.distance.is_finite() {
-                // From where the ray begins to the same place on the light, which is not as far.
-                let way = sub(add(hit.position, scale(asked.wi, asked.distance)), origin);
-                let length = length(way);
-                (if length > 0.0 { scale(way, 1.0 / length) } else { asked.wi }, length)
-            } else {
-                (asked.wi, asked.distance)
-            };
-            // Just short of the light, which is a surface itself.
-            shadow.push(origin, direction, 0.0, distance * 0.9999);
+            shadow.push(vector(&asked.origin, at), vector(&asked.direction, at), 0.0, asked.t_max[at]);
             carried.push((arrived.slot, value));
         }
     }
@@ -195,24 +201,94 @@ impl<const C: usize> Wave<'_, C> {
 
     /// Ambient occlusion: 1 where a direction drawn by the cosine meets nothing within a distance.
     pub(super) fn ambient(&mut self, class: RayClass, distance: f32) {
-        let sequences = self.arrived.iter().map(|carried| self.slots[carried.slot as usize].sequence);
-        self.numbers.draw(self.backend, sequences, Use::Scatter(0));
-        let Direct { rays: shadow, carried, .. } = &mut self.direct;
+        self.draw(Use::Scatter(0));
+        let Direct { wi, leaving, rays: shadow, carried, .. } = &mut self.direct;
+        let lanes = Reference::default();
+        wi.clear();
+        for (hit, wo) in self.hits.wo().iter().enumerate() {
+            let [x, y, ..] = self.numbers.of(hit);
+            let local = lanes.extract_xyz(cosine_hemisphere(lanes, [lanes.splat(x), lanes.splat(y)]), 0);
+            wi.push(if wo[2] < 0.0 { [local[0], local[1], -local[2]] } else { local });
+        }
+        wi.resize(wi.len().next_multiple_of(MAX_LANES), [0.0; 3]);
+        leave(self.backend, &self.hits, From::Lifted, wi, leaving);
         rays::clear(shadow);
         carried.clear();
-        for (at, (hit, arrived)) in self.hits.iter().zip(&self.arrived).enumerate() {
-            let [x, y, ..] = self.numbers.of(at);
-            let mut local = cosine_hemisphere([x, y]);
-            if hit.wo[2] < 0.0 {
-                local[2] = -local[2];
-            }
-            let wi = hit.world(local);
-            if hit.sees(wi, local) {
-                shadow.push(hit.leave(hit.lifted, wi), wi, 0.0, distance);
+        for (hit, arrived) in self.arrived.iter().enumerate() {
+            let (leaving, at) = (&leaving[hit / RAYS], hit % RAYS);
+            if leaving.goes(at) {
+                let (origin, direction) = leaving.ray(at);
+                shadow.push(origin, direction, 0.0, distance);
                 carried.push((arrived.slot, [1.0; C]));
             }
         }
         self.shadow(class.shadow(false));
         self.carried.clear();
+    }
+}
+
+/// Draws places on lights for some of the hits. Returns how many of them light may reach.
+struct Asking<'a, const C: usize> {
+    lights: &'a Lights<C>,
+    light: Option<usize>,
+    hits: &'a Hits,
+    range: Range<usize>,
+    numbers: &'a Numbers,
+    asked: &'a mut [Asked<C>],
+    reached: &'a mut [u32],
+    wi: &'a mut [Vec3],
+    wo: &'a mut [Vec3],
+}
+
+impl<const C: usize> Kernel for Asking<'_, C> {
+    type Out = usize;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> usize {
+        let Asking { lights, light, hits, range, numbers, asked, reached, wi, wo } = self;
+        let back = hits.wo();
+        let mut count = 0;
+        let mut at = range.start & !(L::LANES - 1);
+        while at < range.end {
+            let place = hits.places(lanes, at);
+            let [choice, u, v, _] = numbers.lanes(lanes, at);
+            let lit = lights.draw(lanes, light, place.position, [choice, u, v]);
+            let local = place.local(lit.wi);
+            let reaches = (lit.there & place.sees(lanes, lit.wi, local)).bits() as usize;
+
+            // From where the ray begins to the same place on the light, which is not as far.
+            let origin = place.leave(lanes, place.lifted, lit.wi);
+            let way = less::<L>(plus::<L>(place.position, times::<L>(lit.wi, lit.distance)), origin);
+            let length = product::<L>(way, way).sqrt();
+            let (zero, one, infinite) = (lanes.splat(0.0), lanes.splat(1.0), lanes.splat(f32::INFINITY));
+            let near = lit.distance.lt(infinite);
+            let direction = either(lanes, near & zero.lt(length), times::<L>(way, one / length), lit.wi);
+            // Just short of the light, which is a surface itself.
+            let t_max = lanes.select(near, length, infinite) * lanes.splat(0.9999);
+
+            let (out, first) = (&mut asked[at / RAYS], at & (RAYS - L::LANES));
+            store(lanes, &mut out.wi, first, local);
+            store(lanes, &mut out.origin, first, origin);
+            store(lanes, &mut out.direction, first, direction);
+            lanes.store(&mut out.t_max[first..], t_max);
+            lanes.store(&mut out.pdf[first..], lit.pdf);
+            let mut k = 0;
+            while k < C {
+                lanes.store(&mut out.radiance[k][first..], lit.radiance[k]);
+                k += 1;
+            }
+            let mut hit = at.max(range.start);
+            while hit < range.end.min(at + L::LANES) {
+                // Written in any case, and written over where it is not to be kept: no branch that cannot be foreseen.
+                let lane = hit - at;
+                reached[count] = hit as u32;
+                wi[count] = vector(&out.wi, first + lane);
+                wo[count] = back[hit];
+                count += reaches >> lane & 1;
+                hit += 1;
+            }
+            at += L::LANES;
+        }
+        count
     }
 }

@@ -1,26 +1,30 @@
 //! A wave: the paths of a tile, all at the same depth, their state in the cache.
 //!
 //! Camera packets are traced; the hits are sorted by material; each material is evaluated and sampled in full lanes for
-//! all of its hits; shadow rays are traced; what goes on is the next wave.
+//! all of its hits; shadow rays are traced; what goes on is the next wave. What is known of a hit lies in columns, in
+//! the order of the sort.
 
 mod direct;
+mod leave;
 mod queue;
 mod rays;
 mod scatter;
 
 use std::time::Instant;
 
+use lobe_lane::Lanes;
+use lobe_scalar::Reference;
 use lobe_trace::{Intersect, MISS, RayClass};
 
 use crate::camera::View;
 use crate::film::{Film, Rect, Seen};
-use crate::hit::Hit;
+use crate::hit::Hits;
 use crate::integrator::Integrator;
 use crate::light::Light;
 use crate::random::{Numbers, Sequence, Use};
 use crate::shader::{Backend, Scratch};
 use crate::stats::Stats;
-use crate::vec3::{Vec3, dot};
+use crate::vec3::Vec3;
 use crate::world::World;
 use direct::Direct;
 use queue::Queue;
@@ -58,12 +62,10 @@ pub(crate) struct Wave<'w, const C: usize> {
     slots: Vec<Slot<C>>,
     batch: Batch,
     carried: Vec<Carried<C>>,
-    /// Which of the rays have hit something.
-    met: Vec<u32>,
-    /// Where, and what those rays carry.
-    hits: Vec<Hit>,
-    arrived: Vec<Carried<C>>,
+    /// Rays that have hit something, sorted; where, and what they carry.
     queue: Queue,
+    hits: Hits,
+    arrived: Vec<Carried<C>>,
     direct: Direct<C>,
     scattered: Scattered<C>,
     numbers: Numbers,
@@ -81,10 +83,9 @@ impl<'w, const C: usize> Wave<'w, C> {
             slots: Vec::new(),
             batch: Batch::default(),
             carried: Vec::new(),
-            met: Vec::new(),
-            hits: Vec::new(),
-            arrived: Vec::new(),
             queue: Queue::default(),
+            hits: Hits::default(),
+            arrived: Vec::new(),
             direct: Direct::default(),
             scattered: Scattered::default(),
             numbers: Numbers::default(),
@@ -140,14 +141,12 @@ impl<'w, const C: usize> Wave<'w, C> {
                 break;
             }
             self.trace(class);
+            self.sort(depth);
             self.meet(depth);
             match self.integrator {
                 Integrator::Normals => self.show_normals(),
                 Integrator::Ambient { distance } => self.ambient(class, distance),
                 Integrator::Path { .. } | Integrator::Whitted { .. } if depth < last => {
-                    let begun = Instant::now();
-                    self.queue.sort(&self.hits, self.world.materials.len());
-                    self.stats.sort += begun.elapsed();
                     self.light(class, depth);
                     let specular = self.scatter(depth);
                     class = class.bounce(specular);
@@ -166,56 +165,69 @@ impl<'w, const C: usize> Wave<'w, C> {
         self.stats.rays += rays.len() as u64;
     }
 
-    /// What the rays met: light, or a surface, or nothing.
-    fn meet(&mut self, depth: u32) {
+    /// Takes the light of rays that leave the scene, and sorts the others by the materials they have hit.
+    fn sort(&mut self, depth: u32) {
         let begun = Instant::now();
-        self.met.clear();
-        self.arrived.clear();
         let debugging = self.integrator.is_debugging();
         let limit = self.integrator.limit(depth);
-        for (i, carried) in self.carried.iter().enumerate() {
-            if self.batch.hits.primitive[i] != MISS {
-                self.met.push(i as u32);
-                self.arrived.push(*carried);
+        // The last rays look for lights only.
+        let all = depth == 0 || depth < self.integrator.depth();
+        let World { triangles, parts, .. } = self.world;
+        self.queue.clear();
+        for (i, (carried, &primitive)) in self.carried.iter().zip(&self.batch.hits.primitive).enumerate() {
+            if primitive != MISS {
+                let part = &parts[triangles[primitive as usize][3] as usize];
+                if all || part.light.is_some() {
+                    self.queue.push(i, part.material);
+                }
             } else if !debugging && let Some(radiance) = background(self.world, self.batch.direction(i), carried.pdf) {
                 add(&mut self.slots[carried.slot as usize].seen.radiance, carried.throughput, radiance, limit);
             }
         }
-        self.world.hits(self.backend, &self.met, &self.batch.rays, &self.batch.hits, &mut self.hits);
-        for ((hit, carried), ray) in self.hits.iter().zip(&self.arrived).zip(&self.met) {
-            if depth > 0 && hit.light.is_none() {
+        self.queue.sort(self.world.materials.len());
+        self.arrived.clear();
+        self.arrived.extend(self.queue.order.iter().map(|ray| self.carried[*ray as usize]));
+        self.stats.sort += begun.elapsed();
+    }
+
+    /// Finds the places on surfaces, and takes the light of those that shine.
+    fn meet(&mut self, depth: u32) {
+        let begun = Instant::now();
+        let Batch { rays, hits: found } = &self.batch;
+        self.hits.find(self.backend, self.world, &self.queue.order, rays, found);
+        let debugging = self.integrator.is_debugging();
+        let limit = self.integrator.limit(depth);
+        for (hit, &part) in self.hits.parts().iter().enumerate() {
+            let part = &self.world.parts[part as usize];
+            if depth > 0 && part.light.is_none() {
                 continue;
             }
-            let i = *ray as usize;
+            let (carried, ray) = (&self.arrived[hit], self.queue.order[hit] as usize);
             let seen = &mut self.slots[carried.slot as usize].seen;
             if depth == 0 {
-                seen.normal = hit.frame[2];
-                seen.albedo = self.world.materials[hit.material as usize].albedo();
-                seen.depth = self.batch.hits.t[i];
-                seen.material = hit.material + 1;
+                seen.normal = self.hits.normal(hit);
+                seen.albedo = self.world.materials[part.material as usize].albedo();
+                seen.depth = found.t[ray];
+                seen.material = part.material + 1;
             }
-            if !debugging && let Some(light) = hit.light {
-                let way = (self.batch.direction(i), self.batch.hits.t[i], carried.pdf);
-                let radiance = emission(self.world, light as usize, hit, way);
-                add(&mut seen.radiance, carried.throughput, radiance, limit);
+            if !debugging && let Some(light) = part.light {
+                let way = (found.t[ray], self.hits.front(hit), carried.pdf);
+                add(&mut seen.radiance, carried.throughput, emission(self.world, light as usize, way), limit);
             }
         }
         self.stats.meet += begun.elapsed();
     }
 
-    /// Draws random numbers for the sorted hits, in their order.
-    fn draw_sorted(&mut self, of: Use) {
-        let sequences = self.queue.order.iter().map(|hit| {
-            let slot = self.arrived[*hit as usize].slot;
-            self.slots[slot as usize].sequence
-        });
+    /// Draws random numbers for the hits.
+    fn draw(&mut self, of: Use) {
+        let sequences = self.arrived.iter().map(|carried| self.slots[carried.slot as usize].sequence);
         self.numbers.draw(self.backend, sequences, of);
     }
 
     /// The shading normal as a colour.
     fn show_normals(&mut self) {
-        for (hit, carried) in self.hits.iter().zip(&self.arrived) {
-            let normal = hit.frame[2];
+        for (hit, carried) in self.arrived.iter().enumerate() {
+            let normal = self.hits.normal(hit);
             let seen = &mut self.slots[carried.slot as usize].seen;
             seen.radiance = std::array::from_fn(|k| 0.5 + 0.5 * normal[k.min(2)]);
         }
@@ -232,12 +244,14 @@ fn background<const C: usize>(world: &World<C>, direction: Vec3, pdf: f32) -> Op
     Some(radiance.map(|x| x * share))
 }
 
-/// Radiance from a surface that shines, for a ray whose direction was drawn with that density.
-fn emission<const C: usize>(world: &World<C>, index: usize, hit: &Hit, way: (Vec3, f32, f32)) -> [f32; C] {
-    let (direction, distance, pdf) = way;
+/// Radiance from a surface that shines, for a ray that was drawn with that density, comes from that far, and has that
+/// cosine with the normal.
+fn emission<const C: usize>(world: &World<C>, index: usize, (distance, cos, pdf): (f32, f32, f32)) -> [f32; C] {
     let Light::Area(area) = &world.lights.all[index] else { return [0.0; C] };
-    let share = against(pdf, || world.lights.chance(index) * area.pdf(distance, dot(hit.geometric, direction)));
-    area.emitted(hit.front).map(|x| x * share)
+    let lanes = Reference::default();
+    let density = || lanes.extract(area.pdf(lanes, lanes.splat(distance), lanes.splat(cos)), 0);
+    let share = against(pdf, || world.lights.chance(index) * density());
+    area.emitted(cos > 0.0).map(|x| x * share)
 }
 
 /// The share of a sample that was drawn with density `pdf` where another way would have drawn it with density `other`:

@@ -1,27 +1,37 @@
-//! Hits sorted by material.
+//! Rays that have hit something, sorted by material.
 
 use std::ops::Range;
 
-use crate::hit::Hit;
-
-/// The hits of a wave, those of one material after those of another, in the order of the rays within each.
+/// The rays of a wave that have hit something, those of one material after those of another, in their order within each.
 #[derive(Debug, Default)]
 pub(super) struct Queue {
-    /// Numbers of hits.
+    /// Numbers of rays.
     pub order: Vec<u32>,
     /// For each material that was hit its number and its part of `order`.
     pub parts: Vec<(usize, Range<usize>)>,
+    /// Rays and materials, as they come.
+    met: Vec<[u32; 2]>,
     counts: Vec<usize>,
 }
 
 impl Queue {
-    /// A counting sort.
-    pub fn sort(&mut self, hits: &[Hit], materials: usize) {
-        let Queue { order, parts, counts } = self;
+    /// No rays; memory is kept.
+    pub fn clear(&mut self) {
+        self.met.clear();
+    }
+
+    /// Adds a ray that has hit a material.
+    pub fn push(&mut self, ray: usize, material: u32) {
+        self.met.push([ray as u32, material]);
+    }
+
+    /// A counting sort by one of `materials`.
+    pub fn sort(&mut self, materials: usize) {
+        let Queue { order, parts, met, counts } = self;
         counts.clear();
         counts.resize(materials, 0);
-        for hit in hits {
-            counts[hit.material as usize] += 1;
+        for [_, material] in &*met {
+            counts[*material as usize] += 1;
         }
         parts.clear();
         let mut begin = 0;
@@ -33,10 +43,10 @@ impl Queue {
             *count = begin;
             begin = end;
         }
-        order.resize(hits.len(), 0);
-        for (number, hit) in hits.iter().enumerate() {
-            let place = &mut counts[hit.material as usize];
-            order[*place] = number as u32;
+        order.resize(met.len(), 0);
+        for [ray, material] in &*met {
+            let place = &mut counts[*material as usize];
+            order[*place] = *ray;
             *place += 1;
         }
     }

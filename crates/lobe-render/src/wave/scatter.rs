@@ -2,25 +2,31 @@
 
 use std::time::Instant;
 
+use lobe_lane::{Lanes, MAX_LANES, Mask};
+use lobe_scalar::Reference;
+
+use super::leave::{From, Leaving, leave};
 use super::{Carried, Wave};
+use crate::columns::RAYS;
 use crate::integrator::Integrator;
 use crate::random::Use;
 use crate::shader::{Delta, Sampled};
-use crate::vec3::{Vec3, dot, scale, sub};
+use crate::vec3::Vec3;
+use crate::vectors::{less, product, times};
 
-/// Directions drawn by materials.
+/// Directions drawn by materials, one a hit.
 #[derive(Debug)]
 pub(super) struct Scattered<const C: usize> {
-    wo: Vec<Vec3>,
     u: Vec<[f32; 2]>,
     wi: Vec<Vec3>,
     weight: Vec<[f32; C]>,
     pdf: Vec<f32>,
+    rays: Vec<Leaving>,
 }
 
 impl<const C: usize> Default for Scattered<C> {
     fn default() -> Self {
-        Scattered { wo: Vec::new(), u: Vec::new(), wi: Vec::new(), weight: Vec::new(), pdf: Vec::new() }
+        Scattered { u: Vec::new(), wi: Vec::new(), weight: Vec::new(), pdf: Vec::new(), rays: Vec::new() }
     }
 }
 
@@ -35,7 +41,14 @@ impl<const C: usize> Wave<'_, C> {
         self.carried.clear();
         self.batch.clear();
         let begun = Instant::now();
-        self.draw_sorted(Use::Scatter(depth));
+        self.draw(Use::Scatter(depth));
+        let n = self.hits.len();
+        let Scattered { u, wi, weight, pdf, .. } = &mut self.scattered;
+        u.clear();
+        u.extend((0..n).map(|hit| self.numbers.of(hit)).map(|[a, b, ..]| [a, b]));
+        wi.resize(n.next_multiple_of(MAX_LANES), [0.0; 3]);
+        weight.resize(n, [0.0; C]);
+        pdf.resize(n, 0.0);
         self.stats.scatter += begun.elapsed();
         let mut specular = true;
         for part in 0..self.queue.parts.len() {
@@ -44,11 +57,13 @@ impl<const C: usize> Wave<'_, C> {
                 (Some(delta), _) => self.part_of_ways(part, delta),
                 (None, Integrator::Path { .. }) => {
                     specular = false;
-                    self.draw(part, depth);
-                    self.continue_drawn(part, depth);
+                    self.sample(part, depth);
                 }
                 (None, _) => {}
             }
+        }
+        if !specular {
+            self.go_on(depth);
         }
         specular
     }
@@ -56,9 +71,8 @@ impl<const C: usize> Wave<'_, C> {
     /// Rays along the exact directions of a smooth surface: one of them by chance, or all.
     fn part_of_ways(&mut self, part: usize, delta: &Delta<C>) {
         let begun = Instant::now();
-        for index in self.queue.parts[part].1.clone() {
-            let hit = self.queue.order[index] as usize;
-            let (mirror, through) = delta.ways(self.hits[hit].wo);
+        for hit in self.queue.parts[part].1.clone() {
+            let (mirror, through) = delta.ways(self.hits.wo()[hit]);
             let ways = [Some(mirror), through].into_iter().flatten();
             if matches!(self.integrator, Integrator::Whitted { .. }) {
                 for way in ways {
@@ -72,7 +86,7 @@ impl<const C: usize> Wave<'_, C> {
                 continue;
             }
             let chance = a / (a + b);
-            let u = self.numbers.of(index)[2];
+            let u = self.numbers.of(hit)[2];
             let (way, chance) = match through {
                 Some(way) if u >= chance => (way, 1.0 - chance),
                 _ => (mirror, chance),
@@ -83,68 +97,66 @@ impl<const C: usize> Wave<'_, C> {
     }
 
     fn follow_way(&mut self, hit: usize, local: Vec3, weight: [f32; C], least: f32) {
-        let (hit, arrived) = (&self.hits[hit], &self.arrived[hit]);
+        let arrived = &self.arrived[hit];
         let throughput: [f32; C] = std::array::from_fn(|k| arrived.throughput[k] * weight[k]);
-        let mut wi = hit.world(local);
-        if !hit.sees(wi, local) {
+        if !throughput.iter().any(|t| *t > least) {
+            return;
+        }
+        let lanes = Reference::default();
+        let place = self.hits.places(lanes, hit);
+        let local = lanes.splat_xyz(local);
+        let mut wi = place.world(local);
+        if !place.sees(lanes, wi, local).any() {
             // At the silhouette of facets that a smooth normal hides, the direction is turned back out of the facet.
-            let normal = hit.geometric;
-            wi = sub(wi, scale(normal, 2.0 * dot(normal, wi)));
+            let (normal, two) = (place.geometric, lanes.splat(2.0));
+            wi = less::<Reference>(wi, times::<Reference>(normal, two * product::<Reference>(normal, wi)));
         }
-        if throughput.iter().any(|t| *t > least) {
-            self.batch.rays.push(hit.leave(hit.position, wi), wi, 0.0, f32::INFINITY);
-            self.carried.push(Carried { slot: arrived.slot, throughput, pdf: f32::INFINITY });
-        }
+        let origin = place.leave(lanes, place.position, wi);
+        self.batch.rays.push(lanes.extract_xyz(origin, 0), lanes.extract_xyz(wi, 0), 0.0, f32::INFINITY);
+        self.carried.push(Carried { slot: arrived.slot, throughput, pdf: f32::INFINITY });
     }
 
     /// One material's hits, in full lanes.
-    fn draw(&mut self, part: usize, depth: u32) {
+    fn sample(&mut self, part: usize, depth: u32) {
         let begun = Instant::now();
         let (material, range) = &self.queue.parts[part];
-        let Scattered { wo, u, wi, weight, pdf } = &mut self.scattered;
-        wo.clear();
-        u.clear();
-        wo.extend(self.queue.order[range.clone()].iter().map(|hit| self.hits[*hit as usize].wo));
-        u.extend(range.clone().map(|index| {
-            let [a, b, ..] = self.numbers.of(index);
-            [a, b]
-        }));
-        wi.resize(wo.len(), [0.0; 3]);
-        weight.resize(wo.len(), [0.0; C]);
-        pdf.resize(wo.len(), 0.0);
-        self.stats.scatter += begun.elapsed();
-        let begun = Instant::now();
-        let out = Sampled { wi, weight, pdf };
+        let Scattered { u, wi, weight, pdf, .. } = &mut self.scattered;
+        let (wo, u) = (&self.hits.wo()[range.clone()], &u[range.clone()]);
+        let out =
+            Sampled { wi: &mut wi[range.clone()], weight: &mut weight[range.clone()], pdf: &mut pdf[range.clone()] };
         self.world.materials[*material].sample(wo, u, out, &mut self.scratch);
         self.stats.at(depth).count(wo.len(), self.backend.lanes());
         self.stats.at(depth).time += begun.elapsed();
     }
 
     /// Rays along the directions drawn, as far as they carry something and chance lets them.
-    fn continue_drawn(&mut self, part: usize, depth: u32) {
+    fn go_on(&mut self, depth: u32) {
         let begun = Instant::now();
-        let Scattered { wi, weight, pdf, .. } = &self.scattered;
-        let range = self.queue.parts[part].1.clone();
-        let first = range.start;
-        for (i, number) in self.queue.order[range].iter().enumerate() {
-            let (hit, arrived) = (&self.hits[*number as usize], &self.arrived[*number as usize]);
-            let mut throughput: [f32; C] = std::array::from_fn(|k| arrived.throughput[k] * weight[i][k]);
-            let most = throughput.iter().fold(0.0f32, |most, t| most.max(*t));
-            let world = hit.world(wi[i]);
-            // NaN is no more than 0 either.
-            let goes_on = pdf[i] > 0.0 && most > 0.0 && hit.sees(world, wi[i]);
-            if !goes_on {
+        let Scattered { wi, weight, pdf, rays, .. } = &mut self.scattered;
+        leave(self.backend, &self.hits, From::Surface, wi, rays);
+        for (material, range) in &self.queue.parts {
+            if self.world.materials[*material].delta().is_some() {
                 continue;
             }
-            if depth >= ROULETTE {
-                let chance = most.min(0.95);
-                if self.numbers.of(first + i)[3] >= chance {
+            for hit in range.clone() {
+                let (arrived, ray) = (&self.arrived[hit], &rays[hit / RAYS]);
+                let mut throughput: [f32; C] = std::array::from_fn(|k| arrived.throughput[k] * weight[hit][k]);
+                let most = throughput.iter().fold(0.0f32, |most, t| most.max(*t));
+                // NaN is no more than 0 either.
+                if !(pdf[hit] > 0.0 && most > 0.0 && ray.goes(hit % RAYS)) {
                     continue;
                 }
-                throughput = throughput.map(|t| t / chance);
+                if depth >= ROULETTE {
+                    let chance = most.min(0.95);
+                    if self.numbers.of(hit)[3] >= chance {
+                        continue;
+                    }
+                    throughput = throughput.map(|t| t / chance);
+                }
+                let (origin, direction) = ray.ray(hit % RAYS);
+                self.batch.rays.push(origin, direction, 0.0, f32::INFINITY);
+                self.carried.push(Carried { slot: arrived.slot, throughput, pdf: pdf[hit] });
             }
-            self.batch.rays.push(hit.leave(hit.position, world), world, 0.0, f32::INFINITY);
-            self.carried.push(Carried { slot: arrived.slot, throughput, pdf: pdf[i] });
         }
         self.stats.scatter += begun.elapsed();
     }

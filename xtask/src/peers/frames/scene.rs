@@ -87,12 +87,12 @@ impl Room {
         let mut world = WorldBuilder::new();
         for surface in &self.surfaces {
             let shader: Arc<dyn Shader<3>> = match surface {
-                Surface::Diffuse(albedo) => Arc::new(Lambert { albedo: *albedo }),
+                Surface::Diffuse(albedo) => Arc::new(Lambert::new(*albedo, backend)),
                 Surface::Measured(file) => shader::open(file, &Options { indexed_by, ..Options::default() }, backend)?,
             };
             world.material(shader);
         }
-        let black = world.material(Arc::new(Lambert { albedo: [0.0; 3] }));
+        let black = world.material(Arc::new(Lambert::new([0.0; 3], backend)));
         for part in &self.parts {
             let radiance = part.surface.is_none().then_some(RADIANCE);
             world.shape(&shape(&part.mesh), part.surface.unwrap_or(black), radiance, false)?;

@@ -24,7 +24,7 @@ pub fn world(backend: Backend) -> anyhow::Result<World<3>> {
     let materials = (0..MATERIALS)
         .map(|number| Ok(world.material(Arc::new(dyed(format, &cloth.data, number, backend)?))))
         .collect::<anyhow::Result<Vec<_>>>()?;
-    let black = world.material(Arc::new(Lambert { albedo: [0.0; 3] }));
+    let black = world.material(Arc::new(Lambert::new([0.0; 3], backend)));
     let (ball, tile) = (shapes::sphere(0.36, 48), shapes::plane(1.0, 1));
     for (number, &material) in materials.iter().enumerate() {
         let [x, z] = [number % SIDE, number / SIDE].map(|i| i as f32 - 0.5 * (SIDE - 1) as f32);
