@@ -1,10 +1,11 @@
 //! Where the picture is taken from.
 
-use lobe_lane::Lanes;
-use lobe_scalar::Reference;
+use lobe::{Backend, Floats, Kernel, Lanes};
+use lobe_trace::RaySoA;
 
-use crate::vec3::{Vec3, add, cross, length, scale, sub, unit};
-use crate::vectors::disk;
+use crate::random::Numbers;
+use crate::vec3::{Vec3, cross, length, scale, sub, unit};
+use crate::vectors::{disk, less, plus, times, unit_or};
 
 /// A thin-lens camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,17 +32,6 @@ pub enum Filter {
     /// With a density that falls linearly to 0 at the centres of the neighbours.
     #[default]
     Tent,
-}
-
-impl Filter {
-    /// Where in the picture, in pixels from the centre of the pixel.
-    fn offset(self, u: f32) -> f32 {
-        match self {
-            Filter::Box => u - 0.5,
-            Filter::Tent if u < 0.5 => (2.0 * u).sqrt() - 1.0,
-            Filter::Tent => 1.0 - (2.0 - 2.0 * u).sqrt(),
-        }
-    }
 }
 
 /// What is wrong with a camera.
@@ -94,19 +84,66 @@ impl View {
         })
     }
 
-    /// The ray through a pixel: origin, and direction of length 1.
-    pub fn ray(&self, [x, y]: [u32; 2], u: [f32; 4]) -> (Vec3, Vec3) {
-        let place = |pixel: u32, u: f32, size: f32| 2.0 * ((pixel as f32 + 0.5 + self.filter.offset(u)) / size) - 1.0;
-        let (px, py) = (place(x, u[0], self.size[0]), -place(y, u[1], self.size[1]));
-        let through = add(self.forward, add(scale(self.right, px), scale(self.top, py)));
-        if self.focus == f32::INFINITY {
-            return (self.position, unit(through).unwrap_or(self.forward));
+    /// Rays through the pixels of these columns and rows, one for each set of numbers; directions have length 1. The
+    /// columns, the rows and the rays are as many as fill the lanes.
+    pub fn rays(&self, backend: Backend, pixels: &[Vec<f32>; 2], numbers: &Numbers, out: &mut RaySoA) {
+        backend.run(Viewing { view: self, pixels, numbers, out });
+    }
+
+    /// Places in the picture along an axis, from -1 to 1, of pixels and numbers drawn for them.
+    #[inline(always)]
+    fn place<L: Lanes>(&self, lanes: L, pixel: L::F, u: L::F, size: f32) -> L::F {
+        let (one, two, half) = (lanes.splat(1.0), lanes.splat(2.0), lanes.splat(0.5));
+        let offset = match self.filter {
+            Filter::Box => u - half,
+            Filter::Tent => {
+                let (left, right) = ((two * u).sqrt() - one, one - (two - two * u).sqrt());
+                lanes.select(u.lt(half), left, right)
+            }
+        };
+        two * ((pixel + half + offset) / lanes.splat(size)) - one
+    }
+}
+
+struct Viewing<'a> {
+    view: &'a View,
+    pixels: &'a [Vec<f32>; 2],
+    numbers: &'a Numbers,
+    out: &'a mut RaySoA,
+}
+
+impl Kernel for Viewing<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Viewing { view, pixels: [x, y], numbers, out } = self;
+        let [forward, right, top] =
+            [lanes.splat_xyz(view.forward), lanes.splat_xyz(view.right), lanes.splat_xyz(view.top)];
+        let position = lanes.splat_xyz(view.position);
+        let lens = [lanes.splat_xyz(view.lens[0]), lanes.splat_xyz(view.lens[1])];
+        let mut at = 0;
+        while at < x.len() {
+            let [u, v, lens_u, lens_v] = numbers.lanes(lanes, at);
+            let px = view.place(lanes, lanes.load(&x[at..]), u, view.size[0]);
+            let py = -view.place(lanes, lanes.load(&y[at..]), v, view.size[1]);
+            let mut origin = position;
+            let mut direction = plus::<L>(forward, plus::<L>(times::<L>(right, px), times::<L>(top, py)));
+            if view.focus < f32::INFINITY {
+                let [lx, ly] = disk(lanes, [lens_u, lens_v]);
+                let aside = plus::<L>(times::<L>(lens[0], lx), times::<L>(lens[1], ly));
+                // A focus that is not positive is refused before: the direction has a length.
+                direction = less::<L>(times::<L>(direction, lanes.splat(view.focus)), aside);
+                origin = plus::<L>(position, aside);
+            }
+            let direction = unit_or(lanes, direction, forward);
+            let mut axis = 0;
+            while axis < 3 {
+                lanes.store(&mut out.origin[axis][at..], origin[axis]);
+                lanes.store(&mut out.direction[axis][at..], direction[axis]);
+                axis += 1;
+            }
+            at += L::LANES;
         }
-        let lanes = Reference::default();
-        let [lx, ly] = disk(lanes, [u[2], u[3]].map(|u| lanes.splat(u))).map(|x| lanes.extract(x, 0));
-        let aside = add(scale(self.lens[0], lx), scale(self.lens[1], ly));
-        let direction = sub(scale(through, self.focus), aside);
-        // A focus that is not finite or not positive is refused before; the length is that of a vector along the view.
-        (add(self.position, aside), unit(direction).unwrap_or(self.forward))
     }
 }

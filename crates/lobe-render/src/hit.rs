@@ -172,10 +172,18 @@ impl<const C: usize> Kernel for Finding<'_, C> {
         let mut known =
             Known { corners: [[NOTHING; 10]; 3], direction: [NOTHING; 3], uv: [NOTHING; 2], transmits: NOTHING };
         let mut back = [NOTHING; 3];
+        let mut triangles = [[0; 4]; RAYS];
         for (which, places) in which.chunks(RAYS).zip(blocks) {
-            for (lane, ray) in which.iter().enumerate() {
-                let ray = *ray as usize;
-                let [a, b, c, part] = world.triangles[found.primitive[ray] as usize];
+            // Vertices are anywhere in memory: all are asked for before the first is needed.
+            for (ray, triangle) in which.iter().zip(&mut triangles) {
+                *triangle = world.triangles[found.primitive[*ray as usize] as usize];
+                let [a, b, c, _] = *triangle;
+                lanes.prefetch(&world.corners[a as usize..]);
+                lanes.prefetch(&world.corners[b as usize..]);
+                lanes.prefetch(&world.corners[c as usize..]);
+            }
+            for (lane, (ray, triangle)) in which.iter().zip(&triangles).enumerate() {
+                let (ray, [a, b, c, part]) = (*ray as usize, *triangle);
                 let [first, second, third] = &mut known.corners;
                 spread(&world.corners[a as usize], first, lane);
                 spread(&world.corners[b as usize], second, lane);

@@ -229,3 +229,60 @@ impl<const C: usize> Lights<C> {
         self.chances[light]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use lobe_scalar::{Reference, Scalar};
+
+    use super::*;
+
+    fn lights() -> Lights<3> {
+        let corners =
+            [[[-1.0, 2.0, 0.0], [1.0, 2.0, 0.0], [0.0, 2.0, 1.0]], [[1.0, 2.0, 0.0], [0.0, 3.0, 0.0], [0.0; 3]]];
+        let sky = Environment::gradient([0.2, 0.3, 0.9], [0.8; 3], [0.1; 3]).unwrap();
+        let (position, direction) = ([0.3, 1.5, 0.2], [0.0, -1.0, 0.0]);
+        let all = vec![
+            Light::Point { position, intensity: [1.0, 2.0, 3.0] },
+            Light::Spot { position, direction, intensity: [3.0, 2.0, 1.0], falloff: [0.9, 0.5] },
+            Light::Directional { toward: [0.0, 1.0, 0.0], irradiance: [4.0; 3] },
+            Light::Area(AreaLight::new(corners.into(), [5.0, 6.0, 7.0], true).unwrap()),
+            Light::Environment(sky),
+        ];
+        Lights::new(all, 2.0)
+    }
+
+    #[test]
+    fn lanes_on_different_lights_draw_what_each_draws_alone() {
+        let (lights, lanes, alone) = (lights(), Scalar::<8>, Reference::default());
+        let mut found = [0; 5];
+        for round in 0..64 {
+            let number = |lane: usize, step: f32| ((8 * round + lane) as f32 * step).fract();
+            let row = |step: f32| lanes.load(&[0, 1, 2, 3, 4, 5, 6, 7].map(|lane| number(lane, step)));
+            let from = [row(0.37), row(0.11), row(0.23)];
+            let u = [row(0.618_034), row(0.754_878), row(0.569_84)];
+            let many = lights.draw(lanes, None, from, u);
+            for lane in 0..8 {
+                let [from, u] = [from, u].map(|rows| alone.splat_xyz(lanes.extract_xyz(rows, lane)));
+                let (chosen, _) = lights.sums.search(alone, alone.splat_int(0), u[0]);
+                let light = alone.extract_int(chosen, 0) as usize;
+                let one = lights.draw(alone, Some(light), from, u);
+                assert_eq!(one.there.any(), many.there.bits() >> lane & 1 != 0, "light {light}");
+                if !one.there.any() {
+                    continue;
+                }
+                found[light] += 1;
+                assert_eq!(alone.extract_xyz(one.wi, 0), lanes.extract_xyz(many.wi, lane), "light {light}");
+                assert_eq!(alone.extract(one.distance, 0), lanes.extract(many.distance, lane), "light {light}");
+                let chance = lights.chance(light);
+                let pdf = alone.extract(one.pdf, 0) * chance;
+                assert_eq!(pdf, lanes.extract(many.pdf, lane), "light {light}");
+                assert_eq!(pdf == f32::INFINITY, lights.all[light].is_delta());
+                let radiance = alone.extract_xyz(one.radiance, 0).map(|x| x / chance);
+                for (expected, found) in radiance.into_iter().zip(lanes.extract_xyz(many.radiance, lane)) {
+                    assert!((expected - found).abs() <= 1e-6 * expected, "light {light}: {found}, not {expected}");
+                }
+            }
+        }
+        assert!(found.iter().all(|&n| n > 10), "{found:?}");
+    }
+}

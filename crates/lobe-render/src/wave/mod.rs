@@ -12,7 +12,7 @@ mod scatter;
 
 use std::time::Instant;
 
-use lobe_lane::Lanes;
+use lobe_lane::{Lanes, MAX_LANES};
 use lobe_scalar::Reference;
 use lobe_trace::{Intersect, MISS, RayClass};
 
@@ -60,6 +60,8 @@ pub(crate) struct Wave<'w, const C: usize> {
     integrator: Integrator,
     backend: Backend,
     slots: Vec<Slot<C>>,
+    /// Columns and rows of the pixels of the slots.
+    pixels: [Vec<f32>; 2],
     batch: Batch,
     carried: Vec<Carried<C>>,
     /// Rays that have hit something, sorted; where, and what they carry.
@@ -81,6 +83,7 @@ impl<'w, const C: usize> Wave<'w, C> {
             integrator,
             backend,
             slots: Vec::new(),
+            pixels: [Vec::new(), Vec::new()],
             batch: Batch::default(),
             carried: Vec::new(),
             queue: Queue::default(),
@@ -118,17 +121,21 @@ impl<'w, const C: usize> Wave<'w, C> {
     fn begin(&mut self, pixels: &[[u32; 2]], samples: std::ops::Range<u32>) {
         self.slots.clear();
         self.carried.clear();
-        self.batch.clear();
         for sample in samples {
             let slot = |&pixel| Slot { pixel, sequence: Sequence::new(pixel, sample), seen: Seen::NOTHING };
             self.slots.extend(pixels.iter().map(slot));
         }
         self.numbers.draw(self.backend, self.slots.iter().map(|slot| slot.sequence), Use::Camera);
-        for (at, slot) in self.slots.iter().enumerate() {
-            let (origin, direction) = self.view.ray(slot.pixel, self.numbers.of(at));
-            self.batch.rays.push(origin, direction, 0.0, f32::INFINITY);
-            self.carried.push(Carried { slot: at as u32, throughput: [1.0; C], pdf: f32::INFINITY });
+        let n = self.slots.len();
+        for (axis, places) in self.pixels.iter_mut().enumerate() {
+            places.clear();
+            places.extend(self.slots.iter().map(|slot| slot.pixel[axis] as f32));
+            places.resize(n.next_multiple_of(MAX_LANES), 0.0);
         }
+        rays::fill(&mut self.batch.rays, n.next_multiple_of(MAX_LANES));
+        self.view.rays(self.backend, &self.pixels, &self.numbers, &mut self.batch.rays);
+        rays::fill(&mut self.batch.rays, n);
+        self.carried.extend((0..n).map(|slot| Carried { slot: slot as u32, throughput: [1.0; C], pdf: f32::INFINITY }));
         self.stats.samples += self.slots.len() as u64;
     }
 

@@ -30,6 +30,15 @@ pub(super) fn clear(rays: &mut RaySoA) {
     rays.t_max.clear();
 }
 
+/// Makes it `n` rays without end, whatever their origins and directions are.
+pub(super) fn fill(rays: &mut RaySoA, n: usize) {
+    rays.origin.iter_mut().chain(&mut rays.direction).for_each(|column| column.resize(n, 0.0));
+    rays.t_min.clear();
+    rays.t_min.resize(n, 0.0);
+    rays.t_max.clear();
+    rays.t_max.resize(n, f32::INFINITY);
+}
+
 /// Makes room for the hits of `n` rays.
 pub(super) fn fit(hits: &mut HitSoA, n: usize) {
     let HitSoA { t, u, v, primitive, instance } = hits;

@@ -51,8 +51,8 @@ pub fn cloth(backend: Backend) -> Arc<dyn Shader<3>> {
     open(Path::new(CLOTH), &Options::default(), backend).unwrap()
 }
 
-pub fn lambert(albedo: f32) -> Arc<dyn Shader<3>> {
-    Arc::new(Lambert { albedo: [albedo; 3] })
+pub fn lambert(albedo: f32, backend: Backend) -> Arc<dyn Shader<3>> {
+    Arc::new(Lambert::new([albedo; 3], backend))
 }
 
 /// Something of everything: cloth, glass, a mirror, a lamp, a sky, a point light.
@@ -67,7 +67,7 @@ pub fn mixed_on(backend: Backend) -> World<3> {
         cloth(backend),
         Arc::new(DeltaShader(Delta::Glass { eta: 1.5, tint: [1.0, 0.9, 0.8] })),
         Arc::new(DeltaShader(Delta::Mirror([0.9; 3]))),
-        lambert(0.5),
+        lambert(0.5, backend),
     ]
     .into_iter()
     .map(|shader| world.material(shader))

@@ -71,7 +71,7 @@ fn a_measured_plane_under_a_point_light() {
 #[test]
 fn a_point_light_behind_an_obstacle_gives_nothing() {
     let mut world = WorldBuilder::new();
-    let white = world.material(lambert(1.0));
+    let white = world.material(lambert(1.0, Backend::best()));
     world.shape(&plane(0.0), white, None, false).unwrap();
     world.shape(&sphere([0.0, 2.0, 0.0], 0.3), white, None, false).unwrap();
     world.light(Light::Point { position: [0.0, 4.0, 0.0], intensity: [10.0; 3] });

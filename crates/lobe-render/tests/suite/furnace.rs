@@ -46,7 +46,7 @@ fn white_surfaces_vanish_in_a_white_sky() {
     let table = open(&white, &Options::default(), Backend::best()).unwrap();
     let oren_nayar = lobe_model::OrenNayar { albedo: [1.0; 3], roughness: 0.0 };
     let shaders: [(&str, Arc<dyn Shader<3>>, f64, f64); 4] = [
-        ("lambert", lambert(1.0), 0.08, 2e-3),
+        ("lambert", lambert(1.0, Backend::best()), 0.08, 2e-3),
         ("table", table, 0.25, 3e-3),
         ("model", Arc::new(ModelShader::new(oren_nayar, Backend::best()).unwrap()), 0.25, 3e-3),
         ("mirror", Arc::new(DeltaShader(Delta::Mirror([1.0; 3]))), 0.05, 1e-3),
@@ -82,11 +82,14 @@ fn a_sheet_that_reflects_half_and_lets_half_through_vanishes() {
 
 #[test]
 fn nothing_occludes_a_convex_thing() {
-    let (largest, _) = from_white(&furnace(lambert(1.0)), Integrator::Ambient { distance: f32::INFINITY });
+    let (largest, _) =
+        from_white(&furnace(lambert(1.0, Backend::best())), Integrator::Ambient { distance: f32::INFINITY });
     // Pixels beside the sphere are black, as there is no surface.
     assert_eq!(largest, 1.0);
-    let film =
-        picture(&furnace(lambert(1.0)), &settings([48, 40], 16, Integrator::Ambient { distance: f32::INFINITY }));
+    let film = picture(
+        &furnace(lambert(1.0, Backend::best())),
+        &settings([48, 40], 16, Integrator::Ambient { distance: f32::INFINITY }),
+    );
     let middle = film.pixels()[film.index(24, 20)];
     assert!((middle.mean_radiance()[0] - 1.0).abs() < 1e-6, "{:?}", middle.mean_radiance());
 }
@@ -95,7 +98,7 @@ fn nothing_occludes_a_convex_thing() {
 fn assert_the_same_light(name: &str, material: Arc<dyn Shader<3>>) {
     let mut world = WorldBuilder::new();
     let material = world.material(material);
-    let black = world.material(lambert(0.0));
+    let black = world.material(lambert(0.0, Backend::best()));
     world.shape(&plane(0.3), material, None, false).unwrap();
     world.shape(&sphere([0.3, 1.5, 0.2], 0.4), black, Some([5.0, 6.0, 7.0]), false).unwrap();
     let world = world.build().unwrap();
