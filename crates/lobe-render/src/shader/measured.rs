@@ -109,16 +109,15 @@ impl Shader<3> for MeasuredShader {
     }
 
     fn eval(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: Evaluated<'_, 3>, scratch: &mut Scratch) {
-        let material = self.sampler.material();
+        let Evaluated { f, pdf } = out;
         if self.reduction.is_identity() {
-            material.eval_batch(wi, wo, out.f.as_flattened_mut());
+            self.sampler.eval_pdf_batch(Given::Viewer, wi, wo, f.as_flattened_mut(), pdf);
         } else {
             let values = scratch.values(wi.len() * self.reduction.channels());
-            material.eval_batch(wi, wo, values);
-            self.reduction.apply(values, out.f);
+            self.sampler.eval_pdf_batch(Given::Viewer, wi, wo, values, pdf);
+            self.reduction.apply(values, f);
         }
-        times_cosine(out.f, wi);
-        self.sampler.pdf_batch(Given::Viewer, wi, wo, out.pdf);
+        times_cosine(f, wi);
     }
 
     /// Mirrors that were measured beside the values are drawn too: their density is infinite.

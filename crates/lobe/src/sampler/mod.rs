@@ -189,6 +189,25 @@ impl Sampler {
             Scheme::Lobes(lobes) => lobes.pdf(&self.material, known, other, pdfs),
         }
     }
+
+    /// Values, `f` in 1/sr as [`Material::eval_batch`] gives them, `[pair][channel]`, and densities, as
+    /// [`pdf`](Sampler::pdf), of many pairs: what light that is drawn from lights is weighted by. Both at once take less
+    /// time than one after the other where they are found in the same place of a table.
+    ///
+    /// # Panics
+    /// Where there are not as many `wi` as `wo` and `pdfs`, and that many values a channel.
+    pub fn eval_pdf_batch(&self, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], values: &mut [f32], pdfs: &mut [f32]) {
+        match self.material.native() {
+            Native::Rgl(rgl) if matches!(self.scheme, Scheme::Rgl) && rgl.indexed_by == given => {
+                let (known, other) = if given == Given::Light { (wi, wo) } else { (wo, wi) };
+                self.material.backend().run(rgl.table.batch(known, other, Wanted::ValuesAndPdf(values, pdfs)));
+            }
+            _ => {
+                self.material.eval_batch(wi, wo, values);
+                self.pdf_batch(given, wi, wo, pdfs);
+            }
+        }
+    }
 }
 
 /// Values to weights: times cosine over density.

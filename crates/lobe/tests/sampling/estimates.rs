@@ -95,3 +95,24 @@ fn memory_is_at_most_one_and_a_half_materials() {
         assert!(2 * bytes <= 3 * material || bytes < 120_000, "{name}: {bytes} bytes beside {material}");
     }
 }
+
+#[test]
+fn values_and_densities_at_once_are_those_of_one_after_the_other() {
+    // Those with a way of their own, and some without.
+    let shared = shared().into_iter().filter(|(_, material)| material.kind() == lobe::Kind::Rgl);
+    for (name, material) in made().into_iter().chain(shared) {
+        let sampler = sampler(material);
+        let material = sampler.material();
+        let wi: Vec<[f32; 3]> = numbers(5, 300).into_iter().map(|u| cosine(u, 1.0)).collect();
+        let wo: Vec<[f32; 3]> = numbers(6, 300).into_iter().map(|u| cosine(u, 1.0)).collect();
+        for given in [Given::Light, Given::Viewer] {
+            let (mut values, mut pdfs) = (vec![0.0; 300 * material.channel_count()], vec![0.0; 300]);
+            let (mut both, mut both_pdfs) = (values.clone(), pdfs.clone());
+            material.eval_batch(&wi, &wo, &mut values);
+            sampler.pdf_batch(given, &wi, &wo, &mut pdfs);
+            sampler.eval_pdf_batch(given, &wi, &wo, &mut both, &mut both_pdfs);
+            assert!(pdfs.iter().any(|&pdf| pdf > 0.0) || material.holds(true, Scatter::Transmission), "{name}");
+            assert_eq!((values, pdfs), (both, both_pdfs), "{name}, {given:?}");
+        }
+    }
+}
