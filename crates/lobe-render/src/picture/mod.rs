@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 pub use environment_file::read_environment;
 pub use exr_file::{read_partial, write_exr};
 pub use meta::Meta;
-pub use png_file::{encode_png, write_png};
+pub use png_file::{encode_png, encode_rgb, write_png};
 pub use tone::ToneMap;
 
 /// Why a picture cannot be read or written.

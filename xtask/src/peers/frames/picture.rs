@@ -1,7 +1,7 @@
 //! Pictures side by side, and how far they are apart.
 
 use lobe_render::Film;
-use lobe_render::picture::ToneMap;
+use lobe_render::picture::{ToneMap, encode_rgb};
 
 /// Mean radiance of the pixels, three values each, row by row from the top.
 pub fn linear(film: &Film<3>) -> Vec<f32> {
@@ -20,15 +20,7 @@ pub fn beside(size: [u32; 2], pictures: [&[f64]; 2], deviations: &[f64]) -> Vec<
         }
         bytes.extend(deviations[width * row..][..width].iter().flat_map(|deviation| colour(*deviation)));
     }
-    let mut out = Vec::new();
-    let mut encoder = png::Encoder::new(&mut out, 3 * size[0], size[1]);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::High);
-    let mut writer = encoder.write_header().expect("writing to memory");
-    writer.write_image_data(&bytes).expect("as many bytes as the header says");
-    writer.finish().expect("writing to memory");
-    out
+    encode_rgb(3 * size[0], size[1], &bytes)
 }
 
 /// White where pictures agree, red where the first is brighter by four deviations or more, blue where it is darker.
