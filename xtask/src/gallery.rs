@@ -79,7 +79,7 @@ pub fn run(args: &Args) -> Result<()> {
         }
     }
     if args.only.is_empty() && args.samples.is_none() {
-        replace(Path::new(PAGE), &page()?)?;
+        replace(Path::new(PAGE), page()?)?;
         println!("{PAGE}");
     }
     Ok(())

@@ -64,7 +64,7 @@ impl Exchange {
     /// Where the file cannot be written.
     pub fn write_tasks(&self) -> anyhow::Result<PathBuf> {
         let path = self.directory.join("tasks.json");
-        crate::report::replace(&path, &serde_json::to_string(&self.tasks)?)?;
+        crate::report::replace(&path, serde_json::to_string(&self.tasks)?)?;
         Ok(path)
     }
 

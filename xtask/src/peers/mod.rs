@@ -133,11 +133,11 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
     };
     record.print();
     let json = out.join("peers.json");
-    replace(&json, &(serde_json::to_string_pretty(&record)? + "\n"))?;
+    replace(&json, serde_json::to_string_pretty(&record)? + "\n")?;
     println!("{}", json.display());
     if options.record {
         let page = workspace().join("docs/performance.md");
-        replace(&page, &record.markdown())?;
+        replace(&page, record.markdown())?;
         println!("{}", page.display());
     }
     ensure!(faults.is_empty(), "left out of the table: {}", faults.join("; "));

@@ -110,7 +110,7 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
         write::replace(path, &json)?;
     }
     let page = options.out.join("index.html");
-    write::replace(&page, &page::html(&report))?;
+    write::replace(&page, page::html(&report))?;
     println!("{}", page.display());
     Ok(())
 }

@@ -6,15 +6,15 @@ use std::path::Path;
 use anyhow::Context;
 use tempfile::NamedTempFile;
 
-/// Writes `text` to a temporary file beside `path` and renames it.
+/// Writes `content` to a temporary file beside `path` and renames it.
 ///
 /// # Errors
 /// Where the directory cannot be written to; what was there before is left as it was.
-pub fn replace(path: &Path, text: &str) -> anyhow::Result<()> {
+pub fn replace(path: &Path, content: impl AsRef<[u8]>) -> anyhow::Result<()> {
     let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let write = || -> anyhow::Result<()> {
         let mut file = NamedTempFile::new_in(directory)?;
-        file.write_all(text.as_bytes())?;
+        file.write_all(content.as_ref())?;
         file.persist(path)?;
         Ok(())
     };

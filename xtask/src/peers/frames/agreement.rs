@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use anyhow::{Context, bail};
+use anyhow::bail;
 use comfy_table::{CellAlignment, Table, presets};
 use lobe::{Backend, Given};
 use lobe_render::{Film, render};
@@ -13,6 +13,7 @@ use super::scene::{Room, settings};
 use super::{Subject, VARIANTS, picture, subjects};
 use crate::peers::exchange::Exchange;
 use crate::peers::program::Programs;
+use crate::report::replace;
 
 /// Columns and rows of the pictures.
 const SIZE: [u32; 2] = [320, 320];
@@ -156,8 +157,7 @@ impl Question {
                 bail!("{name}: pictures differ by {difference:.4}, but their noise is {noise:.4} and {peer_noise:.4}");
             }
             agreements.push(agreement);
-            let picture = picture::beside(SIZE, [&ours.mean, &theirs.mean], &deviations(&ours, &theirs));
-            std::fs::write(file, picture).with_context(|| format!("cannot write {}", file.display()))?;
+            replace(file, picture::beside(SIZE, [&ours.mean, &theirs.mean], &deviations(&ours, &theirs)))?;
         }
         Ok(agreements)
     }
