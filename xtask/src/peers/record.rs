@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::frames::{self, Agreement};
 use super::variance::{self, Variance};
-use crate::report::{Machine, nanoseconds, times};
+use crate::report::{Grid, Machine, nanoseconds, times};
 
 /// This library against one peer.
 #[derive(Clone, Debug, Serialize)]
@@ -85,8 +85,12 @@ impl Record {
             column.set_cell_alignment(CellAlignment::Right);
         }
         println!("{table}");
-        variance::print(&self.variances);
-        frames::print(&self.pictures);
+        self.grids().iter().for_each(Grid::print);
+    }
+
+    /// What is not about speed.
+    fn grids(&self) -> Vec<Grid> {
+        variance::grid(&self.variances).into_iter().chain(frames::grid(&self.pictures)).collect()
     }
 
     /// The page.
@@ -112,8 +116,10 @@ impl Record {
         for row in &self.rows {
             writeln!(page, "| {} |", row.cells().join(" | ")).expect("a string");
         }
-        page += &variance::markdown(&self.variances);
-        page += &frames::markdown(&self.pictures);
+        page.extend(self.grids().iter().map(Grid::markdown));
+        if !self.pictures.is_empty() {
+            page += PICTURE;
+        }
         page
     }
 }
@@ -130,4 +136,10 @@ const READING: &str = "Times are nanoseconds of processor time for each lookup, 
 one thread. `speed` is the peer's time divided by lobe's; the goal stands at the fastest peer of a question. `difference`
 is how far the values are from the peer's, relative.
 
+";
+
+const PICTURE: &str = "
+lobe, Mitsuba, and the difference of each pixel, white for none and full red or blue for four standard deviations:
+
+![This renderer, Mitsuba, and their difference](pictures/mitsuba-difference.png)
 ";

@@ -1,12 +1,10 @@
 //! How noisy samples are: the variance of the albedo from one sample, `f cos / pdf`, over the square of its mean; with
 //! Mitsuba's sampler, with this library's, and with directions drawn by their cosine, on the same files and numbers.
 
-use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::{Context, bail};
-use comfy_table::{CellAlignment, Table, presets};
 use lobe::{Given, Material, Options, Sampler, SamplerOptions};
 use serde::Serialize;
 use serde_json::json;
@@ -15,7 +13,7 @@ use super::exchange::Exchange;
 use super::material;
 use super::program::Programs;
 use crate::noise;
-use crate::report::times;
+use crate::report::{Grid, times};
 
 /// Polar angles of the known direction in degrees.
 const ANGLES: [f64; 8] = [0.0, 15.0, 30.0, 45.0, 60.0, 70.0, 80.0, 85.0];
@@ -45,55 +43,28 @@ pub struct Variance {
 }
 
 impl Variance {
-    fn cells(&self) -> [String; 7] {
+    fn cells(&self) -> Vec<String> {
         let Variance { on, degrees, mitsuba, lobe, by_light, cosine } = self;
         let figure = |variance: f64| format!("{variance:.4}");
         let [mitsuba, by_light] = [figure(*mitsuba), figure(*by_light)];
         let gain = times(cosine / lobe);
-        [on.clone(), format!("{degrees}°"), mitsuba, figure(*lobe), by_light, figure(*cosine), gain]
+        vec![on.clone(), format!("{degrees}°"), mitsuba, figure(*lobe), by_light, figure(*cosine), gain]
     }
 }
 
 const HEADER: [&str; 7] = ["material", "angle", "Mitsuba", "lobe", "lobe, by light", "cosine", "cosine / lobe"];
 
-/// The table on the terminal.
-pub fn print(variances: &[Variance]) {
-    if variances.is_empty() {
-        return;
-    }
-    let mut table = Table::new();
-    table.load_style(presets::UTF8_HORIZONTAL_ONLY);
-    table.set_header(HEADER);
-    table.add_rows(variances.iter().map(Variance::cells));
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    println!("Relative variance of the albedo from one sample\n{table}");
+/// What is shown; nothing where nothing was measured.
+pub fn grid(variances: &[Variance]) -> Option<Grid> {
+    let rows = variances.iter().map(Variance::cells).collect();
+    (!variances.is_empty()).then(|| Grid::new("Noise of samples", READING, HEADER, rows))
 }
 
-/// The section of the page.
-pub fn markdown(variances: &[Variance]) -> String {
-    let mut section = String::new();
-    if variances.is_empty() {
-        return section;
-    }
-    section += READING;
-    writeln!(section, "| {} |\n|---|--:|--:|--:|--:|--:|--:|", HEADER.join(" | ")).expect("a string");
-    for variance in variances {
-        writeln!(section, "| {} |", variance.cells().join(" | ")).expect("a string");
-    }
-    section
-}
-
-const READING: &str = "
-## Noise of samples
-
+const READING: &str = "\
 The variance of the albedo that one sample estimates, `f cos / pdf` in luminance, over the square of its mean: how many
 samples make an error of 100 %. `angle` is that of the viewer from the normal, who is known. Mitsuba and lobe get the same
 numbers. Both index a file by the viewer; in the column `by light` lobe indexes it by the light that is found, as it was
-measured.
-
-";
+measured.";
 
 /// The materials, their samplers and Mitsuba's tasks.
 pub struct Question {

@@ -1,4 +1,4 @@
-//! Tables of figures that are no ratios of speeds, as text in cells: the same on the terminal and on the page.
+//! Tables of figures that are no ratios of speeds, as text in cells: the same on the terminal and on pages.
 
 use comfy_table::{CellAlignment, Table, presets};
 
@@ -47,7 +47,20 @@ impl Grid {
         self.notes.iter().for_each(|note| println!("{note}"));
     }
 
-    /// As a section of the page.
+    /// As a section of a page of the documentation.
+    pub fn markdown(&self) -> String {
+        let line = |cells: &Vec<String>| format!("| {} |\n", cells.join(" | "));
+        let mut text = format!("\n## {}\n\n{}\n", self.title, self.reading);
+        if !self.rows.is_empty() {
+            let columns = "|--:".repeat(self.header.len() - 1);
+            text += &format!("\n{}|---{columns}|\n", line(&self.header));
+            text.extend(self.rows.iter().map(line));
+        }
+        text.extend(self.notes.iter().map(|note| format!("\n{note}\n")));
+        text
+    }
+
+    /// As a section of the report's page.
     pub fn html(&self) -> String {
         let cells = |tag: &str, texts: &[String]| -> String {
             texts.iter().map(|text| format!("<{tag}>{}</{tag}>", escape(text))).collect()
@@ -62,5 +75,20 @@ impl Grid {
         }
         text.extend(self.notes.iter().map(|note| format!("<p>{}</p>", escape(note))));
         text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_section_of_markdown_has_the_table_between_reading_and_notes() {
+        let rows = vec![vec!["paper".into(), "0.5".into()], vec!["gold".into(), "0.9".into()]];
+        let grid = Grid::new("Albedo", "Of a few.", ["material", "albedo"], rows).with_notes(vec!["The end.".into()]);
+        let table = "| material | albedo |\n|---|--:|\n| paper | 0.5 |\n| gold | 0.9 |\n";
+        assert_eq!(grid.markdown(), format!("\n## Albedo\n\nOf a few.\n\n{table}\nThe end.\n"));
+        let empty = Grid::new("Albedo", "There are no files.", ["material"], Vec::new());
+        assert_eq!(empty.markdown(), "\n## Albedo\n\nThere are no files.\n");
     }
 }

@@ -27,13 +27,13 @@ use serde::Serialize;
 
 use energy::Energy;
 use equivalence::EquivalenceSummary;
-use grid::Grid;
 use pictures::Pictures;
 use rows::Row;
 use samplers::SamplerCost;
 
 use crate::golden::Comparison;
 
+pub(crate) use grid::Grid;
 pub(crate) use machine::Machine;
 pub(crate) use rows::{nanoseconds, times};
 pub(crate) use write::replace;

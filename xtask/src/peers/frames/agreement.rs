@@ -1,10 +1,8 @@
 //! Whether both renderers make the same picture: their difference beside the noise of both.
 
-use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::bail;
-use comfy_table::{CellAlignment, Table, presets};
 use lobe::{Backend, Given};
 use lobe_render::{Film, render};
 use serde::Serialize;
@@ -13,7 +11,7 @@ use super::scene::{Room, settings};
 use super::{Subject, VARIANTS, picture, subjects};
 use crate::peers::exchange::Exchange;
 use crate::peers::program::Programs;
-use crate::report::replace;
+use crate::report::{Grid, replace};
 
 /// Columns and rows of the pictures.
 const SIZE: [u32; 2] = [320, 320];
@@ -48,9 +46,9 @@ impl Agreement {
         self.difference / self.noise.hypot(self.peer_noise)
     }
 
-    fn cells(&self) -> [String; 7] {
+    fn cells(&self) -> Vec<String> {
         let percent = |share: f64| format!("{:.2} %", 100.0 * share);
-        [
+        vec![
             self.on.into(),
             percent(self.noise),
             percent(self.peer_noise),
@@ -64,45 +62,17 @@ impl Agreement {
 
 const HEADER: [&str; 7] = ["room", "noise", "Mitsuba's noise", "both", "difference", "of means", "indexed by light"];
 
-/// The table on the terminal.
-pub fn print(agreements: &[Agreement]) {
-    if agreements.is_empty() {
-        return;
-    }
-    let mut table = Table::new();
-    table.load_style(presets::UTF8_HORIZONTAL_ONLY);
-    table.set_header(HEADER);
-    table.add_rows(agreements.iter().map(Agreement::cells));
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    println!("Pictures against those of Mitsuba\n{table}");
+/// What is shown; nothing where nothing was rendered.
+pub fn grid(agreements: &[Agreement]) -> Option<Grid> {
+    let rows = agreements.iter().map(Agreement::cells).collect();
+    (!agreements.is_empty()).then(|| Grid::new("Pictures", READING, HEADER, rows))
 }
 
-/// The section of the page.
-pub fn markdown(agreements: &[Agreement]) -> String {
-    let mut section = String::new();
-    if agreements.is_empty() {
-        return section;
-    }
-    section += READING;
-    writeln!(section, "| {} |\n|---|--:|--:|--:|--:|--:|--:|", HEADER.join(" | ")).expect("a string");
-    for agreement in agreements {
-        writeln!(section, "| {} |", agreement.cells().join(" | ")).expect("a string");
-    }
-    section + "\n![This renderer, Mitsuba, and their difference](pictures/mitsuba-difference.png)\n"
-}
-
-const READING: &str = "
-## Pictures
-
+const READING: &str = "\
 The same rooms path-traced by both, 96 samples a pixel, with a panel and a sky as lights: the root of the mean square over
 pixels and channels, relative to the pixel. Noise is estimated from two pictures each, with other random numbers; a
 `difference` as large as `both` noises together is no difference. Measured materials are indexed by the viewer, as Mitsuba
-does; the last column has the mean of the picture where they are indexed by the light. Below: lobe, Mitsuba, and the
-difference of each pixel, white for none and full red or blue for four standard deviations.
-
-";
+does; the last column has the mean of the picture where they are indexed by the light.";
 
 /// The rooms and the tasks of the other renderer.
 pub struct Question {

@@ -15,7 +15,7 @@ use super::exchange::Exchange;
 use super::material;
 use scene::{Room, Surface, settings};
 
-pub use agreement::{Agreement, Question, markdown, print};
+pub use agreement::{Agreement, Question, grid};
 
 /// How the names of all of these contests begin.
 pub const PREFIX: &str = "frame";
