@@ -1,4 +1,4 @@
-/* Runs the arc cosine of SLEEF on request: `sleef COSINES`, a file of f32. Answers as peers.py does. */
+/* Runs the arc cosine of SLEEF on request: `sleef COSINES`, a file of f32. Answers as serve.py does. */
 
 #include <immintrin.h>
 #include <sleef.h>

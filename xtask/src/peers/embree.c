@@ -1,4 +1,4 @@
-/* Traces rays with Embree 3 on request: `embree DIRECTORY`. Answers as peers.py does.
+/* Traces rays with Embree 3 on request: `embree DIRECTORY`. Answers as serve.py does.
 
    A task is SCENE.RAYS.HITS.ISA.TREE: rays of DIRECTORY/SCENE-RAYS.f32 (rows origin, direction, t_min, t_max) through
    the mesh of SCENE-positions.f32 and SCENE-triangles.f32. HITS is `nearest` or `any`, TREE is `fast` or `robust`. A

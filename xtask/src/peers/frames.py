@@ -1,15 +1,13 @@
 """Frames by Mitsuba 3 on request: `python frames.py VARIANT TASKS`.
 
-Answers the same requests as `peers.py`, but all of them with path-traced frames of scenes: `values` writes the linear RGB
-of two frames with other random numbers, rows from the top.
+Answers as `serve.py` does, with path-traced frames of scenes: `values` writes the linear RGB of two frames with other
+random numbers, rows from the top.
 """
 
-import gc
 import importlib.metadata
 import json
 import os
 import sys
-import time
 
 # One core for all threads of Mitsuba; it counts cores when it is imported.
 os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
@@ -17,6 +15,7 @@ os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
 import drjit as dr
 import mitsuba as mi
 import numpy as np
+from serve import serve
 
 
 class Frame:
@@ -81,32 +80,10 @@ def main():
     mi.set_variant(variant)
     # Measured values below zero are what the files hold, and no reason to write into the answers.
     mi.set_log_level(mi.LogLevel.Error)
-    ready = {}
-
-    def prepared(name):
-        if name not in ready:
-            ready[name] = Frame(tasks[name])
-            # The first run compiles kernels.
-            ready[name].run()
-        return ready[name]
-
     # Without a usable LLVM this ends the process, so do it before saying that all is well.
     str(mi.Float(1) + 1)
-    print("ready", importlib.metadata.version("mitsuba"), flush=True)
-    gc.disable()
-    for line in sys.stdin:
-        what, name, argument = line.rstrip("\n").split(" ", 2)
-        frame = prepared(name)
-        if what == "run":
-            least = float("inf")
-            for _ in range(int(argument)):
-                start = time.process_time_ns()
-                frame.run()
-                least = min(least, time.process_time_ns() - start)
-            print(least * 1e-9, flush=True)
-        else:
-            np.asarray(frame.values(), "<f4").tofile(argument)
-            print("written", flush=True)
+    # The first run compiles kernels.
+    serve(importlib.metadata.version("mitsuba"), lambda name: Frame(tasks[name]), warm_runs=1)
 
 
 main()

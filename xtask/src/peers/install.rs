@@ -17,10 +17,8 @@ pub fn all(out: &Path, tasks: &Path, exchange: &Exchange) -> Vec<(&'static str, 
     let wheel = |(package, version): (&'static str, &str)| {
         let command = environment.clone().map_err(anyhow::Error::msg).and_then(|python| {
             install(&python, package, version)?;
-            let script = out.join("peers.py");
-            std::fs::write(&script, include_str!("peers.py"))?;
-            let mut command = Command::new(python);
-            command.arg(script).arg(package).arg(tasks);
+            let mut command = script(out, &python, "peers.py", include_str!("peers.py"))?;
+            command.arg(package).arg(tasks);
             Ok(command)
         });
         (package, command)
@@ -28,10 +26,8 @@ pub fn all(out: &Path, tasks: &Path, exchange: &Exchange) -> Vec<(&'static str, 
     let mut programs: Vec<_> = WHEELS.into_iter().map(wheel).collect();
     for (name, variant) in [("mitsuba-llvm", "llvm_ad_rgb"), ("mitsuba-scalar", "scalar_rgb")] {
         let command = environment.clone().map_err(anyhow::Error::msg).and_then(|python| {
-            let script = out.join("frames.py");
-            std::fs::write(&script, include_str!("frames.py"))?;
-            let mut command = Command::new(python);
-            command.arg(script).arg(variant).arg(tasks);
+            let mut command = script(out, &python, "frames.py", include_str!("frames.py"))?;
+            command.arg(variant).arg(tasks);
             Ok(command)
         });
         programs.push((name, command));
@@ -46,6 +42,16 @@ pub fn all(out: &Path, tasks: &Path, exchange: &Exchange) -> Vec<(&'static str, 
     };
     programs.push(("embree", embree.compiled(out, exchange.directory())));
     programs
+}
+
+/// A script of that name, beside what all scripts share.
+fn script(out: &Path, python: &Path, name: &str, text: &str) -> anyhow::Result<Command> {
+    std::fs::write(out.join("serve.py"), include_str!("serve.py"))?;
+    let script = out.join(name);
+    std::fs::write(&script, text)?;
+    let mut command = Command::new(python);
+    command.arg(script);
+    Ok(command)
 }
 
 /// The interpreter of the virtual environment, which is made where there is none.

@@ -1,20 +1,14 @@
-"""Runs peers of lobe on request: `python peers.py PACKAGE TASKS`.
+"""Runs peers of lobe on request: `python peers.py PACKAGE TASKS`, answering as `serve.py` does.
 
-TASKS is a JSON file, an object of tasks by name. Says `ready VERSION` once, then answers each line of its input:
-
-    run TASK TIMES      the least processor seconds of that many runs
-    values TASK FILE    `written`, after writing what a run computes to FILE, as little-endian f32
-
-Arrays come from files of little-endian f32. What it takes to get them into place is not timed.
+TASKS is a JSON file, an object of tasks by name. Arrays come from files of little-endian f32.
 """
 
-import gc
 import importlib.metadata
 import json
 import sys
-import time
 
 import numpy as np
+from serve import serve
 
 
 def floats(path, rows):
@@ -116,38 +110,14 @@ KINDS = {"scipy": Scipy, "interpn": Interpn, "mitsuba": Mitsuba}
 
 def main():
     package, tasks = sys.argv[1], json.load(open(sys.argv[2]))
-    kind = KINDS[package]
-    ready = {}
-
-    def prepared(name):
-        if name not in ready:
-            ready[name] = kind(tasks[name])
-            # The first run compiles kernels, the second finds them.
-            ready[name].run()
-            ready[name].run()
-        return ready[name]
-
     if package == "mitsuba":
         # Without a usable LLVM this ends the process, so do it before saying that all is well.
         import mitsuba as mi
 
         mi.set_variant("llvm_ad_rgb")
         str(mi.Float([1, 2]) + 1)
-    print("ready", importlib.metadata.version(package), flush=True)
-    gc.disable()
-    for line in sys.stdin:
-        what, name, argument = line.rstrip("\n").split(" ", 2)
-        contestant = prepared(name)
-        if what == "run":
-            least = float("inf")
-            for _ in range(int(argument)):
-                start = time.process_time_ns()
-                contestant.run()
-                least = min(least, time.process_time_ns() - start)
-            print(least * 1e-9, flush=True)
-        else:
-            np.asarray(contestant.values(), "<f4").tofile(argument)
-            print("written", flush=True)
+    # The first run compiles kernels, the second finds them.
+    serve(importlib.metadata.version(package), lambda name: KINDS[package](tasks[name]), warm_runs=2)
 
 
 main()

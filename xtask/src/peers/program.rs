@@ -1,4 +1,4 @@
-//! A peer in a process of its own, which answers one request a line; `peers.py` says how.
+//! A peer in a process of its own, which answers one request a line; `serve.py` says how.
 
 use std::collections::BTreeMap;
 use std::fs::File;

@@ -1,0 +1,41 @@
+"""How a peer answers. It says `ready VERSION` once, then answers each line of its input:
+
+    run TASK TIMES      the least processor seconds of that many runs
+    values TASK FILE    `written`, after writing what a run computes to FILE, as little-endian f32
+
+What it takes to get a task into place is not timed.
+"""
+
+import gc
+import sys
+import time
+
+import numpy as np
+
+
+def serve(version, make, warm_runs):
+    """Answers with `make(TASK)`, which has `run()` and `values()`, and is run so many times before it is first timed."""
+    ready = {}
+
+    def prepared(name):
+        if name not in ready:
+            ready[name] = make(name)
+            for _ in range(warm_runs):
+                ready[name].run()
+        return ready[name]
+
+    print("ready", version, flush=True)
+    gc.disable()
+    for line in sys.stdin:
+        what, name, argument = line.rstrip("\n").split(" ", 2)
+        contestant = prepared(name)
+        if what == "run":
+            least = float("inf")
+            for _ in range(int(argument)):
+                start = time.process_time_ns()
+                contestant.run()
+                least = min(least, time.process_time_ns() - start)
+            print(least * 1e-9, flush=True)
+        else:
+            np.asarray(contestant.values(), "<f4").tofile(argument)
+            print("written", flush=True)
