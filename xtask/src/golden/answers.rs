@@ -4,6 +4,8 @@ use std::path::Path;
 
 use anyhow::Context;
 
+use super::made::spherical;
+
 /// What was asked, and what came out.
 #[derive(Clone, Debug)]
 pub(super) struct Answer {
@@ -21,13 +23,13 @@ impl Answer {
 
     /// The two inputs from `at` on, zenith angle and azimuth in radians, as a unit vector.
     pub(super) fn spherical(&self, at: usize) -> [f32; 3] {
-        spherical(self.inputs[at], self.inputs[at + 1])
+        direction([self.inputs[at], self.inputs[at + 1]])
     }
 }
 
-/// The direction of a zenith angle and an azimuth in radians.
-pub(super) fn spherical(theta: f64, phi: f64) -> [f32; 3] {
-    [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()].map(|x| x as f32)
+/// The direction of a zenith angle and an azimuth in radians, in the precision of lanes.
+pub(super) fn direction(angles: [f64; 2]) -> [f32; 3] {
+    spherical(angles).map(|x| x as f32)
 }
 
 /// All answers of a file, each with at least so many numbers.

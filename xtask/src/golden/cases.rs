@@ -6,7 +6,8 @@ use anyhow::{Context, bail};
 use lobe::formats::{self, Document, Format};
 use lobe::{Backend, Edges, Material, Options};
 
-use super::answers::{self, Answer, spherical};
+use super::answers::{self, Answer, direction};
+use super::made::{merl_formula, utia_numbers};
 use super::{Comparison, Measure};
 
 /// The file of answers `name`; none where it is no such file.
@@ -197,7 +198,7 @@ fn mitsuba_values(backend: Backend, shared: &Path, path: &Path) -> anyhow::Resul
             .collect();
         let pair = |answer: &Answer| {
             let [theta_i, theta_o, phi] = [0, 1, 2].map(|k| answer.inputs[k]);
-            (spherical(theta_i, 0.0), spherical(theta_o, phi))
+            (direction([theta_i, 0.0]), direction([theta_o, phi]))
         };
         let found = subject.values(&answers.iter().map(pair).collect::<Vec<_>>(), as_it_is);
         comparisons.push(subject.against("Mitsuba 3", &answers, &found, (Measure::Value, 1e-3, 1e-4)));
@@ -224,32 +225,14 @@ fn radiance(backend: Backend, file: &Path, path: &Path) -> anyhow::Result<Compar
 
 /// Every bin of this table holds its own indices.
 fn merl(backend: Backend, path: &Path) -> anyhow::Result<Comparison> {
-    let mut bytes: Vec<u8> = [90i32, 90, 180].iter().flat_map(|n| n.to_le_bytes()).collect();
-    for scale in [1.0, 1.15, 1.66] {
-        for bin in 0..90 * 90 * 180 {
-            let (h, d, p) = (bin / (90 * 180), bin / 180 % 90, bin % 180);
-            let code = 1e4 * f64::from(h) + 100.0 * f64::from(d) + f64::from(p) / 2.0;
-            bytes.extend_from_slice(&(1500.0 * code / scale).to_le_bytes());
-        }
-    }
-    angles(
-        backend,
-        path,
-        ("bins that hold their indices", Format::Merl, &bytes),
-        "BRDFRead",
-        (Measure::Absolute, 0.0, 0.0),
-    )
+    let made = ("bins that hold their indices", Format::Merl, &*merl_formula());
+    angles(backend, path, made, "BRDFRead", (Measure::Absolute, 0.0, 0.0))
 }
 
 /// Numbers of a generator, as the file of answers defines it.
 fn utia(backend: Backend, path: &Path) -> anyhow::Result<Comparison> {
-    let mut state = 12345u32;
-    let mut bytes = Vec::new();
-    for _ in 0..248_832 {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        bytes.extend_from_slice(&(0.01 + 60.0 * f64::from(state) / 4_294_967_296.0).to_le_bytes());
-    }
-    angles(backend, path, ("pseudo-random numbers", Format::Utia, &bytes), "UTIA-brdf", (Measure::Largest, 0.0, 2e-5))
+    let made = ("pseudo-random numbers", Format::Utia, &*utia_numbers());
+    angles(backend, path, made, "UTIA-brdf", (Measure::Largest, 0.0, 2e-5))
 }
 
 /// A table that is made here, asked by zenith angles and azimuths.

@@ -5,6 +5,8 @@
 
 mod answers;
 mod cases;
+#[path = "../../../crates/lobe-formats/tests/common/made.rs"]
+mod made;
 
 use std::path::{Path, PathBuf};
 
