@@ -37,6 +37,7 @@ fn contest(exchange: &mut Exchange, input: Input) -> anyhow::Result<Contest> {
         inside: Vec::new(),
         outside: vec![Outside { name: "Mitsuba principled", program: "mitsuba", task }],
         agreement: None,
+        judge: None,
         goal: Some(1.0),
     })
 }

@@ -1,8 +1,8 @@
 //! One question: this library and its peers on the same input.
 
-use anyhow::bail;
 use lobe_benches::contest::Contender;
 
+use super::comparison::{Agreement, Difference, Judge, compare};
 use super::exchange::Exchange;
 use super::processor;
 use super::program::Programs;
@@ -10,24 +10,6 @@ use super::record::Row;
 
 /// Runs of everybody in a turn: the first finds the caches as the one before left them.
 const TIMES: usize = 3;
-
-/// How far values may differ.
-#[derive(Clone, Copy, Debug)]
-pub struct Agreement {
-    /// The largest difference, in parts of the peer's value.
-    pub relative: f64,
-    /// The value in whose parts it is measured where the peer's is smaller.
-    pub floor: f64,
-    /// The share of values that may differ by more.
-    pub outliers: f64,
-}
-
-/// How the values of a peer differ.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Difference {
-    /// The largest but for the outliers that are allowed, relative.
-    pub largest: f64,
-}
 
 /// A peer: this one answers a task in a program of its own.
 #[derive(Clone, Debug)]
@@ -58,6 +40,8 @@ pub struct Contest {
     pub outside: Vec<Outside>,
     /// What the values of all are held to; `None` where they are not of the same material.
     pub agreement: Option<Agreement>,
+    /// Who decides where they differ by more; `None` where all differences count.
+    pub judge: Option<Box<dyn Judge>>,
     /// How many times the speed of the fastest peer this library shall have.
     pub goal: Option<f64>,
 }
@@ -81,10 +65,13 @@ impl Contest {
     pub fn check(&mut self, programs: &mut Programs, exchange: &Exchange) -> anyhow::Result<Vec<Option<Difference>>> {
         self.lobe.run();
         let ours = self.lobe.values();
+        let compared = |peer: &str, theirs: &[f32]| {
+            compare(self.agreement, self.judge.as_deref(), (self.id, &self.on, peer), &ours, theirs)
+        };
         let mut differences = Vec::new();
         for peer in &mut self.inside {
             peer.run();
-            differences.push(compare(self.agreement, (self.id, &self.on, peer.name), &ours, &peer.values())?);
+            differences.push(compared(peer.name, &peer.values())?);
         }
         for peer in &self.outside {
             let file = exchange.answer(peer.program, &peer.task);
@@ -92,7 +79,7 @@ impl Contest {
             let theirs = exchange.read(&file, ours.len())?;
             // Some of these files are large, and nobody reads them again.
             std::fs::remove_file(&file)?;
-            differences.push(compare(self.agreement, (self.id, &self.on, peer.name), &ours, &theirs)?);
+            differences.push(compared(peer.name, &theirs)?);
         }
         Ok(differences)
     }
@@ -132,6 +119,7 @@ impl Contest {
             ratio: least / lobe,
             goal: self.goal.filter(|_| least == fastest),
             difference: difference.map(|difference| difference.largest),
+            peer_wrong: difference.map_or(0, |difference| difference.wrong),
         };
         Ok(names.zip(peers.iter().copied()).zip(differences).map(row).collect())
     }
@@ -145,69 +133,4 @@ fn seconds(contender: &mut Contender) -> f64 {
         processor::seconds() - start
     };
     (0..TIMES).map(run).fold(f64::INFINITY, f64::min)
-}
-
-fn compare(
-    agreement: Option<Agreement>,
-    (id, on, peer): (&str, &str, &str),
-    ours: &[f32],
-    theirs: &[f32],
-) -> anyhow::Result<Option<Difference>> {
-    let Some(Agreement { relative, floor, outliers }) = agreement else {
-        // Of another material; but figures all the same.
-        if !ours.iter().chain(theirs).all(|value| value.is_finite()) {
-            bail!("{id} {on}: {peer} or lobe gives values that are no numbers");
-        }
-        return Ok(None);
-    };
-    let mut differences: Vec<f64> = ours
-        .iter()
-        .zip(theirs)
-        .map(|(ours, theirs)| {
-            let (ours, theirs) = (f64::from(*ours), f64::from(*theirs));
-            let difference = (ours - theirs).abs() / theirs.abs().max(floor);
-            if difference.is_nan() { f64::INFINITY } else { difference }
-        })
-        .collect();
-    let kept = differences.len() - 1 - (differences.len() as f64 * outliers) as usize;
-    let (_, largest, _) = differences.select_nth_unstable_by(kept, f64::total_cmp);
-    let largest = *largest;
-    if largest > relative {
-        bail!("{id} {on}: the values of {peer} differ by up to {largest:.1e}; {relative:.1e} is allowed");
-    }
-    Ok(Some(Difference { largest }))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const EXACT: Agreement = Agreement { relative: 1e-3, floor: 0.1, outliers: 0.0 };
-
-    fn difference(agreement: Agreement, ours: &[f32], theirs: &[f32]) -> anyhow::Result<f64> {
-        compare(Some(agreement), ("question", "input", "peer"), ours, theirs).map(|found| found.unwrap().largest)
-    }
-
-    #[test]
-    fn differences_are_relative_and_small_values_count_as_the_floor() {
-        let found = difference(EXACT, &[1.0005, 0.0], &[1.0, 0.00005]).unwrap();
-        assert!((found - 5e-4).abs() < 1e-6, "{found}");
-    }
-
-    #[test]
-    fn wrong_values_are_named() {
-        let error = difference(EXACT, &[1.0, 1.1], &[1.0, 1.0]).unwrap_err().to_string();
-        assert!(error.contains("peer") && error.contains("1.0e-1"), "{error}");
-        difference(EXACT, &[f32::NAN], &[1.0]).unwrap_err();
-    }
-
-    #[test]
-    fn no_more_than_the_allowed_share_may_be_off() {
-        let mut ours = vec![1.0; 100];
-        ours[3] = 2.0;
-        let one = Agreement { outliers: 0.01, ..EXACT };
-        assert_eq!(difference(one, &ours, &[1.0; 100]).unwrap(), 0.0);
-        ours[4] = 2.0;
-        difference(one, &ours, &[1.0; 100]).unwrap_err();
-    }
 }

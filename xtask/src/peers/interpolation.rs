@@ -9,7 +9,8 @@ use lobe_benches::tables;
 use lobe_benches::workload::Input;
 use serde_json::json;
 
-use super::contest::{Agreement, Contest, Outside};
+use super::comparison::Agreement;
+use super::contest::{Contest, Outside};
 use super::exchange::Exchange;
 
 /// Points a run.
@@ -74,6 +75,7 @@ fn contest(
         outside,
         // Values of about 1; positions are rounded to 1e-6 of a table whose values change by all of that in a cell.
         agreement: Some(Agreement { relative: 1e-4, floor: 1.0, outliers: 0.0 }),
+        judge: None,
         goal: Some(12.0),
     })
 }

@@ -13,7 +13,8 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 use serde_json::json;
 
-use super::contest::{Agreement, Contest, Outside};
+use super::comparison::Agreement;
+use super::contest::{Contest, Outside};
 use super::exchange::Exchange;
 
 /// Queries a run: enough that what a wavefront costs by itself does not count.
@@ -164,6 +165,7 @@ impl<'a> Subject<'a> {
                 floor: 1e-2,
                 outliers: 1e-4,
             }),
+            judge: None,
             goal,
         }
     }

@@ -5,6 +5,7 @@
 //! left out with a line that says why. Everybody's values are compared before anything is timed.
 
 mod analytic;
+mod comparison;
 mod contest;
 mod contests;
 mod exchange;
@@ -15,6 +16,7 @@ mod material;
 mod processor;
 mod program;
 mod record;
+mod referee;
 mod tracing;
 mod trigonometry;
 mod variance;

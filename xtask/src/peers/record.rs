@@ -31,11 +31,14 @@ pub struct Row {
     pub goal: Option<f64>,
     /// The largest relative difference of the values, where they are of the same material.
     pub difference: Option<f64>,
+    /// How many answers of the peer are wrong where one had to decide.
+    pub peer_wrong: usize,
 }
 
 impl Row {
     fn cells(&self) -> [String; 8] {
         let goal = self.goal.map(|goal| format!("{}{}", times(goal), if self.ratio < goal { ", short" } else { "" }));
+        let wrong = if self.peer_wrong > 0 { format!(", {} wrong", self.peer_wrong) } else { String::new() };
         [
             self.id.into(),
             self.on.clone(),
@@ -44,7 +47,7 @@ impl Row {
             nanoseconds(self.ns),
             times(self.ratio),
             goal.unwrap_or_default(),
-            self.difference.map_or_else(String::new, |difference| format!("{difference:.0e}")),
+            self.difference.map_or_else(String::new, |difference| format!("{difference:.0e}{wrong}")),
         ]
     }
 }
@@ -134,7 +137,8 @@ Written by `cargo xtask peers --record`; [benchmarking](benchmarking.md) says ho
 
 const READING: &str = "Times are nanoseconds of processor time for each lookup, evaluation, density, sample or value, the least of all turns,
 one thread. `speed` is the peer's time divided by lobe's; the goal stands at the fastest peer of a question. `difference`
-is how far the values are from the peer's, relative.
+is how far the values are from the peer's, relative. Where a ray is answered otherwise by the peer, all triangles are tried
+in double precision: there lobe has to be right, and rays that the peer answers wrongly are counted beside the difference.
 
 ";
 

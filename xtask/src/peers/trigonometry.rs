@@ -6,7 +6,8 @@ use lobe::{Backend, Kernel, Lanes, math};
 use lobe_benches::contest::Contender;
 use lobe_benches::workload::Input;
 
-use super::contest::{Agreement, Contest, Outside};
+use super::comparison::Agreement;
+use super::contest::{Contest, Outside};
 use super::exchange::Exchange;
 
 /// Values in the first cache or the second.
@@ -39,6 +40,7 @@ pub fn acos(exchange: &Exchange) -> anyhow::Result<Contest> {
         outside: vec![Outside { name: "SLEEF acosf8_u35", program: "sleef", task: "acos".into() }],
         // Angles up to pi, each within its bound: 3.5 units in the last place of SLEEF's.
         agreement: Some(Agreement { relative: sum, floor: 1.0, outliers: 0.0 }),
+        judge: None,
         goal: Some(1.4),
     })
 }

@@ -69,6 +69,7 @@ pub fn all(data: &Path, exchange: &mut Exchange) -> anyhow::Result<Vec<Contest>>
                 outside: vec![Outside { name: shown, program, task: task.clone() }],
                 // Noise is compared by itself.
                 agreement: None,
+                judge: None,
                 goal: Some(goal),
             });
         }
