@@ -2,7 +2,8 @@
 
 mod common;
 
-use common::{Worst, golden, merl_formula, relative, shared, spherical, unit, utia_numbers};
+use common::made::{merl_formula, spherical, utia_numbers};
+use common::{Worst, golden, relative, shared, unit};
 use lobe_formats::{mbsdf, merl, pbsdf, tensor, utia};
 use lobe_table::spherical_grid::SphericalGrid;
 use lobe_table::utia::Decode;

@@ -6,7 +6,8 @@ mod common;
 
 use std::path::Path;
 
-use common::{Worst, direction, golden, merl_formula, shared, sheets, spherical, unit, utia_numbers};
+use common::made::{merl_formula, spherical, utia_numbers};
+use common::{Worst, direction, golden, shared, sheets, unit};
 use lobe::formats::{Document, Format, merl, utia};
 use lobe::{Backend, Material, Options};
 

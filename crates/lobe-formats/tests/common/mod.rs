@@ -6,9 +6,7 @@
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-mod made;
-
-pub use made::*;
+pub mod made;
 
 /// The folder with `golden` and `data` in it; says so where there is none.
 pub fn shared() -> Option<PathBuf> {
