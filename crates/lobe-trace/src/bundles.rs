@@ -4,6 +4,7 @@ use lobe_lane::{Block as Pattern, Floats, Ints, Lanes, MAX_LANES, Mask};
 
 use crate::block::{Block, Found, RAYS, Row, first_ray, group_bits, mask_of};
 use crate::hull::Edges;
+use crate::mesh::LIMIT;
 use crate::slab::least_lane;
 
 /// Rays of a bundle.
@@ -63,19 +64,31 @@ impl Bundles {
         }
         bundles.t_min = least_lane(lanes, t_min.max(lanes.splat(0.0)));
         let pad = lanes.splat(-least_lane(lanes, -pad));
+        bundles.shorten(lanes, found, live);
         let mut first = 0;
         while first < BUNDLES {
             let bits = lanes.load_int(&bits[first..]);
-            let (mut spread, mut fan) = (lanes.splat(0.0), lanes.splat(0.0));
+            let end = lanes.load(&bundles.end[first..]);
+            let ending = end.le(lanes.splat(LIMIT)) & end.gt(lanes.splat(0.0));
+            let (mut spread, mut fan) = (lanes.splat(0.0), lanes.splat(f32::NEG_INFINITY));
             let mut axis = 0;
             while axis < 3 {
                 let [low, high] = extremes(lanes, &rays.origin[axis], first, bits);
-                let inverses = extremes(lanes, &rays.inverse[axis], first, bits);
+                let [least, greatest] = extremes(lanes, &rays.inverse[axis], first, bits);
+                let mut inverses = [greatest, least];
+                if ending.any() {
+                    // Between where rays begin and where all have ended, the greatest of their coordinates is nowhere
+                    // above the line from the greatest at the one to the greatest at the other; the least likewise.
+                    let ends = extremes(lanes, &end_points(lanes, rays, axis, &bundles.end), first, bits);
+                    let lower = (end / (ends[0] - low)).max(least).min(greatest);
+                    let upper = (end / (ends[1] - high)).max(least).min(greatest);
+                    inverses = [lanes.select(ending, lower, greatest), lanes.select(ending, upper, least)];
+                }
                 // Of a bundle without rays these are not numbers, and it is never asked.
                 let edges = Edges::<L>::new(octant >> axis & 1 != 0, [low, high], inverses, pad);
                 let one = lanes.splat(1.0);
                 spread = spread.max(high - low);
-                fan = fan.max((one / edges.slow - one / edges.fast).abs());
+                fan = fan.max(one / inverses[1] - one / inverses[0]);
                 lanes.store(&mut bundles.slow[axis][first..], edges.slow);
                 lanes.store(&mut bundles.near[axis][first..], edges.near);
                 lanes.store(&mut bundles.fast[axis][first..], edges.fast);
@@ -86,7 +99,6 @@ impl Bundles {
             lanes.store(&mut bundles.fan[first..], fan);
             first += L::LANES;
         }
-        bundles.shorten(lanes, found, live);
         bundles
     }
 
@@ -109,6 +121,14 @@ impl Bundles {
         let spread = (bundles as u64 * 0x0101_0101_0101_0101) & 0x8040_2010_0804_0201;
         let high = (spread + 0x7f7f_7f7f_7f7f_7f7f) >> 7 & 0x0101_0101_0101_0101;
         (high * 0xff) & self.live
+    }
+
+    /// The bundles that have some of these rays.
+    #[inline(always)]
+    pub fn of_rays(&self, rays: u64) -> u32 {
+        let low = 0x7f7f_7f7f_7f7f_7f7f;
+        let high = (((rays & low) + low) | rays) & !low;
+        ((high >> 7).wrapping_mul(0x0102_0408_1020_4080) >> 56) as u32
     }
 
     /// The bundle of a ray.
@@ -191,4 +211,18 @@ fn extremes<L: Lanes>(lanes: L, row: &Row, first: usize, bits: L::I) -> [L::F; 2
         ray += 1;
     }
     [low, high]
+}
+
+/// Where rays are along an axis when the last of their bundle ends.
+#[inline(always)]
+fn end_points<L: Lanes>(lanes: L, rays: &Block, axis: usize, ends: &Line) -> Row {
+    let mut points = [0.0; RAYS];
+    let mut at = 0;
+    while at < RAYS {
+        let end = lanes.splat(ends[at / RAYS_EACH]);
+        let [origin, direction] = [lanes.load(&rays.origin[axis][at..]), lanes.load(&rays.direction[axis][at..])];
+        lanes.store(&mut points[at..], lanes.mul_add(direction, end, origin));
+        at += L::LANES;
+    }
+    points
 }

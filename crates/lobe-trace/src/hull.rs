@@ -23,16 +23,13 @@ pub(crate) struct Edges<L: Lanes> {
 }
 
 impl<L: Lanes> Edges<L> {
-    /// Along one axis, from the least and the greatest origins and inverses. The rays' `pad` is taken twice, since this
-    /// test rounds differently from theirs.
+    /// Along one axis, from the least and the greatest origins, and the inverses with which the edges that begin there
+    /// go on. The rays' `pad` is taken twice, since this test rounds differently from theirs.
     #[inline(always)]
-    pub fn new(backward: bool, [low, high]: [L::F; 2], [least, greatest]: [L::F; 2], pad: L::F) -> Self {
+    pub fn new(backward: bool, [low, high]: [L::F; 2], [lower, upper]: [L::F; 2], pad: L::F) -> Self {
         let wide = pad + pad;
-        let [ahead, behind, slow, fast] = if backward {
-            [low - wide, high + wide, greatest, least]
-        } else {
-            [high + wide, low - wide, least, greatest]
-        };
+        let [ahead, behind, slow, fast] =
+            if backward { [low - wide, high + wide, lower, upper] } else { [high + wide, low - wide, upper, lower] };
         Edges { slow, near: -(ahead * slow), fast, far: -(behind * fast) }
     }
 }
@@ -62,8 +59,8 @@ impl<L: Lanes> Hull<L> {
         let mut axis = 0;
         while axis < 3 {
             let origins = ends(lanes, lanes.load(&rays.origin[axis][at..]), live);
-            let inverses = ends(lanes, lanes.load(&rays.inverse[axis][at..]), live);
-            edges[axis] = Edges::new(octant >> axis & 1 != 0, origins, inverses, pad);
+            let [least, greatest] = ends(lanes, lanes.load(&rays.inverse[axis][at..]), live);
+            edges[axis] = Edges::new(octant >> axis & 1 != 0, origins, [greatest, least], pad);
             axis += 1;
         }
         Some(Hull { edges, t_min, end: lanes.splat(f32::INFINITY) })

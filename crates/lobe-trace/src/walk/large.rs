@@ -1,7 +1,7 @@
 //! Up to 64 rays of one octant.
 //!
 //! All children of a node are tested at once, a child a lane, against one bundle of eight rays after another. Rays are
-//! told apart only at the leaves.
+//! told apart where all bundles are wide, and at the leaves.
 
 use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
 
@@ -14,10 +14,10 @@ use crate::leaves::Leaves;
 use crate::slab::{Sides, SlabRay, child_bits};
 
 /// The part of a box that a bundle may be wide and still be taken at its word that a ray of it meets the box.
-const WIDE: f32 = 0.25;
+const WIDE: f32 = 0.5;
 
-/// How few rays of the last bundle that meets a child go on one by one.
-const ALONE: u32 = 4;
+/// How few rays that meet a child go on one by one.
+const ALONE: u32 = 5;
 
 /// How few rays of an octant are traced one by one.
 pub(super) const FEW: u32 = 6;
@@ -91,33 +91,9 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
             let node = &nodes[entry.node as usize];
             let slot = entry.slot as usize & (W - 1);
             let child = node.children[slot];
-            if !child.is_leaf() {
+            // A bundle that is narrow is taken at its word.
+            if !child.is_leaf() && asking & entry.bundles >> 8 != 0 {
                 current = child.index();
-                if asking & entry.bundles >> 8 != 0 {
-                    break;
-                }
-                let mut left = bundles.rays(asking);
-                let mut live = 0;
-                while left != 0 {
-                    let at = first_ray::<L>(left.trailing_zeros() as usize);
-                    let bits = group_bits::<L>(left, at);
-                    live = group_meets(lanes, &sides, node, slot, rays, found, at) & bits;
-                    if live != 0 {
-                        break;
-                    }
-                    left ^= (bits as u64) << at;
-                }
-                if live == 0 {
-                    continue;
-                }
-                asking &= !0 << Bundles::of(left.trailing_zeros() as usize);
-                if asking.is_power_of_two() && live.count_ones() <= ALONE && L::LANES >= 8 {
-                    let live = (live as u64) << first_ray::<L>(left.trailing_zeros() as usize);
-                    let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
-                    enter(lanes, Single { walk, from: child, live });
-                    bundles.shorten(lanes, found, live);
-                    continue;
-                }
                 break;
             }
             let mut left = bundles.rays(asking);
@@ -128,10 +104,22 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                 left ^= (bits as u64) << at;
                 live |= ((group_meets(lanes, &sides, node, slot, rays, found, at) & bits) as u64) << at;
             }
-            if live != 0 {
-                let hit = leaves.packet(lanes, child, rays, live, found, Some(&bundles));
-                bundles.shorten(lanes, found, hit);
+            if live == 0 {
+                continue;
             }
+            if !child.is_leaf() {
+                if live.count_ones() <= ALONE && L::LANES >= 8 {
+                    let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
+                    enter(lanes, Single { walk, from: child, live });
+                    bundles.shorten(lanes, found, live);
+                    continue;
+                }
+                current = child.index();
+                asking = bundles.of_rays(live);
+                break;
+            }
+            let hit = leaves.packet(lanes, child, rays, live, found, Some(&bundles));
+            bundles.shorten(lanes, found, hit);
         }
     }
 }
