@@ -34,7 +34,7 @@ pub mod scattered;
 mod search;
 mod single;
 pub mod spherical_grid;
-mod storage;
+use lobe_memory as storage;
 mod table;
 pub mod tensor_tree;
 mod texel;

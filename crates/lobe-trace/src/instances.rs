@@ -99,7 +99,7 @@ impl<const W: usize> Leaves for Instances<'_, W> {
             at += L::LANES;
         }
         let tree = &scene.trees[instance.mesh];
-        let leaves = &mut Triangles::new(&tree.blocks, leaf.first(), true, self.any);
+        let leaves = &mut Triangles::new(tree.blocks.as_slice(), leaf.first(), true, self.any);
         let walk = Walk { bvh: &tree.bvh, leaves, rays: &*self.local, found, stacks: &mut *self.stacks };
         walk.trace(lanes, self.form, carried);
         carried
@@ -112,7 +112,7 @@ impl<const W: usize> Leaves for Instances<'_, W> {
         let at = first_ray::<L>(ray);
         let bits = self.carry(lanes, instance, rays, at, 1 << (ray - at));
         let tree = &scene.trees[instance.mesh];
-        let leaves = &mut Triangles::new(&tree.blocks, leaf.first(), true, self.any);
+        let leaves = &mut Triangles::new(tree.blocks.as_slice(), leaf.first(), true, self.any);
         let walk = Walk { bvh: &tree.bvh, leaves, rays: &*self.local, found, stacks: &mut *self.stacks };
         walk.trace(lanes, Form::Single, (bits as u64) << at);
     }

@@ -87,7 +87,7 @@ impl SceneBuilder {
         let seen: Vec<usize> = (0..instances.len()).filter(|&i| instances[i].bounds != Aabb::EMPTY).collect();
         let boxes: Vec<Aabb> = seen.iter().map(|&i| instances[i].bounds).collect();
         let binary = Binary::build(&boxes, false);
-        let top = WideBvh::collapse(&binary, 1, |places| Child::leaf(seen[places[0] as usize], 1));
+        let top = WideBvh::collapse(&binary, 1, |places| Child::leaf(seen[binary.order[places.start] as usize], 1));
         Ok(Scene { meshes: self.meshes, trees, instances, top })
     }
 }

@@ -87,8 +87,8 @@ impl Sides {
         let mut planes = [[lanes.splat(0.0); 3]; 2];
         let mut axis = 0;
         while axis < 3 {
-            planes[0][axis] = lanes.splat(node.bounds[self.near[axis]][slot]);
-            planes[1][axis] = lanes.splat(node.bounds[self.far[axis]][slot]);
+            planes[0][axis] = lanes.splat(node.bounds(self.near[axis])[slot]);
+            planes[1][axis] = lanes.splat(node.bounds(self.far[axis])[slot]);
             axis += 1;
         }
         planes
@@ -100,8 +100,8 @@ impl Sides {
         let mut planes = [[lanes.splat(0.0); 3]; 2];
         let mut axis = 0;
         while axis < 3 {
-            planes[0][axis] = children_row(lanes, &node.bounds[self.near[axis]], slot);
-            planes[1][axis] = children_row(lanes, &node.bounds[self.far[axis]], slot);
+            planes[0][axis] = children_row(lanes, node.bounds(self.near[axis]), slot);
+            planes[1][axis] = children_row(lanes, node.bounds(self.far[axis]), slot);
             axis += 1;
         }
         planes

@@ -74,7 +74,7 @@ impl<'s, const W: usize> Tracer<'s, W> {
     fn trace<L: Lanes>(&mut self, lanes: L, form: Form, any: bool, live: u64) {
         let Tracer { scene, rays, local, found, top, bottom } = self;
         if let Some(tree) = scene.plain() {
-            let leaves = &mut Triangles::new(&tree.blocks, 0, false, any);
+            let leaves = &mut Triangles::new(tree.blocks.as_slice(), 0, false, any);
             Walk { bvh: &tree.bvh, leaves, rays: &*rays, found, stacks: top }.trace(lanes, form, live);
         } else {
             let leaves = &mut Instances { scene: *scene, form, any, local, stacks: bottom };

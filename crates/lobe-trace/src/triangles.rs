@@ -1,6 +1,8 @@
 //! The triangles of a leaf, eight side by side.
 
+use bytemuck::{Pod, Zeroable};
 use lobe_lane::{Floats, Lanes};
+use lobe_memory::Storage;
 
 use crate::bvh::{Binary, Child, WideBvh};
 use crate::{Aabb, Mesh};
@@ -13,7 +15,7 @@ pub(crate) type Corners<L> = [[<L as Lanes>::F; 3]; 3];
 
 /// Eight triangles in five cache lines. Coordinate `axis` of corner `corner` of triangle `slot` is
 /// `floats[(3 corner + axis) SLOTS + slot]`; the triangles' numbers follow as bits.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C, align(64))]
 pub(crate) struct TriangleBlock {
     floats: [f32; 10 * SLOTS],
@@ -107,7 +109,7 @@ impl TriangleBlock {
 #[derive(Clone, Debug)]
 pub(crate) struct Tree<const W: usize> {
     pub bvh: WideBvh<W>,
-    pub blocks: Vec<TriangleBlock>,
+    pub blocks: Storage<TriangleBlock>,
 }
 
 impl<const W: usize> Tree<W> {
@@ -116,12 +118,15 @@ impl<const W: usize> Tree<W> {
             (0..mesh.triangles().len() as u32).filter(|&triangle| can_be_hit(mesh, triangle)).collect();
         let boxes: Vec<Aabb> = seen.iter().map(|&triangle| Aabb::of(mesh.corners(triangle as usize))).collect();
         let binary = Binary::build(&boxes, true);
-        let mut blocks = Vec::with_capacity(seen.len() / 2);
+        let mut leaves = Vec::new();
         let bvh = WideBvh::collapse(&binary, SLOTS, |places| {
-            let triangles = places.iter().map(|&place| seen[place as usize]);
-            blocks.push(TriangleBlock::new(mesh, triangles));
-            Child::leaf(blocks.len() - 1, places.len())
+            leaves.push(places.clone());
+            Child::leaf(leaves.len() - 1, places.len())
         });
+        let mut blocks = Storage::zeros(leaves.len());
+        for (block, places) in blocks.as_mut_slice().iter_mut().zip(leaves) {
+            *block = TriangleBlock::new(mesh, binary.order[places].iter().map(|&place| seen[place as usize]));
+        }
         Tree { bvh, blocks }
     }
 }

@@ -1,15 +1,19 @@
 //! From two children a node to `W`.
 
+use std::ops::Range;
+
+use lobe_memory::Storage;
+
 use super::{Binary, Child, Node, WideBvh};
 use crate::Aabb;
 
 impl<const W: usize> WideBvh<W> {
-    /// Makes the wide tree of least cost with up to `leaf` primitives a leaf. `emit` makes the leaf of a run of
-    /// primitives. Nodes lie in the order of a depth-first walk, a subtree in one piece.
-    pub(crate) fn collapse(binary: &Binary, leaf: usize, mut emit: impl FnMut(&[u32]) -> Child) -> Self {
+    /// Makes the wide tree of least cost with up to `leaf` primitives a leaf. `emit` makes the leaf of the
+    /// primitives at some places of the binary tree's order. Nodes lie in the order of a depth-first walk, a subtree in one piece.
+    pub(crate) fn collapse(binary: &Binary, leaf: usize, mut emit: impl FnMut(Range<usize>) -> Child) -> Self {
         const { assert!(W == 4 || W == 8, "nodes have 4 or 8 children") };
         let Some(root) = binary.nodes.first() else {
-            return WideBvh { nodes: vec![Node::EMPTY], bounds: Aabb::EMPTY, stack: W };
+            return WideBvh { nodes: Storage::copied(&[Node::EMPTY]), bounds: Aabb::EMPTY, stack: W };
         };
         let plans = plans::<W>(binary, leaf);
         let mut nodes: Vec<Node<W>> = Vec::with_capacity(binary.order.len() / W + 1);
@@ -20,23 +24,23 @@ impl<const W: usize> WideBvh<W> {
             let index = nodes.len();
             // The root has no parent, and is no node yet.
             if let Some(parent) = nodes.get_mut(parent) {
-                parent.children[slot] = Child::node(index);
+                parent.refer(slot, Child::node(index));
             }
             let mut node = Node::EMPTY;
             let (children, count) = widen::<W>(binary, &plans, at);
-            for &child in children[..count].iter().rev() {
+            for (slot, &child) in children[..count].iter().rev().enumerate() {
                 let source = &binary.nodes[child];
                 let reference = if plans[child].is_leaf() {
-                    emit(&binary.order[source.members()])
+                    emit(source.members())
                 } else {
-                    waiting.push(Waiting { at: child, depth: depth + 1, parent: index, slot: node.count });
+                    waiting.push(Waiting { at: child, depth: depth + 1, parent: index, slot });
                     Child::node(0)
                 };
-                node.push(source.bounds, reference);
+                node.set(slot, source.bounds, reference);
             }
             nodes.push(node);
         }
-        WideBvh { nodes, bounds: root.bounds, stack: deepest * (W - 1) + 1 }
+        WideBvh { nodes: Storage::copied(&nodes), bounds: root.bounds, stack: deepest * (W - 1) + 1 }
     }
 }
 

@@ -1,6 +1,8 @@
 //! The wide node: the boxes of all children side by side.
 
+use bytemuck::{Pod, Zeroable};
 use lobe_lane::Lanes;
+use lobe_memory::Storage;
 
 use crate::Aabb;
 
@@ -59,38 +61,50 @@ impl Child {
     }
 }
 
-/// The boxes of up to `W` children, 4 cache lines for eight.
-#[derive(Clone, Debug)]
-#[repr(C, align(64))]
-pub(crate) struct Node<const W: usize> {
-    /// Rows lower x, upper x, lower y, ...: one entry a child. Absent children have the empty box, which nothing meets.
-    pub bounds: [[f32; W]; 6],
-    pub children: [Child; W],
-    /// How many children there are; they come first.
-    pub count: usize,
-}
+/// Up to `W` children, 4 cache lines for eight. Rows lower x, upper x, lower y, ... of their boxes, one entry a child; the
+/// references to them as bits; and a row that fills the last line. Absent children come last and have the empty box,
+/// which nothing meets.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(transparent)]
+pub(crate) struct Node<const W: usize>([[f32; W]; 8]);
 
 impl<const W: usize> Node<W> {
+    const CHILDREN: usize = 6;
+
     pub const EMPTY: Self = {
-        let (low, high) = ([f32::INFINITY; W], [f32::NEG_INFINITY; W]);
-        Node { bounds: [low, high, low, high, low, high], children: [Child(0); W], count: 0 }
+        let (low, high, zero) = ([f32::INFINITY; W], [f32::NEG_INFINITY; W], [0.0; W]);
+        Node([low, high, low, high, low, high, zero, zero])
     };
+
+    /// A row of the boxes of all children.
+    #[inline(always)]
+    pub fn bounds(&self, row: usize) -> &[f32; W] {
+        &self.0[row & 7]
+    }
+
+    #[inline(always)]
+    pub fn child(&self, slot: usize) -> Child {
+        Child::from_bits(self.0[Self::CHILDREN][slot & (W - 1)].to_bits())
+    }
 
     /// Has the caches bring it in.
     #[inline(always)]
     pub fn prefetch<L: Lanes>(&self, lanes: L) {
-        lanes.prefetch(&self.bounds[0]);
-        lanes.prefetch(&self.bounds[2]);
-        lanes.prefetch(&self.bounds[4]);
-        lanes.prefetch(&self.children);
+        lanes.prefetch(&self.0[0]);
+        lanes.prefetch(&self.0[2]);
+        lanes.prefetch(&self.0[4]);
+        lanes.prefetch(&self.0[6]);
     }
 
-    pub fn push(&mut self, bounds: Aabb, child: Child) {
-        for (row, bound) in self.bounds.iter_mut().zip(bounds.rows()) {
-            row[self.count] = bound;
+    pub fn set(&mut self, slot: usize, bounds: Aabb, child: Child) {
+        for (row, bound) in self.0.iter_mut().zip(bounds.rows()) {
+            row[slot] = bound;
         }
-        self.children[self.count] = child;
-        self.count += 1;
+        self.refer(slot, child);
+    }
+
+    pub fn refer(&mut self, slot: usize, child: Child) {
+        self.0[Self::CHILDREN][slot] = f32::from_bits(child.bits());
     }
 }
 
@@ -98,7 +112,7 @@ impl<const W: usize> Node<W> {
 #[derive(Clone, Debug)]
 pub struct WideBvh<const W: usize> {
     /// Node 0 is the root, and always there.
-    pub(crate) nodes: Vec<Node<W>>,
+    pub(crate) nodes: Storage<Node<W>>,
     pub(crate) bounds: Aabb,
     /// How many references may wait at once while the tree is walked.
     pub(crate) stack: usize,

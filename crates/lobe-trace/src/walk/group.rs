@@ -82,7 +82,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
             let mut place = 0;
             while place < hits {
                 let slot = order[place & (W - 1)].1 & (W - 1);
-                stacks.group[waiting] = node.children[slot];
+                stacks.group[waiting] = node.child(slot);
                 lanes.store(&mut stacks.enter[waiting], lanes.load(&enters[slot]));
                 waiting += 1;
                 place += 1;

@@ -68,7 +68,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
             bits &= bits - 1;
             let bundles = meeting[slot] as u32;
             let entry = LargeEntry { key: keys[slot], node: current as u32, slot: slot as u32, bundles };
-            prefetch(lanes, nodes, leaves, node.children[slot]);
+            prefetch(lanes, nodes, leaves, node.child(slot));
             let mut place = waiting;
             while place > floor && stack[place - 1].key < entry.key {
                 stack[place] = stack[place - 1];
@@ -90,7 +90,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
             }
             let node = &nodes[entry.node as usize];
             let slot = entry.slot as usize & (W - 1);
-            let child = node.children[slot];
+            let child = node.child(slot);
             // A bundle that is narrow is taken at its word.
             if !child.is_leaf() && asking & entry.bundles >> 8 != 0 {
                 current = child.index();

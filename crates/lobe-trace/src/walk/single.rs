@@ -41,7 +41,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
             }
             // Most often one child is met, or none.
             if bits.is_power_of_two() {
-                child = node.children[bits.trailing_zeros() as usize & (W - 1)];
+                child = node.child(bits.trailing_zeros() as usize);
                 continue;
             }
             if bits != 0 {
@@ -103,5 +103,5 @@ fn ordered<L: Lanes>(lanes: L, x: L::F) -> L::I {
 #[inline(always)]
 fn entry<const W: usize>(node: &Node<W>, keys: &[i32; MAX_LANES], bits: u32) -> Entry {
     let slot = bits.trailing_zeros() as usize & (W - 1);
-    Entry::new(keys[slot], node.children[slot])
+    Entry::new(keys[slot], node.child(slot))
 }

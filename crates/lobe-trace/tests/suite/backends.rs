@@ -60,7 +60,8 @@ pub static CASES: LazyLock<Vec<Case>> = LazyLock::new(|| {
             let four = builder.build(|_| ()).unwrap();
             // A number of rays that no packet divides.
             let bounds = eight.bounds();
-            let rays = rays::joined(&[rays::camera(bounds, 32), rays::mixed(bounds, 1500, 3)]);
+            let sets = [rays::camera(bounds, 32), rays::bounded(bounds, 128, 4), rays::mixed(bounds, 1500, 3)];
+            let rays = rays::joined(&sets);
             let hits = intersect(Scalar::<1>, &eight, &rays, Form::Single);
             let count = reference::check(&eight, &rays, &hits, name);
             println!("{name}: {count} of {} rays hit", rays.len());

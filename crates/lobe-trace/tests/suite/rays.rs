@@ -21,6 +21,29 @@ pub fn camera(bounds: Aabb, n: usize) -> RaySoA {
     rays
 }
 
+/// Packets of 64 rays between two small boxes, of all widths and one of them often a point: all end at about the same t.
+pub fn bounded(bounds: Aabb, packets: usize, seed: u64) -> RaySoA {
+    let mut rng = random(seed);
+    let mut rays = RaySoA::default();
+    let mut around = |center: [f32; 3], scale: f32| -> [f32; 3] {
+        std::array::from_fn(|axis| {
+            center[axis] + scale * (bounds.upper[axis] - bounds.lower[axis] + 1e-3) * rng.random_range(-0.5f32..0.5)
+        })
+    };
+    let middle = std::array::from_fn(|axis| 0.5 * (bounds.lower[axis] + bounds.upper[axis]));
+    for packet in 0..packets {
+        let (from, to) = (around(middle, 1.2), around(middle, 1.2));
+        let width = |shift: usize| [0.0, 0.01, 0.1, 0.3][packet >> shift & 3];
+        for ray in 0..64 {
+            let (origin, target) = (around(from, width(0)), around(to, width(2)));
+            let end = [1.0, 1.0, 0.25, 300.0][packet >> 4 & 3];
+            let direction = std::array::from_fn(|axis| (target[axis] - origin[axis]) / end);
+            rays.push(origin, direction, 0.0, if ray % 7 == 3 { 0.9 * end } else { end });
+        }
+    }
+    rays
+}
+
 /// Rays of every kind: all around, along axes, of short and of bounded intervals, and invalid ones.
 pub fn mixed(bounds: Aabb, n: usize, seed: u64) -> RaySoA {
     let mut rng = random(seed);

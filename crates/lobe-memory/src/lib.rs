@@ -1,0 +1,121 @@
+//! Memory that random look-ups go to: on cache lines, and on huge pages where there is much of it.
+#![forbid(unsafe_code)]
+
+use std::fmt;
+use std::marker::PhantomData;
+
+use bytemuck::{Pod, Zeroable};
+use memmap2::MmapMut;
+
+/// From this many bytes on, memory lies on huge pages where the system has them: a random look-up beyond the caches
+/// otherwise misses the address translation too.
+const HUGE: usize = 4 << 20;
+
+/// A cache line.
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C, align(64))]
+struct Line([u8; 64]);
+
+enum Place {
+    Heap(Vec<Line>),
+    Pages(MmapMut),
+}
+
+/// A fixed run of values whose first lies on a cache line, so that one whose size divides a line's never straddles two.
+pub struct Storage<T> {
+    place: Place,
+    len: usize,
+    values: PhantomData<T>,
+}
+
+impl<T: Pod> Storage<T> {
+    /// `len` values of zero bits.
+    ///
+    /// # Panics
+    /// Where so many have no size in bytes.
+    pub fn zeros(len: usize) -> Self {
+        let bytes = len.checked_mul(size_of::<T>()).expect("a size in bytes");
+        if bytes >= HUGE
+            && let Ok(map) = MmapMut::map_anon(bytes)
+        {
+            // Only a hint: without huge pages everything works, slower.
+            #[cfg(target_os = "linux")]
+            let _ = map.advise(memmap2::Advice::HugePage);
+            return Storage { place: Place::Pages(map), len, values: PhantomData };
+        }
+        let lines = bytemuck::zeroed_vec(bytes.div_ceil(size_of::<Line>()));
+        Storage { place: Place::Heap(lines), len, values: PhantomData }
+    }
+
+    /// A copy of values.
+    pub fn copied(values: &[T]) -> Self {
+        let mut copy = Storage::zeros(values.len());
+        copy.as_mut_slice().copy_from_slice(values);
+        copy
+    }
+
+    /// All of them.
+    #[inline(always)]
+    pub fn as_slice(&self) -> &[T] {
+        let bytes = match &self.place {
+            Place::Heap(lines) => bytemuck::cast_slice(lines),
+            Place::Pages(map) => &map[..],
+        };
+        bytemuck::cast_slice(&bytes[..self.len * size_of::<T>()])
+    }
+
+    /// All of them, to be written.
+    pub fn as_mut_slice(&mut self) -> &mut [T] {
+        let bytes = match &mut self.place {
+            Place::Heap(lines) => bytemuck::cast_slice_mut(lines),
+            Place::Pages(map) => &mut map[..],
+        };
+        bytemuck::cast_slice_mut(&mut bytes[..self.len * size_of::<T>()])
+    }
+
+    /// Bytes of memory that this holds.
+    pub fn bytes(&self) -> usize {
+        match &self.place {
+            Place::Heap(lines) => size_of_val(lines.as_slice()),
+            Place::Pages(map) => map.len(),
+        }
+    }
+}
+
+impl<T: Pod> Clone for Storage<T> {
+    fn clone(&self) -> Self {
+        Storage::copied(self.as_slice())
+    }
+}
+
+impl<T> fmt::Debug for Storage<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} values", self.len)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_lie_on_cache_lines_whatever_their_number() {
+        for len in [0, 1, 15, 16, 17, 1000, HUGE / 4 - 1, HUGE / 4, HUGE / 4 + 1] {
+            let mut storage = Storage::<f32>::zeros(len);
+            assert_eq!(storage.as_slice().len(), len);
+            assert!(storage.as_slice().iter().all(|&x| x.to_bits() == 0));
+            assert_eq!(storage.as_slice().as_ptr() as usize % 64, 0, "{len} values");
+            assert!(storage.bytes() >= 4 * len);
+            if let Some(last) = storage.as_mut_slice().last_mut() {
+                *last = 1.5;
+            }
+            assert_eq!(storage.clone().as_slice(), storage.as_slice());
+        }
+    }
+
+    #[test]
+    fn values_may_be_larger_than_a_line() {
+        let values: Vec<[f32; 80]> = (0..100).map(|i| [i as f32; 80]).collect();
+        assert_eq!(Storage::copied(&values).as_slice(), values);
+    }
+}
