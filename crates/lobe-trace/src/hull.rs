@@ -73,6 +73,20 @@ impl<L: Lanes> Hull<L> {
         self.end = end;
     }
 
+    /// A box a lane: before what t no ray is inside the box, and after what t none is or still looks.
+    #[inline(always)]
+    pub fn interval(&self, lanes: L, near: [L::F; 3], far: [L::F; 3]) -> [L::F; 2] {
+        let (mut enter, mut leave) = (self.t_min, self.end);
+        let mut axis = 0;
+        while axis < 3 {
+            let edges = &self.edges[axis];
+            enter = enter.max(lanes.mul_add(near[axis], edges.slow, edges.near));
+            leave = leave.min(lanes.mul_add(far[axis], edges.fast, edges.far));
+            axis += 1;
+        }
+        [enter, leave]
+    }
+
     /// The bits of the children of a node that a ray may meet.
     #[inline(always)]
     pub fn children<const W: usize>(&self, lanes: L, node: &Node<W>, sides: &Sides) -> u32 {
@@ -80,14 +94,7 @@ impl<L: Lanes> Hull<L> {
         let mut slot = 0;
         while slot < W {
             let [near, far] = sides.children(lanes, node, slot);
-            let (mut enter, mut leave) = (self.t_min, self.end);
-            let mut axis = 0;
-            while axis < 3 {
-                let edges = &self.edges[axis];
-                enter = enter.max(lanes.mul_add(near[axis], edges.slow, edges.near));
-                leave = leave.min(lanes.mul_add(far[axis], edges.fast, edges.far));
-                axis += 1;
-            }
+            let [enter, leave] = self.interval(lanes, near, far);
             bits |= child_bits::<L, W>(enter.le(leave), slot);
             slot += L::LANES;
         }

@@ -3,9 +3,8 @@
 use lobe_lane::{Lanes, Mask};
 
 use crate::block::{Block, Found, RAYS, first_ray, group_bits, group_rows, mask_of};
-use crate::bundles::Bundles;
 use crate::bvh::Child;
-use crate::leaves::Leaves;
+use crate::leaves::{Around, Leaves};
 use crate::packet::Packet;
 use crate::scene::{Instance, Scene};
 use crate::slab::SlabRay;
@@ -83,7 +82,7 @@ impl<const W: usize> Leaves for Instances<'_, W> {
         rays: &Block,
         live: u64,
         found: &mut Found,
-        _bundles: Option<&Bundles>,
+        _around: Around<'_, L>,
     ) -> u64 {
         let scene = self.scene;
         let instance = &scene.instances[leaf.first()];

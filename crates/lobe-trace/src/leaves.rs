@@ -5,6 +5,17 @@ use lobe_lane::Lanes;
 use crate::block::{Block, Found};
 use crate::bundles::Bundles;
 use crate::bvh::Child;
+use crate::hull::Hull;
+
+/// What is known of several rays at once.
+#[derive(Clone, Copy)]
+pub(crate) enum Around<'a, L: Lanes> {
+    Nothing,
+    /// Of a group.
+    Hull(&'a Hull<L>),
+    /// Of a block.
+    Bundles(&'a Bundles),
+}
 
 /// What a walk calls when it comes to a leaf. Hits go to `found` if they are nearer than what stands there.
 pub(crate) trait Leaves {
@@ -20,8 +31,8 @@ pub(crate) trait Leaves {
     /// Has the caches bring a leaf in that may be met.
     fn prefetch<L: Lanes>(&self, lanes: L, leaf: Child);
 
-    /// Several rays of one octant have met the leaf: those of `live`, a bit each. What their bundles, where they have
-    /// some, do not meet is left out. Returns which rays may have been hit.
+    /// Several rays of one octant have met the leaf: those of `live`, a bit each. What `around` tells that none of them
+    /// meets is left out. Returns which rays may have been hit.
     fn packet<L: Lanes>(
         &mut self,
         lanes: L,
@@ -29,7 +40,7 @@ pub(crate) trait Leaves {
         rays: &Block,
         live: u64,
         found: &mut Found,
-        bundles: Option<&Bundles>,
+        around: Around<'_, L>,
     ) -> u64;
 
     /// One ray has met the leaf.

@@ -5,7 +5,7 @@ use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
 use crate::block::{Block, Found, RAYS, first_ray, group_bits, mask_of};
 use crate::bundles::Bundles;
 use crate::bvh::Child;
-use crate::leaves::Leaves;
+use crate::leaves::{Around, Leaves};
 use crate::slab::{Sides, SlabRay};
 use crate::triangles::{SLOTS, TriangleBlock};
 use crate::woop::{ShearRay, axes_of};
@@ -52,9 +52,9 @@ impl<'a> Triangles<'a> {
         }
     }
 
-    /// The bits of the first triangles, their boxes at hand, that bundles of rays meet.
+    /// The bits of the first triangles, their boxes at hand, that some of several rays may meet.
     #[inline(always)]
-    fn met<L: Lanes>(&self, lanes: L, count: usize, sides: &Sides, bundles: &Bundles, rays: u64) -> u32 {
+    fn met<L: Lanes>(&self, lanes: L, count: usize, sides: &Sides, around: Around<'_, L>, rays: u64) -> u32 {
         let mut bits = 0;
         let mut slot = 0;
         while slot < count {
@@ -65,12 +65,21 @@ impl<'a> Triangles<'a> {
                 far[axis] = lanes.load(&self.boxes[sides.far[axis]][slot..]);
                 axis += 1;
             }
-            let mut bundle = Bundles::of(rays.trailing_zeros() as usize);
-            let last = Bundles::of(63 - rays.leading_zeros() as usize);
-            while bundle <= last {
-                let [enter, leave] = bundles.interval(lanes, bundle, near, far);
-                bits |= enter.le(leave).bits() << slot;
-                bundle += 1;
+            match around {
+                Around::Nothing => bits = u32::MAX,
+                Around::Hull(hull) => {
+                    let [enter, leave] = hull.interval(lanes, near, far);
+                    bits |= enter.le(leave).bits() << slot;
+                }
+                Around::Bundles(bundles) => {
+                    let mut bundle = Bundles::of(rays.trailing_zeros() as usize);
+                    let last = Bundles::of(63 - rays.leading_zeros() as usize);
+                    while bundle <= last {
+                        let [enter, leave] = bundles.interval(lanes, bundle, near, far);
+                        bits |= enter.le(leave).bits() << slot;
+                        bundle += 1;
+                    }
+                }
             }
             slot += L::LANES;
         }
@@ -231,17 +240,20 @@ impl Leaves for Triangles<'_> {
         rays: &Block,
         live: u64,
         found: &mut Found,
-        bundles: Option<&Bundles>,
+        around: Around<'_, L>,
     ) -> u64 {
         let sides = Sides::of(rays.octant(live.trailing_zeros() as usize));
         let (block, count) = self.block(leaf);
-        // A ray at a time takes all triangles at once: better where rays are few.
-        let full = L::LANES >= SLOTS;
-        let mut alone = 0;
-        let mut left = live;
-        if full && bundles.is_some() && live.count_ones() <= FEW {
-            (alone, left) = (live, 0);
-        } else if bundles.is_some() {
+        // A ray at a time takes as many triangles at once as there are lanes: better where rays are few.
+        let each = count.div_ceil(L::LANES) as u32;
+        let fitted = !matches!(around, Around::Nothing);
+        let few = match around {
+            Around::Nothing => false,
+            Around::Hull(_) => 2 * each * live.count_ones() <= count as u32,
+            Around::Bundles(_) => each == 1 && live.count_ones() <= FEW,
+        };
+        let (mut alone, mut left) = if few { (live, 0) } else { (0, live) };
+        if fitted && !few {
             self.fit(lanes, (block, count));
         }
         let mut hit = 0;
@@ -249,11 +261,9 @@ impl Leaves for Triangles<'_> {
             let at = first_ray::<L>(left.trailing_zeros() as usize);
             let mut bits = group_bits::<L>(left, at);
             left ^= (bits as u64) << at;
-            let slots = match bundles {
-                Some(bundles) => self.met(lanes, count, &sides, bundles, (bits as u64) << at),
-                None => (1 << count) - 1,
-            };
-            if full && bits.count_ones() < slots.count_ones() {
+            let slots =
+                if fitted { self.met(lanes, count, &sides, around, (bits as u64) << at) } else { (1 << count) - 1 };
+            if bits.count_ones() * each < slots.count_ones() {
                 alone |= (bits as u64) << at;
                 continue;
             }
@@ -265,7 +275,7 @@ impl Leaves for Triangles<'_> {
                 // Once, but where the group looks along a diagonal.
                 let major = rays.major[(at + bits.trailing_zeros() as usize) & (RAYS - 1)];
                 let same = majors.eq(lanes.splat_int(major)).bits() & bits;
-                let some = self.group(lanes, (block, slots), (rays, at, same), (&sides, bundles.is_some()), found);
+                let some = self.group(lanes, (block, slots), (rays, at, same), (&sides, fitted), found);
                 hit |= (some as u64) << at;
                 bits &= !same;
             }

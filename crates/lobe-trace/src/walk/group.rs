@@ -2,11 +2,11 @@
 
 use lobe_lane::{Floats, Lanes, MAX_LANES, Mask};
 
-use super::{Single, Walk, enter};
+use super::{Single, Walk, enter, prefetch};
 use crate::block::{first_ray, mask_of};
 use crate::bvh::Child;
 use crate::hull::Hull;
-use crate::leaves::Leaves;
+use crate::leaves::{Around, Leaves};
 use crate::slab::{Sides, SlabRay};
 
 /// From how few live rays on a hybrid traces them one by one.
@@ -43,7 +43,11 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
             let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
             enter(lanes, Single { walk, from: child, live: (bits as u64) << at });
         } else if child.is_leaf() {
-            let hit = leaves.packet(lanes, child, rays, (bits as u64) << at, found, None);
+            let around = match &hull {
+                Some(hull) => Around::Hull(hull),
+                None => Around::Nothing,
+            };
+            let hit = leaves.packet(lanes, child, rays, (bits as u64) << at, found, around);
             if let Some(hull) = &mut hull
                 && hit != 0
             {
@@ -82,6 +86,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
             let mut place = 0;
             while place < hits {
                 let slot = order[place & (W - 1)].1 & (W - 1);
+                prefetch(lanes, nodes, leaves, node.child(slot));
                 stacks.group[waiting] = node.child(slot);
                 lanes.store(&mut stacks.enter[waiting], lanes.load(&enters[slot]));
                 waiting += 1;

@@ -10,7 +10,7 @@ use super::{Single, Walk, enter, prefetch};
 use crate::block::{Block, Found, first_ray, group_bits};
 use crate::bundles::Bundles;
 use crate::bvh::Node;
-use crate::leaves::Leaves;
+use crate::leaves::{Around, Leaves};
 use crate::slab::{Sides, SlabRay, child_bits};
 
 /// The part of a box that a bundle may be wide and still be taken at its word that a ray of it meets the box.
@@ -118,7 +118,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                 asking = bundles.of_rays(live);
                 break;
             }
-            let hit = leaves.packet(lanes, child, rays, live, found, Some(&bundles));
+            let hit = leaves.packet(lanes, child, rays, live, found, Around::Bundles(&bundles));
             bundles.shorten(lanes, found, hit);
         }
     }
