@@ -9,7 +9,7 @@ use crate::packet::Packet;
 use crate::scene::{Instance, Scene};
 use crate::slab::SlabRay;
 use crate::triangle_leaves::Triangles;
-use crate::walk::{Stacks, Walk};
+use crate::walk::{Nodes, Stacks, Walk};
 use crate::{Affine, Form};
 
 /// The instances of a scene, and room for rays in the space of one.
@@ -72,9 +72,6 @@ impl<const W: usize> Leaves for Instances<'_, W> {
     }
 
     #[inline(always)]
-    fn prefetch<L: Lanes>(&self, _lanes: L, _leaf: Child) {}
-
-    #[inline(always)]
     fn packet<L: Lanes>(
         &mut self,
         lanes: L,
@@ -99,7 +96,13 @@ impl<const W: usize> Leaves for Instances<'_, W> {
         }
         let tree = &scene.trees[instance.mesh];
         let leaves = &mut Triangles::new(tree.blocks.as_slice(), leaf.first(), true, self.any);
-        let walk = Walk { bvh: &tree.bvh, leaves, rays: &*self.local, found, stacks: &mut *self.stacks };
+        let walk = Walk {
+            bvh: Nodes::new(&tree.bvh, tree.blocks.as_slice()),
+            leaves,
+            rays: &*self.local,
+            found,
+            stacks: &mut *self.stacks,
+        };
         walk.trace(lanes, self.form, carried);
         carried
     }
@@ -112,7 +115,13 @@ impl<const W: usize> Leaves for Instances<'_, W> {
         let bits = self.carry(lanes, instance, rays, at, 1 << (ray - at));
         let tree = &scene.trees[instance.mesh];
         let leaves = &mut Triangles::new(tree.blocks.as_slice(), leaf.first(), true, self.any);
-        let walk = Walk { bvh: &tree.bvh, leaves, rays: &*self.local, found, stacks: &mut *self.stacks };
+        let walk = Walk {
+            bvh: Nodes::new(&tree.bvh, tree.blocks.as_slice()),
+            leaves,
+            rays: &*self.local,
+            found,
+            stacks: &mut *self.stacks,
+        };
         walk.trace(lanes, Form::Single, (bits as u64) << at);
     }
 }

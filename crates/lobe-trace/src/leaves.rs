@@ -28,9 +28,6 @@ pub(crate) trait Leaves {
     /// Any hit is enough.
     fn any(&self) -> bool;
 
-    /// Has the caches bring a leaf in that may be met.
-    fn prefetch<L: Lanes>(&self, lanes: L, leaf: Child);
-
     /// Several rays of one octant have met the leaf: those of `live`, a bit each. What `around` tells that none of them
     /// meets is left out. Returns which rays may have been hit.
     fn packet<L: Lanes>(

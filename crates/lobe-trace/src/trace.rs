@@ -8,7 +8,7 @@ use crate::packet::{Packet, PacketHits};
 use crate::rays::{Hits, MISS, Rays};
 use crate::scene::Scene;
 use crate::triangle_leaves::Triangles;
-use crate::walk::{Stacks, Walk};
+use crate::walk::{Nodes, Stacks, Walk};
 use crate::{Form, RayClass};
 
 /// The working memory of tracing one scene. Making one allocates; tracing with it does not.
@@ -75,10 +75,12 @@ impl<'s, const W: usize> Tracer<'s, W> {
         let Tracer { scene, rays, local, found, top, bottom } = self;
         if let Some(tree) = scene.plain() {
             let leaves = &mut Triangles::new(tree.blocks.as_slice(), 0, false, any);
-            Walk { bvh: &tree.bvh, leaves, rays: &*rays, found, stacks: top }.trace(lanes, form, live);
+            Walk { bvh: Nodes::new(&tree.bvh, tree.blocks.as_slice()), leaves, rays: &*rays, found, stacks: top }
+                .trace(lanes, form, live);
         } else {
             let leaves = &mut Instances { scene: *scene, form, any, local, stacks: bottom };
-            Walk { bvh: &scene.top, leaves, rays: &*rays, found, stacks: top }.trace(lanes, form, live);
+            Walk { bvh: Nodes::new::<f32>(&scene.top, &[]), leaves, rays: &*rays, found, stacks: top }
+                .trace(lanes, form, live);
         }
     }
 

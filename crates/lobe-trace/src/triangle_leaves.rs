@@ -226,13 +226,6 @@ impl Leaves for Triangles<'_> {
     }
 
     #[inline(always)]
-    fn prefetch<L: Lanes>(&self, lanes: L, leaf: Child) {
-        if let Some(block) = self.blocks.get(leaf.first()) {
-            block.prefetch(lanes);
-        }
-    }
-
-    #[inline(always)]
     fn packet<L: Lanes>(
         &mut self,
         lanes: L,

@@ -35,16 +35,6 @@ impl TriangleBlock {
         TriangleBlock { floats }
     }
 
-    /// Has the caches bring it in.
-    #[inline(always)]
-    pub fn prefetch<L: Lanes>(&self, lanes: L) {
-        let mut line = 0;
-        while line < self.floats.len() {
-            lanes.prefetch(&self.floats[line..]);
-            line += 16;
-        }
-    }
-
     /// The number of a triangle in its mesh.
     #[inline(always)]
     pub fn number(&self, slot: usize) -> i32 {

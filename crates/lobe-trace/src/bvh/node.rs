@@ -1,7 +1,6 @@
 //! The wide node: the boxes of all children side by side.
 
 use bytemuck::{Pod, Zeroable};
-use lobe_lane::Lanes;
 use lobe_memory::Storage;
 
 use crate::Aabb;
@@ -48,7 +47,7 @@ impl Child {
         self.0 as usize
     }
 
-    /// The number of a leaf.
+    /// The number of a leaf; also of a node, where it does not matter that there may be more of them.
     #[inline(always)]
     pub fn first(self) -> usize {
         (self.0 & 0x0fff_ffff) as usize
@@ -85,15 +84,6 @@ impl<const W: usize> Node<W> {
     #[inline(always)]
     pub fn child(&self, slot: usize) -> Child {
         Child::from_bits(self.0[Self::CHILDREN][slot & (W - 1)].to_bits())
-    }
-
-    /// Has the caches bring it in.
-    #[inline(always)]
-    pub fn prefetch<L: Lanes>(&self, lanes: L) {
-        lanes.prefetch(&self.0[0]);
-        lanes.prefetch(&self.0[2]);
-        lanes.prefetch(&self.0[4]);
-        lanes.prefetch(&self.0[6]);
     }
 
     pub fn set(&mut self, slot: usize, bounds: Aabb, child: Child) {

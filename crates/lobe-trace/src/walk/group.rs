@@ -2,7 +2,7 @@
 
 use lobe_lane::{Floats, Lanes, MAX_LANES, Mask};
 
-use super::{Single, Walk, enter, prefetch};
+use super::{Single, Walk, enter};
 use crate::block::{first_ray, mask_of};
 use crate::bvh::Child;
 use crate::hull::Hull;
@@ -32,7 +32,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
     if let Some(hull) = &mut hull {
         hull.shorten(lanes, lanes.load(&found.t[at..]), there);
     }
-    let nodes = bvh.nodes.as_slice();
+    let nodes = bvh.all;
     let mut enters = [[0.0; MAX_LANES]; W];
     let mut order = [(0.0, 0); W];
     let mut waiting = 0;
@@ -86,7 +86,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
             let mut place = 0;
             while place < hits {
                 let slot = order[place & (W - 1)].1 & (W - 1);
-                prefetch(lanes, nodes, leaves, node.child(slot));
+                bvh.prefetch(lanes, node.child(slot));
                 stacks.group[waiting] = node.child(slot);
                 lanes.store(&mut stacks.enter[waiting], lanes.load(&enters[slot]));
                 waiting += 1;

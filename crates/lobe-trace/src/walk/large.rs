@@ -6,7 +6,7 @@
 use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
 
 use super::stack::LargeEntry;
-use super::{Single, Walk, enter, prefetch};
+use super::{Single, Walk, enter};
 use crate::block::{Block, Found, first_ray, group_bits};
 use crate::bundles::Bundles;
 use crate::bvh::Node;
@@ -28,7 +28,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
     let octant = rays.octant(live.trailing_zeros() as usize);
     let sides = Sides::of(octant);
     let mut bundles = Bundles::around(lanes, rays, found, octant, live);
-    let nodes = bvh.nodes.as_slice();
+    let nodes = bvh.all;
     // Taken out, so that single rays can have the other stacks; put back at the end.
     let mut stack = std::mem::take(&mut stacks.large);
     let (mut keys, mut meeting) = ([0.0; MAX_LANES], [0; MAX_LANES]);
@@ -68,7 +68,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
             bits &= bits - 1;
             let bundles = meeting[slot] as u32;
             let entry = LargeEntry { key: keys[slot], node: current as u32, slot: slot as u32, bundles };
-            prefetch(lanes, nodes, leaves, node.child(slot));
+            bvh.prefetch(lanes, node.child(slot));
             let mut place = waiting;
             while place > floor && stack[place - 1].key < entry.key {
                 stack[place] = stack[place - 1];

@@ -5,6 +5,7 @@ mod large;
 mod single;
 mod stack;
 
+use bytemuck::Pod;
 use lobe_lane::{Kernel, Lanes};
 
 use crate::Form;
@@ -14,9 +15,44 @@ use crate::leaves::Leaves;
 
 pub(crate) use stack::Stacks;
 
+/// The nodes of a tree, and where they and its leaves lie.
+#[derive(Clone, Copy)]
+pub(crate) struct Nodes<'a, const W: usize> {
+    all: &'a [Node<W>],
+    memory: [&'a [f32]; 2],
+    strides: [usize; 2],
+}
+
+impl<'a, const W: usize> Nodes<'a, W> {
+    /// The nodes of a tree whose leaf number `i` is `blocks[i]`.
+    pub fn new<B: Pod>(bvh: &'a WideBvh<W>, blocks: &'a [B]) -> Self {
+        let all = bvh.nodes.as_slice();
+        let sizes = [size_of::<Node<W>>(), size_of::<B>()];
+        Nodes {
+            all,
+            memory: [bytemuck::cast_slice(all), bytemuck::cast_slice(blocks)],
+            strides: sizes.map(|bytes| bytes / size_of::<f32>()),
+        }
+    }
+
+    /// Has the caches bring in what waits. Whether that is a node or a leaf cannot be foreseen, so it is not asked.
+    #[inline(always)]
+    fn prefetch<L: Lanes>(&self, lanes: L, child: Child) {
+        let kind = usize::from(child.is_leaf());
+        let at = child.first() * self.strides[kind];
+        if let Some(lines) = self.memory[kind].get(at..at + 64) {
+            lanes.prefetch(lines);
+            lanes.prefetch(&lines[16..]);
+            lanes.prefetch(&lines[32..]);
+            lanes.prefetch(&lines[48..]);
+            lanes.prefetch(&lines[64..]);
+        }
+    }
+}
+
 /// A tree, the rays that walk it, and where their hits go.
 pub(crate) struct Walk<'a, V, const W: usize> {
-    pub bvh: &'a WideBvh<W>,
+    pub bvh: Nodes<'a, W>,
     pub leaves: &'a mut V,
     pub rays: &'a Block,
     pub found: &'a mut Found,
@@ -116,15 +152,5 @@ impl<V: Leaves, const W: usize> Kernel for Large<'_, V, W> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         large::walk(lanes, self.0, self.1);
-    }
-}
-
-/// Has the caches bring in what waits.
-#[inline(always)]
-fn prefetch<L: Lanes, V: Leaves, const W: usize>(lanes: L, nodes: &[Node<W>], leaves: &V, child: Child) {
-    if child.is_leaf() {
-        leaves.prefetch(lanes, child);
-    } else if let Some(node) = nodes.get(child.index()) {
-        node.prefetch(lanes);
     }
 }

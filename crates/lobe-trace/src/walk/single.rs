@@ -2,8 +2,8 @@
 
 use lobe_lane::{Floats, Ints, Lanes, MAX_LANES};
 
+use super::Walk;
 use super::stack::Entry;
-use super::{Walk, prefetch};
 use crate::block::RAYS;
 use crate::bvh::{Child, Node};
 use crate::leaves::Leaves;
@@ -16,7 +16,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
     let slab = SlabRay::single(lanes, rays, ray);
     let sides = Sides::of(rays.octant(ray));
     let t_min = lanes.splat(rays.t_min[ray]);
-    let nodes = bvh.nodes.as_slice();
+    let nodes = bvh.all;
     let stack = stacks.single.as_mut_slice();
     let ready = leaves.ready(lanes, rays, ray);
     let mut best = found.t[ray];
@@ -52,14 +52,14 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                 let other = entry(node, &keys, bits);
                 bits &= bits - 1;
                 let (mut next, far) = (one.min(other), one.max(other));
-                prefetch(lanes, nodes, leaves, far.child());
+                bvh.prefetch(lanes, far.child());
                 let floor = waiting;
                 stack[waiting] = far;
                 waiting += 1;
                 while bits != 0 {
                     let other = entry(node, &keys, bits);
                     bits &= bits - 1;
-                    prefetch(lanes, nodes, leaves, other.child());
+                    bvh.prefetch(lanes, other.child());
                     let mut far = next.max(other);
                     next = next.min(other);
                     let mut place = floor;
