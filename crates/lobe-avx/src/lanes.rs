@@ -18,11 +18,11 @@ impl Lanes for Avx2 {
 
     #[inline(always)]
     fn vectorize<K: Kernel>(self, kernel: K) -> K::Out {
-        #[target_feature(enable = "avx2,fma,f16c")]
+        #[target_feature(enable = "avx2,fma,f16c,bmi1,bmi2,lzcnt,popcnt")]
         fn inner<K: Kernel>(token: Avx2, kernel: K) -> K::Out {
             kernel.run(token)
         }
-        // SAFETY: the token proves AVX2, FMA and F16C.
+        // SAFETY: the token proves these features.
         unsafe { inner(self, kernel) }
     }
 

@@ -1,4 +1,5 @@
-//! The 8-lane backend of x86_64: [`Avx2`], with fused multiply-add and half-precision loads.
+//! The 8-lane backend of x86_64: [`Avx2`], with fused multiply-add, half-precision loads, and the instructions on bits that
+//! came with it: kernels walk through masks.
 //!
 //! `unsafe` stands in three places: in the `op!` macro (register-only intrinsics, safe because the token proves the
 //! features), in `memory.rs` (loads and stores, each checked where it stands), and at the door `vectorize`.
@@ -23,7 +24,8 @@ mod values;
 
 pub use values::{Floats, Ints, Mask, Quad};
 
-/// A proof that the CPU has AVX2, FMA and F16C: eight lanes.
+/// A proof that the CPU has AVX2, FMA, F16C, BMI1, BMI2, LZCNT and POPCNT: eight lanes. CPUs that have the first have had
+/// the others.
 #[derive(Clone, Copy, Debug)]
 pub struct Avx2(());
 
@@ -32,16 +34,20 @@ impl Avx2 {
     pub fn detect() -> Option<Self> {
         let has = std::is_x86_feature_detected!("avx2")
             && std::is_x86_feature_detected!("fma")
-            && std::is_x86_feature_detected!("f16c");
+            && std::is_x86_feature_detected!("f16c")
+            && std::is_x86_feature_detected!("bmi1")
+            && std::is_x86_feature_detected!("bmi2")
+            && std::is_x86_feature_detected!("lzcnt")
+            && std::is_x86_feature_detected!("popcnt");
         has.then_some(Avx2(()))
     }
 
     /// The token without a look at the CPU.
     ///
     /// # Safety
-    /// Safe from code compiled with AVX2, FMA and F16C, which is what the attribute says; elsewhere the CPU must have them.
+    /// Safe from code compiled with the features of the attribute; elsewhere the CPU must have them.
     #[inline]
-    #[target_feature(enable = "avx2,fma,f16c")]
+    #[target_feature(enable = "avx2,fma,f16c,bmi1,bmi2,lzcnt,popcnt")]
     pub fn new() -> Self {
         Avx2(())
     }
