@@ -44,6 +44,15 @@ impl<const W: usize> Instances<'_, W> {
         let reach = self.scene.trees[instance.mesh].bvh.bounds().reach();
         self.local.prepare(lanes, at, packet, mask_of(lanes, live), reach).bits()
     }
+
+    /// Traces rays that have been carried into the space of an instance.
+    #[inline(always)]
+    fn trace<L: Lanes>(&mut self, lanes: L, number: usize, form: Form, live: u64, found: &mut Found) {
+        let tree = &self.scene.trees[self.scene.instances[number].mesh];
+        let leaves = &mut Triangles::new(tree.blocks.as_slice(), number, true, self.any);
+        let bvh = Nodes::new(&tree.bvh, tree.blocks.as_slice());
+        Walk { bvh, leaves, rays: &*self.local, found, stacks: &mut *self.stacks }.trace(lanes, form, live);
+    }
 }
 
 /// The image of points (`w` 1) or directions (`w` 0).
@@ -81,8 +90,7 @@ impl<const W: usize> Leaves for Instances<'_, W> {
         found: &mut Found,
         _around: Around<'_, L>,
     ) -> u64 {
-        let scene = self.scene;
-        let instance = &scene.instances[leaf.first()];
+        let instance = &self.scene.instances[leaf.first()];
         let mut carried = 0;
         let mut at = 0;
         while at < RAYS {
@@ -94,34 +102,15 @@ impl<const W: usize> Leaves for Instances<'_, W> {
             }
             at += L::LANES;
         }
-        let tree = &scene.trees[instance.mesh];
-        let leaves = &mut Triangles::new(tree.blocks.as_slice(), leaf.first(), true, self.any);
-        let walk = Walk {
-            bvh: Nodes::new(&tree.bvh, tree.blocks.as_slice()),
-            leaves,
-            rays: &*self.local,
-            found,
-            stacks: &mut *self.stacks,
-        };
-        walk.trace(lanes, self.form, carried);
+        self.trace(lanes, leaf.first(), self.form, carried, found);
         carried
     }
 
     #[inline(always)]
     fn single<L: Lanes>(&mut self, lanes: L, leaf: Child, rays: &Block, ray: usize, (): (), found: &mut Found) {
-        let scene = self.scene;
-        let instance = &scene.instances[leaf.first()];
+        let instance = &self.scene.instances[leaf.first()];
         let at = first_ray::<L>(ray);
         let bits = self.carry(lanes, instance, rays, at, 1 << (ray - at));
-        let tree = &scene.trees[instance.mesh];
-        let leaves = &mut Triangles::new(tree.blocks.as_slice(), leaf.first(), true, self.any);
-        let walk = Walk {
-            bvh: Nodes::new(&tree.bvh, tree.blocks.as_slice()),
-            leaves,
-            rays: &*self.local,
-            found,
-            stacks: &mut *self.stacks,
-        };
-        walk.trace(lanes, Form::Single, (bits as u64) << at);
+        self.trace(lanes, leaf.first(), Form::Single, (bits as u64) << at, found);
     }
 }
