@@ -8,7 +8,7 @@ use lobe_lane::{MAX_LANES, Mask};
 use lobe_scalar::Reference;
 use lobe_trace::{Occluded, RayClass, RaySoA};
 
-use super::leave::{From, Leaving, leave};
+use super::leave::{Leaving, Start, leave};
 use super::{Wave, against, rays};
 use crate::columns::{Column, NOTHING, RAYS, store, vector};
 use crate::hit::Hits;
@@ -20,7 +20,7 @@ use crate::vec3::Vec3;
 use crate::vectors::{cosine_hemisphere, either, less, plus, product, times};
 
 /// Pairs of directions to be evaluated, and the shadow rays to be traced for them.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Direct<const C: usize> {
     asked: Vec<Asked<C>>,
     /// The hits that light may reach, and their pairs of directions.
@@ -62,24 +62,6 @@ impl<const C: usize> Asked<C> {
         radiance: [NOTHING; C],
         pdf: NOTHING,
     };
-}
-
-impl<const C: usize> Default for Direct<C> {
-    fn default() -> Self {
-        Direct {
-            asked: Vec::new(),
-            reached: Vec::new(),
-            wi: Vec::new(),
-            wo: Vec::new(),
-            f: Vec::new(),
-            pdf: Vec::new(),
-            parts: Vec::new(),
-            leaving: Vec::new(),
-            rays: RaySoA::default(),
-            carried: Vec::new(),
-            hidden: Vec::new(),
-        }
-    }
 }
 
 impl<const C: usize> Wave<'_, C> {
@@ -211,7 +193,7 @@ impl<const C: usize> Wave<'_, C> {
             wi.push(if wo[2] < 0.0 { [local[0], local[1], -local[2]] } else { local });
         }
         wi.resize(wi.len().next_multiple_of(MAX_LANES), [0.0; 3]);
-        leave(self.backend, &self.hits, From::Lifted, wi, leaving);
+        leave(self.backend, &self.hits, Start::Lifted, wi, leaving);
         rays::clear(shadow);
         carried.clear();
         for (hit, arrived) in self.arrived.iter().enumerate() {

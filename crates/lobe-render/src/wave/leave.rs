@@ -8,7 +8,7 @@ use crate::vec3::Vec3;
 
 /// Where rays begin.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum From {
+pub(super) enum Start {
     /// On the triangles.
     Surface,
     /// On the smooth surface that the triangles stand for, as shadow rays do.
@@ -39,14 +39,14 @@ impl Leaving {
 }
 
 /// The rays from hits into the directions `local`, of which there are as many as fill the lanes.
-pub(super) fn leave(backend: Backend, hits: &Hits, from: From, local: &[Vec3], out: &mut Vec<Leaving>) {
+pub(super) fn leave(backend: Backend, hits: &Hits, start: Start, local: &[Vec3], out: &mut Vec<Leaving>) {
     out.resize(hits.len().div_ceil(RAYS), Leaving::NOTHING);
-    backend.run(Leave { hits, from, local, out });
+    backend.run(Leave { hits, start, local, out });
 }
 
 struct Leave<'a> {
     hits: &'a Hits,
-    from: From,
+    start: Start,
     local: &'a [Vec3],
     out: &'a mut [Leaving],
 }
@@ -56,7 +56,7 @@ impl Kernel for Leave<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        let Leave { hits, from, local, out } = self;
+        let Leave { hits, start, local, out } = self;
         let (one, zero) = (lanes.splat(1.0), lanes.splat(0.0));
         let mut at = 0;
         while at < hits.len() {
@@ -64,9 +64,9 @@ impl Kernel for Leave<'_> {
             let place = hits.places(lanes, at);
             let local = lanes.load_xyz(&local[at..]);
             let world = place.world(local);
-            let origin = match from {
-                From::Surface => place.position,
-                From::Lifted => place.lifted,
+            let origin = match start {
+                Start::Surface => place.position,
+                Start::Lifted => place.lifted,
             };
             store(lanes, &mut out.origin, lane, place.leave(lanes, origin, world));
             store(lanes, &mut out.direction, lane, world);

@@ -5,7 +5,7 @@ use std::time::Instant;
 use lobe_lane::{Lanes, MAX_LANES, Mask};
 use lobe_scalar::Reference;
 
-use super::leave::{From, Leaving, leave};
+use super::leave::{Leaving, Start, leave};
 use super::{Carried, Wave};
 use crate::columns::RAYS;
 use crate::integrator::Integrator;
@@ -15,19 +15,13 @@ use crate::vec3::Vec3;
 use crate::vectors::{less, product, times};
 
 /// Directions drawn by materials, one a hit.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Scattered<const C: usize> {
     u: Vec<[f32; 2]>,
     wi: Vec<Vec3>,
     weight: Vec<[f32; C]>,
     pdf: Vec<f32>,
     rays: Vec<Leaving>,
-}
-
-impl<const C: usize> Default for Scattered<C> {
-    fn default() -> Self {
-        Scattered { u: Vec::new(), wi: Vec::new(), weight: Vec::new(), pdf: Vec::new(), rays: Vec::new() }
-    }
 }
 
 /// A ray of `whitted` that carries less than this is not followed.
@@ -133,7 +127,7 @@ impl<const C: usize> Wave<'_, C> {
     fn go_on(&mut self, depth: u32) {
         let begun = Instant::now();
         let Scattered { wi, weight, pdf, rays, .. } = &mut self.scattered;
-        leave(self.backend, &self.hits, From::Surface, wi, rays);
+        leave(self.backend, &self.hits, Start::Surface, wi, rays);
         for (material, range) in &self.queue.parts {
             if self.world.materials[*material].delta().is_some() {
                 continue;

@@ -9,7 +9,8 @@ use crate::Aabb;
 
 impl<const W: usize> WideBvh<W> {
     /// Makes the wide tree of least cost with up to `leaf` primitives a leaf. `emit` makes the leaf of the
-    /// primitives at some places of the binary tree's order. Nodes lie in the order of a depth-first walk, a subtree in one piece.
+    /// primitives at some places of the binary tree's order. Nodes lie in the order of a depth-first walk, a subtree in
+    /// one piece.
     pub(crate) fn collapse(binary: &Binary, leaf: usize, mut emit: impl FnMut(Range<usize>) -> Child) -> Self {
         const { assert!(W == 4 || W == 8, "nodes have 4 or 8 children") };
         let Some(root) = binary.nodes.first() else {
