@@ -1,5 +1,7 @@
-//! Memory that random look-ups go to: on cache lines, and on huge pages where there is much of it.
+//! Memory that random look-ups go to: on cache lines, and on huge pages, which small tables share.
 #![forbid(unsafe_code)]
+
+mod pool;
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -7,18 +9,27 @@ use std::marker::PhantomData;
 use bytemuck::{Pod, Zeroable};
 use memmap2::MmapMut;
 
+use pool::Share;
+
 /// From this many bytes on, memory lies on huge pages where the system has them: a random look-up beyond the caches
-/// otherwise misses the address translation too.
-const HUGE: usize = 4 << 20;
+/// otherwise misses the address translation too. One table is small beside that, but scenes have many.
+const SHARED: usize = 64 << 10;
+/// From this many on, the pages are not shared with others.
+const ALONE: usize = 4 << 20;
 
 /// A cache line.
-#[derive(Clone, Copy, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C, align(64))]
 struct Line([u8; 64]);
 
+impl Line {
+    const ZERO: Line = Line([0; 64]);
+}
+
 enum Place {
     Heap(Vec<Line>),
-    Pages(MmapMut),
+    Shared(Share),
+    Alone(MmapMut),
 }
 
 /// A fixed run of values whose first lies on a cache line, so that one whose size divides a line's never straddles two.
@@ -35,16 +46,14 @@ impl<T: Pod> Storage<T> {
     /// Where so many have no size in bytes.
     pub fn zeros(len: usize) -> Self {
         let bytes = len.checked_mul(size_of::<T>()).expect("a size in bytes");
-        if bytes >= HUGE
-            && let Ok(map) = MmapMut::map_anon(bytes)
-        {
-            // Only a hint: without huge pages everything works, slower.
-            #[cfg(target_os = "linux")]
-            let _ = map.advise(memmap2::Advice::HugePage);
-            return Storage { place: Place::Pages(map), len, values: PhantomData };
-        }
-        let lines = bytemuck::zeroed_vec(bytes.div_ceil(size_of::<Line>()));
-        Storage { place: Place::Heap(lines), len, values: PhantomData }
+        let lines = bytes.div_ceil(size_of::<Line>());
+        let place = match bytes {
+            ALONE.. => map(bytes).map(Place::Alone),
+            SHARED.. => Share::zeros(lines).map(Place::Shared),
+            _ => None,
+        };
+        let place = place.unwrap_or_else(|| Place::Heap(bytemuck::zeroed_vec(lines)));
+        Storage { place, len, values: PhantomData }
     }
 
     /// A copy of values.
@@ -59,7 +68,8 @@ impl<T: Pod> Storage<T> {
     pub fn as_slice(&self) -> &[T] {
         let bytes = match &self.place {
             Place::Heap(lines) => bytemuck::cast_slice(lines),
-            Place::Pages(map) => &map[..],
+            Place::Shared(lines) => bytemuck::cast_slice(lines),
+            Place::Alone(map) => &map[..],
         };
         bytemuck::cast_slice(&bytes[..self.len * size_of::<T>()])
     }
@@ -68,7 +78,8 @@ impl<T: Pod> Storage<T> {
     pub fn as_mut_slice(&mut self) -> &mut [T] {
         let bytes = match &mut self.place {
             Place::Heap(lines) => bytemuck::cast_slice_mut(lines),
-            Place::Pages(map) => &mut map[..],
+            Place::Shared(lines) => bytemuck::cast_slice_mut(lines),
+            Place::Alone(map) => &mut map[..],
         };
         bytemuck::cast_slice_mut(&mut bytes[..self.len * size_of::<T>()])
     }
@@ -77,7 +88,8 @@ impl<T: Pod> Storage<T> {
     pub fn bytes(&self) -> usize {
         match &self.place {
             Place::Heap(lines) => size_of_val(lines.as_slice()),
-            Place::Pages(map) => map.len(),
+            Place::Shared(lines) => size_of_val(&lines[..]),
+            Place::Alone(map) => map.len(),
         }
     }
 }
@@ -94,13 +106,23 @@ impl<T> fmt::Debug for Storage<T> {
     }
 }
 
+/// Zeros of the system's own, on huge pages where it has them.
+fn map(bytes: usize) -> Option<MmapMut> {
+    let map = MmapMut::map_anon(bytes).ok()?;
+    // Only a hint: without huge pages everything works, slower.
+    #[cfg(target_os = "linux")]
+    let _ = map.advise(memmap2::Advice::HugePage);
+    Some(map)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn values_lie_on_cache_lines_whatever_their_number() {
-        for len in [0, 1, 15, 16, 17, 1000, HUGE / 4 - 1, HUGE / 4, HUGE / 4 + 1] {
+        let edges = [SHARED, ALONE].into_iter().flat_map(|bytes| [bytes / 4 - 1, bytes / 4, bytes / 4 + 1]);
+        for len in [0, 1, 15, 16, 17, 1000].into_iter().chain(edges) {
             let mut storage = Storage::<f32>::zeros(len);
             assert_eq!(storage.as_slice().len(), len);
             assert!(storage.as_slice().iter().all(|&x| x.to_bits() == 0));

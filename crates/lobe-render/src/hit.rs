@@ -169,6 +169,7 @@ impl<const C: usize> Kernel for Finding<'_, C> {
     fn run<L: Lanes>(self, lanes: L) {
         let Finding { world, which, rays, found, hits } = self;
         let Hits { blocks, parts, wo } = hits;
+        let (all, corners) = (world.triangles.as_slice(), world.corners.as_slice());
         let mut known =
             Known { corners: [[NOTHING; 10]; 3], direction: [NOTHING; 3], uv: [NOTHING; 2], transmits: NOTHING };
         let mut back = [NOTHING; 3];
@@ -176,18 +177,18 @@ impl<const C: usize> Kernel for Finding<'_, C> {
         for (which, places) in which.chunks(RAYS).zip(blocks) {
             // Vertices are anywhere in memory: all are asked for before the first is needed.
             for (ray, triangle) in which.iter().zip(&mut triangles) {
-                *triangle = world.triangles[found.primitive[*ray as usize] as usize];
+                *triangle = all[found.primitive[*ray as usize] as usize];
                 let [a, b, c, _] = *triangle;
-                lanes.prefetch(&world.corners[a as usize..]);
-                lanes.prefetch(&world.corners[b as usize..]);
-                lanes.prefetch(&world.corners[c as usize..]);
+                lanes.prefetch(&corners[a as usize..]);
+                lanes.prefetch(&corners[b as usize..]);
+                lanes.prefetch(&corners[c as usize..]);
             }
             for (lane, (ray, triangle)) in which.iter().zip(&triangles).enumerate() {
                 let (ray, [a, b, c, part]) = (*ray as usize, *triangle);
                 let [first, second, third] = &mut known.corners;
-                spread(&world.corners[a as usize], first, lane);
-                spread(&world.corners[b as usize], second, lane);
-                spread(&world.corners[c as usize], third, lane);
+                spread(&corners[a as usize], first, lane);
+                spread(&corners[b as usize], second, lane);
+                spread(&corners[c as usize], third, lane);
                 for k in 0..3 {
                     known.direction[k][lane] = rays.direction[k][ray];
                 }
@@ -210,7 +211,7 @@ impl<const C: usize> Kernel for Finding<'_, C> {
 
 /// A number of a vertex to each column.
 #[inline(always)]
-fn spread(Corner(values): &Corner, columns: &mut [Column; 10], lane: usize) {
+fn spread(values: &Corner, columns: &mut [Column; 10], lane: usize) {
     let mut k = 0;
     while k < values.len() {
         columns[k][lane] = values[k];

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use lobe_memory::Storage;
 use lobe_trace::{Mesh, MeshError, Scene};
 
 use crate::light::{AreaLight, Light, Lights};
@@ -87,8 +88,7 @@ pub(crate) struct Part {
 }
 
 /// A vertex: its position, its normal and its tangent.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Corner(pub [f32; 10]);
+pub(crate) type Corner = [f32; 10];
 
 impl<const C: usize> WorldBuilder<C> {
     /// Nothing.
@@ -161,9 +161,8 @@ impl<const C: usize> WorldBuilder<C> {
     pub fn build(self) -> Result<World<C>, WorldError> {
         let Shape { positions, normals, tangents, triangles } = self.shape;
         let vertices = positions.iter().zip(&normals).zip(&tangents);
-        let corners =
-            vertices.map(|(([x, y, z], [a, b, c]), [t, u, v, w])| Corner([*x, *y, *z, *a, *b, *c, *t, *u, *v, *w]));
-        let corners = corners.collect();
+        let corners = vertices.map(|(([x, y, z], [a, b, c]), [t, u, v, w])| [*x, *y, *z, *a, *b, *c, *t, *u, *v, *w]);
+        let corners = Storage::copied(&corners.collect::<Vec<Corner>>());
         let mut part = 0;
         let with_part = triangles.iter().enumerate().map(|(number, [a, b, c])| {
             while self.parts[part].end as usize <= number {
@@ -171,7 +170,7 @@ impl<const C: usize> WorldBuilder<C> {
             }
             [*a, *b, *c, part as u32]
         });
-        let with_parts = with_part.collect();
+        let with_parts = Storage::copied(&with_part.collect::<Vec<_>>());
         let scene: Scene = Scene::of_mesh(Mesh::new(positions, triangles)?);
         let bounds = scene.bounds();
         let diagonal = sub(bounds.upper, bounds.lower);
@@ -192,9 +191,9 @@ fn finite<const N: usize>(attribute: &'static str, values: &[[f32; N]]) -> Resul
 pub struct World<const C: usize> {
     pub(crate) scene: Scene,
     /// What is known of each vertex, side by side: the cache brings it together.
-    pub(crate) corners: Vec<Corner>,
+    pub(crate) corners: Storage<Corner>,
     /// For each triangle its corners and the part that it belongs to.
-    pub(crate) triangles: Vec<[u32; 4]>,
+    pub(crate) triangles: Storage<[u32; 4]>,
     pub(crate) parts: Vec<Part>,
     pub(crate) materials: Vec<Arc<dyn Shader<C>>>,
     pub(crate) lights: Lights<C>,

@@ -27,10 +27,9 @@ impl<const C: usize> AreaLight<C> {
         if !(area > 0.0 && area.is_finite()) {
             return None;
         }
-        let mut sums = Sums::new(areas.len());
-        sums.push(&areas);
+        let areas = Sums::new(areas.len(), &areas);
         let triangles = triangles.into_iter().map(parts).collect();
-        Some(AreaLight { triangles, areas: sums, area, radiance, two_sided })
+        Some(AreaLight { triangles, areas, area, radiance, two_sided })
     }
 
     /// Radiance in W/(m^2 sr).

@@ -3,6 +3,7 @@
 use std::f32::consts::{PI, TAU};
 
 use lobe_lane::{Block, Floats, Ints, Lanes};
+use lobe_memory::Storage;
 use lobe_scalar::Reference;
 
 use super::Lit;
@@ -44,7 +45,7 @@ pub struct Environment<const C: usize> {
     width: usize,
     height: usize,
     /// Channels of each texel, as many as fill quads.
-    texels: Vec<f32>,
+    texels: Storage<f32>,
     /// Turn about +y, as a share of a whole one.
     turn: f32,
     mean: f64,
@@ -52,7 +53,7 @@ pub struct Environment<const C: usize> {
     /// One list a row.
     columns: Sums,
     /// Density of a texel over the unit square.
-    density: Vec<f32>,
+    density: Storage<f32>,
 }
 
 impl<const C: usize> Environment<C> {
@@ -98,26 +99,23 @@ impl<const C: usize> Environment<C> {
             }
         }
         let (weights, mean) = weights(width, height, &texels);
-        let mut environment = Environment {
-            width,
-            height,
-            texels: Vec::with_capacity(texels.len() * Self::STRIDE),
-            turn: turn / TAU,
-            mean,
-            rows: Sums::new(height),
-            columns: Sums::new(width),
-            density: Vec::with_capacity(weights.len()),
-        };
-        for texel in texels {
-            environment.texels.extend(texel);
-            environment.texels.extend([0.0; 3].iter().take(Self::STRIDE - C));
+        let mut padded = Storage::zeros(texels.len() * Self::STRIDE);
+        for (texel, padded) in texels.iter().zip(padded.as_mut_slice().chunks_exact_mut(Self::STRIDE)) {
+            padded[..C].copy_from_slice(texel);
         }
         let across: Vec<f64> = weights.chunks_exact(width).map(|row| row.iter().sum()).collect();
         let total: f64 = across.iter().sum();
-        environment.rows.push(&across);
-        weights.chunks_exact(width).for_each(|row| environment.columns.push(row));
-        environment.density.extend(weights.iter().map(|weight| (weight / total * (width * height) as f64) as f32));
-        Ok(environment)
+        let density = |weight: &f64| (weight / total * (width * height) as f64) as f32;
+        Ok(Environment {
+            width,
+            height,
+            texels: padded,
+            turn: turn / TAU,
+            mean,
+            rows: Sums::new(height, &across),
+            columns: Sums::new(width, &weights),
+            density: Storage::copied(&weights.iter().map(density).collect::<Vec<_>>()),
+        })
     }
 
     /// Mean radiance over all directions and channels.
@@ -139,12 +137,12 @@ impl<const C: usize> Environment<C> {
             return (radiance, 0.25 / PI);
         }
         let cell = |x: f32, n: usize| ((x * n as f32) as usize).min(n - 1);
-        let density = self.density[cell(v, self.height) * self.width + cell(u, self.width)];
+        let density = self.density.as_slice()[cell(v, self.height) * self.width + cell(u, self.width)];
         (radiance, density / (TAU * PI * sin_of(wi)))
     }
 
     fn is_constant(&self) -> bool {
-        self.density.len() == 1
+        self.width * self.height == 1
     }
 
     /// Radiance at places of the unit square.
@@ -165,7 +163,7 @@ impl<const C: usize> Environment<C> {
         let top = y.to_int();
         let fy = y - top.to_float();
         let bottom = (top + one).min(height - one);
-        let block = Block::new(&self.texels, [0]);
+        let block = Block::new(self.texels.as_slice(), [0]);
         let mut radiance = [zero; C];
         let mut from = 0;
         while from < C {
@@ -214,7 +212,7 @@ impl<const C: usize> Environment<C> {
         let [sin_phi, cos_phi] = sin_cos(lanes, place[0] + lanes.splat(self.turn) - half);
         let wi = [sin * sin_phi, cos, -sin * cos_phi];
         let texel = row * lanes.splat_int(self.width as i32) + column;
-        let pdf = lanes.gather(&self.density, texel) / (lanes.splat(TAU * PI) * sin.max(lanes.splat(1e-6)));
+        let pdf = lanes.gather(self.density.as_slice(), texel) / (lanes.splat(TAU * PI) * sin.max(lanes.splat(1e-6)));
         let there = zero.lt(pdf) & pdf.lt(infinite);
         Lit { wi, distance: infinite, radiance: self.interpolated(lanes, place), pdf, there }
     }

@@ -173,10 +173,7 @@ impl<const C: usize> Lights<C> {
         let equal = 1.0 / all.len().max(1) as f64;
         let by_power = |power: f64| if total > 0.0 { power / total } else { equal };
         let chances: Vec<f64> = powers.iter().map(|&power| 0.5 * by_power(power) + 0.5 * equal).collect();
-        let mut sums = Sums::new(all.len());
-        if !all.is_empty() {
-            sums.push(&chances);
-        }
+        let sums = Sums::new(all.len(), &chances);
         let environment = all.iter().position(|light| matches!(light, Light::Environment(_)));
         Lights { all, chances: chances.into_iter().map(|chance| chance as f32).collect(), sums, environment }
     }

@@ -179,7 +179,7 @@ impl<'w, const C: usize> Wave<'w, C> {
         let limit = self.integrator.limit(depth);
         // The last rays look for lights only.
         let all = depth == 0 || depth < self.integrator.depth();
-        let World { triangles, parts, .. } = self.world;
+        let (triangles, parts) = (self.world.triangles.as_slice(), &self.world.parts);
         self.queue.clear();
         for (i, (carried, &primitive)) in self.carried.iter().zip(&self.batch.hits.primitive).enumerate() {
             if primitive != MISS {
