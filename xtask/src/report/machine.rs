@@ -57,7 +57,7 @@ fn features() -> Vec<&'static str> {
         macro_rules! detect {
             ($($name:tt)*) => { $(if std::is_x86_feature_detected!($name) { found.push($name); })* };
         }
-        detect!("sse2" "sse4.1" "avx" "f16c" "fma" "avx2" "avx512f");
+        detect!("sse2" "sse4.1" "popcnt" "avx" "f16c" "fma" "avx2" "bmi1" "bmi2" "lzcnt" "avx512f");
     }
     found
 }
