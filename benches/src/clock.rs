@@ -1,6 +1,17 @@
 //! Ratios that can be trusted on a machine that is not quiet.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
+
+/// How often everybody has a turn.
+#[derive(Clone, Copy, Debug)]
+pub struct Rounds {
+    /// At most this often.
+    pub most: usize,
+    /// At least this often, however long it takes.
+    pub least: usize,
+    /// Between the two, until so much time is over.
+    pub time: Duration,
+}
 
 /// Calls of a contender in a row: the first finds the caches as the contender before it left them.
 const TURN: usize = 3;
@@ -8,28 +19,38 @@ const TURN: usize = 3;
 /// Times several contenders in turn, `A A A B B B C C C A A A ...`, and returns the least nanoseconds of a call for each.
 ///
 /// The minimum of many rounds is what the code can do; whatever else the machine does can only add. Taking turns gives
-/// every contender the same clock speed and the same neighbours. After each round `progress` is called.
-pub fn interleaved<const N: usize>(
-    rounds: usize,
-    mut contenders: [&mut dyn FnMut(); N],
-    progress: impl FnMut(),
-) -> [f64; N] {
-    let least = interleaved_slice(rounds, &mut contenders, progress);
-    std::array::from_fn(|i| least[i])
-}
-
-/// As [`interleaved`], for a number of contenders that is only known at run time.
-pub fn interleaved_slice(rounds: usize, contenders: &mut [&mut dyn FnMut()], mut progress: impl FnMut()) -> Vec<f64> {
-    let mut least = vec![f64::INFINITY; contenders.len()];
-    for _ in 0..rounds {
-        for (run, least) in contenders.iter_mut().zip(&mut least) {
+/// every contender the same clock speed and the same neighbours.
+pub fn interleaved(rounds: Rounds, contenders: &mut [&mut dyn FnMut()]) -> Vec<f64> {
+    let begun = Instant::now();
+    let mut shortest = vec![f64::INFINITY; contenders.len()];
+    for round in 0..rounds.most {
+        if round >= rounds.least && begun.elapsed() >= rounds.time {
+            break;
+        }
+        for (run, shortest) in contenders.iter_mut().zip(&mut shortest) {
             for _ in 0..TURN {
                 let start = Instant::now();
                 run();
-                *least = least.min(start.elapsed().as_secs_f64() * 1e9);
+                *shortest = shortest.min(start.elapsed().as_secs_f64() * 1e9);
             }
         }
-        progress();
     }
-    least
+    shortest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounds_end_when_time_is_over_but_not_before_there_are_enough() {
+        let count = |time: u64| {
+            let rounds = Rounds { most: 20, least: 3, time: Duration::from_secs(time) };
+            let (mut first, mut second) = (0, 0);
+            interleaved(rounds, &mut [&mut || first += 1, &mut || second += 1]);
+            [first, second]
+        };
+        assert_eq!(count(0), [3 * TURN; 2]);
+        assert_eq!(count(3600), [20 * TURN; 2]);
+    }
 }

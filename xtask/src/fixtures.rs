@@ -12,7 +12,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::steps::Steps;
 
 /// Make the tables and meshes in fixtures/ from their seeds, or check those that are there.
 #[derive(clap::Args)]
@@ -29,15 +30,14 @@ pub struct Args {
 /// Makes every fixture and writes or checks it.
 pub fn run(args: &Args) -> Result<()> {
     let fixtures = [tables::conductor(), tables::paint(), tables::cloth()];
-    let steps = fixtures.iter().map(|fixture| fixture.steps() as u64).sum::<u64>() + scenes::SCENES.len() as u64;
-    let bar =
-        ProgressBar::new(steps).with_style(ProgressStyle::with_template("{bar:40} {percent:>3} % of {msg} {elapsed}")?);
+    let of_tables = fixtures.iter().map(|fixture| fixture.steps() as u64).sum::<u64>();
+    let steps = Steps::new(of_tables + scenes::SCENES.len() as u64);
     let mut different = Vec::new();
     let mut hashes = Vec::new();
     for fixture in &fixtures {
-        bar.set_message(fixture.file);
+        steps.begin(fixture.file);
         let path = args.directory.join(fixture.file);
-        let made = lobe_formats::ddr::text(&fixture.measure(|| bar.inc(1))?, &path)?;
+        let made = lobe_formats::ddr::text(&fixture.measure(|| steps.done(1))?, &path)?;
         if args.check {
             let there = fs::read_to_string(&path).with_context(|| format!("reading {}", path.display()))?;
             if let Err(difference) = compare::compare(&there, &made) {
@@ -50,7 +50,7 @@ pub fn run(args: &Args) -> Result<()> {
         }
     }
     for scene in &scenes::SCENES {
-        bar.set_message(scene.file);
+        steps.begin(scene.file);
         let path = args.directory.join(scene.file);
         let made = (scene.make)();
         if !args.check {
@@ -59,9 +59,9 @@ pub fn run(args: &Args) -> Result<()> {
             different.push(format!("{}: other bytes", scene.file));
         }
         hashes.push(provenance::hash(&made));
-        bar.inc(1);
+        steps.done(1);
     }
-    bar.finish_and_clear();
+    drop(steps);
 
     let readme = provenance::readme(&fixtures, &hashes);
     let path = args.directory.join("README.md");

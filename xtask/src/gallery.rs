@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context, Result};
-use indicatif::{ProgressBar, ProgressStyle};
 use lobe::Backend;
 use lobe_render::picture::{ToneMap, write_png};
 use lobe_render::scene::Scene;
 use lobe_render::{Film, Rect, Settings, render};
 
 use crate::report::replace;
+use crate::steps::Steps;
 
 /// Render the scenes in fixtures/scenes into docs/pictures, and write docs/gallery.md.
 #[derive(clap::Args)]
@@ -106,15 +106,14 @@ impl Picture {
             threads: std::thread::available_parallelism().map_or(1, usize::from),
             time: None,
         };
-        let style = ProgressStyle::with_template("{bar:32} {percent:>3} % {eta:>4} {msg}").expect("a valid template");
-        let bar = ProgressBar::new(1).with_style(style).with_message(self.name);
+        let steps = Steps::new(1);
+        steps.begin(self.name);
         let begun = Instant::now();
         let (film, _) = render(&scene.world, &settings, Film::new(window), |progress| {
-            bar.set_length(progress.total);
-            bar.set_position(progress.done);
+            steps.are(progress.done, progress.total);
             true
         })?;
-        bar.finish_and_clear();
+        drop(steps);
         let path = folder.join(self.name).with_extension("png");
         write_png(&path, &film, ToneMap { exposure: scene.exposure })?;
         println!("{} in {:.0} s", path.display(), begun.elapsed().as_secs_f64());

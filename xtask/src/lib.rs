@@ -10,4 +10,5 @@ mod noise;
 #[cfg(target_os = "linux")]
 pub mod peers;
 pub mod report;
+mod steps;
 pub mod sweep;

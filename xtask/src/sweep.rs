@@ -4,9 +4,10 @@ use std::f64::consts::PI;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use comfy_table::{CellAlignment, Table, presets};
-use indicatif::{ProgressBar, ProgressStyle};
 use lobe::{Backend, Kernel, Lanes};
 use lobe_math::bounds::{self, Bound};
+
+use crate::steps::Steps;
 
 /// Compare acos and asin on every backend with `f64`, over every `f32` of [-1, 1]
 #[derive(clap::Args, Debug)]
@@ -78,8 +79,7 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
 fn sweep(backends: &[Backend], step: u32) -> Vec<Errors> {
     let count = ONE / step + 1;
     let chunks = count.div_ceil(CHUNK as u32);
-    let style = ProgressStyle::with_template("{bar:40} {percent}% {eta} left").expect("a valid template");
-    let progress = ProgressBar::new(u64::from(chunks)).with_style(style);
+    let steps = Steps::new(u64::from(chunks));
     let next = AtomicU32::new(0);
     let work = || {
         let mut errors = vec![NONE; backends.len()];
@@ -93,7 +93,7 @@ fn sweep(backends: &[Backend], step: u32) -> Vec<Errors> {
             for (backend, errors) in backends.iter().zip(&mut errors) {
                 chunk.measure(*backend, errors);
             }
-            progress.inc(1);
+            steps.done(1);
         }
     };
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
@@ -101,7 +101,6 @@ fn sweep(backends: &[Backend], step: u32) -> Vec<Errors> {
         let running: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
         running.into_iter().map(|thread| thread.join().expect("a thread that does not panic")).collect()
     });
-    progress.finish_and_clear();
     all.into_iter().fold(vec![NONE; backends.len()], |mut most, errors| {
         for (most, error) in most.iter_mut().flatten().zip(errors.iter().flatten()) {
             most.abs = most.abs.max(error.abs);

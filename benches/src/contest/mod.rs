@@ -16,7 +16,7 @@ mod threads;
 
 use std::fmt;
 
-use crate::clock;
+use crate::clock::{self, Rounds};
 use crate::workload::Input;
 
 pub use backends::{Named, backends};
@@ -327,12 +327,12 @@ impl Contest {
         Ok(())
     }
 
-    /// Times everybody in turn, `rounds` times. Between rounds `progress` is called.
-    pub fn time(&mut self, rounds: usize, progress: impl FnMut()) -> Timing {
+    /// Times everybody in turn.
+    pub fn time(&mut self, rounds: Rounds) -> Timing {
         let mut runs: Vec<_> =
             self.baselines.iter_mut().chain(&mut self.contenders).map(|contender| || contender.task.run()).collect();
         let mut runs: Vec<&mut dyn FnMut()> = runs.iter_mut().map(|run| run as &mut dyn FnMut()).collect();
-        let mut baselines = clock::interleaved_slice(rounds, &mut runs, progress);
+        let mut baselines = clock::interleaved(rounds, &mut runs);
         baselines.iter_mut().for_each(|ns| *ns /= self.count as f64);
         let contenders = baselines.split_off(self.baselines.len());
         Timing { baselines, contenders }

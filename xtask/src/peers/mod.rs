@@ -25,9 +25,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail, ensure};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::report::{Machine, replace};
+use crate::steps::Steps;
 use exchange::Exchange;
 use program::{Program, Programs};
 use record::Record;
@@ -95,32 +95,34 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
     contests.retain_mut(|contest| contest.keep_present(&programs));
 
     let core = processor::pin();
-    let style = ProgressStyle::with_template("{bar:32} {percent:>3} % {eta:>4} {msg}").expect("a valid template");
-    let bar = ProgressBar::new((contests.len() * (options.turns + 1)) as u64).with_style(style);
+    let steps = Steps::new((contests.len() * (options.turns + 1)) as u64 + 2);
     let (mut rows, mut faults) = (Vec::new(), Vec::new());
     for mut contest in contests {
-        bar.set_message(contest.name());
+        steps.begin(contest.name());
         // One that differs must not keep the others from being measured.
         let differences = match contest.check(&mut programs, &exchange) {
             Ok(differences) => differences,
             Err(error) => {
                 faults.push(format!("{error:#}"));
-                bar.inc(options.turns as u64 + 1);
+                steps.done(options.turns as u64 + 1);
                 continue;
             }
         };
-        bar.inc(1);
-        rows.extend(contest.time(&mut programs, options.turns, &differences, || bar.inc(1))?);
+        steps.done(1);
+        rows.extend(contest.time(&mut programs, options.turns, &differences, || steps.done(1))?);
     }
-    bar.finish_and_clear();
     let variances = match variance {
-        Some(question) => question.answer(&mut programs, &exchange)?,
+        Some(question) => steps.part("variances", || question.answer(&mut programs, &exchange))?,
         None => Vec::new(),
     };
     let pictures = match pictures {
-        Some(question) => question.answer(&mut programs, &exchange, &difference_picture(options, &out))?,
+        Some(question) => {
+            let shown = difference_picture(options, &out);
+            steps.part("pictures", || question.answer(&mut programs, &exchange, &shown))?
+        }
         None => Vec::new(),
     };
+    drop(steps);
 
     let missing = programs.missing().map(|(name, why)| [name.to_owned(), why]).collect();
     let record = Record {

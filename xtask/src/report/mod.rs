@@ -32,6 +32,7 @@ use rows::Row;
 use samplers::SamplerCost;
 
 use crate::golden::Comparison;
+use crate::steps::Steps;
 
 pub(crate) use grid::Grid;
 pub(crate) use machine::Machine;
@@ -89,16 +90,20 @@ impl Report {
 /// Where a contender's values are wrong, or a file cannot be read or written.
 pub fn run(options: &Options) -> anyhow::Result<()> {
     let machine = Machine::here();
-    let plan = if options.quick { measure::Plan::QUICK } else { measure::Plan::FULL };
+    let rounds = if options.quick { measure::QUICK } else { measure::FULL };
     let is_section = |id: &&String| [formats::ID, energy::ID, samplers::ID, pictures::ID].contains(&id.as_str());
     let (sections, questions): (Vec<&String>, Vec<&String>) = options.only.iter().partition(is_section);
     let is_all = options.only.is_empty();
     let is_asked = |section: &str| is_all || sections.iter().any(|asked| *asked == section);
-    let rows = if is_all || !questions.is_empty() { measure::all(plan, &questions)? } else { Vec::new() };
-    let formats = is_asked(formats::ID).then(formats::compare).transpose()?;
-    let energy = if is_asked(energy::ID) { energy::all()? } else { Vec::new() };
-    let samplers = if is_asked(samplers::ID) { samplers::all(options.quick)? } else { Vec::new() };
-    let pictures = is_asked(pictures::ID).then(|| pictures::measure(options.quick)).transpose()?;
+    let rows = if is_all || !questions.is_empty() { measure::all(rounds, &questions)? } else { Vec::new() };
+    let steps = Steps::new(4);
+    let formats = is_asked(formats::ID).then(|| steps.part(formats::ID, formats::compare)).transpose()?;
+    let energy = is_asked(energy::ID).then(|| steps.part(energy::ID, energy::all)).transpose()?;
+    let samplers = is_asked(samplers::ID).then(|| steps.part(samplers::ID, || samplers::all(options.quick)));
+    let pictures = is_asked(pictures::ID).then(|| steps.part(pictures::ID, || pictures::measure(options.quick)));
+    drop(steps);
+    let (energy, samplers) = (energy.unwrap_or_default(), samplers.transpose()?.unwrap_or_default());
+    let pictures = pictures.transpose()?;
     let equivalence = equivalence::summary();
     let report = Report { machine, quick: options.quick, rows, equivalence, formats, energy, samplers, pictures };
 
