@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::f32::consts::TAU;
 
 use lobe_lane::Lanes;
-use lobe_scalar::Scalar;
+use lobe_scalar::Reference;
 use lobe_trace::{HitSoA, Intersect, MISS, Mesh, RayClass, RaySoA, Scene};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -140,7 +140,7 @@ fn camera(pixels: usize) -> RaySoA {
 /// Secondary rays: what happens at each hit is told by a function of the ray's direction, place and normal.
 fn next<const W: usize>(scene: &Scene<W>, rays: &RaySoA, mut turn: impl FnMut(V, V, V) -> (V, f32)) -> RaySoA {
     let mut hits = HitSoA::new(rays.len());
-    Scalar::<4>.vectorize(Intersect::new(scene, RayClass::Diffuse, rays.view(), hits.view()));
+    Reference::default().vectorize(Intersect::new(scene, RayClass::Diffuse, rays.view(), hits.view()));
     let mut out = RaySoA::with_capacity(rays.len());
     for ray in 0..rays.len() {
         if hits.primitive[ray] == MISS {

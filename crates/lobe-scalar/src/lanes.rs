@@ -2,7 +2,8 @@
 
 use lobe_lane::{Block, Kernel, Lanes};
 
-use crate::texels::from_half;
+use crate::texels::{Texel, from_half};
+use crate::values::each;
 use crate::{Floats, Ints, Mask, Scalar};
 
 impl<const N: usize> Lanes for Scalar<N> {
@@ -33,7 +34,7 @@ impl<const N: usize> Lanes for Scalar<N> {
     }
     #[inline(always)]
     fn first_four(self, x: [f32; 4]) -> Floats<N> {
-        Floats(std::array::from_fn(|lane| x.get(lane).copied().unwrap_or(0.0)))
+        Floats(each(|lane| x.get(lane).copied().unwrap_or(0.0)))
     }
     #[inline(always)]
     fn splat_int(self, x: i32) -> Ints<N> {
@@ -41,7 +42,7 @@ impl<const N: usize> Lanes for Scalar<N> {
     }
     #[inline(always)]
     fn iota(self) -> Ints<N> {
-        Ints(std::array::from_fn(|lane| lane as i32))
+        Ints(each(|lane| lane as i32))
     }
     #[inline(always)]
     fn mul_add(self, a: Floats<N>, b: Floats<N>, c: Floats<N>) -> Floats<N> {
@@ -49,22 +50,22 @@ impl<const N: usize> Lanes for Scalar<N> {
     }
     #[inline(always)]
     fn select(self, mask: Mask<N>, a: Floats<N>, b: Floats<N>) -> Floats<N> {
-        Floats(std::array::from_fn(|lane| if mask.0[lane] { a.0[lane] } else { b.0[lane] }))
+        Floats(each(|lane| if mask.0[lane] { a.0[lane] } else { b.0[lane] }))
     }
     #[inline(always)]
     fn select_int(self, mask: Mask<N>, a: Ints<N>, b: Ints<N>) -> Ints<N> {
-        Ints(std::array::from_fn(|lane| if mask.0[lane] { a.0[lane] } else { b.0[lane] }))
+        Ints(each(|lane| if mask.0[lane] { a.0[lane] } else { b.0[lane] }))
     }
 
     #[inline(always)]
     fn select_negative(self, sign: Ints<N>, a: Floats<N>, b: Floats<N>) -> Floats<N> {
-        Floats(std::array::from_fn(|lane| if sign.0[lane] < 0 { a.0[lane] } else { b.0[lane] }))
+        Floats(each(|lane| if sign.0[lane] < 0 { a.0[lane] } else { b.0[lane] }))
     }
 
     #[inline(always)]
     fn load(self, src: &[f32]) -> Floats<N> {
         let src = &src[..N];
-        Floats(std::array::from_fn(|lane| src[lane]))
+        Floats(each(|lane| src[lane]))
     }
     #[inline(always)]
     fn store(self, dst: &mut [f32], x: Floats<N>) {
@@ -73,7 +74,7 @@ impl<const N: usize> Lanes for Scalar<N> {
     #[inline(always)]
     fn load_int(self, src: &[i32]) -> Ints<N> {
         let src = &src[..N];
-        Ints(std::array::from_fn(|lane| src[lane]))
+        Ints(each(|lane| src[lane]))
     }
     #[inline(always)]
     fn store_int(self, dst: &mut [i32], x: Ints<N>) {
@@ -82,25 +83,23 @@ impl<const N: usize> Lanes for Scalar<N> {
     #[inline(always)]
     fn load_xyz(self, src: &[[f32; 3]]) -> [Floats<N>; 3] {
         let src = &src[..N];
-        std::array::from_fn(|axis| Floats(std::array::from_fn(|lane| src[lane][axis])))
+        std::array::from_fn(|axis| Floats(each(|lane| src[lane][axis])))
     }
 
     #[inline(always)]
     fn gather(self, table: &[f32], index: Ints<N>) -> Floats<N> {
-        Floats(std::array::from_fn(|lane| table[clamp_index(index.0[lane], table.len())]))
+        Floats(each(|lane| table[clamp_index(index.0[lane], table.len())]))
     }
     #[inline(always)]
     fn gather_pair(self, table: &[[f32; 2]], index: Ints<N>) -> [Floats<N>; 2] {
-        std::array::from_fn(|half| {
-            Floats(std::array::from_fn(|lane| table[clamp_index(index.0[lane], table.len())][half]))
-        })
+        std::array::from_fn(|half| Floats(each(|lane| table[clamp_index(index.0[lane], table.len())][half])))
     }
     #[inline(always)]
     fn gather_quads<const K: usize>(self, block: &Block<'_, K, 4>, base: Ints<N>) -> [[Floats<N>; 4]; K] {
         std::array::from_fn(|corner| {
             let offset = block.offsets()[corner];
             std::array::from_fn(|k| {
-                Floats(std::array::from_fn(|lane| {
+                Floats(each(|lane| {
                     let base = (base.0[lane] as u32 as usize).min(block.last_base());
                     block.data()[base + offset + k]
                 }))
@@ -112,7 +111,7 @@ impl<const N: usize> Lanes for Scalar<N> {
         std::array::from_fn(|corner| {
             let offset = block.offsets()[corner];
             std::array::from_fn(|k| {
-                Floats(std::array::from_fn(|lane| {
+                Floats(each(|lane| {
                     let base = (base.0[lane] as u32 as usize).min(block.last_base());
                     from_half(block.data()[base + offset + k])
                 }))
@@ -120,8 +119,8 @@ impl<const N: usize> Lanes for Scalar<N> {
         })
     }
     #[inline(always)]
-    fn oct_lookup(self, table: Floats<8>, index: Ints<N>) -> Floats<N> {
-        Floats(std::array::from_fn(|lane| table.0[(index.0[lane] & 7) as usize]))
+    fn oct_lookup(self, table: Texel<8>, index: Ints<N>) -> Floats<N> {
+        Floats(each(|lane| table.0[(index.0[lane] & 7) as usize]))
     }
 }
 

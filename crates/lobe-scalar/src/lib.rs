@@ -9,6 +9,7 @@ mod lanes;
 mod texels;
 mod values;
 
+pub use texels::Texel;
 pub use values::{Floats, Ints, Mask};
 
 /// A backend of `N` lanes in plain Rust; `N` is 1, 2, 4, 8 or 16.

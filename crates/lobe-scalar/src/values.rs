@@ -14,15 +14,36 @@ pub struct Ints<const N: usize>(pub(crate) [i32; N]);
 #[derive(Clone, Copy, Debug)]
 pub struct Mask<const N: usize>(pub(crate) [bool; N]);
 
+/// `f` of each lane.
+///
+/// One lane is what programs compute with, and stands in their code. More lanes are for tests of code that is written for
+/// any number of them: there each operation is a call, for the compiler would take minutes if it stood in every kernel as
+/// often as there are lanes.
+#[inline(always)]
+pub(crate) fn each<T: Copy, const N: usize>(f: impl Fn(usize) -> T) -> [T; N] {
+    if N == 1 { [f(0); N] } else { each_of_many(f) }
+}
+
+#[inline(never)]
+fn each_of_many<T: Copy, const N: usize>(f: impl Fn(usize) -> T) -> [T; N] {
+    let mut lanes = [f(0); N];
+    let mut lane = 1;
+    while lane < N {
+        lanes[lane] = f(lane);
+        lane += 1;
+    }
+    lanes
+}
+
 /// Applies a function of two elements lane by lane. A macro, because a closure across a call would have to be inlined
 /// into code with the backend's features.
 macro_rules! zip {
     ($out:ident, $a:expr, $b:expr, |$x:ident, $y:ident| $f:expr) => {{
         let (a, b) = ($a.0, $b.0);
-        $out(std::array::from_fn(
+        $out(each(
             #[inline(always)]
-            |i| {
-                let ($x, $y) = (a[i], b[i]);
+            |lane| {
+                let ($x, $y) = (a[lane], b[lane]);
                 $f
             },
         ))
@@ -33,10 +54,10 @@ macro_rules! zip {
 macro_rules! map {
     ($out:ident, $a:expr, |$x:ident| $f:expr) => {{
         let a = $a.0;
-        $out(std::array::from_fn(
+        $out(each(
             #[inline(always)]
-            |i| {
-                let $x = a[i];
+            |lane| {
+                let $x = a[lane];
                 $f
             },
         ))
