@@ -2,7 +2,6 @@
 #![forbid(unsafe_code)]
 
 pub mod asm;
-pub mod equivalence;
 pub mod fixtures;
 pub mod gallery;
 pub mod golden;
@@ -12,3 +11,5 @@ pub mod peers;
 pub mod report;
 mod steps;
 pub mod sweep;
+
+pub use xtask_equivalence as equivalence;

@@ -3,6 +3,7 @@
 //! A [`Property`] records, generic over the lanes, rows of results that must not depend on the backend. In strict form
 //! they have to be the same bits as those of [`Scalar<1>`](lobe_scalar::Scalar), all NaN being one value; in fused form
 //! floats may differ within a stated bound.
+#![forbid(unsafe_code)]
 
 mod axes;
 mod bound;

@@ -3,7 +3,7 @@
 //! A test of a backend that this CPU does not have prints SKIP; `the_expected_backends_ran` counts those and fails where
 //! one was skipped that this CPU has.
 
-use xtask::equivalence::{Form, Property, Subject, compare, facade_agrees, reference};
+use xtask_equivalence::{Form, Property, Subject, compare, facade_agrees, reference};
 
 fn check(subject: Subject, form: Form, property: Property) {
     let Some(found) = subject.record(form, property) else {

@@ -93,7 +93,7 @@ fn add(cases: &mut Vec<Case>, name: &str, samples: &Samples, edges: &Edges) {
 
 /// The tables in `fixtures/`, in the order of their names; none where the folder does not exist.
 fn fixtures() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures");
     let mut files: Vec<PathBuf> = std::fs::read_dir(folder)
         .map(|entries| entries.filter_map(|entry| Some(entry.ok()?.path())).collect())
         .unwrap_or_default();
