@@ -95,7 +95,7 @@ fn equivalence(summary: &EquivalenceSummary) -> String {
     let lines: String = summary
         .rows
         .iter()
-        .map(|[what, found]| format!("<tr><td>{}</td><td>{}</td></tr>", escape(what), escape(found)))
+        .map(|[what, found]| format!("<tr><td>{}</td><td class=\"words\">{}</td></tr>", escape(what), escape(found)))
         .collect();
     format!(
         r#"<h2>Equivalence of the backends</h2>{verdict}<div class="wide"><table><tbody>{lines}</tbody></table></div>"#

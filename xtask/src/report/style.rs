@@ -43,6 +43,7 @@ table { border-collapse: collapse; font-size: .88rem; font-variant-numeric: tabu
 thead tr:first-child th { text-align: center; }
 th, td { padding: .22rem .55rem; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
 th:first-child, td:first-child { text-align: left; padding-left: 0; }
+td.words { white-space: normal; text-wrap: balance; }
 th { font-weight: 600; }
 thead tr:last-child th { border-bottom: 1.5px solid var(--ink); }
 .split { border-left: 1px solid var(--line); }
