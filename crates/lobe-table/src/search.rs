@@ -54,7 +54,7 @@ impl Axis {
     pub fn weights<L: Lanes>(&self, lanes: L, x: L::F) -> (L::I, [L::F; 2]) {
         let inside = self.contains(lanes, x);
         let Cell { index, fraction } = self.cell(lanes, self.bring_inside(lanes, x));
-        (index, [lanes.splat(1.0) - fraction, fraction].map(|weight| weight.masked(inside)))
+        (index, [(lanes.splat(1.0) - fraction).masked(inside), fraction.masked(inside)])
     }
 
     /// `true` in the lanes where the table has a value, which is everywhere but outside an axis of

@@ -109,7 +109,8 @@ impl PaperTable {
             self.interpolate::<L, 3, 8>(lanes, [(0, sigma), (2, theta), (3, phi)], mask)
         };
         // Lanes outside the mask have no weight, but a direction of theirs may be NaN.
-        rgb.map(|channel| channel.max(zero).masked(mask))
+        let [r, g, b] = rgb;
+        [r.max(zero).masked(mask), g.max(zero).masked(mask), b.max(zero).masked(mask)]
     }
 
     /// Searches the axes given, multiplies their weights, and sums the `CORNERS = 2^AXES` corners.

@@ -300,7 +300,8 @@ pub(super) fn leave<L: Lanes>(lanes: L, incident: &Incident<L>, draw: Draw<L>, m
     let (sin, cos) = lobe_math::sin_cos(lanes, draw.phi);
     let height = incident.height(lanes, cos);
     let valid = incident.valid & mask;
-    let sampled = incident.direction(lanes, draw.v * height, [cos, sin]).map(|x| x.masked(valid));
+    let [x, y, z] = incident.direction(lanes, draw.v * height, [cos, sin]);
+    let sampled = [x.masked(valid), y.masked(valid), z.masked(valid)];
     (sampled, (draw.density / height).masked(valid))
 }
 
