@@ -10,20 +10,24 @@ use std::process::Command;
 use anyhow::{Context, bail, ensure};
 use object::{Object, ObjectSymbol, SymbolKind};
 
-/// Packages whose binaries are looked at.
+/// Who calls kernels in all ways, and what users run.
 const PACKAGES: [&str; 2] = ["xtask", "lobe-cli"];
 
 /// Check that no SIMD intrinsic is called out of line in the release binaries
 #[derive(clap::Args, Debug)]
-pub struct Args {}
+pub struct Args {
+    /// Packages whose binaries are looked at
+    #[arg(long = "package", value_name = "NAME", value_delimiter = ',', default_values = PACKAGES)]
+    packages: Vec<String>,
+}
 
 /// Builds the binaries in release mode and looks through their symbols.
 ///
 /// # Errors
 /// Where the build fails, a binary has no symbols to look at, or an intrinsic is a function of its own.
-pub fn run(_args: &Args) -> anyhow::Result<()> {
+pub fn run(args: &Args) -> anyhow::Result<()> {
     let mut found = Vec::new();
-    for binary in build()? {
+    for binary in build(&args.packages)? {
         let symbols = Symbols::read(&binary)?;
         println!("{}: {} functions", binary.display(), symbols.functions);
         for name in &symbols.detection {
@@ -47,9 +51,9 @@ pub fn run(_args: &Args) -> anyhow::Result<()> {
 ///
 /// One package at a time: together their dependencies would have other features than by themselves, and all of it would
 /// have to be compiled once more.
-fn build() -> anyhow::Result<Vec<PathBuf>> {
+fn build(packages: &[String]) -> anyhow::Result<Vec<PathBuf>> {
     let mut binaries = Vec::new();
-    for package in PACKAGES {
+    for package in packages {
         let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.args(["build", "--release", "--bins", "--message-format=json-render-diagnostics", "--package", package]);
         let output = cargo.stderr(std::process::Stdio::inherit()).output().context("cargo cannot be run")?;
