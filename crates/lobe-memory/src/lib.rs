@@ -45,8 +45,7 @@ impl<T: Pod> Storage<T> {
     /// # Panics
     /// Where so many have no size in bytes.
     pub fn zeros(len: usize) -> Self {
-        let bytes = len.checked_mul(size_of::<T>()).expect("a size in bytes");
-        let lines = bytes.div_ceil(size_of::<Line>());
+        let (bytes, lines) = Self::size(len);
         let place = match bytes {
             ALONE.. => map(bytes).map(Place::Alone),
             SHARED.. => Share::zeros(lines).map(Place::Shared),
@@ -54,6 +53,22 @@ impl<T: Pod> Storage<T> {
         };
         let place = place.unwrap_or_else(|| Place::Heap(bytemuck::zeroed_vec(lines)));
         Storage { place, len, values: PhantomData }
+    }
+
+    /// Bytes of memory that a storage of `len` values holds, at most.
+    ///
+    /// # Panics
+    /// Where so many have no size in bytes.
+    pub fn bytes_for(len: usize) -> usize {
+        let (bytes, lines) = Self::size(len);
+        let lines = if (SHARED..ALONE).contains(&bytes) { pool::rounded(lines) } else { lines };
+        lines * size_of::<Line>()
+    }
+
+    /// Bytes of `len` values, and the lines that they lie on.
+    fn size(len: usize) -> (usize, usize) {
+        let bytes = len.checked_mul(size_of::<T>()).expect("a size in bytes");
+        (bytes, bytes.div_ceil(size_of::<Line>()))
     }
 
     /// A copy of values.
@@ -127,7 +142,7 @@ mod tests {
             assert_eq!(storage.as_slice().len(), len);
             assert!(storage.as_slice().iter().all(|&x| x.to_bits() == 0));
             assert_eq!(storage.as_slice().as_ptr() as usize % 64, 0, "{len} values");
-            assert!(storage.bytes() >= 4 * len);
+            assert!((4 * len..=Storage::<f32>::bytes_for(len)).contains(&storage.bytes()), "{len} values");
             if let Some(last) = storage.as_mut_slice().last_mut() {
                 *last = 1.5;
             }

@@ -67,7 +67,7 @@ impl DerefMut for Share {
 }
 
 /// One of eight lengths between powers of two, so that few are told apart.
-fn rounded(lines: usize) -> usize {
+pub(crate) fn rounded(lines: usize) -> usize {
     lines.next_multiple_of((lines.next_power_of_two() / 16).max(1))
 }
 

@@ -98,9 +98,11 @@ impl<L: Lanes, T: Light> Builder<'_, L, T> {
             let phi = spread(&rows, &by_row, 1 << row_bits);
             let root_v = spread(&columns, &by_column, 1 << (bits - row_bits));
             let grid = Grid::new(&phi, &root_v).map_err(|source| DistributionError::Grid { source })?;
-            let floats = self.blocks().iter().product::<usize>() * self.width() * ((1 << bits) + (1 << row_bits));
-            let bytes = axes + grid.bytes() + 4 * floats + 128;
-            if bits == LEAST_BITS || (bytes <= self.bytes && i32::try_from(floats).is_ok()) {
+            let blended = self.blocks().iter().product::<usize>() * self.width();
+            let (rows, columns) = (blended << row_bits, blended << bits);
+            let sums = Storage::<f32>::bytes_for(rows) + Storage::<f32>::bytes_for(columns);
+            let fits = axes + grid.bytes() + sums <= self.bytes && i32::try_from(rows + columns).is_ok();
+            if bits == LEAST_BITS || fits {
                 return Ok((phi, root_v, grid));
             }
             bits -= 1;
