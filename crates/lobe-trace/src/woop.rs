@@ -20,11 +20,9 @@ pub(crate) struct ShearRay<L: Lanes> {
 /// Which axes become x, y and z.
 #[inline(always)]
 pub(crate) fn axes_of(major: i32) -> [usize; 3] {
-    match major {
-        0 => [1, 2, 0],
-        1 => [2, 0, 1],
-        _ => [0, 1, 2],
-    }
+    // Looked up: of rays that scatter, which axis it is cannot be foreseen.
+    const AXES: [[usize; 3]; 4] = [[1, 2, 0], [2, 0, 1], [0, 1, 2], [0, 1, 2]];
+    AXES[major as usize & 3]
 }
 
 /// Where triangles are met, a value a lane. Only lanes of the mask mean something.

@@ -115,14 +115,7 @@ impl<V: Leaves, const W: usize> Kernel for Single<'_, V, W> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        let Walk { bvh, leaves, rays, found, stacks } = self.walk;
-        let mut live = self.live;
-        while live != 0 {
-            let ray = live.trailing_zeros() as usize;
-            live &= live - 1;
-            let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
-            single::walk(lanes, walk, self.from, ray);
-        }
+        single::walk(lanes, self.walk, self.from, self.live);
     }
 }
 

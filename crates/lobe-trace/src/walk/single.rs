@@ -1,107 +1,225 @@
-//! One ray against all boxes of a node, a child a lane.
+//! One ray against all boxes of a node, a child a lane; several rays under way at once.
+//!
+//! A ray alone waits at every step: for a box to arrive, for the comparison of eight of them, and where it goes on cannot
+//! be foreseen. So some rays take a step each, by turns, and none of what one of them waits for holds up the others.
 
-use lobe_lane::{Floats, Ints, Lanes, MAX_LANES};
+use core::hint::select_unpredictable;
 
-use super::Walk;
+use lobe_lane::{Floats, Lanes, MAX_LANES};
+
 use super::stack::Entry;
-use crate::block::RAYS;
+use super::{Nodes, Walk};
+use crate::block::{Block, Found, RAYS};
 use crate::bvh::{Child, Node};
 use crate::leaves::Leaves;
 use crate::slab::{Sides, SlabRay, child_bits};
 
+/// The rays of `live`, from a child on.
 #[inline(always)]
-pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_, V, W>, from: Child, ray: usize) {
+pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_, V, W>, from: Child, live: u64) {
     let Walk { bvh, leaves, rays, found, stacks } = walk;
-    let ray = ray & (RAYS - 1);
-    let slab = SlabRay::single(lanes, rays, ray);
-    let sides = Sides::of(rays.octant(ray));
-    let t_min = lanes.splat(rays.t_min[ray]);
-    let nodes = bvh.all;
-    let stack = stacks.single.as_mut_slice();
-    let ready = leaves.ready(lanes, rays, ray);
-    let mut best = found.t[ray];
-    let mut keys = [0; MAX_LANES];
-    let mut waiting = 0;
-    let mut child = from;
-    loop {
-        if child.is_leaf() {
-            leaves.single(lanes, child, rays, ray, ready, found);
-            best = found.t[ray];
-        } else {
-            let node = &nodes[child.index()];
-            let mut bits = 0;
-            let mut slot = 0;
-            while slot < W {
-                let [near, far] = sides.children(lanes, node, slot);
-                let [enter, leave] = slab.interval(lanes, near, far);
-                let enter = enter.max(t_min);
-                bits |= child_bits::<L, W>(enter.le(leave.min(lanes.splat(best))), slot);
-                lanes.store_int(&mut keys[slot..], ordered(lanes, enter));
-                slot += L::LANES;
-            }
-            // Most often one child is met, or none.
-            if bits.is_power_of_two() {
-                child = node.child(bits.trailing_zeros() as usize);
-                continue;
-            }
-            if bits != 0 {
-                // The nearest is next; the others wait, the nearest of them on top. Which of two is nearer cannot be
-                // foreseen, so entries are sorted without branches.
-                let one = entry(node, &keys, bits);
-                bits &= bits - 1;
-                let other = entry(node, &keys, bits);
-                bits &= bits - 1;
-                let (mut next, far) = (one.min(other), one.max(other));
-                bvh.prefetch(lanes, far.child());
-                let floor = waiting;
-                stack[waiting] = far;
-                waiting += 1;
-                while bits != 0 {
-                    let other = entry(node, &keys, bits);
-                    bits &= bits - 1;
-                    bvh.prefetch(lanes, other.child());
-                    let mut far = next.max(other);
-                    next = next.min(other);
-                    let mut place = floor;
-                    while place < waiting {
-                        let below = stack[place];
-                        stack[place] = below.max(far);
-                        far = below.min(far);
-                        place += 1;
-                    }
-                    stack[waiting] = far;
-                    waiting += 1;
-                }
-                child = next.child();
-                continue;
-            }
+    let mut keys = [0.0; MAX_LANES];
+    let mut flock = Flock::new(stacks.single.as_mut_slice(), from, live);
+    // In one round each ray at a node takes a step, then each at a leaf.
+    while flock.nodes.count + flock.leaves.count > 0 {
+        let mut turns = flock.nodes.take();
+        while let Some(ray) = turns.next() {
+            let State { child, top, .. } = flock.states[ray];
+            let node = &bvh.all[child.index()];
+            let bits = meet(lanes, node, rays, found, ray, &mut keys);
+            let top = flock.push(top as usize, node, &keys, bits);
+            flock.go_on(lanes, &bvh, found, ray, top);
         }
-        // A child that begins exactly at the best hit may still hold one that wins the tie.
-        let end = Entry::until(best);
-        loop {
-            if waiting == 0 {
-                return;
+        let mut turns = flock.leaves.take();
+        while let Some(ray) = turns.next() {
+            let State { child, top, bottom } = flock.states[ray];
+            leaves.single(lanes, child, rays, ray, leaves.ready(lanes, rays, ray), found);
+            let ended = leaves.any() && found.t[ray] == f32::NEG_INFINITY;
+            flock.go_on(lanes, &bvh, found, ray, if ended { bottom } else { top } as usize);
+        }
+    }
+}
+
+/// A ray on its way.
+#[derive(Clone, Copy)]
+struct State {
+    /// Where it is.
+    child: Child,
+    /// Its part of the stack, and where its next entry goes.
+    bottom: u32,
+    top: u32,
+}
+
+/// Rays whose turn it is.
+#[derive(Clone, Copy)]
+struct List {
+    rays: [u8; RAYS],
+    count: usize,
+}
+
+/// What a list had when a round began.
+struct Turns {
+    list: List,
+    at: usize,
+}
+
+impl List {
+    const EMPTY: Self = List { rays: [0; RAYS], count: 0 };
+
+    /// Adds a ray where `is`.
+    #[inline(always)]
+    fn add(&mut self, ray: usize, is: bool) {
+        self.rays[self.count & (RAYS - 1)] = ray as u8;
+        self.count += usize::from(is);
+    }
+
+    #[inline(always)]
+    fn take(&mut self) -> Turns {
+        let list = *self;
+        self.count = 0;
+        Turns { list, at: 0 }
+    }
+}
+
+impl Turns {
+    #[inline(always)]
+    fn next(&mut self) -> Option<usize> {
+        if self.at == self.list.count {
+            return None;
+        }
+        let ray = self.list.rays[self.at & (RAYS - 1)];
+        self.at += 1;
+        Some(ray as usize & (RAYS - 1))
+    }
+}
+
+/// The rays under way.
+struct Flock<'a> {
+    states: [State; RAYS],
+    nodes: List,
+    leaves: List,
+    stack: &'a mut [Entry],
+}
+
+impl<'a> Flock<'a> {
+    #[inline(always)]
+    fn new(stack: &'a mut [Entry], from: Child, live: u64) -> Self {
+        let depth = (stack.len() / RAYS) as u32;
+        let states = [State { child: from, bottom: 0, top: 0 }; RAYS];
+        let mut flock = Flock { states, nodes: List::EMPTY, leaves: List::EMPTY, stack };
+        let mut left = live;
+        let mut at = 0;
+        while left != 0 {
+            let ray = left.trailing_zeros() as usize;
+            left &= left - 1;
+            flock.states[ray] = State { child: from, bottom: at, top: at };
+            flock.enlist(ray, from);
+            at += depth;
+        }
+        flock
+    }
+
+    #[inline(always)]
+    fn enlist(&mut self, ray: usize, child: Child) {
+        self.nodes.add(ray, !child.is_leaf());
+        self.leaves.add(ray, child.is_leaf());
+    }
+
+    /// Puts the children that have a bit on the stack, the nearest on top. Returns where the next entry goes.
+    #[inline(always)]
+    fn push<const W: usize>(
+        &mut self,
+        mut top: usize,
+        node: &Node<W>,
+        keys: &[f32; MAX_LANES],
+        mut bits: u32,
+    ) -> usize {
+        // How many children are met, and which of two is nearer, cannot be foreseen: up to two take no branch.
+        let one = entry(node, keys, bits);
+        let more = bits & bits.wrapping_sub(1);
+        let other = entry(node, keys, more);
+        let (mut near, mut far) = (one.min(other), one.max(other));
+        let floor = top;
+        self.stack[top] = far;
+        top += usize::from(more != 0);
+        bits = more & more.wrapping_sub(1);
+        while bits != 0 {
+            let other = entry(node, keys, bits);
+            bits &= bits - 1;
+            far = near.max(other);
+            near = near.min(other);
+            let mut place = floor;
+            while place < top {
+                let below = self.stack[place];
+                self.stack[place] = below.max(far);
+                far = below.min(far);
+                place += 1;
             }
-            waiting -= 1;
-            if stack[waiting] <= end {
-                child = stack[waiting].child();
-                break;
+            self.stack[top] = far;
+            top += 1;
+        }
+        self.stack[top] = near;
+        // Where nothing was met, neither of the two is there.
+        if near == Entry::LAST { floor } else { top + 1 }
+    }
+
+    /// Finds out where a ray goes next: to what waits on its stack below `top`.
+    #[inline(always)]
+    fn go_on<L: Lanes, const W: usize>(
+        &mut self,
+        lanes: L,
+        bvh: &Nodes<'_, W>,
+        found: &Found,
+        ray: usize,
+        mut top: usize,
+    ) {
+        let state = &mut self.states[ray];
+        // A child that begins exactly at the best hit may still hold one that wins the tie.
+        let end = Entry::until(found.t[ray]);
+        while top != state.bottom as usize {
+            top -= 1;
+            let entry = self.stack[top];
+            if entry <= end {
+                let child = entry.child();
+                bvh.prefetch(lanes, child);
+                state.child = child;
+                state.top = top as u32;
+                self.enlist(ray, child);
+                return;
             }
         }
     }
 }
 
-/// Numbers whose order as integers is that of the floats.
+/// The bits of the children that a ray meets before its best hit, and where it enters them.
 #[inline(always)]
-fn ordered<L: Lanes>(lanes: L, x: L::F) -> L::I {
-    let bits = x.bits();
-    let negative = lanes.splat_int(0) - bits.shr::<31>();
-    bits ^ (negative & lanes.splat_int(i32::MAX))
+fn meet<L: Lanes, const W: usize>(
+    lanes: L,
+    node: &Node<W>,
+    rays: &Block,
+    found: &Found,
+    ray: usize,
+    keys: &mut [f32; MAX_LANES],
+) -> u32 {
+    let slab = SlabRay::single(lanes, rays, ray);
+    let sides = Sides::of(rays.octant(ray));
+    let (t_min, best, zero) = (lanes.splat(rays.t_min[ray]), lanes.splat(found.t[ray]), lanes.splat(0.0));
+    let mut bits = 0;
+    let mut slot = 0;
+    while slot < W {
+        let [near, far] = sides.children(lanes, node, slot);
+        let [enter, leave] = slab.interval(lanes, near, far);
+        let enter = enter.max(t_min);
+        bits |= child_bits::<L, W>(enter.le(leave.min(best)), slot);
+        lanes.store(&mut keys[slot..], enter.max(zero));
+        slot += L::LANES;
+    }
+    bits
 }
 
-/// The first child of `bits`.
+/// The first child of `bits`; the last entry of all where there is none.
 #[inline(always)]
-fn entry<const W: usize>(node: &Node<W>, keys: &[i32; MAX_LANES], bits: u32) -> Entry {
+fn entry<const W: usize>(node: &Node<W>, keys: &[f32; MAX_LANES], bits: u32) -> Entry {
     let slot = bits.trailing_zeros() as usize & (W - 1);
-    Entry::new(keys[slot], node.child(slot))
+    select_unpredictable(bits == 0, Entry::LAST, Entry::new(keys[slot], node.child(slot)))
 }

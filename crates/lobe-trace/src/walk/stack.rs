@@ -1,5 +1,6 @@
 //! What waits while a tree is walked.
 
+use crate::block::RAYS;
 use crate::bvh::Child;
 
 /// A child to be visited and where the ray enters it, in one integer so that the nearest is the least.
@@ -7,19 +8,20 @@ use crate::bvh::Child;
 pub(crate) struct Entry(i64);
 
 impl Entry {
-    /// `key` is an integer in the order of the floats.
+    /// Behind all others.
+    pub const LAST: Self = Entry(i64::MAX);
+
+    /// Of a child that is entered at `key`, which is not below zero: the bits of such floats are in their order.
     #[inline(always)]
-    pub fn new(key: i32, child: Child) -> Self {
-        Entry((key as i64) << 32 | child.bits() as i64)
+    pub fn new(key: f32, child: Child) -> Self {
+        Entry((key.to_bits() as i64) << 32 | child.bits() as i64)
     }
 
-    /// Not below any entry of a child that is entered at `t` or before.
+    /// Not below any entry of a child that is entered at `t` or before; where `t` is below zero, of one entered at zero.
     #[inline(always)]
     pub fn until(t: f32) -> Self {
-        // Both zeros are one place.
-        let bits = (t + 0.0).to_bits() as i32;
-        let key = bits ^ (bits >> 31 & i32::MAX);
-        Entry((key as i64) << 32 | u32::MAX as i64)
+        let t = if t > 0.0 { t } else { 0.0 };
+        Entry((t.to_bits() as i64) << 32 | u32::MAX as i64)
     }
 
     #[inline(always)]
@@ -50,9 +52,9 @@ pub(crate) struct Stacks {
 impl Stacks {
     /// For trees that keep at most `depth` references waiting.
     pub fn new(depth: usize) -> Self {
-        let entry = Entry::new(0, Child::node(0));
+        let entry = Entry::new(0.0, Child::node(0));
         Stacks {
-            single: vec![entry; depth],
+            single: vec![entry; RAYS * depth],
             group: vec![Child::node(0); depth],
             enter: vec![[0.0; lobe_lane::MAX_LANES]; depth],
             large: vec![LargeEntry { key: 0.0, node: 0, slot: 0, bundles: 0 }; depth],
