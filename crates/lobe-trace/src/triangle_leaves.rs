@@ -8,7 +8,7 @@ use crate::bvh::Child;
 use crate::leaves::{Around, Leaves};
 use crate::slab::{Sides, SlabRay};
 use crate::triangles::{SLOTS, TriangleBlock};
-use crate::woop::{ShearRay, axes_of};
+use crate::woop::{ShearRay, axes_of, axes_of_any};
 
 /// Triangles of one instance.
 pub(crate) struct Triangles<'a> {
@@ -217,7 +217,7 @@ impl Leaves for Triangles<'_> {
 
     #[inline(always)]
     fn ready<L: Lanes>(&self, lanes: L, rays: &Block, ray: usize) -> OneRay<L> {
-        (ShearRay::single(lanes, rays, ray), axes_of(rays.major[ray & (RAYS - 1)]))
+        (ShearRay::single(lanes, rays, ray), axes_of_any(rays.major[ray & (RAYS - 1)]))
     }
 
     #[inline(always)]
@@ -276,7 +276,8 @@ impl Leaves for Triangles<'_> {
         while alone != 0 {
             let ray = alone.trailing_zeros() as usize & (RAYS - 1);
             alone &= alone - 1;
-            let any = self.one(lanes, (block, count), (rays, ray), self.ready(lanes, rays, ray), found);
+            let ready = (ShearRay::single(lanes, rays, ray), axes_of(rays.major[ray]));
+            let any = self.one(lanes, (block, count), (rays, ray), ready, found);
             hit |= u64::from(any) << ray;
         }
         hit

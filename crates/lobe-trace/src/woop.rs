@@ -17,10 +17,19 @@ pub(crate) struct ShearRay<L: Lanes> {
     pivot: [L::F; 3],
 }
 
-/// Which axes become x, y and z.
+/// Which axes become x, y and z, for rays that mostly agree in it.
 #[inline(always)]
 pub(crate) fn axes_of(major: i32) -> [usize; 3] {
-    // Looked up: of rays that scatter, which axis it is cannot be foreseen.
+    match major {
+        0 => [1, 2, 0],
+        1 => [2, 0, 1],
+        _ => [0, 1, 2],
+    }
+}
+
+/// The same without branches, for rays of which one tells nothing of the next.
+#[inline(always)]
+pub(crate) fn axes_of_any(major: i32) -> [usize; 3] {
     const AXES: [[usize; 3]; 4] = [[1, 2, 0], [2, 0, 1], [0, 1, 2], [0, 1, 2]];
     AXES[major as usize & 3]
 }

@@ -7,7 +7,7 @@ use core::hint::select_unpredictable;
 
 use lobe_lane::{Floats, Lanes, MAX_LANES};
 
-use super::stack::Entry;
+use super::stack::{Entry, State};
 use super::{Nodes, Walk};
 use crate::block::{Block, Found, RAYS};
 use crate::bvh::{Child, Node};
@@ -19,7 +19,7 @@ use crate::slab::{Sides, SlabRay, child_bits};
 pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_, V, W>, from: Child, live: u64) {
     let Walk { bvh, leaves, rays, found, stacks } = walk;
     let mut keys = [0.0; MAX_LANES];
-    let mut flock = Flock::new(stacks.single.as_mut_slice(), from, live);
+    let mut flock = Flock::new(&mut stacks.states, stacks.single.as_mut_slice(), from, live);
     // In one round each ray at a node takes a step, then each at a leaf.
     while flock.nodes.count + flock.leaves.count > 0 {
         let mut turns = flock.nodes.take();
@@ -38,16 +38,6 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
             flock.go_on(lanes, &bvh, found, ray, if ended { bottom } else { top } as usize);
         }
     }
-}
-
-/// A ray on its way.
-#[derive(Clone, Copy)]
-struct State {
-    /// Where it is.
-    child: Child,
-    /// Its part of the stack, and where its next entry goes.
-    bottom: u32,
-    top: u32,
 }
 
 /// Rays whose turn it is.
@@ -95,7 +85,7 @@ impl Turns {
 
 /// The rays under way.
 struct Flock<'a> {
-    states: [State; RAYS],
+    states: &'a mut [State; RAYS],
     nodes: List,
     leaves: List,
     stack: &'a mut [Entry],
@@ -103,9 +93,8 @@ struct Flock<'a> {
 
 impl<'a> Flock<'a> {
     #[inline(always)]
-    fn new(stack: &'a mut [Entry], from: Child, live: u64) -> Self {
+    fn new(states: &'a mut [State; RAYS], stack: &'a mut [Entry], from: Child, live: u64) -> Self {
         let depth = (stack.len() / RAYS) as u32;
-        let states = [State { child: from, bottom: 0, top: 0 }; RAYS];
         let mut flock = Flock { states, nodes: List::EMPTY, leaves: List::EMPTY, stack };
         let mut left = live;
         let mut at = 0;

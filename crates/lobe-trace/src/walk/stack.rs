@@ -30,6 +30,16 @@ impl Entry {
     }
 }
 
+/// A single ray on its way.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct State {
+    /// Where it is.
+    pub child: Child,
+    /// Its part of the stack, and where its next entry goes.
+    pub bottom: u32,
+    pub top: u32,
+}
+
 /// A child of a node to be visited by some bundles, a bit each; `key` is below where any of their rays enters it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LargeEntry {
@@ -43,6 +53,7 @@ pub(crate) struct LargeEntry {
 #[derive(Clone, Debug)]
 pub(crate) struct Stacks {
     pub single: Vec<Entry>,
+    pub states: [State; RAYS],
     pub group: Vec<Child>,
     /// Where the rays of a group enter the children of [`group`](Stacks::group).
     pub enter: Vec<[f32; lobe_lane::MAX_LANES]>,
@@ -55,6 +66,7 @@ impl Stacks {
         let entry = Entry::new(0.0, Child::node(0));
         Stacks {
             single: vec![entry; RAYS * depth],
+            states: [State { child: Child::node(0), bottom: 0, top: 0 }; RAYS],
             group: vec![Child::node(0); depth],
             enter: vec![[0.0; lobe_lane::MAX_LANES]; depth],
             large: vec![LargeEntry { key: 0.0, node: 0, slot: 0, bundles: 0 }; depth],
