@@ -35,7 +35,10 @@ fn contest(exchange: &mut Exchange, input: Input) -> anyhow::Result<Contest> {
         count: COUNT,
         lobe: Contender::new("lobe", Contender::UNCHECKED, vec![f32::NAN; 3 * COUNT], run, Vec::clone),
         inside: Vec::new(),
-        outside: vec![Outside { name: "Mitsuba principled", program: "mitsuba", task }],
+        outside: vec![
+            Outside::new("Mitsuba principled", "mitsuba", &task),
+            Outside::wider("Mitsuba principled, AVX-512", "mitsuba-wide", task),
+        ],
         agreement: None,
         judge: None,
         goal: Some(1.0),

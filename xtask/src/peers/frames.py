@@ -1,4 +1,4 @@
-"""Frames by Mitsuba 3 on request: `python frames.py VARIANT TASKS`.
+"""Frames by Mitsuba 3 on request: `python frames.py VARIANT TASKS [wide]`.
 
 Answers as `serve.py` does, with path-traced frames of scenes: `values` writes the linear RGB of two frames with other
 random numbers, rows from the top.
@@ -15,7 +15,7 @@ os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
 import drjit as dr
 import mitsuba as mi
 import numpy as np
-from serve import serve
+from serve import choose_lanes, serve
 
 
 class Frame:
@@ -82,6 +82,8 @@ def main():
     mi.set_log_level(mi.LogLevel.Error)
     # Without a usable LLVM this ends the process, so do it before saying that all is well.
     str(mi.Float(1) + 1)
+    if variant.startswith("llvm"):
+        choose_lanes("wide" in sys.argv[3:])
     # The first run compiles kernels.
     serve(importlib.metadata.version("mitsuba"), lambda name: Frame(tasks[name]), warm_runs=1)
 

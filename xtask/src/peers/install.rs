@@ -10,28 +10,37 @@ use super::exchange::Exchange;
 /// The wheels: package and version, so that figures compare from one day to another.
 const WHEELS: [(&str, &str); 3] = [("interpn", "0.11.2"), ("mitsuba", "3.9.1"), ("scipy", "1.17.1")];
 
+/// Asks Mitsuba for vectors wider than this library's, where the processor has them.
+const WIDE: &str = "wide";
+
 /// The programs by name, ready to be started, or why they cannot be. `tasks` is for those that are told of their tasks in
 /// a file, `exchange` has the files of the others.
 pub fn all(out: &Path, tasks: &Path, exchange: &Exchange) -> Vec<(&'static str, anyhow::Result<Command>)> {
     let environment = environment(out).map_err(|error| format!("{error:#}"));
+    let python = |name: &str, text: &str, arguments: &[&str]| {
+        environment.clone().map_err(anyhow::Error::msg).and_then(|python| {
+            let mut command = script(out, &python, name, text)?;
+            command.arg(arguments[0]).arg(tasks).args(&arguments[1..]);
+            Ok((python, command))
+        })
+    };
+    let peer = |arguments: &[&str]| python("peers.py", include_str!("peers.py"), arguments);
+    let frames = |arguments: &[&str]| python("frames.py", include_str!("frames.py"), arguments);
     let wheel = |(package, version): (&'static str, &str)| {
-        let command = environment.clone().map_err(anyhow::Error::msg).and_then(|python| {
+        let command = peer(&[package]).and_then(|(python, command)| {
             install(&python, package, version)?;
-            let mut command = script(out, &python, "peers.py", include_str!("peers.py"))?;
-            command.arg(package).arg(tasks);
             Ok(command)
         });
         (package, command)
     };
     let mut programs: Vec<_> = WHEELS.into_iter().map(wheel).collect();
-    for (name, variant) in [("mitsuba-llvm", "llvm_ad_rgb"), ("mitsuba-scalar", "scalar_rgb")] {
-        let command = environment.clone().map_err(anyhow::Error::msg).and_then(|python| {
-            let mut command = script(out, &python, "frames.py", include_str!("frames.py"))?;
-            command.arg(variant).arg(tasks);
-            Ok(command)
-        });
-        programs.push((name, command));
-    }
+    let command = |found: anyhow::Result<(std::path::PathBuf, Command)>| found.map(|(_, command)| command);
+    programs.extend([
+        ("mitsuba-wide", command(peer(&["mitsuba", WIDE]))),
+        ("mitsuba-llvm", command(frames(&["llvm_ad_rgb"]))),
+        ("mitsuba-llvm-wide", command(frames(&["llvm_ad_rgb", WIDE]))),
+        ("mitsuba-scalar", command(frames(&["scalar_rgb"]))),
+    ]);
     let sleef = Source { name: "acos", text: include_str!("acos.c"), libraries: &["sleef"], package: "libsleef-dev" };
     programs.push(("sleef", sleef.compiled(out, &exchange.cosines())));
     let embree = Source {

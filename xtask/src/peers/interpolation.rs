@@ -52,7 +52,7 @@ fn contest(
     {
         let task = format!("{name}-{}-{float}", input.name());
         exchange.task(&task, json!({ "knots": knots, "values": values, "points": points, "float": float }));
-        outside.push(Outside { name: peer, program, task });
+        outside.push(Outside::new(peer, program, task));
     }
 
     let table = Table::new(samples, &Edges::default())?;

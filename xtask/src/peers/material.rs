@@ -158,7 +158,10 @@ impl<'a> Subject<'a> {
             count: COUNT,
             lobe,
             inside: Vec::new(),
-            outside: vec![Outside { name: "Mitsuba measured", program: "mitsuba", task: name }],
+            outside: vec![
+                Outside::new("Mitsuba measured", "mitsuba", &name),
+                Outside::wider("Mitsuba measured, AVX-512", "mitsuba-wide", name),
+            ],
             // Both draw in single precision, whose rounding moves a direction far within a dark cell.
             agreement: Some(Agreement {
                 relative: if id == "rgl-sample" { 1e-3 } else { 1e-4 },

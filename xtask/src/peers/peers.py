@@ -1,4 +1,4 @@
-"""Runs peers of lobe on request: `python peers.py PACKAGE TASKS`, answering as `serve.py` does.
+"""Runs peers of lobe on request: `python peers.py PACKAGE TASKS [wide]`, answering as `serve.py` does.
 
 TASKS is a JSON file, an object of tasks by name. Arrays come from files of little-endian f32.
 """
@@ -8,7 +8,7 @@ import json
 import sys
 
 import numpy as np
-from serve import serve
+from serve import choose_lanes, serve
 
 
 def floats(path, rows):
@@ -56,7 +56,7 @@ class Interpn:
 
 
 class Mitsuba:
-    """A BSDF of Mitsuba 3, compiled for this processor, one wavefront a run."""
+    """A BSDF of Mitsuba 3, one wavefront a run."""
 
     def __init__(self, task):
         import drjit as dr
@@ -116,6 +116,7 @@ def main():
 
         mi.set_variant("llvm_ad_rgb")
         str(mi.Float([1, 2]) + 1)
+        choose_lanes("wide" in sys.argv[3:])
     # The first run compiles kernels, the second finds them.
     serve(importlib.metadata.version(package), lambda name: KINDS[package](tasks[name]), warm_runs=2)
 

@@ -6,11 +6,30 @@
 What it takes to get a task into place is not timed.
 """
 
+import ctypes
 import gc
+import pathlib
 import sys
 import time
 
 import numpy as np
+
+
+def choose_lanes(wide):
+    """Has Dr.Jit compile for AVX2, which is what the library under comparison has; or, if `wide`, leaves it its choice and
+    ends the program where that is no wider. To be called once a variant is chosen that needs LLVM."""
+    import drjit
+
+    library = next(pathlib.Path(drjit.__file__).parent.glob("libdrjit-core.*"))
+    core = ctypes.CDLL(str(library))
+    lanes = getattr(core, "_Z21jit_llvm_vector_widthv")
+    target = getattr(core, "_Z19jit_llvm_set_targetPKcS0_j")
+    target.argtypes = [ctypes.c_char_p, ctypes.c_char_p, ctypes.c_uint32]
+    if not wide:
+        target(b"haswell", None, 8)
+        assert lanes() == 8
+    elif lanes() <= 8:
+        sys.exit("this processor has no vectors wider than those of AVX2")
 
 
 def serve(version, make, warm_runs):

@@ -37,7 +37,7 @@ pub fn acos(exchange: &Exchange) -> anyhow::Result<Contest> {
         count: COUNT * PASSES,
         lobe: Contender::new("lobe", Contender::UNCHECKED, vec![f32::NAN; COUNT], run, Vec::clone),
         inside: Vec::new(),
-        outside: vec![Outside { name: "SLEEF acosf8_u35", program: "sleef", task: "acos".into() }],
+        outside: vec![Outside::new("SLEEF acosf8_u35", "sleef", "acos")],
         // Angles up to pi, each within its bound: 3.5 units in the last place of SLEEF's.
         agreement: Some(Agreement { relative: sum, floor: 1.0, outliers: 0.0 }),
         judge: None,

@@ -26,6 +26,8 @@ const SIZE: [u32; 2] = [256, 256];
 const SAMPLES: u32 = 8;
 /// Programs that render by the other renderer, one a variant of it, and what is shown.
 const VARIANTS: [(&str, &str); 2] = [("mitsuba-llvm", "Mitsuba llvm_ad_rgb"), ("mitsuba-scalar", "Mitsuba scalar_rgb")];
+/// The first of these with vectors wider than this renderer's, where the processor has them.
+const WIDER: (&str, &str) = ("mitsuba-llvm-wide", "Mitsuba llvm_ad_rgb, AVX-512");
 
 /// What a room is made of, and how many times the speed of each variant shall be reached in it.
 struct Subject {
@@ -59,6 +61,10 @@ pub fn all(data: &Path, exchange: &mut Exchange) -> anyhow::Result<Vec<Contest>>
         let scene = room.task(&exchange.directory().join(&task), SIZE, SAMPLES)?;
         exchange.task(&task, scene);
         for ((program, shown), goal) in VARIANTS.into_iter().zip(goals) {
+            let mut outside = vec![Outside::new(shown, program, &task)];
+            if (program, shown) == VARIANTS[0] {
+                outside.push(Outside::wider(WIDER.1, WIDER.0, &task));
+            }
             contests.push(Contest {
                 id: PREFIX,
                 on: format!("{name}, {} triangles", room.triangles()),
@@ -66,7 +72,7 @@ pub fn all(data: &Path, exchange: &mut Exchange) -> anyhow::Result<Vec<Contest>>
                 count: (SIZE[0] * SIZE[1] * SAMPLES) as usize,
                 lobe: contender(&room)?,
                 inside: Vec::new(),
-                outside: vec![Outside { name: shown, program, task: task.clone() }],
+                outside,
                 // Noise is compared by itself.
                 agreement: None,
                 judge: None,
