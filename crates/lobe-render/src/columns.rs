@@ -13,6 +13,13 @@ pub(crate) type Column = [f32; RAYS];
 
 pub(crate) const NOTHING: Column = [0.0; RAYS];
 
+/// Makes room for `n` entries, which need not be overwritten where there is room already.
+pub(crate) fn hold<T: Clone>(entries: &mut Vec<T>, n: usize, nothing: T) {
+    if entries.len() < n {
+        entries.resize(n, nothing);
+    }
+}
+
 /// Vectors from ray `at` on.
 #[inline(always)]
 pub(crate) fn load<L: Lanes>(lanes: L, columns: &[Column], at: usize) -> [L::F; 3] {

@@ -4,7 +4,7 @@ use lobe::{Backend, Floats, Kernel, Lanes};
 use lobe_lane::Mask;
 use lobe_trace::{HitSoA, RaySoA};
 
-use crate::columns::{Column, NOTHING, RAYS, load, store, vector};
+use crate::columns::{Column, NOTHING, RAYS, hold, load, store, vector};
 use crate::vec3::Vec3;
 use crate::vectors::{across, blend, either, largest, less, minus, perpendicular, plus, product, times, unit_or};
 use crate::world::{Corner, World};
@@ -116,7 +116,7 @@ impl Hits {
     ) {
         self.parts.clear();
         self.wo.clear();
-        self.blocks.resize(which.len().div_ceil(RAYS), Places::NOTHING);
+        hold(&mut self.blocks, which.len().div_ceil(RAYS), Places::NOTHING);
         backend.run(Finding { world, which, rays, found, hits: self });
     }
 }

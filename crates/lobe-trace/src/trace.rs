@@ -26,13 +26,15 @@ impl<'s, const W: usize> Tracer<'s, W> {
     /// Working memory for a scene.
     pub fn new(scene: &'s Scene<W>) -> Self {
         let deepest = scene.trees.iter().map(|tree| tree.bvh.stack).max().unwrap_or(0);
+        // A scene of one mesh in its own place is walked by one walk, not by one within another.
+        let below = if scene.plain().is_some() { 0 } else { deepest };
         Tracer {
             scene,
             rays: Block::new(),
             local: Block::new(),
             found: Found::new(),
             top: Stacks::new(scene.top.stack.max(deepest)),
-            bottom: Stacks::new(deepest),
+            bottom: Stacks::new(below),
         }
     }
 

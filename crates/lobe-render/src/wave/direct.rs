@@ -10,7 +10,7 @@ use lobe_trace::{Occluded, RayClass, RaySoA};
 
 use super::leave::{Leaving, Start, leave};
 use super::{Wave, against, rays};
-use crate::columns::{Column, NOTHING, RAYS, store, vector};
+use crate::columns::{Column, NOTHING, RAYS, hold, store, vector};
 use crate::hit::Hits;
 use crate::integrator::Integrator;
 use crate::light::Lights;
@@ -96,7 +96,7 @@ impl<const C: usize> Wave<'_, C> {
         self.draw(Use::Light(depth + 64 * light.unwrap_or(0) as u32));
         let Direct { asked, reached, wi, wo, parts, .. } = &mut self.direct;
         let n = self.hits.len();
-        asked.resize(n.div_ceil(RAYS), Asked::NOTHING);
+        hold(asked, n.div_ceil(RAYS), Asked::NOTHING);
         // One more, to be written over.
         reached.resize(n + 1, 0);
         wi.resize(n + 1, [0.0; 3]);

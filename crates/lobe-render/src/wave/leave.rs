@@ -2,7 +2,7 @@
 
 use lobe::{Backend, Kernel, Lanes};
 
-use crate::columns::{Column, NOTHING, RAYS, store, vector};
+use crate::columns::{Column, NOTHING, RAYS, hold, store, vector};
 use crate::hit::Hits;
 use crate::vec3::Vec3;
 
@@ -40,7 +40,7 @@ impl Leaving {
 
 /// The rays from hits into the directions `local`, of which there are as many as fill the lanes.
 pub(super) fn leave(backend: Backend, hits: &Hits, start: Start, local: &[Vec3], out: &mut Vec<Leaving>) {
-    out.resize(hits.len().div_ceil(RAYS), Leaving::NOTHING);
+    hold(out, hits.len().div_ceil(RAYS), Leaving::NOTHING);
     backend.run(Leave { hits, start, local, out });
 }
 

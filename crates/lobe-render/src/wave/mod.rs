@@ -294,7 +294,17 @@ fn morton(tile: Rect) -> Vec<[u32; 2]> {
 }
 
 fn every_other_bit(code: u64) -> u32 {
-    (0..32).fold(0, |bits, k| bits | ((code >> (2 * k) & 1) as u32) << k)
+    let mut bits = code & 0x5555_5555_5555_5555;
+    for (shift, mask) in [
+        (1, 0x3333_3333_3333_3333),
+        (2, 0x0f0f_0f0f_0f0f_0f0f),
+        (4, 0x00ff_00ff_00ff_00ff),
+        (8, 0x0000_ffff_0000_ffff),
+        (16, 0xffff_ffff),
+    ] {
+        bits = (bits | bits >> shift) & mask;
+    }
+    bits as u32
 }
 
 #[cfg(test)]

@@ -18,10 +18,9 @@ impl<const W: usize> WideBvh<W> {
         };
         let plans = plans::<W>(binary, leaf);
         let mut nodes: Vec<Node<W>> = Vec::with_capacity(binary.order.len() / W + 1);
-        let mut waiting = vec![Waiting { at: 0, depth: 1, parent: 0, slot: 0 }];
-        let mut deepest = 1;
-        while let Some(Waiting { at, depth, parent, slot }) = waiting.pop() {
-            deepest = deepest.max(depth);
+        let mut waiting = vec![Waiting { at: 0, beside: 0, parent: 0, slot: 0 }];
+        let mut most = 0;
+        while let Some(Waiting { at, beside, parent, slot }) = waiting.pop() {
             let index = nodes.len();
             // The root has no parent, and is no node yet.
             if let Some(parent) = nodes.get_mut(parent) {
@@ -29,19 +28,20 @@ impl<const W: usize> WideBvh<W> {
             }
             let mut node = Node::EMPTY;
             let (children, count) = widen::<W>(binary, &plans, at);
+            most = most.max(beside + count);
             for (slot, &child) in children[..count].iter().rev().enumerate() {
                 let source = &binary.nodes[child];
                 let reference = if plans[child].is_leaf() {
                     emit(source.members())
                 } else {
-                    waiting.push(Waiting { at: child, depth: depth + 1, parent: index, slot });
+                    waiting.push(Waiting { at: child, beside: beside + count - 1, parent: index, slot });
                     Child::node(0)
                 };
                 node.set(slot, source.bounds, reference);
             }
             nodes.push(node);
         }
-        WideBvh { nodes: Storage::copied(&nodes), bounds: root.bounds, stack: deepest * (W - 1) + 1 }
+        WideBvh { nodes: Storage::copied(&nodes), bounds: root.bounds, stack: most + 1 }
     }
 }
 
@@ -51,7 +51,8 @@ const LEAF_COST: f32 = 1.5;
 /// A binary node that is to become a wide one, and the slot of the parent that is to refer to it.
 struct Waiting {
     at: usize,
-    depth: usize,
+    /// How many others wait at most while it is visited.
+    beside: usize,
     parent: usize,
     slot: usize,
 }

@@ -104,7 +104,7 @@ pub struct WideBvh<const W: usize> {
     /// Node 0 is the root, and always there.
     pub(crate) nodes: Storage<Node<W>>,
     pub(crate) bounds: Aabb,
-    /// How many references may wait at once while the tree is walked.
+    /// Room for the references that may wait at once while the tree is walked, and one more to be written over.
     pub(crate) stack: usize,
 }
 
