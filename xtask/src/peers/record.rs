@@ -137,8 +137,9 @@ Written by `cargo xtask peers --record`; [benchmarking](benchmarking.md) says ho
 
 const READING: &str = "Times are nanoseconds of processor time for each lookup, evaluation, density, sample or value, the least of all turns,
 one thread. `speed` is the peer's time divided by lobe's; the goal stands at the fastest peer of a question with vectors no
-wider than lobe's, which are those of AVX2. `difference` is how far the values are from the peer's, relative. Where a ray is answered otherwise by the peer, all triangles are tried
-in double precision: there lobe has to be right, and rays that the peer answers wrongly are counted beside the difference.
+wider than lobe's, which are those of AVX2. `difference` is how far the values are from the peer's, relative. Where a ray is
+answered otherwise by the peer, all triangles are tried in double precision: there lobe has to be right, and rays that the
+peer answers wrongly are counted beside the difference.
 
 ";
 
