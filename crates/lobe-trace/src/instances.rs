@@ -70,11 +70,6 @@ fn carried<L: Lanes>(lanes: L, map: &Affine, x: [L::F; 3], w: f32) -> [L::F; 3] 
 }
 
 impl<const W: usize> Leaves for Instances<'_, W> {
-    type Ready<L: Lanes> = ();
-
-    #[inline(always)]
-    fn ready<L: Lanes>(&self, _lanes: L, _rays: &Block, _ray: usize) {}
-
     #[inline(always)]
     fn any(&self) -> bool {
         self.any
@@ -107,7 +102,7 @@ impl<const W: usize> Leaves for Instances<'_, W> {
     }
 
     #[inline(always)]
-    fn single<L: Lanes>(&mut self, lanes: L, leaf: Child, rays: &Block, ray: usize, (): (), found: &mut Found) {
+    fn single<L: Lanes>(&mut self, lanes: L, leaf: Child, rays: &Block, ray: usize, found: &mut Found) {
         let instance = &self.scene.instances[leaf.first()];
         let at = first_ray::<L>(ray);
         let bits = self.carry(lanes, instance, rays, at, 1 << (ray - at));

@@ -19,12 +19,6 @@ pub(crate) enum Around<'a, L: Lanes> {
 
 /// What a walk calls when it comes to a leaf. Hits go to `found` if they are nearer than what stands there.
 pub(crate) trait Leaves {
-    /// What is worked out once for one ray.
-    type Ready<L: Lanes>: Copy;
-
-    /// See [`Ready`](Leaves::Ready).
-    fn ready<L: Lanes>(&self, lanes: L, rays: &Block, ray: usize) -> Self::Ready<L>;
-
     /// Any hit is enough.
     fn any(&self) -> bool;
 
@@ -41,13 +35,5 @@ pub(crate) trait Leaves {
     ) -> u64;
 
     /// One ray has met the leaf.
-    fn single<L: Lanes>(
-        &mut self,
-        lanes: L,
-        leaf: Child,
-        rays: &Block,
-        ray: usize,
-        ready: Self::Ready<L>,
-        found: &mut Found,
-    );
+    fn single<L: Lanes>(&mut self, lanes: L, leaf: Child, rays: &Block, ray: usize, found: &mut Found);
 }

@@ -159,16 +159,17 @@ impl<'a> Triangles<'a> {
         some
     }
 
-    /// Tests the first triangles of a block against one ray. Returns whether it was hit.
+    /// Tests the first triangles of a block against one ray, whose axes are turned like that. Returns whether it was hit.
     #[inline(always)]
     fn one<L: Lanes>(
         &self,
         lanes: L,
         (block, count): (&TriangleBlock, usize),
         (rays, index): (&Block, usize),
-        (ray, axes): OneRay<L>,
+        axes: [usize; 3],
         found: &mut Found,
     ) -> bool {
+        let ray = ShearRay::single(lanes, rays, index);
         let mut any = false;
         let mut slot = 0;
         while slot < count {
@@ -209,17 +210,7 @@ impl<'a> Triangles<'a> {
     }
 }
 
-/// What triangle tests know of one ray: the ray in all lanes, and the order of its axes.
-type OneRay<L> = (ShearRay<L>, [usize; 3]);
-
 impl Leaves for Triangles<'_> {
-    type Ready<L: Lanes> = OneRay<L>;
-
-    #[inline(always)]
-    fn ready<L: Lanes>(&self, lanes: L, rays: &Block, ray: usize) -> OneRay<L> {
-        (ShearRay::single(lanes, rays, ray), axes_of_any(rays.major[ray & (RAYS - 1)]))
-    }
-
     #[inline(always)]
     fn any(&self) -> bool {
         self.any
@@ -276,23 +267,15 @@ impl Leaves for Triangles<'_> {
         while alone != 0 {
             let ray = alone.trailing_zeros() as usize & (RAYS - 1);
             alone &= alone - 1;
-            let ready = (ShearRay::single(lanes, rays, ray), axes_of(rays.major[ray]));
-            let any = self.one(lanes, (block, count), (rays, ray), ready, found);
+            let any = self.one(lanes, (block, count), (rays, ray), axes_of(rays.major[ray]), found);
             hit |= u64::from(any) << ray;
         }
         hit
     }
 
     #[inline(always)]
-    fn single<L: Lanes>(
-        &mut self,
-        lanes: L,
-        leaf: Child,
-        rays: &Block,
-        index: usize,
-        ready: OneRay<L>,
-        found: &mut Found,
-    ) {
-        self.one(lanes, self.block(leaf), (rays, index & (RAYS - 1)), ready, found);
+    fn single<L: Lanes>(&mut self, lanes: L, leaf: Child, rays: &Block, ray: usize, found: &mut Found) {
+        let ray = ray & (RAYS - 1);
+        self.one(lanes, self.block(leaf), (rays, ray), axes_of_any(rays.major[ray]), found);
     }
 }

@@ -20,6 +20,7 @@ def choose_lanes(wide):
     ends the program where that is no wider. To be called once a variant is chosen that needs LLVM."""
     import drjit
 
+    # Functions that its header declares, by the names that C++ gives them.
     library = next(pathlib.Path(drjit.__file__).parent.glob("libdrjit-core.*"))
     core = ctypes.CDLL(str(library))
     lanes = getattr(core, "_Z21jit_llvm_vector_widthv")

@@ -1,7 +1,7 @@
-//! One ray against all boxes of a node, a child a lane; several rays under way at once.
+//! One ray against all boxes of a node, a child a lane; all rays of a block under way at once.
 //!
 //! A ray alone waits at every step: for a box to arrive, for the comparison of eight of them, and where it goes on cannot
-//! be foreseen. So some rays take a step each, by turns, and none of what one of them waits for holds up the others.
+//! be foreseen. So all take a step each, by turns, and what one of them waits for does not hold up the others.
 
 use core::hint::select_unpredictable;
 
@@ -33,7 +33,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
         let mut turns = flock.leaves.take();
         while let Some(ray) = turns.next() {
             let State { child, top, bottom } = flock.states[ray];
-            leaves.single(lanes, child, rays, ray, leaves.ready(lanes, rays, ray), found);
+            leaves.single(lanes, child, rays, ray, found);
             let ended = leaves.any() && found.t[ray] == f32::NEG_INFINITY;
             flock.go_on(lanes, &bvh, found, ray, if ended { bottom } else { top } as usize);
         }
