@@ -10,36 +10,33 @@ use super::exchange::Exchange;
 /// The wheels: package and version, so that figures compare from one day to another.
 const WHEELS: [(&str, &str); 3] = [("interpn", "0.11.2"), ("mitsuba", "3.9.1"), ("scipy", "1.17.1")];
 
-/// Asks Mitsuba for vectors wider than this library's, where the processor has them.
-const WIDE: &str = "wide";
+/// What runs peers of one kind: its name and text.
+type Script = (&'static str, &'static str);
+
+const PEERS: Script = ("peers.py", include_str!("peers.py"));
+const FRAMES: Script = ("frames.py", include_str!("frames.py"));
 
 /// The programs by name, ready to be started, or why they cannot be. `tasks` is for those that are told of their tasks in
 /// a file, `exchange` has the files of the others.
 pub fn all(out: &Path, tasks: &Path, exchange: &Exchange) -> Vec<(&'static str, anyhow::Result<Command>)> {
     let environment = environment(out).map_err(|error| format!("{error:#}"));
-    let python = |name: &str, text: &str, arguments: &[&str]| {
-        environment.clone().map_err(anyhow::Error::msg).and_then(|python| {
-            let mut command = script(out, &python, name, text)?;
-            command.arg(arguments[0]).arg(tasks).args(&arguments[1..]);
-            Ok((python, command))
-        })
+    let python = || environment.clone().map_err(anyhow::Error::msg);
+    // `wide` asks for vectors wider than this library's, where the processor has them.
+    let run = |script: Script, what: &str, wide: bool| -> anyhow::Result<Command> {
+        let mut command = command(out, &python()?, script)?;
+        command.arg(what).arg(tasks).args(wide.then_some("wide"));
+        Ok(command)
     };
-    let peer = |arguments: &[&str]| python("peers.py", include_str!("peers.py"), arguments);
-    let frames = |arguments: &[&str]| python("frames.py", include_str!("frames.py"), arguments);
     let wheel = |(package, version): (&'static str, &str)| {
-        let command = peer(&[package]).and_then(|(python, command)| {
-            install(&python, package, version)?;
-            Ok(command)
-        });
-        (package, command)
+        let installed = python().and_then(|python| install(&python, package, version));
+        (package, installed.and_then(|()| run(PEERS, package, false)))
     };
     let mut programs: Vec<_> = WHEELS.into_iter().map(wheel).collect();
-    let command = |found: anyhow::Result<(std::path::PathBuf, Command)>| found.map(|(_, command)| command);
     programs.extend([
-        ("mitsuba-wide", command(peer(&["mitsuba", WIDE]))),
-        ("mitsuba-llvm", command(frames(&["llvm_ad_rgb"]))),
-        ("mitsuba-llvm-wide", command(frames(&["llvm_ad_rgb", WIDE]))),
-        ("mitsuba-scalar", command(frames(&["scalar_rgb"]))),
+        ("mitsuba-wide", run(PEERS, "mitsuba", true)),
+        ("mitsuba-llvm", run(FRAMES, "llvm_ad_rgb", false)),
+        ("mitsuba-llvm-wide", run(FRAMES, "llvm_ad_rgb", true)),
+        ("mitsuba-scalar", run(FRAMES, "scalar_rgb", false)),
     ]);
     let sleef = Source { name: "acos", text: include_str!("acos.c"), libraries: &["sleef"], package: "libsleef-dev" };
     programs.push(("sleef", sleef.compiled(out, &exchange.cosines())));
@@ -53,8 +50,8 @@ pub fn all(out: &Path, tasks: &Path, exchange: &Exchange) -> Vec<(&'static str, 
     programs
 }
 
-/// A script of that name, beside what all scripts share.
-fn script(out: &Path, python: &Path, name: &str, text: &str) -> anyhow::Result<Command> {
+/// Runs a script, which lies beside what all scripts share.
+fn command(out: &Path, python: &Path, (name, text): Script) -> anyhow::Result<Command> {
     std::fs::write(out.join("serve.py"), include_str!("serve.py"))?;
     let script = out.join(name);
     std::fs::write(&script, text)?;
