@@ -65,6 +65,7 @@ pub fn mixed(bounds: Aabb, n: usize, seed: u64) -> RaySoA {
             3 => t_max = 1.0,
             4 => t_min = 0.8,
             5 => (t_min, t_max) = (0.6, 0.9),
+            6 if kind % 32 == 6 => (t_min, t_max) = (-2.0, -0.01),
             6 => t_min = -2.0,
             7 => direction[kind / 16 % 3] *= 1e-30,
             8 if kind % 160 == 8 => direction[1] = f32::NAN,
