@@ -88,6 +88,7 @@ impl Mesh {
     ///
     /// # Panics
     /// Where there is no such triangle.
+    #[inline]
     pub fn corners(&self, triangle: usize) -> [[f32; 3]; 3] {
         self.triangles[triangle].map(|vertex| self.positions[vertex as usize])
     }

@@ -104,9 +104,15 @@ pub(crate) struct Tree<const W: usize> {
 
 impl<const W: usize> Tree<W> {
     pub fn build(mesh: &Mesh) -> Self {
-        let seen: Vec<u32> =
-            (0..mesh.triangles().len() as u32).filter(|&triangle| can_be_hit(mesh, triangle)).collect();
-        let boxes: Vec<Aabb> = seen.iter().map(|&triangle| Aabb::of(mesh.corners(triangle as usize))).collect();
+        let triangles = mesh.triangles().len();
+        let (mut seen, mut boxes) = (Vec::with_capacity(triangles), Vec::with_capacity(triangles));
+        for triangle in 0..triangles {
+            let corners = mesh.corners(triangle);
+            if can_be_hit(corners) {
+                seen.push(triangle as u32);
+                boxes.push(Aabb::of(corners));
+            }
+        }
         let binary = Binary::build(&boxes, true);
         let mut leaves = Vec::new();
         let bvh = WideBvh::collapse(&binary, SLOTS, |places| {
@@ -123,7 +129,6 @@ impl<const W: usize> Tree<W> {
 
 /// `false` for a triangle with two corners in one place. Two of its edge functions cancel to the bit whatever the ray,
 /// so it need not stand in the tree.
-fn can_be_hit(mesh: &Mesh, triangle: u32) -> bool {
-    let [a, b, c] = mesh.corners(triangle as usize);
+fn can_be_hit([a, b, c]: [[f32; 3]; 3]) -> bool {
     a != b && b != c && c != a
 }

@@ -95,7 +95,9 @@ fn plans<const W: usize>(binary: &Binary, leaf: usize) -> Vec<Plan> {
         }
         let (Some(one), Some(other)) = (waiting.pop(), waiting.pop()) else { break };
         let mut own = [f32::INFINITY; W];
-        for roots in 2..=W {
+        // No more roots than primitives: of small subtrees, which are most, little is to be compared.
+        let most = node.count().min(W);
+        for roots in 2..=most {
             let mut best = 1;
             for share in 1..roots {
                 let cost = one[share - 1] + other[roots - share - 1];
@@ -104,6 +106,10 @@ fn plans<const W: usize>(binary: &Binary, leaf: usize) -> Vec<Plan> {
                 }
             }
             plan.set(roots, best);
+        }
+        for roots in most + 1..=W {
+            own[roots - 1] = own[most - 1];
+            plan.set(roots, plan.share(most));
         }
         own[0] = own[W - 1] + surface;
         if node.count() <= leaf && whole <= own[0] {
