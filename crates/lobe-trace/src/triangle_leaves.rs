@@ -106,10 +106,7 @@ impl<'a> Triangles<'a> {
         while slots != 0 {
             let slot = slots.trailing_zeros() as usize;
             slots &= slots - 1;
-            let candidates = ray.test(lanes, block.one(lanes, slot, axes), live);
-            if !candidates.mask.any() {
-                continue;
-            }
+            let Some(candidates) = ray.test(lanes, block.one(lanes, slot, axes), live) else { continue };
             if !fitted {
                 let mut row = 0;
                 while row < 6 {
@@ -174,8 +171,7 @@ impl<'a> Triangles<'a> {
         let mut slot = 0;
         while slot < count {
             let there = lanes.first_n(count - slot);
-            let candidates = ray.test(lanes, block.several(lanes, slot, axes), there);
-            if candidates.mask.any() {
+            if let Some(candidates) = ray.test(lanes, block.several(lanes, slot, axes), there) {
                 let [lower, upper] = block.extent(lanes, slot);
                 let own = SlabRay::single(lanes, rays, index).interval_any(lanes, lower, upper);
                 let (mut t, mut hit) = (candidates.t, candidates.mask);

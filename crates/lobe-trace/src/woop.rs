@@ -57,8 +57,9 @@ impl<L: Lanes> ShearRay<L> {
     }
 
     /// Tests triangles, their vertices given in the turned order of axes. The t of a hit is limited by nothing yet.
+    /// `None` where all are missed: what nobody can foresee is asked once.
     #[inline(always)]
-    pub fn test(&self, lanes: L, vertices: Corners<L>, live: L::M) -> Candidates<L> {
+    pub fn test(&self, lanes: L, vertices: Corners<L>, live: L::M) -> Option<Candidates<L>> {
         let mut x = [lanes.splat(0.0); 3];
         let mut y = x;
         let mut z = x;
@@ -76,7 +77,7 @@ impl<L: Lanes> ShearRay<L> {
         let (least, most) = (u.min(v).min(w), u.max(v).max(w));
         let mut mask = live & (least.ge(zero) | most.le(zero));
         if !mask.any() {
-            return Candidates { mask, t: zero, u: zero, v: zero };
+            return None;
         }
         let mut sum = u + v + w;
         // Where the signs agree, the edge function that is zero is the least or the most of the three.
@@ -100,7 +101,7 @@ impl<L: Lanes> ShearRay<L> {
         let (u, v, w) = (u * inverse, v * inverse, w * inverse);
         // The weights have one sign: t stays between those of the vertices up to rounding.
         let t = lanes.mul_add(u, z[0], lanes.mul_add(v, z[1], w * z[2])) * self.shear[2];
-        Candidates { mask, t, u: v, v: w }
+        Some(Candidates { mask, t, u: v, v: w })
     }
 }
 

@@ -3,6 +3,8 @@
 //! All children of a node are tested at once, a child a lane, against one bundle of eight rays after another. Rays are
 //! told apart where all bundles are wide, and at the leaves.
 
+use core::hint::select_unpredictable;
+
 use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
 
 use super::stack::LargeEntry;
@@ -51,32 +53,42 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                 left &= left - 1;
                 let [enter, leave] = bundles.interval(lanes, bundle as usize, near, far);
                 let meets = enter.le(leave);
-                key = key.min(lanes.select(meets, enter, never));
+                // Also of a bundle that misses the child: a key may be too small, and this is one operation.
+                key = enter.min(key);
                 let narrow = bundles.width(lanes, bundle as usize, enter).le(size);
-                let bit = lanes.select_int(narrow, lanes.splat_int(0x101 << bundle), lanes.splat_int(1 << bundle));
-                who = who | lanes.select_int(meets, bit, lanes.splat_int(0));
+                let word = lanes.splat_int(0x100 << bundle).as_float().masked(narrow).bits();
+                who = who | (word | lanes.splat_int(1 << bundle)).as_float().masked(meets).bits();
             }
             bits |= child_bits::<L, W>(!who.eq(lanes.splat_int(0)), slot);
             lanes.store(&mut keys[slot..], key);
             lanes.store_int(&mut meeting[slot..], who);
             slot += L::LANES;
         }
-        // The nearest first; where any hit is enough, as they come.
-        let floor = if leaves.any() { usize::MAX } else { waiting };
-        while bits != 0 {
-            let slot = bits.trailing_zeros() as usize & (W - 1);
-            bits &= bits - 1;
-            let bundles = meeting[slot] as u32;
-            let entry = LargeEntry { key: keys[slot], node: current as u32, slot: slot as u32, bundles };
+        let (met, end) = (bits, waiting + bits.count_ones() as usize);
+        let entry = |slot: usize| {
             bvh.prefetch(lanes, node.child(slot));
-            let mut place = waiting;
-            while place > floor && stack[place - 1].key < entry.key {
-                stack[place] = stack[place - 1];
-                place -= 1;
+            LargeEntry { key: keys[slot], node: current as u32, slot: slot as u32, bundles: meeting[slot] as u32 }
+        };
+        if leaves.any() {
+            while bits != 0 {
+                stack[waiting] = entry(bits.trailing_zeros() as usize & (W - 1));
+                bits &= bits - 1;
+                waiting += 1;
             }
-            stack[place] = entry;
-            waiting += 1;
         }
+        // The nearest on top. How many there are and which is nearer cannot be foreseen: their places are counted, and two
+        // at a time take no branch; a second that is not there goes beyond the last.
+        while bits != 0 {
+            let one = bits.trailing_zeros() as usize & (W - 1);
+            bits &= bits - 1;
+            let there = bits != 0;
+            let other = select_unpredictable(there, bits.trailing_zeros() as usize & (W - 1), one);
+            bits &= bits.wrapping_sub(1);
+            stack[waiting + farther::<L, W>(lanes, &keys, one, met)] = entry(one);
+            let place = waiting + farther::<L, W>(lanes, &keys, other, met);
+            stack[select_unpredictable(there, place, end)] = entry(other);
+        }
+        waiting = end;
         loop {
             if waiting == 0 {
                 stacks.large = stack;
@@ -122,6 +134,22 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
             bundles.shorten(lanes, found, hit);
         }
     }
+}
+
+/// How many of the children of `met` lie behind one of them; of two at one place the first does.
+#[inline(always)]
+fn farther<L: Lanes, const W: usize>(lanes: L, keys: &[f32; MAX_LANES], slot: usize, met: u32) -> usize {
+    let own = lanes.splat(keys[slot]);
+    let (mut behind, mut beside) = (0, 0);
+    let mut first = 0;
+    while first < W {
+        let all = lanes.load(&keys[first..]);
+        behind |= own.lt(all).bits() << first;
+        beside |= own.eq(all).bits() << first;
+        first += L::LANES;
+    }
+    let before = (1 << slot) - 1;
+    ((behind | beside & before) & met).count_ones() as usize
 }
 
 /// The bits of those rays of a group that meet a child before their best hit.
