@@ -77,8 +77,8 @@ impl Lanes for Avx2 {
         memory::store_int(self, dst, x.0);
     }
     #[inline(always)]
-    fn prefetch<T>(self, place: &[T]) {
-        memory::prefetch(self, place);
+    fn prefetch<const LINES: usize, T>(self, memory: &[T], at: usize) {
+        memory::prefetch::<LINES, T>(self, memory, at);
     }
     #[inline(always)]
     fn load_xyz(self, src: &[[f32; 3]]) -> [Floats; 3] {

@@ -121,9 +121,10 @@ pub trait Lanes: Texels {
         let n = dst.len();
         dst.copy_from_slice(&buffer[..n]);
     }
-    /// Has the cache line where a slice begins brought in, where the backend can: it will be read soon.
+    /// Has cache lines brought in, where the backend can: entry `at` of a slice, on the first of them, will be read soon.
+    /// It may be none of the slice's; then this is for nothing.
     #[inline(always)]
-    fn prefetch<T>(self, _place: &[T]) {}
+    fn prefetch<const LINES: usize, T>(self, _memory: &[T], _at: usize) {}
     /// `LANES` vectors of three floats, as `[x, y, z]`.
     ///
     /// # Panics

@@ -101,8 +101,8 @@ impl<L: Lanes> Lanes for Strict<L> {
     }
 
     #[inline(always)]
-    fn prefetch<T>(self, place: &[T]) {
-        self.0.prefetch(place);
+    fn prefetch<const LINES: usize, T>(self, memory: &[T], at: usize) {
+        self.0.prefetch::<LINES, T>(memory, at);
     }
 
     #[inline(always)]

@@ -179,9 +179,9 @@ impl<const C: usize> Kernel for Finding<'_, C> {
             for (ray, triangle) in which.iter().zip(&mut triangles) {
                 *triangle = all[found.primitive[*ray as usize] as usize];
                 let [a, b, c, _] = *triangle;
-                lanes.prefetch(&corners[a as usize..]);
-                lanes.prefetch(&corners[b as usize..]);
-                lanes.prefetch(&corners[c as usize..]);
+                lanes.prefetch::<1, _>(corners, a as usize);
+                lanes.prefetch::<1, _>(corners, b as usize);
+                lanes.prefetch::<1, _>(corners, c as usize);
             }
             for (lane, (ray, triangle)) in which.iter().zip(&triangles).enumerate() {
                 let (ray, [a, b, c, part]) = (*ray as usize, *triangle);

@@ -5,7 +5,7 @@
 //! Scrambling"), four dimensions at a time; pixels are scrambled apart. The bits are those of the crate `sobol_burley`,
 //! which computes the four dimensions of one sample at once; here many samples are, in lanes.
 
-use lobe::{Backend, Ints, Kernel, Lanes};
+use lobe::{Backend, Floats, Ints, Kernel, Lanes};
 use lobe_lane::MAX_LANES;
 use sobol_burley::parts;
 
@@ -93,12 +93,17 @@ impl Numbers {
     }
 }
 
+/// What each bit of the index, the lowest first, contributes to each dimension, the order of the bits reversed.
+type Vectors = [[i32; 4]; 16];
+
+/// What three bits of the index contribute to each dimension, as the bits of floats.
+type Threes = [[[f32; 8]; 4]; 6];
+
 struct Drawing<'a> {
     index: &'a [i32],
     seed: &'a [i32],
     set: i32,
-    /// What each bit of the index, the lowest first, contributes to each dimension, the order of the bits reversed.
-    vectors: [[i32; 4]; 16],
+    vectors: Vectors,
     numbers: &'a mut [Vec<f32>; 4],
 }
 
@@ -108,19 +113,13 @@ impl Kernel for Drawing<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         let Drawing { index, seed, set, vectors, numbers } = self;
+        let threes = threes(&vectors);
         let mut at = 0;
         while at < index.len() {
             let seed = lanes.load_int(&seed[at..]);
             let index = reversed(lanes, lanes.load_int(&index[at..]));
-            let mut index = scrambled(lanes, index, mixed(lanes, seed ^ lanes.splat_int(0x79c6_8e4a)));
-            let mut sobol = [lanes.splat_int(0); 4];
-            for vector in &vectors {
-                let bit = lanes.splat_int(0) - index.shr::<31>();
-                for k in 0..4 {
-                    sobol[k] = sobol[k] ^ (lanes.splat_int(vector[k]) & bit);
-                }
-                index = index.shl::<1>();
-            }
+            let index = scrambled(lanes, index, mixed(lanes, seed ^ lanes.splat_int(0x79c6_8e4a)));
+            let sobol = if L::PERMUTES { by_threes(lanes, &threes, index) } else { by_bits(lanes, &vectors, index) };
             let seed = (seed * lanes.splat_int(0x9c8f_2d3b_u32 as i32)) ^ lanes.splat_int(set);
             for k in 0..4 {
                 let scramble = mixed(lanes, seed ^ lanes.splat_int(SCRAMBLES[k] as i32));
@@ -131,6 +130,47 @@ impl Kernel for Drawing<'_> {
             at += L::LANES;
         }
     }
+}
+
+/// What the index, its lowest bit on top, contributes to each dimension.
+#[inline(always)]
+fn by_bits<L: Lanes>(lanes: L, vectors: &Vectors, mut index: L::I) -> [L::I; 4] {
+    let mut sobol = [lanes.splat_int(0); 4];
+    for vector in vectors {
+        let bit = lanes.splat_int(0) - index.shr::<31>();
+        for k in 0..4 {
+            sobol[k] = sobol[k] ^ (lanes.splat_int(vector[k]) & bit);
+        }
+        index = index.shl::<1>();
+    }
+    sobol
+}
+
+/// The same, three bits at once.
+#[inline(always)]
+fn by_threes<L: Lanes>(lanes: L, threes: &Threes, mut index: L::I) -> [L::I; 4] {
+    let mut sobol = [lanes.splat_int(0); 4];
+    for three in threes {
+        let bits = index.shr::<29>();
+        for k in 0..4 {
+            sobol[k] = sobol[k] ^ lanes.oct_lookup(lanes.oct_load(&three[k]), bits).bits();
+        }
+        index = index.shl::<3>();
+    }
+    sobol
+}
+
+/// The contributions of three bits each, the first of them on top; of bits that the index has not, nothing.
+fn threes(vectors: &Vectors) -> Threes {
+    let of = |place: usize, k: usize| vectors.get(place).map_or(0, |vector| vector[k]);
+    std::array::from_fn(|three| {
+        std::array::from_fn(|k| {
+            std::array::from_fn(|bits| {
+                let one = |bit: usize| if bits >> (2 - bit) & 1 == 0 { 0 } else { of(3 * three + bit, k) };
+                f32::from_bits((one(0) ^ one(1) ^ one(2)) as u32)
+            })
+        })
+    })
 }
 
 /// What tells the four dimensions of a set apart.

@@ -73,8 +73,8 @@ impl<V: Level> Lanes for Sse<V> {
         memory::store_int(dst, x.0);
     }
     #[inline(always)]
-    fn prefetch<T>(self, place: &[T]) {
-        memory::prefetch(place);
+    fn prefetch<const LINES: usize, T>(self, memory: &[T], at: usize) {
+        memory::prefetch::<LINES, T>(memory, at);
     }
     #[inline(always)]
     fn load_xyz(self, src: &[[f32; 3]]) -> [Floats<V>; 3] {

@@ -5,9 +5,15 @@ use core::arch::x86_64::*;
 use lobe_lane::Block;
 
 #[inline(always)]
-pub(crate) fn prefetch<T>(place: &[T]) {
-    // SAFETY: a prefetch reads nothing that a program could see and never faults; every x86_64 has it.
-    unsafe { _mm_prefetch::<_MM_HINT_T0>(place.as_ptr().cast()) }
+pub(crate) fn prefetch<const LINES: usize, T>(memory: &[T], at: usize) {
+    let first = memory.as_ptr().wrapping_add(at).cast::<i8>();
+    let mut line = 0;
+    while line < LINES {
+        // SAFETY: a prefetch reads nothing that a program could see and never faults, wherever it points; every x86_64
+        // has it.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(first.wrapping_add(64 * line)) }
+        line += 1;
+    }
 }
 
 #[inline(always)]

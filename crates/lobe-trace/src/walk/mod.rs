@@ -39,14 +39,7 @@ impl<'a, const W: usize> Nodes<'a, W> {
     #[inline(always)]
     fn prefetch<L: Lanes>(&self, lanes: L, child: Child) {
         let kind = usize::from(child.is_leaf());
-        let at = child.first() * self.strides[kind];
-        if let Some(lines) = self.memory[kind].get(at..at + 64) {
-            lanes.prefetch(lines);
-            lanes.prefetch(&lines[16..]);
-            lanes.prefetch(&lines[32..]);
-            lanes.prefetch(&lines[48..]);
-            lanes.prefetch(&lines[64..]);
-        }
+        lanes.prefetch::<5, f32>(self.memory[kind], child.first() * self.strides[kind]);
     }
 }
 
