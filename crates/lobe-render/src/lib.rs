@@ -9,7 +9,8 @@
 //! - Random numbers depend on pixel, sample and dimension only, and a film sums in integers. So the picture does not
 //!   depend on threads, tiles, machines or the order of work; on backends in strict form not on the backend either.
 //!
-//! Channels are a parameter of nearly everything (`C`); materials of files come in linear sRGB (`C` = 3).
+//! Channels are a parameter of nearly everything (`C`); materials of files come in linear sRGB (`C` = 3), and that is
+//! what there is a renderer for ([`Renderable`]).
 //!
 //! Coordinates are right-handed with +y up. Lengths are in any unit, angles in radians; radiance in W/(m^2 sr) or any
 //! multiple of it.
@@ -22,6 +23,7 @@ mod hit;
 mod integrator;
 pub mod light;
 mod merge;
+mod painter;
 pub mod picture;
 mod place;
 pub mod preview;
@@ -39,6 +41,7 @@ pub use camera::{Camera, CameraError, Filter};
 pub use film::{Film, Pixel, Rect, Seen};
 pub use integrator::Integrator;
 pub use merge::{MergeError, merge};
+pub use painter::Renderable;
 pub use render::{Progress, RenderError, Settings, render};
 pub use stats::{DEPTHS, Shading, Stats};
 pub use world::{Shape, World, WorldBuilder, WorldError};

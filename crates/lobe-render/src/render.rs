@@ -8,9 +8,10 @@ use std::time::{Duration, Instant};
 use crate::camera::{Camera, CameraError, Filter, View};
 use crate::film::{Film, Rect};
 use crate::integrator::Integrator;
+use crate::painter::{Renderable, Task};
 use crate::shader::Backend;
 use crate::stats::Stats;
-use crate::wave::{PATHS, Wave};
+use crate::wave::PATHS;
 use crate::world::World;
 
 /// What to render and how.
@@ -136,7 +137,10 @@ pub fn render<const C: usize>(
     settings: &Settings,
     film: Film<C>,
     mut watch: impl FnMut(&Progress<'_, C>) -> bool,
-) -> Result<(Film<C>, Stats), RenderError> {
+) -> Result<(Film<C>, Stats), RenderError>
+where
+    World<C>: Renderable<C>,
+{
     let Settings { size, window, samples, .. } = settings.clone();
     let whole = Rect { x: 0, y: 0, width: size[0], height: size[1] };
     if window.area() == 0 || whole.intersection(&window) != Some(window) {
@@ -146,6 +150,7 @@ pub fn render<const C: usize>(
         return Err(RenderError::Film { found: film.window(), expected: window });
     }
     let view = View::new(&settings.camera, size, settings.filter)?;
+    let task = Task { view, integrator: settings.integrator, backend: settings.backend };
     let tiles = tiles(&film, &samples)?;
     // Where time is short, every pixel gets its first sample soon; else waves are as large as they can be.
     let first = if settings.time.is_some() { 1 } else { (PATHS as u32).div_ceil(TILE * TILE) };
@@ -159,18 +164,17 @@ pub fn render<const C: usize>(
     let ended = AtomicBool::new(false);
     let worker = || {
         let _leaving = Leaving(&shared);
-        let mut wave = Wave::new(world, &view, settings.integrator, settings.backend);
+        let mut painter = world.painter(&task);
         while let Some(job) = jobs.next() {
             let late = settings.time.is_some_and(|limit| begun.elapsed() >= limit) && !job.first;
             if late || ended.load(Ordering::Relaxed) {
                 break;
             }
-            let mut seen = Film::new(job.rect);
-            wave.render(job.rect, job.samples.clone(), &mut seen);
+            let seen = painter.paint(job.rect, job.samples.clone());
             done.fetch_add(job.rect.area() as u64 * u64::from(job.samples.end - job.samples.start), Ordering::Relaxed);
             shared.lock().add(job.tile, job.samples, seen);
         }
-        wave.stats
+        painter.stats()
     };
     let stats = std::thread::scope(|scope| {
         let handles: Vec<_> = (0..threads).map(|_| scope.spawn(worker)).collect();
