@@ -8,7 +8,7 @@ use core::hint::select_unpredictable;
 use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
 
 use super::stack::LargeEntry;
-use super::{Single, Walk, enter};
+use super::{Nodes, Single, Walk, enter};
 use crate::block::{Block, Found, first_ray, group_bits};
 use crate::bundles::Bundles;
 use crate::bvh::Node;
@@ -64,14 +64,11 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
             lanes.store_int(&mut meeting[slot..], who);
             slot += L::LANES;
         }
+        let (parent, children) = ((node, current), (&keys, &meeting));
         let (met, end) = (bits, waiting + bits.count_ones() as usize);
-        let entry = |slot: usize| {
-            bvh.prefetch(lanes, node.child(slot));
-            LargeEntry { key: keys[slot], node: current as u32, slot: slot as u32, bundles: meeting[slot] as u32 }
-        };
         if leaves.any() {
             while bits != 0 {
-                stack[waiting] = entry(bits.trailing_zeros() as usize & (W - 1));
+                stack[waiting] = entry(lanes, &bvh, parent, bits.trailing_zeros() as usize, children);
                 bits &= bits - 1;
                 waiting += 1;
             }
@@ -84,9 +81,9 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
             let there = bits != 0;
             let other = select_unpredictable(there, bits.trailing_zeros() as usize & (W - 1), one);
             bits &= bits.wrapping_sub(1);
-            stack[waiting + farther::<L, W>(lanes, &keys, one, met)] = entry(one);
+            stack[waiting + farther::<L, W>(lanes, &keys, one, met)] = entry(lanes, &bvh, parent, one, children);
             let place = waiting + farther::<L, W>(lanes, &keys, other, met);
-            stack[select_unpredictable(there, place, end)] = entry(other);
+            stack[select_unpredictable(there, place, end)] = entry(lanes, &bvh, parent, other, children);
         }
         waiting = end;
         loop {
@@ -134,6 +131,20 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
             bundles.shorten(lanes, found, hit);
         }
     }
+}
+
+/// What stands for a child of a node until it is visited. Memory is asked for it.
+#[inline(always)]
+fn entry<L: Lanes, const W: usize>(
+    lanes: L,
+    bvh: &Nodes<'_, W>,
+    (node, index): (&Node<W>, usize),
+    slot: usize,
+    (keys, meeting): (&[f32; MAX_LANES], &[i32; MAX_LANES]),
+) -> LargeEntry {
+    let slot = slot & (W - 1);
+    bvh.prefetch(lanes, node.child(slot));
+    LargeEntry { key: keys[slot], node: index as u32, slot: slot as u32, bundles: meeting[slot] as u32 }
 }
 
 /// How many of the children of `met` lie behind one of them; of two at one place the first does.
