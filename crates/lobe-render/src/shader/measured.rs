@@ -132,8 +132,5 @@ impl Shader<3> for MeasuredShader {
             self.sampler.sample_batch(Given::Viewer, wo, u, sampled);
             self.reduction.apply(values, weight);
         }
-        for weight in weight {
-            *weight = weight.map(|w| w.max(0.0));
-        }
     }
 }

@@ -91,9 +91,10 @@ fn albedo_of<const C: usize>(shader: &impl Shader<C>) -> [f32; C] {
     std::array::from_fn(|k| (weight.iter().map(|w| f64::from(w[k])).sum::<f64>() / n as f64).clamp(0.0, 1.0) as f32)
 }
 
-/// Values times the cosine, none below 0: measurements have such, light has not.
+/// Values times the cosine. Those below 0 stay: they are of colours that the channels cannot show, or noise, and without
+/// them the sums of many values would be too bright.
 fn times_cosine<const C: usize>(f: &mut [[f32; C]], wi: &[[f32; 3]]) {
     for (f, wi) in f.iter_mut().zip(wi) {
-        *f = f.map(|x| if x > 0.0 { x * wi[2].abs() } else { 0.0 });
+        *f = f.map(|x| x * wi[2].abs());
     }
 }

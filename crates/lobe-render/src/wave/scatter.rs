@@ -93,7 +93,7 @@ impl<const C: usize> Wave<'_, C> {
     fn follow_way(&mut self, hit: usize, local: Vec3, weight: [f32; C], least: f32) {
         let arrived = &self.arrived[hit];
         let throughput: [f32; C] = std::array::from_fn(|k| arrived.throughput[k] * weight[k]);
-        if !throughput.iter().any(|t| *t > least) {
+        if !throughput.iter().any(|t| t.abs() > least) {
             return;
         }
         let lanes = Reference::default();
@@ -135,7 +135,7 @@ impl<const C: usize> Wave<'_, C> {
             for hit in range.clone() {
                 let (arrived, ray) = (&self.arrived[hit], &rays[hit / RAYS]);
                 let mut throughput: [f32; C] = std::array::from_fn(|k| arrived.throughput[k] * weight[hit][k]);
-                let most = throughput.iter().fold(0.0f32, |most, t| most.max(*t));
+                let most = throughput.iter().fold(0.0f32, |most, t| most.max(t.abs()));
                 // NaN is no more than 0 either.
                 if !(pdf[hit] > 0.0 && most > 0.0 && ray.goes(hit % RAYS)) {
                     continue;

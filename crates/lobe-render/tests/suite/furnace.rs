@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use lobe::{Channels, Options, Samples, Scatter};
+use lobe::{Channels, Edges, Options, Samples, Scatter};
 use lobe_model::{Conductor, Ggx};
 use lobe_render::light::{AreaLight, Environment, Light};
 use lobe_render::shader::{Backend, Delta, DeltaShader, ModelShader, Shader, open, open_sheet};
@@ -58,6 +58,20 @@ fn white_surfaces_vanish_in_a_white_sky() {
         // Convex things have direct light only.
         let (largest, mean) = from_white(&world, Integrator::Whitted { depth: 4 });
         assert!(largest < 2.0 * pixel && mean < 6e-3, "whitted, {name}: a pixel is {largest} off, the mean {mean}");
+    }
+}
+
+/// Colours that the channels cannot show have such values, and noise around 0 has.
+#[test]
+fn values_below_zero_are_seen() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = even(folder.path(), Scatter::Reflection, -0.25);
+    let edges = Edges { non_negative: false, ..Edges::default() };
+    let world = furnace(open(&file, &Options { edges, ..Options::default() }, Backend::best()).unwrap());
+    for integrator in [PATH, Integrator::Whitted { depth: 2 }] {
+        let film = picture(&world, &settings([48, 40], 64, integrator));
+        let seen = film.pixels()[film.index(24, 20)].mean_radiance();
+        assert!(seen.iter().all(|x| (x + 0.25).abs() < 0.03), "{integrator:?}: {seen:?}");
     }
 }
 

@@ -19,8 +19,8 @@ const SIZE: [u32; 2] = [320, 320];
 const SAMPLES: u32 = 48;
 /// Of a pixel that is darker than this, differences count as if it were not: radiance.
 const FLOOR: f64 = 0.02;
-/// By how much the difference may be larger than what noise explains. Its own error is a few hundredths.
-const LIMIT: f64 = 1.1;
+/// By how much the difference may be larger than what noise explains. Its own error is half a hundredth.
+const LIMIT: f64 = 1.03;
 
 /// How far the pictures are apart. Everything is the root of the mean square over pixels and channels, relative to the
 /// pixel.
