@@ -51,9 +51,7 @@ trait Paint<const C: usize> {
 
 impl<const C: usize> Paint<C> for Wave<'_, C> {
     fn paint(&mut self, tile: Rect, samples: Range<u32>) -> Film<C> {
-        let mut film = Film::new(tile);
-        self.render(tile, samples, &mut film);
-        film
+        self.render(tile, samples)
     }
 
     fn stats(&self) -> Stats {

@@ -97,9 +97,10 @@ impl<'w, const C: usize> Wave<'w, C> {
         }
     }
 
-    /// Follows the samples of a tile and adds what they see to a film that has it.
-    pub fn render(&mut self, tile: Rect, samples: std::ops::Range<u32>, film: &mut Film<C>) {
+    /// Follows the samples of a tile. Returns what they see.
+    pub fn render(&mut self, tile: Rect, samples: std::ops::Range<u32>) -> Film<C> {
         let begun = Instant::now();
+        let mut film = Film::new(tile);
         let pixels = morton(tile);
         let together = (PATHS / pixels.len()).max(1);
         let mut from = samples.start;
@@ -115,6 +116,7 @@ impl<'w, const C: usize> Wave<'w, C> {
             from = until;
         }
         self.stats.total += begun.elapsed();
+        film
     }
 
     /// Camera rays, packets of neighbours.
