@@ -1,7 +1,7 @@
 //! Places on surfaces that rays have hit, found in lanes. Nothing is fused, so the bits are the same on every machine.
 
 use lobe::{Backend, Floats, Kernel, Lanes};
-use lobe_lane::Mask;
+use lobe_lane::{Block, Mask};
 use lobe_trace::{HitSoA, RaySoA};
 
 use crate::columns::{Column, NOTHING, RAYS, hold, load, store, vector};
@@ -132,8 +132,8 @@ struct Finding<'a, const C: usize> {
 
 /// What is known of some rays.
 struct Known {
-    /// Position, normal and tangent of each corner.
-    corners: [[Column; 10]; 3],
+    /// Where the first number of each corner is.
+    corners: [[i32; RAYS]; 3],
     direction: [Column; 3],
     uv: [Column; 2],
     /// 1 where light may pass through.
@@ -171,24 +171,17 @@ impl<const C: usize> Kernel for Finding<'_, C> {
         let Hits { blocks, parts, wo } = hits;
         let (all, corners) = (world.triangles.as_slice(), world.corners.as_slice());
         let mut known =
-            Known { corners: [[NOTHING; 10]; 3], direction: [NOTHING; 3], uv: [NOTHING; 2], transmits: NOTHING };
+            Known { corners: [[0; RAYS]; 3], direction: [NOTHING; 3], uv: [NOTHING; 2], transmits: NOTHING };
         let mut back = [NOTHING; 3];
-        let mut triangles = [[0; 4]; RAYS];
         for (which, places) in which.chunks(RAYS).zip(blocks) {
-            // Vertices are anywhere in memory: all are asked for before the first is needed.
-            for (ray, triangle) in which.iter().zip(&mut triangles) {
-                *triangle = all[found.primitive[*ray as usize] as usize];
-                let [a, b, c, _] = *triangle;
-                lanes.prefetch::<1, _>(corners, a as usize);
-                lanes.prefetch::<1, _>(corners, b as usize);
-                lanes.prefetch::<1, _>(corners, c as usize);
-            }
-            for (lane, (ray, triangle)) in which.iter().zip(&triangles).enumerate() {
-                let (ray, [a, b, c, part]) = (*ray as usize, *triangle);
-                let [first, second, third] = &mut known.corners;
-                spread(&corners[a as usize], first, lane);
-                spread(&corners[b as usize], second, lane);
-                spread(&corners[c as usize], third, lane);
+            for (lane, ray) in which.iter().enumerate() {
+                let ray = *ray as usize;
+                let [a, b, c, part] = all[found.primitive[ray] as usize];
+                for (column, corner) in known.corners.iter_mut().zip([a, b, c]) {
+                    // Vertices are anywhere in memory: all are asked for before the first is needed.
+                    lanes.prefetch::<1, _>(corners, corner as usize);
+                    column[lane] = corner as i32 * NUMBERS as i32;
+                }
                 for k in 0..3 {
                     known.direction[k][lane] = rays.direction[k][ray];
                 }
@@ -197,9 +190,10 @@ impl<const C: usize> Kernel for Finding<'_, C> {
                 known.transmits[lane] = world.parts[part as usize].transmits;
                 parts.push(part);
             }
+            let corners = Block::new(corners.as_flattened(), [0, 4, 8]);
             let mut at = 0;
             while at < which.len() {
-                store(lanes, &mut back, at, find(lanes, &known, places, at));
+                store(lanes, &mut back, at, find(lanes, &corners, &known, places, at));
                 at += L::LANES;
             }
             for lane in 0..which.len() {
@@ -209,14 +203,14 @@ impl<const C: usize> Kernel for Finding<'_, C> {
     }
 }
 
-/// A number of a vertex to each column.
+/// How many numbers a corner has.
+const NUMBERS: usize = size_of::<Corner>() / size_of::<f32>();
+
+/// Corners a lane: their positions, normals and tangents, and the handedness of the frames.
 #[inline(always)]
-fn spread(values: &Corner, columns: &mut [Column; 10], lane: usize) {
-    let mut k = 0;
-    while k < values.len() {
-        columns[k][lane] = values[k];
-        k += 1;
-    }
+fn corner<L: Lanes>(lanes: L, corners: &Block<'_, 3, 4>, at: &[i32]) -> ([[L::F; 3]; 3], L::F) {
+    let [a, b, c] = lanes.gather_quads(corners, lanes.load_int(at));
+    ([[a[0], a[1], a[2]], [a[3], b[0], b[1]], [b[2], b[3], c[0]]], c[1])
 }
 
 /// How far `wo` stays above the smooth surface, at least: the sine of the angle.
@@ -224,11 +218,12 @@ const GRAZING: f32 = 1e-3;
 
 /// Fills in `places`; returns the ways back along the rays, in the frames.
 #[inline(always)]
-fn find<L: Lanes>(lanes: L, known: &Known, places: &mut Places, at: usize) -> [L::F; 3] {
+fn find<L: Lanes>(lanes: L, corners: &Block<'_, 3, 4>, known: &Known, places: &mut Places, at: usize) -> [L::F; 3] {
     let zero = lanes.splat(0.0);
     let one = lanes.splat(1.0);
-    let [a, b, c] = [&known.corners[0], &known.corners[1], &known.corners[2]];
-    let [pa, pb, pc] = [load(lanes, &a[..3], at), load(lanes, &b[..3], at), load(lanes, &c[..3], at)];
+    let ([pa, na, ta], handedness) = corner(lanes, corners, &known.corners[0][at..]);
+    let ([pb, nb, tb], _) = corner(lanes, corners, &known.corners[1][at..]);
+    let ([pc, nc, tc], _) = corner(lanes, corners, &known.corners[2][at..]);
     let [u, v] = [lanes.load(&known.uv[0][at..]), lanes.load(&known.uv[1][at..])];
     let w = one - u - v;
     let toward = minus::<L>(load(lanes, &known.direction, at));
@@ -244,11 +239,10 @@ fn find<L: Lanes>(lanes: L, known: &Known, places: &mut Places, at: usize) -> [L
     let mut geometric = unit_or(lanes, across::<L>(ab, ac), toward);
     let front = product::<L>(geometric, toward);
     let weights = [w, u, v];
-    let normals = [load(lanes, &a[3..6], at), load(lanes, &b[3..6], at), load(lanes, &c[3..6], at)];
+    let normals = [na, nb, nc];
     let mut normal = unit_or(lanes, blend::<L>(normals, weights), geometric);
-    let tangents = [load(lanes, &a[6..9], at), load(lanes, &b[6..9], at), load(lanes, &c[6..9], at)];
-    let along = blend::<L>(tangents, weights);
-    let handedness = one.mul_sign(lanes.load(&a[9][at..]));
+    let along = blend::<L>([ta, tb, tc], weights);
+    let handedness = one.mul_sign(handedness);
 
     let turned = product::<L>(geometric, normal).lt(zero);
     geometric = either(lanes, turned, minus::<L>(geometric), geometric);
@@ -274,10 +268,10 @@ fn find<L: Lanes>(lanes: L, known: &Known, places: &mut Places, at: usize) -> [L
     // The place moved to the smooth surface that the normals of the corners describe: Hanika 2021, "Hacking the Shadow
     // Terminator" (Ray Tracing Gems II, chapter 4).
     let mut lifted = position;
-    let corners = [pa, pb, pc];
+    let positions = [pa, pb, pc];
     for k in 0..3 {
         let normal = times::<L>(normals[k], side);
-        let below = (-product::<L>(less::<L>(position, corners[k]), normal)).max(zero);
+        let below = (-product::<L>(less::<L>(position, positions[k]), normal)).max(zero);
         lifted = plus::<L>(lifted, times::<L>(normal, weights[k] * below));
     }
 

@@ -51,17 +51,14 @@ pub(crate) struct Numbers {
 
 impl Numbers {
     /// Draws for each of the sequences.
-    pub fn draw(&mut self, backend: Backend, sequences: impl Iterator<Item = Sequence>, of: Use) {
+    pub fn draw(&mut self, backend: Backend, sequences: impl ExactSizeIterator<Item = Sequence>, of: Use) {
         let Numbers { index, seed, numbers } = self;
-        index.clear();
-        seed.clear();
-        for sequence in sequences {
-            index.push(sequence.index as i32);
-            seed.push(sequence.seed as i32);
-        }
-        let n = index.len().next_multiple_of(MAX_LANES);
+        let n = sequences.len().next_multiple_of(MAX_LANES);
         index.resize(n, 0);
         seed.resize(n, 0);
+        for ((sequence, index), seed) in sequences.zip(&mut *index).zip(&mut *seed) {
+            (*index, *seed) = (sequence.index as i32, sequence.seed as i32);
+        }
         numbers.iter_mut().for_each(|column| column.resize(n, 0.0));
         let set = match of {
             Use::Camera => 0,

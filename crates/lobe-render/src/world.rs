@@ -62,9 +62,14 @@ pub enum WorldError {
         /// How many there are.
         materials: usize,
     },
-    /// More vertices or triangles than 32 bits can count.
-    #[error("more vertices than 32 bits can count")]
-    TooMany,
+    /// More vertices or triangles than lanes can find.
+    #[error("found {vertices} vertices and {triangles} triangles; expected at most {MOST} and {}", i32::MAX)]
+    TooMany {
+        /// How many vertices there would be.
+        vertices: usize,
+        /// How many triangles.
+        triangles: usize,
+    },
 }
 
 /// Collects what makes a [`World`].
@@ -87,8 +92,11 @@ pub(crate) struct Part {
     pub transmits: f32,
 }
 
-/// A vertex: its position, its normal and its tangent.
-pub(crate) type Corner = [f32; 10];
+/// A vertex: its position, its normal and its tangent; and zeros that fill the last quad.
+pub(crate) type Corner = [f32; 12];
+
+/// The most vertices of a world: lanes find their floats by 31 bits.
+const MOST: usize = i32::MAX as usize / size_of::<Corner>() * size_of::<f32>();
 
 impl<const C: usize> WorldBuilder<C> {
     /// Nothing.
@@ -142,8 +150,8 @@ impl<const C: usize> WorldBuilder<C> {
         let whole = &mut self.shape;
         let first = whole.positions.len();
         let end = whole.triangles.len() + shape.triangles.len();
-        if first + vertices > i32::MAX as usize || end > i32::MAX as usize {
-            return Err(WorldError::TooMany);
+        if first + vertices > MOST || end > i32::MAX as usize {
+            return Err(WorldError::TooMany { vertices: first + vertices, triangles: end });
         }
         whole.positions.extend(&shape.positions);
         whole.normals.extend(&shape.normals);
@@ -161,7 +169,10 @@ impl<const C: usize> WorldBuilder<C> {
     pub fn build(self) -> Result<World<C>, WorldError> {
         let Shape { positions, normals, tangents, triangles } = self.shape;
         let vertices = positions.iter().zip(&normals).zip(&tangents);
-        let corners = vertices.map(|(([x, y, z], [a, b, c]), [t, u, v, w])| [*x, *y, *z, *a, *b, *c, *t, *u, *v, *w]);
+        let corners = vertices.map(|(([x, y, z], [a, b, c]), [t, u, v, w])| {
+            let corner: Corner = [*x, *y, *z, *a, *b, *c, *t, *u, *v, *w, 0.0, 0.0];
+            corner
+        });
         let corners = Storage::copied(&corners.collect::<Vec<Corner>>());
         let mut part = 0;
         let with_part = triangles.iter().enumerate().map(|(number, [a, b, c])| {

@@ -100,8 +100,8 @@ impl Sides {
         let mut planes = [[lanes.splat(0.0); 3]; 2];
         let mut axis = 0;
         while axis < 3 {
-            planes[0][axis] = children_row(lanes, node.bounds(self.near[axis]), slot);
-            planes[1][axis] = children_row(lanes, node.bounds(self.far[axis]), slot);
+            planes[0][axis] = row_from(lanes, node.bounds(self.near[axis]), slot);
+            planes[1][axis] = row_from(lanes, node.bounds(self.far[axis]), slot);
             axis += 1;
         }
         planes
@@ -110,7 +110,7 @@ impl Sides {
 
 /// As many entries of a row from `slot` on as there are lanes.
 #[inline(always)]
-fn children_row<L: Lanes, const W: usize>(lanes: L, row: &[f32; W], slot: usize) -> L::F {
+pub(crate) fn row_from<L: Lanes, const W: usize>(lanes: L, row: &[f32; W], slot: usize) -> L::F {
     if L::LANES <= W { lanes.load(&row[slot & (W - L::LANES)..]) } else { lanes.load_partial(row) }
 }
 

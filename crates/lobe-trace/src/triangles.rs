@@ -5,6 +5,7 @@ use lobe_lane::{Floats, Lanes};
 use lobe_memory::Storage;
 
 use crate::bvh::{Binary, Child, WideBvh};
+use crate::slab::row_from;
 use crate::{Aabb, Mesh};
 
 /// Triangles of a block, which fill the lanes of the widest backends.
@@ -14,31 +15,38 @@ pub(crate) const SLOTS: usize = 8;
 pub(crate) type Corners<L> = [[<L as Lanes>::F; 3]; 3];
 
 /// Eight triangles in five cache lines. Coordinate `axis` of corner `corner` of triangle `slot` is
-/// `floats[(3 corner + axis) SLOTS + slot]`; the triangles' numbers follow as bits.
+/// `rows[3 corner + axis][slot]`; the triangles' numbers follow as bits.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C, align(64))]
 pub(crate) struct TriangleBlock {
-    floats: [f32; 10 * SLOTS],
+    rows: [[f32; SLOTS]; 10],
 }
 
 impl TriangleBlock {
-    const NUMBERS: usize = 9 * SLOTS;
+    const NUMBERS: usize = 9;
 
     fn new(mesh: &Mesh, triangles: impl Iterator<Item = u32>) -> Self {
-        let mut floats = [0.0; 10 * SLOTS];
+        let mut rows = [[0.0; SLOTS]; 10];
         for (slot, triangle) in triangles.take(SLOTS).enumerate() {
-            for (row, &x) in mesh.corners(triangle as usize).as_flattened().iter().enumerate() {
-                floats[row * SLOTS + slot] = x;
+            for (row, &x) in rows.iter_mut().zip(mesh.corners(triangle as usize).as_flattened()) {
+                row[slot] = x;
             }
-            floats[Self::NUMBERS + slot] = f32::from_bits(triangle);
+            rows[Self::NUMBERS][slot] = f32::from_bits(triangle);
         }
-        TriangleBlock { floats }
+        TriangleBlock { rows }
     }
 
     /// The number of a triangle in its mesh.
     #[inline(always)]
     pub fn number(&self, slot: usize) -> i32 {
-        self.floats[Self::NUMBERS + (slot & (SLOTS - 1))].to_bits() as i32
+        self.rows[Self::NUMBERS][slot & (SLOTS - 1)].to_bits() as i32
+    }
+
+    /// A coordinate of a corner of all triangles.
+    #[inline(always)]
+    fn row(&self, corner: usize, axis: usize) -> &[f32; SLOTS] {
+        // So that the compiler knows what nobody can see: no row is beyond the last.
+        &self.rows[3 * corner + (axis & 3)]
     }
 
     /// The corners of one triangle in all lanes, their coordinates in the order of `axes`.
@@ -48,7 +56,7 @@ impl TriangleBlock {
         let mut corners = [[lanes.splat(0.0); 3]; 3];
         let mut at = 0;
         while at < 9 {
-            corners[at / 3][at % 3] = lanes.splat(self.floats[(at / 3 * 3 + axes[at % 3]) * SLOTS + slot]);
+            corners[at / 3][at % 3] = lanes.splat(self.row(at / 3, axes[at % 3])[slot]);
             at += 1;
         }
         corners
@@ -57,12 +65,10 @@ impl TriangleBlock {
     /// The corners of the triangles from `slot` on, a triangle a lane; what is beyond the last is to be ignored.
     #[inline(always)]
     pub fn several<L: Lanes>(&self, lanes: L, slot: usize, axes: [usize; 3]) -> Corners<L> {
-        let slot = slot & (SLOTS - 1);
         let mut corners = [[lanes.splat(0.0); 3]; 3];
         let mut at = 0;
         while at < 9 {
-            let row = &self.floats[(at / 3 * 3 + axes[at % 3]) * SLOTS + slot..];
-            corners[at / 3][at % 3] = if L::LANES <= SLOTS { lanes.load(row) } else { lanes.load_partial(row) };
+            corners[at / 3][at % 3] = row_from(lanes, self.row(at / 3, axes[at % 3]), slot);
             at += 1;
         }
         corners
@@ -72,10 +78,10 @@ impl TriangleBlock {
     #[inline(always)]
     pub fn side(&self, slot: usize, row: usize) -> f32 {
         let (axis, upper) = (row / 2, row & 1 != 0);
-        let mut side = self.floats[axis * SLOTS + (slot & (SLOTS - 1))];
+        let mut side = self.row(0, axis)[slot & (SLOTS - 1)];
         let mut corner = 1;
         while corner < 3 {
-            let x = self.floats[(3 * corner + axis) * SLOTS + (slot & (SLOTS - 1))];
+            let x = self.row(corner, axis)[slot & (SLOTS - 1)];
             // As lanes do it, also where zeros of both signs meet: the later one stays.
             let first = if upper { side > x } else { side < x };
             side = if first { side } else { x };

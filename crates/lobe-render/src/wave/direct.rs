@@ -6,10 +6,11 @@ use std::time::Instant;
 use lobe::{Floats, Kernel, Lanes};
 use lobe_lane::{MAX_LANES, Mask};
 use lobe_scalar::Reference;
-use lobe_trace::{Occluded, RayClass, RaySoA};
+use lobe_trace::{Occluded, RayClass};
 
 use super::leave::{Leaving, Start, leave};
-use super::{Wave, against, rays};
+use super::rays::Sent;
+use super::{Wave, against};
 use crate::columns::{Column, NOTHING, RAYS, hold, store, vector};
 use crate::hit::Hits;
 use crate::integrator::Integrator;
@@ -32,9 +33,8 @@ pub(super) struct Direct<const C: usize> {
     /// For each material its part of them.
     parts: Vec<(usize, Range<usize>)>,
     leaving: Vec<Leaving>,
-    rays: RaySoA,
-    /// For each shadow ray whose slot it is and what arrives if nothing is in the way.
-    carried: Vec<(u32, [f32; C])>,
+    /// Shadow rays: whose slot each is, and what arrives if nothing is in the way.
+    sent: Sent<(u32, [f32; C])>,
     hidden: Vec<bool>,
 }
 
@@ -143,48 +143,47 @@ impl<const C: usize> Wave<'_, C> {
 
     /// Shadow rays for the light that the materials send on.
     fn answer(&mut self, depth: u32) {
-        let Direct { asked, reached, f, pdf, rays: shadow, carried, .. } = &mut self.direct;
-        rays::clear(shadow);
-        carried.clear();
+        let Direct { asked, reached, f, pdf, sent, .. } = &mut self.direct;
         let weighs = matches!(self.integrator, Integrator::Path { .. });
         let limit = self.integrator.limit(depth + 1);
-        for (i, &hit) in reached.iter().enumerate() {
-            let (asked, at) = (&asked[hit as usize / RAYS], hit as usize % RAYS);
-            let arrived = &self.arrived[hit as usize];
-            let share = if weighs { against(asked.pdf[at], || pdf[i]) } else { 1.0 };
-            let value: [f32; C] = std::array::from_fn(|k| {
-                let value = arrived.throughput[k] * f[i][k] * asked.radiance[k][at] * share;
-                if value > limit { limit } else { value }
-            });
-            // Not a number must go on, to be counted.
-            if value.iter().all(|x| *x == 0.0) {
-                continue;
+        sent.clear();
+        sent.extend(reached.len(), |out| {
+            for ((&hit, f), &pdf) in reached.iter().zip(&*f).zip(&*pdf) {
+                let (asked, at) = (&asked[hit as usize / RAYS], hit as usize % RAYS);
+                let arrived = &self.arrived[hit as usize];
+                let share = if weighs { against(asked.pdf[at], || pdf) } else { 1.0 };
+                let value: [f32; C] = std::array::from_fn(|k| {
+                    let value = arrived.throughput[k] * f[k] * asked.radiance[k][at] * share;
+                    if value > limit { limit } else { value }
+                });
+                // Not a number must go on, to be counted.
+                let some = value.iter().fold(false, |some, x| some | (*x != 0.0));
+                let ray = (vector(&asked.origin, at), vector(&asked.direction, at));
+                out.write(ray, asked.t_max[at], (arrived.slot, value), some);
             }
-            shadow.push(vector(&asked.origin, at), vector(&asked.direction, at), 0.0, asked.t_max[at]);
-            carried.push((arrived.slot, value));
-        }
+        });
     }
 
     /// Traces the shadow rays and adds what arrives.
     fn shadow(&mut self, class: RayClass) {
         let begun = Instant::now();
-        let Direct { rays, carried, hidden, .. } = &mut self.direct;
-        hidden.resize(carried.len(), false);
-        self.backend.run(Occluded::new(&self.world.scene, class, rays.view(), hidden));
-        for ((slot, value), hidden) in carried.iter().zip(&*hidden) {
+        let Direct { sent, hidden, .. } = &mut self.direct;
+        hidden.resize(sent.len(), false);
+        self.backend.run(Occluded::new(&self.world.scene, class, sent.rays.view(), hidden));
+        for ((slot, value), hidden) in sent.carried.iter().zip(&*hidden) {
             if !hidden {
                 let seen = &mut self.slots[*slot as usize].seen;
                 seen.radiance.iter_mut().zip(value).for_each(|(sum, value)| *sum += value);
             }
         }
-        self.stats.rays += carried.len() as u64;
+        self.stats.rays += sent.len() as u64;
         self.stats.trace += begun.elapsed();
     }
 
     /// Ambient occlusion: 1 where a direction drawn by the cosine meets nothing within a distance.
     pub(super) fn ambient(&mut self, class: RayClass, distance: f32) {
         self.draw(Use::Scatter(0));
-        let Direct { wi, leaving, rays: shadow, carried, .. } = &mut self.direct;
+        let Direct { wi, leaving, sent, .. } = &mut self.direct;
         let lanes = Reference::default();
         wi.clear();
         for (hit, wo) in self.hits.wo().iter().enumerate() {
@@ -194,18 +193,15 @@ impl<const C: usize> Wave<'_, C> {
         }
         wi.resize(wi.len().next_multiple_of(MAX_LANES), [0.0; 3]);
         leave(self.backend, &self.hits, Start::Lifted, wi, leaving);
-        rays::clear(shadow);
-        carried.clear();
-        for (hit, arrived) in self.arrived.iter().enumerate() {
-            let (leaving, at) = (&leaving[hit / RAYS], hit % RAYS);
-            if leaving.goes(at) {
-                let (origin, direction) = leaving.ray(at);
-                shadow.push(origin, direction, 0.0, distance);
-                carried.push((arrived.slot, [1.0; C]));
+        sent.clear();
+        sent.extend(self.arrived.len(), |out| {
+            for (hit, arrived) in self.arrived.iter().enumerate() {
+                let (leaving, at) = (&leaving[hit / RAYS], hit % RAYS);
+                out.write(leaving.ray(at), distance, (arrived.slot, [1.0; C]), leaving.goes(at));
             }
-        }
+        });
         self.shadow(class.shadow(false));
-        self.carried.clear();
+        self.sent.clear();
     }
 }
 

@@ -14,7 +14,7 @@ use std::time::Instant;
 
 use lobe_lane::{Lanes, MAX_LANES};
 use lobe_scalar::Reference;
-use lobe_trace::{Intersect, MISS, RayClass};
+use lobe_trace::{HitSoA, Intersect, MISS, RayClass};
 
 use crate::camera::View;
 use crate::film::{Film, Rect, Seen};
@@ -28,7 +28,7 @@ use crate::vec3::Vec3;
 use crate::world::World;
 use direct::Direct;
 use queue::Queue;
-use rays::Batch;
+use rays::Sent;
 use scatter::Scattered;
 
 /// About how many paths are under way at once: a material that covers a hundredth of them still fills its lanes, and
@@ -62,8 +62,8 @@ pub(crate) struct Wave<'w, const C: usize> {
     slots: Vec<Slot<C>>,
     /// Columns and rows of the pixels of the slots.
     pixels: [Vec<f32>; 2],
-    batch: Batch,
-    carried: Vec<Carried<C>>,
+    sent: Sent<Carried<C>>,
+    found: HitSoA,
     /// Rays that have hit something, sorted; where, and what they carry.
     queue: Queue,
     hits: Hits,
@@ -84,8 +84,8 @@ impl<'w, const C: usize> Wave<'w, C> {
             backend,
             slots: Vec::new(),
             pixels: [Vec::new(), Vec::new()],
-            batch: Batch::default(),
-            carried: Vec::new(),
+            sent: Sent::default(),
+            found: HitSoA::default(),
             queue: Queue::default(),
             hits: Hits::default(),
             arrived: Vec::new(),
@@ -122,7 +122,7 @@ impl<'w, const C: usize> Wave<'w, C> {
     /// Camera rays, packets of neighbours.
     fn begin(&mut self, pixels: &[[u32; 2]], samples: std::ops::Range<u32>) {
         self.slots.clear();
-        self.carried.clear();
+        self.sent.clear();
         for sample in samples {
             let slot = |&pixel| Slot { pixel, sequence: Sequence::new(pixel, sample), seen: Seen::NOTHING };
             self.slots.extend(pixels.iter().map(slot));
@@ -134,10 +134,11 @@ impl<'w, const C: usize> Wave<'w, C> {
             places.extend(self.slots.iter().map(|slot| slot.pixel[axis] as f32));
             places.resize(n.next_multiple_of(MAX_LANES), 0.0);
         }
-        rays::fill(&mut self.batch.rays, n.next_multiple_of(MAX_LANES));
-        self.view.rays(self.backend, &self.pixels, &self.numbers, &mut self.batch.rays);
-        rays::fill(&mut self.batch.rays, n);
-        self.carried.extend((0..n).map(|slot| Carried { slot: slot as u32, throughput: [1.0; C], pdf: f32::INFINITY }));
+        let Sent { rays, carried } = &mut self.sent;
+        rays::fill(rays, n.next_multiple_of(MAX_LANES));
+        self.view.rays(self.backend, &self.pixels, &self.numbers, rays);
+        rays::fill(rays, n);
+        carried.extend((0..n).map(|slot| Carried { slot: slot as u32, throughput: [1.0; C], pdf: f32::INFINITY }));
         self.stats.samples += self.slots.len() as u64;
     }
 
@@ -146,7 +147,7 @@ impl<'w, const C: usize> Wave<'w, C> {
         let mut class = RayClass::Camera;
         let last = self.integrator.depth();
         for depth in 0..=last {
-            if self.carried.is_empty() {
+            if self.sent.is_empty() {
                 break;
             }
             self.trace(class);
@@ -167,11 +168,10 @@ impl<'w, const C: usize> Wave<'w, C> {
 
     fn trace(&mut self, class: RayClass) {
         let begun = Instant::now();
-        let Batch { rays, hits } = &mut self.batch;
-        rays::fit(hits, rays.len());
-        self.backend.run(Intersect::new(&self.world.scene, class, rays.view(), hits.view()));
+        rays::fit(&mut self.found, self.sent.len());
+        self.backend.run(Intersect::new(&self.world.scene, class, self.sent.rays.view(), self.found.view()));
         self.stats.trace += begun.elapsed();
-        self.stats.rays += rays.len() as u64;
+        self.stats.rays += self.sent.len() as u64;
     }
 
     /// Takes the light of rays that leave the scene, and sorts the others by the materials they have hit.
@@ -182,28 +182,31 @@ impl<'w, const C: usize> Wave<'w, C> {
         // The last rays look for lights only.
         let all = depth == 0 || depth < self.integrator.depth();
         let (triangles, parts) = (self.world.triangles.as_slice(), &self.world.parts);
-        self.queue.clear();
-        for (i, (carried, &primitive)) in self.carried.iter().zip(&self.batch.hits.primitive).enumerate() {
-            if primitive != MISS {
-                let part = &parts[triangles[primitive as usize][3] as usize];
-                if all || part.light.is_some() {
-                    self.queue.push(i, part.material);
-                }
-            } else if !debugging && let Some(radiance) = background(self.world, self.batch.direction(i), carried.pdf) {
+        let primitives = &self.found.primitive;
+        self.queue.part(primitives.iter().map(|&primitive| primitive != MISS));
+        self.queue.sort(self.world.materials.len(), |ray| {
+            let part = &parts[triangles[primitives[ray] as usize][3] as usize];
+            (all || part.light.is_some()).then_some(part.material)
+        });
+        if !debugging {
+            for &ray in &self.queue.missed {
+                let carried = &self.sent.carried[ray as usize];
+                let Some(radiance) = background(self.world, self.sent.direction(ray as usize), carried.pdf) else {
+                    break;
+                };
                 add(&mut self.slots[carried.slot as usize].seen.radiance, carried.throughput, radiance, limit);
             }
         }
-        self.queue.sort(self.world.materials.len());
         self.arrived.clear();
-        self.arrived.extend(self.queue.order.iter().map(|ray| self.carried[*ray as usize]));
+        self.arrived.extend(self.queue.order.iter().map(|ray| self.sent.carried[*ray as usize]));
         self.stats.sort += begun.elapsed();
     }
 
     /// Finds the places on surfaces, and takes the light of those that shine.
     fn meet(&mut self, depth: u32) {
         let begun = Instant::now();
-        let Batch { rays, hits: found } = &self.batch;
-        self.hits.find(self.backend, self.world, &self.queue.order, rays, found);
+        let found = &self.found;
+        self.hits.find(self.backend, self.world, &self.queue.order, &self.sent.rays, found);
         let debugging = self.integrator.is_debugging();
         let limit = self.integrator.limit(depth);
         for (hit, &part) in self.hits.parts().iter().enumerate() {
@@ -240,7 +243,7 @@ impl<'w, const C: usize> Wave<'w, C> {
             let seen = &mut self.slots[carried.slot as usize].seen;
             seen.radiance = std::array::from_fn(|k| 0.5 + 0.5 * normal[k.min(2)]);
         }
-        self.carried.clear();
+        self.sent.clear();
     }
 }
 

@@ -1,42 +1,102 @@
-//! Rays and what they hit.
+//! Rays and what they carry.
 
 use lobe_trace::{HitSoA, MISS, RaySoA};
 
 use crate::vec3::Vec3;
 
-/// A batch of rays with room for their hits.
-#[derive(Debug, Default)]
-pub(super) struct Batch {
+/// Rays that begin at `t` 0, each with what it carries.
+#[derive(Debug)]
+pub(super) struct Sent<T> {
     pub rays: RaySoA,
-    pub hits: HitSoA,
+    pub carried: Vec<T>,
 }
 
-impl Batch {
+impl<T> Default for Sent<T> {
+    fn default() -> Self {
+        Sent { rays: RaySoA::default(), carried: Vec::new() }
+    }
+}
+
+impl<T: Copy> Sent<T> {
     /// No rays; memory is kept.
     pub fn clear(&mut self) {
-        clear(&mut self.rays);
+        fill(&mut self.rays, 0);
+        self.carried.clear();
+    }
+
+    pub fn len(&self) -> usize {
+        self.carried.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.carried.is_empty()
     }
 
     /// The direction of a ray.
-    pub fn direction(&self, i: usize) -> Vec3 {
-        self.rays.direction.each_ref().map(|component| component[i])
+    pub fn direction(&self, ray: usize) -> Vec3 {
+        self.rays.direction.each_ref().map(|component| component[ray])
+    }
+
+    /// Adds a ray.
+    pub fn push(&mut self, (origin, direction): (Vec3, Vec3), t_max: f32, carried: T) {
+        self.rays.push(origin, direction, 0.0, t_max);
+        self.carried.push(carried);
+    }
+
+    /// Adds those of at most `more` rays that `write` keeps.
+    #[inline(always)]
+    pub fn extend(&mut self, more: usize, write: impl FnOnce(&mut Room<'_, T>)) {
+        let begin = self.len();
+        // One more, to be written over.
+        let more = more + 1;
+        fill(&mut self.rays, begin + more);
+        let RaySoA { origin, direction, t_max, .. } = &mut self.rays;
+        let mut room = Room {
+            origin: origin.each_mut().map(|column| &mut column[begin..][..more]),
+            direction: direction.each_mut().map(|column| &mut column[begin..][..more]),
+            t_max: &mut t_max[begin..][..more],
+            carried: &mut self.carried,
+            begin,
+            count: 0,
+        };
+        write(&mut room);
+        let kept = begin + room.count;
+        self.carried.truncate(kept);
+        fill(&mut self.rays, kept);
     }
 }
 
-/// Removes all rays and keeps the memory.
-pub(super) fn clear(rays: &mut RaySoA) {
-    rays.origin.iter_mut().chain(&mut rays.direction).for_each(Vec::clear);
-    rays.t_min.clear();
-    rays.t_max.clear();
+/// Room for rays to be written one after the other.
+pub(super) struct Room<'a, T> {
+    origin: [&'a mut [f32]; 3],
+    direction: [&'a mut [f32]; 3],
+    t_max: &'a mut [f32],
+    carried: &'a mut Vec<T>,
+    begin: usize,
+    count: usize,
 }
 
-/// Makes it `n` rays without end, whatever their origins and directions are.
+impl<T: Copy> Room<'_, T> {
+    /// Writes a ray. One that is not to be kept is written over by the next: whether it is cannot be foreseen, and so is
+    /// not asked.
+    #[inline(always)]
+    pub fn write(&mut self, (origin, direction): (Vec3, Vec3), t_max: f32, carried: T, keep: bool) {
+        for axis in 0..3 {
+            self.origin[axis][self.count] = origin[axis];
+            self.direction[axis][self.count] = direction[axis];
+        }
+        self.t_max[self.count] = t_max;
+        self.carried.truncate(self.begin + self.count);
+        self.carried.push(carried);
+        self.count += usize::from(keep);
+    }
+}
+
+/// Makes it `n` rays; those that are added have no end, whatever their origins and directions are.
 pub(super) fn fill(rays: &mut RaySoA, n: usize) {
-    rays.origin.iter_mut().chain(&mut rays.direction).for_each(|column| column.resize(n, 0.0));
-    rays.t_min.clear();
-    rays.t_min.resize(n, 0.0);
-    rays.t_max.clear();
-    rays.t_max.resize(n, f32::INFINITY);
+    let RaySoA { origin, direction, t_min, t_max } = rays;
+    origin.iter_mut().chain(direction).chain([t_min]).for_each(|column| column.resize(n, 0.0));
+    t_max.resize(n, f32::INFINITY);
 }
 
 /// Makes room for the hits of `n` rays.

@@ -32,8 +32,7 @@ const ROULETTE: u32 = 3;
 impl<const C: usize> Wave<'_, C> {
     /// Draws the next rays of the sorted hits. Returns whether all of them are mirrored or refracted.
     pub(super) fn scatter(&mut self, depth: u32) -> bool {
-        self.carried.clear();
-        self.batch.clear();
+        self.sent.clear();
         let begun = Instant::now();
         self.draw(Use::Scatter(depth));
         let n = self.hits.len();
@@ -106,8 +105,8 @@ impl<const C: usize> Wave<'_, C> {
             wi = less::<Reference>(wi, times::<Reference>(normal, two * product::<Reference>(normal, wi)));
         }
         let origin = place.leave(lanes, place.position, wi);
-        self.batch.rays.push(lanes.extract_xyz(origin, 0), lanes.extract_xyz(wi, 0), 0.0, f32::INFINITY);
-        self.carried.push(Carried { slot: arrived.slot, throughput, pdf: f32::INFINITY });
+        let ray = (lanes.extract_xyz(origin, 0), lanes.extract_xyz(wi, 0));
+        self.sent.push(ray, f32::INFINITY, Carried { slot: arrived.slot, throughput, pdf: f32::INFINITY });
     }
 
     /// One material's hits, in full lanes.
@@ -128,30 +127,27 @@ impl<const C: usize> Wave<'_, C> {
         let begun = Instant::now();
         let Scattered { wi, weight, pdf, rays, .. } = &mut self.scattered;
         leave(self.backend, &self.hits, Start::Surface, wi, rays);
-        for (material, range) in &self.queue.parts {
-            if self.world.materials[*material].delta().is_some() {
-                continue;
-            }
-            for hit in range.clone() {
-                let (arrived, ray) = (&self.arrived[hit], &rays[hit / RAYS]);
-                let mut throughput: [f32; C] = std::array::from_fn(|k| arrived.throughput[k] * weight[hit][k]);
-                let most = throughput.iter().fold(0.0f32, |most, t| most.max(t.abs()));
-                // NaN is no more than 0 either.
-                if !(pdf[hit] > 0.0 && most > 0.0 && ray.goes(hit % RAYS)) {
+        self.sent.extend(self.hits.len(), |out| {
+            for (material, range) in &self.queue.parts {
+                if self.world.materials[*material].delta().is_some() {
                     continue;
                 }
-                if depth >= ROULETTE {
-                    let chance = most.min(0.95);
-                    if self.numbers.of(hit)[3] >= chance {
-                        continue;
+                for hit in range.clone() {
+                    let (arrived, ray) = (&self.arrived[hit], &rays[hit / RAYS]);
+                    let mut throughput: [f32; C] = std::array::from_fn(|k| arrived.throughput[k] * weight[hit][k]);
+                    let most = throughput.iter().fold(0.0f32, |most, t| most.max(t.abs()));
+                    // NaN is no more than 0 either.
+                    let mut goes = (pdf[hit] > 0.0) & (most > 0.0) & ray.goes(hit % RAYS);
+                    if depth >= ROULETTE {
+                        let chance = most.min(0.95);
+                        goes &= self.numbers.of(hit)[3] < chance;
+                        throughput = throughput.map(|t| t / chance);
                     }
-                    throughput = throughput.map(|t| t / chance);
+                    let carried = Carried { slot: arrived.slot, throughput, pdf: pdf[hit] };
+                    out.write(ray.ray(hit % RAYS), f32::INFINITY, carried, goes);
                 }
-                let (origin, direction) = ray.ray(hit % RAYS);
-                self.batch.rays.push(origin, direction, 0.0, f32::INFINITY);
-                self.carried.push(Carried { slot: arrived.slot, throughput, pdf: pdf[hit] });
             }
-        }
+        });
         self.stats.scatter += begun.elapsed();
     }
 }
