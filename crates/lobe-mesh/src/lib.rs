@@ -2,7 +2,8 @@
 //!
 //! [`read`] opens PLY, OBJ and glTF files; [`shapes`] makes a sphere, a plane, a disk, a cuboid and tubes; [`generate`]
 //! makes the scenes of the previews: a draped cloth, a material ball, a knot. All of them give a [`Geometry`], whose
-//! [`complete`](Geometry::complete) adds the normals and tangents that are missing.
+//! [`complete`](Geometry::complete) adds the normals and tangents that are missing, and whose
+//! [`refined`](Geometry::refined) cuts coarse triangles into finer ones.
 //!
 //! # Conventions
 //!
@@ -26,6 +27,7 @@ mod normals;
 pub mod obj;
 pub mod ply;
 mod read;
+mod refine;
 pub mod shapes;
 mod tangents;
 

@@ -52,7 +52,7 @@ pub fn studio(material: Arc<dyn Shader<3>>, show: Show, backend: Backend) -> Res
         }
     }
     if show != Show::Ball {
-        let cloth = cloth();
+        let cloth = cloth().refined(PIECES).expect("a mesh of few triangles");
         let moved = Place { axes: Place::UPRIGHT.map(|axis| scale(axis, CLOTH)), translate: cloth_at };
         world.shape(&moved.shape(&cloth, cloth.triangles.clone()), material, None, false)?;
     }
@@ -74,6 +74,9 @@ pub fn studio(material: Arc<dyn Shader<3>>, show: Show, backend: Backend) -> Res
 
 /// Size of the cloth in the studio over that in its file.
 const CLOTH: f32 = 2.1;
+
+/// Into how many an edge of the cloth is cut: where a fold throws a shadow on itself, facets would show.
+const PIECES: u32 = 3;
 
 const LENS: Camera = Camera {
     position: [0.0; 3],

@@ -20,7 +20,7 @@ pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(),
             Some(found) => return Err(node.error("shading", format!("found `{found}`; expected smooth or flat"))),
         };
         let geometry = if shading == Shading::Flat { geometry.with_normals(shading) } else { geometry };
-        let geometry = geometry.complete();
+        let geometry = refined(&node, geometry.complete())?;
         let place = self::place(&node)?;
         let radiance = node.colour("radiance", f64::MAX)?;
         let two_sided = node.flag("two_sided")?;
@@ -69,6 +69,19 @@ fn geometry(node: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<Geometry, 
         }
         _ => Err(node.error("", "found no or too many keys; expected either `file` or `shape`")),
     }
+}
+
+/// The most triangles that `refine` makes of a mesh: a scene of few words must not fill the memory.
+const MOST: u64 = 1 << 26;
+
+/// The mesh, its triangles cut as finely as `refine` asks for.
+fn refined(node: &Node<'_, '_>, geometry: Geometry) -> Result<Geometry, SceneError> {
+    let Some(pieces) = node.whole("refine", 1..=32)? else { return Ok(geometry) };
+    let triangles = geometry.triangles.len() as u64 * u64::from(pieces).pow(2);
+    if triangles > MOST {
+        return Err(node.error("refine", format!("found {pieces}, {triangles} triangles; expected at most {MOST}")));
+    }
+    geometry.refined(pieces).map_err(|error| node.error("refine", error.to_string()))
 }
 
 /// The number of a material that a key names.

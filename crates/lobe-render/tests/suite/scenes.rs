@@ -108,6 +108,8 @@ fn mistakes_are_named_with_their_line_and_key() {
             "found `silver`; expected one of the materials: cloth, gold",
         ),
         ("radius = 0.5", "radius = \"big\"", 29, "object[1].radius: found `big`"),
+        ("radius = 0.5", "refine = 0", 29, "object[1].refine: found 0; expected a whole number from 1 to 32"),
+        ("radius = 0.5", "segments = 512\nrefine = 32", 30, "triangles; expected at most 67108864"),
         ("translate = [0, 0.5, 0]", "translate = [0, inf, 0]", 30, "object[1].translate"),
         ("kind = \"point\"", "kind = \"neon\"", 34, "light[0].kind: found `neon`; expected point"),
         ("intensity = 20", "intensity = -1", 36, "light[0].intensity: found -1"),
