@@ -26,7 +26,7 @@ impl Geometry {
             return Err(GeometryError::TooMany { what: "triangles", found: found as usize });
         }
         let mesh = if self.normals.is_some() { self } else { self.with_normals(Shading::Smooth) };
-        if pieces == 1 {
+        if pieces == 1 || mesh.triangles.is_empty() {
             return Ok(mesh);
         }
         let mut refined = Refined { edges: HashMap::new(), parts: mesh.clone().into_parts(), pieces, mesh: &mesh };
@@ -249,6 +249,8 @@ mod tests {
         }
         assert_eq!(fine.groups[0].triangles, 0..fine.triangles.len() as u32);
         assert_eq!(plane.clone().refined(1).expect("the same"), plane);
+        let nothing = Geometry::new(Parts::default()).expect("an empty mesh");
+        assert!(nothing.refined(u32::MAX).expect("nothing").triangles.is_empty());
     }
 
     #[test]
