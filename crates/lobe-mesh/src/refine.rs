@@ -47,7 +47,7 @@ struct Refined<'a> {
     mesh: &'a Parts,
     parts: Parts,
     pieces: u32,
-    /// The first of the vertices between two others.
+    /// The first of the vertices between two others, which come in the order of their places.
     edges: HashMap<[u32; 2], u32>,
 }
 
@@ -70,9 +70,9 @@ impl Refined<'_> {
             (0, 0) => a,
             (i, 0) if i == n => b,
             (0, j) if j == n => c,
-            (i, 0) => along(edges[0], a < b, i, n),
-            (0, j) => along(edges[1], a < c, j, n),
-            (i, j) if i + j == n => along(edges[2], b < c, j, n),
+            (i, 0) => along(edges[0], i, n),
+            (0, j) => along(edges[1], j, n),
+            (i, j) if i + j == n => along(edges[2], j, n),
             // Rows of n - 2, n - 3, ...
             (i, j) => inside + (j - 1) * (2 * n - 2 - j) / 2 + i - 1,
         };
@@ -86,30 +86,27 @@ impl Refined<'_> {
         }
     }
 
-    /// The vertices between two others, in the order from the one with the smaller number.
-    fn edge(&mut self, a: u32, b: u32) -> u32 {
-        let ends = [a.min(b), a.max(b)];
+    /// The vertices between two others: the number of the first, and whether they go from `a` to `b`.
+    fn edge(&mut self, a: u32, b: u32) -> (u32, bool) {
+        // By their places: where texture coordinates have a seam, two edges are at one place, and what is computed from
+        // the same end is the same bits.
+        let place = |end: u32| (self.mesh.positions[end as usize], end);
+        let forward = place(a) <= place(b);
+        let ends @ [from, to] = if forward { [a, b] } else { [b, a] };
         if let Some(&first) = self.edges.get(&ends) {
-            return first;
+            return (first, forward);
         }
         let first = self.parts.positions.len() as u32;
-        // Where texture coordinates have a seam, two edges are at one place: their vertices are computed from the same
-        // end, to the same bits.
-        let [p, q] = ends.map(|end| self.corner(end));
-        let swapped = p.0.to_array() > q.0.to_array();
-        let [from, to] = if swapped { [q, p] } else { [p, q] };
-        let control = [from.0, toward(from, to), toward(to, from), to.0];
+        // The border of any patch that has it.
+        let corners = [from, to, to];
+        let patch = Patch::new(corners.map(|end| self.corner(end)));
         for k in 1..self.pieces {
-            let k = if swapped { self.pieces - k } else { k };
             let t = f64::from(k) / f64::from(self.pieces);
-            let s = 1.0 - t;
-            let shares = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
-            let position = control.iter().zip(shares).map(|(point, share)| *point * share).sum();
-            let share = if swapped { s } else { t };
-            self.push(position, [ends[0], ends[1], ends[1]], [1.0 - share, share, 0.0]);
+            let weights = [1.0 - t, t, 0.0];
+            self.push(patch.at(weights), corners, weights);
         }
         self.edges.insert(ends, first);
-        first
+        (first, forward)
     }
 
     fn corner(&self, index: u32) -> (DVec3, DVec3) {
@@ -143,8 +140,8 @@ impl Refined<'_> {
     }
 }
 
-/// The vertex `k` of `n` steps from one end of an edge, whose vertices are in that direction or in the other.
-fn along(first: u32, forward: bool, k: u32, n: u32) -> u32 {
+/// The vertex `k` of `n` steps along an edge, whose vertices begin with that number and go this way or the other.
+fn along((first, forward): (u32, bool), k: u32, n: u32) -> u32 {
     first + if forward { k } else { n - k } - 1
 }
 
@@ -232,6 +229,24 @@ mod tests {
             }
         }
         assert!(edges.values().all(|&count| count == 0));
+    }
+
+    #[test]
+    fn copies_of_an_edge_are_the_same_bits() {
+        // As at a seam: two triangles that share no vertices, and number the ends of the edge they have in common in
+        // opposite orders.
+        let ([a, b], [m, n]) = ([[0.13, 0.71, -0.29], [1.37, -0.23, 0.41]], [[0.6, 0.8, 0.0], [0.0, 0.6, 0.8]]);
+        for pieces in 2..20 {
+            let parts = Parts {
+                positions: vec![a, b, [0.3, 0.9, 1.1], b, a, [0.9, -0.7, -1.3]],
+                normals: Some(vec![m, n, m, n, m, n]),
+                triangles: vec![[0, 1, 2], [3, 4, 5]],
+                ..Parts::default()
+            };
+            let fine = Geometry::new(parts).expect("two triangles").refined(pieces).expect("more of them");
+            let places: std::collections::HashSet<_> = fine.positions.iter().map(|p| p.map(f32::to_bits)).collect();
+            assert_eq!(places.len(), fine.positions.len() - (pieces as usize + 1), "{pieces} pieces");
+        }
     }
 
     #[test]

@@ -45,7 +45,7 @@ impl TriangleBlock {
     /// A coordinate of a corner of all triangles.
     #[inline(always)]
     fn row(&self, corner: usize, axis: usize) -> &[f32; SLOTS] {
-        // So that the compiler knows what nobody can see: no row is beyond the last.
+        // Masked, so that the compiler sees that no row is beyond the last, and asks nothing.
         &self.rows[3 * corner + (axis & 3)]
     }
 

@@ -183,17 +183,15 @@ impl<'w, const C: usize> Wave<'w, C> {
         let all = depth == 0 || depth < self.integrator.depth();
         let (triangles, parts) = (self.world.triangles.as_slice(), &self.world.parts);
         let primitives = &self.found.primitive;
-        self.queue.part(primitives.iter().map(|&primitive| primitive != MISS));
+        self.queue.split(primitives.iter().map(|&primitive| primitive != MISS));
         self.queue.sort(self.world.materials.len(), |ray| {
             let part = &parts[triangles[primitives[ray] as usize][3] as usize];
             (all || part.light.is_some()).then_some(part.material)
         });
-        if !debugging {
+        if !debugging && let Some(sky) = self.world.lights.environment {
             for &ray in &self.queue.missed {
                 let carried = &self.sent.carried[ray as usize];
-                let Some(radiance) = background(self.world, self.sent.direction(ray as usize), carried.pdf) else {
-                    break;
-                };
+                let radiance = background(self.world, sky, (self.sent.direction(ray as usize), carried.pdf));
                 add(&mut self.slots[carried.slot as usize].seen.radiance, carried.throughput, radiance, limit);
             }
         }
@@ -247,13 +245,12 @@ impl<'w, const C: usize> Wave<'w, C> {
     }
 }
 
-/// Radiance from where there is no surface, for a ray whose direction was drawn with that density.
-fn background<const C: usize>(world: &World<C>, direction: Vec3, pdf: f32) -> Option<[f32; C]> {
-    let index = world.lights.environment?;
-    let Light::Environment(environment) = &world.lights.all[index] else { return None };
+/// Radiance from where there is no surface, for a ray of that direction, which was drawn with that density.
+fn background<const C: usize>(world: &World<C>, index: usize, (direction, pdf): (Vec3, f32)) -> [f32; C] {
+    let Light::Environment(environment) = &world.lights.all[index] else { return [0.0; C] };
     let (radiance, density) = environment.seen(direction);
     let share = against(pdf, || world.lights.chance(index) * density);
-    Some(radiance.map(|x| x * share))
+    radiance.map(|x| x * share)
 }
 
 /// Radiance from a surface that shines, for a ray that was drawn with that density, comes from that far, and has that

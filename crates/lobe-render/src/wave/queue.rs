@@ -19,7 +19,7 @@ pub(super) struct Queue {
 
 impl Queue {
     /// Tells rays that have hit something from those that have not.
-    pub fn part(&mut self, hit: impl ExactSizeIterator<Item = bool>) {
+    pub fn split(&mut self, hit: impl ExactSizeIterator<Item = bool>) {
         // Each is written to both lists, and written over where it does not belong: which it is cannot be foreseen.
         let room = hit.len() + 1;
         self.hit.resize(room, 0);
