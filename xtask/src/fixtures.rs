@@ -22,8 +22,9 @@ pub struct Args {
     /// it (sine and cosine differ in the last bits from platform to platform); meshes must be the same bytes
     #[arg(long)]
     check: bool,
-    /// Where the files are
-    #[arg(long, default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/../fixtures"))]
+    /// Where the files are [default: fixtures]
+    #[arg(long, value_name = "DIR", hide_default_value = true)]
+    #[arg(default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/../fixtures"))]
     directory: PathBuf,
 }
 

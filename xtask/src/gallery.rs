@@ -22,8 +22,9 @@ pub struct Args {
     /// Samples a pixel, in place of what the scenes say: for a look; docs/gallery.md is not written then
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..65_537))]
     samples: Option<u32>,
-    /// Where pictures go
-    #[arg(long, value_name = "DIR", default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/pictures"))]
+    /// Where pictures go [default: docs/pictures]
+    #[arg(long, value_name = "DIR", hide_default_value = true)]
+    #[arg(default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/pictures"))]
     pictures: PathBuf,
 }
 
