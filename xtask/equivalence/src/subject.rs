@@ -79,7 +79,15 @@ impl Subject {
         return match self {
             Subject::Sse2 => std::is_x86_feature_detected!("sse2"),
             Subject::Sse41 => std::is_x86_feature_detected!("sse4.1"),
-            Subject::Avx2 => std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma"),
+            Subject::Avx2 => {
+                std::is_x86_feature_detected!("avx2")
+                    && std::is_x86_feature_detected!("fma")
+                    && std::is_x86_feature_detected!("f16c")
+                    && std::is_x86_feature_detected!("bmi1")
+                    && std::is_x86_feature_detected!("bmi2")
+                    && std::is_x86_feature_detected!("lzcnt")
+                    && std::is_x86_feature_detected!("popcnt")
+            }
             _ => true,
         };
         #[cfg(not(target_arch = "x86_64"))]
