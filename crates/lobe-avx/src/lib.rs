@@ -30,7 +30,7 @@ pub use values::{Floats, Ints, Mask, Quad};
 pub struct Avx2(());
 
 impl Avx2 {
-    /// The token where the CPU has the features.
+    /// The token, if the CPU has the features.
     pub fn detect() -> Option<Self> {
         let has = std::is_x86_feature_detected!("avx2")
             && std::is_x86_feature_detected!("fma")

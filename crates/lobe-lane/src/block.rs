@@ -16,7 +16,7 @@ impl<'a, const N: usize, const WIDTH: usize, T> Block<'a, N, WIDTH, T> {
     /// A pattern of `N` loads of `WIDTH` elements at `base + offsets[i]` of `data`.
     ///
     /// # Panics
-    /// Where `data` is too short for the pattern even at base 0.
+    /// If `data` is too short for the pattern even at base 0.
     pub fn new(data: &'a [T], offsets: [usize; N]) -> Self {
         let reach = offsets.iter().max().map_or(0, |far| far.checked_add(WIDTH).expect("offset overflow"));
         let last_base = data.len().checked_sub(reach).expect("a table shorter than its corner pattern");

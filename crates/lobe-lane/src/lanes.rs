@@ -2,7 +2,7 @@
 
 use crate::{Block, Floats, Ints, Mask, Strict, Texels};
 
-/// The widest backend there may be; kernels that need an array with one entry a lane use this size.
+/// The widest backend there may be; kernels that need an array with one entry per lane use this size.
 pub const MAX_LANES: usize = 16;
 
 /// Work to be compiled for a backend's instruction set.
@@ -29,9 +29,9 @@ pub trait Lanes: Texels {
     const LANES: usize;
     /// Name of the backend as in `LOBE_BACKEND`.
     const NAME: &'static str;
-    /// `true` where [`mul_add`](Lanes::mul_add) rounds once.
+    /// `true` if [`mul_add`](Lanes::mul_add) rounds once.
     const FUSED: bool;
-    /// `true` where [`oct_lookup`](Lanes::oct_lookup) is a single instruction, so that small tables are best searched
+    /// `true` if [`oct_lookup`](Lanes::oct_lookup) is a single instruction, so that small tables are best searched
     /// inside registers.
     const PERMUTES: bool;
 
@@ -59,7 +59,7 @@ pub trait Lanes: Texels {
         self.iota().lt(self.splat_int(if n < Self::LANES { n as i32 } else { Self::LANES as i32 }))
     }
 
-    /// `a * b + c`, rounded once where [`FUSED`](Lanes::FUSED), else twice.
+    /// `a * b + c`, rounded once if [`FUSED`](Lanes::FUSED), otherwise twice.
     fn mul_add(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F;
     /// `a` where the mask is set, else `b`.
     fn select(self, mask: Self::M, a: Self::F, b: Self::F) -> Self::F;
@@ -72,22 +72,22 @@ pub trait Lanes: Texels {
     /// The first `LANES` floats of `src`.
     ///
     /// # Panics
-    /// Where `src` is shorter.
+    /// If `src` is shorter.
     fn load(self, src: &[f32]) -> Self::F;
     /// Writes to the first `LANES` floats of `dst`.
     ///
     /// # Panics
-    /// Where `dst` is shorter.
+    /// If `dst` is shorter.
     fn store(self, dst: &mut [f32], x: Self::F);
     /// The first `LANES` integers of `src`.
     ///
     /// # Panics
-    /// Where `src` is shorter.
+    /// If `src` is shorter.
     fn load_int(self, src: &[i32]) -> Self::I;
     /// Writes to the first `LANES` integers of `dst`.
     ///
     /// # Panics
-    /// Where `dst` is shorter.
+    /// If `dst` is shorter.
     fn store_int(self, dst: &mut [i32], x: Self::I);
     /// As many floats as `src` has, at most `LANES`; zeros in the lanes beyond.
     #[inline(always)]
@@ -122,26 +122,26 @@ pub trait Lanes: Texels {
         dst.copy_from_slice(&buffer[..n]);
     }
     /// Has cache lines brought in, where the backend can: entry `at` of a slice, on the first of them, will be read soon.
-    /// It may be none of the slice's; then this is for nothing.
+    /// It may lie outside the slice, in which case nothing is gained.
     #[inline(always)]
     fn prefetch<const LINES: usize, T>(self, _memory: &[T], _at: usize) {}
     /// `LANES` vectors of three floats, as `[x, y, z]`.
     ///
     /// # Panics
-    /// Where `src` is shorter.
+    /// If `src` is shorter.
     fn load_xyz(self, src: &[[f32; 3]]) -> [Self::F; 3];
 
-    /// `table[index]` in each lane. An index outside the table, also a negative one, reads the last entry.
+    /// `table[index]` in each lane. An index outside the table reads the last entry, as does a negative one.
     ///
     /// # Panics
-    /// Where the table is empty.
+    /// If the table is empty.
     fn gather(self, table: &[f32], index: Self::I) -> Self::F;
     /// The two floats of `table[index]` in each lane; an index outside reads the last entry.
     ///
     /// # Panics
-    /// Where the table is empty.
+    /// If the table is empty.
     fn gather_pair(self, table: &[[f32; 2]], index: Self::I) -> [Self::F; 2];
-    /// In each lane, the four floats at `base + offset` of the block, for each of its offsets; a base outside is
+    /// In each lane, the four floats at `base + offset` of the block, for each of its offsets; a base that is too large is
     /// clamped to the block's last. The result is transposed: `[corner][k]` holds float `k` of that corner in all lanes.
     fn gather_quads<const N: usize>(self, block: &Block<'_, N, 4>, base: Self::I) -> [[Self::F; 4]; N];
     /// As [`gather_quads`](Lanes::gather_quads), from half-precision floats.
@@ -149,7 +149,7 @@ pub trait Lanes: Texels {
     /// In each lane, float `index & 7` of the eight in `table`.
     fn oct_lookup(self, table: Self::Oct, index: Self::I) -> Self::F;
 
-    /// `true` and the value where all lanes of `mask` hold the same index; `false` where they differ or none is set.
+    /// `true` and the index if all lanes of `mask` hold the same one; `false` if they differ or no lane is set.
     #[inline(always)]
     fn uniform(self, index: Self::I, mask: Self::M) -> (bool, i32) {
         let bits = mask.bits();

@@ -1,7 +1,7 @@
 //! Whole texels of one query: four floats (a *quad*) and two neighbouring texels (an *oct*).
 //!
 //! The corners of an interpolation lie far apart, but the channels of a texel lie side by side. Loading a texel at
-//! once takes one load where gathering its channels lane by lane takes one each, so the inner loop of a table runs
+//! once takes one load; gathering its channels lane by lane takes one each, so the inner loop of a table runs
 //! along a query and not across queries. Quads and octs have the same width on every backend.
 //!
 //! Tables may also hold half-precision floats (IEEE 754 binary16, as `u16`). They are finite: what a backend makes of the
@@ -19,18 +19,18 @@ pub trait Texels: Copy + Debug + Send + Sync + 'static {
     /// Eight floats.
     type Oct: Copy + Debug + Add<Output = Self::Oct> + Mul<Output = Self::Oct>;
 
-    /// `a * b + c` of single floats; rounded once where the backend fuses.
+    /// `a * b + c` of single floats; rounded once if the backend fuses.
     fn scalar_mul_add(self, a: f32, b: f32, c: f32) -> f32;
 
     /// The first four floats of `src`.
     ///
     /// # Panics
-    /// Where `src` is shorter.
+    /// If `src` is shorter.
     fn quad_load(self, src: &[f32]) -> Self::Quad;
     /// Writes to the first four floats of `dst`.
     ///
     /// # Panics
-    /// Where `dst` is shorter.
+    /// If `dst` is shorter.
     fn quad_store(self, dst: &mut [f32], x: Self::Quad);
     /// The four floats at `base + offset` of the block, for each of its offsets; `base` is clamped to the block's last.
     fn quad_corners<const N: usize>(self, block: &Block<'_, N, 4>, base: usize) -> [Self::Quad; N];
@@ -38,20 +38,20 @@ pub trait Texels: Copy + Debug + Send + Sync + 'static {
     fn quad_corners_half<const N: usize>(self, block: &Block<'_, N, 4, u16>, base: usize) -> [Self::Quad; N];
     /// `x` four times.
     fn quad_splat(self, x: f32) -> Self::Quad;
-    /// `a * b + c`, float by float; rounded once where the backend fuses.
+    /// `a * b + c`, float by float; rounded once if the backend fuses.
     fn quad_mul_add(self, a: Self::Quad, b: Self::Quad, c: Self::Quad) -> Self::Quad;
-    /// `if a > b { a } else { b }`, float by float, so `b` where either is NaN.
+    /// `if a > b { a } else { b }`, float by float, so `b` if either is NaN.
     fn quad_max(self, a: Self::Quad, b: Self::Quad) -> Self::Quad;
 
     /// The first eight floats of `src`.
     ///
     /// # Panics
-    /// Where `src` is shorter.
+    /// If `src` is shorter.
     fn oct_load(self, src: &[f32]) -> Self::Oct;
     /// Writes to the first eight floats of `dst`.
     ///
     /// # Panics
-    /// Where `dst` is shorter.
+    /// If `dst` is shorter.
     fn oct_store(self, dst: &mut [f32], x: Self::Oct);
     /// `x` eight times.
     fn oct_splat(self, x: f32) -> Self::Oct;
@@ -59,12 +59,12 @@ pub trait Texels: Copy + Debug + Send + Sync + 'static {
     fn oct_corners<const N: usize>(self, block: &Block<'_, N, 8>, base: usize) -> [Self::Oct; N];
     /// As [`oct_corners`](Texels::oct_corners), from half-precision floats.
     fn oct_corners_half<const N: usize>(self, block: &Block<'_, N, 8, u16>, base: usize) -> [Self::Oct; N];
-    /// `a * b + c`, float by float; rounded once where the backend fuses.
+    /// `a * b + c`, float by float; rounded once if the backend fuses.
     fn oct_mul_add(self, a: Self::Oct, b: Self::Oct, c: Self::Oct) -> Self::Oct;
-    /// `if a > b { a } else { b }`, float by float, so `b` where either is NaN.
+    /// `if a > b { a } else { b }`, float by float, so `b` if either is NaN.
     fn oct_max(self, a: Self::Oct, b: Self::Oct) -> Self::Oct;
     /// The first four and the last four floats.
     fn oct_halves(self, x: Self::Oct) -> [Self::Quad; 2];
-    /// How many of the eight floats, from the first on, are `<= x`: all that are, where they ascend.
+    /// How many of the eight floats are `<= x`, counted up to the first that is not: all of them if they ascend.
     fn oct_count_le(self, knots: Self::Oct, x: f32) -> u32;
 }

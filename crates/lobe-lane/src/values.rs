@@ -13,35 +13,35 @@ pub trait Floats:
     /// Truth values of the same number of lanes.
     type M: Mask;
 
-    /// `if self < other { self } else { other }`, so `other` where either is NaN.
+    /// `if self < other { self } else { other }`, so `other` if either is NaN.
     fn min(self, other: Self) -> Self;
-    /// `if self > other { self } else { other }`, so `other` where either is NaN.
+    /// `if self > other { self } else { other }`, so `other` if either is NaN.
     fn max(self, other: Self) -> Self;
     /// The sign bit cleared.
     fn abs(self) -> Self;
     /// Correctly rounded square root; NaN below zero.
     fn sqrt(self) -> Self;
-    /// `self < other`, false where either is NaN.
+    /// `self < other`, false if either is NaN.
     fn lt(self, other: Self) -> Self::M;
-    /// `self <= other`, false where either is NaN.
+    /// `self <= other`, false if either is NaN.
     fn le(self, other: Self) -> Self::M;
-    /// `self > other`, false where either is NaN.
+    /// `self > other`, false if either is NaN.
     #[inline(always)]
     fn gt(self, other: Self) -> Self::M {
         other.lt(self)
     }
-    /// `self >= other`, false where either is NaN.
+    /// `self >= other`, false if either is NaN.
     #[inline(always)]
     fn ge(self, other: Self) -> Self::M {
         other.le(self)
     }
-    /// `self == other`, false where either is NaN.
+    /// `self == other`, false if either is NaN.
     fn eq(self, other: Self) -> Self::M;
     /// `self` where the mask is set, `+0.0` elsewhere.
     fn masked(self, mask: Self::M) -> Self;
     /// `self` with its sign bit flipped where the sign bit of `sign` is set.
     fn mul_sign(self, sign: Self) -> Self;
-    /// Rounded toward zero; `i32::MIN` where NaN or out of range.
+    /// Rounded toward zero; `i32::MIN` if NaN or out of range.
     fn to_int(self) -> Self::I;
     /// The same 32 bits as an integer.
     fn bits(self) -> Self::I;
@@ -75,8 +75,8 @@ pub trait Ints:
     fn shl<const BITS: i32>(self) -> Self;
     /// Shifted right by `BITS` (less than 32), zeros coming in.
     fn shr<const BITS: i32>(self) -> Self;
-    /// Less one where the mask is set, as counting kernels need it: a set mask *is* -1 on most hardware, so
-    /// `a.count(m)` is one subtraction. Returns `self + 1` where set.
+    /// One more where the mask is set, for kernels that count: on most hardware a set mask *is* -1, so
+    /// `a.count(m)` is a single subtraction.
     fn count(self, mask: Self::M) -> Self;
     /// Rounded to the nearest float, ties to even.
     fn to_float(self) -> Self::F;
@@ -88,13 +88,13 @@ pub trait Ints:
 pub trait Mask:
     Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + BitXor<Output = Self> + Not<Output = Self>
 {
-    /// One bit a lane, lane 0 lowest.
+    /// One bit per lane, lane 0 lowest.
     fn bits(self) -> u32;
-    /// `true` where any lane is set.
+    /// `true` if any lane is set.
     #[inline(always)]
     fn any(self) -> bool {
         self.bits() != 0
     }
-    /// `true` where every lane is set.
+    /// `true` if every lane is set.
     fn all(self) -> bool;
 }

@@ -22,7 +22,7 @@ const EIGHT_TERMS: [f32; 8] = [
 /// `asin x = x + x^3 Q(x^2)` on `[0, 1/2]`: minimax for the relative error, 9e-8.
 const ODD_TERMS: [f32; 4] = [0.166_655_8, 0.075_405_315, 0.040_034_983, 0.049_953_12];
 
-/// Arc cosine in `[0, pi]`. Arguments outside `[-1, 1]` are taken for the nearer end; NaN stays NaN.
+/// Arc cosine in `[0, pi]`. Arguments outside `[-1, 1]` are clamped to it; NaN stays NaN.
 ///
 /// Largest error: [`bounds::ACOS`](crate::bounds::ACOS).
 #[inline(always)]
@@ -52,7 +52,7 @@ fn acos_positive<L: Lanes>(lanes: L, size: L::F, rest: L::F) -> L::F {
     rest.sqrt() * horner(lanes, size, EIGHT_TERMS)
 }
 
-/// Arc sine in `[-pi/2, pi/2]`. Arguments outside `[-1, 1]` are taken for the nearer end; NaN stays NaN.
+/// Arc sine in `[-pi/2, pi/2]`. Arguments outside `[-1, 1]` are clamped to it; NaN stays NaN.
 ///
 /// Largest error: [`bounds::ASIN`](crate::bounds::ASIN), also relative: near zero it is an odd polynomial.
 #[inline(always)]

@@ -20,7 +20,7 @@ const ODD_TERMS: [f32; 8] = [
 
 /// Twice the arc tangent of `t` in `[-1, 1]`: the angle, in `[-pi/2, pi/2]`, whose half has the tangent `t`.
 ///
-/// The tangent of half an angle is `sin / (1 + cos)`: one division, no root, and no octants to tell apart. It keeps the
+/// The tangent of half an angle is `sin / (1 + cos)`: one division, no root, and no octants to distinguish. It keeps the
 /// small angles that an arc cosine loses.
 ///
 /// Largest error: [`bounds::DOUBLE_ATAN`](crate::bounds::DOUBLE_ATAN).
@@ -47,7 +47,7 @@ pub fn azimuth_from<L: Lanes>(lanes: L, t: L::F, x: L::F) -> L::F {
     angle + lanes.splat(TAU).masked(angle.lt(lanes.splat(0.0)))
 }
 
-/// The angle of `(x, y)` from the positive x axis, in `[0, 2 pi]` (the upper end only by rounding); 0 where both are 0.
+/// The angle of `(x, y)` from the positive x axis, in `[0, 2 pi]` (the upper end only by rounding); 0 if both are 0.
 ///
 /// Largest error: [`bounds::AZIMUTH`](crate::bounds::AZIMUTH), for vectors of lengths from 1e-18 to 1e18.
 #[inline(always)]
@@ -55,7 +55,7 @@ pub fn azimuth<L: Lanes>(lanes: L, y: L::F, x: L::F) -> L::F {
     azimuth_from(lanes, half_tangent(lanes, y, x), x)
 }
 
-/// The angle of `(x, y)` from the positive x axis, in `[-pi, pi]`, with the sign of `y`; 0 where both are 0.
+/// The angle of `(x, y)` from the positive x axis, in `[-pi, pi]`, with the sign of `y`; 0 if both are 0.
 ///
 /// Largest error: [`bounds::ATAN2`](crate::bounds::ATAN2), for vectors of lengths from 1e-18 to 1e18.
 #[inline(always)]

@@ -2,7 +2,7 @@
 
 use lobe_lane::Lanes;
 
-/// `c[0] + c[1] x + c[2] x^2 + ...` by Horner's rule: one multiply-add a term.
+/// `c[0] + c[1] x + c[2] x^2 + ...` by Horner's rule: one multiply-add per term.
 #[inline(always)]
 pub(crate) fn horner<L: Lanes, const N: usize>(lanes: L, x: L::F, coefficients: [f32; N]) -> L::F {
     let mut sum = lanes.splat(coefficients[N - 1]);

@@ -2,7 +2,7 @@
 
 use lobe_lane::{Floats, Ints, Lanes};
 
-/// Four fifths of the bits of the exponent of 1, less what centres the error of a logarithm that is taken for linear.
+/// Four fifths of the bits of the exponent of 1, less what centres the error of a logarithm treated as linear.
 const OFFSET: i32 = 851_981_000;
 
 /// The fifth root of a positive normal number.

@@ -1,4 +1,4 @@
-//! Memory that random look-ups go to: on cache lines, and on huge pages, which small tables share.
+//! Memory for random look-ups: aligned to cache lines, and on huge pages, which small tables share.
 #![forbid(unsafe_code)]
 
 mod pool;
@@ -11,10 +11,10 @@ use memmap2::MmapMut;
 
 use pool::Share;
 
-/// From this many bytes on, memory lies on huge pages where the system has them: a random look-up beyond the caches
-/// otherwise misses the address translation too. One table is small beside that, but scenes have many.
+/// From this many bytes on, memory lies on huge pages if the system has them: a random look-up beyond the caches
+/// would otherwise miss the address translation too. One table alone is small, but scenes have many.
 const SHARED: usize = 64 << 10;
-/// From this many on, the pages are not shared with others.
+/// From this many bytes on, a storage has pages of its own.
 const ALONE: usize = 4 << 20;
 
 /// A cache line.
@@ -32,7 +32,7 @@ enum Place {
     Alone(MmapMut),
 }
 
-/// A fixed run of values whose first lies on a cache line, so that one whose size divides a line's never straddles two.
+/// A fixed number of values, the first on a cache line, so that a value whose size divides that of a line never straddles two.
 pub struct Storage<T> {
     place: Place,
     len: usize,
@@ -43,7 +43,7 @@ impl<T: Pod> Storage<T> {
     /// `len` values of zero bits.
     ///
     /// # Panics
-    /// Where so many have no size in bytes.
+    /// If the size in bytes overflows `usize`.
     pub fn zeros(len: usize) -> Self {
         let (bytes, lines) = Self::size(len);
         let place = match bytes {
@@ -58,7 +58,7 @@ impl<T: Pod> Storage<T> {
     /// Bytes of memory that a storage of `len` values holds, at most.
     ///
     /// # Panics
-    /// Where so many have no size in bytes.
+    /// If the size in bytes overflows `usize`.
     pub fn bytes_for(len: usize) -> usize {
         let (bytes, lines) = Self::size(len);
         let lines = if (SHARED..ALONE).contains(&bytes) { pool::rounded(lines) } else { lines };
@@ -78,7 +78,7 @@ impl<T: Pod> Storage<T> {
         copy
     }
 
-    /// All of them.
+    /// All values.
     #[inline(always)]
     pub fn as_slice(&self) -> &[T] {
         let bytes = match &self.place {
@@ -89,7 +89,7 @@ impl<T: Pod> Storage<T> {
         bytemuck::cast_slice(&bytes[..self.len * size_of::<T>()])
     }
 
-    /// All of them, to be written.
+    /// All values, to be written.
     pub fn as_mut_slice(&mut self) -> &mut [T] {
         let bytes = match &mut self.place {
             Place::Heap(lines) => bytemuck::cast_slice_mut(lines),
@@ -121,7 +121,7 @@ impl<T> fmt::Debug for Storage<T> {
     }
 }
 
-/// Zeros of the system's own, on huge pages where it has them.
+/// Zeroed memory from the system, on huge pages if it has them.
 fn map(bytes: usize) -> Option<MmapMut> {
     let map = MmapMut::map_anon(bytes).ok()?;
     // Only a hint: without huge pages everything works, slower.

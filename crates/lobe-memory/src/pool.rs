@@ -1,6 +1,6 @@
-//! Huge pages that storages share: one that is smaller than such a page would waste a page of its own.
+//! Huge pages that storages share: a storage smaller than a huge page would waste one of its own.
 //!
-//! What is given back is kept for the next storage of about that size, and never leaves the process.
+//! Freed memory is kept for the next storage of about that size and is never returned to the system.
 
 use std::collections::BTreeMap;
 use std::ops::{Deref, DerefMut};
@@ -8,14 +8,14 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::{Line, map};
 
-/// Bytes that are mapped at once. Pages that nobody has written to take no memory.
+/// Bytes mapped at once. Pages that have not been written to take no memory.
 const CHUNK: usize = 32 << 20;
 
 /// Lines of a shared mapping, for one storage.
 pub(crate) struct Share(&'static mut [Line]);
 
 struct Pool {
-    /// What was given back, by its length.
+    /// Freed lines, by their number.
     free: BTreeMap<usize, Vec<&'static mut [Line]>>,
     /// What is left of the last mapping.
     rest: &'static mut [Line],
@@ -24,7 +24,7 @@ struct Pool {
 static POOL: Mutex<Pool> = Mutex::new(Pool { free: BTreeMap::new(), rest: &mut [] });
 
 impl Share {
-    /// At least so many lines of zeros, much fewer than a mapping has; `None` where the system gives no memory.
+    /// At least `lines` zeroed lines, which must be far fewer than a mapping has; `None` if the system has no memory.
     pub fn zeros(lines: usize) -> Option<Self> {
         let len = rounded(lines);
         let mut pool = POOL.lock().unwrap_or_else(PoisonError::into_inner);
@@ -34,7 +34,7 @@ impl Share {
             return Some(Share(used));
         }
         if pool.rest.len() < len {
-            // For good: safe code can share a mapping out only where it never ends.
+            // Leaked for good: safe code can hand out parts of a mapping only if it is never unmapped.
             pool.rest = bytemuck::cast_slice_mut(&mut Box::leak(Box::new(map(CHUNK)?))[..]);
         }
         let (share, rest) = std::mem::take(&mut pool.rest).split_at_mut_checked(len)?;
@@ -66,7 +66,7 @@ impl DerefMut for Share {
     }
 }
 
-/// One of eight lengths between powers of two, so that few are told apart.
+/// Rounded up to one of eight lengths between powers of two, so that there are few different lengths.
 pub(crate) fn rounded(lines: usize) -> usize {
     lines.next_multiple_of((lines.next_power_of_two() / 16).max(1))
 }

@@ -52,7 +52,7 @@ impl Default for Sse2 {
 }
 
 impl Sse41 {
-    /// The token where the CPU has SSE4.1.
+    /// The token, if the CPU has SSE4.1.
     pub fn detect() -> Option<Self> {
         std::is_x86_feature_detected!("sse4.1").then_some(Sse(PhantomData))
     }
