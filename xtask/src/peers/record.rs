@@ -135,16 +135,16 @@ Written by `cargo xtask peers --record`; [benchmarking](benchmarking.md) says ho
 |---|---|
 ";
 
-const READING: &str = "Times are nanoseconds of processor time for each lookup, evaluation, density, sample or value, the least of all turns,
-one thread. `speed` is the peer's time divided by lobe's; the goal stands at the fastest peer of a question with vectors no
-wider than lobe's, which are those of AVX2. `difference` is how far the values are from the peer's, relative. Where a ray is
-answered otherwise by the peer, all triangles are tried in double precision: there lobe has to be right, and rays that the
-peer answers wrongly are counted beside the difference.
+const READING: &str = "Times are nanoseconds of processor time per lookup, evaluation, density, sample or value on one thread, the shortest
+of all turns. `speed` is the peer's time divided by lobe's. The goal is set against the fastest peer of each question
+whose vectors are no wider than lobe's, which are those of AVX2. `difference` is the largest relative difference
+between lobe's values and the peer's. If lobe and the peer disagree about a ray, all triangles are tested in double
+precision: lobe must then be right, and rays that the peer gets wrong are counted next to the difference.
 
 ";
 
 const PICTURE: &str = "
-lobe, Mitsuba, and the difference of each pixel, white for none and full red or blue for four standard deviations:
+lobe, Mitsuba, and the difference in each pixel: white is no difference, full red or blue is four standard deviations.
 
 ![This renderer, Mitsuba, and their difference](pictures/mitsuba-difference.png)
 ";

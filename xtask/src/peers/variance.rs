@@ -61,9 +61,10 @@ pub fn grid(variances: &[Variance]) -> Option<Grid> {
 }
 
 const READING: &str = "\
-The variance of the albedo that one sample estimates, `f cos / pdf` in luminance, over the square of its mean: how many
-samples make an error of 100 %. `angle` is that of the viewer from the normal, who is known. Mitsuba and lobe get the same
-numbers. Both index a file by the viewer; in the column `by light` lobe indexes it by the light that is found, as it was
+One sample estimates the albedo as `f cos / pdf`, in luminance. The table gives the variance of that estimate divided
+by the square of its mean, which is the number of samples that leaves an error of 100 %. `angle` is the angle between
+the given viewing direction and the normal. Mitsuba and lobe receive the same random numbers. Both index the file by
+the viewer; in the column `by light`, lobe indexes it by the sampled light direction, which is how the material was
 measured.";
 
 /// The materials, their samplers and Mitsuba's tasks.

@@ -69,10 +69,11 @@ pub fn grid(agreements: &[Agreement]) -> Option<Grid> {
 }
 
 const READING: &str = "\
-The same rooms path-traced by both, 96 samples a pixel, with a panel and a sky as lights: the root of the mean square over
-pixels and channels, relative to the pixel. Noise is estimated from two pictures each, with other random numbers; a
-`difference` as large as `both` noises together is no difference. Measured materials are indexed by the viewer, as Mitsuba
-does; the last column has the mean of the picture where they are indexed by the light.";
+Both programs path-trace the same rooms, lit by a panel and a sky, with 96 samples per pixel. Figures are root mean
+squares over pixels and channels, relative to the pixel. The noise is estimated from two pictures per program,
+rendered with different random numbers; a `difference` no larger than the noise of `both` together means that the
+pictures agree. Measured materials are indexed by the viewer, as in Mitsuba; the last column is the difference of the
+means if they are indexed by the light.";
 
 /// The rooms and the tasks of the other renderer.
 pub struct Question {
