@@ -16,13 +16,13 @@ use crate::steps::Steps;
 /// Render the scenes in fixtures/scenes into docs/pictures, and write docs/gallery.md.
 #[derive(clap::Args)]
 pub struct Args {
-    /// Only these scenes, by the names of their files; docs/gallery.md is not written then
+    /// Render only these scenes, named by their files; docs/gallery.md is then left alone
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     only: Vec<String>,
-    /// Samples a pixel, in place of what the scenes say: for a look; docs/gallery.md is not written then
+    /// Samples per pixel instead of those in the scenes, for a quick look; docs/gallery.md is then left alone
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..65_537))]
     samples: Option<u32>,
-    /// Where pictures go [default: docs/pictures]
+    /// Folder for the pictures [default: docs/pictures]
     #[arg(long, value_name = "DIR", hide_default_value = true)]
     #[arg(default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/pictures"))]
     pictures: PathBuf,
@@ -41,23 +41,23 @@ const PICTURES: [Picture; 3] = [
     Picture {
         name: "cloth-metal-paint",
         title: "Cloth, metal and paint",
-        caption: "Fig. 3 of the paper in terms of this project. The cloth that has fallen on a sphere is shot silk: its table \
-                  of 17 x 7 x 17 x 13 angles was measured on a simulated weave of blue warp and orange weft, and each fold \
-                  shows the one or the other. The knot is brushed along itself, so its highlights run around it. The ball \
-                  is car paint, a table with a clear coat that mirrors the lamps. Everything throws shadows and is \
-                  reflected.",
+        caption: "This project's version of Fig. 3 of the paper. The cloth draped over a sphere is shot silk: \
+                  its table of 17 x 7 x 17 x 13 angles was measured on a simulated weave of blue warp and \
+                  orange weft, so each fold shows one colour or the other. The knot is brushed along its \
+                  length, so its highlights run around it. The ball is car paint, a table whose clear coat \
+                  mirrors the lamps. Every object casts shadows and appears in reflections.",
     },
     Picture {
         name: "material-balls",
         title: "Material balls",
-        caption: "In front the tables of `fixtures`: silk, gold with dust on it, car paint. Behind them models that are \
-                  evaluated as they are: green and white plastic, brushed aluminium, copper.",
+        caption: "In front, the tables of `fixtures`: silk, dusty gold and car paint. Behind them, analytic \
+                  models evaluated directly: green and white plastic, brushed aluminium and copper.",
     },
     Picture {
         name: "knot-at-dusk",
         title: "Knot at dusk",
-        caption: "The table of gold under a sky that is bright at the horizon, beside a glass ball and a ball of silk on a \
-                  wet floor.",
+        caption: "The gold table under a sky that is bright at the horizon, next to a glass ball and a silk \
+                  ball on a wet floor.",
     },
 ];
 
@@ -67,12 +67,12 @@ const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/gallery.md");
 /// Renders, and writes the pictures and the page.
 ///
 /// # Errors
-/// Where a scene is wrong or a file cannot be written.
+/// If a scene is wrong or a file cannot be written.
 pub fn run(args: &Args) -> Result<()> {
     std::fs::create_dir_all(&args.pictures).with_context(|| format!("making {}", args.pictures.display()))?;
     if let Some(unknown) = args.only.iter().find(|name| PICTURES.iter().all(|picture| picture.name != *name)) {
         let names: Vec<_> = PICTURES.iter().map(|picture| picture.name).collect();
-        anyhow::bail!("no scene `{unknown}`; there are {}", names.join(", "));
+        anyhow::bail!("no scene `{unknown}`; the scenes are {}", names.join(", "));
     }
     for picture in &PICTURES {
         if args.only.is_empty() || args.only.iter().any(|name| name == picture.name) {
@@ -126,9 +126,9 @@ impl Picture {
 fn page() -> Result<String> {
     let mut text = String::from(
         "# Gallery\n\n\
-         The scenes are in [fixtures/scenes](../fixtures/scenes), and everything in them comes from this project: the cloth \
-         was\nlet fall, the weave was simulated, the tables were computed. `cargo xtask gallery` renders the pictures and \
-         writes\nthis page.\n",
+         The scenes are in [fixtures/scenes](../fixtures/scenes), and everything in them comes from this project: the \
+         falling\ncloth and the weave were simulated, and the tables were computed. `cargo xtask gallery` renders the \
+         pictures and\nwrites this page.\n",
     );
     for picture in &PICTURES {
         let Picture { name, title, caption } = picture;
