@@ -2,25 +2,24 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use lobe::table::half_diff::HalfDiff;
-use lobe::table::klems::{AngleBasis, KlemsMatrix};
-use lobe::table::mueller::Mueller;
-use lobe::table::rgl::{Images, Parts, Rgl};
-use lobe::table::tensor_tree::{Node, Rank, TensorTree};
-use lobe::table::utia::{PLANE, Utia};
-use lobe::table::window::{Block, Component, Window};
-use lobe::{Channels, Samples, Scatter};
+use lobe::table::rgl::{self, Images, Parts};
+use lobe::table::utia::{self, PLANE};
+use lobe::table::window::klems::{AngleBasis, KlemsMatrix};
+use lobe::table::window::tensor_tree::{Node, Rank, TensorTree};
+use lobe::table::window::{self, Block, Component};
+use lobe::table::{half_diff, mueller};
+use lobe::{Channels, Scatter, specular};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
 /// A table of random positive values with knots that are finer near 0, as near a mirror peak; the poles agree.
 ///
 /// Speed does not depend on the values, so the sizes of real tables are all that counts here.
-pub fn random(nodes: [usize; 4], channels: Channels) -> Samples {
+pub fn random(nodes: [usize; 4], channels: Channels) -> specular::Data {
     let mut rng = Pcg32::seed_from_u64(7);
     let count = channels.count() * nodes.iter().product::<usize>();
     let values = (0..count).map(|_| rng.random_range(0.01..1.0)).collect();
-    Samples::new(Scatter::Reflection, knots(nodes), channels, values).expect("a valid random table")
+    specular::Data::new(Scatter::Reflection, knots(nodes), channels, values).expect("a valid random table")
 }
 
 /// Knots over all of each axis, closer together near 0.
@@ -37,7 +36,7 @@ fn knots(nodes: [usize; 4]) -> [Vec<f64>; 4] {
 }
 
 /// An RGB table of smooth values, so that a small error of an angle stays one of the value where cells are narrow.
-pub fn smooth(nodes: [usize; 4]) -> Samples {
+pub fn smooth(nodes: [usize; 4]) -> specular::Data {
     let knots = knots(nodes);
     let mut values = Vec::with_capacity(3 * nodes.iter().product::<usize>());
     let waves = knots.each_ref().map(|knots| knots.iter().map(|angle| angle.sin_cos()).collect::<Vec<_>>());
@@ -53,44 +52,50 @@ pub fn smooth(nodes: [usize; 4]) -> Samples {
             }
         }
     }
-    Samples::new(Scatter::Reflection, knots, Channels::Rgb, values).expect("a valid smooth table")
+    specular::Data::new(Scatter::Reflection, knots, Channels::Rgb, values).expect("a valid smooth table")
 }
 
 /// The paper's isotropic table: 7 x 8 x 13, RGB.
-pub fn isotropic() -> Samples {
+pub fn isotropic() -> specular::Data {
     random([7, 1, 8, 13], Channels::Rgb)
 }
 
 /// The paper's anisotropic table: 17 x 7 x 17 x 13, RGB.
-pub fn anisotropic() -> Samples {
+pub fn anisotropic() -> specular::Data {
     random([17, 7, 17, 13], Channels::Rgb)
 }
 
 /// An isotropic table beyond the second cache: 90 x 90 x 180, RGB, 17 MB.
-pub fn large() -> Samples {
+pub fn large() -> specular::Data {
     smooth([90, 1, 90, 180])
 }
 
 /// An anisotropic table beyond the third: 16 x 36 x 90 x 108, RGB, 67 MB.
-pub fn large_anisotropic() -> Samples {
+pub fn large_anisotropic() -> specular::Data {
     smooth([16, 36, 90, 108])
 }
 
 /// A material of the sizes that the RGB files of the EPFL database have, of smooth values.
-pub fn rgl() -> Rgl {
+pub fn rgl() -> rgl::Data {
     smooth_rgl(vec![0.0], 8, [128, 32], Channels::Rgb, true)
 }
 
 /// A smaller one that is anisotropic and spectral, without the microfacet factor.
-pub fn rgl_anisotropic() -> Rgl {
+pub fn rgl_anisotropic() -> rgl::Data {
     let phi_i = (0..6).map(|i| std::f32::consts::PI * (0.4 * i as f32 - 1.0)).collect();
     let nanometres = (0..11).map(|i| 400.0 + 30.0 * f64::from(i)).collect();
     smooth_rgl(phi_i, 4, [24, 12], Channels::Spectral(nanometres), false)
 }
 
-fn smooth_rgl(phi_i: Vec<f32>, zeniths: usize, [fine, coarse]: [usize; 2], channels: Channels, jacobian: bool) -> Rgl {
+fn smooth_rgl(
+    phi_i: Vec<f32>,
+    zeniths: usize,
+    [fine, coarse]: [usize; 2],
+    channels: Channels,
+    jacobian: bool,
+) -> rgl::Data {
     let slices = phi_i.len() * zeniths;
-    Rgl::new(Parts {
+    rgl::Data::new(Parts {
         description: "waves".into(),
         phi_i,
         theta_i: (0..zeniths).map(|i| 1.4 * i as f32 / (zeniths - 1) as f32).collect(),
@@ -127,17 +132,17 @@ fn value(index: usize) -> f32 {
 }
 
 /// A grid of that many bins, as those of the MERL database are `[90, 90, 180]`.
-pub fn half_difference(bins: [usize; 3]) -> HalfDiff {
-    HalfDiff::new(bins, (0..3 * bins.iter().product::<usize>()).map(value).collect()).expect("a valid grid")
+pub fn half_difference(bins: [usize; 3]) -> half_diff::Data {
+    half_diff::Data::new(bins, (0..3 * bins.iter().product::<usize>()).map(value).collect()).expect("a valid grid")
 }
 
 /// A grid of the UTIA database.
-pub fn utia() -> Utia {
-    Utia::new((0..3 * PLANE).map(|index| f64::from(value(index))).collect()).expect("a valid grid")
+pub fn utia() -> utia::Data {
+    utia::Data::new((0..3 * PLANE).map(|index| f64::from(value(index))).collect()).expect("a valid grid")
 }
 
 /// Mueller matrices of the sizes of the small files of the KAIST database, over five wavelengths.
-pub fn mueller() -> Mueller {
+pub fn mueller() -> mueller::Data {
     let graded =
         |n: usize, from: f32, to: f32| (0..n).map(|i| from + (to - from) * i as f32 / (n - 1) as f32).collect();
     let half_turn = std::f32::consts::PI;
@@ -148,18 +153,18 @@ pub fn mueller() -> Mueller {
         graded(5, 450.0, 650.0),
     ];
     let count = 16 * knots.iter().map(Vec::len).product::<usize>();
-    Mueller::new(knots, (0..count).map(value).collect()).expect("valid matrices")
+    mueller::Data::new(knots, (0..count).map(value).collect()).expect("valid matrices")
 }
 
 /// A sheet with the full Klems basis on both sides.
-pub fn klems() -> Window {
+pub fn klems() -> window::Blocks {
     let basis = AngleBasis::full();
     let values: Vec<f32> = (0..basis.patches().pow(2)).map(value).collect();
     window(|| Component::Klems(KlemsMatrix::new(basis.clone(), basis.clone(), values.clone()).expect("a valid matrix")))
 }
 
 /// A sheet of trees that are divided three to six times.
-pub fn tensor_tree(rank: Rank) -> Window {
+pub fn tensor_tree(rank: Rank) -> window::Blocks {
     let dimensions = rank.dimensions();
     let children = 1 << dimensions;
     let (mut nodes, mut count) = (vec![Node::Branch(1)], 0_usize);
@@ -184,8 +189,8 @@ pub fn tensor_tree(rank: Rank) -> Window {
     window(|| Component::Tree(TensorTree::new(rank, nodes.clone(), values.clone()).expect("a valid tree")))
 }
 
-fn window(component: impl Fn() -> Component) -> Window {
-    let mut window = Window::default();
+fn window(component: impl Fn() -> Component) -> window::Blocks {
+    let mut window = window::Blocks::default();
     for block in Block::ALL {
         window.set(block, component());
     }

@@ -2,7 +2,7 @@
 
 use std::f32::consts::TAU;
 
-use lobe::table::coords::directions_to_angles;
+use lobe::table::specular::coords::directions_to_angles;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 

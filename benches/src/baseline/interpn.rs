@@ -1,7 +1,7 @@
 //! The `interpn` crate, a peer for interpolation alone: one channel a call, no coordinates.
 
 use interpn::multilinear::rectilinear;
-use lobe::Samples;
+use lobe::specular;
 
 /// A table as `interpn` takes it: the axes that have cells, and each channel by itself.
 #[derive(Clone, Debug)]
@@ -16,7 +16,7 @@ impl Grid {
     ///
     /// # Panics
     /// Where there are not three channels.
-    pub fn new(samples: &Samples) -> Self {
+    pub fn new(samples: &specular::Data) -> Self {
         assert_eq!(samples.channels().count(), 3, "the peers are asked for RGB");
         let axes: Vec<_> = (0..4).filter(|&axis| samples.knots()[axis].len() > 1).collect();
         let knots = axes.iter().map(|&axis| samples.knots()[axis].iter().map(|&knot| knot as f32).collect());

@@ -8,7 +8,7 @@ pub mod libm;
 #[cfg(target_arch = "x86_64")]
 pub mod x87;
 
-use lobe::Samples;
+use lobe::specular;
 
 /// A table of RGB texels, one node after the other, as a scalar program keeps it.
 #[derive(Clone, Debug)]
@@ -24,7 +24,7 @@ impl ScalarTable {
     ///
     /// # Panics
     /// Where there are not three channels.
-    pub fn new(samples: &Samples) -> Self {
+    pub fn new(samples: &specular::Data) -> Self {
         assert_eq!(samples.channels().count(), 3, "the baselines are written for RGB");
         let (texels, _) = samples.values().as_chunks::<3>();
         ScalarTable {

@@ -3,8 +3,8 @@
 use std::rc::Rc;
 
 use lobe::table::paper::PaperTable;
-use lobe::table::reference;
-use lobe::{Backend, Edges, Samples, Soa, Table};
+use lobe::table::specular::reference;
+use lobe::{Backend, Edges, Soa, specular};
 
 use super::{Contender, Contest, Tolerance, backends};
 use crate::baseline::{self, ScalarTable};
@@ -66,7 +66,7 @@ struct Setup {
     wi: Vec<[f32; 3]>,
     wo: Vec<[f32; 3]>,
     scalar: ScalarTable,
-    table: Table,
+    table: specular::Table,
     paper: PaperTable,
 }
 
@@ -77,7 +77,7 @@ impl Setup {
 }
 
 fn contest(
-    samples: Samples,
+    samples: specular::Data,
     input: Input,
     count: usize,
     contender: fn(&'static str, Backend, Rc<Setup>) -> Contender,
@@ -93,7 +93,7 @@ fn contest(
         wi,
         wo,
         scalar: ScalarTable::new(&samples),
-        table: Table::new(&samples, &Edges::default()).expect("a small table"),
+        table: specular::Table::new(&samples, &Edges::default()).expect("a small table"),
         paper: PaperTable::new(&samples).expect("a small RGB table"),
     });
     let baselines = vec![

@@ -2,9 +2,9 @@
 
 use std::rc::Rc;
 
-use lobe::table::coords::directions_to_angles;
-use lobe::table::reference;
-use lobe::{Edges, Samples, Table};
+use lobe::table::specular::coords::directions_to_angles;
+use lobe::table::specular::reference;
+use lobe::{Edges, specular};
 
 use super::{Contender, Contest, Tolerance, backends};
 use crate::baseline::{self, ScalarTable, interpn::Grid};
@@ -39,7 +39,7 @@ struct Setup {
     angles: [Vec<f32>; 4],
     scalar: ScalarTable,
     grid: Grid,
-    table: Table,
+    table: specular::Table,
 }
 
 impl Setup {
@@ -48,7 +48,7 @@ impl Setup {
     }
 }
 
-fn contest(samples: &Samples, input: Input, count: usize) -> Contest {
+fn contest(samples: &specular::Data, input: Input, count: usize) -> Contest {
     let angles = angles(input, count);
     let mut expected = vec![0.0; 3 * count];
     for (query, out) in expected.chunks_exact_mut(3).enumerate() {
@@ -59,7 +59,7 @@ fn contest(samples: &Samples, input: Input, count: usize) -> Contest {
         angles,
         scalar: ScalarTable::new(samples),
         grid: Grid::new(samples),
-        table: Table::new(samples, &Edges::default()).expect("a small table"),
+        table: specular::Table::new(samples, &Edges::default()).expect("a small table"),
     });
     let baselines = vec![scalar(setup.clone()), interpn(setup.clone())];
     let contenders = backends().into_iter().map(|named| {

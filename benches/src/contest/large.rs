@@ -2,8 +2,8 @@
 
 use std::rc::Rc;
 
-use lobe::table::reference;
-use lobe::{Edges, Precision, Samples, Soa, Table};
+use lobe::table::specular::reference;
+use lobe::{Edges, Precision, Soa, specular};
 
 use super::{Contender, Contest, Tolerance, backends};
 use crate::baseline::{self, ScalarTable};
@@ -29,7 +29,7 @@ pub fn aniso(input: Input, count: usize) -> Contest {
     contest(&tables::large_anisotropic(), input, count)
 }
 
-fn contest(samples: &Samples, input: Input, count: usize) -> Contest {
+fn contest(samples: &specular::Data, input: Input, count: usize) -> Contest {
     let pairs = Rc::new(input.pairs(count));
     let (wi, wo) = pairs.vectors();
     let mut expected = vec![0.0; 3 * count];
@@ -49,8 +49,9 @@ fn contest(samples: &Samples, input: Input, count: usize) -> Contest {
 }
 
 /// The backends in their fastest forms, over one table in that precision.
-fn batches(samples: &Samples, precision: Precision, pairs: &Rc<Pairs>) -> Vec<Contender> {
-    let table = Table::with_precision(samples, &Edges::default(), precision).expect("a table that can be indexed");
+fn batches(samples: &specular::Data, precision: Precision, pairs: &Rc<Pairs>) -> Vec<Contender> {
+    let table =
+        specular::Table::with_precision(samples, &Edges::default(), precision).expect("a table that can be indexed");
     let table = Rc::new(table);
     let fastest = backends().into_iter().filter(|named| !named.name.ends_with("-strict"));
     let contender = |named: super::Named| {

@@ -2,11 +2,9 @@
 
 use std::rc::Rc;
 
-use lobe::table::half_diff::{HalfDiffTable, Lookup};
-use lobe::table::mueller::MuellerTable;
-use lobe::table::tensor_tree::Rank;
-use lobe::table::utia::UtiaTable;
-use lobe::table::window::{Window, WindowTable};
+use lobe::table::half_diff::{self, Lookup};
+use lobe::table::window::tensor_tree::Rank;
+use lobe::table::{mueller, utia, window};
 use lobe::{Backend, Decode, Soa};
 
 use super::{Contender, Contest, Tolerance, backends};
@@ -27,7 +25,7 @@ type All = dyn Fn(Backend, [Soa<'_>; 2], &mut [f32]);
 /// RGB of the nearest bin of a table of the size of the MERL database.
 pub fn half_difference(input: Input, count: usize) -> Contest {
     let data = Rc::new(tables::half_difference([90, 90, 180]));
-    let table = HalfDiffTable::new(&data).expect("a grid that lanes can index");
+    let table = half_diff::Table::new(&data).expect("a grid that lanes can index");
     let one = data.clone();
     contest(
         (input, count, 3, STORED),
@@ -40,7 +38,7 @@ pub fn half_difference(input: Input, count: usize) -> Contest {
 /// The same table, interpolated between the middles of its bins.
 pub fn half_difference_linear(input: Input, count: usize) -> Contest {
     let data = Rc::new(tables::half_difference([90, 90, 180]));
-    let table = HalfDiffTable::new(&data).expect("a grid that lanes can index");
+    let table = half_diff::Table::new(&data).expect("a grid that lanes can index");
     let one = data.clone();
     contest(
         (input, count, 3, LINEAR),
@@ -53,7 +51,7 @@ pub fn half_difference_linear(input: Input, count: usize) -> Contest {
 /// RGB of the grid of the UTIA database.
 pub fn utia(input: Input, count: usize) -> Contest {
     let data = Rc::new(tables::utia());
-    let table = UtiaTable::new(&data, Decode::Raw).expect("a valid grid");
+    let table = utia::Table::new(&data, Decode::Raw).expect("a valid grid");
     let one = data.clone();
     contest(
         (input, count, 3, LINEAR),
@@ -66,7 +64,7 @@ pub fn utia(input: Input, count: usize) -> Contest {
 /// Five wavelengths of Mueller matrices, as unpolarised light sees them.
 pub fn mueller(input: Input, count: usize) -> Contest {
     let data = Rc::new(tables::mueller());
-    let table = MuellerTable::new(&data).expect("a small table");
+    let table = mueller::Table::new(&data).expect("a small table");
     let (one, width) = (data.clone(), table.channel_count());
     let in_f64 = move |wi, wo, out: &mut [f64]| {
         for (out, nm) in out.iter_mut().zip(&one.knots()[3]) {
@@ -91,8 +89,8 @@ pub fn tensor_tree(input: Input, count: usize) -> Contest {
     sheet(tables::tensor_tree(Rank::Four), input, count)
 }
 
-fn sheet(window: Window, input: Input, count: usize) -> Contest {
-    let table = WindowTable::new(vec![window.clone()]).expect("a small sheet");
+fn sheet(window: window::Blocks, input: Input, count: usize) -> Contest {
+    let table = window::Table::new(vec![window.clone()]).expect("a small sheet");
     let window = Rc::new(window);
     let one = window.clone();
     let sure = move |wi, wo| {

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use lobe::Soa;
-use lobe::table::rgl::{Drawn, Reference, RglOptions, RglTable, UniformOrder, Wanted};
+use lobe::table::rgl::{self, Drawn, Reference, UniformOrder, Wanted};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -23,7 +23,7 @@ struct Setup {
     pairs: Pairs,
     uniforms: Vec<[f32; 2]>,
     reference: Reference,
-    table: RglTable,
+    table: rgl::Table,
 }
 
 impl Setup {
@@ -34,7 +34,7 @@ impl Setup {
             pairs: input.pairs(count),
             uniforms: (0..count).map(|_| [rng.random(), rng.random()]).collect(),
             reference: Reference::new(&rgl),
-            table: RglTable::new(&rgl, RglOptions::default()).expect("a small material"),
+            table: rgl::Table::new(&rgl, rgl::Options::default()).expect("a small material"),
         })
     }
 

@@ -4,7 +4,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use lobe::table::{Given, Sampled, Sampler, SamplerOptions};
-use lobe::{Edges, Kernel, Lanes, Samples, Table};
+use lobe::{Edges, Kernel, Lanes, specular};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -36,8 +36,8 @@ struct Setup {
 /// What is drawn: directions, densities, weights.
 type Drawn = (Vec<[f32; 3]>, Vec<f32>, Vec<f32>);
 
-fn contest(samples: Samples, input: Input, count: usize) -> Contest {
-    let table = Arc::new(Table::new(&samples, &Edges::default()).expect("a small table"));
+fn contest(samples: specular::Data, input: Input, count: usize) -> Contest {
+    let table = Arc::new(specular::Table::new(&samples, &Edges::default()).expect("a small table"));
     let sampler = lobe::Backend::named("scalar").expect("always there").run(Build(table));
     let mut rng = Pcg32::seed_from_u64(2005);
     let setup = Rc::new(Setup {
@@ -80,7 +80,7 @@ fn one_by_one(setup: Rc<Setup>, count: usize) -> Contender {
     Contender::new("f64", TOLERANCE, empty(count), run, |out| out.0.as_flattened().to_vec())
 }
 
-struct Build(Arc<Table>);
+struct Build(Arc<specular::Table>);
 
 impl Kernel for Build {
     type Out = Sampler;

@@ -2,8 +2,7 @@
 
 use std::rc::Rc;
 
-use lobe::table::Cell;
-use lobe::table::paper;
+use lobe::table::{Cell, paper};
 use lobe::{Axis, Edge, Kernel, Lanes};
 
 use super::{Contender, Contest, Tolerance, backends};

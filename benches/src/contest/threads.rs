@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use lobe::table::reference;
+use lobe::table::specular::reference;
 use lobe::{Brdf, Edges, Soa};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 

@@ -3,15 +3,12 @@
 use lobe_formats::sheet::{self, Data, Side};
 use lobe_formats::window_xml::WindowXml;
 use lobe_formats::{Document, Specular};
-use lobe_table::half_diff::HalfDiff;
-use lobe_table::mueller::{AXES, Mueller};
-use lobe_table::rgl::Rgl;
-use lobe_table::scattered::{ANGLE_NAMES, Scattered};
-use lobe_table::spherical_grid::SphericalGrid;
-use lobe_table::tensor_tree::Rank;
-use lobe_table::utia::{PHIS, THETAS, Utia};
+use lobe_table::mueller::{self, AXES};
+use lobe_table::scattered::{self, ANGLE_NAMES};
+use lobe_table::utia::{self, PHIS, THETAS};
+use lobe_table::window::tensor_tree::Rank;
 use lobe_table::window::{Block, Component};
-use lobe_table::{AXIS_NAMES, Channels, Samples, Scatter};
+use lobe_table::{Channels, Scatter, half_diff, rgl, specular, specular::AXIS_NAMES, spherical};
 use serde::Serialize;
 
 /// A block of values.
@@ -104,7 +101,7 @@ fn part(kind: &'static str, scatter: Scatter, channels: &Channels, axes: Vec<Axi
     Part { name: String::new(), kind, scatter, channels: channels.names(), axes, facts: Vec::new(), values }
 }
 
-fn table(data: &Samples) -> Part {
+fn table(data: &specular::Data) -> Part {
     let axes = angle_axes(AXIS_NAMES, data.knots());
     let mut part = part("specular table", data.scatter(), data.channels(), axes, Values::new(F, data.values()));
     if let Some(offsets) = data.refraction() {
@@ -124,7 +121,7 @@ fn specular(data: &Specular) -> Part {
     part("mirror reflectance", data.scatter(), data.channels(), axes, values)
 }
 
-fn spherical(data: &SphericalGrid) -> Part {
+fn spherical(data: &spherical::Data) -> Part {
     let axes = angle_axes(ANGLE_NAMES, data.knots());
     let mut part = part("spherical grid", data.scatter(), data.channels(), axes, Values::new(F, data.values()));
     if data.is_mirrored() {
@@ -133,7 +130,7 @@ fn spherical(data: &SphericalGrid) -> Part {
     part
 }
 
-fn scattered(data: &Scattered) -> Part {
+fn scattered(data: &scattered::Data) -> Part {
     let values: Vec<f32> = data.samples().flat_map(|(_, values)| values.to_vec()).collect();
     let mut part = part("scattered samples", data.scatter(), data.channels(), Vec::new(), Values::new(F, &values));
     let mut thetas: Vec<f32> = data.incidences().map(|[theta, _]| theta.to_degrees() as f32).collect();
@@ -165,7 +162,7 @@ fn sheet(data: &sheet::Part) -> Part {
     part
 }
 
-fn rgl(data: &Rgl) -> Part {
+fn rgl(data: &rgl::Data) -> Part {
     let parts = data.parts();
     let wide = |knots: &[f32]| knots.iter().map(|&knot| f64::from(knot)).collect::<Vec<_>>();
     let axes = angle_axes(["phi_i", "theta_i"], &[wide(&parts.phi_i), wide(&parts.theta_i)]);
@@ -187,7 +184,7 @@ fn rgl(data: &Rgl) -> Part {
     part
 }
 
-fn half_diff(data: &HalfDiff) -> Part {
+fn half_diff(data: &half_diff::Data) -> Part {
     let [h, d, p] = data.bins();
     let values = Values::new(F, data.values());
     let mut part = part("half-difference grid", Scatter::Reflection, &Channels::Rgb, Vec::new(), values);
@@ -198,7 +195,7 @@ fn half_diff(data: &HalfDiff) -> Part {
     part
 }
 
-fn utia(data: &Utia) -> Part {
+fn utia(data: &utia::Data) -> Part {
     let values: Vec<f32> = data.values().iter().map(|&value| value as f32).collect();
     let mut values = Values::new("no documented unit", &values);
     values.bytes = size_of_val(data.values());
@@ -207,7 +204,7 @@ fn utia(data: &Utia) -> Part {
     part
 }
 
-fn mueller(data: &Mueller) -> Part {
+fn mueller(data: &mueller::Data) -> Part {
     let wide = |knots: &[f32]| knots.iter().map(|&knot| f64::from(knot)).collect::<Vec<_>>();
     let [phi_d, theta_d, theta_h, wavelengths] = data.knots();
     let knots = [phi_d, theta_d, theta_h].map(|knots| wide(knots));

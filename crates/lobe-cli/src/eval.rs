@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use clap::{ArgGroup, ValueEnum};
 use lobe::formats::Document;
 use lobe::{Edges, Given, Lookup, Material, Options};
-use lobe_table::coords::angles_to_directions;
-use lobe_table::reference::zenith;
+use lobe_table::specular::coords::angles_to_directions;
+use lobe_table::specular::reference::zenith;
 use serde::Serialize;
 
 use crate::failure::Failure;

@@ -2,13 +2,12 @@
 
 use std::path::Path;
 
-use lobe::{Channels, Samples};
+use lobe::{Channels, specular};
 use lobe_formats::sheet::{Data, Part};
 use lobe_formats::ssdd::Encoding;
 use lobe_formats::window_xml;
 use lobe_formats::{Document, Measured, Specular, ddr, goniometer, merl, npz, rgl, sdr, ssdd, zemax};
-use lobe_table::scattered::Scattered;
-use lobe_table::spherical_grid::SphericalGrid;
+use lobe_table::{scattered, spherical};
 
 use crate::channels::ChannelMap;
 use crate::failure::Failure;
@@ -37,7 +36,7 @@ pub fn write(document: &Document, target: Target, chosen: Option<&str>, out: &Pa
 }
 
 /// Writes a table in specular coordinates that the target can hold.
-pub fn write_table(samples: Samples, target: Target, out: &Path) -> Result<(), Failure> {
+pub fn write_table(samples: specular::Data, target: Target, out: &Path) -> Result<(), Failure> {
     write_data(&Data::Table(samples), target, out)
 }
 
@@ -98,7 +97,7 @@ fn mapped(data: Data, map: &ChannelMap) -> Result<Data, Failure> {
     let failed = |error: &dyn std::fmt::Display| Failure::File(error.to_string());
     Ok(match data {
         Data::Table(samples) => {
-            let mapped = Samples::new(scatter, samples.knots().clone(), channels, map.apply(samples.values()));
+            let mapped = specular::Data::new(scatter, samples.knots().clone(), channels, map.apply(samples.values()));
             let mapped = mapped.map_err(|error| failed(&error))?;
             Data::Table(match samples.refraction() {
                 Some(offsets) => mapped.with_refraction(offsets.to_vec()).map_err(|error| failed(&error))?,
@@ -106,13 +105,13 @@ fn mapped(data: Data, map: &ChannelMap) -> Result<Data, Failure> {
             })
         }
         Data::Spherical(grid) => {
-            let mapped = SphericalGrid::new(scatter, grid.knots().clone(), channels, map.apply(grid.values()));
+            let mapped = spherical::Data::new(scatter, grid.knots().clone(), channels, map.apply(grid.values()));
             let mapped = mapped.and_then(|mapped| if grid.is_mirrored() { mapped.mirrored() } else { Ok(mapped) });
             Data::Spherical(mapped.map_err(|error| failed(&error))?)
         }
         Data::Scattered(samples) => {
             let (angles, values): (Vec<_>, Vec<_>) = samples.samples().unzip();
-            let mapped = Scattered::new(scatter, channels, &angles, &map.apply(&values.concat()));
+            let mapped = scattered::Data::new(scatter, channels, &angles, &map.apply(&values.concat()));
             Data::Scattered(mapped.map_err(|error| failed(&error))?)
         }
         Data::Specular(specular) => {

@@ -8,7 +8,7 @@ use lobe_formats::window_xml::{Band, WindowXml};
 use lobe_formats::{merl, rgl, window_xml};
 use lobe_model::goniometer::{half_diff, klems, measure_surface, rgl as parameterised};
 use lobe_model::{Surface, is_isotropic};
-use lobe_table::window::{Block, Component, Window};
+use lobe_table::window::{self, Block, Component};
 
 use crate::channels::{ChannelMap, Mapped};
 use crate::failure::Failure;
@@ -106,7 +106,7 @@ fn sheet(surface: &dyn Surface, output: &Output, sides: Sides) -> Result<WindowX
         other => other.names(),
     };
     let mut bands: Vec<Band> =
-        names.into_iter().map(|wavelength| Band { wavelength, window: Window::default() }).collect();
+        names.into_iter().map(|wavelength| Band { wavelength, window: window::Blocks::default() }).collect();
     let basis = output.basis();
     let wanted = |block: &Block| match sides {
         Sides::Both => true,

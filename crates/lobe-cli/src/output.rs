@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 use lobe::Scatter;
 use lobe_model::goniometer::rgl;
-use lobe_table::klems::AngleBasis;
+use lobe_table::window::klems::AngleBasis;
 
 use crate::failure::Failure;
 use crate::target::Target;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use lobe::Options;
-use lobe::table::{Samples, Scatter};
+use lobe::table::{Scatter, specular};
 use lobe_formats::sheet::{Data, Part};
 use lobe_formats::{Document, ddr, ssdd, write_whole};
 use lobe_ops::colour::{Target, convert};
@@ -157,7 +157,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// The table before repairs, and its error where it is not the file's own.
-fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(Samples, Option<Resampling>), Failure> {
+fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(specular::Data, Option<Resampling>), Failure> {
     let given = [&args.sigma, &args.psi, &args.theta, &args.phi];
     let own = match (&subject.document, subject.part(aspect)) {
         (Document::Table(measured), _) => Some(&measured.data),
@@ -199,7 +199,7 @@ fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(Samples, Opt
     Ok((chosen.samples, Some(found)))
 }
 
-fn repair(args: &Args, mut samples: Samples, repairs: &mut Vec<String>) -> Result<Samples, Failure> {
+fn repair(args: &Args, mut samples: specular::Data, repairs: &mut Vec<String>) -> Result<specular::Data, Failure> {
     let refuse = |error: &dyn std::fmt::Display| Failure::Usage(format!("{}: {error}", args.input.display()));
     if let Some(colour) = args.colour {
         let target = match colour {
@@ -247,7 +247,7 @@ fn repair(args: &Args, mut samples: Samples, repairs: &mut Vec<String>) -> Resul
 }
 
 /// The angles of the nodes that were filled.
-fn mask_csv(samples: &Samples, mask: &[bool]) -> String {
+fn mask_csv(samples: &specular::Data, mask: &[bool]) -> String {
     let knots = samples.knots().each_ref().map(|knots| knots.iter().map(|a| a.to_degrees() as f32).collect::<Vec<_>>());
     let mut csv = String::from("sigma,psi,theta,phi\n");
     let mut filled = mask.iter();
@@ -283,7 +283,7 @@ fn check_output(path: &Path, scatter: Scatter) -> Result<(), Failure> {
     Err(Failure::Usage(format!("{path}: found the extension `{found}`; expected {wanted} or ssdd for {what}")))
 }
 
-fn write(samples: &Samples, path: &Path) -> Result<(), Failure> {
+fn write(samples: &specular::Data, path: &Path) -> Result<(), Failure> {
     if extension(path) == "ssdd" {
         let part = Part::new("", Data::Table(samples.clone()));
         return Ok(ssdd::write(&[part], ssdd::Encoding::Ascii, path)?);

@@ -9,8 +9,7 @@
 
 use std::path::Path;
 
-use lobe_table::scattered::Scattered;
-use lobe_table::{Channels, Scatter};
+use lobe_table::{Channels, Scatter, scattered};
 
 use crate::lines::{lines, shown};
 use crate::records::Records;
@@ -35,7 +34,7 @@ enum Input {
 ///
 /// # Errors
 /// [`FormatError`] with the line: another parametrisation, a `#DIM` that does not fit it, or records of another length.
-pub fn read(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
+pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
     let text = String::from_utf8_lossy(bytes);
     let (mut input, mut has_cosine, mut outputs) = (None, false, None);
     let mut records = Records::default();

@@ -7,8 +7,7 @@
 
 use std::path::Path;
 
-use lobe_table::scattered::Scattered;
-use lobe_table::{Channels, Scatter};
+use lobe_table::{Channels, Scatter, scattered};
 
 use crate::columns::channels;
 use crate::lines::{Line, lines, shown};
@@ -26,7 +25,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// See [`read_as`].
-pub fn read(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
+pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
     read_as(bytes, file, Scatter::Reflection)
 }
 
@@ -34,7 +33,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
 ///
 /// # Errors
 /// [`FormatError`] with the line: other columns, records of another length, or another number of them than announced.
-pub fn read_as(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Scattered, FormatError> {
+pub fn read_as(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<scattered::Data, FormatError> {
     let text = String::from_utf8_lossy(bytes);
     let mut lines = lines(file, &text);
     let mut announced = None;

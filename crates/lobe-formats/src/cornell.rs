@@ -5,8 +5,7 @@
 
 use std::path::Path;
 
-use lobe_table::scattered::Scattered;
-use lobe_table::{Channels, Scatter};
+use lobe_table::{Channels, Scatter, scattered};
 
 use crate::FormatError;
 use crate::records::Records;
@@ -24,7 +23,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 /// # Errors
 /// [`FormatError`] with the line: numbers that are missing or none, a last record that is cut off, or polar angles that
 /// are on no side of a surface.
-pub fn read(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
+pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
     let mut text = Text::new(file, bytes, "#");
     let count = text.count("wavelengths")?;
     let mut wavelengths = Vec::with_capacity(count);

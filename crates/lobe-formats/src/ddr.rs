@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use lobe_table::{Samples, Scatter};
+use lobe_table::{Scatter, specular};
 
 use crate::grid::{Axes, Grid, LIMITS, from_samples, read_angle};
 use crate::integra::{Blocks, COMMENT, ColorModel, block_names, keep_comments, starts_block};
@@ -32,7 +32,7 @@ struct Header {
 ///
 /// # Errors
 /// [`FormatError`] names the line, what is there and what should be.
-pub fn read(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Measured<Samples>, FormatError> {
+pub fn read(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Measured<specular::Data>, FormatError> {
     let text = &mut Text::new(file, bytes, COMMENT);
     let header = read_header(text)?;
     let grid = &header.grid;
@@ -170,7 +170,7 @@ fn read_block(text: &mut Text<'_>, grid: &Grid) -> Result<Vec<f64>, FormatError>
 /// # Errors
 /// [`FormatError`] where the file cannot be written, the channels are XYZ, two knots are one in `f32` degrees, or the
 /// extension (`.ddr` for reflection, `.ddt` for transmission) would make readers take it for the other kind.
-pub fn write(samples: &Samples, path: &Path) -> Result<(), FormatError> {
+pub fn write(samples: &specular::Data, path: &Path) -> Result<(), FormatError> {
     write_whole(path, text(samples, path)?.as_bytes())
 }
 
@@ -178,7 +178,7 @@ pub fn write(samples: &Samples, path: &Path) -> Result<(), FormatError> {
 ///
 /// # Errors
 /// As [`write()`], which `path` would name.
-pub fn text(samples: &Samples, path: &Path) -> Result<String, FormatError> {
+pub fn text(samples: &specular::Data, path: &Path) -> Result<String, FormatError> {
     check_extension(path, samples.scatter(), ["ddr", "ddt"])?;
     let (model, names) = block_names(path, samples.channels())?;
     let degrees =

@@ -2,13 +2,7 @@
 
 use std::path::Path;
 
-use lobe_table::half_diff::HalfDiff;
-use lobe_table::mueller::Mueller;
-use lobe_table::rgl::Rgl;
-use lobe_table::scattered::Scattered;
-use lobe_table::spherical_grid::SphericalGrid;
-use lobe_table::utia::Utia;
-use lobe_table::{Samples, Scatter};
+use lobe_table::{Scatter, half_diff, mueller, scattered, specular, spherical};
 
 use crate::sheet::{Data, Part};
 use crate::window_xml::WindowXml;
@@ -43,23 +37,23 @@ impl<T> Measured<T> {
 #[non_exhaustive]
 pub enum Document {
     /// A BRDF or BTDF on a grid of specular coordinates.
-    Table(Measured<Samples>),
+    Table(Measured<specular::Data>),
     /// The mirror reflectance, or the transmittance straight through, of a smooth surface.
     Specular(Measured<Specular>),
     /// A BRDF or BTDF on a grid of spherical coordinates.
-    Spherical(Measured<SphericalGrid>),
+    Spherical(Measured<spherical::Data>),
     /// A BRDF or BTDF on no grid.
-    Scattered(Measured<Scattered>),
+    Scattered(Measured<scattered::Data>),
     /// Several measurements of one sheet.
     Sheet(Measured<Vec<Part>>),
     /// The adaptive parameterisation of the EPFL database.
-    Rgl(Measured<Rgl>),
+    Rgl(Measured<lobe_table::rgl::Data>),
     /// A grid of half and difference angles.
-    HalfDiff(Measured<HalfDiff>),
+    HalfDiff(Measured<half_diff::Data>),
     /// The grid of the UTIA database.
-    Utia(Measured<Utia>),
+    Utia(Measured<lobe_table::utia::Data>),
     /// Mueller matrices.
-    Mueller(Measured<Mueller>),
+    Mueller(Measured<mueller::Data>),
     /// Klems matrices or tensor trees of the two sides of a sheet.
     Window(Measured<WindowXml>),
 }

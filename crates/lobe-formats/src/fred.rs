@@ -9,8 +9,7 @@
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
-use lobe_table::scattered::Scattered;
-use lobe_table::{Channels, Scatter};
+use lobe_table::{Channels, Scatter, scattered};
 
 use crate::lines::{Line, lines, shown};
 use crate::records::Records;
@@ -39,7 +38,7 @@ struct Units {
 ///
 /// # Errors
 /// See [`read_as`].
-pub fn read(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
+pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
     read_as(bytes, file, Scatter::Reflection)
 }
 
@@ -48,7 +47,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
 /// # Errors
 /// [`FormatError`] with the line: a format other than values at angles in degrees or radians, lines that are neither two
 /// angles nor three numbers, or a value before the first incident direction.
-pub fn read_as(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Scattered, FormatError> {
+pub fn read_as(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<scattered::Data, FormatError> {
     let text = String::from_utf8_lossy(bytes);
     let mut lines = lines(file, &text);
     let mut next = |expected: &str| {
@@ -86,7 +85,7 @@ fn units(line: Line<'_>) -> Result<Units, FormatError> {
 ///
 /// # Errors
 /// See [`read_rpc_set`].
-pub fn read_rpc(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
+pub fn read_rpc(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
     read_rpc_set(&[(file.to_path_buf(), bytes)])
 }
 
@@ -94,7 +93,7 @@ pub fn read_rpc(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
 ///
 /// # Errors
 /// [`FormatError`] with the line, as in [`read_as`].
-pub fn read_rpc_set<B: AsRef<[u8]>>(files: &[(PathBuf, B)]) -> Result<Scattered, FormatError> {
+pub fn read_rpc_set<B: AsRef<[u8]>>(files: &[(PathBuf, B)]) -> Result<scattered::Data, FormatError> {
     let units = Units { to_radians: PI / 180.0, scale: 1.0 };
     let mut records = Records::default();
     for (file, bytes) in files {
@@ -109,7 +108,7 @@ pub fn read_rpc_set<B: AsRef<[u8]>>(files: &[(PathBuf, B)]) -> Result<Scattered,
 ///
 /// # Errors
 /// [`FormatError`] where the folder or a file cannot be read, where none is an RPC file, and as in [`read_rpc_set`].
-pub fn read_rpc_folder(folder: &Path) -> Result<Scattered, FormatError> {
+pub fn read_rpc_folder(folder: &Path) -> Result<scattered::Data, FormatError> {
     let failed = |path: &Path, error: std::io::Error| {
         FormatError::new(path, Place::File, error.to_string(), "files that can be read")
     };

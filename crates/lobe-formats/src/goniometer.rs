@@ -16,8 +16,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::path::Path;
 
-use lobe_table::spherical_grid::SphericalGrid;
-use lobe_table::{Channels, Samples, Scatter};
+use lobe_table::{Channels, Scatter, specular, spherical};
 
 pub use write::write;
 
@@ -188,11 +187,11 @@ impl Table {
             }
         }
         if let Some((knots, values)) = grid(&records, channels.count()) {
-            let refused = |e: lobe_table::SamplesError| FormatError::new(file, Place::File, e.to_string(), "a grid");
+            let refused = |e: lobe_table::GridError| FormatError::new(file, Place::File, e.to_string(), "a grid");
             return match is_specular {
-                true => Samples::new(options.scatter, knots, channels, values).map(Data::Table).map_err(refused),
+                true => specular::Data::new(options.scatter, knots, channels, values).map(Data::Table).map_err(refused),
                 false => {
-                    let grid = SphericalGrid::new(options.scatter, knots, channels, values);
+                    let grid = spherical::Data::new(options.scatter, knots, channels, values);
                     grid.map(Data::Spherical).map_err(refused)
                 }
             };

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lobe_table::{Channels, Samples, SamplesError, Scatter};
+use lobe_table::{Channels, GridError, Scatter, specular};
 
 use crate::text::{Text, Token};
 use crate::{FormatError, Place};
@@ -134,14 +134,14 @@ impl Grid {
         self.degrees[0].len() * self.degrees[1].len()
     }
 
-    /// Puts one block a channel into the order of [`Samples`], with the second half of a plane-symmetrical circle.
+    /// Puts one block a channel into the order of [`specular::Data`], with the second half of a plane-symmetrical circle.
     pub fn samples(
         &self,
         file: &Path,
         scatter: Scatter,
         channels: Channels,
         blocks: &[Vec<f32>],
-    ) -> Result<Samples, FormatError> {
+    ) -> Result<specular::Data, FormatError> {
         let [sigma, psi, theta, phi] = self.degrees.each_ref().map(Vec::len);
         let mut values = Vec::with_capacity(sigma * psi * theta * self.phi_source.len() * blocks.len());
         for s in 0..sigma {
@@ -161,12 +161,12 @@ impl Grid {
                 (if i < phi { listed } else { 360.0 - listed }).to_radians()
             })
             .collect();
-        Samples::new(scatter, knots, channels, values).map_err(|error| from_samples(file, &error))
+        specular::Data::new(scatter, knots, channels, values).map_err(|error| from_samples(file, &error))
     }
 }
 
-/// A [`SamplesError`] about what a file holds.
-pub(crate) fn from_samples(file: &Path, error: &SamplesError) -> FormatError {
+/// A [`GridError`] about what a file holds.
+pub(crate) fn from_samples(file: &Path, error: &GridError) -> FormatError {
     let message = error.to_string();
     let (found, expected) = message.split_once("; expected ").unwrap_or((&message, "a table that fits together"));
     FormatError::new(file, Place::File, found, expected)

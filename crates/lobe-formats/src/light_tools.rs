@@ -9,8 +9,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
-use lobe_table::spherical_grid::SphericalGrid;
-use lobe_table::{Channels, Scatter};
+use lobe_table::{Channels, Scatter, spherical};
 
 use crate::FormatError;
 use crate::sheet::{Data, Part, Side};
@@ -158,7 +157,7 @@ fn part(
     channels: &Channels,
     scatter: Scatter,
     by_angle: &BTreeMap<u64, [Option<Vec<f64>>; 3]>,
-) -> Result<SphericalGrid, FormatError> {
+) -> Result<spherical::Data, FormatError> {
     let error = |found: String, expected: &str| text.error(text.line(), found, expected);
     let turned: Vec<f64> = azimuths.iter().map(|azimuth| (azimuth - 90.0).rem_euclid(360.0)).collect();
     let is_right = turned.iter().all(|&azimuth| azimuth <= 180.0);
@@ -196,5 +195,5 @@ fn part(
     let radians = |angles: &[(f64, usize)]| angles.iter().map(|(angle, _)| angle.to_radians().min(TAU)).collect();
     let incident = by_angle.keys().map(|bits| f64::from_bits(*bits).to_radians().min(PI / 2.0)).collect();
     let knots = [incident, vec![0.0], radians(&rows), radians(&columns)];
-    SphericalGrid::new(scatter, knots, channels.clone(), values).map_err(|e| error(e.to_string(), "a grid of angles"))
+    spherical::Data::new(scatter, knots, channels.clone(), values).map_err(|e| error(e.to_string(), "a grid of angles"))
 }

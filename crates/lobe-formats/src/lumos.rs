@@ -6,8 +6,7 @@
 
 use std::path::Path;
 
-use lobe_table::scattered::Scattered;
-use lobe_table::{Channels, Scatter};
+use lobe_table::{Channels, Scatter, scattered};
 
 use crate::FormatError;
 use crate::lines::lines;
@@ -28,7 +27,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// [`FormatError`] with the line that has other than five finite numbers, or where there is none.
-pub fn read(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
+pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
     let text = String::from_utf8_lossy(bytes);
     let mut records = Records::default();
     for line in lines(file, &text).filter(|line| !line.text.starts_with('#')) {

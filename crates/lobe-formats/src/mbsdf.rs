@@ -13,8 +13,7 @@ use crate::bytes::Cursor;
 use crate::error::FormatError;
 use crate::sheet::Sides;
 use crate::write::{unwritable, write_whole};
-use lobe_table::spherical_grid::SphericalGrid;
-use lobe_table::{Channels, Scatter};
+use lobe_table::{Channels, Scatter, spherical};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::io;
 use std::path::Path;
@@ -55,7 +54,7 @@ impl Nodes {
 ///
 /// # Errors
 /// As [`read_with`].
-pub fn read(bytes: &[u8], file: &Path) -> Result<Sides<SphericalGrid>, FormatError> {
+pub fn read(bytes: &[u8], file: &Path) -> Result<Sides<spherical::Data>, FormatError> {
     read_with(bytes, file, [Nodes::LowerEdge, Nodes::Closed])
 }
 
@@ -63,7 +62,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Sides<SphericalGrid>, FormatErr
 ///
 /// # Errors
 /// [`FormatError`] where the signature or all data are missing, a block is cut off, or something follows the last one.
-pub fn read_with(bytes: &[u8], file: &Path, nodes: [Nodes; 2]) -> Result<Sides<SphericalGrid>, FormatError> {
+pub fn read_with(bytes: &[u8], file: &Path, nodes: [Nodes; 2]) -> Result<Sides<spherical::Data>, FormatError> {
     let mut cursor = Cursor::new(bytes, file);
     cursor.signature(MAGIC, MAGIC.trim_ascii().escape_ascii().to_string().as_str())?;
     let mut sides = Sides { reflection: None, transmission: None };
@@ -121,7 +120,7 @@ fn block(
     cursor: &mut Cursor<'_, '_>,
     scatter: Scatter,
     [zeniths, azimuths]: [Nodes; 2],
-) -> Result<SphericalGrid, FormatError> {
+) -> Result<spherical::Data, FormatError> {
     let start = cursor.at;
     let mut number = |what| Ok::<_, FormatError>(u32::from_le_bytes(cursor.array(what)?) as usize);
     let (kind, thetas, phis) = (number("the type")?, number("the zenith angles")?, number("the azimuths")?);
@@ -141,7 +140,7 @@ fn block(
     let values = cursor.floats(count, &format!("{thetas} x {thetas} x {phis} x {} values", channels.count()))?;
     let theta = zeniths.knots(thetas, FRAC_PI_2);
     let knots = [theta.clone(), vec![0.0], theta, azimuths.knots(phis, PI)];
-    SphericalGrid::new(scatter, knots, channels, values).and_then(SphericalGrid::mirrored).map_err(|error| {
+    spherical::Data::new(scatter, knots, channels, values).and_then(spherical::Data::mirrored).map_err(|error| {
         cursor.at = start;
         cursor.error(error.to_string(), "angles and values of a grid")
     })
@@ -152,7 +151,7 @@ fn block(
 /// # Errors
 /// [`io::ErrorKind::InvalidInput`] where there is neither side, and for grids other than the mirrored ones that
 /// [`read_with`] makes.
-pub fn to_bytes(sides: &Sides<SphericalGrid>) -> io::Result<Vec<u8>> {
+pub fn to_bytes(sides: &Sides<spherical::Data>) -> io::Result<Vec<u8>> {
     let mut bytes = MAGIC.to_vec();
     let invalid = |why| io::Error::new(io::ErrorKind::InvalidInput, why);
     for (heading, side) in [(REFLECTION, &sides.reflection), (TRANSMISSION, &sides.transmission)] {
@@ -189,6 +188,6 @@ pub fn to_bytes(sides: &Sides<SphericalGrid>) -> io::Result<Vec<u8>> {
 ///
 /// # Errors
 /// [`FormatError`] as [`to_bytes`], and where the file system refuses.
-pub fn write(sides: &Sides<SphericalGrid>, path: &Path) -> Result<(), FormatError> {
+pub fn write(sides: &Sides<spherical::Data>, path: &Path) -> Result<(), FormatError> {
     write_whole(path, &to_bytes(sides).map_err(|error| unwritable(path, &error))?)
 }

@@ -7,7 +7,7 @@
 use crate::bytes::Cursor;
 use crate::error::FormatError;
 use crate::write::{unwritable, write_whole};
-use lobe_table::half_diff::HalfDiff;
+use lobe_table::half_diff;
 use std::io;
 use std::path::Path;
 
@@ -37,7 +37,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// [`FormatError`] where the size of the file does not follow from its header or a value is not finite.
-pub fn read(bytes: &[u8], file: &Path) -> Result<HalfDiff, FormatError> {
+pub fn read(bytes: &[u8], file: &Path) -> Result<half_diff::Data, FormatError> {
     let mut cursor = Cursor::new(bytes, file);
     let Some((bins, size)) = header(bytes) else {
         let start = &bytes[..bytes.len().min(HEADER)];
@@ -60,14 +60,14 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<HalfDiff, FormatError> {
             values.push((value * scale) as f32);
         }
     }
-    HalfDiff::new(bins, values).map_err(|invalid| cursor.error(invalid.found, invalid.expected))
+    half_diff::Data::new(bins, values).map_err(|invalid| cursor.error(invalid.found, invalid.expected))
 }
 
 /// The bytes of a MERL file.
 ///
 /// # Errors
 /// [`io::ErrorKind::InvalidInput`] where a dimension does not fit into `i32`.
-pub fn to_bytes(material: &HalfDiff) -> io::Result<Vec<u8>> {
+pub fn to_bytes(material: &half_diff::Data) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::with_capacity(HEADER + size_of::<f64>() * material.values().len());
     for bins in material.bins() {
         let bins = i32::try_from(bins).map_err(|error| io::Error::new(io::ErrorKind::InvalidInput, error))?;
@@ -84,6 +84,6 @@ pub fn to_bytes(material: &HalfDiff) -> io::Result<Vec<u8>> {
 ///
 /// # Errors
 /// [`FormatError`] as [`to_bytes`], and where the file system refuses.
-pub fn write(material: &HalfDiff, path: &Path) -> Result<(), FormatError> {
+pub fn write(material: &half_diff::Data, path: &Path) -> Result<(), FormatError> {
     write_whole(path, &to_bytes(material).map_err(|error| unwritable(path, &error))?)
 }

@@ -7,8 +7,7 @@
 
 use std::path::Path;
 
-use lobe_table::Scatter;
-use lobe_table::scattered::Scattered;
+use lobe_table::{Scatter, scattered};
 
 use crate::lines::{lines, shown};
 use crate::records::ByWavelength;
@@ -31,7 +30,7 @@ fn simple(name: &str) -> String {
 ///
 /// # Errors
 /// [`FormatError`] with the line that has other than 21 finite numbers, or where wavelengths have different directions.
-pub fn read(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
+pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
     let text = String::from_utf8_lossy(bytes);
     let mut lines = lines(file, &text);
     match lines.next() {

@@ -9,10 +9,10 @@
 use std::io::{self, Cursor, Write};
 use std::path::Path;
 
-use lobe_table::klems::AngleBasis;
 use lobe_table::scattered::ANGLE_NAMES;
+use lobe_table::window::klems::AngleBasis;
 use lobe_table::window::{Block, Component};
-use lobe_table::{AXIS_NAMES, Channels, Scatter};
+use lobe_table::{Channels, Scatter, specular::AXIS_NAMES};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 

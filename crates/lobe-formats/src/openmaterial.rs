@@ -3,8 +3,7 @@
 
 use std::path::Path;
 
-use lobe_table::Scatter;
-use lobe_table::scattered::Scattered;
+use lobe_table::{Scatter, scattered};
 use serde::Deserialize;
 
 use crate::records::ByWavelength;
@@ -37,7 +36,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 /// # Errors
 /// [`FormatError`] with the line of the JSON that is wrong; wavelengths that are not positive; or where wavelengths have
 /// different directions.
-pub fn read(bytes: &[u8], file: &Path) -> Result<Scattered, FormatError> {
+pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let document: Document = serde_json::from_slice(bytes).map_err(|error| {
         FormatError::new(file, Place::Line(error.line()), error.to_string(), "brdf.lookupTable, rows of 5 numbers")

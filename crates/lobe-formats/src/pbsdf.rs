@@ -7,7 +7,7 @@
 use crate::error::FormatError;
 use crate::tensor::{self, DType, Field, TensorFile};
 use crate::write::{unwritable, write_whole};
-use lobe_table::mueller::{AXES, Mueller};
+use lobe_table::mueller::{self, AXES};
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::io;
 use std::path::Path;
@@ -22,7 +22,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// [`FormatError`] where the file is no tensor file, or a field is missing or does not fit the others.
-pub fn read(bytes: &[u8], file: &Path) -> Result<Mueller, FormatError> {
+pub fn read(bytes: &[u8], file: &Path) -> Result<mueller::Data, FormatError> {
     let tensors = tensor::read(bytes, file)?;
     let (values, shape) = tensors.floats("M", 6)?;
     // With a dimension of zero the others could be anything, and would be believed below.
@@ -41,7 +41,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Mueller, FormatError> {
     if shape != expected {
         return Err(tensors.error("M", format!("M as {shape:?}"), format!("{expected:?}")));
     }
-    Mueller::new(knots, values).map_err(|invalid| tensors.invalid(invalid))
+    mueller::Data::new(knots, values).map_err(|invalid| tensors.invalid(invalid))
 }
 
 /// The `n` knots of an axis, over `[low, high]` where the file has none.
@@ -60,7 +60,7 @@ fn angles(tensors: &TensorFile<'_>, name: &str, n: usize, low: f32, high: f32) -
 ///
 /// # Errors
 /// [`io::ErrorKind::InvalidInput`] where a wavelength is no whole number of nm below 65536.
-pub fn to_bytes(material: &Mueller) -> io::Result<Vec<u8>> {
+pub fn to_bytes(material: &mueller::Data) -> io::Result<Vec<u8>> {
     let [p, d, h, nm] = material.knots();
     if let Some(bad) = nm.iter().find(|nm| f32::from(**nm as u16) != **nm) {
         let why = format!("wavelength {bad} nm; the format has whole numbers of nm");
@@ -81,6 +81,6 @@ pub fn to_bytes(material: &Mueller) -> io::Result<Vec<u8>> {
 ///
 /// # Errors
 /// [`FormatError`] as [`to_bytes`], and where the file system refuses.
-pub fn write(material: &Mueller, path: &Path) -> Result<(), FormatError> {
+pub fn write(material: &mueller::Data, path: &Path) -> Result<(), FormatError> {
     write_whole(path, &to_bytes(material).map_err(|error| unwritable(path, &error))?)
 }

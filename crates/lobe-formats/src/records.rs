@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::path::Path;
 
-use lobe_table::scattered::Scattered;
-use lobe_table::{Channels, Scatter};
+use lobe_table::{Channels, Scatter, scattered};
 
 use crate::{FormatError, Place};
 
@@ -26,8 +25,13 @@ impl Records {
     }
 
     /// Keeps the samples.
-    pub(crate) fn scattered(self, file: &Path, scatter: Scatter, channels: Channels) -> Result<Scattered, FormatError> {
-        Scattered::new(scatter, channels, &self.angles, &self.values)
+    pub(crate) fn scattered(
+        self,
+        file: &Path,
+        scatter: Scatter,
+        channels: Channels,
+    ) -> Result<scattered::Data, FormatError> {
+        scattered::Data::new(scatter, channels, &self.angles, &self.values)
             .map_err(|error| FormatError::new(file, Place::File, error.to_string(), "a measurement"))
     }
 }
@@ -56,7 +60,7 @@ impl ByWavelength {
     }
 
     /// One sample per geometry, with a channel per wavelength. Values of the same geometry and wavelength are averaged.
-    pub(crate) fn scattered(self, file: &Path, scatter: Scatter) -> Result<Scattered, FormatError> {
+    pub(crate) fn scattered(self, file: &Path, scatter: Scatter) -> Result<scattered::Data, FormatError> {
         let (geometries, wavelengths) = (self.geometries.len(), self.wavelengths.len());
         let missing = |found: String| {
             let expected = format!("all {wavelengths} wavelengths for each of {geometries} pairs of directions");

@@ -9,7 +9,7 @@ use crate::error::FormatError;
 use crate::tensor::{self, DType, Field, TensorFile};
 use crate::write::{unwritable, write_whole};
 use lobe_table::Channels;
-use lobe_table::rgl::{Images, Parts, Rgl};
+use lobe_table::rgl::{self, Images, Parts};
 use std::io;
 use std::path::Path;
 
@@ -23,7 +23,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// [`FormatError`] where the file is no tensor file, or a field is missing or does not fit the others.
-pub fn read(bytes: &[u8], file: &Path) -> Result<Rgl, FormatError> {
+pub fn read(bytes: &[u8], file: &Path) -> Result<rgl::Data, FormatError> {
     let tensors = tensor::read(bytes, file)?;
     let (phi_i, _) = tensors.floats("phi_i", 1)?;
     let (theta_i, _) = tensors.floats("theta_i", 1)?;
@@ -59,7 +59,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Rgl, FormatError> {
         phi_i,
         theta_i,
     };
-    Rgl::new(parts).map_err(|invalid| tensors.invalid(invalid))
+    rgl::Data::new(parts).map_err(|invalid| tensors.invalid(invalid))
 }
 
 /// A field as images, its leading dimensions checked.
@@ -82,7 +82,7 @@ fn images(tensors: &TensorFile<'_>, name: &'static str, leading: &[usize]) -> Re
 ///
 /// # Errors
 /// [`io::ErrorKind::InvalidInput`] where the material does not fit the format.
-pub fn to_bytes(rgl: &Rgl) -> io::Result<Vec<u8>> {
+pub fn to_bytes(rgl: &rgl::Data) -> io::Result<Vec<u8>> {
     let parts = rgl.parts();
     let (p, t) = (parts.phi_i.len(), parts.theta_i.len());
     let images = |name, leading: &[usize], images: &Images| {
@@ -116,6 +116,6 @@ pub fn to_bytes(rgl: &Rgl) -> io::Result<Vec<u8>> {
 ///
 /// # Errors
 /// [`FormatError`] as [`to_bytes`], and where the file system refuses.
-pub fn write(rgl: &Rgl, path: &Path) -> Result<(), FormatError> {
+pub fn write(rgl: &rgl::Data, path: &Path) -> Result<(), FormatError> {
     write_whole(path, &to_bytes(rgl).map_err(|error| unwritable(path, &error))?)
 }

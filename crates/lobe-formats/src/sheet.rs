@@ -1,8 +1,6 @@
 //! Files that hold more than one measurement of a material: reflection and transmission, or both sides of a sheet.
 
-use lobe_table::scattered::Scattered;
-use lobe_table::spherical_grid::SphericalGrid;
-use lobe_table::{Channels, Samples, Scatter};
+use lobe_table::{Channels, Scatter, scattered, specular, spherical};
 
 use crate::Specular;
 
@@ -37,11 +35,11 @@ impl Part {
 #[derive(Clone, Debug)]
 pub enum Data {
     /// A BRDF or BTDF on a grid of specular coordinates.
-    Table(Samples),
+    Table(specular::Data),
     /// A BRDF or BTDF on a grid of spherical coordinates.
-    Spherical(SphericalGrid),
+    Spherical(spherical::Data),
     /// A BRDF or BTDF on no grid.
-    Scattered(Scattered),
+    Scattered(scattered::Data),
     /// The mirror reflectance, or the transmittance straight through.
     Specular(Specular),
 }

@@ -3,9 +3,9 @@
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
-use lobe_table::coords::angles_to_directions;
-use lobe_table::reference::zenith;
-use lobe_table::{Edges, Samples};
+use lobe_table::specular::coords::angles_to_directions;
+use lobe_table::specular::reference::zenith;
+use lobe_table::{Edges, specular};
 
 use crate::grid::{Grid, from_samples};
 use crate::{FormatError, Place};
@@ -46,7 +46,11 @@ pub(crate) fn divide_by_cosine(grid: &Grid, zeniths: &[f64], block: &mut [f64]) 
 /// Scales each slice, a pair of sigma and psi knots in one channel, to a given directional-hemispherical reflectance.
 ///
 /// `targets` holds for each channel one number a pair, `[psi][sigma]`.
-pub(crate) fn scale_slices(file: &Path, samples: &Samples, targets: &[Vec<f64>]) -> Result<Samples, FormatError> {
+pub(crate) fn scale_slices(
+    file: &Path,
+    samples: &specular::Data,
+    targets: &[Vec<f64>],
+) -> Result<specular::Data, FormatError> {
     let [sigmas, psis, thetas, phis] = samples.knots().each_ref().map(Vec::len);
     let channels = samples.channels().count();
     let mut values = samples.values().to_vec();
@@ -76,7 +80,7 @@ pub(crate) fn scale_slices(file: &Path, samples: &Samples, targets: &[Vec<f64>])
             }
         }
     }
-    let scaled = Samples::new(samples.scatter(), samples.knots().clone(), samples.channels().clone(), values);
+    let scaled = specular::Data::new(samples.scatter(), samples.knots().clone(), samples.channels().clone(), values);
     let scaled = scaled.map_err(|error| from_samples(file, &error))?;
     match samples.refraction() {
         Some(offsets) => scaled.with_refraction(offsets.to_vec()).map_err(|error| from_samples(file, &error)),
@@ -85,7 +89,7 @@ pub(crate) fn scale_slices(file: &Path, samples: &Samples, targets: &[Vec<f64>])
 }
 
 /// The directional-hemispherical reflectance of each slice, a channel each, `[psi][sigma]`.
-pub(crate) fn reflectances(samples: &Samples) -> Vec<Vec<f64>> {
+pub(crate) fn reflectances(samples: &specular::Data) -> Vec<Vec<f64>> {
     let [sigmas, psis, ..] = samples.knots().each_ref().map(Vec::len);
     let channels = samples.channels().count();
     let quadrature = Quadrature::new(samples);
@@ -124,7 +128,7 @@ struct Part {
 }
 
 impl Quadrature {
-    fn new(samples: &Samples) -> Self {
+    fn new(samples: &specular::Data) -> Self {
         const STEPS: [f64; 2] = [1.5 * PI / 180.0, 4.0 * PI / 180.0];
         let [_, _, theta, phi] = samples.knots();
         let (last, end) = (theta.len() - 1, phi[0] + TAU);

@@ -5,7 +5,7 @@
 use crate::bytes::Cursor;
 use crate::error::FormatError;
 use crate::write::write_whole;
-use lobe_table::utia::{PLANE, Utia};
+use lobe_table::utia::{self, PLANE};
 use std::path::Path;
 
 const SIZE: usize = 3 * PLANE * size_of::<f64>();
@@ -19,7 +19,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// [`FormatError`] where the size of the file is another or a value is not finite.
-pub fn read(bytes: &[u8], file: &Path) -> Result<Utia, FormatError> {
+pub fn read(bytes: &[u8], file: &Path) -> Result<utia::Data, FormatError> {
     let mut cursor = Cursor::new(bytes, file);
     if !matches(bytes) {
         return Err(cursor.error(format!("{} bytes", bytes.len()), format!("{SIZE} bytes")));
@@ -30,11 +30,11 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Utia, FormatError> {
         cursor.at = at * size_of::<f64>();
         return Err(cursor.error(format!("{}", values[at]), "a finite number"));
     }
-    Utia::new(values).map_err(|invalid| cursor.error(invalid.found, invalid.expected))
+    utia::Data::new(values).map_err(|invalid| cursor.error(invalid.found, invalid.expected))
 }
 
 /// The bytes of a UTIA file.
-pub fn to_bytes(material: &Utia) -> Vec<u8> {
+pub fn to_bytes(material: &utia::Data) -> Vec<u8> {
     material.values().iter().flat_map(|value| value.to_le_bytes()).collect()
 }
 
@@ -42,6 +42,6 @@ pub fn to_bytes(material: &Utia) -> Vec<u8> {
 ///
 /// # Errors
 /// [`FormatError`] where the file system refuses.
-pub fn write(material: &Utia, path: &Path) -> Result<(), FormatError> {
+pub fn write(material: &utia::Data, path: &Path) -> Result<(), FormatError> {
     write_whole(path, &to_bytes(material))
 }

@@ -9,7 +9,7 @@ mod write;
 
 use std::path::Path;
 
-use lobe_table::{Channels, Samples, Scatter};
+use lobe_table::{Channels, Scatter, specular};
 
 pub use write::write;
 
@@ -33,7 +33,7 @@ struct Header {
 ///
 /// # Errors
 /// [`FormatError`] names the line, what is there and what should be.
-pub fn read(bytes: &[u8], file: &Path) -> Result<Measured<Samples>, FormatError> {
+pub fn read(bytes: &[u8], file: &Path) -> Result<Measured<specular::Data>, FormatError> {
     let text = &mut Text::new(file, bytes, "#");
     let header = read_header(text)?;
     let names: &[&str] = if header.channels == Channels::Mono { &["Monochrome"] } else { &XYZ };

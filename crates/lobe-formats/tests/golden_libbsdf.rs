@@ -6,11 +6,11 @@ use std::path::Path;
 
 use common::{Worst, direction, golden};
 use lobe_formats::{Document, open};
-use lobe_table::reference::eval;
-use lobe_table::{Edges, Samples};
+use lobe_table::specular::reference::eval;
+use lobe_table::{Edges, specular};
 
 /// Largest difference to the golden answers, as a part of the largest magnitude in the table.
-fn largest_error(samples: &Samples, answers: &Path) -> (usize, f64) {
+fn largest_error(samples: &specular::Data, answers: &Path) -> (usize, f64) {
     let scale = samples.values().iter().fold(0.0_f64, |largest, &value| largest.max(f64::from(value).abs()));
     let queries = golden(answers);
     let mut out = vec![0.0; samples.channels().count()];

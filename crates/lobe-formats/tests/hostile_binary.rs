@@ -5,7 +5,7 @@ mod examples;
 
 use examples::{tiny_mbsdf, tiny_merl, tiny_pbsdf, tiny_rgl};
 use lobe_formats::{Format, FormatError, Place, Sides, mbsdf, merl, pbsdf, tensor, utia};
-use lobe_table::mueller::Mueller;
+use lobe_table::mueller;
 use std::path::Path;
 
 const FILE: &str = "broken.file";
@@ -145,7 +145,7 @@ fn what_does_not_fit_the_container_is_not_written() {
     assert_eq!(unfit(vec![tensor::Field::u8("huge", &[usize::MAX, 2], &[])]), invalid);
     assert_eq!(unfit(vec![tensor::Field::u8(&"n".repeat(65_536), &[0], &[])]), invalid);
     let knots = [vec![0.0], vec![0.0], vec![0.0], vec![500.5]];
-    let between = Mueller::new(knots, vec![0.0; 16]).expect("a valid material");
+    let between = mueller::Data::new(knots, vec![0.0; 16]).expect("a valid material");
     assert_eq!(pbsdf::to_bytes(&between).expect_err("half a nm").kind(), invalid);
     let neither = Sides { reflection: None, transmission: None };
     assert_eq!(mbsdf::to_bytes(&neither).expect_err("an empty file").kind(), invalid);

@@ -4,11 +4,11 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use lobe_formats::{Document, Format, Measured, ddr, open, sdr};
-use lobe_table::reference::eval;
-use lobe_table::{Channels, Edges, Samples, Scatter};
+use lobe_table::specular::reference::eval;
+use lobe_table::{Channels, Edges, Scatter, specular};
 use proptest::prelude::*;
 
-fn read(text: &str) -> Measured<Samples> {
+fn read(text: &str) -> Measured<specular::Data> {
     ddr::read(text.as_bytes(), Path::new("t.ddr"), Scatter::Reflection).unwrap()
 }
 
@@ -84,7 +84,7 @@ fn intensity_is_divided_by_the_cosine_but_not_at_the_horizon() {
 }
 
 /// The integral of f cos over the hemisphere on a grid of ordinary polar angles, by the reference evaluation.
-fn reflectance(samples: &Samples, sigma: f64) -> f64 {
+fn reflectance(samples: &specular::Data, sigma: f64) -> f64 {
     let wi = [sigma.sin(), 0.0, sigma.cos()];
     let (rings, sectors) = (360, 720);
     let mut sum = 0.0;
@@ -183,7 +183,7 @@ fn sigmat_becomes_refraction_offsets() {
 }
 
 /// Tables of any shape whose angles are `f32` degrees, as files have them.
-fn tables() -> impl Strategy<Value = Samples> {
+fn tables() -> impl Strategy<Value = specular::Data> {
     let axis = |limit: f32, most: usize| {
         proptest::collection::btree_set(0..1000_u32, 1..=most).prop_map(move |set| {
             set.into_iter().map(|k| f64::from(k as f32 * limit / 1000.0).to_radians()).collect::<Vec<_>>()
@@ -200,11 +200,14 @@ fn tables() -> impl Strategy<Value = Samples> {
         })
         .prop_map(|(knots, channels, values, refracted)| {
             if !refracted {
-                return Samples::new(Scatter::Reflection, knots, channels, values).unwrap();
+                return specular::Data::new(Scatter::Reflection, knots, channels, values).unwrap();
             }
             let zenith = |sigma: &f64| f64::from((sigma.to_degrees() * 0.6) as f32).to_radians();
             let offsets = knots[0].iter().map(|sigma| zenith(sigma) - sigma).collect();
-            Samples::new(Scatter::Transmission, knots, channels, values).unwrap().with_refraction(offsets).unwrap()
+            specular::Data::new(Scatter::Transmission, knots, channels, values)
+                .unwrap()
+                .with_refraction(offsets)
+                .unwrap()
         })
 }
 
@@ -239,10 +242,10 @@ fn writers_refuse_what_would_be_misread() {
     let folder = tempfile::tempdir().unwrap();
     let table = |scatter, channels: Channels| {
         let values = vec![1.0; channels.count()];
-        Samples::new(scatter, [vec![0.0], vec![0.0], vec![0.0], vec![0.0]], channels, values).unwrap()
+        specular::Data::new(scatter, [vec![0.0], vec![0.0], vec![0.0], vec![0.0]], channels, values).unwrap()
     };
     let message =
-        |name: &str, samples: &Samples| ddr::write(samples, &folder.path().join(name)).unwrap_err().to_string();
+        |name: &str, samples: &specular::Data| ddr::write(samples, &folder.path().join(name)).unwrap_err().to_string();
     assert!(message("a.ddr", &table(Scatter::Transmission, Channels::Mono)).contains("expected the extension .ddt"));
     assert!(message("a.ddt", &table(Scatter::Reflection, Channels::Mono)).contains("expected the extension .ddr"));
     assert!(message("a.ddr", &table(Scatter::Reflection, Channels::Xyz)).contains("found the channels X Y Z"));

@@ -5,7 +5,7 @@ mod common;
 use common::made::{merl_formula, spherical, utia_numbers};
 use common::{Worst, golden, relative, shared, unit};
 use lobe_formats::{mbsdf, merl, pbsdf, tensor, utia};
-use lobe_table::spherical_grid::SphericalGrid;
+use lobe_table::spherical;
 use lobe_table::utia::Decode;
 use std::fs;
 use std::path::Path;
@@ -100,7 +100,7 @@ fn utia_values_match_the_reader_of_the_database() {
 }
 
 /// The number of zenith angles, of azimuths, and of channels.
-fn resolution(grid: &SphericalGrid) -> [usize; 3] {
+fn resolution(grid: &spherical::Data) -> [usize; 3] {
     [grid.knots()[0].len(), grid.knots()[3].len(), grid.channels().count()]
 }
 

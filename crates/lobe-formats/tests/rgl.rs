@@ -4,11 +4,11 @@ mod common;
 
 use common::{Worst, direction, golden, relative, shared, unit};
 use lobe_formats::rgl;
-use lobe_table::rgl::{Reference, Rgl, UniformOrder};
+use lobe_table::rgl::{Data, Reference, UniformOrder};
 use std::fs;
 use std::path::Path;
 
-fn load(path: &Path) -> Rgl {
+fn load(path: &Path) -> Data {
     rgl::read(&fs::read(path).expect("file"), path).expect("an RGL material")
 }
 
@@ -17,7 +17,7 @@ fn load(path: &Path) -> Rgl {
 /// `floor` is the value below which errors are taken as absolute: the references compute in single precision, whose
 /// angles resolve very small values, at the foot of a steep peak, no better.
 /// Returns the largest error of the values, of the density and of the sample.
-fn powitacq(material: &Rgl, queries: &[(Vec<f64>, Vec<f64>)], floor: f64) -> [Worst; 3] {
+fn powitacq(material: &Data, queries: &[(Vec<f64>, Vec<f64>)], floor: f64) -> [Worst; 3] {
     // The loader of the database returns no negative values.
     let reference = Reference::new(material).clamp_negative(true);
     let channels = material.parts().channels.count();

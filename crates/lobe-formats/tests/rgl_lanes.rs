@@ -8,13 +8,13 @@ use common::{Worst, bytes, golden, relative, shared, unit};
 use lobe_formats::rgl;
 use lobe_lane::Lanes;
 use lobe_scalar::Scalar;
-use lobe_table::rgl::{Drawn, Rgl, RglOptions, RglTable, UniformOrder, Wanted};
+use lobe_table::rgl::{Data, Drawn, Options, Table, UniformOrder, Wanted};
 
 const SYNTHETIC: [&str; 4] = ["rgl_iso_rgb", "rgl_iso_spec", "rgl_aniso_rgb", "rgl_aniso_spec"];
 const REAL: [&str; 5] =
     ["cc_ibiza_sunset", "cc_iris_purple_gem", "colodur_napoli_4f", "paper_white", "vch_golden_yellow"];
 
-fn load(path: &Path) -> Rgl {
+fn load(path: &Path) -> Data {
     rgl::read(&bytes(path), path).expect("an RGL material")
 }
 
@@ -40,7 +40,7 @@ fn directions(queries: &Queries) -> Directions {
     queries.iter().map(|(query, _)| [0, 3].map(|at| unit(query, at).map(|x| x as f32)).into()).unzip()
 }
 
-fn evaluate<L: Lanes>(lanes: L, table: &RglTable, (wi, wo): &Directions) -> (Vec<f32>, Vec<f32>) {
+fn evaluate<L: Lanes>(lanes: L, table: &Table, (wi, wo): &Directions) -> (Vec<f32>, Vec<f32>) {
     let (mut values, mut pdf) = (vec![f32::NAN; wi.len() * table.channel_count()], vec![f32::NAN; wi.len()]);
     let wanted = Wanted::ValuesCosAndPdf(&mut values, &mut pdf);
     lanes.vectorize(table.batch(wi.as_slice(), wo.as_slice(), wanted));
@@ -48,15 +48,7 @@ fn evaluate<L: Lanes>(lanes: L, table: &RglTable, (wi, wo): &Directions) -> (Vec
 }
 
 /// The golden columns hold the stored channels first, and the density at column `pdf_at`.
-fn against<L: Lanes>(
-    lanes: L,
-    backend: &str,
-    name: &str,
-    table: &RglTable,
-    queries: &Queries,
-    pdf_at: usize,
-    floor: f64,
-) {
+fn against<L: Lanes>(lanes: L, backend: &str, name: &str, table: &Table, queries: &Queries, pdf_at: usize, floor: f64) {
     let channels = table.channel_count();
     let (values, pdf) = evaluate(lanes, table, &directions(queries));
     let mut worst: [Worst; 2] = Default::default();
@@ -72,7 +64,7 @@ fn against<L: Lanes>(
 }
 
 /// The columns behind the density: direction, density and weights of a sample of the loader of the database.
-fn draws<L: Lanes>(lanes: L, backend: &str, name: &str, table: &RglTable, queries: &Queries) {
+fn draws<L: Lanes>(lanes: L, backend: &str, name: &str, table: &Table, queries: &Queries) {
     let channels = table.channel_count();
     let (wi, _) = directions(queries);
     let uniforms: Vec<_> = queries.iter().map(|(query, _)| [query[6] as f32, query[7] as f32]).collect();
@@ -104,7 +96,7 @@ fn synthetic_materials_match_the_loader_of_the_database() {
     let Some(shared) = shared() else { return };
     for name in SYNTHETIC {
         let material = load(&shared.join(format!("golden/{name}.bsdf")));
-        let table = RglTable::new(&material, RglOptions { clamp_negative: true }).expect("a table");
+        let table = Table::new(&material, Options { clamp_negative: true }).expect("a table");
         let queries = golden(&shared.join(format!("golden/{name}.powitacq.txt")));
         assert_eq!(queries.len(), 150);
         let pdf_at = table.channel_count();
@@ -118,7 +110,7 @@ fn real_materials_match_the_loader_of_the_database() {
     let Some(shared) = shared() else { return };
     for name in REAL {
         let material = load(&shared.join(format!("data/rgl_bsdf/{name}_rgb.bsdf")));
-        let table = RglTable::new(&material, RglOptions { clamp_negative: true }).expect("a table");
+        let table = Table::new(&material, Options { clamp_negative: true }).expect("a table");
         let queries = golden(&shared.join(format!("golden/real_{name}_rgb.bsdf.powitacq.txt")));
         assert_eq!(queries.len(), 300);
         on_every_backend!(against(name, &table, &queries, 3, 1e-3));
@@ -131,7 +123,7 @@ fn reduced_and_unweighted_materials_match_mitsuba() {
     let Some(shared) = shared() else { return };
     for name in ["rgl_aniso_spec_r2", "rgl_iso_spec_nojac"] {
         let material = load(&shared.join(format!("golden/{name}.bsdf")));
-        let table = RglTable::new(&material, RglOptions::default()).expect("a table");
+        let table = Table::new(&material, Options::default()).expect("a table");
         let mut queries = golden(&shared.join(format!("golden/{name}.mitsuba.txt")));
         assert_eq!(queries.len(), 100);
         // Seven stored wavelengths, four between them, and the density.

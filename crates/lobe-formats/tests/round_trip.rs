@@ -8,10 +8,9 @@ use lobe_formats::goniometer;
 use lobe_formats::sheet::{Data, Part};
 use lobe_formats::ssdd::{self, Encoding};
 use lobe_formats::{Document, Format, ddr, npz, open, zemax};
-use lobe_table::spherical_grid::SphericalGrid;
-use lobe_table::{Channels, Samples, Scatter};
+use lobe_table::{Channels, Scatter, specular, spherical};
 
-type Writer = fn(&Samples, &Path);
+type Writer = fn(&specular::Data, &Path);
 
 const FIXTURES: [&str; 2] = ["conductor-7x8x13.ddr", "cloth-17x7x17x13.ddr"];
 
@@ -19,7 +18,7 @@ fn fixture(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures").join(name)
 }
 
-fn table(path: &Path) -> Samples {
+fn table(path: &Path) -> specular::Data {
     match open(path).expect("a file of a known format") {
         (_, Document::Table(measured)) => measured.data,
         (_, Document::Sheet(mut measured)) => match measured.data.pop().map(|part| part.data) {
@@ -31,10 +30,10 @@ fn table(path: &Path) -> Samples {
 }
 
 /// The same table with one channel.
-fn first_channel(samples: &Samples, scatter: Scatter, channels: Channels) -> Samples {
+fn first_channel(samples: &specular::Data, scatter: Scatter, channels: Channels) -> specular::Data {
     let (from, to) = (samples.channels().count(), channels.count());
     let values = samples.values().chunks_exact(from).flat_map(|texel| texel[..to].to_vec()).collect();
-    Samples::new(scatter, samples.knots().clone(), channels, values).expect("a table")
+    specular::Data::new(scatter, samples.knots().clone(), channels, values).expect("a table")
 }
 
 #[test]
@@ -94,7 +93,7 @@ fn zemax_files_come_back_with_their_total_scatter() {
     // A Lambertian table of reflectance 0.6 scatters that much from everywhere.
     let knots = [vec![0.0, 1.2], vec![0.0], vec![0.0, 1.0, PI], vec![0.0, TAU]];
     let value = (0.6 / PI) as f32;
-    let white = Samples::new(Scatter::Reflection, knots, Channels::Mono, vec![value; 12]).expect("a table");
+    let white = specular::Data::new(Scatter::Reflection, knots, Channels::Mono, vec![value; 12]).expect("a table");
     zemax::write(&white, &path).expect("written");
     let Ok((_, Document::Table(back))) = open(&path) else { panic!("no table") };
     assert!(back.tis.iter().all(|tis| (tis - 0.6).abs() < 1e-3), "{:?}", back.tis);
@@ -103,7 +102,7 @@ fn zemax_files_come_back_with_their_total_scatter() {
 #[test]
 fn zemax_files_refuse_what_they_cannot_say() {
     let samples = table(&fixture(FIXTURES[0]));
-    let refused = |samples: &Samples| {
+    let refused = |samples: &specular::Data| {
         let error = zemax::write(samples, Path::new("nowhere/x.bsdf")).expect_err("not for this format");
         error.to_string()
     };
@@ -122,7 +121,7 @@ fn columns_hold_every_kind_of_grid() {
     let path = folder.path().join("table.csv");
     let values: Vec<f32> = (0..2 * 3 * 4).map(|i| i as f32 / 7.0).collect();
     let knots = [vec![0.0, 0.5], vec![0.0], vec![0.1, 0.2, 0.3], vec![0.0, 1.0, 3.0, 6.0]];
-    let grid = SphericalGrid::new(Scatter::Transmission, knots, Channels::Mono, values).expect("a grid");
+    let grid = spherical::Data::new(Scatter::Transmission, knots, Channels::Mono, values).expect("a grid");
     goniometer::write(&Data::Spherical(grid.clone()), &path).expect("written");
     let (_, Document::Spherical(back)) = open(&path).expect("a table") else { panic!("no grid") };
     assert_eq!((back.data.scatter(), back.data.values()), (Scatter::Transmission, grid.values()));
@@ -133,7 +132,7 @@ fn columns_hold_every_kind_of_grid() {
     // A table that is constant in phi stays so.
     let knots = [vec![0.0, 1.0], vec![0.0], vec![0.0, 0.5, 1.0], vec![0.0]];
     let channels = Channels::Spectral(vec![450.0, 632.8]);
-    let ring = Samples::new(Scatter::Reflection, knots, channels.clone(), (0..12).map(|i| i as f32).collect());
+    let ring = specular::Data::new(Scatter::Reflection, knots, channels.clone(), (0..12).map(|i| i as f32).collect());
     goniometer::write(&Data::Table(ring.expect("a table")), &path).expect("written");
     let back = table(&path);
     assert_eq!(back.channels(), &channels);
@@ -155,7 +154,7 @@ fn columns_of_scattered_samples_are_read_back() {
     goniometer::write(&Data::Scattered(samples.data.clone()), &second).expect("written");
     let (_, Document::Scattered(back)) = open(&second).expect("samples") else { panic!("not scattered") };
     assert_eq!(back.data.channels(), samples.data.channels());
-    let sorted = |data: &lobe_table::scattered::Scattered| {
+    let sorted = |data: &lobe_table::scattered::Data| {
         let mut all: Vec<String> = data.samples().map(|(angles, f)| format!("{angles:.9?} {f:?}")).collect();
         all.sort();
         all

@@ -12,10 +12,9 @@ use std::path::Path;
 use common::{bytes, files, shared};
 use examples::{ALTA, CORNELL, FRED, LUMOS, NIST, OPEN_MATERIAL, RPC};
 use lobe_formats::{FormatError, Place, alta, cornell, fred, lumos, nist, openmaterial};
-use lobe_table::scattered::Scattered;
-use lobe_table::{Channels, Scatter};
+use lobe_table::{Channels, Scatter, scattered};
 
-type Reader = fn(&[u8], &Path) -> Result<Scattered, FormatError>;
+type Reader = fn(&[u8], &Path) -> Result<scattered::Data, FormatError>;
 type Matches = fn(&[u8]) -> bool;
 
 /// Every format with a small file of it: two incident directions and three outgoing ones each, in the order of angle.
@@ -29,12 +28,12 @@ const FORMATS: [(&str, Matches, Reader, &str); 7] = [
     ("nist", nist::matches, nist::read, NIST),
 ];
 
-fn read(name: &str, text: &str) -> Result<Scattered, FormatError> {
+fn read(name: &str, text: &str) -> Result<scattered::Data, FormatError> {
     let (_, _, read, _) = FORMATS.iter().find(|format| format.0 == name).expect("a format");
     read(text.as_bytes(), Path::new("file"))
 }
 
-fn example(name: &str) -> (&'static str, Scattered) {
+fn example(name: &str) -> (&'static str, scattered::Data) {
     let (.., text) = FORMATS.iter().find(|format| format.0 == name).expect("a format");
     (text, read(name, text).unwrap_or_else(|error| panic!("{name}: {error}")))
 }

@@ -15,8 +15,7 @@ use lobe_formats::goniometer::Options;
 use lobe_formats::sheet::{Data, Part, Side};
 use lobe_formats::ssdd::Encoding;
 use lobe_formats::{FormatError, Place, Specular, astm, goniometer, light_tools, speos, ssdd};
-use lobe_table::spherical_grid::SphericalGrid;
-use lobe_table::{Channels, Samples, Scatter};
+use lobe_table::{Channels, Scatter, specular, spherical};
 
 fn file() -> &'static Path {
     Path::new("file")
@@ -60,8 +59,9 @@ fn ssdd_survives_a_round_trip() {
         [radians(&[0.0, 15.0, 77.5]), radians(&[0.0, 120.0]), radians(&[0.0, 30.1]), radians(&[0.0, 90.0, 360.0])];
     let values: Vec<f32> = (0..36 * 2).map(|index| (index as f32 * 0.7).sin()).collect();
     let channels = Channels::Spectral(vec![400.0, 700.5]);
-    let samples = Samples::new(Scatter::Reflection, knots.clone(), channels.clone(), values.clone()).expect("samples");
-    let grid = SphericalGrid::new(Scatter::Transmission, knots, channels, values).expect("a grid");
+    let samples =
+        specular::Data::new(Scatter::Reflection, knots.clone(), channels.clone(), values.clone()).expect("samples");
+    let grid = spherical::Data::new(Scatter::Transmission, knots, channels, values).expect("a grid");
     let knots = [radians(&[0.0, 90.0]), vec![0.0]];
     let values = vec![0.1, 0.2, 0.3, 1.0, 1.0, 1.0];
     let mirror = Specular::new(Scatter::Reflection, knots, Channels::Xyz, values).expect("a mirror");

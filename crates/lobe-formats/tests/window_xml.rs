@@ -9,8 +9,8 @@ use std::path::Path;
 
 use examples::{NINE, TREE, sheet};
 use lobe_formats::{FormatError, Place, window_xml};
-use lobe_table::klems::{AngleBasis, KlemsMatrix};
-use lobe_table::window::{Block, Component, Window};
+use lobe_table::window::klems::{AngleBasis, KlemsMatrix};
+use lobe_table::window::{self, Block, Component};
 use window_xml::{Band, WindowXml};
 
 fn read(text: &[u8]) -> Result<WindowXml, FormatError> {
@@ -157,7 +157,7 @@ fn matrices_of_every_basis_survive_a_round_trip() {
         let count = incident.patches() * exit.patches();
         let values = (0..count).map(|at| (at as f32).sin() / 3.0).collect();
         let matrix = KlemsMatrix::new(incident, exit, values).expect("a matrix");
-        let mut window = Window::default();
+        let mut window = window::Blocks::default();
         window.set(Block::TransmissionFront, Component::Klems(matrix.clone()));
         window.set(Block::ReflectionBack, Component::Klems(matrix));
         let band = |name: &str| Band { wavelength: name.into(), window: window.clone() };

@@ -6,9 +6,9 @@ use std::path::Path;
 
 use common::{bytes, direction, files, golden, shared, sheets};
 use lobe_formats::window_xml;
-use lobe_table::window::Window;
+use lobe_table::window;
 
-fn visible(path: &Path) -> Window {
+fn visible(path: &Path) -> window::Blocks {
     let bytes = bytes(path);
     assert!(window_xml::matches(&bytes), "{}", path.display());
     let sheet = window_xml::read(&bytes, path).unwrap_or_else(|error| panic!("{error}"));

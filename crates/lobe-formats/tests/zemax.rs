@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lobe_formats::{Format, Measured, sniff, zemax};
-use lobe_table::{Channels, Samples, Scatter};
+use lobe_table::{Channels, Scatter, specular};
 
 fn header(symmetry: &str, content: &str, kind: &str) -> String {
     format!(
@@ -17,7 +17,7 @@ fn block(name: &str, start: u32) -> String {
     format!("{name}\nDataBegin\nTIS\t0.25\n{}{}TIS 5e-1\n{}{}DataEnd\n", row(0), row(10), row(100), row(110))
 }
 
-fn read(text: &str) -> Measured<Samples> {
+fn read(text: &str) -> Measured<specular::Data> {
     assert_eq!(sniff(text.as_bytes()), Some(Format::Zemax));
     zemax::read(text.as_bytes(), Path::new("t.bsdf")).unwrap()
 }

@@ -8,13 +8,13 @@ pub mod rgl;
 
 use std::f64::consts::TAU;
 
-use lobe_table::coords::angles_to_directions;
-use lobe_table::{Samples, SamplesError, Scatter};
+use lobe_table::specular::coords::angles_to_directions;
+use lobe_table::{GridError, Scatter, specular};
 use rayon::prelude::*;
 
 use crate::{Model, Rgb, Surface};
 
-/// Measures `model` at every node of `knots` (sigma, psi, theta, phi in radians, as in [`Samples`]).
+/// Measures `model` at every node of `knots` (sigma, psi, theta, phi in radians, as in [`specular::Data`]).
 ///
 /// - Nodes at `theta` 0 and `pi` are one direction whatever `phi`, and the last `phi` or `psi` knot of a full circle is its
 ///   first: they are measured once and get equal values.
@@ -26,12 +26,12 @@ use crate::{Model, Rgb, Surface};
 /// is called after each of them; there are sigma knots times psi knots.
 ///
 /// # Errors
-/// [`SamplesError`] where the knots make no table.
+/// [`GridError`] where the knots make no table.
 pub fn measure(
     model: &(impl Model + Sync),
     knots: [Vec<f64>; 4],
     progress: impl Fn() + Sync,
-) -> Result<Samples, SamplesError> {
+) -> Result<specular::Data, GridError> {
     measure_surface(&Rgb(model), Scatter::Reflection, knots, progress)
 }
 
@@ -44,7 +44,7 @@ pub fn measure_surface(
     scatter: Scatter,
     knots: [Vec<f64>; 4],
     progress: impl Fn() + Sync,
-) -> Result<Samples, SamplesError> {
+) -> Result<specular::Data, GridError> {
     let [sigmas, psis, thetas, phis] = &knots;
     let lights: Vec<(f64, f64)> = sigmas.iter().flat_map(|&sigma| psis.iter().map(move |&psi| (sigma, psi))).collect();
     let measured: Vec<Vec<f32>> = lights
@@ -57,7 +57,7 @@ pub fn measure_surface(
             slice
         })
         .collect();
-    Samples::new(scatter, knots, surface.channels().clone(), measured.concat())
+    specular::Data::new(scatter, knots, surface.channels().clone(), measured.concat())
 }
 
 /// All viewers of one light, `[theta][phi][channel]`.

@@ -1,10 +1,10 @@
 //! Directional-hemispherical reflectance, or transmittance: how much of the light from one direction comes back.
 
 use lobe_formats::Document;
-use lobe_table::Samples;
-use lobe_table::klems::KlemsMatrix;
-use lobe_table::reference::zenith;
-use lobe_table::window::{Block, Component, Window};
+use lobe_table::specular;
+use lobe_table::specular::reference::zenith;
+use lobe_table::window::klems::KlemsMatrix;
+use lobe_table::window::{self, Block, Component};
 use serde::Serialize;
 
 use crate::directions::spherical;
@@ -73,7 +73,7 @@ pub fn albedo_of(subject: &Subject, aspect: Aspect, incidence: [f64; 2], effort:
 }
 
 /// The sum over the patches of a Klems matrix; `None` for trees, and for transmission that is known the other way only.
-fn of_patches(window: &Window, aspect: Aspect, [theta, phi]: [f64; 2]) -> Option<f64> {
+fn of_patches(window: &window::Blocks, aspect: Aspect, [theta, phi]: [f64; 2]) -> Option<f64> {
     let block = Block::ALL.into_iter().find(|&block| aspect_of(block) == aspect)?;
     let Some(Component::Klems(matrix)) = window.block(block) else { return None };
     incident_patch(matrix, spherical(theta, phi)).map(|patch| matrix.albedo(patch))
@@ -87,7 +87,7 @@ fn incident_patch(matrix: &KlemsMatrix, [x, y, z]: [f64; 3]) -> Option<usize> {
 /// interpolates them.
 ///
 /// Of a transmission table it is the transmittance.
-pub fn albedo_of_samples(samples: &Samples, effort: Effort) -> Vec<Albedo> {
+pub fn albedo_of_samples(samples: &specular::Data, effort: Effort) -> Vec<Albedo> {
     let knots = samples.knots();
     let edges = signed_edges();
     let channels = samples.channels().count();
@@ -99,8 +99,8 @@ pub fn albedo_of_samples(samples: &Samples, effort: Effort) -> Vec<Albedo> {
             for (viewer, out) in viewers.iter().zip(out.chunks_exact_mut(channels)) {
                 // The slice at the horizon is one too, though no light comes from there.
                 let light = spherical(sigma, psi);
-                let [.., theta, phi] = lobe_table::coords::directions_to_angles(light, *viewer, |_| polar);
-                lobe_table::reference::eval_angles(samples, &edges, [sigma, psi, theta, phi], &mut texel);
+                let [.., theta, phi] = lobe_table::specular::coords::directions_to_angles(light, *viewer, |_| polar);
+                lobe_table::specular::reference::eval_angles(samples, &edges, [sigma, psi, theta, phi], &mut texel);
                 out.iter_mut().zip(&texel).for_each(|(out, &value)| *out = value as f32);
             }
         });
@@ -163,11 +163,11 @@ mod tests {
 
     #[test]
     fn patches_of_a_window_are_summed() {
-        use lobe_table::klems::AngleBasis;
+        use lobe_table::window::klems::AngleBasis;
         let basis = AngleBasis::full();
         let values = vec![0.3 / PI as f32; basis.patches().pow(2)];
         let matrix = KlemsMatrix::new(basis.clone(), basis, values).expect("a matrix");
-        let mut window = Window::default();
+        let mut window = window::Blocks::default();
         window.set(Block::ReflectionBack, Component::Klems(matrix));
         let found = of_patches(&window, Aspect::REFLECTION, [0.5, 0.0]).expect("a block");
         assert!((found - 0.3).abs() < 1e-6, "{found}");

@@ -11,7 +11,7 @@ use colorimetry::observer::Observer;
 use colorimetry::rgb::RgbSpace;
 use colorimetry::traits::Light;
 use colorimetry::xyz::{RelXYZ, XYZ};
-use lobe_table::{Channels, Samples, SamplesError};
+use lobe_table::{Channels, GridError, specular};
 use thiserror::Error;
 
 use crate::Scattering;
@@ -107,7 +107,7 @@ impl ToColour {
 ///
 /// # Errors
 /// Those of [`ToColour::new`].
-pub fn convert(samples: &Samples, target: Target) -> Result<Samples, ColourError> {
+pub fn convert(samples: &specular::Data, target: Target) -> Result<specular::Data, ColourError> {
     let map = ToColour::new(samples.channels(), target)?;
     let texels = samples.values().chunks_exact(samples.channels().count());
     let values = texels.flat_map(|texel| map.apply(texel).map(|value| value as f32)).collect();
@@ -115,7 +115,7 @@ pub fn convert(samples: &Samples, target: Target) -> Result<Samples, ColourError
         Target::Xyz => Channels::Xyz,
         Target::Rgb => Channels::Rgb,
     };
-    let converted = Samples::new(samples.scatter(), samples.knots().clone(), channels, values)?;
+    let converted = specular::Data::new(samples.scatter(), samples.knots().clone(), channels, values)?;
     Ok(match samples.refraction() {
         Some(offsets) => converted.with_refraction(offsets.to_vec())?,
         None => converted,
@@ -130,7 +130,7 @@ pub enum ColourError {
     NoColour(#[from] NoColour),
     /// A value is too large for `f32`.
     #[error(transparent)]
-    Samples(#[from] SamplesError),
+    Samples(#[from] GridError),
 }
 
 /// A material in the colours of another target.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use lobe_table::coords::angles_to_directions;
+use lobe_table::specular::coords::angles_to_directions;
 
 /// The unit vector at polar angle `theta` from +z and azimuth `phi` from +x.
 pub(crate) fn spherical(theta: f64, phi: f64) -> [f64; 3] {

@@ -1,6 +1,6 @@
 //! Energy conservation, restored.
 
-use lobe_table::{Samples, SamplesError};
+use lobe_table::{GridError, specular};
 use serde::Serialize;
 
 use crate::albedo::{Albedo, albedo_of_samples};
@@ -23,8 +23,8 @@ pub struct Repair {
 /// it may still be above 1.
 ///
 /// # Errors
-/// Never for a table whose values are finite, which those of [`Samples`] are.
-pub fn conserve_energy(samples: &Samples, effort: Effort) -> Result<(Samples, Vec<Repair>), SamplesError> {
+/// Never for a table whose values are finite, which those of [`specular::Data`] are.
+pub fn conserve_energy(samples: &specular::Data, effort: Effort) -> Result<(specular::Data, Vec<Repair>), GridError> {
     let albedos = albedo_of_samples(samples, effort);
     let slice = samples.values().len() / albedos.len();
     let mut values = samples.values().to_vec();

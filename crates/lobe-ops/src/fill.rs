@@ -1,6 +1,6 @@
 //! Values where nothing was measured.
 
-use lobe_table::{Samples, SamplesError};
+use lobe_table::{GridError, specular};
 
 use crate::samples::{closes_circle, position, with_values};
 
@@ -18,7 +18,7 @@ pub enum Beyond {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Filled {
     /// The table.
-    pub samples: Samples,
+    pub samples: specular::Data,
     /// Which nodes were filled, in the order of the values, `[sigma][psi][theta][phi]`.
     pub mask: Vec<bool>,
 }
@@ -26,16 +26,16 @@ pub struct Filled {
 /// The nodes that look as if nothing was measured there: all channels are exactly 0.
 ///
 /// Files have no better way to say so, and light that was measured is seldom exactly 0.
-pub fn zeros(samples: &Samples) -> Vec<bool> {
+pub fn zeros(samples: &specular::Data) -> Vec<bool> {
     missing(samples, |texel| texel.iter().all(|&value| value == 0.0))
 }
 
 /// The nodes with a negative value in any channel: noise about a dark level that was taken off.
-pub fn negatives(samples: &Samples) -> Vec<bool> {
+pub fn negatives(samples: &specular::Data) -> Vec<bool> {
     missing(samples, |texel| texel.iter().any(|&value| value < 0.0))
 }
 
-fn missing(samples: &Samples, is_missing: impl Fn(&[f32]) -> bool) -> Vec<bool> {
+fn missing(samples: &specular::Data, is_missing: impl Fn(&[f32]) -> bool) -> Vec<bool> {
     samples.values().chunks_exact(samples.channels().count()).map(is_missing).collect()
 }
 
@@ -50,7 +50,7 @@ fn missing(samples: &Samples, is_missing: impl Fn(&[f32]) -> bool) -> Vec<bool> 
 ///
 /// # Errors
 /// Where a continued value is beyond what `f32` can hold.
-pub fn fill(samples: &Samples, mask: &[bool], beyond: Beyond) -> Result<Filled, SamplesError> {
+pub fn fill(samples: &specular::Data, mask: &[bool], beyond: Beyond) -> Result<Filled, GridError> {
     let counts = samples.knots().each_ref().map(Vec::len);
     let channels = samples.channels().count();
     assert_eq!(mask.len(), counts.iter().product::<usize>(), "one element a node");
@@ -121,7 +121,7 @@ mod tests {
     use lobe_table::{Channels, Scatter};
 
     /// `f = 1 + theta + 2 sigma` in degrees, over the full circle of phi without its end.
-    fn ramp() -> Samples {
+    fn ramp() -> specular::Data {
         let knots =
             [&[0.0, 30.0, 60.0][..], &[0.0], &[0.0, 10.0, 20.0, 40.0, 80.0], &[0.0, 90.0, 180.0, 270.0]].map(degrees);
         let mut values = Vec::new();
@@ -130,16 +130,16 @@ mod tests {
                 values.extend([1.0 + theta + 2.0 * sigma; 4]);
             }
         }
-        Samples::new(Scatter::Reflection, knots, Channels::Mono, values).expect("a table")
+        specular::Data::new(Scatter::Reflection, knots, Channels::Mono, values).expect("a table")
     }
 
-    fn without(samples: &Samples, is_missing: impl Fn([usize; 4]) -> bool) -> (Samples, Vec<bool>) {
+    fn without(samples: &specular::Data, is_missing: impl Fn([usize; 4]) -> bool) -> (specular::Data, Vec<bool>) {
         let mask: Vec<bool> = crate::samples::nodes(samples).map(is_missing).collect();
         let values = samples.values().iter().zip(&mask).map(|(&v, &missing)| if missing { 0.0 } else { v }).collect();
         (with_values(samples, values).expect("a table"), mask)
     }
 
-    fn assert_same(found: &Samples, expected: &Samples) {
+    fn assert_same(found: &specular::Data, expected: &specular::Data) {
         for (at, (x, expected)) in found.values().iter().zip(expected.values()).enumerate() {
             assert!((x - expected).abs() < 1e-3, "{x} is not {expected} at {at}");
         }
@@ -173,7 +173,8 @@ mod tests {
     #[test]
     fn a_line_does_not_lead_below_the_dark() {
         let knots = [vec![0.0], vec![0.0], degrees(&[0.0, 10.0, 40.0]), vec![0.0]];
-        let samples = Samples::new(Scatter::Reflection, knots, Channels::Mono, vec![2.0, 1.0, 0.0]).expect("a table");
+        let samples =
+            specular::Data::new(Scatter::Reflection, knots, Channels::Mono, vec![2.0, 1.0, 0.0]).expect("a table");
         let filled = fill(&samples, &zeros(&samples), Beyond::Linear).expect("a table");
         assert_eq!(filled.samples.values(), [2.0, 1.0, 0.0]);
     }
@@ -181,7 +182,8 @@ mod tests {
     #[test]
     fn negative_values_are_found_and_nothing_comes_of_nothing() {
         let knots = || [vec![0.0], vec![0.0], degrees(&[0.0, 10.0]), vec![0.0]];
-        let table = |values| Samples::new(Scatter::Reflection, knots(), Channels::Mono, values).expect("a table");
+        let table =
+            |values| specular::Data::new(Scatter::Reflection, knots(), Channels::Mono, values).expect("a table");
         assert_eq!(negatives(&table(vec![-1.0, 0.0])), [true, false]);
         let dark = table(vec![0.0, 0.0]);
         let filled = fill(&dark, &zeros(&dark), Beyond::Linear).expect("a table");

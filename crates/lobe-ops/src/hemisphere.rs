@@ -6,7 +6,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use lobe_table::coords::angles_to_directions;
+use lobe_table::specular::coords::angles_to_directions;
 
 /// Where an integral begins: rectangles of polar angle and azimuth about an axis.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,16 +2,16 @@
 
 use std::f64::consts::TAU;
 
-use lobe_table::coords::angles_to_directions;
-use lobe_table::reference::zenith;
-use lobe_table::{Edges, Samples, SamplesError};
+use lobe_table::specular::coords::angles_to_directions;
+use lobe_table::specular::reference::zenith;
+use lobe_table::{Edges, GridError, specular};
 
 /// Knots that were degrees in a file come back to within this of the pole or the full turn.
 pub(crate) const ANGLE_ROUNDING: f64 = 1e-5;
 
 /// The same table with other values.
-pub(crate) fn with_values(samples: &Samples, values: Vec<f32>) -> Result<Samples, SamplesError> {
-    let table = Samples::new(samples.scatter(), samples.knots().clone(), samples.channels().clone(), values)?;
+pub(crate) fn with_values(samples: &specular::Data, values: Vec<f32>) -> Result<specular::Data, GridError> {
+    let table = specular::Data::new(samples.scatter(), samples.knots().clone(), samples.channels().clone(), values)?;
     match samples.refraction() {
         Some(offsets) => table.with_refraction(offsets.to_vec()),
         None => Ok(table),
@@ -24,7 +24,7 @@ pub(crate) fn signed_edges() -> Edges {
 }
 
 /// The nodes of a table in the order of its values: the knot indices of sigma, psi, theta and phi.
-pub(crate) fn nodes(samples: &Samples) -> impl Iterator<Item = [usize; 4]> {
+pub(crate) fn nodes(samples: &specular::Data) -> impl Iterator<Item = [usize; 4]> {
     let counts = samples.knots().each_ref().map(Vec::len);
     (0..counts.iter().product()).map(move |index| node(counts, index))
 }
@@ -45,12 +45,12 @@ pub(crate) fn position(counts: [usize; 4], node: [usize; 4]) -> usize {
 }
 
 /// The angles of a node.
-pub(crate) fn angles(samples: &Samples, node: [usize; 4]) -> [f64; 4] {
+pub(crate) fn angles(samples: &specular::Data, node: [usize; 4]) -> [f64; 4] {
     std::array::from_fn(|axis| samples.knots()[axis][node[axis]])
 }
 
 /// The directions of a node, both with z > 0 for nodes above the horizon.
-pub(crate) fn directions(samples: &Samples, node: [usize; 4]) -> ([f64; 3], [f64; 3]) {
+pub(crate) fn directions(samples: &specular::Data, node: [usize; 4]) -> ([f64; 3], [f64; 3]) {
     angles_to_directions(angles(samples, node), |sigma| zenith(samples, &Edges::default(), sigma))
 }
 

@@ -6,11 +6,10 @@ use std::path::Path;
 use lobe::{Material, OpenError, Options};
 use lobe_formats::sheet::{Data, Side};
 use lobe_formats::{Document, Format};
-use lobe_table::reference::zenith;
-use lobe_table::spherical_grid::SphericalGrid;
-use lobe_table::tensor_tree::Rank;
+use lobe_table::specular::reference::zenith;
+use lobe_table::window::tensor_tree::Rank;
 use lobe_table::window::{Block, Component};
-use lobe_table::{Edges, Samples, Scatter};
+use lobe_table::{Edges, Scatter, specular, spherical};
 
 use crate::Aspect;
 use crate::hemisphere::Panels;
@@ -167,12 +166,12 @@ pub(crate) fn aspect_of(block: Block) -> Aspect {
     Aspect { scatter, light }
 }
 
-fn of_table(samples: &Samples, edges: &Edges, [theta, phi]: [f64; 2]) -> Panels {
+fn of_table(samples: &specular::Data, edges: &Edges, [theta, phi]: [f64; 2]) -> Panels {
     Panels::of_knots(zenith(samples, edges, theta), phi, &samples.knots()[2], &samples.knots()[3])
 }
 
 /// About the normal, azimuths count from the light here; in the grid they do so where it is isotropic, else from +x.
-fn of_grid(grid: &SphericalGrid, [_, phi]: [f64; 2]) -> Panels {
+fn of_grid(grid: &spherical::Data, [_, phi]: [f64; 2]) -> Panels {
     let turn = match () {
         () if grid.is_mirrored() => 0.0,
         () if grid.is_isotropic() => grid.knots()[1][0],

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use lobe_table::coords::directions_to_angles;
-use lobe_table::reference::{eval_angles, zenith};
-use lobe_table::{Samples, SamplesError};
+use lobe_table::specular::coords::directions_to_angles;
+use lobe_table::specular::reference::{eval_angles, zenith};
+use lobe_table::{GridError, specular};
 
 use crate::samples::{angles, directions, nodes, signed_edges, with_values};
 
@@ -14,8 +14,8 @@ use crate::samples::{angles, directions, nodes, signed_edges, with_values};
 /// Where the image of a node is no node, it is interpolated.
 ///
 /// # Errors
-/// Never for a table whose values are finite, which those of [`Samples`] are.
-pub fn mirror(samples: &Samples) -> Result<Samples, SamplesError> {
+/// Never for a table whose values are finite, which those of [`specular::Data`] are.
+pub fn mirror(samples: &specular::Data) -> Result<specular::Data, GridError> {
     average(samples, |[sigma, psi, theta, phi]| {
         let across = |angle: f64| if angle == 0.0 { 0.0 } else { TAU - angle };
         Some([sigma, if samples.is_isotropic() { psi } else { across(psi) }, theta, across(phi)])
@@ -30,7 +30,7 @@ pub fn mirror(samples: &Samples) -> Result<Samples, SamplesError> {
 ///
 /// # Errors
 /// As [`mirror`].
-pub fn reciprocal(samples: &Samples) -> Result<Samples, SamplesError> {
+pub fn reciprocal(samples: &specular::Data) -> Result<specular::Data, GridError> {
     let sigmas = &samples.knots()[0];
     let measured = sigmas[0] - 1e-9..=sigmas[sigmas.len() - 1] + 1e-9;
     let zenith = |sigma| zenith(samples, &signed_edges(), sigma);
@@ -45,7 +45,10 @@ pub fn reciprocal(samples: &Samples) -> Result<Samples, SamplesError> {
 
 /// The mean of the value of each node and that at the angles of its partner, if it has one. `partner` is called once a
 /// node, in the order of the values.
-fn average(samples: &Samples, mut partner: impl FnMut([f64; 4]) -> Option<[f64; 4]>) -> Result<Samples, SamplesError> {
+fn average(
+    samples: &specular::Data,
+    mut partner: impl FnMut([f64; 4]) -> Option<[f64; 4]>,
+) -> Result<specular::Data, GridError> {
     let channels = samples.channels().count();
     let mut values = samples.values().to_vec();
     let mut other = vec![0.0; channels];
@@ -106,7 +109,7 @@ mod tests {
         let uneven = Mono(|wi: [f64; 3], wo: [f64; 3]| 1.0 + 0.5 * wi[2] + 0.2 * wi[0] * wo[0]);
         let samples =
             measure(&uneven, Aspect::REFLECTION, knots(&[0.0, 90.0, 180.0, 270.0, 360.0]), |_| {}).expect("a table");
-        let error = |samples: &Samples| {
+        let error = |samples: &specular::Data| {
             let brdf = Brdf::new(samples, &Edges::default()).expect("a table");
             reciprocity(&brdf, Aspect::REFLECTION, 1.2, 2000).relative_rms
         };

@@ -6,13 +6,12 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use lobe::formats::Document;
 use lobe::formats::sheet::{Data, Side};
 use lobe::formats::window_xml::WindowXml;
-use lobe::table::coords::{angles_to_directions, directions_to_angles};
-use lobe::table::half_diff::HalfDiff;
-use lobe::table::klems::AngleBasis;
-use lobe::table::scattered::Scattered;
+use lobe::table::specular::coords::{angles_to_directions, directions_to_angles};
 use lobe::table::utia::{PHIS, THETAS};
+use lobe::table::window::klems::AngleBasis;
 use lobe::table::window::{Block, Component};
-use lobe::{Samples, Scatter};
+use lobe::table::{half_diff, scattered};
+use lobe::{Scatter, specular};
 
 use crate::geometry::{dot, incident};
 
@@ -44,7 +43,7 @@ enum Places {
     /// Any directions, a list for each incidence.
     Scattered { incidences: Vec<Cloud>, is_isotropic: bool },
     /// Bins, of which some may be empty.
-    Bins(HalfDiff),
+    Bins(half_diff::Data),
 }
 
 /// The outgoing directions of one incident direction, and how far each speaks for its surroundings, in radians.
@@ -194,7 +193,7 @@ impl Near {
     }
 }
 
-fn table(data: &Samples) -> Part {
+fn table(data: &specular::Data) -> Part {
     let [sigma, psi, theta, phi] = data.knots();
     let offset = |index: usize| data.refraction().map_or(0.0, |offsets| offsets[index]);
     let zenith = sigma.iter().enumerate().map(|(index, &sigma)| [sigma, sigma + offset(index)]).collect();
@@ -232,7 +231,7 @@ fn of_sheet(data: &Data) -> Part {
     }
 }
 
-fn scattered(data: &Scattered) -> Part {
+fn scattered(data: &scattered::Data) -> Part {
     let mut clouds: Vec<Cloud> =
         data.incidences().map(|light| Cloud { light, outgoing: Vec::new(), reach: 0.0 }).collect();
     let mut at = 0;
@@ -310,7 +309,7 @@ fn window(data: &WindowXml) -> Vec<Part> {
 
 /// The middles of the rings of a basis in radians; the first ring is a cap about the normal.
 fn middles(basis: &AngleBasis) -> Vec<f64> {
-    let middle = |ring: &lobe::table::klems::Ring| match ring.lower {
+    let middle = |ring: &lobe::table::window::klems::Ring| match ring.lower {
         lower if lower < 1e-3 => 0.0,
         lower => (0.5 * (lower + ring.upper)).to_radians(),
     };

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use lobe::formats::sheet::Side;
 use lobe::formats::{Document, Format, Measured};
-use lobe::{Channels, Samples, Scatter};
+use lobe::{Channels, Scatter, specular};
 use lobe_plot::{
     Figure, Scaling, Silent, Studio, Subject, View, albedos, curves, draw, encode, in_plane, incident, page, rasterise,
     shade,
@@ -16,7 +16,7 @@ use quick_xml::events::{BytesStart, Event};
 
 const FIGURES: [Figure; 4] = [Figure::Curves, Figure::Polar, Figure::Slices, Figure::Sphere];
 
-fn subject(samples: Samples, name: &str) -> Subject {
+fn subject(samples: specular::Data, name: &str) -> Subject {
     let document = Document::Table(Measured { data: samples, source: Vec::new(), tis: Vec::new() });
     Subject::new(Path::new(name), Format::Ddr, document).expect("a table")
 }
@@ -26,7 +26,7 @@ fn lambert(albedo: [f32; 3], scatter: Scatter) -> Subject {
     let knots = [vec![0.0, 0.5, 1.0, 1.4], vec![0.0], vec![0.0, PI / 3.0], vec![0.0, PI]];
     let texel = albedo.map(|albedo| albedo / std::f32::consts::PI);
     let values = (0..4 * 2 * 2).flat_map(|_| texel).collect();
-    subject(Samples::new(scatter, knots, Channels::Rgb, values).expect("a table"), "lambert.ddr")
+    subject(specular::Data::new(scatter, knots, Channels::Rgb, values).expect("a table"), "lambert.ddr")
 }
 
 /// A peak about the mirror direction over a constant.
@@ -36,7 +36,10 @@ fn glossy() -> Subject {
     let peak = |theta: &f64| (0.05 + 4.0 * (-theta * theta / 0.02).exp()) as f32;
     let values = sigma.iter().flat_map(|_| theta.iter().map(peak)).collect();
     let knots = [sigma, vec![0.0], theta, vec![0.0]];
-    subject(Samples::new(Scatter::Reflection, knots, Channels::Mono, values).expect("a table"), "glossy <&\">.ddr")
+    subject(
+        specular::Data::new(Scatter::Reflection, knots, Channels::Mono, values).expect("a table"),
+        "glossy <&\">.ddr",
+    )
 }
 
 /// The elements of a document, which has to be well-formed.

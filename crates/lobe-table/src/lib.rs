@@ -1,56 +1,43 @@
-//! Tabulated BRDFs and BTDFs on non-uniform angular grids, evaluated in SIMD lanes.
+//! Measured BRDFs and BTDFs, in the representations that they are measured in, evaluated in SIMD lanes.
 //!
-//! [`Samples`] are a material as it was measured in specular coordinates, [`Edges`] say what holds outside its knots, and a
-//! [`Table`] is both made ready to be evaluated on any [`lobe_lane`] backend. [`mod@reference`] is the same evaluation in
-//! `f64`, written for the reader; [`coords`] explains the four angles.
+//! Each representation has a module with its `Data`, as they were measured, their evaluation in `f64`, written for the
+//! reader, and, unless it has no form in lanes, a `Table`, made ready to be evaluated on any [`lobe_lane`] backend:
 //!
-//! The other modules hold the representations that materials are measured in elsewhere, each with its evaluation in `f64` and,
-//! but for spherical grids and scattered samples, made ready for lanes.
+//! - [`specular`]: a grid of specular coordinates, whose axes follow the peak;
+//! - [`spherical`]: a grid of spherical coordinates of both directions;
+//! - [`scattered`]: any number of directions, on no grid;
+//! - [`rgl`]: the adaptive parameterisation of the EPFL database;
+//! - [`half_diff`]: a grid of half and difference angles, as in the MERL database;
+//! - [`mueller`]: matrices of polarised reflection over half and difference angles;
+//! - [`utia`]: the grid of the UTIA database;
+//! - [`window`]: Klems matrices and tensor trees of the two sides of a sheet.
+//!
+//! They share [`Axis`] and the other parts of a grid, and [`Channels`] and [`Scatter`], which say what the values are.
 #![forbid(unsafe_code)]
 
-mod axis;
-pub mod coords;
+mod channels;
 mod direction;
 mod directions;
-mod edges;
-mod eval;
-mod function;
+mod grid;
 pub mod half_diff;
-mod interpolate;
 mod invalid;
-pub mod klems;
-mod knots;
-mod layout;
-mod line;
-mod mesh;
 pub mod mueller;
 pub mod paper;
 mod passes;
-pub mod reference;
 pub mod rgl;
-mod samples;
 mod sampling;
 pub mod scattered;
-mod search;
-mod single;
-pub mod spherical_grid;
-use lobe_memory as storage;
-mod table;
-pub mod tensor_tree;
-mod texel;
+pub mod specular;
+pub mod spherical;
 pub mod utia;
 pub mod window;
 
-pub use axis::{Axis, AxisError};
+pub use channels::{Channels, Scatter};
 pub use directions::{Directions, Soa};
-pub use edges::{Edge, Edges};
-pub use function::Function;
+pub use grid::{Axis, AxisError, Cell, Edge, Edges, Function, GridError, Precision};
 pub use invalid::Invalid;
-pub use samples::{AXIS_NAMES, Channels, Samples, SamplesError, Scatter};
 pub use sampling::{
     Distribution, DistributionError, DistributionOptions, Given, PatchSampler, Sampled, Sampler, SamplerError,
     SamplerOptions, luminance,
 };
-pub use search::Cell;
-pub use table::{Table, TableError};
-pub use texel::Precision;
+pub use specular::TableError;

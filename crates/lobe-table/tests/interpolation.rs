@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use lobe_scalar::Scalar;
-use lobe_table::{Channels, Edge, Edges, Samples, Scatter, Table, reference};
+use lobe_table::{Channels, Edge, Edges, Scatter, specular, specular::reference};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -11,7 +11,7 @@ use rand_pcg::Pcg32;
 const COUNT: usize = 203;
 
 /// A smooth table whose knots leave out both ends of sigma and theta, so that policies count.
-fn samples(psi: usize, channels: Channels) -> Samples {
+fn samples(psi: usize, channels: Channels) -> specular::Data {
     let knots = |count: usize, from: f64, to: f64| -> Vec<f64> {
         (0..count).map(|i| from + (to - from) * (i as f64 / (count - 1).max(1) as f64).powf(1.3)).collect()
     };
@@ -28,7 +28,7 @@ fn samples(psi: usize, channels: Channels) -> Samples {
             }
         }
     }
-    Samples::new(Scatter::Reflection, knots, channels, values).expect("a valid table")
+    specular::Data::new(Scatter::Reflection, knots, channels, values).expect("a valid table")
 }
 
 /// Points in all of the table and outside it; the first eight have an angle that is none.
@@ -45,8 +45,8 @@ fn angles() -> [Vec<f32>; 4] {
     angles
 }
 
-fn check(samples: &Samples, edges: &Edges) {
-    let table = Table::new(samples, edges).expect("a small table");
+fn check(samples: &specular::Data, edges: &Edges) {
+    let table = specular::Table::new(samples, edges).expect("a small table");
     let (angles, channels) = (angles(), table.channel_count());
     let anisotropic = table.is_anisotropic();
     let mut out = vec![f32::NAN; COUNT * channels];
@@ -83,6 +83,6 @@ fn values_at_angles_are_those_of_the_reference() {
 #[test]
 #[should_panic(expected = "as many angles of each kind")]
 fn a_missing_angle_is_refused() {
-    let table = Table::new(&samples(5, Channels::Mono), &Edges::default()).expect("a small table");
+    let table = specular::Table::new(&samples(5, Channels::Mono), &Edges::default()).expect("a small table");
     table.interpolate_batch(Scalar::<1>, [&[0.1], &[], &[0.1], &[0.1]], &mut [0.0]);
 }

@@ -3,13 +3,13 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use lobe_lane::{Kernel, Lanes};
-use lobe_table::{Channels, Edge, Edges, Precision, Samples, Scatter, Soa, Table, coords, reference};
+use lobe_table::{Channels, Edge, Edges, Precision, Scatter, Soa, specular, specular::coords, specular::reference};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
 /// Smooth in all angles, so that an error in an angle is an error of the same size in the value, with equal values around
 /// each pole, and negative in places.
-fn smooth(knots: [Vec<f64>; 4], channels: Channels, scatter: Scatter) -> Samples {
+fn smooth(knots: [Vec<f64>; 4], channels: Channels, scatter: Scatter) -> specular::Data {
     let mut values = Vec::new();
     for sigma in &knots[0] {
         for psi in &knots[1] {
@@ -23,7 +23,7 @@ fn smooth(knots: [Vec<f64>; 4], channels: Channels, scatter: Scatter) -> Samples
             }
         }
     }
-    Samples::new(scatter, knots, channels, values).unwrap()
+    specular::Data::new(scatter, knots, channels, values).unwrap()
 }
 
 /// Angles in `[from, to]`, closer together near `from` unless `power` is 1.
@@ -52,7 +52,7 @@ fn directions(count: usize) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
     (wi, wo)
 }
 
-struct OneLane<'a>(&'a Table, [f32; 3], [f32; 3], &'a mut [f32]);
+struct OneLane<'a>(&'a specular::Table, [f32; 3], [f32; 3], &'a mut [f32]);
 
 impl Kernel for OneLane<'_> {
     type Out = ();
@@ -72,20 +72,20 @@ impl Kernel for OneLane<'_> {
     }
 }
 
-fn check<L: Lanes>(lanes: L, samples: &Samples, edges: &Edges, name: &str) {
+fn check<L: Lanes>(lanes: L, samples: &specular::Data, edges: &Edges, name: &str) {
     check_stored(lanes, samples, edges, Precision::Single, 2e-5, name);
 }
 
 fn check_stored<L: Lanes>(
     lanes: L,
-    samples: &Samples,
+    samples: &specular::Data,
     edges: &Edges,
     precision: Precision,
     tolerance: f64,
     name: &str,
 ) {
     let channels = samples.channels().count();
-    let table = Table::with_precision(samples, edges, precision).unwrap();
+    let table = specular::Table::with_precision(samples, edges, precision).unwrap();
     // Not a multiple of any number of lanes, and more than one block.
     let (wi, wo) = directions(515);
     let mut batch = vec![f32::NAN; wi.len() * channels];

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use lobe_lane::Lanes;
 use lobe_scalar::Reference;
-use lobe_table::{Axis, Channels, Edge, Edges, Samples, Scatter, Table};
+use lobe_table::{Axis, Channels, Edge, Edges, Scatter, specular};
 
 const LANES: Reference = lobe_scalar::Scalar::<1>;
 
@@ -41,11 +41,11 @@ fn directions_that_are_none_give_zero() {
         for scatter in [Scatter::Reflection, Scatter::Transmission] {
             let knots = [vec![0.0, 1.0], vec![0.0], vec![0.0, 1.0, PI], vec![0.0, 2.0, 5.0]];
             let kind = if channels == 1 { Channels::Mono } else { Channels::Spectral(vec![500.0; channels]) };
-            let mut samples = Samples::new(scatter, knots, kind, vec![1.0; 18 * channels]).unwrap();
+            let mut samples = specular::Data::new(scatter, knots, kind, vec![1.0; 18 * channels]).unwrap();
             if scatter == Scatter::Transmission {
                 samples = samples.with_refraction(vec![0.0, -0.3]).unwrap();
             }
-            let table = Table::new(&samples, &Edges::extrapolate()).unwrap();
+            let table = specular::Table::new(&samples, &Edges::extrapolate()).unwrap();
             for bad in bad {
                 for axis in 0..3 {
                     let (up, mut broken) = ([0.0, 0.6, 0.8], [0.0, 0.6, 0.8]);

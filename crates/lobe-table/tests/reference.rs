@@ -2,11 +2,11 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use lobe_table::coords::angles_to_directions;
-use lobe_table::reference::{eval, eval_angles, zenith};
-use lobe_table::{Channels, Edge, Edges, Samples, Scatter};
+use lobe_table::specular::coords::angles_to_directions;
+use lobe_table::specular::reference::{eval, eval_angles, zenith};
+use lobe_table::{Channels, Edge, Edges, Scatter, specular};
 
-fn table(knots: [&[f64]; 4], f: impl Fn([f64; 4]) -> f64) -> Samples {
+fn table(knots: [&[f64]; 4], f: impl Fn([f64; 4]) -> f64) -> specular::Data {
     let mut values = Vec::new();
     for &sigma in knots[0] {
         for &psi in knots[1] {
@@ -17,10 +17,10 @@ fn table(knots: [&[f64]; 4], f: impl Fn([f64; 4]) -> f64) -> Samples {
             }
         }
     }
-    Samples::new(Scatter::Reflection, knots.map(|k| k.to_vec()), Channels::Mono, values).unwrap()
+    specular::Data::new(Scatter::Reflection, knots.map(|k| k.to_vec()), Channels::Mono, values).unwrap()
 }
 
-fn at(samples: &Samples, edges: &Edges, angles: [f64; 4]) -> f64 {
+fn at(samples: &specular::Data, edges: &Edges, angles: [f64; 4]) -> f64 {
     let mut out = [f64::NAN];
     eval_angles(samples, edges, angles, &mut out);
     out[0]
@@ -115,8 +115,12 @@ fn reflection_is_zero_at_and_below_the_horizon() {
 
 #[test]
 fn transmission_takes_either_side() {
-    let flat =
-        Samples::new(Scatter::Transmission, [vec![0.0], vec![0.0], vec![0.0], vec![0.0]], Channels::Mono, vec![3.0]);
+    let flat = specular::Data::new(
+        Scatter::Transmission,
+        [vec![0.0], vec![0.0], vec![0.0], vec![0.0]],
+        Channels::Mono,
+        vec![3.0],
+    );
     let flat = flat.unwrap();
     let value = |wi, wo| {
         let mut out = [f64::NAN];
@@ -133,7 +137,7 @@ fn transmission_takes_either_side() {
 #[test]
 fn refraction_offsets_move_the_zenith() {
     let sigmas = vec![0.0, 1.0];
-    let samples = Samples::new(
+    let samples = specular::Data::new(
         Scatter::Transmission,
         [sigmas, vec![0.0], vec![0.0, PI], vec![0.0]],
         Channels::Mono,

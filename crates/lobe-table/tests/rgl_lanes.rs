@@ -4,7 +4,7 @@ use std::f32::consts::{FRAC_PI_2, PI};
 
 use lobe_lane::Lanes;
 use lobe_scalar::Scalar;
-use lobe_table::rgl::{Drawn, Images, Parts, Reference, Rgl, RglOptions, RglTable, UniformOrder, Wanted};
+use lobe_table::rgl::{self, Drawn, Images, Parts, Reference, UniformOrder, Wanted};
 use lobe_table::{Channels, Soa};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -25,9 +25,9 @@ fn images(part: &'static str, [slices, height, width]: [usize; 3], low: f32) -> 
     Images::new(part, [slices, height, width], texels).expect("valid images")
 }
 
-fn material(phi_i: &[f32], theta_i: &[f32], channels: usize, jacobian: bool) -> Rgl {
+fn material(phi_i: &[f32], theta_i: &[f32], channels: usize, jacobian: bool) -> rgl::Data {
     let incident = phi_i.len() * theta_i.len();
-    Rgl::new(Parts {
+    rgl::Data::new(Parts {
         description: "waves".into(),
         phi_i: phi_i.to_vec(),
         theta_i: theta_i.to_vec(),
@@ -87,7 +87,7 @@ const COUNT: usize = 331;
 
 /// `f`, `f cos` and densities, which must not depend on what is asked for together; and directions drawn, with their
 /// densities and weights.
-fn evaluate<L: Lanes>(lanes: L, table: &RglTable) -> [Vec<f32>; 6] {
+fn evaluate<L: Lanes>(lanes: L, table: &rgl::Table) -> [Vec<f32>; 6] {
     let (wi, wo) = directions(COUNT);
     let values = || vec![f32::NAN; COUNT * table.channel_count()];
     let (mut f, mut alone, mut cos, mut pdf) = (values(), values(), values(), vec![f32::NAN; COUNT]);
@@ -118,7 +118,7 @@ fn uniforms() -> Vec<[f32; 2]> {
 #[test]
 fn components_and_single_pairs_give_the_same_bits() {
     let lanes = Scalar::<1>;
-    let table = RglTable::new(&material(&[0.0], &THETA_I, 3, true), RglOptions::default()).expect("a table");
+    let table = rgl::Table::new(&material(&[0.0], &THETA_I, 3, true), rgl::Options::default()).expect("a table");
     let (wi, wo) = directions(COUNT);
     let [f, _, pdf, ..] = evaluate(lanes, &table);
     let split = |w: &[[f32; 3]]| [0, 1, 2].map(|k| w.iter().map(|v| v[k]).collect::<Vec<f32>>());
@@ -139,7 +139,7 @@ fn bits(values: &[f32]) -> Vec<u32> {
 }
 
 /// What is drawn, and what its weights are.
-fn check_draws(rgl: &Rgl, [.., wo, pdf, weights]: &[Vec<f32>; 6], clamp: bool, name: &str) {
+fn check_draws(rgl: &rgl::Data, [.., wo, pdf, weights]: &[Vec<f32>; 6], clamp: bool, name: &str) {
     let reference = Reference::new(rgl).clamp_negative(clamp);
     let channels = rgl.parts().channels.count();
     let mut above = 0;
@@ -180,7 +180,7 @@ fn unit(w: [f32; 3]) -> [f64; 3] {
 }
 
 /// Values and densities.
-fn check(rgl: &Rgl, [f, cos, pdf, ..]: &[Vec<f32>; 6], clamp: bool, name: &str) {
+fn check(rgl: &rgl::Data, [f, cos, pdf, ..]: &[Vec<f32>; 6], clamp: bool, name: &str) {
     let reference = Reference::new(rgl).clamp_negative(clamp);
     let channels = rgl.parts().channels.count();
     let (wi, wo) = directions(COUNT);
@@ -214,7 +214,7 @@ fn check_all(phi_i: &[f32], theta_i: &[f32]) {
         for (jacobian, clamp_negative) in [(true, false), (false, true)] {
             let name = format!("{} azimuths, {} zeniths, {channels} channels", phi_i.len(), theta_i.len());
             let rgl = material(phi_i, theta_i, channels, jacobian);
-            let table = RglTable::new(&rgl, RglOptions { clamp_negative }).expect("a table");
+            let table = rgl::Table::new(&rgl, rgl::Options { clamp_negative }).expect("a table");
             let scalar = evaluate(Scalar::<1>, &table);
             check(&rgl, &scalar, clamp_negative, &name);
             check_draws(&rgl, &scalar, clamp_negative, &name);

@@ -8,15 +8,15 @@ use std::sync::Arc;
 use lobe_formats::Document;
 use lobe_lane::{Kernel, Lanes};
 use lobe_table::{
-    Channels, DistributionError, Edges, Given, Sampled, Sampler, SamplerError, SamplerOptions, Samples, Scatter, Table,
-    coords,
+    Channels, DistributionError, Edges, Given, Sampled, Sampler, SamplerError, SamplerOptions, Scatter, specular,
+    specular::coords,
 };
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
 const REFERENCE: lobe_scalar::Scalar<1> = lobe_scalar::Scalar::<1>;
 
-fn fixture(name: &str) -> Samples {
+fn fixture(name: &str) -> specular::Data {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures").join(name);
     match lobe_formats::open(&path).unwrap().1 {
         Document::Table(measured) => measured.data,
@@ -25,7 +25,7 @@ fn fixture(name: &str) -> Samples {
 }
 
 /// A table of noise on knots that are not even.
-fn random(seed: u64, [sigma, psi, theta, phi]: [usize; 4], channels: Channels, scatter: Scatter) -> Samples {
+fn random(seed: u64, [sigma, psi, theta, phi]: [usize; 4], channels: Channels, scatter: Scatter) -> specular::Data {
     let mut rng = Pcg32::seed_from_u64(seed);
     let mut knots = |count: usize, last: f64| {
         let mut gaps: Vec<f64> = (0..count).map(|_| rng.random_range(0.3..1.0)).collect();
@@ -44,11 +44,11 @@ fn random(seed: u64, [sigma, psi, theta, phi]: [usize; 4], channels: Channels, s
     let count = sigma * psi * theta * phi * channels.count();
     // A few values are negative, as in measurements, and a few are large.
     let values = (0..count).map(|_| rng.random_range(-0.1f32..1.3).powi(3)).collect();
-    Samples::new(scatter, knots, channels, values).unwrap()
+    specular::Data::new(scatter, knots, channels, values).unwrap()
 }
 
 /// Every kind of table.
-fn tables() -> Vec<(&'static str, Samples)> {
+fn tables() -> Vec<(&'static str, specular::Data)> {
     let spectral = Channels::Spectral(vec![450.0, 500.0, 550.0, 600.0]);
     let bent = random(5, [5, 1, 8, 7], Channels::Mono, Scatter::Transmission);
     let offsets = bent.knots()[0].iter().map(|sigma| (sigma.sin() / 1.5).asin() - sigma).collect();
@@ -62,8 +62,8 @@ fn tables() -> Vec<(&'static str, Samples)> {
     ]
 }
 
-fn sampler(samples: &Samples) -> Sampler {
-    let table = Arc::new(Table::new(samples, &Edges::default()).unwrap());
+fn sampler(samples: &specular::Data) -> Sampler {
+    let table = Arc::new(specular::Table::new(samples, &Edges::default()).unwrap());
     Sampler::new(REFERENCE, table, &SamplerOptions::default()).unwrap()
 }
 
@@ -240,7 +240,7 @@ fn batches_single_queries_and_lanes_agree() {
 #[test]
 fn strict_samples_are_the_same_bits_on_every_backend() {
     for (name, samples) in tables() {
-        let table = Arc::new(Table::new(&samples, &Edges::default()).unwrap());
+        let table = Arc::new(specular::Table::new(&samples, &Edges::default()).unwrap());
         let options = SamplerOptions::default();
         let (known, u) = hostile(5_003);
         let mut expected = None;
@@ -300,7 +300,7 @@ fn the_density_is_positive_wherever_the_table_is() {
 #[test]
 fn a_black_table_is_sampled_as_a_cosine() {
     let black = random(1, [3, 1, 4, 5], Channels::Mono, Scatter::Reflection);
-    let black = Samples::new(Scatter::Reflection, black.knots().clone(), Channels::Mono, vec![0.0; 60]).unwrap();
+    let black = specular::Data::new(Scatter::Reflection, black.knots().clone(), Channels::Mono, vec![0.0; 60]).unwrap();
     let sampler = sampler(&black);
     let u = numbers(4, 100_000);
     let sampled = run(REFERENCE, &sampler, Given::Light, &vec![direction(40.0, 0.0); u.len()], &u);
@@ -322,7 +322,7 @@ fn memory_is_at_most_one_and_a_half_tables() {
 
 #[test]
 fn progress_ends_with_all_slices() {
-    let table = Arc::new(Table::new(&fixture("cloth-17x7x17x13.ddr"), &Edges::default()).unwrap());
+    let table = Arc::new(specular::Table::new(&fixture("cloth-17x7x17x13.ddr"), &Edges::default()).unwrap());
     let mut calls = Vec::new();
     Sampler::with_progress(REFERENCE, table, &SamplerOptions::default(), &mut |done, all| calls.push((done, all)))
         .unwrap();
@@ -331,7 +331,7 @@ fn progress_ends_with_all_slices() {
 
 #[test]
 fn options_that_make_no_sense_are_refused() {
-    let table = Arc::new(Table::new(&fixture("conductor-7x8x13.ddr"), &Edges::default()).unwrap());
+    let table = Arc::new(specular::Table::new(&fixture("conductor-7x8x13.ddr"), &Edges::default()).unwrap());
     for defensive in [0.0, -0.1, 1.1, f32::NAN] {
         let options = SamplerOptions { defensive, ..SamplerOptions::default() };
         let error = Sampler::new(REFERENCE, table.clone(), &options).unwrap_err();

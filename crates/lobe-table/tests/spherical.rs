@@ -2,9 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use lobe_table::scattered::{Scattered, ScatteredError};
-use lobe_table::spherical_grid::SphericalGrid;
-use lobe_table::{Channels, SamplesError, Scatter};
+use lobe_table::scattered::{self, ScatteredError};
+use lobe_table::{Channels, GridError, Scatter, spherical};
 
 fn direction(theta: f64, phi: f64) -> [f64; 3] {
     [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
@@ -42,7 +41,7 @@ fn a_grid_is_exact_at_its_knots_and_goes_round() {
             }
         }
     }
-    let grid = SphericalGrid::new(Scatter::Reflection, knots, Channels::Mono, values).expect("a grid");
+    let grid = spherical::Data::new(Scatter::Reflection, knots, Channels::Mono, values).expect("a grid");
     let at = |a: [f64; 4]| grid.eval(direction(a[0], a[1]), direction(a[2], a[3]))[0];
     for angles in [[0.4, TAU / 8.0, FRAC_PI_2 / 4.0, TAU / 12.0], [1.2, -TAU / 8.0, FRAC_PI_2 / 2.0, -TAU / 12.0]] {
         assert!((at(angles) - f(angles)).abs() < 1e-6, "{angles:?}");
@@ -60,7 +59,7 @@ fn a_grid_is_exact_at_its_knots_and_goes_round() {
 fn a_grid_with_one_azimuth_of_incidence_is_isotropic() {
     let knots = [vec![0.0, 1.0], vec![TAU / 4.0], vec![0.0, 1.0], steps(5, TAU)];
     let values = (0..20).map(|at| at as f32).collect();
-    let grid = SphericalGrid::new(Scatter::Transmission, knots, Channels::Mono, values).expect("a grid");
+    let grid = spherical::Data::new(Scatter::Transmission, knots, Channels::Mono, values).expect("a grid");
     let below =
         |theta: f64, phi: f64| direction(theta, phi).map(|x| x * [1.0, 1.0, -1.0][usize::from(x == theta.cos()) * 2]);
     let wanted = grid.eval(direction(0.5, TAU / 4.0), below(0.7, 2.0));
@@ -75,7 +74,7 @@ fn half_a_grid_is_mirrored() {
     let quarter = FRAC_PI_2 / 2.0;
     let knots = [vec![0.0, quarter], vec![0.0], vec![0.0, quarter], vec![0.0, TAU / 4.0, TAU / 2.0]];
     let values = (0..12).map(|i| (100 * (i / 6) + 10 * (i / 3 % 2) + i % 3) as f32).collect();
-    let grid = SphericalGrid::new(Scatter::Reflection, knots.clone(), Channels::Mono, values).expect("a grid");
+    let grid = spherical::Data::new(Scatter::Reflection, knots.clone(), Channels::Mono, values).expect("a grid");
     let grid = grid.mirrored().expect("half a grid");
     let at = |turn: f64| grid.eval(direction(quarter, 1.0), direction(quarter / 2.0, 1.0 + turn))[0];
     for turn in [0.0, 0.3, TAU / 4.0, 3.0, TAU / 2.0] {
@@ -87,25 +86,25 @@ fn half_a_grid_is_mirrored() {
         let mut knots = knots.clone();
         knots[axis] = angles.to_vec();
         let values = vec![0.0; knots.iter().map(Vec::len).product()];
-        let grid = SphericalGrid::new(Scatter::Reflection, knots, Channels::Mono, values).expect("a grid");
+        let grid = spherical::Data::new(Scatter::Reflection, knots, Channels::Mono, values).expect("a grid");
         grid.mirrored().expect_err("no half")
     };
-    assert!(matches!(beyond(3, &[0.0, 3.3]), SamplesError::KnotOutOfRange { axis: "phi_o", index: 1, .. }));
-    assert!(matches!(beyond(1, &[0.0, 1.0]), SamplesError::KnotOutOfRange { axis: "phi_i", index: 1, .. }));
+    assert!(matches!(beyond(3, &[0.0, 3.3]), GridError::KnotOutOfRange { axis: "phi_o", index: 1, .. }));
+    assert!(matches!(beyond(1, &[0.0, 1.0]), GridError::KnotOutOfRange { axis: "phi_i", index: 1, .. }));
 }
 
 #[test]
 fn bad_grids_are_refused() {
     let new = |theta_i: Vec<f64>, count: usize| {
         let knots = [theta_i, vec![0.0], vec![0.0], vec![0.0]];
-        SphericalGrid::new(Scatter::Reflection, knots, Channels::Mono, vec![1.0; count])
+        spherical::Data::new(Scatter::Reflection, knots, Channels::Mono, vec![1.0; count])
     };
     assert!(new(vec![0.0, 1.0], 2).is_ok());
-    assert!(matches!(new(vec![], 0), Err(SamplesError::NoKnots { axis: "theta_i" })));
-    assert!(matches!(new(vec![0.0, 1.0], 3), Err(SamplesError::ValueCount { .. })));
-    assert!(matches!(new(vec![1.0, 1.0], 2), Err(SamplesError::KnotsNotAscending { .. })));
-    assert!(matches!(new(vec![0.0, 2.0], 2), Err(SamplesError::KnotOutOfRange { .. })));
-    assert!(matches!(new(vec![f64::NAN], 1), Err(SamplesError::KnotNotFinite { .. })));
+    assert!(matches!(new(vec![], 0), Err(GridError::NoKnots { axis: "theta_i" })));
+    assert!(matches!(new(vec![0.0, 1.0], 3), Err(GridError::ValueCount { .. })));
+    assert!(matches!(new(vec![1.0, 1.0], 2), Err(GridError::KnotsNotAscending { .. })));
+    assert!(matches!(new(vec![0.0, 2.0], 2), Err(GridError::KnotOutOfRange { .. })));
+    assert!(matches!(new(vec![f64::NAN], 1), Err(GridError::KnotNotFinite { .. })));
 }
 
 #[test]
@@ -113,7 +112,7 @@ fn scattered_samples_come_back_and_lie_between_each_other() {
     for azimuths in [vec![0.3], steps(13, TAU)] {
         let angles = samples(&azimuths);
         let values: Vec<f32> = angles.iter().map(|&a| f(a)).collect();
-        let data = Scattered::new(Scatter::Reflection, Channels::Mono, &angles, &values).expect("samples");
+        let data = scattered::Data::new(Scatter::Reflection, Channels::Mono, &angles, &values).expect("samples");
         assert_eq!(data.is_isotropic(), azimuths.len() == 1);
         let (mut at_samples, mut between) = (0.0_f32, 0.0_f32);
         for &[theta_i, phi_i, theta_o, phi_o] in angles.iter().step_by(3) {
@@ -147,7 +146,7 @@ fn a_peak_moves_with_the_mirror_direction() {
         }
     }
     let values: Vec<f32> = angles.iter().map(|&a| peak(a)).collect();
-    let data = Scattered::new(Scatter::Reflection, Channels::Mono, &angles, &values).expect("samples");
+    let data = scattered::Data::new(Scatter::Reflection, Channels::Mono, &angles, &values).expect("samples");
     let at_mirror = data.eval(direction(0.5, 1.0), direction(0.5, 1.0 + TAU / 2.0))[0];
     let at_ghost = data.eval(direction(0.5, 1.0), direction(0.2, 1.0 + TAU / 2.0))[0];
     assert!(at_mirror > 0.95 && at_ghost < 0.05, "{at_mirror} at the mirror direction, {at_ghost} beside it");
@@ -157,7 +156,7 @@ fn a_peak_moves_with_the_mirror_direction() {
 fn half_a_measurement_is_mirrored() {
     let angles: Vec<[f64; 4]> = samples(&[0.0]).into_iter().filter(|a| a[3] <= TAU / 2.0 + 1e-9).collect();
     let values: Vec<f32> = angles.iter().map(|&a| f(a)).collect();
-    let data = Scattered::new(Scatter::Reflection, Channels::Mono, &angles, &values).expect("samples");
+    let data = scattered::Data::new(Scatter::Reflection, Channels::Mono, &angles, &values).expect("samples");
     let (left, right) = (direction(0.8, 1.0), direction(0.8, -1.0));
     let wi = direction(0.5, 0.0);
     assert!((data.eval(wi, left)[0] - data.eval(wi, right)[0]).abs() < 1e-6);
@@ -167,7 +166,7 @@ fn half_a_measurement_is_mirrored() {
 #[test]
 fn bad_samples_are_refused() {
     let new = |angles: &[[f64; 4]], values: &[f32]| {
-        Scattered::new(Scatter::Reflection, Channels::Mono, angles, values).map(|_| ()).expect_err("a refusal")
+        scattered::Data::new(Scatter::Reflection, Channels::Mono, angles, values).map(|_| ()).expect_err("a refusal")
     };
     assert_eq!(new(&[], &[]), ScatteredError::Empty);
     assert_eq!(new(&[[0.0; 4]], &[]), ScatteredError::ValueCount { found: 0, expected: 1 });
@@ -182,12 +181,14 @@ fn bad_samples_are_refused() {
 fn azimuths_have_no_seam() {
     for [a, b] in [[0.0, -1e-18], [0.0, TAU - 1e-9], [1.0, 1.0 + TAU], [0.5, 0.5 - 3.0 * TAU]] {
         let angles = [[0.4, a, 0.2, 1.0], [0.4, b, 0.3, 2.0], [0.4, 2.5, 0.2, 1.0]];
-        let data = Scattered::new(Scatter::Reflection, Channels::Mono, &angles, &[1.0, 2.0, 3.0]).expect("samples");
+        let data =
+            scattered::Data::new(Scatter::Reflection, Channels::Mono, &angles, &[1.0, 2.0, 3.0]).expect("samples");
         assert_eq!(data.incidences().len(), 2, "{a} and {b}");
-        let data = Scattered::new(Scatter::Reflection, Channels::Mono, &angles[..2], &[1.0, 2.0]).expect("samples");
+        let data =
+            scattered::Data::new(Scatter::Reflection, Channels::Mono, &angles[..2], &[1.0, 2.0]).expect("samples");
         assert!(data.is_isotropic(), "{a} and {b}");
     }
     let angles = [[3e-6, 0.0, 0.2, 1.0], [3e-6, 1e-3, 0.3, 2.0], [0.4, 2.5, 0.2, 1.0]];
-    let data = Scattered::new(Scatter::Reflection, Channels::Mono, &angles, &[1.0, 2.0, 3.0]).expect("samples");
+    let data = scattered::Data::new(Scatter::Reflection, Channels::Mono, &angles, &[1.0, 2.0, 3.0]).expect("samples");
     assert_eq!(data.incidences().map(|[theta, _]| theta).collect::<Vec<_>>(), [3e-6, 0.4]);
 }

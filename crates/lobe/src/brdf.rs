@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use lobe_formats::{Document, FormatError};
-use lobe_table::{Directions, Edges, Invalid, Samples, Table, TableError};
+use lobe_table::{Directions, Edges, Invalid, TableError, specular};
 use thiserror::Error;
 
 use crate::{Backend, BackendError};
@@ -61,7 +61,7 @@ pub enum OpenError {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Brdf {
-    table: Arc<Table>,
+    table: Arc<specular::Table>,
     backend: Backend,
 }
 
@@ -90,8 +90,8 @@ impl Brdf {
     ///
     /// # Errors
     /// [`OpenError`] where the data are too large for a table, or `LOBE_BACKEND` is wrong.
-    pub fn new(samples: &Samples, edges: &Edges) -> Result<Self, OpenError> {
-        Ok(Brdf { table: Arc::new(Table::new(samples, edges)?), backend: Backend::detect()? })
+    pub fn new(samples: &specular::Data, edges: &Edges) -> Result<Self, OpenError> {
+        Ok(Brdf { table: Arc::new(specular::Table::new(samples, edges)?), backend: Backend::detect()? })
     }
 
     /// The same material on another backend.
@@ -105,7 +105,7 @@ impl Brdf {
     }
 
     /// The table, for its axes and channels, and for evaluation inside a kernel of your own.
-    pub fn table(&self) -> &Arc<Table> {
+    pub fn table(&self) -> &Arc<specular::Table> {
         &self.table
     }
 

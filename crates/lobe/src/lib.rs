@@ -1,8 +1,8 @@
 //! Measured BRDFs and BSDFs: open a file, evaluate it in batches on the best SIMD backend of the machine.
 //!
 //! [`Material`] is what most programs want: any format, any representation. [`Brdf`] is a specular table, evaluated
-//! wherever its batches lie. A renderer that is itself vectorised takes a [`Table`] and calls
-//! [`Table::eval_lanes`] inside a [`Kernel`] of its own, which [`Backend::run`] runs.
+//! wherever its batches lie. A renderer that is itself vectorised takes a [`specular::Table`] and calls
+//! [`specular::Table::eval_lanes`] inside a [`Kernel`] of its own, which [`Backend::run`] runs.
 #![forbid(unsafe_code)]
 
 mod backend;
@@ -19,7 +19,7 @@ pub use lobe_table as table;
 pub use lobe_table::utia::Decode;
 pub use lobe_table::{
     Axis, Channels, Directions, Edge, Edges, Function, Given, Precision, Sampled, SamplerError, SamplerOptions,
-    Samples, Scatter, Soa, Table, luminance,
+    Scatter, Soa, luminance, specular,
 };
 pub use material::{Kind, Lookup, Material, Options};
 pub use sampler::Sampler;

@@ -6,11 +6,9 @@ use std::sync::Arc;
 
 use lobe::formats::sheet::{Data, Part, Side};
 use lobe::formats::{Document, Format, Measured, Specular};
-use lobe::table::half_diff::HalfDiff;
-use lobe::table::mueller::Mueller;
-use lobe::table::rgl::{Images, Parts, Reference, Rgl};
-use lobe::table::spherical_grid::SphericalGrid;
-use lobe::{Channels, Given, Kind, Lookup, Material, OpenError, Options, Sampler, SamplerOptions, Samples, Scatter};
+use lobe::table::rgl::{self, Images, Parts, Reference};
+use lobe::table::{half_diff, mueller, spherical};
+use lobe::{Channels, Given, Kind, Lookup, Material, OpenError, Options, Sampler, SamplerOptions, Scatter, specular};
 
 fn measured<T>(data: T) -> Measured<T> {
     Measured { data, source: vec![("by".into(), "hand".into())], tis: Vec::new() }
@@ -32,7 +30,7 @@ fn value(material: &Material, wi: [f32; 3], wo: [f32; 3]) -> Vec<f32> {
 
 fn flat(scatter: Scatter, value: f32, side: Option<Side>) -> Part {
     let knots = [vec![0.0], vec![0.0], vec![0.0], vec![0.0]];
-    let grid = SphericalGrid::new(scatter, knots, Channels::Mono, vec![value]).expect("a grid");
+    let grid = spherical::Data::new(scatter, knots, Channels::Mono, vec![value]).expect("a grid");
     Part { side, ..Part::new("", Data::Spherical(grid)) }
 }
 
@@ -43,7 +41,7 @@ const DOWN: [f32; 3] = [0.0, 0.6, -0.8];
 fn the_sides_choose_the_part_of_a_sheet() {
     // The table answers with both directions above the surface only.
     let knots = [vec![0.0], vec![0.0], vec![0.0], vec![0.0]];
-    let table = Samples::new(Scatter::Reflection, knots, Channels::Mono, vec![1.0]).expect("a table");
+    let table = specular::Data::new(Scatter::Reflection, knots, Channels::Mono, vec![1.0]).expect("a table");
     let mirror = Specular::new(Scatter::Reflection, [vec![0.0], vec![0.0]], Channels::Mono, vec![0.5]);
     let parts = vec![
         Part { side: Some(Side::Front), ..Part::new("", Data::Table(table)) },
@@ -72,14 +70,14 @@ fn sheets_without_one_answer_are_refused() {
     let mirror = Part::new("", Data::Specular(mirror.expect("a mirror")));
     assert_eq!(refused(vec![mirror]), "made.file: found mirror reflectances; expected a BRDF or BTDF");
     let knots = [vec![0.0], vec![0.0], vec![0.0], vec![0.0]];
-    let rgb = Samples::new(Scatter::Transmission, knots, Channels::Rgb, vec![1.0; 3]).expect("a table");
+    let rgb = specular::Data::new(Scatter::Transmission, knots, Channels::Rgb, vec![1.0; 3]).expect("a table");
     let parts = vec![flat(Scatter::Reflection, 1.0, None), Part::new("", Data::Table(rgb))];
     assert!(refused(parts).contains("parts with different channels"));
 }
 
 #[test]
 fn half_difference_grids_are_looked_up_as_asked() {
-    let data = HalfDiff::new([4, 5, 6], (0..360).map(|i| i as f32).collect()).expect("a grid");
+    let data = half_diff::Data::new([4, 5, 6], (0..360).map(|i| i as f32).collect()).expect("a grid");
     let wo = [0.0, 0.28, 0.96];
     let wide = |w: [f32; 3]| w.map(f64::from);
     let expected = [
@@ -90,7 +88,7 @@ fn half_difference_grids_are_looked_up_as_asked() {
     for (lookup, expected) in expected {
         let options = Options { lookup, ..Options::default() };
         let material = open(Document::HalfDiff(measured(data.clone())), &options).expect("a material");
-        assert_eq!((material.kind(), material.channels()), (Kind::HalfDifference, &Channels::Rgb));
+        assert_eq!((material.kind(), material.channels()), (Kind::HalfDiff, &Channels::Rgb));
         for (found, expected) in value(&material, UP, wo).into_iter().zip(expected) {
             assert!((f64::from(found) - expected).abs() < 1e-4, "{lookup:?}: {found}, not {expected}");
         }
@@ -99,7 +97,7 @@ fn half_difference_grids_are_looked_up_as_asked() {
 
 #[test]
 fn directions_that_point_nowhere_are_dark() {
-    let data = HalfDiff::new([1, 1, 1], vec![1.0; 3]).expect("a grid");
+    let data = half_diff::Data::new([1, 1, 1], vec![1.0; 3]).expect("a grid");
     let material = material(Document::HalfDiff(measured(data)));
     assert_eq!(value(&material, UP, [0.0, 0.0, 2.0]), [1.0; 3], "the length makes no difference");
     for nowhere in [[0.0; 3], [f32::NAN, 0.0, 1.0], [0.0, 0.0, f32::INFINITY]] {
@@ -111,7 +109,7 @@ fn directions_that_point_nowhere_are_dark() {
 #[test]
 fn polarised_materials_have_the_value_of_unpolarised_light() {
     let knots = [vec![-3.0, 3.0], vec![0.0, 1.5], vec![0.0, 1.5], vec![500.0, 600.0]];
-    let data = Mueller::new(knots, (0..256).map(|i| 0.1 + (i % 37) as f32).collect()).expect("matrices");
+    let data = mueller::Data::new(knots, (0..256).map(|i| 0.1 + (i % 37) as f32).collect()).expect("matrices");
     let material = material(Document::Mueller(measured(data)));
     assert_eq!((material.kind(), material.wavelengths()), (Kind::Mueller, Some([500.0, 600.0].as_slice())));
     let wo = [0.0, 0.28, 0.96];
@@ -121,7 +119,7 @@ fn polarised_materials_have_the_value_of_unpolarised_light() {
     }
 }
 
-fn rgl() -> Rgl {
+fn rgl() -> rgl::Data {
     let images = |shape: [usize; 3]| {
         let texels = (0..shape.iter().product()).map(|i| 0.5 + (i % 7) as f32 / 7.0).collect();
         Images::new("made", shape, texels).expect("valid images")
@@ -139,10 +137,10 @@ fn rgl() -> Rgl {
         jacobian: true,
         valid: None,
     };
-    Rgl::new(parts).expect("a material")
+    rgl::Data::new(parts).expect("a material")
 }
 
-fn rgl_sampler(data: Rgl, indexed_by: Given) -> Sampler {
+fn rgl_sampler(data: rgl::Data, indexed_by: Given) -> Sampler {
     let options = Options { indexed_by, ..Options::default() };
     let material = open(Document::Rgl(measured(data)), &options).expect("a material");
     Sampler::new(Arc::new(material), &SamplerOptions::default()).expect("a sampler")

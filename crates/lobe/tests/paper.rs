@@ -3,10 +3,10 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use lobe::math::bounds;
-use lobe::table::coords::{angles_to_directions, directions_to_angles};
 use lobe::table::paper::{PaperError, PaperTable, search};
-use lobe::table::reference;
-use lobe::{Backend, Channels, Edges, Kernel, Lanes, Samples, Scatter, Soa};
+use lobe::table::specular::coords::{angles_to_directions, directions_to_angles};
+use lobe::table::specular::reference;
+use lobe::{Backend, Channels, Edges, Kernel, Lanes, Scatter, Soa, specular};
 
 /// Every backend of this machine, fused and strict, and its name.
 fn backends() -> impl Iterator<Item = (String, Backend)> {
@@ -24,7 +24,7 @@ fn smooth([sigma, psi, theta, phi]: [f64; 4], channel: usize) -> f64 {
     1.0 + slow * (0.3 * sigma.sin() + 0.2 * psi.cos() + 0.4 * (-theta).exp() + 0.2 * phi.sin())
 }
 
-fn samples(psi: Vec<f64>) -> Samples {
+fn samples(psi: Vec<f64>) -> specular::Data {
     let theta = (0..8).map(|i| PI * (f64::from(i) / 7.0).powi(2)).collect();
     let knots = [
         vec![0.0, 0.1, 0.4, 0.9, 1.2, 1.5, FRAC_PI_2],
@@ -42,10 +42,10 @@ fn samples(psi: Vec<f64>) -> Samples {
             }
         }
     }
-    Samples::new(Scatter::Reflection, knots, Channels::Rgb, values).unwrap()
+    specular::Data::new(Scatter::Reflection, knots, Channels::Rgb, values).unwrap()
 }
 
-fn tables() -> [Samples; 2] {
+fn tables() -> [specular::Data; 2] {
     [samples(vec![0.0]), samples(vec![0.0, 0.7, 1.9, 3.0, 4.4, 5.5])]
 }
 
@@ -123,7 +123,8 @@ fn degenerate_directions_give_a_value_of_the_table_or_zero() {
     let flat = |psi: Vec<f64>| {
         let knots = [vec![0.0, 1.5], psi, vec![0.0, 0.1, PI], vec![0.0, 2.0, TAU]];
         let count = 3 * knots.iter().map(Vec::len).product::<usize>();
-        PaperTable::new(&Samples::new(Scatter::Reflection, knots, Channels::Rgb, vec![2.0; count]).unwrap()).unwrap()
+        PaperTable::new(&specular::Data::new(Scatter::Reflection, knots, Channels::Rgb, vec![2.0; count]).unwrap())
+            .unwrap()
     };
     let up = [0.0, 0.0, 1.0];
     let inside = [[up, up], [[0.6, 0.0, 0.8], [-0.6, 0.0, 0.8]], [[0.6, 0.0, 0.8]; 2], [up, [0.6, 0.0, 0.8]]];
@@ -244,7 +245,7 @@ fn what_the_kernel_cannot_do_is_refused() {
     let one = |scatter, channels: Channels, phi: Vec<f64>| {
         let knots = [vec![0.0, 1.0], vec![0.0], vec![0.0, 1.0], phi];
         let count = channels.count() * knots.iter().map(Vec::len).product::<usize>();
-        PaperTable::new(&Samples::new(scatter, knots, channels, vec![1.0; count]).unwrap()).map(|_| ())
+        PaperTable::new(&specular::Data::new(scatter, knots, channels, vec![1.0; count]).unwrap()).map(|_| ())
     };
     let circle = vec![0.0, 3.0];
     assert_eq!(one(Scatter::Reflection, Channels::Rgb, circle.clone()), Ok(()));

@@ -6,7 +6,7 @@ mod common;
 use std::path::{Path, PathBuf};
 
 use common::{files, shared};
-use lobe::Kind::{self, Klems, Mueller, Rgl, Scattered, Sheet, SpecularTable, SphericalGrid, TensorTree};
+use lobe::Kind::{self, Klems, Mueller, Rgl, Scattered, Sheet, Specular, Spherical, TensorTree};
 use lobe::Material;
 
 /// What is to become of a file.
@@ -35,10 +35,10 @@ const OUTCOMES: &[(&str, &str, Outcome)] = &[
     ("lumos_csv", "", Opens(Scattered, 1)),
     ("mdl_mbsdf", "test_file_format_error", UNKNOWN),
     ("mdl_mbsdf", "test_none", Refused("the end of the file")),
-    ("mdl_mbsdf", "test_rgb", Opens(SphericalGrid, 3)),
+    ("mdl_mbsdf", "test_rgb", Opens(Spherical, 3)),
     ("mdl_mbsdf", "test_reflection_scalar_theta_2_phi_3_transmission", Opens(Sheet, 1)),
-    ("mdl_mbsdf", "test", Opens(SphericalGrid, 1)),
-    ("mdl_mbsdf", "", Opens(SphericalGrid, 3)),
+    ("mdl_mbsdf", "test", Opens(Spherical, 1)),
+    ("mdl_mbsdf", "", Opens(Spherical, 3)),
     // Weights of networks, and a table without a header.
     ("merl_derived", "", UNKNOWN),
     ("nist_mueller_csv", "PTFE.data", Opens(Scattered, 4)),
@@ -53,7 +53,7 @@ const OUTCOMES: &[(&str, &str, Outcome)] = &[
     ("speos_anisotropicbsdf", "Gaussian_Fresnel", Opens(Sheet, 2)),
     ("speos_anisotropicbsdf", "", Opens(Scattered, 2)),
     ("tensortree_xml", "", Opens(TensorTree, 1)),
-    ("zemax_bsdf", "", Opens(SpecularTable, 1)),
+    ("zemax_bsdf", "", Opens(Specular, 1)),
 ];
 
 /// Folders without measurements.

@@ -1,13 +1,13 @@
 //! Sharing a batch among threads changes nothing.
 #![cfg(feature = "rayon")]
 
-use lobe::{Brdf, Channels, Edges, PARALLEL_FROM, Samples, Scatter};
+use lobe::{Brdf, Channels, Edges, PARALLEL_FROM, Scatter, specular};
 
 #[test]
 fn results_do_not_depend_on_the_number_of_threads() {
     let knots = [vec![0.0, 0.5, 1.2], vec![0.0], vec![0.0, 0.1, 0.7, 3.0], vec![0.0, 2.0, 4.0]];
     let values = (0..3 * 4 * 3 * 3).map(|i| (i * 37 % 101) as f32).collect();
-    let samples = Samples::new(Scatter::Reflection, knots, Channels::Rgb, values).unwrap();
+    let samples = specular::Data::new(Scatter::Reflection, knots, Channels::Rgb, values).unwrap();
     let brdf = Brdf::new(&samples, &Edges::default()).unwrap();
 
     // Neither a multiple of the block nor of the task.

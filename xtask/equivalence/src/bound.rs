@@ -3,9 +3,9 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use lobe_math::bounds;
-use lobe_table::coords::directions_to_angles;
-use lobe_table::reference::zenith;
-use lobe_table::{Edge, Edges, Samples, Scatter};
+use lobe_table::specular::coords::directions_to_angles;
+use lobe_table::specular::reference::zenith;
+use lobe_table::{Edge, Edges, Scatter, specular};
 
 /// The relative error of one rounding.
 const UNIT: f64 = 1.0 / (1 << 24) as f64;
@@ -25,7 +25,7 @@ const INSIDE: f64 = 1e-6;
 
 /// What the bound needs to know about a table.
 pub(super) struct FusedBound<'a> {
-    samples: &'a Samples,
+    samples: &'a specular::Data,
     edges: &'a Edges,
     /// The largest value, without its sign.
     largest: f64,
@@ -37,7 +37,7 @@ pub(super) struct FusedBound<'a> {
 }
 
 impl<'a> FusedBound<'a> {
-    pub(super) fn new(samples: &'a Samples, edges: &'a Edges) -> Self {
+    pub(super) fn new(samples: &'a specular::Data, edges: &'a Edges) -> Self {
         let largest = samples.values().iter().fold(0.0, |most, value| f64::max(most, f64::from(value.abs())));
         let mut bound = FusedBound {
             samples,
@@ -175,10 +175,10 @@ mod tests {
     use super::*;
     use lobe_table::Channels;
 
-    fn ramp(edges: &Edges) -> (Samples, Edges) {
+    fn ramp(edges: &Edges) -> (specular::Data, Edges) {
         let knots = [vec![0.0, 1.0], vec![0.0], vec![0.0, 1.0, 3.0], vec![0.0, 3.0]];
         let values = (0..12).map(|i| i as f32).collect();
-        (Samples::new(Scatter::Reflection, knots, Channels::Mono, values).unwrap(), *edges)
+        (specular::Data::new(Scatter::Reflection, knots, Channels::Mono, values).unwrap(), *edges)
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Whole evaluations of tables, in every way of calling.
 
 use lobe_lane::{Ints, Kernel, Lanes};
-use lobe_table::{Scatter, Soa, Table};
+use lobe_table::{Scatter, Soa, specular};
 
 use super::lanes::floats;
 use super::record::{Bound, Record};
@@ -62,8 +62,8 @@ fn evaluate<L: Lanes>(lanes: L, case: &Case) -> Vec<Record> {
     records
 }
 
-/// Whether a pair of directions has no value by the promise of [`Table`].
-fn is_nothing(table: &Table, wi: [f32; 3], wo: [f32; 3]) -> bool {
+/// Whether a pair of directions has no value by the promise of [`specular::Table`].
+fn is_nothing(table: &specular::Table, wi: [f32; 3], wo: [f32; 3]) -> bool {
     let above = |z: f32| match table.scatter() {
         Scatter::Reflection => z > 0.0,
         Scatter::Transmission => z != 0.0,
@@ -72,9 +72,9 @@ fn is_nothing(table: &Table, wi: [f32; 3], wo: [f32; 3]) -> bool {
     !(finite && above(wi[2]) && above(wo[2]))
 }
 
-/// [`Table::eval_lanes`] as a vectorised renderer calls it, under a mask.
+/// [`specular::Table::eval_lanes`] as a vectorised renderer calls it, under a mask.
 struct Masked<'a> {
-    table: &'a Table,
+    table: &'a specular::Table,
     queries: &'a Queries,
     keep: &'a [i32],
 }

@@ -5,12 +5,10 @@ use std::sync::OnceLock;
 use lobe_benches::tables::{half_difference, klems, mueller, tensor_tree, utia};
 use lobe_benches::workload::Input;
 use lobe_lane::{Kernel, Lanes};
-use lobe_table::half_diff::{HalfDiffTable, Lookup};
-use lobe_table::mueller::MuellerTable;
-use lobe_table::tensor_tree::Rank;
-use lobe_table::utia::{Decode, UtiaTable};
-use lobe_table::window::WindowTable;
-use lobe_table::{Directions, Soa};
+use lobe_table::half_diff::{self, Lookup};
+use lobe_table::utia::{self, Decode};
+use lobe_table::window::tensor_tree::Rank;
+use lobe_table::{Directions, Soa, mueller, window};
 
 use super::record::{Bound, Record};
 use super::tables::{Queries, adversarial, not_unit, workload};
@@ -25,10 +23,10 @@ struct Case {
 }
 
 enum Representation {
-    HalfDiff(HalfDiffTable, Lookup),
-    Utia(Box<UtiaTable>),
-    Mueller(Box<MuellerTable>),
-    Window(WindowTable),
+    HalfDiff(half_diff::Table, Lookup),
+    Utia(Box<utia::Table>),
+    Mueller(Box<mueller::Table>),
+    Window(window::Table),
 }
 
 /// One way of evaluating one of them, compiled for a backend.
@@ -129,7 +127,7 @@ fn cases() -> &'static [Case] {
     CASES.get_or_init(|| {
         let mut cases = Vec::new();
         let half = half_difference([30, 20, 40]);
-        let table = HalfDiffTable::new(&half).expect("a small grid");
+        let table = half_diff::Table::new(&half).expect("a small grid");
         for lookup in [Lookup::Nearest, Lookup::Linear] {
             let (name, half) =
                 (if lookup == Lookup::Linear { "half-difference, linear" } else { "half-difference" }, half.clone());
@@ -145,7 +143,7 @@ fn cases() -> &'static [Case] {
         }
         let grid = utia();
         let largest = grid.values().iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        let table = UtiaTable::new(&grid, Decode::Raw).expect("a valid grid");
+        let table = utia::Table::new(&grid, Decode::Raw).expect("a valid grid");
         cases.push(Case {
             name: "UTIA",
             representation: Representation::Utia(Box::new(table)),
@@ -153,7 +151,7 @@ fn cases() -> &'static [Case] {
             reference: Box::new(move |wi, wo| largest * grid.bound(wi, wo)),
         });
         let matrices = mueller();
-        let table = MuellerTable::new(&matrices).expect("a small table");
+        let table = mueller::Table::new(&matrices).expect("a small table");
         cases.push(Case {
             name: "Mueller",
             width: table.channel_count(),
@@ -166,7 +164,7 @@ fn cases() -> &'static [Case] {
             ("tensor tree, 4", tensor_tree(Rank::Four)),
         ];
         for (name, window) in sheets {
-            let table = WindowTable::new(vec![window.clone()]).expect("a small sheet");
+            let table = window::Table::new(vec![window.clone()]).expect("a small sheet");
             let reference = Box::new(move |wi, wo| spread(window.candidates(wi, wo).into_iter()));
             cases.push(Case { name, representation: Representation::Window(table), width: 1, reference });
         }

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use lobe_benches::tables;
 use lobe_benches::workload::Input;
 use lobe_lane::Lanes;
-use lobe_table::rgl::{Drawn, RglOptions, RglTable, UniformOrder, Wanted};
+use lobe_table::rgl::{self, Drawn, UniformOrder, Wanted};
 
 use super::record::{Bound, Record};
 use super::sampling::numbers;
@@ -18,10 +18,10 @@ const DIRECTION: f64 = 2e-5;
 const SAMPLE: f64 = 1e-4;
 
 /// An isotropic and an anisotropic material.
-fn materials() -> &'static [(&'static str, RglTable)] {
-    static MATERIALS: OnceLock<Vec<(&str, RglTable)>> = OnceLock::new();
+fn materials() -> &'static [(&'static str, rgl::Table)] {
+    static MATERIALS: OnceLock<Vec<(&str, rgl::Table)>> = OnceLock::new();
     MATERIALS.get_or_init(|| {
-        let table = |rgl| RglTable::new(&rgl, RglOptions::default()).expect("a small material");
+        let table = |rgl| rgl::Table::new(&rgl, rgl::Options::default()).expect("a small material");
         vec![("isotropic", table(tables::rgl())), ("anisotropic", table(tables::rgl_anisotropic()))]
     })
 }
@@ -43,7 +43,7 @@ pub(super) fn record<L: Lanes>(lanes: L) -> Vec<Record> {
     records
 }
 
-fn evaluate<L: Lanes>(lanes: L, name: &str, table: &RglTable, Queries { wi, wo }: &Queries) -> [Record; 3] {
+fn evaluate<L: Lanes>(lanes: L, name: &str, table: &rgl::Table, Queries { wi, wo }: &Queries) -> [Record; 3] {
     let values = || vec![f32::NAN; wi.len() * table.channel_count()];
     let (mut f, mut cos, mut pdf) = (values(), values(), vec![f32::NAN; wi.len()]);
     lanes.vectorize(table.batch(wi.as_slice(), wo.as_slice(), Wanted::ValuesAndPdf(&mut f, &mut pdf)));
@@ -63,7 +63,7 @@ fn evaluate<L: Lanes>(lanes: L, name: &str, table: &RglTable, Queries { wi, wo }
     ]
 }
 
-fn sample<L: Lanes>(lanes: L, name: &str, table: &RglTable, Queries { wi, .. }: &Queries) -> [Record; 3] {
+fn sample<L: Lanes>(lanes: L, name: &str, table: &rgl::Table, Queries { wi, .. }: &Queries) -> [Record; 3] {
     let channels = table.channel_count();
     let mut directions = vec![[f32::NAN; 3]; wi.len()];
     let (mut pdf, mut weights) = (vec![f32::NAN; wi.len()], vec![f32::NAN; wi.len() * channels]);

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use lobe_benches::workload::{Input, Pairs};
 use lobe_formats::Document;
-use lobe_table::{Channels, Edges, Samples, Scatter, Table};
+use lobe_table::{Channels, Edges, Scatter, specular};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -19,7 +19,7 @@ const QUERIES: usize = 64 * 4 + 3;
 pub(super) struct Case {
     /// What the results are called; several cases share a name.
     pub(super) name: String,
-    pub(super) table: Table,
+    pub(super) table: specular::Table,
     /// The largest value of the table, without its sign.
     pub(super) largest: f64,
     pub(super) queries: Queries,
@@ -71,8 +71,8 @@ pub(super) fn cases() -> &'static [Case] {
     })
 }
 
-fn add(cases: &mut Vec<Case>, name: &str, samples: &Samples, edges: &Edges) {
-    let table = Table::new(samples, edges).expect("a valid table");
+fn add(cases: &mut Vec<Case>, name: &str, samples: &specular::Data, edges: &Edges) {
+    let table = specular::Table::new(samples, edges).expect("a valid table");
     let bound = FusedBound::new(samples, edges);
     let sets = [
         ("incoherent", workload(Input::Incoherent), true),
@@ -104,7 +104,7 @@ fn fixtures() -> Vec<PathBuf> {
 
 /// A table of random values, some negative, whose knots are searched in all ways over the seeds. The ends of psi and
 /// phi are the same where the knots close the circle.
-fn random(seed: u64, channels: usize, anisotropic: bool, scatter: Scatter) -> Samples {
+fn random(seed: u64, channels: usize, anisotropic: bool, scatter: Scatter) -> specular::Data {
     let mut rng = Pcg32::seed_from_u64(seed);
     let closed = rng.random::<bool>();
     let mut axis = |sizes: [usize; 3], end: f64, closed: bool| -> Vec<f64> {
@@ -144,7 +144,7 @@ fn random(seed: u64, channels: usize, anisotropic: bool, scatter: Scatter) -> Sa
         n => Channels::Spectral((0..n).map(|k| 400.0 + 10.0 * k as f64).collect()),
     };
     let offsets: Vec<f64> = sigma.iter().map(|s| (s.sin() / 1.5).asin() - s).collect();
-    let samples = Samples::new(scatter, [sigma, psi, theta, phi], channels, values).expect("valid samples");
+    let samples = specular::Data::new(scatter, [sigma, psi, theta, phi], channels, values).expect("valid samples");
     match scatter {
         Scatter::Reflection => samples,
         Scatter::Transmission => samples.with_refraction(offsets).expect("an offset a knot"),

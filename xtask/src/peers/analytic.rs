@@ -1,6 +1,6 @@
 //! A measured table against an analytic model: what measured materials cost.
 
-use lobe::{Backend, Edges, Soa, Table};
+use lobe::{Backend, Edges, Soa, specular};
 use lobe_benches::contest::Contender;
 use lobe_benches::tables;
 use lobe_benches::workload::Input;
@@ -22,7 +22,7 @@ fn contest(exchange: &mut Exchange, input: Input) -> anyhow::Result<Contest> {
     let (pairs, file) = pairs(exchange, input)?;
     let task = format!("principled-{}", input.name());
     exchange.task(&task, json!({ "bsdf": { "type": "principled" }, "what": "eval", "pairs": file }));
-    let table = Table::new(&tables::isotropic(), &Edges::default())?;
+    let table = specular::Table::new(&tables::isotropic(), &Edges::default())?;
     let backend = Backend::best().fused();
     let run = move |out: &mut Vec<f32>| {
         let [wi, wo] = [&pairs.wi, &pairs.wo].map(|[x, y, z]| Soa::new(x, y, z));

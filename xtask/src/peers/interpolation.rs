@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use lobe::{Backend, Edges, Samples, Table};
+use lobe::{Backend, Edges, specular};
 use lobe_benches::baseline::interpn::Grid;
 use lobe_benches::contest::{Contender, angles};
 use lobe_benches::tables;
@@ -35,7 +35,7 @@ pub fn all(exchange: &mut Exchange) -> anyhow::Result<Vec<Contest>> {
 fn contest(
     exchange: &mut Exchange,
     (name, shown): (&str, &str),
-    samples: &Samples,
+    samples: &specular::Data,
     input: Input,
 ) -> anyhow::Result<Contest> {
     let angles = Rc::new(angles(input, COUNT));
@@ -55,7 +55,7 @@ fn contest(
         outside.push(Outside::new(peer, program, task));
     }
 
-    let table = Table::new(samples, &Edges::default())?;
+    let table = specular::Table::new(samples, &Edges::default())?;
     let backend = Backend::best().fused();
     let columns = angles.clone();
     let run = move |out: &mut Vec<f32>| {

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use anyhow::bail;
 use lobe::formats::{self, Document};
-use lobe::table::rgl::{Drawn, Rgl, RglOptions, RglTable, UniformOrder, Wanted};
+use lobe::table::rgl::{self, Drawn, UniformOrder, Wanted};
 use lobe::{Backend, Channels, Soa};
 use lobe_benches::contest::Contender;
 use lobe_benches::workload::{Input, Pairs};
@@ -77,12 +77,12 @@ pub fn all(data: &Path, exchange: &mut Exchange) -> anyhow::Result<Vec<Contest>>
 struct Subject<'a> {
     file: &'a Path,
     name: String,
-    table: Rc<RglTable>,
+    table: Rc<rgl::Table>,
     backend: Backend,
 }
 
 impl<'a> Subject<'a> {
-    fn new(file: &'a Path, rgl: &Rgl) -> anyhow::Result<Self> {
+    fn new(file: &'a Path, rgl: &rgl::Data) -> anyhow::Result<Self> {
         if rgl.parts().channels != Channels::Rgb {
             bail!("{}: expected RGB", file.display());
         }
@@ -90,7 +90,7 @@ impl<'a> Subject<'a> {
         Ok(Subject {
             file,
             name: name.trim_end_matches("_rgb").to_owned(),
-            table: Rc::new(RglTable::new(rgl, RglOptions::default())?),
+            table: Rc::new(rgl::Table::new(rgl, rgl::Options::default())?),
             backend: Backend::best().fused(),
         })
     }

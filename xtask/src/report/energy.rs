@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use anyhow::Context;
 use lobe::formats::{Document, Format, Measured};
-use lobe::table::coords::angles_to_directions;
+use lobe::table::specular::coords::angles_to_directions;
 use lobe::{Given, Material, Options, Sampler, SamplerOptions, luminance};
 use lobe_model::{Lambert, goniometer};
 use lobe_ops::albedo::albedo_of;

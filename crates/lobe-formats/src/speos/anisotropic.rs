@@ -2,8 +2,7 @@
 
 use std::f64::consts::PI;
 
-use lobe_table::scattered::Scattered;
-use lobe_table::{Channels, Scatter};
+use lobe_table::{Channels, Scatter, scattered};
 
 use super::table::{Source, Table, incident_angles};
 use crate::records::Records;
@@ -23,7 +22,7 @@ struct Spectrum {
     percentages: Vec<f64>,
 }
 
-pub(super) fn read(source: &mut Source<'_>) -> Result<Sides<Scattered>, FormatError> {
+pub(super) fn read(source: &mut Source<'_>) -> Result<Sides<scattered::Data>, FormatError> {
     // The vector turns the sample in its scene; in the coordinates of the surface it is +x.
     source.list(3, "the anisotropy vector")?;
     let sides = [source.flag("whether there is reflection")?, source.flag("whether there is transmission")?];
@@ -81,7 +80,7 @@ fn read_tables(
     scatter: Scatter,
     rotations: &[Rotation],
     spectrum: &Spectrum,
-) -> Result<Scattered, FormatError> {
+) -> Result<scattered::Data, FormatError> {
     let mut tables = Vec::new();
     for rotation in rotations {
         for &theta in &rotation.incidences {

@@ -2,14 +2,13 @@
 
 use std::f64::consts::PI;
 
-use lobe_table::Scatter;
-use lobe_table::scattered::Scattered;
+use lobe_table::{Scatter, scattered};
 
 use super::table::{Source, Table, incident_angles};
 use crate::records::ByWavelength;
 use crate::{FormatError, Sides};
 
-pub(super) fn read(source: &mut Source<'_>) -> Result<Sides<Scattered>, FormatError> {
+pub(super) fn read(source: &mut Source<'_>) -> Result<Sides<scattered::Data>, FormatError> {
     let sides = [source.flag("whether there is reflection")?, source.flag("whether there is transmission")?];
     let is_intensity = !source.flag("whether values are of the BSDF")?;
     let (incidences, wavelengths) =

@@ -13,7 +13,7 @@ mod table;
 
 use std::path::Path;
 
-use lobe_table::scattered::Scattered;
+use lobe_table::scattered;
 
 use crate::lines::shown;
 use crate::{FormatError, Sides};
@@ -31,7 +31,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 /// # Errors
 /// [`FormatError`] with the line: another kind of file, the binary form, counts that the rest of the file has no room for,
 /// numbers that are missing or none, or tables that have nothing to scale.
-pub fn read(bytes: &[u8], file: &Path) -> Result<Sides<Scattered>, FormatError> {
+pub fn read(bytes: &[u8], file: &Path) -> Result<Sides<scattered::Data>, FormatError> {
     let text = String::from_utf8_lossy(bytes);
     let mut source = Source::new(file, &text);
     let header = source.line("the line that names the file")?;

@@ -3,8 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use lobe_table::spherical_grid::SphericalGrid;
-use lobe_table::{Channels, Samples, Scatter};
+use lobe_table::{Channels, Scatter, specular, spherical};
 
 use crate::lines::shown;
 use crate::sheet::{Data, Part};
@@ -200,10 +199,10 @@ impl Header {
             let specular = Specular::new(scatter, [p0, p1], channels, values);
             Data::Specular(specular.ok_or_else(|| refused("angles that do not ascend strictly".into()))?)
         } else if self.param_type == "spherical_coordinate_system" {
-            let grid = SphericalGrid::new(scatter, [p0, p1, p2, p3], channels, values);
+            let grid = spherical::Data::new(scatter, [p0, p1, p2, p3], channels, values);
             Data::Spherical(grid.map_err(|error| refused(error.to_string()))?)
         } else {
-            let samples = Samples::new(scatter, [p0, p1, p2, p3], channels, values);
+            let samples = specular::Data::new(scatter, [p0, p1, p2, p3], channels, values);
             let samples = samples.and_then(|samples| match offsets {
                 Some(offsets) => samples.with_refraction(offsets),
                 None => Ok(samples),

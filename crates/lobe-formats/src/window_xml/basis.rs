@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use lobe_table::klems::{AngleBasis, Ring};
+use lobe_table::window::klems::{AngleBasis, Ring};
 
 /// Collects `AngleBasis` elements of a `DataDefinition`.
 #[derive(Default)]

@@ -8,9 +8,9 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::rc::Rc;
 
-use lobe_table::klems::{AngleBasis, KlemsMatrix};
-use lobe_table::tensor_tree::{Rank, TensorTree};
-use lobe_table::window::{Block, Component, Window};
+use lobe_table::window::klems::{AngleBasis, KlemsMatrix};
+use lobe_table::window::tensor_tree::{Rank, TensorTree};
+use lobe_table::window::{self, Block, Component};
 use quick_xml::Reader;
 use quick_xml::events::Event;
 
@@ -247,7 +247,7 @@ impl<'a> Document<'a> {
         let component = self.component(block, values)?;
         let bands = &mut self.result.bands;
         let band = *self.bands.entry(wavelength.to_ascii_lowercase()).or_insert_with(|| {
-            bands.push(Band { wavelength: wavelength.to_string(), window: Window::default() });
+            bands.push(Band { wavelength: wavelength.to_string(), window: window::Blocks::default() });
             bands.len() - 1
         });
         if bands[band].window.set(direction, component).is_some() {

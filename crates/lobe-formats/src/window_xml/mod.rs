@@ -11,7 +11,7 @@ mod write;
 
 use std::path::Path;
 
-use lobe_table::window::Window;
+use lobe_table::window;
 
 use crate::FormatError;
 
@@ -34,12 +34,12 @@ pub struct Band {
     /// The name in the file, such as `Visible`, or a wavelength in nm.
     pub wavelength: String,
     /// The values.
-    pub window: Window,
+    pub window: window::Blocks,
 }
 
 impl WindowXml {
     /// The values of a band by its name, in any case.
-    pub fn band(&self, wavelength: &str) -> Option<&Window> {
+    pub fn band(&self, wavelength: &str) -> Option<&window::Blocks> {
         self.bands.iter().find(|band| band.wavelength.eq_ignore_ascii_case(wavelength)).map(|band| &band.window)
     }
 }

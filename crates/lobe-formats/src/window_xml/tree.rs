@@ -3,7 +3,7 @@
 //! `tree = "{" tree x 2^d "}" | "{" number x 2^(d k) "}"`, with white space or commas between. A stack of open branches,
 //! never deeper than [`MAX_DEPTH`], takes the place of recursion.
 
-use lobe_table::tensor_tree::{MAX_DEPTH, Node, Rank, TensorTree};
+use lobe_table::window::tensor_tree::{MAX_DEPTH, Node, Rank, TensorTree};
 
 use super::document::{number, quoted};
 

@@ -3,8 +3,8 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use lobe_table::klems::AngleBasis;
-use lobe_table::tensor_tree::{Node, Rank, TensorTree};
+use lobe_table::window::klems::AngleBasis;
+use lobe_table::window::tensor_tree::{Node, Rank, TensorTree};
 use lobe_table::window::{Block, Component};
 use quick_xml::escape::escape;
 

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use lobe_table::{Channels, Samples, Scatter};
+use lobe_table::{Channels, Scatter, specular};
 
 use super::{AXES, XYZ};
 use crate::sdr::push_row;
@@ -20,7 +20,7 @@ use crate::{FormatError, Place};
 /// # Errors
 /// [`FormatError`] where the file cannot be written, the channels are neither one nor XYZ, the table has refraction
 /// offsets, or two knots are one in `f32` degrees.
-pub fn write(samples: &Samples, path: &Path) -> Result<(), FormatError> {
+pub fn write(samples: &specular::Data, path: &Path) -> Result<(), FormatError> {
     let refuse = |found: String, expected: &str| Err(FormatError::new(path, Place::File, found, expected));
     let (content, names): (_, &[&str]) = match samples.channels() {
         Channels::Mono => ("Monochrome", &["Monochrome"]),

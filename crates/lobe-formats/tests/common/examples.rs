@@ -4,11 +4,8 @@
 use std::f64::consts::PI;
 
 use lobe_formats::{Format, Sides, mbsdf, merl, pbsdf, rgl};
-use lobe_table::half_diff::HalfDiff;
-use lobe_table::mueller::Mueller;
-use lobe_table::rgl::{Images, Parts, Rgl};
-use lobe_table::spherical_grid::SphericalGrid;
-use lobe_table::{Channels, Scatter};
+use lobe_table::rgl::{Images, Parts};
+use lobe_table::{Channels, Scatter, half_diff, mueller, spherical};
 
 pub const DDR: &str = ";; small\nSource Measured\nTypeSym PlaneSymmetrical\nTypeColorModel RGB\nTypeData Intensity Relative\nsigma 2\n 0 60\n\
     sigmat\n 0 40\npsi 2 0 90\nphi 2\n 0 180\ntheta 2\n 0 90\nred\n kbdf 1 1 1 1\n def\n 1 2 3 4 1 2 3 4\n 1 2 3 4 1 2 3 4\n enddef\n\
@@ -113,7 +110,7 @@ pub fn tiny_rgl() -> Vec<u8> {
         let texels = (0..shape.iter().product()).map(|i| 0.5 + (i % 7) as f32).collect();
         Images::new("tiny", shape, texels).expect("valid images")
     };
-    let material = Rgl::new(Parts {
+    let material = lobe_table::rgl::Data::new(Parts {
         description: "tiny".into(),
         phi_i: vec![0.0],
         theta_i: vec![0.0, 1.5],
@@ -131,18 +128,18 @@ pub fn tiny_rgl() -> Vec<u8> {
 
 pub fn tiny_pbsdf() -> Vec<u8> {
     let knots = [vec![-3.0, 3.0], vec![0.0, 1.5], vec![0.5], vec![500.0, 600.0]];
-    pbsdf::to_bytes(&Mueller::new(knots, vec![0.25; 128]).expect("a valid material")).expect("bytes")
+    pbsdf::to_bytes(&mueller::Data::new(knots, vec![0.25; 128]).expect("a valid material")).expect("bytes")
 }
 
 pub fn tiny_merl() -> Vec<u8> {
-    merl::to_bytes(&HalfDiff::new([2, 1, 3], vec![0.5; 18]).expect("a valid material")).expect("bytes")
+    merl::to_bytes(&half_diff::Data::new([2, 1, 3], vec![0.5; 18]).expect("a valid material")).expect("bytes")
 }
 
 pub fn tiny_mbsdf() -> Vec<u8> {
     let side = |scatter, phis: &[f64]| {
         let thetas = vec![0.0, PI / 4.0];
         let (knots, values) = ([thetas.clone(), vec![0.0], thetas, phis.to_vec()], vec![0.5; 4 * phis.len()]);
-        let grid = SphericalGrid::new(scatter, knots, Channels::Mono, values).and_then(SphericalGrid::mirrored);
+        let grid = spherical::Data::new(scatter, knots, Channels::Mono, values).and_then(spherical::Data::mirrored);
         Some(grid.expect("a valid material"))
     };
     let reflection = side(Scatter::Reflection, &[0.0, PI / 2.0, PI]);

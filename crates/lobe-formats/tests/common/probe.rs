@@ -7,7 +7,7 @@ use lobe_formats::{Document, Format, FormatError, Specular};
 use lobe_scalar::Scalar;
 use lobe_table::rgl::{Reference, UniformOrder};
 use lobe_table::utia::Decode;
-use lobe_table::{Edges, Samples, Table, reference};
+use lobe_table::{Edges, specular, specular::reference};
 
 use crate::memory::peak;
 
@@ -107,13 +107,13 @@ fn each(mut eval: impl FnMut([f64; 3], [f64; 3])) {
 }
 
 /// By the reference, and in lanes.
-fn table(samples: &Samples) {
+fn table(samples: &specular::Data) {
     let edges = Edges::default();
     let channels = samples.channels().count();
     let (mut exact, mut rounded) = (vec![0.0; channels], vec![0.0; channels]);
     each(|wi, wo| reference::eval(samples, &edges, wi, wo, &mut exact));
     // A table may have more values than a lane can index, or a circle that cannot be closed.
-    if let Ok(table) = Table::new(samples, &edges) {
+    if let Ok(table) = specular::Table::new(samples, &edges) {
         let single = |direction: [f64; 3]| direction.map(|x| x as f32);
         each(|wi, wo| table.eval(Scalar::<1>, single(wi), single(wo), &mut rounded));
     }

@@ -2,8 +2,7 @@
 
 use std::f64::consts::PI;
 
-use lobe_table::half_diff::HalfDiff;
-use lobe_table::{Channels, Invalid};
+use lobe_table::{Channels, Invalid, half_diff};
 use rayon::prelude::*;
 
 use crate::Surface;
@@ -22,7 +21,11 @@ const NOT_MEASURED: f32 = -1.0;
 ///
 /// # Errors
 /// [`Invalid`] where the channels are not RGB, there are no bins, or a value is not finite.
-pub fn measure(surface: &dyn Surface, bins: [usize; 3], progress: impl Fn() + Sync) -> Result<HalfDiff, Invalid> {
+pub fn measure(
+    surface: &dyn Surface,
+    bins: [usize; 3],
+    progress: impl Fn() + Sync,
+) -> Result<half_diff::Data, Invalid> {
     if *surface.channels() != Channels::Rgb {
         let found = surface.channels().names().join(" ");
         return Err(Invalid { part: "channels", found, expected: "R G B".into() });
@@ -38,7 +41,7 @@ pub fn measure(surface: &dyn Surface, bins: [usize; 3], progress: impl Fn() + Sy
         })
         .collect();
     let values = (0..3).flat_map(|channel| planes.iter().flatten().map(move |texel| texel[channel])).collect();
-    HalfDiff::new(bins, values)
+    half_diff::Data::new(bins, values)
 }
 
 fn measure_bin(surface: &dyn Surface, bin: [usize; 3], bins: [usize; 3]) -> [f32; 3] {

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use lobe_table::klems::{AngleBasis, KlemsError, KlemsMatrix};
 use lobe_table::window::Block;
+use lobe_table::window::klems::{AngleBasis, KlemsError, KlemsMatrix};
 use rayon::prelude::*;
 
 use crate::Surface;

@@ -7,7 +7,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use lobe_table::rgl::{Blend, Images, Parts, Rgl, Warp};
+use lobe_table::rgl::{self, Blend, Images, Parts, Warp};
 use lobe_table::{Channels, Invalid};
 use rayon::prelude::*;
 
@@ -55,7 +55,7 @@ const RANDOM: f64 = 1e-4;
 const EVEN: f64 = 0.5;
 
 /// Measures a surface into a material that reproduces it at every node: at the knots of the light and the texels of its
-/// images. Values are those of [`Rgl`]: `f cos(theta_o)` over `ndf / (4 sigma)`.
+/// images. Values are those of [`rgl::Data`]: `f cos(theta_o)` over `ndf / (4 sigma)`.
 ///
 /// Texels whose viewer is below the surface hold 0. Directions of the light are shared out over the threads of
 /// rayon; `progress` is called after each of them, and for each row of the microfacets.
@@ -63,7 +63,11 @@ const EVEN: f64 = 0.5;
 /// # Errors
 /// [`Invalid`] where the channels are neither RGB nor ascending wavelengths, the resolution is below its least, or a value
 /// is not finite.
-pub fn measure(surface: &dyn Surface, resolution: Resolution, progress: impl Fn() + Sync) -> Result<Rgl, Invalid> {
+pub fn measure(
+    surface: &dyn Surface,
+    resolution: Resolution,
+    progress: impl Fn() + Sync,
+) -> Result<rgl::Data, Invalid> {
     let Resolution { theta_i, phi_i, ndf, microfacets, spectra } = resolution;
     if theta_i < 2 || phi_i == 0 || phi_i == 2 || ndf < 2 || microfacets < 2 || spectra < 2 {
         return Err(Invalid {
@@ -97,7 +101,7 @@ pub fn measure(surface: &dyn Surface, resolution: Resolution, progress: impl Fn(
     let (values, luminance): (Vec<_>, Vec<_>) = slices.into_iter().unzip();
     let channels = surface.channels().count();
     let name = if *surface.channels() == Channels::Rgb { "rgb" } else { "spectra" };
-    Rgl::new(Parts {
+    rgl::Data::new(Parts {
         description: format!("Resampled by lobe {}", env!("CARGO_PKG_VERSION")),
         phi_i: azimuths,
         theta_i: zeniths,

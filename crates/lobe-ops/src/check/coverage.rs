@@ -5,9 +5,8 @@ use std::f64::consts::{PI, TAU};
 
 use lobe_formats::Document;
 use lobe_formats::sheet::Data;
-use lobe_table::scattered::Scattered;
 use lobe_table::window::Block;
-use lobe_table::{AXIS_NAMES, Samples};
+use lobe_table::{scattered, specular, specular::AXIS_NAMES};
 
 use super::{Finding, Status, degrees, part_name, percent};
 use crate::directions::spherical;
@@ -54,7 +53,7 @@ pub(super) fn check(document: &Document) -> Vec<Finding> {
 }
 
 /// Nodes of a table above the horizon that are exactly dark, and which share of the hemisphere they are.
-fn dark_nodes(samples: &Samples, part: &str) -> Option<Finding> {
+fn dark_nodes(samples: &specular::Data, part: &str) -> Option<Finding> {
     let channels = samples.channels().count();
     let (mut dark, mut above) = (0_usize, 0_usize);
     for (node, texel) in nodes(samples).zip(samples.values().chunks_exact(channels)) {
@@ -78,12 +77,12 @@ fn dark_nodes(samples: &Samples, part: &str) -> Option<Finding> {
 }
 
 /// Whether nobody looked anywhere but in the plane of incidence, so that no integral over the hemisphere is a measurement.
-pub(super) fn is_in_plane(data: &Scattered) -> bool {
+pub(super) fn is_in_plane(data: &scattered::Data) -> bool {
     data.samples().all(|([_, phi_i, theta, phi], _)| theta < 1e-3 || (phi - phi_i).sin().abs() < 1e-3)
 }
 
 /// For which light the brightest sample is toward it: such materials are often read the wrong way round.
-fn backward(data: &Scattered, part: &str) -> Option<Finding> {
+fn backward(data: &scattered::Data, part: &str) -> Option<Finding> {
     let mut brightest: Vec<([f64; 4], f64)> = Vec::new();
     for (angles, texel) in data.samples() {
         let value: f64 = texel.iter().map(|&value| f64::from(value)).sum();
@@ -115,7 +114,7 @@ const RINGS: usize = 6;
 const SECTORS: usize = 12;
 
 /// Which light there was, and in how many sectors of the hemisphere somebody looked.
-fn of_samples(data: &Scattered, part: &str) -> Vec<Finding> {
+fn of_samples(data: &scattered::Data, part: &str) -> Vec<Finding> {
     let mut findings = Vec::new();
     let incidences: Vec<[f64; 2]> = data.incidences().collect();
     let thetas: BTreeSet<i64> =

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use lobe_formats::Document;
 use lobe_formats::sheet::Data;
-use lobe_table::scattered::Scattered;
+use lobe_table::scattered;
 
 use super::coverage::is_in_plane;
 use super::{Finding, Status, Thoroughness, degrees, percent};
@@ -63,7 +63,7 @@ pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness, progress: im
     findings
 }
 
-fn scattered(subject: &Subject, aspect: Aspect) -> Option<&Scattered> {
+fn scattered(subject: &Subject, aspect: Aspect) -> Option<&scattered::Data> {
     match (&subject.document, subject.part(aspect)) {
         (Document::Scattered(measured), _) => Some(&measured.data),
         (_, Some(Data::Scattered(data))) => Some(data),
@@ -72,7 +72,7 @@ fn scattered(subject: &Subject, aspect: Aspect) -> Option<&Scattered> {
 }
 
 /// What can be said without an integral: no albedo is above pi times the largest value.
-fn in_plane(data: &Scattered, part: &str) -> Vec<Finding> {
+fn in_plane(data: &scattered::Data, part: &str) -> Vec<Finding> {
     let text = "measured in the plane of incidence only, so there is no albedo".into();
     let mut findings = vec![Finding::new("energy", part, Status::Note, text)];
     let largest = data.samples().flat_map(|(_, texel)| texel).fold(0.0, |most: f64, &value| most.max(f64::from(value)));

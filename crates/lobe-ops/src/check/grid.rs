@@ -2,8 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use lobe_table::spherical_grid::SphericalGrid;
-use lobe_table::{AXIS_NAMES, Samples};
+use lobe_table::{specular, specular::AXIS_NAMES, spherical};
 
 use super::{Finding, Status, degrees, percent};
 
@@ -25,7 +24,7 @@ const SAME: f64 = 1e-3;
 const APART: f64 = 0.05;
 
 impl<'a> Grid<'a> {
-    pub(super) fn of_table(samples: &'a Samples) -> Self {
+    pub(super) fn of_table(samples: &'a specular::Data) -> Self {
         Grid {
             names: AXIS_NAMES,
             knots: samples.knots(),
@@ -36,7 +35,7 @@ impl<'a> Grid<'a> {
         }
     }
 
-    pub(super) fn of_spherical(grid: &'a SphericalGrid) -> Self {
+    pub(super) fn of_spherical(grid: &'a spherical::Data) -> Self {
         Grid {
             names: lobe_table::scattered::ANGLE_NAMES,
             knots: grid.knots(),

@@ -5,21 +5,21 @@ use std::path::Path;
 
 use lobe::{Material, Options};
 use lobe_formats::{Document, Format, Measured};
-use lobe_table::{Channels, Samples, Scatter};
+use lobe_table::{Channels, Scatter, specular};
 
 use super::*;
 use crate::testing::degrees as radians;
 
 const THETAS: [f64; 6] = [0.0, 5.0, 20.0, 60.0, 120.0, 180.0];
 
-fn subject(samples: Samples, tis: Vec<f32>) -> Subject {
+fn subject(samples: specular::Data, tis: Vec<f32>) -> Subject {
     let document = Document::Table(Measured { data: samples, source: Vec::new(), tis });
     let material = Material::new(Path::new("test"), Format::Zemax, document.clone(), &Options::default());
     Subject::new(Format::Zemax, document, material.expect("a material"), &Options::default())
 }
 
 /// A table over the whole circle of which the values are given by sigma, theta and phi in degrees.
-fn table(phis: &[f64], f: impl Fn(f64, f64, f64) -> f64) -> Samples {
+fn table(phis: &[f64], f: impl Fn(f64, f64, f64) -> f64) -> specular::Data {
     let sigmas = [0.0, 30.0, 60.0, 85.0];
     let mut values = Vec::new();
     for sigma in sigmas {
@@ -28,12 +28,12 @@ fn table(phis: &[f64], f: impl Fn(f64, f64, f64) -> f64) -> Samples {
         }
     }
     let knots = [radians(&sigmas), vec![0.0], radians(&THETAS), radians(phis)];
-    Samples::new(Scatter::Reflection, knots, Channels::Mono, values).expect("a table")
+    specular::Data::new(Scatter::Reflection, knots, Channels::Mono, values).expect("a table")
 }
 
 const CIRCLE: [f64; 5] = [0.0, 90.0, 180.0, 270.0, 360.0];
 
-fn found(samples: Samples, tis: Vec<f32>, check: &str) -> Vec<Finding> {
+fn found(samples: specular::Data, tis: Vec<f32>, check: &str) -> Vec<Finding> {
     let all = super::check(&subject(samples, tis), &Thoroughness::default(), |_| {});
     all.into_iter().filter(|finding| finding.check == check).collect()
 }

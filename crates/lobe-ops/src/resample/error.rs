@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use lobe::{Brdf, OpenError};
-use lobe_table::coords::angles_to_directions;
-use lobe_table::{Edges, Samples};
+use lobe_table::specular::coords::angles_to_directions;
+use lobe_table::{Edges, specular};
 use serde::Serialize;
 
 use crate::directions::quasi_random;
@@ -42,7 +42,7 @@ pub(super) const LOWEST: f64 = 0.06;
 pub fn error(
     scattering: &dyn Scattering,
     aspect: Aspect,
-    samples: &Samples,
+    samples: &specular::Data,
     limit: f64,
     count: usize,
 ) -> Result<Resampling, OpenError> {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use lobe_table::{Samples, SamplesError};
+use lobe_table::{GridError, specular};
 
 use super::error::LOWEST;
 use super::{error, measure};
@@ -25,7 +25,7 @@ pub struct Bound {
 #[derive(Clone, Debug)]
 pub struct Chosen {
     /// The table.
-    pub samples: Samples,
+    pub samples: specular::Data,
     /// The error that was found, on directions that had no part in the choice, in the terms of the bound.
     pub error: f64,
 }
@@ -74,7 +74,7 @@ pub fn choose(
     axes: &[Knots; 4],
     bound: Bound,
     progress: impl Fn(f64),
-) -> Result<Chosen, SamplesError> {
+) -> Result<Chosen, GridError> {
     let free = axes.iter().filter(|axis| matches!(axis, Knots::Choose(knots) if knots.len() > 1)).count().max(1);
     let dense = axes.each_ref().map(|axis| axis.all().to_vec());
     let grid = Grid::new(&measure(scattering, aspect, dense, |done| progress(0.8 * done))?, bound);
@@ -128,7 +128,7 @@ struct Grid {
 }
 
 impl Grid {
-    fn new(samples: &Samples, bound: Bound) -> Self {
+    fn new(samples: &specular::Data, bound: Bound) -> Self {
         let all = samples.channels().count();
         let chosen: Vec<usize> =
             (0..all.min(CHANNELS)).map(|i| i * (all - 1) / (all.min(CHANNELS) - 1).max(1)).collect();

@@ -10,26 +10,26 @@ pub use error::{Resampling, error};
 pub use knots::{Bound, Chosen, Knots, PROBES, candidates, choose};
 
 use lobe_model::goniometer::lift;
-use lobe_table::coords::angles_to_directions;
-use lobe_table::{Samples, SamplesError};
+use lobe_table::specular::coords::angles_to_directions;
+use lobe_table::{GridError, specular};
 
 use crate::scattering::eval_pairs;
 use crate::{Aspect, Scattering};
 
-/// Measures a material at every node of `knots`: sigma, psi, theta and phi in radians, as in [`Samples`]. `progress` is
+/// Measures a material at every node of `knots`: sigma, psi, theta and phi in radians, as in [`specular::Data`]. `progress` is
 /// told the share that is done, now and then.
 ///
 /// A node below 3.4 degrees of elevation takes the value of the same azimuth a little higher (see [`lift`]): below the
 /// horizon there is no value, and a table needs one there to interpolate toward it.
 ///
 /// # Errors
-/// [`SamplesError`] where the knots make no table, or a value of the material is not finite.
+/// [`GridError`] where the knots make no table, or a value of the material is not finite.
 pub fn measure(
     scattering: &dyn Scattering,
     aspect: Aspect,
     knots: [Vec<f64>; 4],
     progress: impl Fn(f64),
-) -> Result<Samples, SamplesError> {
+) -> Result<specular::Data, GridError> {
     let [sigmas, psis, thetas, phis] = &knots;
     let mut values = Vec::new();
     for (index, &sigma) in sigmas.iter().enumerate() {
@@ -40,7 +40,7 @@ pub fn measure(
         }
         progress((index + 1) as f64 / sigmas.len() as f64);
     }
-    Samples::new(aspect.scatter, knots, scattering.channels().clone(), values)
+    specular::Data::new(aspect.scatter, knots, scattering.channels().clone(), values)
 }
 
 /// The directions at which the value of a node is measured.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use lobe::{Channels, Edges, Options, Samples, Scatter};
+use lobe::{Channels, Edges, Options, Scatter, specular};
 use lobe_model::{Conductor, Ggx};
 use lobe_render::light::{AreaLight, Environment, Light};
 use lobe_render::shader::{Backend, Delta, DeltaShader, ModelShader, Shader, open, open_sheet};
@@ -25,7 +25,7 @@ fn even(folder: &Path, scatter: Scatter, albedo: f32) -> PathBuf {
     let steps = |n: usize, step: f64| (0..n).map(|i| (step * i as f64).to_radians()).collect::<Vec<_>>();
     let knots = [steps(10, 10.0), steps(3, 120.0), steps(19, 10.0), steps(12, 30.0)];
     let values = vec![albedo * std::f32::consts::FRAC_1_PI; 10 * 3 * 19 * 12];
-    let samples = Samples::new(scatter, knots, Channels::Mono, values).unwrap();
+    let samples = specular::Data::new(scatter, knots, Channels::Mono, values).unwrap();
     let path = folder.join(if scatter == Scatter::Reflection { "even.ddr" } else { "even.ddt" });
     lobe::formats::ddr::write(&samples, &path).unwrap();
     path

@@ -1,10 +1,10 @@
-//! A [`HalfDiff`] made ready to be evaluated in SIMD lanes.
+//! [`Data`] made ready to be evaluated in SIMD lanes.
 
 use std::f32::consts::FRAC_2_PI;
 
 use lobe_lane::{Block, Floats, Ints, Kernel, Lanes};
 
-use super::{HalfDiff, Lookup};
+use super::{Data, Lookup};
 use crate::directions::{BlockOfDirections, Directions};
 use crate::invalid::Invalid;
 use crate::passes::batch::{Batch, Blockwise};
@@ -12,20 +12,20 @@ use crate::passes::block::{BLOCK, Column};
 use crate::passes::half_vector::HalfVector;
 use crate::passes::texels::{self, Tile};
 use crate::passes::weights::{self, MAX_CORNERS};
-use crate::storage::Storage;
+use lobe_memory::Storage;
 
 /// Floats of a bin: three channels, and 1 where the bin was measured. All four are 0 where it was not.
 const TEXEL: usize = 4;
 
-/// A [`HalfDiff`] laid out for evaluation in SIMD lanes.
+/// [`Data`] laid out for evaluation in SIMD lanes.
 ///
-/// The values are those of [`HalfDiff::eval_nearest`] and [`HalfDiff::eval_linear`], in `f32`: `f` in 1/sr, linear RGB. The
+/// The values are those of [`Data::eval_nearest`] and [`Data::eval_linear`], in `f32`: `f` in 1/sr, linear RGB. The
 /// directions need not be unit vectors, but their lengths have to be between 1e-15 and 1e15. A query that is within rounding
-/// of the border of two bins may be given to either, see [`HalfDiff::candidates`].
+/// of the border of two bins may be given to either, see [`Data::candidates`].
 ///
 /// In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
-pub struct HalfDiffTable {
+pub struct Table {
     bins: [usize; 3],
     period: f32,
     /// Floats from a bin to the next along `theta_h`, `theta_d` and `phi_d`.
@@ -34,12 +34,12 @@ pub struct HalfDiffTable {
     texels: Storage<f32>,
 }
 
-impl HalfDiffTable {
+impl Table {
     /// Lays out the bins: 16 bytes each.
     ///
     /// # Errors
     /// [`Invalid`] where the bins are more than the 32-bit index of a lane reaches.
-    pub fn new(data: &HalfDiff) -> Result<Self, Invalid> {
+    pub fn new(data: &Data) -> Result<Self, Invalid> {
         let [h, d, p] = data.bins();
         let row = (p + 1).checked_mul(TEXEL);
         let slice = row.and_then(|row| row.checked_mul(d));
@@ -62,7 +62,7 @@ impl HalfDiffTable {
                 }
             }
         }
-        Ok(HalfDiffTable { bins: [h, d, p], period: data.period() as f32, strides: [slice, row, TEXEL], texels })
+        Ok(Table { bins: [h, d, p], period: data.period() as f32, strides: [slice, row, TEXEL], texels })
     }
 
     /// Bytes of memory that the table takes.
@@ -97,7 +97,7 @@ impl HalfDiffTable {
 
 #[derive(Clone, Copy)]
 struct Evaluator<'a> {
-    table: &'a HalfDiffTable,
+    table: &'a Table,
     lookup: Lookup,
 }
 
@@ -156,7 +156,7 @@ impl Blockwise for Evaluator<'_> {
     }
 }
 
-impl HalfDiffTable {
+impl Table {
     /// Where the next bins of `theta_h` and `theta_d` are; those of `phi_d` come along.
     #[inline(always)]
     fn corners(&self) -> [usize; 4] {

@@ -3,7 +3,7 @@
 //! Matusik et al., "A Data-Driven Reflectance Model", ACM TOG 22(3), 2003, in the coordinates of Rusinkiewicz, "A New
 //! Change of Variables for Efficient BRDF Representation", 1998.
 //!
-//! [`HalfDiff`] are the bins as they were measured, with their evaluation in `f64`; a [`HalfDiffTable`] is made ready for
+//! [`Data`] are the bins as they were measured, with their evaluation in `f64`; a [`Table`] is made ready for
 //! evaluation in SIMD lanes.
 
 mod lanes;
@@ -15,7 +15,7 @@ use std::f64::consts::{PI, TAU};
 
 use crate::invalid::{Invalid, count, finite};
 
-pub use lanes::HalfDiffTable;
+pub use lanes::Table;
 
 /// How to look up values on a grid of half and difference angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -33,12 +33,12 @@ pub enum Lookup {
 /// the peak; the other two axes are uniform. `theta_d` spans a quarter turn. `phi_d` spans half a turn, which
 /// reciprocity repeats; or a whole one in the tables of 360 bins of materials that are not reciprocal.
 #[derive(Clone, Debug, PartialEq)]
-pub struct HalfDiff {
+pub struct Data {
     bins: [usize; 3],
     values: Vec<f32>,
 }
 
-impl HalfDiff {
+impl Data {
     /// Checks that there are `[channel][theta_h][theta_d][phi_d]` values, with three channels, and that they are finite.
     /// `bins` counts `theta_h`, `theta_d`, `phi_d`. Values are `f` in 1/sr, linear RGB; negative ones were not measured.
     ///
@@ -50,7 +50,7 @@ impl HalfDiff {
         }
         count("values", values.len(), &[3, bins[0], bins[1], bins[2]])?;
         finite("values", &values)?;
-        Ok(HalfDiff { bins, values })
+        Ok(Data { bins, values })
     }
 
     /// How many bins `theta_h`, `theta_d` and `phi_d` have.

@@ -1,14 +1,14 @@
-//! The evaluation of a [`HalfDiff`] one query at a time in `f64`: what the lanes are compared with.
+//! The evaluation of [`Data`] one query at a time in `f64`: what the lanes are compared with.
 
 use std::f64::consts::FRAC_PI_2;
 use std::ops::RangeInclusive;
 
-use super::HalfDiff;
+use super::Data;
 use crate::direction::half_difference;
 use crate::passes::half_vector;
 use crate::passes::weights::SUM;
 
-impl HalfDiff {
+impl Data {
     /// The bin that a pair of directions falls into.
     pub fn bin(&self, wi: [f64; 3], wo: [f64; 3]) -> [usize; 3] {
         self.coordinates(wi, wo).map(|(x, n)| (x as usize).min(n - 1))
@@ -56,7 +56,7 @@ impl HalfDiff {
         if total > 0.0 { sum.map(|value| value / total) } else { sum }
     }
 
-    /// All values that [`eval_nearest`](Self::eval_nearest) may have in the lanes of a [`HalfDiffTable`](super::HalfDiffTable): the one of the bin,
+    /// All values that [`eval_nearest`](Self::eval_nearest) may have in the lanes of a [`Table`](crate::half_diff::Table): the one of the bin,
     /// and where the directions are within rounding of another bin, the one of that too.
     pub fn candidates(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<[f64; 3]> {
         if wi[2] <= 0.0 || wo[2] <= 0.0 {
@@ -89,7 +89,7 @@ impl HalfDiff {
         })
     }
 
-    /// How far, in bins along each axis, the place of a pair in the lanes of a [`HalfDiffTable`](super::HalfDiffTable) may be from the true one.
+    /// How far, in bins along each axis, the place of a pair in the lanes of a [`Table`](crate::half_diff::Table) may be from the true one.
     ///
     /// The bins of `theta_h` are narrowest at the peak, and near it and near `theta_d = 0` an azimuth is hardly known.
     pub fn rounding(&self, wi: [f64; 3], wo: [f64; 3]) -> [f64; 3] {
@@ -106,7 +106,7 @@ impl HalfDiff {
         ]
     }
 
-    /// How far [`eval_linear`](Self::eval_linear) may be off in the lanes of a [`HalfDiffTable`](super::HalfDiffTable), in parts
+    /// How far [`eval_linear`](Self::eval_linear) may be off in the lanes of a [`Table`](crate::half_diff::Table), in parts
     /// of the largest difference of two values, where all bins were measured.
     pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
         // Between the middles of two bins, a bin apart, the value changes by their difference.

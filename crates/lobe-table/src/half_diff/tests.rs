@@ -12,8 +12,8 @@ fn pair(theta_h: f64, theta_d: f64, phi_d: f64) -> ([f64; 3], [f64; 3]) {
     (tilt(spherical(theta_d, phi_d)), tilt(spherical(theta_d, phi_d + PI)))
 }
 
-fn table(bins: [usize; 3], value: impl Fn(usize) -> f32) -> HalfDiff {
-    HalfDiff::new(bins, (0..3 * bins.iter().product::<usize>()).map(value).collect()).expect("a valid table")
+fn table(bins: [usize; 3], value: impl Fn(usize) -> f32) -> Data {
+    Data::new(bins, (0..3 * bins.iter().product::<usize>()).map(value).collect()).expect("a valid table")
 }
 
 #[test]
@@ -72,7 +72,7 @@ fn the_last_bins_take_their_upper_ends() {
 
 #[test]
 fn tables_that_do_not_fit_are_named() {
-    assert_eq!(HalfDiff::new([0, 5, 6], vec![]).expect_err("no bins").part, "dims");
-    assert_eq!(HalfDiff::new([1, 1, 1], vec![0.0; 2]).expect_err("two values").part, "values");
-    assert_eq!(HalfDiff::new([1, 1, 1], vec![f32::NAN; 3]).expect_err("NaN").part, "values");
+    assert_eq!(Data::new([0, 5, 6], vec![]).expect_err("no bins").part, "dims");
+    assert_eq!(Data::new([1, 1, 1], vec![0.0; 2]).expect_err("two values").part, "values");
+    assert_eq!(Data::new([1, 1, 1], vec![f32::NAN; 3]).expect_err("NaN").part, "values");
 }

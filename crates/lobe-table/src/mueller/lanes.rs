@@ -1,11 +1,11 @@
-//! What unpolarised light sees of a [`Mueller`], made ready to be evaluated in SIMD lanes.
+//! What unpolarised light sees of [`Data`], made ready to be evaluated in SIMD lanes.
 
 use lobe_lane::{Block, Floats, Kernel, Lanes};
 
-use super::{AXES, ELEMENTS, Mueller};
-use crate::axis::Axis;
+use super::{AXES, Data, ELEMENTS};
 use crate::directions::{BlockOfDirections, Directions};
-use crate::edges::Edge;
+use crate::grid::axis::Axis;
+use crate::grid::edges::Edge;
 use crate::invalid::Invalid;
 use crate::passes::batch::{Batch, Blockwise};
 use crate::passes::block::Column;
@@ -13,7 +13,7 @@ use crate::passes::cells;
 use crate::passes::half_vector::HalfVector;
 use crate::passes::texels;
 use crate::passes::weights::{self, MAX_CORNERS};
-use crate::storage::Storage;
+use lobe_memory::Storage;
 
 /// Stored where nothing was measured. However small its part in a blend, the result is far below 0 and becomes 0.
 const UNMEASURED: f32 = f32::MIN;
@@ -21,11 +21,11 @@ const UNMEASURED: f32 = f32::MIN;
 /// The values that unpolarised light has, laid out for evaluation in SIMD lanes: the first element of the matrix, at each
 /// wavelength of the table.
 ///
-/// The values are those of [`Mueller::in_plane`], in `f32`: `f` in 1/sr, without the cosine. The directions need not be unit
+/// The values are those of [`Data::in_plane`], in `f32`: `f` in 1/sr, without the cosine. The directions need not be unit
 /// vectors, but their lengths have to be between 1e-15 and 1e15. In strict form
 /// ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
-pub struct MuellerTable {
+pub struct Table {
     channels: usize,
     /// `phi_d`, `theta_d` and `theta_h`.
     axes: [Axis; 3],
@@ -37,12 +37,12 @@ pub struct MuellerTable {
     texels: Storage<f32>,
 }
 
-impl MuellerTable {
+impl Table {
     /// Lays out the first elements: 4 bytes each, a sixteenth of the matrices.
     ///
     /// # Errors
     /// [`Invalid`] names an axis, or `M` where the elements are more than the 32-bit index of a lane reaches.
-    pub fn new(data: &Mueller) -> Result<Self, Invalid> {
+    pub fn new(data: &Data) -> Result<Self, Invalid> {
         let axis = |index: usize| {
             let knots: Vec<f64> = data.knots()[index].iter().map(|knot| f64::from(*knot)).collect();
             Axis::new(&knots, Edge::Clamp)
@@ -72,7 +72,7 @@ impl MuellerTable {
         let corners = std::array::from_fn(|corner| {
             (0..3).map(|axis| if corner >> (2 - axis) & 1 == 1 { steps[axis] } else { 0 }).sum()
         });
-        Ok(MuellerTable { channels, axes, strides, corners, texels })
+        Ok(Table { channels, axes, strides, corners, texels })
     }
 
     /// How many wavelengths there are.
@@ -111,7 +111,7 @@ pub(crate) struct Scratch {
     weights: [Column; MAX_CORNERS],
 }
 
-impl Blockwise for &MuellerTable {
+impl Blockwise for &Table {
     type Scratch = Scratch;
     const SCRATCH: Scratch =
         Scratch { angles: HalfVector::ZERO, base: Column::<i32>::ZERO, weights: [Column::<f32>::ZERO; MAX_CORNERS] };

@@ -4,7 +4,7 @@
 //! isotropic; matrices are tabulated over the coordinates of Rusinkiewicz, in Stokes frames that follow the plane of
 //! the two directions.
 //!
-//! [`Mueller`] are the matrices as they were measured, with their evaluation in `f64`; a [`MuellerTable`] has what
+//! [`Data`] are the matrices as they were measured, with their evaluation in `f64`; a [`Table`] has what
 //! unpolarised light sees of them, made ready for evaluation in SIMD lanes.
 
 mod lanes;
@@ -14,7 +14,7 @@ mod tests;
 
 use crate::invalid::{Invalid, ascending, count};
 
-pub use lanes::MuellerTable;
+pub use lanes::Table;
 pub use reference::{coordinates, plane_normal, rounding, stokes_basis};
 
 /// A 4 x 4 matrix, `[row][column]`, that turns a Stokes vector of the incoming light into one of the outgoing light.
@@ -25,15 +25,15 @@ const ELEMENTS: usize = 16;
 
 /// Tabulated Mueller matrices.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mueller {
+pub struct Data {
     knots: [Vec<f32>; 4],
     values: Vec<f32>,
 }
 
-/// The axes of a [`Mueller`] table, with the names that the file format gives them.
+/// The axes of the tables, with the names that the file format gives them.
 pub const AXES: [&str; 4] = ["phi_d", "theta_d", "theta_h", "wvls"];
 
-impl Mueller {
+impl Data {
     /// Checks the knots of `phi_d`, `theta_d`, `theta_h`, in radians, and the wavelengths in nm, all ascending, and that
     /// there is a matrix for each combination: `[phi_d][theta_d][theta_h][wavelength][row][column]`.
     ///
@@ -49,7 +49,7 @@ impl Mueller {
         count("M", values.len(), &[p, d, h, w, 4, 4])?;
         match values.iter().position(|v| v.is_infinite()) {
             Some(at) => Err(Invalid::new("M", format!("{} at index {at}", values[at]), "finite numbers, or NaN")),
-            None => Ok(Mueller { knots, values }),
+            None => Ok(Data { knots, values }),
         }
     }
 

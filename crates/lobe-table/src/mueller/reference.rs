@@ -1,14 +1,14 @@
-//! The evaluation of a [`Mueller`] one query at a time in `f64`: what the lanes are compared with.
+//! The evaluation of [`Data`] one query at a time in `f64`: what the lanes are compared with.
 
 use std::f64::consts::PI;
 
-use super::{ELEMENTS, Matrix, Mueller};
+use super::{Data, ELEMENTS, Matrix};
 use crate::direction::{Vector, cross, dot, half_difference, normalize, phi, rotate_z};
-use crate::knots::cell;
+use crate::grid::knots::cell;
 use crate::passes::half_vector;
 use crate::passes::weights::SUM;
 
-impl Mueller {
+impl Data {
     /// The Mueller matrix in 1/sr, without the cosine, for light that comes from `wi` and leaves along `wo`.
     ///
     /// It maps Stokes vectors with the x axis [`stokes_basis`]`(-wi)` to such with the x axis [`stokes_basis`]`(wo)`.
@@ -54,7 +54,7 @@ impl Mueller {
         Some(matrix)
     }
 
-    /// How far a value may be off in the lanes of a [`MuellerTable`](super::MuellerTable), in parts of the largest first element
+    /// How far a value may be off in the lanes of a [`Table`](crate::mueller::Table), in parts of the largest first element
     /// of a matrix, where all matrices around were measured.
     pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
         let at = coordinates(wi, wo);
@@ -79,7 +79,7 @@ pub fn coordinates(wi: [f64; 3], wo: [f64; 3]) -> [f64; 3] {
     [phi_d, theta_d, theta_h]
 }
 
-/// How far, in radians, the [`coordinates`] of a pair may be off in the lanes of a [`MuellerTable`](super::MuellerTable).
+/// How far, in radians, the [`coordinates`] of a pair may be off in the lanes of a [`Table`](crate::mueller::Table).
 pub fn rounding([_, theta_d, theta_h]: [f64; 3]) -> [f64; 3] {
     let [theta_h, theta_d, phi_d] = half_vector::rounding(theta_h, theta_d);
     [phi_d, theta_d, theta_h]

@@ -1,9 +1,9 @@
 use super::*;
 use crate::direction::{dot, spherical};
 
-fn material(value: impl Fn(usize) -> f32) -> Mueller {
+fn material(value: impl Fn(usize) -> f32) -> Data {
     let knots = [vec![-3.1, 0.5, 3.1], vec![0.0, 0.8, 1.5], vec![0.0, 1.5], vec![500.0, 600.0]];
-    Mueller::new(knots, (0..3 * 3 * 2 * 2 * 16).map(value).collect()).expect("a valid table")
+    Data::new(knots, (0..3 * 3 * 2 * 2 * 16).map(value).collect()).expect("a valid table")
 }
 
 fn near(a: Matrix, b: Matrix) -> bool {
@@ -50,7 +50,7 @@ fn what_was_not_measured_is_dark() {
 
 #[test]
 fn tables_that_do_not_fit_are_named() {
-    let new = |phi_d: Vec<f32>, n| Mueller::new([phi_d, vec![0.0], vec![0.0], vec![500.0]], vec![0.0; n]);
+    let new = |phi_d: Vec<f32>, n| Data::new([phi_d, vec![0.0], vec![0.0], vec![500.0]], vec![0.0; n]);
     assert_eq!(new(vec![0.0, 1.0], 32).map(|m| m.values().len()), Ok(32));
     assert_eq!(new(vec![0.0, 1.0], 16).expect_err("too few").part, "M");
     assert_eq!(new(vec![1.0, 0.0], 32).expect_err("descending").part, "phi_d");

@@ -4,10 +4,10 @@ use lobe_lane::{Floats, Kernel, Lanes, Mask};
 use thiserror::Error;
 
 use super::{angles, search, texels};
-use crate::axis::Axis;
 use crate::directions::{BlockOfDirections, Directions};
+use crate::grid::axis::Axis;
 use crate::passes::block::BLOCK;
-use crate::{AXIS_NAMES, AxisError, Edge, Edges, Samples, Scatter};
+use crate::{AxisError, Edge, Edges, Scatter, specular, specular::AXIS_NAMES};
 
 /// Floats hold every integer up to this one, so no more texels can be told apart.
 const MAX_TEXELS: usize = 1 << 24;
@@ -15,7 +15,7 @@ const MAX_TEXELS: usize = 1 << 24;
 /// An RGB table in specular coordinates, three-dimensional (isotropic) or four-dimensional, evaluated as in the paper.
 ///
 /// Sigma and theta are clamped at their ends, psi and phi close the circle, and values below 0 become 0: the default
-/// [`Edges`]. Directions and results are those of [`Table`](crate::Table).
+/// [`Edges`]. Directions and results are those of [`Table`](crate::specular::Table).
 #[derive(Clone, Debug)]
 pub struct PaperTable {
     axes: [Axis; 4],
@@ -51,7 +51,7 @@ impl PaperTable {
     /// # Errors
     /// For a BTDF, for other than three channels, for an axis but psi with a single knot, and for more texels than a
     /// float can count.
-    pub fn new(samples: &Samples) -> Result<Self, PaperError> {
+    pub fn new(samples: &specular::Data) -> Result<Self, PaperError> {
         let unsupported = |found: String, expected| Err(PaperError::Unsupported { found, expected });
         if samples.scatter() != Scatter::Reflection {
             return unsupported("a BTDF".into(), "a BRDF");

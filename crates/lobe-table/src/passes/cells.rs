@@ -4,8 +4,8 @@ use lobe_lane::{Floats, Ints, Lanes};
 
 use super::block::Column;
 use crate::Edge;
-use crate::axis::Axis;
-use crate::search::{Cell, Find, Visitor};
+use crate::grid::axis::Axis;
+use crate::grid::search::{Cell, Find, Visitor};
 
 /// Replaces the angles of queries `0..n` by the fraction into their cell, and adds the cell's offset to `base`.
 ///

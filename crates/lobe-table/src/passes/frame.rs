@@ -1,4 +1,4 @@
-//! Directions to what the angles are computed from: the specular frame (see [`coords`](crate::coords)).
+//! Directions to what the angles are computed from: the specular frame (see [`coords`](crate::specular::coords)).
 
 use std::f32::consts::FRAC_PI_2;
 
@@ -7,7 +7,7 @@ use lobe_lane::{Floats, Lanes};
 use super::block::Column;
 use crate::Scatter;
 use crate::directions::BlockOfDirections;
-use crate::function::Function;
+use crate::grid::function::Function;
 
 /// What the angles of a block are computed from.
 ///

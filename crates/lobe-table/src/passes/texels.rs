@@ -4,7 +4,7 @@ use lobe_lane::{Block, Floats, Lanes};
 
 use super::block::{BLOCK, Column};
 use super::weights::MAX_CORNERS;
-use crate::texel::Stored;
+use crate::grid::texel::Stored;
 
 /// Room for up to three channels of each query of a block, and for the fourth float that the last store writes.
 pub(crate) type Tile = [f32; 3 * BLOCK + 1];

@@ -4,7 +4,7 @@
 //! marginal distribution and columns by the conditional one; within a cell both are quadratic and are inverted exactly.
 
 use super::Images;
-use crate::knots::cell;
+use crate::grid::knots::cell;
 
 /// Which slices of a table to blend, and with which weights. The weights add up to one.
 #[derive(Clone, Copy, Debug, PartialEq)]

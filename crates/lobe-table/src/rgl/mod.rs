@@ -7,7 +7,7 @@
 //! The direction that a table is indexed by is `wi`; the other one is `wo`. Renderers that trace from the camera put
 //! the viewer into `wi`, so that [`Reference::sample`] yields the next direction of a path.
 //!
-//! [`Rgl`] is the data; [`Reference`] evaluates it one query at a time in `f64`; [`RglTable`]
+//! [`Data`] is the data; [`Reference`] evaluates it one query at a time in `f64`; [`Table`]
 //! evaluates many in SIMD lanes; [`Warp`] is the interpolant between.
 
 mod lanes;
@@ -17,12 +17,12 @@ mod reference;
 #[cfg(test)]
 mod tests;
 
-pub use lanes::{Drawn, RglOptions, RglTable, Wanted};
+pub use lanes::{Drawn, Options, Table, Wanted};
 pub use marginal::{Blend, Warp};
 pub use reference::{Reference, Sample, UniformOrder};
 
+use crate::Channels;
 use crate::invalid::{Invalid, ascending, count, finite};
-use crate::samples::Channels;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -91,7 +91,7 @@ impl Images {
     }
 }
 
-/// What an [`Rgl`] is made of. P is the number of `phi_i`, T of `theta_i`, C of channels.
+/// What [`Data`] is made of. P is the number of `phi_i`, T of `theta_i`, C of channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parts {
     /// Free text.
@@ -120,12 +120,12 @@ pub struct Parts {
 
 /// A material of the EPFL database.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rgl {
+pub struct Data {
     parts: Parts,
     reduction: u32,
 }
 
-impl Rgl {
+impl Data {
     /// Checks that the parts fit together.
     ///
     /// # Errors
@@ -161,7 +161,7 @@ impl Rgl {
             return Err(Invalid::new("sigma", "an area that is not positive", "positive areas to divide by"));
         }
         let reduction = reduction(&parts.phi_i)?;
-        Ok(Rgl { parts, reduction })
+        Ok(Data { parts, reduction })
     }
 
     /// What the material is made of.

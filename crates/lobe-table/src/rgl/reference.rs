@@ -1,10 +1,10 @@
-//! Evaluation of an [`Rgl`] one query at a time in `f64`: what the lanes are compared with.
+//! Evaluation of [`Data`] one query at a time in `f64`: what the lanes are compared with.
 
 use super::marginal::{Blend, Warp, bilinear};
-use super::{LEAST_AREA, Rgl};
+use super::{Data, LEAST_AREA};
+use crate::Channels;
 use crate::direction::{Vector, add, dot, normalize, phi, scale, spherical, sub, theta};
-use crate::knots::cell;
-use crate::samples::Channels;
+use crate::grid::knots::cell;
 use std::f64::consts::{PI, TAU};
 
 /// In which order the two uniform numbers of [`Reference::sample`] are used. The distribution is the same.
@@ -28,10 +28,10 @@ pub struct Sample {
     pub weight: Vec<f64>,
 }
 
-/// Evaluates an [`Rgl`] in `f64` over its `f32` data.
+/// Evaluates [`Data`] in `f64` over its `f32` data.
 #[derive(Clone, Debug)]
 pub struct Reference {
-    rgl: Rgl,
+    rgl: Data,
     vndf: Warp,
     luminance: Warp,
     clamp_negative: bool,
@@ -52,7 +52,7 @@ struct Footprint {
 
 impl Reference {
     /// Prepares the cumulative distributions. They take 16 bytes a texel of `vndf` and `luminance`.
-    pub fn new(rgl: &Rgl) -> Self {
+    pub fn new(rgl: &Data) -> Self {
         let parts = rgl.parts();
         let (vndf, luminance) = (Warp::new(&parts.vndf), Warp::new(&parts.luminance));
         Reference { rgl: rgl.clone(), vndf, luminance, clamp_negative: false }
@@ -139,7 +139,7 @@ impl Reference {
     }
 
     /// The material that is evaluated.
-    pub fn rgl(&self) -> &Rgl {
+    pub fn rgl(&self) -> &Data {
         &self.rgl
     }
 

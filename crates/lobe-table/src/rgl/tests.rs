@@ -29,7 +29,7 @@ const PI_F32: f32 = std::f32::consts::PI;
 
 #[test]
 fn reduction_follows_the_span_of_the_azimuths() {
-    let reduction = |phi_i: &[f32]| Rgl::new(parts(phi_i.to_vec())).map(|rgl| rgl.reduction());
+    let reduction = |phi_i: &[f32]| Data::new(parts(phi_i.to_vec())).map(|rgl| rgl.reduction());
     assert_eq!(reduction(&[0.0]), Ok(1));
     assert_eq!(reduction(&[-PI_F32, PI_F32]), Ok(1));
     assert_eq!(reduction(&[-PI_F32, 0.0, PI_F32]), Ok(1));
@@ -41,7 +41,7 @@ fn reduction_follows_the_span_of_the_azimuths() {
 /// Every sign of x and y is brought into the quarter that is stored.
 #[test]
 fn a_quarter_stands_for_all_mirror_images() {
-    let rgl = Rgl::new(parts(vec![-PI_F32, -2.0, -PI_F32 / 2.0])).expect("a valid material");
+    let rgl = Data::new(parts(vec![-PI_F32, -2.0, -PI_F32 / 2.0])).expect("a valid material");
     let reference = Reference::new(&rgl);
     let (wi, wo) = ([-0.48, -0.6, 0.64], [0.36, -0.48, 0.8]);
     let values = |wi, wo| {
@@ -62,7 +62,7 @@ fn a_quarter_stands_for_all_mirror_images() {
 
 #[test]
 fn nothing_scatters_below_the_surface() {
-    let rgl = Rgl::new(parts(vec![0.0])).expect("a valid material");
+    let rgl = Data::new(parts(vec![0.0])).expect("a valid material");
     let reference = Reference::new(&rgl);
     let (up, down) = ([0.6, 0.0, 0.8], [0.6, 0.0, -0.8]);
     for (wi, wo) in [(up, down), (down, up), ([1.0, 0.0, 0.0], up)] {
@@ -79,7 +79,7 @@ fn negative_values_stay_unless_they_are_clamped() {
     let mut negative = parts(vec![0.0]);
     let size = negative.spectra.size();
     negative.spectra = Images::new("spectra", [6, size[0], size[1]], vec![-1.0; 96]).expect("valid images");
-    let rgl = Rgl::new(negative).expect("a valid material");
+    let rgl = Data::new(negative).expect("a valid material");
     let (wi, wo) = ([0.6, 0.0, 0.8], [-0.6, 0.0, 0.8]);
     let mut values = [0.0; 2];
     Reference::new(&rgl).eval(wi, wo, &mut values);
@@ -93,7 +93,7 @@ fn parts_that_do_not_fit_are_named() {
     let refused = |change: fn(&mut Parts)| {
         let mut changed = parts(vec![0.0]);
         change(&mut changed);
-        Rgl::new(changed).expect_err("parts that do not fit").part
+        Data::new(changed).expect_err("parts that do not fit").part
     };
     assert_eq!(refused(|p| p.phi_i = vec![]), "phi_i");
     assert_eq!(refused(|p| p.phi_i = vec![0.0, 0.0]), "phi_i");

@@ -9,8 +9,8 @@ use super::grid::{Grid, candidate_columns, candidate_rows, spread};
 use super::histogram::{Bin, Histogram, Light};
 use super::incident::Surface;
 use super::slices::Slices;
-use crate::axis::Axis;
-use crate::storage::Storage;
+use crate::grid::axis::Axis;
+use lobe_memory::Storage;
 
 /// At most this many cells a slice, as a power of two: what the caches near a core can hold of a few slices.
 const MOST_BITS: u32 = 13;

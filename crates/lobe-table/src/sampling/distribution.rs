@@ -10,7 +10,7 @@ use super::build::Builder;
 use super::histogram::{Light, LightOf};
 use super::incident::{Incident, Local, Surface};
 use super::slices::{Draw, Place, Slices};
-use crate::axis::Axis;
+use crate::grid::axis::Axis;
 use crate::passes::block::BLOCK;
 use crate::{AxisError, Edge, Scatter};
 

@@ -3,7 +3,7 @@
 use lobe_lane::{Kernel, Lanes};
 
 use super::incident::{Incident, Surface};
-use crate::Table;
+use crate::specular;
 
 /// What scatters.
 pub(crate) trait Light {
@@ -13,7 +13,7 @@ pub(crate) trait Light {
 
 /// The light of a table.
 pub(crate) struct TableLight<'a> {
-    pub(crate) table: &'a Table,
+    pub(crate) table: &'a specular::Table,
     /// How much each channel counts.
     pub(crate) luminance: &'a [f32],
     /// Room for values.

@@ -1,6 +1,6 @@
 //! The geometry of scattering about one incident direction a lane: the hemisphere as a rectangle.
 //!
-//! About the zenith of the scattered light (see [`coords`](crate::coords)), the horizon lies at a theta that depends on
+//! About the zenith of the scattered light (see [`coords`](crate::specular::coords)), the horizon lies at a theta that depends on
 //! phi: with the zenith at polar angle `z`, `wo` is above it where `cos z cos theta + sin z cos phi sin theta > 0`, that
 //! is up to `tan(theta_max - pi/2) = tan z cos phi`. With `height = 1 - cos theta_max`, the coordinate
 //!
@@ -12,7 +12,7 @@
 use lobe_lane::{Floats, Lanes};
 
 use crate::Scatter;
-use crate::function::Function;
+use crate::grid::function::Function;
 use crate::passes::frame::{FARTHEST, POLE, Refracted, Zenith};
 
 /// What the frame of scattered light depends on, beside the incident direction.

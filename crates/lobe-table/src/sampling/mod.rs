@@ -30,8 +30,8 @@ use std::sync::Arc;
 use lobe_lane::{Floats, Kernel, Lanes};
 use thiserror::Error;
 
-use crate::Table;
-use crate::layout::{PHI, PSI, SIGMA, THETA};
+use crate::grid::layout::{PHI, PSI, SIGMA, THETA};
+use crate::specular;
 use distribution::Plan;
 use histogram::TableLight;
 use incident::Surface;
@@ -93,12 +93,12 @@ pub enum SamplerError {
 
 /// A table and what is needed to sample directions in proportion to luminance times f times cosine.
 ///
-/// As in a [`Table`], `wi` points to the light and `wo` to the viewer, unit vectors, normal on +z. Sampled directions of
+/// As in a [`specular::Table`], `wi` points to the light and `wo` to the viewer, unit vectors, normal on +z. Sampled directions of
 /// a reflection table have `z > 0`; those of a transmission table lie on the other side of the surface. Densities are
 /// per steradian. In strict form, samples are the same bits on every backend.
 #[derive(Clone, Debug)]
 pub struct Sampler {
-    table: Arc<Table>,
+    table: Arc<specular::Table>,
     distribution: Distribution,
 }
 
@@ -109,7 +109,11 @@ impl Sampler {
     ///
     /// # Errors
     /// Where the options make no sense for this table.
-    pub fn new<L: Lanes>(lanes: L, table: Arc<Table>, options: &SamplerOptions) -> Result<Self, SamplerError> {
+    pub fn new<L: Lanes>(
+        lanes: L,
+        table: Arc<specular::Table>,
+        options: &SamplerOptions,
+    ) -> Result<Self, SamplerError> {
         Sampler::with_progress(lanes, table, options, &mut |_, _| {})
     }
 
@@ -119,7 +123,7 @@ impl Sampler {
     /// As [`new`](Sampler::new).
     pub fn with_progress<L: Lanes>(
         lanes: L,
-        table: Arc<Table>,
+        table: Arc<specular::Table>,
         options: &SamplerOptions,
         progress: &mut dyn FnMut(usize, usize),
     ) -> Result<Self, SamplerError> {
@@ -144,7 +148,7 @@ impl Sampler {
     }
 
     /// The table that is sampled.
-    pub fn table(&self) -> &Arc<Table> {
+    pub fn table(&self) -> &Arc<specular::Table> {
         &self.table
     }
 

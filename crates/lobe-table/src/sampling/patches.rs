@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::klems::{AngleBasis, KlemsMatrix};
+use crate::window::klems::{AngleBasis, KlemsMatrix};
 use crate::{DistributionError, Scatter};
 
 /// Cumulative shares of the exit patches for each incident patch.
@@ -122,7 +122,7 @@ impl PatchSampler {
 }
 
 /// The ring of a patch, and its sector in the ring.
-fn ring_of(basis: &AngleBasis, patch: usize) -> (crate::klems::Ring, usize) {
+fn ring_of(basis: &AngleBasis, patch: usize) -> (crate::window::klems::Ring, usize) {
     let mut first = 0;
     for ring in basis.rings() {
         let count = ring.patches as usize;

@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 
 use super::distribution::Distribution;
 use super::slices::Slices;
-use crate::axis::Axis;
-use crate::{Scatter, coords};
+use crate::Scatter;
+use crate::grid::axis::Axis;
+use crate::specular::coords;
 
 impl Distribution {
     /// As [`draw_lanes`](Distribution::draw_lanes), in `f64`; `None` where `known` is no direction above the surface. Sums

@@ -9,7 +9,7 @@
 use lobe_lane::{Block, Floats, Ints, Lanes};
 
 use super::grid::Grid;
-use crate::storage::Storage;
+use lobe_memory::Storage;
 
 /// The sums of the slices. The slices that one blend reads, two or four, lie side by side.
 #[derive(Clone, Debug)]

@@ -1,33 +1,33 @@
-//! A [`Utia`] made ready to be evaluated in SIMD lanes.
+//! [`Data`] made ready to be evaluated in SIMD lanes.
 
 use lobe_lane::{Floats, Kernel, Lanes};
 
-use super::{Decode, PHIS, PLANE, SCALE, STEPS, THETAS, Utia};
+use super::{Data, Decode, PHIS, PLANE, SCALE, STEPS, THETAS};
 use crate::directions::{BlockOfDirections, Directions};
-use crate::eval::Scratch;
 use crate::invalid::Invalid;
 use crate::passes::batch::{Batch, Blockwise};
 use crate::passes::unit::{spherical, unit};
-use crate::{Channels, Edge, Edges, Samples, Scatter, Table};
+use crate::specular::eval::Scratch;
+use crate::{Channels, Edge, Edges, Scatter, specular};
 
-/// A [`Utia`] laid out for evaluation in SIMD lanes.
+/// [`Data`] laid out for evaluation in SIMD lanes.
 ///
-/// The values are those of [`Utia::eval`], in `f32`. The directions need not be unit vectors, but their lengths have to be
+/// The values are those of [`Data::eval`], in `f32`. The directions need not be unit vectors, but their lengths have to be
 /// between 1e-15 and 1e15. In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
-pub struct UtiaTable {
+pub struct Table {
     /// The grid as a table whose four angles are the two zenith angles and azimuths: interpolation does not ask what an
     /// angle stands for.
-    table: Table,
+    table: specular::Table,
     decode: Decode,
 }
 
-impl UtiaTable {
+impl Table {
     /// Lays out the values, 16 bytes each.
     ///
     /// # Errors
     /// [`Invalid`] where a value is beyond the range of `f32`.
-    pub fn new(data: &Utia, decode: Decode) -> Result<Self, Invalid> {
+    pub fn new(data: &Data, decode: Decode) -> Result<Self, Invalid> {
         let knots = |count: usize, step: f64| (0..count).map(|index| (index as f64 * step).to_radians()).collect();
         let [thetas, phis]: [Vec<f64>; 2] = [knots(THETAS, STEPS[0]), knots(PHIS, STEPS[1])];
         let stored = |value: f64| if decode == Decode::Raw { value } else { value.max(0.0) / SCALE };
@@ -39,10 +39,10 @@ impl UtiaTable {
             Edges { axes: [Edge::Extrapolate, Edge::Periodic, Edge::Extrapolate, Edge::Periodic], non_negative: false };
         let knots = [thetas.clone(), phis.clone(), thetas, phis];
         let beyond = |found: String| Invalid::new("values", found, "values that an f32 holds");
-        let samples = Samples::new(Scatter::Reflection, knots, Channels::Rgb, values);
+        let samples = specular::Data::new(Scatter::Reflection, knots, Channels::Rgb, values);
         let samples = samples.map_err(|error| beyond(error.to_string()))?;
-        let table = Table::new(&samples, &edges).map_err(|error| beyond(error.to_string()))?;
-        Ok(UtiaTable { table, decode })
+        let table = specular::Table::new(&samples, &edges).map_err(|error| beyond(error.to_string()))?;
+        Ok(Table { table, decode })
     }
 
     /// Bytes of memory that the table takes.
@@ -69,7 +69,7 @@ impl UtiaTable {
     }
 }
 
-impl Blockwise for &UtiaTable {
+impl Blockwise for &Table {
     type Scratch = Scratch;
     const SCRATCH: Scratch = Scratch::ZERO;
 

@@ -3,7 +3,7 @@
 //! Filip and Vavra, "Template-Based Sampling of Anisotropic BRDFs", Computer Graphics Forum 33(7), 2014: zenith angles
 //! of 0, 15, ... 75 degrees and azimuths of 0, 7.5, ... 352.5 degrees for both directions.
 //!
-//! [`Utia`] are the values as they were measured, with their evaluation in `f64`; a [`UtiaTable`] is made ready for
+//! [`Data`] are the values as they were measured, with their evaluation in `f64`; a [`Table`] is made ready for
 //! evaluation in SIMD lanes.
 
 mod lanes;
@@ -13,7 +13,7 @@ mod tests;
 
 use crate::invalid::{Invalid, count};
 
-pub use lanes::UtiaTable;
+pub use lanes::Table;
 
 /// Degrees between two zenith angles, and between two azimuths.
 const STEPS: [f64; 2] = [15.0, 7.5];
@@ -31,7 +31,7 @@ pub const PLANE: usize = THETAS * PHIS * THETAS * PHIS;
 ///
 /// The unit of the stored values is not documented, and the programs that read them disagree; see [`Decode`].
 #[derive(Clone, Debug, PartialEq)]
-pub struct Utia {
+pub struct Data {
     values: Vec<f64>,
 }
 
@@ -46,7 +46,7 @@ pub enum Decode {
     Srgb,
 }
 
-impl Utia {
+impl Data {
     /// Checks that there are `[channel][theta_i][phi_i][theta_v][phi_v]` values, 3 x 6 x 48 x 6 x 48, all finite.
     ///
     /// # Errors
@@ -55,7 +55,7 @@ impl Utia {
         count("values", values.len(), &[3, THETAS, PHIS, THETAS, PHIS])?;
         match values.iter().position(|v| !v.is_finite()) {
             Some(at) => Err(Invalid::new("values", format!("{} at index {at}", values[at]), "finite numbers")),
-            None => Ok(Utia { values }),
+            None => Ok(Data { values }),
         }
     }
 

@@ -1,11 +1,11 @@
-//! The evaluation of a [`Utia`] one query at a time in `f64`: what the lanes are compared with.
+//! The evaluation of [`Data`] one query at a time in `f64`: what the lanes are compared with.
 
-use super::{Decode, PHIS, PLANE, SCALE, STEPS, THETAS, Utia};
+use super::{Data, Decode, PHIS, PLANE, SCALE, STEPS, THETAS};
 use crate::direction::{phi, theta, wrap};
 use crate::passes::unit::SPHERICAL;
 use crate::passes::weights::SUM;
 
-impl Utia {
+impl Data {
     /// The value for light from `wi` seen from `wo`; 0 where a direction is not above the surface.
     pub fn eval(&self, wi: [f64; 3], wo: [f64; 3], decode: Decode) -> [f64; 3] {
         if wi[2] <= 0.0 || wo[2] <= 0.0 {
@@ -45,7 +45,7 @@ impl Utia {
         }
     }
 
-    /// How far a [raw](Decode::Raw) value may be off in the lanes of a [`UtiaTable`](super::UtiaTable), in parts of the largest
+    /// How far a [raw](Decode::Raw) value may be off in the lanes of a [`Table`](crate::utia::Table), in parts of the largest
     /// one.
     pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
         // Beyond the last zenith angle the sizes of the two weights of the line that goes on add up to more than 1.

@@ -1,12 +1,12 @@
 use super::*;
 
 /// The value is `theta_i + 10 theta_v` in degrees, plus 1000 for each step of `phi_v`.
-fn material() -> Utia {
+fn material() -> Data {
     let value = |i: usize| {
         let (ti, tv, pv) = (i / (PHIS * THETAS * PHIS) % THETAS, i / PHIS % THETAS, i % PHIS);
         15.0 * ti as f64 + 150.0 * tv as f64 + 1000.0 * pv as f64
     };
-    Utia::new((0..3 * PLANE).map(value).collect()).expect("a valid table")
+    Data::new((0..3 * PLANE).map(value).collect()).expect("a valid table")
 }
 
 #[test]
@@ -30,7 +30,7 @@ fn azimuths_wrap() {
 #[test]
 fn decoding_undoes_the_curve() {
     let flat =
-        |v: f64| Utia::new(vec![v; 3 * PLANE]).expect("valid").eval([0.0, 0.6, 0.8], [0.0, 0.0, 1.0], Decode::Srgb)[2];
+        |v: f64| Data::new(vec![v; 3 * PLANE]).expect("valid").eval([0.0, 0.6, 0.8], [0.0, 0.0, 1.0], Decode::Srgb)[2];
     assert!((flat(140.0) - 100.0).abs() < 1e-9);
     assert!((flat(1.4) - 100.0 * 0.01 / 12.92).abs() < 1e-9);
     assert_eq!(flat(-5.0), 0.0);
@@ -42,5 +42,5 @@ fn directions_are_angles() {
     let (a, b) = (material().eval([sin, 0.0, cos], [0.0, sin, cos], Decode::Raw), std::f64::consts::FRAC_PI_2);
     let expected = material().eval_angles([0.5, 0.0], [0.5, b], Decode::Raw);
     assert!((a[0] - expected[0]).abs() < 1e-9);
-    assert!(Utia::new(vec![0.0; 7]).is_err() && Utia::new(vec![f64::NAN; 3 * PLANE]).is_err());
+    assert!(Data::new(vec![0.0; 7]).is_err() && Data::new(vec![f64::NAN; 3 * PLANE]).is_err());
 }

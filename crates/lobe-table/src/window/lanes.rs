@@ -2,27 +2,27 @@
 
 use lobe_lane::{Floats, Ints, Kernel, Lanes, Mask};
 
-use super::{Block, Component, Window};
+use super::klems::KlemsMatrix;
+use super::klems::lanes::{PatchScratch, Patches};
+use super::tensor_tree::lanes::{Walk, positions};
+use super::tensor_tree::{Rank, TensorTree};
+use super::{Block, Blocks, Component};
 use crate::directions::{BlockOfDirections, Directions};
 use crate::invalid::Invalid;
-use crate::klems::KlemsMatrix;
-use crate::klems::lanes::{PatchScratch, Patches};
 use crate::passes::batch::{Batch, Blockwise};
 use crate::passes::block::Column;
 use crate::passes::unit::unit;
-use crate::tensor_tree::lanes::{Walk, positions};
-use crate::tensor_tree::{Rank, TensorTree};
 
 /// The bands of wavelengths of a sheet, made ready for evaluation in SIMD lanes.
 ///
-/// The values are those of [`Window::eval`], `f` in 1/sr, one channel a band. The directions need not be unit vectors, but
+/// The values are those of [`Blocks::eval`], `f` in 1/sr, one channel a band. The directions need not be unit vectors, but
 /// their lengths have to be between 1e-15 and 1e15. A query that is within rounding of the border of two patches or cells may
-/// be given to either, see [`Window::candidates`].
+/// be given to either, see [`Blocks::candidates`].
 ///
 /// In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
-pub struct WindowTable {
-    bands: Vec<Window>,
+pub struct Table {
+    bands: Vec<Blocks>,
     /// By [`Block`]: what answers for it.
     groups: [Vec<Group>; 4],
 }
@@ -44,12 +44,12 @@ enum Members {
     Trees(Rank, Vec<(usize, Walk)>),
 }
 
-impl WindowTable {
+impl Table {
     /// Makes the bands ready. The values stay where they are.
     ///
     /// # Errors
     /// [`Invalid`] where the values are more than the 32-bit index of a lane reaches, or the rings of a basis are too narrow.
-    pub fn new(bands: Vec<Window>) -> Result<Self, Invalid> {
+    pub fn new(bands: Vec<Blocks>) -> Result<Self, Invalid> {
         let mut groups: [Vec<Group>; 4] = Default::default();
         for (groups, block) in groups.iter_mut().zip(Block::ALL) {
             for (band, window) in bands.iter().enumerate() {
@@ -62,11 +62,11 @@ impl WindowTable {
                 }
             }
         }
-        Ok(WindowTable { bands, groups })
+        Ok(Table { bands, groups })
     }
 
     /// The bands.
-    pub fn bands(&self) -> &[Window] {
+    pub fn bands(&self) -> &[Blocks] {
         &self.bands
     }
 
@@ -164,7 +164,7 @@ pub(crate) struct Scratch {
     value: Column,
 }
 
-impl Blockwise for &WindowTable {
+impl Blockwise for &Table {
     type Scratch = Scratch;
     const SCRATCH: Scratch = Scratch {
         wi: [Column::<f32>::ZERO; 3],
@@ -259,7 +259,7 @@ impl Group {
         &self,
         lanes: L,
         (count, n): (usize, usize),
-        bands: &[Window],
+        bands: &[Blocks],
         scratch: &mut Scratch,
         out: &mut [f32],
     ) {

@@ -1,16 +1,18 @@
 //! A sheet of material with two sides: which block of values answers for which pair of directions.
 //!
-//! A [`Window`] has the blocks of one band of wavelengths, with their evaluation in `f64`; a [`WindowTable`] has several
+//! [`Blocks`] are the values of one band of wavelengths, with their evaluation in `f64`; a [`Table`] has several
 //! bands, made ready for evaluation in SIMD lanes.
 
+pub mod klems;
 mod lanes;
+pub mod tensor_tree;
 #[cfg(test)]
 mod tests;
 
-use crate::klems::KlemsMatrix;
-use crate::tensor_tree::TensorTree;
+use klems::KlemsMatrix;
+use tensor_tree::TensorTree;
 
-pub use lanes::WindowTable;
+pub use lanes::Table;
 
 /// The values of one block, in the form its file has them.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,7 +56,7 @@ pub enum Block {
 }
 
 impl Block {
-    /// All blocks, in the order in which [`Window`] keeps them.
+    /// All blocks, in the order in which [`Blocks`] keeps them.
     pub const ALL: [Block; 4] =
         [Block::TransmissionFront, Block::TransmissionBack, Block::ReflectionFront, Block::ReflectionBack];
 
@@ -84,11 +86,11 @@ impl Block {
 
 /// A sheet of material with two sides, in one band of wavelengths: up to four blocks of values.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Window {
+pub struct Blocks {
     blocks: [Option<Component>; 4],
 }
 
-impl Window {
+impl Blocks {
     /// The values of a block, where the file has it.
     pub fn block(&self, block: Block) -> Option<&Component> {
         self.blocks[block as usize].as_ref()
@@ -107,7 +109,7 @@ impl Window {
         self.answer(wi, wo).map_or(0.0, |(component, wi, wo)| component.eval(wi, wo))
     }
 
-    /// All values that [`eval`](Self::eval) may have in the lanes of a [`WindowTable`]: where directions are within rounding of
+    /// All values that [`eval`](Self::eval) may have in the lanes of a [`Table`]: where directions are within rounding of
     /// the border of two patches or cells, those of both.
     pub fn candidates(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f64> {
         self.answer(wi, wo).map_or(vec![0.0], |(component, wi, wo)| component.candidates(wi, wo))

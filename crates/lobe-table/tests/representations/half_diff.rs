@@ -2,11 +2,11 @@
 
 use lobe_lane::Lanes;
 use lobe_table::Soa;
-use lobe_table::half_diff::{HalfDiff, HalfDiffTable, Lookup};
+use lobe_table::half_diff::{self, Lookup};
 
 use super::common::{COUNT, Evaluate, NOWHERE, Pairs, evaluate};
 
-struct Look(HalfDiffTable, Lookup);
+struct Look(half_diff::Table, Lookup);
 
 impl Evaluate for Look {
     fn run<L: Lanes>(&self, lanes: L, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
@@ -21,10 +21,10 @@ impl Evaluate for Look {
 /// The MERL shape made small, one that is not reciprocal, and the least there is.
 const SHAPES: [[usize; 3]; 4] = [[45, 45, 90], [9, 7, 30], [1, 1, 1], [2, 3, 1]];
 
-fn grid(bins: [usize; 3], value: impl Fn(usize) -> f32) -> (HalfDiff, HalfDiffTable) {
+fn grid(bins: [usize; 3], value: impl Fn(usize) -> f32) -> (half_diff::Data, half_diff::Table) {
     let values = (0..3 * bins.iter().product::<usize>()).map(value).collect();
-    let data = HalfDiff::new(bins, values).expect("a grid");
-    let table = HalfDiffTable::new(&data).expect("a small grid");
+    let data = half_diff::Data::new(bins, values).expect("a grid");
+    let table = half_diff::Table::new(&data).expect("a small grid");
     (data, table)
 }
 

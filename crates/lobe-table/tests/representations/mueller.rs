@@ -3,12 +3,11 @@
 use std::f64::consts::PI;
 
 use lobe_lane::Lanes;
-use lobe_table::Soa;
-use lobe_table::mueller::{Mueller, MuellerTable};
+use lobe_table::{Soa, mueller};
 
 use super::common::{COUNT, Evaluate, NOWHERE, Pairs, evaluate};
 
-impl Evaluate for MuellerTable {
+impl Evaluate for mueller::Table {
     fn run<L: Lanes>(&self, lanes: L, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         self.eval_batch(lanes, wi, wo, out);
     }
@@ -30,12 +29,12 @@ fn knots(sizes: [usize; 3], wavelengths: usize) -> [Vec<f32>; 4] {
     ]
 }
 
-fn material(sizes: [usize; 3], wavelengths: usize, value: impl Fn(usize) -> f32) -> Mueller {
+fn material(sizes: [usize; 3], wavelengths: usize, value: impl Fn(usize) -> f32) -> mueller::Data {
     let count = sizes.iter().product::<usize>() * wavelengths * 16;
-    Mueller::new(knots(sizes, wavelengths), (0..count).map(value).collect()).expect("matrices")
+    mueller::Data::new(knots(sizes, wavelengths), (0..count).map(value).collect()).expect("matrices")
 }
 
-fn reference(data: &Mueller, wi: [f64; 3], wo: [f64; 3], channel: usize) -> f64 {
+fn reference(data: &mueller::Data, wi: [f64; 3], wo: [f64; 3], channel: usize) -> f64 {
     data.in_plane(wi, wo, f64::from(data.knots()[3][channel])).map_or(0.0, |matrix| matrix[0][0])
 }
 
@@ -44,7 +43,7 @@ fn values_are_those_of_the_reference() {
     let pairs = Pairs::new(false);
     for (sizes, wavelengths) in [([22, 9, 9], 5), ([5, 40, 7], 1), ([3, 2, 1], 8), ([1, 1, 1], 11), ([4, 3, 36], 9)] {
         let data = material(sizes, wavelengths, |i| ((i / 16 * 37) % 101) as f32 / 101.0);
-        let table = MuellerTable::new(&data).expect("a small table");
+        let table = mueller::Table::new(&data).expect("a small table");
         for (form, values) in evaluate(&table, &pairs, wavelengths) {
             let mut worst = 0.0_f64;
             for query in 0..COUNT - NOWHERE {
@@ -66,7 +65,7 @@ fn values_are_those_of_the_reference() {
 fn what_was_not_measured_is_dark() {
     let pairs = Pairs::new(false);
     let data = material([6, 5, 4], 3, |i| if i / 48 % 5 == 0 { f32::NAN } else { 0.5 });
-    let table = MuellerTable::new(&data).expect("a small table");
+    let table = mueller::Table::new(&data).expect("a small table");
     for (form, values) in evaluate(&table, &pairs, 3) {
         let (mut differing, mut dark) = (0, 0);
         for query in 0..COUNT - NOWHERE {
@@ -79,6 +78,6 @@ fn what_was_not_measured_is_dark() {
         assert!(dark > COUNT / 4 && dark < COUNT * 9 / 10, "{form}: {dark} dark");
         assert!(differing < COUNT / 200, "{form}: {differing} differ");
     }
-    let negative = MuellerTable::new(&material([6, 5, 4], 3, |_| -1.0)).expect("a small table");
+    let negative = mueller::Table::new(&material([6, 5, 4], 3, |_| -1.0)).expect("a small table");
     assert!(evaluate(&negative, &pairs, 3)[0].1.iter().all(|value| *value == 0.0));
 }

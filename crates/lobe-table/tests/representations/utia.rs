@@ -2,11 +2,11 @@
 
 use lobe_lane::Lanes;
 use lobe_table::Soa;
-use lobe_table::utia::{Decode, PLANE, Utia, UtiaTable};
+use lobe_table::utia::{self, Decode, PLANE};
 
 use super::common::{COUNT, Evaluate, NOWHERE, Pairs, evaluate};
 
-impl Evaluate for UtiaTable {
+impl Evaluate for utia::Table {
     fn run<L: Lanes>(&self, lanes: L, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         self.eval_batch(lanes, wi, wo, out);
     }
@@ -17,15 +17,16 @@ impl Evaluate for UtiaTable {
 }
 
 /// Values between 0 and `largest`.
-fn material(largest: f64) -> Utia {
-    Utia::new((0..3 * PLANE).map(|i| largest * ((i * 37) % 1009) as f64 / 1008.0).collect()).expect("a valid table")
+fn material(largest: f64) -> utia::Data {
+    utia::Data::new((0..3 * PLANE).map(|i| largest * ((i * 37) % 1009) as f64 / 1008.0).collect())
+        .expect("a valid table")
 }
 
 #[test]
 fn values_are_those_of_the_reference() {
     let pairs = Pairs::new(false);
     let data = material(60.0);
-    let table = UtiaTable::new(&data, Decode::Raw).expect("a valid table");
+    let table = utia::Table::new(&data, Decode::Raw).expect("a valid table");
     for (form, values) in evaluate(&table, &pairs, 3) {
         let mut worst = 0.0_f64;
         for query in 0..COUNT - NOWHERE {
@@ -45,7 +46,7 @@ fn values_are_those_of_the_reference() {
 fn decoded_values_are_those_of_the_reference() {
     let pairs = Pairs::new(false);
     let data = material(140.0);
-    let table = UtiaTable::new(&data, Decode::Srgb).expect("a valid table");
+    let table = utia::Table::new(&data, Decode::Srgb).expect("a valid table");
     for (form, values) in evaluate(&table, &pairs, 3) {
         let mut worst = 0.0_f64;
         for query in 0..COUNT - NOWHERE {
@@ -68,6 +69,6 @@ fn decoded_values_are_those_of_the_reference() {
 fn values_that_no_lane_holds_are_refused() {
     let mut values = vec![0.0; 3 * PLANE];
     values[7] = 1e300;
-    let error = UtiaTable::new(&Utia::new(values).expect("finite"), Decode::Raw).expect_err("beyond f32");
+    let error = utia::Table::new(&utia::Data::new(values).expect("finite"), Decode::Raw).expect_err("beyond f32");
     assert_eq!(error.part, "values");
 }

@@ -2,15 +2,15 @@
 
 use lobe_lane::Lanes;
 use lobe_table::Soa;
-use lobe_table::klems::{AngleBasis, KlemsMatrix, Ring};
-use lobe_table::tensor_tree::{Node, Rank, TensorTree};
-use lobe_table::window::{Block, Component, Window, WindowTable};
+use lobe_table::window::klems::{AngleBasis, KlemsMatrix, Ring};
+use lobe_table::window::tensor_tree::{Node, Rank, TensorTree};
+use lobe_table::window::{self, Block, Component};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
 use super::common::{COUNT, Evaluate, NOWHERE, Pairs, evaluate};
 
-impl Evaluate for WindowTable {
+impl Evaluate for window::Table {
     fn run<L: Lanes>(&self, lanes: L, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         self.eval_batch(lanes, wi, wo, out);
     }
@@ -56,9 +56,9 @@ fn tree(rank: Rank, seed: u64) -> Component {
     Component::Tree(TensorTree::new(rank, nodes, values).expect("a tree"))
 }
 
-fn check(name: &str, bands: Vec<Window>) {
+fn check(name: &str, bands: Vec<window::Blocks>) {
     let pairs = Pairs::new(true);
-    let table = WindowTable::new(bands.clone()).expect("a small table");
+    let table = window::Table::new(bands.clone()).expect("a small table");
     let width = bands.len();
     for (form, values) in evaluate(&table, &pairs, width) {
         let (mut certain, mut lit) = (0, 0);
@@ -82,8 +82,8 @@ fn check(name: &str, bands: Vec<Window>) {
     }
 }
 
-fn window(components: [Option<Component>; 4]) -> Window {
-    let mut window = Window::default();
+fn window(components: [Option<Component>; 4]) -> window::Blocks {
+    let mut window = window::Blocks::default();
     for (block, component) in Block::ALL.into_iter().zip(components) {
         component.map(|component| window.set(block, component));
     }

@@ -1,6 +1,6 @@
 //! Grids of half and difference angles, in SIMD lanes.
 
-use lobe_table::half_diff::{HalfDiffTable, Lookup};
+use lobe_table::half_diff::{self, Lookup};
 use lobe_table::{Channels, Scatter};
 
 use super::evaluator::Evaluator;
@@ -8,13 +8,13 @@ use crate::{Backend, Kind};
 
 #[derive(Debug)]
 pub(super) struct HalfDifference {
-    pub(super) table: HalfDiffTable,
+    pub(super) table: half_diff::Table,
     pub(super) lookup: Lookup,
 }
 
 impl Evaluator for HalfDifference {
     fn kind(&self) -> Kind {
-        Kind::HalfDifference
+        Kind::HalfDiff
     }
 
     fn channels(&self) -> &Channels {

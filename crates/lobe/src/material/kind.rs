@@ -7,11 +7,11 @@ use std::fmt;
 #[non_exhaustive]
 pub enum Kind {
     /// A grid of specular coordinates, interpolated linearly in SIMD lanes.
-    SpecularTable,
+    Specular,
     /// The adaptive parameterisation of the EPFL database.
     Rgl,
     /// A grid of half and difference angles.
-    HalfDifference,
+    HalfDiff,
     /// The grid of the UTIA database.
     Utia,
     /// Klems matrices: constant on pairs of patches.
@@ -21,7 +21,7 @@ pub enum Kind {
     /// Mueller matrices over half and difference angles.
     Mueller,
     /// A grid of spherical coordinates.
-    SphericalGrid,
+    Spherical,
     /// Scattered samples.
     Scattered,
     /// Several measurements of a sheet, among which the sides of the directions choose.
@@ -32,14 +32,14 @@ impl Kind {
     /// The name for people.
     pub fn name(&self) -> &'static str {
         match self {
-            Kind::SpecularTable => "specular table",
+            Kind::Specular => "specular table",
             Kind::Rgl => "RGL",
-            Kind::HalfDifference => "half-difference grid",
+            Kind::HalfDiff => "half-difference grid",
             Kind::Utia => "UTIA grid",
             Kind::Klems => "Klems matrices",
             Kind::TensorTree => "tensor trees",
             Kind::Mueller => "Mueller matrices",
-            Kind::SphericalGrid => "spherical grid",
+            Kind::Spherical => "spherical grid",
             Kind::Scattered => "scattered samples",
             Kind::Sheet => "sheet",
         }

@@ -16,11 +16,9 @@ use std::path::Path;
 
 use lobe_formats::sheet::{Data, Side};
 use lobe_formats::{Document, Format};
-use lobe_table::half_diff::HalfDiffTable;
 pub use lobe_table::half_diff::Lookup;
 use lobe_table::mueller::Matrix;
-use lobe_table::rgl::{RglOptions, RglTable};
-use lobe_table::utia::{Decode, UtiaTable};
+use lobe_table::utia::Decode;
 use lobe_table::{Channels, Edges, Given, Scatter};
 
 use crate::{Backend, Brdf, OpenError};
@@ -141,15 +139,16 @@ impl Material {
             Document::Spherical(measured) => Box::new(measured.data),
             Document::Scattered(measured) => Box::new(measured.data),
             Document::Rgl(measured) => {
-                let table = RglTable::new(&measured.data, RglOptions::default()).map_err(too_large)?;
+                let table = lobe_table::rgl::Table::new(&measured.data, lobe_table::rgl::Options::default())
+                    .map_err(too_large)?;
                 Box::new(rgl::Parametrised { table, indexed_by: options.indexed_by })
             }
             Document::HalfDiff(measured) => {
-                let table = HalfDiffTable::new(&measured.data).map_err(too_large)?;
+                let table = lobe_table::half_diff::Table::new(&measured.data).map_err(too_large)?;
                 Box::new(half_diff::HalfDifference { table, lookup: options.lookup })
             }
             Document::Utia(measured) => {
-                let table = UtiaTable::new(&measured.data, options.decode).map_err(too_large)?;
+                let table = lobe_table::utia::Table::new(&measured.data, options.decode).map_err(too_large)?;
                 Box::new(utia::UtiaGrid { table })
             }
             Document::Mueller(measured) => Box::new(mueller::Polarised::new(measured.data).map_err(too_large)?),

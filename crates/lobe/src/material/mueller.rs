@@ -1,7 +1,7 @@
 //! Mueller matrices. The value of a pair of directions is that of unpolarised light, in SIMD lanes; whole matrices are
 //! computed one at a time in `f64`.
 
-use lobe_table::mueller::{Matrix, Mueller, MuellerTable};
+use lobe_table::mueller::{self, Matrix};
 use lobe_table::{Channels, Invalid, Scatter};
 
 use super::evaluator::{Evaluator, unit};
@@ -9,15 +9,15 @@ use crate::{Backend, Kind};
 
 #[derive(Debug)]
 pub(super) struct Polarised {
-    data: Mueller,
-    table: MuellerTable,
+    data: mueller::Data,
+    table: mueller::Table,
     channels: Channels,
 }
 
 impl Polarised {
-    pub(super) fn new(data: Mueller) -> Result<Self, Invalid> {
+    pub(super) fn new(data: mueller::Data) -> Result<Self, Invalid> {
         let channels = Channels::Spectral(data.knots()[3].iter().map(|nm| f64::from(*nm)).collect());
-        Ok(Polarised { table: MuellerTable::new(&data)?, data, channels })
+        Ok(Polarised { table: mueller::Table::new(&data)?, data, channels })
     }
 }
 

@@ -1,6 +1,6 @@
 //! The EPFL database, in SIMD lanes.
 
-use lobe_table::rgl::{RglTable, Wanted};
+use lobe_table::rgl::{self, Wanted};
 use lobe_table::{Channels, Given, Scatter};
 
 use super::evaluator::{Evaluator, Native};
@@ -9,7 +9,7 @@ use crate::{Backend, Kind};
 /// A table, and which direction it is indexed by.
 #[derive(Debug)]
 pub(crate) struct Parametrised {
-    pub(crate) table: RglTable,
+    pub(crate) table: rgl::Table,
     pub(crate) indexed_by: Given,
 }
 

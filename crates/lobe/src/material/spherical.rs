@@ -1,19 +1,17 @@
 //! Spherical coordinates, on a grid or scattered, in `f64`.
 
-use lobe_table::scattered::Scattered;
-use lobe_table::spherical_grid::SphericalGrid;
-use lobe_table::{Channels, Scatter};
+use lobe_table::{Channels, Scatter, scattered, spherical};
 
 use super::evaluator::{Evaluator, pair_by_pair};
 use crate::{Backend, Kind};
 
-impl Evaluator for SphericalGrid {
+impl Evaluator for spherical::Data {
     fn kind(&self) -> Kind {
-        Kind::SphericalGrid
+        Kind::Spherical
     }
 
     fn channels(&self) -> &Channels {
-        SphericalGrid::channels(self)
+        spherical::Data::channels(self)
     }
 
     fn bytes(&self) -> usize {
@@ -21,7 +19,7 @@ impl Evaluator for SphericalGrid {
     }
 
     fn is_isotropic(&self) -> bool {
-        SphericalGrid::is_isotropic(self)
+        spherical::Data::is_isotropic(self)
     }
 
     /// Values of transmission take light from either side.
@@ -35,13 +33,13 @@ impl Evaluator for SphericalGrid {
     }
 }
 
-impl Evaluator for Scattered {
+impl Evaluator for scattered::Data {
     fn kind(&self) -> Kind {
         Kind::Scattered
     }
 
     fn channels(&self) -> &Channels {
-        Scattered::channels(self)
+        scattered::Data::channels(self)
     }
 
     fn bytes(&self) -> usize {
@@ -49,7 +47,7 @@ impl Evaluator for Scattered {
     }
 
     fn is_isotropic(&self) -> bool {
-        Scattered::is_isotropic(self)
+        scattered::Data::is_isotropic(self)
     }
 
     /// Values of transmission take light from either side.

@@ -7,7 +7,7 @@ use crate::{Backend, Brdf, Kind};
 
 impl Evaluator for Brdf {
     fn kind(&self) -> Kind {
-        Kind::SpecularTable
+        Kind::Specular
     }
 
     fn channels(&self) -> &Channels {

@@ -1,14 +1,13 @@
 //! The grid of the UTIA database, in SIMD lanes.
 
-use lobe_table::utia::UtiaTable;
-use lobe_table::{Channels, Scatter};
+use lobe_table::{Channels, Scatter, utia};
 
 use super::evaluator::Evaluator;
 use crate::{Backend, Kind};
 
 #[derive(Debug)]
 pub(super) struct UtiaGrid {
-    pub(super) table: UtiaTable,
+    pub(super) table: utia::Table,
 }
 
 impl Evaluator for UtiaGrid {

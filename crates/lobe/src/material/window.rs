@@ -1,9 +1,9 @@
 //! Klems matrices and tensor trees, in SIMD lanes. Each band of wavelengths is a channel.
 
 use lobe_formats::window_xml::WindowXml;
-use lobe_table::klems::KlemsMatrix;
-use lobe_table::tensor_tree::Rank;
-use lobe_table::window::{Block, Component, WindowTable};
+use lobe_table::window::klems::KlemsMatrix;
+use lobe_table::window::tensor_tree::Rank;
+use lobe_table::window::{self, Block, Component};
 use lobe_table::{Channels, Invalid, Scatter};
 
 use super::evaluator::{Evaluator, Native};
@@ -11,7 +11,7 @@ use crate::{Backend, Kind};
 
 #[derive(Debug)]
 pub(super) struct Bands {
-    table: WindowTable,
+    table: window::Table,
     channels: Channels,
     kind: Kind,
 }
@@ -19,7 +19,7 @@ pub(super) struct Bands {
 impl Bands {
     pub(super) fn new(data: WindowXml) -> Result<Self, Invalid> {
         let (names, windows) = data.bands.into_iter().map(|band| (band.wavelength, band.window)).unzip();
-        let table = WindowTable::new(windows)?;
+        let table = window::Table::new(windows)?;
         let mut bands = Bands { table, channels: Channels::Named(names), kind: Kind::Klems };
         if bands.components().any(|component| matches!(component, Component::Tree(_))) {
             bands.kind = Kind::TensorTree;

@@ -3,10 +3,12 @@
 use std::sync::Arc;
 
 use lobe_lane::{Kernel, Lanes};
-use lobe_table::{Distribution, DistributionError, DistributionOptions, Sampler, SamplerError, SamplerOptions, Table};
+use lobe_table::{
+    Distribution, DistributionError, DistributionOptions, Sampler, SamplerError, SamplerOptions, specular,
+};
 
 pub(super) struct BuildTable<'a> {
-    pub(super) table: Arc<Table>,
+    pub(super) table: Arc<specular::Table>,
     pub(super) options: &'a SamplerOptions,
     pub(super) progress: &'a mut dyn FnMut(usize, usize),
 }

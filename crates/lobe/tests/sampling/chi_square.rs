@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 
-use lobe::table::coords;
+use lobe::table::specular::coords;
 use lobe::{Given, Material, Sampler, Scatter};
 use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF};

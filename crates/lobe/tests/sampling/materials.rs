@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use lobe::formats::{Document, Format, Measured};
-use lobe::{Channels, Material, Options, Sampler, SamplerOptions, Samples, Scatter};
+use lobe::{Channels, Material, Options, Sampler, SamplerOptions, Scatter, specular};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -13,7 +13,7 @@ pub fn fixture(name: &str) -> Material {
     Material::open(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures").join(name)).unwrap()
 }
 
-pub fn of_samples(samples: Samples) -> Material {
+pub fn of_samples(samples: specular::Data) -> Material {
     let document = Document::Table(Measured { data: samples, source: Vec::new(), tis: Vec::new() });
     Material::new(Path::new("made"), Format::Ssdd, document, &Options::default()).unwrap()
 }
@@ -23,7 +23,7 @@ pub fn sampler(material: Material) -> Sampler {
 }
 
 /// A table of noise on knots that are not even.
-fn noise(seed: u64, [sigma, psi, theta, phi]: [usize; 4], channels: Channels, scatter: Scatter) -> Samples {
+fn noise(seed: u64, [sigma, psi, theta, phi]: [usize; 4], channels: Channels, scatter: Scatter) -> specular::Data {
     let mut rng = Pcg32::seed_from_u64(seed);
     let mut knots = |count: usize, last: f64| {
         let mut at: Vec<f64> = vec![0.0];
@@ -37,7 +37,7 @@ fn noise(seed: u64, [sigma, psi, theta, phi]: [usize; 4], channels: Channels, sc
     let count = sigma * psi * theta * phi * channels.count();
     // A few values are negative, as in measurements, and a few are large.
     let values = (0..count).map(|_| rng.random_range(-0.1f32..1.3).powi(3)).collect();
-    Samples::new(scatter, knots, channels, values).unwrap()
+    specular::Data::new(scatter, knots, channels, values).unwrap()
 }
 
 /// Every kind of table.

@@ -2,15 +2,15 @@
 
 use lobe::formats::sheet::{Data, Part, Side};
 use lobe::formats::{Document, Format, Measured, Specular};
-use lobe::{Channels, Given, Material, Options, Sampled, Samples, Scatter};
+use lobe::{Channels, Given, Material, Options, Sampled, Scatter, specular};
 
 use crate::materials::sampler;
 use crate::{direction, numbers};
 use std::path::Path;
 
-fn constant(scatter: Scatter, value: f32) -> Samples {
+fn constant(scatter: Scatter, value: f32) -> specular::Data {
     let knots = [vec![0.0], vec![0.0], vec![0.0], vec![0.0]];
-    Samples::new(scatter, knots, Channels::Mono, vec![value]).unwrap()
+    specular::Data::new(scatter, knots, Channels::Mono, vec![value]).unwrap()
 }
 
 /// Reflects 0.3 on the front and 0.1 on the back, mirrors 0.2 on the front and lets 0.25 through, measured from the

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use lobe::formats::{Document, Format, Measured};
-use lobe::{Backend, Material, Options, Samples};
+use lobe::{Backend, Material, Options, specular};
 use lobe_mesh::{Geometry, shapes};
 use lobe_render::light::{Environment, Light};
 use lobe_render::shader::{Lambert, MeasuredShader};
@@ -41,10 +41,10 @@ pub fn world(backend: Backend) -> anyhow::Result<World<3>> {
 }
 
 /// The cloth in another colour.
-fn dyed(format: Format, cloth: &Samples, number: usize, backend: Backend) -> anyhow::Result<MeasuredShader> {
+fn dyed(format: Format, cloth: &specular::Data, number: usize, backend: Backend) -> anyhow::Result<MeasuredShader> {
     let dye: [f32; 3] = std::array::from_fn(|k| 0.5 + 0.5 * ((number * (k + 2) * 5) % 17) as f32 / 16.0);
     let values = cloth.values().iter().enumerate().map(|(at, value)| value * dye[at % 3]).collect();
-    let samples = Samples::new(cloth.scatter(), cloth.knots().clone(), cloth.channels().clone(), values)?;
+    let samples = specular::Data::new(cloth.scatter(), cloth.knots().clone(), cloth.channels().clone(), values)?;
     let document = Document::Table(Measured { data: samples, source: Vec::new(), tis: Vec::new() });
     let material = Material::new(Path::new(CLOTH), format, document, &Options::default())?;
     Ok(MeasuredShader::new(material.with_backend(backend))?)

@@ -7,7 +7,7 @@ fn gold(alpha: [f64; 2]) -> Conductor {
     Conductor { ggx: Ggx { alpha }, eta: [0.143, 0.375, 1.442], k: [3.983, 2.386, 1.603] }
 }
 
-fn measured(model: &(impl Model + Sync), resolution: Resolution) -> Rgl {
+fn measured(model: &(impl Model + Sync), resolution: Resolution) -> rgl::Data {
     measure(&OfModel(model), resolution, || {}).expect("a material")
 }
 

@@ -2,7 +2,7 @@
 
 use lobe_lane::{Floats, Kernel, Lanes};
 
-use super::RglTable;
+use super::Table;
 use super::angles;
 use super::frame::{self, Frame};
 use super::grid::Places;
@@ -41,7 +41,7 @@ impl<'a> Wanted<'a> {
     }
 }
 
-impl RglTable {
+impl Table {
     /// Evaluates `f` in 1/sr of many pairs on the backend given: `out[query * channels + channel]`.
     ///
     /// `wi` and `wo` are slices of vectors, or [`Soa`](crate::Soa) of components.
@@ -164,7 +164,7 @@ impl Scratch {
 
 /// All queries of a batch.
 struct Batch<'a, D> {
-    table: &'a RglTable,
+    table: &'a Table,
     wi: D,
     wo: D,
     values: Option<&'a mut [f32]>,
@@ -209,7 +209,7 @@ impl<D: Directions> Batch<'_, D> {
     }
 }
 
-impl RglTable {
+impl Table {
     /// The values of the located queries `0..n`.
     #[inline(always)]
     pub(super) fn values<L: Lanes, const SLICES: usize, const PAIRS: usize, const FOURS: usize>(

@@ -6,7 +6,7 @@ use super::grid::{Grid, Placer};
 use crate::invalid::Invalid;
 use crate::passes::block::Column;
 use crate::rgl::Images;
-use crate::storage::Storage;
+use lobe_memory::Storage;
 
 /// Factors of a larger size are cut off: an overflow would turn into NaN where a weight is 0.
 const LARGEST: f32 = 1e20;

@@ -47,7 +47,7 @@ const FLATTEST: f32 = 1e-20;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Symmetry {
     pub(super) isotropic: bool,
-    /// 1, 2 or 4: see [`Rgl::reduction`](crate::rgl::Rgl::reduction).
+    /// 1, 2 or 4: see [`Data::reduction`](crate::rgl::Data::reduction).
     pub(super) reduction: u32,
 }
 

@@ -1,6 +1,6 @@
-//! An [`Rgl`] made ready to be evaluated in SIMD lanes.
+//! [`Data`] made ready to be evaluated in SIMD lanes.
 //!
-//! A block of queries goes through short passes, as in a [`Table`](crate::Table):
+//! A block of queries goes through short passes, as in a [`Table`](crate::specular::Table):
 //!
 //! 1. `frame`: directions to the half vector, moved to the azimuths that are stored;
 //! 2. `angles`: inverse trigonometry, and positions on the unit square;
@@ -24,11 +24,11 @@ mod sample;
 mod spectra;
 mod warp;
 
-use super::Rgl;
-use crate::axis::Axis;
-use crate::edges::Edge;
+use super::Data;
+use crate::Channels;
+use crate::grid::axis::Axis;
+use crate::grid::edges::Edge;
 use crate::invalid::Invalid;
-use crate::samples::Channels;
 use factor::Factor;
 use frame::Symmetry;
 use spectra::Spectra;
@@ -37,9 +37,9 @@ use warp::Warp;
 pub use batch::Wanted;
 pub use sample::Drawn;
 
-/// How an [`RglTable`] is to be evaluated.
+/// How a [`Table`] is to be evaluated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct RglOptions {
+pub struct Options {
     /// Whether values below zero, which the measurements have, become zero. Off by default.
     pub clamp_negative: bool,
 }
@@ -54,7 +54,7 @@ pub struct RglOptions {
 ///
 /// In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
-pub struct RglTable {
+pub struct Table {
     channels: Channels,
     symmetry: Symmetry,
     phi_i: Axis,
@@ -67,13 +67,13 @@ pub struct RglTable {
     azimuthal: bool,
 }
 
-impl RglTable {
+impl Table {
     /// Normalises the distributions and lays everything out: about 34 bytes a texel of the distributions, and 16 bytes a
     /// texel of RGB.
     ///
     /// # Errors
     /// [`Invalid`] names the part of the material that is larger than the 32-bit index of a lane reaches.
-    pub fn new(rgl: &Rgl, options: RglOptions) -> Result<Self, Invalid> {
+    pub fn new(rgl: &Data, options: Options) -> Result<Self, Invalid> {
         let parts = rgl.parts();
         let axis = |part: &'static str, knots: &[f32]| {
             let knots: Vec<f64> = knots.iter().map(|knot| f64::from(*knot)).collect();
@@ -83,7 +83,7 @@ impl RglTable {
         let floor = if options.clamp_negative { 0.0 } else { f32::MIN };
         let factor = if parts.jacobian { Some(Factor::new(&parts.ndf, &parts.sigma)?) } else { None };
         let azimuthal = parts.phi_i.len() > 1 || factor.as_ref().is_some_and(|factor| factor.azimuthal);
-        Ok(RglTable {
+        Ok(Table {
             azimuthal,
             channels: parts.channels.clone(),
             symmetry: Symmetry { isotropic: rgl.is_isotropic(), reduction: rgl.reduction() },

@@ -3,7 +3,7 @@
 use lobe_lane::{Kernel, Lanes};
 
 use super::batch::Scratch;
-use super::{RglTable, angles, draw, reflect};
+use super::{Table, angles, draw, reflect};
 use crate::directions::Directions;
 use crate::passes::block::{BLOCK, Column};
 use crate::rgl::UniformOrder;
@@ -19,7 +19,7 @@ pub struct Drawn<'a> {
     pub weights: &'a mut [f32],
 }
 
-impl RglTable {
+impl Table {
     /// Draws a `wo` for each `wi` from two numbers in `[0, 1)`, on the backend given.
     ///
     /// # Panics
@@ -38,7 +38,7 @@ impl RglTable {
     /// The drawing of many directions as a kernel.
     ///
     /// # Panics
-    /// As [`sample_batch`](RglTable::sample_batch).
+    /// As [`sample_batch`](Table::sample_batch).
     pub fn sampling<'a, D: Directions + 'a>(
         &'a self,
         wi: D,
@@ -56,7 +56,7 @@ impl RglTable {
 }
 
 struct Sampling<'a, D> {
-    table: &'a RglTable,
+    table: &'a Table,
     wi: D,
     uniforms: &'a [[f32; 2]],
     order: UniformOrder,

@@ -9,7 +9,7 @@ use crate::passes::block::{BLOCK, Column};
 use crate::passes::texels::{self, Tile};
 use crate::passes::weights::MAX_CORNERS;
 use crate::rgl::Images;
-use crate::storage::Storage;
+use lobe_memory::Storage;
 
 /// Up to this many channels are kept as four floats a texel, two neighbours of which one load brings; more are padded to
 /// eights.

@@ -5,7 +5,7 @@ use lobe_lane::{Block, Lanes};
 use super::grid::Grid;
 use crate::invalid::Invalid;
 use crate::rgl::{Images, marginal};
-use crate::storage::Storage;
+use lobe_memory::Storage;
 
 /// Normalised slices: what [`rgl::Warp`](crate::rgl::Warp) is in `f64`.
 ///

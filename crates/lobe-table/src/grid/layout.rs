@@ -2,10 +2,10 @@
 
 use lobe_lane::Block;
 
-use crate::Samples;
-use crate::axis::Axis;
-use crate::storage::Storage;
-use crate::texel::{Precision, Stored, half_scale};
+use crate::grid::axis::Axis;
+use crate::grid::texel::{Precision, Stored, half_scale};
+use crate::specular;
+use lobe_memory::Storage;
 
 /// How the channels of a node are stored. All but the last index of an axis have their upper neighbour at a fixed
 /// distance.
@@ -69,7 +69,7 @@ pub(crate) struct Layout {
 
 impl Layout {
     /// Lays out the samples at the knots of `axes`. `None` where the table has more floats than a lane can index.
-    pub(crate) fn new(samples: &Samples, axes: &[Axis; 4], precision: Precision) -> Option<Self> {
+    pub(crate) fn new(samples: &specular::Data, axes: &[Axis; 4], precision: Precision) -> Option<Self> {
         let channels = samples.channels().count();
         let (kind, width) = match channels {
             1 => (Kind::Mono, 4),
@@ -165,7 +165,7 @@ struct Shape {
 
 impl Shape {
     /// Writes the values of all nodes, multiplied by `scale`.
-    fn fill<T: Stored>(&self, len: usize, samples: &Samples, axes: &[Axis; 4], scale: f32) -> Storage<T> {
+    fn fill<T: Stored>(&self, len: usize, samples: &specular::Data, axes: &[Axis; 4], scale: f32) -> Storage<T> {
         let Shape { kind, width, channels, nodes } = *self;
         let mut storage = Storage::zeros(len);
         let texel = |node: [usize; 4]| {

@@ -5,7 +5,7 @@ use spade::{
     DelaunayTriangulation, HasPosition, HierarchyHintGenerator, Point2, PositionInTriangulation, Triangulation,
 };
 
-use crate::line::Line;
+use super::line::Line;
 
 type Delaunay = DelaunayTriangulation<Vertex, (), (), (), HierarchyHintGenerator<f64>>;
 

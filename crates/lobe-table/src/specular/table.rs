@@ -2,11 +2,11 @@
 
 use thiserror::Error;
 
-use crate::axis::{Axis, AxisError};
-use crate::function::Function;
-use crate::layout::Layout;
-use crate::texel::Precision;
-use crate::{AXIS_NAMES, Channels, Edge, Edges, Samples, Scatter};
+use crate::grid::axis::{Axis, AxisError};
+use crate::grid::function::Function;
+use crate::grid::layout::Layout;
+use crate::grid::texel::Precision;
+use crate::{Channels, Edge, Edges, Scatter, specular::AXIS_NAMES, specular::Data};
 
 /// Why samples do not make a table.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -56,7 +56,7 @@ impl Table {
     ///
     /// # Errors
     /// Where the table is too large to be indexed, or a periodic axis cannot be closed.
-    pub fn new(samples: &Samples, edges: &Edges) -> Result<Self, TableError> {
+    pub fn new(samples: &Data, edges: &Edges) -> Result<Self, TableError> {
         Table::with_precision(samples, edges, Precision::Single)
     }
 
@@ -64,7 +64,7 @@ impl Table {
     ///
     /// # Errors
     /// As [`new`](Table::new).
-    pub fn with_precision(samples: &Samples, edges: &Edges, precision: Precision) -> Result<Self, TableError> {
+    pub fn with_precision(samples: &Data, edges: &Edges, precision: Precision) -> Result<Self, TableError> {
         let axis = |index: usize| {
             Axis::new(&samples.knots()[index], edges.axes[index])
                 .map_err(|source| TableError::Axis { axis: AXIS_NAMES[index], source })

@@ -5,8 +5,8 @@ use std::f32::consts::{FRAC_1_PI, TAU};
 use lobe_lane::{Floats, Ints, Lanes};
 
 use super::{AngleBasis, SAME_BOUND};
-use crate::axis::Axis;
-use crate::edges::Edge;
+use crate::grid::axis::Axis;
+use crate::grid::edges::Edge;
 use crate::invalid::Invalid;
 use crate::passes::block::Column;
 use crate::passes::cells;

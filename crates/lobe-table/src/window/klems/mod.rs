@@ -4,7 +4,7 @@
 //! is centred on +x (J. H. Klems, "A new method for predicting the solar heat gain of complex fenestration systems",
 //! ASHRAE Transactions 100(1), 1994). Nothing is interpolated: a value belongs to a whole patch.
 //!
-//! The evaluation in SIMD lanes is that of [`WindowTable`](crate::window::WindowTable).
+//! The evaluation in SIMD lanes is that of [`Table`](super::Table).
 
 pub(crate) mod lanes;
 mod reference;

@@ -6,7 +6,7 @@
 //! incident square. Every branch halves each dimension. Nothing is interpolated.
 //!
 //! Nodes and leaf values lie in flat arrays, so that a walk down the tree is a gather per level. The evaluation in SIMD
-//! lanes is that of [`WindowTable`](crate::window::WindowTable).
+//! lanes is that of [`Table`](super::Table).
 
 pub(crate) mod lanes;
 mod reference;

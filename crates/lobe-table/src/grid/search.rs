@@ -7,7 +7,7 @@ use std::f32::consts::TAU;
 
 use lobe_lane::{Floats, Ints, Lanes};
 
-use crate::axis::{Axis, Registers, Search};
+use crate::grid::axis::{Axis, Registers, Search};
 
 /// A cell in each lane.
 #[derive(Clone, Copy, Debug)]

@@ -5,8 +5,8 @@
 
 use lobe_lane::{Floats, Lanes};
 
-use crate::axis::Axis;
-use crate::search::Cell;
+use crate::grid::axis::Axis;
+use crate::grid::search::Cell;
 use crate::{AxisError, Edge};
 
 /// A piecewise linear function of an angle, evaluated in lanes.

@@ -4,12 +4,10 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use crate::coords::directions_to_angles;
-use crate::edges::{Edge, Edges};
-use crate::samples::{Samples, Scatter};
-
-/// How far outside its knots, in radians, a query still counts as inside: room for knots and angles rounded in a file.
-pub(crate) const ROUNDING: f64 = 1e-6;
+use crate::grid::edges::ROUNDING;
+use crate::specular::Data;
+use crate::specular::coords::directions_to_angles;
+use crate::{Edge, Edges, Scatter};
 
 /// Evaluates `f(wi, wo)` in 1/sr into `out`, one value a channel.
 ///
@@ -20,7 +18,7 @@ pub(crate) const ROUNDING: f64 = 1e-6;
 ///
 /// # Panics
 /// Where `out` is not as long as there are channels.
-pub fn eval(samples: &Samples, edges: &Edges, wi: [f64; 3], wo: [f64; 3], out: &mut [f64]) {
+pub fn eval(samples: &Data, edges: &Edges, wi: [f64; 3], wo: [f64; 3], out: &mut [f64]) {
     let fold = |v: [f64; 3]| match samples.scatter() {
         Scatter::Reflection => v,
         Scatter::Transmission => [v[0], v[1], v[2].abs()],
@@ -39,7 +37,7 @@ pub fn eval(samples: &Samples, edges: &Edges, wi: [f64; 3], wo: [f64; 3], out: &
 ///
 /// # Panics
 /// Where `out` is not as long as there are channels.
-pub fn eval_angles(samples: &Samples, edges: &Edges, angles: [f64; 4], out: &mut [f64]) {
+pub fn eval_angles(samples: &Data, edges: &Edges, angles: [f64; 4], out: &mut [f64]) {
     let channels = samples.channels().count();
     assert_eq!(out.len(), channels, "one output a channel");
     out.fill(0.0);
@@ -70,7 +68,7 @@ pub fn eval_angles(samples: &Samples, edges: &Edges, angles: [f64; 4], out: &mut
 /// The polar angle in `[0, pi/2]` of the zenith of `(theta, phi)` for light at `sigma`: `sigma` plus the refraction
 /// offset, where the table has offsets, interpolated with the policy of the sigma axis ([`Edge::Zero`] as
 /// [`Edge::Clamp`]).
-pub fn zenith(samples: &Samples, edges: &Edges, sigma: f64) -> f64 {
+pub fn zenith(samples: &Data, edges: &Edges, sigma: f64) -> f64 {
     let Some(offsets) = samples.refraction() else { return sigma };
     let edge = if edges.axes[0] == Edge::Zero { Edge::Clamp } else { edges.axes[0] };
     let offset = Cell::find(&samples.knots()[0], edge, sigma)

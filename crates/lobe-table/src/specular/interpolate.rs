@@ -2,15 +2,15 @@
 
 use lobe_lane::{Floats, Kernel, Lanes};
 
-use crate::eval::Scratch;
-use crate::layout::PSI;
+use crate::grid::layout::PSI;
 use crate::passes::block::BLOCK;
-use crate::table::Table;
+use crate::specular::Table;
+use crate::specular::eval::Scratch;
 
 impl Table {
     /// Interpolates at many points on the backend given: `out[query * channels + channel]`, in 1/sr.
     ///
-    /// `angles` are sigma, psi, theta and phi in radians, see [`coords`](crate::coords); psi and phi are in `[0, 2 pi]`.
+    /// `angles` are sigma, psi, theta and phi in radians, see [`coords`](crate::specular::coords); psi and phi are in `[0, 2 pi]`.
     /// An isotropic table does not read psi, which may be empty. Results are 0 where an angle is not finite.
     ///
     /// # Panics

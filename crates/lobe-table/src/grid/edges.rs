@@ -44,3 +44,6 @@ impl Edges {
         Edges { axes: [Edge::Zero, Edge::Periodic, Edge::Zero, Edge::Periodic], non_negative: true }
     }
 }
+
+/// How far outside its knots, in radians, a query still counts as inside: room for knots and angles rounded in a file.
+pub(crate) const ROUNDING: f64 = 1e-6;

@@ -3,15 +3,15 @@
 use lobe_lane::{Floats, Kernel, Lanes, MAX_LANES};
 
 use crate::directions::{BlockOfDirections, Directions};
-use crate::layout::{Corners, Kind, PHI, PSI, Texels};
+use crate::grid::layout::{Corners, Kind, PHI, PSI, Texels};
+use crate::grid::texel::Stored;
 use crate::passes::block::{BLOCK, Column};
 use crate::passes::frame::{self, Frame};
 use crate::passes::texels::{self, Tile};
 use crate::passes::weights::{self, MAX_CORNERS};
 use crate::passes::{angles, cells};
-use crate::single::Single;
-use crate::table::Table;
-use crate::texel::Stored;
+use crate::specular::Table;
+use crate::specular::single::Single;
 
 /// What the passes of a block hand on.
 pub(crate) struct Scratch {

@@ -7,13 +7,16 @@
 //! from one measurement to the next and does not fade out here while it fades in there. Outside of what was measured
 //! the nearest point of the convex hull answers.
 
+mod line;
+mod mesh;
+
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use thiserror::Error;
 
-use crate::mesh::Mesh;
 use crate::{Channels, Scatter};
+use mesh::Mesh;
 
 /// Why angles and values are no measurement.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -78,7 +81,7 @@ struct Incidence {
 /// They are evaluated in `f64`, a pair at a time, and have no form in lanes: finding the triangle of a point is a walk from
 /// neighbour to neighbour that takes another way for every pair, so that lanes would wait for each other.
 #[derive(Clone, Debug)]
-pub struct Scattered {
+pub struct Data {
     scatter: Scatter,
     channels: Channels,
     is_isotropic: bool,
@@ -88,7 +91,7 @@ pub struct Scattered {
     mesh: Mesh,
 }
 
-impl Scattered {
+impl Data {
     /// Checks samples and keeps them. `angles` are [`ANGLE_NAMES`] of each sample in radians, each polar angle from the
     /// normal on the side of its direction, so that those of a BTDF are below `pi/2` too; `values` are
     /// `[sample][channel]`. Samples of the same two directions are averaged.
@@ -146,7 +149,7 @@ impl Scattered {
             true if most < SAME => -1.0,
             _ => 0.0,
         };
-        Ok(Scattered { scatter, channels, is_isotropic, measured_side, incidences, mesh })
+        Ok(Data { scatter, channels, is_isotropic, measured_side, incidences, mesh })
     }
 
     /// Reflection or transmission.

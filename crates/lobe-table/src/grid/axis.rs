@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use thiserror::Error;
 
+use super::edges::ROUNDING;
 use crate::Edge;
-use crate::reference::ROUNDING;
 
 /// An axis with at most this many cells is searched inside registers, or by counting knots.
 pub(crate) const MAX_REGISTER_CELLS: usize = 32;

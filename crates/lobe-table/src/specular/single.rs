@@ -9,12 +9,12 @@ use std::f32::consts::TAU;
 use lobe_lane::{Block, Kernel, Lanes, MAX_LANES};
 
 use crate::Scatter;
-use crate::axis::{Axis, Bounds, Search};
-use crate::layout::{Corners, PHI, PSI, SIGMA, THETA, Texels};
+use crate::grid::axis::{Axis, Bounds, Search};
+use crate::grid::layout::{Corners, PHI, PSI, SIGMA, THETA, Texels};
+use crate::grid::texel::Stored;
 use crate::passes::angles::TINY;
 use crate::passes::frame::{FARTHEST, POLE, Refracted, Zenith};
-use crate::table::Table;
-use crate::texel::Stored;
+use crate::specular::Table;
 
 /// One query.
 pub(crate) struct Single<'a> {
@@ -157,7 +157,7 @@ impl Axis {
         (cell, fraction, contained)
     }
 
-    /// As [`Find::find`](crate::search::Find), for one angle.
+    /// As [`Find::find`](crate::grid::search::Find), for one angle.
     #[inline(always)]
     fn find_one<L: Lanes>(&self, lanes: L, x: f32) -> (u32, f32) {
         let cell = match self.search() {

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::scattered::ANGLE_NAMES;
-use crate::{Channels, SamplesError, Scatter};
+use crate::{Channels, GridError, Scatter};
 
 /// A BRDF or BTDF on a grid of `theta_i`, `phi_i`, `theta_o`, `phi_o`, in radians.
 ///
@@ -13,9 +13,9 @@ use crate::{Channels, SamplesError, Scatter};
 ///
 /// It is evaluated in `f64`, a pair at a time, and has no form in lanes: the files are small, most are one of the several
 /// measurements of a sheet, among which the sides of each pair choose, and what is to be fast is resampled into a
-/// [`Table`](crate::Table), whose coordinates follow the peak.
+/// [`Table`](crate::specular::Table), whose coordinates follow the peak.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SphericalGrid {
+pub struct Data {
     scatter: Scatter,
     knots: [Vec<f64>; 4],
     channels: Channels,
@@ -25,61 +25,61 @@ pub struct SphericalGrid {
 
 const ROUNDING: f64 = 1e-5;
 
-impl SphericalGrid {
+impl Data {
     /// Checks knots and values and keeps them.
     ///
     /// # Errors
-    /// [`SamplesError`] names the axis, the position, what was found and what was expected.
+    /// [`GridError`] names the axis, the position, what was found and what was expected.
     pub fn new(
         scatter: Scatter,
         knots: [Vec<f64>; 4],
         channels: Channels,
         values: Vec<f32>,
-    ) -> Result<Self, SamplesError> {
+    ) -> Result<Self, GridError> {
         let mut expected = channels.count();
         if expected == 0 {
-            return Err(SamplesError::Channels("no channels; expected at least one".into()));
+            return Err(GridError::Channels("no channels; expected at least one".into()));
         }
         for (of_axis, axis) in knots.iter().zip(ANGLE_NAMES) {
             let limit = if axis.starts_with("theta") { FRAC_PI_2 } else { TAU };
             if of_axis.is_empty() {
-                return Err(SamplesError::NoKnots { axis });
+                return Err(GridError::NoKnots { axis });
             }
             for (index, &value) in of_axis.iter().enumerate() {
                 if !value.is_finite() {
-                    return Err(SamplesError::KnotNotFinite { axis, index, value });
+                    return Err(GridError::KnotNotFinite { axis, index, value });
                 }
                 if !(-ROUNDING..=limit + ROUNDING).contains(&value) {
-                    return Err(SamplesError::KnotOutOfRange { axis, index, value, limit });
+                    return Err(GridError::KnotOutOfRange { axis, index, value, limit });
                 }
                 if index > 0 && value as f32 <= of_axis[index - 1] as f32 {
-                    return Err(SamplesError::KnotsNotAscending { axis, index, previous: of_axis[index - 1], value });
+                    return Err(GridError::KnotsNotAscending { axis, index, previous: of_axis[index - 1], value });
                 }
             }
-            expected = expected.checked_mul(of_axis.len()).ok_or(SamplesError::TooLarge)?;
+            expected = expected.checked_mul(of_axis.len()).ok_or(GridError::TooLarge)?;
         }
         if values.len() != expected {
-            return Err(SamplesError::ValueCount { found: values.len(), expected });
+            return Err(GridError::ValueCount { found: values.len(), expected });
         }
         if let Some(index) = values.iter().position(|v| !v.is_finite()) {
-            return Err(SamplesError::ValueNotFinite { index, value: values[index] });
+            return Err(GridError::ValueNotFinite { index, value: values[index] });
         }
-        Ok(SphericalGrid { scatter, knots, channels, values, is_mirrored: false })
+        Ok(Data { scatter, knots, channels, values, is_mirrored: false })
     }
 
     /// Takes the grid for one half of an isotropic material whose other half, across the plane of incidence, is its
     /// mirror image. `phi_o` then is the angle between the azimuths, held beyond its knots.
     ///
     /// # Errors
-    /// [`SamplesError::KnotOutOfRange`] where there is a second `phi_i`, or a `phi_o` beyond half a turn.
-    pub fn mirrored(self) -> Result<Self, SamplesError> {
+    /// [`GridError::KnotOutOfRange`] where there is a second `phi_i`, or a `phi_o` beyond half a turn.
+    pub fn mirrored(self) -> Result<Self, GridError> {
         for (axis, limit, least) in [(1, 0.0, 1), (3, PI, 0)] {
             let beyond = self.knots[axis].iter().enumerate().skip(least).find(|(_, knot)| **knot > limit + ROUNDING);
             if let Some((index, &value)) = beyond {
-                return Err(SamplesError::KnotOutOfRange { axis: ANGLE_NAMES[axis], index, value, limit });
+                return Err(GridError::KnotOutOfRange { axis: ANGLE_NAMES[axis], index, value, limit });
             }
         }
-        Ok(SphericalGrid { is_mirrored: true, ..self })
+        Ok(Data { is_mirrored: true, ..self })
     }
 
     /// `true` where the grid is one half of a material, see [`mirrored`](Self::mirrored).

@@ -1,0 +1,49 @@
+//! What every representation says of its values: which light they are for, and what their channels stand for.
+
+/// Which side of the surface the light leaves on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scatter {
+    /// A BRDF: `wi` and `wo` on the same side.
+    Reflection,
+    /// A BTDF: `wo` on the other side. The zenith of `(theta, phi)` is the mirror image, about the surface, of the
+    /// straight-through (or refracted) ray, so tables of both kinds have the same geometry.
+    Transmission,
+}
+
+/// What the channels of a table stand for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Channels {
+    /// One value, no colour.
+    Mono,
+    /// Linear red, green, blue; the file says no more about the primaries.
+    Rgb,
+    /// CIE tristimulus values X, Y, Z.
+    Xyz,
+    /// One channel a wavelength, in nm, in the file's order.
+    Spectral(Vec<f64>),
+    /// Bands that have names only, such as `Visible` and `Solar`.
+    Named(Vec<String>),
+}
+
+impl Channels {
+    /// How many channels there are.
+    pub fn count(&self) -> usize {
+        match self {
+            Channels::Mono => 1,
+            Channels::Rgb | Channels::Xyz => 3,
+            Channels::Spectral(wavelengths) => wavelengths.len(),
+            Channels::Named(names) => names.len(),
+        }
+    }
+
+    /// A name for each channel, in order: `Y`, or `R G B`, or `X Y Z`, or `550nm`, or what the file calls it.
+    pub fn names(&self) -> Vec<String> {
+        match self {
+            Channels::Mono => vec!["Y".into()],
+            Channels::Rgb => ["R", "G", "B"].map(String::from).into(),
+            Channels::Xyz => ["X", "Y", "Z"].map(String::from).into(),
+            Channels::Spectral(wavelengths) => wavelengths.iter().map(|nm| format!("{nm}nm")).collect(),
+            Channels::Named(names) => names.clone(),
+        }
+    }
+}

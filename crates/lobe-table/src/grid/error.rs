@@ -1,0 +1,73 @@
+//! Why knots and values do not make a grid.
+
+use thiserror::Error;
+
+/// Why knots and values do not make a grid.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum GridError {
+    /// An axis without a knot.
+    #[error("the {axis} axis has no knots; expected at least one")]
+    NoKnots {
+        /// Name of the axis.
+        axis: &'static str,
+    },
+    /// A knot that is NaN or infinite.
+    #[error("{axis} knot {index} is {value}; expected a finite angle")]
+    KnotNotFinite {
+        /// Name of the axis.
+        axis: &'static str,
+        /// Position in the list of knots.
+        index: usize,
+        /// What was found.
+        value: f64,
+    },
+    /// Knots that do not ascend strictly, also after rounding to `f32`.
+    #[error("{axis} knot {index} is {value} rad after {previous} rad; expected strictly ascending knots")]
+    KnotsNotAscending {
+        /// Name of the axis.
+        axis: &'static str,
+        /// Position of the second of the two knots.
+        index: usize,
+        /// The first of the two knots.
+        previous: f64,
+        /// The second of the two knots.
+        value: f64,
+    },
+    /// A knot outside what the axis can hold.
+    #[error("{axis} knot {index} is {value} rad; expected an angle in [0, {limit}] rad")]
+    KnotOutOfRange {
+        /// Name of the axis.
+        axis: &'static str,
+        /// Position in the list of knots.
+        index: usize,
+        /// What was found.
+        value: f64,
+        /// The largest angle that the axis can hold.
+        limit: f64,
+    },
+    /// The value count is not the product of the axis sizes and the channels.
+    #[error("{found} values; expected {expected} = sigma x psi x theta x phi x channels")]
+    ValueCount {
+        /// What was found.
+        found: usize,
+        /// What the axes and channels ask for.
+        expected: usize,
+    },
+    /// The table would have more entries than memory can address.
+    #[error("the axes and channels ask for more values than memory can address")]
+    TooLarge,
+    /// No channel, or a wavelength that is no positive finite number.
+    #[error("{0}")]
+    Channels(String),
+    /// A value that is NaN or infinite.
+    #[error("value {index} is {value}; expected a finite number")]
+    ValueNotFinite {
+        /// Position in the value array.
+        index: usize,
+        /// What was found.
+        value: f32,
+    },
+    /// As many refraction offsets as sigma knots are needed, all finite.
+    #[error("{0}")]
+    Refraction(String),
+}

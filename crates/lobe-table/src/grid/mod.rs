@@ -1,0 +1,18 @@
+//! Grids apart from what their axes mean: knots and how cells are found among them, what holds outside, and how texels lie
+//! in memory.
+
+pub(crate) mod axis;
+pub(crate) mod edges;
+mod error;
+pub(crate) mod function;
+pub(crate) mod knots;
+pub(crate) mod layout;
+pub(crate) mod search;
+pub(crate) mod texel;
+
+pub use axis::{Axis, AxisError};
+pub use edges::{Edge, Edges};
+pub use error::GridError;
+pub use function::Function;
+pub use search::Cell;
+pub use texel::Precision;
