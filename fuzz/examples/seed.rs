@@ -2,27 +2,23 @@
 //! `LOBE_SHARED` names or in `shared` beside the workspace.
 #![forbid(unsafe_code)]
 
-use std::path::{Path, PathBuf};
-use std::{env, fs, io};
+use std::path::Path;
+use std::{fs, io};
 
 use lobe_formats::{Format, sniff, tensor};
-
-#[path = "../../crates/lobe-formats/tests/common/mod.rs"]
-mod common;
-#[path = "../../crates/lobe-formats/tests/common/examples.rs"]
-mod examples;
+use lobe_testing::{examples, files};
 
 fn main() -> io::Result<()> {
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
-    let mut files = examples::all();
-    files.push((Format::Utia, vec![0; 1_990_656]));
-    if let Some(shared) = shared() {
-        for path in ["golden", "data"].iter().flat_map(|folder| common::small_files(&shared.join(folder))) {
-            let bytes = common::bytes(&path);
-            files.extend(sniff(&bytes).map(|format| (format, bytes)));
+    let mut seeds = examples::all();
+    seeds.push((Format::Utia, vec![0; 1_990_656]));
+    if let Some(shared) = files::find_shared() {
+        for path in ["golden", "data"].iter().flat_map(|folder| files::small_files(&shared.join(folder))) {
+            let bytes = files::bytes(&path);
+            seeds.extend(sniff(&bytes).map(|format| (format, bytes)));
         }
     }
-    for (index, (format, bytes)) in files.iter().enumerate() {
+    for (index, (format, bytes)) in seeds.iter().enumerate() {
         let mut targets = vec![target(*format)];
         // Told by nothing but its size, which mutations change.
         if *format != Format::Utia {
@@ -37,15 +33,8 @@ fn main() -> io::Result<()> {
             fs::write(folder.join(format!("seed-{index}")), bytes)?;
         }
     }
-    println!("{} files in {}", files.len(), corpus.display());
+    println!("{} files in {}", seeds.len(), corpus.display());
     Ok(())
-}
-
-/// The folder with measured files, if there is one.
-fn shared() -> Option<PathBuf> {
-    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared");
-    let folder = env::var_os("LOBE_SHARED").map_or_else(beside, PathBuf::from);
-    folder.join("golden").is_dir().then_some(folder)
 }
 
 /// The target of a format: `LightTools` has `light_tools`.

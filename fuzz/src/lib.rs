@@ -6,19 +6,17 @@
 use std::path::Path;
 
 use lobe_formats::Format;
+use lobe_testing::probe::probe;
 
-#[path = "../../crates/lobe-formats/tests/common/memory.rs"]
-mod memory;
-#[path = "../../crates/lobe-formats/tests/common/probe.rs"]
-mod probe;
+lobe_testing::count_memory!();
 
 /// Reads `bytes` as a file of `format` and evaluates what is in it.
 ///
 /// # Panics
-/// Where a reader or an evaluation does, or a reader took more memory than the size of the file can justify.
+/// If a reader or an evaluation does, or a reader took more memory than the size of the file can justify.
 pub fn read(format: Format, bytes: &[u8]) {
     // Whether it is a sound file is not the question.
-    let _ = probe::probe(format, bytes, Path::new("fuzz"));
+    let _ = probe(format, bytes, Path::new("fuzz"));
 }
 
 /// The target of a reader, which is named by its variant of [`Format`].

@@ -1,11 +1,10 @@
 //! No reader allocates more than a small multiple of the size of its file, whatever the file says.
 
-#[path = "common/memory.rs"]
-mod memory;
-
 use lobe_formats::{mbsdf, merl, pbsdf, rgl, speos, tensor, window_xml};
-use memory::peak;
+use lobe_testing::memory::peak;
 use std::path::Path;
+
+lobe_testing::count_memory!();
 
 /// A tensor file whose fields all lie over the same data, and say whatever the caller wants of their shape.
 fn overlapping(names: &[String], dtype: u8, shape: &[u64], data: usize) -> Vec<u8> {

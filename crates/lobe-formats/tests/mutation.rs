@@ -5,24 +5,18 @@
 //! sound one, which is 400 without it, and `LOBE_MUTATION_SEED` the seed of the first of them, which is 0. A file that is
 //! too much for its reader is kept in `target/tmp`.
 
-mod common;
-#[path = "common/examples.rs"]
-mod examples;
-#[path = "common/memory.rs"]
-mod memory;
-#[path = "common/mutate.rs"]
-mod mutate;
-#[path = "common/probe.rs"]
-mod probe;
-
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use lobe_formats::{Format, sniff};
+use lobe_testing::probe::probe;
+use lobe_testing::{damage, examples};
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
+
+lobe_testing::count_memory!();
 
 /// Files beyond this size have fewer mutants, so that each file takes about as long.
 const FULL_COUNT_SIZE: usize = 4_096;
@@ -41,7 +35,7 @@ fn run(format: Format, name: &str, bytes: &[u8], costs: &mut BTreeMap<&'static s
     let start = Instant::now();
     let outcome = catch_unwind(AssertUnwindSafe(|| {
         sniff(bytes);
-        probe::probe(format, bytes, Path::new(name))
+        probe(format, bytes, Path::new(name))
     }));
     let Ok((result, peak)) = outcome else {
         let kept = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
@@ -69,9 +63,10 @@ fn damaged_files_do_no_harm() {
     let (count, first) = (variable("LOBE_MUTATIONS", 400), variable("LOBE_MUTATION_SEED", 0));
     let mut files = examples::all();
     let own = files.len();
-    if let Some(shared) = common::shared() {
-        for path in ["golden", "data"].iter().flat_map(|folder| common::small_files(&shared.join(folder))) {
-            let bytes = common::bytes(&path);
+    if let Some(shared) = lobe_testing::files::shared() {
+        for path in ["golden", "data"].iter().flat_map(|folder| lobe_testing::files::small_files(&shared.join(folder)))
+        {
+            let bytes = lobe_testing::files::bytes(&path);
             files.extend(sniff(&bytes).map(|format| (format, bytes)));
         }
     }
@@ -90,7 +85,7 @@ fn damaged_files_do_no_harm() {
         let mutants = (count * FULL_COUNT_SIZE / bytes.len().max(FULL_COUNT_SIZE)).max(1);
         for seed in first..first + mutants {
             let mut random = Pcg64Mcg::seed_from_u64((seed << 16 | index) as u64);
-            let mutant = mutate::mutant(&mut random, bytes, same[seed % same.len()]);
+            let mutant = damage::mutant(&mut random, bytes, same[seed % same.len()]);
             run(*format, &name(&format!("seed-{seed}")), &mutant, &mut costs);
         }
     }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::Context;
 
-use super::made::spherical;
+use lobe_testing::made::spherical;
 
 /// What was asked, and what came out.
 #[derive(Clone, Debug)]

@@ -7,8 +7,8 @@ use lobe::formats::{self, Document, Format};
 use lobe::{Backend, Edges, Material, Options};
 
 use super::answers::{self, Answer, direction};
-use super::made::{merl_formula, utia_numbers};
 use super::{Comparison, Measure};
+use lobe_testing::made::{merl_formula, utia_numbers};
 
 /// The file of answers `name`; none where it is no such file.
 pub(super) fn compare(backend: Backend, shared: &Path, answers: &Path, name: &str) -> anyhow::Result<Vec<Comparison>> {

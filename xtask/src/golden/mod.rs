@@ -5,8 +5,6 @@
 
 mod answers;
 mod cases;
-#[path = "../../../crates/lobe-formats/tests/common/made.rs"]
-mod made;
 
 use std::path::{Path, PathBuf};
 

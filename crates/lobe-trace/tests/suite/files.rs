@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use lobe_scalar::Scalar;
+use lobe_testing::files::{fixture, shared_file};
 use lobe_trace::{Form, Mesh, Scene};
 
 use crate::backends::intersect;
@@ -21,14 +22,6 @@ fn meshes(folder: &Path) -> Vec<PathBuf> {
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).filter(is_mesh).collect();
     paths.sort();
     paths
-}
-
-/// The folder of meshes beside the project, if there is one.
-fn shared() -> Option<PathBuf> {
-    let root = std::env::var_os("LOBE_SHARED")
-        .map_or_else(|| PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared")), PathBuf::from);
-    let folder = root.join("data/geometry");
-    folder.is_dir().then_some(folder)
 }
 
 /// Rays from a camera and random ones: what is hit is what double precision finds, by every form.
@@ -50,11 +43,10 @@ fn check(path: &Path, count: usize) {
 
 #[test]
 fn random_rays_hit_what_double_precision_finds_in_every_mesh() {
-    let mut paths = meshes(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/scenes"));
+    let mut paths = meshes(&fixture("scenes"));
     assert!(!paths.is_empty(), "the project has meshes");
-    match shared() {
-        Some(folder) => paths.extend(meshes(&folder)),
-        None => println!("SKIP: no folder of meshes beside the project"),
+    if let Some(folder) = shared_file("data/geometry") {
+        paths.extend(meshes(&folder));
     }
     let (next, count) = (AtomicUsize::new(0), ray_count().div_ceil(paths.len()));
     let work = || {

@@ -1,0 +1,196 @@
+//! `lobe convert`, `lobe generate`, `lobe completions` and `lobe man` from outside.
+
+use std::process::{Command, Output};
+
+use lobe_testing::files::fixture;
+use tempfile::TempDir;
+
+struct Folder(TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Folder(tempfile::tempdir().expect("a folder"))
+    }
+
+    /// Runs lobe in the folder.
+    fn lobe(&self, arguments: &[&str]) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_lobe")).current_dir(&self.0).args(arguments).output().expect("lobe runs")
+    }
+
+    /// What a command that succeeds says on the standard error.
+    fn said(&self, arguments: &[&str]) -> String {
+        let output = self.lobe(arguments);
+        let said = String::from_utf8(output.stderr).expect("text");
+        assert!(output.status.success(), "{arguments:?}: {said}");
+        said
+    }
+
+    /// Why a command is refused, with exit code 2; no file is written.
+    fn refused(&self, arguments: &[&str], out: &str) -> String {
+        let output = self.lobe(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(!self.0.path().join(out).exists(), "{out} was written");
+        String::from_utf8(output.stderr).expect("text")
+    }
+
+    fn printed(&self, arguments: &[&str]) -> String {
+        let output = self.lobe(arguments);
+        assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).expect("text")
+    }
+
+    fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.0.path().join(name)).expect("a text file")
+    }
+
+    /// The largest of the errors at the probes, and the median.
+    fn errors(said: &str) -> [f64; 2] {
+        let number = |after: &str| {
+            let rest = said.split(after).nth(1).unwrap_or_else(|| panic!("no {after:?} in {said}"));
+            rest.trim().split([',', '\n', ' ']).next().and_then(|x| x.parse().ok()).expect("a number")
+        };
+        [number("largest"), number("median")]
+    }
+}
+
+const CONDUCTOR: &str = "conductor-7x8x13.ddr";
+
+#[test]
+fn what_a_format_can_hold_is_written_as_it_is() {
+    let folder = Folder::new();
+    let source = fixture(CONDUCTOR);
+    let source = source.to_str().expect("a path in UTF-8");
+    let said = folder.said(&["convert", source, "table.ssdd"]);
+    assert_eq!(said, "table.ssdd: SSDD, the values and nodes of the file\n");
+    folder.said(&["convert", "table.ssdd", "table.csv"]);
+    folder.said(&["convert", "table.csv", "back.ddr"]);
+    assert!(folder.read("back.ddr") == std::fs::read_to_string(fixture(CONDUCTOR)).expect("the fixture"));
+
+    let said = folder.said(&["convert", source, "table.bsdf", "--to", "zemax"]);
+    assert_eq!(
+        said,
+        "table.bsdf: Zemax BSDF, the values and nodes of the file; R G B, taken for linear sRGB, as X Y Z\n"
+    );
+    let angles = ["--angles", "25,0,4,60"];
+    let rgb: Vec<f64> = folder
+        .printed(&[&["eval", source], &angles[..]].concat())
+        .split_whitespace()
+        .skip(1)
+        .step_by(2)
+        .map(|x| x.parse().expect("a number"))
+        .collect();
+    let xyz = folder.printed(&[&["eval", "table.bsdf", "--channel", "Y"], &angles[..]].concat());
+    let y: f64 = xyz.split_whitespace().nth(1).expect("a value").parse().expect("a number");
+    let expected = 0.2126729 * rgb[0] + 0.7151522 * rgb[1] + 0.072175 * rgb[2];
+    assert!((y - expected).abs() < 1e-5 * expected, "{y} instead of {expected}");
+
+    folder.said(&["convert", source, "green.bsdf", "--to", "zemax", "--channel", "G"]);
+    let green = folder.printed(&[&["eval", "green.bsdf"], &angles[..]].concat());
+    let green: f64 = green.split_whitespace().nth(1).expect("a value").parse().expect("a number");
+    assert!((green - rgb[1]).abs() < 1e-6 * rgb[1], "{green} instead of {}", rgb[1]);
+}
+
+#[test]
+fn resampling_is_said_with_its_error() {
+    let folder = Folder::new();
+    let source = fixture(CONDUCTOR);
+    let source = source.to_str().expect("a path in UTF-8");
+    let coarse = folder.said(&["convert", source, "coarse.bsdf", "--to", "rgl", "--zeniths", "6", "--texels", "12"]);
+    assert!(
+        coarse.starts_with(
+            "coarse.bsdf: RGL BSDF, resampled: isotropic reflection, 6 theta_i x 1 phi_i, 12 x 12 texels\n"
+        ),
+        "{coarse}"
+    );
+    let fine = folder.said(&["convert", source, "fine.bsdf", "--to", "rgl"]);
+    let ([_, coarse], [_, fine]) = (Folder::errors(&coarse), Folder::errors(&fine));
+    assert!(fine < 0.5 * coarse && fine < 5e-3, "median {fine} after {coarse}");
+    assert!(folder.printed(&["info", "fine.bsdf"]).contains("RGL BSDF"));
+
+    let klems = folder.said(&["convert", source, "sheet.xml", "--basis", "quarter"]);
+    assert!(klems.contains("means over 41 x 41 patches"), "{klems}");
+    assert!(folder.printed(&["info", "sheet.xml"]).contains("CIE-X"));
+}
+
+#[test]
+fn what_a_format_cannot_hold_is_refused() {
+    let folder = Folder::new();
+    std::fs::write(
+        folder.0.path().join("glass.ddt"),
+        "TypeSym ASymmetrical TypeColorModel BW sigma 2 0 60 phi 2 0 360 theta 2 0 180 bw def 1 1 1 1 1 1 1 1 enddef",
+    )
+    .expect("written");
+    let said = folder.refused(&["convert", "glass.ddt", "x.bsdf", "--to", "rgl"], "x.bsdf");
+    assert_eq!(said, "error: x.bsdf: found transmission; expected reflection in RGL BSDF\n");
+    let said = folder.refused(&["convert", "glass.ddt", "x.bsdf"], "x.bsdf");
+    assert!(said.contains("the extension .bsdf, which RGL and Zemax files share; expected --to"), "{said}");
+    let said = folder.refused(&["convert", "glass.ddt", "x.txt"], "x.txt");
+    assert!(said.contains("the extension .txt, of no format that lobe writes"), "{said}");
+    let said = folder.refused(&["convert", "glass.ddt", "x.sdt"], "x.sdt");
+    assert!(said.contains("expected mirror reflectances"), "{said}");
+    let said = folder.refused(&["convert", "glass.ddt", "x.ssdd", "--channel", "R"], "x.ssdd");
+    assert!(said.contains("found no channel R; expected one of Y"), "{said}");
+
+    let cloth = fixture("cloth-17x7x17x13.ddr");
+    let cloth = cloth.to_str().expect("a path in UTF-8");
+    let said = folder.refused(&["convert", cloth, "x.binary"], "x.binary");
+    assert!(said.contains("found an anisotropic material; expected an isotropic one in MERL"), "{said}");
+    let spectral = "TypeSym ASymmetrical TypeColorModel spectral 2 sigma 1 0 phi 2 0 360 theta 2 0 180 wl 450 def 1 1 1 1 enddef wl 600 def 1 1 1 1 enddef";
+    std::fs::write(folder.0.path().join("spectral.ddr"), spectral).expect("written");
+    let said = folder.refused(&["convert", "spectral.ddr", "x.xml"], "x.xml");
+    assert!(said.contains("found the channels 450nm 600nm; expected one channel, X Y Z or named bands"), "{said}");
+    folder.said(&["convert", "spectral.ddr", "x.xml", "--channel", "600nm"]);
+}
+
+#[test]
+fn models_become_tables() {
+    let folder = Folder::new();
+    let said = folder.said(&["generate", "lambert", "white.ddr", "--albedo", "0.5"]);
+    assert!(
+        said.starts_with("white.ddr: Integra DDR/DDT, resampled: isotropic reflection, 19 sigma x 1 psi"),
+        "{said}"
+    );
+    assert!(Folder::errors(&said)[0] < 1e-6, "{said}");
+    let knots = ["--sigma", "0,30,60", "--psi", "0,180,360", "--theta", "0,10,40,180", "--phi", "0,90,180,270,360"];
+    let said = folder.said(&[&["generate", "ggx", "brushed.ssdd", "--alpha", "0.1,0.4"], &knots[..]].concat());
+    assert!(said.contains("anisotropic reflection, 3 sigma x 3 psi x 4 theta x 5 phi"), "{said}");
+    for (model, option) in [
+        ("ward", "--alpha=0.3"),
+        ("oren-nayar", "--roughness=30"),
+        ("phong", "--exponent=9"),
+        ("blinn", "--exponent=9"),
+    ] {
+        let said = folder.said(&["generate", model, "table.ddr", option]);
+        assert!(Folder::errors(&said)[1] < 0.03, "{model}: {said}");
+    }
+    let small =
+        ["--paths", "20", "--sigma", "0,60", "--psi", "0,90,180,270,360", "--theta", "0,30,180", "--phi", "0,180,360"];
+    let said = folder.said(&[&["generate", "cloth", "cloth.ddr"], &small[..]].concat());
+    assert!(said.contains("anisotropic"), "{said}");
+    let said = folder.refused(&["generate", "ward", "x.ddr", "--specular", "1.5"], "x.ddr");
+    assert!(said.contains("found `1.5`; expected a number from 0 to 1"), "{said}");
+}
+
+#[test]
+fn the_shell_knows_the_commands() {
+    let folder = Folder::new();
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let script = folder.printed(&["completions", shell]);
+        assert!(script.contains("convert") && script.contains("generate"), "{shell}");
+    }
+    let page = folder.printed(&["man"]);
+    assert!(page.contains(".TH lobe 1"), "{page}");
+    folder.printed(&["man", "--out", "pages"]);
+    for page in ["lobe.1", "lobe-convert.1", "lobe-generate-ggx.1"] {
+        assert!(folder.read(&format!("pages/{page}")).contains(".SH"), "{page}");
+    }
+}
+
+#[test]
+fn every_command_has_an_example() {
+    let folder = Folder::new();
+    for command in ["info", "eval", "convert", "generate", "completions", "man"] {
+        let help = folder.printed(&[command, "--help"]);
+        assert!(help.contains("Example") && help.contains(&format!("lobe {command}")), "{command}: {help}");
+    }
+}

@@ -1,0 +1,11 @@
+//! The program as it is run: what it prints, writes and refuses.
+
+mod albedo;
+mod check;
+mod cli;
+mod common;
+mod compare;
+mod convert;
+mod plot;
+mod render;
+mod resample;

@@ -1,0 +1,15 @@
+//! Readers and writers against rules, damage and the answers of other programs.
+
+mod golden_libbsdf;
+mod hostile_binary;
+mod hostile_text;
+mod integra;
+mod native;
+mod rgl;
+mod rgl_lanes;
+mod round_trip;
+mod scattered_files;
+mod tables;
+mod window_xml;
+mod window_xml_golden;
+mod zemax;

@@ -1,0 +1,168 @@
+//! WINDOW XML: what it means, and what is refused.
+
+use std::path::Path;
+
+use lobe_formats::{FormatError, Place, window_xml};
+use lobe_table::window::klems::{AngleBasis, KlemsMatrix};
+use lobe_table::window::{self, Block, Component};
+use lobe_testing::examples::{NINE, TREE, sheet};
+use window_xml::{Band, WindowXml};
+
+fn read(text: &[u8]) -> Result<WindowXml, FormatError> {
+    window_xml::read(text, Path::new("sheet.xml"))
+}
+
+fn values(text: &str) -> Vec<f32> {
+    let sheet = read(text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
+    match sheet.bands[0].window.block(Block::ReflectionBack) {
+        Some(Component::Klems(matrix)) => matrix.values().to_vec(),
+        Some(Component::Tree(tree)) => tree.values().to_vec(),
+        None => panic!("no block"),
+    }
+}
+
+fn refused(text: &str, place: Place, found: &str) {
+    let error = read(text.as_bytes()).expect_err("a refusal");
+    assert_eq!(error.place, place, "{error}");
+    assert!(error.found.contains(found), "{error}");
+}
+
+#[test]
+fn columns_and_rows_are_transposed() {
+    assert_eq!(values(&sheet("Columns", NINE)), [1.0, 4.0, 7.0, 2.0, 5.0, 8.0, 3.0, 6.0, 9.0]);
+    assert_eq!(values(&sheet("Rows", NINE)), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
+    assert_eq!(read(sheet("Rows", NINE).as_bytes()).map(|sheet| sheet.name), Ok("a & b".into()));
+}
+
+#[test]
+fn marks_and_lines_before_the_xml_are_let_pass() {
+    let plain = sheet("Rows", NINE);
+    let wanted = read(plain.as_bytes()).expect("a sheet");
+    assert_eq!(read(format!("Recover using: program -r\n{plain}").as_bytes()).as_ref(), Ok(&wanted));
+    assert_eq!(read(format!("\u{feff}{plain}").as_bytes()).as_ref(), Ok(&wanted));
+    for swap in [u16::to_le_bytes, u16::to_be_bytes] {
+        let utf16: Vec<u8> = format!("\u{feff}{plain}").encode_utf16().flat_map(swap).collect();
+        assert!(window_xml::matches(&utf16));
+        assert_eq!(read(&utf16).as_ref(), Ok(&wanted));
+    }
+    assert!(!window_xml::matches(b"<?xml version=\"1.0\"?><scene/>"));
+}
+
+#[test]
+fn the_definition_may_follow_the_data() {
+    let text = sheet("Rows", NINE);
+    let start = text.find("<DataDefinition>").expect("a definition");
+    let (head, rest) = text.split_at(start);
+    let (definition, data) = rest.split_at(rest.find("<WavelengthData>").expect("data"));
+    let end = data.find("</Layer>").expect("the end of the layer");
+    let turned = format!("{head}{}{definition}{}", &data[..end], &data[end..]);
+    assert_eq!(values(&turned), values(&text));
+}
+
+#[test]
+fn comments_and_sections_within_the_values_do_not_part_them() {
+    let parted = "1 2 3 <!-- half --> 4 5 <![CDATA[6 7]]> 8 9";
+    assert_eq!(values(&sheet("Rows", parted)), values(&sheet("Rows", NINE)));
+}
+
+#[test]
+fn what_is_wrong_is_named_with_its_line() {
+    refused(&sheet("Rows", "1 2 3\n4 5 6\n7 8"), Place::Line(8), "8 values");
+    refused(&sheet("Rows", "1 2 3\n4 nan 6\n7 8 9"), Place::Line(9), "nan");
+    refused(&sheet("Rows", "1 2 3\n4 1e39 6\n7 8 9"), Place::Line(9), "1e39");
+    refused(&sheet("Rows", "1 2 3\n&bomb; 9"), Place::Line(9), "&bomb;");
+    refused(&sheet("Diagonal", NINE), Place::Line(4), "Diagonal");
+    refused(&sheet("Rows", NINE).replace(">mine</Row", ">yours</Row"), Place::Line(7), "yours");
+    refused(&sheet("Rows", NINE).replace("Reflection Back", "Sideways"), Place::Line(6), "Sideways");
+    refused(&sheet("Rows", NINE).replace("<nPhis>2", "<nPhis>4294967295"), Place::Line(4), "4294967295 patches");
+    refused(&sheet("Rows", NINE).replace("<nPhis>2", "<nPhis>60000"), Place::Line(8), "9 values");
+    refused(&sheet("Rows", NINE).replace("<LowerTheta>30", "<LowerTheta>40"), Place::Line(4), "ring 1");
+    refused("<scene/>", Place::Line(1), "<scene>");
+    refused("<WindowElement></WindowElement>", Place::File, "no WavelengthData");
+    let block_twice = sheet("Rows", NINE).replace("</WindowElement>", "");
+    let (head, data) = block_twice.split_at(block_twice.find("<WavelengthData>").expect("data"));
+    let data = data.replace("</Layer></Optical>", "");
+    refused(
+        &format!("{head}{data}{data}</Layer></Optical></WindowElement>"),
+        Place::Line(12),
+        "a second ReflectionBack",
+    );
+}
+
+#[test]
+fn trees_are_read_and_bad_braces_are_refused() {
+    assert_eq!(values(&sheet("TensorTree3", "{ 0.5 }")), [0.5]);
+    assert_eq!(values(&sheet("TensorTree3", "{1 2,3 4 5 6 7 8}")).len(), 8);
+    assert_eq!(values(&sheet("TensorTree3", TREE)).len(), 15);
+    let bad = [
+        ("", "the end"),
+        ("1", "1"),
+        ("{", "the end"),
+        ("{}", "0 values"),
+        ("{1 2}", "2 values"),
+        ("{1 2 3 4}", "4 values"),
+        ("{1}}", "}"),
+        ("{{1}}", "}"),
+        ("{{1}{2}{3}{4}{5}{6}{7}{8}", "the end"),
+        ("{{1}{2}{3}{4}{5}{6}{7}{8}{9}}", "{"),
+        ("{{1}{2}{3}{4} 5 {6}{7}{8}}", "5"),
+        ("{inf}", "inf"),
+    ];
+    for (braces, found) in bad {
+        refused(&sheet("TensorTree3", braces), Place::Line(8), found);
+    }
+    refused(&sheet("TensorTree4", "{1 2 3 4 5 6 7 8}"), Place::Line(8), "8 values");
+}
+
+#[test]
+fn deep_nesting_is_refused_without_a_deep_stack() {
+    refused(&sheet("TensorTree4", &"{".repeat(1_000_000)), Place::Line(8), "nested deeper");
+    refused(&sheet("TensorTree4", &"{ ".repeat(26)), Place::Line(8), "nested deeper");
+    let elements = format!("<WindowElement>{}", "<a>".repeat(1_000_000));
+    refused(&elements, Place::Line(1), "the end of the file");
+}
+
+#[test]
+fn entities_of_the_file_are_not_expanded() {
+    let mut bomb = String::from("<?xml version=\"1.0\"?>\n<!DOCTYPE b [<!ENTITY b0 \"ha\">");
+    for level in 1..40 {
+        bomb += &format!("<!ENTITY b{level} \"&b{0};&b{0};\">", level - 1);
+    }
+    bomb += "]>\n<WindowElement><Name>&b39;</Name></WindowElement>";
+    refused(&bomb, Place::Line(3), "&b39;");
+}
+
+#[test]
+fn hostile_input_does_no_harm() {
+    for text in [sheet("Columns", NINE), sheet("TensorTree3", TREE)] {
+        lobe_testing::damage::truncations(text.as_bytes(), |bytes| read(bytes).is_ok());
+    }
+}
+
+#[test]
+fn matrices_of_every_basis_survive_a_round_trip() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("sheet.xml");
+    for (incident, exit) in [
+        (AngleBasis::full(), AngleBasis::full()),
+        (AngleBasis::half(), AngleBasis::half()),
+        (AngleBasis::quarter(), AngleBasis::quarter()),
+        (AngleBasis::full(), AngleBasis::quarter()),
+    ] {
+        let count = incident.patches() * exit.patches();
+        let values = (0..count).map(|at| (at as f32).sin() / 3.0).collect();
+        let matrix = KlemsMatrix::new(incident, exit, values).expect("a matrix");
+        let mut window = window::Blocks::default();
+        window.set(Block::TransmissionFront, Component::Klems(matrix.clone()));
+        window.set(Block::ReflectionBack, Component::Klems(matrix));
+        let band = |name: &str| Band { wavelength: name.into(), window: window.clone() };
+        let bands = vec![band("Visible"), band("CIE-X"), band("NIR")];
+        let written = WindowXml { name: "a < b & \"c\"".into(), manufacturer: "d".into(), bands };
+        window_xml::write(&written, &path).expect("a written file");
+        let found = window_xml::read(&std::fs::read(&path).expect("the file"), &path);
+        assert_eq!(found.as_ref(), Ok(&written));
+    }
+    let empty = window_xml::write(&WindowXml::default(), &folder.path().join("empty.xml"));
+    assert!(empty.unwrap_err().to_string().contains("no block of values to write; expected a material that fits"));
+    assert_eq!(folder.path().read_dir().expect("the folder").count(), 1, "one file and nothing half-written");
+}

@@ -1,0 +1,8 @@
+//! Readers of meshes, shapes, and the generated scenes.
+
+mod common;
+mod drape;
+mod gltf;
+mod obj;
+mod ply;
+mod shapes;

@@ -1,0 +1,10 @@
+//! Every representation in lanes against its `f64` reference.
+
+mod interpolation;
+mod lanes_against_reference;
+mod outside;
+mod reference;
+mod representations;
+mod rgl_lanes;
+mod sampling;
+mod spherical;

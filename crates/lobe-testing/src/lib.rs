@@ -1,0 +1,24 @@
+//! What the tests of the workspace share. It is never published: crates depend on it for their tests alone, by its path.
+//!
+//! | module | what it has |
+//! |---|---|
+//! | [`files`] | the fixtures of the repository, and measured files beside it |
+//! | [`golden`] | the answers of other programs about such files |
+//! | [`made`] | files that are made by a rule |
+//! | [`damage`] | truncated, corrupted and randomly damaged files |
+//! | [`memory`] | the peak of memory that a piece of work takes |
+//! | `examples`, `probe` | a small file of every format; reading any bytes (feature `formats`) |
+#![forbid(unsafe_code)]
+
+pub mod damage;
+#[cfg(feature = "formats")]
+pub mod examples;
+pub mod files;
+pub mod golden;
+pub mod made;
+pub mod memory;
+#[cfg(feature = "formats")]
+pub mod probe;
+
+#[doc(hidden)]
+pub use peak_alloc::PeakAlloc;

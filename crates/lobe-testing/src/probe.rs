@@ -1,0 +1,125 @@
+//! Reads a file and evaluates what is in it: must not go wrong for any bytes at all. The program that uses it counts
+//! memory: see [`count_memory`](crate::count_memory).
+
+use std::path::Path;
+
+use lobe_formats::sheet::Data;
+use lobe_formats::{Document, Format, FormatError, Specular};
+use lobe_scalar::Scalar;
+use lobe_table::rgl::{Reference, UniformOrder};
+use lobe_table::utia::Decode;
+use lobe_table::{Edges, specular, specular::reference};
+
+use crate::memory::peak;
+
+/// To the light and to the viewer: at the normal, at the mirror direction, oblique, grazing, and through the surface.
+const PAIRS: [[[f64; 3]; 2]; 6] = [
+    [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0]],
+    [[0.6, 0.0, 0.8], [-0.6, 0.0, 0.8]],
+    [[0.6, 0.0, 0.8], [0.0, 0.8, 0.6]],
+    [[-0.28, 0.96, 1e-9], [1.0, 0.0, 1e-12]],
+    [[0.0, 0.6, 0.8], [0.48, -0.6, -0.64]],
+    [[0.0, 0.0, -1.0], [0.0, -0.6, -0.8]],
+];
+
+/// Memory that a reader may take whatever the size of its file: for its own tables, and for an error to tell.
+const BASE: usize = 1 << 16;
+
+/// The most memory, in bytes, that the reader of a format may take for each byte of a file.
+fn bytes_per_byte(format: Format) -> usize {
+    match format {
+        // Bytes of a file are bytes of values, and are copied once or twice.
+        Format::Pbsdf | Format::Rgl | Format::Mbsdf | Format::Merl | Format::Utia => 16,
+        // Two characters of text become a number, of which there are a few copies.
+        Format::WindowXml | Format::Zemax | Format::LightTools | Format::Ssdd | Format::Ddr | Format::Sdr => 64,
+        // A sample is kept once per wavelength, and 64 are for each byte the most; see the reader.
+        Format::Speos => 2048,
+        // A line becomes a vertex of a triangulation with its edges and triangles.
+        _ => 256,
+    }
+}
+
+/// Reads `bytes`, evaluates what was found at some directions and drops it. Gives the peak of memory that reading took.
+///
+/// # Panics
+/// If the reader took more memory than the size of the file can justify, or an error does not name the file.
+pub fn probe(format: Format, bytes: &[u8], path: &Path) -> (Result<(), FormatError>, usize) {
+    let (document, peak) = peak(|| lobe_formats::read(format, bytes, path));
+    let most = BASE + bytes_per_byte(format) * bytes.len();
+    assert!(peak <= most, "{peak} bytes of memory for a {format} file of {}; at most {most} are due", bytes.len());
+    let result = match document {
+        Ok(document) => {
+            evaluate(&document);
+            Ok(())
+        }
+        Err(error) => {
+            assert_eq!(error.file, path);
+            assert!(!error.found.is_empty() && !error.expected.is_empty(), "{error:?}");
+            Err(error)
+        }
+    };
+    (result, peak)
+}
+
+fn evaluate(document: &Document) {
+    match document {
+        Document::Table(measured) => table(&measured.data),
+        Document::Specular(measured) => specular(&measured.data),
+        Document::Spherical(measured) => each(|wi, wo| drop(measured.data.eval(wi, wo))),
+        Document::Scattered(measured) => each(|wi, wo| drop(measured.data.eval(wi, wo))),
+        Document::Sheet(measured) => measured.data.iter().for_each(|part| match &part.data {
+            Data::Table(samples) => table(samples),
+            Data::Specular(data) => specular(data),
+            Data::Spherical(grid) => each(|wi, wo| drop(grid.eval(wi, wo))),
+            Data::Scattered(data) => each(|wi, wo| drop(data.eval(wi, wo))),
+        }),
+        Document::Rgl(measured) => {
+            let reference = Reference::new(&measured.data);
+            let mut value = vec![0.0; measured.data.parts().channels.count()];
+            each(|wi, wo| {
+                reference.eval(wi, wo, &mut value);
+                reference.pdf(wi, wo);
+                reference.eval_cos_at(wi, wo, 550.0);
+                reference.sample(wi, [0.999, 0.001], UniformOrder::Pbrt);
+            });
+        }
+        Document::HalfDiff(measured) => each(|wi, wo| {
+            measured.data.eval_nearest(wi, wo);
+            measured.data.eval_linear(wi, wo);
+        }),
+        Document::Utia(measured) => each(|wi, wo| {
+            measured.data.eval(wi, wo, Decode::Raw);
+            measured.data.eval(wi, wo, Decode::Srgb);
+        }),
+        Document::Mueller(measured) => each(|wi, wo| {
+            measured.data.eval(wi, wo, 550.0);
+        }),
+        Document::Window(measured) => each(|wi, wo| {
+            for band in &measured.data.bands {
+                band.window.eval(wi, wo);
+            }
+        }),
+        other => panic!("no evaluation of {other:?}"),
+    }
+}
+
+fn each(mut eval: impl FnMut([f64; 3], [f64; 3])) {
+    PAIRS.iter().for_each(|&[wi, wo]| eval(wi, wo));
+}
+
+/// By the reference, and in lanes.
+fn table(samples: &specular::Data) {
+    let edges = Edges::default();
+    let channels = samples.channels().count();
+    let (mut exact, mut rounded) = (vec![0.0; channels], vec![0.0; channels]);
+    each(|wi, wo| reference::eval(samples, &edges, wi, wo, &mut exact));
+    // A table may have more values than a lane can index, or a circle that cannot be closed.
+    if let Ok(table) = specular::Table::new(samples, &edges) {
+        let single = |direction: [f64; 3]| direction.map(|x| x as f32);
+        each(|wi, wo| table.eval(Scalar::<1>, single(wi), single(wo), &mut rounded));
+    }
+}
+
+fn specular(data: &Specular) {
+    [-1.0, 0.0, 0.7, 9.0, f64::NAN].iter().for_each(|&angle| drop(data.at(angle, angle)));
+}

@@ -1,0 +1,9 @@
+//! Materials of every kind: what they evaluate to, on every backend, and how they are sampled.
+
+mod golden;
+mod golden_representations;
+mod material;
+mod paper;
+mod real_files;
+mod sampling;
+mod threads;

@@ -1,0 +1,223 @@
+//! Samples follow their density: histograms of samples against the integrated density, by Pearson's test.
+
+use std::collections::HashMap;
+use std::f64::consts::{PI, TAU};
+
+use lobe::table::specular::coords;
+use lobe::{Given, Material, Sampler, Scatter};
+use rayon::prelude::*;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use super::materials::{made, sampler, shared};
+use super::{below, incidents, numbers};
+
+/// Bins in theta and phi about the mirror direction, which are not the coordinates sampled in.
+const THETAS: usize = 40;
+const PHIS: usize = 24;
+
+/// Points a bin over which the density is summed, at least and at most: as many as it takes.
+const POINTS: [usize; 2] = [1024, 1 << 19];
+
+/// Samples an incident direction: what the variable `LOBE_SAMPLES` says, which tests all files there are (or those whose
+/// names contain `LOBE_FILES`) and takes half an hour for a million; without it fewer, and two files of each kind.
+fn asked() -> Option<usize> {
+    std::env::var("LOBE_SAMPLES").ok().map(|count| count.parse().expect("LOBE_SAMPLES is a number"))
+}
+
+fn sample_count() -> usize {
+    asked().unwrap_or(100_000)
+}
+
+/// What is tested.
+fn materials() -> Vec<(String, Material)> {
+    let mut kinds = HashMap::new();
+    let is_asked = |(_, material): &(String, Material)| {
+        let seen = kinds.entry(material.kind()).or_insert(0);
+        *seen += 1;
+        asked().is_some() || *seen <= 2
+    };
+    let part = std::env::var("LOBE_FILES").unwrap_or_default();
+    let is_named = |(name, _): &(String, Material)| name.contains(&part);
+    made().into_iter().filter(is_named).chain(shared().into_iter().filter(is_named).filter(is_asked)).collect()
+}
+
+/// The theta at a part of the way: bins are finer near the peak.
+fn theta_at(part: f64) -> f64 {
+    PI * part * part
+}
+
+/// An incident direction with its side up.
+fn raised([x, y, z]: [f32; 3]) -> [f64; 3] {
+    [x, y, z.abs()].map(f64::from)
+}
+
+/// A density given an incident direction, and the frame in which it is summed up.
+struct Density<'a> {
+    sampler: &'a Sampler,
+    incident: [f32; 3],
+    angles: [f64; 2],
+}
+
+/// Where scattered directions lie: the side of the surface, and the ranges of `1 - cos theta` and phi.
+struct Bin {
+    side: f64,
+    rest: [f64; 2],
+    phi: [f64; 2],
+    /// Where its points begin.
+    start: f64,
+}
+
+impl Density<'_> {
+    /// The sum of the density over some of the points of a bin, each times its share of the solid angle. As the density is
+    /// not continuous, no two are at the same theta or phi.
+    fn sum(&self, bin: &Bin, points: std::ops::Range<usize>) -> f64 {
+        let [sigma, psi] = self.angles;
+        let [rest, phi] = [bin.rest, bin.phi].map(|[low, high]| (low, high - low));
+        let place = |point: usize| {
+            // The additive recurrence of the plastic number (Roberts 2018), begun elsewhere in each bin.
+            let at = bin.start + point as f64;
+            let [u, w] = [0.754_877_666_246_693, 0.569_840_290_998_053].map(|step| (at * step).fract());
+            // At the mirror direction the density of an EPFL material may be infinite, as theta^(-3/2): points gather.
+            let (u, share) = if rest.0 == 0.0 { (u.powi(4), 4.0 * u.powi(3)) } else { (u, 1.0) };
+            let theta = 2.0 * (0.5 * (rest.0 + u * rest.1)).sqrt().asin();
+            let wo = coords::angles_to_directions([sigma, psi, theta, phi.0 + w * phi.1], |s| s).1;
+            let above = if wo[2] > 0.0 { bin.side } else { f64::NAN };
+            ([wo[0], wo[1], wo[2] * above].map(|x| x as f32), share * rest.1 * phi.1)
+        };
+        let (scattered, shares): (Vec<[f32; 3]>, Vec<f64>) = points.map(place).unzip();
+        let mut pdfs = vec![0.0; scattered.len()];
+        self.sampler.pdf_batch(Given::Light, &vec![self.incident; scattered.len()], &scattered, &mut pdfs);
+        pdfs.into_iter().zip(shares).map(|(pdf, share)| f64::from(pdf) * share).sum()
+    }
+
+    /// The integral of the density over a bin, by so many points that those of two halves differ by a tenth of the noise
+    /// of the samples.
+    fn integral(&self, bin: &Bin, samples: f64) -> f64 {
+        let mut points = POINTS[0] / 2;
+        let mut first = self.sum(bin, 0..points);
+        loop {
+            let second = self.sum(bin, points..2 * points);
+            let scale = 1.0 / (2 * points) as f64;
+            let (integral, doubt) = ((first + second) * scale, (first - second).abs() * scale);
+            if doubt <= 0.1 * (integral / samples).sqrt() || 2 * points >= POINTS[1] {
+                return integral;
+            }
+            (first, points) = (first + second, 2 * points);
+        }
+    }
+}
+
+/// The integral of the density over each bin, those of reflection before those of transmission.
+fn expected(sampler: &Sampler, incident: [f32; 3]) -> Vec<f64> {
+    let [sigma, psi, ..] = coords::directions_to_angles(raised(incident), [0.0, 0.0, 1.0], |s| s);
+    let density = Density { sampler, incident, angles: [sigma, psi] };
+    let front = incident[2] > 0.0;
+    let mut bins = Vec::new();
+    for scatter in [Scatter::Reflection, Scatter::Transmission] {
+        if !sampler.material().holds(front, scatter) {
+            bins.extend([0.0; THETAS * PHIS]);
+            continue;
+        }
+        let side = if front == (scatter == Scatter::Reflection) { 1.0 } else { -1.0 };
+        for i in 0..THETAS {
+            let rest = [i, i + 1].map(|i| 2.0 * (0.5 * theta_at(i as f64 / THETAS as f64)).sin().powi(2));
+            for j in 0..PHIS {
+                let phi = [j, j + 1].map(|j| j as f64 / PHIS as f64 * TAU);
+                let start = (i * PHIS + j) as f64 * 0.618_033_988_749_895;
+                bins.push(density.integral(&Bin { side, rest, phi, start }, sample_count() as f64));
+            }
+        }
+    }
+    bins
+}
+
+/// How many samples fall into each bin, and how many lead nowhere.
+fn observed(sampler: &Sampler, incident: [f32; 3], seed: u64) -> (Vec<f64>, usize) {
+    const CHUNK: usize = 20_000;
+    let (mut bins, mut nowhere) = (vec![0.0; 2 * THETAS * PHIS], 0);
+    let known = vec![incident; CHUNK];
+    let (mut directions, mut pdfs) = (vec![[0.0; 3]; CHUNK], vec![0.0; CHUNK]);
+    for u in numbers(seed, sample_count()).chunks(CHUNK) {
+        let n = u.len();
+        sampler.draw_batch(&known[..n], u, &mut directions[..n], &mut pdfs[..n]);
+        for (wo, &pdf) in directions[..n].iter().zip(&pdfs) {
+            if pdf == 0.0 {
+                nowhere += 1;
+                continue;
+            }
+            let [.., theta, phi] = coords::directions_to_angles(raised(incident), raised(*wo), |s| s);
+            let way = usize::from((wo[2] > 0.0) != (incident[2] > 0.0));
+            let i = ((theta / PI).sqrt() * THETAS as f64) as usize;
+            let j = (phi / TAU * PHIS as f64) as usize;
+            bins[(way * THETAS + i.min(THETAS - 1)) * PHIS + j.min(PHIS - 1)] += 1.0;
+        }
+    }
+    (bins, nowhere)
+}
+
+/// The probability of a worse fit, bins of less than 10 samples lumped together.
+fn p_value(expected: &[f64], observed: &[f64]) -> f64 {
+    let (total, count) = (expected.iter().sum::<f64>(), observed.iter().sum::<f64>());
+    let (mut statistic, mut freedom) = (0.0, -1.0);
+    let mut lump = (0.0, 0.0);
+    let mut add = |(e, o): (f64, f64)| {
+        statistic += (o - e) * (o - e) / e;
+        freedom += 1.0;
+    };
+    for (e, o) in expected.iter().zip(observed) {
+        let e = e / total * count;
+        if e < 10.0 {
+            lump = (lump.0 + e, lump.1 + o);
+        } else {
+            add((e, *o));
+        }
+    }
+    if lump.0 >= 5.0 {
+        add(lump);
+    }
+    1.0 - ChiSquared::new(freedom).unwrap().cdf(statistic)
+}
+
+#[test]
+fn samples_follow_the_density() {
+    let samplers: Vec<_> = materials().into_par_iter().map(|(name, m)| (name, sampler(m))).collect();
+    let mut cases = Vec::new();
+    for (name, sampler) in &samplers {
+        let reaches = |front| {
+            let material = sampler.material();
+            [Scatter::Reflection, Scatter::Transmission].iter().any(|&scatter| material.holds(front, scatter))
+        };
+        let above = if reaches(true) { incidents() } else { Vec::new() };
+        let below = if reaches(false) && above.is_empty() { below(&incidents()) } else { Vec::new() };
+        cases.extend(above.into_iter().chain(below).map(|incident| (name, sampler, incident)));
+    }
+    // Sidak: all tests together pass with probability 0.99 where all hypotheses hold.
+    let significance = 1.0 - 0.99f64.powf(1.0 / cases.len() as f64);
+    assert!(!cases.is_empty(), "nothing to test");
+    println!("{} materials, {} tests, p at least {significance:.1e}", samplers.len(), cases.len());
+    let failures: Vec<String> = cases
+        .par_iter()
+        .enumerate()
+        .flat_map_iter(|(seed, &(name, sampler, incident))| {
+            let expected = expected(sampler, incident);
+            let (observed, nowhere) = observed(sampler, incident, seed as u64);
+            let (total, p) = (expected.iter().sum::<f64>(), p_value(&expected, &observed));
+            // What leads nowhere is missing from the density too.
+            let count = sample_count() as f64;
+            let deficit = nowhere as f64 / count;
+            let noise = 4.0 * (deficit * (1.0 - deficit) / count).sqrt();
+            if asked().is_some() {
+                println!("{name} {incident:?}: p = {p:.1e}, density {total:.5}, nowhere {deficit:.5}");
+            }
+            let mut failures = Vec::new();
+            if p < significance {
+                failures.push(format!("{name} {incident:?}: p = {p:.1e}"));
+            }
+            if (total + deficit - 1.0).abs() > 1e-3 + noise {
+                failures.push(format!("{name} {incident:?}: density {total}, nowhere {deficit}"));
+            }
+            failures
+        })
+        .collect();
+    assert!(failures.is_empty(), "{} of {}: {failures:#?}", failures.len(), cases.len());
+}

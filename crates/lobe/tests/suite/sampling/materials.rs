@@ -1,0 +1,71 @@
+//! The materials that are sampled: fixtures, noise, and the files beside the project.
+
+use std::f64::consts::{PI, TAU};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use lobe::formats::{Document, Format, Measured};
+use lobe::{Channels, Material, Options, Sampler, SamplerOptions, Scatter, specular};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg32;
+
+pub fn fixture(name: &str) -> Material {
+    Material::open(lobe_testing::files::fixture(name)).unwrap()
+}
+
+pub fn of_samples(samples: specular::Data) -> Material {
+    let document = Document::Table(Measured { data: samples, source: Vec::new(), tis: Vec::new() });
+    Material::new(Path::new("made"), Format::Ssdd, document, &Options::default()).unwrap()
+}
+
+pub fn sampler(material: Material) -> Sampler {
+    Sampler::new(Arc::new(material), &SamplerOptions::default()).unwrap()
+}
+
+/// A table of noise on knots that are not even.
+fn noise(seed: u64, [sigma, psi, theta, phi]: [usize; 4], channels: Channels, scatter: Scatter) -> specular::Data {
+    let mut rng = Pcg32::seed_from_u64(seed);
+    let mut knots = |count: usize, last: f64| {
+        let mut at: Vec<f64> = vec![0.0];
+        for _ in 1..count {
+            at.push(at[at.len() - 1] + rng.random_range(0.3..1.0));
+        }
+        let all = at[count - 1].max(1e-9);
+        at.iter().map(|x| x / all * last).collect::<Vec<f64>>()
+    };
+    let knots = [knots(sigma, 1.5), knots(psi, TAU), knots(theta, PI), knots(phi, TAU)];
+    let count = sigma * psi * theta * phi * channels.count();
+    // A few values are negative, as in measurements, and a few are large.
+    let values = (0..count).map(|_| rng.random_range(-0.1f32..1.3).powi(3)).collect();
+    specular::Data::new(scatter, knots, channels, values).unwrap()
+}
+
+/// Every kind of table.
+pub fn made() -> Vec<(String, Material)> {
+    let spectral = Channels::Spectral(vec![450.0, 500.0, 550.0, 600.0]);
+    let bent = noise(5, [5, 1, 8, 7], Channels::Mono, Scatter::Transmission);
+    let offsets = bent.knots()[0].iter().map(|sigma| (sigma.sin() / 1.5).asin() - sigma).collect();
+    let tables = [
+        ("isotropic noise", noise(1, [6, 1, 9, 8], Channels::Rgb, Scatter::Reflection)),
+        ("anisotropic noise", noise(2, [5, 4, 7, 9], Channels::Xyz, Scatter::Reflection)),
+        ("transmission", noise(3, [5, 3, 8, 7], spectral, Scatter::Transmission)),
+        ("refraction", bent.with_refraction(offsets).unwrap()),
+    ];
+    let mut made: Vec<_> = tables.into_iter().map(|(name, samples)| (name.into(), of_samples(samples))).collect();
+    for name in ["conductor-7x8x13.ddr", "cloth-17x7x17x13.ddr"] {
+        made.push((name.into(), fixture(name)));
+    }
+    made
+}
+
+/// The measured files and golden inputs beside the project that make a material.
+pub fn shared() -> Vec<(String, Material)> {
+    let Some(root) = lobe_testing::files::shared() else { return Vec::new() };
+    let folders = lobe_testing::files::files(&root.join("data")).into_iter().filter(|path| path.is_dir());
+    let open = |path: PathBuf| {
+        let name = path.file_name()?.to_string_lossy().into_owned();
+        Material::open(path).ok().map(|material| (name, material))
+    };
+    let files = folders.chain([root.join("golden")]).flat_map(|folder| lobe_testing::files::files(&folder));
+    files.filter(|path| path.is_file()).filter_map(open).collect()
+}
