@@ -5,7 +5,7 @@ use lobe_trace::RaySoA;
 
 use crate::random::Numbers;
 use crate::vec3::{Vec3, cross, length, scale, sub, unit};
-use crate::vectors::{disk, less, plus, times, unit_or};
+use crate::vectors::{self, add, disk, unit_or};
 
 /// A thin-lens camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,11 +37,11 @@ pub enum Filter {
 /// What is wrong with a camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CameraError {
-    /// The target is where the camera is, or too far to tell a direction.
-    #[error("a target in the camera itself; expected one in front of it")]
+    /// The target is at the camera, or too far away for a direction.
+    #[error("`target` is at `position`, or too far away; expected a point in front of the camera")]
     Target,
-    /// The direction up is none, or along the view.
-    #[error("a direction up that is none across the view; expected one that is not along it")]
+    /// `up` is zero or parallel to the view direction.
+    #[error("`up` is zero or parallel to the view direction")]
     Up,
 }
 
@@ -90,7 +90,7 @@ impl View {
         backend.run(Viewing { view: self, pixels, numbers, out });
     }
 
-    /// Places in the picture along an axis, from -1 to 1, of pixels and numbers drawn for them.
+    /// InteractionBlock in the picture along an axis, from -1 to 1, of pixels and numbers drawn for them.
     #[inline(always)]
     fn place<L: Lanes>(&self, lanes: L, pixel: L::F, u: L::F, size: f32) -> L::F {
         let (one, two, half) = (lanes.splat(1.0), lanes.splat(2.0), lanes.splat(0.5));
@@ -128,13 +128,14 @@ impl Kernel for Viewing<'_> {
             let px = view.place(lanes, lanes.load(&x[at..]), u, view.size[0]);
             let py = -view.place(lanes, lanes.load(&y[at..]), v, view.size[1]);
             let mut origin = position;
-            let mut direction = plus::<L>(forward, plus::<L>(times::<L>(right, px), times::<L>(top, py)));
+            let mut direction =
+                add::<L>(forward, add::<L>(vectors::scale::<L>(right, px), vectors::scale::<L>(top, py)));
             if view.focus < f32::INFINITY {
                 let [lx, ly] = disk(lanes, [lens_u, lens_v]);
-                let aside = plus::<L>(times::<L>(lens[0], lx), times::<L>(lens[1], ly));
+                let aside = add::<L>(vectors::scale::<L>(lens[0], lx), vectors::scale::<L>(lens[1], ly));
                 // A focus that is not positive is refused before: the direction has a length.
-                direction = less::<L>(times::<L>(direction, lanes.splat(view.focus)), aside);
-                origin = plus::<L>(position, aside);
+                direction = vectors::sub::<L>(vectors::scale::<L>(direction, lanes.splat(view.focus)), aside);
+                origin = add::<L>(position, aside);
             }
             let direction = unit_or(lanes, direction, forward);
             let mut axis = 0;

@@ -11,10 +11,10 @@ pub(crate) const RAYS: usize = 64;
 /// A number of each of them.
 pub(crate) type Column = [f32; RAYS];
 
-pub(crate) const NOTHING: Column = [0.0; RAYS];
+pub(crate) const ZEROS: Column = [0.0; RAYS];
 
 /// Makes room for `n` entries, which need not be overwritten where there is room already.
-pub(crate) fn hold<T: Clone>(entries: &mut Vec<T>, n: usize, nothing: T) {
+pub(crate) fn ensure_len<T: Clone>(entries: &mut Vec<T>, n: usize, nothing: T) {
     if entries.len() < n {
         entries.resize(n, nothing);
     }

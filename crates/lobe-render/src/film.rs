@@ -45,7 +45,7 @@ impl Rect {
 
 /// What one path saw.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Seen<const C: usize> {
+pub struct Sample<const C: usize> {
     /// Radiance that came along it, one value a channel.
     pub radiance: [f32; C],
     /// Albedo of the first surface; 0 where there is none.
@@ -58,10 +58,10 @@ pub struct Seen<const C: usize> {
     pub material: u32,
 }
 
-impl<const C: usize> Seen<C> {
+impl<const C: usize> Sample<C> {
     /// A path that met nothing.
-    pub const NOTHING: Self =
-        Seen { radiance: [0.0; C], albedo: [0.0; C], normal: [0.0; 3], depth: f32::INFINITY, material: 0 };
+    pub const EMPTY: Self =
+        Sample { radiance: [0.0; C], albedo: [0.0; C], normal: [0.0; 3], depth: f32::INFINITY, material: 0 };
 }
 
 /// The sums of one pixel.
@@ -99,19 +99,19 @@ impl<const C: usize> Pixel<C> {
     const BRIGHTEST: f32 = 1_073_741_824.0;
 
     /// Adds a sample. Returns `false` where its radiance was no finite number and was taken for 0.
-    pub fn add(&mut self, seen: &Seen<C>) -> bool {
-        let finite = seen.radiance.iter().all(|value| value.is_finite());
+    pub fn add(&mut self, sample: &Sample<C>) -> bool {
+        let finite = sample.radiance.iter().all(|value| value.is_finite());
         if finite {
-            for (sum, value) in self.radiance.iter_mut().zip(seen.radiance) {
+            for (sum, value) in self.radiance.iter_mut().zip(sample.radiance) {
                 let value = value.clamp(-Self::BRIGHTEST, Self::BRIGHTEST);
                 *sum += fixed(value);
             }
         }
         let surface = |value: f32| (f64::from(value.clamp(-1.0, 1.0)) / Self::SURFACE) as i64;
-        self.albedo.iter_mut().zip(seen.albedo).for_each(|(sum, value)| *sum += surface(value));
-        self.normal.iter_mut().zip(seen.normal).for_each(|(sum, value)| *sum += surface(value));
+        self.albedo.iter_mut().zip(sample.albedo).for_each(|(sum, value)| *sum += surface(value));
+        self.normal.iter_mut().zip(sample.normal).for_each(|(sum, value)| *sum += surface(value));
         self.samples += 1;
-        self.nearest(seen.depth.max(0.0).to_bits(), seen.material);
+        self.nearest(sample.depth.max(0.0).to_bits(), sample.material);
         finite
     }
 
@@ -231,16 +231,16 @@ mod tests {
 
     #[test]
     fn the_order_of_adding_cannot_be_told() {
-        let samples: Vec<Seen<3>> = (0..200)
+        let samples: Vec<Sample<3>> = (0..200)
             .map(|i| {
                 let x = (i * 7919 % 1000) as f32 / 7.0;
                 let radiance = [x * 1e-9, x, x * 1e6];
-                Seen { radiance, albedo: [0.3; 3], normal: [0.1, x / 1000.0, 0.9], depth: x, material: i % 3 + 1 }
+                Sample { radiance, albedo: [0.3; 3], normal: [0.1, x / 1000.0, 0.9], depth: x, material: i % 3 + 1 }
             })
             .collect();
-        let sum = |order: &mut dyn Iterator<Item = &Seen<3>>| {
+        let sum = |order: &mut dyn Iterator<Item = &Sample<3>>| {
             let mut pixel = Pixel::EMPTY;
-            order.for_each(|seen| assert!(pixel.add(seen)));
+            order.for_each(|sample| assert!(pixel.add(sample)));
             pixel
         };
         let forward = sum(&mut samples.iter());
@@ -248,7 +248,7 @@ mod tests {
         let mut merged = sum(&mut samples[120..].iter());
         merged.merge(&sum(&mut samples[..120].iter()));
         assert_eq!(forward, merged);
-        let mean = samples.iter().map(|seen| f64::from(seen.radiance[0])).sum::<f64>() / 200.0;
+        let mean = samples.iter().map(|sample| f64::from(sample.radiance[0])).sum::<f64>() / 200.0;
         assert!((f64::from(forward.mean_radiance()[0]) - mean).abs() < 1e-7 * mean);
     }
 
@@ -264,9 +264,9 @@ mod tests {
     #[test]
     fn what_is_no_number_is_reported_and_left_out() {
         let mut pixel = Pixel::<3>::EMPTY;
-        let seen = Seen { radiance: [1.0, f32::NAN, 1.0], ..Seen::NOTHING };
-        assert!(!pixel.add(&seen));
-        assert!(pixel.add(&Seen { radiance: [f32::MAX; 3], ..Seen::NOTHING }));
+        let sample = Sample { radiance: [1.0, f32::NAN, 1.0], ..Sample::EMPTY };
+        assert!(!pixel.add(&sample));
+        assert!(pixel.add(&Sample { radiance: [f32::MAX; 3], ..Sample::EMPTY }));
         assert_eq!(pixel.mean_radiance(), [Pixel::<3>::BRIGHTEST / 2.0; 3]);
     }
 }

@@ -10,7 +10,7 @@ use crate::film::{Film, Rect};
 use crate::integrator::Integrator;
 use crate::shader::Backend;
 use crate::stats::Stats;
-use crate::wave::Wave;
+use crate::wavefront::Wavefront;
 use crate::world::World;
 
 /// Worlds that [`render`](crate::render()) takes: those of three channels. For another number of channels, a line in the
@@ -49,7 +49,7 @@ trait Paint<const C: usize> {
     fn stats(&self) -> Stats;
 }
 
-impl<const C: usize> Paint<C> for Wave<'_, C> {
+impl<const C: usize> Paint<C> for Wavefront<'_, C> {
     fn paint(&mut self, tile: Rect, samples: Range<u32>) -> Film<C> {
         self.render(tile, samples)
     }
@@ -61,6 +61,6 @@ impl<const C: usize> Paint<C> for Wave<'_, C> {
 
 impl Renderable<3> for World<3> {
     fn painter<'w>(&'w self, task: &'w Task) -> Painter<'w, 3> {
-        Painter(Box::new(Wave::new(self, &task.view, task.integrator, task.backend)))
+        Painter(Box::new(Wavefront::new(self, &task.view, task.integrator, task.backend)))
     }
 }

@@ -7,8 +7,8 @@ use lobe_mesh::{Geometry, generate, ply, shapes};
 
 use crate::camera::Camera;
 use crate::light::{Environment, Light};
-use crate::place::Place;
 use crate::shader::{Backend, Lambert, Shader};
+use crate::transform::Transform;
 use crate::vec3::{Vec3, add, cross, scale, sub, unit};
 use crate::world::{Shape, World, WorldBuilder, WorldError};
 
@@ -35,7 +35,7 @@ pub fn studio(material: Arc<dyn Shader<3>>, show: Show, backend: Backend) -> Res
     let stand = world.material(Arc::new(Lambert::new([0.12; 3], backend)));
     let black = world.material(Arc::new(Lambert::new([0.0; 3], backend)));
     let cove = shapes::cove(24.0, 24);
-    let moved = Place { axes: Place::UPRIGHT, translate: [0.0; 3] };
+    let moved = Transform { axes: Transform::IDENTITY, translate: [0.0; 3] };
     world.shape(&moved.shape(&cove, cove.triangles.clone()), backdrop, None, false)?;
 
     let (ball_at, cloth_at) = match show {
@@ -44,7 +44,7 @@ pub fn studio(material: Arc<dyn Shader<3>>, show: Show, backend: Backend) -> Res
     };
     if show != Show::Cloth {
         let ball = generate::ball().complete();
-        let moved = Place { axes: Place::UPRIGHT, translate: ball_at };
+        let moved = Transform { axes: Transform::IDENTITY, translate: ball_at };
         for group in &ball.groups {
             let range = group.triangles.start as usize..group.triangles.end as usize;
             let shape = moved.shape(&ball, ball.triangles[range].to_vec());
@@ -53,7 +53,7 @@ pub fn studio(material: Arc<dyn Shader<3>>, show: Show, backend: Backend) -> Res
     }
     if show != Show::Ball {
         let cloth = cloth().refined(PIECES).expect("a mesh of few triangles");
-        let moved = Place { axes: Place::UPRIGHT.map(|axis| scale(axis, CLOTH)), translate: cloth_at };
+        let moved = Transform { axes: Transform::IDENTITY.map(|axis| scale(axis, CLOTH)), translate: cloth_at };
         world.shape(&moved.shape(&cloth, cloth.triangles.clone()), material, None, false)?;
     }
 

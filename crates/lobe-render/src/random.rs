@@ -11,7 +11,7 @@ use sobol_burley::parts;
 
 /// What a set of four dimensions is used for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Use {
+pub(crate) enum Dimensions {
     /// Place in the pixel (2), place on the lens (2).
     Camera,
     /// Which light, where on it (2); at the vertex of that depth.
@@ -51,7 +51,7 @@ pub(crate) struct Numbers {
 
 impl Numbers {
     /// Draws for each of the sequences.
-    pub fn draw(&mut self, backend: Backend, sequences: impl ExactSizeIterator<Item = Sequence>, of: Use) {
+    pub fn draw(&mut self, backend: Backend, sequences: impl ExactSizeIterator<Item = Sequence>, of: Dimensions) {
         let Numbers { index, seed, numbers } = self;
         let n = sequences.len().next_multiple_of(MAX_LANES);
         index.resize(n, 0);
@@ -61,9 +61,9 @@ impl Numbers {
         }
         numbers.iter_mut().for_each(|column| column.resize(n, 0.0));
         let set = match of {
-            Use::Camera => 0,
-            Use::Light(depth) => 1 + 2 * depth,
-            Use::Scatter(depth) => 2 + 2 * depth,
+            Dimensions::Camera => 0,
+            Dimensions::Light(depth) => 1 + 2 * depth,
+            Dimensions::Scatter(depth) => 2 + 2 * depth,
         };
         // Beyond the last dimension the sequence begins again, scrambled otherwise.
         if set >= SETS {
@@ -72,7 +72,7 @@ impl Numbers {
         let set = set % SETS;
         let vector = |bit: usize, dimension| parts::sobol_rev(0x8000_0000 >> bit, 4 * set + dimension) as i32;
         let vectors = std::array::from_fn(|bit| [0, 1, 2, 3].map(|dimension| vector(bit, dimension)));
-        backend.run(Drawing { index, seed, set: set as i32, vectors, numbers });
+        backend.run(SampleSobol { index, seed, set: set as i32, vectors, numbers });
     }
 
     /// What was drawn for a sequence.
@@ -96,7 +96,7 @@ type Vectors = [[i32; 4]; 16];
 /// What three bits of the index contribute to each dimension, as the bits of floats.
 type Threes = [[[f32; 8]; 4]; 6];
 
-struct Drawing<'a> {
+struct SampleSobol<'a> {
     index: &'a [i32],
     seed: &'a [i32],
     set: i32,
@@ -104,12 +104,12 @@ struct Drawing<'a> {
     numbers: &'a mut [Vec<f32>; 4],
 }
 
-impl Kernel for Drawing<'_> {
+impl Kernel for SampleSobol<'_> {
     type Out = ();
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        let Drawing { index, seed, set, vectors, numbers } = self;
+        let SampleSobol { index, seed, set, vectors, numbers } = self;
         let threes = threes(&vectors);
         let mut at = 0;
         while at < index.len() {
@@ -214,7 +214,7 @@ fn hash(mut x: u32) -> u32 {
 mod tests {
     use super::*;
 
-    fn drawn(backend: &str, sequences: &[Sequence], of: Use) -> Vec<[f32; 4]> {
+    fn drawn(backend: &str, sequences: &[Sequence], of: Dimensions) -> Vec<[f32; 4]> {
         let mut numbers = Numbers::default();
         numbers.draw(Backend::named(backend).unwrap(), sequences.iter().copied(), of);
         (0..sequences.len()).map(|at| numbers.of(at)).collect()
@@ -225,16 +225,16 @@ mod tests {
         let of = |pixel, sample, set| drawn("scalar", &[Sequence::new(pixel, sample)], set)[0];
         let mut strata = [0; 16];
         for sample in 0..16 {
-            strata[(of([3, 5], sample, Use::Scatter(2))[0] * 16.0) as usize] += 1;
+            strata[(of([3, 5], sample, Dimensions::Scatter(2))[0] * 16.0) as usize] += 1;
         }
         assert_eq!(strata, [1; 16]);
-        let one = of([3, 5], 7, Use::Light(1));
+        let one = of([3, 5], 7, Dimensions::Light(1));
         for other in [
-            of([5, 3], 7, Use::Light(1)),
-            of([3, 5], 8, Use::Light(1)),
-            of([3, 5], 7 + POINTS, Use::Light(1)),
-            of([3, 5], 7, Use::Light(2)),
-            of([3, 5], 7, Use::Light(1 + SETS / 2)),
+            of([5, 3], 7, Dimensions::Light(1)),
+            of([3, 5], 8, Dimensions::Light(1)),
+            of([3, 5], 7 + POINTS, Dimensions::Light(1)),
+            of([3, 5], 7, Dimensions::Light(2)),
+            of([3, 5], 7, Dimensions::Light(1 + SETS / 2)),
         ] {
             assert_ne!(one, other);
         }
@@ -243,7 +243,7 @@ mod tests {
     #[test]
     fn lanes_draw_what_the_crate_draws() {
         let sequences: Vec<_> = (0..19).map(|i| Sequence::new([i, 3 * i], 3456 * i)).collect();
-        for (of, set) in [(Use::Camera, 0), (Use::Scatter(1), 4), (Use::Light(30), 61)] {
+        for (of, set) in [(Dimensions::Camera, 0), (Dimensions::Scatter(1), 4), (Dimensions::Light(30), 61)] {
             let expected = |s: &Sequence| sobol_burley::sample_4d(s.index, set, s.seed);
             let expected: Vec<_> = sequences.iter().map(expected).collect();
             for backend in Backend::available() {

@@ -11,7 +11,7 @@ use crate::integrator::Integrator;
 use crate::painter::{Renderable, Task};
 use crate::shader::Backend;
 use crate::stats::Stats;
-use crate::wave::PATHS;
+use crate::wavefront::PATHS;
 use crate::world::World;
 
 /// What to render and how.

@@ -54,7 +54,7 @@ pub struct Stats {
     /// Tracing rays.
     pub trace: Duration,
     /// Positions and frames of hits, and the light that rays meet.
-    pub meet: Duration,
+    pub interactions: Duration,
     /// Sorting by material.
     pub sort: Duration,
     /// Drawing places on lights, and preparing shadow rays.
@@ -95,7 +95,7 @@ impl AddAssign for Stats {
         self.shading.iter_mut().zip(other.shading).for_each(|(sum, shading)| *sum += shading);
         self.total += other.total;
         self.trace += other.trace;
-        self.meet += other.meet;
+        self.interactions += other.interactions;
         self.sort += other.sort;
         self.lights += other.lights;
         self.scatter += other.scatter;

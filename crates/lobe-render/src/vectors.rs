@@ -4,46 +4,46 @@ use lobe_lane::{Floats, Ints, Lanes};
 
 #[inline(always)]
 pub(crate) fn blend<L: Lanes>([a, b, c]: [[L::F; 3]; 3], [u, v, w]: [L::F; 3]) -> [L::F; 3] {
-    plus::<L>(plus::<L>(times::<L>(a, u), times::<L>(b, v)), times::<L>(c, w))
+    add::<L>(add::<L>(scale::<L>(a, u), scale::<L>(b, v)), scale::<L>(c, w))
 }
 
 #[inline(always)]
-pub(crate) fn plus<L: Lanes>(a: [L::F; 3], b: [L::F; 3]) -> [L::F; 3] {
+pub(crate) fn add<L: Lanes>(a: [L::F; 3], b: [L::F; 3]) -> [L::F; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
 #[inline(always)]
-pub(crate) fn less<L: Lanes>(a: [L::F; 3], b: [L::F; 3]) -> [L::F; 3] {
+pub(crate) fn sub<L: Lanes>(a: [L::F; 3], b: [L::F; 3]) -> [L::F; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 #[inline(always)]
-pub(crate) fn minus<L: Lanes>(a: [L::F; 3]) -> [L::F; 3] {
+pub(crate) fn neg<L: Lanes>(a: [L::F; 3]) -> [L::F; 3] {
     [-a[0], -a[1], -a[2]]
 }
 
 #[inline(always)]
-pub(crate) fn times<L: Lanes>(a: [L::F; 3], s: L::F) -> [L::F; 3] {
+pub(crate) fn scale<L: Lanes>(a: [L::F; 3], s: L::F) -> [L::F; 3] {
     [a[0] * s, a[1] * s, a[2] * s]
 }
 
 #[inline(always)]
-pub(crate) fn product<L: Lanes>(a: [L::F; 3], b: [L::F; 3]) -> L::F {
+pub(crate) fn dot<L: Lanes>(a: [L::F; 3], b: [L::F; 3]) -> L::F {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[inline(always)]
-pub(crate) fn across<L: Lanes>(a: [L::F; 3], b: [L::F; 3]) -> [L::F; 3] {
+pub(crate) fn cross<L: Lanes>(a: [L::F; 3], b: [L::F; 3]) -> [L::F; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[inline(always)]
-pub(crate) fn either<L: Lanes>(lanes: L, mask: L::M, a: [L::F; 3], b: [L::F; 3]) -> [L::F; 3] {
+pub(crate) fn select<L: Lanes>(lanes: L, mask: L::M, a: [L::F; 3], b: [L::F; 3]) -> [L::F; 3] {
     [lanes.select(mask, a[0], b[0]), lanes.select(mask, a[1], b[1]), lanes.select(mask, a[2], b[2])]
 }
 
 #[inline(always)]
-pub(crate) fn largest<L: Lanes>(a: [L::F; 3]) -> L::F {
+pub(crate) fn max_component<L: Lanes>(a: [L::F; 3]) -> L::F {
     a[0].abs().max(a[1].abs()).max(a[2].abs())
 }
 
@@ -51,11 +51,11 @@ pub(crate) fn largest<L: Lanes>(a: [L::F; 3]) -> L::F {
 #[inline(always)]
 pub(crate) fn unit_or<L: Lanes>(lanes: L, a: [L::F; 3], other: [L::F; 3]) -> [L::F; 3] {
     // Scaled by the largest component first, so that no square overflows or vanishes.
-    let size = largest::<L>(a);
+    let size = max_component::<L>(a);
     let sound = lanes.splat(1e-30).lt(size) & size.lt(lanes.splat(1e30));
     let one = lanes.splat(1.0);
-    let a = times::<L>(a, one / size);
-    either(lanes, sound, times::<L>(a, one / product::<L>(a, a).sqrt()), other)
+    let a = scale::<L>(a, one / size);
+    select(lanes, sound, scale::<L>(a, one / dot::<L>(a, a).sqrt()), other)
 }
 
 /// A unit vector perpendicular to the unit vector `n`.
@@ -64,9 +64,9 @@ pub(crate) fn perpendicular<L: Lanes>(lanes: L, n: [L::F; 3]) -> [L::F; 3] {
     // Crossed with the axis that `n` has least of, so that the product is never short.
     let zero = lanes.splat(0.0);
     let [x, y, z] = [n[0].abs(), n[1].abs(), n[2].abs()];
-    let with_y_or_z = either(lanes, y.le(z), [-n[2], zero, n[0]], [n[1], -n[0], zero]);
-    let along = either(lanes, x.le(y) & x.le(z), [zero, n[2], -n[1]], with_y_or_z);
-    times::<L>(along, lanes.splat(1.0) / product::<L>(along, along).sqrt())
+    let with_y_or_z = select(lanes, y.le(z), [-n[2], zero, n[0]], [n[1], -n[0], zero]);
+    let along = select(lanes, x.le(y) & x.le(z), [zero, n[2], -n[1]], with_y_or_z);
+    scale::<L>(along, lanes.splat(1.0) / dot::<L>(along, along).sqrt())
 }
 
 /// Sines and cosines of angles in turns, no more than a few of them. The error is below 3e-7.

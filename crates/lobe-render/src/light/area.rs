@@ -2,17 +2,17 @@
 
 use lobe_lane::{Block, Floats, Lanes};
 
-use super::Lit;
-use super::sums::Sums;
+use super::LightSample;
+use super::cdf::Cdf;
 use crate::vec3::{Vec3, cross, length, sub, unit};
-use crate::vectors::{less, plus, product, times};
+use crate::vectors::{self, add, dot};
 
 /// Triangles that radiate the same into all directions in front of them.
 #[derive(Clone, Debug)]
 pub struct AreaLight<const C: usize> {
     /// For each triangle a corner, the ways from there to the others, and the unit normal.
     triangles: Vec<[Vec3; 4]>,
-    areas: Sums,
+    areas: Cdf,
     area: f64,
     radiance: [f32; C],
     two_sided: bool,
@@ -27,7 +27,7 @@ impl<const C: usize> AreaLight<C> {
         if !(area > 0.0 && area.is_finite()) {
             return None;
         }
-        let areas = Sums::new(areas.len(), &areas);
+        let areas = Cdf::new(areas.len(), &areas);
         let triangles = triangles.into_iter().map(parts).collect();
         Some(AreaLight { triangles, areas, area, radiance, two_sided })
     }
@@ -55,8 +55,8 @@ impl<const C: usize> AreaLight<C> {
 
     /// Draws places uniformly in area.
     #[inline(always)]
-    pub(crate) fn draw<L: Lanes>(&self, lanes: L, from: [L::F; 3], [u, v]: [L::F; 2]) -> Lit<L, C> {
-        let (index, inside) = self.areas.search(lanes, lanes.splat_int(0), u);
+    pub(crate) fn sample_li<L: Lanes>(&self, lanes: L, from: [L::F; 3], [u, v]: [L::F; 2]) -> LightSample<L, C> {
+        let (index, inside) = self.areas.sample(lanes, lanes.splat_int(0), u);
         let block = Block::new(self.triangles.as_flattened().as_flattened(), [0, 4, 8]);
         let [a, b, c] = lanes.gather_quads(&block, index * lanes.splat_int(12));
         let [corner, ab] = [[a[0], a[1], a[2]], [a[3], b[0], b[1]]];
@@ -64,15 +64,15 @@ impl<const C: usize> AreaLight<C> {
         let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
         let root = inside.sqrt();
         let (wb, wc) = (root * (one - v), root * v);
-        let place = plus::<L>(corner, plus::<L>(times::<L>(ab, wb), times::<L>(ac, wc)));
-        let toward = less::<L>(place, from);
-        let distance = product::<L>(toward, toward).sqrt();
-        let wi = times::<L>(toward, one / distance);
-        let cos = -product::<L>(normal, wi);
+        let place = add::<L>(corner, add::<L>(vectors::scale::<L>(ab, wb), vectors::scale::<L>(ac, wc)));
+        let toward = vectors::sub::<L>(place, from);
+        let distance = dot::<L>(toward, toward).sqrt();
+        let wi = vectors::scale::<L>(toward, one / distance);
+        let cos = -dot::<L>(normal, wi);
         let facing = if self.two_sided { cos.abs() } else { cos };
         let pdf = self.pdf(lanes, distance, cos);
-        let there = zero.lt(distance) & lanes.splat(1e-6).lt(facing) & pdf.lt(lanes.splat(f32::INFINITY));
-        Lit::new(lanes, wi, distance, self.radiance, pdf, there)
+        let valid = zero.lt(distance) & lanes.splat(1e-6).lt(facing) & pdf.lt(lanes.splat(f32::INFINITY));
+        LightSample::new(lanes, wi, distance, self.radiance, pdf, valid)
     }
 }
 
@@ -105,13 +105,13 @@ mod tests {
         let lanes = Scalar::<1>;
         for i in 0..n * n {
             let u = [((i / n) as f32 + 0.5) / n as f32, ((i % n) as f32 + 0.5) / n as f32];
-            let lit = light.draw(lanes, lanes.splat_xyz([0.0; 3]), u.map(|u| lanes.splat(u)));
-            assert!(lit.there.all());
-            angle += 1.0 / f64::from(lanes.extract(lit.pdf, 0)) / f64::from(n * n);
+            let sample = light.sample_li(lanes, lanes.splat_xyz([0.0; 3]), u.map(|u| lanes.splat(u)));
+            assert!(sample.valid.all());
+            angle += 1.0 / f64::from(lanes.extract(sample.pdf, 0)) / f64::from(n * n);
         }
         assert!((angle - 2.0 * std::f64::consts::PI / 3.0).abs() < 2e-3, "{angle}");
-        let behind = light.draw(lanes, lanes.splat_xyz([0.0, 2.0, 0.0]), [lanes.splat(0.5); 2]);
-        assert!(!behind.there.any(), "dark behind");
+        let behind = light.sample_li(lanes, lanes.splat_xyz([0.0, 2.0, 0.0]), [lanes.splat(0.5); 2]);
+        assert!(!behind.valid.any(), "dark behind");
     }
 
     #[test]

@@ -6,8 +6,8 @@ use lobe_lane::{Block, Floats, Ints, Lanes};
 use lobe_memory::Storage;
 use lobe_scalar::Reference;
 
-use super::Lit;
-use super::sums::Sums;
+use super::LightSample;
+use super::cdf::Cdf;
 use crate::vec3::Vec3;
 use crate::vectors::sin_cos;
 
@@ -49,9 +49,9 @@ pub struct Environment<const C: usize> {
     /// Turn about +y, as a share of a whole one.
     turn: f32,
     mean: f64,
-    rows: Sums,
+    rows: Cdf,
     /// One list a row.
-    columns: Sums,
+    columns: Cdf,
     /// Density of a texel over the unit square.
     density: Storage<f32>,
 }
@@ -112,8 +112,8 @@ impl<const C: usize> Environment<C> {
             texels: padded,
             turn: turn / TAU,
             mean,
-            rows: Sums::new(height, &across),
-            columns: Sums::new(width, &weights),
+            rows: Cdf::new(height, &across),
+            columns: Cdf::new(width, &weights),
             density: Storage::copied(&weights.iter().map(density).collect::<Vec<_>>()),
         })
     }
@@ -128,7 +128,7 @@ impl<const C: usize> Environment<C> {
         self.seen(wi).0
     }
 
-    /// Radiance from where there is no surface, and the density with which [`draw`](Environment::draw) finds it.
+    /// Radiance from where there is no surface, and the density with which [`sample_li`](Environment::sample_li) finds it.
     pub(crate) fn seen(&self, wi: Vec3) -> ([f32; C], f32) {
         let lanes = Reference::default();
         let (u, v) = if self.is_constant() { (0.0, 0.0) } else { self.place(wi) };
@@ -191,7 +191,7 @@ impl<const C: usize> Environment<C> {
 
     /// Draws directions about in proportion to radiance.
     #[inline(always)]
-    pub(crate) fn draw<L: Lanes>(&self, lanes: L, [u, v]: [L::F; 2]) -> Lit<L, C> {
+    pub(crate) fn sample_li<L: Lanes>(&self, lanes: L, [u, v]: [L::F; 2]) -> LightSample<L, C> {
         let (zero, one, half) = (lanes.splat(0.0), lanes.splat(1.0), lanes.splat(0.5));
         let infinite = lanes.splat(f32::INFINITY);
         if self.is_constant() {
@@ -200,10 +200,10 @@ impl<const C: usize> Environment<C> {
             let [sin, cos] = sin_cos(lanes, u);
             let radiance = self.interpolated(lanes, [zero; 2]);
             let (wi, pdf) = ([radius * cos, y, radius * sin], lanes.splat(0.25 / PI));
-            return Lit { wi, distance: infinite, radiance, pdf, there: zero.lt(one) };
+            return LightSample { wi, distance: infinite, radiance, pdf, valid: zero.lt(one) };
         }
-        let (row, fy) = self.rows.search(lanes, lanes.splat_int(0), v);
-        let (column, fx) = self.columns.search(lanes, row, u);
+        let (row, fy) = self.rows.sample(lanes, lanes.splat_int(0), v);
+        let (column, fx) = self.columns.sample(lanes, row, u);
         let place = [
             (column.to_float() + fx) / lanes.splat(self.width as f32),
             (row.to_float() + fy) / lanes.splat(self.height as f32),
@@ -213,8 +213,8 @@ impl<const C: usize> Environment<C> {
         let wi = [sin * sin_phi, cos, -sin * cos_phi];
         let texel = row * lanes.splat_int(self.width as i32) + column;
         let pdf = lanes.gather(self.density.as_slice(), texel) / (lanes.splat(TAU * PI) * sin.max(lanes.splat(1e-6)));
-        let there = zero.lt(pdf) & pdf.lt(infinite);
-        Lit { wi, distance: infinite, radiance: self.interpolated(lanes, place), pdf, there }
+        let valid = zero.lt(pdf) & pdf.lt(infinite);
+        LightSample { wi, distance: infinite, radiance: self.interpolated(lanes, place), pdf, valid }
     }
 
     /// Where in the unit square a direction is.
@@ -274,13 +274,13 @@ mod tests {
         let (mut radiance, mut exact, mut angle) = (0.0, 0.0, 0.0);
         for i in 0..n * n {
             let u = [((i / n) as f32 + 0.5) / n as f32, ((i % n) as f32 + 0.5) / n as f32];
-            let lit = light.draw(lanes, u.map(|u| lanes.splat(u)));
-            assert!(lit.there.all());
-            let pdf = light.seen(lanes.extract_xyz(lit.wi, 0)).1;
-            let drawn = lanes.extract(lit.pdf, 0);
+            let sample = light.sample_li(lanes, u.map(|u| lanes.splat(u)));
+            assert!(sample.valid.all());
+            let pdf = light.seen(lanes.extract_xyz(sample.wi, 0)).1;
+            let drawn = lanes.extract(sample.pdf, 0);
             // Rounding puts a few directions of an edge into the next texel.
             angle += f64::from(((pdf - drawn).abs() > 1e-3 * drawn) as u8) / f64::from(n * n);
-            radiance += f64::from(lanes.extract(lit.radiance[0], 0) / drawn) / f64::from(n * n);
+            radiance += f64::from(lanes.extract(sample.radiance[0], 0) / drawn) / f64::from(n * n);
             let y = 1.0 - 2.0 * u[0];
             let (sin, cos) = (TAU * u[1]).sin_cos();
             let r = (1.0 - y * y).sqrt();

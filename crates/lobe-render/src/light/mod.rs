@@ -1,16 +1,16 @@
 //! What shines, and how light is drawn for a point of a surface.
 
 mod area;
+mod cdf;
 mod environment;
-mod sums;
 
 pub use area::AreaLight;
 pub use environment::{Environment, EnvironmentError};
 
 use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
 
-use crate::vectors::{either, less, product, times};
-use sums::Sums;
+use crate::vectors::{dot, scale, select, sub};
+use cdf::Cdf;
 
 /// A light of `C` channels.
 #[derive(Clone, Debug)]
@@ -49,7 +49,7 @@ pub enum Light<const C: usize> {
 
 /// A place on a light a lane, drawn for points.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Lit<L: Lanes, const C: usize> {
+pub(crate) struct LightSample<L: Lanes, const C: usize> {
     /// Toward the light, unit length.
     pub wi: [L::F; 3],
     /// How far it is; may be infinite.
@@ -59,23 +59,23 @@ pub(crate) struct Lit<L: Lanes, const C: usize> {
     /// Density over solid angle, 1/sr; infinite where the light has no extent.
     pub pdf: L::F,
     /// Whether light comes at all; where none does, the other numbers may be any.
-    pub there: L::M,
+    pub valid: L::M,
 }
 
-impl<L: Lanes, const C: usize> Lit<L, C> {
+impl<L: Lanes, const C: usize> LightSample<L, C> {
     /// The same radiance in all lanes.
     #[inline(always)]
-    fn new(lanes: L, wi: [L::F; 3], distance: L::F, radiance: [f32; C], pdf: L::F, there: L::M) -> Self {
-        let mut lit = Lit { wi, distance, radiance: [lanes.splat(0.0); C], pdf, there };
-        for (lit, radiance) in lit.radiance.iter_mut().zip(radiance) {
-            *lit = lanes.splat(radiance);
+    fn new(lanes: L, wi: [L::F; 3], distance: L::F, radiance: [f32; C], pdf: L::F, valid: L::M) -> Self {
+        let mut sample = LightSample { wi, distance, radiance: [lanes.splat(0.0); C], pdf, valid };
+        for (sample, radiance) in sample.radiance.iter_mut().zip(radiance) {
+            *sample = lanes.splat(radiance);
         }
-        lit
+        sample
     }
 
     /// The radiance multiplied.
     #[inline(always)]
-    fn times(mut self, factor: L::F) -> Self {
+    fn scaled(mut self, factor: L::F) -> Self {
         for radiance in &mut self.radiance {
             *radiance = *radiance * factor;
         }
@@ -85,13 +85,13 @@ impl<L: Lanes, const C: usize> Lit<L, C> {
     /// `other` in the lanes of `mask`.
     #[inline(always)]
     fn or(mut self, lanes: L, mask: L::M, other: Self) -> Self {
-        self.wi = either(lanes, mask, other.wi, self.wi);
+        self.wi = select(lanes, mask, other.wi, self.wi);
         self.distance = lanes.select(mask, other.distance, self.distance);
         for (radiance, other) in self.radiance.iter_mut().zip(other.radiance) {
             *radiance = lanes.select(mask, other, *radiance);
         }
         self.pdf = lanes.select(mask, other.pdf, self.pdf);
-        self.there = (mask & other.there) | (!mask & self.there);
+        self.valid = (mask & other.valid) | (!mask & self.valid);
         self
     }
 }
@@ -99,24 +99,24 @@ impl<L: Lanes, const C: usize> Lit<L, C> {
 impl<const C: usize> Light<C> {
     /// Draws places on it for the points `from`.
     #[inline(always)]
-    fn draw<L: Lanes>(&self, lanes: L, from: [L::F; 3], u: [L::F; 2]) -> Lit<L, C> {
+    fn sample_li<L: Lanes>(&self, lanes: L, from: [L::F; 3], u: [L::F; 2]) -> LightSample<L, C> {
         match self {
             Light::Point { position, intensity } => at(lanes, from, *position, *intensity),
             Light::Spot { position, direction, intensity, falloff: [full, none] } => {
-                let lit = at(lanes, from, *position, *intensity);
-                let cos = -product::<L>(lit.wi, lanes.splat_xyz(*direction));
+                let sample = at(lanes, from, *position, *intensity);
+                let cos = -dot::<L>(sample.wi, lanes.splat_xyz(*direction));
                 let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
                 let t = (cos - lanes.splat(*none)) / lanes.splat((full - none).max(1e-6));
                 let t = t.max(zero).min(one);
                 let share = t * t * (lanes.splat(3.0) - lanes.splat(2.0) * t);
-                Lit { there: lit.there & zero.lt(share), ..lit.times(share) }
+                LightSample { valid: sample.valid & zero.lt(share), ..sample.scaled(share) }
             }
             Light::Directional { toward, irradiance } => {
                 let (wi, infinite) = (lanes.splat_xyz(*toward), lanes.splat(f32::INFINITY));
-                Lit::new(lanes, wi, infinite, *irradiance, infinite, infinite.eq(infinite))
+                LightSample::new(lanes, wi, infinite, *irradiance, infinite, infinite.eq(infinite))
             }
-            Light::Area(area) => area.draw(lanes, from, u),
-            Light::Environment(environment) => environment.draw(lanes, u),
+            Light::Area(area) => area.sample_li(lanes, from, u),
+            Light::Environment(environment) => environment.sample_li(lanes, u),
         }
     }
 
@@ -144,14 +144,19 @@ impl<const C: usize> Light<C> {
 
 /// A point light seen from points.
 #[inline(always)]
-fn at<L: Lanes, const C: usize>(lanes: L, from: [L::F; 3], position: [f32; 3], intensity: [f32; C]) -> Lit<L, C> {
-    let toward = less::<L>(lanes.splat_xyz(position), from);
+fn at<L: Lanes, const C: usize>(
+    lanes: L,
+    from: [L::F; 3],
+    position: [f32; 3],
+    intensity: [f32; C],
+) -> LightSample<L, C> {
+    let toward = sub::<L>(lanes.splat_xyz(position), from);
     let (zero, one, infinite) = (lanes.splat(0.0), lanes.splat(1.0), lanes.splat(f32::INFINITY));
-    let distance = product::<L>(toward, toward).sqrt();
+    let distance = dot::<L>(toward, toward).sqrt();
     let near = one / (distance * distance);
-    let wi = times::<L>(toward, one / distance);
-    let there = zero.lt(distance) & near.lt(infinite);
-    Lit::new(lanes, wi, distance, intensity, infinite, there).times(near)
+    let wi = scale::<L>(toward, one / distance);
+    let valid = zero.lt(distance) & near.lt(infinite);
+    LightSample::new(lanes, wi, distance, intensity, infinite, valid).scaled(near)
 }
 
 /// All lights of a scene and the chance of each to be chosen.
@@ -160,7 +165,7 @@ pub(crate) struct Lights<const C: usize> {
     pub all: Vec<Light<C>>,
     /// The chance of each.
     chances: Vec<f32>,
-    sums: Sums,
+    sums: Cdf,
     /// Which one is the environment.
     pub environment: Option<usize>,
 }
@@ -173,7 +178,7 @@ impl<const C: usize> Lights<C> {
         let equal = 1.0 / all.len().max(1) as f64;
         let by_power = |power: f64| if total > 0.0 { power / total } else { equal };
         let chances: Vec<f64> = powers.iter().map(|&power| 0.5 * by_power(power) + 0.5 * equal).collect();
-        let sums = Sums::new(all.len(), &chances);
+        let sums = Cdf::new(all.len(), &chances);
         let environment = all.iter().position(|light| matches!(light, Light::Environment(_)));
         Lights { all, chances: chances.into_iter().map(|chance| chance as f32).collect(), sums, environment }
     }
@@ -181,44 +186,44 @@ impl<const C: usize> Lights<C> {
     /// Draws places for the points `from`: on that light, or on lights chosen by the first number. The radiance is over
     /// the density of the drawing. There must be a light.
     #[inline(always)]
-    pub fn draw<L: Lanes>(
+    pub fn sample_li<L: Lanes>(
         &self,
         lanes: L,
         light: Option<usize>,
         from: [L::F; 3],
         [choice, u, v]: [L::F; 3],
-    ) -> Lit<L, C> {
-        let (mut lit, chance) = match light {
-            Some(light) => (self.all[light].draw(lanes, from, [u, v]), lanes.splat(1.0)),
+    ) -> LightSample<L, C> {
+        let (mut sample, chance) = match light {
+            Some(light) => (self.all[light].sample_li(lanes, from, [u, v]), lanes.splat(1.0)),
             None => {
-                let (chosen, _) = self.sums.search(lanes, lanes.splat_int(0), choice);
-                (self.draw_on(lanes, chosen, from, [u, v]), lanes.gather(&self.chances, chosen))
+                let (chosen, _) = self.sums.sample(lanes, lanes.splat_int(0), choice);
+                (self.sample_chosen(lanes, chosen, from, [u, v]), lanes.gather(&self.chances, chosen))
             }
         };
-        let density = lit.pdf * chance;
-        let extended = lit.pdf.lt(lanes.splat(f32::INFINITY));
+        let density = sample.pdf * chance;
+        let extended = sample.pdf.lt(lanes.splat(f32::INFINITY));
         let divisor = lanes.select(extended, density, chance);
-        for radiance in &mut lit.radiance {
+        for radiance in &mut sample.radiance {
             *radiance = *radiance / divisor;
         }
-        Lit { pdf: density, ..lit }
+        LightSample { pdf: density, ..sample }
     }
 
-    /// Places on as many lights as there are in the lanes.
+    /// Samples on as many lights as there are in the lanes.
     #[inline(always)]
-    fn draw_on<L: Lanes>(&self, lanes: L, chosen: L::I, from: [L::F; 3], u: [L::F; 2]) -> Lit<L, C> {
+    fn sample_chosen<L: Lanes>(&self, lanes: L, chosen: L::I, from: [L::F; 3], u: [L::F; 2]) -> LightSample<L, C> {
         let mut numbers = [0; MAX_LANES];
         lanes.store_int(&mut numbers, chosen);
         let zero = lanes.splat(0.0);
-        let mut lit = Lit::new(lanes, [zero; 3], zero, [0.0; C], zero, zero.lt(zero));
+        let mut sample = LightSample::new(lanes, [zero; 3], zero, [0.0; C], zero, zero.lt(zero));
         let mut left = (1u32 << L::LANES) - 1;
         while left != 0 {
             let number = numbers[left.trailing_zeros() as usize & (MAX_LANES - 1)];
             let here = chosen.eq(lanes.splat_int(number));
-            lit = lit.or(lanes, here, self.all[number as usize].draw(lanes, from, u));
+            sample = sample.or(lanes, here, self.all[number as usize].sample_li(lanes, from, u));
             left &= !here.bits();
         }
-        lit
+        sample
     }
 
     /// The chance of a light.
@@ -257,14 +262,14 @@ mod tests {
             let row = |step: f32| lanes.load(&[0, 1, 2, 3, 4, 5, 6, 7].map(|lane| number(lane, step)));
             let from = [row(0.37), row(0.11), row(0.23)];
             let u = [row(0.618_034), row(0.754_878), row(0.569_84)];
-            let many = lights.draw(lanes, None, from, u);
+            let many = lights.sample_li(lanes, None, from, u);
             for lane in 0..8 {
                 let [from, u] = [from, u].map(|rows| alone.splat_xyz(lanes.extract_xyz(rows, lane)));
-                let (chosen, _) = lights.sums.search(alone, alone.splat_int(0), u[0]);
+                let (chosen, _) = lights.sums.sample(alone, alone.splat_int(0), u[0]);
                 let light = alone.extract_int(chosen, 0) as usize;
-                let one = lights.draw(alone, Some(light), from, u);
-                assert_eq!(one.there.any(), many.there.bits() >> lane & 1 != 0, "light {light}");
-                if !one.there.any() {
+                let one = lights.sample_li(alone, Some(light), from, u);
+                assert_eq!(one.valid.any(), many.valid.bits() >> lane & 1 != 0, "light {light}");
+                if !one.valid.any() {
                     continue;
                 }
                 found[light] += 1;

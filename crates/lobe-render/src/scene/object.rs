@@ -6,8 +6,8 @@ use lobe_mesh::{Geometry, Shading, generate, shapes};
 
 use super::Reading;
 use super::node::{Node, SceneError};
-use crate::place::Place;
 use crate::preview;
+use crate::transform::Transform;
 
 const SHAPES: &str = "sphere, plane, disk, cuboid, cove, knot, ball or drape";
 
@@ -115,7 +115,7 @@ fn groups(node: &Node<'_, '_>, reading: &Reading<'_>, geometry: &Geometry) -> Re
 }
 
 /// Scaled, then turned about x, y and z in this order, then moved.
-fn place(node: &Node<'_, '_>) -> Result<Place, SceneError> {
+fn place(node: &Node<'_, '_>) -> Result<Transform, SceneError> {
     let size = |x: f64| (1e-6..=1e6).contains(&x);
     let scale = node.number("scale", "a number from 1e-6 to 1e6", size)?.unwrap_or(1.0);
     let turn = node.three("rotate", "three angles in degrees", |x| x.abs() <= 3600.0)?.unwrap_or([0.0; 3]);
@@ -128,5 +128,5 @@ fn place(node: &Node<'_, '_>) -> Result<Place, SceneError> {
             (image[a], image[b]) = (cos * image[a] - sin * image[b], sin * image[a] + cos * image[b]);
         }
     }
-    Ok(Place { axes: axes.map(|axis| axis.map(|x| x as f32)), translate })
+    Ok(Transform { axes: axes.map(|axis| axis.map(|x| x as f32)), translate })
 }

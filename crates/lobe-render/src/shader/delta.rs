@@ -5,7 +5,7 @@ use crate::vec3::Vec3;
 
 /// One of the directions that light comes from, and the share of it that goes on to the viewer.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Way<const C: usize> {
+pub struct DeltaSample<const C: usize> {
     /// Toward the light.
     pub wi: [f32; 3],
     /// What radiance is multiplied by.
@@ -31,19 +31,19 @@ pub enum Delta<const C: usize> {
 
 impl<const C: usize> Delta<C> {
     /// The mirrored direction, and the refracted one where there is one, for a viewer in the direction `wo`.
-    pub fn ways(&self, wo: [f32; 3]) -> (Way<C>, Option<Way<C>>) {
+    pub fn samples(&self, wo: [f32; 3]) -> (DeltaSample<C>, Option<DeltaSample<C>>) {
         let mirrored = [-wo[0], -wo[1], wo[2]];
         match self {
-            Delta::Mirror(share) => (Way { wi: mirrored, weight: *share }, None),
-            Delta::Measured(shares) => (Way { wi: mirrored, weight: share_at(shares, wo) }, None),
+            Delta::Mirror(share) => (DeltaSample { wi: mirrored, weight: *share }, None),
+            Delta::Measured(shares) => (DeltaSample { wi: mirrored, weight: share_at(shares, wo) }, None),
             Delta::Glass { eta, tint } => {
                 let ratio = if wo[2] > 0.0 { 1.0 / eta } else { *eta };
                 let (share, refracted) = refract(wo, ratio);
-                let mirror = Way { wi: mirrored, weight: tint.map(|t| t * share) };
+                let mirror = DeltaSample { wi: mirrored, weight: tint.map(|t| t * share) };
                 let through = refracted.map(|wi| {
                     // Radiance is squeezed into the smaller cone of the denser medium.
                     let weight = tint.map(|t| t * (1.0 - share) * (ratio * ratio));
-                    Way { wi, weight }
+                    DeltaSample { wi, weight }
                 });
                 (mirror, through)
             }
@@ -118,26 +118,26 @@ mod tests {
     fn glass_divides_light_and_obeys_snell() {
         let glass = Delta::Glass { eta: 1.5, tint: [1.0] };
         let wo = [0.6, 0.0, 0.8];
-        let (mirror, through) = glass.ways(wo);
+        let (mirror, through) = glass.samples(wo);
         let through = through.unwrap();
         assert_eq!(mirror.wi, [-0.6, 0.0, 0.8]);
         assert!((through.wi[0] + 0.6 / 1.5).abs() < 1e-6 && through.wi[2] < 0.0);
         // Without the factor of the cones, what is not mirrored goes through.
         assert!((mirror.weight[0] + through.weight[0] * 1.5 * 1.5 - 1.0).abs() < 1e-6);
         // And the way back is the same way.
-        let (_, back) = glass.ways(through.wi);
+        let (_, back) = glass.samples(through.wi);
         let back = back.unwrap().wi;
         assert!(wo.iter().zip(back).all(|(a, b)| (a - b).abs() < 1e-6), "{back:?}");
         // From inside at a flat angle all is mirrored.
-        assert!(glass.ways([0.9, 0.0, -0.43589]).1.is_none());
+        assert!(glass.samples([0.9, 0.0, -0.43589]).1.is_none());
         // At the normal: ((n - 1) / (n + 1))^2.
-        assert!((glass.ways([0.0, 0.0, 1.0]).0.weight[0] - 0.04).abs() < 1e-6);
+        assert!((glass.samples([0.0, 0.0, 1.0]).0.weight[0] - 0.04).abs() < 1e-6);
     }
 
     #[test]
     fn measured_shares_are_linear_between_angles() {
         let mirror = Delta::Measured(vec![(0.0, [0.2]), (1.0, [0.6])]);
-        let at = |theta: f32| mirror.ways([theta.sin(), 0.0, theta.cos()]).0.weight[0];
+        let at = |theta: f32| mirror.samples([theta.sin(), 0.0, theta.cos()]).0.weight[0];
         assert!((at(0.5) - 0.4).abs() < 1e-5 && (at(1.3) - 0.6).abs() < 1e-6, "{} {}", at(0.5), at(1.3));
     }
 }

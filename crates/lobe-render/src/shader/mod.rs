@@ -12,7 +12,7 @@ mod reduce;
 
 use std::fmt::Debug;
 
-pub use delta::{Delta, DeltaShader, Way};
+pub use delta::{Delta, DeltaSample, DeltaShader};
 pub use lambert::Lambert;
 pub use lobe::Backend;
 pub use measured::{MaterialError, MeasuredShader, open, open_sheet};

@@ -75,7 +75,7 @@ fn mistakes_are_named_with_their_line_and_key() {
         ("field_of_view = 45", "field_of_view = 200", 4, "camera.field_of_view: found 200; expected degrees"),
         ("field_of_view = 45", "field_of_view = nan", 4, "camera.field_of_view"),
         ("field_of_view = 45", "fov = 45", 4, "camera.fov: no such key; expected one of"),
-        ("target = [0, 0, 0]", "target = [0, 1, 4]", 3, "camera.target: a target in the camera itself"),
+        ("target = [0, 0, 0]", "target = [0, 1, 4]", 3, "camera.target: `target` is at `position`"),
         ("target = [0, 0, 0]", "target = [0, 0]", 3, "camera.target: found [0, 0]; expected three numbers"),
         ("target = [0, 0, 0]", "", 1, "camera.target: found nothing"),
         ("target = [0, 0, 0]", "target = [0, 0, 0", 4, ""),

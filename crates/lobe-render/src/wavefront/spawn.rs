@@ -2,13 +2,13 @@
 
 use lobe::{Backend, Kernel, Lanes};
 
-use crate::columns::{Column, NOTHING, RAYS, hold, store, vector};
-use crate::hit::Hits;
+use crate::columns::{Column, RAYS, ZEROS, ensure_len, store, vector};
+use crate::interaction::Interactions;
 use crate::vec3::Vec3;
 
 /// Where rays begin.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Start {
+pub(super) enum Origin {
     /// On the triangles.
     Surface,
     /// On the smooth surface that the triangles stand for, as shadow rays do.
@@ -17,15 +17,15 @@ pub(super) enum Start {
 
 /// Rays from 64 surfaces.
 #[derive(Clone, Debug)]
-pub(super) struct Leaving {
+pub(super) struct SpawnedRays {
     origin: [Column; 3],
     direction: [Column; 3],
     /// 1 where the ray is on the same side of the triangle and of the smooth surface, else 0.
     goes: Column,
 }
 
-impl Leaving {
-    const NOTHING: Self = Leaving { origin: [NOTHING; 3], direction: [NOTHING; 3], goes: NOTHING };
+impl SpawnedRays {
+    const ZEROS: Self = SpawnedRays { origin: [ZEROS; 3], direction: [ZEROS; 3], goes: ZEROS };
 
     /// Whether a ray is on the same side of the triangle and of the smooth surface.
     pub fn goes(&self, at: usize) -> bool {
@@ -39,24 +39,30 @@ impl Leaving {
 }
 
 /// The rays from hits into the directions `local`, of which there are as many as fill the lanes.
-pub(super) fn leave(backend: Backend, hits: &Hits, start: Start, local: &[Vec3], out: &mut Vec<Leaving>) {
-    hold(out, hits.len().div_ceil(RAYS), Leaving::NOTHING);
-    backend.run(Leave { hits, start, local, out });
+pub(super) fn spawn_rays(
+    backend: Backend,
+    hits: &Interactions,
+    start: Origin,
+    local: &[Vec3],
+    out: &mut Vec<SpawnedRays>,
+) {
+    ensure_len(out, hits.len().div_ceil(RAYS), SpawnedRays::ZEROS);
+    backend.run(SpawnRays { hits, start, local, out });
 }
 
-struct Leave<'a> {
-    hits: &'a Hits,
-    start: Start,
+struct SpawnRays<'a> {
+    hits: &'a Interactions,
+    start: Origin,
     local: &'a [Vec3],
-    out: &'a mut [Leaving],
+    out: &'a mut [SpawnedRays],
 }
 
-impl Kernel for Leave<'_> {
+impl Kernel for SpawnRays<'_> {
     type Out = ();
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        let Leave { hits, start, local, out } = self;
+        let SpawnRays { hits, start, local, out } = self;
         let (one, zero) = (lanes.splat(1.0), lanes.splat(0.0));
         let mut at = 0;
         while at < hits.len() {
@@ -65,12 +71,12 @@ impl Kernel for Leave<'_> {
             let local = lanes.load_xyz(&local[at..]);
             let world = place.world(local);
             let origin = match start {
-                Start::Surface => place.position,
-                Start::Lifted => place.lifted,
+                Origin::Surface => place.position,
+                Origin::Lifted => place.lifted,
             };
-            store(lanes, &mut out.origin, lane, place.leave(lanes, origin, world));
+            store(lanes, &mut out.origin, lane, place.offset_origin(lanes, origin, world));
             store(lanes, &mut out.direction, lane, world);
-            lanes.store(&mut out.goes[lane..], lanes.select(place.sees(lanes, world, local), one, zero));
+            lanes.store(&mut out.goes[lane..], lanes.select(place.same_side(lanes, world, local), one, zero));
             at += L::LANES;
         }
     }

@@ -6,30 +6,30 @@ use crate::vec3::Vec3;
 
 /// Rays that begin at `t` 0, each with what it carries.
 #[derive(Debug)]
-pub(super) struct Sent<T> {
+pub(super) struct RayQueue<T> {
     pub rays: RaySoA,
-    pub carried: Vec<T>,
+    pub states: Vec<T>,
 }
 
-impl<T> Default for Sent<T> {
+impl<T> Default for RayQueue<T> {
     fn default() -> Self {
-        Sent { rays: RaySoA::default(), carried: Vec::new() }
+        RayQueue { rays: RaySoA::default(), states: Vec::new() }
     }
 }
 
-impl<T: Copy> Sent<T> {
+impl<T: Copy> RayQueue<T> {
     /// No rays; memory is kept.
     pub fn clear(&mut self) {
         fill(&mut self.rays, 0);
-        self.carried.clear();
+        self.states.clear();
     }
 
     pub fn len(&self) -> usize {
-        self.carried.len()
+        self.states.len()
     }
 
     pub fn is_empty(&self) -> bool {
-        self.carried.is_empty()
+        self.states.is_empty()
     }
 
     /// The direction of a ray.
@@ -38,9 +38,9 @@ impl<T: Copy> Sent<T> {
     }
 
     /// Adds a ray.
-    pub fn push(&mut self, (origin, direction): (Vec3, Vec3), t_max: f32, carried: T) {
+    pub fn push(&mut self, (origin, direction): (Vec3, Vec3), t_max: f32, states: T) {
         self.rays.push(origin, direction, 0.0, t_max);
-        self.carried.push(carried);
+        self.states.push(states);
     }
 
     /// Adds those of at most `more` rays that `write` keeps.
@@ -55,13 +55,13 @@ impl<T: Copy> Sent<T> {
             origin: origin.each_mut().map(|column| &mut column[begin..][..more]),
             direction: direction.each_mut().map(|column| &mut column[begin..][..more]),
             t_max: &mut t_max[begin..][..more],
-            carried: &mut self.carried,
+            states: &mut self.states,
             begin,
             count: 0,
         };
         write(&mut room);
         let kept = begin + room.count;
-        self.carried.truncate(kept);
+        self.states.truncate(kept);
         fill(&mut self.rays, kept);
     }
 }
@@ -71,7 +71,7 @@ pub(super) struct Room<'a, T> {
     origin: [&'a mut [f32]; 3],
     direction: [&'a mut [f32]; 3],
     t_max: &'a mut [f32],
-    carried: &'a mut Vec<T>,
+    states: &'a mut Vec<T>,
     begin: usize,
     count: usize,
 }
@@ -80,14 +80,14 @@ impl<T: Copy> Room<'_, T> {
     /// Writes a ray. One that is not to be kept is written over by the next: whether it is cannot be foreseen, and so is
     /// not asked.
     #[inline(always)]
-    pub fn write(&mut self, (origin, direction): (Vec3, Vec3), t_max: f32, carried: T, keep: bool) {
+    pub fn write(&mut self, (origin, direction): (Vec3, Vec3), t_max: f32, states: T, keep: bool) {
         for axis in 0..3 {
             self.origin[axis][self.count] = origin[axis];
             self.direction[axis][self.count] = direction[axis];
         }
         self.t_max[self.count] = t_max;
-        self.carried.truncate(self.begin + self.count);
-        self.carried.push(carried);
+        self.states.truncate(self.begin + self.count);
+        self.states.push(states);
         self.count += usize::from(keep);
     }
 }

@@ -1,18 +1,18 @@
-//! Places on surfaces that rays have hit, found in lanes. Nothing is fused, so the bits are the same on every machine.
+//! Surface interactions: places on surfaces that rays have hit, found in lanes. Nothing is fused, so the bits are the same on every machine.
 
 use lobe::{Backend, Floats, Kernel, Lanes};
 use lobe_lane::{Block, Mask};
 use lobe_trace::{HitSoA, RaySoA};
 
-use crate::columns::{Column, NOTHING, RAYS, hold, load, store, vector};
+use crate::columns::{Column, RAYS, ZEROS, ensure_len, load, store, vector};
 use crate::vec3::Vec3;
-use crate::vectors::{across, blend, either, largest, less, minus, perpendicular, plus, product, times, unit_or};
+use crate::vectors::{add, blend, cross, dot, max_component, neg, perpendicular, scale, select, sub, unit_or};
 use crate::world::{Corner, World};
 
-/// Places on surfaces that rays have hit.
+/// Surface interactions: places on surfaces that rays have hit.
 #[derive(Debug, Default)]
-pub(crate) struct Hits {
-    blocks: Vec<Places>,
+pub(crate) struct Interactions {
+    blocks: Vec<InteractionBlock>,
     /// Which part of the world each is on.
     parts: Vec<u32>,
     /// Back along the rays, in the frames of the material.
@@ -21,7 +21,7 @@ pub(crate) struct Hits {
 
 /// A place a lane.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place<L: Lanes> {
+pub(crate) struct SurfaceInteraction<L: Lanes> {
     pub position: [L::F; 3],
     /// Where shadow rays begin: `position`, moved out of the facets that hide a smooth surface from itself.
     pub lifted: [L::F; 3],
@@ -33,11 +33,11 @@ pub(crate) struct Place<L: Lanes> {
     step: L::F,
 }
 
-impl<L: Lanes> Place<L> {
+impl<L: Lanes> SurfaceInteraction<L> {
     /// A direction of the world in the frame.
     #[inline(always)]
     pub fn local(&self, world: [L::F; 3]) -> [L::F; 3] {
-        [product::<L>(self.frame[0], world), product::<L>(self.frame[1], world), product::<L>(self.frame[2], world)]
+        [dot::<L>(self.frame[0], world), dot::<L>(self.frame[1], world), dot::<L>(self.frame[2], world)]
     }
 
     /// A direction of the frame in the world.
@@ -49,20 +49,20 @@ impl<L: Lanes> Place<L> {
     /// Whether the direction is on the same side of the facet as of the smooth surface. Where it is not, light would
     /// leak through the surface.
     #[inline(always)]
-    pub fn sees(&self, lanes: L, world: [L::F; 3], local: [L::F; 3]) -> L::M {
+    pub fn same_side(&self, lanes: L, world: [L::F; 3], local: [L::F; 3]) -> L::M {
         let zero = lanes.splat(0.0);
-        !(product::<L>(self.geometric, world).gt(zero) ^ local[2].gt(zero))
+        !(dot::<L>(self.geometric, world).gt(zero) ^ local[2].gt(zero))
     }
 
     /// The origin of a ray at this place, off the surface on the side that `direction` leads to.
     #[inline(always)]
-    pub fn leave(&self, lanes: L, from: [L::F; 3], direction: [L::F; 3]) -> [L::F; 3] {
-        let below = product::<L>(self.geometric, direction).lt(lanes.splat(0.0));
-        plus::<L>(from, times::<L>(self.geometric, lanes.select(below, -self.step, self.step)))
+    pub fn offset_origin(&self, lanes: L, from: [L::F; 3], direction: [L::F; 3]) -> [L::F; 3] {
+        let below = dot::<L>(self.geometric, direction).lt(lanes.splat(0.0));
+        add::<L>(from, scale::<L>(self.geometric, lanes.select(below, -self.step, self.step)))
     }
 }
 
-impl Hits {
+impl Interactions {
     pub fn len(&self) -> usize {
         self.parts.len()
     }
@@ -90,9 +90,9 @@ impl Hits {
 
     /// The places from `at` on, which the number of lanes divides. Lanes beyond the last place have any numbers.
     #[inline(always)]
-    pub fn places<L: Lanes>(&self, lanes: L, at: usize) -> Place<L> {
+    pub fn places<L: Lanes>(&self, lanes: L, at: usize) -> SurfaceInteraction<L> {
         let (block, at) = (&self.blocks[at / RAYS], at & (RAYS - L::LANES));
-        Place {
+        SurfaceInteraction {
             position: load(lanes, &block.position, at),
             lifted: load(lanes, &block.lifted, at),
             geometric: load(lanes, &block.geometric, at),
@@ -116,22 +116,22 @@ impl Hits {
     ) {
         self.parts.clear();
         self.wo.clear();
-        hold(&mut self.blocks, which.len().div_ceil(RAYS), Places::NOTHING);
-        backend.run(Finding { world, which, rays, found, hits: self });
+        ensure_len(&mut self.blocks, which.len().div_ceil(RAYS), InteractionBlock::ZEROS);
+        backend.run(FindInteractions { world, which, rays, found, hits: self });
     }
 }
 
-/// [`Hits::find`] in lanes.
-struct Finding<'a, const C: usize> {
+/// [`Interactions::find`] in lanes.
+struct FindInteractions<'a, const C: usize> {
     world: &'a World<C>,
     which: &'a [u32],
     rays: &'a RaySoA,
     found: &'a HitSoA,
-    hits: &'a mut Hits,
+    hits: &'a mut Interactions,
 }
 
 /// What is known of some rays.
-struct Known {
+struct HitBlock {
     /// Where the first number of each corner is.
     corners: [[i32; RAYS]; 3],
     direction: [Column; 3],
@@ -140,9 +140,9 @@ struct Known {
     transmits: Column,
 }
 
-/// What is found out about them; see [`Place`].
+/// What is found out about them; see [`SurfaceInteraction`].
 #[derive(Clone, Debug)]
-struct Places {
+struct InteractionBlock {
     position: [Column; 3],
     lifted: [Column; 3],
     geometric: [Column; 3],
@@ -151,28 +151,27 @@ struct Places {
     front: Column,
 }
 
-impl Places {
-    const NOTHING: Self = Places {
-        position: [NOTHING; 3],
-        lifted: [NOTHING; 3],
-        geometric: [NOTHING; 3],
-        frame: [[NOTHING; 3]; 3],
-        step: NOTHING,
-        front: NOTHING,
+impl InteractionBlock {
+    const ZEROS: Self = InteractionBlock {
+        position: [ZEROS; 3],
+        lifted: [ZEROS; 3],
+        geometric: [ZEROS; 3],
+        frame: [[ZEROS; 3]; 3],
+        step: ZEROS,
+        front: ZEROS,
     };
 }
 
-impl<const C: usize> Kernel for Finding<'_, C> {
+impl<const C: usize> Kernel for FindInteractions<'_, C> {
     type Out = ();
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        let Finding { world, which, rays, found, hits } = self;
-        let Hits { blocks, parts, wo } = hits;
+        let FindInteractions { world, which, rays, found, hits } = self;
+        let Interactions { blocks, parts, wo } = hits;
         let (all, corners) = (world.triangles.as_slice(), world.corners.as_slice());
-        let mut known =
-            Known { corners: [[0; RAYS]; 3], direction: [NOTHING; 3], uv: [NOTHING; 2], transmits: NOTHING };
-        let mut back = [NOTHING; 3];
+        let mut known = HitBlock { corners: [[0; RAYS]; 3], direction: [ZEROS; 3], uv: [ZEROS; 2], transmits: ZEROS };
+        let mut back = [ZEROS; 3];
         for (which, places) in which.chunks(RAYS).zip(blocks) {
             for (lane, ray) in which.iter().enumerate() {
                 let ray = *ray as usize;
@@ -218,7 +217,13 @@ const GRAZING: f32 = 1e-3;
 
 /// Fills in `places`; returns the ways back along the rays, in the frames.
 #[inline(always)]
-fn find<L: Lanes>(lanes: L, corners: &Block<'_, 3, 4>, known: &Known, places: &mut Places, at: usize) -> [L::F; 3] {
+fn find<L: Lanes>(
+    lanes: L,
+    corners: &Block<'_, 3, 4>,
+    known: &HitBlock,
+    places: &mut InteractionBlock,
+    at: usize,
+) -> [L::F; 3] {
     let zero = lanes.splat(0.0);
     let one = lanes.splat(1.0);
     let ([pa, na, ta], handedness) = corner(lanes, corners, &known.corners[0][at..]);
@@ -226,53 +231,53 @@ fn find<L: Lanes>(lanes: L, corners: &Block<'_, 3, 4>, known: &Known, places: &m
     let ([pc, nc, tc], _) = corner(lanes, corners, &known.corners[2][at..]);
     let [u, v] = [lanes.load(&known.uv[0][at..]), lanes.load(&known.uv[1][at..])];
     let w = one - u - v;
-    let toward = minus::<L>(load(lanes, &known.direction, at));
+    let toward = neg::<L>(load(lanes, &known.direction, at));
     let transmits = zero.lt(lanes.load(&known.transmits[at..]));
 
     // A hundred units in the last place or so of the largest coordinate of the triangle: what finding the place, and
     // meeting the triangle again, lose.
-    let reach = largest::<L>(pa).max(largest::<L>(pb)).max(largest::<L>(pc));
+    let reach = max_component::<L>(pa).max(max_component::<L>(pb)).max(max_component::<L>(pc));
     let step = (reach * lanes.splat(1.0 / 65_536.0)).max(lanes.splat(1e-9));
-    let (ab, ac) = (less::<L>(pb, pa), less::<L>(pc, pa));
-    let position = plus::<L>(pa, plus::<L>(times::<L>(ab, u), times::<L>(ac, v)));
+    let (ab, ac) = (sub::<L>(pb, pa), sub::<L>(pc, pa));
+    let position = add::<L>(pa, add::<L>(scale::<L>(ab, u), scale::<L>(ac, v)));
     // A triangle that was hit has an area; still, it may be too small for its square.
-    let mut geometric = unit_or(lanes, across::<L>(ab, ac), toward);
-    let front = product::<L>(geometric, toward);
+    let mut geometric = unit_or(lanes, cross::<L>(ab, ac), toward);
+    let front = dot::<L>(geometric, toward);
     let weights = [w, u, v];
     let normals = [na, nb, nc];
     let mut normal = unit_or(lanes, blend::<L>(normals, weights), geometric);
     let along = blend::<L>([ta, tb, tc], weights);
     let handedness = one.mul_sign(handedness);
 
-    let turned = product::<L>(geometric, normal).lt(zero);
-    geometric = either(lanes, turned, minus::<L>(geometric), geometric);
+    let turned = dot::<L>(geometric, normal).lt(zero);
+    geometric = select(lanes, turned, neg::<L>(geometric), geometric);
     // What reflects only has two equal sides: the frame is turned about the tangent.
-    let behind = product::<L>(geometric, toward).lt(zero);
+    let behind = dot::<L>(geometric, toward).lt(zero);
     let turned = behind & !transmits;
-    geometric = either(lanes, turned, minus::<L>(geometric), geometric);
-    normal = either(lanes, turned, minus::<L>(normal), normal);
+    geometric = select(lanes, turned, neg::<L>(geometric), geometric);
+    normal = select(lanes, turned, neg::<L>(normal), normal);
     let side = lanes.select(turned, -one, one);
     let above = lanes.select(behind & transmits, -one, one);
     // A smooth normal that turns away from the viewer at the silhouette is turned back.
-    let rise = above * product::<L>(normal, toward);
+    let rise = above * dot::<L>(normal, toward);
     let grazing = lanes.splat(GRAZING);
     let low = rise.lt(grazing);
     if low.any() {
-        let lift = times::<L>(toward, above * (grazing - rise));
-        normal = either(lanes, low, unit_or(lanes, plus::<L>(normal, lift), geometric), normal);
+        let lift = scale::<L>(toward, above * (grazing - rise));
+        normal = select(lanes, low, unit_or(lanes, add::<L>(normal, lift), geometric), normal);
     }
-    let flat = less::<L>(along, times::<L>(normal, product::<L>(along, normal)));
+    let flat = sub::<L>(along, scale::<L>(normal, dot::<L>(along, normal)));
     let tangent = unit_or(lanes, flat, perpendicular(lanes, normal));
-    let frame = [tangent, times::<L>(across::<L>(normal, tangent), handedness), normal];
+    let frame = [tangent, scale::<L>(cross::<L>(normal, tangent), handedness), normal];
 
     // The place moved to the smooth surface that the normals of the corners describe: Hanika 2021, "Hacking the Shadow
     // Terminator" (Ray Tracing Gems II, chapter 4).
     let mut lifted = position;
     let positions = [pa, pb, pc];
     for k in 0..3 {
-        let normal = times::<L>(normals[k], side);
-        let below = (-product::<L>(less::<L>(position, positions[k]), normal)).max(zero);
-        lifted = plus::<L>(lifted, times::<L>(normal, weights[k] * below));
+        let normal = scale::<L>(normals[k], side);
+        let below = (-dot::<L>(sub::<L>(position, positions[k]), normal)).max(zero);
+        lifted = add::<L>(lifted, scale::<L>(normal, weights[k] * below));
     }
 
     store(lanes, &mut places.position, at, position);
@@ -283,7 +288,7 @@ fn find<L: Lanes>(lanes: L, corners: &Block<'_, 3, 4>, known: &Known, places: &m
     let mut wo = [zero; 3];
     for k in 0..3 {
         store(lanes, &mut places.frame[k], at, frame[k]);
-        wo[k] = product::<L>(frame[k], toward);
+        wo[k] = dot::<L>(frame[k], toward);
     }
     wo
 }

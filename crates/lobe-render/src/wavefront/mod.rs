@@ -5,10 +5,10 @@
 //! the order of the sort.
 
 mod direct;
-mod leave;
 mod queue;
 mod rays;
 mod scatter;
+mod spawn;
 
 use std::time::Instant;
 
@@ -17,19 +17,19 @@ use lobe_scalar::Reference;
 use lobe_trace::{HitSoA, Intersect, MISS, RayClass};
 
 use crate::camera::View;
-use crate::film::{Film, Rect, Seen};
-use crate::hit::Hits;
+use crate::film::{Film, Rect, Sample};
 use crate::integrator::Integrator;
+use crate::interaction::Interactions;
 use crate::light::Light;
-use crate::random::{Numbers, Sequence, Use};
+use crate::random::{Dimensions, Numbers, Sequence};
 use crate::shader::{Backend, Scratch};
 use crate::stats::Stats;
 use crate::vec3::Vec3;
 use crate::world::World;
 use direct::Direct;
 use queue::Queue;
-use rays::Sent;
-use scatter::Scattered;
+use rays::RayQueue;
+use scatter::BsdfSamples;
 
 /// About how many paths are under way at once: a material that covers a hundredth of them still fills its lanes, and
 /// their state, a few hundred bytes each, stays in the cache.
@@ -37,15 +37,15 @@ pub(crate) const PATHS: usize = 8192;
 
 /// Where a path came from and what it has seen.
 #[derive(Clone, Copy, Debug)]
-struct Slot<const C: usize> {
+struct PathSlot<const C: usize> {
     pixel: [u32; 2],
     sequence: Sequence,
-    seen: Seen<C>,
+    sample: Sample<C>,
 }
 
 /// What a ray carries. With `whitted`, several rays have the same slot.
 #[derive(Clone, Copy, Debug)]
-struct Carried<const C: usize> {
+struct PathState<const C: usize> {
     slot: u32,
     /// What radiance that comes along the ray is multiplied by.
     throughput: [f32; C],
@@ -54,43 +54,43 @@ struct Carried<const C: usize> {
 }
 
 /// One thread's memory for waves over one scene.
-pub(crate) struct Wave<'w, const C: usize> {
+pub(crate) struct Wavefront<'w, const C: usize> {
     world: &'w World<C>,
     view: &'w View,
     integrator: Integrator,
     backend: Backend,
-    slots: Vec<Slot<C>>,
+    slots: Vec<PathSlot<C>>,
     /// Columns and rows of the pixels of the slots.
     pixels: [Vec<f32>; 2],
-    sent: Sent<Carried<C>>,
+    sent: RayQueue<PathState<C>>,
     found: HitSoA,
     /// Rays that have hit something, sorted; where, and what they carry.
     queue: Queue,
-    hits: Hits,
-    arrived: Vec<Carried<C>>,
+    hits: Interactions,
+    arrived: Vec<PathState<C>>,
     direct: Direct<C>,
-    scattered: Scattered<C>,
+    bsdf_samples: BsdfSamples<C>,
     numbers: Numbers,
     scratch: Scratch,
     pub stats: Stats,
 }
 
-impl<'w, const C: usize> Wave<'w, C> {
+impl<'w, const C: usize> Wavefront<'w, C> {
     pub fn new(world: &'w World<C>, view: &'w View, integrator: Integrator, backend: Backend) -> Self {
-        Wave {
+        Wavefront {
             world,
             view,
             integrator,
             backend,
             slots: Vec::new(),
             pixels: [Vec::new(), Vec::new()],
-            sent: Sent::default(),
+            sent: RayQueue::default(),
             found: HitSoA::default(),
             queue: Queue::default(),
-            hits: Hits::default(),
+            hits: Interactions::default(),
             arrived: Vec::new(),
             direct: Direct::default(),
-            scattered: Scattered::default(),
+            bsdf_samples: BsdfSamples::default(),
             numbers: Numbers::default(),
             scratch: Scratch::default(),
             stats: Stats::default(),
@@ -110,7 +110,7 @@ impl<'w, const C: usize> Wave<'w, C> {
             self.follow();
             for slot in &self.slots {
                 let at = film.index(slot.pixel[0], slot.pixel[1]);
-                let finite = film.pixels_mut()[at].add(&slot.seen);
+                let finite = film.pixels_mut()[at].add(&slot.sample);
                 self.stats.invalid += u64::from(!finite);
             }
             from = until;
@@ -124,21 +124,21 @@ impl<'w, const C: usize> Wave<'w, C> {
         self.slots.clear();
         self.sent.clear();
         for sample in samples {
-            let slot = |&pixel| Slot { pixel, sequence: Sequence::new(pixel, sample), seen: Seen::NOTHING };
+            let slot = |&pixel| PathSlot { pixel, sequence: Sequence::new(pixel, sample), sample: Sample::EMPTY };
             self.slots.extend(pixels.iter().map(slot));
         }
-        self.numbers.draw(self.backend, self.slots.iter().map(|slot| slot.sequence), Use::Camera);
+        self.numbers.draw(self.backend, self.slots.iter().map(|slot| slot.sequence), Dimensions::Camera);
         let n = self.slots.len();
         for (axis, places) in self.pixels.iter_mut().enumerate() {
             places.clear();
             places.extend(self.slots.iter().map(|slot| slot.pixel[axis] as f32));
             places.resize(n.next_multiple_of(MAX_LANES), 0.0);
         }
-        let Sent { rays, carried } = &mut self.sent;
+        let RayQueue { rays, states } = &mut self.sent;
         rays::fill(rays, n.next_multiple_of(MAX_LANES));
         self.view.rays(self.backend, &self.pixels, &self.numbers, rays);
         rays::fill(rays, n);
-        carried.extend((0..n).map(|slot| Carried { slot: slot as u32, throughput: [1.0; C], pdf: f32::INFINITY }));
+        states.extend((0..n).map(|slot| PathState { slot: slot as u32, throughput: [1.0; C], pdf: f32::INFINITY }));
         self.stats.samples += self.slots.len() as u64;
     }
 
@@ -152,7 +152,7 @@ impl<'w, const C: usize> Wave<'w, C> {
             }
             self.trace(class);
             self.sort(depth);
-            self.meet(depth);
+            self.shade_hits(depth);
             match self.integrator {
                 Integrator::Normals => self.show_normals(),
                 Integrator::Ambient { distance } => self.ambient(class, distance),
@@ -190,18 +190,18 @@ impl<'w, const C: usize> Wave<'w, C> {
         });
         if !debugging && let Some(sky) = self.world.lights.environment {
             for &ray in &self.queue.missed {
-                let carried = &self.sent.carried[ray as usize];
-                let radiance = background(self.world, sky, (self.sent.direction(ray as usize), carried.pdf));
-                add(&mut self.slots[carried.slot as usize].seen.radiance, carried.throughput, radiance, limit);
+                let state = &self.sent.states[ray as usize];
+                let radiance = background(self.world, sky, (self.sent.direction(ray as usize), state.pdf));
+                add(&mut self.slots[state.slot as usize].sample.radiance, state.throughput, radiance, limit);
             }
         }
         self.arrived.clear();
-        self.arrived.extend(self.queue.order.iter().map(|ray| self.sent.carried[*ray as usize]));
+        self.arrived.extend(self.queue.order.iter().map(|ray| self.sent.states[*ray as usize]));
         self.stats.sort += begun.elapsed();
     }
 
     /// Finds the places on surfaces, and takes the light of those that shine.
-    fn meet(&mut self, depth: u32) {
+    fn shade_hits(&mut self, depth: u32) {
         let begun = Instant::now();
         let found = &self.found;
         self.hits.find(self.backend, self.world, &self.queue.order, &self.sent.rays, found);
@@ -212,34 +212,34 @@ impl<'w, const C: usize> Wave<'w, C> {
             if depth > 0 && part.light.is_none() {
                 continue;
             }
-            let (carried, ray) = (&self.arrived[hit], self.queue.order[hit] as usize);
-            let seen = &mut self.slots[carried.slot as usize].seen;
+            let (state, ray) = (&self.arrived[hit], self.queue.order[hit] as usize);
+            let sample = &mut self.slots[state.slot as usize].sample;
             if depth == 0 {
-                seen.normal = self.hits.normal(hit);
-                seen.albedo = self.world.materials[part.material as usize].albedo();
-                seen.depth = found.t[ray];
-                seen.material = part.material + 1;
+                sample.normal = self.hits.normal(hit);
+                sample.albedo = self.world.materials[part.material as usize].albedo();
+                sample.depth = found.t[ray];
+                sample.material = part.material + 1;
             }
             if !debugging && let Some(light) = part.light {
-                let way = (found.t[ray], self.hits.front(hit), carried.pdf);
-                add(&mut seen.radiance, carried.throughput, emission(self.world, light as usize, way), limit);
+                let way = (found.t[ray], self.hits.front(hit), state.pdf);
+                add(&mut sample.radiance, state.throughput, emission(self.world, light as usize, way), limit);
             }
         }
-        self.stats.meet += begun.elapsed();
+        self.stats.interactions += begun.elapsed();
     }
 
     /// Draws random numbers for the hits.
-    fn draw(&mut self, of: Use) {
-        let sequences = self.arrived.iter().map(|carried| self.slots[carried.slot as usize].sequence);
+    fn draw(&mut self, of: Dimensions) {
+        let sequences = self.arrived.iter().map(|state| self.slots[state.slot as usize].sequence);
         self.numbers.draw(self.backend, sequences, of);
     }
 
     /// The shading normal as a colour.
     fn show_normals(&mut self) {
-        for (hit, carried) in self.arrived.iter().enumerate() {
+        for (hit, state) in self.arrived.iter().enumerate() {
             let normal = self.hits.normal(hit);
-            let seen = &mut self.slots[carried.slot as usize].seen;
-            seen.radiance = std::array::from_fn(|k| 0.5 + 0.5 * normal[k.min(2)]);
+            let sample = &mut self.slots[state.slot as usize].sample;
+            sample.radiance = std::array::from_fn(|k| 0.5 + 0.5 * normal[k.min(2)]);
         }
         self.sent.clear();
     }
@@ -249,7 +249,7 @@ impl<'w, const C: usize> Wave<'w, C> {
 fn background<const C: usize>(world: &World<C>, index: usize, (direction, pdf): (Vec3, f32)) -> [f32; C] {
     let Light::Environment(environment) = &world.lights.all[index] else { return [0.0; C] };
     let (radiance, density) = environment.seen(direction);
-    let share = against(pdf, || world.lights.chance(index) * density);
+    let share = power_heuristic(pdf, || world.lights.chance(index) * density);
     radiance.map(|x| x * share)
 }
 
@@ -259,13 +259,13 @@ fn emission<const C: usize>(world: &World<C>, index: usize, (distance, cos, pdf)
     let Light::Area(area) = &world.lights.all[index] else { return [0.0; C] };
     let lanes = Reference::default();
     let density = || lanes.extract(area.pdf(lanes, lanes.splat(distance), lanes.splat(cos)), 0);
-    let share = against(pdf, || world.lights.chance(index) * density());
+    let share = power_heuristic(pdf, || world.lights.chance(index) * density());
     area.emitted(cos > 0.0).map(|x| x * share)
 }
 
 /// The share of a sample that was drawn with density `pdf` where another way would have drawn it with density `other`:
 /// the power heuristic of Veach 1997 ("Robust Monte Carlo Methods for Light Transport Simulation", section 9.2.4).
-fn against(pdf: f32, other: impl FnOnce() -> f32) -> f32 {
+fn power_heuristic(pdf: f32, other: impl FnOnce() -> f32) -> f32 {
     if pdf == f32::INFINITY {
         return 1.0;
     }
@@ -328,7 +328,7 @@ mod tests {
     #[test]
     fn shares_of_two_ways_are_one() {
         let (a, b) = (0.3f32, 2.0f32);
-        assert!((against(a, || b) + against(b, || a) - 1.0).abs() < 1e-6);
-        assert_eq!(against(f32::INFINITY, || 1.0), 1.0);
+        assert!((power_heuristic(a, || b) + power_heuristic(b, || a) - 1.0).abs() < 1e-6);
+        assert_eq!(power_heuristic(f32::INFINITY, || 1.0), 1.0);
     }
 }

@@ -6,15 +6,15 @@ use crate::vec3::{Vec3, add, dot, perpendicular, scale, sub, unit};
 use crate::world::Shape;
 
 /// Scaled and turned, then moved.
-pub(crate) struct Place {
+pub(crate) struct Transform {
     /// Images of the axes, equally long and perpendicular.
     pub axes: [Vec3; 3],
     pub translate: Vec3,
 }
 
-impl Place {
+impl Transform {
     /// The axes of something that stands as it was made.
-    pub const UPRIGHT: [Vec3; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    pub const IDENTITY: [Vec3; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
     fn direction(&self, [x, y, z]: Vec3) -> Vec3 {
         let [a, b, c] = self.axes;

@@ -5,7 +5,7 @@ use lobe_memory::Storage;
 
 /// Lists of `n` weights each, ready to be drawn from.
 #[derive(Clone, Debug)]
-pub(super) struct Sums {
+pub(super) struct Cdf {
     n: usize,
     /// The sums of the weights before and with each entry, from 0 to 1 in a list.
     sums: Storage<[f32; 2]>,
@@ -14,7 +14,7 @@ pub(super) struct Sums {
     guide: Storage<f32>,
 }
 
-impl Sums {
+impl Cdf {
     /// Lists of `n` weights, one after the other; those of a list are not all 0.
     pub fn new(n: usize, weights: &[f64]) -> Self {
         let mut sums = Storage::<[f32; 2]>::zeros(weights.len());
@@ -40,12 +40,12 @@ impl Sums {
                 *guide = entry as f32;
             }
         }
-        Sums { n, sums, guide }
+        Cdf { n, sums, guide }
     }
 
     /// The entries of lists that `u` in `[0, 1)` falls on, and how far into them.
     #[inline(always)]
-    pub fn search<L: Lanes>(&self, lanes: L, list: L::I, u: L::F) -> (L::I, L::F) {
+    pub fn sample<L: Lanes>(&self, lanes: L, list: L::I, u: L::F) -> (L::I, L::F) {
         let (lists, guide) = (self.sums.as_slice(), self.guide.as_slice());
         let n = lanes.splat_int(self.n as i32);
         let (one, last) = (lanes.splat_int(1), n - lanes.splat_int(1));
@@ -75,12 +75,12 @@ mod tests {
     #[test]
     fn entries_are_found_wherever_they_are() {
         let weights: Vec<f64> = (0..37).map(|i| if i % 5 == 0 { 0.0 } else { f64::from(1 << (i % 11)) }).collect();
-        let sums = Sums::new(37, &[vec![1.0; 37], weights].concat());
+        let sums = Cdf::new(37, &[vec![1.0; 37], weights].concat());
         let lanes = Scalar::<4>;
         let list = &sums.sums.as_slice()[37..];
         for i in 0..10_000 {
             let u: [f32; 4] = std::array::from_fn(|lane| ((i + 2311 * lane) % 10_000) as f32 / 10_000.0);
-            let (entry, share) = sums.search(lanes, lanes.splat_int(1), lanes.load(&u));
+            let (entry, share) = sums.sample(lanes, lanes.splat_int(1), lanes.load(&u));
             for (lane, &u) in u.iter().enumerate() {
                 let entry = lanes.extract_int(entry, lane) as usize;
                 assert_eq!(entry, list.partition_point(|&[_, sum]| sum <= u), "{u}");
