@@ -127,9 +127,9 @@ impl Record {
     }
 }
 
-const HEAD: &str = "# Performance beside peers
+const HEAD: &str = "# Performance compared with peers
 
-Written by `cargo xtask peers --record`; [benchmarking](benchmarking.md) says how to read and reproduce it.
+Written by `cargo xtask peers --record`; [benchmarking](benchmarking.md) explains how to read and reproduce it.
 
 | | |
 |---|---|
