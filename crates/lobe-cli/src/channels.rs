@@ -1,23 +1,11 @@
 //! From the channels of a material to those of a format: a linear map.
 
 use lobe::Channels;
+use lobe_colour::{RGB_TO_XYZ, XYZ_TO_RGB};
 use lobe_model::Surface;
 
 use crate::failure::Failure;
 use crate::target::Target;
-
-/// Linear sRGB to CIE XYZ, D65 white (IEC 61966-2-1).
-static RGB_TO_XYZ: [[f64; 3]; 3] = [
-    [0.412_456_4, 0.357_576_1, 0.180_437_5],
-    [0.212_672_9, 0.715_152_2, 0.072_175],
-    [0.019_333_9, 0.119_192, 0.950_304_1],
-];
-/// Its inverse.
-static XYZ_TO_RGB: [[f64; 3]; 3] = [
-    [3.240_454_2, -1.537_138_5, -0.498_531_4],
-    [-0.969_266, 1.876_010_8, 0.041_556],
-    [0.055_643_4, -0.204_025_9, 1.057_225_2],
-];
 
 /// A linear map of channels.
 pub struct ChannelMap {
@@ -62,7 +50,7 @@ impl ChannelMap {
             Channels::Rgb if target.holds(&Channels::Xyz) => (
                 Channels::Xyz,
                 RGB_TO_XYZ.iter().map(|row| &row[..]).collect(),
-                "R G B, taken for linear sRGB, as X Y Z",
+                "R G B, taken to be linear sRGB, as X Y Z",
             ),
             Channels::Xyz if target.holds(&Channels::Rgb) => {
                 (Channels::Rgb, XYZ_TO_RGB.iter().map(|row| &row[..]).collect(), "X Y Z as linear sRGB")

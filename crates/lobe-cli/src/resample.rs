@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use lobe::Options;
 use lobe::table::{Scatter, specular};
+use lobe_colour::Space;
 use lobe_formats::sheet::{Data, Part};
 use lobe_formats::{Document, ddr, ssdd, write_whole};
-use lobe_ops::colour::{Target, convert};
+use lobe_ops::colour::convert;
 use lobe_ops::fill::{Beyond, fill, negatives, zeros};
 use lobe_ops::hemisphere::Effort;
 use lobe_ops::resample::{Bound, Knots, PROBES, Resampling, candidates, choose, error};
@@ -203,8 +204,8 @@ fn repair(args: &Args, mut samples: specular::Data, repairs: &mut Vec<String>) -
     let refuse = |error: &dyn std::fmt::Display| Failure::Usage(format!("{}: {error}", args.input.display()));
     if let Some(colour) = args.colour {
         let target = match colour {
-            ColourRule::Rgb => Target::Rgb,
-            ColourRule::Xyz => Target::Xyz,
+            ColourRule::Rgb => Space::Rgb,
+            ColourRule::Xyz => Space::Xyz,
         };
         samples = convert(&samples, target).map_err(|error| refuse(&error))?;
     }

@@ -2,9 +2,10 @@
 
 use std::f64::consts::PI;
 
+use lobe_colour::{NoColour, Space, WHITE, delta_e};
 use serde::Serialize;
 
-use crate::colour::{Coloured, NoColour, Target, delta_e, white};
+use crate::colour::Coloured;
 use crate::directions::pairs;
 use crate::scattering::eval_pairs;
 use crate::{Aspect, Scattering};
@@ -59,7 +60,7 @@ pub fn difference(
     count: usize,
 ) -> Result<Difference, NoColour> {
     if a.channels() != b.channels() {
-        let (a, b) = (Coloured::new(a, Target::Xyz)?, Coloured::new(b, Target::Xyz)?);
+        let (a, b) = (Coloured::new(a, Space::Xyz)?, Coloured::new(b, Space::Xyz)?);
         return difference(&a, &b, aspect, limit, count);
     }
     let pairs = pairs(count, limit);
@@ -147,11 +148,11 @@ fn colours(
     aspect: Aspect,
     pixels: &[([f64; 3], [f64; 3])],
 ) -> Result<Vec<[f64; 3]>, NoColour> {
-    let coloured = Coloured::new(scattering, Target::Xyz)?;
+    let coloured = Coloured::new(scattering, Space::Xyz)?;
     let placed: Vec<_> = pixels.iter().map(|&(wi, wo)| aspect.place(wi, wo)).collect();
     let values = eval_pairs(&coloured, &placed);
     let colour = |((wi, _), xyz): (&([f64; 3], [f64; 3]), &[f32])| {
-        [0, 1, 2].map(|c| (PI * f64::from(xyz[c]) * wi[2]).clamp(0.0, white()[c]))
+        [0, 1, 2].map(|c| (PI * f64::from(xyz[c]) * wi[2]).clamp(0.0, WHITE[c]))
     };
     Ok(pixels.iter().zip(values.chunks_exact(3)).map(colour).collect())
 }

@@ -5,10 +5,10 @@ use rayon::prelude::*;
 
 /// Hears how far a drawing has come.
 pub trait Progress: Sync {
-    /// A figure begins that needs this many pairs of directions.
-    fn begin(&self, figure: &str, pairs: u64);
-    /// So many more pairs are done.
-    fn advance(&self, pairs: u64);
+    /// A figure begins that takes this many steps, most often pairs of directions.
+    fn begin(&self, figure: &str, steps: u64);
+    /// So many more steps are done.
+    fn advance(&self, steps: u64);
 }
 
 /// Nobody listens.
@@ -16,8 +16,8 @@ pub trait Progress: Sync {
 pub struct Silent;
 
 impl Progress for Silent {
-    fn begin(&self, _figure: &str, _pairs: u64) {}
-    fn advance(&self, _pairs: u64) {}
+    fn begin(&self, _figure: &str, _steps: u64) {}
+    fn advance(&self, _steps: u64) {}
 }
 
 /// Pairs a task: enough that the threads are worth it, and less than the material would share among threads itself.

@@ -9,7 +9,6 @@
 #![forbid(unsafe_code)]
 
 mod albedo;
-mod colour;
 mod evaluate;
 mod figures;
 mod geometry;
@@ -17,6 +16,7 @@ mod image;
 mod in_plane;
 mod measured;
 mod page;
+mod quantity;
 mod raster;
 mod scale;
 mod shade;
@@ -27,16 +27,16 @@ mod svg;
 mod view;
 
 pub use albedo::{Albedo, albedos};
-pub use colour::{Colour, Quantity};
 pub use evaluate::{Progress, Silent};
 pub use figures::{Figure, draw};
 pub use geometry::{in_plane, incident};
 pub use image::Image;
 pub use in_plane::{Curve, curves};
 pub use page::{Facts, page};
+pub use quantity::Quantity;
 pub use raster::{RasterError, rasterise};
 pub use scale::Scaling;
-pub use shade::{Sphere, Studio, encode, shade};
+pub use shade::{Sphere, Studio, shade};
 pub use slice::{Slice, slice};
 pub use subject::Subject;
 pub use view::{View, ViewError};

@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write as _;
 
 use lobe::Scatter;
+use lobe_colour::encode;
 use quick_xml::escape::escape;
 
 use crate::albedo::{Albedo, albedos};
@@ -11,7 +12,6 @@ use crate::evaluate::Progress;
 use crate::figures::{Figure, degrees, draw, series_colour_on_dark, side_name};
 use crate::in_plane::MOST;
 use crate::scale::{Scaling, short};
-use crate::shade::encode;
 use crate::subject::Subject;
 use crate::view::View;
 

@@ -6,8 +6,8 @@ use std::path::Path;
 use lobe::formats::sheet::Side;
 use lobe::formats::{Document, Format};
 use lobe::{Material, OpenError, Options, Scatter};
+use lobe_colour::Reduction;
 
-use crate::colour::Colour;
 use crate::evaluate::{Silent, evaluate};
 use crate::geometry::{in_plane, incident};
 use crate::measured::{Part, parts};
@@ -16,7 +16,7 @@ use crate::measured::{Part, parts};
 #[derive(Debug)]
 pub struct Subject {
     name: String,
-    material: Material,
+    measured: lobe_ops::Subject,
     parts: Vec<Part>,
 }
 
@@ -37,7 +37,9 @@ impl Subject {
     pub fn new(path: &Path, format: Format, document: Document) -> Result<Self, OpenError> {
         let parts = parts(&document);
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into());
-        Ok(Subject { name, material: Material::new(path, format, document, &Options::default())?, parts })
+        let options = Options::default();
+        let material = Material::new(path, format, document.clone(), &options)?;
+        Ok(Subject { name, measured: lobe_ops::Subject::new(format, document, material, &options), parts })
     }
 
     /// The name of the file.
@@ -47,7 +49,12 @@ impl Subject {
 
     /// The material.
     pub fn material(&self) -> &Material {
-        &self.material
+        &self.measured.material
+    }
+
+    /// The file as the operations on it want it.
+    pub(crate) fn measured(&self) -> &lobe_ops::Subject {
+        &self.measured
     }
 
     /// What happens to light from `side`: reflection, transmission, both or nothing.
@@ -106,8 +113,8 @@ impl Subject {
             let psi = psi + FRAC_PI_4 * turn as f64;
             (incident(side, sigma, psi), in_plane(side, scatter, theta, psi))
         };
-        let colour = Colour::of(self.material.channels());
-        let values = evaluate(&self.material, TURNS * 8 * 20, pair, |texel| colour.rgb(texel), &Silent);
+        let colour = Reduction::for_display(self.material().channels());
+        let values = evaluate(self.material(), TURNS * 8 * 20, pair, |texel| colour.apply(texel), &Silent);
         let (mut difference, mut sum) = (0.0, 0.0);
         for turns in values.chunks_exact(TURNS) {
             for channel in 0..3 {

@@ -1,9 +1,10 @@
 //! What of a material to look at.
 
 use lobe::formats::sheet::Side;
+use lobe_colour::Reduction;
 use thiserror::Error;
 
-use crate::colour::{Colour, Quantity};
+use crate::quantity::Quantity;
 use crate::scale::Scaling;
 use crate::subject::Subject;
 
@@ -21,7 +22,7 @@ pub struct View {
     /// The number that curves and maps show.
     pub quantity: Quantity,
     /// The colours of spheres.
-    pub colour: Colour,
+    pub colour: Reduction,
     /// The width of the figure in pixels.
     pub width: u32,
 }
@@ -57,7 +58,7 @@ impl View {
             psi: subject.psi(side),
             scaling: None,
             quantity: Quantity::of(channels),
-            colour: Colour::of(channels),
+            colour: Reduction::for_display(channels),
             width: 960,
         }
     }
@@ -83,7 +84,7 @@ impl View {
         match known.iter().position(|channel| channel.eq_ignore_ascii_case(name)) {
             Some(index) => {
                 let quantity = Quantity::channel(channels, index);
-                Ok(View { colour: Colour::grey(&quantity), quantity, ..self })
+                Ok(View { colour: Reduction::grey(channels.count(), index), quantity, ..self })
             }
             None => Err(ViewError::Channel { asked: name.into(), known }),
         }

@@ -7,9 +7,9 @@ use std::path::Path;
 use lobe::formats::sheet::Side;
 use lobe::formats::{Document, Format, Measured};
 use lobe::{Channels, Scatter, specular};
+use lobe_colour::encode;
 use lobe_plot::{
-    Figure, Scaling, Silent, Studio, Subject, View, albedos, curves, draw, encode, in_plane, incident, page, rasterise,
-    shade,
+    Figure, Scaling, Silent, Studio, Subject, View, albedos, curves, draw, in_plane, incident, page, rasterise, shade,
 };
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};

@@ -15,7 +15,6 @@
 //! They share [`Axis`] and the other parts of a grid, and [`Channels`] and [`Scatter`], which say what the values are.
 #![forbid(unsafe_code)]
 
-mod channels;
 mod direction;
 mod directions;
 mod grid;
@@ -26,18 +25,20 @@ pub mod paper;
 mod passes;
 pub mod rgl;
 mod sampling;
+mod scatter;
 pub mod scattered;
 pub mod specular;
 pub mod spherical;
 pub mod utia;
 pub mod window;
 
-pub use channels::{Channels, Scatter};
 pub use directions::{Directions, Soa};
 pub use grid::{Axis, AxisError, Cell, Edge, Edges, Function, GridError, Precision};
 pub use invalid::Invalid;
+pub use lobe_colour::{Channels, luminance};
 pub use sampling::{
     Distribution, DistributionError, DistributionOptions, Given, PatchSampler, Sampled, Sampler, SamplerError,
-    SamplerOptions, luminance,
+    SamplerOptions,
 };
+pub use scatter::Scatter;
 pub use specular::TableError;

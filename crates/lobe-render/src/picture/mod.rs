@@ -4,16 +4,15 @@ mod environment_file;
 mod exr_file;
 mod meta;
 mod png_file;
-mod tone;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 pub use environment_file::read_environment;
 pub use exr_file::{read_partial, write_exr};
+pub use lobe_colour::ToneMap;
 pub use meta::Meta;
 pub use png_file::{encode_png, encode_rgb, write_png};
-pub use tone::ToneMap;
 
 /// Why a picture cannot be read or written.
 #[derive(Debug, thiserror::Error)]

@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use lobe::formats::{Document, FormatError, Specular};
 use lobe::{Given, Material, OpenError, Options, Sampler, SamplerError, SamplerOptions, Scatter};
+use lobe_colour::Reduction;
 
-use super::{Backend, Delta, DeltaShader, Evaluated, Reduction, Sampled, Scratch, Shader, albedo_of, times_cosine};
+use super::{Backend, Delta, DeltaShader, Evaluated, Sampled, Scratch, Shader, albedo_of, times_cosine};
 
 /// Why a file makes no material.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -64,9 +65,9 @@ fn prepare(material: Material, path: &Path, backend: Backend) -> Result<Arc<dyn 
 /// Reflectance by the angle of the light, averaged over its azimuths.
 fn mirror(specular: &Specular) -> Delta<3> {
     let [sigma, psi] = specular.knots();
-    let reduction = Reduction::new(specular.channels());
+    let reduction = Reduction::for_display(specular.channels());
     let mut colours = vec![[0.0; 3]; sigma.len() * psi.len()];
-    reduction.apply(specular.values(), &mut colours);
+    reduction.apply_batch(specular.values(), &mut colours);
     let mean = |row: &[[f32; 3]]| -> [f32; 3] {
         std::array::from_fn(|k| (row.iter().map(|c| c[k]).sum::<f32>() / row.len() as f32).max(0.0))
     };
@@ -91,7 +92,7 @@ impl MeasuredShader {
     pub fn new(material: Material) -> Result<Self, SamplerError> {
         let transmits = material.holds(true, Scatter::Transmission)
             || [Scatter::Reflection, Scatter::Transmission].into_iter().any(|way| material.holds(false, way));
-        let reduction = Reduction::new(material.channels());
+        let reduction = Reduction::for_display(material.channels());
         let sampler = Sampler::new(Arc::new(material), &SamplerOptions::default())?;
         let mut shader = MeasuredShader { sampler, reduction, transmits, albedo: [0.0; 3] };
         shader.albedo = albedo_of(&shader);
@@ -115,7 +116,7 @@ impl Shader<3> for MeasuredShader {
         } else {
             let values = scratch.values(wi.len() * self.reduction.channels());
             self.sampler.eval_pdf_batch(Given::Viewer, wi, wo, values, pdf);
-            self.reduction.apply(values, f);
+            self.reduction.apply_batch(values, f);
         }
         times_cosine(f, wi);
     }
@@ -130,7 +131,7 @@ impl Shader<3> for MeasuredShader {
             let values = scratch.values(wo.len() * self.reduction.channels());
             let sampled = lobe::Sampled { directions: wi, weights: values, pdfs: pdf };
             self.sampler.sample_batch(Given::Viewer, wo, u, sampled);
-            self.reduction.apply(values, weight);
+            self.reduction.apply_batch(values, weight);
         }
     }
 }

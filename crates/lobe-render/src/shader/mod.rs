@@ -8,7 +8,6 @@ mod delta;
 mod lambert;
 mod measured;
 mod model;
-mod reduce;
 
 use std::fmt::Debug;
 
@@ -17,7 +16,6 @@ pub use lambert::Lambert;
 pub use lobe::Backend;
 pub use measured::{MaterialError, MeasuredShader, open, open_sheet};
 pub use model::ModelShader;
-pub use reduce::Reduction;
 
 /// Where values go, one entry a pair of directions.
 #[derive(Debug)]

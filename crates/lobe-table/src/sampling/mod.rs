@@ -20,13 +20,13 @@ mod grid;
 mod histogram;
 mod incident;
 mod kernels;
-mod luminance;
 mod patches;
 mod reference;
 mod slices;
 
 use std::sync::Arc;
 
+use lobe_colour::luminance;
 use lobe_lane::{Floats, Kernel, Lanes};
 use thiserror::Error;
 
@@ -39,7 +39,6 @@ use kernels::{Draws, One, OneDensity, factor, pair};
 
 pub use distribution::{Distribution, DistributionError, DistributionOptions};
 pub use kernels::Sampled;
-pub use luminance::luminance;
 pub use patches::PatchSampler;
 
 /// Which direction of a pair is known; the other one is sampled.

@@ -1,14 +1,4 @@
-//! What every representation says of its values: which light they are for, and what their channels stand for.
-
-/// Which side of the surface the light leaves on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scatter {
-    /// A BRDF: `wi` and `wo` on the same side.
-    Reflection,
-    /// A BTDF: `wo` on the other side. The zenith of `(theta, phi)` is the mirror image, about the surface, of the
-    /// straight-through (or refracted) ray, so tables of both kinds have the same geometry.
-    Transmission,
-}
+//! What the numbers of a value stand for.
 
 /// What the channels of a table stand for.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +9,7 @@ pub enum Channels {
     Rgb,
     /// CIE tristimulus values X, Y, Z.
     Xyz,
-    /// One channel a wavelength, in nm, in the file's order.
+    /// One channel per wavelength, in nm, in the file's order.
     Spectral(Vec<f64>),
     /// Bands that have names only, such as `Visible` and `Solar`.
     Named(Vec<String>),
