@@ -1,0 +1,79 @@
+//! `lobe plot` and `lobe preview` show the same colours.
+
+use std::path::{Path, PathBuf};
+
+use lobe::{Backend, Options};
+use lobe_plot::{Subject, View};
+use lobe_render::shader::{Evaluated, Scratch, open};
+
+/// The folder of measured files: `data` beside the checkout's `../shared`, or in `LOBE_SHARED`.
+fn folder() -> PathBuf {
+    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared").into();
+    PathBuf::from(std::env::var_os("LOBE_SHARED").unwrap_or_else(beside)).join("data")
+}
+
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        match entry.path() {
+            path if path.is_dir() => files.extend(self::files(&path)),
+            path => files.push(path),
+        }
+    }
+    files.sort();
+    files
+}
+
+/// Pairs of unit vectors on all four combinations of sides.
+fn pairs() -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
+    let direction = |theta: f32, phi: f32| [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()];
+    let pair = |at: usize| {
+        let [a, b, c] = [0.618_034, 0.754_878, 0.569_84].map(|step: f32| (step * at as f32).fract());
+        let (wi, wo) = (direction(1.3 * a, 6.28 * c), direction(1.3 * b, 6.28 * c + 2.2 + 2.0 * a));
+        let below = |[x, y, z]: [f32; 3], is_below| [x, y, if is_below { -z } else { z }];
+        (below(wi, at % 4 == 3), below(wo, at % 4 >= 2))
+    };
+    (0..400).map(pair).unzip()
+}
+
+#[test]
+fn plot_and_preview_agree_on_the_colour_of_every_file() {
+    let folder = folder();
+    let (wi, wo) = pairs();
+    let backend = Backend::detect().expect("a backend");
+    let (mut compared, mut coloured) = (0, 0);
+    for path in files(&folder) {
+        let Ok(subject) = Subject::open(&path) else { continue };
+        let shader = open(&path, &Options::default(), backend).expect("what can be drawn can be rendered");
+        if shader.delta().is_some() {
+            continue;
+        }
+        let (mut rendered, mut pdf) = (vec![[0.0; 3]; wi.len()], vec![0.0; wi.len()]);
+        let out = Evaluated { f: &mut rendered, pdf: &mut pdf };
+        shader.eval(&wi, &wo, out, &mut Scratch::default());
+
+        let view = View::new(&subject);
+        let channels = subject.material().channel_count();
+        let mut values = vec![0.0; wi.len() * channels];
+        subject.material().eval_batch(&wi, &wo, &mut values);
+        let mut drawn = vec![[0.0; 3]; wi.len()];
+        view.colour.apply_batch(&values, &mut drawn);
+        let largest = drawn.as_flattened().iter().fold(0.0, |largest: f32, value| largest.max(value.abs()));
+        for (at, (drawn, rendered)) in drawn.iter().zip(&rendered).enumerate() {
+            for (drawn, rendered) in drawn.iter().zip(rendered) {
+                let expected = drawn * wi[at][2].abs();
+                let error = (rendered - expected).abs();
+                assert!(error <= 1e-5 * largest, "{}: {rendered} instead of {expected}", path.display());
+            }
+        }
+        compared += 1;
+        coloured += usize::from(!view.colour.is_grey());
+    }
+    match compared {
+        0 => println!("skipped: no measured files in {}", folder.display()),
+        _ => {
+            println!("compared {compared} files, {coloured} of them in colour");
+            assert!(compared > 30 && coloured > 10, "{compared} files, {coloured} in colour");
+        }
+    }
+}
