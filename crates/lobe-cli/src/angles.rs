@@ -5,8 +5,8 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
+use lobe::Side;
 use lobe::table::Scatter;
-use lobe_formats::sheet::Side;
 use lobe_ops::{Aspect, Subject};
 
 use crate::failure::Failure;

@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 use lobe::formats::Document;
-use lobe::{Lookup, Material, Options, Scatter};
-use lobe_formats::sheet::{Data, Side};
+use lobe::{Data, Lookup, Material, Options, Scatter, Side};
 
 use crate::failure::Failure;
 use crate::lossless;
@@ -56,13 +55,13 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         eprintln!("{}: {target}, {done}", out.display());
         return Ok(());
     }
-    let sides = match &document {
-        Document::Specular(_) => {
+    let sides = match document.only() {
+        Some(Data::Mirror(_)) => {
             let message = format!("{target}: found mirror reflectances; expected values for pairs of directions");
             return Err(Failure::Usage(message));
         }
-        Document::Sheet(_) | Document::Window(_) => Sides::Both,
-        document => Sides::One(lossless::data(document).map_or(Scatter::Reflection, |data| data.scatter())),
+        Some(data) if !data.representation().is_two_sided() => Sides::One(data.representation().scatter()),
+        _ => Sides::Both,
     };
     let scatter = match sides {
         Sides::One(scatter) => Some(scatter),
@@ -78,14 +77,16 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 
 /// What of a document values for pairs of directions on one side leave out.
 fn loss(document: &Document, target: Target) -> Option<&'static str> {
-    match document {
-        Document::Mueller(_) => Some("polarised; only the intensity of unpolarised light is written"),
-        Document::Utia(_) => Some("the unit of the values is not documented; they are written as they are stored"),
-        Document::Window(_) | Document::Sheet(_) if target != Target::Klems => {
-            Some("a sheet with two sides; one kind of scatter of light from z > 0 is written")
-        }
-        _ => None,
+    let data = || document.parts.iter().map(|part| part.data.representation());
+    if data().any(|data| data.is_polarised()) {
+        return Some("polarised; only the intensity of unpolarised light is written");
     }
+    if !data().all(|data| data.has_known_unit()) {
+        return Some("the unit of the values is not documented; they are written as they are stored");
+    }
+    let is_sheet = document.is_sheet() || data().any(|data| data.is_two_sided());
+    (is_sheet && target != Target::Klems)
+        .then_some("a sheet with two sides; one kind of scatter of light from z > 0 is written")
 }
 
 /// The one measurement of a sheet that is to be written, where the target has room for one.
@@ -94,25 +95,26 @@ fn choose(document: Document, target: Target, args: &Args) -> Result<Document, F
         ScatterKind::Reflection => Scatter::Reflection,
         ScatterKind::Transmission => Scatter::Transmission,
     });
-    let Document::Sheet(measured) = &document else { return Ok(document) };
+    if !document.is_sheet() {
+        return Ok(document);
+    }
     if asked.is_none() && matches!(target, Target::Ssdd | Target::Npz | Target::Klems) {
         return Ok(document);
     }
     let wanted = asked.or(target.side(&args.output.out));
     let is_delta = target == Target::Sdr;
-    let candidates: Vec<&Data> = measured
-        .data
-        .iter()
-        .filter(|part| part.side != Some(Side::Back))
-        .map(|part| &part.data)
-        .filter(|data| matches!(data, Data::Specular(_)) == is_delta && wanted.is_none_or(|w| data.scatter() == w))
-        .collect();
+    let fits = |data: &&Data| {
+        let data = data.representation();
+        data.mirror().is_some() == is_delta && wanted.is_none_or(|wanted| data.scatter() == wanted)
+    };
+    let front = document.parts.iter().filter(|part| part.side != Some(Side::Back));
+    let candidates: Vec<&Data> = front.map(|part| &part.data).filter(fits).collect();
     match candidates[..] {
         [data] => {
-            if measured.data.len() > 1 {
-                eprintln!("{}: one of {} measurements of a sheet", args.file.display(), measured.data.len());
+            if document.parts.len() > 1 {
+                eprintln!("{}: one of {} measurements of a sheet", args.file.display(), document.parts.len());
             }
-            Ok(lossless::document(data.clone()))
+            Ok(Document::new(data.clone()))
         }
         [] => Err(Failure::Usage(format!(
             "{}: found no such measurement; expected what {target} holds",

@@ -4,7 +4,7 @@ use std::io::{BufWriter, Write, stdout};
 use std::path::PathBuf;
 
 use clap::{ArgGroup, ValueEnum};
-use lobe::formats::Document;
+use lobe::Data;
 use lobe::{Edges, Given, Lookup, Material, Options};
 use lobe_table::specular::coords::angles_to_directions;
 use lobe_table::specular::reference::zenith;
@@ -123,8 +123,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         (Some(wi), Some(wo), ..) => vec![Pair { wi, wo }],
         (_, _, Some(angles), _) => {
             // A table with refraction counts theta from the refracted ray.
-            let zenith = |sigma| match &document {
-                Document::Table(measured) => zenith(&measured.data, &options.edges, sigma),
+            let zenith = |sigma| match document.only() {
+                Some(Data::Specular(samples)) => zenith(samples, &options.edges, sigma),
                 _ => sigma,
             };
             let (wi, wo) = angles_to_directions(angles.map(f64::to_radians), zenith);

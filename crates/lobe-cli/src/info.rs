@@ -48,10 +48,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         file: args.file.display().to_string(),
         format: format.name(),
         file_bytes: metadata.is_file().then_some(metadata.len()),
-        parts: describe(&document)
-            .ok_or_else(|| Failure::File(format!("{}: nothing is known about {format}", args.file.display())))?,
-        tis: document.tis().to_vec(),
-        source: document.source().to_vec(),
+        parts: describe(&document),
+        tis: document.tis,
+        source: document.source,
     };
     let mut out = stdout().lock();
     if args.json {

@@ -2,104 +2,79 @@
 
 use std::path::Path;
 
-use lobe::{Channels, specular};
-use lobe_formats::sheet::{Data, Part};
+use lobe::{Channels, Data};
 use lobe_formats::ssdd::Encoding;
-use lobe_formats::window_xml;
-use lobe_formats::{Document, Measured, Specular, ddr, goniometer, merl, npz, rgl, sdr, ssdd, zemax};
-use lobe_table::{scattered, spherical};
+use lobe_formats::{Document, Part, ddr, goniometer, merl, npz, rgl, sdr, ssdd, window_xml, zemax};
+use lobe_table::{mirror, scattered, specular, spherical};
 
 use crate::channels::ChannelMap;
 use crate::failure::Failure;
 use crate::target::Target;
 
-/// Writes the document, if the target has its representation; `false` where it has to be resampled.
+/// Writes the document, if the target has its representation; `false` if it has to be resampled.
 pub fn write(document: &Document, target: Target, chosen: Option<&str>, out: &Path) -> Result<Option<String>, Failure> {
-    match (target, document) {
+    match (target, document.only()) {
         (Target::Npz, _) if chosen.is_none() => npz::write(document, out)?,
-        (Target::Rgl, Document::Rgl(measured)) if chosen.is_none() => rgl::write(&measured.data, out)?,
-        (Target::Merl, Document::HalfDiff(measured)) if chosen.is_none() => merl::write(&measured.data, out)?,
-        (Target::Klems, Document::Window(measured)) if chosen.is_none() => window_xml::write(&measured.data, out)?,
-        (Target::Ssdd, Document::Sheet(measured)) if chosen.is_none() => {
-            ssdd::write(&measured.data, Encoding::Ascii, out)?;
+        (Target::Rgl, Some(Data::Rgl(data))) if chosen.is_none() => rgl::write(data, out)?,
+        (Target::Merl, Some(Data::HalfDiff(data))) if chosen.is_none() => merl::write(data, out)?,
+        (Target::Klems, Some(Data::Window(data))) if chosen.is_none() => {
+            window_xml::write(data, &document.source, out)?
         }
-        _ => {
-            let Some(data) = data(document).filter(|data| is_native(data, target)) else { return Ok(None) };
-            let map = ChannelMap::new(data.channels(), chosen, target)?;
+        (Target::Ssdd, None) if chosen.is_none() => ssdd::write(&document.parts, Encoding::Ascii, out)?,
+        (_, Some(data)) if is_native(data, target) => {
+            let map = ChannelMap::new(&data.representation().channels(), chosen, target)?;
             let data = mapped(data, &map)?;
             write_data(&data, target, out)?;
             let note = map.note.map(|note| format!("; {note}"));
             return Ok(Some(format!("the values and nodes of the file{}", note.unwrap_or_default())));
         }
+        _ => return Ok(None),
     }
     Ok(Some("the values and nodes of the file".into()))
 }
 
 /// Writes a table in specular coordinates that the target can hold.
 pub fn write_table(samples: specular::Data, target: Target, out: &Path) -> Result<(), Failure> {
-    write_data(&Data::Table(samples), target, out)
+    write_data(&Data::Specular(samples), target, out)
 }
 
 fn is_native(data: &Data, target: Target) -> bool {
     match (target, data) {
-        (Target::Npz | Target::Csv, _) => !matches!((target, data), (Target::Csv, Data::Specular(_))),
-        (Target::Ddr, Data::Table(_)) | (Target::Sdr, Data::Specular(_)) => true,
-        (Target::Zemax, Data::Table(samples)) => samples.refraction().is_none(),
+        (Target::Npz, Data::Specular(_) | Data::Spherical(_) | Data::Scattered(_) | Data::Mirror(_)) => true,
+        (Target::Csv, Data::Specular(_) | Data::Spherical(_) | Data::Scattered(_)) => true,
+        (Target::Ddr, Data::Specular(_)) | (Target::Sdr, Data::Mirror(_)) => true,
+        (Target::Zemax, Data::Specular(samples)) => samples.refraction().is_none(),
         (Target::Ssdd, Data::Spherical(grid)) => !grid.is_mirrored(),
-        (Target::Ssdd, Data::Table(_) | Data::Specular(_)) => true,
+        (Target::Ssdd, Data::Specular(_) | Data::Mirror(_)) => true,
         _ => false,
     }
 }
 
 fn write_data(data: &Data, target: Target, out: &Path) -> Result<(), Failure> {
     match (target, data) {
-        (Target::Ddr, Data::Table(samples)) => ddr::write(samples, out)?,
-        (Target::Zemax, Data::Table(samples)) => zemax::write(samples, out)?,
-        (Target::Sdr, Data::Specular(specular)) => sdr::write(specular, out)?,
+        (Target::Ddr, Data::Specular(samples)) => ddr::write(samples, out)?,
+        (Target::Zemax, Data::Specular(samples)) => zemax::write(samples, out)?,
+        (Target::Sdr, Data::Mirror(mirror)) => sdr::write(mirror, out)?,
         (Target::Csv, data) => goniometer::write(data, out)?,
         (Target::Ssdd, data) => ssdd::write(&[Part::new("", data.clone())], Encoding::Ascii, out)?,
-        (Target::Npz, data) => npz::write(&document(data.clone()), out)?,
+        (Target::Npz, data) => npz::write(&Document::new(data.clone()), out)?,
         _ => return Err(Failure::Usage(format!("{target}: no such table can be written"))),
     }
     Ok(())
 }
 
-/// The data of a document that may stand in a sheet.
-pub fn data(document: &Document) -> Option<Data> {
-    match document {
-        Document::Table(measured) => Some(Data::Table(measured.data.clone())),
-        Document::Specular(measured) => Some(Data::Specular(measured.data.clone())),
-        Document::Spherical(measured) => Some(Data::Spherical(measured.data.clone())),
-        Document::Scattered(measured) => Some(Data::Scattered(measured.data.clone())),
-        _ => None,
-    }
-}
-
-/// The document of one measurement.
-pub fn document(data: Data) -> Document {
-    fn bare<T>(data: T) -> Measured<T> {
-        Measured { data, source: Vec::new(), tis: Vec::new() }
-    }
-    match data {
-        Data::Table(data) => Document::Table(bare(data)),
-        Data::Spherical(data) => Document::Spherical(bare(data)),
-        Data::Scattered(data) => Document::Scattered(bare(data)),
-        Data::Specular(data) => Document::Specular(bare(data)),
-    }
-}
-
 /// The same nodes with other channels.
-fn mapped(data: Data, map: &ChannelMap) -> Result<Data, Failure> {
-    if map.is_identity() && *data.channels() == map.channels {
-        return Ok(data);
+fn mapped(data: &Data, map: &ChannelMap) -> Result<Data, Failure> {
+    if map.is_identity() && data.representation().channels() == map.channels {
+        return Ok(data.clone());
     }
-    let (channels, scatter): (Channels, _) = (map.channels.clone(), data.scatter());
+    let (channels, scatter): (Channels, _) = (map.channels.clone(), data.representation().scatter());
     let failed = |error: &dyn std::fmt::Display| Failure::File(error.to_string());
     Ok(match data {
-        Data::Table(samples) => {
+        Data::Specular(samples) => {
             let mapped = specular::Data::new(scatter, samples.knots().clone(), channels, map.apply(samples.values()));
             let mapped = mapped.map_err(|error| failed(&error))?;
-            Data::Table(match samples.refraction() {
+            Data::Specular(match samples.refraction() {
                 Some(offsets) => mapped.with_refraction(offsets.to_vec()).map_err(|error| failed(&error))?,
                 None => mapped,
             })
@@ -114,11 +89,10 @@ fn mapped(data: Data, map: &ChannelMap) -> Result<Data, Failure> {
             let mapped = scattered::Data::new(scatter, channels, &angles, &map.apply(&values.concat()));
             Data::Scattered(mapped.map_err(|error| failed(&error))?)
         }
-        Data::Specular(specular) => {
-            let mapped = Specular::new(scatter, specular.knots().clone(), channels, map.apply(specular.values()));
-            Data::Specular(
-                mapped.ok_or_else(|| failed(&"values that are not finite after their channels were mapped"))?,
-            )
+        Data::Mirror(mirror) => {
+            let mapped = mirror::Data::new(scatter, mirror.knots().clone(), channels, map.apply(mirror.values()));
+            Data::Mirror(mapped.ok_or_else(|| failed(&"values that are not finite after their channels were mapped"))?)
         }
+        other => return Err(failed(&format!("the channels of {} cannot be mapped", other.representation().kind()))),
     })
 }

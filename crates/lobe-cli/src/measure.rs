@@ -4,11 +4,10 @@ use std::path::Path;
 
 use lobe::{Channels, Material, Scatter};
 use lobe::{Lookup, Options};
-use lobe_formats::window_xml::{Band, WindowXml};
 use lobe_formats::{merl, rgl, window_xml};
 use lobe_model::goniometer::{half_diff, klems, measure_surface, rgl as parameterised};
 use lobe_model::{Surface, is_isotropic};
-use lobe_table::window::{self, Block, Component};
+use lobe_table::window::{self, Band, Block, Component};
 
 use crate::channels::{ChannelMap, Mapped};
 use crate::failure::Failure;
@@ -65,7 +64,8 @@ pub fn write(surface: &dyn Surface, sides: Sides, output: &Output) -> Result<(),
         Target::Klems => {
             let basis = output.basis();
             let sheet = sheet(surface, output, sides)?;
-            window_xml::write(&sheet, out)?;
+            let name = output.out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            window_xml::write(&sheet, &[("name".into(), name)], out)?;
             format!("means over {n} x {n} patches", n = basis.patches())
         }
         Target::Ddr | Target::Ssdd | Target::Zemax | Target::Csv | Target::Npz => {
@@ -98,7 +98,7 @@ fn file(out: &Path, error: &dyn std::fmt::Display) -> Failure {
 }
 
 /// The blocks of a sheet that are not dark.
-fn sheet(surface: &dyn Surface, output: &Output, sides: Sides) -> Result<WindowXml, Failure> {
+fn sheet(surface: &dyn Surface, output: &Output, sides: Sides) -> Result<window::Data, Failure> {
     let names: Vec<String> = match surface.channels() {
         // Radiance takes X and Z beside Visible for colour.
         Channels::Xyz => ["CIE-X", "Visible", "CIE-Z"].map(String::from).into(),
@@ -125,8 +125,7 @@ fn sheet(surface: &dyn Surface, output: &Output, sides: Sides) -> Result<WindowX
             band.window.set(block, Component::Klems(matrix));
         }
     }
-    let name = output.out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    Ok(WindowXml { name, manufacturer: String::new(), bands })
+    Ok(window::Data { bands })
 }
 
 /// Reads the file back and compares.

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use lobe::formats::sheet::Side;
+use lobe::Side;
 use lobe_formats::{Document, open, write_whole};
 use lobe_plot::{Facts, Figure, Progress, Scaling, Subject, View, ViewError, draw, page, rasterise};
 
@@ -161,16 +161,14 @@ fn view(args: &Args, subject: &Subject) -> Result<View, Failure> {
 fn facts(file: &Path, format: &str, document: &Document) -> Result<Vec<Facts>, Failure> {
     let unreadable = |error| Failure::File(format!("{}: {error}", file.display()));
     let metadata = std::fs::metadata(file).map_err(unreadable)?;
-    let parts = describe(document)
-        .ok_or_else(|| Failure::File(format!("{}: nothing is known about {format}", file.display())))?;
     let row = |name: &str, value: String| (String::from(name), value);
     let mut rows = vec![row("format", format.into())];
     if metadata.is_file() {
         rows.push(row("file", format!("{} bytes", metadata.len())));
     }
-    rows.extend(document.source().iter().cloned());
+    rows.extend(document.source.iter().cloned());
     let mut tables = vec![Facts { title: "The file".into(), rows }];
-    tables.extend(parts.iter().map(part));
+    tables.extend(describe(document).iter().map(part));
     Ok(tables)
 }
 

@@ -4,11 +4,10 @@ use std::io::{Write, stdout};
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use lobe::Options;
 use lobe::table::{Scatter, specular};
+use lobe::{Data, Options};
 use lobe_colour::Space;
-use lobe_formats::sheet::{Data, Part};
-use lobe_formats::{Document, ddr, ssdd, write_whole};
+use lobe_formats::{Part, ddr, ssdd, write_whole};
 use lobe_ops::colour::convert;
 use lobe_ops::fill::{Beyond, fill, negatives, zeros};
 use lobe_ops::hemisphere::Effort;
@@ -160,9 +159,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 /// The table before repairs, and its error where it is not the file's own.
 fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(specular::Data, Option<Resampling>), Failure> {
     let given = [&args.sigma, &args.psi, &args.theta, &args.phi];
-    let own = match (&subject.document, subject.part(aspect)) {
-        (Document::Table(measured), _) => Some(&measured.data),
-        (_, Some(Data::Table(data))) => Some(data),
+    let own = match subject.data(aspect) {
+        Some(Data::Specular(samples)) => Some(samples),
         _ => None,
     };
     if let Some(samples) = own.filter(|_| args.error.is_none() && given.iter().all(|axis| axis.is_none())) {
@@ -286,7 +284,7 @@ fn check_output(path: &Path, scatter: Scatter) -> Result<(), Failure> {
 
 fn write(samples: &specular::Data, path: &Path) -> Result<(), Failure> {
     if extension(path) == "ssdd" {
-        let part = Part::new("", Data::Table(samples.clone()));
+        let part = Part::new("", samples.clone());
         return Ok(ssdd::write(&[part], ssdd::Encoding::Ascii, path)?);
     }
     Ok(ddr::write(samples, path)?)

@@ -2,105 +2,103 @@
 
 use std::path::Path;
 
-use lobe_table::{Scatter, half_diff, mueller, scattered, specular, spherical};
+use lobe_table::{Data, Scatter, Side};
 
-use crate::sheet::{Data, Part};
-use crate::window_xml::WindowXml;
 use crate::{
-    Format, FormatError, Place, Specular, alta, astm, cornell, ddr, fred, goniometer, light_tools, lumos, mbsdf, merl,
-    nist, openmaterial, pbsdf, rgl, sdr, sniff, speos, ssdd, utia, window_xml, zemax,
+    Format, FormatError, Place, alta, astm, cornell, ddr, fred, goniometer, light_tools, lumos, mbsdf, merl, nist,
+    openmaterial, pbsdf, rgl, sdr, sniff, speos, ssdd, utia, window_xml, zemax,
 };
 
-/// The content of one file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Measured<T> {
-    /// The data.
-    pub data: T,
+/// What was found in a file, in the form in which it was measured.
+#[derive(Clone, Debug)]
+pub struct Document {
+    /// The measurements, in the order of the file. More than one are those of a sheet: reflection and transmission, or
+    /// both of its sides.
+    pub parts: Vec<Part>,
     /// Names and values of the header in the order of the file, for people to read. Comments have the name `comment`.
     /// What became part of the data (knots, channels) is left out.
     pub source: Vec<(String, String)>,
     /// Total integrated scatter, the hemispherical integral of `f cos`, as the file states it for each block of its
-    /// data, in the order of the file. Empty where it states none. Nothing is computed from it.
+    /// data, in the order of the file. Empty if it states none. Nothing is computed from it.
     pub tis: Vec<f32>,
 }
 
-impl<T> Measured<T> {
-    /// Data about which the file says this, as far as it says anything.
-    fn new(data: T, source: &[(&str, &str)]) -> Self {
-        let stated = source.iter().filter(|(_, value)| !value.is_empty());
-        Measured { data, source: stated.map(|(name, value)| ((*name).into(), (*value).into())).collect(), tis: vec![] }
-    }
+/// One measurement of a document.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// The name in the file; may be empty.
+    pub name: String,
+    /// The side from which the light comes; `None` if the file does not tell the sides apart, or if the data do
+    /// (see [`Representation::is_two_sided`](lobe_table::Representation::is_two_sided)).
+    pub side: Option<Side>,
+    /// The values.
+    pub data: Data,
 }
 
-/// What was found in a file, in the form in which it was measured.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub enum Document {
-    /// A BRDF or BTDF on a grid of specular coordinates.
-    Table(Measured<specular::Data>),
-    /// The mirror reflectance, or the transmittance straight through, of a smooth surface.
-    Specular(Measured<Specular>),
-    /// A BRDF or BTDF on a grid of spherical coordinates.
-    Spherical(Measured<spherical::Data>),
-    /// A BRDF or BTDF on no grid.
-    Scattered(Measured<scattered::Data>),
-    /// Several measurements of one sheet.
-    Sheet(Measured<Vec<Part>>),
-    /// The adaptive parameterisation of the EPFL database.
-    Rgl(Measured<lobe_table::rgl::Data>),
-    /// A grid of half and difference angles.
-    HalfDiff(Measured<half_diff::Data>),
-    /// The grid of the UTIA database.
-    Utia(Measured<lobe_table::utia::Data>),
-    /// Mueller matrices.
-    Mueller(Measured<mueller::Data>),
-    /// Klems matrices or tensor trees of the two sides of a sheet.
-    Window(Measured<WindowXml>),
+impl Part {
+    /// A part of a file that does not tell the sides apart.
+    pub fn new(name: impl Into<String>, data: impl Into<Data>) -> Self {
+        Part { name: name.into(), side: None, data: data.into() }
+    }
+
+    /// `true` if the data hold whichever side the light comes from.
+    pub fn is_of_any_side(&self) -> bool {
+        self.side.is_none() && !self.data.representation().is_two_sided()
+    }
 }
 
 impl Document {
-    /// A sheet; or its only measurement, where the file does not tell sides apart.
-    fn sheet(mut parts: Vec<Part>) -> Self {
-        match parts.pop() {
-            Some(Part { name, side: None, data }) if parts.is_empty() => {
-                let source = [("name", name.as_str())];
-                match data {
-                    Data::Table(data) => Document::Table(Measured::new(data, &source)),
-                    Data::Spherical(data) => Document::Spherical(Measured::new(data, &source)),
-                    Data::Scattered(data) => Document::Scattered(Measured::new(data, &source)),
-                    Data::Specular(data) => Document::Specular(Measured::new(data, &source)),
-                }
-            }
-            last => {
-                parts.extend(last);
-                Document::Sheet(Measured::new(parts, &[]))
-            }
+    /// One measurement about which there is nothing else to say.
+    pub fn new(data: impl Into<Data>) -> Self {
+        Document { parts: vec![Part::new("", data)], source: Vec::new(), tis: Vec::new() }
+    }
+
+    /// The measurements of a sheet. The name of a single one that is of no particular side becomes a fact of the header.
+    pub fn of_parts(mut parts: Vec<Part>) -> Self {
+        let mut source = Vec::new();
+        if let [Part { name, side: None, .. }] = parts.as_mut_slice()
+            && !name.is_empty()
+        {
+            source.push(("name".into(), std::mem::take(name)));
+        }
+        Document { parts, source, tis: Vec::new() }
+    }
+
+    /// The data, if they are one measurement of no particular side.
+    pub fn only(&self) -> Option<&Data> {
+        match self.parts.as_slice() {
+            [Part { side: None, data, .. }] => Some(data),
+            _ => None,
         }
     }
 
-    /// What the header of the file says, see [`Measured::source`].
-    pub fn source(&self) -> &[(String, String)] {
-        self.stated().0
+    /// `true` if there are several measurements, or one of a particular side.
+    pub fn is_sheet(&self) -> bool {
+        self.only().is_none()
     }
 
-    /// The total integrated scatter that the file states, see [`Measured::tis`].
-    pub fn tis(&self) -> &[f32] {
-        self.stated().1
+    /// The same with facts of the header; those without a value are left out.
+    fn with_source(mut self, source: &[(&str, &str)]) -> Self {
+        let stated = source.iter().filter(|(_, value)| !value.is_empty());
+        self.source.extend(stated.map(|(name, value)| ((*name).into(), (*value).into())));
+        self
     }
+}
 
-    fn stated(&self) -> (&[(String, String)], &[f32]) {
-        match self {
-            Document::Table(Measured { source, tis, .. })
-            | Document::Specular(Measured { source, tis, .. })
-            | Document::Spherical(Measured { source, tis, .. })
-            | Document::Scattered(Measured { source, tis, .. })
-            | Document::Sheet(Measured { source, tis, .. })
-            | Document::Rgl(Measured { source, tis, .. })
-            | Document::HalfDiff(Measured { source, tis, .. })
-            | Document::Utia(Measured { source, tis, .. })
-            | Document::Mueller(Measured { source, tis, .. })
-            | Document::Window(Measured { source, tis, .. }) => (source, tis),
-        }
+/// Data of a known type, and what their file says about them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured<T> {
+    /// The data.
+    pub data: T,
+    /// As [`Document::source`].
+    pub source: Vec<(String, String)>,
+    /// As [`Document::tis`].
+    pub tis: Vec<f32>,
+}
+
+impl<T: Into<Data>> From<Measured<T>> for Document {
+    fn from(Measured { data, source, tis }: Measured<T>) -> Self {
+        Document { source, tis, ..Document::new(data) }
     }
 }
 
@@ -114,7 +112,7 @@ impl Document {
 /// [`FormatError`] where the file cannot be read, is of no known format, or is damaged.
 pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
     if path.is_dir() {
-        return Ok((Format::Rpc, Document::Scattered(Measured::new(fred::read_rpc_folder(path)?, &[]))));
+        return Ok((Format::Rpc, Document::new(fred::read_rpc_folder(path)?)));
     }
     let bytes = std::fs::read(path)
         .map_err(|error| FormatError::new(path, Place::File, error.to_string(), "a file that can be read"))?;
@@ -131,41 +129,36 @@ pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
 /// # Errors
 /// [`FormatError`] where the bytes are no sound file of the format.
 pub fn read(format: Format, bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
-    let scattered = |data| Ok(Document::Scattered(Measured::new(data, &[])));
-    match format {
-        Format::Pbsdf => Ok(Document::Mueller(Measured::new(pbsdf::read(bytes, path)?, &[]))),
+    Ok(match format {
+        Format::Pbsdf => Document::new(pbsdf::read(bytes, path)?),
         Format::Rgl => {
             let data = rgl::read(bytes, path)?;
             let description = data.parts().description.clone();
-            Ok(Document::Rgl(Measured::new(data, &[("description", &description)])))
+            Document::new(data).with_source(&[("description", &description)])
         }
-        Format::Mbsdf => Ok(Document::sheet(mbsdf::read(bytes, path)?.into_parts(Data::Spherical))),
-        Format::WindowXml => {
-            let data = window_xml::read(bytes, path)?;
-            let (name, manufacturer) = (data.name.clone(), data.manufacturer.clone());
-            Ok(Document::Window(Measured::new(data, &[("name", &name), ("manufacturer", &manufacturer)])))
-        }
-        Format::Speos => Ok(Document::sheet(speos::read(bytes, path)?.into_parts(Data::Scattered))),
-        Format::Merl => Ok(Document::HalfDiff(Measured::new(merl::read(bytes, path)?, &[]))),
+        Format::Mbsdf => Document::of_parts(mbsdf::read(bytes, path)?.into_parts()),
+        Format::WindowXml => window_xml::read(bytes, path)?.into(),
+        Format::Speos => Document::of_parts(speos::read(bytes, path)?.into_parts()),
+        Format::Merl => Document::new(merl::read(bytes, path)?),
         Format::Utia => {
             let unit = ("unit", "not documented; values are as they are stored");
-            Ok(Document::Utia(Measured::new(utia::read(bytes, path)?, &[unit])))
+            Document::new(utia::read(bytes, path)?).with_source(&[unit])
         }
-        Format::Zemax => zemax::read(bytes, path).map(Document::Table),
-        Format::LightTools => light_tools::read(bytes, path).map(Document::sheet),
-        Format::Ssdd => ssdd::read(bytes, path).map(Document::sheet),
-        Format::Astm => scattered(astm::read(bytes, path)?),
-        Format::OpenMaterial => scattered(openmaterial::read(bytes, path)?),
-        Format::Fred => scattered(fred::read(bytes, path)?),
-        Format::Rpc => scattered(fred::read_rpc(bytes, path)?),
-        Format::Cornell => scattered(cornell::read(bytes, path)?),
-        Format::Alta => scattered(alta::read(bytes, path)?),
-        Format::Nist => scattered(nist::read(bytes, path)?),
-        Format::Lumos => scattered(lumos::read(bytes, path)?),
-        Format::Goniometer => Ok(Document::sheet(vec![Part::new("", goniometer::read(bytes, path)?)])),
-        Format::Ddr => ddr::read(bytes, path, scatter_of_extension(path)).map(Document::Table),
-        Format::Sdr => sdr::read(bytes, path, scatter_of_extension(path)).map(Document::Specular),
-    }
+        Format::Zemax => zemax::read(bytes, path)?.into(),
+        Format::LightTools => Document::of_parts(light_tools::read(bytes, path)?),
+        Format::Ssdd => Document::of_parts(ssdd::read(bytes, path)?),
+        Format::Astm => Document::new(astm::read(bytes, path)?),
+        Format::OpenMaterial => Document::new(openmaterial::read(bytes, path)?),
+        Format::Fred => Document::new(fred::read(bytes, path)?),
+        Format::Rpc => Document::new(fred::read_rpc(bytes, path)?),
+        Format::Cornell => Document::new(cornell::read(bytes, path)?),
+        Format::Alta => Document::new(alta::read(bytes, path)?),
+        Format::Nist => Document::new(nist::read(bytes, path)?),
+        Format::Lumos => Document::new(lumos::read(bytes, path)?),
+        Format::Goniometer => Document::new(goniometer::read(bytes, path)?),
+        Format::Ddr => ddr::read(bytes, path, scatter_of_extension(path))?.into(),
+        Format::Sdr => sdr::read(bytes, path, scatter_of_extension(path))?.into(),
+    })
 }
 
 /// Integra's extensions: a `t` at the end is transmission.

@@ -16,14 +16,13 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::path::Path;
 
-use lobe_table::{Channels, Scatter, specular, spherical};
+use lobe_table::{Channels, Data, Scatter, specular, spherical};
 
 pub use write::write;
 
 use crate::columns::channels;
 use crate::lines::shown;
 use crate::records::Records;
-use crate::sheet::Data;
 use crate::{FormatError, Place};
 
 /// What a table does not say itself.
@@ -189,7 +188,9 @@ impl Table {
         if let Some((knots, values)) = grid(&records, channels.count()) {
             let refused = |e: lobe_table::GridError| FormatError::new(file, Place::File, e.to_string(), "a grid");
             return match is_specular {
-                true => specular::Data::new(options.scatter, knots, channels, values).map(Data::Table).map_err(refused),
+                true => {
+                    specular::Data::new(options.scatter, knots, channels, values).map(Data::Specular).map_err(refused)
+                }
                 false => {
                     let grid = spherical::Data::new(options.scatter, knots, channels, values);
                     grid.map(Data::Spherical).map_err(refused)

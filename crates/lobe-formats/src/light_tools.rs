@@ -9,11 +9,10 @@ use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
-use lobe_table::{Channels, Scatter, spherical};
+use lobe_table::{Channels, Data, Scatter, Side, spherical};
 
-use crate::FormatError;
-use crate::sheet::{Data, Part, Side};
 use crate::text::{Text, has_words};
+use crate::{FormatError, Part};
 
 /// `true` for a text with the words `ScatterRadial` and `AOI`.
 pub fn matches(bytes: &[u8]) -> bool {

@@ -9,9 +9,9 @@
 //! uniform in `[0, pi]`. Measured files bear out the first: with `theta_out` index 0 their values do not depend on the
 //! azimuth, so it is the pole itself.
 
+use crate::Sides;
 use crate::bytes::Cursor;
 use crate::error::FormatError;
-use crate::sheet::Sides;
 use crate::write::{unwritable, write_whole};
 use lobe_table::{Channels, Scatter, spherical};
 use std::f64::consts::{FRAC_PI_2, PI};

@@ -10,14 +10,13 @@ use std::io::{self, Cursor, Write};
 use std::path::Path;
 
 use lobe_table::scattered::ANGLE_NAMES;
+use lobe_table::specular::AXIS_NAMES;
 use lobe_table::window::klems::AngleBasis;
-use lobe_table::window::{Block, Component};
-use lobe_table::{Channels, Scatter, specular::AXIS_NAMES};
+use lobe_table::window::{self, Block, Component};
+use lobe_table::{Channels, Data, Scatter, Side};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-use crate::sheet::{Data, Part, Side};
-use crate::window_xml::WindowXml;
 use crate::write::{unwritable, write_whole};
 use crate::{Document, FormatError};
 
@@ -103,14 +102,56 @@ impl Arrays {
     }
 
     fn document(&mut self, document: &Document) -> io::Result<()> {
-        match document {
-            Document::Table(measured) => self.part(&Data::Table(measured.data.clone())),
-            Document::Specular(measured) => self.part(&Data::Specular(measured.data.clone())),
-            Document::Spherical(measured) => self.part(&Data::Spherical(measured.data.clone())),
-            Document::Scattered(measured) => self.part(&Data::Scattered(measured.data.clone())),
-            Document::Sheet(measured) => self.sheet(&measured.data),
-            Document::Rgl(measured) => {
-                let parts = measured.data.parts();
+        if let Some(data) = document.only() {
+            return self.data(data);
+        }
+        for (index, part) in document.parts.iter().enumerate() {
+            self.prefix = format!("{index}.");
+            self.data(&part.data)?;
+            self.text("name", &part.name)?;
+            if let Some(side) = part.side {
+                self.text("side", if side == Side::Front { "front" } else { "back" })?;
+            }
+        }
+        Ok(())
+    }
+
+    fn data(&mut self, data: &Data) -> io::Result<()> {
+        let scatter = data.representation().scatter();
+        match data {
+            Data::Specular(samples) => {
+                self.scatter(scatter)?;
+                self.text("kind", "specular table")?;
+                if let Some(offsets) = samples.refraction() {
+                    self.doubles("refraction", &[offsets.len()], offsets)?;
+                }
+                self.grid(&AXIS_NAMES, samples.knots(), samples.channels(), samples.values())
+            }
+            Data::Spherical(grid) => {
+                self.scatter(scatter)?;
+                self.text("kind", "spherical grid")?;
+                self.array("is_mirrored", "|b1", &[], &[u8::from(grid.is_mirrored())])?;
+                self.grid(&ANGLE_NAMES, grid.knots(), grid.channels(), grid.values())
+            }
+            Data::Scattered(scattered) => {
+                self.scatter(scatter)?;
+                self.text("kind", "scattered samples")?;
+                self.channels(scattered.channels())?;
+                let samples: Vec<_> = scattered.samples().collect();
+                for (axis, name) in ANGLE_NAMES.iter().enumerate() {
+                    let angles: Vec<f64> = samples.iter().map(|(angles, _)| angles[axis]).collect();
+                    self.doubles(name, &[samples.len()], &angles)?;
+                }
+                let values: Vec<f32> = samples.iter().flat_map(|(_, values)| values.iter().copied()).collect();
+                self.floats("values", &[samples.len(), scattered.channels().count()], &values)
+            }
+            Data::Mirror(mirror) => {
+                self.scatter(scatter)?;
+                self.text("kind", "mirror reflectance")?;
+                self.grid(&AXIS_NAMES[..2], mirror.knots(), mirror.channels(), mirror.values())
+            }
+            Data::Rgl(rgl) => {
+                let parts = rgl.parts();
                 let (p, t, c) = (parts.phi_i.len(), parts.theta_i.len(), parts.channels.count());
                 self.text("kind", "rgl")?;
                 self.channels(&parts.channels)?;
@@ -128,76 +169,32 @@ impl Arrays {
                 }
                 self.array("jacobian", "|b1", &[], &[u8::from(parts.jacobian)])
             }
-            Document::HalfDiff(measured) => {
-                let bins = measured.data.bins();
+            Data::HalfDiff(table) => {
+                let bins = table.bins();
                 self.text("kind", "half-difference")?;
                 self.channels(&Channels::Rgb)?;
-                self.floats("values", &[3, bins[0], bins[1], bins[2]], measured.data.values())
+                self.floats("values", &[3, bins[0], bins[1], bins[2]], table.values())
             }
-            Document::Utia(measured) => {
+            Data::Utia(utia) => {
                 self.text("kind", "utia")?;
                 self.channels(&Channels::Rgb)?;
-                self.doubles("values", &[3, 6, 48, 6, 48], measured.data.values())
+                self.doubles("values", &[3, 6, 48, 6, 48], utia.values())
             }
-            Document::Mueller(measured) => {
-                let knots = measured.data.knots();
+            Data::Mueller(mueller) => {
+                let knots = mueller.knots();
                 self.text("kind", "mueller")?;
                 for (name, knots) in ["phi_d", "theta_d", "theta_h", "wavelengths"].iter().zip(knots) {
                     self.floats(name, &[knots.len()], knots)?;
                 }
                 let shape: Vec<usize> = knots.iter().map(Vec::len).chain([4, 4]).collect();
-                self.floats("M", &shape, measured.data.values())
+                self.floats("M", &shape, mueller.values())
             }
-            Document::Window(measured) => self.window(&measured.data),
+            Data::Window(window) => self.window(window),
+            other => Err(io::Error::new(io::ErrorKind::InvalidInput, other.representation().kind().name())),
         }
     }
 
-    fn sheet(&mut self, parts: &[Part]) -> io::Result<()> {
-        for (index, part) in parts.iter().enumerate() {
-            self.prefix = format!("{index}.");
-            self.part(&part.data)?;
-            self.text("name", &part.name)?;
-            if let Some(side) = part.side {
-                self.text("side", if side == Side::Front { "front" } else { "back" })?;
-            }
-        }
-        Ok(())
-    }
-
-    fn part(&mut self, data: &Data) -> io::Result<()> {
-        self.scatter(data.scatter())?;
-        match data {
-            Data::Table(samples) => {
-                self.text("kind", "specular table")?;
-                if let Some(offsets) = samples.refraction() {
-                    self.doubles("refraction", &[offsets.len()], offsets)?;
-                }
-                self.grid(&AXIS_NAMES, samples.knots(), samples.channels(), samples.values())
-            }
-            Data::Spherical(grid) => {
-                self.text("kind", "spherical grid")?;
-                self.array("is_mirrored", "|b1", &[], &[u8::from(grid.is_mirrored())])?;
-                self.grid(&ANGLE_NAMES, grid.knots(), grid.channels(), grid.values())
-            }
-            Data::Scattered(scattered) => {
-                self.text("kind", "scattered samples")?;
-                self.channels(scattered.channels())?;
-                let samples: Vec<_> = scattered.samples().collect();
-                for (axis, name) in ANGLE_NAMES.iter().enumerate() {
-                    let angles: Vec<f64> = samples.iter().map(|(angles, _)| angles[axis]).collect();
-                    self.doubles(name, &[samples.len()], &angles)?;
-                }
-                let values: Vec<f32> = samples.iter().flat_map(|(_, values)| values.iter().copied()).collect();
-                self.floats("values", &[samples.len(), scattered.channels().count()], &values)
-            }
-            Data::Specular(specular) => {
-                self.text("kind", "mirror reflectance")?;
-                self.grid(&AXIS_NAMES[..2], specular.knots(), specular.channels(), specular.values())
-            }
-        }
-    }
-
-    fn window(&mut self, sheet: &WindowXml) -> io::Result<()> {
+    fn window(&mut self, sheet: &window::Data) -> io::Result<()> {
         self.text("kind", "klems")?;
         for band in &sheet.bands {
             for (block, name) in Block::ALL.into_iter().zip([

@@ -6,20 +6,20 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use lobe_table::Scatter;
+use lobe_table::{Scatter, mirror};
 
 use crate::document::scatter_of_extension;
 use crate::grid::{LIMITS, radians, read_angles};
 use crate::integra::{Blocks, COMMENT, ColorModel, block_names, keep_comments, starts_block};
 use crate::text::{Text, Token, nine_digits};
 use crate::write::write_whole;
-use crate::{FormatError, Measured, Place, Specular};
+use crate::{FormatError, Measured, Place};
 
 /// Reads a file from its content. Nothing in it says whether it is reflection or transmission.
 ///
 /// # Errors
 /// [`FormatError`] names the line, what is there and what should be.
-pub fn read(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Measured<Specular>, FormatError> {
+pub fn read(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Measured<mirror::Data>, FormatError> {
     let text = &mut Text::new(file, bytes, COMMENT);
     let mut source = Vec::new();
     let mut model = ColorModel::Rgb;
@@ -51,7 +51,7 @@ pub fn read(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Measured<Spec
     text.end("nothing after the last block")?;
     let (channels, blocks) = blocks.finish();
     let values = (0..degrees.len()).flat_map(|s| blocks.iter().map(move |block| block[s])).collect();
-    let data = Specular::new(scatter, [radians(&degrees), vec![0.0]], channels, values)
+    let data = mirror::Data::new(scatter, [radians(&degrees), vec![0.0]], channels, values)
         .ok_or_else(|| FormatError::new(file, Place::File, "sigma angles that are equal", "distinct ones"))?;
     Ok(Measured { data, source, tis: Vec::new() })
 }
@@ -62,7 +62,7 @@ pub fn read(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Measured<Spec
 /// [`FormatError`] where the file cannot be written, the channels are not one, RGB or
 /// wavelengths, there is more than one psi, or the extension (`.sdr` for reflection,
 /// `.sdt` for transmission) would make readers take it for the other kind.
-pub fn write(specular: &Specular, path: &Path) -> Result<(), FormatError> {
+pub fn write(specular: &mirror::Data, path: &Path) -> Result<(), FormatError> {
     check_extension(path, specular.scatter(), ["sdr", "sdt"])?;
     let (model, names) = block_names(path, specular.channels())?;
     let [sigma, psi] = specular.knots();

@@ -1,17 +1,13 @@
 //! Directional-hemispherical reflectance, or transmittance: how much of the light from one direction comes back.
 
-use lobe_formats::Document;
 use lobe_table::specular;
 use lobe_table::specular::reference::zenith;
-use lobe_table::window::klems::KlemsMatrix;
-use lobe_table::window::{self, Block, Component};
 use serde::Serialize;
 
 use crate::directions::spherical;
 use crate::hemisphere::{Effort, Panels, integrate};
 use crate::samples::signed_edges;
 use crate::scattering::eval_pairs;
-use crate::subject::aspect_of;
 use crate::{Aspect, Scattering, Subject};
 
 /// The share of the light from one direction that leaves again: the integral of `f cos(theta_o)` over the hemisphere.
@@ -59,28 +55,11 @@ pub fn albedo(
 /// representation: between the knots of a grid; the sum over the patches of a Klems matrix, which is exact; toward the
 /// mirror direction in all others.
 pub fn albedo_of(subject: &Subject, aspect: Aspect, incidence: [f64; 2], effort: Effort) -> Albedo {
-    let exact = match &subject.document {
-        Document::Window(measured) => {
-            let bands = measured.data.bands.iter().map(|band| of_patches(&band.window, aspect, incidence));
-            bands.collect::<Option<Vec<f64>>>()
-        }
-        _ => None,
-    };
+    let exact = subject.data(aspect).and_then(|data| data.representation().albedo(aspect, incidence));
     match exact {
         Some(values) => Albedo { theta: incidence[0], phi: incidence[1], values, error: 0.0 },
         None => albedo(&subject.material, aspect, incidence, &subject.panels(aspect, incidence), effort),
     }
-}
-
-/// The sum over the patches of a Klems matrix; `None` for trees, and for transmission that is known the other way only.
-fn of_patches(window: &window::Blocks, aspect: Aspect, [theta, phi]: [f64; 2]) -> Option<f64> {
-    let block = Block::ALL.into_iter().find(|&block| aspect_of(block) == aspect)?;
-    let Some(Component::Klems(matrix)) = window.block(block) else { return None };
-    incident_patch(matrix, spherical(theta, phi)).map(|patch| matrix.albedo(patch))
-}
-
-fn incident_patch(matrix: &KlemsMatrix, [x, y, z]: [f64; 3]) -> Option<usize> {
-    matrix.incident().patch([-x, -y, z])
 }
 
 /// The albedo of every slice of a table, `[sigma][psi]`, negative values included, as the default edge policy
@@ -163,14 +142,17 @@ mod tests {
 
     #[test]
     fn patches_of_a_window_are_summed() {
-        use lobe_table::window::klems::AngleBasis;
+        use lobe_table::window::klems::{AngleBasis, KlemsMatrix};
+        use lobe_table::window::{Band, Block, Blocks, Component, Data};
+        use lobe_table::{Aspect, Representation};
         let basis = AngleBasis::full();
         let values = vec![0.3 / PI as f32; basis.patches().pow(2)];
         let matrix = KlemsMatrix::new(basis.clone(), basis, values).expect("a matrix");
-        let mut window = window::Blocks::default();
+        let mut window = Blocks::default();
         window.set(Block::ReflectionBack, Component::Klems(matrix));
-        let found = of_patches(&window, Aspect::REFLECTION, [0.5, 0.0]).expect("a block");
-        assert!((found - 0.3).abs() < 1e-6, "{found}");
-        assert_eq!(of_patches(&window, Aspect::TRANSMISSION, [0.5, 0.0]), None);
+        let data = Data { bands: vec![Band { wavelength: "Visible".into(), window }] };
+        let found = data.albedo(Aspect::REFLECTION, [0.5, 0.0]).expect("a block");
+        assert!((found[0] - 0.3).abs() < 1e-6, "{found:?}");
+        assert_eq!(data.albedo(Aspect::TRANSMISSION, [0.5, 0.0]), None);
     }
 }

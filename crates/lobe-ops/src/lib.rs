@@ -14,7 +14,6 @@
 #![forbid(unsafe_code)]
 
 pub mod albedo;
-mod aspect;
 pub mod check;
 pub mod colour;
 pub mod compare;
@@ -31,6 +30,6 @@ pub mod symmetrise;
 #[cfg(test)]
 mod testing;
 
-pub use aspect::Aspect;
+pub use lobe_table::Aspect;
 pub use scattering::Scattering;
 pub use subject::Subject;

@@ -1,13 +1,9 @@
 //! Small things that operations on tables share.
 
-use std::f64::consts::TAU;
-
+pub(crate) use lobe_table::data::closes_circle;
 use lobe_table::specular::coords::angles_to_directions;
 use lobe_table::specular::reference::zenith;
 use lobe_table::{Edges, GridError, specular};
-
-/// Knots that were degrees in a file come back to within this of the pole or the full turn.
-pub(crate) const ANGLE_ROUNDING: f64 = 1e-5;
 
 /// The same table with other values.
 pub(crate) fn with_values(samples: &specular::Data, values: Vec<f32>) -> Result<specular::Data, GridError> {
@@ -52,9 +48,4 @@ pub(crate) fn angles(samples: &specular::Data, node: [usize; 4]) -> [f64; 4] {
 /// The directions of a node, both with z > 0 for nodes above the horizon.
 pub(crate) fn directions(samples: &specular::Data, node: [usize; 4]) -> ([f64; 3], [f64; 3]) {
     angles_to_directions(angles(samples, node), |sigma| zenith(samples, &Edges::default(), sigma))
-}
-
-/// Whether the last of these angles is the first one again, a turn later.
-pub(crate) fn closes_circle(knots: &[f64]) -> bool {
-    knots.len() > 1 && (knots[knots.len() - 1] - knots[0] - TAU).abs() < ANGLE_ROUNDING
 }

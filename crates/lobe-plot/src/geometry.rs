@@ -1,7 +1,7 @@
 //! Directions of the figures. Unit vectors away from the surface, normal on +z.
 
 use lobe::Scatter;
-use lobe::formats::sheet::Side;
+use lobe::Side;
 
 /// The z of a hemisphere: 1 above, -1 below.
 pub(crate) fn sign(side: Side) -> f64 {

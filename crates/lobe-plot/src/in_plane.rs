@@ -48,8 +48,7 @@ pub fn curves(subject: &Subject, view: &View, progress: &dyn Progress) -> Vec<Cu
             let is_measured = match subject.part(view.side, scatter) {
                 Some(part) => {
                     let is_covered = part.coverage(sigma, view.psi);
-                    let above =
-                        |theta: f64| in_plane(lobe::formats::sheet::Side::Front, Scatter::Reflection, theta, view.psi);
+                    let above = |theta: f64| in_plane(lobe::Side::Front, Scatter::Reflection, theta, view.psi);
                     theta.iter().map(|&theta| is_covered(above(theta))).collect()
                 }
                 None => vec![false; theta.len()],

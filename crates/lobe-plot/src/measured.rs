@@ -4,14 +4,12 @@ use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use lobe::formats::Document;
-use lobe::formats::sheet::{Data, Side};
-use lobe::formats::window_xml::WindowXml;
 use lobe::table::specular::coords::{angles_to_directions, directions_to_angles};
 use lobe::table::utia::{PHIS, THETAS};
 use lobe::table::window::klems::AngleBasis;
-use lobe::table::window::{Block, Component};
+use lobe::table::window::{self, Block, Component};
 use lobe::table::{half_diff, scattered};
-use lobe::{Scatter, specular};
+use lobe::{Data, Scatter, Side, specular};
 
 use crate::geometry::{dot, incident};
 
@@ -57,30 +55,32 @@ struct Cloud {
 
 /// The parts of a document.
 pub(crate) fn parts(document: &Document) -> Vec<Part> {
-    match document {
-        Document::Table(measured) => vec![table(&measured.data)],
-        Document::Spherical(measured) => vec![of_sheet(&Data::Spherical(measured.data.clone()))],
-        Document::Scattered(measured) => vec![scattered(&measured.data)],
-        Document::Sheet(measured) => {
-            let has_value = |part: &&lobe::formats::sheet::Part| !matches!(part.data, Data::Specular(_));
-            let part = |part: &lobe::formats::sheet::Part| Part { side: part.side, ..of_sheet(&part.data) };
-            measured.data.iter().filter(has_value).map(part).collect()
-        }
-        Document::Rgl(measured) => {
-            let parts = measured.data.parts();
+    let has_value = |part: &&lobe::formats::Part| part.data.representation().mirror().is_none();
+    let parts = document.parts.iter().filter(has_value);
+    let on_side = |part: &lobe::formats::Part, found: Part| Part { side: part.side.or(found.side), ..found };
+    parts.flat_map(|part| of_data(&part.data).into_iter().map(move |found| on_side(part, found))).collect()
+}
+
+fn of_data(data: &Data) -> Vec<Part> {
+    match data {
+        Data::Specular(data) => vec![table(data)],
+        Data::Spherical(data) => vec![spherical(data)],
+        Data::Scattered(data) => vec![scattered(data)],
+        Data::Rgl(data) => {
+            let parts = data.parts();
             vec![Part {
                 incidences: parts.theta_i.iter().map(|&knot| f64::from(knot)).collect(),
                 ..Part::reflection(Places::Everywhere)
             }]
         }
-        Document::HalfDiff(measured) => vec![Part::reflection(Places::Bins(measured.data.clone()))],
-        Document::Utia(_) => {
+        Data::HalfDiff(data) => vec![Part::reflection(Places::Bins(data.clone()))],
+        Data::Utia(_) => {
             let grid = |count: usize, step: f64| (0..count).map(|i| (step * i as f64).to_radians()).collect::<Vec<_>>();
             let (theta, phi) = (grid(THETAS, 15.0), grid(PHIS, 7.5));
             let places = Places::Spherical { theta: theta.clone(), phi, is_relative: false, is_mirrored: false };
             vec![Part { incidences: theta, ..Part::reflection(places) }]
         }
-        Document::Window(measured) => window(&measured.data),
+        Data::Window(data) => window(data),
         _ => vec![Part::reflection(Places::Everywhere)],
     }
 }
@@ -206,28 +206,21 @@ fn table(data: &specular::Data) -> Part {
     }
 }
 
-fn of_sheet(data: &Data) -> Part {
-    match data {
-        Data::Table(data) => table(data),
-        Data::Scattered(data) => scattered(data),
-        Data::Spherical(data) => {
-            let [theta_i, phi_i, theta_o, phi_o] = data.knots();
-            // The azimuths of an isotropic grid count from its only phi_i.
-            let from = if data.is_isotropic() { phi_i[0] } else { 0.0 };
-            Part {
-                scatter: data.scatter(),
-                side: None,
-                incidences: theta_i.clone(),
-                psi: if data.is_isotropic() { 0.0 } else { phi_i[0] },
-                places: Places::Spherical {
-                    theta: theta_o.clone(),
-                    phi: phi_o.iter().map(|phi| phi - from).collect(),
-                    is_relative: data.is_isotropic(),
-                    is_mirrored: data.is_mirrored(),
-                },
-            }
-        }
-        Data::Specular(data) => Part { scatter: data.scatter(), ..Part::reflection(Places::Everywhere) },
+fn spherical(data: &lobe::table::spherical::Data) -> Part {
+    let [theta_i, phi_i, theta_o, phi_o] = data.knots();
+    // The azimuths of an isotropic grid count from its only phi_i.
+    let from = if data.is_isotropic() { phi_i[0] } else { 0.0 };
+    Part {
+        scatter: data.scatter(),
+        side: None,
+        incidences: theta_i.clone(),
+        psi: if data.is_isotropic() { 0.0 } else { phi_i[0] },
+        places: Places::Spherical {
+            theta: theta_o.clone(),
+            phi: phi_o.iter().map(|phi| phi - from).collect(),
+            is_relative: data.is_isotropic(),
+            is_mirrored: data.is_mirrored(),
+        },
     }
 }
 
@@ -281,7 +274,7 @@ fn reach(outgoing: &[[f64; 2]]) -> f64 {
     (1.5 * most).clamp(2.5_f64.to_radians(), 15_f64.to_radians())
 }
 
-fn window(data: &WindowXml) -> Vec<Part> {
+fn window(data: &window::Data) -> Vec<Part> {
     let Some(band) = data.bands.first() else { return Vec::new() };
     let mut parts = Vec::new();
     for block in Block::ALL {

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use lobe::Scatter;
-use lobe::formats::sheet::Side;
+use lobe::Side;
 use lobe_colour::{LUMINANCE, ToneMap};
 
 use crate::evaluate::{Progress, evaluate};

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_4;
 use std::path::Path;
 
-use lobe::formats::sheet::Side;
+use lobe::Side;
 use lobe::formats::{Document, Format};
 use lobe::{Material, OpenError, Options, Scatter};
 use lobe_colour::Reduction;

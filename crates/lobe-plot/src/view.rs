@@ -1,6 +1,6 @@
 //! What of a material to look at.
 
-use lobe::formats::sheet::Side;
+use lobe::Side;
 use lobe_colour::Reduction;
 use thiserror::Error;
 

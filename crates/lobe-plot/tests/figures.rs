@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::f64::consts::PI;
 use std::path::Path;
 
-use lobe::formats::sheet::Side;
-use lobe::formats::{Document, Format, Measured};
+use lobe::Side;
+use lobe::formats::{Document, Format};
 use lobe::{Channels, Scatter, specular};
 use lobe_colour::encode;
 use lobe_plot::{
@@ -17,7 +17,7 @@ use quick_xml::events::{BytesStart, Event};
 const FIGURES: [Figure; 4] = [Figure::Curves, Figure::Polar, Figure::Slices, Figure::Sphere];
 
 fn subject(samples: specular::Data, name: &str) -> Subject {
-    let document = Document::Table(Measured { data: samples, source: Vec::new(), tis: Vec::new() });
+    let document = Document::new(samples);
     Subject::new(Path::new(name), Format::Ddr, document).expect("a table")
 }
 

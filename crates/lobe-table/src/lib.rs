@@ -10,16 +10,21 @@
 //! - [`half_diff`]: a grid of half and difference angles, as in the MERL database;
 //! - [`mueller`]: matrices of polarised reflection over half and difference angles;
 //! - [`utia`]: the grid of the UTIA database;
-//! - [`window`]: Klems matrices and tensor trees of the two sides of a sheet.
+//! - [`window`]: Klems matrices and tensor trees of the two sides of a sheet;
+//! - [`mirror`]: mirror reflectances, which have no value for a pair of directions.
+//!
+//! [`Data`] is any of them, of which the trait [`Representation`] tells what programs ask.
 //!
 //! They share [`Axis`] and the other parts of a grid, and [`Channels`] and [`Scatter`], which say what the values are.
 #![forbid(unsafe_code)]
 
+pub mod data;
 mod direction;
 mod directions;
 mod grid;
 pub mod half_diff;
 mod invalid;
+pub mod mirror;
 pub mod mueller;
 pub mod paper;
 mod passes;
@@ -32,6 +37,7 @@ pub mod spherical;
 pub mod utia;
 pub mod window;
 
+pub use data::{Aspect, Data, Kind, Representation, Side};
 pub use directions::{Directions, Soa};
 pub use grid::{Axis, AxisError, Cell, Edge, Edges, Function, GridError, Precision};
 pub use invalid::Invalid;

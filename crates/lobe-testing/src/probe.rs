@@ -3,12 +3,11 @@
 
 use std::path::Path;
 
-use lobe_formats::sheet::Data;
-use lobe_formats::{Document, Format, FormatError, Specular};
+use lobe_formats::{Document, Format, FormatError};
 use lobe_scalar::Scalar;
 use lobe_table::rgl::{Reference, UniformOrder};
 use lobe_table::utia::Decode;
-use lobe_table::{Edges, specular, specular::reference};
+use lobe_table::{Data, Edges, specular, specular::reference};
 
 use crate::memory::peak;
 
@@ -62,20 +61,19 @@ pub fn probe(format: Format, bytes: &[u8], path: &Path) -> (Result<(), FormatErr
 }
 
 fn evaluate(document: &Document) {
-    match document {
-        Document::Table(measured) => table(&measured.data),
-        Document::Specular(measured) => specular(&measured.data),
-        Document::Spherical(measured) => each(|wi, wo| drop(measured.data.eval(wi, wo))),
-        Document::Scattered(measured) => each(|wi, wo| drop(measured.data.eval(wi, wo))),
-        Document::Sheet(measured) => measured.data.iter().for_each(|part| match &part.data {
-            Data::Table(samples) => table(samples),
-            Data::Specular(data) => specular(data),
-            Data::Spherical(grid) => each(|wi, wo| drop(grid.eval(wi, wo))),
-            Data::Scattered(data) => each(|wi, wo| drop(data.eval(wi, wo))),
-        }),
-        Document::Rgl(measured) => {
-            let reference = Reference::new(&measured.data);
-            let mut value = vec![0.0; measured.data.parts().channels.count()];
+    document.parts.iter().for_each(|part| evaluate_data(&part.data));
+}
+
+fn evaluate_data(data: &Data) {
+    drop(data.representation().sections());
+    match data {
+        Data::Specular(samples) => table(samples),
+        Data::Mirror(data) => mirror(data),
+        Data::Spherical(grid) => each(|wi, wo| drop(grid.eval(wi, wo))),
+        Data::Scattered(data) => each(|wi, wo| drop(data.eval(wi, wo))),
+        Data::Rgl(data) => {
+            let reference = Reference::new(data);
+            let mut value = vec![0.0; data.parts().channels.count()];
             each(|wi, wo| {
                 reference.eval(wi, wo, &mut value);
                 reference.pdf(wi, wo);
@@ -83,19 +81,19 @@ fn evaluate(document: &Document) {
                 reference.sample(wi, [0.999, 0.001], UniformOrder::Pbrt);
             });
         }
-        Document::HalfDiff(measured) => each(|wi, wo| {
-            measured.data.eval_nearest(wi, wo);
-            measured.data.eval_linear(wi, wo);
+        Data::HalfDiff(data) => each(|wi, wo| {
+            data.eval_nearest(wi, wo);
+            data.eval_linear(wi, wo);
         }),
-        Document::Utia(measured) => each(|wi, wo| {
-            measured.data.eval(wi, wo, Decode::Raw);
-            measured.data.eval(wi, wo, Decode::Srgb);
+        Data::Utia(data) => each(|wi, wo| {
+            data.eval(wi, wo, Decode::Raw);
+            data.eval(wi, wo, Decode::Srgb);
         }),
-        Document::Mueller(measured) => each(|wi, wo| {
-            measured.data.eval(wi, wo, 550.0);
+        Data::Mueller(data) => each(|wi, wo| {
+            data.eval(wi, wo, 550.0);
         }),
-        Document::Window(measured) => each(|wi, wo| {
-            for band in &measured.data.bands {
+        Data::Window(data) => each(|wi, wo| {
+            for band in &data.bands {
                 band.window.eval(wi, wo);
             }
         }),
@@ -120,6 +118,6 @@ fn table(samples: &specular::Data) {
     }
 }
 
-fn specular(data: &Specular) {
+fn mirror(data: &lobe_table::mirror::Data) {
     [-1.0, 0.0, 0.7, 9.0, f64::NAN].iter().for_each(|&angle| drop(data.at(angle, angle)));
 }

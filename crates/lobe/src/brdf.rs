@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use lobe_formats::{Document, FormatError};
-use lobe_table::{Directions, Edges, Invalid, TableError, specular};
+use lobe_formats::FormatError;
+use lobe_table::{Data, Directions, Edges, Invalid, TableError, specular};
 use thiserror::Error;
 
 use crate::{Backend, BackendError};
@@ -80,8 +80,8 @@ impl Brdf {
     /// As [`open`](Brdf::open).
     pub fn open_with(path: impl AsRef<Path>, edges: &Edges) -> Result<Self, OpenError> {
         let path = path.as_ref();
-        match lobe_formats::open(path)?.1 {
-            Document::Table(measured) => Brdf::new(&measured.data, edges),
+        match lobe_formats::open(path)?.1.only() {
+            Some(Data::Specular(samples)) => Brdf::new(samples, edges),
             _ => Err(OpenError::NotATable { file: path.display().to_string(), found: "no specular table" }),
         }
     }

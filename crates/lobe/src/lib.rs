@@ -18,8 +18,8 @@ pub use lobe_math as math;
 pub use lobe_table as table;
 pub use lobe_table::utia::Decode;
 pub use lobe_table::{
-    Axis, Channels, Directions, Edge, Edges, Function, Given, Precision, Sampled, SamplerError, SamplerOptions,
-    Scatter, Soa, luminance, specular,
+    Aspect, Axis, Channels, Data, Directions, Edge, Edges, Function, Given, Precision, Sampled, SamplerError,
+    SamplerOptions, Scatter, Side, Soa, luminance, specular,
 };
 pub use material::{Kind, Lookup, Material, Options};
 pub use sampler::Sampler;

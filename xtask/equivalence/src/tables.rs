@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use lobe_benches::workload::{Input, Pairs};
-use lobe_formats::Document;
-use lobe_table::{Channels, Edges, Scatter, specular};
+use lobe_table::{Channels, Data, Edges, Scatter, specular};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -59,12 +58,13 @@ pub(super) fn cases() -> &'static [Case] {
             }
         }
         for path in fixtures() {
-            let Ok((_, Document::Table(measured))) = lobe_formats::open(&path) else {
+            let document = lobe_formats::open(&path).map(|(_, document)| document);
+            let Some(Data::Specular(samples)) = document.as_ref().ok().and_then(|document| document.only()) else {
                 panic!("{}: not a table that can be read", path.display());
             };
             for edges in [Edges::default(), Edges::extrapolate(), Edges::zero()] {
                 let name = path.file_name().expect("a file").to_string_lossy();
-                add(&mut cases, &name, &measured.data, &edges);
+                add(&mut cases, &name, samples, &edges);
             }
         }
         cases

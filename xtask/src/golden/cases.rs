@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
 use lobe::formats::{self, Document, Format};
-use lobe::{Backend, Edges, Material, Options};
+use lobe::{Backend, Data, Edges, Material, Options};
 
 use super::answers::{self, Answer, direction};
 use super::{Comparison, Measure};
@@ -69,8 +69,8 @@ impl Subject {
         (format, document): (Format, Document),
         options: &Options,
     ) -> anyhow::Result<Self> {
-        let largest = match &document {
-            Document::Table(table) => table.data.values().iter().fold(0.0, |most: f64, x| most.max(f64::from(x.abs()))),
+        let largest = match document.only() {
+            Some(Data::Specular(table)) => table.values().iter().fold(0.0, |most: f64, x| most.max(f64::from(x.abs()))),
             _ => 0.0,
         };
         let material = Material::new(path, format, document, options)?.with_backend(backend);

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use anyhow::bail;
-use lobe::formats::{self, Document};
+use lobe::formats;
 use lobe::table::rgl::{self, Drawn, UniformOrder, Wanted};
-use lobe::{Backend, Channels, Soa};
+use lobe::{Backend, Channels, Data, Soa};
 use lobe_benches::contest::Contender;
 use lobe_benches::workload::{Input, Pairs};
 use rand::{RngExt, SeedableRng};
@@ -61,10 +61,10 @@ pub fn all(data: &Path, exchange: &mut Exchange) -> anyhow::Result<Vec<Contest>>
     let uniforms = (uniforms, exchange.floats("uniforms", &[&first, &second])?);
     for file in files {
         let (_, document) = formats::open(&file)?;
-        let Document::Rgl(measured) = document else {
+        let Some(Data::Rgl(data)) = document.only() else {
             bail!("{}: expected a material of the EPFL database", file.display());
         };
-        let subject = Subject::new(&file, &measured.data)?;
+        let subject = Subject::new(&file, data)?;
         contests.push(subject.eval(exchange, Input::Incoherent, &incoherent));
         contests.push(subject.eval(exchange, Input::Coherent, &coherent));
         contests.push(subject.pdf(exchange, &incoherent));

@@ -5,9 +5,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::Context;
-use lobe::formats::{Document, Format, Measured};
+use lobe::formats::{Document, Format};
 use lobe::table::specular::coords::angles_to_directions;
-use lobe::{Given, Material, Options, Sampler, SamplerOptions, luminance};
+use lobe::{Data, Given, Material, Options, Sampler, SamplerOptions, luminance};
 use lobe_model::{Lambert, goniometer};
 use lobe_ops::albedo::albedo_of;
 use lobe_ops::hemisphere::Effort;
@@ -80,10 +80,9 @@ pub fn all() -> anyhow::Result<Vec<Energy>> {
     let mut subjects = Vec::new();
     for name in ["conductor-7x8x13.ddr", "cloth-17x7x17x13.ddr"] {
         let (format, document) = lobe::formats::open(&fixtures.join(name))?;
-        if let (true, Document::Table(measured)) = (subjects.is_empty(), &document) {
-            let white = goniometer::measure(&Lambert { albedo: [1.0; 3] }, measured.data.knots().clone(), || {})?;
-            let white = Measured { data: white, source: Vec::new(), tis: Vec::new() };
-            subjects.push(("white, 7 × 8 × 13", format, Document::Table(white)));
+        if let (true, Some(Data::Specular(samples))) = (subjects.is_empty(), document.only()) {
+            let white = goniometer::measure(&Lambert { albedo: [1.0; 3] }, samples.knots().clone(), || {})?;
+            subjects.push(("white, 7 × 8 × 13", format, Document::new(white)));
         }
         subjects.push((name, format, document));
     }

@@ -4,9 +4,9 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use anyhow::Context;
-use lobe::formats::{Document, Format, Measured};
+use lobe::formats::{Document, Format};
 use lobe::table::half_diff;
-use lobe::{Material, Options, Sampler, SamplerOptions, specular};
+use lobe::{Material, Options, Sampler, SamplerOptions};
 use lobe_benches::tables;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -41,17 +41,15 @@ pub struct SamplerCost {
 /// # Errors
 /// Where there is no sampler.
 pub fn all(quick: bool) -> anyhow::Result<Vec<SamplerCost>> {
-    let table =
-        |samples: specular::Data| Document::Table(Measured { data: samples, source: Vec::new(), tis: Vec::new() });
     let mut costs = vec![
-        cost("7 × 8 × 13", table(tables::isotropic()), (0.05, 20))?,
-        cost("17 × 7 × 17 × 13", table(tables::anisotropic()), (0.05, 20))?,
+        cost("7 × 8 × 13", Document::new(tables::isotropic()), (0.05, 20))?,
+        cost("17 × 7 × 17 × 13", Document::new(tables::anisotropic()), (0.05, 20))?,
     ];
     if !quick {
         let mut rng = Pcg32::seed_from_u64(7);
         let values = (0..3 * MERL.iter().product::<usize>()).map(|_| rng.random_range(0.01..1.0)).collect();
         let data = half_diff::Data::new(MERL, values)?;
-        let document = Document::HalfDiff(Measured { data, source: Vec::new(), tis: Vec::new() });
+        let document = Document::new(data);
         costs.push(cost("MERL, 90 × 90 × 180", document, (3.0, 2))?);
     }
     Ok(costs)

@@ -3,10 +3,9 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use lobe_table::{Channels, Scatter};
+use lobe_table::{Channels, Data, Scatter};
 
 use super::{SPECULAR, SPHERICAL, TRANSMISSION};
-use crate::sheet::Data;
 use crate::write::write_whole;
 use crate::{FormatError, Place};
 
@@ -21,45 +20,49 @@ use crate::{FormatError, Place};
 /// only, refraction offsets, and mirror reflectances.
 pub fn write(data: &Data, path: &Path) -> Result<(), FormatError> {
     let refuse = |found: &str, expected: &str| Err(FormatError::new(path, Place::File, found, expected));
-    if let Channels::Named(names) = data.channels()
+    let (channels, scatter) = (data.representation().channels(), data.representation().scatter());
+    if let Channels::Named(names) = &channels
         && names.len() > 1
     {
         return refuse(&format!("the channels {}", names.join(" ")), "one channel, R G B, X Y Z or wavelengths");
     }
     let mut out = String::new();
-    if data.scatter() == Scatter::Transmission {
+    if scatter == Scatter::Transmission {
         let _ = writeln!(out, "# {TRANSMISSION}");
     }
     match data {
-        Data::Table(samples) if samples.refraction().is_some() => {
+        Data::Specular(samples) if samples.refraction().is_some() => {
             return refuse("refraction offsets", "none in this format");
         }
-        Data::Table(samples) => {
+        Data::Specular(samples) => {
             let mut knots = samples.knots().each_ref().map(|knots| degrees(knots));
             let is_constant = knots[3].len() == 1;
             if is_constant {
                 knots[3] = vec![0.0, 360.0];
             }
-            header(&mut out, &SPECULAR, data.channels());
+            header(&mut out, &SPECULAR, &channels);
             let texel = |[s, p, t, h]: [usize; 4]| samples.texel([s, p, t, if is_constant { 0 } else { h }]);
             grid(&mut out, &knots, texel);
         }
         Data::Spherical(grid_data) => {
             let knots = grid_data.knots().each_ref().map(|knots| degrees(knots));
-            let (sizes, count) = (knots.each_ref().map(Vec::len), data.channels().count());
-            header(&mut out, &SPHERICAL, data.channels());
+            let (sizes, count) = (knots.each_ref().map(Vec::len), channels.count());
+            header(&mut out, &SPHERICAL, &channels);
             grid(&mut out, &knots, |node| {
                 let at = (0..4).fold(0, |at, axis| at * sizes[axis] + node[axis]);
                 &grid_data.values()[at * count..][..count]
             });
         }
         Data::Scattered(scattered) => {
-            header(&mut out, &SPHERICAL, data.channels());
+            header(&mut out, &SPHERICAL, &channels);
             for (angles, values) in scattered.samples() {
                 line(&mut out, degrees(&angles).into_iter(), values);
             }
         }
-        Data::Specular(_) => return refuse("mirror reflectances", "values for pairs of directions"),
+        other => {
+            let found = other.representation().kind().name();
+            return refuse(found, "values on a grid of specular or spherical coordinates, or scattered samples");
+        }
     }
     write_whole(path, out.as_bytes())
 }

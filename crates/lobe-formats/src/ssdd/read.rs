@@ -3,11 +3,10 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use lobe_table::{Channels, Scatter, specular, spherical};
+use lobe_table::{Channels, Data, Scatter, mirror, specular, spherical};
 
 use crate::lines::shown;
-use crate::sheet::{Data, Part};
-use crate::{FormatError, Place, Specular};
+use crate::{FormatError, Part, Place};
 
 /// `true` where the lines at the start have `VERSION` and `DATA_TYPE`.
 pub fn matches(bytes: &[u8]) -> bool {
@@ -196,8 +195,8 @@ impl Header {
         let is_reflection = matches!(self.data_type.as_str(), "brdf" | "specular_reflectance");
         let scatter = if is_reflection { Scatter::Reflection } else { Scatter::Transmission };
         let data = if is_delta {
-            let specular = Specular::new(scatter, [p0, p1], channels, values);
-            Data::Specular(specular.ok_or_else(|| refused("angles that do not ascend strictly".into()))?)
+            let mirror = mirror::Data::new(scatter, [p0, p1], channels, values);
+            Data::Mirror(mirror.ok_or_else(|| refused("angles that do not ascend strictly".into()))?)
         } else if self.param_type == "spherical_coordinate_system" {
             let grid = spherical::Data::new(scatter, [p0, p1, p2, p3], channels, values);
             Data::Spherical(grid.map_err(|error| refused(error.to_string()))?)
@@ -207,7 +206,7 @@ impl Header {
                 Some(offsets) => samples.with_refraction(offsets),
                 None => Ok(samples),
             });
-            Data::Table(samples.map_err(|error| refused(error.to_string()))?)
+            Data::Specular(samples.map_err(|error| refused(error.to_string()))?)
         };
         Ok(Part::new(self.name, data))
     }

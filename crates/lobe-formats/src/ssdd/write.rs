@@ -3,11 +3,10 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use lobe_table::{Channels, Scatter};
+use lobe_table::{Channels, Data, Scatter};
 
-use crate::FormatError;
-use crate::sheet::{Data, Part};
 use crate::write::{unwritable, write_whole};
+use crate::{FormatError, Part};
 
 /// How values are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,14 +48,17 @@ fn unfit(why: &str) -> io::Error {
 
 fn data_type(data: &Data) -> io::Result<&'static str> {
     let is_delta = match data {
-        Data::Scattered(_) => return Err(unfit("an SSDD file holds grids, and these are scattered samples")),
         Data::Spherical(grid) if grid.is_mirrored() => {
             return Err(unfit("an SSDD file has no half of a grid in spherical coordinates"));
         }
-        Data::Table(_) | Data::Spherical(_) => false,
-        Data::Specular(_) => true,
+        Data::Specular(_) | Data::Spherical(_) => false,
+        Data::Mirror(_) => true,
+        other => {
+            let kind = other.representation().kind();
+            return Err(unfit(&format!("an SSDD file holds grids in specular or spherical coordinates, no {kind}")));
+        }
     };
-    Ok(match (data.scatter(), is_delta) {
+    Ok(match (data.representation().scatter(), is_delta) {
         (Scatter::Reflection, false) => "brdf",
         (Scatter::Transmission, false) => "btdf",
         (Scatter::Reflection, true) => "specular_reflectance",
@@ -66,17 +68,17 @@ fn data_type(data: &Data) -> io::Result<&'static str> {
 
 fn write_block(out: &mut Vec<u8>, block: &Part, data_type: &str, encoding: Encoding) -> io::Result<()> {
     let (params, offsets, values, system) = match &block.data {
-        Data::Table(samples) => {
+        Data::Specular(samples) => {
             (samples.knots().as_slice(), samples.refraction(), samples.values(), Some("specular_coordinate_system"))
         }
         Data::Spherical(grid) => (grid.knots().as_slice(), None, grid.values(), Some("spherical_coordinate_system")),
-        Data::Specular(specular) => (specular.knots().as_slice(), None, specular.values(), None),
+        Data::Mirror(mirror) => (mirror.knots().as_slice(), None, mirror.values(), None),
         // Refused before.
-        Data::Scattered(_) => return Ok(()),
+        _ => return Ok(()),
     };
-    let channels = block.data.channels();
+    let channels = block.data.representation().channels();
     writeln!(out, "\nDATA_TYPE {data_type}")?;
-    match channels {
+    match &channels {
         Channels::Mono => writeln!(out, "COLOR_MODEL monochrome")?,
         Channels::Rgb => writeln!(out, "COLOR_MODEL rgb")?,
         Channels::Xyz => writeln!(out, "COLOR_MODEL xyz")?,

@@ -10,13 +10,14 @@ use std::rc::Rc;
 
 use lobe_table::window::klems::{AngleBasis, KlemsMatrix};
 use lobe_table::window::tensor_tree::{Rank, TensorTree};
-use lobe_table::window::{self, Block, Component};
+use lobe_table::window::{Band, Block, Blocks, Component, Data};
 use quick_xml::Reader;
 use quick_xml::events::Event;
 
 use super::basis::BasisReader;
-use super::{Band, WindowXml, tree};
-use crate::{FormatError, Place};
+use super::tree;
+use super::words::{number, numbers, quoted};
+use crate::{FormatError, Measured, Place};
 
 /// Text of a file: UTF-8, or UTF-16 with a byte order mark. Bytes that are neither can only be in names.
 pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
@@ -61,7 +62,9 @@ struct BlockText<'a> {
 pub(super) struct Document<'a> {
     text: &'a str,
     file: &'a Path,
-    result: WindowXml,
+    name: String,
+    manufacturer: String,
+    data: Data,
     structure: Option<Structure>,
     basis: BasisReader,
     wavelength: String,
@@ -75,11 +78,13 @@ pub(super) struct Document<'a> {
 }
 
 impl<'a> Document<'a> {
-    pub(super) fn parse(text: &'a str, file: &'a Path) -> Result<WindowXml, FormatError> {
+    pub(super) fn parse(text: &'a str, file: &'a Path) -> Result<Measured<Data>, FormatError> {
         let mut document = Document {
             text,
             file,
-            result: WindowXml::default(),
+            name: String::new(),
+            manufacturer: String::new(),
+            data: Data::default(),
             structure: None,
             basis: BasisReader::default(),
             wavelength: String::new(),
@@ -92,10 +97,13 @@ impl<'a> Document<'a> {
         for block in std::mem::take(&mut document.blocks) {
             document.keep(&block)?;
         }
-        if document.result.bands.is_empty() {
+        if document.data.bands.is_empty() {
             return Err(FormatError::new(file, Place::File, "no WavelengthData with values", "at least one block"));
         }
-        Ok(document.result)
+        let source = [("name", document.name), ("manufacturer", document.manufacturer)];
+        let stated = source.into_iter().filter(|(_, value)| !value.is_empty());
+        let source = stated.map(|(name, value)| (name.into(), value)).collect();
+        Ok(Measured { data: document.data, source, tis: Vec::new() })
     }
 
     fn error(&self, at: usize, found: impl Into<String>, expected: impl Into<String>) -> FormatError {
@@ -174,8 +182,8 @@ impl<'a> Document<'a> {
         }
         let content = content.trim();
         match name {
-            "Name" => self.result.name = content.into(),
-            "Manufacturer" => self.result.manufacturer = content.into(),
+            "Name" => self.name = content.into(),
+            "Manufacturer" => self.manufacturer = content.into(),
             "Wavelength" => self.wavelength = content.into(),
             "IncidentDataStructure" => {
                 let known = [
@@ -245,9 +253,9 @@ impl<'a> Document<'a> {
             return Err(self.error(block.start, "a WavelengthDataBlock without them", "a direction and values"));
         };
         let component = self.component(block, values)?;
-        let bands = &mut self.result.bands;
+        let bands = &mut self.data.bands;
         let band = *self.bands.entry(wavelength.to_ascii_lowercase()).or_insert_with(|| {
-            bands.push(Band { wavelength: wavelength.to_string(), window: window::Blocks::default() });
+            bands.push(Band { wavelength: wavelength.to_string(), window: Blocks::default() });
             bands.len() - 1
         });
         if bands[band].window.set(direction, component).is_some() {
@@ -306,23 +314,4 @@ fn append<'a>(content: &mut Cow<'a, str>, more: Cow<'a, str>) {
     } else {
         content.to_mut().push_str(&more);
     }
-}
-
-/// The tokens between white space and commas, each with its offset.
-fn numbers(content: &str) -> impl Iterator<Item = (usize, &str)> {
-    let is_separator = |character: char| character.is_ascii_whitespace() || character == ',';
-    content
-        .split(is_separator)
-        .filter(|token| !token.is_empty())
-        .map(|token| (token.as_ptr() as usize - content.as_ptr() as usize, token))
-}
-
-/// A finite `f32`.
-pub(super) fn number(token: &str) -> Option<f32> {
-    token.parse().ok().filter(|value: &f32| value.is_finite())
-}
-
-/// A token as an error shows it, cut short.
-pub(super) fn quoted(token: &str) -> String {
-    format!("{:?}", token.chars().take(32).collect::<String>())
 }

@@ -7,42 +7,16 @@
 mod basis;
 mod document;
 mod tree;
+mod words;
 mod write;
 
 use std::path::Path;
 
 use lobe_table::window;
 
-use crate::FormatError;
+use crate::{FormatError, Measured};
 
 pub use write::write;
-
-/// What a file holds.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct WindowXml {
-    /// Name of the layer; may be empty.
-    pub name: String,
-    /// Its manufacturer; may be empty.
-    pub manufacturer: String,
-    /// The blocks by band of wavelengths, in the order of the file. No two bands have names that differ in case only.
-    pub bands: Vec<Band>,
-}
-
-/// The blocks of one band of wavelengths.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Band {
-    /// The name in the file, such as `Visible`, or a wavelength in nm.
-    pub wavelength: String,
-    /// The values.
-    pub window: window::Blocks,
-}
-
-impl WindowXml {
-    /// The values of a band by its name, in any case.
-    pub fn band(&self, wavelength: &str) -> Option<&window::Blocks> {
-        self.bands.iter().find(|band| band.wavelength.eq_ignore_ascii_case(wavelength)).map(|band| &band.window)
-    }
-}
 
 /// `true` where the file starts like one of these; lines before the XML are let pass, which real files have.
 pub fn matches(bytes: &[u8]) -> bool {
@@ -50,11 +24,11 @@ pub fn matches(bytes: &[u8]) -> bool {
     document::decode(&bytes[..bytes.len().min(HEAD)]).contains("<WindowElement")
 }
 
-/// Reads a file. `file` only names it in errors.
+/// Reads a file; the name of the layer and of its manufacturer are facts of the header. `file` only names it in errors.
 ///
 /// # Errors
 /// [`FormatError`] with the line: XML that is not well-formed or cut off, an unknown basis or direction, a count of
 /// values that does not fit the basis, braces that make no tree, and values that are no finite numbers.
-pub fn read(bytes: &[u8], file: &Path) -> Result<WindowXml, FormatError> {
+pub fn read(bytes: &[u8], file: &Path) -> Result<Measured<window::Data>, FormatError> {
     document::Document::parse(&document::decode(bytes), file)
 }

@@ -5,7 +5,7 @@
 
 use lobe_table::window::tensor_tree::{MAX_DEPTH, Node, Rank, TensorTree};
 
-use super::document::{number, quoted};
+use super::words::{number, quoted};
 
 /// Where in the text a tree is wrong.
 pub(super) struct TreeSyntax {

@@ -5,34 +5,33 @@ use std::path::Path;
 
 use lobe_table::window::klems::AngleBasis;
 use lobe_table::window::tensor_tree::{Node, Rank, TensorTree};
-use lobe_table::window::{Block, Component};
+use lobe_table::window::{Block, Component, Data};
 use quick_xml::escape::escape;
 
-use super::WindowXml;
 use crate::FormatError;
 use crate::write::{unwritable, write_whole};
 
 /// Writes a file that [`read`](super::read) gives back exactly: every basis is spelled out, and values have as many
-/// digits as they need. The file appears whole or not at all.
+/// digits as they need. The facts `name` and `manufacturer` of `source` become those of the layer. The file appears whole or not at all.
 ///
 /// # Errors
 /// [`FormatError`] where the file system refuses; and where no block is there, or matrices and trees, or trees of both
 /// ranks, are mixed, which a file cannot say.
-pub fn write(sheet: &WindowXml, path: &Path) -> Result<(), FormatError> {
-    write_whole(path, &to_bytes(sheet).map_err(|error| unwritable(path, &error))?)
+pub fn write(sheet: &Data, source: &[(String, String)], path: &Path) -> Result<(), FormatError> {
+    write_whole(path, &to_bytes(sheet, source).map_err(|error| unwritable(path, &error))?)
 }
 
-fn to_bytes(sheet: &WindowXml) -> io::Result<Vec<u8>> {
+fn to_bytes(sheet: &Data, source: &[(String, String)]) -> io::Result<Vec<u8>> {
     let mut out = Vec::new();
-    document(&mut out, sheet, structure(sheet)?)?;
+    document(&mut out, sheet, source, structure(sheet)?)?;
     Ok(out)
 }
 
-fn components(sheet: &WindowXml) -> impl Iterator<Item = &Component> {
+fn components(sheet: &Data) -> impl Iterator<Item = &Component> {
     sheet.bands.iter().flat_map(|band| Block::ALL.into_iter().filter_map(|block| band.window.block(block)))
 }
 
-fn structure(sheet: &WindowXml) -> io::Result<&'static str> {
+fn structure(sheet: &Data) -> io::Result<&'static str> {
     let name = |component: &Component| match component {
         Component::Klems(_) => "Columns",
         Component::Tree(tree) if tree.rank() == Rank::Three => "TensorTree3",
@@ -47,11 +46,15 @@ fn structure(sheet: &WindowXml) -> io::Result<&'static str> {
     }
 }
 
-fn document(out: &mut dyn Write, sheet: &WindowXml, structure: &str) -> io::Result<()> {
+fn document(out: &mut dyn Write, sheet: &Data, source: &[(String, String)], structure: &str) -> io::Result<()> {
     writeln!(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>")?;
     writeln!(out, "<WindowElement xmlns=\"http://windows.lbl.gov\">")?;
     writeln!(out, "<WindowElementType>System</WindowElementType>\n<FileType>BSDF</FileType>\n<Optical>\n<Layer>")?;
-    let (name, manufacturer) = (escape(sheet.name.as_str()), escape(sheet.manufacturer.as_str()));
+    let fact = |wanted: &str| {
+        let found = source.iter().find(|(name, _)| name == wanted);
+        escape(found.map_or("", |(_, value)| value.as_str()))
+    };
+    let (name, manufacturer) = (fact("name"), fact("manufacturer"));
     writeln!(out, "<Material><Name>{name}</Name><Manufacturer>{manufacturer}</Manufacturer></Material>")?;
     writeln!(out, "<DataDefinition>\n<IncidentDataStructure>{structure}</IncidentDataStructure>")?;
     bases(out, sheet)?;
@@ -66,7 +69,7 @@ fn document(out: &mut dyn Write, sheet: &WindowXml, structure: &str) -> io::Resu
     writeln!(out, "</Layer>\n</Optical>\n</WindowElement>")
 }
 
-fn bases(out: &mut dyn Write, sheet: &WindowXml) -> io::Result<()> {
+fn bases(out: &mut dyn Write, sheet: &Data) -> io::Result<()> {
     let mut written: Vec<&AngleBasis> = Vec::new();
     for component in components(sheet) {
         let Component::Klems(matrix) = component else { continue };

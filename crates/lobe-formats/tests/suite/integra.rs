@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
-use lobe_formats::{Document, Format, Measured, ddr, open, sdr};
+use lobe_formats::{Format, Measured, ddr, open, sdr};
 use lobe_table::specular::reference::eval;
-use lobe_table::{Channels, Edges, Scatter, specular};
+use lobe_table::{Channels, Data, Edges, Scatter, specular};
 use proptest::prelude::*;
 
 fn read(text: &str) -> Measured<specular::Data> {
@@ -220,20 +220,21 @@ proptest! {
         ddr::write(&samples, &path).unwrap();
         let (format, document) = open(&path).unwrap();
         prop_assert_eq!(format, Format::Ddr);
-        let Document::Table(back) = document else { panic!("no table") };
-        prop_assert_eq!(back.data.values(), samples.values());
-        prop_assert_eq!(back.data.channels(), samples.channels());
-        prop_assert_eq!(back.data.scatter(), samples.scatter());
+        let Some(Data::Specular(back)) = document.only() else { panic!("no table") };
+        prop_assert_eq!(back.values(), samples.values());
+        prop_assert_eq!(back.channels(), samples.channels());
+        prop_assert_eq!(back.scatter(), samples.scatter());
         let near = |a: &[f64], b: &[f64]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-15);
         for axis in 0..4 {
-            prop_assert!(back.data.knots()[axis] == samples.knots()[axis]);
+            prop_assert!(back.knots()[axis] == samples.knots()[axis]);
         }
         // The difference of two angles and their sum differ by one rounding.
-        prop_assert!(near(back.data.refraction().unwrap_or(&[]), samples.refraction().unwrap_or(&[])));
+        prop_assert!(near(back.refraction().unwrap_or(&[]), samples.refraction().unwrap_or(&[])));
         // And from then on everything is the same to the last bit.
-        ddr::write(&back.data, &path).unwrap();
-        let Document::Table(again) = open(&path).unwrap().1 else { panic!("no table") };
-        prop_assert_eq!(again.data, back.data);
+        ddr::write(back, &path).unwrap();
+        let document = open(&path).unwrap().1;
+        let Some(Data::Specular(again)) = document.only() else { panic!("no table") };
+        prop_assert_eq!(again, back);
     }
 }
 
@@ -270,7 +271,7 @@ fn mirror_reflectances_are_read_interpolated_and_written() {
     sdr::write(&specular, &path).unwrap();
     let (format, document) = open(&path).unwrap();
     assert_eq!(format, Format::Sdr);
-    let Document::Specular(back) = document else { panic!("no mirror reflectance") };
-    assert_eq!(back.data, specular);
+    let Some(Data::Mirror(back)) = document.only() else { panic!("no mirror reflectance") };
+    assert_eq!(*back, specular);
     assert!(sdr::write(&specular, &folder.path().join("t.sdt")).is_err());
 }

@@ -5,10 +5,9 @@ use std::io::Read as _;
 use std::path::Path;
 
 use lobe_formats::goniometer;
-use lobe_formats::sheet::{Data, Part};
 use lobe_formats::ssdd::{self, Encoding};
-use lobe_formats::{Document, Format, ddr, npz, open, zemax};
-use lobe_table::{Channels, Scatter, specular, spherical};
+use lobe_formats::{Format, Part, ddr, npz, open, zemax};
+use lobe_table::{Channels, Data, Scatter, specular, spherical};
 use lobe_testing::files::fixture;
 
 type Writer = fn(&specular::Data, &Path);
@@ -16,12 +15,9 @@ type Writer = fn(&specular::Data, &Path);
 const FIXTURES: [&str; 2] = ["conductor-7x8x13.ddr", "cloth-17x7x17x13.ddr"];
 
 fn table(path: &Path) -> specular::Data {
-    match open(path).expect("a file of a known format") {
-        (_, Document::Table(measured)) => measured.data,
-        (_, Document::Sheet(mut measured)) => match measured.data.pop().map(|part| part.data) {
-            Some(Data::Table(samples)) => samples,
-            other => panic!("{other:?}"),
-        },
+    let (_, mut document) = open(path).expect("a file of a known format");
+    match document.parts.pop().map(|part| part.data) {
+        Some(Data::Specular(samples)) => samples,
         other => panic!("{other:?}"),
     }
 }
@@ -53,14 +49,14 @@ fn the_way_through_ssdd_and_csv_loses_nothing() {
         let expected = ddr::text(&samples, Path::new("x.ddr")).expect("a DDR");
         let ways: [(&str, Writer); 3] = [
             ("ascii.ssdd", |samples, path| {
-                let part = Part::new("a name", Data::Table(samples.clone()));
+                let part = Part::new("a name", Data::Specular(samples.clone()));
                 ssdd::write(&[part], Encoding::Ascii, path).expect("written");
             }),
             ("binary.ssdd", |samples, path| {
-                let part = Part::new("a name", Data::Table(samples.clone()));
+                let part = Part::new("a name", Data::Specular(samples.clone()));
                 ssdd::write(&[part], Encoding::Binary, path).expect("written");
             }),
-            ("table.csv", |samples, path| goniometer::write(&Data::Table(samples.clone()), path).expect("written")),
+            ("table.csv", |samples, path| goniometer::write(&Data::Specular(samples.clone()), path).expect("written")),
         ];
         for (way, write) in ways {
             let path = folder.path().join(way);
@@ -80,9 +76,9 @@ fn zemax_files_come_back_with_their_total_scatter() {
     for (scatter, channels) in [(Scatter::Reflection, Channels::Xyz), (Scatter::Transmission, Channels::Mono)] {
         let samples = first_channel(&samples, scatter, channels.clone());
         zemax::write(&samples, &path).expect("written");
-        let (format, Document::Table(back)) = open(&path).expect("a Zemax file") else { panic!("no table") };
+        let (format, back) = open(&path).expect("a Zemax file");
         assert_eq!(format, Format::Zemax);
-        assert_eq!(back.data, samples);
+        assert!(matches!(back.only(), Some(Data::Specular(found)) if *found == samples));
         assert_eq!(back.tis.len(), 7 * channels.count());
         // Between its few knots at grazing incidence the table reflects a little more than the metal: 1.03.
         assert!(back.tis.iter().all(|tis| (0.1..1.04).contains(tis)), "{:?}", back.tis);
@@ -92,7 +88,7 @@ fn zemax_files_come_back_with_their_total_scatter() {
     let value = (0.6 / PI) as f32;
     let white = specular::Data::new(Scatter::Reflection, knots, Channels::Mono, vec![value; 12]).expect("a table");
     zemax::write(&white, &path).expect("written");
-    let Ok((_, Document::Table(back))) = open(&path) else { panic!("no table") };
+    let Ok((_, back)) = open(&path) else { panic!("no table") };
     assert!(back.tis.iter().all(|tis| (tis - 0.6).abs() < 1e-3), "{:?}", back.tis);
 }
 
@@ -120,9 +116,10 @@ fn columns_hold_every_kind_of_grid() {
     let knots = [vec![0.0, 0.5], vec![0.0], vec![0.1, 0.2, 0.3], vec![0.0, 1.0, 3.0, 6.0]];
     let grid = spherical::Data::new(Scatter::Transmission, knots, Channels::Mono, values).expect("a grid");
     goniometer::write(&Data::Spherical(grid.clone()), &path).expect("written");
-    let (_, Document::Spherical(back)) = open(&path).expect("a table") else { panic!("no grid") };
-    assert_eq!((back.data.scatter(), back.data.values()), (Scatter::Transmission, grid.values()));
-    for (knot, expected) in back.data.knots().concat().iter().zip(grid.knots().concat()) {
+    let (_, document) = open(&path).expect("a table");
+    let Some(Data::Spherical(back)) = document.only() else { panic!("no grid") };
+    assert_eq!((back.scatter(), back.values()), (Scatter::Transmission, grid.values()));
+    for (knot, expected) in back.knots().concat().iter().zip(grid.knots().concat()) {
         assert!((knot - expected).abs() < 1e-10);
     }
 
@@ -130,7 +127,7 @@ fn columns_hold_every_kind_of_grid() {
     let knots = [vec![0.0, 1.0], vec![0.0], vec![0.0, 0.5, 1.0], vec![0.0]];
     let channels = Channels::Spectral(vec![450.0, 632.8]);
     let ring = specular::Data::new(Scatter::Reflection, knots, channels.clone(), (0..12).map(|i| i as f32).collect());
-    goniometer::write(&Data::Table(ring.expect("a table")), &path).expect("written");
+    goniometer::write(&Data::Specular(ring.expect("a table")), &path).expect("written");
     let back = table(&path);
     assert_eq!(back.channels(), &channels);
     for node in 0..6 {
@@ -147,16 +144,18 @@ fn columns_of_scattered_samples_are_read_back() {
     let (first, second) = (folder.path().join("a.csv"), folder.path().join("b.csv"));
     std::fs::write(&first, "theta_i,theta_o,phi_o,550nm\n10,0,0,0.5\n10,20,0,0.25\n10,20,140,0.125\n")
         .expect("written");
-    let (_, Document::Scattered(samples)) = open(&first).expect("samples") else { panic!("not scattered") };
-    goniometer::write(&Data::Scattered(samples.data.clone()), &second).expect("written");
-    let (_, Document::Scattered(back)) = open(&second).expect("samples") else { panic!("not scattered") };
-    assert_eq!(back.data.channels(), samples.data.channels());
+    let (_, samples) = open(&first).expect("samples");
+    let Some(Data::Scattered(samples)) = samples.only() else { panic!("not scattered") };
+    goniometer::write(&Data::Scattered(samples.clone()), &second).expect("written");
+    let (_, back) = open(&second).expect("samples");
+    let Some(Data::Scattered(back)) = back.only() else { panic!("not scattered") };
+    assert_eq!(back.channels(), samples.channels());
     let sorted = |data: &lobe_table::scattered::Data| {
         let mut all: Vec<String> = data.samples().map(|(angles, f)| format!("{angles:.9?} {f:?}")).collect();
         all.sort();
         all
     };
-    assert_eq!(sorted(&back.data), sorted(&samples.data));
+    assert_eq!(sorted(back), sorted(samples));
 }
 
 /// What NumPy reads: the dictionary of the header and the data after it.
@@ -176,16 +175,16 @@ fn arrays_have_names_shapes_and_values() {
     let path = folder.path().join("table.npz");
     let (_, document) = open(&fixture(FIXTURES[0])).expect("a DDR");
     npz::write(&document, &path).expect("written");
-    let Document::Table(measured) = &document else { panic!("no table") };
+    let Some(Data::Specular(samples)) = document.only() else { panic!("no table") };
     let mut archive = zip::ZipArchive::new(std::fs::File::open(&path).expect("written")).expect("an archive");
     let (header, data) = member(&mut archive, "values.npy");
     assert_eq!(header, "{'descr': '<f4', 'fortran_order': False, 'shape': (7, 1, 8, 13, 3,), }");
     let values: Vec<f32> = data.as_chunks().0.iter().map(|x| f32::from_le_bytes(*x)).collect();
-    assert_eq!(values, measured.data.values());
+    assert_eq!(values, samples.values());
     let (header, data) = member(&mut archive, "theta.npy");
     assert_eq!(header, "{'descr': '<f8', 'fortran_order': False, 'shape': (8,), }");
     let knots: Vec<f64> = data.as_chunks().0.iter().map(|x| f64::from_le_bytes(*x)).collect();
-    assert_eq!(knots, measured.data.knots()[2]);
+    assert_eq!(knots, samples.knots()[2]);
     let (header, data) = member(&mut archive, "scatter.npy");
     assert_eq!(header, "{'descr': '<U10', 'fortran_order': False, 'shape': (), }");
     assert_eq!((data.len(), &data[..8]), (40, &b"r\0\0\0e\0\0\0"[..]));

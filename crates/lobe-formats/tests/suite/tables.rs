@@ -4,10 +4,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
 
 use lobe_formats::goniometer::Options;
-use lobe_formats::sheet::{Data, Part, Side};
 use lobe_formats::ssdd::Encoding;
-use lobe_formats::{FormatError, Place, Specular, astm, goniometer, light_tools, speos, ssdd};
-use lobe_table::{Channels, Scatter, specular, spherical};
+use lobe_formats::{FormatError, Part, Place, astm, goniometer, light_tools, speos, ssdd};
+use lobe_table::{Channels, Data, Scatter, Side, mirror, specular, spherical};
 use lobe_testing::examples::{ASTM, JSON, LIGHT_TOOLS, SSDD, csv, speos_file};
 use lobe_testing::files::{bytes, files, shared};
 
@@ -34,7 +33,7 @@ fn refused<T>(result: Result<T, FormatError>, place: Place, found: &str) {
 fn ssdd_blocks_are_put_in_order_and_unfolded() {
     assert!(ssdd::matches(SSDD.as_bytes()));
     let blocks = ssdd::read(SSDD.as_bytes(), file()).unwrap_or_else(|error| panic!("{error}"));
-    let Data::Table(samples) = &blocks[0].data else { panic!("specular coordinates") };
+    let Data::Specular(samples) = &blocks[0].data else { panic!("specular coordinates") };
     assert_eq!((blocks[0].name.as_str(), samples.scatter()), ("thin film", Scatter::Transmission));
     let phis: Vec<f64> = samples.knots()[3].iter().map(|phi| phi.to_degrees().round()).collect();
     assert_eq!(phis, [0.0, 90.0, 180.0, 270.0, 360.0]);
@@ -42,7 +41,7 @@ fn ssdd_blocks_are_put_in_order_and_unfolded() {
     assert_eq!(samples.texel([0, 0, 1, 0])[0], 2.0);
     assert_eq!([1, 2, 3, 4].map(|phi| samples.texel([1, 0, 1, phi])[0]), [7.0, 11.0, 7.0, 3.0]);
     assert_eq!(samples.refraction().map(|offsets| offsets[1].to_degrees().round()), Some(-5.0));
-    let Data::Specular(mirror) = &blocks[1].data else { panic!("a mirror") };
+    let Data::Mirror(mirror) = &blocks[1].data else { panic!("a mirror") };
     assert_eq!((mirror.values(), mirror.knots()[1].as_slice()), ([0.04, 1.0].as_slice(), [0.0].as_slice()));
 }
 
@@ -58,11 +57,11 @@ fn ssdd_survives_a_round_trip() {
     let grid = spherical::Data::new(Scatter::Transmission, knots, channels, values).expect("a grid");
     let knots = [radians(&[0.0, 90.0]), vec![0.0]];
     let values = vec![0.1, 0.2, 0.3, 1.0, 1.0, 1.0];
-    let mirror = Specular::new(Scatter::Reflection, knots, Channels::Xyz, values).expect("a mirror");
+    let mirror = mirror::Data::new(Scatter::Reflection, knots, Channels::Xyz, values).expect("a mirror");
     let blocks = [
-        Part::new("a b", Data::Table(samples)),
+        Part::new("a b", Data::Specular(samples)),
         Part::new("", Data::Spherical(grid)),
-        Part::new("c", Data::Specular(mirror)),
+        Part::new("c", Data::Mirror(mirror)),
     ];
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("table.ssdd");
@@ -75,7 +74,7 @@ fn ssdd_survives_a_round_trip() {
         for (found, wanted) in found.iter().zip(&blocks) {
             assert_eq!(found.name, wanted.name);
             match (&found.data, &wanted.data) {
-                (Data::Table(a), Data::Table(b)) => {
+                (Data::Specular(a), Data::Specular(b)) => {
                     assert_eq!((a.values(), a.channels(), a.scatter()), (b.values(), b.channels(), b.scatter()));
                     let knots = a.knots().iter().flatten().zip(b.knots().iter().flatten());
                     assert!(knots.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < 1e-11);
@@ -83,7 +82,7 @@ fn ssdd_survives_a_round_trip() {
                 (Data::Spherical(a), Data::Spherical(b)) => {
                     assert_eq!((a.values(), a.channels(), a.scatter()), (b.values(), b.channels(), b.scatter()));
                 }
-                (Data::Specular(a), Data::Specular(b)) => assert_eq!(a, b),
+                (Data::Mirror(a), Data::Mirror(b)) => assert_eq!(a, b),
                 _ => panic!("another kind of block"),
             }
         }
@@ -220,7 +219,7 @@ fn tables_of_goniometers_find_their_shape_and_unit() {
         assert_eq!(grid.knots().each_ref().map(Vec::len), [2, 1, 2, 4]);
     }
     let text = csv("phi_deg,sigma,theta,Y", 1.0);
-    let Ok(Data::Table(samples)) = goniometer::read(text.as_bytes(), file()) else { panic!("a grid") };
+    let Ok(Data::Specular(samples)) = goniometer::read(text.as_bytes(), file()) else { panic!("a grid") };
     assert_eq!(samples.texel([1, 0, 1, 1]), [9.0]);
     // A row less is no grid, and the direction of each row stays what it was.
     let less = text.rsplit_once("\n").and_then(|(text, _)| text.rsplit_once('\n')).expect("lines").0;

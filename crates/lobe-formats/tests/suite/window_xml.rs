@@ -2,19 +2,18 @@
 
 use std::path::Path;
 
-use lobe_formats::{FormatError, Place, window_xml};
+use lobe_formats::{FormatError, Measured, Place, window_xml};
 use lobe_table::window::klems::{AngleBasis, KlemsMatrix};
-use lobe_table::window::{self, Block, Component};
+use lobe_table::window::{self, Band, Block, Component, Data};
 use lobe_testing::examples::{NINE, TREE, sheet};
-use window_xml::{Band, WindowXml};
 
-fn read(text: &[u8]) -> Result<WindowXml, FormatError> {
+fn read(text: &[u8]) -> Result<Measured<Data>, FormatError> {
     window_xml::read(text, Path::new("sheet.xml"))
 }
 
 fn values(text: &str) -> Vec<f32> {
     let sheet = read(text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
-    match sheet.bands[0].window.block(Block::ReflectionBack) {
+    match sheet.data.bands[0].window.block(Block::ReflectionBack) {
         Some(Component::Klems(matrix)) => matrix.values().to_vec(),
         Some(Component::Tree(tree)) => tree.values().to_vec(),
         None => panic!("no block"),
@@ -31,7 +30,10 @@ fn refused(text: &str, place: Place, found: &str) {
 fn columns_and_rows_are_transposed() {
     assert_eq!(values(&sheet("Columns", NINE)), [1.0, 4.0, 7.0, 2.0, 5.0, 8.0, 3.0, 6.0, 9.0]);
     assert_eq!(values(&sheet("Rows", NINE)), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
-    assert_eq!(read(sheet("Rows", NINE).as_bytes()).map(|sheet| sheet.name), Ok("a & b".into()));
+    assert_eq!(
+        read(sheet("Rows", NINE).as_bytes()).map(|sheet| sheet.source),
+        Ok(vec![("name".into(), "a & b".into())])
+    );
 }
 
 #[test]
@@ -157,12 +159,13 @@ fn matrices_of_every_basis_survive_a_round_trip() {
         window.set(Block::ReflectionBack, Component::Klems(matrix));
         let band = |name: &str| Band { wavelength: name.into(), window: window.clone() };
         let bands = vec![band("Visible"), band("CIE-X"), band("NIR")];
-        let written = WindowXml { name: "a < b & \"c\"".into(), manufacturer: "d".into(), bands };
-        window_xml::write(&written, &path).expect("a written file");
+        let source = vec![("name".into(), "a < b & \"c\"".into()), ("manufacturer".into(), "d".into())];
+        let written = Measured { data: Data { bands }, source, tis: Vec::new() };
+        window_xml::write(&written.data, &written.source, &path).expect("a written file");
         let found = window_xml::read(&std::fs::read(&path).expect("the file"), &path);
         assert_eq!(found.as_ref(), Ok(&written));
     }
-    let empty = window_xml::write(&WindowXml::default(), &folder.path().join("empty.xml"));
+    let empty = window_xml::write(&Data::default(), &[], &folder.path().join("empty.xml"));
     assert!(empty.unwrap_err().to_string().contains("no block of values to write; expected a material that fits"));
     assert_eq!(folder.path().read_dir().expect("the folder").count(), 1, "one file and nothing half-written");
 }

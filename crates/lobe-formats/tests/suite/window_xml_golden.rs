@@ -11,7 +11,7 @@ fn visible(path: &Path) -> window::Blocks {
     let bytes = bytes(path);
     assert!(window_xml::matches(&bytes), "{}", path.display());
     let sheet = window_xml::read(&bytes, path).unwrap_or_else(|error| panic!("{error}"));
-    sheet.band("visible").expect("a visible band").clone()
+    sheet.data.band("visible").expect("a visible band").clone()
 }
 
 /// Radiance moves values by up to 3.5e-4 on purpose, to break ties when it samples.
@@ -71,10 +71,10 @@ fn every_real_file_loads_and_survives_a_round_trip() {
     for path in files(&data.join("klems_xml")).into_iter().chain(files(&data.join("tensortree_xml"))) {
         let sheet = window_xml::read(&bytes(&path), &path).unwrap_or_else(|error| panic!("{error}"));
         let copy = target.path().join("copy.xml");
-        window_xml::write(&sheet, &copy).expect("a written copy");
+        window_xml::write(&sheet.data, &sheet.source, &copy).expect("a written copy");
         let again = window_xml::read(&bytes(&copy), &copy).unwrap_or_else(|error| panic!("{error}"));
         assert!(sheet == again, "{}", path.display());
-        let bands: Vec<&str> = sheet.bands.iter().map(|band| band.wavelength.as_str()).collect();
-        println!("{:?} by {:?}: {bands:?}", sheet.name, sheet.manufacturer);
+        let bands: Vec<&str> = sheet.data.bands.iter().map(|band| band.wavelength.as_str()).collect();
+        println!("{:?}: {bands:?}", sheet.source);
     }
 }

@@ -4,52 +4,49 @@ use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
 
 use lobe_formats::Document;
-use lobe_formats::sheet::Data;
-use lobe_table::window::Block;
-use lobe_table::{scattered, specular, specular::AXIS_NAMES};
+use lobe_table::specular::AXIS_NAMES;
+use lobe_table::window::{Band, Block};
+use lobe_table::{Data, scattered, specular};
 
 use super::{Finding, Status, degrees, part_name, percent};
 use crate::directions::spherical;
 use crate::samples::{directions, nodes};
-use crate::subject::aspect_of;
 
 pub(super) fn check(document: &Document) -> Vec<Finding> {
-    match document {
-        Document::Table(measured) => dark_nodes(&measured.data, "").into_iter().collect(),
-        Document::Scattered(measured) => of_samples(&measured.data, ""),
-        Document::Sheet(measured) => {
-            let of_part = |part: &lobe_formats::sheet::Part| match &part.data {
-                Data::Table(data) => dark_nodes(data, &part_name(part)).into_iter().collect(),
-                Data::Scattered(data) => of_samples(data, &part_name(part)),
-                Data::Spherical(_) | Data::Specular(_) => Vec::new(),
-            };
-            measured.data.iter().flat_map(of_part).collect()
-        }
-        Document::Window(measured) => {
-            let mut findings = Vec::new();
-            for band in &measured.data.bands {
-                let missing: Vec<String> = Block::ALL
-                    .into_iter()
-                    .filter(|&block| band.window.block(block).is_none())
-                    .map(|block| aspect_of(block).to_string())
-                    .collect();
-                let (status, text) = match missing.as_slice() {
-                    [] => (Status::Pass, "transmission and reflection of both sides".into()),
-                    [one] if one.starts_with("transmission") => {
-                        (Status::Note, format!("no {one}: the transmission of the other side serves for it"))
-                    }
-                    _ => (Status::Warn, format!("no {}: dark there", missing.join(", no "))),
-                };
-                findings.push(Finding::new("coverage", &band.wavelength, status, text));
-            }
-            findings
-        }
-        Document::Utia(_) => {
-            let text = "both directions from 0 to 75 degrees; beyond, values are extrapolated".into();
-            vec![Finding::new("coverage", "", Status::Note, text)]
-        }
-        _ => Vec::new(),
+    document.parts.iter().flat_map(|part| of_part(&part.data, &part_name(document, part))).collect()
+}
+
+fn of_part(data: &Data, name: &str) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    if let Data::Specular(samples) = data {
+        findings.extend(dark_nodes(samples, name));
     }
+    if let Data::Scattered(scattered) = data {
+        findings.extend(of_samples(scattered, name));
+    }
+    if let Data::Window(window) = data {
+        findings.extend(window.bands.iter().map(of_band));
+    }
+    let extent = data.representation().extent();
+    findings.extend(extent.map(|extent| Finding::new("coverage", name, Status::Note, extent.into())));
+    findings
+}
+
+/// Which sides and ways a band of a window has.
+fn of_band(band: &Band) -> Finding {
+    let missing: Vec<String> = Block::ALL
+        .into_iter()
+        .filter(|&block| band.window.block(block).is_none())
+        .map(|block| block.aspect().to_string())
+        .collect();
+    let (status, text) = match missing.as_slice() {
+        [] => (Status::Pass, "transmission and reflection of both sides".into()),
+        [one] if one.starts_with("transmission") => {
+            (Status::Note, format!("no {one}: the transmission of the other side serves for it"))
+        }
+        _ => (Status::Warn, format!("no {}: dark there", missing.join(", no "))),
+    };
+    Finding::new("coverage", &band.wavelength, status, text)
 }
 
 /// Nodes of a table above the horizon that are exactly dark, and which share of the hemisphere they are.

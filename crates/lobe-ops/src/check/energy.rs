@@ -2,9 +2,7 @@
 
 use std::f64::consts::PI;
 
-use lobe_formats::Document;
-use lobe_formats::sheet::Data;
-use lobe_table::scattered;
+use lobe_table::{Data, scattered};
 
 use super::coverage::is_in_plane;
 use super::{Finding, Status, Thoroughness, degrees, percent};
@@ -56,7 +54,7 @@ pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness, progress: im
     }
     findings.extend(sides(&all));
     findings.extend(tis(subject, effort));
-    if matches!(subject.document, Document::Utia(_)) {
+    if !subject.document.parts.iter().all(|part| part.data.representation().has_known_unit()) {
         let text = "the unit of this database is not documented; albedos are those of the numbers as they are stored";
         findings.push(Finding::new("unit", "", Status::Warn, text.into()));
     }
@@ -64,9 +62,8 @@ pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness, progress: im
 }
 
 fn scattered(subject: &Subject, aspect: Aspect) -> Option<&scattered::Data> {
-    match (&subject.document, subject.part(aspect)) {
-        (Document::Scattered(measured), _) => Some(&measured.data),
-        (_, Some(Data::Scattered(data))) => Some(data),
+    match subject.data(aspect) {
+        Some(Data::Scattered(data)) => Some(data),
         _ => None,
     }
 }
@@ -209,9 +206,8 @@ fn sides(all: &[(Aspect, Vec<Albedo>)]) -> Vec<Finding> {
 
 /// The total integrated scatter that a Zemax file states, `[channel][psi][sigma]`, against the integral of its values.
 fn tis(subject: &Subject, effort: Effort) -> Option<Finding> {
-    let stated = subject.document.tis();
-    let Document::Table(measured) = &subject.document else { return None };
-    let knots = measured.data.knots();
+    let stated = &subject.document.tis;
+    let knots = subject.document.only()?.representation().grid().filter(|grid| grid.is_specular)?.knots;
     let (sigmas, psis) = (knots[0].len(), knots[1].len());
     if stated.is_empty() || !stated.len().is_multiple_of(sigmas * psis) {
         return None;

@@ -1,21 +1,19 @@
 //! Grids of four angles, whatever they are about, and what has to hold at their knots and poles.
 
 use std::f64::consts::FRAC_PI_2;
-
-use lobe_table::{specular, specular::AXIS_NAMES, spherical};
+use std::ops::Deref;
 
 use super::{Finding, Status, degrees, percent};
 
-/// A grid in specular or in spherical coordinates: polar angle and azimuth of the light, then of the viewer.
-pub(super) struct Grid<'a> {
-    pub(super) names: [&'static str; 4],
-    pub(super) knots: &'a [Vec<f64>; 4],
-    pub(super) values: &'a [f32],
-    pub(super) channels: usize,
-    /// The azimuths of the viewer cover half a turn, and that is how it is meant.
-    pub(super) is_mirrored: bool,
-    /// The viewer's angles are about the mirror direction.
-    pub(super) is_specular: bool,
+/// A grid whose knots and poles are looked at.
+pub(super) struct Grid<'a>(pub(super) lobe_table::data::Grid<'a>);
+
+impl<'a> Deref for Grid<'a> {
+    type Target = lobe_table::data::Grid<'a>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.0
+    }
 }
 
 /// At the pole all azimuths are one direction: a difference of this part of the values there is more than rounding.
@@ -24,28 +22,6 @@ const SAME: f64 = 1e-3;
 const APART: f64 = 0.05;
 
 impl<'a> Grid<'a> {
-    pub(super) fn of_table(samples: &'a specular::Data) -> Self {
-        Grid {
-            names: AXIS_NAMES,
-            knots: samples.knots(),
-            values: samples.values(),
-            channels: samples.channels().count(),
-            is_mirrored: false,
-            is_specular: true,
-        }
-    }
-
-    pub(super) fn of_spherical(grid: &'a spherical::Data) -> Self {
-        Grid {
-            names: lobe_table::scattered::ANGLE_NAMES,
-            knots: grid.knots(),
-            values: grid.values(),
-            channels: grid.channels().count(),
-            is_mirrored: grid.is_mirrored(),
-            is_specular: false,
-        }
-    }
-
     /// The channels at a node.
     pub(super) fn texel(&self, node: [usize; 4]) -> &'a [f32] {
         let at = node.into_iter().zip(self.knots).fold(0, |at, (index, knots)| at * knots.len() + index);

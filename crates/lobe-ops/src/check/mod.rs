@@ -14,8 +14,8 @@ mod values;
 use std::collections::BTreeMap;
 use std::fmt;
 
-use lobe_formats::Document;
-use lobe_formats::sheet::Data;
+use lobe_formats::{Document, Part};
+use lobe_table::{Aspect, Side};
 use serde::Serialize;
 
 use crate::Subject;
@@ -116,29 +116,18 @@ pub fn worst(findings: &[Finding]) -> Status {
 
 /// The grids of a file, and what they are called.
 fn grids(document: &Document) -> Vec<(String, Grid<'_>)> {
-    match document {
-        Document::Table(measured) => vec![(String::new(), Grid::of_table(&measured.data))],
-        Document::Spherical(measured) => vec![(String::new(), Grid::of_spherical(&measured.data))],
-        Document::Sheet(measured) => {
-            let parts = measured.data.iter().filter_map(|part| {
-                let grid = match &part.data {
-                    Data::Table(data) => Grid::of_table(data),
-                    Data::Spherical(data) => Grid::of_spherical(data),
-                    Data::Scattered(_) | Data::Specular(_) => return None,
-                };
-                Some((part_name(part), grid))
-            });
-            parts.collect()
-        }
-        _ => Vec::new(),
-    }
+    let grid = |part| Some((part_name(document, part), Grid(part.data.representation().grid()?)));
+    document.parts.iter().filter_map(grid).collect()
 }
 
-/// What a part of a sheet is called.
-fn part_name(part: &lobe_formats::sheet::Part) -> String {
-    let light = part.side.unwrap_or(lobe_formats::sheet::Side::Front);
-    let aspect = crate::Aspect { scatter: part.data.scatter(), light };
-    let kind = if matches!(part.data, Data::Specular(_)) { "mirror " } else { "" };
+/// What a part of a sheet is called; nothing if it is all that there is.
+fn part_name(document: &Document, part: &Part) -> String {
+    if !document.is_sheet() {
+        return String::new();
+    }
+    let data = part.data.representation();
+    let aspect = Aspect { scatter: data.scatter(), light: part.side.unwrap_or(Side::Front) };
+    let kind = if data.mirror().is_some() { "mirror " } else { "" };
     format!("{} {kind}{aspect}", part.name).trim().into()
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use lobe::{Material, Options};
-use lobe_formats::{Document, Format, Measured};
+use lobe_formats::{Document, Format};
 use lobe_table::{Channels, Scatter, specular};
 
 use super::*;
@@ -13,7 +13,7 @@ use crate::testing::degrees as radians;
 const THETAS: [f64; 6] = [0.0, 5.0, 20.0, 60.0, 120.0, 180.0];
 
 fn subject(samples: specular::Data, tis: Vec<f32>) -> Subject {
-    let document = Document::Table(Measured { data: samples, source: Vec::new(), tis });
+    let document = Document { tis, ..Document::new(samples) };
     let material = Material::new(Path::new("test"), Format::Zemax, document.clone(), &Options::default());
     Subject::new(Format::Zemax, document, material.expect("a material"), &Options::default())
 }

@@ -2,12 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use lobe_formats::Document;
-use lobe_formats::sheet::Data;
-use lobe_table::window::{Block, Component};
+use lobe_formats::{Document, Part};
+use lobe_table::data::Gaps;
 
 use super::{Finding, Status, part_name, percent};
-use crate::subject::aspect_of;
 
 /// A number that is this share of all, and is not 0, did not come from a measurement alone.
 const OFTEN: f64 = 0.02;
@@ -20,55 +18,24 @@ pub(super) fn check(document: &Document) -> Vec<Finding> {
         findings.extend(negative(&part, &values));
         findings.extend(repeated(&part, &values));
     }
-    if let Some(gaps) = gaps(document) {
-        findings.push(gaps);
-    }
+    findings.extend(document.parts.iter().filter_map(|part| gaps(document, part)));
     findings
 }
 
-/// The numbers that stand for light, with their meaning for people; without those that mean a gap.
+/// The numbers that stand for light, with the names of the parts; without those that mean a gap.
 fn numbers(document: &Document) -> Vec<(String, Vec<f32>)> {
-    let data = |data: &Data| match data {
-        Data::Table(data) => data.values().to_vec(),
-        Data::Spherical(data) => data.values().to_vec(),
-        Data::Scattered(data) => data.samples().flat_map(|(_, texel)| texel.to_vec()).collect(),
-        Data::Specular(data) => data.values().to_vec(),
-    };
-    let whole = |values: Vec<f32>| vec![(String::new(), values)];
-    match document {
-        Document::Table(measured) => whole(measured.data.values().to_vec()),
-        Document::Specular(measured) => whole(measured.data.values().to_vec()),
-        Document::Spherical(measured) => whole(measured.data.values().to_vec()),
-        Document::Scattered(measured) => whole(measured.data.samples().flat_map(|(_, texel)| texel.to_vec()).collect()),
-        Document::Sheet(measured) => measured.data.iter().map(|part| (part_name(part), data(&part.data))).collect(),
-        Document::Rgl(measured) => whole(measured.data.parts().spectra.texels().to_vec()),
-        // A negative number in any channel is a gap, not a value.
-        Document::HalfDiff(measured) => {
-            let [h, d, p] = measured.data.bins();
-            let bins = (0..h * d * p).map(|i| [i / (d * p), i / p % d, i % p]);
-            whole(bins.filter(|&bin| measured.data.is_measured(bin)).flat_map(|bin| measured.data.texel(bin)).collect())
+    let mut numbers = Vec::new();
+    for part in &document.parts {
+        let data = part.data.representation();
+        for section in data.sections() {
+            let name = match data.is_two_sided() {
+                true => format!("{} {}", section.channels.names().join(" "), section.aspect),
+                false => part_name(document, part),
+            };
+            numbers.push((name, section.measured().to_vec()));
         }
-        Document::Utia(measured) => whole(measured.data.values().iter().map(|&value| value as f32).collect()),
-        // The first element is the light; the others have a sign.
-        Document::Mueller(measured) => {
-            whole(measured.data.values().iter().copied().step_by(16).filter(|value| !value.is_nan()).collect())
-        }
-        Document::Window(measured) => {
-            let mut parts = Vec::new();
-            for band in &measured.data.bands {
-                for block in Block::ALL {
-                    let values = match band.window.block(block) {
-                        Some(Component::Klems(matrix)) => matrix.values(),
-                        Some(Component::Tree(tree)) => tree.values(),
-                        None => continue,
-                    };
-                    parts.push((format!("{} {}", band.wavelength, aspect_of(block)), values.to_vec()));
-                }
-            }
-            parts
-        }
-        _ => Vec::new(),
     }
+    numbers
 }
 
 fn negative(part: &str, values: &[f32]) -> Option<Finding> {
@@ -130,30 +97,18 @@ fn repeated(part: &str, values: &[f32]) -> Option<Finding> {
 }
 
 /// What the file itself says was not measured.
-fn gaps(document: &Document) -> Option<Finding> {
-    let (gaps, all, what) = match document {
-        Document::HalfDiff(measured) => {
-            let [h, d, p] = measured.data.bins();
-            let bins = (0..h * d * p).map(|i| [i / (d * p), i / p % d, i % p]);
-            (bins.filter(|&bin| !measured.data.is_measured(bin)).count(), h * d * p, "bins")
-        }
-        Document::Mueller(measured) => {
-            let first = measured.data.values().iter().step_by(16);
-            (first.clone().filter(|value| value.is_nan()).count(), first.count(), "matrices")
-        }
-        Document::Rgl(measured) => {
-            let valid = measured.data.parts().valid.as_ref()?;
-            let set: usize = valid.iter().map(|byte| byte.count_ones() as usize).sum();
-            let text =
-                format!("the mask in the file marks {set} of {} texels as valid; no program uses it", 8 * valid.len());
-            let finding = Finding::new("gaps", "", Status::Note, text);
-            return Some(finding.number("valid", set as f64).number("of", 8.0 * valid.len() as f64));
-        }
-        _ => return None,
-    };
-    let share = gaps as f64 / all.max(1) as f64;
+fn gaps(document: &Document, part: &Part) -> Option<Finding> {
+    let Gaps { missing, all, of, is_used } = part.data.representation().gaps()?;
+    let name = part_name(document, part);
+    if !is_used {
+        let set = all - missing;
+        let text = format!("the mask in the file marks {set} of {all} {of} as valid; no program uses it");
+        let finding = Finding::new("gaps", &name, Status::Note, text);
+        return Some(finding.number("valid", set as f64).number("of", all as f64));
+    }
+    let share = missing as f64 / all.max(1) as f64;
     let text =
-        format!("{gaps} of {all} {what} ({}) were not measured, those below the horizon among them", percent(share));
-    let status = if gaps == 0 { Status::Pass } else { Status::Note };
-    Some(Finding::new("gaps", "", status, text).number("gaps", gaps as f64).number("of", all as f64))
+        format!("{missing} of {all} {of} ({}) were not measured, those below the horizon among them", percent(share));
+    let status = if missing == 0 { Status::Pass } else { Status::Note };
+    Some(Finding::new("gaps", &name, status, text).number("gaps", missing as f64).number("of", all as f64))
 }

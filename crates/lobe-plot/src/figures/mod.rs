@@ -9,7 +9,7 @@ mod sphere;
 use std::fmt;
 
 use lobe::Scatter;
-use lobe::formats::sheet::Side;
+use lobe::Side;
 
 use crate::evaluate::Progress;
 use crate::scale::minus;

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use lobe::formats::{Document, FormatError, Specular};
+use lobe::formats::FormatError;
+use lobe::table::mirror;
 use lobe::{Given, Material, OpenError, Options, Sampler, SamplerError, SamplerOptions, Scatter};
 use lobe_colour::Reduction;
 
@@ -34,10 +35,10 @@ pub enum MaterialError {
 /// [`MaterialError`] names the file.
 pub fn open(path: &Path, options: &Options, backend: Backend) -> Result<Arc<dyn Shader<3>>, MaterialError> {
     let (format, document) = lobe::formats::open(path)?;
-    if let Document::Specular(measured) = &document
-        && measured.data.scatter() == Scatter::Reflection
+    if let Some(data) = document.only().and_then(|data| data.representation().mirror())
+        && data.scatter() == Scatter::Reflection
     {
-        return Ok(Arc::new(DeltaShader(mirror(&measured.data))));
+        return Ok(Arc::new(DeltaShader(mirror(data))));
     }
     prepare(Material::new(path, format, document, options)?, path, backend)
 }
@@ -63,7 +64,7 @@ fn prepare(material: Material, path: &Path, backend: Backend) -> Result<Arc<dyn 
 }
 
 /// Reflectance by the angle of the light, averaged over its azimuths.
-fn mirror(specular: &Specular) -> Delta<3> {
+fn mirror(specular: &mirror::Data) -> Delta<3> {
     let [sigma, psi] = specular.knots();
     let reduction = Reduction::for_display(specular.channels());
     let mut colours = vec![[0.0; 3]; sigma.len() * psi.len()];

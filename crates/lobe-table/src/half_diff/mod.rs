@@ -8,6 +8,7 @@
 
 mod lanes;
 mod reference;
+mod representation;
 #[cfg(test)]
 mod tests;
 
@@ -16,6 +17,7 @@ use std::f64::consts::{PI, TAU};
 use crate::invalid::{Invalid, count, finite};
 
 pub use lanes::Table;
+pub use representation::KIND;
 
 /// How to look up values on a grid of half and difference angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -78,6 +80,12 @@ impl Data {
         assert!(bin[0] < h && bin[1] < d && bin[2] < p, "bin {bin:?} of {:?}", self.bins);
         let at = (bin[0] * d + bin[1]) * p + bin[2];
         [0, 1, 2].map(|channel| self.values[channel * h * d * p + at])
+    }
+
+    /// All bins, in the order of the values.
+    pub(crate) fn each_bin(&self) -> impl Iterator<Item = [usize; 3]> + use<> {
+        let [h, d, p] = self.bins;
+        (0..h * d * p).map(move |index| [index / (d * p), index / p % d, index % p])
     }
 
     /// Whether a bin was measured: below the horizon, and where a measurement failed, the file has negative numbers.

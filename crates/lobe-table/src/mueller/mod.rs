@@ -9,6 +9,7 @@
 
 mod lanes;
 mod reference;
+mod representation;
 #[cfg(test)]
 mod tests;
 
@@ -16,6 +17,7 @@ use crate::invalid::{Invalid, ascending, count};
 
 pub use lanes::Table;
 pub use reference::{coordinates, plane_normal, rounding, stokes_basis};
+pub use representation::KIND;
 
 /// A 4 x 4 matrix, `[row][column]`, that turns a Stokes vector of the incoming light into one of the outgoing light.
 pub type Matrix = [[f64; 4]; 4];

@@ -13,6 +13,7 @@
 mod lanes;
 mod marginal;
 mod reference;
+mod representation;
 
 #[cfg(test)]
 mod tests;
@@ -20,6 +21,7 @@ mod tests;
 pub use lanes::{Drawn, Options, Table, Wanted};
 pub use marginal::{Blend, Warp};
 pub use reference::{Reference, Sample, UniformOrder};
+pub use representation::KIND;
 
 use crate::Channels;
 use crate::invalid::{Invalid, ascending, count, finite};

@@ -9,10 +9,12 @@
 
 mod line;
 mod mesh;
+mod representation;
 
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+pub use representation::KIND;
 use thiserror::Error;
 
 use crate::{Channels, Scatter};

@@ -8,8 +8,10 @@ mod data;
 pub(crate) mod eval;
 mod interpolate;
 pub mod reference;
+mod representation;
 mod single;
 mod table;
 
 pub use data::{AXIS_NAMES, Data};
+pub use representation::KIND;
 pub use table::{Table, TableError};

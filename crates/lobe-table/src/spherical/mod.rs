@@ -1,6 +1,10 @@
 //! Measurements on a grid of ordinary spherical coordinates of both directions.
 
+mod representation;
+
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+pub use representation::KIND;
 
 use crate::scattered::ANGLE_NAMES;
 use crate::{Channels, GridError, Scatter};

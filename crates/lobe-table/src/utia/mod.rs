@@ -8,12 +8,14 @@
 
 mod lanes;
 mod reference;
+mod representation;
 #[cfg(test)]
 mod tests;
 
 use crate::invalid::{Invalid, count};
 
 pub use lanes::Table;
+pub use representation::KIND;
 
 /// Degrees between two zenith angles, and between two azimuths.
 const STEPS: [f64; 2] = [15.0, 7.5];

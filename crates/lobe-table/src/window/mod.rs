@@ -1,17 +1,20 @@
 //! A sheet of material with two sides: which block of values answers for which pair of directions.
 //!
-//! [`Blocks`] are the values of one band of wavelengths, with their evaluation in `f64`; a [`Table`] has several
-//! bands, made ready for evaluation in SIMD lanes.
+//! [`Blocks`] are the values of one band of wavelengths, with their evaluation in `f64`; [`Data`] are several bands, and a
+//! [`Table`] is the same made ready for evaluation in SIMD lanes.
 
+mod data;
 pub mod klems;
 mod lanes;
 pub mod tensor_tree;
 #[cfg(test)]
 mod tests;
 
+use crate::{Aspect, Scatter, Side};
 use klems::KlemsMatrix;
 use tensor_tree::TensorTree;
 
+pub use data::{Band, Data};
 pub use lanes::Table;
 
 /// The values of one block, in the form its file has them.
@@ -69,7 +72,38 @@ impl Block {
         }
     }
 
-    /// The block for light from `wi` to `wo`; `None` where either grazes the surface.
+    /// The name that WINDOW files give it, in lower case.
+    pub fn name(self) -> &'static str {
+        match self {
+            Block::TransmissionFront => "transmission front",
+            Block::TransmissionBack => "transmission back",
+            Block::ReflectionFront => "reflection front",
+            Block::ReflectionBack => "reflection back",
+        }
+    }
+
+    /// The measurement that this block is. The front of a WINDOW file is the side of z < 0.
+    pub fn aspect(self) -> Aspect {
+        let (scatter, light) = match self {
+            Block::TransmissionFront => (Scatter::Transmission, Side::Back),
+            Block::TransmissionBack => (Scatter::Transmission, Side::Front),
+            Block::ReflectionFront => (Scatter::Reflection, Side::Back),
+            Block::ReflectionBack => (Scatter::Reflection, Side::Front),
+        };
+        Aspect { scatter, light }
+    }
+
+    /// The block of a measurement.
+    pub fn of_aspect(aspect: Aspect) -> Block {
+        match (aspect.scatter, aspect.light) {
+            (Scatter::Transmission, Side::Back) => Block::TransmissionFront,
+            (Scatter::Transmission, Side::Front) => Block::TransmissionBack,
+            (Scatter::Reflection, Side::Back) => Block::ReflectionFront,
+            (Scatter::Reflection, Side::Front) => Block::ReflectionBack,
+        }
+    }
+
+    /// The block for light from `wi` to `wo`; `None` if either grazes the surface.
     ///
     /// The front of a WINDOW file is the side of z < 0: Radiance, whose front is +z, and WINDOW call the sides by each
     /// other's names.

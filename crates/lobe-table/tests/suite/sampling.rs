@@ -4,10 +4,9 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use lobe_formats::Document;
 use lobe_lane::{Kernel, Lanes};
 use lobe_table::{
-    Channels, DistributionError, Edges, Given, Sampled, Sampler, SamplerError, SamplerOptions, Scatter, specular,
+    Channels, Data, DistributionError, Edges, Given, Sampled, Sampler, SamplerError, SamplerOptions, Scatter, specular,
     specular::coords,
 };
 use rand::{RngExt, SeedableRng};
@@ -16,8 +15,8 @@ use rand_pcg::Pcg32;
 const REFERENCE: lobe_scalar::Scalar<1> = lobe_scalar::Scalar::<1>;
 
 fn fixture(name: &str) -> specular::Data {
-    match lobe_formats::open(&lobe_testing::files::fixture(name)).unwrap().1 {
-        Document::Table(measured) => measured.data,
+    match lobe_formats::open(&lobe_testing::files::fixture(name)).unwrap().1.only() {
+        Some(Data::Specular(samples)) => samples.clone(),
         _ => panic!("{name} is no table"),
     }
 }

@@ -1,15 +1,13 @@
 //! Light that is mirrored, or goes straight through: what has no value for a pair of directions.
 
-use lobe_formats::Specular;
-use lobe_formats::sheet::Side;
-use lobe_table::Scatter;
+use lobe_table::{Scatter, Side, mirror};
 
 /// A mirror reflectance or a transmittance straight through, and the side from which it was measured.
 #[derive(Clone, Debug)]
 pub(crate) struct Mirror {
     /// `None` holds for both sides.
     pub(crate) side: Option<Side>,
-    pub(crate) data: Specular,
+    pub(crate) data: mirror::Data,
 }
 
 impl Mirror {

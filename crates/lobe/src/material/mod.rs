@@ -14,12 +14,11 @@ mod window;
 
 use std::path::Path;
 
-use lobe_formats::sheet::{Data, Side};
-use lobe_formats::{Document, Format};
+use lobe_formats::{self as formats, Document, Format};
 pub use lobe_table::half_diff::Lookup;
 use lobe_table::mueller::Matrix;
 use lobe_table::utia::Decode;
-use lobe_table::{Channels, Edges, Given, Scatter};
+use lobe_table::{Channels, Data, Edges, Given, Scatter, Side};
 
 use crate::{Backend, Brdf, OpenError};
 use evaluator::Evaluator;
@@ -53,18 +52,13 @@ struct Parts {
 }
 
 impl Parts {
-    fn add(&mut self, side: Option<Side>, data: Data, options: &Options) -> Result<(), OpenError> {
-        let scatter = data.scatter();
-        let evaluator: Box<dyn Evaluator> = match data {
-            Data::Table(data) => Box::new(Brdf::new(&data, &options.edges)?),
-            Data::Spherical(data) => Box::new(data),
-            Data::Scattered(data) => Box::new(data),
-            Data::Specular(data) => {
-                self.mirrors.push(Mirror { side, data });
-                return Ok(());
-            }
-        };
-        self.parts.push(sheet::Part { scatter, side, evaluator });
+    fn add(&mut self, path: &Path, side: Option<Side>, data: Data, options: &Options) -> Result<(), OpenError> {
+        if let Some(data) = data.representation().mirror() {
+            self.mirrors.push(Mirror { side, data: data.clone() });
+            return Ok(());
+        }
+        let scatter = data.representation().scatter();
+        self.parts.push(sheet::Part { scatter, side, evaluator: evaluator(path, data, options)? });
         Ok(())
     }
 
@@ -80,6 +74,31 @@ impl Parts {
         let evaluator = Box::new(sheet::Sheet { channels, parts });
         Ok(Material { format, source, evaluator, mirrors, backend: Backend::detect()? })
     }
+}
+
+fn evaluator(path: &Path, data: Data, options: &Options) -> Result<Box<dyn Evaluator>, OpenError> {
+    let not_a_table = |found: &'static str| OpenError::NotATable { file: path.display().to_string(), found };
+    let too_large = |error| OpenError::TooLarge { file: path.display().to_string(), source: error };
+    Ok(match data {
+        Data::Specular(data) => Box::new(Brdf::new(&data, &options.edges)?),
+        Data::Spherical(data) => Box::new(data),
+        Data::Scattered(data) => Box::new(data),
+        Data::Rgl(data) => {
+            let table = lobe_table::rgl::Table::new(&data, lobe_table::rgl::Options::default()).map_err(too_large)?;
+            Box::new(rgl::Parametrised { table, indexed_by: options.indexed_by })
+        }
+        Data::HalfDiff(data) => {
+            let table = lobe_table::half_diff::Table::new(&data).map_err(too_large)?;
+            Box::new(half_diff::HalfDifference { table, lookup: options.lookup })
+        }
+        Data::Utia(data) => {
+            let table = lobe_table::utia::Table::new(&data, options.decode).map_err(too_large)?;
+            Box::new(utia::UtiaGrid { table })
+        }
+        Data::Mueller(data) => Box::new(mueller::Polarised::new(data).map_err(too_large)?),
+        Data::Window(data) => Box::new(window::Bands::new(data).map_err(too_large)?),
+        other => return Err(not_a_table(other.representation().kind().name())),
+    })
 }
 
 /// A measured material in the form in which it was measured: nothing is resampled.
@@ -131,38 +150,18 @@ impl Material {
     /// # Errors
     /// As [`open`](Material::open).
     pub fn new(path: &Path, format: Format, document: Document, options: &Options) -> Result<Self, OpenError> {
-        let source = document.source().to_vec();
-        let not_a_table = |found: &'static str| OpenError::NotATable { file: path.display().to_string(), found };
-        let too_large = |error| OpenError::TooLarge { file: path.display().to_string(), source: error };
-        let evaluator: Box<dyn Evaluator> = match document {
-            Document::Table(measured) => Box::new(Brdf::new(&measured.data, &options.edges)?),
-            Document::Spherical(measured) => Box::new(measured.data),
-            Document::Scattered(measured) => Box::new(measured.data),
-            Document::Rgl(measured) => {
-                let table = lobe_table::rgl::Table::new(&measured.data, lobe_table::rgl::Options::default())
-                    .map_err(too_large)?;
-                Box::new(rgl::Parametrised { table, indexed_by: options.indexed_by })
-            }
-            Document::HalfDiff(measured) => {
-                let table = lobe_table::half_diff::Table::new(&measured.data).map_err(too_large)?;
-                Box::new(half_diff::HalfDifference { table, lookup: options.lookup })
-            }
-            Document::Utia(measured) => {
-                let table = lobe_table::utia::Table::new(&measured.data, options.decode).map_err(too_large)?;
-                Box::new(utia::UtiaGrid { table })
-            }
-            Document::Mueller(measured) => Box::new(mueller::Polarised::new(measured.data).map_err(too_large)?),
-            Document::Window(measured) => Box::new(window::Bands::new(measured.data).map_err(too_large)?),
-            Document::Sheet(measured) => {
-                let mut parts = Parts::default();
-                for part in measured.data {
-                    parts.add(part.side, part.data, options)?;
-                }
-                return parts.finish(path, (format, source));
-            }
-            _ => return Err(not_a_table("a mirror reflectance")),
-        };
-        Ok(Material { format, source, evaluator, mirrors: Vec::new(), backend: Backend::detect()? })
+        let Document { mut parts, source, .. } = document;
+        if let [formats::Part { side: None, .. }] = parts.as_slice()
+            && let Some(part) = parts.pop()
+        {
+            let evaluator = evaluator(path, part.data, options)?;
+            return Ok(Material { format, source, evaluator, mirrors: Vec::new(), backend: Backend::detect()? });
+        }
+        let mut sheet = Parts::default();
+        for part in parts {
+            sheet.add(path, part.side, part.data, options)?;
+        }
+        sheet.finish(path, (format, source))
     }
 
     /// A sheet of which both sides, and both ways through, were measured into files of their own: those measured with
@@ -173,32 +172,28 @@ impl Material {
     /// black.
     ///
     /// # Errors
-    /// As [`open`](Material::open), and where the files do not have the same channels, or are neither tables nor
-    /// goniometer data.
+    /// As [`open`](Material::open), and if the files do not have the same channels, or one of them is a sheet itself.
     pub fn open_sheet<P: AsRef<Path>>(front: &[P], back: &[P], options: &Options) -> Result<Self, OpenError> {
-        let mut parts = Parts::default();
+        let mut parts_of_sheet = Parts::default();
         let sides = [(front, Side::Front), (back, Side::Back)];
         let mut last = None;
         for (path, side) in sides.iter().flat_map(|(paths, side)| paths.iter().map(|path| (path.as_ref(), *side))) {
             let (format, document) = lobe_formats::open(path)?;
-            let source = document.source().to_vec();
-            let data = match document {
-                Document::Table(measured) => Data::Table(measured.data),
-                Document::Spherical(measured) => Data::Spherical(measured.data),
-                Document::Scattered(measured) => Data::Scattered(measured.data),
-                Document::Specular(measured) => Data::Specular(measured.data),
-                _ => {
-                    let found = "data that are no part of a sheet";
-                    return Err(OpenError::NotATable { file: path.display().to_string(), found });
-                }
+            let Document { mut parts, source, .. } = document;
+            let is_two_sided = |part: &formats::Part| part.data.representation().is_two_sided();
+            let (Some(part), true) =
+                (parts.pop().filter(|part| part.side.is_none() && !is_two_sided(part)), parts.is_empty())
+            else {
+                let found = "data that are no part of a sheet";
+                return Err(OpenError::NotATable { file: path.display().to_string(), found });
             };
-            parts.add(Some(side), data, options)?;
+            parts_of_sheet.add(path, Some(side), part.data, options)?;
             last = Some((path, (format, source)));
         }
         let Some((path, what)) = last else {
             return Err(OpenError::NotATable { file: "a sheet".into(), found: "no files" });
         };
-        parts.finish(path, what)
+        parts_of_sheet.finish(path, what)
     }
 
     /// The same material on another backend.

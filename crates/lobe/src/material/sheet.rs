@@ -1,7 +1,6 @@
 //! Several measurements of one sheet: the sides of the two directions choose which of them answers.
 
-use lobe_formats::sheet::Side;
-use lobe_table::{Channels, Scatter};
+use lobe_table::{Channels, Scatter, Side};
 
 use super::evaluator::Evaluator;
 use crate::{Backend, Kind};

@@ -1,9 +1,8 @@
 //! Klems matrices and tensor trees, in SIMD lanes. Each band of wavelengths is a channel.
 
-use lobe_formats::window_xml::WindowXml;
 use lobe_table::window::klems::KlemsMatrix;
 use lobe_table::window::tensor_tree::Rank;
-use lobe_table::window::{self, Block, Component};
+use lobe_table::window::{self, Block, Component, Data};
 use lobe_table::{Channels, Invalid, Scatter};
 
 use super::evaluator::{Evaluator, Native};
@@ -17,7 +16,7 @@ pub(super) struct Bands {
 }
 
 impl Bands {
-    pub(super) fn new(data: WindowXml) -> Result<Self, Invalid> {
+    pub(super) fn new(data: Data) -> Result<Self, Invalid> {
         let (names, windows) = data.bands.into_iter().map(|band| (band.wavelength, band.window)).unzip();
         let table = window::Table::new(windows)?;
         let mut bands = Bands { table, channels: Channels::Named(names), kind: Kind::Klems };

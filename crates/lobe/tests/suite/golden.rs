@@ -2,8 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lobe::formats::Document;
-use lobe::{Backend, Edges, Material, Options};
+use lobe::{Backend, Data, Edges, Material, Options};
 use lobe_testing::files::shared;
 use lobe_testing::golden::{Worst, direction, queries};
 
@@ -18,8 +17,8 @@ fn backends() -> Vec<Backend> {
 /// The largest deviation on each backend.
 fn check(file: &Path, answers: &Path, expected_pairs: usize) {
     let (format, document) = lobe::formats::open(file).unwrap_or_else(|error| panic!("{error}"));
-    let Document::Table(measured) = &document else { panic!("{} is no table", file.display()) };
-    let scale = measured.data.values().iter().fold(0.0_f64, |largest, &value| largest.max(f64::from(value).abs()));
+    let Some(Data::Specular(samples)) = document.only() else { panic!("{} is no table", file.display()) };
+    let scale = samples.values().iter().fold(0.0_f64, |largest, &value| largest.max(f64::from(value).abs()));
     let queries = queries(answers);
     assert_eq!(queries.len(), expected_pairs);
     let narrow = |query: &[f64], at| direction(query, at).map(|c| c as f32);

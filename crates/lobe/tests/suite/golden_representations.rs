@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use lobe::formats::{Document, Format, merl, utia};
-use lobe::{Backend, Material, Options};
+use lobe::formats::{Format, merl, utia};
+use lobe::{Backend, Data, Material, Options};
 use lobe_testing::files::shared;
 use lobe_testing::golden::{Worst, direction, queries, sheets, unit};
 use lobe_testing::made::{merl_formula, spherical, utia_numbers};
@@ -132,10 +132,10 @@ fn polarised_values_agree_with_mitsuba() {
 /// Where no border is near, the value of the table; Radiance, which moves values by up to 3.5e-4 on purpose, is that near.
 fn check_sheet(xml: &Path, answers: &Path, exact: Option<usize>) -> usize {
     let (_, document) = lobe::formats::open(xml).unwrap_or_else(|error| panic!("{error}"));
-    let Document::Window(measured) = &document else { panic!("{} is no sheet", xml.display()) };
-    let band = measured.data.bands.iter().position(|band| band.wavelength.eq_ignore_ascii_case("visible"));
+    let Some(Data::Window(data)) = document.only() else { panic!("{} is no sheet", xml.display()) };
+    let band = data.bands.iter().position(|band| band.wavelength.eq_ignore_ascii_case("visible"));
     let band = band.expect("a visible band");
-    let window = &measured.data.bands[band].window;
+    let window = &data.bands[band].window;
     let queries = queries(answers);
     let pairs: Vec<_> = queries.iter().map(|(query, _)| (direction(query, 0), direction(query, 3))).collect();
     let material = Material::open(xml).unwrap_or_else(|error| panic!("{error}"));

@@ -4,14 +4,15 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
 use std::sync::Arc;
 
-use lobe::formats::sheet::{Data, Part, Side};
-use lobe::formats::{Document, Format, Measured, Specular};
+use lobe::formats::{Document, Format, Part};
 use lobe::table::rgl::{self, Images, Parts, Reference};
-use lobe::table::{half_diff, mueller, spherical};
-use lobe::{Channels, Given, Kind, Lookup, Material, OpenError, Options, Sampler, SamplerOptions, Scatter, specular};
+use lobe::table::{half_diff, mirror, mueller, spherical};
+use lobe::{
+    Channels, Data, Given, Kind, Lookup, Material, OpenError, Options, Sampler, SamplerOptions, Scatter, Side, specular,
+};
 
-fn measured<T>(data: T) -> Measured<T> {
-    Measured { data, source: vec![("by".into(), "hand".into())], tis: Vec::new() }
+fn sheet(parts: Vec<Part>) -> Document {
+    Document { parts, source: vec![("by".into(), "hand".into())], tis: Vec::new() }
 }
 
 fn open(document: Document, options: &Options) -> Result<Material, OpenError> {
@@ -42,14 +43,14 @@ fn the_sides_choose_the_part_of_a_sheet() {
     // The table answers with both directions above the surface only.
     let knots = [vec![0.0], vec![0.0], vec![0.0], vec![0.0]];
     let table = specular::Data::new(Scatter::Reflection, knots, Channels::Mono, vec![1.0]).expect("a table");
-    let mirror = Specular::new(Scatter::Reflection, [vec![0.0], vec![0.0]], Channels::Mono, vec![0.5]);
+    let mirror = mirror::Data::new(Scatter::Reflection, [vec![0.0], vec![0.0]], Channels::Mono, vec![0.5]);
     let parts = vec![
-        Part { side: Some(Side::Front), ..Part::new("", Data::Table(table)) },
-        Part::new("", Data::Specular(mirror.expect("a mirror"))),
+        Part { side: Some(Side::Front), ..Part::new("", Data::Specular(table)) },
+        Part::new("", Data::Mirror(mirror.expect("a mirror"))),
         flat(Scatter::Reflection, 2.0, Some(Side::Back)),
         flat(Scatter::Transmission, 3.0, Some(Side::Front)),
     ];
-    let sheet = material(Document::Sheet(measured(parts)));
+    let sheet = material(sheet(parts));
     assert_eq!((sheet.kind(), sheet.channel_count(), sheet.wavelengths()), (Kind::Sheet, 1, None));
     assert_eq!(sheet.source(), [("by".to_string(), "hand".to_string())]);
     let graze = [1.0, 0.0, 0.0];
@@ -63,15 +64,15 @@ fn the_sides_choose_the_part_of_a_sheet() {
 #[test]
 fn sheets_without_one_answer_are_refused() {
     let refused = |parts| {
-        let error = open(Document::Sheet(measured(parts)), &Options::default()).expect_err("no material");
+        let error = open(sheet(parts), &Options::default()).expect_err("no material");
         error.to_string()
     };
-    let mirror = Specular::new(Scatter::Reflection, [vec![0.0], vec![0.0]], Channels::Mono, vec![0.5]);
-    let mirror = Part::new("", Data::Specular(mirror.expect("a mirror")));
+    let mirror = mirror::Data::new(Scatter::Reflection, [vec![0.0], vec![0.0]], Channels::Mono, vec![0.5]);
+    let mirror = Part::new("", Data::Mirror(mirror.expect("a mirror")));
     assert_eq!(refused(vec![mirror]), "made.file: found mirror reflectances; expected a BRDF or BTDF");
     let knots = [vec![0.0], vec![0.0], vec![0.0], vec![0.0]];
     let rgb = specular::Data::new(Scatter::Transmission, knots, Channels::Rgb, vec![1.0; 3]).expect("a table");
-    let parts = vec![flat(Scatter::Reflection, 1.0, None), Part::new("", Data::Table(rgb))];
+    let parts = vec![flat(Scatter::Reflection, 1.0, None), Part::new("", Data::Specular(rgb))];
     assert!(refused(parts).contains("parts with different channels"));
 }
 
@@ -87,7 +88,7 @@ fn half_difference_grids_are_looked_up_as_asked() {
     assert_ne!(expected[0].1, expected[1].1);
     for (lookup, expected) in expected {
         let options = Options { lookup, ..Options::default() };
-        let material = open(Document::HalfDiff(measured(data.clone())), &options).expect("a material");
+        let material = open(Document::new(data.clone()), &options).expect("a material");
         assert_eq!((material.kind(), material.channels()), (Kind::HalfDiff, &Channels::Rgb));
         for (found, expected) in value(&material, UP, wo).into_iter().zip(expected) {
             assert!((f64::from(found) - expected).abs() < 1e-4, "{lookup:?}: {found}, not {expected}");
@@ -98,7 +99,7 @@ fn half_difference_grids_are_looked_up_as_asked() {
 #[test]
 fn directions_that_point_nowhere_are_dark() {
     let data = half_diff::Data::new([1, 1, 1], vec![1.0; 3]).expect("a grid");
-    let material = material(Document::HalfDiff(measured(data)));
+    let material = material(Document::new(data));
     assert_eq!(value(&material, UP, [0.0, 0.0, 2.0]), [1.0; 3], "the length makes no difference");
     for nowhere in [[0.0; 3], [f32::NAN, 0.0, 1.0], [0.0, 0.0, f32::INFINITY]] {
         assert_eq!((value(&material, nowhere, UP), value(&material, UP, nowhere)), (vec![0.0; 3], vec![0.0; 3]));
@@ -110,7 +111,7 @@ fn directions_that_point_nowhere_are_dark() {
 fn polarised_materials_have_the_value_of_unpolarised_light() {
     let knots = [vec![-3.0, 3.0], vec![0.0, 1.5], vec![0.0, 1.5], vec![500.0, 600.0]];
     let data = mueller::Data::new(knots, (0..256).map(|i| 0.1 + (i % 37) as f32).collect()).expect("matrices");
-    let material = material(Document::Mueller(measured(data)));
+    let material = material(Document::new(data));
     assert_eq!((material.kind(), material.wavelengths()), (Kind::Mueller, Some([500.0, 600.0].as_slice())));
     let wo = [0.0, 0.28, 0.96];
     for (nm, found) in [500.0, 600.0].into_iter().zip(value(&material, UP, wo)) {
@@ -142,7 +143,7 @@ fn rgl() -> rgl::Data {
 
 fn rgl_sampler(data: rgl::Data, indexed_by: Given) -> Sampler {
     let options = Options { indexed_by, ..Options::default() };
-    let material = open(Document::Rgl(measured(data)), &options).expect("a material");
+    let material = open(Document::new(data), &options).expect("a material");
     Sampler::new(Arc::new(material), &SamplerOptions::default()).expect("a sampler")
 }
 

@@ -13,6 +13,11 @@ mod tests;
 
 use thiserror::Error;
 
+use crate::Kind;
+
+/// The name of the representation.
+pub const KIND: Kind = Kind::new("Klems matrices");
+
 /// Why rings do not make a basis, or values do not make a matrix.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum KlemsError {

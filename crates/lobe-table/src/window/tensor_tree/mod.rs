@@ -15,7 +15,12 @@ mod tests;
 
 use thiserror::Error;
 
+use crate::Kind;
+
 pub use reference::square;
+
+/// The name of the representation.
+pub const KIND: Kind = Kind::new("tensor trees");
 
 /// How many times a tree may halve its dimensions, leaf grids included: what a 32-bit index can address.
 pub const MAX_DEPTH: usize = 24;

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use lobe::formats::{Document, Format, Measured};
+use lobe::formats::{Document, Format};
 use lobe::{Channels, Material, Options, Sampler, SamplerOptions, Scatter, specular};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -14,7 +14,7 @@ pub fn fixture(name: &str) -> Material {
 }
 
 pub fn of_samples(samples: specular::Data) -> Material {
-    let document = Document::Table(Measured { data: samples, source: Vec::new(), tis: Vec::new() });
+    let document = Document::new(samples);
     Material::new(Path::new("made"), Format::Ssdd, document, &Options::default()).unwrap()
 }
 

@@ -1,8 +1,8 @@
 //! Materials with two sides: which lobe is drawn, mirrors, and what was not measured.
 
-use lobe::formats::sheet::{Data, Part, Side};
-use lobe::formats::{Document, Format, Measured, Specular};
-use lobe::{Channels, Given, Material, Options, Sampled, Scatter, specular};
+use lobe::formats::{Document, Format, Part};
+use lobe::table::mirror;
+use lobe::{Channels, Data, Given, Material, Options, Sampled, Scatter, Side, specular};
 
 use super::materials::sampler;
 use super::{direction, numbers};
@@ -16,16 +16,16 @@ fn constant(scatter: Scatter, value: f32) -> specular::Data {
 /// Reflects 0.3 on the front and 0.1 on the back, mirrors 0.2 on the front and lets 0.25 through, measured from the
 /// front.
 fn sheet() -> Material {
-    let flat = |share: f64, scatter| Data::Table(constant(scatter, (share / std::f64::consts::PI) as f32));
-    let mirror = Specular::new(Scatter::Reflection, [vec![0.0], vec![0.0]], Channels::Mono, vec![0.2]).unwrap();
+    let flat = |share: f64, scatter| Data::Specular(constant(scatter, (share / std::f64::consts::PI) as f32));
+    let mirror = mirror::Data::new(Scatter::Reflection, [vec![0.0], vec![0.0]], Channels::Mono, vec![0.2]).unwrap();
     let part = |side, data| Part { side: Some(side), ..Part::new("", data) };
     let parts = vec![
         part(Side::Front, flat(0.3, Scatter::Reflection)),
         part(Side::Back, flat(0.1, Scatter::Reflection)),
         part(Side::Front, flat(0.25, Scatter::Transmission)),
-        part(Side::Front, Data::Specular(mirror)),
+        part(Side::Front, Data::Mirror(mirror)),
     ];
-    let document = Document::Sheet(Measured { data: parts, source: Vec::new(), tis: Vec::new() });
+    let document = Document { parts, source: Vec::new(), tis: Vec::new() };
     Material::new(Path::new("made"), Format::Ssdd, document, &Options::default()).unwrap()
 }
 

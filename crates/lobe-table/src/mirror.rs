@@ -1,21 +1,26 @@
 //! The reflectance of a smooth surface, a delta function in direction, by angle of incidence.
 
-use lobe_table::{Channels, Scatter};
+use crate::data::Section;
+use crate::specular::AXIS_NAMES;
+use crate::{Aspect, Channels, Kind, Representation, Scatter};
+
+/// The name of the representation.
+pub const KIND: Kind = Kind::new("mirror reflectance");
 
 /// Mirror reflectance (or transmittance straight through) by the direction of the light: a ratio of fluxes, 0 to 1, no
 /// pi in it.
 ///
 /// It stands beside a BRDF or BTDF as its delta part.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Specular {
+pub struct Data {
     scatter: Scatter,
     knots: [Vec<f64>; 2],
     channels: Channels,
     values: Vec<f32>,
 }
 
-impl Specular {
-    /// `knots` are those of sigma and psi in radians, which ascend strictly; one psi where it makes no difference.
+impl Data {
+    /// `knots` are those of sigma and psi in radians, which ascend strictly; one psi if it makes no difference.
     /// `values` is `[sigma][psi][channel]`. `None` unless the values are as many as that, and all are finite.
     pub fn new(scatter: Scatter, knots: [Vec<f64>; 2], channels: Channels, values: Vec<f32>) -> Option<Self> {
         let mut expected = channels.count();
@@ -24,7 +29,7 @@ impl Specular {
             expected = expected.checked_mul(axis.len()).filter(|_| ascending)?;
         }
         let sound = expected == values.len() && expected > 0 && values.iter().all(|value| value.is_finite());
-        sound.then_some(Specular { scatter, knots, channels, values })
+        sound.then_some(Data { scatter, knots, channels, values })
     }
 
     /// Reflection or transmission.
@@ -59,6 +64,37 @@ impl Specular {
             }
         }
         sum
+    }
+}
+
+impl Representation for Data {
+    fn kind(&self) -> Kind {
+        KIND
+    }
+
+    fn channels(&self) -> Channels {
+        self.channels.clone()
+    }
+
+    fn aspects(&self) -> Vec<Aspect> {
+        vec![Aspect::front(self.scatter)]
+    }
+
+    fn is_isotropic(&self) -> bool {
+        self.knots[1].len() == 1
+    }
+
+    fn sections(&self) -> Vec<Section<'_>> {
+        let section = Section::new(KIND, Aspect::front(self.scatter), self.channels.clone(), &self.values);
+        let mut section = section.with_axes([AXIS_NAMES[0], AXIS_NAMES[1]], &self.knots);
+        if self.knots[1].len() == 1 {
+            section.axes.pop();
+        }
+        vec![Section { quantity: "mirror reflectance by angle of incidence", ..section }]
+    }
+
+    fn mirror(&self) -> Option<&Data> {
+        Some(self)
     }
 }
 

@@ -1,0 +1,83 @@
+//! What every representation can tell.
+
+use std::fmt::Debug;
+
+use super::{Aspect, Gaps, Grid, Kind, Kinks, Section};
+use crate::{Channels, Edges, Scatter, mirror};
+
+/// What programs ask of measured data without knowing their representation.
+///
+/// Directions are unit vectors away from the surface, normal on +z; angles are in radians.
+pub trait Representation: Debug + Send + Sync {
+    /// The name of the representation.
+    fn kind(&self) -> Kind;
+
+    /// What the channels of a value stand for.
+    fn channels(&self) -> Channels;
+
+    /// What was measured, in the order of the file: at least one, unless every block is missing.
+    fn aspects(&self) -> Vec<Aspect>;
+
+    /// `true` if values do not depend on the rotation of the sample.
+    fn is_isotropic(&self) -> bool;
+
+    /// `true` if the data tell light on the front from light on the back.
+    fn is_two_sided(&self) -> bool {
+        false
+    }
+
+    /// The data themselves, if they are a delta function in direction, which has no value for a pair of directions.
+    fn mirror(&self) -> Option<&mirror::Data> {
+        None
+    }
+
+    /// The values, and what there is to say about them.
+    fn sections(&self) -> Vec<Section<'_>>;
+
+    /// The directions of the light that were measured, polar angle and azimuth, by ascending polar angle; empty if the
+    /// representation has no list of them.
+    fn incidences(&self, _aspect: Aspect) -> Vec<[f64; 2]> {
+        Vec::new()
+    }
+
+    /// Where values have kinks for light at a polar angle and an azimuth, under these edges; `None` if they have none
+    /// that are known.
+    fn kinks(&self, _edges: &Edges, _light: [f64; 2]) -> Option<Kinks> {
+        None
+    }
+
+    /// The values as a grid of four angles, if they are one.
+    fn grid(&self) -> Option<Grid<'_>> {
+        None
+    }
+
+    /// What the file marks as not measured; `None` if it marks nothing.
+    fn gaps(&self) -> Option<Gaps> {
+        None
+    }
+
+    /// The albedo of each channel for light at a polar angle and an azimuth, if it is an exact sum of values.
+    fn albedo(&self, _aspect: Aspect, _light: [f64; 2]) -> Option<Vec<f64>> {
+        None
+    }
+
+    /// `true` if values are known to be `f` in 1/sr.
+    fn has_known_unit(&self) -> bool {
+        true
+    }
+
+    /// `true` if the data know more of polarised light than a value for a pair of directions can tell.
+    fn is_polarised(&self) -> bool {
+        false
+    }
+
+    /// Which part of the hemisphere was measured, in words, if the representation is the same for every material.
+    fn extent(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Reflection or transmission: that of the first of the [aspects](Self::aspects).
+    fn scatter(&self) -> Scatter {
+        self.aspects().first().map_or(Scatter::Reflection, |aspect| aspect.scatter)
+    }
+}

@@ -1,0 +1,71 @@
+//! What programs ask of grids in spherical coordinates.
+
+use std::f64::consts::TAU;
+
+use super::Data;
+use crate::data::{ANGLE_ROUNDING, Grid, Kinks, Section, pairs};
+use crate::scattered::ANGLE_NAMES;
+use crate::{Aspect, Channels, Edges, Kind, Representation};
+
+/// The name of the representation.
+pub const KIND: Kind = Kind::new("spherical grid");
+
+impl Representation for Data {
+    fn kind(&self) -> Kind {
+        KIND
+    }
+
+    fn channels(&self) -> Channels {
+        self.channels.clone()
+    }
+
+    fn aspects(&self) -> Vec<Aspect> {
+        vec![Aspect::front(self.scatter)]
+    }
+
+    fn is_isotropic(&self) -> bool {
+        Data::is_isotropic(self)
+    }
+
+    fn sections(&self) -> Vec<Section<'_>> {
+        let section = Section::new(KIND, Aspect::front(self.scatter), self.channels.clone(), self.values());
+        let section = section.with_axes(ANGLE_NAMES, self.knots());
+        vec![match self.is_mirrored() {
+            true => section.with_fact("symmetry", "the other half of phi_o is the mirror image"),
+            false => section,
+        }]
+    }
+
+    fn incidences(&self, _: Aspect) -> Vec<[f64; 2]> {
+        pairs(&self.knots()[0], &self.knots()[1])
+    }
+
+    /// About the normal, azimuths count from the light; in the grid they do so if it is isotropic, else from +x.
+    fn kinks(&self, _: &Edges, [_, phi]: [f64; 2]) -> Option<Kinks> {
+        let turn = match () {
+            () if self.is_mirrored() => 0.0,
+            () if Data::is_isotropic(self) => self.knots()[1][0],
+            () => phi,
+        };
+        let signs: &[f64] = if self.is_mirrored() { &[1.0, -1.0] } else { &[1.0] };
+        let of_sign = |sign: &f64| {
+            let sign = *sign;
+            self.knots()[3].iter().map(move |knot| (sign * (knot - turn)).rem_euclid(TAU))
+        };
+        let mut phis: Vec<f64> = signs.iter().flat_map(of_sign).collect();
+        phis.sort_by(f64::total_cmp);
+        phis.dedup_by(|a, b| *a - *b < ANGLE_ROUNDING);
+        Some(Kinks { zenith: 0.0, thetas: self.knots()[2].clone(), phis })
+    }
+
+    fn grid(&self) -> Option<Grid<'_>> {
+        Some(Grid {
+            names: ANGLE_NAMES,
+            knots: self.knots(),
+            values: self.values(),
+            channels: self.channels.count(),
+            is_mirrored: self.is_mirrored(),
+            is_specular: false,
+        })
+    }
+}
