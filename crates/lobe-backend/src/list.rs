@@ -1,0 +1,85 @@
+//! The backends, and what follows from the list of them.
+
+use lobe_lane::{Kernel, Lanes};
+
+#[cfg(target_arch = "aarch64")]
+use std::arch::is_aarch64_feature_detected as has;
+#[cfg(target_arch = "x86_64")]
+use std::arch::is_x86_feature_detected as has;
+
+macro_rules! backends {
+    ($($(#[$target:meta])* $name:literal, $variant:ident($token:ty), $detect:expr, [$($feature:tt),*];)*) => {
+        /// One token per backend: having one proves that the CPU can run it.
+        #[derive(Clone, Copy, Debug)]
+        pub(crate) enum Isa {
+            $($(#[$target])* $variant($token),)*
+        }
+
+        /// Every name that some machine may have, slowest first.
+        pub(crate) const NAMES: &[&str] = &[$($name),*];
+
+        impl Isa {
+            /// All that this CPU can run, slowest first.
+            pub(crate) fn detect() -> Vec<Self> {
+                let mut found = Vec::new();
+                $($(#[$target])* found.extend(Option::<$token>::map($detect, Isa::$variant));)*
+                found
+            }
+
+            /// The names of those whose instructions the CPU reports, whatever the backends themselves say.
+            pub(crate) fn reported() -> Vec<&'static str> {
+                let mut names = Vec::new();
+                $($(#[$target])* if true $(&& has!($feature))* {
+                    names.push($name);
+                })*
+                names
+            }
+
+            pub(crate) fn name(self) -> &'static str {
+                match self {
+                    $($(#[$target])* Isa::$variant(_) => <$token>::NAME,)*
+                }
+            }
+
+            pub(crate) fn lanes(self) -> usize {
+                match self {
+                    $($(#[$target])* Isa::$variant(_) => <$token>::LANES,)*
+                }
+            }
+
+            pub(crate) fn fuses(self) -> bool {
+                match self {
+                    $($(#[$target])* Isa::$variant(_) => <$token>::FUSED,)*
+                }
+            }
+
+            #[inline]
+            pub(crate) fn run<K: Kernel>(self, strict: bool, kernel: K) -> K::Out {
+                match self {
+                    $($(#[$target])* Isa::$variant(lanes) => run(lanes, strict, kernel),)*
+                }
+            }
+        }
+    };
+}
+
+// One line per backend, slowest first: its name, its token, how the token is found, and the CPU features it stands for.
+backends! {
+    "scalar", Scalar(lobe_scalar::Scalar<1>), Some(lobe_scalar::Scalar), [];
+    #[cfg(target_arch = "x86_64")]
+    "sse2", Sse2(lobe_sse::Sse2), Some(lobe_sse::Sse2::new()), ["sse2"];
+    #[cfg(target_arch = "x86_64")]
+    "sse4.1", Sse41(lobe_sse::Sse41), lobe_sse::Sse41::detect(), ["sse4.1"];
+    #[cfg(target_arch = "x86_64")]
+    "avx2", Avx2(lobe_avx::Avx2), lobe_avx::Avx2::detect(), ["avx2", "fma", "f16c", "bmi1", "bmi2", "lzcnt", "popcnt"];
+}
+
+/// Backends that never fuse have one form, which is compiled once.
+#[inline]
+fn run<L: Lanes, K: Kernel>(lanes: L, strict: bool, kernel: K) -> K::Out {
+    if L::FUSED {
+        if strict { lanes.strict().vectorize(kernel) } else { lanes.vectorize(kernel) }
+    } else {
+        lanes.vectorize(kernel)
+    }
+}
