@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use lobe::table::paper::PaperTable;
 use lobe::table::specular::reference;
-use lobe::{Backend, Edges, Soa, specular};
+use lobe::{Backend, Directions, Edges, specular};
 
 use super::{Contender, Contest, Tolerance, backends};
 use crate::baseline::{self, ScalarTable};
@@ -71,8 +71,8 @@ struct Setup {
 }
 
 impl Setup {
-    fn columns(&self) -> [Soa<'_>; 2] {
-        [&self.pairs.wi, &self.pairs.wo].map(|[x, y, z]| Soa::new(x, y, z))
+    fn columns(&self) -> [Directions<'_>; 2] {
+        [&self.pairs.wi, &self.pairs.wo].map(|[x, y, z]| Directions::columns(x, y, z))
     }
 }
 
@@ -119,7 +119,7 @@ fn batch(name: &'static str, backend: Backend, setup: Rc<Setup>) -> Contender {
     let out = vec![f32::NAN; 3 * setup.pairs.len()];
     let run = move |out: &mut Vec<f32>| {
         let [wi, wo] = setup.columns();
-        backend.run(setup.table.batch(wi, wo, out));
+        setup.table.eval_batch(backend, wi, wo, out);
     };
     Contender::new(name, ACCURATE, out, run, Vec::clone)
 }
@@ -128,7 +128,7 @@ fn single(name: &'static str, backend: Backend, setup: Rc<Setup>) -> Contender {
     let out = vec![[f32::NAN; 3]; setup.pairs.len()];
     let run = move |out: &mut Vec<[f32; 3]>| {
         for ((out, wi), wo) in out.iter_mut().zip(&setup.wi).zip(&setup.wo) {
-            backend.run(setup.table.single(*wi, *wo, out));
+            setup.table.eval(backend, *wi, *wo, out);
         }
     };
     Contender::new(name, ACCURATE, out, run, |out| out.as_flattened().to_vec())

@@ -64,7 +64,7 @@ fn contest(samples: &specular::Data, input: Input, count: usize) -> Contest {
     let baselines = vec![scalar(setup.clone()), interpn(setup.clone())];
     let contenders = backends().into_iter().map(|named| {
         let setup = setup.clone();
-        let run = move |out: &mut Vec<f32>| named.backend.run(setup.table.interpolation(setup.columns(), out));
+        let run = move |out: &mut Vec<f32>| setup.table.interpolate_batch(named.backend, setup.columns(), out);
         Contender::new(named.name, TOLERANCE, vec![f32::NAN; 3 * count], run, Vec::clone)
     });
     Contest { count, baselines, contenders: contenders.collect(), expected }

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use lobe::table::specular::reference;
-use lobe::{Edges, Precision, Soa, specular};
+use lobe::{Directions, Edges, Precision, specular};
 
 use super::{Contender, Contest, Tolerance, backends};
 use crate::baseline::{self, ScalarTable};
@@ -58,8 +58,8 @@ fn batches(samples: &specular::Data, precision: Precision, pairs: &Rc<Pairs>) ->
         let (table, pairs) = (table.clone(), pairs.clone());
         let out = vec![f32::NAN; 3 * pairs.len()];
         let run = move |out: &mut Vec<f32>| {
-            let [wi, wo] = [&pairs.wi, &pairs.wo].map(|[x, y, z]| Soa::new(x, y, z));
-            named.backend.run(table.batch(wi, wo, out));
+            let [wi, wo] = [&pairs.wi, &pairs.wo].map(|[x, y, z]| Directions::columns(x, y, z));
+            table.eval_batch(named.backend, wi, wo, out);
         };
         let (name, tolerance) = match precision {
             Precision::Single => (named.name, SINGLE),

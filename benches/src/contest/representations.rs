@@ -5,7 +5,7 @@ use std::rc::Rc;
 use lobe::table::half_diff::{self, Lookup};
 use lobe::table::window::tensor_tree::Rank;
 use lobe::table::{mueller, utia, window};
-use lobe::{Backend, Decode, Soa};
+use lobe::{Backend, Decode, Directions};
 
 use super::{Contender, Contest, Tolerance, backends};
 use crate::tables;
@@ -20,7 +20,7 @@ const SURE: f64 = 5e-4;
 /// What answers a query in `f64`.
 type One = dyn Fn([f64; 3], [f64; 3], &mut [f64]);
 /// What answers all of them on a backend.
-type All = dyn Fn(Backend, [Soa<'_>; 2], &mut [f32]);
+type All = dyn Fn(Backend, [Directions<'_>; 2], &mut [f32]);
 
 /// RGB of the nearest bin of a table of the size of the MERL database.
 pub fn half_difference(input: Input, count: usize) -> Contest {
@@ -31,7 +31,7 @@ pub fn half_difference(input: Input, count: usize) -> Contest {
         (input, count, 3, STORED),
         move |wi, wo| data.candidates(wi, wo).len() == 1,
         Rc::new(move |wi, wo, out| out.copy_from_slice(&one.eval_nearest(wi, wo))),
-        Rc::new(move |backend, [wi, wo], out| backend.run(table.batch(Lookup::Nearest, wi, wo, out))),
+        Rc::new(move |backend, [wi, wo], out| table.eval_batch(backend, Lookup::Nearest, wi, wo, out)),
     )
 }
 
@@ -44,7 +44,7 @@ pub fn half_difference_linear(input: Input, count: usize) -> Contest {
         (input, count, 3, LINEAR),
         move |wi, wo| data.bound(wi, wo) < SURE,
         Rc::new(move |wi, wo, out| out.copy_from_slice(&one.eval_linear(wi, wo))),
-        Rc::new(move |backend, [wi, wo], out| backend.run(table.batch(Lookup::Linear, wi, wo, out))),
+        Rc::new(move |backend, [wi, wo], out| table.eval_batch(backend, Lookup::Linear, wi, wo, out)),
     )
 }
 
@@ -57,7 +57,7 @@ pub fn utia(input: Input, count: usize) -> Contest {
         (input, count, 3, LINEAR),
         move |wi, wo| data.bound(wi, wo) < SURE,
         Rc::new(move |wi, wo, out| out.copy_from_slice(&one.eval(wi, wo, Decode::Raw))),
-        Rc::new(move |backend, [wi, wo], out| backend.run(table.batch(wi, wo, out))),
+        Rc::new(move |backend, [wi, wo], out| table.eval_batch(backend, wi, wo, out)),
     )
 }
 
@@ -75,7 +75,7 @@ pub fn mueller(input: Input, count: usize) -> Contest {
         (input, count, width, LINEAR),
         move |wi, wo| data.bound(wi, wo) < SURE,
         Rc::new(in_f64),
-        Rc::new(move |backend, [wi, wo], out| backend.run(table.batch(wi, wo, out))),
+        Rc::new(move |backend, [wi, wo], out| table.eval_batch(backend, wi, wo, out)),
     )
 }
 
@@ -101,7 +101,7 @@ fn sheet(window: window::Blocks, input: Input, count: usize) -> Contest {
         (input, count, 1, STORED),
         sure,
         Rc::new(move |wi, wo, out| out[0] = one.eval(wi, wo)),
-        Rc::new(move |backend, [wi, wo], out| backend.run(table.batch(wi, wo, out))),
+        Rc::new(move |backend, [wi, wo], out| table.eval_batch(backend, wi, wo, out)),
     )
 }
 
@@ -127,7 +127,7 @@ fn contest(
     let contenders = backends().into_iter().map(|named| {
         let (pairs, all) = (pairs.clone(), all.clone());
         let run = move |out: &mut Vec<f32>| {
-            all(named.backend, [&pairs.wi, &pairs.wo].map(|[x, y, z]| Soa::new(x, y, z)), out);
+            all(named.backend, [&pairs.wi, &pairs.wo].map(|[x, y, z]| Directions::columns(x, y, z)), out);
         };
         Contender::new(named.name, tolerance, vec![f32::NAN; width * count], run, Vec::clone)
     });

@@ -2,8 +2,8 @@
 
 use std::rc::Rc;
 
-use lobe::Soa;
-use lobe::table::rgl::{self, Drawn, Reference, UniformOrder, Wanted};
+use lobe::Directions;
+use lobe::table::rgl::{self, Drawn, Reference, UniformOrder};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -38,8 +38,8 @@ impl Setup {
         })
     }
 
-    fn columns(&self) -> [Soa<'_>; 2] {
-        [&self.pairs.wi, &self.pairs.wo].map(|[x, y, z]| Soa::new(x, y, z))
+    fn columns(&self) -> [Directions<'_>; 2] {
+        [&self.pairs.wi, &self.pairs.wo].map(|[x, y, z]| Directions::columns(x, y, z))
     }
 
     fn pair(&self, query: usize) -> ([f64; 3], [f64; 3]) {
@@ -57,7 +57,7 @@ pub fn eval(input: Input, count: usize) -> Contest {
     contest(input, count, 3, one, |named, setup| {
         let run = move |out: &mut Vec<f32>| {
             let [wi, wo] = setup.columns();
-            named.backend.run(setup.table.batch(wi, wo, Wanted::Values(out)));
+            setup.table.eval_batch(named.backend, wi, wo, out);
         };
         Contender::new(named.name, TOLERANCE, vec![f32::NAN; 3 * count], run, Vec::clone)
     })
@@ -72,7 +72,7 @@ pub fn pdf(input: Input, count: usize) -> Contest {
     contest(input, count, 1, one, |named, setup| {
         let run = move |out: &mut Vec<f32>| {
             let [wi, wo] = setup.columns();
-            named.backend.run(setup.table.batch(wi, wo, Wanted::Pdf(out)));
+            setup.table.pdf_batch(named.backend, wi, wo, out);
         };
         Contender::new(named.name, TOLERANCE, vec![f32::NAN; count], run, Vec::clone)
     })
@@ -95,7 +95,7 @@ pub fn sample(input: Input, count: usize) -> Contest {
         let run = move |(wo, pdf, weights): &mut (Vec<[f32; 3]>, Vec<f32>, Vec<f32>)| {
             let [wi, _] = setup.columns();
             let drawn = Drawn { wo, pdf, weights };
-            named.backend.run(setup.table.sampling(wi, &setup.uniforms, UniformOrder::default(), drawn));
+            setup.table.sample_batch(named.backend, wi, &setup.uniforms, UniformOrder::default(), drawn);
         };
         Contender::new(named.name, TOLERANCE, out, run, |(wo, _, weights)| {
             let (weights, _) = weights.as_chunks::<3>();

@@ -4,7 +4,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use lobe::table::{Given, Sampled, Sampler, SamplerOptions};
-use lobe::{Edges, Kernel, Lanes, specular};
+use lobe::{Backend, Edges, specular};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -38,7 +38,7 @@ type Drawn = (Vec<[f32; 3]>, Vec<f32>, Vec<f32>);
 
 fn contest(samples: specular::Data, input: Input, count: usize) -> Contest {
     let table = Arc::new(specular::Table::new(&samples, &Edges::default()).expect("a small table"));
-    let sampler = lobe::Backend::named("scalar").expect("always there").run(Build(table));
+    let sampler = Sampler::new(Backend::scalar(), table, &SamplerOptions::default()).expect("options that make sense");
     let mut rng = Pcg32::seed_from_u64(2005);
     let setup = Rc::new(Setup {
         known: input.pairs(count).vectors().0,
@@ -53,7 +53,10 @@ fn contest(samples: specular::Data, input: Input, count: usize) -> Contest {
     let expected = (0..count).flat_map(draw).collect();
     let contenders = backends().into_iter().map(|named| {
         let setup = setup.clone();
-        let run = move |out: &mut Drawn| named.backend.run(Draw { setup: &setup, out });
+        let run = move |(directions, pdfs, weights): &mut Drawn| {
+            let out = Sampled { directions, pdfs, weights };
+            setup.sampler.sample_batch(named.backend, Given::Light, &setup.known, &setup.u, out);
+        };
         Contender::new(named.name, TOLERANCE, empty(count), run, |out| out.0.as_flattened().to_vec())
     });
     Contest { count, contenders: contenders.collect(), expected, baselines: vec![one_by_one(setup.clone(), count)] }
@@ -78,31 +81,4 @@ fn one_by_one(setup: Rc<Setup>, count: usize) -> Contender {
         }
     };
     Contender::new("f64", TOLERANCE, empty(count), run, |out| out.0.as_flattened().to_vec())
-}
-
-struct Build(Arc<specular::Table>);
-
-impl Kernel for Build {
-    type Out = Sampler;
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) -> Sampler {
-        Sampler::new(lanes, self.0, &SamplerOptions::default()).expect("options that make sense")
-    }
-}
-
-struct Draw<'a> {
-    setup: &'a Setup,
-    out: &'a mut Drawn,
-}
-
-impl Kernel for Draw<'_> {
-    type Out = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) {
-        let Draw { setup, out: (directions, pdfs, weights) } = self;
-        let out = Sampled { directions, pdfs, weights };
-        setup.sampler.sample_batch(lanes, Given::Light, &setup.known, &setup.u, out);
-    }
 }

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use lobe::table::specular::reference;
-use lobe::{Brdf, Edges, Soa};
+use lobe::{Brdf, Directions, Edges};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::{Contender, Contest, Tolerance};
@@ -41,7 +41,7 @@ fn contender(name: &'static str, pool: ThreadPool, brdf: &Rc<Brdf>, pairs: &Rc<P
     let (brdf, pairs) = (brdf.clone(), pairs.clone());
     let out = vec![f32::NAN; 3 * pairs.len()];
     let run = move |out: &mut Vec<f32>| {
-        let [wi, wo] = [&pairs.wi, &pairs.wo].map(|[x, y, z]| Soa::new(x, y, z));
+        let [wi, wo] = [&pairs.wi, &pairs.wo].map(|[x, y, z]| Directions::columns(x, y, z));
         let brdf: &Brdf = &brdf;
         pool.install(|| brdf.eval_batch(wi, wo, out));
     };

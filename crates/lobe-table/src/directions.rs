@@ -1,4 +1,4 @@
-//! Batches of directions in memory: an array of structures, or a structure of arrays.
+//! Batches of directions in memory: vectors one after the other, or columns of components.
 
 use std::ops::Range;
 
@@ -6,139 +6,173 @@ use lobe_lane::Lanes;
 
 use crate::passes::block::BLOCK;
 
-/// Unit vectors, one a query: a slice of vectors, or [`Soa`].
-pub trait Directions: Copy + sealed::Sealed {
-    /// A whole block of directions, which needs no bounds checks.
-    #[doc(hidden)]
-    type Block<'a>: BlockOfDirections
-    where
-        Self: 'a;
-    /// Room for a block that is not whole.
-    #[doc(hidden)]
-    type Padding;
-    #[doc(hidden)]
-    const PADDING: Self::Padding;
+/// Unit vectors, one per query, in either layout.
+///
+/// It is made [`From`] slices, arrays and vectors of `[f32; 3]`, or by [`columns`](Directions::columns).
+#[derive(Clone, Copy, Debug)]
+pub enum Directions<'a> {
+    /// x, y and z of one direction next to each other.
+    Vectors(&'a [[f32; 3]]),
+    /// All x, all y and all z, which are equally many.
+    Columns([&'a [f32]; 3]),
+}
+
+impl<'a> From<&'a [[f32; 3]]> for Directions<'a> {
+    fn from(vectors: &'a [[f32; 3]]) -> Self {
+        Directions::Vectors(vectors)
+    }
+}
+
+impl<'a> From<&'a mut [[f32; 3]]> for Directions<'a> {
+    fn from(vectors: &'a mut [[f32; 3]]) -> Self {
+        Directions::Vectors(vectors)
+    }
+}
+
+impl<'a> From<&'a Vec<[f32; 3]>> for Directions<'a> {
+    fn from(vectors: &'a Vec<[f32; 3]>) -> Self {
+        Directions::Vectors(vectors)
+    }
+}
+
+impl<'a, const N: usize> From<&'a [[f32; 3]; N]> for Directions<'a> {
+    fn from(vectors: &'a [[f32; 3]; N]) -> Self {
+        Directions::Vectors(vectors)
+    }
+}
+
+impl<'a> Directions<'a> {
+    /// Directions whose components lie in slices of their own.
+    ///
+    /// # Panics
+    /// If the slices differ in length.
+    pub fn columns(x: &'a [f32], y: &'a [f32], z: &'a [f32]) -> Self {
+        assert!(x.len() == y.len() && y.len() == z.len(), "components of {}, {}, {}", x.len(), y.len(), z.len());
+        Directions::Columns([x, y, z])
+    }
 
     /// How many there are.
-    fn count(&self) -> usize;
+    ///
+    /// # Panics
+    /// If they are columns that differ in length.
+    pub fn count(&self) -> usize {
+        match self {
+            Directions::Vectors(vectors) => vectors.len(),
+            Directions::Columns([x, y, z]) => {
+                assert!(
+                    x.len() == y.len() && y.len() == z.len(),
+                    "components of {}, {}, {}",
+                    x.len(),
+                    y.len(),
+                    z.len()
+                );
+                x.len()
+            }
+        }
+    }
 
     /// Directions `range`, for splitting a batch.
     ///
     /// # Panics
-    /// Where there are fewer.
-    fn part(&self, range: Range<usize>) -> Self;
-
-    /// The block from direction `at` on. Where fewer are left than a block has, they are copied to `padding`, zero
-    /// vectors behind them.
-    #[doc(hidden)]
-    fn block<'a>(&'a self, at: usize, padding: &'a mut Self::Padding) -> Self::Block<'a>;
-}
-
-/// A whole block of directions.
-#[doc(hidden)]
-pub trait BlockOfDirections: Copy {
-    /// Directions `at .. at + LANES` of the block as x, y and z; `at` is a multiple of the lanes.
-    fn load<L: Lanes>(self, lanes: L, at: usize) -> [L::F; 3];
-}
-
-mod sealed {
-    pub trait Sealed {}
-    impl Sealed for &[[f32; 3]] {}
-    impl Sealed for super::Soa<'_> {}
-}
-
-impl Directions for &[[f32; 3]] {
-    type Block<'a>
-        = &'a [[f32; 3]; BLOCK]
-    where
-        Self: 'a;
-    type Padding = [[f32; 3]; BLOCK];
-    const PADDING: Self::Padding = [[0.0; 3]; BLOCK];
-
-    fn count(&self) -> usize {
-        self.len()
-    }
-
-    fn part(&self, range: Range<usize>) -> Self {
-        &self[range]
-    }
-
-    #[inline(always)]
-    fn block<'a>(&'a self, at: usize, padding: &'a mut Self::Padding) -> Self::Block<'a> {
-        let rest = &self[at..];
-        match rest.first_chunk() {
-            Some(whole) => whole,
-            None => {
-                *padding = Self::PADDING;
-                padding[..rest.len()].copy_from_slice(rest);
-                padding
-            }
+    /// If there are fewer.
+    pub fn part(&self, range: Range<usize>) -> Self {
+        match self {
+            Directions::Vectors(vectors) => Directions::Vectors(&vectors[range]),
+            Directions::Columns([x, y, z]) => Directions::Columns([&x[range.clone()], &y[range.clone()], &z[range]]),
         }
     }
-}
 
-impl BlockOfDirections for &[[f32; 3]; BLOCK] {
+    /// The block from direction `at` on. If fewer are left than a block has, they are copied to `padding`, zero vectors
+    /// behind them.
     #[inline(always)]
-    fn load<L: Lanes>(self, lanes: L, at: usize) -> [L::F; 3] {
-        lanes.load_xyz(&self[at & (BLOCK - L::LANES)..][..L::LANES])
-    }
-}
-
-/// Directions as separate slices of x, y and z, which are equally long.
-#[derive(Clone, Copy, Debug)]
-pub struct Soa<'a> {
-    xyz: [&'a [f32]; 3],
-}
-
-impl<'a> Soa<'a> {
-    /// Directions from their components.
-    ///
-    /// # Panics
-    /// Where the slices differ in length.
-    pub fn new(x: &'a [f32], y: &'a [f32], z: &'a [f32]) -> Self {
-        assert!(x.len() == y.len() && y.len() == z.len(), "components of {}, {}, {}", x.len(), y.len(), z.len());
-        Soa { xyz: [x, y, z] }
-    }
-}
-
-impl Directions for Soa<'_> {
-    type Block<'a>
-        = [&'a [f32; BLOCK]; 3]
-    where
-        Self: 'a;
-    type Padding = [[f32; BLOCK]; 3];
-    const PADDING: Self::Padding = [[0.0; BLOCK]; 3];
-
-    fn count(&self) -> usize {
-        self.xyz[0].len()
-    }
-
-    fn part(&self, range: Range<usize>) -> Self {
-        Soa { xyz: self.xyz.map(|component| &component[range.clone()]) }
-    }
-
-    #[inline(always)]
-    fn block<'a>(&'a self, at: usize, padding: &'a mut Self::Padding) -> Self::Block<'a> {
-        let [x, y, z] = self.xyz.map(|component| &component[at..]);
-        match (x.first_chunk(), y.first_chunk(), z.first_chunk()) {
-            (Some(x), Some(y), Some(z)) => [x, y, z],
-            _ => {
-                *padding = Self::PADDING;
-                for (padded, rest) in padding.iter_mut().zip([x, y, z]) {
-                    padded[..rest.len()].copy_from_slice(rest);
+    pub(crate) fn block<'b>(&'b self, at: usize, padding: &'b mut Padding) -> DirectionBlock<'b> {
+        match self {
+            Directions::Vectors(vectors) => {
+                let rest = &vectors[at..];
+                match rest.first_chunk() {
+                    Some(whole) => DirectionBlock::Vectors(whole),
+                    None => {
+                        padding[..rest.len()].copy_from_slice(rest);
+                        padding[rest.len()..].fill([0.0; 3]);
+                        DirectionBlock::Vectors(padding)
+                    }
                 }
-                let [x, y, z] = padding;
-                [x, y, z]
+            }
+            Directions::Columns([x, y, z]) => {
+                let (x, y, z) = (&x[at..], &y[at..], &z[at..]);
+                match (x.first_chunk(), y.first_chunk(), z.first_chunk()) {
+                    (Some(x), Some(y), Some(z)) => DirectionBlock::Columns([x, y, z]),
+                    _ => {
+                        let mut query = 0;
+                        while query < BLOCK {
+                            let is_there = query < x.len();
+                            padding[query] = if is_there { [x[query], y[query], z[query]] } else { [0.0; 3] };
+                            query += 1;
+                        }
+                        DirectionBlock::Vectors(padding)
+                    }
+                }
             }
         }
     }
 }
 
-impl BlockOfDirections for [&[f32; BLOCK]; 3] {
+/// Room for a block that is not whole.
+pub(crate) type Padding = [[f32; 3]; BLOCK];
+
+pub(crate) const PADDING: Padding = [[0.0; 3]; BLOCK];
+
+/// A whole block of directions, which needs no bounds checks.
+#[derive(Clone, Copy)]
+pub(crate) enum DirectionBlock<'a> {
+    Vectors(&'a [[f32; 3]; BLOCK]),
+    Columns([&'a [f32; BLOCK]; 3]),
+}
+
+impl DirectionBlock<'_> {
+    /// Directions `at .. at + LANES` of the block as x, y and z; `at` is a multiple of the lanes.
+    ///
+    /// The branch goes the same way for all of a batch.
     #[inline(always)]
-    fn load<L: Lanes>(self, lanes: L, at: usize) -> [L::F; 3] {
-        let [x, y, z] = self;
+    pub(crate) fn load<L: Lanes>(self, lanes: L, at: usize) -> [L::F; 3] {
         let at = at & (BLOCK - L::LANES);
-        [lanes.load(&x[at..][..L::LANES]), lanes.load(&y[at..][..L::LANES]), lanes.load(&z[at..][..L::LANES])]
+        match self {
+            DirectionBlock::Vectors(vectors) => lanes.load_xyz(&vectors[at..][..L::LANES]),
+            DirectionBlock::Columns([x, y, z]) => {
+                [lanes.load(&x[at..][..L::LANES]), lanes.load(&y[at..][..L::LANES]), lanes.load(&z[at..][..L::LANES])]
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_layouts_give_the_same_blocks() {
+        let count = 2 * BLOCK + 5;
+        let vectors: Vec<[f32; 3]> = (0..count).map(|i| [0.0, 0.25, 0.5].map(|part| i as f32 + part)).collect();
+        let [x, y, z] = [0, 1, 2].map(|k| vectors.iter().map(|v| v[k]).collect::<Vec<f32>>());
+        let layouts = [Directions::from(&vectors), Directions::columns(&x, &y, &z)];
+        let lanes = lobe_scalar::Scalar::<1>;
+        for at in [0, BLOCK, 2 * BLOCK] {
+            for directions in layouts {
+                assert_eq!(directions.count(), count);
+                let mut padding = [[f32::NAN; 3]; BLOCK];
+                let block = directions.block(at, &mut padding);
+                for query in 0..BLOCK {
+                    let found = lanes.extract_xyz(block.load(lanes, query), 0);
+                    assert_eq!(found, vectors.get(at + query).copied().unwrap_or_default());
+                }
+                assert_eq!(directions.part(at..count).count(), count - at);
+            }
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "components of 1, 2, 1")]
+    fn columns_have_one_length() {
+        Directions::Columns([&[0.0], &[0.0, 0.0], &[0.0]]).count();
     }
 }

@@ -38,7 +38,7 @@ pub mod utia;
 pub mod window;
 
 pub use data::{Aspect, Data, Kind, Representation, Side};
-pub use directions::{Directions, Soa};
+pub use directions::Directions;
 pub use grid::{Axis, AxisError, Cell, Edge, Edges, Function, GridError, Precision};
 pub use invalid::Invalid;
 pub use lobe_colour::{Channels, luminance};

@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
+use lobe_backend::Backend;
 use lobe_formats::{Document, Format, FormatError};
-use lobe_scalar::Scalar;
 use lobe_table::rgl::{Reference, UniformOrder};
 use lobe_table::utia::Decode;
 use lobe_table::{Data, Edges, specular, specular::reference};
@@ -114,7 +114,7 @@ fn table(samples: &specular::Data) {
     // A table may have more values than a lane can index, or a circle that cannot be closed.
     if let Ok(table) = specular::Table::new(samples, &edges) {
         let single = |direction: [f64; 3]| direction.map(|x| x as f32);
-        each(|wi, wo| table.eval(Scalar::<1>, single(wi), single(wo), &mut rounded));
+        each(|wi, wo| table.eval(Backend::scalar(), single(wi), single(wo), &mut rounded));
     }
 }
 

@@ -56,7 +56,7 @@ pub enum OpenError {
 /// let wi = [[0.5, 0.0, 0.866], [0.0, 0.6, 0.8]];
 /// let wo = [[-0.5, 0.0, 0.866], [0.0, -0.6, 0.8]];
 /// let mut f = vec![0.0; wi.len() * brdf.channel_count()];
-/// brdf.eval_batch(wi.as_slice(), wo.as_slice(), &mut f);
+/// brdf.eval_batch(&wi, &wo, &mut f);
 /// # Ok::<(), lobe::OpenError>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -119,34 +119,38 @@ impl Brdf {
     /// # Panics
     /// Where `out` is not as long as there are channels.
     pub fn eval(&self, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
-        self.backend.run(self.table.single(wi, wo, out));
+        self.table.eval(self.backend, wi, wo, out);
     }
 
     /// Evaluates many pairs: `out[query * channel_count + channel]`. `wi` and `wo` are slices of vectors, or
-    /// [`Soa`](crate::Soa) of components.
+    /// [columns](Directions::columns) of components.
     ///
     /// From [`PARALLEL_FROM`] queries on, the work is shared among the threads of the current rayon pool (feature
     /// `rayon`); the results do not depend on how many there are.
     ///
     /// # Panics
     /// Where there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
-    pub fn eval_batch<D: Directions + Sync>(&self, wi: D, wo: D, out: &mut [f32]) {
+    pub fn eval_batch<'a>(&self, wi: impl Into<Directions<'a>>, wo: impl Into<Directions<'a>>, out: &mut [f32]) {
+        self.eval_directions(wi.into(), wo.into(), out);
+    }
+
+    fn eval_directions(&self, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
         #[cfg(feature = "rayon")]
         if wi.count() >= PARALLEL_FROM {
             return self.eval_parallel(wi, wo, out);
         }
-        self.backend.run(self.table.batch(wi, wo, out));
+        self.table.eval_batch(self.backend, wi, wo, out);
     }
 
     #[cfg(feature = "rayon")]
-    fn eval_parallel<D: Directions + Sync>(&self, wi: D, wo: D, out: &mut [f32]) {
+    fn eval_parallel(&self, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
         use rayon::prelude::*;
         assert_eq!(wi.count(), wo.count(), "as many wi as wo");
         assert_eq!(out.len(), wi.count() * self.channel_count(), "one output a query and channel");
         out.par_chunks_mut(TASK * self.channel_count()).enumerate().for_each(|(task, out)| {
             let from = task * TASK;
             let range = from..from + out.len() / self.channel_count();
-            self.backend.run(self.table.batch(wi.part(range.clone()), wo.part(range), out));
+            self.table.eval_batch(self.backend, wi.part(range.clone()), wo.part(range), out);
         });
     }
 }

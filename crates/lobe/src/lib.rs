@@ -5,13 +5,12 @@
 //! [`specular::Table::eval_lanes`] inside a [`Kernel`] of its own, which [`Backend::run`] runs.
 #![forbid(unsafe_code)]
 
-mod backend;
 mod brdf;
 mod material;
 mod sampler;
 
-pub use backend::{BACKEND_VARIABLE, Backend, BackendError};
 pub use brdf::{Brdf, OpenError, PARALLEL_FROM};
+pub use lobe_backend::{BACKEND_VARIABLE, Backend, BackendError};
 pub use lobe_formats as formats;
 pub use lobe_lane::{Floats, Ints, Kernel, Lanes, Mask};
 pub use lobe_math as math;
@@ -19,7 +18,7 @@ pub use lobe_table as table;
 pub use lobe_table::utia::Decode;
 pub use lobe_table::{
     Aspect, Axis, Channels, Data, Directions, Edge, Edges, Function, Given, Precision, Sampled, SamplerError,
-    SamplerOptions, Scatter, Side, Soa, luminance, specular,
+    SamplerOptions, Scatter, Side, luminance, specular,
 };
 pub use material::{Kind, Lookup, Material, Options};
 pub use sampler::Sampler;

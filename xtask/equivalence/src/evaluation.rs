@@ -1,38 +1,40 @@
 //! Whole evaluations of tables, in every way of calling.
 
 use lobe_lane::{Ints, Kernel, Lanes};
-use lobe_table::{Scatter, Soa, specular};
+use lobe_table::{Directions, Scatter, specular};
 
 use super::lanes::floats;
+use super::machine::Machine;
 use super::record::{Bound, Record};
 use super::tables::{Case, Queries, cases};
 
 /// What every case records.
 ///
 /// A function and not a kernel: each way of calling enters the backend by itself, as a caller's would.
-pub(super) fn record<L: Lanes>(lanes: L) -> Vec<Record> {
-    cases().iter().flat_map(|case| evaluate(lanes, case)).collect()
+pub(super) fn record(machine: impl Machine) -> Vec<Record> {
+    cases().iter().flat_map(|case| evaluate(machine, case)).collect()
 }
 
-fn evaluate<L: Lanes>(lanes: L, case: &Case) -> Vec<Record> {
+fn evaluate(machine: impl Machine, case: &Case) -> Vec<Record> {
     let Case { name, table, queries, bounds, .. } = case;
     let channels = table.channel_count();
     let Queries { wi, wo } = queries;
     let mut vectors = vec![f32::NAN; wi.len() * channels];
-    table.eval_batch(lanes, wi.as_slice(), wo.as_slice(), &mut vectors);
+    machine.eval_batch(table, [wi.into(), wo.into()], &mut vectors);
 
     let mut components = vec![f32::NAN; vectors.len()];
     let [[ix, iy, iz], [ox, oy, oz]] =
         [wi, wo].map(|w| [0, 1, 2].map(|k| w.iter().map(|v| v[k]).collect::<Vec<f32>>()));
-    table.eval_batch(lanes, Soa::new(&ix, &iy, &iz), Soa::new(&ox, &oy, &oz), &mut components);
+    let columns = [Directions::columns(&ix, &iy, &iz), Directions::columns(&ox, &oy, &oz)];
+    machine.eval_batch(table, columns, &mut components);
 
     let mut single = vec![f32::NAN; vectors.len()];
     for (out, (&wi, &wo)) in single.chunks_exact_mut(channels).zip(wi.iter().zip(wo)) {
-        table.eval(lanes, wi, wo, out);
+        machine.eval(table, wi, wo, out);
     }
 
     let keep: Vec<i32> = (0..wi.len()).map(|query| i32::from(query * 7 % 5 != 0)).collect();
-    let masked = lanes.vectorize(Masked { table, queries, keep: &keep });
+    let masked = machine.run(Masked { table, queries, keep: &keep });
 
     let same = |a: f32, b: f32| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
     let agree = |other: &[f32]| vectors.iter().zip(other).map(|(&a, &b)| same(a, b)).collect::<Vec<bool>>();

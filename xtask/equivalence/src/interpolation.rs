@@ -1,11 +1,11 @@
 //! Tables at known angles.
 
-use lobe_lane::Lanes;
 use lobe_table::Edges;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
 use super::bound::SUM;
+use super::machine::Machine;
 use super::record::{Bound, Record};
 use super::tables::{Case, cases};
 
@@ -13,17 +13,17 @@ use super::tables::{Case, cases};
 const QUERIES: usize = 64 * 2 + 5;
 
 /// Every table once, at angles inside and outside its knots, on them, and at what is no angle.
-pub(super) fn record<L: Lanes>(lanes: L) -> Vec<Record> {
+pub(super) fn record(machine: impl Machine) -> Vec<Record> {
     let tables = cases().iter().filter(|case| case.name.ends_with("incoherent"));
-    tables.enumerate().map(|(seed, case)| interpolate(lanes, case, seed as u64)).collect()
+    tables.enumerate().map(|(seed, case)| interpolate(machine, case, seed as u64)).collect()
 }
 
-fn interpolate<L: Lanes>(lanes: L, case: &Case, seed: u64) -> Record {
+fn interpolate(machine: impl Machine, case: &Case, seed: u64) -> Record {
     let Case { name, table, largest, .. } = case;
     let name = name.trim_end_matches(", incoherent");
     let angles = angles(seed);
     let mut values = vec![f32::NAN; QUERIES * table.channel_count()];
-    table.interpolate_batch(lanes, angles.each_ref().map(Vec::as_slice), &mut values);
+    machine.interpolate(table, angles.each_ref().map(Vec::as_slice), &mut values);
     // Cells and fractions of the same angles are the same bits in both forms, so only the sums differ; beyond the knots
     // of a table that goes on in straight lines weights have any size.
     let bound = if *table.edges() == Edges::extrapolate() {

@@ -10,6 +10,7 @@ mod bound;
 mod evaluation;
 mod interpolation;
 mod lanes;
+mod machine;
 mod math;
 mod memory;
 mod patterns;
@@ -24,8 +25,7 @@ mod texels;
 
 use std::path::PathBuf;
 
-use lobe_lane::Lanes;
-
+use machine::Machine;
 pub use record::{Bound, Check, Record, Values};
 pub use subject::{Form, Subject, facade_agrees, reference};
 
@@ -93,21 +93,21 @@ impl Property {
         }
     }
 
-    /// Computes everything on one backend.
-    pub fn record<L: Lanes>(self, lanes: L) -> Vec<Record> {
+    /// Computes everything in one way.
+    fn record(self, machine: impl Machine) -> Vec<Record> {
         match self {
-            Property::Floats => lanes.vectorize(lanes::FloatLanes),
-            Property::Ints => lanes.vectorize(lanes::IntLanes),
-            Property::Masks => lanes.vectorize(lanes::Masks),
-            Property::Memory => lanes.vectorize(memory::Memory),
-            Property::Texels => lanes.vectorize(texels::QuadsAndOcts),
-            Property::Math => lanes.vectorize(math::Functions),
-            Property::Axes => lanes.vectorize(axes::Searches),
-            Property::Evaluation => evaluation::record(lanes),
-            Property::Interpolation => interpolation::record(lanes),
-            Property::Rgl => rgl::record(lanes),
-            Property::Sampling => sampling::record(lanes),
-            Property::Representations => representations::record(lanes),
+            Property::Floats => machine.run(lanes::FloatLanes),
+            Property::Ints => machine.run(lanes::IntLanes),
+            Property::Masks => machine.run(lanes::Masks),
+            Property::Memory => machine.run(memory::Memory),
+            Property::Texels => machine.run(texels::QuadsAndOcts),
+            Property::Math => machine.run(math::Functions),
+            Property::Axes => machine.run(axes::Searches),
+            Property::Evaluation => evaluation::record(machine),
+            Property::Interpolation => interpolation::record(machine),
+            Property::Rgl => rgl::record(machine),
+            Property::Sampling => sampling::record(machine),
+            Property::Representations => representations::record(machine),
         }
     }
 }

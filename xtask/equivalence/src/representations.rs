@@ -4,12 +4,12 @@ use std::sync::OnceLock;
 
 use lobe_benches::tables::{half_difference, klems, mueller, tensor_tree, utia};
 use lobe_benches::workload::Input;
-use lobe_lane::{Kernel, Lanes};
 use lobe_table::half_diff::{self, Lookup};
 use lobe_table::utia::{self, Decode};
 use lobe_table::window::tensor_tree::Rank;
-use lobe_table::{Directions, Soa, mueller, window};
+use lobe_table::{Directions, mueller, window};
 
+use super::machine::{Machine, Pairs};
 use super::record::{Bound, Record};
 use super::tables::{Queries, adversarial, not_unit, workload};
 
@@ -29,35 +29,23 @@ enum Representation {
     Window(window::Table),
 }
 
-/// One way of evaluating one of them, compiled for a backend.
-struct Work<'a, D> {
-    representation: &'a Representation,
-    wi: D,
-    wo: D,
-    out: &'a mut [f32],
-}
-
-impl<D: Directions> Kernel for Work<'_, D> {
-    type Out = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) {
-        let Work { representation, wi, wo, out } = self;
-        match representation {
-            Representation::HalfDiff(table, lookup) => table.batch(*lookup, wi, wo, out).run(lanes),
-            Representation::Utia(table) => table.batch(wi, wo, out).run(lanes),
-            Representation::Mueller(table) => table.batch(wi, wo, out).run(lanes),
-            Representation::Window(table) => table.batch(wi, wo, out).run(lanes),
+impl Representation {
+    fn eval_batch(&self, machine: impl Machine, pairs: Pairs<'_>, out: &mut [f32]) {
+        match self {
+            Representation::HalfDiff(table, lookup) => machine.half_diff(table, *lookup, pairs, out),
+            Representation::Utia(table) => machine.utia(table, pairs, out),
+            Representation::Mueller(table) => machine.mueller(table, pairs, out),
+            Representation::Window(table) => machine.window(table, pairs, out),
         }
     }
 }
 
 /// What every case records.
-pub(super) fn record<L: Lanes>(lanes: L) -> Vec<Record> {
+pub(super) fn record(machine: impl Machine) -> Vec<Record> {
     let mut records = Vec::new();
     for case in cases() {
         for (set, queries, bounds) in &case.sets() {
-            evaluate(lanes, case, set, queries, bounds.as_deref(), &mut records);
+            evaluate(machine, case, set, queries, bounds.as_deref(), &mut records);
         }
     }
     records
@@ -87,8 +75,8 @@ impl Case {
     }
 }
 
-fn evaluate<L: Lanes>(
-    lanes: L,
+fn evaluate(
+    machine: impl Machine,
     case: &Case,
     set: &str,
     Queries { wi, wo }: &Queries,
@@ -97,12 +85,12 @@ fn evaluate<L: Lanes>(
 ) {
     let Case { name, representation, width, .. } = case;
     let mut vectors = vec![f32::NAN; wi.len() * width];
-    lanes.vectorize(Work { representation, wi: wi.as_slice(), wo: wo.as_slice(), out: &mut vectors });
+    representation.eval_batch(machine, [wi.into(), wo.into()], &mut vectors);
     let mut components = vec![f32::NAN; vectors.len()];
     let [[ix, iy, iz], [ox, oy, oz]] =
         [wi, wo].map(|w| [0, 1, 2].map(|k| w.iter().map(|v| v[k]).collect::<Vec<f32>>()));
-    let (wi_columns, wo_columns) = (Soa::new(&ix, &iy, &iz), Soa::new(&ox, &oy, &oz));
-    lanes.vectorize(Work { representation, wi: wi_columns, wo: wo_columns, out: &mut components });
+    let columns = [Directions::columns(&ix, &iy, &iz), Directions::columns(&ox, &oy, &oz)];
+    representation.eval_batch(machine, columns, &mut components);
 
     let agree = vectors.iter().zip(&components).map(|(a, b)| a.to_bits() == b.to_bits()).collect::<Vec<bool>>();
     records.push(Record::exact(format!("{name}, {set}: components as vectors"), agree));

@@ -4,9 +4,9 @@ use std::sync::OnceLock;
 
 use lobe_benches::tables;
 use lobe_benches::workload::Input;
-use lobe_lane::Lanes;
-use lobe_table::rgl::{self, Drawn, UniformOrder, Wanted};
+use lobe_table::rgl::{self, Drawn, Wanted};
 
+use super::machine::Machine;
 use super::record::{Bound, Record};
 use super::sampling::numbers;
 use super::tables::{Queries, adversarial, workload};
@@ -27,7 +27,7 @@ fn materials() -> &'static [(&'static str, rgl::Table)] {
 }
 
 /// Both materials and all queries.
-pub(super) fn record<L: Lanes>(lanes: L) -> Vec<Record> {
+pub(super) fn record(machine: impl Machine) -> Vec<Record> {
     let sets = [
         ("incoherent", workload(Input::Incoherent)),
         ("coherent", workload(Input::Coherent)),
@@ -36,18 +36,18 @@ pub(super) fn record<L: Lanes>(lanes: L) -> Vec<Record> {
     let mut records = Vec::new();
     for (kind, table) in materials() {
         for (set, queries) in &sets {
-            records.extend(evaluate(lanes, &format!("{kind}, {set}"), table, queries));
-            records.extend(sample(lanes, &format!("{kind}, {set}"), table, queries));
+            records.extend(evaluate(machine, &format!("{kind}, {set}"), table, queries));
+            records.extend(sample(machine, &format!("{kind}, {set}"), table, queries));
         }
     }
     records
 }
 
-fn evaluate<L: Lanes>(lanes: L, name: &str, table: &rgl::Table, Queries { wi, wo }: &Queries) -> [Record; 3] {
+fn evaluate(machine: impl Machine, name: &str, table: &rgl::Table, Queries { wi, wo }: &Queries) -> [Record; 3] {
     let values = || vec![f32::NAN; wi.len() * table.channel_count()];
     let (mut f, mut cos, mut pdf) = (values(), values(), vec![f32::NAN; wi.len()]);
-    lanes.vectorize(table.batch(wi.as_slice(), wo.as_slice(), Wanted::ValuesAndPdf(&mut f, &mut pdf)));
-    lanes.vectorize(table.batch(wi.as_slice(), wo.as_slice(), Wanted::ValuesCos(&mut cos)));
+    machine.rgl(table, [wi.into(), wo.into()], Wanted::ValuesAndPdf(&mut f, &mut pdf));
+    machine.rgl(table, [wi.into(), wo.into()], Wanted::ValuesCos(&mut cos));
     let bounds = |values: &[f32], unit: &dyn Fn(usize) -> f64| {
         let each = values.len() / wi.len();
         let bound = |(at, value): (usize, &f32)| 2.0 * VALUE * f64::from(value.abs()).max(unit(at / each));
@@ -63,12 +63,12 @@ fn evaluate<L: Lanes>(lanes: L, name: &str, table: &rgl::Table, Queries { wi, wo
     ]
 }
 
-fn sample<L: Lanes>(lanes: L, name: &str, table: &rgl::Table, Queries { wi, .. }: &Queries) -> [Record; 3] {
+fn sample(machine: impl Machine, name: &str, table: &rgl::Table, Queries { wi, .. }: &Queries) -> [Record; 3] {
     let channels = table.channel_count();
     let mut directions = vec![[f32::NAN; 3]; wi.len()];
     let (mut pdf, mut weights) = (vec![f32::NAN; wi.len()], vec![f32::NAN; wi.len() * channels]);
     let drawn = Drawn { wo: &mut directions, pdf: &mut pdf, weights: &mut weights };
-    table.sample_batch(lanes, wi.as_slice(), &numbers(wi.len()), UniformOrder::Pbrt, drawn);
+    machine.rgl_sample(table, wi.into(), &numbers(wi.len()), drawn);
 
     // A sample along the surface may lie on either side of it, and is nothing on one of them.
     let along = |query: usize| directions[query][2] < 10.0 * DIRECTION as f32 && wi[query][2] > 0.0;

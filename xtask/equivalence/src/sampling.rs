@@ -2,26 +2,25 @@
 
 use std::sync::Arc;
 
-use lobe_lane::Lanes;
-use lobe_table::{Edges, Given, Sampled, Sampler, SamplerOptions};
+use lobe_table::{Edges, Given, Sampled};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
+use super::machine::Machine;
 use super::record::{Bound, Record};
 use super::tables::{Case, Queries, adversarial, cases};
 
 /// Every table once, with a sampler that this backend built.
-pub(super) fn record<L: Lanes>(lanes: L) -> Vec<Record> {
+pub(super) fn record(machine: impl Machine) -> Vec<Record> {
     let is_wanted = |case: &&Case| case.name.ends_with("incoherent") && *case.table.edges() == Edges::default();
-    cases().iter().filter(is_wanted).flat_map(|case| sample(lanes, case)).collect()
+    cases().iter().filter(is_wanted).flat_map(|case| sample(machine, case)).collect()
 }
 
 /// A histogram has steps, and a draw beside one may fall on either side, so the fused form promises no bits: that its
 /// samples have their density is for statistics to show.
-fn sample<L: Lanes>(lanes: L, case: &Case) -> Vec<Record> {
+fn sample(machine: impl Machine, case: &Case) -> Vec<Record> {
     let channels = case.table.channel_count();
-    let sampler = Sampler::new(lanes, Arc::new(case.table.clone()), &SamplerOptions::default());
-    let sampler = sampler.expect("options that suit every table");
+    let sampler = machine.sampler(Arc::new(case.table.clone()));
     let name = case.name.trim_end_matches(", incoherent");
     let mut queries = case.queries.clone();
     let Queries { wi, wo } = adversarial();
@@ -36,13 +35,16 @@ fn sample<L: Lanes>(lanes: L, case: &Case) -> Vec<Record> {
         let (mut weights, mut pdfs, mut densities) =
             (vec![f32::NAN; count * channels], vec![f32::NAN; count], vec![f32::NAN; count]);
         let out = Sampled { directions: &mut directions, weights: &mut weights, pdfs: &mut pdfs };
-        sampler.sample_batch(lanes, given, &queries.wi, &u, out);
-        sampler.pdf_batch(lanes, given, &queries.wi, &queries.wo, &mut densities);
+        machine.sample(&sampler, given, &queries.wi, &u, out);
+        machine.densities(&sampler, given, &queries.wi, &queries.wo, &mut densities);
 
         let agrees = (0..count).map(|query| {
             let mut weight = vec![f32::NAN; channels];
-            let (direction, pdf) = sampler.sample(lanes, given, queries.wi[query], u[query], &mut weight);
-            let found = direction.iter().chain([&pdf]).chain(&weight);
+            let (mut direction, mut pdf) = ([[f32::NAN; 3]], [f32::NAN]);
+            let one = query..query + 1;
+            let out = Sampled { directions: &mut direction, weights: &mut weight, pdfs: &mut pdf };
+            machine.sample(&sampler, given, &queries.wi[one.clone()], &u[one], out);
+            let found = direction[0].iter().chain(&pdf).chain(&weight);
             let expected = directions[query].iter().chain([&pdfs[query]]).chain(&weights[query * channels..]);
             found.zip(expected).all(|(a, b)| a.to_bits() == b.to_bits())
         });

@@ -1,9 +1,9 @@
 //! The backends that are checked, and in which forms.
 
-use lobe_lane::Lanes;
-use lobe_scalar::Scalar;
+use lobe::Backend;
 use serde::Serialize;
 
+use super::machine::Emulated;
 use super::{Property, Record};
 
 /// Whether multiply-adds round twice or, where the hardware does so, once.
@@ -16,7 +16,7 @@ pub enum Form {
     Fused,
 }
 
-/// A backend to be checked against the reference, [`Scalar<1>`].
+/// What is checked against the reference, the scalar backend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
     /// Four lanes in plain Rust.
@@ -25,112 +25,87 @@ pub enum Subject {
     Emulated8,
     /// Sixteen lanes in plain Rust.
     Emulated16,
-    /// Four lanes on SSE2.
-    Sse2,
-    /// Four lanes on SSE4.1.
-    Sse41,
-    /// Eight lanes on AVX2 and FMA.
-    Avx2,
+    /// A backend by its name.
+    Native(&'static str),
 }
 
 impl Subject {
     /// All of them, on any machine.
-    pub const ALL: [Subject; 6] =
-        [Self::Emulated4, Self::Emulated8, Self::Emulated16, Self::Sse2, Self::Sse41, Self::Avx2];
+    pub fn all() -> Vec<Subject> {
+        let emulated = [Self::Emulated4, Self::Emulated8, Self::Emulated16];
+        emulated.into_iter().chain(Backend::ALL[1..].iter().map(|name| Self::Native(name))).collect()
+    }
 
-    /// The name, which for those of the facade is that of `LOBE_BACKEND`.
+    /// The name, which for backends is that of `LOBE_BACKEND`.
     pub fn name(self) -> &'static str {
         match self {
             Subject::Emulated4 => "emulated4",
             Subject::Emulated8 => "emulated8",
             Subject::Emulated16 => "emulated16",
-            Subject::Sse2 => "sse2",
-            Subject::Sse41 => "sse4.1",
-            Subject::Avx2 => "avx2",
+            Subject::Native(name) => name,
         }
     }
 
-    /// How many lanes it has.
-    pub fn lanes(self) -> usize {
+    /// The backend, if it is one and this CPU has it.
+    fn backend(self) -> Option<Backend> {
         match self {
-            Subject::Emulated4 | Subject::Sse2 | Subject::Sse41 => 4,
-            Subject::Emulated8 | Subject::Avx2 => 8,
-            Subject::Emulated16 => 16,
+            Subject::Native(name) => Backend::named(name).ok(),
+            _ => None,
+        }
+    }
+
+    /// How many lanes it has; nothing if this CPU does not have it.
+    pub fn lanes(self) -> Option<usize> {
+        match self {
+            Subject::Emulated4 => Some(4),
+            Subject::Emulated8 => Some(8),
+            Subject::Emulated16 => Some(16),
+            Subject::Native(_) => self.backend().map(|backend| backend.lanes()),
         }
     }
 
     /// The forms in which its results may differ.
     pub fn forms(self) -> &'static [Form] {
-        match self {
-            Subject::Avx2 => &[Form::Strict, Form::Fused],
+        match self.backend() {
+            Some(backend) if backend.has_fused_form() => &[Form::Strict, Form::Fused],
             _ => &[Form::Strict],
         }
-    }
-
-    /// `true` for backends that the facade offers, where the CPU has them.
-    pub fn is_native(self) -> bool {
-        !matches!(self, Subject::Emulated4 | Subject::Emulated8 | Subject::Emulated16)
     }
 
     /// Whether this CPU has to be able to run it. Asks the CPU and not the backends, whose own detection is checked
     /// against this.
     pub fn expected(self) -> bool {
-        #[cfg(target_arch = "x86_64")]
-        return match self {
-            Subject::Sse2 => std::is_x86_feature_detected!("sse2"),
-            Subject::Sse41 => std::is_x86_feature_detected!("sse4.1"),
-            Subject::Avx2 => {
-                std::is_x86_feature_detected!("avx2")
-                    && std::is_x86_feature_detected!("fma")
-                    && std::is_x86_feature_detected!("f16c")
-                    && std::is_x86_feature_detected!("bmi1")
-                    && std::is_x86_feature_detected!("bmi2")
-                    && std::is_x86_feature_detected!("lzcnt")
-                    && std::is_x86_feature_detected!("popcnt")
-            }
+        match self {
+            Subject::Native(name) => Backend::reported().contains(&name),
             _ => true,
-        };
-        #[cfg(not(target_arch = "x86_64"))]
-        return !self.is_native();
+        }
     }
 
-    /// What `property` records on this backend; `None` where the backend says that this CPU cannot run it.
-    ///
-    /// Backends that never fuse have one form and are run as they are.
+    /// What `property` records in this form; `None` if the backend says that this CPU cannot run it.
     pub fn record(self, form: Form, property: Property) -> Option<Vec<Record>> {
         match self {
-            Subject::Emulated4 => Some(property.record(Scalar::<4>)),
-            Subject::Emulated8 => Some(property.record(Scalar::<8>)),
-            Subject::Emulated16 => Some(property.record(Scalar::<16>)),
-            #[cfg(target_arch = "x86_64")]
-            Subject::Sse2 => Some(property.record(lobe_sse::Sse2::new())),
-            #[cfg(target_arch = "x86_64")]
-            Subject::Sse41 => lobe_sse::Sse41::detect().map(|lanes| property.record(lanes)),
-            #[cfg(target_arch = "x86_64")]
-            Subject::Avx2 => lobe_avx::Avx2::detect().map(|lanes| match form {
-                Form::Strict => property.record(lanes.strict()),
-                Form::Fused => property.record(lanes),
-            }),
-            #[cfg(not(target_arch = "x86_64"))]
-            _ => None,
+            Subject::Emulated4 => Some(property.record(Emulated::<4>)),
+            Subject::Emulated8 => Some(property.record(Emulated::<8>)),
+            Subject::Emulated16 => Some(property.record(Emulated::<16>)),
+            Subject::Native(_) => self
+                .backend()
+                .map(|backend| property.record(if form == Form::Strict { backend.strict() } else { backend.fused() })),
         }
     }
 }
 
-/// What every backend is compared with.
+/// What everything is compared with.
 pub fn reference(property: Property) -> Vec<Record> {
-    property.record(Scalar::<1>)
+    property.record(Backend::scalar().strict())
 }
 
-/// Whether the facade offers exactly the native backends that this CPU has to have, beside the scalar one.
+/// Whether exactly the backends are there that this CPU has to have.
 ///
 /// # Errors
-/// The two lists, where they differ.
+/// The two lists, if they differ.
 pub fn facade_agrees() -> anyhow::Result<()> {
-    let expected: Vec<&str> = std::iter::once("scalar")
-        .chain(Subject::ALL.into_iter().filter(|s| s.is_native() && s.expected()).map(Subject::name))
-        .collect();
-    let offered: Vec<&str> = lobe::Backend::available().iter().map(lobe::Backend::name).collect();
+    let expected = Backend::reported();
+    let offered: Vec<&str> = Backend::available().iter().map(Backend::name).collect();
     anyhow::ensure!(offered == expected, "the facade offers {offered:?}; this CPU has to have {expected:?}");
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! A measured table against an analytic model: what measured materials cost.
 
-use lobe::{Backend, Edges, Soa, specular};
+use lobe::{Backend, Directions, Edges, specular};
 use lobe_benches::contest::Contender;
 use lobe_benches::tables;
 use lobe_benches::workload::Input;
@@ -25,8 +25,8 @@ fn contest(exchange: &mut Exchange, input: Input) -> anyhow::Result<Contest> {
     let table = specular::Table::new(&tables::isotropic(), &Edges::default())?;
     let backend = Backend::best().fused();
     let run = move |out: &mut Vec<f32>| {
-        let [wi, wo] = [&pairs.wi, &pairs.wo].map(|[x, y, z]| Soa::new(x, y, z));
-        backend.run(table.batch(wi, wo, out));
+        let [wi, wo] = [&pairs.wi, &pairs.wo].map(|[x, y, z]| Directions::columns(x, y, z));
+        table.eval_batch(backend, wi, wo, out);
     };
     Ok(Contest {
         id: "analytic",

@@ -59,7 +59,7 @@ fn contest(
     let backend = Backend::best().fused();
     let columns = angles.clone();
     let run = move |out: &mut Vec<f32>| {
-        backend.run(table.interpolation(columns.each_ref().map(Vec::as_slice), out));
+        table.interpolate_batch(backend, columns.each_ref().map(Vec::as_slice), out);
     };
     let grid = Grid::new(samples);
     let peer = move |out: &mut [Vec<f32>; 3]| grid.interpolate(angles.each_ref().map(Vec::as_slice), out);

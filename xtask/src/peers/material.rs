@@ -6,7 +6,7 @@ use std::rc::Rc;
 use anyhow::bail;
 use lobe::formats;
 use lobe::table::rgl::{self, Drawn, UniformOrder, Wanted};
-use lobe::{Backend, Channels, Data, Soa};
+use lobe::{Backend, Channels, Data, Directions};
 use lobe_benches::contest::Contender;
 use lobe_benches::workload::{Input, Pairs};
 use rand::{RngExt, SeedableRng};
@@ -100,7 +100,7 @@ impl<'a> Subject<'a> {
         let (table, backend, pairs) = (self.table.clone(), self.backend, pairs.clone());
         let run = move |out: &mut Vec<f32>| {
             let [wi, wo] = columns(&pairs);
-            backend.run(table.batch(wi, wo, Wanted::ValuesCos(out)));
+            table.evaluate(backend, wi, wo, Wanted::ValuesCos(out));
         };
         let lobe = Contender::new("lobe", Contender::UNCHECKED, vec![f32::NAN; 3 * COUNT], run, Vec::clone);
         let task = json!({ "what": "eval", "pairs": file });
@@ -111,7 +111,7 @@ impl<'a> Subject<'a> {
         let (table, backend, pairs) = (self.table.clone(), self.backend, pairs.clone());
         let run = move |out: &mut Vec<f32>| {
             let [wi, wo] = columns(&pairs);
-            backend.run(table.batch(wi, wo, Wanted::Pdf(out)));
+            table.pdf_batch(backend, wi, wo, out);
         };
         let lobe = Contender::new("lobe", Contender::UNCHECKED, vec![f32::NAN; COUNT], run, Vec::clone);
         let task = json!({ "what": "pdf", "pairs": file });
@@ -129,7 +129,7 @@ impl<'a> Subject<'a> {
         let out = (vec![[f32::NAN; 3]; COUNT], vec![f32::NAN; COUNT], vec![f32::NAN; 3 * COUNT]);
         let run = move |(wo, pdf, weights): &mut (Vec<[f32; 3]>, Vec<f32>, Vec<f32>)| {
             let [wi, _] = columns(&pairs);
-            backend.run(table.sampling(wi, &uniforms, UniformOrder::Powitacq, Drawn { wo, pdf, weights }));
+            table.sample_batch(backend, wi, &uniforms, UniformOrder::Powitacq, Drawn { wo, pdf, weights });
         };
         let lobe = Contender::new("lobe", Contender::UNCHECKED, out, run, |(wo, pdf, weights)| {
             [wo.as_flattened(), pdf, weights].concat()
@@ -174,6 +174,6 @@ impl<'a> Subject<'a> {
     }
 }
 
-fn columns(pairs: &Pairs) -> [Soa<'_>; 2] {
-    [&pairs.wi, &pairs.wo].map(|[x, y, z]| Soa::new(x, y, z))
+fn columns(pairs: &Pairs) -> [Directions<'_>; 2] {
+    [&pairs.wi, &pairs.wo].map(|[x, y, z]| Directions::columns(x, y, z))
 }

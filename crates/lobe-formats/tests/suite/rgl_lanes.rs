@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
+use lobe_backend::Backend;
 use lobe_formats::rgl;
-use lobe_lane::Lanes;
-use lobe_scalar::Scalar;
 use lobe_table::rgl::{Data, Drawn, Options, Table, UniformOrder, Wanted};
 use lobe_testing::files::{bytes, shared};
 use lobe_testing::golden::{Worst, queries, relative, unit};
@@ -19,17 +18,11 @@ fn load(path: &Path) -> Data {
 
 /// Runs a check on every backend of this CPU.
 macro_rules! on_every_backend {
-    ($check:ident($($argument:expr),*)) => {{
-        $check(Scalar::<1>, "scalar", $($argument),*);
-        #[cfg(target_arch = "x86_64")]
-        {
-            $check(lobe_sse::Sse2::new(), "sse2", $($argument),*);
-            match lobe_avx::Avx2::detect() {
-                Some(avx2) => $check(avx2, "avx2", $($argument),*),
-                None => println!("SKIPPED: this CPU has no AVX2"),
-            }
+    ($check:ident($($argument:expr),*)) => {
+        for backend in Backend::available() {
+            $check(backend, $($argument),*);
         }
-    }};
+    };
 }
 
 type Queries = [(Vec<f64>, Vec<f64>)];
@@ -39,17 +32,17 @@ fn directions(queries: &Queries) -> Directions {
     queries.iter().map(|(query, _)| [0, 3].map(|at| unit(query, at).map(|x| x as f32)).into()).unzip()
 }
 
-fn evaluate<L: Lanes>(lanes: L, table: &Table, (wi, wo): &Directions) -> (Vec<f32>, Vec<f32>) {
+fn evaluate(backend: Backend, table: &Table, (wi, wo): &Directions) -> (Vec<f32>, Vec<f32>) {
     let (mut values, mut pdf) = (vec![f32::NAN; wi.len() * table.channel_count()], vec![f32::NAN; wi.len()]);
     let wanted = Wanted::ValuesCosAndPdf(&mut values, &mut pdf);
-    lanes.vectorize(table.batch(wi.as_slice(), wo.as_slice(), wanted));
+    table.evaluate(backend, wi.into(), wo.into(), wanted);
     (values, pdf)
 }
 
 /// The golden columns hold the stored channels first, and the density at column `pdf_at`.
-fn against<L: Lanes>(lanes: L, backend: &str, name: &str, table: &Table, queries: &Queries, pdf_at: usize, floor: f64) {
+fn against(backend: Backend, name: &str, table: &Table, queries: &Queries, pdf_at: usize, floor: f64) {
     let channels = table.channel_count();
-    let (values, pdf) = evaluate(lanes, table, &directions(queries));
+    let (values, pdf) = evaluate(backend, table, &directions(queries));
     let mut worst: [Worst; 2] = Default::default();
     for (at, (_, answer)) in queries.iter().enumerate() {
         for (value, expected) in values[at * channels..][..channels].iter().zip(answer) {
@@ -63,14 +56,14 @@ fn against<L: Lanes>(lanes: L, backend: &str, name: &str, table: &Table, queries
 }
 
 /// The columns behind the density: direction, density and weights of a sample of the loader of the database.
-fn draws<L: Lanes>(lanes: L, backend: &str, name: &str, table: &Table, queries: &Queries) {
+fn draws(backend: Backend, name: &str, table: &Table, queries: &Queries) {
     let channels = table.channel_count();
     let (wi, _) = directions(queries);
     let uniforms: Vec<_> = queries.iter().map(|(query, _)| [query[6] as f32, query[7] as f32]).collect();
     let (mut wo, mut pdf) = (vec![[f32::NAN; 3]; wi.len()], vec![f32::NAN; wi.len()]);
     let mut weights = vec![f32::NAN; wi.len() * channels];
     let drawn = Drawn { wo: &mut wo, pdf: &mut pdf, weights: &mut weights };
-    table.sample_batch(lanes, wi.as_slice(), &uniforms, UniformOrder::Powitacq, drawn);
+    table.sample_batch(backend, (&wi).into(), &uniforms, UniformOrder::Powitacq, drawn);
     let mut worst: [Worst; 3] = Default::default();
     for (at, (_, answer)) in queries.iter().enumerate() {
         let expected = &answer[channels + 1..];

@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use lobe::{Kernel, Lanes, Scatter};
+use lobe::Scatter;
 use lobe_model::{Model, Rgb, is_isotropic};
 use lobe_table::{Distribution, DistributionError, DistributionOptions};
 
@@ -29,12 +29,12 @@ impl<M: Model + Debug + Send + Sync> ModelShader<M> {
         let options = DistributionOptions::unknown(Scatter::Reflection, is_isotropic(&Rgb(&model)), BYTES);
         let mut colours = Vec::new();
         // Models are reciprocal, so it does not matter that the known direction is the viewer's.
-        let light = |wo: &[[f32; 3]], wi: &[[f32; 3]], out: &mut [f32]| {
+        let mut light = |wo: &[[f32; 3]], wi: &[[f32; 3]], out: &mut [f32]| {
             colours.resize(wi.len(), [0.0; 3]);
             values(&model, wi, wo, &mut colours);
             out.iter_mut().zip(&colours).for_each(|(out, [r, g, b])| *out = 0.2126 * r + 0.7152 * g + 0.0722 * b);
         };
-        let distribution = backend.run(Build { options: &options, light })?;
+        let distribution = Distribution::of_function(backend, &options, &mut light, &mut |_, _| {})?;
         let mut shader = ModelShader { model, distribution, backend, albedo: [0.0; 3] };
         shader.albedo = albedo_of(&shader);
         Ok(shader)
@@ -56,63 +56,16 @@ impl<M: Model + Debug + Send + Sync> Shader<3> for ModelShader<M> {
     fn eval(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: Evaluated<'_, 3>, _: &mut Scratch) {
         values(&self.model, wi, wo, out.f);
         times_cosine(out.f, wi);
-        self.backend.run(Densities { distribution: &self.distribution, wi, wo, pdf: out.pdf });
+        self.distribution.pdf_batch(self.backend, wo, wi, out.pdf);
     }
 
     fn sample(&self, wo: &[[f32; 3]], u: &[[f32; 2]], out: Sampled<'_, 3>, _: &mut Scratch) {
         let Sampled { wi, weight, pdf } = out;
-        self.backend.run(Draw { distribution: &self.distribution, wo, u, wi, pdf });
+        self.distribution.draw_batch(self.backend, wo, u, wi, pdf);
         values(&self.model, wi, wo, weight);
         times_cosine(weight, wi);
         for (weight, &pdf) in weight.iter_mut().zip(&*pdf) {
             *weight = if pdf > 0.0 { weight.map(|w| w / pdf) } else { [0.0; 3] };
         }
-    }
-}
-
-struct Build<'a, F> {
-    options: &'a DistributionOptions,
-    light: F,
-}
-
-impl<F: FnMut(&[[f32; 3]], &[[f32; 3]], &mut [f32])> Kernel for Build<'_, F> {
-    type Out = Result<Distribution, DistributionError>;
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) -> Self::Out {
-        Distribution::of_function(lanes, self.options, self.light, &mut |_, _| {})
-    }
-}
-
-struct Draw<'a> {
-    distribution: &'a Distribution,
-    wo: &'a [[f32; 3]],
-    u: &'a [[f32; 2]],
-    wi: &'a mut [[f32; 3]],
-    pdf: &'a mut [f32],
-}
-
-impl Kernel for Draw<'_> {
-    type Out = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) {
-        self.distribution.draw_batch(lanes, self.wo, self.u, self.wi, self.pdf);
-    }
-}
-
-struct Densities<'a> {
-    distribution: &'a Distribution,
-    wi: &'a [[f32; 3]],
-    wo: &'a [[f32; 3]],
-    pdf: &'a mut [f32],
-}
-
-impl Kernel for Densities<'_> {
-    type Out = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) {
-        self.distribution.pdf_batch(lanes, self.wo, self.wi, self.pdf);
     }
 }

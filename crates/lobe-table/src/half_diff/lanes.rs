@@ -2,10 +2,11 @@
 
 use std::f32::consts::FRAC_2_PI;
 
+use lobe_backend::Backend;
 use lobe_lane::{Block, Floats, Ints, Kernel, Lanes};
 
 use super::{Data, Lookup};
-use crate::directions::{BlockOfDirections, Directions};
+use crate::directions::{DirectionBlock, Directions};
 use crate::invalid::Invalid;
 use crate::passes::batch::{Batch, Blockwise};
 use crate::passes::block::{BLOCK, Column};
@@ -70,25 +71,30 @@ impl Table {
         self.texels.bytes()
     }
 
-    /// Evaluates `f` in 1/sr of many pairs on the backend given: `out[3 * query + channel]`.
+    /// Evaluates `f` in 1/sr of many pairs on a backend: `out[3 * query + channel]`.
     ///
     /// # Panics
     /// As [`batch`](Self::batch).
-    pub fn eval_batch<L: Lanes, D: Directions>(&self, lanes: L, lookup: Lookup, wi: D, wo: D, out: &mut [f32]) {
-        lanes.vectorize(self.batch(lookup, wi, wo, out));
+    pub fn eval_batch(
+        &self,
+        backend: Backend,
+        lookup: Lookup,
+        wi: Directions<'_>,
+        wo: Directions<'_>,
+        out: &mut [f32],
+    ) {
+        backend.run(self.batch(lookup, wi, wo, out));
     }
 
-    /// The evaluation of many pairs as a kernel: `out[3 * query + channel]`, in 1/sr.
-    ///
-    /// `wi` and `wo` are slices of vectors, or [`Soa`](crate::Soa) of components.
+    /// The evaluation of many pairs as a kernel, for lanes that are no [`Backend`]: `out[3 * query + channel]`, in 1/sr.
     ///
     /// # Panics
-    /// Where there are not as many `wi` as `wo`, or `out` is not three times as long.
-    pub fn batch<'a, D: Directions + 'a>(
+    /// If there are not as many `wi` as `wo`, or `out` is not three times as long.
+    pub fn batch<'a>(
         &'a self,
         lookup: Lookup,
-        wi: D,
-        wo: D,
+        wi: Directions<'a>,
+        wo: Directions<'a>,
         out: &'a mut [f32],
     ) -> impl Kernel<Out = ()> + 'a {
         Batch::new(Evaluator { table: self, lookup }, wi, wo, out)
@@ -126,17 +132,17 @@ impl Blockwise for Evaluator<'_> {
     }
 
     #[inline(always)]
-    fn block<L: Lanes, B: BlockOfDirections>(
+    fn block<L: Lanes>(
         self,
         lanes: L,
         count: usize,
-        directions: (B, B),
+        directions: (DirectionBlock<'_>, DirectionBlock<'_>),
         scratch: &mut Scratch,
         out: &mut [f32],
     ) {
         let table = self.table;
         let n = count.next_multiple_of(L::LANES);
-        scratch.angles.run::<L, B, false>(lanes, n, directions);
+        scratch.angles.run::<L, false>(lanes, n, directions);
         table.places(lanes, n, scratch);
         match self.lookup {
             Lookup::Nearest => {

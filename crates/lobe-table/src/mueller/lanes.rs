@@ -1,9 +1,10 @@
 //! What unpolarised light sees of [`Data`], made ready to be evaluated in SIMD lanes.
 
+use lobe_backend::Backend;
 use lobe_lane::{Block, Floats, Kernel, Lanes};
 
 use super::{AXES, Data, ELEMENTS};
-use crate::directions::{BlockOfDirections, Directions};
+use crate::directions::{DirectionBlock, Directions};
 use crate::grid::axis::Axis;
 use crate::grid::edges::Edge;
 use crate::invalid::Invalid;
@@ -85,21 +86,24 @@ impl Table {
         self.texels.bytes() + self.axes.iter().map(Axis::bytes).sum::<usize>()
     }
 
-    /// Evaluates `f` in 1/sr of many pairs on the backend given: `out[query * channels + channel]`.
+    /// Evaluates `f` in 1/sr of many pairs on a backend: `out[query * channels + channel]`.
     ///
     /// # Panics
     /// As [`batch`](Self::batch).
-    pub fn eval_batch<L: Lanes, D: Directions>(&self, lanes: L, wi: D, wo: D, out: &mut [f32]) {
-        lanes.vectorize(self.batch(wi, wo, out));
+    pub fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        backend.run(self.batch(wi, wo, out));
     }
 
-    /// The evaluation of many pairs as a kernel: `out[query * channels + channel]`, in 1/sr.
-    ///
-    /// `wi` and `wo` are slices of vectors, or [`Soa`](crate::Soa) of components.
+    /// The evaluation of many pairs as a kernel, for lanes that are no [`Backend`]: `out[query * channels + channel]`, in 1/sr.
     ///
     /// # Panics
-    /// Where there are not as many `wi` as `wo`, or `out` is not that many times the wavelengths long.
-    pub fn batch<'a, D: Directions + 'a>(&'a self, wi: D, wo: D, out: &'a mut [f32]) -> impl Kernel<Out = ()> + 'a {
+    /// If there are not as many `wi` as `wo`, or `out` is not that many times the wavelengths long.
+    pub fn batch<'a>(
+        &'a self,
+        wi: Directions<'a>,
+        wo: Directions<'a>,
+        out: &'a mut [f32],
+    ) -> impl Kernel<Out = ()> + 'a {
         Batch::new(self, wi, wo, out)
     }
 }
@@ -121,16 +125,16 @@ impl Blockwise for &Table {
     }
 
     #[inline(always)]
-    fn block<L: Lanes, B: BlockOfDirections>(
+    fn block<L: Lanes>(
         self,
         lanes: L,
         count: usize,
-        directions: (B, B),
+        directions: (DirectionBlock<'_>, DirectionBlock<'_>),
         Scratch { angles, base, weights }: &mut Scratch,
         out: &mut [f32],
     ) {
         let n = count.next_multiple_of(L::LANES);
-        angles.run::<L, B, true>(lanes, n, directions);
+        angles.run::<L, true>(lanes, n, directions);
         let HalfVector { theta_h, theta_d, phi_d, valid, .. } = angles;
         *base = Column::<i32>::ZERO;
         for (index, angle) in [&mut *phi_d, &mut *theta_d, &mut *theta_h].into_iter().enumerate() {

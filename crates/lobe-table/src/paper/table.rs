@@ -4,7 +4,7 @@ use lobe_lane::{Floats, Kernel, Lanes, Mask};
 use thiserror::Error;
 
 use super::{angles, search, texels};
-use crate::directions::{BlockOfDirections, Directions};
+use crate::directions::{Directions, PADDING};
 use crate::grid::axis::Axis;
 use crate::passes::block::BLOCK;
 use crate::{AxisError, Edge, Edges, Scatter, specular, specular::AXIS_NAMES};
@@ -148,10 +148,10 @@ impl PaperTable {
     ///
     /// # Panics
     /// Where `wi`, `wo` and the three outputs differ in length.
-    pub fn batch<'a, D: Directions + 'a>(
+    pub fn batch<'a>(
         &'a self,
-        wi: D,
-        wo: D,
+        wi: Directions<'a>,
+        wo: Directions<'a>,
         out: [&'a mut [f32]; 3],
     ) -> impl Kernel<Out = ()> + 'a {
         assert_eq!(wi.count(), wo.count(), "as many wi as wo");
@@ -161,21 +161,21 @@ impl PaperTable {
 }
 
 /// All queries of a batch, packet by packet.
-struct Batch<'a, D> {
+struct Batch<'a> {
     table: &'a PaperTable,
-    wi: D,
-    wo: D,
+    wi: Directions<'a>,
+    wo: Directions<'a>,
     out: [&'a mut [f32]; 3],
 }
 
-impl<D: Directions> Kernel for Batch<'_, D> {
+impl Kernel for Batch<'_> {
     type Out = ();
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         let Batch { table, wi, wo, out: [red, green, blue] } = self;
         let count = wi.count();
-        let mut padding = (D::PADDING, D::PADDING);
+        let mut padding = (PADDING, PADDING);
         let mut block = 0;
         while block < count {
             let (from_light, to_viewer) = (wi.block(block, &mut padding.0), wo.block(block, &mut padding.1));

@@ -3,7 +3,7 @@
 use lobe_lane::{Kernel, Lanes};
 
 use super::block::BLOCK;
-use crate::directions::{BlockOfDirections, Directions};
+use crate::directions::{DirectionBlock, Directions, PADDING};
 
 /// What evaluates a block of pairs.
 pub(crate) trait Blockwise: Copy {
@@ -16,35 +16,35 @@ pub(crate) trait Blockwise: Copy {
     fn channel_count(self) -> usize;
 
     /// Evaluates queries `0..count` of a block into `out`, `[query][channel]`. Must be `#[inline(always)]`.
-    fn block<L: Lanes, B: BlockOfDirections>(
+    fn block<L: Lanes>(
         self,
         lanes: L,
         count: usize,
-        directions: (B, B),
+        directions: (DirectionBlock<'_>, DirectionBlock<'_>),
         scratch: &mut Self::Scratch,
         out: &mut [f32],
     );
 }
 
 /// All queries of a batch.
-pub(crate) struct Batch<'a, E, D> {
+pub(crate) struct Batch<'a, E> {
     evaluator: E,
-    wi: D,
-    wo: D,
+    wi: Directions<'a>,
+    wo: Directions<'a>,
     out: &'a mut [f32],
 }
 
-impl<'a, E: Blockwise, D: Directions> Batch<'a, E, D> {
+impl<'a, E: Blockwise> Batch<'a, E> {
     /// # Panics
-    /// Where there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
-    pub(crate) fn new(evaluator: E, wi: D, wo: D, out: &'a mut [f32]) -> Self {
+    /// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+    pub(crate) fn new(evaluator: E, wi: Directions<'a>, wo: Directions<'a>, out: &'a mut [f32]) -> Self {
         assert_eq!(wi.count(), wo.count(), "as many wi as wo");
         assert_eq!(out.len(), wi.count() * evaluator.channel_count(), "one output a query and channel");
         Batch { evaluator, wi, wo, out }
     }
 }
 
-impl<E: Blockwise, D: Directions> Kernel for Batch<'_, E, D> {
+impl<E: Blockwise> Kernel for Batch<'_, E> {
     type Out = ();
 
     #[inline(always)]
@@ -53,7 +53,7 @@ impl<E: Blockwise, D: Directions> Kernel for Batch<'_, E, D> {
         let channels = evaluator.channel_count();
         let count = wi.count();
         let mut scratch = E::SCRATCH;
-        let mut padding = (D::PADDING, D::PADDING);
+        let mut padding = (PADDING, PADDING);
         let mut at = 0;
         while at < count {
             let left = (count - at).min(BLOCK);

@@ -6,7 +6,7 @@ use lobe_lane::{Floats, Lanes};
 
 use super::block::Column;
 use crate::Scatter;
-use crate::directions::BlockOfDirections;
+use crate::directions::DirectionBlock;
 use crate::grid::function::Function;
 
 /// What the angles of a block are computed from.
@@ -45,10 +45,10 @@ pub(crate) const FARTHEST: f32 = 16.0;
 
 /// Fills the frame of queries `0..n` of a block. `n` is a multiple of the lanes.
 #[inline(always)]
-pub(crate) fn run<L: Lanes, B: BlockOfDirections>(
+pub(crate) fn run<L: Lanes>(
     lanes: L,
     n: usize,
-    (wi, wo): (B, B),
+    (wi, wo): (DirectionBlock<'_>, DirectionBlock<'_>),
     scatter: Scatter,
     refraction: Option<&Function>,
     frame: &mut Frame,
@@ -101,7 +101,13 @@ impl Zenith for Refracted<'_> {
 }
 
 #[inline(always)]
-fn pass<L: Lanes, B: BlockOfDirections, Z: Zenith>(lanes: L, n: usize, (wi, wo): (B, B), zenith: Z, frame: &mut Frame) {
+fn pass<L: Lanes, Z: Zenith>(
+    lanes: L,
+    n: usize,
+    (wi, wo): (DirectionBlock<'_>, DirectionBlock<'_>),
+    zenith: Z,
+    frame: &mut Frame,
+) {
     let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
     let mut query = 0;
     while query < n {

@@ -9,7 +9,7 @@ use lobe_lane::{Floats, Lanes};
 
 use super::block::Column;
 use super::unit::unit;
-use crate::directions::BlockOfDirections;
+use crate::directions::DirectionBlock;
 
 /// The angles of a block of queries.
 #[derive(Clone, Copy)]
@@ -37,13 +37,13 @@ impl HalfVector {
     ///
     /// Where the half vector is the normal its azimuth is that of `wo` where it is `VIEWED`, else 0.
     #[inline(always)]
-    pub(crate) fn run<L: Lanes, B: BlockOfDirections, const VIEWED: bool>(
+    pub(crate) fn run<L: Lanes, const VIEWED: bool>(
         &mut self,
         lanes: L,
         n: usize,
-        directions: (B, B),
+        directions: (DirectionBlock<'_>, DirectionBlock<'_>),
     ) {
-        self.frame::<L, B, VIEWED>(lanes, n, directions);
+        self.frame::<L, VIEWED>(lanes, n, directions);
         let mut query = 0;
         while query < n {
             self.theta_h.store(lanes, query, lobe_math::double_atan(lanes, self.theta_h.load(lanes, query)));
@@ -60,7 +60,12 @@ impl HalfVector {
 
     /// What the angles are computed from.
     #[inline(always)]
-    fn frame<L: Lanes, B: BlockOfDirections, const VIEWED: bool>(&mut self, lanes: L, n: usize, (wi, wo): (B, B)) {
+    fn frame<L: Lanes, const VIEWED: bool>(
+        &mut self,
+        lanes: L,
+        n: usize,
+        (wi, wo): (DirectionBlock<'_>, DirectionBlock<'_>),
+    ) {
         let (zero, one, two) = (lanes.splat(0.0), lanes.splat(1.0), lanes.splat(2.0));
         let pole = lanes.splat(POLE2);
         let mut query = 0;

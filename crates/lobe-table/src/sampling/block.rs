@@ -8,7 +8,7 @@ use lobe_lane::{Lanes, MAX_LANES};
 use super::distribution::{Distribution, leave, place};
 use super::incident::Incident;
 use super::slices::{Place, Row, Search, Sums, View};
-use crate::directions::{BlockOfDirections, Directions};
+use crate::directions::{Directions, PADDING};
 use crate::passes::block::Column;
 
 /// The columns that the passes hand on.
@@ -85,7 +85,8 @@ pub(super) fn draw<L: Lanes, S: Sums>(
     out: Out<'_>,
 ) {
     let n = known.len();
-    let mut padding = <&[[f32; 3]] as Directions>::PADDING;
+    let mut padding = PADDING;
+    let known = Directions::from(known);
     let known = known.block(0, &mut padding);
     let mut scratch = Scratch::ZERO;
 

@@ -2,8 +2,6 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use lobe_lane::Lanes;
-
 use super::DistributionError;
 use super::grid::{Grid, candidate_columns, candidate_rows, spread};
 use super::histogram::{Bin, Histogram, Light};
@@ -26,9 +24,10 @@ const DARKEST: f64 = 1e-6;
 const LEAST_SHARE: f64 = 4.0 * f32::EPSILON as f64;
 
 /// What a builder is given.
-pub(crate) struct Builder<'a, L, T> {
-    pub(crate) lanes: L,
-    pub(crate) light: T,
+pub(crate) struct Builder<'a, 'l> {
+    /// Runs a kernel in strict form.
+    pub(crate) run: &'a dyn Fn(Histogram<'_>) -> Vec<Bin>,
+    pub(crate) light: &'a mut Light<'l>,
     pub(crate) surface: &'a Surface,
     /// Incident directions: the knots of sigma and, where it counts, of psi.
     pub(crate) sigma: &'a Axis,
@@ -41,7 +40,7 @@ pub(crate) struct Builder<'a, L, T> {
     pub(crate) defensive: f64,
 }
 
-impl<L: Lanes, T: Light> Builder<'_, L, T> {
+impl Builder<'_, '_> {
     /// Builds the slices, and tells `progress` how many of how many are done. With them comes the brightness that sums
     /// of 1 stand for.
     pub(crate) fn build(mut self, progress: &mut dyn FnMut(usize, usize)) -> Result<(Slices, f64), DistributionError> {
@@ -67,8 +66,8 @@ impl<L: Lanes, T: Light> Builder<'_, L, T> {
     }
 
     fn histogram(&mut self, incident: [f32; 3], phi: &[f64], root_v: &[f64], points: usize) -> Vec<Bin> {
-        let Builder { lanes, light, surface, .. } = self;
-        lanes.vectorize(Histogram { light, surface, incident, phi, root_v, points })
+        let Builder { run, light, surface, .. } = self;
+        run(Histogram { light, surface, incident, phi, root_v, points })
     }
 
     /// The finest grid that the table's size allows, its edges where the light of the surveyed slices varies.

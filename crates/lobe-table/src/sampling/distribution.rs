@@ -2,12 +2,13 @@
 
 use std::f64::consts::{PI, TAU};
 
+use lobe_backend::Backend;
 use lobe_lane::{Floats, Kernel, Lanes};
 use thiserror::Error;
 
 use super::block;
 use super::build::Builder;
-use super::histogram::{Light, LightOf};
+use super::histogram::{Bin, Histogram, Light};
 use super::incident::{Incident, Local, Surface};
 use super::slices::{Draw, Place, Slices};
 use crate::grid::axis::Axis;
@@ -94,10 +95,10 @@ impl Distribution {
     ///
     /// # Errors
     /// Where the options make no sense.
-    pub fn of_function<L: Lanes>(
-        lanes: L,
+    pub fn of_function(
+        backend: Backend,
         options: &DistributionOptions,
-        light: impl FnMut(&[[f32; 3]], &[[f32; 3]], &mut [f32]),
+        light: &mut Light<'_>,
         progress: &mut dyn FnMut(usize, usize),
     ) -> Result<Self, DistributionError> {
         let axis = |name: &'static str, knots: &[f64], edge: Edge| {
@@ -108,12 +109,13 @@ impl Distribution {
         let psi = if options.psi.len() > 1 { Some(axis("psi", &options.psi, Edge::Periodic)?) } else { None };
         let theta: Vec<f32> = options.theta.iter().map(|&theta| theta as f32).collect();
         let plan = Plan { theta: &theta, phis: options.phis, bytes: options.bytes, defensive: options.defensive };
-        Distribution::build(lanes, LightOf(light), surface, (sigma, psi), &plan, progress)
+        let run = |histogram: Histogram<'_>| backend.strict().run(histogram);
+        Distribution::build(&run, light, surface, (sigma, psi), &plan, progress)
     }
 
-    pub(super) fn build<L: Lanes>(
-        lanes: L,
-        light: impl Light,
+    pub(super) fn build(
+        run: &dyn Fn(Histogram<'_>) -> Vec<Bin>,
+        light: &mut Light<'_>,
         surface: Surface,
         (sigma, psi): (Axis, Option<Axis>),
         plan: &Plan<'_>,
@@ -124,7 +126,7 @@ impl Distribution {
             return Err(DistributionError::Defensive { found: defensive });
         }
         let (slices, brightest) = Builder {
-            lanes: lanes.strict(),
+            run,
             light,
             surface: &surface,
             sigma: &sigma,
@@ -154,18 +156,18 @@ impl Distribution {
     ///
     /// # Panics
     /// Where the slices do not have the same length.
-    pub fn draw_batch<L: Lanes>(
+    pub fn draw_batch(
         &self,
-        lanes: L,
+        backend: Backend,
         known: &[[f32; 3]],
         u: &[[f32; 2]],
         directions: &mut [[f32; 3]],
         pdfs: &mut [f32],
     ) {
-        lanes.vectorize(self.drawing(known, u, directions, pdfs));
+        backend.run(self.drawing(known, u, directions, pdfs));
     }
 
-    /// The drawing of many directions as a kernel (see [`draw_batch`](Self::draw_batch)).
+    /// The drawing of many directions as a kernel, for lanes that are no [`Backend`] (see [`draw_batch`](Self::draw_batch)).
     ///
     /// # Panics
     /// Where the slices do not have the same length.
@@ -185,11 +187,11 @@ impl Distribution {
     ///
     /// # Panics
     /// Where the slices do not have the same length.
-    pub fn pdf_batch<L: Lanes>(&self, lanes: L, known: &[[f32; 3]], other: &[[f32; 3]], pdfs: &mut [f32]) {
-        lanes.vectorize(self.densities(known, other, pdfs));
+    pub fn pdf_batch(&self, backend: Backend, known: &[[f32; 3]], other: &[[f32; 3]], pdfs: &mut [f32]) {
+        backend.run(self.densities(known, other, pdfs));
     }
 
-    /// The densities of many pairs as a kernel (see [`pdf_batch`](Self::pdf_batch)).
+    /// The densities of many pairs as a kernel, for lanes that are no [`Backend`] (see [`pdf_batch`](Self::pdf_batch)).
     ///
     /// # Panics
     /// Where the slices do not have the same length.
@@ -208,11 +210,11 @@ impl Distribution {
     ///
     /// # Panics
     /// Where the slices do not have the same length.
-    pub fn brightness_batch<L: Lanes>(&self, lanes: L, known: &[[f32; 3]], out: &mut [f32]) {
-        lanes.vectorize(self.brightnesses(known, out));
+    pub fn brightness_batch(&self, backend: Backend, known: &[[f32; 3]], out: &mut [f32]) {
+        backend.run(self.brightnesses(known, out));
     }
 
-    /// The brightness for many directions as a kernel (see [`brightness_batch`](Self::brightness_batch)).
+    /// The brightness for many directions as a kernel, for lanes that are no [`Backend`] (see [`brightness_batch`](Self::brightness_batch)).
     ///
     /// # Panics
     /// Where the slices do not have the same length.

@@ -3,56 +3,24 @@
 use lobe_lane::{Kernel, Lanes};
 
 use super::incident::{Incident, Surface};
-use crate::specular;
 
-/// What scatters.
-pub(crate) trait Light {
-    /// Luminance times `f`, 1/sr, of each pair. There are as many `wi` as `wo` and `out`.
-    fn fill<L: Lanes>(&mut self, lanes: L, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]);
-}
+/// Tells luminance times `f`, 1/sr, of each pair of incident and scattered directions, and where to put it.
+pub(crate) type Light<'a> = dyn FnMut(&[[f32; 3]], &[[f32; 3]], &mut [f32]) + 'a;
 
-/// The light of a table.
-pub(crate) struct TableLight<'a> {
-    pub(crate) table: &'a specular::Table,
-    /// How much each channel counts.
-    pub(crate) luminance: &'a [f32],
-    /// Room for values.
-    pub(crate) values: Vec<f32>,
-}
-
-impl Light for TableLight<'_> {
-    #[inline(always)]
-    fn fill<L: Lanes>(&mut self, lanes: L, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        let TableLight { table, luminance, values } = self;
-        let channels = luminance.len();
-        values.resize(wi.len() * channels, 0.0);
-        table.batch(wi, wo, values).run(lanes);
-        let mut at = 0;
-        while at < out.len() {
-            let mut brightness = 0.0;
-            let mut channel = 0;
-            while channel < channels {
-                brightness += luminance[channel] * values[at * channels + channel];
-                channel += 1;
-            }
-            out[at] = brightness;
-            at += 1;
+/// The light of values, `[pair][channel]`, each channel counting as `luminance` says.
+pub(crate) fn weigh(values: &[f32], luminance: &[f32], out: &mut [f32]) {
+    for (out, texel) in out.iter_mut().zip(values.chunks_exact(luminance.len())) {
+        let mut brightness = 0.0;
+        for (y, value) in luminance.iter().zip(texel) {
+            brightness += y * value;
         }
-    }
-}
-
-/// Light that a function tells.
-pub(crate) struct LightOf<F>(pub(crate) F);
-
-impl<F: FnMut(&[[f32; 3]], &[[f32; 3]], &mut [f32])> Light for LightOf<F> {
-    fn fill<L: Lanes>(&mut self, _: L, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        (self.0)(wi, wo, out);
+        *out = brightness;
     }
 }
 
 /// The integrals over each cell, rows slow, by midpoints: of luminance times f times cosine, and of the cosine alone.
-pub(crate) struct Histogram<'a, T> {
-    pub(crate) light: &'a mut T,
+pub(crate) struct Histogram<'a> {
+    pub(crate) light: &'a mut Light<'a>,
     pub(crate) surface: &'a Surface,
     /// The incident direction.
     pub(crate) incident: [f32; 3],
@@ -70,7 +38,7 @@ pub(crate) struct Bin {
     pub(crate) cosine: f64,
 }
 
-impl<T: Light> Kernel for Histogram<'_, T> {
+impl Kernel for Histogram<'_> {
     type Out = Vec<Bin>;
 
     #[inline(always)]
@@ -105,7 +73,7 @@ impl<T: Light> Kernel for Histogram<'_, T> {
                     }
                     at += L::LANES;
                 }
-                light.fill(lanes, &incidents, &scattered, &mut values);
+                light(&incidents, &scattered, &mut values);
 
                 let solid_angle = f64::from(lanes.extract(height, 0)) * width / points as f64;
                 let mut at = 0;

@@ -32,54 +32,6 @@ pub(super) fn pair<T>(given: Given, known: T, other: T) -> (T, T) {
     }
 }
 
-/// One sample.
-pub(super) struct One<'a> {
-    pub(super) sampler: &'a Sampler,
-    pub(super) given: Given,
-    pub(super) direction: [f32; 3],
-    pub(super) u: [f32; 2],
-    pub(super) weight: &'a mut [f32],
-}
-
-impl Kernel for One<'_> {
-    type Out = ([f32; 3], f32);
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) -> ([f32; 3], f32) {
-        let One { sampler, given, direction, u, weight } = self;
-        let (known, u) = (lanes.splat_xyz(direction), [lanes.splat(u[0]), lanes.splat(u[1])]);
-        let (sampled, pdf) = sampler.distribution.draw_lanes(lanes, known, u, lanes.first_n(L::LANES));
-        let factor = lanes.extract(factor(lanes, sampled[2], pdf), 0);
-        let sampled = lanes.extract_xyz(sampled, 0);
-        let (wi, wo) = pair(given, direction, sampled);
-        sampler.table.single(wi, wo, weight).run(lanes);
-        let mut channel = 0;
-        while channel < weight.len() {
-            weight[channel] *= factor;
-            channel += 1;
-        }
-        (sampled, lanes.extract(pdf, 0))
-    }
-}
-
-/// One density.
-pub(super) struct OneDensity<'a> {
-    pub(super) sampler: &'a Sampler,
-    pub(super) given: Given,
-    pub(super) wi: [f32; 3],
-    pub(super) wo: [f32; 3],
-}
-
-impl Kernel for OneDensity<'_> {
-    type Out = f32;
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) -> f32 {
-        let (known, other) = pair(self.given, lanes.splat_xyz(self.wi), lanes.splat_xyz(self.wo));
-        lanes.extract(self.sampler.distribution.pdf_lanes(lanes, known, other), 0)
-    }
-}
-
 /// All samples of a batch.
 pub(super) struct Draws<'a> {
     pub(super) sampler: &'a Sampler,
@@ -114,7 +66,7 @@ impl Kernel for Draws<'_> {
             fill_factors(lanes, sampled, &out.pdfs[at..][..n], &mut factors);
             let weights = &mut out.weights[at * channels..][..n * channels];
             let (wi, wo) = pair(given, known, sampled);
-            sampler.table.batch(wi, wo, weights).run(lanes);
+            sampler.table.batch(wi.into(), wo.into(), weights).run(lanes);
             scale(&factors[..n], weights);
             at += n;
         }

@@ -26,6 +26,7 @@ mod slices;
 
 use std::sync::Arc;
 
+use lobe_backend::Backend;
 use lobe_colour::luminance;
 use lobe_lane::{Floats, Kernel, Lanes};
 use thiserror::Error;
@@ -33,9 +34,9 @@ use thiserror::Error;
 use crate::grid::layout::{PHI, PSI, SIGMA, THETA};
 use crate::specular;
 use distribution::Plan;
-use histogram::TableLight;
+use histogram::{Bin, Histogram, weigh};
 use incident::Surface;
-use kernels::{Draws, One, OneDensity, factor, pair};
+use kernels::{Draws, factor, pair};
 
 pub use distribution::{Distribution, DistributionError, DistributionOptions};
 pub use kernels::Sampled;
@@ -102,47 +103,50 @@ pub struct Sampler {
 }
 
 impl Sampler {
-    /// Builds the distributions of a table on the backend given.
+    /// Builds the distributions of a table on a backend.
     ///
     /// They are the same bits whichever backend builds them.
     ///
     /// # Errors
     /// Where the options make no sense for this table.
-    pub fn new<L: Lanes>(
-        lanes: L,
-        table: Arc<specular::Table>,
-        options: &SamplerOptions,
-    ) -> Result<Self, SamplerError> {
-        Sampler::with_progress(lanes, table, options, &mut |_, _| {})
+    pub fn new(backend: Backend, table: Arc<specular::Table>, options: &SamplerOptions) -> Result<Self, SamplerError> {
+        Sampler::with_progress(backend, table, options, &mut |_, _| {})
     }
 
     /// As [`new`](Sampler::new), calling `progress(done, all)` after each slice.
     ///
     /// # Errors
     /// As [`new`](Sampler::new).
-    pub fn with_progress<L: Lanes>(
-        lanes: L,
+    pub fn with_progress(
+        backend: Backend,
         table: Arc<specular::Table>,
         options: &SamplerOptions,
         progress: &mut dyn FnMut(usize, usize),
     ) -> Result<Self, SamplerError> {
-        let channels = table.channel_count();
-        let luminance = options.luminance.clone().unwrap_or_else(|| luminance(table.channels()));
-        let fits = luminance.len() == channels && luminance.iter().all(|&y| y.is_finite() && y >= 0.0);
-        if !fits || luminance.iter().all(|&y| y == 0.0) {
-            return Err(SamplerError::Luminance { found: luminance, channels });
-        }
-        let surface = Surface { scatter: table.scatter(), refraction: table.refraction.clone() };
-        let sigma = table.axes[SIGMA].clone();
-        let psi = table.is_anisotropic().then(|| table.axes[PSI].clone());
-        let plan = Plan {
-            theta: table.axes[THETA].knots(),
-            phis: table.axes[PHI].knots().len(),
-            bytes: table.bytes() + table.bytes() / 2,
-            defensive: options.defensive,
+        let backend = backend.strict();
+        let values = |wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]| {
+            table.eval_batch(backend, wi.into(), wo.into(), out);
         };
-        let light = TableLight { table: &table, luminance: &luminance, values: Vec::new() };
-        let distribution = Distribution::build(lanes, light, surface, (sigma, psi), &plan, progress)?;
+        let run = |histogram: Histogram<'_>| backend.run(histogram);
+        let distribution = distribution(&table, options, &run, &values, progress)?;
+        Ok(Sampler { table, distribution })
+    }
+
+    /// As [`new`](Sampler::new), on lanes that are no [`Backend`].
+    ///
+    /// # Errors
+    /// As [`new`](Sampler::new).
+    pub fn on_lanes<L: Lanes>(
+        lanes: L,
+        table: Arc<specular::Table>,
+        options: &SamplerOptions,
+    ) -> Result<Self, SamplerError> {
+        let lanes = lanes.strict();
+        let values = |wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]| {
+            lanes.vectorize(table.batch(wi.into(), wo.into(), out));
+        };
+        let run = |histogram: Histogram<'_>| lanes.vectorize(histogram);
+        let distribution = distribution(&table, options, &run, &values, &mut |_, _| {})?;
         Ok(Sampler { table, distribution })
     }
 
@@ -167,16 +171,18 @@ impl Sampler {
     ///
     /// # Panics
     /// Where `weight` is not as long as there are channels.
-    pub fn sample<L: Lanes>(
+    pub fn sample(
         &self,
-        lanes: L,
+        backend: Backend,
         given: Given,
         direction: [f32; 3],
         u: [f32; 2],
         weight: &mut [f32],
     ) -> ([f32; 3], f32) {
-        assert_eq!(weight.len(), self.table.channel_count(), "one weight a channel");
-        lanes.vectorize(One { sampler: self, given, direction, u, weight })
+        let (mut sampled, mut pdf) = ([[0.0; 3]], [0.0]);
+        let out = Sampled { directions: &mut sampled, weights: weight, pdfs: &mut pdf };
+        self.sample_batch(backend, given, &[direction], &[u], out);
+        (sampled[0], pdf[0])
     }
 
     /// The density with which [`sample`](Sampler::sample) finds the direction of the pair that is not given. It is 0
@@ -184,26 +190,28 @@ impl Sampler {
     ///
     /// Rounding can put a direction that lies on the very edge of a histogram's cell into the neighbouring cell, which
     /// has a density of its own.
-    pub fn pdf<L: Lanes>(&self, lanes: L, given: Given, wi: [f32; 3], wo: [f32; 3]) -> f32 {
-        lanes.vectorize(OneDensity { sampler: self, given, wi, wo })
+    pub fn pdf(&self, backend: Backend, given: Given, wi: [f32; 3], wo: [f32; 3]) -> f32 {
+        let mut pdf = [0.0];
+        self.pdf_batch(backend, given, &[wi], &[wo], &mut pdf);
+        pdf[0]
     }
 
     /// Samples a direction for each direction given, as [`sample`](Sampler::sample).
     ///
     /// # Panics
     /// Where `u` or a part of `out` does not have one entry a direction, and the weights one more a channel.
-    pub fn sample_batch<L: Lanes>(
+    pub fn sample_batch(
         &self,
-        lanes: L,
+        backend: Backend,
         given: Given,
         directions: &[[f32; 3]],
         u: &[[f32; 2]],
         out: Sampled<'_>,
     ) {
-        lanes.vectorize(self.sampling(given, directions, u, out));
+        backend.run(self.sampling(given, directions, u, out));
     }
 
-    /// The sampling of many directions as a kernel (see [`sample_batch`](Self::sample_batch)).
+    /// The sampling of many directions as a kernel, for lanes that are no [`Backend`] (see [`sample_batch`](Self::sample_batch)).
     ///
     /// # Panics
     /// As [`sample_batch`](Self::sample_batch).
@@ -224,10 +232,10 @@ impl Sampler {
     /// The densities of many pairs, as [`pdf`](Sampler::pdf).
     ///
     /// # Panics
-    /// Where there are not as many `wi` as `wo` and `pdfs`.
-    pub fn pdf_batch<L: Lanes>(&self, lanes: L, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], pdfs: &mut [f32]) {
+    /// If there are not as many `wi` as `wo` and `pdfs`.
+    pub fn pdf_batch(&self, backend: Backend, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], pdfs: &mut [f32]) {
         let (known, other) = pair(given, wi, wo);
-        self.distribution.pdf_batch(lanes, known, other, pdfs);
+        self.distribution.pdf_batch(backend, known, other, pdfs);
     }
 
     /// Samples a direction in each lane inside a caller's own kernel, as [`sample`](Sampler::sample); 0 in the lanes that
@@ -264,4 +272,39 @@ impl Sampler {
         let (known, other) = pair(given, wi, wo);
         self.distribution.pdf_lanes(lanes, known, other).masked(mask)
     }
+}
+
+/// Evaluates a table: `[pair][channel]`.
+type Values<'a> = dyn Fn(&[[f32; 3]], &[[f32; 3]], &mut [f32]) + 'a;
+
+/// The distribution of a table whose `values` are found, and whose histograms are `run`, in strict form.
+fn distribution(
+    table: &specular::Table,
+    options: &SamplerOptions,
+    run: &dyn Fn(Histogram<'_>) -> Vec<Bin>,
+    values: &Values<'_>,
+    progress: &mut dyn FnMut(usize, usize),
+) -> Result<Distribution, SamplerError> {
+    let channels = table.channel_count();
+    let luminance = options.luminance.clone().unwrap_or_else(|| luminance(table.channels()));
+    let fits = luminance.len() == channels && luminance.iter().all(|&y| y.is_finite() && y >= 0.0);
+    if !fits || luminance.iter().all(|&y| y == 0.0) {
+        return Err(SamplerError::Luminance { found: luminance, channels });
+    }
+    let surface = Surface { scatter: table.scatter(), refraction: table.refraction.clone() };
+    let sigma = table.axes[SIGMA].clone();
+    let psi = table.is_anisotropic().then(|| table.axes[PSI].clone());
+    let plan = Plan {
+        theta: table.axes[THETA].knots(),
+        phis: table.axes[PHI].knots().len(),
+        bytes: table.bytes() + table.bytes() / 2,
+        defensive: options.defensive,
+    };
+    let mut room = Vec::new();
+    let mut light = |wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]| {
+        room.resize(wi.len() * channels, 0.0);
+        values(wi, wo, &mut room);
+        weigh(&room, &luminance, out);
+    };
+    Ok(Distribution::build(run, &mut light, surface, (sigma, psi), &plan, progress)?)
 }

@@ -1,8 +1,9 @@
 //! The ways to evaluate a [`Table`]: batches and lanes through the same passes, single queries beside them.
 
+use lobe_backend::Backend;
 use lobe_lane::{Floats, Kernel, Lanes, MAX_LANES};
 
-use crate::directions::{BlockOfDirections, Directions};
+use crate::directions::{DirectionBlock, Directions, PADDING};
 use crate::grid::layout::{Corners, Kind, PHI, PSI, Texels};
 use crate::grid::texel::Stored;
 use crate::passes::block::{BLOCK, Column};
@@ -34,25 +35,23 @@ impl Scratch {
 }
 
 impl Table {
-    /// Evaluates one pair into `out`, one value a channel, on the backend given.
+    /// Evaluates one pair into `out`, one value a channel, on a backend.
     ///
     /// # Panics
     /// Where `out` is not as long as there are channels.
-    pub fn eval<L: Lanes>(&self, lanes: L, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
-        lanes.vectorize(self.single(wi, wo, out));
+    pub fn eval(&self, backend: Backend, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
+        backend.run(self.single(wi, wo, out));
     }
 
-    /// Evaluates many pairs on the backend given: `out[query * channels + channel]`.
-    ///
-    /// `wi` and `wo` are slices of vectors, or [`Soa`](crate::Soa) of components.
+    /// Evaluates many pairs on a backend: `out[query * channels + channel]`.
     ///
     /// # Panics
-    /// Where there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
-    pub fn eval_batch<L: Lanes, D: Directions>(&self, lanes: L, wi: D, wo: D, out: &mut [f32]) {
-        lanes.vectorize(self.batch(wi, wo, out));
+    /// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+    pub fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        backend.run(self.batch(wi, wo, out));
     }
 
-    /// The work of [`eval`](Table::eval) as a kernel.
+    /// The work of [`eval`](Table::eval) as a kernel, for lanes that are no [`Backend`].
     ///
     /// # Panics
     /// Where `out` is not as long as there are channels.
@@ -61,11 +60,16 @@ impl Table {
         Single { table: self, wi, wo, out }
     }
 
-    /// The work of [`eval_batch`](Table::eval_batch) as a kernel.
+    /// The work of [`eval_batch`](Table::eval_batch) as a kernel, for lanes that are no [`Backend`].
     ///
     /// # Panics
     /// As [`eval_batch`](Table::eval_batch).
-    pub fn batch<'a, D: Directions + 'a>(&'a self, wi: D, wo: D, out: &'a mut [f32]) -> impl Kernel<Out = ()> + 'a {
+    pub fn batch<'a>(
+        &'a self,
+        wi: Directions<'a>,
+        wo: Directions<'a>,
+        out: &'a mut [f32],
+    ) -> impl Kernel<Out = ()> + 'a {
         assert_eq!(wi.count(), wo.count(), "as many wi as wo");
         assert_eq!(out.len(), wi.count() * self.channel_count(), "one output a query and channel");
         Batch { table: self, wi, wo, out }
@@ -86,7 +90,7 @@ impl Table {
                 lanes.store(&mut directions[side][k], component.masked(mask));
             }
         }
-        let [wi, wo] = directions.each_ref().map(|[x, y, z]| [x, y, z]);
+        let [wi, wo] = directions.each_ref().map(|[x, y, z]| DirectionBlock::Columns([x, y, z]));
         let mut scratch = Scratch::ZERO;
         self.locate(lanes, L::LANES, (wi, wo), &mut scratch);
         // Texels come query by query; the lanes want them channel by channel.
@@ -111,7 +115,13 @@ impl Table {
     /// The first passes: from the directions of queries `0..n` to base indices and corner weights. `n` is a multiple of
     /// the lanes.
     #[inline(always)]
-    fn locate<L: Lanes, B: BlockOfDirections>(&self, lanes: L, n: usize, directions: (B, B), scratch: &mut Scratch) {
+    fn locate<L: Lanes>(
+        &self,
+        lanes: L,
+        n: usize,
+        directions: (DirectionBlock<'_>, DirectionBlock<'_>),
+        scratch: &mut Scratch,
+    ) {
         let Scratch { frame, axes, .. } = scratch;
         frame::run(lanes, n, directions, self.scatter(), self.refraction.as_ref(), frame);
         angles::run(lanes, n, self.is_anisotropic(), frame, axes);
@@ -199,14 +209,14 @@ impl Table {
 const CHUNK: usize = 8;
 
 /// All queries of a batch, block by block.
-struct Batch<'a, D> {
+struct Batch<'a> {
     table: &'a Table,
-    wi: D,
-    wo: D,
+    wi: Directions<'a>,
+    wo: Directions<'a>,
     out: &'a mut [f32],
 }
 
-impl<D: Directions> Kernel for Batch<'_, D> {
+impl Kernel for Batch<'_> {
     type Out = ();
 
     #[inline(always)]
@@ -216,7 +226,7 @@ impl<D: Directions> Kernel for Batch<'_, D> {
         let texels = table.layout.texels();
         let count = wi.count();
         let mut scratch = Scratch::ZERO;
-        let mut padding = (D::PADDING, D::PADDING);
+        let mut padding = (PADDING, PADDING);
         let mut at = 0;
         while at < count {
             let n = (count - at).min(BLOCK);

@@ -1,5 +1,6 @@
 //! A [`Table`] where the angles are known: the evaluation without its directions.
 
+use lobe_backend::Backend;
 use lobe_lane::{Floats, Kernel, Lanes};
 
 use crate::grid::layout::PSI;
@@ -8,18 +9,19 @@ use crate::specular::Table;
 use crate::specular::eval::Scratch;
 
 impl Table {
-    /// Interpolates at many points on the backend given: `out[query * channels + channel]`, in 1/sr.
+    /// Interpolates at many points on a backend: `out[query * channels + channel]`, in 1/sr.
     ///
     /// `angles` are sigma, psi, theta and phi in radians, see [`coords`](crate::specular::coords); psi and phi are in `[0, 2 pi]`.
     /// An isotropic table does not read psi, which may be empty. Results are 0 where an angle is not finite.
     ///
     /// # Panics
     /// Where the angles differ in number, or `out` is not that many times the channels long.
-    pub fn interpolate_batch<L: Lanes>(&self, lanes: L, angles: [&[f32]; 4], out: &mut [f32]) {
-        lanes.vectorize(self.interpolation(angles, out));
+    pub fn interpolate_batch(&self, backend: Backend, angles: [&[f32]; 4], out: &mut [f32]) {
+        backend.run(self.interpolation(angles, out));
     }
 
-    /// The work of [`interpolate_batch`](Table::interpolate_batch) as a kernel.
+    /// The work of [`interpolate_batch`](Table::interpolate_batch) as a kernel, for lanes that are no
+    /// [`Backend`].
     ///
     /// # Panics
     /// As [`interpolate_batch`](Table::interpolate_batch).

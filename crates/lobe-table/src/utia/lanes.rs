@@ -1,9 +1,10 @@
 //! [`Data`] made ready to be evaluated in SIMD lanes.
 
+use lobe_backend::Backend;
 use lobe_lane::{Floats, Kernel, Lanes};
 
 use super::{Data, Decode, PHIS, PLANE, SCALE, STEPS, THETAS};
-use crate::directions::{BlockOfDirections, Directions};
+use crate::directions::{DirectionBlock, Directions};
 use crate::invalid::Invalid;
 use crate::passes::batch::{Batch, Blockwise};
 use crate::passes::unit::{spherical, unit};
@@ -50,21 +51,24 @@ impl Table {
         self.table.bytes()
     }
 
-    /// Evaluates many pairs on the backend given: `out[3 * query + channel]`.
+    /// Evaluates many pairs on a backend: `out[3 * query + channel]`.
     ///
     /// # Panics
     /// As [`batch`](Self::batch).
-    pub fn eval_batch<L: Lanes, D: Directions>(&self, lanes: L, wi: D, wo: D, out: &mut [f32]) {
-        lanes.vectorize(self.batch(wi, wo, out));
+    pub fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        backend.run(self.batch(wi, wo, out));
     }
 
-    /// The evaluation of many pairs as a kernel: `out[3 * query + channel]`.
-    ///
-    /// `wi` and `wo` are slices of vectors, or [`Soa`](crate::Soa) of components.
+    /// The evaluation of many pairs as a kernel, for lanes that are no [`Backend`]: `out[3 * query + channel]`.
     ///
     /// # Panics
-    /// Where there are not as many `wi` as `wo`, or `out` is not three times as long.
-    pub fn batch<'a, D: Directions + 'a>(&'a self, wi: D, wo: D, out: &'a mut [f32]) -> impl Kernel<Out = ()> + 'a {
+    /// If there are not as many `wi` as `wo`, or `out` is not three times as long.
+    pub fn batch<'a>(
+        &'a self,
+        wi: Directions<'a>,
+        wo: Directions<'a>,
+        out: &'a mut [f32],
+    ) -> impl Kernel<Out = ()> + 'a {
         Batch::new(self, wi, wo, out)
     }
 }
@@ -78,11 +82,11 @@ impl Blockwise for &Table {
     }
 
     #[inline(always)]
-    fn block<L: Lanes, B: BlockOfDirections>(
+    fn block<L: Lanes>(
         self,
         lanes: L,
         count: usize,
-        directions: (B, B),
+        directions: (DirectionBlock<'_>, DirectionBlock<'_>),
         scratch: &mut Scratch,
         out: &mut [f32],
     ) {
@@ -98,7 +102,7 @@ impl Blockwise for &Table {
 
 /// Zenith angles and azimuths of queries `0..n`, and which of them are above the surface.
 #[inline(always)]
-fn angles<L: Lanes, B: BlockOfDirections>(lanes: L, n: usize, (wi, wo): (B, B), scratch: &mut Scratch) {
+fn angles<L: Lanes>(lanes: L, n: usize, (wi, wo): (DirectionBlock<'_>, DirectionBlock<'_>), scratch: &mut Scratch) {
     let zero = lanes.splat(0.0);
     let mut query = 0;
     while query < n {

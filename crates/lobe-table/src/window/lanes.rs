@@ -1,5 +1,6 @@
 //! Sheets made ready to be evaluated in SIMD lanes.
 
+use lobe_backend::Backend;
 use lobe_lane::{Floats, Ints, Kernel, Lanes, Mask};
 
 use super::klems::KlemsMatrix;
@@ -7,7 +8,7 @@ use super::klems::lanes::{PatchScratch, Patches};
 use super::tensor_tree::lanes::{Walk, positions};
 use super::tensor_tree::{Rank, TensorTree};
 use super::{Block, Blocks, Component};
-use crate::directions::{BlockOfDirections, Directions};
+use crate::directions::{DirectionBlock, Directions};
 use crate::invalid::Invalid;
 use crate::passes::batch::{Batch, Blockwise};
 use crate::passes::block::Column;
@@ -84,21 +85,24 @@ impl Table {
         values.sum::<usize>() + walks.sum::<usize>()
     }
 
-    /// Evaluates `f` in 1/sr of many pairs on the backend given: `out[query * bands + band]`.
+    /// Evaluates `f` in 1/sr of many pairs on a backend: `out[query * bands + band]`.
     ///
     /// # Panics
     /// As [`batch`](Self::batch).
-    pub fn eval_batch<L: Lanes, D: Directions>(&self, lanes: L, wi: D, wo: D, out: &mut [f32]) {
-        lanes.vectorize(self.batch(wi, wo, out));
+    pub fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        backend.run(self.batch(wi, wo, out));
     }
 
-    /// The evaluation of many pairs as a kernel: `out[query * bands + band]`, in 1/sr.
-    ///
-    /// `wi` and `wo` are slices of vectors, or [`Soa`](crate::Soa) of components.
+    /// The evaluation of many pairs as a kernel, for lanes that are no [`Backend`]: `out[query * bands + band]`, in 1/sr.
     ///
     /// # Panics
-    /// Where there are not as many `wi` as `wo`, or `out` is not that many times the bands long.
-    pub fn batch<'a, D: Directions + 'a>(&'a self, wi: D, wo: D, out: &'a mut [f32]) -> impl Kernel<Out = ()> + 'a {
+    /// If there are not as many `wi` as `wo`, or `out` is not that many times the bands long.
+    pub fn batch<'a>(
+        &'a self,
+        wi: Directions<'a>,
+        wo: Directions<'a>,
+        out: &'a mut [f32],
+    ) -> impl Kernel<Out = ()> + 'a {
         Batch::new(self, wi, wo, out)
     }
 }
@@ -182,11 +186,11 @@ impl Blockwise for &Table {
     }
 
     #[inline(always)]
-    fn block<L: Lanes, B: BlockOfDirections>(
+    fn block<L: Lanes>(
         self,
         lanes: L,
         count: usize,
-        directions: (B, B),
+        directions: (DirectionBlock<'_>, DirectionBlock<'_>),
         scratch: &mut Scratch,
         out: &mut [f32],
     ) {
@@ -210,7 +214,7 @@ impl Blockwise for &Table {
 impl Scratch {
     /// Unit vectors and sides of queries `0..n`, and for which blocks there are any.
     #[inline(always)]
-    fn sides<L: Lanes, B: BlockOfDirections>(&mut self, lanes: L, n: usize, (wi, wo): (B, B)) -> [bool; 4] {
+    fn sides<L: Lanes>(&mut self, lanes: L, n: usize, (wi, wo): (DirectionBlock<'_>, DirectionBlock<'_>)) -> [bool; 4] {
         let (zero, none) = (lanes.splat(0.0), lanes.splat_int(0));
         let mut seen = [false; 4];
         let mut query = 0;

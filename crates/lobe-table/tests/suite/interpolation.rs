@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use lobe_scalar::Scalar;
+use lobe_backend::Backend;
 use lobe_table::{Channels, Edge, Edges, Scatter, specular, specular::reference};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -52,7 +52,14 @@ fn check(samples: &specular::Data, edges: &Edges) {
     let mut out = vec![f32::NAN; COUNT * channels];
     let [sigma, psi, theta, phi] = angles.each_ref().map(Vec::as_slice);
     let psi = if anisotropic { psi } else { &[] };
-    table.interpolate_batch(Scalar::<4>, [sigma, psi, theta, phi], &mut out);
+    for backend in Backend::forms() {
+        table.interpolate_batch(backend, [sigma, psi, theta, phi], &mut out);
+        compare(samples, edges, &angles, &out);
+    }
+}
+
+fn compare(samples: &specular::Data, edges: &Edges, angles: &[Vec<f32>; 4], out: &[f32]) {
+    let (channels, anisotropic) = (samples.channels().count(), samples.knots()[1].len() > 1);
     for (query, texel) in out.chunks_exact(channels).enumerate() {
         let at = angles.each_ref().map(|angles| f64::from(angles[query]));
         let mut expected = vec![0.0; channels];
@@ -84,5 +91,5 @@ fn values_at_angles_are_those_of_the_reference() {
 #[should_panic(expected = "as many angles of each kind")]
 fn a_missing_angle_is_refused() {
     let table = specular::Table::new(&samples(5, Channels::Mono), &Edges::default()).expect("a small table");
-    table.interpolate_batch(Scalar::<1>, [&[0.1], &[], &[0.1], &[0.1]], &mut [0.0]);
+    table.interpolate_batch(Backend::scalar(), [&[0.1], &[], &[0.1], &[0.1]], &mut [0.0]);
 }

@@ -2,8 +2,11 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use lobe_backend::Backend;
 use lobe_lane::{Kernel, Lanes};
-use lobe_table::{Channels, Edge, Edges, Precision, Scatter, Soa, specular, specular::coords, specular::reference};
+use lobe_table::{
+    Channels, Directions, Edge, Edges, Precision, Scatter, specular, specular::coords, specular::reference,
+};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -72,12 +75,12 @@ impl Kernel for OneLane<'_> {
     }
 }
 
-fn check<L: Lanes>(lanes: L, samples: &specular::Data, edges: &Edges, name: &str) {
-    check_stored(lanes, samples, edges, Precision::Single, 2e-5, name);
+fn check(backend: Backend, samples: &specular::Data, edges: &Edges, name: &str) {
+    check_stored(backend, samples, edges, Precision::Single, 2e-5, name);
 }
 
-fn check_stored<L: Lanes>(
-    lanes: L,
+fn check_stored(
+    backend: Backend,
     samples: &specular::Data,
     edges: &Edges,
     precision: Precision,
@@ -89,13 +92,14 @@ fn check_stored<L: Lanes>(
     // Not a multiple of any number of lanes, and more than one block.
     let (wi, wo) = directions(515);
     let mut batch = vec![f32::NAN; wi.len() * channels];
-    table.eval_batch(lanes, wi.as_slice(), wo.as_slice(), &mut batch);
+    table.eval_batch(backend, (&wi).into(), (&wo).into(), &mut batch);
 
     let component = |w: &[[f32; 3]], k: usize| w.iter().map(|v| v[k]).collect::<Vec<f32>>();
     let [ix, iy, iz] = [0, 1, 2].map(|k| component(&wi, k));
     let [ox, oy, oz] = [0, 1, 2].map(|k| component(&wo, k));
     let mut separate = vec![f32::NAN; batch.len()];
-    table.eval_batch(lanes, Soa::new(&ix, &iy, &iz), Soa::new(&ox, &oy, &oz), &mut separate);
+    let columns = [Directions::columns(&ix, &iy, &iz), Directions::columns(&ox, &oy, &oz)];
+    table.eval_batch(backend, columns[0], columns[1], &mut separate);
     let bits = |values: &[f32]| values.iter().map(|x| x.to_bits()).collect::<Vec<u32>>();
     assert_eq!(bits(&batch), bits(&separate), "{name}: vectors and components differ");
 
@@ -104,9 +108,9 @@ fn check_stored<L: Lanes>(
     for query in 0..wi.len() {
         let got = &batch[query * channels..][..channels];
         let (mut single, mut lane) = (vec![f32::NAN; channels], vec![f32::NAN; channels]);
-        table.eval(lanes, wi[query], wo[query], &mut single);
+        table.eval(backend, wi[query], wo[query], &mut single);
         assert_eq!(bits(got), bits(&single), "{name}: one pair, query {query}: {:?} {:?}", wi[query], wo[query]);
-        lanes.vectorize(OneLane(&table, wi[query], wo[query], &mut lane));
+        backend.run(OneLane(&table, wi[query], wo[query], &mut lane));
         assert_eq!(bits(got), bits(&lane), "{name}: lanes, query {query}");
 
         let mut expected = vec![0.0; channels];
@@ -128,10 +132,10 @@ fn check_stored<L: Lanes>(
             largest = largest.max(error);
         }
     }
-    println!("{:>10} {name}: largest error {largest:.1e} of the largest value", L::NAME);
+    println!("{:>10} {name}: largest error {largest:.1e} of the largest value", backend.name());
 }
 
-fn check_all<L: Lanes>(lanes: L) {
+fn check_all(backend: Backend) {
     let gap = Edges { axes: [Edge::Clamp, Edge::Periodic, Edge::Clamp, Edge::Periodic], non_negative: false };
     let policies =
         [("default", Edges::default()), ("extrapolate", Edges::extrapolate()), ("zero", Edges::zero()), ("gap", gap)];
@@ -145,7 +149,7 @@ fn check_all<L: Lanes>(lanes: L) {
             // Small axes, which are searched in registers; the last angle of phi leaves a gap in the circle.
             let small = [knots(7, 0.0, 1.4, 1.2), vec![0.0], knots(9, 0.0, 3.0, 2.0), knots(13, 0.0, 6.0, 1.1)];
             let samples = smooth(small, colour.clone(), Scatter::Reflection);
-            check(lanes, &samples, &edges, &format!("{policy} {channels} isotropic"));
+            check(backend, &samples, &edges, &format!("{policy} {channels} isotropic"));
             let turning = [
                 knots(17, 0.1, FRAC_PI_2, 1.2),
                 knots(5, 0.3, 5.9, 1.3),
@@ -153,51 +157,38 @@ fn check_all<L: Lanes>(lanes: L) {
                 knots(4, 0.0, TAU, 1.5),
             ];
             let samples = smooth(turning, colour, Scatter::Reflection);
-            check(lanes, &samples, &edges, &format!("{policy} {channels} anisotropic"));
+            check(backend, &samples, &edges, &format!("{policy} {channels} anisotropic"));
             // Weights add up to 1, so an interpolated value errs no more than a stored one: by 2^-11 of it.
             let half = 2e-5 + 1.0 / 2048.0;
-            check_stored(lanes, &samples, &edges, Precision::Half, half, &format!("{policy} {channels} half"));
+            check_stored(backend, &samples, &edges, Precision::Half, half, &format!("{policy} {channels} half"));
         }
         // Equal cells, one knot only, and so many knots that a guide table is needed.
         let large = [knots(90, 0.0, FRAC_PI_2, 2.0), vec![0.0], knots(50, 0.0, PI, 1.0), knots(200, 0.0, TAU, 1.3)];
-        check(lanes, &smooth(large, Channels::Rgb, Scatter::Reflection), &edges, &format!("{policy} large"));
+        check(backend, &smooth(large, Channels::Rgb, Scatter::Reflection), &edges, &format!("{policy} large"));
         let flat = [knots(3, 0.0, FRAC_PI_2, 1.0), vec![0.0], knots(30, 0.0, PI, 1.7), vec![0.0]];
-        check(lanes, &smooth(flat, Channels::Mono, Scatter::Reflection), &edges, &format!("{policy} one phi"));
+        check(backend, &smooth(flat, Channels::Mono, Scatter::Reflection), &edges, &format!("{policy} one phi"));
 
         let through = || {
             [knots(6, 0.0, FRAC_PI_2, 1.0), knots(3, 0.0, TAU, 1.0), knots(12, 0.0, PI, 1.5), knots(9, 0.0, TAU, 1.0)]
         };
         let samples = smooth(through(), Channels::Rgb, Scatter::Transmission);
-        check(lanes, &samples, &edges, &format!("{policy} transmission"));
+        check(backend, &samples, &edges, &format!("{policy} transmission"));
         let bent = |sigma: &f64| (sigma.sin() / 1.5).asin() - sigma;
         let refracted = samples.clone().with_refraction(through()[0].iter().map(bent).collect()).unwrap();
-        check(lanes, &refracted, &edges, &format!("{policy} refraction"));
+        check(backend, &refracted, &edges, &format!("{policy} refraction"));
     }
 }
 
 #[test]
-fn scalar() {
-    check_all(lobe_scalar::Scalar::<1>);
+fn strict() {
+    Backend::available().into_iter().map(Backend::strict).for_each(check_all);
 }
 
 #[test]
-fn emulated16() {
-    check_all(lobe_scalar::Scalar::<16>);
-}
-
-#[cfg(target_arch = "x86_64")]
-#[test]
-fn sse2() {
-    check_all(lobe_sse::Sse2::new());
-}
-
-#[cfg(target_arch = "x86_64")]
-#[test]
-fn avx2() {
-    let Some(avx2) = lobe_avx::Avx2::detect() else {
-        println!("SKIP: this CPU has no AVX2");
-        return;
-    };
-    check_all(avx2);
-    check_all(avx2.strict());
+fn fused() {
+    let fusing: Vec<_> = Backend::available().into_iter().filter(Backend::has_fused_form).collect();
+    if fusing.is_empty() {
+        println!("SKIP: this CPU has no backend that fuses");
+    }
+    fusing.into_iter().map(Backend::fused).for_each(check_all);
 }

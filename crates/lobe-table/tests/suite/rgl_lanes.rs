@@ -2,10 +2,9 @@
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
-use lobe_lane::Lanes;
-use lobe_scalar::Scalar;
+use lobe_backend::Backend;
 use lobe_table::rgl::{self, Drawn, Images, Parts, Reference, UniformOrder, Wanted};
-use lobe_table::{Channels, Soa};
+use lobe_table::{Channels, Directions};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -87,7 +86,7 @@ const COUNT: usize = 331;
 
 /// `f`, `f cos` and densities, which must not depend on what is asked for together; and directions drawn, with their
 /// densities and weights.
-fn evaluate<L: Lanes>(lanes: L, table: &rgl::Table) -> [Vec<f32>; 6] {
+fn evaluate(backend: Backend, table: &rgl::Table) -> [Vec<f32>; 6] {
     let (wi, wo) = directions(COUNT);
     let values = || vec![f32::NAN; COUNT * table.channel_count()];
     let (mut f, mut alone, mut cos, mut pdf) = (values(), values(), values(), vec![f32::NAN; COUNT]);
@@ -98,12 +97,12 @@ fn evaluate<L: Lanes>(lanes: L, table: &rgl::Table) -> [Vec<f32>; 6] {
         Wanted::ValuesCos(&mut cos),
         Wanted::Pdf(&mut pdf_alone),
     ] {
-        lanes.vectorize(table.batch(wi.as_slice(), wo.as_slice(), wanted));
+        table.evaluate(backend, (&wi).into(), (&wo).into(), wanted);
     }
     assert_eq!((bits(&alone), bits(&pdf_alone)), (bits(&f), bits(&pdf)));
     let (mut drawn, mut density, mut weights) = (vec![[f32::NAN; 3]; COUNT], vec![f32::NAN; COUNT], values());
     let outputs = Drawn { wo: &mut drawn, pdf: &mut density, weights: &mut weights };
-    table.sample_batch(lanes, wi.as_slice(), &uniforms(), UniformOrder::Pbrt, outputs);
+    table.sample_batch(backend, (&wi).into(), &uniforms(), UniformOrder::Pbrt, outputs);
     [f, cos, pdf, drawn.into_flattened(), density, weights]
 }
 
@@ -117,19 +116,19 @@ fn uniforms() -> Vec<[f32; 2]> {
 
 #[test]
 fn components_and_single_pairs_give_the_same_bits() {
-    let lanes = Scalar::<1>;
+    let backend = Backend::scalar();
     let table = rgl::Table::new(&material(&[0.0], &THETA_I, 3, true), rgl::Options::default()).expect("a table");
     let (wi, wo) = directions(COUNT);
-    let [f, _, pdf, ..] = evaluate(lanes, &table);
+    let [f, _, pdf, ..] = evaluate(backend, &table);
     let split = |w: &[[f32; 3]]| [0, 1, 2].map(|k| w.iter().map(|v| v[k]).collect::<Vec<f32>>());
     let ([ix, iy, iz], [ox, oy, oz]) = (split(&wi), split(&wo));
-    let (wi_soa, wo_soa) = (Soa::new(&ix, &iy, &iz), Soa::new(&ox, &oy, &oz));
+    let (wi_columns, wo_columns) = (Directions::columns(&ix, &iy, &iz), Directions::columns(&ox, &oy, &oz));
     let (mut values, mut densities) = (vec![f32::NAN; f.len()], vec![f32::NAN; COUNT]);
-    lanes.vectorize(table.batch(wi_soa, wo_soa, Wanted::ValuesAndPdf(&mut values, &mut densities)));
+    table.evaluate(backend, wi_columns, wo_columns, Wanted::ValuesAndPdf(&mut values, &mut densities));
     assert_eq!((bits(&values), bits(&densities)), (bits(&f), bits(&pdf)));
     for query in 0..COUNT {
         let mut one = [f32::NAN; 3];
-        table.eval(lanes, wi[query], wo[query], &mut one);
+        table.eval(backend, wi[query], wo[query], &mut one);
         assert_eq!(bits(&one), bits(&f[3 * query..][..3]));
     }
 }
@@ -215,26 +214,18 @@ fn check_all(phi_i: &[f32], theta_i: &[f32]) {
             let name = format!("{} azimuths, {} zeniths, {channels} channels", phi_i.len(), theta_i.len());
             let rgl = material(phi_i, theta_i, channels, jacobian);
             let table = rgl::Table::new(&rgl, rgl::Options { clamp_negative }).expect("a table");
-            let scalar = evaluate(Scalar::<1>, &table);
+            let scalar = evaluate(Backend::scalar().strict(), &table);
             check(&rgl, &scalar, clamp_negative, &name);
             check_draws(&rgl, &scalar, clamp_negative, &name);
-            let same = |other: [Vec<f32>; 6], backend: &str| {
-                for (one, other) in scalar.iter().zip(&other) {
-                    assert_eq!(bits(one), bits(other), "{name} on {backend}");
-                }
-            };
-            same(evaluate(Scalar::<8>, &table), "emulated8");
-            #[cfg(target_arch = "x86_64")]
-            {
-                same(evaluate(lobe_sse::Sse2::new(), &table), "sse2");
-                match lobe_avx::Avx2::detect() {
-                    Some(avx2) => {
-                        same(evaluate(avx2.strict(), &table), "avx2 strict");
-                        let fused = evaluate(avx2, &table);
-                        check(&rgl, &fused, clamp_negative, &name);
-                        check_draws(&rgl, &fused, clamp_negative, &name);
+            for backend in Backend::forms() {
+                let found = evaluate(backend, &table);
+                if backend.is_strict() {
+                    for (one, other) in scalar.iter().zip(&found) {
+                        assert_eq!(bits(one), bits(other), "{name} on {backend}");
                     }
-                    None => println!("SKIPPED: this CPU has no AVX2"),
+                } else {
+                    check(&rgl, &found, clamp_negative, &name);
+                    check_draws(&rgl, &found, clamp_negative, &name);
                 }
             }
         }

@@ -4,6 +4,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
+use lobe_backend::Backend;
 use lobe_lane::{Kernel, Lanes};
 use lobe_table::{
     Channels, Data, DistributionError, Edges, Given, Sampled, Sampler, SamplerError, SamplerOptions, Scatter, specular,
@@ -11,8 +12,6 @@ use lobe_table::{
 };
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
-
-const REFERENCE: lobe_scalar::Scalar<1> = lobe_scalar::Scalar::<1>;
 
 fn fixture(name: &str) -> specular::Data {
     match lobe_formats::open(&lobe_testing::files::fixture(name)).unwrap().1.only() {
@@ -61,7 +60,7 @@ fn tables() -> Vec<(&'static str, specular::Data)> {
 
 fn sampler(samples: &specular::Data) -> Sampler {
     let table = Arc::new(specular::Table::new(samples, &Edges::default()).unwrap());
-    Sampler::new(REFERENCE, table, &SamplerOptions::default()).unwrap()
+    Sampler::new(Backend::scalar(), table, &SamplerOptions::default()).unwrap()
 }
 
 fn direction(sigma: f64, psi: f64) -> [f32; 3] {
@@ -77,14 +76,14 @@ fn incidents() -> Vec<[f32; 3]> {
     incidents
 }
 
-/// Samples and densities of one table, whatever the backend.
+/// specular::Data and densities of one table, whatever the backend.
 struct Run {
     directions: Vec<[f32; 3]>,
     weights: Vec<f32>,
     pdfs: Vec<f32>,
 }
 
-fn run<L: Lanes>(lanes: L, sampler: &Sampler, given: Given, known: &[[f32; 3]], u: &[[f32; 2]]) -> Run {
+fn run(backend: Backend, sampler: &Sampler, given: Given, known: &[[f32; 3]], u: &[[f32; 2]]) -> Run {
     let count = known.len();
     let mut run = Run {
         directions: vec![[f32::NAN; 3]; count],
@@ -92,7 +91,7 @@ fn run<L: Lanes>(lanes: L, sampler: &Sampler, given: Given, known: &[[f32; 3]], 
         pdfs: vec![f32::NAN; count],
     };
     let Run { directions, weights, pdfs } = &mut run;
-    sampler.sample_batch(lanes, given, known, u, Sampled { directions, weights, pdfs });
+    sampler.sample_batch(backend, given, known, u, Sampled { directions, weights, pdfs });
     run
 }
 
@@ -155,26 +154,26 @@ fn bits(run: &Run) -> Vec<u32> {
     directions.chain(&run.weights).chain(&run.pdfs).map(|x| x.to_bits()).collect()
 }
 
-fn check_ways<L: Lanes>(lanes: L) {
+fn check_ways(backend: Backend) {
     for (name, samples) in tables() {
         let sampler = sampler(&samples);
         let channels = sampler.table().channel_count();
         let through = samples.scatter() == Scatter::Transmission;
         let (known, u) = hostile(300);
         for given in [Given::Light, Given::Viewer] {
-            let batch = run(lanes, &sampler, given, &known, &u);
+            let batch = run(backend, &sampler, given, &known, &u);
             let (mut agree, mut drawn) = (0, 0);
             for k in 0..known.len() {
                 let (direction, pdf) = (batch.directions[k], batch.pdfs[k]);
                 let weights = &batch.weights[k * channels..][..channels];
                 let mut weight = vec![f32::NAN; channels];
-                let one = sampler.sample(lanes, given, known[k], u[k], &mut weight);
+                let one = sampler.sample(backend, given, known[k], u[k], &mut weight);
                 assert_eq!((one, weight.as_slice()), ((direction, pdf), weights), "{name}: one sample, query {k}");
-                let (lane, [lane_pdf, again]) = lanes.vectorize(OneLane(&sampler, given, known[k], u[k], &mut weight));
+                let (lane, [lane_pdf, again]) = backend.run(OneLane(&sampler, given, known[k], u[k], &mut weight));
                 assert_eq!((lane, lane_pdf, weight.as_slice()), (direction, pdf, weights), "{name}: lanes, query {k}");
 
                 let (wi, wo) = if given == Given::Light { (known[k], direction) } else { (direction, known[k]) };
-                assert_eq!(sampler.pdf(lanes, given, wi, wo), again, "{name}: one density, query {k}");
+                assert_eq!(sampler.pdf(backend, given, wi, wo), again, "{name}: one density, query {k}");
                 if (11..=14).contains(&k) || (k == 10 && !through) {
                     assert_eq!((direction, pdf), ([0.0; 3], 0.0), "{name}: query {k} is no direction");
                     assert!(weights.iter().all(|&w| w == 0.0));
@@ -185,7 +184,7 @@ fn check_ways<L: Lanes>(lanes: L) {
                 let length = direction.iter().map(|x| x * x).sum::<f32>();
                 assert!((length - 1.0).abs() < 1e-6, "{name}: length {length} of query {k}");
                 let mut f = vec![0.0; channels];
-                sampler.table().eval(lanes, wi, wo, &mut f);
+                sampler.table().eval(backend, wi, wo, &mut f);
                 for (f, weight) in f.iter().zip(weights) {
                     assert_eq!(f * (direction[2].abs() / pdf), *weight, "{name}: weight of query {k}");
                 }
@@ -204,7 +203,7 @@ fn lanes_draw_what_the_f64_reference_draws() {
         let sampler = sampler(&samples);
         let (known, u) = (incidents(), numbers(9, 4_000));
         let known: Vec<[f32; 3]> = known.into_iter().cycle().take(u.len()).collect();
-        let drawn = run(REFERENCE, &sampler, Given::Light, &known, &u);
+        let drawn = run(Backend::scalar(), &sampler, Given::Light, &known, &u);
         let mut apart = 0;
         for query in 0..u.len() {
             let (direction, pdf) = sampler
@@ -223,15 +222,7 @@ fn lanes_draw_what_the_f64_reference_draws() {
 
 #[test]
 fn batches_single_queries_and_lanes_agree() {
-    check_ways(REFERENCE);
-    check_ways(lobe_scalar::Scalar::<16>);
-    #[cfg(target_arch = "x86_64")]
-    {
-        check_ways(lobe_sse::Sse2::new());
-        if let Some(avx2) = lobe_avx::Avx2::detect() {
-            check_ways(avx2);
-        }
-    }
+    Backend::forms().into_iter().for_each(check_ways);
 }
 
 #[test]
@@ -240,36 +231,21 @@ fn strict_samples_are_the_same_bits_on_every_backend() {
         let table = Arc::new(specular::Table::new(&samples, &Edges::default()).unwrap());
         let options = SamplerOptions::default();
         let (known, u) = hostile(5_003);
-        let mut expected = None;
-        macro_rules! check {
-            ($lanes:expr) => {
-                // Built on the backend that samples, so that building is compared too.
-                let sampler = Sampler::new($lanes, table.clone(), &options).unwrap();
-                for given in [Given::Light, Given::Viewer] {
-                    let got = run($lanes.strict(), &sampler, given, &known, &u);
-                    let mut pdfs = vec![f32::NAN; known.len()];
-                    sampler.pdf_batch($lanes.strict(), given, &known, &got.directions, &mut pdfs);
-                    let got = (bits(&got), pdfs.iter().map(|x| x.to_bits()).collect::<Vec<u32>>());
-                    let expected: &mut Vec<_> = expected.get_or_insert_with(Vec::new);
-                    let at = given as usize;
-                    if expected.len() <= at {
-                        expected.push(got);
-                    } else {
-                        assert!(got == expected[at], "{name} {given:?} on {}", stringify!($lanes));
-                    }
+        let mut expected = Vec::new();
+        for backend in Backend::available() {
+            // Built on the backend that samples, so that building is compared too.
+            let sampler = Sampler::new(backend, table.clone(), &options).unwrap();
+            for given in [Given::Light, Given::Viewer] {
+                let got = run(backend.strict(), &sampler, given, &known, &u);
+                let mut pdfs = vec![f32::NAN; known.len()];
+                sampler.pdf_batch(backend.strict(), given, &known, &got.directions, &mut pdfs);
+                let got = (bits(&got), pdfs.iter().map(|x| x.to_bits()).collect::<Vec<u32>>());
+                let at = given as usize;
+                if expected.len() <= at {
+                    expected.push(got);
+                } else {
+                    assert!(got == expected[at], "{name} {given:?} on {backend}");
                 }
-            };
-        }
-        check!(REFERENCE);
-        check!(lobe_scalar::Scalar::<16>);
-        #[cfg(target_arch = "x86_64")]
-        {
-            check!(lobe_sse::Sse2::new());
-            if let Some(sse41) = lobe_sse::Sse41::detect() {
-                check!(sse41);
-            }
-            if let Some(avx2) = lobe_avx::Avx2::detect() {
-                check!(avx2);
             }
         }
     }
@@ -286,8 +262,8 @@ fn the_density_is_positive_wherever_the_table_is() {
         for (k, incident) in incidents().into_iter().cycle().take(u.len()).enumerate() {
             let wo = direction(f64::from(u[k][0]) * 89.9, f64::from(u[k][1]) * 360.0);
             let wo = [wo[0], wo[1], if through { -wo[2] } else { wo[2] }];
-            sampler.table().eval(REFERENCE, incident, wo, &mut f);
-            let pdf = sampler.pdf(REFERENCE, Given::Light, incident, wo);
+            sampler.table().eval(Backend::scalar(), incident, wo, &mut f);
+            let pdf = sampler.pdf(Backend::scalar(), Given::Light, incident, wo);
             // A cosine is a twentieth of each slice; a cell holds its mean.
             assert!(pdf > 1e-3 * wo[2].abs(), "{name}: {pdf} from {incident:?} to {wo:?}, f {f:?}");
         }
@@ -300,7 +276,7 @@ fn a_black_table_is_sampled_as_a_cosine() {
     let black = specular::Data::new(Scatter::Reflection, black.knots().clone(), Channels::Mono, vec![0.0; 60]).unwrap();
     let sampler = sampler(&black);
     let u = numbers(4, 100_000);
-    let sampled = run(REFERENCE, &sampler, Given::Light, &vec![direction(40.0, 0.0); u.len()], &u);
+    let sampled = run(Backend::scalar(), &sampler, Given::Light, &vec![direction(40.0, 0.0); u.len()], &u);
     assert!(sampled.weights.iter().all(|&weight| weight == 0.0));
     // The mean of the cosine under a density in proportion to it is 2/3.
     let mean = sampled.directions.iter().map(|w| f64::from(w[2])).sum::<f64>() / u.len() as f64;
@@ -321,8 +297,10 @@ fn memory_is_at_most_one_and_a_half_tables() {
 fn progress_ends_with_all_slices() {
     let table = Arc::new(specular::Table::new(&fixture("cloth-17x7x17x13.ddr"), &Edges::default()).unwrap());
     let mut calls = Vec::new();
-    Sampler::with_progress(REFERENCE, table, &SamplerOptions::default(), &mut |done, all| calls.push((done, all)))
-        .unwrap();
+    Sampler::with_progress(Backend::scalar(), table, &SamplerOptions::default(), &mut |done, all| {
+        calls.push((done, all))
+    })
+    .unwrap();
     assert_eq!(calls, (1..=17 * 7).map(|done| (done, 17 * 7)).collect::<Vec<_>>());
 }
 
@@ -331,7 +309,7 @@ fn options_that_make_no_sense_are_refused() {
     let table = Arc::new(specular::Table::new(&fixture("conductor-7x8x13.ddr"), &Edges::default()).unwrap());
     for defensive in [0.0, -0.1, 1.1, f32::NAN] {
         let options = SamplerOptions { defensive, ..SamplerOptions::default() };
-        let error = Sampler::new(REFERENCE, table.clone(), &options).unwrap_err();
+        let error = Sampler::new(Backend::scalar(), table.clone(), &options).unwrap_err();
         assert!(
             matches!(error, SamplerError::Distribution(DistributionError::Defensive { .. })),
             "{defensive}: {error}"
@@ -339,7 +317,7 @@ fn options_that_make_no_sense_are_refused() {
     }
     for luminance in [vec![], vec![1.0], vec![0.0; 3], vec![1.0, -1.0, 1.0], vec![1.0, f32::INFINITY, 0.0]] {
         let options = SamplerOptions { luminance: Some(luminance.clone()), ..SamplerOptions::default() };
-        let error = Sampler::new(REFERENCE, table.clone(), &options).unwrap_err();
+        let error = Sampler::new(Backend::scalar(), table.clone(), &options).unwrap_err();
         assert!(matches!(error, SamplerError::Luminance { channels: 3, .. }), "{luminance:?}: {error}");
     }
 }

@@ -34,6 +34,6 @@ impl Evaluator for HalfDifference {
     }
 
     fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        backend.run(self.table.batch(self.lookup, wi, wo, out));
+        self.table.eval_batch(backend, self.lookup, wi.into(), wo.into(), out);
     }
 }

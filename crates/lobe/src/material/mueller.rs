@@ -43,7 +43,7 @@ impl Evaluator for Polarised {
     }
 
     fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        backend.run(self.table.batch(wi, wo, out));
+        self.table.eval_batch(backend, wi.into(), wo.into(), out);
     }
 
     fn mueller(&self, wi: [f32; 3], wo: [f32; 3], nm: f64) -> Option<Matrix> {

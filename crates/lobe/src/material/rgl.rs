@@ -1,6 +1,6 @@
 //! The EPFL database, in SIMD lanes.
 
-use lobe_table::rgl::{self, Wanted};
+use lobe_table::rgl;
 use lobe_table::{Channels, Given, Scatter};
 
 use super::evaluator::{Evaluator, Native};
@@ -40,6 +40,6 @@ impl Evaluator for Parametrised {
 
     fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         let (index, other) = if self.indexed_by == Given::Light { (wi, wo) } else { (wo, wi) };
-        backend.run(self.table.batch(index, other, Wanted::Values(out)));
+        self.table.eval_batch(backend, index.into(), other.into(), out);
     }
 }

@@ -96,6 +96,6 @@ impl Evaluator for Bands {
     }
 
     fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        backend.run(self.table.batch(wi, wo, out));
+        self.table.eval_batch(backend, wi.into(), wo.into(), out);
     }
 }

@@ -4,7 +4,6 @@ use lobe_table::{
     Distribution, DistributionError, DistributionOptions, Given, PatchSampler, Sampled, SamplerError, Scatter,
 };
 
-use super::build::BuildDistribution;
 use super::weigh;
 use crate::Material;
 use crate::material::{Native, flipped, mirrored};
@@ -47,10 +46,9 @@ impl Lobes {
             let mut options = DistributionOptions::unknown(scatter, material.is_isotropic(), bytes);
             options.defensive = defensive;
             let mut side = Side { material, is_front, luminance: &luminance, values: Vec::new() };
-            let light = |wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]| side.fill(wi, wo, out);
+            let mut light = |wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]| side.fill(wi, wo, out);
             let mut progress = |slice: usize, all: usize| progress(done * all + slice, count * all);
-            let build = BuildDistribution { options: &options, light, progress: &mut progress };
-            let distribution = material.backend().run(build)?;
+            let distribution = Distribution::of_function(material.backend(), &options, &mut light, &mut progress)?;
             done += 1;
             Ok(Some(Lobe::Histograms(Box::new(distribution))))
         };
@@ -84,7 +82,7 @@ impl Lobes {
             match lobe {
                 Lobe::Histograms(distribution) => {
                     let known = pick(known, &queries, !front);
-                    backend.run(distribution.brightnesses(&known, &mut brightness));
+                    distribution.brightness_batch(backend, &known, &mut brightness);
                 }
                 Lobe::Patches(patches) => {
                     let of = |query: &usize| patches.brightness(known[*query]);
@@ -138,7 +136,7 @@ impl Lobes {
                 Lobe::Histograms(distribution) => {
                     let known = pick(known, &queries, !front);
                     let (directions, pdfs) = (drawn.as_mut_slice(), found.as_mut_slice());
-                    backend.run(distribution.drawing(&known, &u, directions, pdfs));
+                    distribution.draw_batch(backend, &known, &u, directions, pdfs);
                     if !front {
                         directions.iter_mut().for_each(|direction| *direction = flipped(*direction));
                     }
@@ -192,7 +190,7 @@ impl Lobes {
             match lobe {
                 Lobe::Histograms(distribution) => {
                     let [known, other] = [known, other].map(|from| pick(from, &queries, !front));
-                    backend.run(distribution.densities(&known, &other, &mut found));
+                    distribution.pdf_batch(backend, &known, &other, &mut found);
                 }
                 Lobe::Patches(patches) => {
                     let of = |query: &usize| patches.pdf(known[*query], other[*query]);

@@ -1,6 +1,5 @@
 //! Importance sampling of any material.
 
-mod build;
 mod lobes;
 
 use std::sync::Arc;
@@ -10,7 +9,6 @@ use lobe_table::{Given, Sampled, SamplerError, SamplerOptions, luminance};
 
 use crate::Material;
 use crate::material::Native;
-use build::BuildTable;
 use lobes::Lobes;
 
 /// A material and what is needed to sample directions in proportion to luminance times `f` times cosine.
@@ -69,8 +67,8 @@ impl Sampler {
         let scheme = match material.native() {
             Native::Table(brdf) if !material.has_mirrors() => {
                 let table = brdf.table().clone();
-                let build = BuildTable { table, options, progress };
-                Scheme::Table(Box::new(material.backend().run(build)?))
+                let sampler = lobe_table::Sampler::with_progress(material.backend(), table, options, progress)?;
+                Scheme::Table(Box::new(sampler))
             }
             Native::Rgl(_) if !material.has_mirrors() => Scheme::Rgl,
             _ => {
@@ -132,11 +130,11 @@ impl Sampler {
         assert_eq!((out.directions.len(), out.pdfs.len()), (count, count), "an output a direction");
         assert_eq!(out.weights.len(), count * channels, "a weight a direction and channel");
         match &self.scheme {
-            Scheme::Table(sampler) => backend.run(sampler.sampling(given, directions, u, out)),
+            Scheme::Table(sampler) => sampler.sample_batch(backend, given, directions, u, out),
             Scheme::Rgl => {
                 let Native::Rgl(rgl) = self.material.native() else { return };
                 let drawn = Drawn { wo: out.directions, pdf: out.pdfs, weights: out.weights };
-                backend.run(rgl.table.sampling(directions, u, UniformOrder::default(), drawn));
+                rgl.table.sample_batch(backend, directions.into(), u, UniformOrder::default(), drawn);
                 if given != rgl.indexed_by {
                     // These are the weights with light and viewer exchanged.
                     let found = &*out.directions;
@@ -160,7 +158,7 @@ impl Sampler {
         let backend = self.material.backend();
         match &self.scheme {
             Scheme::Table(sampler) => {
-                backend.run(sampler.distribution().drawing(known, u, directions, pdfs));
+                sampler.distribution().draw_batch(backend, known, u, directions, pdfs);
             }
             Scheme::Rgl => {
                 let mut weights = vec![0.0; count * self.material.channel_count()];
@@ -181,10 +179,10 @@ impl Sampler {
         let backend = self.material.backend();
         let (known, other) = if given == Given::Light { (wi, wo) } else { (wo, wi) };
         match &self.scheme {
-            Scheme::Table(sampler) => backend.run(sampler.distribution().densities(known, other, pdfs)),
+            Scheme::Table(sampler) => sampler.distribution().pdf_batch(backend, known, other, pdfs),
             Scheme::Rgl => {
                 let Native::Rgl(rgl) = self.material.native() else { return };
-                backend.run(rgl.table.batch(known, other, Wanted::Pdf(pdfs)));
+                rgl.table.pdf_batch(backend, known.into(), other.into(), pdfs);
             }
             Scheme::Lobes(lobes) => lobes.pdf(&self.material, known, other, pdfs),
         }
@@ -200,7 +198,8 @@ impl Sampler {
         match self.material.native() {
             Native::Rgl(rgl) if matches!(self.scheme, Scheme::Rgl) && rgl.indexed_by == given => {
                 let (known, other) = if given == Given::Light { (wi, wo) } else { (wo, wi) };
-                self.material.backend().run(rgl.table.batch(known, other, Wanted::ValuesAndPdf(values, pdfs)));
+                let wanted = Wanted::ValuesAndPdf(values, pdfs);
+                rgl.table.evaluate(self.material.backend(), known.into(), other.into(), wanted);
             }
             _ => {
                 self.material.eval_batch(wi, wo, values);

@@ -6,7 +6,7 @@ use lobe::math::bounds;
 use lobe::table::paper::{PaperError, PaperTable, search};
 use lobe::table::specular::coords::{angles_to_directions, directions_to_angles};
 use lobe::table::specular::reference;
-use lobe::{Backend, Channels, Edges, Kernel, Lanes, Scatter, Soa, specular};
+use lobe::{Backend, Channels, Directions, Edges, Kernel, Lanes, Scatter, specular};
 
 /// Every backend of this machine, fused and strict, and its name.
 fn backends() -> impl Iterator<Item = (String, Backend)> {
@@ -70,7 +70,7 @@ fn evaluate(backend: Backend, table: &PaperTable, pairs: &[[[f32; 3]; 2]]) -> Ve
     let wi: Vec<_> = pairs.iter().map(|pair| pair[0]).collect();
     let wo: Vec<_> = pairs.iter().map(|pair| pair[1]).collect();
     let [mut r, mut g, mut b] = [(); 3].map(|()| vec![f32::NAN; pairs.len()]);
-    backend.run(table.batch(wi.as_slice(), wo.as_slice(), [&mut r, &mut g, &mut b]));
+    backend.run(table.batch((&wi).into(), (&wo).into(), [&mut r, &mut g, &mut b]));
     (0..pairs.len()).map(|i| [r[i], g[i], b[i]]).collect()
 }
 
@@ -229,7 +229,7 @@ fn components_and_vectors_give_the_same() {
     let table = PaperTable::new(&tables()[1]).unwrap();
     let column = |side: usize, k: usize| -> Vec<f32> { pairs.iter().map(|pair| pair[side][k]).collect() };
     let columns = [0, 1].map(|side| [0, 1, 2].map(|k| column(side, k)));
-    let [wi, wo] = columns.each_ref().map(|[x, y, z]| Soa::new(x, y, z));
+    let [wi, wo] = columns.each_ref().map(|[x, y, z]| Directions::columns(x, y, z));
     for (_, backend) in backends() {
         let mut out = [(); 3].map(|()| vec![f32::NAN; pairs.len()]);
         let [r, g, b] = &mut out;

@@ -1,5 +1,6 @@
 //! Evaluation of many pairs of directions, block by block.
 
+use lobe_backend::Backend;
 use lobe_lane::{Floats, Kernel, Lanes};
 
 use super::Table;
@@ -7,7 +8,7 @@ use super::angles;
 use super::frame::{self, Frame};
 use super::grid::Places;
 use super::invert::{self, Blend};
-use crate::directions::{BlockOfDirections, Directions};
+use crate::directions::{DirectionBlock, Directions, PADDING};
 use crate::passes::block::{BLOCK, Column};
 use crate::passes::cells;
 use crate::passes::texels::Tile;
@@ -42,37 +43,49 @@ impl<'a> Wanted<'a> {
 }
 
 impl Table {
-    /// Evaluates `f` in 1/sr of many pairs on the backend given: `out[query * channels + channel]`.
-    ///
-    /// `wi` and `wo` are slices of vectors, or [`Soa`](crate::Soa) of components.
+    /// Evaluates `f` in 1/sr of many pairs on a backend: `out[query * channels + channel]`.
     ///
     /// # Panics
-    /// Where there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
-    pub fn eval_batch<L: Lanes, D: Directions>(&self, lanes: L, wi: D, wo: D, out: &mut [f32]) {
-        lanes.vectorize(self.batch(wi, wo, Wanted::Values(out)));
+    /// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+    pub fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        self.evaluate(backend, wi, wo, Wanted::Values(out));
     }
 
-    /// The density over solid angle, 1/sr, with which `wo` is sampled for `wi`, for many pairs on the backend given.
+    /// The density over solid angle, 1/sr, with which `wo` is sampled for `wi`, for many pairs on a backend.
     ///
     /// # Panics
-    /// Where there are not as many `wi` as `wo` and elements in `out`.
-    pub fn pdf_batch<L: Lanes, D: Directions>(&self, lanes: L, wi: D, wo: D, out: &mut [f32]) {
-        lanes.vectorize(self.batch(wi, wo, Wanted::Pdf(out)));
+    /// If there are not as many `wi` as `wo` and elements in `out`.
+    pub fn pdf_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        self.evaluate(backend, wi, wo, Wanted::Pdf(out));
     }
 
-    /// Evaluates `f` in 1/sr of one pair into `out`, one value a channel, on the backend given.
+    /// Evaluates `f` in 1/sr of one pair into `out`, one value a channel, on a backend.
     ///
     /// # Panics
     /// Where `out` is not as long as there are channels.
-    pub fn eval<L: Lanes>(&self, lanes: L, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
-        self.eval_batch(lanes, [wi].as_slice(), [wo].as_slice(), out);
+    pub fn eval(&self, backend: Backend, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
+        self.eval_batch(backend, (&[wi]).into(), (&[wo]).into(), out);
     }
 
-    /// The evaluation of many pairs as a kernel.
+    /// Evaluates whatever is wanted of many pairs on a backend. Values and densities together take less time than one after
+    /// the other.
     ///
     /// # Panics
-    /// Where there are not as many `wi` as `wo`, or a slice in `wanted` is not as long as that asks for.
-    pub fn batch<'a, D: Directions + 'a>(&'a self, wi: D, wo: D, wanted: Wanted<'a>) -> impl Kernel<Out = ()> + 'a {
+    /// As [`batch`](Self::batch).
+    pub fn evaluate(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, wanted: Wanted<'_>) {
+        backend.run(self.batch(wi, wo, wanted));
+    }
+
+    /// The evaluation of many pairs as a kernel, for lanes that are no [`Backend`].
+    ///
+    /// # Panics
+    /// If there are not as many `wi` as `wo`, or a slice in `wanted` is not as long as that asks for.
+    pub fn batch<'a>(
+        &'a self,
+        wi: Directions<'a>,
+        wo: Directions<'a>,
+        wanted: Wanted<'a>,
+    ) -> impl Kernel<Out = ()> + 'a {
         let (values, cosine, pdf) = wanted.split();
         let count = wi.count();
         assert_eq!(count, wo.count(), "as many wi as wo");
@@ -87,11 +100,11 @@ impl Table {
 
     /// The passes that values and densities share: where the queries `0..n` are in the tables.
     #[inline(always)]
-    fn locate<L: Lanes, B: BlockOfDirections, const SLICES: usize>(
+    fn locate<L: Lanes, const SLICES: usize>(
         &self,
         lanes: L,
         n: usize,
-        (directions, cosine): ((B, B), bool),
+        (directions, cosine): ((DirectionBlock<'_>, DirectionBlock<'_>), bool),
         scratch: &mut Scratch,
     ) {
         let Scratch { frame, incident, blend, u_m, places, s, density, .. } = scratch;
@@ -163,16 +176,16 @@ impl Scratch {
 }
 
 /// All queries of a batch.
-struct Batch<'a, D> {
+struct Batch<'a> {
     table: &'a Table,
-    wi: D,
-    wo: D,
+    wi: Directions<'a>,
+    wo: Directions<'a>,
     values: Option<&'a mut [f32]>,
     cosine: bool,
     pdf: Option<&'a mut [f32]>,
 }
 
-impl<D: Directions> Kernel for Batch<'_, D> {
+impl Kernel for Batch<'_> {
     type Out = ();
 
     #[inline(always)]
@@ -181,7 +194,7 @@ impl<D: Directions> Kernel for Batch<'_, D> {
     }
 }
 
-impl<D: Directions> Batch<'_, D> {
+impl Batch<'_> {
     /// With blends of `SLICES`: `PAIRS` corners of a cell in one dimension, and `FOURS` in two.
     #[inline(always)]
     fn blocks<L: Lanes, const SLICES: usize, const PAIRS: usize, const FOURS: usize>(self, lanes: L) {
@@ -189,13 +202,13 @@ impl<D: Directions> Batch<'_, D> {
         let channels = table.channel_count();
         let count = wi.count();
         let mut scratch = Scratch::ZERO;
-        let mut padding = (D::PADDING, D::PADDING);
+        let mut padding = (PADDING, PADDING);
         let mut at = 0;
         while at < count {
             let left = (count - at).min(BLOCK);
             let n = left.next_multiple_of(L::LANES);
             let block = (wi.block(at, &mut padding.0), wo.block(at, &mut padding.1));
-            table.locate::<L, _, SLICES>(lanes, n, (block, cosine), &mut scratch);
+            table.locate::<L, SLICES>(lanes, n, (block, cosine), &mut scratch);
             if let Some(values) = &mut values {
                 let target = &mut values[at * channels..][..left * channels];
                 table.values::<L, SLICES, PAIRS, FOURS>(lanes, n, &mut scratch, target);

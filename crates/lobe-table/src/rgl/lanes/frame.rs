@@ -2,7 +2,7 @@
 
 use lobe_lane::{Floats, Lanes};
 
-use crate::directions::BlockOfDirections;
+use crate::directions::DirectionBlock;
 use crate::passes::block::Column;
 use crate::passes::frame::{FARTHEST, POLE};
 
@@ -92,10 +92,10 @@ fn every<L: Lanes>(lanes: L, wanted: bool) -> L::M {
 ///
 /// `cosine` leaves the cosine of `wo` in the values.
 #[inline(always)]
-pub(super) fn run<L: Lanes, B: BlockOfDirections>(
+pub(super) fn run<L: Lanes>(
     lanes: L,
     n: usize,
-    (wi, wo): (B, B),
+    (wi, wo): (DirectionBlock<'_>, DirectionBlock<'_>),
     symmetry: Symmetry,
     cosine: bool,
     frame: &mut Frame,

@@ -6,19 +6,13 @@ use lobe_lane::{Floats, Ints, Lanes};
 
 use super::angles;
 use super::frame::{Frame, Oriented, Symmetry};
-use crate::directions::BlockOfDirections;
+use crate::directions::DirectionBlock;
 use crate::passes::block::Column;
 use crate::passes::frame::FARTHEST;
 
 /// `wi` of queries `0..n`: what of the frame does not need `wo`.
 #[inline(always)]
-pub(super) fn incident<L: Lanes, B: BlockOfDirections>(
-    lanes: L,
-    n: usize,
-    wi: B,
-    symmetry: Symmetry,
-    frame: &mut Frame,
-) {
+pub(super) fn incident<L: Lanes>(lanes: L, n: usize, wi: DirectionBlock<'_>, symmetry: Symmetry, frame: &mut Frame) {
     let zero = lanes.splat(0.0);
     let mut query = 0;
     while query < n {
@@ -36,10 +30,10 @@ pub(super) fn incident<L: Lanes, B: BlockOfDirections>(
 /// Directions and densities from the half vectors at `u_m`, in place of the density on the unit square; 0 where a direction
 /// is not above the surface. The factor becomes the inverse of the density.
 #[inline(always)]
-pub(super) fn run<L: Lanes, B: BlockOfDirections>(
+pub(super) fn run<L: Lanes>(
     lanes: L,
     n: usize,
-    (wi, symmetry): (B, Symmetry),
+    (wi, symmetry): (DirectionBlock<'_>, Symmetry),
     (u_m, frame): (&[Column; 2], &mut Frame),
     wo: &mut [Column; 3],
     density: &mut Column,

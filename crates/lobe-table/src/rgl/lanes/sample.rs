@@ -1,10 +1,11 @@
 //! Drawing many directions, block by block.
 
+use lobe_backend::Backend;
 use lobe_lane::{Kernel, Lanes};
 
 use super::batch::Scratch;
 use super::{Table, angles, draw, reflect};
-use crate::directions::Directions;
+use crate::directions::{Directions, PADDING};
 use crate::passes::block::{BLOCK, Column};
 use crate::rgl::UniformOrder;
 
@@ -20,28 +21,28 @@ pub struct Drawn<'a> {
 }
 
 impl Table {
-    /// Draws a `wo` for each `wi` from two numbers in `[0, 1)`, on the backend given.
+    /// Draws a `wo` for each `wi` from two numbers in `[0, 1)`, on a backend.
     ///
     /// # Panics
-    /// Where there are not as many `wi` as uniforms, directions and densities, and that many weights a channel.
-    pub fn sample_batch<L: Lanes, D: Directions>(
+    /// If there are not as many `wi` as uniforms, directions and densities, and that many weights a channel.
+    pub fn sample_batch(
         &self,
-        lanes: L,
-        wi: D,
+        backend: Backend,
+        wi: Directions<'_>,
         uniforms: &[[f32; 2]],
         order: UniformOrder,
         drawn: Drawn<'_>,
     ) {
-        lanes.vectorize(self.sampling(wi, uniforms, order, drawn));
+        backend.run(self.sampling(wi, uniforms, order, drawn));
     }
 
-    /// The drawing of many directions as a kernel.
+    /// The drawing of many directions as a kernel, for lanes that are no [`Backend`].
     ///
     /// # Panics
     /// As [`sample_batch`](Table::sample_batch).
-    pub fn sampling<'a, D: Directions + 'a>(
+    pub fn sampling<'a>(
         &'a self,
-        wi: D,
+        wi: Directions<'a>,
         uniforms: &'a [[f32; 2]],
         order: UniformOrder,
         drawn: Drawn<'a>,
@@ -55,15 +56,15 @@ impl Table {
     }
 }
 
-struct Sampling<'a, D> {
+struct Sampling<'a> {
     table: &'a Table,
-    wi: D,
+    wi: Directions<'a>,
     uniforms: &'a [[f32; 2]],
     order: UniformOrder,
     drawn: Drawn<'a>,
 }
 
-impl<D: Directions> Kernel for Sampling<'_, D> {
+impl Kernel for Sampling<'_> {
     type Out = ();
 
     #[inline(always)]
@@ -72,7 +73,7 @@ impl<D: Directions> Kernel for Sampling<'_, D> {
     }
 }
 
-impl<D: Directions> Sampling<'_, D> {
+impl Sampling<'_> {
     /// As in the evaluation of a batch.
     #[inline(always)]
     fn blocks<L: Lanes, const SLICES: usize, const PAIRS: usize, const FOURS: usize>(self, lanes: L) {
@@ -81,7 +82,7 @@ impl<D: Directions> Sampling<'_, D> {
         let count = wi.count();
         let mut scratch = Scratch::ZERO;
         let mut wo = [Column::<f32>::ZERO; 3];
-        let mut padding = D::PADDING;
+        let mut padding = PADDING;
         let mut at = 0;
         while at < count {
             let left = (count - at).min(BLOCK);

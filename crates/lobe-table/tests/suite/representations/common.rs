@@ -1,8 +1,7 @@
 //! Queries of all kinds, and their evaluation on every backend.
 
-use lobe_lane::Lanes;
-use lobe_scalar::Scalar;
-use lobe_table::Soa;
+use lobe_backend::Backend;
+use lobe_table::Directions;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -73,63 +72,49 @@ pub const NOWHERE: usize = 28;
 
 /// What is compared: an evaluation of many pairs.
 pub trait Evaluate {
-    fn run<L: Lanes>(&self, lanes: L, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]);
-    fn run_columns<L: Lanes>(&self, lanes: L, wi: Soa<'_>, wo: Soa<'_>, out: &mut [f32]);
+    fn run(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]);
 }
 
 fn bits(values: &[f32]) -> Vec<u32> {
     values.iter().map(|x| x.to_bits()).collect()
 }
 
-/// The values of all pairs, `width` a pair, in strict and, where there is such a backend, in fused form. Asserts that strict
-/// ones are the same bits on every backend, however the directions lie in memory, and that none depends on its neighbours.
+/// The values of all pairs, `width` per pair, in strict form and in the fused form of the backends that have one. Asserts
+/// that strict ones are the same bits on every backend, however the directions lie in memory, and that none depends on its
+/// neighbours.
 pub fn evaluate<E: Evaluate>(evaluator: &E, pairs: &Pairs, width: usize) -> Vec<(&'static str, Vec<f32>)> {
     let Pairs { wi, wo } = pairs;
-    let scalar = on(evaluator, Scalar::<1>, pairs, width);
-    let same = |other: &[f32], what: &str| assert_eq!(bits(&scalar), bits(other), "{what}");
-    same(&on(evaluator, Scalar::<8>, pairs, width), "emulated8");
-
+    let strict = on(evaluator, Backend::scalar().strict(), pairs, width);
     let split = |w: &[[f32; 3]]| [0, 1, 2].map(|k| w.iter().map(|v| v[k]).collect::<Vec<f32>>());
     let ([ix, iy, iz], [ox, oy, oz]) = (split(wi), split(wo));
-    let mut columns = vec![f32::NAN; scalar.len()];
-    evaluator.run_columns(Scalar::<4>, Soa::new(&ix, &iy, &iz), Soa::new(&ox, &oy, &oz), &mut columns);
-    same(&columns, "columns");
-    for query in (0..COUNT).step_by(97) {
-        let mut single = vec![f32::NAN; width];
-        evaluator.run(Scalar::<8>, &wi[query..=query], &wo[query..=query], &mut single);
-        assert_eq!(bits(&single), bits(&scalar[query * width..][..width]), "query {query} alone");
+    let mut forms = Vec::new();
+    for backend in Backend::forms() {
+        let values = on(evaluator, backend, pairs, width);
+        let mut columns = vec![f32::NAN; values.len()];
+        let of_columns = [Directions::columns(&ix, &iy, &iz), Directions::columns(&ox, &oy, &oz)];
+        let [wi_columns, wo_columns] = of_columns;
+        evaluator.run(backend, wi_columns, wo_columns, &mut columns);
+        assert_eq!(bits(&columns), bits(&values), "columns on {backend}");
+        for query in (0..COUNT).step_by(97) {
+            let mut single = vec![f32::NAN; width];
+            evaluator.run(backend, (&wi[query..=query]).into(), (&wo[query..=query]).into(), &mut single);
+            assert_eq!(bits(&single), bits(&values[query * width..][..width]), "query {query} alone on {backend}");
+        }
+        if backend.is_strict() {
+            assert_eq!(bits(&strict), bits(&values), "{backend}");
+        } else {
+            forms.push(("fused", values));
+        }
     }
-    for (query, value) in scalar.chunks_exact(width).enumerate().skip(COUNT - NOWHERE) {
+    for (query, value) in strict.chunks_exact(width).enumerate().skip(COUNT - NOWHERE) {
         assert!(value.iter().all(|x| *x == 0.0), "query {query}: {value:?}");
     }
-
-    let fused = native(evaluator, pairs, width, &same);
-    [("strict", scalar.clone())].into_iter().chain(fused.map(|values| ("fused", values))).collect()
+    forms.insert(0, ("strict", strict));
+    forms
 }
 
-/// Holds the backends of this processor to the strict values; the fused ones, where it has them.
-#[cfg(target_arch = "x86_64")]
-fn native<E: Evaluate>(evaluator: &E, pairs: &Pairs, width: usize, same: &dyn Fn(&[f32], &str)) -> Option<Vec<f32>> {
-    same(&on(evaluator, lobe_sse::Sse2::new(), pairs, width), "sse2");
-    match lobe_sse::Sse41::detect() {
-        Some(lanes) => same(&on(evaluator, lanes, pairs, width), "sse4.1"),
-        None => println!("SKIPPED: this CPU has no SSE4.1"),
-    }
-    let Some(lanes) = lobe_avx::Avx2::detect() else {
-        println!("SKIPPED: this CPU has no AVX2");
-        return None;
-    };
-    same(&on(evaluator, lanes.strict(), pairs, width), "avx2 strict");
-    Some(on(evaluator, lanes, pairs, width))
-}
-
-#[cfg(not(target_arch = "x86_64"))]
-fn native<E: Evaluate>(_: &E, _: &Pairs, _: usize, _: &dyn Fn(&[f32], &str)) -> Option<Vec<f32>> {
-    None
-}
-
-fn on<E: Evaluate, L: Lanes>(evaluator: &E, lanes: L, pairs: &Pairs, width: usize) -> Vec<f32> {
+fn on<E: Evaluate>(evaluator: &E, backend: Backend, pairs: &Pairs, width: usize) -> Vec<f32> {
     let mut out = vec![f32::NAN; COUNT * width];
-    evaluator.run(lanes, &pairs.wi, &pairs.wo, &mut out);
+    evaluator.run(backend, (&pairs.wi).into(), (&pairs.wo).into(), &mut out);
     out
 }

@@ -1,7 +1,7 @@
 //! Grids of half and difference angles.
 
-use lobe_lane::Lanes;
-use lobe_table::Soa;
+use lobe_backend::Backend;
+use lobe_table::Directions;
 use lobe_table::half_diff::{self, Lookup};
 
 use super::common::{COUNT, Evaluate, NOWHERE, Pairs, evaluate};
@@ -9,12 +9,8 @@ use super::common::{COUNT, Evaluate, NOWHERE, Pairs, evaluate};
 struct Look(half_diff::Table, Lookup);
 
 impl Evaluate for Look {
-    fn run<L: Lanes>(&self, lanes: L, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        self.0.eval_batch(lanes, self.1, wi, wo, out);
-    }
-
-    fn run_columns<L: Lanes>(&self, lanes: L, wi: Soa<'_>, wo: Soa<'_>, out: &mut [f32]) {
-        self.0.eval_batch(lanes, self.1, wi, wo, out);
+    fn run(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        self.0.eval_batch(backend, self.1, wi, wo, out);
     }
 }
 

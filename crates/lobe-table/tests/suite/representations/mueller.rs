@@ -2,18 +2,14 @@
 
 use std::f64::consts::PI;
 
-use lobe_lane::Lanes;
-use lobe_table::{Soa, mueller};
+use lobe_backend::Backend;
+use lobe_table::{Directions, mueller};
 
 use super::common::{COUNT, Evaluate, NOWHERE, Pairs, evaluate};
 
 impl Evaluate for mueller::Table {
-    fn run<L: Lanes>(&self, lanes: L, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        self.eval_batch(lanes, wi, wo, out);
-    }
-
-    fn run_columns<L: Lanes>(&self, lanes: L, wi: Soa<'_>, wo: Soa<'_>, out: &mut [f32]) {
-        self.eval_batch(lanes, wi, wo, out);
+    fn run(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        self.eval_batch(backend, wi, wo, out);
     }
 }
 

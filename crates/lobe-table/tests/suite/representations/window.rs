@@ -1,7 +1,7 @@
 //! Klems matrices and tensor trees.
 
-use lobe_lane::Lanes;
-use lobe_table::Soa;
+use lobe_backend::Backend;
+use lobe_table::Directions;
 use lobe_table::window::klems::{AngleBasis, KlemsMatrix, Ring};
 use lobe_table::window::tensor_tree::{Node, Rank, TensorTree};
 use lobe_table::window::{self, Block, Component};
@@ -11,12 +11,8 @@ use rand_pcg::Pcg32;
 use super::common::{COUNT, Evaluate, NOWHERE, Pairs, evaluate};
 
 impl Evaluate for window::Table {
-    fn run<L: Lanes>(&self, lanes: L, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        self.eval_batch(lanes, wi, wo, out);
-    }
-
-    fn run_columns<L: Lanes>(&self, lanes: L, wi: Soa<'_>, wo: Soa<'_>, out: &mut [f32]) {
-        self.eval_batch(lanes, wi, wo, out);
+    fn run(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        self.eval_batch(backend, wi, wo, out);
     }
 }
 
