@@ -46,7 +46,7 @@ pub enum GridError {
         limit: f64,
     },
     /// The value count is not the product of the axis sizes and the channels.
-    #[error("{found} values; expected {expected} = sigma x psi x theta x phi x channels")]
+    #[error("{found} values; expected {expected}, the knots of the four axes and the channels multiplied")]
     ValueCount {
         /// What was found.
         found: usize,

@@ -5,6 +5,7 @@
 
 use lobe_lane::{Floats, Lanes};
 
+use super::neighbours::Neighbours;
 use crate::grid::axis::Axis;
 use crate::grid::search::Cell;
 use crate::{AxisError, Edge};
@@ -43,15 +44,10 @@ impl Function {
 
     /// The value at `x`, in radians, one at a time in `f64`.
     pub(crate) fn at(&self, x: f64) -> f64 {
-        let knots = self.axis.knots();
-        if knots.len() < 2 {
-            return f64::from(self.cells[0][0]);
-        }
-        let cell = knots.partition_point(|&knot| f64::from(knot) <= x).clamp(1, knots.len() - 1) - 1;
-        let (low, high) = (f64::from(knots[cell]), f64::from(knots[cell + 1]));
-        let fraction = (x - low) / (high - low);
-        let fraction = if self.axis.edge() == Edge::Extrapolate { fraction } else { fraction.clamp(0.0, 1.0) };
-        f64::from(self.cells[cell][0]) + fraction * f64::from(self.cells[cell][1])
+        let edge = if self.axis.edge() == Edge::Extrapolate { Edge::Extrapolate } else { Edge::Clamp };
+        let at = Neighbours::find(self.axis.knots(), edge, x).unwrap_or(Neighbours::ONLY);
+        let [value, difference] = self.cells[at.nodes[0]].map(f64::from);
+        value + at.weights[1] * difference
     }
 
     /// The value at `x`, in radians.

@@ -2,11 +2,12 @@
 //! in memory.
 
 pub(crate) mod axis;
+pub(crate) mod check;
 pub(crate) mod edges;
 mod error;
 pub(crate) mod function;
-pub(crate) mod knots;
 pub(crate) mod layout;
+pub(crate) mod neighbours;
 pub(crate) mod search;
 pub(crate) mod texel;
 

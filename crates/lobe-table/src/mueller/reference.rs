@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::{Data, ELEMENTS, Matrix};
 use crate::direction::{Vector, cross, dot, half_difference, normalize, phi, rotate_z};
-use crate::grid::knots::cell;
+use crate::grid::neighbours::{Neighbours, corners};
 use crate::passes::half_vector;
 use crate::passes::weights::SUM;
 
@@ -29,24 +29,17 @@ impl Data {
             return None;
         }
         let [phi_d, theta_d, theta_h] = coordinates(wi, wo);
+        let at = [phi_d, theta_d, theta_h, nm];
+        let cell: [Neighbours; 4] = std::array::from_fn(|axis| Neighbours::held(&self.knots[axis], at[axis]));
         let mut matrix = [[0.0; 4]; 4];
-        let cells = [phi_d, theta_d, theta_h, nm];
-        let cells: [(usize, f64); 4] = std::array::from_fn(|axis| cell(&self.knots[axis], cells[axis]));
-        for corner in 0..16 {
-            let (mut at, mut weight) = (0, 1.0);
-            for (axis, (index, t)) in cells.into_iter().enumerate() {
-                let upper = corner >> axis & 1;
-                at = at * self.knots[axis].len() + index + upper;
-                weight *= if upper == 1 { t } else { 1.0 - t };
+        // A corner without a part in the blend may not be measured.
+        corners(&cell, |node, weight| {
+            let at = node.iter().zip(&self.knots).fold(0, |at, (node, knots)| at * knots.len() + node);
+            let texel = &self.values[at * ELEMENTS..][..ELEMENTS];
+            for (element, value) in matrix.as_flattened_mut().iter_mut().zip(texel) {
+                *element += weight * f64::from(*value);
             }
-            // A corner without a part in the blend may lie outside the table, or not be measured.
-            if weight > 0.0 {
-                let texel = &self.values[at * ELEMENTS..][..ELEMENTS];
-                for (element, value) in matrix.as_flattened_mut().iter_mut().zip(texel) {
-                    *element += weight * f64::from(*value);
-                }
-            }
-        }
+        });
         if matrix[0][0].is_nan() {
             return None;
         }

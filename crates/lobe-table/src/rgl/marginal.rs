@@ -4,7 +4,7 @@
 //! marginal distribution and columns by the conditional one; within a cell both are quadratic and are inverted exactly.
 
 use super::Images;
-use crate::grid::knots::cell;
+use crate::grid::neighbours::Neighbours;
 
 /// Which slices of a table to blend, and with which weights. The weights add up to one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,18 +17,12 @@ impl Blend {
     /// The blend at azimuth `phi` and zenith angle `theta` in a table of `[phi_i][theta_i]` slices, linear in both and
     /// constant beyond the first and last knot.
     pub fn new(phi_i: &[f32], theta_i: &[f32], phi: f64, theta: f64) -> Self {
-        let (p, fp) = cell(phi_i, phi);
-        let (t, ft) = cell(theta_i, theta);
-        let stride = theta_i.len();
-        let (p1, t1) = ((p + 1).min(phi_i.len() - 1), (t + 1).min(stride - 1));
-        Blend {
-            terms: [
-                (p * stride + t, (1.0 - fp) * (1.0 - ft)),
-                (p * stride + t1, (1.0 - fp) * ft),
-                (p1 * stride + t, fp * (1.0 - ft)),
-                (p1 * stride + t1, fp * ft),
-            ],
-        }
+        let (p, t) = (Neighbours::held(phi_i, phi), Neighbours::held(theta_i, theta));
+        let term = |upper: [usize; 2]| {
+            let slice = p.nodes[upper[0]] * theta_i.len() + t.nodes[upper[1]];
+            (slice, p.weights[upper[0]] * t.weights[upper[1]])
+        };
+        Blend { terms: [term([0, 0]), term([0, 1]), term([1, 0]), term([1, 1])] }
     }
 
     /// The first slice of a table, by itself.

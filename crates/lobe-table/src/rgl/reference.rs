@@ -4,7 +4,7 @@ use super::marginal::{Blend, Warp, bilinear};
 use super::{Data, LEAST_AREA};
 use crate::Channels;
 use crate::direction::{Vector, add, dot, normalize, phi, scale, spherical, sub, theta};
-use crate::grid::knots::cell;
+use crate::grid::neighbours::Neighbours;
 use std::f64::consts::{PI, TAU};
 
 /// In which order the two uniform numbers of [`Reference::sample`] are used. The distribution is the same.
@@ -93,9 +93,8 @@ impl Reference {
         let Some(footprint) = self.footprint(wi, wo) else { return Some(0.0) };
         // The wavelengths of a file are f32, so this loses nothing.
         let knots: Vec<f32> = wavelengths.iter().map(|nm| *nm as f32).collect();
-        let (channel, t) = cell(&knots, nm);
-        let next = (channel + 1).min(knots.len() - 1);
-        let value = (1.0 - t) * self.channel(&footprint, channel) + t * self.channel(&footprint, next);
+        let Neighbours { nodes: [lower, upper], weights } = Neighbours::held(&knots, nm);
+        let value = weights[0] * self.channel(&footprint, lower) + weights[1] * self.channel(&footprint, upper);
         Some(self.clamped(value * footprint.factor))
     }
 

@@ -6,6 +6,7 @@ use super::distribution::Distribution;
 use super::slices::Slices;
 use crate::Scatter;
 use crate::grid::axis::Axis;
+use crate::grid::neighbours::Neighbours;
 use crate::specular::coords;
 
 impl Distribution {
@@ -100,13 +101,8 @@ fn cell(axis: &Axis, angle: f64) -> (usize, f64) {
     let knots = axis.knots();
     let first = f64::from(knots[0]);
     let angle = if axis.edge() == crate::Edge::Periodic && angle < first { angle + TAU } else { angle };
-    let cells = knots.len() - 1;
-    if cells == 0 {
-        return (0, 0.0);
-    }
-    let cell = knots.partition_point(|&knot| f64::from(knot) <= angle).clamp(1, cells) - 1;
-    let (low, high) = (f64::from(knots[cell]), f64::from(knots[cell + 1]));
-    (cell, ((angle - low) / (high - low)).clamp(0.0, 1.0))
+    let Neighbours { nodes: [cell, _], weights: [_, fraction] } = Neighbours::held(knots, angle);
+    (cell, fraction)
 }
 
 /// A place in a cell of an axis, and the width of the cell.

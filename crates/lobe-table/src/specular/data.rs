@@ -3,6 +3,7 @@
 //! [`Data`] is what a file reader produces and what a [`Table`](super::Table) is built from. It keeps the
 //! knots in `f64` radians and the values in `f32`, in the order that the evaluator wants them.
 
+use crate::grid::check::{AxisOf, check};
 use crate::{Channels, GridError, Scatter};
 
 /// The axes of the specular coordinate system, in the order of every `[_; 4]` in this crate.
@@ -23,12 +24,16 @@ pub struct Data {
     values: Vec<f32>,
 }
 
-/// The largest angle an axis can hold, in radians, with room for a knot that was rounded up in its file.
-const LIMITS: [f64; 4] = {
+const AXES: [AxisOf; 4] = {
     use std::f64::consts::{FRAC_PI_2, PI, TAU};
-    [FRAC_PI_2, TAU, PI, TAU]
+    let [sigma, psi, theta, phi] = AXIS_NAMES;
+    [
+        AxisOf { name: sigma, limit: FRAC_PI_2 },
+        AxisOf { name: psi, limit: TAU },
+        AxisOf { name: theta, limit: PI },
+        AxisOf { name: phi, limit: TAU },
+    ]
 };
-const ROUNDING: f64 = 1e-5;
 
 impl Data {
     /// Checks knots and values and keeps them. `knots` are in the order of [`AXIS_NAMES`], in radians.
@@ -41,25 +46,7 @@ impl Data {
         channels: Channels,
         values: Vec<f32>,
     ) -> Result<Self, GridError> {
-        let mut expected = channels.count();
-        if let Channels::Spectral(wavelengths) = &channels
-            && let Some(bad) = wavelengths.iter().find(|nm| !(nm.is_finite() && **nm > 0.0))
-        {
-            return Err(GridError::Channels(format!("wavelength {bad}; expected a positive number of nm")));
-        }
-        if expected == 0 {
-            return Err(GridError::Channels("no channels; expected at least one".into()));
-        }
-        for (index, axis_knots) in knots.iter().enumerate() {
-            check_knots(AXIS_NAMES[index], axis_knots, LIMITS[index])?;
-            expected = expected.checked_mul(axis_knots.len()).ok_or(GridError::TooLarge)?;
-        }
-        if values.len() != expected {
-            return Err(GridError::ValueCount { found: values.len(), expected });
-        }
-        if let Some(index) = values.iter().position(|v| !v.is_finite()) {
-            return Err(GridError::ValueNotFinite { index, value: values[index] });
-        }
+        check(&AXES, &knots, &channels, &values)?;
         Ok(Data { scatter, knots, refraction: None, channels, values })
     }
 
@@ -126,22 +113,4 @@ impl Data {
         let channels = self.channels.count();
         &self.values[at * channels..][..channels]
     }
-}
-
-fn check_knots(axis: &'static str, knots: &[f64], limit: f64) -> Result<(), GridError> {
-    if knots.is_empty() {
-        return Err(GridError::NoKnots { axis });
-    }
-    for (index, &value) in knots.iter().enumerate() {
-        if !value.is_finite() {
-            return Err(GridError::KnotNotFinite { axis, index, value });
-        }
-        if value < -ROUNDING || value > limit + ROUNDING {
-            return Err(GridError::KnotOutOfRange { axis, index, value, limit });
-        }
-        if index > 0 && value as f32 <= knots[index - 1] as f32 {
-            return Err(GridError::KnotsNotAscending { axis, index, previous: knots[index - 1], value });
-        }
-    }
-    Ok(())
 }

@@ -16,11 +16,11 @@ impl Representation for Data {
     }
 
     fn channels(&self) -> Channels {
-        self.channels.clone()
+        Data::channels(self).clone()
     }
 
     fn aspects(&self) -> Vec<Aspect> {
-        vec![Aspect::front(self.scatter)]
+        vec![Aspect::front(self.scatter())]
     }
 
     fn is_isotropic(&self) -> bool {
@@ -28,7 +28,7 @@ impl Representation for Data {
     }
 
     fn sections(&self) -> Vec<Section<'_>> {
-        let section = Section::new(KIND, Aspect::front(self.scatter), self.channels.clone(), self.values());
+        let section = Section::new(KIND, Aspect::front(self.scatter()), Data::channels(self).clone(), self.values());
         let section = section.with_axes(ANGLE_NAMES, self.knots());
         vec![match self.is_mirrored() {
             true => section.with_fact("symmetry", "the other half of phi_o is the mirror image"),
@@ -63,7 +63,7 @@ impl Representation for Data {
             names: ANGLE_NAMES,
             knots: self.knots(),
             values: self.values(),
-            channels: self.channels.count(),
+            channels: Data::channels(self).count(),
             is_mirrored: self.is_mirrored(),
             is_specular: false,
         })

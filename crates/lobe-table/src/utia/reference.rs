@@ -2,6 +2,7 @@
 
 use super::{Data, Decode, PHIS, PLANE, SCALE, STEPS, THETAS};
 use crate::direction::{phi, theta, wrap};
+use crate::grid::neighbours::{Neighbours, corners};
 use crate::passes::unit::SPHERICAL;
 use crate::passes::weights::SUM;
 
@@ -25,20 +26,15 @@ impl Data {
         if incident[0] > quarter || view[0] > quarter {
             return [0.0; 3];
         }
-        let cells = [zenith(incident[0]), azimuth(incident[1]), zenith(view[0]), azimuth(view[1])];
+        let cell = [zenith(incident[0]), azimuth(incident[1]), zenith(view[0]), azimuth(view[1])];
         let mut sum = [0.0; 3];
-        for corner in 0..16 {
-            let (mut at, mut weight) = (0, 1.0);
-            for (axis, (size, (index, t))) in [THETAS, PHIS, THETAS, PHIS].into_iter().zip(cells).enumerate() {
-                let upper = corner >> axis & 1;
-                at = at * size + (index + upper) % size;
-                weight *= if upper == 1 { t } else { 1.0 - t };
-            }
+        corners(&cell, |[theta_i, phi_i, theta_v, phi_v], weight| {
+            let at = ((theta_i * PHIS + phi_i) * THETAS + theta_v) * PHIS + phi_v;
             for (channel, sum) in sum.iter_mut().enumerate() {
                 let value = self.values[channel * PLANE + at];
                 *sum += weight * if decode == Decode::Raw { value } else { value.max(0.0) / SCALE };
             }
-        }
+        });
         match decode {
             Decode::Raw => sum,
             Decode::Srgb => sum.map(|v| 100.0 * if v > 0.0375 { ((v + 0.055) / 1.055).powf(2.4) } else { v / 12.92 }),
@@ -49,22 +45,26 @@ impl Data {
     /// one.
     pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
         // Beyond the last zenith angle the sizes of the two weights of the line that goes on add up to more than 1.
-        let stretch = |w: [f64; 3]| 1.0 + 2.0 * (zenith(theta(w)).1 - 1.0).max(0.0);
+        let stretch = |w: [f64; 3]| 1.0 + 2.0 * (zenith(theta(w)).weights[1] - 1.0).max(0.0);
         let cells = STEPS.iter().map(|step| 2.0 * SPHERICAL / step.to_radians());
         (cells.sum::<f64>() + SUM) * stretch(wi) * stretch(wo)
     }
 }
 
-/// The cell among the zenith angles, clamped, and the place in it, which is not.
-fn zenith(theta: f64) -> (usize, f64) {
-    let x = theta.to_degrees() / STEPS[0];
-    let index = (x as usize).min(THETAS - 2);
-    (index, x - index as f64)
+/// The place among the zenith angles, whose last cell goes on.
+fn zenith(theta: f64) -> Neighbours {
+    uniform(theta.to_degrees() / STEPS[0], THETAS - 2)
 }
 
-/// The cell among the azimuths, and the place in it.
-fn azimuth(phi: f64) -> (usize, f64) {
-    let x = wrap(phi).to_degrees() / STEPS[1];
-    let index = (x as usize).min(PHIS - 1);
-    (index, x - index as f64)
+/// The place among the azimuths, which go round.
+fn azimuth(phi: f64) -> Neighbours {
+    let Neighbours { nodes: [lower, upper], weights } = uniform(wrap(phi).to_degrees() / STEPS[1], PHIS - 1);
+    Neighbours { nodes: [lower, upper % PHIS], weights }
+}
+
+/// The cell of a place in steps, `last` at most.
+fn uniform(at: f64, last: usize) -> Neighbours {
+    let index = (at as usize).min(last);
+    let fraction = at - index as f64;
+    Neighbours { nodes: [index, index + 1], weights: [1.0 - fraction, fraction] }
 }

@@ -29,7 +29,10 @@ impl Evaluator for spherical::Data {
 
     fn eval_batch(&self, _: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         let mut sum = vec![0.0; self.channels().count()];
-        pair_by_pair(wi, wo, out, |wi, wo, texel| self.eval_into(wi, wo, &mut sum, texel));
+        pair_by_pair(wi, wo, out, |wi, wo, texel| {
+            self.eval_into(wi, wo, &mut sum);
+            texel.iter_mut().zip(&sum).for_each(|(out, value)| *out = *value as f32);
+        });
     }
 }
 
