@@ -5,7 +5,10 @@ mod common;
 use criterion::{Criterion, criterion_group, criterion_main};
 
 fn representations(criterion: &mut Criterion) {
-    common::bench(criterion, &["half-diff", "half-diff-linear", "utia", "klems", "tensor-tree", "mueller"]);
+    common::bench(
+        criterion,
+        &["half-diff", "half-diff-linear", "spherical", "utia", "klems", "tensor-tree", "mueller"],
+    );
 }
 
 criterion_group!(benches, representations);

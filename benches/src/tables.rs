@@ -7,7 +7,7 @@ use lobe::table::utia::{self, PLANE};
 use lobe::table::window::klems::{AngleBasis, KlemsMatrix};
 use lobe::table::window::tensor_tree::{Node, Rank, TensorTree};
 use lobe::table::window::{self, Block, Component};
-use lobe::table::{half_diff, mueller};
+use lobe::table::{half_diff, mueller, spherical};
 use lobe::{Channels, Scatter, specular};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -134,6 +134,25 @@ fn value(index: usize) -> f32 {
 /// A grid of that many bins, as those of the MERL database are `[90, 90, 180]`.
 pub fn half_difference(bins: [usize; 3]) -> half_diff::Data {
     half_diff::Data::new(bins, (0..3 * bins.iter().product::<usize>()).map(value).collect()).expect("a valid grid")
+}
+
+/// Half of an isotropic grid of spherical coordinates, of the size of the measured paints of the MDL library.
+pub fn spherical() -> spherical::Data {
+    let steps = |count: usize, limit: f64| (0..count).map(|i| limit * i as f64 / (count - 1) as f64).collect();
+    let knots: [Vec<f64>; 4] = [steps(45, 1.55), vec![0.0], steps(45, 1.55), steps(90, PI)];
+    let count = 3 * knots.iter().map(Vec::len).product::<usize>();
+    let values = (0..count).map(value).collect();
+    let grid = spherical::Data::new(Scatter::Reflection, knots, Channels::Rgb, values);
+    grid.and_then(spherical::Data::mirrored).expect("a valid grid")
+}
+
+/// An anisotropic grid of spherical coordinates.
+pub fn spherical_anisotropic() -> spherical::Data {
+    let polar = vec![0.0, 0.2, 0.5, 0.9, 1.2, 1.4];
+    let around = |count: usize| (0..count).map(|i| TAU * i as f64 / count as f64).collect();
+    let knots: [Vec<f64>; 4] = [polar.clone(), around(8), polar, around(24)];
+    let values = (0..knots.iter().map(Vec::len).product::<usize>()).map(value).collect();
+    spherical::Data::new(Scatter::Reflection, knots, Channels::Mono, values).expect("a valid grid")
 }
 
 /// A grid of the UTIA database.

@@ -37,7 +37,7 @@ pub struct Question {
 }
 
 /// All questions, in the order of the report.
-pub const QUESTIONS: [Question; 27] = [
+pub const QUESTIONS: [Question; 28] = [
     Question { id: "acos", title: "Arc cosine, eight terms", unit: "value", least: 1, build: acos::eight_terms },
     Question {
         id: "acos-paper",
@@ -141,6 +141,13 @@ pub const QUESTIONS: [Question; 27] = [
         unit: "evaluation",
         least: 1,
         build: representations::half_difference_linear,
+    },
+    Question {
+        id: "spherical",
+        title: "Grid of spherical coordinates",
+        unit: "evaluation",
+        least: 1,
+        build: representations::spherical,
     },
     Question { id: "utia", title: "UTIA grid", unit: "evaluation", least: 1, build: representations::utia },
     Question { id: "klems", title: "Klems matrices", unit: "evaluation", least: 1, build: representations::klems },

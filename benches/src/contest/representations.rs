@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use lobe::table::half_diff::{self, Lookup};
 use lobe::table::window::tensor_tree::Rank;
-use lobe::table::{mueller, utia, window};
+use lobe::table::{mueller, spherical, utia, window};
 use lobe::{Backend, Decode, Directions};
 
 use super::{Contender, Contest, Tolerance, backends};
@@ -45,6 +45,19 @@ pub fn half_difference_linear(input: Input, count: usize) -> Contest {
         move |wi, wo| data.bound(wi, wo) < SURE,
         Rc::new(move |wi, wo, out| out.copy_from_slice(&one.eval_linear(wi, wo))),
         Rc::new(move |backend, [wi, wo], out| table.eval_batch(backend, Lookup::Linear, wi, wo, out)),
+    )
+}
+
+/// RGB of half a grid of spherical coordinates.
+pub fn spherical(input: Input, count: usize) -> Contest {
+    let data = Rc::new(tables::spherical());
+    let table = spherical::Table::new(&data).expect("a small grid");
+    let one = data.clone();
+    contest(
+        (input, count, 3, LINEAR),
+        move |wi, wo| data.bound(wi, wo) < SURE,
+        Rc::new(move |wi, wo, out| one.eval_into(wi, wo, out)),
+        Rc::new(move |backend, [wi, wo], out| table.eval_batch(backend, wi, wo, out)),
     )
 }
 

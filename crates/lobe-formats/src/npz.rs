@@ -9,8 +9,8 @@
 use std::io::{self, Cursor, Write};
 use std::path::Path;
 
-use lobe_table::scattered::ANGLE_NAMES;
 use lobe_table::specular::AXIS_NAMES;
+use lobe_table::spherical;
 use lobe_table::window::klems::AngleBasis;
 use lobe_table::window::{self, Block, Component};
 use lobe_table::{Channels, Data, Scatter, Side};
@@ -131,14 +131,14 @@ impl Arrays {
                 self.scatter(scatter)?;
                 self.text("kind", "spherical grid")?;
                 self.array("is_mirrored", "|b1", &[], &[u8::from(grid.is_mirrored())])?;
-                self.grid(&ANGLE_NAMES, grid.knots(), grid.channels(), grid.values())
+                self.grid(&spherical::AXIS_NAMES, grid.knots(), grid.channels(), grid.values())
             }
             Data::Scattered(scattered) => {
                 self.scatter(scatter)?;
                 self.text("kind", "scattered samples")?;
                 self.channels(scattered.channels())?;
                 let samples: Vec<_> = scattered.samples().collect();
-                for (axis, name) in ANGLE_NAMES.iter().enumerate() {
+                for (axis, name) in spherical::AXIS_NAMES.iter().enumerate() {
                     let angles: Vec<f64> = samples.iter().map(|(angles, _)| angles[axis]).collect();
                     self.doubles(name, &[samples.len()], &angles)?;
                 }

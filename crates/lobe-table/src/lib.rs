@@ -39,7 +39,7 @@ pub mod window;
 
 pub use data::{Aspect, Data, Kind, Representation, Side};
 pub use directions::Directions;
-pub use grid::{Axis, AxisError, Cell, Edge, Edges, Function, GridError, Precision};
+pub use grid::{Axis, AxisError, Cell, Edge, Edges, Function, GridError, Precision, TableError};
 pub use invalid::Invalid;
 pub use lobe_colour::{Channels, luminance};
 pub use sampling::{
@@ -47,4 +47,3 @@ pub use sampling::{
     SamplerOptions,
 };
 pub use scatter::Scatter;
-pub use specular::TableError;

@@ -8,7 +8,7 @@ use lobe_lane::{Kernel, Lanes};
 use lobe_scalar::Scalar;
 use lobe_table::half_diff::{self, Lookup};
 use lobe_table::rgl::{self, Drawn, UniformOrder, Wanted};
-use lobe_table::{Directions, Given, Sampled, Sampler, SamplerOptions, mueller, specular, utia, window};
+use lobe_table::{Directions, Given, Sampled, Sampler, SamplerOptions, mueller, specular, spherical, utia, window};
 
 /// Pairs of directions.
 pub(crate) type Pairs<'a> = [Directions<'a>; 2];
@@ -20,6 +20,7 @@ pub(crate) trait Machine: Copy {
     fn eval_batch(self, table: &specular::Table, pairs: Pairs<'_>, out: &mut [f32]);
     fn interpolate(self, table: &specular::Table, angles: [&[f32]; 4], out: &mut [f32]);
     fn half_diff(self, table: &half_diff::Table, lookup: Lookup, pairs: Pairs<'_>, out: &mut [f32]);
+    fn spherical(self, table: &spherical::Table, pairs: Pairs<'_>, out: &mut [f32]);
     fn utia(self, table: &utia::Table, pairs: Pairs<'_>, out: &mut [f32]);
     fn mueller(self, table: &mueller::Table, pairs: Pairs<'_>, out: &mut [f32]);
     fn window(self, table: &window::Table, pairs: Pairs<'_>, out: &mut [f32]);
@@ -51,6 +52,10 @@ impl Machine for Backend {
 
     fn half_diff(self, table: &half_diff::Table, lookup: Lookup, [wi, wo]: Pairs<'_>, out: &mut [f32]) {
         table.eval_batch(self, lookup, wi, wo, out);
+    }
+
+    fn spherical(self, table: &spherical::Table, [wi, wo]: Pairs<'_>, out: &mut [f32]) {
+        table.eval_batch(self, wi, wo, out);
     }
 
     fn utia(self, table: &utia::Table, [wi, wo]: Pairs<'_>, out: &mut [f32]) {
@@ -109,6 +114,10 @@ impl<const N: usize> Machine for Emulated<N> {
 
     fn half_diff(self, table: &half_diff::Table, lookup: Lookup, [wi, wo]: Pairs<'_>, out: &mut [f32]) {
         self.run(table.batch(lookup, wi, wo, out));
+    }
+
+    fn spherical(self, table: &spherical::Table, [wi, wo]: Pairs<'_>, out: &mut [f32]) {
+        self.run(table.batch(wi, wo, out));
     }
 
     fn utia(self, table: &utia::Table, [wi, wo]: Pairs<'_>, out: &mut [f32]) {

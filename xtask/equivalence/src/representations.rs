@@ -2,12 +2,12 @@
 
 use std::sync::OnceLock;
 
-use lobe_benches::tables::{half_difference, klems, mueller, tensor_tree, utia};
+use lobe_benches::tables::{half_difference, klems, mueller, spherical, spherical_anisotropic, tensor_tree, utia};
 use lobe_benches::workload::Input;
 use lobe_table::half_diff::{self, Lookup};
 use lobe_table::utia::{self, Decode};
 use lobe_table::window::tensor_tree::Rank;
-use lobe_table::{Directions, mueller, window};
+use lobe_table::{Directions, mueller, spherical, window};
 
 use super::machine::{Machine, Pairs};
 use super::record::{Bound, Record};
@@ -24,6 +24,7 @@ struct Case {
 
 enum Representation {
     HalfDiff(half_diff::Table, Lookup),
+    Spherical(Box<spherical::Table>),
     Utia(Box<utia::Table>),
     Mueller(Box<mueller::Table>),
     Window(window::Table),
@@ -33,6 +34,7 @@ impl Representation {
     fn eval_batch(&self, machine: impl Machine, pairs: Pairs<'_>, out: &mut [f32]) {
         match self {
             Representation::HalfDiff(table, lookup) => machine.half_diff(table, *lookup, pairs, out),
+            Representation::Spherical(table) => machine.spherical(table, pairs, out),
             Representation::Utia(table) => machine.utia(table, pairs, out),
             Representation::Mueller(table) => machine.mueller(table, pairs, out),
             Representation::Window(table) => machine.window(table, pairs, out),
@@ -128,6 +130,16 @@ fn cases() -> &'static [Case] {
             };
             let representation = Representation::HalfDiff(table.clone(), lookup);
             cases.push(Case { name, representation, width: 3, reference });
+        }
+        let grids = [("spherical", spherical()), ("spherical, anisotropic", spherical_anisotropic())];
+        for (name, grid) in grids {
+            let table = spherical::Table::new(&grid).expect("a small grid");
+            cases.push(Case {
+                name,
+                width: table.channel_count(),
+                representation: Representation::Spherical(Box::new(table)),
+                reference: Box::new(move |wi, wo| grid.bound(wi, wo)),
+            });
         }
         let grid = utia();
         let largest = grid.values().iter().fold(0.0_f64, |most, value| most.max(value.abs()));

@@ -1,6 +1,8 @@
-//! Why knots and values do not make a grid.
+//! Why knots and values do not make a grid, or not one for lanes.
 
 use thiserror::Error;
+
+use super::axis::AxisError;
 
 /// Why knots and values do not make a grid.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -70,4 +72,25 @@ pub enum GridError {
     /// As many refraction offsets as sigma knots are needed, all finite.
     #[error("{0}")]
     Refraction(String),
+}
+
+/// Why knots and values do not make a table for lanes.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum TableError {
+    /// Knots that do not make an axis.
+    #[error("{axis}: {source}")]
+    Axis {
+        /// Name of the axis.
+        axis: &'static str,
+        /// What is wrong with it.
+        source: AxisError,
+    },
+    /// More floats than a lane's 32-bit index reaches.
+    #[error("a table of {channels} channels and {nodes} nodes has more floats than a 32-bit index reaches")]
+    TooLarge {
+        /// Knots of all axes multiplied.
+        nodes: usize,
+        /// Channels.
+        channels: usize,
+    },
 }

@@ -4,31 +4,30 @@ use lobe_lane::Block;
 
 use crate::grid::axis::Axis;
 use crate::grid::texel::{Precision, Stored, half_scale};
-use crate::specular;
 use lobe_memory::Storage;
 
 /// How the channels of a node are stored. All but the last index of an axis have their upper neighbour at a fixed
 /// distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// One channel: for each cell in theta and phi its four corners side by side, `(theta, phi)`, `(theta, phi + 1)`,
-    /// `(theta + 1, phi)`, `(theta + 1, phi + 1)`, which one load of four floats brings.
+    /// One channel: for each cell of the last two axes its four corners side by side, the last axis faster, which one load
+    /// of four floats brings.
     Mono,
-    /// Two or three channels: four floats a node, so that one load of eight brings two neighbours in phi.
+    /// Two or three channels: four floats a node, so that one load of eight brings two neighbours along the last axis.
     Rgb,
     /// More: the channels of a node, padded to a multiple of eight.
     Wide,
 }
 
-pub(crate) const SIGMA: usize = 0;
-pub(crate) const PSI: usize = 1;
-pub(crate) const THETA: usize = 2;
-pub(crate) const PHI: usize = 3;
+/// The axis of the rotation of the sample, which has one knot in an isotropic grid.
+pub(crate) const TURN: usize = 1;
+/// The axis along which nodes lie side by side.
+pub(crate) const LAST: usize = 3;
 
-/// The texels of a table and the corners of a cell, by kind and by whether psi counts.
+/// The texels of a table and the corners of a cell, by kind and by whether [`TURN`] counts.
 ///
-/// Corners go over sigma, psi where it counts, theta and phi, the last fastest. One load brings two corners in phi of
-/// [`Kind::Rgb`], and all four in theta and phi of [`Kind::Mono`].
+/// Corners go over the axes, the last fastest. One load brings two corners along [`LAST`] of [`Kind::Rgb`], and all four
+/// along the last two axes of [`Kind::Mono`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Corners<'a, T> {
     MonoIso(Block<'a, 2, 4, T>),
@@ -52,7 +51,7 @@ enum Memory {
     Half(Storage<u16>),
 }
 
-/// The texels of a table, sigma slowest, then psi, theta and phi.
+/// The texels of a table, the first axis slowest.
 #[derive(Clone, Debug)]
 pub(crate) struct Layout {
     pub(crate) kind: Kind,
@@ -60,7 +59,7 @@ pub(crate) struct Layout {
     memory: Memory,
     /// What stored values are to be multiplied by.
     scale: f32,
-    /// Floats from a node to the next along sigma, psi, theta and phi.
+    /// Floats from a node to the next along each axis.
     strides: [usize; 4],
     anisotropic: bool,
     /// The corners of a cell, from its first node: as many as [`Corners`] has for this kind.
@@ -68,16 +67,17 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// Lays out the samples at the knots of `axes`. `None` where the table has more floats than a lane can index.
-    pub(crate) fn new(samples: &specular::Data, axes: &[Axis; 4], precision: Precision) -> Option<Self> {
-        let channels = samples.channels().count();
+    /// Lays out values at the knots of `axes`. `None` if the table has more floats than a lane can index.
+    pub(crate) fn new(values: &Values<'_>, axes: &[Axis; 4], precision: Precision) -> Option<Self> {
+        let channels = values.channels;
         let (kind, width) = match channels {
             1 => (Kind::Mono, 4),
             2..=3 => (Kind::Rgb, 4),
             _ => (Kind::Wide, channels.next_multiple_of(8)),
         };
-        // A constant phi is stored twice, because texels come in pairs along phi.
-        let nodes: [usize; 4] = std::array::from_fn(|axis| axes[axis].knots().len().max(if axis == 3 { 2 } else { 1 }));
+        // A constant last axis is stored twice, because texels come in pairs along it.
+        let nodes: [usize; 4] =
+            std::array::from_fn(|axis| axes[axis].knots().len().max(if axis == LAST { 2 } else { 1 }));
         let mut strides = [width; 4];
         for axis in (0..3).rev() {
             strides[axis] = strides[axis + 1].checked_mul(nodes[axis + 1])?;
@@ -87,27 +87,27 @@ impl Layout {
 
         let shape = Shape { kind, width, channels, nodes };
         let (memory, scale) = match precision {
-            Precision::Single => (Memory::Single(shape.fill(len, samples, axes, 1.0)), 1.0),
+            Precision::Single => (Memory::Single(shape.fill(len, values, axes, 1.0)), 1.0),
             Precision::Half => {
-                let largest = samples.values().iter().fold(0.0f32, |largest, value| largest.max(value.abs()));
+                let largest = values.values.iter().fold(0.0f32, |largest, value| largest.max(value.abs()));
                 let scale = half_scale(largest);
-                (Memory::Half(shape.fill(len, samples, axes, scale)), 1.0 / scale)
+                (Memory::Half(shape.fill(len, values, axes, scale)), 1.0 / scale)
             }
         };
-        let anisotropic = axes[PSI].knots().len() > 1;
+        let anisotropic = axes[TURN].knots().len() > 1;
         let over: &[usize] = match (kind, anisotropic) {
-            (Kind::Mono, false) => &[SIGMA],
-            (Kind::Mono, true) => &[SIGMA, PSI],
-            (Kind::Rgb, false) => &[SIGMA, THETA],
-            (Kind::Rgb, true) => &[SIGMA, PSI, THETA],
-            (Kind::Wide, false) => &[SIGMA, THETA, PHI],
-            (Kind::Wide, true) => &[SIGMA, PSI, THETA, PHI],
+            (Kind::Mono, false) => &[0],
+            (Kind::Mono, true) => &[0, TURN],
+            (Kind::Rgb, false) => &[0, 2],
+            (Kind::Rgb, true) => &[0, TURN, 2],
+            (Kind::Wide, false) => &[0, 2, LAST],
+            (Kind::Wide, true) => &[0, TURN, 2, LAST],
         };
         let offsets = offsets(axes, strides, over);
         Some(Layout { kind, channels, memory, scale, strides, anisotropic, offsets })
     }
 
-    /// `true` where psi counts.
+    /// `true` if [`TURN`] counts.
     #[inline(always)]
     pub(crate) fn anisotropic(&self) -> bool {
         self.anisotropic
@@ -155,6 +155,22 @@ impl Layout {
     }
 }
 
+/// The values of a grid as they were measured: `[axis 0][axis 1][axis 2][axis 3][channel]`.
+pub(crate) struct Values<'a> {
+    /// How many nodes each axis has.
+    pub(crate) nodes: [usize; 4],
+    pub(crate) channels: usize,
+    pub(crate) values: &'a [f32],
+}
+
+impl Values<'_> {
+    /// The channels at one node.
+    fn texel(&self, node: [usize; 4]) -> &[f32] {
+        let at = node.iter().zip(self.nodes).fold(0, |at, (index, nodes)| at * nodes + index);
+        &self.values[at * self.channels..][..self.channels]
+    }
+}
+
 /// How many numbers of what kind go where.
 struct Shape {
     kind: Kind,
@@ -165,30 +181,30 @@ struct Shape {
 
 impl Shape {
     /// Writes the values of all nodes, multiplied by `scale`.
-    fn fill<T: Stored>(&self, len: usize, samples: &specular::Data, axes: &[Axis; 4], scale: f32) -> Storage<T> {
+    fn fill<T: Stored>(&self, len: usize, values: &Values<'_>, axes: &[Axis; 4], scale: f32) -> Storage<T> {
         let Shape { kind, width, channels, nodes } = *self;
         let mut storage = Storage::zeros(len);
         let texel = |node: [usize; 4]| {
             // The upper neighbour of the last node is itself; the search never gives it any weight but in rounding.
-            samples.texel(std::array::from_fn(|axis| {
+            values.texel(std::array::from_fn(|axis| {
                 let source = axes[axis].source();
                 source[node[axis].min(source.len() - 1)]
             }))
         };
         let mut texels = storage.as_mut_slice().chunks_exact_mut(width);
-        for sigma in 0..nodes[0] {
-            for psi in 0..nodes[1] {
-                for theta in 0..nodes[2] {
-                    for phi in 0..nodes[3] {
-                        let target = texels.next().expect("a texel a node");
+        for first in 0..nodes[0] {
+            for turn in 0..nodes[1] {
+                for third in 0..nodes[2] {
+                    for last in 0..nodes[3] {
+                        let target = texels.next().expect("a texel for each node");
                         if kind == Kind::Mono {
                             for (corner, value) in target.iter_mut().enumerate() {
-                                let node = [sigma, psi, theta + corner / 2, phi + corner % 2];
+                                let node = [first, turn, third + corner / 2, last + corner % 2];
                                 *value = T::from_f32(texel(node)[0] * scale);
                             }
                         } else {
-                            let values = texel([sigma, psi, theta, phi]);
-                            for (target, value) in target[..channels].iter_mut().zip(values) {
+                            let texel = texel([first, turn, third, last]);
+                            for (target, value) in target[..channels].iter_mut().zip(texel) {
                                 *target = T::from_f32(value * scale);
                             }
                         }
@@ -205,13 +221,13 @@ fn first<const N: usize>(offsets: &[usize; 16]) -> [usize; N] {
     *offsets.first_chunk().expect("at most 16 corners")
 }
 
-/// The offsets of the corners over the axes given, the last fastest; an axis of one knot has no upper corner, except phi,
-/// which has every knot twice.
+/// The offsets of the corners over the axes given, the last fastest; an axis of one knot has no upper corner, except the last
+/// one, which has that knot twice.
 fn offsets(axes: &[Axis; 4], strides: [usize; 4], over: &[usize]) -> [usize; 16] {
     let mut offsets = [0; 16];
     for (corner, offset) in offsets.iter_mut().enumerate().take(1 << over.len()) {
         for (k, &axis) in over.iter().rev().enumerate() {
-            let step = axis == PHI || axes[axis].knots().len() > 1;
+            let step = axis == LAST || axes[axis].knots().len() > 1;
             *offset += if corner >> k & 1 == 1 && step { strides[axis] } else { 0 };
         }
     }

@@ -7,12 +7,12 @@ use lobe_lane::{Block, Floats, Ints, Kernel, Lanes};
 
 use super::{Data, Lookup};
 use crate::directions::{DirectionBlock, Directions};
+use crate::grid::texels::{self, Located, Tile};
+use crate::grid::weights::{self, MAX_CORNERS};
 use crate::invalid::Invalid;
 use crate::passes::batch::{Batch, Blockwise};
 use crate::passes::block::{BLOCK, Column};
 use crate::passes::half_vector::HalfVector;
-use crate::passes::texels::{self, Tile};
-use crate::passes::weights::{self, MAX_CORNERS};
 use lobe_memory::Storage;
 
 /// Floats of a bin: three channels, and 1 where the bin was measured. All four are 0 where it was not.
@@ -153,9 +153,9 @@ impl Blockwise for Evaluator<'_> {
             Lookup::Linear => {
                 table.middles(lanes, n, scratch);
                 let Scratch { angles, base, places: [h, d, p], weights, tile } = scratch;
-                weights::run(lanes, n, [h, d], (&angles.valid, 1.0), weights);
+                weights::run(lanes, n, [h, d], &angles.valid, 1.0, weights);
                 let block = Block::new(table.texels.as_slice(), table.corners());
-                texels::measured(lanes, n, &block, ((base, weights), p), tile);
+                texels::measured(lanes, n, &block, Located { base, weights }, p, tile);
             }
         }
         out.copy_from_slice(&scratch.tile[..out.len()]);

@@ -5,8 +5,8 @@ use std::ops::RangeInclusive;
 
 use super::Data;
 use crate::direction::half_difference;
+use crate::grid::weights::SUM;
 use crate::passes::half_vector;
-use crate::passes::weights::SUM;
 
 impl Data {
     /// The bin that a pair of directions falls into.

@@ -6,14 +6,14 @@ use lobe_lane::{Block, Floats, Kernel, Lanes};
 use super::{AXES, Data, ELEMENTS};
 use crate::directions::{DirectionBlock, Directions};
 use crate::grid::axis::Axis;
+use crate::grid::cells;
 use crate::grid::edges::Edge;
+use crate::grid::texels::{self, Located};
+use crate::grid::weights::{self, MAX_CORNERS};
 use crate::invalid::Invalid;
 use crate::passes::batch::{Batch, Blockwise};
 use crate::passes::block::Column;
-use crate::passes::cells;
 use crate::passes::half_vector::HalfVector;
-use crate::passes::texels;
-use crate::passes::weights::{self, MAX_CORNERS};
 use lobe_memory::Storage;
 
 /// Stored where nothing was measured. However small its part in a blend, the result is far below 0 and becomes 0.
@@ -141,9 +141,9 @@ impl Blockwise for &Table {
             cells::run(lanes, n, &self.axes[index], self.strides[index], angle, base, valid);
             within(lanes, n, angle);
         }
-        weights::run(lanes, n, [phi_d, theta_d, theta_h], (valid, 1.0), weights);
+        weights::run(lanes, n, [phi_d, theta_d, theta_h], valid, 1.0, weights);
         let block = Block::new(self.texels.as_slice(), self.corners);
-        texels::wide(lanes, &block, (0, self.channels), (base, weights), 0.0, out);
+        texels::wide(lanes, &block, 0..self.channels, Located { base, weights }, 0.0, out);
     }
 }
 

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use super::{Data, ELEMENTS, Matrix};
 use crate::direction::{Vector, cross, dot, half_difference, normalize, phi, rotate_z};
 use crate::grid::neighbours::{Neighbours, corners};
+use crate::grid::weights::SUM;
 use crate::passes::half_vector;
-use crate::passes::weights::SUM;
 
 impl Data {
     /// The Mueller matrix in 1/sr, without the cosine, for light that comes from `wi` and leaves along `wo`.

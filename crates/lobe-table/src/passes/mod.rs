@@ -13,12 +13,7 @@
 //! Representations in other coordinates begin with [`half_vector`] or [`unit`] and go on the same way; [`batch`] takes
 //! them through their blocks.
 
-pub(crate) mod angles;
 pub(crate) mod batch;
 pub(crate) mod block;
-pub(crate) mod cells;
-pub(crate) mod frame;
 pub(crate) mod half_vector;
-pub(crate) mod texels;
 pub(crate) mod unit;
-pub(crate) mod weights;

@@ -13,7 +13,8 @@ use lobe_lane::{Floats, Lanes};
 
 use crate::Scatter;
 use crate::grid::function::Function;
-use crate::passes::frame::{FARTHEST, POLE, Refracted, Zenith};
+use crate::passes::unit::{FARTHEST, POLE};
+use crate::specular::frame::{Refracted, Zenith};
 
 /// What the frame of scattered light depends on, beside the incident direction.
 #[derive(Clone, Debug)]

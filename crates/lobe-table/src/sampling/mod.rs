@@ -31,8 +31,7 @@ use lobe_colour::luminance;
 use lobe_lane::{Floats, Kernel, Lanes};
 use thiserror::Error;
 
-use crate::grid::layout::{PHI, PSI, SIGMA, THETA};
-use crate::specular;
+use crate::specular::{self, PHI, PSI, SIGMA, THETA};
 use distribution::Plan;
 use histogram::{Bin, Histogram, weigh};
 use incident::Surface;
@@ -291,12 +290,12 @@ fn distribution(
     if !fits || luminance.iter().all(|&y| y == 0.0) {
         return Err(SamplerError::Luminance { found: luminance, channels });
     }
-    let surface = Surface { scatter: table.scatter(), refraction: table.refraction.clone() };
-    let sigma = table.axes[SIGMA].clone();
-    let psi = table.is_anisotropic().then(|| table.axes[PSI].clone());
+    let surface = Surface { scatter: table.scatter(), refraction: table.refraction().cloned() };
+    let sigma = table.axes()[SIGMA].clone();
+    let psi = table.is_anisotropic().then(|| table.axes()[PSI].clone());
     let plan = Plan {
-        theta: table.axes[THETA].knots(),
-        phis: table.axes[PHI].knots().len(),
+        theta: table.axes()[THETA].knots(),
+        phis: table.axes()[PHI].knots().len(),
         bytes: table.bytes() + table.bytes() / 2,
         defensive: options.defensive,
     };

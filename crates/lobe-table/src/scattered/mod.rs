@@ -17,6 +17,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 pub use representation::KIND;
 use thiserror::Error;
 
+use crate::spherical::AXIS_NAMES;
 use crate::{Channels, Scatter};
 use mesh::Mesh;
 
@@ -53,9 +54,6 @@ pub enum ScatteredError {
         angle: f64,
     },
 }
-
-/// The angles of a sample, in the order of every `[_; 4]` of this module.
-pub const ANGLE_NAMES: [&str; 4] = ["theta_i", "phi_i", "theta_o", "phi_o"];
 
 /// How far beyond the horizon a polar angle may be that was rounded in its file, in radians.
 const ROUNDING: f64 = 1e-4;
@@ -94,7 +92,7 @@ pub struct Data {
 }
 
 impl Data {
-    /// Checks samples and keeps them. `angles` are [`ANGLE_NAMES`] of each sample in radians, each polar angle from the
+    /// Checks samples and keeps them. `angles` are the [`AXIS_NAMES`] of each sample in radians, each polar angle from the
     /// normal on the side of its direction, so that those of a BTDF are below `pi/2` too; `values` are
     /// `[sample][channel]`. Samples of the same two directions are averaged.
     ///
@@ -121,7 +119,7 @@ impl Data {
                 let is_polar = axis % 2 == 0;
                 let fits = !is_polar || (-ROUNDING..=FRAC_PI_2 + ROUNDING).contains(&angle);
                 if !angle.is_finite() || !fits {
-                    return Err(ScatteredError::Angle { name: ANGLE_NAMES[axis], sample, angle });
+                    return Err(ScatteredError::Angle { name: AXIS_NAMES[axis], sample, angle });
                 }
             }
         }
@@ -174,7 +172,7 @@ impl Data {
         self.incidences.iter().map(|incidence| [incidence.theta, incidence.phi])
     }
 
-    /// The samples: [`ANGLE_NAMES`] in radians, and the channels.
+    /// The samples: the [`AXIS_NAMES`] in radians, and the channels.
     pub fn samples(&self) -> impl Iterator<Item = ([f64; 4], &[f32])> {
         let count = self.channels.count();
         self.incidences.iter().flat_map(move |incidence| {

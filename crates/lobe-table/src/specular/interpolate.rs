@@ -3,10 +3,9 @@
 use lobe_backend::Backend;
 use lobe_lane::{Floats, Kernel, Lanes};
 
-use crate::grid::layout::PSI;
+use super::{PSI, Table};
+use crate::grid::interpolation::Scratch;
 use crate::passes::block::BLOCK;
-use crate::specular::Table;
-use crate::specular::eval::Scratch;
 
 impl Table {
     /// Interpolates at many points on a backend: `out[query * channels + channel]`, in 1/sr.
@@ -50,28 +49,22 @@ impl Kernel for Interpolation<'_> {
     fn run<L: Lanes>(self, lanes: L) {
         let Interpolation { table, angles, out } = self;
         let channels = table.channel_count();
-        let texels = table.layout.texels();
+        let texels = table.grid.layout().texels();
         let count = angles[0].len();
         let mut scratch = Scratch::ZERO;
         let mut at = 0;
         while at < count {
             let left = (count - at).min(BLOCK);
             let n = left.next_multiple_of(L::LANES);
-            for (axis, (column, angles)) in scratch.axes.iter_mut().zip(angles).enumerate() {
+            for (axis, (column, angles)) in scratch.angles.iter_mut().zip(angles).enumerate() {
                 if axis != PSI || table.is_anisotropic() {
                     column.0[..left].copy_from_slice(&angles[at..][..left]);
                 }
             }
             leave_out(lanes, n, table.is_anisotropic(), &mut scratch);
-            table.find(lanes, n, &mut scratch);
-            table.texels(
-                lanes,
-                left,
-                &texels,
-                &mut scratch,
-                (0, channels),
-                &mut out[at * channels..][..left * channels],
-            );
+            table.grid.find(lanes, n, &mut scratch);
+            let target = &mut out[at * channels..][..left * channels];
+            table.grid.blend(lanes, &texels, &mut scratch, 0..channels, target);
             at += left;
         }
     }
@@ -86,14 +79,14 @@ fn leave_out<L: Lanes>(lanes: L, n: usize, anisotropic: bool, scratch: &mut Scra
         let mut axis = 0;
         while axis < 4 {
             if axis != PSI || anisotropic {
-                let angle = scratch.axes[axis].load(lanes, query);
+                let angle = scratch.angles[axis].load(lanes, query);
                 let kept = angle.abs().lt(lanes.splat(f32::INFINITY));
                 finite = lanes.select_int(kept, finite, lanes.splat_int(0));
-                scratch.axes[axis].store(lanes, query, angle.masked(kept));
+                scratch.angles[axis].store(lanes, query, angle.masked(kept));
             }
             axis += 1;
         }
-        scratch.frame.valid.store(lanes, query, finite);
+        scratch.valid.store(lanes, query, finite);
         query += L::LANES;
     }
 }

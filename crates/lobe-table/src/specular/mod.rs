@@ -3,9 +3,11 @@
 //! [`Data`] are a material as it was measured, and a [`Table`] is made ready for evaluation in SIMD lanes. [`mod@reference`]
 //! is the same evaluation in `f64`, written for the reader; [`coords`] explains the four angles.
 
+mod angles;
 pub mod coords;
 mod data;
-pub(crate) mod eval;
+mod eval;
+pub(crate) mod frame;
 mod interpolate;
 pub mod reference;
 mod representation;
@@ -14,4 +16,9 @@ mod table;
 
 pub use data::{AXIS_NAMES, Data};
 pub use representation::KIND;
-pub use table::{Table, TableError};
+pub use table::Table;
+
+pub(crate) const SIGMA: usize = 0;
+pub(crate) const PSI: usize = 1;
+pub(crate) const THETA: usize = 2;
+pub(crate) const PHI: usize = 3;

@@ -1,33 +1,8 @@
 //! A measured BRDF or BTDF made ready for evaluation.
 
-use thiserror::Error;
-
-use crate::grid::axis::{Axis, AxisError};
-use crate::grid::function::Function;
-use crate::grid::layout::Layout;
-use crate::grid::texel::Precision;
-use crate::{Channels, Edge, Edges, Scatter, specular::AXIS_NAMES, specular::Data};
-
-/// Why samples do not make a table.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum TableError {
-    /// Knots that do not make an axis.
-    #[error("{axis}: {source}")]
-    Axis {
-        /// Name of the axis.
-        axis: &'static str,
-        /// What is wrong with it.
-        source: AxisError,
-    },
-    /// More floats than a lane's 32-bit index reaches.
-    #[error("a table of {channels} channels and {nodes} nodes has more floats than a 32-bit index reaches")]
-    TooLarge {
-        /// Knots of all axes multiplied.
-        nodes: usize,
-        /// Channels.
-        channels: usize,
-    },
-}
+use super::{AXIS_NAMES, Data};
+use crate::grid::interpolation::{Interpolator, Source};
+use crate::{Axis, Channels, Edge, Edges, Function, Precision, Scatter, TableError};
 
 /// A measured BRDF or BTDF in specular coordinates, laid out for evaluation in SIMD lanes.
 ///
@@ -46,16 +21,15 @@ pub struct Table {
     scatter: Scatter,
     channels: Channels,
     edges: Edges,
-    pub(crate) axes: [Axis; 4],
-    pub(crate) refraction: Option<Function>,
-    pub(crate) layout: Layout,
+    pub(super) grid: Interpolator,
+    pub(super) refraction: Option<Function>,
 }
 
 impl Table {
     /// Lays out samples for evaluation, with a policy for queries outside the knots.
     ///
     /// # Errors
-    /// Where the table is too large to be indexed, or a periodic axis cannot be closed.
+    /// If the table is too large to be indexed, or a periodic axis cannot be closed.
     pub fn new(samples: &Data, edges: &Edges) -> Result<Self, TableError> {
         Table::with_precision(samples, edges, Precision::Single)
     }
@@ -65,29 +39,20 @@ impl Table {
     /// # Errors
     /// As [`new`](Table::new).
     pub fn with_precision(samples: &Data, edges: &Edges, precision: Precision) -> Result<Self, TableError> {
-        let axis = |index: usize| {
-            Axis::new(&samples.knots()[index], edges.axes[index])
-                .map_err(|source| TableError::Axis { axis: AXIS_NAMES[index], source })
+        let source = Source {
+            names: &AXIS_NAMES,
+            knots: samples.knots(),
+            channels: samples.channels().count(),
+            values: samples.values(),
         };
-        let axes = [axis(0)?, axis(1)?, axis(2)?, axis(3)?];
+        let grid = Interpolator::new(&source, edges, precision)?;
         let edge = if edges.axes[0] == Edge::Zero { Edge::Clamp } else { edges.axes[0] };
         let refraction = samples
             .refraction()
             .map(|offsets| Function::new(&samples.knots()[0], offsets, edge))
             .transpose()
             .map_err(|source| TableError::Axis { axis: AXIS_NAMES[0], source })?;
-        let layout = Layout::new(samples, &axes, precision).ok_or_else(|| TableError::TooLarge {
-            nodes: samples.knots().iter().fold(1usize, |nodes, knots| nodes.saturating_mul(knots.len())),
-            channels: samples.channels().count(),
-        })?;
-        Ok(Table {
-            scatter: samples.scatter(),
-            channels: samples.channels().clone(),
-            edges: *edges,
-            axes,
-            refraction,
-            layout,
-        })
+        Ok(Table { scatter: samples.scatter(), channels: samples.channels().clone(), edges: *edges, grid, refraction })
     }
 
     /// Reflection or transmission.
@@ -102,7 +67,7 @@ impl Table {
 
     /// How many channels there are.
     pub fn channel_count(&self) -> usize {
-        self.layout.channels
+        self.grid.channels()
     }
 
     /// The policy outside the knots.
@@ -110,18 +75,23 @@ impl Table {
         &self.edges
     }
 
-    /// The axes of sigma, psi, theta and phi.
-    pub fn axes(&self) -> &[Axis; 4] {
-        &self.axes
+    /// The offset of the zenith from sigma, if there is one.
+    pub(crate) fn refraction(&self) -> Option<&Function> {
+        self.refraction.as_ref()
     }
 
-    /// `true` where the value depends on the rotation of the sample.
+    /// The axes of sigma, psi, theta and phi.
+    pub fn axes(&self) -> &[Axis; 4] {
+        self.grid.axes()
+    }
+
+    /// `true` if the value depends on the rotation of the sample.
     pub fn is_anisotropic(&self) -> bool {
-        self.layout.anisotropic()
+        self.grid.is_anisotropic()
     }
 
     /// Bytes of memory that the table takes.
     pub fn bytes(&self) -> usize {
-        self.layout.bytes() + self.axes.iter().map(Axis::bytes).sum::<usize>()
+        self.grid.bytes()
     }
 }

@@ -3,8 +3,10 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::grid::check::{AxisOf, KNOT_ROUNDING, check};
-use crate::scattered::ANGLE_NAMES;
 use crate::{Channels, GridError, Scatter};
+
+/// The axes of spherical coordinates, in the order of every `[_; 4]` of these grids.
+pub const AXIS_NAMES: [&str; 4] = ["theta_i", "phi_i", "theta_o", "phi_o"];
 
 /// A BRDF or BTDF on a grid of `theta_i`, `phi_i`, `theta_o`, `phi_o`, in radians.
 ///
@@ -21,7 +23,7 @@ pub struct Data {
 }
 
 const AXES: [AxisOf; 4] = {
-    let [theta_i, phi_i, theta_o, phi_o] = ANGLE_NAMES;
+    let [theta_i, phi_i, theta_o, phi_o] = AXIS_NAMES;
     [
         AxisOf { name: theta_i, limit: FRAC_PI_2 },
         AxisOf { name: phi_i, limit: TAU },
@@ -54,7 +56,7 @@ impl Data {
         for (axis, limit, least) in [(1, 0.0, 1), (3, PI, 0)] {
             let mut knots = self.knots[axis].iter().enumerate().skip(least);
             if let Some((index, &value)) = knots.find(|(_, knot)| **knot > limit + KNOT_ROUNDING) {
-                return Err(GridError::KnotOutOfRange { axis: ANGLE_NAMES[axis], index, value, limit });
+                return Err(GridError::KnotOutOfRange { axis: AXIS_NAMES[axis], index, value, limit });
             }
         }
         Ok(Data { is_mirrored: true, ..self })

@@ -4,7 +4,10 @@ use std::f64::consts::TAU;
 
 use super::Data;
 use crate::direction::phi;
+use crate::grid::edges::ROUNDING;
 use crate::grid::neighbours::{Neighbours, corners};
+use crate::grid::weights::SUM;
+use crate::passes::unit::{POLE, SPHERICAL};
 use crate::{Edge, Scatter};
 
 impl Data {
@@ -53,6 +56,25 @@ impl Data {
         });
     }
 
+    /// How far a value may be off in the lanes of a [`Table`](super::Table), in parts of the largest magnitude.
+    pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
+        // Next to the pole the lanes take an azimuth to be 0. Knots of a full circle have values of their own at both ends.
+        let at_pole = |[x, y, _]: [f64; 3]| (f64::MIN_POSITIVE..2.0 * f64::from(POLE)).contains(&x.hypot(y));
+        let at_seam = |knots: &[f64], azimuth: f64| {
+            let from_seam = (azimuth - knots[0]).rem_euclid(TAU);
+            knots.len() > 1 && seam(knots) <= ROUNDING && from_seam.min(TAU - from_seam) <= 2.0 * AZIMUTH + ROUNDING
+        };
+        let seams = (!self.is_mirrored() && at_seam(&self.knots()[3], self.azimuth(wi, wo)))
+            || at_seam(&self.knots()[1], phi(wi));
+        if at_pole(wi) || at_pole(wo) || seams {
+            return 2.0;
+        }
+        let errors = [SPHERICAL, AZIMUTH, SPHERICAL, AZIMUTH];
+        let slopes = self.knots().iter().zip(errors).map(|(knots, error)| error / narrowest(knots));
+        // Two neighbours of opposite signs differ by twice the largest magnitude.
+        (2.0 * slopes.sum::<f64>() + SUM).min(2.0)
+    }
+
     /// The angle that is looked up among `phi_o`: the azimuth of `wo`, turned with `wi` if the material is isotropic. The
     /// unsigned angle between both azimuths, if the grid is one half.
     fn azimuth(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
@@ -63,6 +85,20 @@ impl Data {
         let turn = if self.is_isotropic() { phi(wi) - self.knots()[1][0] } else { 0.0 };
         phi(wo) - turn
     }
+}
+
+/// How far azimuths of the lanes may be off: of two directions, and of a knot that was rounded to `f32`.
+const AZIMUTH: f64 = 2.0 * SPHERICAL;
+
+/// What is missing between the last azimuth and the first one, a turn later.
+fn seam(knots: &[f64]) -> f64 {
+    knots[0] + TAU - knots[knots.len() - 1]
+}
+
+/// The width of the narrowest cell, of which one may be over the seam.
+fn narrowest(knots: &[f64]) -> f64 {
+    let widths = knots.windows(2).map(|ends| ends[1] - ends[0]);
+    widths.chain(Some(seam(knots)).filter(|seam| *seam > ROUNDING)).fold(f64::INFINITY, f64::min)
 }
 
 /// The angle from the normal, on either side of the surface.

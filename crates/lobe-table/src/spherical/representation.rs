@@ -2,9 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::Data;
+use super::{AXIS_NAMES, Data};
 use crate::data::{ANGLE_ROUNDING, Grid, Kinks, Section, pairs};
-use crate::scattered::ANGLE_NAMES;
 use crate::{Aspect, Channels, Edges, Kind, Representation};
 
 /// The name of the representation.
@@ -29,7 +28,7 @@ impl Representation for Data {
 
     fn sections(&self) -> Vec<Section<'_>> {
         let section = Section::new(KIND, Aspect::front(self.scatter()), Data::channels(self).clone(), self.values());
-        let section = section.with_axes(ANGLE_NAMES, self.knots());
+        let section = section.with_axes(AXIS_NAMES, self.knots());
         vec![match self.is_mirrored() {
             true => section.with_fact("symmetry", "the other half of phi_o is the mirror image"),
             false => section,
@@ -60,7 +59,7 @@ impl Representation for Data {
 
     fn grid(&self) -> Option<Grid<'_>> {
         Some(Grid {
-            names: ANGLE_NAMES,
+            names: AXIS_NAMES,
             knots: self.knots(),
             values: self.values(),
             channels: Data::channels(self).count(),

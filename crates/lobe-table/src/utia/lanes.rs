@@ -5,11 +5,12 @@ use lobe_lane::{Floats, Kernel, Lanes};
 
 use super::{Data, Decode, PHIS, PLANE, SCALE, STEPS, THETAS};
 use crate::directions::{DirectionBlock, Directions};
+use crate::grid::interpolation::{Interpolator, Scratch, Source};
 use crate::invalid::Invalid;
 use crate::passes::batch::{Batch, Blockwise};
-use crate::passes::unit::{spherical, unit};
-use crate::specular::eval::Scratch;
-use crate::{Channels, Edge, Edges, Scatter, specular};
+use crate::spherical::AXIS_NAMES;
+use crate::spherical::coordinates::{self, Azimuths, Sides};
+use crate::{Edge, Edges, Precision};
 
 /// [`Data`] laid out for evaluation in SIMD lanes.
 ///
@@ -17,9 +18,7 @@ use crate::{Channels, Edge, Edges, Scatter, specular};
 /// between 1e-15 and 1e15. In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
 pub struct Table {
-    /// The grid as a table whose four angles are the two zenith angles and azimuths: interpolation does not ask what an
-    /// angle stands for.
-    table: specular::Table,
+    grid: Interpolator,
     decode: Decode,
 }
 
@@ -27,7 +26,7 @@ impl Table {
     /// Lays out the values, 16 bytes each.
     ///
     /// # Errors
-    /// [`Invalid`] where a value is beyond the range of `f32`.
+    /// [`Invalid`] if a value is beyond the range of `f32`.
     pub fn new(data: &Data, decode: Decode) -> Result<Self, Invalid> {
         let knots = |count: usize, step: f64| (0..count).map(|index| (index as f64 * step).to_radians()).collect();
         let [thetas, phis]: [Vec<f64>; 2] = [knots(THETAS, STEPS[0]), knots(PHIS, STEPS[1])];
@@ -40,15 +39,17 @@ impl Table {
             Edges { axes: [Edge::Extrapolate, Edge::Periodic, Edge::Extrapolate, Edge::Periodic], non_negative: false };
         let knots = [thetas.clone(), phis.clone(), thetas, phis];
         let beyond = |found: String| Invalid::new("values", found, "values that an f32 holds");
-        let samples = specular::Data::new(Scatter::Reflection, knots, Channels::Rgb, values);
-        let samples = samples.map_err(|error| beyond(error.to_string()))?;
-        let table = specular::Table::new(&samples, &edges).map_err(|error| beyond(error.to_string()))?;
-        Ok(Table { table, decode })
+        if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+            return Err(beyond(format!("value {at} is {}", values[at])));
+        }
+        let source = Source { names: &AXIS_NAMES, knots: &knots, channels: 3, values: &values };
+        let grid = Interpolator::new(&source, &edges, Precision::Single).map_err(|error| beyond(error.to_string()))?;
+        Ok(Table { grid, decode })
     }
 
     /// Bytes of memory that the table takes.
     pub fn bytes(&self) -> usize {
-        self.table.bytes()
+        self.grid.bytes()
     }
 
     /// Evaluates many pairs on a backend: `out[3 * query + channel]`.
@@ -91,33 +92,13 @@ impl Blockwise for &Table {
         out: &mut [f32],
     ) {
         let n = count.next_multiple_of(L::LANES);
-        angles(lanes, n, directions, scratch);
-        self.table.find(lanes, n, scratch);
-        self.table.texels(lanes, count, &self.table.layout.texels(), scratch, (0, 3), out);
+        let Scratch { angles, valid, .. } = scratch;
+        coordinates::run(lanes, n, directions, Sides::Above, Azimuths::Both, angles, valid);
+        self.grid.find(lanes, n, scratch);
+        self.grid.blend(lanes, &self.grid.layout().texels(), scratch, 0..3, out);
         if self.decode == Decode::Srgb {
             undo_curve(lanes, out);
         }
-    }
-}
-
-/// Zenith angles and azimuths of queries `0..n`, and which of them are above the surface.
-#[inline(always)]
-fn angles<L: Lanes>(lanes: L, n: usize, (wi, wo): (DirectionBlock<'_>, DirectionBlock<'_>), scratch: &mut Scratch) {
-    let zero = lanes.splat(0.0);
-    let mut query = 0;
-    while query < n {
-        let (wi, wo) = (wi.load(lanes, query), wo.load(lanes, query));
-        let above = zero.lt(wi[2]) & zero.lt(wo[2]);
-        let ((wi, lit), (wo, seen)) = (unit(lanes, wi), unit(lanes, wo));
-        let ([theta_i, phi_i], [theta_o, phi_o]) = (spherical(lanes, wi), spherical(lanes, wo));
-        let [first, second, third, fourth] = &mut scratch.axes;
-        first.store(lanes, query, theta_i);
-        second.store(lanes, query, phi_i);
-        third.store(lanes, query, theta_o);
-        fourth.store(lanes, query, phi_o);
-        let valid = lanes.select_int(above & lit & seen, lanes.splat_int(-1), lanes.splat_int(0));
-        scratch.frame.valid.store(lanes, query, valid);
-        query += L::LANES;
     }
 }
 

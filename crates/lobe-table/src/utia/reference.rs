@@ -3,8 +3,8 @@
 use super::{Data, Decode, PHIS, PLANE, SCALE, STEPS, THETAS};
 use crate::direction::{phi, theta, wrap};
 use crate::grid::neighbours::{Neighbours, corners};
+use crate::grid::weights::SUM;
 use crate::passes::unit::SPHERICAL;
-use crate::passes::weights::SUM;
 
 impl Data {
     /// The value for light from `wi` seen from `wo`; 0 where a direction is not above the surface.

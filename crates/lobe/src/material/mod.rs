@@ -81,7 +81,7 @@ fn evaluator(path: &Path, data: Data, options: &Options) -> Result<Box<dyn Evalu
     let too_large = |error| OpenError::TooLarge { file: path.display().to_string(), source: error };
     Ok(match data {
         Data::Specular(data) => Box::new(Brdf::new(&data, &options.edges)?),
-        Data::Spherical(data) => Box::new(data),
+        Data::Spherical(data) => Box::new(lobe_table::spherical::Table::new(&data)?),
         Data::Scattered(data) => Box::new(data),
         Data::Rgl(data) => {
             let table = lobe_table::rgl::Table::new(&data, lobe_table::rgl::Options::default()).map_err(too_large)?;
@@ -104,8 +104,8 @@ fn evaluator(path: &Path, data: Data, options: &Options) -> Result<Box<dyn Evalu
 /// A measured material in the form in which it was measured: nothing is resampled.
 ///
 /// `wi` points to the light and `wo` to the viewer: unit vectors away from the surface, normal on +z. Values are `f` in
-/// 1/sr, without the cosine, one a channel. All representations are evaluated in the SIMD lanes of the backend but spherical
-/// grids and scattered samples, which are evaluated in `f64`, pair by pair.
+/// 1/sr, without the cosine, one per channel. All representations are evaluated in the SIMD lanes of the backend, except for
+/// scattered samples, which are evaluated in `f64`, pair by pair.
 ///
 /// ```no_run
 /// let material = lobe::Material::open("paint.bsdf")?;

@@ -1,25 +1,25 @@
-//! Spherical coordinates, on a grid or scattered, in `f64`.
+//! Spherical coordinates: on a grid in SIMD lanes, scattered in `f64`.
 
 use lobe_table::{Channels, Scatter, scattered, spherical};
 
 use super::evaluator::{Evaluator, pair_by_pair};
 use crate::{Backend, Kind};
 
-impl Evaluator for spherical::Data {
+impl Evaluator for spherical::Table {
     fn kind(&self) -> Kind {
         Kind::Spherical
     }
 
     fn channels(&self) -> &Channels {
-        spherical::Data::channels(self)
+        spherical::Table::channels(self)
     }
 
     fn bytes(&self) -> usize {
-        size_of_val(self.values())
+        spherical::Table::bytes(self)
     }
 
     fn is_isotropic(&self) -> bool {
-        spherical::Data::is_isotropic(self)
+        spherical::Table::is_isotropic(self)
     }
 
     /// Values of transmission take light from either side.
@@ -27,12 +27,8 @@ impl Evaluator for spherical::Data {
         self.scatter() == scatter && (front || scatter == Scatter::Transmission)
     }
 
-    fn eval_batch(&self, _: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        let mut sum = vec![0.0; self.channels().count()];
-        pair_by_pair(wi, wo, out, |wi, wo, texel| {
-            self.eval_into(wi, wo, &mut sum);
-            texel.iter_mut().zip(&sum).for_each(|(out, value)| *out = *value as f32);
-        });
+    fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+        spherical::Table::eval_batch(self, backend, wi.into(), wo.into(), out);
     }
 }
 

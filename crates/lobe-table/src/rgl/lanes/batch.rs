@@ -9,10 +9,10 @@ use super::frame::{self, Frame};
 use super::grid::Places;
 use super::invert::{self, Blend};
 use crate::directions::{DirectionBlock, Directions, PADDING};
+use crate::grid::cells;
+use crate::grid::texels::Tile;
+use crate::grid::weights::{self, MAX_CORNERS};
 use crate::passes::block::{BLOCK, Column};
-use crate::passes::cells;
-use crate::passes::texels::Tile;
-use crate::passes::weights::{self, MAX_CORNERS};
 
 /// What to compute for each pair of directions, and where to put it.
 #[derive(Debug)]
@@ -131,9 +131,9 @@ impl Table {
         cells::run(lanes, n, &self.theta_i, 1, theta, &mut blend.slice, valid);
         if SLICES == 4 {
             cells::run(lanes, n, &self.phi_i, self.theta_i.knots().len(), phi, &mut blend.slice, valid);
-            weights::run(lanes, n, [phi, theta], (valid, 1.0), &mut blend.weights);
+            weights::run(lanes, n, [phi, theta], valid, 1.0, &mut blend.weights);
         } else {
-            weights::run(lanes, n, [theta], (valid, 1.0), &mut blend.weights);
+            weights::run(lanes, n, [theta], valid, 1.0, &mut blend.weights);
         }
     }
 }

@@ -7,8 +7,8 @@ use lobe_lane::{Floats, Ints, Lanes};
 
 use super::invert::{self, Blend};
 use super::warp::{Entries, STRIDE, Warp};
+use crate::grid::weights::MAX_CORNERS;
 use crate::passes::block::Column;
-use crate::passes::weights::MAX_CORNERS;
 
 /// The open interval: at 0 and 1 rows without density would be chosen.
 const EDGE: f32 = 1.0 / (1 << 24) as f32;

@@ -4,7 +4,7 @@ use lobe_lane::{Floats, Lanes};
 
 use crate::directions::DirectionBlock;
 use crate::passes::block::Column;
-use crate::passes::frame::{FARTHEST, POLE};
+use crate::passes::unit::{FARTHEST, POLE};
 
 /// The columns that the first pass fills.
 #[derive(Clone, Copy)]

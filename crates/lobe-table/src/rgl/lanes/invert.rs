@@ -4,8 +4,8 @@ use lobe_lane::{Block, Floats, Lanes};
 
 use super::grid::Places;
 use super::warp::Warp;
+use crate::grid::weights::MAX_CORNERS;
 use crate::passes::block::Column;
-use crate::passes::weights::MAX_CORNERS;
 
 /// Which slices a block of queries blends: the first of each, and the weights of all.
 #[derive(Clone, Copy)]

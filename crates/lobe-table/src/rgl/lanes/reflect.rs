@@ -8,7 +8,7 @@ use super::angles;
 use super::frame::{Frame, Oriented, Symmetry};
 use crate::directions::DirectionBlock;
 use crate::passes::block::Column;
-use crate::passes::frame::FARTHEST;
+use crate::passes::unit::FARTHEST;
 
 /// `wi` of queries `0..n`: what of the frame does not need `wo`.
 #[inline(always)]

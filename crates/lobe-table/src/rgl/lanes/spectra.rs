@@ -4,10 +4,10 @@ use lobe_lane::{Block, Lanes};
 
 use super::grid::{Grid, Places, first, offsets};
 use super::invert::Blend;
+use crate::grid::texels::{self, Located, Tile};
+use crate::grid::weights::MAX_CORNERS;
 use crate::invalid::Invalid;
 use crate::passes::block::{BLOCK, Column};
-use crate::passes::texels::{self, Tile};
-use crate::passes::weights::MAX_CORNERS;
 use crate::rgl::Images;
 use lobe_memory::Storage;
 
@@ -70,11 +70,11 @@ impl Spectra {
         if self.channels > FEW {
             corners::<L, SLICES, 2>(lanes, n, blend, factor, [y, x], weights);
             let block = Block::new(self.texels.as_slice(), first::<MANY_CORNERS, MAX_CORNERS>(&self.offsets));
-            return texels::wide(lanes, &block, (0, self.channels), (base, weights), self.floor, out);
+            return texels::wide(lanes, &block, 0..self.channels, Located { base, weights }, self.floor, out);
         }
         corners::<L, SLICES, 1>(lanes, n, blend, factor, [y], weights);
         let block = Block::new(self.texels.as_slice(), first::<FEW_CORNERS, MAX_CORNERS>(&self.offsets));
-        texels::rgb(lanes, n, &block, ((base, weights), x), self.floor, tile);
+        texels::rgb(lanes, n, &block, Located { base, weights }, x, self.floor, tile);
         if self.channels == FEW {
             out.copy_from_slice(&tile[..out.len()]);
         } else {

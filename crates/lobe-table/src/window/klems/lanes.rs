@@ -6,10 +6,10 @@ use lobe_lane::{Floats, Ints, Lanes};
 
 use super::{AngleBasis, SAME_BOUND};
 use crate::grid::axis::Axis;
+use crate::grid::cells;
 use crate::grid::edges::Edge;
 use crate::invalid::Invalid;
 use crate::passes::block::Column;
-use crate::passes::cells;
 use crate::passes::unit::spherical;
 
 /// The rings of a basis, as an axis, and their sectors.

@@ -7,7 +7,7 @@ use lobe_lane::{Floats, Ints, Lanes, Mask};
 use super::{INSET, Node, Rank, TensorTree};
 use crate::invalid::Invalid;
 use crate::passes::block::Column;
-use crate::passes::frame::POLE;
+use crate::passes::unit::POLE;
 
 /// The nodes of a tree, laid out so that a branch and a leaf are read in the same way: as a grid whose first dimension
 /// varies slowest, of nodes or of values.

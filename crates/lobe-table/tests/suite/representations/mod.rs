@@ -3,5 +3,6 @@
 mod common;
 mod half_diff;
 mod mueller;
+mod spherical;
 mod utia;
 mod window;

@@ -2,7 +2,7 @@
 
 use lobe_lane::{Floats, Ints, Lanes};
 
-use super::block::Column;
+use crate::passes::block::Column;
 
 /// The largest number of corners: both ends of four axes.
 pub(crate) const MAX_CORNERS: usize = 16;
@@ -11,14 +11,14 @@ pub(crate) const MAX_CORNERS: usize = 16;
 pub(crate) const SUM: f64 = 4e-6;
 
 /// The weight of each corner over the axes whose fractions are given, the last axis fastest, for queries `0..n`: the
-/// first `2^AXES` columns of `weights`. They add up to `scale`, or to 0 for queries that
-/// are not valid.
+/// first `2^AXES` columns of `weights`. They add up to `scale`, or to 0 for queries that are not valid.
 #[inline(always)]
 pub(crate) fn run<L: Lanes, const AXES: usize>(
     lanes: L,
     n: usize,
     fractions: [&Column; AXES],
-    (valid, scale): (&Column<i32>, f32),
+    valid: &Column<i32>,
+    scale: f32,
     weights: &mut [Column; MAX_CORNERS],
 ) {
     let (zero, one, scale) = (lanes.splat_int(0), lanes.splat(1.0), lanes.splat(scale));

@@ -2,17 +2,17 @@
 
 use lobe_lane::{Floats, Lanes};
 
-use super::block::Column;
 use super::frame::Frame;
+use crate::passes::block::Column;
 
 /// Keeps the division of a direction along the zenith finite.
 pub(crate) const TINY: f32 = 1e-30;
 
-/// Fills sigma, psi (where `anisotropic`), theta and phi, in radians, from the frame of queries `0..n`.
+/// Fills sigma, psi (if `anisotropic`), theta and phi, in radians, from the frame of queries `0..n`.
 #[inline(always)]
 pub(crate) fn run<L: Lanes>(lanes: L, n: usize, anisotropic: bool, frame: &Frame, angles: &mut [Column; 4]) {
     let [sigma, psi, theta, phi] = angles;
-    half_tangents(lanes, n, frame, (theta, phi));
+    half_tangents(lanes, n, frame, theta, phi);
 
     let mut query = 0;
     while query < n {
@@ -40,7 +40,7 @@ pub(crate) fn run<L: Lanes>(lanes: L, n: usize, anisotropic: bool, frame: &Frame
 
 /// The tangents of half of theta and half of phi, by one root and one division.
 #[inline(always)]
-fn half_tangents<L: Lanes>(lanes: L, n: usize, frame: &Frame, (theta, phi): (&mut Column, &mut Column)) {
+fn half_tangents<L: Lanes>(lanes: L, n: usize, frame: &Frame, theta: &mut Column, phi: &mut Column) {
     let (one, tiny) = (lanes.splat(1.0), lanes.splat(TINY));
     let mut query = 0;
     while query < n {

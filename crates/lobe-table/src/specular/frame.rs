@@ -4,10 +4,11 @@ use std::f32::consts::FRAC_PI_2;
 
 use lobe_lane::{Floats, Lanes};
 
-use super::block::Column;
 use crate::Scatter;
 use crate::directions::DirectionBlock;
 use crate::grid::function::Function;
+use crate::passes::block::Column;
+use crate::passes::unit::{FARTHEST, POLE};
 
 /// What the angles of a block are computed from.
 ///
@@ -22,8 +23,6 @@ pub(crate) struct Frame {
     /// `wo` about the zenith: across it toward phi = 0 and phi = pi/2, and along it.
     pub(crate) across: [Column; 2],
     pub(crate) along: Column,
-    /// All bits set where both directions are finite and above the horizon.
-    pub(crate) valid: Column<i32>,
 }
 
 impl Frame {
@@ -32,18 +31,11 @@ impl Frame {
         psi: [Column::<f32>::ZERO; 2],
         across: [Column::<f32>::ZERO; 2],
         along: Column::<f32>::ZERO,
-        valid: Column::<i32>::ZERO,
     };
 }
 
-/// Closer to the normal than this sine, psi is taken for 0: the squares of shorter components lose their digits.
-pub(crate) const POLE: f32 = 1e-15;
-
-/// The squared distance of two unit vectors is at most 4, and the squared length of one is 1; a much larger sum, or NaN,
-/// means that a component is not finite. The length of `wi` counts because a zenith that is computed may hide it.
-pub(crate) const FARTHEST: f32 = 16.0;
-
-/// Fills the frame of queries `0..n` of a block. `n` is a multiple of the lanes.
+/// Fills the frame of queries `0..n` of a block, and sets all bits of `valid` for those whose directions are finite and above
+/// the horizon. `n` is a multiple of the lanes.
 #[inline(always)]
 pub(crate) fn run<L: Lanes>(
     lanes: L,
@@ -52,11 +44,12 @@ pub(crate) fn run<L: Lanes>(
     scatter: Scatter,
     refraction: Option<&Function>,
     frame: &mut Frame,
+    valid: &mut Column<i32>,
 ) {
     match (scatter, refraction) {
-        (Scatter::Reflection, _) => pass(lanes, n, (wi, wo), Mirror::<false>, frame),
-        (Scatter::Transmission, None) => pass(lanes, n, (wi, wo), Mirror::<true>, frame),
-        (Scatter::Transmission, Some(offset)) => pass(lanes, n, (wi, wo), Refracted(offset), frame),
+        (Scatter::Reflection, _) => pass(lanes, n, (wi, wo), Mirror::<false>, frame, valid),
+        (Scatter::Transmission, None) => pass(lanes, n, (wi, wo), Mirror::<true>, frame, valid),
+        (Scatter::Transmission, Some(offset)) => pass(lanes, n, (wi, wo), Refracted(offset), frame, valid),
     }
 }
 
@@ -107,6 +100,7 @@ fn pass<L: Lanes, Z: Zenith>(
     (wi, wo): (DirectionBlock<'_>, DirectionBlock<'_>),
     zenith: Z,
     frame: &mut Frame,
+    valid: &mut Column<i32>,
 ) {
     let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
     let mut query = 0;
@@ -139,8 +133,8 @@ fn pass<L: Lanes, Z: Zenith>(
         frame.across[1].store(lanes, query, y);
         frame.along.store(lanes, query, one - lanes.splat(0.5) * distance2);
         let size2 = distance2 + lanes.mul_add(iz, iz, sin2);
-        let valid = zero.lt(iz) & zero.lt(oz) & size2.lt(lanes.splat(FARTHEST));
-        frame.valid.store(lanes, query, lanes.select_int(valid, lanes.splat_int(-1), lanes.splat_int(0)));
+        let above = zero.lt(iz) & zero.lt(oz) & size2.lt(lanes.splat(FARTHEST));
+        valid.store(lanes, query, lanes.select_int(above, lanes.splat_int(-1), lanes.splat_int(0)));
         query += L::LANES;
     }
 }

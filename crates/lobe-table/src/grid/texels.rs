@@ -1,25 +1,33 @@
 //! The corners of each query, weighted and summed.
 
+use std::ops::Range;
+
 use lobe_lane::{Block, Floats, Lanes};
 
-use super::block::{BLOCK, Column};
+use super::texel::Stored;
 use super::weights::MAX_CORNERS;
-use crate::grid::texel::Stored;
+use crate::passes::block::{BLOCK, Column};
 
 /// Room for up to three channels of each query of a block, and for the fourth float that the last store writes.
 pub(crate) type Tile = [f32; 3 * BLOCK + 1];
 
-/// Base indices and corner weights.
-type Located<'a> = (&'a Column<i32>, &'a [Column; MAX_CORNERS]);
+/// Where queries lie in a table.
+#[derive(Clone, Copy)]
+pub(crate) struct Located<'a> {
+    /// The index of the first corner.
+    pub(crate) base: &'a Column<i32>,
+    pub(crate) weights: &'a [Column; MAX_CORNERS],
+}
 
-/// Two or three channels: `CORNERS` pairs of neighbours in phi. Writes three floats a query, from the first, none less
+/// Two or three channels: `CORNERS` pairs of neighbours in phi. Writes three floats per query, from the first, none less
 /// than `floor`. `n` is a multiple of the lanes.
 #[inline(always)]
 pub(crate) fn rgb<L: Lanes, T: Stored, const CORNERS: usize>(
     lanes: L,
     n: usize,
     corners: &Block<'_, CORNERS, 8, T>,
-    ((base, weights), phi): (Located<'_>, &Column),
+    located: Located<'_>,
+    phi: &Column,
     floor: f32,
     tile: &mut Tile,
 ) {
@@ -29,7 +37,7 @@ pub(crate) fn rgb<L: Lanes, T: Stored, const CORNERS: usize>(
         // A few queries a turn, which the compiler writes out: the loop itself would be a tenth of the work.
         let mut query = first;
         while query < first + L::LANES {
-            let [low, high] = pair(lanes, query, corners, (base, weights));
+            let [low, high] = pair(lanes, query, corners, located);
             let texel = lanes.quad_mul_add(lanes.quad_splat(phi.one(query)), high - low, low);
             // Each store writes a float too many, which the next one overwrites.
             lanes.quad_store(&mut tile[3 * (query & (BLOCK - 1))..][..4], lanes.quad_max(texel, floor));
@@ -46,12 +54,13 @@ pub(crate) fn measured<L: Lanes, T: Stored, const CORNERS: usize>(
     lanes: L,
     n: usize,
     corners: &Block<'_, CORNERS, 8, T>,
-    ((base, weights), phi): (Located<'_>, &Column),
+    located: Located<'_>,
+    phi: &Column,
     tile: &mut Tile,
 ) {
     let mut query = 0;
     while query < n {
-        let [low, high] = pair(lanes, query, corners, (base, weights));
+        let [low, high] = pair(lanes, query, corners, located);
         // Nothing is subtracted, so that a small part of what was measured keeps its digits when it is all that there is.
         let upper = phi.one(query);
         let texel = lanes.quad_mul_add(lanes.quad_splat(upper), high, low * lanes.quad_splat(1.0 - upper));
@@ -70,7 +79,7 @@ fn pair<L: Lanes, T: Stored, const CORNERS: usize>(
     lanes: L,
     query: usize,
     corners: &Block<'_, CORNERS, 8, T>,
-    (base, weights): Located<'_>,
+    Located { base, weights }: Located<'_>,
 ) -> [L::Quad; 2] {
     let pairs = T::octs(lanes, corners, base.one(query) as u32 as usize);
     let mut sum = pairs[0] * lanes.oct_splat(weights[0].one(query));
@@ -100,14 +109,14 @@ pub(crate) fn nearest<L: Lanes, T: Stored>(
     }
 }
 
-/// One channel: `CORNERS` cells of four corners in theta and phi. Writes one float a query, none less than `floor`. `n`
+/// One channel: `CORNERS` cells of four corners in theta and phi. Writes one float per query, none less than `floor`. `n`
 /// is a multiple of the lanes.
 #[inline(always)]
 pub(crate) fn mono<L: Lanes, T: Stored, const CORNERS: usize>(
     lanes: L,
     n: usize,
     corners: &Block<'_, CORNERS, 4, T>,
-    (base, weights): Located<'_>,
+    Located { base, weights }: Located<'_>,
     floor: f32,
     tile: &mut Tile,
 ) {
@@ -126,21 +135,20 @@ pub(crate) fn mono<L: Lanes, T: Stored, const CORNERS: usize>(
     }
 }
 
-/// Many channels: `CORNERS` nodes of `channels` floats each, padded to eights; lanes run along the channels. Writes
-/// `channels` floats a query, beginning with channel `from`, a multiple of
-/// eight, none less than `floor`.
+/// Many channels: `CORNERS` nodes of all channels, padded to eights; lanes run along the channels. Writes those of `channels`,
+/// which begin at a multiple of eight, one query after the other, none less than `floor`.
 #[inline(always)]
 pub(crate) fn wide<L: Lanes, T: Stored, const CORNERS: usize>(
     lanes: L,
     corners: &Block<'_, CORNERS, 8, T>,
-    (from, channels): (usize, usize),
-    (base, weights): Located<'_>,
+    channels: Range<usize>,
+    Located { base, weights }: Located<'_>,
     floor: f32,
     out: &mut [f32],
 ) {
     let floor = lanes.oct_splat(floor);
-    for (query, texel) in out.chunks_exact_mut(channels).enumerate() {
-        let base = base.one(query) as u32 as usize + from;
+    for (query, texel) in out.chunks_exact_mut(channels.len()).enumerate() {
+        let base = base.one(query) as u32 as usize + channels.start;
         for (chunk, target) in texel.chunks_mut(8).enumerate() {
             let nodes = T::octs(lanes, corners, base + 8 * chunk);
             let mut sum = nodes[0] * lanes.oct_splat(weights[0].one(query));

@@ -2,10 +2,10 @@
 
 use lobe_lane::{Floats, Ints, Lanes};
 
-use super::block::Column;
-use crate::Edge;
-use crate::grid::axis::Axis;
-use crate::grid::search::{Cell, Find, Visitor};
+use super::axis::Axis;
+use super::edges::Edge;
+use super::search::{Cell, Find, Visitor};
+use crate::passes::block::Column;
 
 /// Replaces the angles of queries `0..n` by the fraction into their cell, and adds the cell's offset to `base`.
 ///

@@ -1,0 +1,160 @@
+//! [`Data`] made ready to be evaluated in SIMD lanes.
+
+use lobe_backend::Backend;
+use lobe_lane::{Floats, Kernel, Lanes};
+
+use super::coordinates::{self, Azimuths, Sides};
+use super::{AXIS_NAMES, Data};
+use crate::directions::{DirectionBlock, Directions};
+use crate::grid::interpolation::{Interpolator, Scratch, Source};
+use crate::passes::batch::{Batch, Blockwise};
+use crate::passes::block::BLOCK;
+use crate::{Channels, Edge, Edges, Precision, Scatter, TableError};
+
+/// [`Data`] laid out for evaluation in SIMD lanes.
+///
+/// The values are those of [`Data::eval`], in `f32`: `f` in 1/sr, without the cosine. They are 0 for pairs that the data do not
+/// answer, that is for two sides of a BRDF, for one side of a BTDF, and for directions that graze the surface. The directions
+/// need not be unit vectors, but their lengths have to be between 1e-15 and 1e15.
+///
+/// In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
+#[derive(Clone, Debug)]
+pub struct Table {
+    scatter: Scatter,
+    channels: Channels,
+    azimuths: Azimuths,
+    grid: Interpolator,
+}
+
+impl Table {
+    /// Lays out the values: 16 bytes for each node of up to three channels, more for more.
+    ///
+    /// # Errors
+    /// If the grid is too large to be indexed, or azimuths cannot be closed to a circle.
+    pub fn new(data: &Data) -> Result<Self, TableError> {
+        let knots = data.knots();
+        let source = Source { names: &AXIS_NAMES, knots, channels: data.channels().count(), values: data.values() };
+        let last = if data.is_mirrored() { Edge::Clamp } else { Edge::Periodic };
+        let edges = Edges { axes: [Edge::Clamp, Edge::Periodic, Edge::Clamp, last], non_negative: false };
+        let azimuths = match (data.is_mirrored(), data.is_isotropic()) {
+            (true, _) => Azimuths::Unsigned,
+            (_, true) => {
+                let (sin, cos) = knots[1][0].sin_cos();
+                Azimuths::Between([cos as f32, sin as f32])
+            }
+            (_, false) => Azimuths::Both,
+        };
+        Ok(Table {
+            scatter: data.scatter(),
+            channels: data.channels().clone(),
+            azimuths,
+            grid: Interpolator::new(&source, &edges, Precision::Single)?,
+        })
+    }
+
+    /// Reflection or transmission.
+    pub fn scatter(&self) -> Scatter {
+        self.scatter
+    }
+
+    /// What the channels stand for.
+    pub fn channels(&self) -> &Channels {
+        &self.channels
+    }
+
+    /// How many channels there are.
+    pub fn channel_count(&self) -> usize {
+        self.grid.channels()
+    }
+
+    /// `true` if the value depends on the difference of the azimuths only.
+    pub fn is_isotropic(&self) -> bool {
+        !self.grid.is_anisotropic()
+    }
+
+    /// Bytes of memory that the table takes.
+    pub fn bytes(&self) -> usize {
+        self.grid.bytes()
+    }
+
+    /// Evaluates many pairs on a backend: `out[query * channels + channel]`.
+    ///
+    /// # Panics
+    /// As [`batch`](Self::batch).
+    pub fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        backend.run(self.batch(wi, wo, out));
+    }
+
+    /// The evaluation of many pairs as a kernel, for lanes that are no [`Backend`]: `out[query * channels + channel]`.
+    ///
+    /// # Panics
+    /// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+    pub fn batch<'a>(
+        &'a self,
+        wi: Directions<'a>,
+        wo: Directions<'a>,
+        out: &'a mut [f32],
+    ) -> impl Kernel<Out = ()> + 'a {
+        Batch::new(self, wi, wo, out)
+    }
+
+    /// Evaluates one pair per lane inside a caller's own kernel: `out[channel]` holds that channel in all lanes, 0 in the
+    /// lanes that `mask` leaves out.
+    ///
+    /// # Panics
+    /// If `out` is not as long as there are channels.
+    #[inline(always)]
+    pub fn eval_lanes<L: Lanes>(&self, lanes: L, wi: [L::F; 3], wo: [L::F; 3], mask: L::M, out: &mut [L::F]) {
+        assert_eq!(out.len(), self.channel_count(), "one output per channel");
+        let mut directions = [[[0.0f32; BLOCK]; 3]; 2];
+        for (side, w) in [wi, wo].into_iter().enumerate() {
+            for (k, component) in w.into_iter().enumerate() {
+                // A lane left out gets directions of no length, which point nowhere.
+                lanes.store(&mut directions[side][k], component.masked(mask));
+            }
+        }
+        let [wi, wo] = directions.each_ref().map(|[x, y, z]| DirectionBlock::Columns([x, y, z]));
+        let mut scratch = Scratch::ZERO;
+        self.locate(lanes, L::LANES, (wi, wo), &mut scratch);
+        self.grid.blend_lanes(lanes, &mut scratch, out);
+    }
+
+    /// From the directions of queries `0..n` to their cells.
+    #[inline(always)]
+    fn locate<L: Lanes>(
+        &self,
+        lanes: L,
+        n: usize,
+        directions: (DirectionBlock<'_>, DirectionBlock<'_>),
+        scratch: &mut Scratch,
+    ) {
+        let sides = match self.scatter {
+            Scatter::Reflection => Sides::Same,
+            Scatter::Transmission => Sides::Opposite,
+        };
+        coordinates::run(lanes, n, directions, sides, self.azimuths, &mut scratch.angles, &mut scratch.valid);
+        self.grid.find(lanes, n, scratch);
+    }
+}
+
+impl Blockwise for &Table {
+    type Scratch = Scratch;
+    const SCRATCH: Scratch = Scratch::ZERO;
+
+    fn channel_count(self) -> usize {
+        self.grid.channels()
+    }
+
+    #[inline(always)]
+    fn block<L: Lanes>(
+        self,
+        lanes: L,
+        count: usize,
+        directions: (DirectionBlock<'_>, DirectionBlock<'_>),
+        scratch: &mut Scratch,
+        out: &mut [f32],
+    ) {
+        self.locate(lanes, count.next_multiple_of(L::LANES), directions, scratch);
+        self.grid.blend(lanes, &self.grid.layout().texels(), scratch, 0..self.grid.channels(), out);
+    }
+}
