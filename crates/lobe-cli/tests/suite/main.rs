@@ -3,6 +3,7 @@
 mod albedo;
 mod check;
 mod cli;
+mod colours;
 mod common;
 mod compare;
 mod convert;
