@@ -1,5 +1,5 @@
-//! Tables of the CIE: the colour matching functions of the 1931 observer of 2 degrees (ISO/CIE 11664-1) and the standard
-//! illuminant D65 (ISO/CIE 11664-2), from 380 to 780 nm in steps of 1 nm, ten values per line.
+//! Tables of the CIE: the colour matching functions of the 1931 observer of 2 degrees (ISO/CIE 11664-1) and the
+//! standard illuminant D65 (ISO/CIE 11664-2), from 380 to 780 nm in steps of 1 nm, ten values per line.
 
 /// The wavelength of the first entry, in nm. The others follow in steps of 1 nm.
 pub(crate) const FIRST: f64 = 380.0;

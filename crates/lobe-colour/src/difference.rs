@@ -12,8 +12,8 @@ fn lab(xyz: [f64; 3]) -> [f64; 3] {
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
-/// The colour difference of two XYZ, of which a perfect white has Y = 1: CIE delta E 2000 (ISO/CIE 11664-6) between their
-/// CIELAB under D65.
+/// The colour difference of two XYZ, of which a perfect white has Y = 1: CIE delta E 2000 (ISO/CIE 11664-6) between
+/// their CIELAB under D65.
 pub fn delta_e(a: [f64; 3], b: [f64; 3]) -> f64 {
     of_labs(lab(a), lab(b))
 }

@@ -1,9 +1,9 @@
 //! What the channels of a measured material mean as colour.
 //!
-//! There is one observer, CIE 1931 of 2 degrees, and one white, D65. A BRDF turns the spectrum of the light into that of
-//! what is seen, so the colour of a material is its colour under a light: under D65, where a perfect white has Y = 1 and
-//! linear sRGB 1, 1, 1. XYZ in files is taken to be relative to the same white; nothing is adapted from one white to
-//! another, except the bands of window sheets (see [`NamedBands`]).
+//! There is one observer, CIE 1931 of 2 degrees, and one white, D65. A BRDF turns the spectrum of the light into that
+//! of what is seen, so the colour of a material is its colour under a light: under D65, where a perfect white has Y = 1
+//! and linear sRGB 1, 1, 1. XYZ in files is taken to be relative to the same white; nothing is adapted from one white
+//! to another, except the bands of window sheets (see [`NamedBands`]).
 //!
 //! - [`Channels`]: what the numbers of a value stand for;
 //! - [`Reduction`]: from these to XYZ or to linear sRGB, a linear map;

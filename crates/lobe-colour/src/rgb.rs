@@ -17,8 +17,8 @@ pub const XYZ_TO_RGB: [[f64; 3]; 3] = [
     [0.055_644_723_393_725_77, -0.204_073_035_388_015_8, 1.057_483_064_149_628_4],
 ];
 
-/// The luminance of linear red, green and blue as Rec. ITU-R BT.709, item 3.2, has it: the middle row of [`RGB_TO_XYZ`] to
-/// four places.
+/// The luminance of linear red, green and blue as Rec. ITU-R BT.709, item 3.2, has it: the middle row of [`RGB_TO_XYZ`]
+/// to four places.
 pub const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
 
 /// CIE XYZ of a linear sRGB.

@@ -1,4 +1,5 @@
-//! Directional-hemispherical reflectance, or transmittance: how much of the light from one direction comes back.
+//! Directional-hemispherical reflectance, or transmittance: the share of the light from one direction that
+//! is scattered.
 
 use lobe_table::specular;
 use lobe_table::specular::reference::zenith;
@@ -10,14 +11,14 @@ use crate::samples::signed_edges;
 use crate::scattering::eval_pairs;
 use crate::{Aspect, Scattering, Subject};
 
-/// The share of the light from one direction that leaves again: the integral of `f cos(theta_o)` over the hemisphere.
+/// The share of the light from one direction that is scattered: the integral of `f cos(theta_o)` over the hemisphere.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Albedo {
     /// The polar angle of the light, in radians.
     pub theta: f64,
     /// The azimuth of the light, in radians.
     pub phi: f64,
-    /// One a channel. Above 1 no passive material is.
+    /// One value per channel. No passive material exceeds 1.
     pub values: Vec<f64>,
     /// The largest estimated error of a channel.
     pub error: f64,
@@ -52,8 +53,8 @@ pub fn albedo(
 }
 
 /// The albedo of a file for light at a polar angle and an azimuth, in radians, with the quadrature that suits its
-/// representation: between the knots of a grid; the sum over the patches of a Klems matrix, which is exact; toward the
-/// mirror direction in all others.
+/// representation: between the knots of a grid; the sum over the patches of a Klems matrix, which is exact; refined
+/// toward the mirror direction in all others.
 pub fn albedo_of(subject: &Subject, aspect: Aspect, incidence: [f64; 2], effort: Effort) -> Albedo {
     let exact = subject.data(aspect).and_then(|data| data.representation().albedo(aspect, incidence));
     match exact {
@@ -65,7 +66,7 @@ pub fn albedo_of(subject: &Subject, aspect: Aspect, incidence: [f64; 2], effort:
 /// The albedo of every slice of a table, `[sigma][psi]`, negative values included, as the default edge policy
 /// interpolates them.
 ///
-/// Of a transmission table it is the transmittance.
+/// For a transmission table it is the transmittance.
 pub fn albedo_of_samples(samples: &specular::Data, effort: Effort) -> Vec<Albedo> {
     let knots = samples.knots();
     let edges = signed_edges();
@@ -76,7 +77,7 @@ pub fn albedo_of_samples(samples: &specular::Data, effort: Effort) -> Vec<Albedo
         let integral = integrate(&panels, channels, effort, |viewers, out| {
             let mut texel = vec![0.0; channels];
             for (viewer, out) in viewers.iter().zip(out.chunks_exact_mut(channels)) {
-                // The slice at the horizon is one too, though no light comes from there.
+                // The slice at the horizon counts too, although no light arrives from there.
                 let light = spherical(sigma, psi);
                 let [.., theta, phi] = lobe_table::specular::coords::directions_to_angles(light, *viewer, |_| polar);
                 lobe_table::specular::reference::eval_angles(samples, &edges, [sigma, psi, theta, phi], &mut texel);

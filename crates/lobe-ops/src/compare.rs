@@ -15,7 +15,7 @@ use crate::{Aspect, Scattering};
 pub struct Difference {
     /// The names of the channels that were compared.
     pub channels: Vec<String>,
-    /// At how many pairs of directions.
+    /// The number of pairs of directions.
     pub pairs: usize,
     /// The largest value of the first material among them.
     pub peak: f64,
@@ -23,35 +23,35 @@ pub struct Difference {
     pub max: f64,
     /// The root of the mean squared difference.
     pub rms: f64,
-    /// The mean of the second material less the first.
+    /// The mean of the second material minus the first.
     pub bias: f64,
-    /// `rms` as a part of the root of the mean squared value of the first material.
+    /// `rms` relative to the root of the mean squared value of the first material.
     pub relative_rms: f64,
-    /// Where the largest difference is: `wi` and `wo`, with z > 0.
+    /// The directions of the largest difference: `wi` and `wo`, with z > 0.
     pub worst: [[f64; 3]; 2],
 }
 
 /// How different two spheres look, one of each material, under one light: CIE delta E 2000 of their pixels. About 1 is
-/// just noticed, side by side.
+/// just noticeable side by side.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Visible {
-    /// Pixels that are lit.
+    /// The number of lit pixels.
     pub pixels: usize,
     /// The mean over them.
     pub mean: f64,
-    /// A twentieth of the pixels is further off.
+    /// A twentieth of the pixels differ by more.
     pub percentile_95: f64,
     /// The largest.
     pub max: f64,
 }
 
-/// Compares two materials at up to `count` pairs of directions with polar angles up to `limit` in radians: the same pairs
-/// at every call, every other one near the mirror direction.
+/// Compares two materials at up to `count` pairs of directions with polar angles up to `limit` in radians: the same
+/// pairs at every call, every other one near the mirror direction.
 ///
 /// Materials with the same channels are compared in these, others in XYZ.
 ///
 /// # Errors
-/// [`NoColour`] where channels differ and those of one have no colour.
+/// [`NoColour`] if the channels differ and those of one material have no colour.
 pub fn difference(
     a: &dyn Scattering,
     b: &dyn Scattering,
@@ -93,13 +93,14 @@ pub fn difference(
     })
 }
 
-/// Draws a sphere of each material, `size` pixels wide, seen from afar under a distant light at 45 degrees from above left,
-/// and compares their pixels.
+/// Draws a sphere of each material, `size` pixels wide, seen from afar under a distant light at 45 degrees from above
+/// left, and compares their pixels.
 ///
-/// The colour of a pixel is relative to a perfect white that faces the light; what is brighter is white, as in a picture.
+/// The colour of a pixel is relative to a perfect white that faces the light; brighter pixels are clipped to white, as
+/// in a picture.
 ///
 /// # Errors
-/// [`NoColour`] where the channels of one have no colour.
+/// [`NoColour`] if the channels of one material have no colour.
 pub fn visible(a: &dyn Scattering, b: &dyn Scattering, aspect: Aspect, size: usize) -> Result<Visible, NoColour> {
     let pixels = lit_pixels(size);
     let (first, second) = (colours(a, aspect, &pixels)?, colours(b, aspect, &pixels)?);
@@ -128,7 +129,7 @@ fn lit_pixels(size: usize) -> Vec<([f64; 3], [f64; 3])> {
                 continue;
             }
             let normal = [x, y, (1.0 - square).sqrt()];
-            // The tangent goes round the vertical axis, which no normal that is seen is parallel to.
+            // The tangent goes round the vertical axis, to which no visible normal is parallel.
             let around = normal[0].hypot(normal[2]);
             let tangent = [normal[2] / around, 0.0, -normal[0] / around];
             let up = cross(normal, tangent);

@@ -1,4 +1,4 @@
-//! Directions to ask a material at.
+//! Directions at which to evaluate a material.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -10,10 +10,10 @@ pub(crate) fn spherical(theta: f64, phi: f64) -> [f64; 3] {
     [sin * cos_phi, sin * sin_phi, cos]
 }
 
-/// The point `index` of a sequence that fills the unit cube of `N` dimensions evenly: multiples, modulo 1, of the powers
+/// Point `index` of a sequence that fills the unit cube of `N` dimensions evenly: multiples, modulo 1, of the powers
 /// of `1 / g`, where `g^(N + 1) = g + 1` (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018).
 pub(crate) fn quasi_random<const N: usize>(index: usize) -> [f64; N] {
-    // A contraction by at least 1/2 a step: 60 steps are exact.
+    // Each step contracts by at least 1/2, so 60 steps are exact.
     let g = (0..60).fold(1.5_f64, |g, _| (1.0 + g).powf(1.0 / (N as f64 + 1.0)));
     std::array::from_fn(|axis| (0.5 + (index as f64 + 1.0) * g.powi(-(axis as i32 + 1))).fract())
 }

@@ -7,17 +7,17 @@ use crate::albedo::{Albedo, albedo_of_samples};
 use crate::hemisphere::Effort;
 use crate::samples::with_values;
 
-/// A slice of a table that sent back more light than it got.
+/// A slice of a table that reflected more light than it received.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Repair {
-    /// What it was before.
+    /// Its albedo before the repair.
     pub albedo: Albedo,
-    /// What its values were multiplied with.
+    /// The factor by which its values were multiplied.
     pub factor: f64,
 }
 
-/// Scales every slice, a pair of sigma and psi knots, whose albedo is above 1 in any channel, so that its largest channel
-/// is 1: all channels alike, so that the colour stays.
+/// Scales every slice, a pair of sigma and psi knots, whose albedo is above 1 in any channel, so that its largest
+/// channel is 1: all channels by the same factor, so that the colour stays.
 ///
 /// The albedo is that of the default edge policy, negative values included, within `effort`. Between the knots of sigma
 /// it may still be above 1.

@@ -1,4 +1,4 @@
-//! Values where nothing was measured.
+//! Values for directions at which nothing was measured.
 
 use lobe_table::{GridError, specular};
 
@@ -25,12 +25,12 @@ pub struct Filled {
 
 /// The nodes that look as if nothing was measured there: all channels are exactly 0.
 ///
-/// Files have no better way to say so, and light that was measured is seldom exactly 0.
+/// Files have no better way to say so, and a measured value is seldom exactly 0.
 pub fn zeros(samples: &specular::Data) -> Vec<bool> {
     missing(samples, |texel| texel.iter().all(|&value| value == 0.0))
 }
 
-/// The nodes with a negative value in any channel: noise about a dark level that was taken off.
+/// The nodes with a negative value in any channel: noise about a dark level that was subtracted.
 pub fn negatives(samples: &specular::Data) -> Vec<bool> {
     missing(samples, |texel| texel.iter().any(|&value| value < 0.0))
 }
@@ -39,21 +39,22 @@ fn missing(samples: &specular::Data, is_missing: impl Fn(&[f32]) -> bool) -> Vec
     samples.values().chunks_exact(samples.channels().count()).map(is_missing).collect()
 }
 
-/// Fills the nodes that `mask` marks, one a node in the order of the values.
+/// Fills the nodes that `mask` marks, which has one element per node in the order of the values.
 ///
-/// Gaps between measured nodes of a row of theta are bridged by lines, and rows that end early are continued as `beyond`
-/// says. What then has no value, rows in which nothing was measured, is filled along phi in the same way, around the
-/// circle; then along psi; then along sigma. A table in which nothing was measured stays as it is, and its mask is empty.
+/// Gaps between measured nodes of a row of theta are bridged by lines, and rows that end early are continued as
+/// `beyond` says. What then has no value, in rows in which nothing was measured, is filled along phi in the same way,
+/// around the circle; then along psi; then along sigma. A table in which nothing was measured stays as it is, and its
+/// mask is empty.
 ///
 /// # Panics
-/// Where `mask` does not have one element a node.
+/// If `mask` does not have one element per node.
 ///
 /// # Errors
-/// Where a continued value is beyond what `f32` can hold.
+/// If a continued value is too large for `f32`.
 pub fn fill(samples: &specular::Data, mask: &[bool], beyond: Beyond) -> Result<Filled, GridError> {
     let counts = samples.knots().each_ref().map(Vec::len);
     let channels = samples.channels().count();
-    assert_eq!(mask.len(), counts.iter().product::<usize>(), "one element a node");
+    assert_eq!(mask.len(), counts.iter().product::<usize>(), "one element per node");
     let mut values = samples.values().to_vec();
     let mut is_known: Vec<bool> = mask.iter().map(|missing| !missing).collect();
     if !is_known.contains(&true) {
@@ -76,7 +77,7 @@ pub fn fill(samples: &specular::Data, mask: &[bool], beyond: Beyond) -> Result<F
                 for channel in 0..channels {
                     let value = |step: usize| f64::from(values[row[step] * channels + channel]);
                     let filled = share_a * value(a) + share_b * value(b);
-                    // A line through falling values must not lead below the dark.
+                    // A line through falling values must not lead below 0.
                     let is_line = share_a < 0.0 || share_b < 0.0;
                     values[row[step] * channels + channel] = if is_line { filled.max(0.0) } else { filled } as f32;
                 }

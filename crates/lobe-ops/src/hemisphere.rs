@@ -1,14 +1,15 @@
 //! Integrals over the hemisphere by adaptive Gaussian quadrature.
 //!
-//! The coordinates are a polar angle and an azimuth about an axis in the plane of incidence: the mirror direction, where
-//! the peak is, or the normal. The horizon is a limit of the polar angle that is known for every azimuth, so no panel
-//! ends in the middle of a step; and where panels begin at the knots of a table, its interpolation is smooth in each.
+//! The coordinates are a polar angle and an azimuth about an axis in the plane of incidence: the mirror direction,
+//! where the peak is, or the normal. The horizon is a limit of the polar angle that is known for every azimuth, so no
+//! panel ends in the middle of a step; and where panels begin at the knots of a table, its interpolation is smooth in
+//! each.
 
 use std::f64::consts::{PI, TAU};
 
 use lobe_table::specular::coords::angles_to_directions;
 
-/// Where an integral begins: rectangles of polar angle and azimuth about an axis.
+/// The first subdivision of an integral: rectangles of polar angle and azimuth about an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panels {
     /// The polar angle of the axis, on the other side of the normal from the light; 0 is the normal.
@@ -24,20 +25,20 @@ pub struct Panels {
 /// An integral over the hemisphere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Integral {
-    /// One a channel.
+    /// One value per channel.
     pub values: Vec<f64>,
     /// The largest estimated error of a channel.
     pub error: f64,
-    /// At how many directions the integrand was asked.
+    /// The number of directions at which the integrand was evaluated.
     pub evaluations: usize,
 }
 
-/// How exact an integral is to be, and what it may cost.
+/// How accurate an integral is to be, and what it may cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
     /// The error that is good enough: absolute, but relative for integrals above 1.
     pub tolerance: f64,
-    /// After this many directions the estimate is taken as it is.
+    /// After this many directions the estimate is accepted as it is.
     pub evaluations: usize,
 }
 
@@ -82,12 +83,11 @@ impl Panels {
     }
 }
 
-/// Steps of the polar angle and the azimuth that a panel does not exceed: 15 degrees, over which a cosine is a parabola
-/// to 1e-5.
+/// The largest extent of a panel in polar angle and azimuth: 15 degrees, over which a cosine is a parabola to 1e-5.
 const STEP: f64 = PI / 12.0;
 
-/// Azimuths with those between at which the horizon is at a multiple of 30 degrees. From a low axis it turns within a few
-/// degrees of azimuth from nearly 0 to nearly a half turn, and no rule of few points would see that.
+/// Azimuths with those between at which the horizon is at a multiple of 30 degrees. From a low axis it turns within a
+/// few degrees of azimuth from nearly 0 to nearly a half turn, and no rule of few points would see that.
 fn with_horizon(zenith: f64, mut phis: Vec<f64>) -> Vec<f64> {
     let (start, end) = (phis[0], phis[phis.len() - 1]);
     for step in 1..6 {
@@ -103,10 +103,11 @@ fn with_horizon(zenith: f64, mut phis: Vec<f64>) -> Vec<f64> {
     phis
 }
 
-/// Bounds nearer to each other than this are one.
+/// Bounds closer to each other than this are merged.
 const SAME: f64 = 1e-6;
 
-/// Azimuths nearer to each other than this, 4 degrees, do not each begin a panel: across it, a cosine is a line to 6e-4.
+/// Azimuths closer to each other than this, 4 degrees, do not each begin a panel: across it, a cosine is a line to
+/// 6e-4.
 const DENSE: f64 = PI / 45.0;
 
 /// The knots between two ends, with the ends, and with more between where they are far apart.
@@ -137,7 +138,7 @@ impl Rectangle {
     }
 }
 
-/// A rectangle, its integral by its quarters, and how far that is from the integral by the whole.
+/// A rectangle, its integral by its quarters, and the difference from its integral as a whole.
 struct Leaf {
     quarters: [Rectangle; 4],
     /// `[quarter][channel]`.
@@ -151,8 +152,8 @@ const GAUSS: [(f64, f64); 3] =
 
 /// Integrates `f cos(theta_o)` over the hemisphere.
 ///
-/// `f` gets directions with z > 0 and fills in the values, `[direction][channel]`. Rectangles whose quarters give another
-/// integral than they do are divided, those with the largest share of the error first, until the sum of the differences is
+/// `f` gets directions with z > 0 and fills in the values, `[direction][channel]`. Rectangles whose quarters give a
+/// different integral are divided, those with the largest share of the error first, until the sum of the differences is
 /// below the tolerance.
 pub fn integrate(
     panels: &Panels,

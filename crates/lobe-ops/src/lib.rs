@@ -1,16 +1,17 @@
 //! Operations on measured materials: what people who own them ask for.
 //!
-//! - [`albedo`]: how much of the light from one direction comes back;
-//! - [`reciprocity`], [`check`]: is the measurement sound, and what does it cover;
-//! - [`energy`], [`symmetrise`], [`fill`]: repairs of a table, each of which says what it changed;
-//! - [`resample`]: any material into a table of specular coordinates, with given knots or with as many as an error bound
+//! - [`albedo`]: the share of the light from one direction that is scattered;
+//! - [`reciprocity`], [`check`]: whether a measurement is sound, and what it covers;
+//! - [`energy`], [`symmetrise`], [`fill`]: repairs of a table, each of which reports what it changed;
+//! - [`resample`]: any material into a table of specular coordinates, with given knots or with as many as an error
+//!   bound
 //!   asks for, and the error that was made;
 //! - [`colour`]: spectra to CIE XYZ and to RGB;
 //! - [`compare`]: how far two materials are apart, in numbers and to the eye.
 //!
-//! What has values is a [`Scattering`]: a [`lobe::Material`], or a model. A [`Subject`] is a file, opened, with what the
-//! operations have to know about it. Directions point away from the surface, normal on +z; angles are radians; values are
-//! `f` in 1/sr, without the cosine.
+//! What has values is a [`Scattering`]: a [`lobe::Material`], or a model. A [`Subject`] is an opened file with what the
+//! operations have to know about it. Directions point away from the surface, normal on +z; angles are radians; values
+//! are `f` in 1/sr, without the cosine.
 #![forbid(unsafe_code)]
 
 pub mod albedo;

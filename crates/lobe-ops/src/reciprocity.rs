@@ -15,19 +15,19 @@ pub struct Reciprocity {
     pub max: f64,
     /// The root of the mean squared difference, in 1/sr.
     pub rms: f64,
-    /// `rms` as a part of the root of the mean squared value.
+    /// `rms` relative to the root of the mean squared value.
     pub relative_rms: f64,
-    /// Half of all differences are at most this part of the mean of their two values.
+    /// The median difference, relative to the mean of the two values.
     pub relative_median: f64,
-    /// Where the largest difference is: `wi` and `wo`, with z > 0.
+    /// The directions of the largest difference: `wi` and `wo`, with z > 0.
     pub worst: [[f64; 3]; 2],
 }
 
-/// Exchanges up to `count` pairs of directions, with polar angles up to `limit` in radians: the same pairs at every call,
-/// every other one near the mirror direction. Differences are over all channels.
+/// Exchanges up to `count` pairs of directions, with polar angles up to `limit` in radians: the same pairs at every
+/// call, every other one near the mirror direction. Differences are over all channels.
 ///
-/// Transmission is compared with that of the way back. In a file that has one way only that is the same data, and the
-/// result says nothing.
+/// Transmission is compared with transmission in the opposite direction. If a file has one direction only, both are the
+/// same data, and the result says nothing.
 pub fn reciprocity(scattering: &dyn Scattering, aspect: Aspect, limit: f64, count: usize) -> Reciprocity {
     let pairs = pairs(count, limit);
     let there: Vec<_> = pairs.iter().map(|&(wi, wo)| aspect.place(wi, wo)).collect();

@@ -1,4 +1,4 @@
-//! Small things that operations on tables share.
+//! What operations on tables share.
 
 pub(crate) use lobe_table::data::closes_circle;
 use lobe_table::specular::coords::angles_to_directions;
@@ -14,7 +14,7 @@ pub(crate) fn with_values(samples: &specular::Data, values: Vec<f32>) -> Result<
     }
 }
 
-/// The policy under which repairs look values up: that of the evaluation, but negative values stay what they are.
+/// The edge policy with which repairs look up values: that of the evaluation, but negative values are kept.
 pub(crate) fn signed_edges() -> Edges {
     Edges { non_negative: false, ..Edges::default() }
 }

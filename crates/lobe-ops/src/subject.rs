@@ -1,4 +1,4 @@
-//! A file, opened, with what the operations have to know about its representation.
+//! An opened file, with what the operations have to know about its representation.
 
 use std::path::Path;
 
@@ -20,10 +20,10 @@ pub struct Subject {
     edges: Edges,
 }
 
-/// Polar angles of the light where the representation has no list of them, in degrees.
+/// Polar angles of the light, in degrees, for representations that have no list of them.
 const DEFAULT_THETAS: [f64; 9] = [0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0];
 
-/// Light at a lower elevation than this, 0.6 degrees, is as good as none.
+/// Light at a larger polar angle than this, in radians, 0.6 degrees above the horizon, is ignored.
 const LOWEST: f64 = 1.56;
 
 impl Subject {
@@ -47,13 +47,13 @@ impl Subject {
         self.parts().flat_map(aspects).collect()
     }
 
-    /// Whether a rotation of the sample changes nothing.
+    /// Whether rotating the sample changes nothing.
     pub fn is_isotropic(&self) -> bool {
         self.document.parts.iter().all(|part| part.data.representation().is_isotropic())
     }
 
-    /// The directions of the light that were measured, polar angle and azimuth in radians, by ascending polar angle; nine
-    /// polar angles from 0 to 80 degrees if the representation has no list of them. Grazing light is left out.
+    /// The directions of the light that were measured, polar angle and azimuth in radians, by ascending polar angle;
+    /// nine polar angles from 0 to 80 degrees if the representation has no list of them. Grazing light is left out.
     pub fn incidences(&self, aspect: Aspect) -> Vec<[f64; 2]> {
         let Some(data) = self.data(aspect) else { return Vec::new() };
         let mut incidences = data.representation().incidences(aspect);
@@ -64,7 +64,7 @@ impl Subject {
         incidences
     }
 
-    /// Where to begin an integral over the hemisphere for light at a polar angle and an azimuth.
+    /// The panels of an integral over the hemisphere for light at a polar angle and an azimuth.
     pub fn panels(&self, aspect: Aspect, [theta, phi]: [f64; 2]) -> Panels {
         let data = self.data(aspect).map(Data::representation);
         match data.and_then(|data| data.kinks(&self.edges, [theta, phi])) {
@@ -79,7 +79,8 @@ impl Subject {
         incidences.iter().map(|[theta, _]| *theta).fold(0.0, f64::max)
     }
 
-    /// The data that answer for an aspect. The only measurement of a file that does not tell sides apart answers for all.
+    /// The data that answer for an aspect. The only measurement of a file that does not tell sides apart answers for
+    /// all.
     pub fn data(&self, aspect: Aspect) -> Option<&Data> {
         let answers = |part: &&Part| {
             let is_there =

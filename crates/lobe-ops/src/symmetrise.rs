@@ -8,10 +8,10 @@ use lobe_table::{GridError, specular};
 
 use crate::samples::{angles, directions, nodes, signed_edges, with_values};
 
-/// Averages a table with its mirror image across the plane of psi = 0: for an isotropic table the plane of incidence, so
-/// that left and right of it are the same.
+/// Averages a table with its mirror image across the plane of psi = 0: for an isotropic table the plane of incidence,
+/// so that left and right of it are the same.
 ///
-/// Where the image of a node is no node, it is interpolated.
+/// If the image of a node is not a node, it is interpolated.
 ///
 /// # Errors
 /// Never for a table whose values are finite, which those of [`specular::Data`] are.
@@ -22,11 +22,11 @@ pub fn mirror(samples: &specular::Data) -> Result<specular::Data, GridError> {
     })
 }
 
-/// Averages a table with itself, light and viewer exchanged.
+/// Averages a table with itself with light and viewer exchanged.
 ///
-/// Nodes at and below the horizon are left alone, and so are those whose viewer is at a polar angle at which there was no
-/// light: nothing was measured that could be averaged with. The exchanged value is interpolated, so the result is nearer
-/// to reciprocity, not there.
+/// Nodes at and below the horizon are left alone, and so are those whose viewer is at a polar angle at which there was
+/// no light: there is no measurement to average with. The exchanged value is interpolated, so the result is closer to
+/// reciprocity, but not exactly reciprocal.
 ///
 /// # Errors
 /// As [`mirror`].
@@ -37,14 +37,14 @@ pub fn reciprocal(samples: &specular::Data) -> Result<specular::Data, GridError>
     let mut nodes = nodes(samples);
     average(samples, |_| {
         let (wi, wo) = directions(samples, nodes.next()?);
-        // The same light on the other side: transmission is stored mirrored up at the surface.
+        // The same light on the other side: transmission is stored mirrored about the surface.
         let exchanged = directions_to_angles(wo, wi, zenith);
         (wi[2] > 1e-9 && wo[2] > 1e-9 && measured.contains(&exchanged[0])).then_some(exchanged)
     })
 }
 
-/// The mean of the value of each node and that at the angles of its partner, if it has one. `partner` is called once a
-/// node, in the order of the values.
+/// The mean of the value of each node and that at the angles of its partner, if it has one. `partner` is called once
+/// per node, in the order of the values.
 fn average(
     samples: &specular::Data,
     mut partner: impl FnMut([f64; 4]) -> Option<[f64; 4]>,

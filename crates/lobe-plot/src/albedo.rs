@@ -11,7 +11,7 @@ use crate::in_plane::MOST;
 use crate::subject::Subject;
 use crate::view::View;
 
-/// What of the light from one direction leaves by one way.
+/// The share of the light from one direction that is reflected, or transmitted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Albedo {
     /// The polar angle of the light in radians.
@@ -24,8 +24,8 @@ pub struct Albedo {
     pub rgb: [f64; 3],
 }
 
-/// The directional albedos of a view, one per incidence and way: those of [`albedo_of`] within its default effort, reduced
-/// to the quantity and the colour of the view.
+/// The directional albedos of a view, one per incidence and kind of scattering: those of [`albedo_of`] within its
+/// default effort, reduced to the quantity and the colour of the view.
 pub fn albedos(subject: &Subject, view: &View, progress: &dyn Progress) -> Vec<Albedo> {
     let sigmas = view.incidences(subject, MOST);
     let scatters = subject.scatters(view.side);

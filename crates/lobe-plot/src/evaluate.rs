@@ -1,17 +1,17 @@
-//! Many pairs of directions, shared among the threads.
+//! Evaluation of many pairs of directions on all threads.
 
 use lobe::Material;
 use rayon::prelude::*;
 
-/// Hears how far a drawing has come.
+/// Is told how far a drawing has progressed.
 pub trait Progress: Sync {
-    /// A figure begins that takes this many steps, most often pairs of directions.
+    /// A figure begins that takes this many steps, usually pairs of directions.
     fn begin(&self, figure: &str, steps: u64);
-    /// So many more steps are done.
+    /// This many more steps are done.
     fn advance(&self, steps: u64);
 }
 
-/// Nobody listens.
+/// Ignores progress.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Silent;
 
@@ -20,7 +20,7 @@ impl Progress for Silent {
     fn advance(&self, _steps: u64) {}
 }
 
-/// Pairs a task: enough that the threads are worth it, and less than the material would share among threads itself.
+/// Pairs per task: enough to be worth a task, and fewer than the material would itself divide among threads.
 const TASK: usize = 2048;
 
 /// The value of every pair of directions, reduced from its channels to `N` numbers as soon as it is known, since a

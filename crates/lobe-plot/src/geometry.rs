@@ -24,16 +24,16 @@ pub fn incident(side: Side, sigma: f64, psi: f64) -> [f64; 3] {
     [sigma.sin() * psi.cos(), sigma.sin() * psi.sin(), sign(side) * sigma.cos()]
 }
 
-/// `wo` in the plane of incidence: `theta` from the normal, positive away from the light, where the mirror direction and
-/// the ray straight through are at `theta = sigma`; radians.
+/// `wo` in the plane of incidence: `theta` from the normal in radians, positive away from the light. The mirror
+/// direction and the straight-through ray are at `theta = sigma`.
 pub fn in_plane(side: Side, scatter: Scatter, theta: f64, psi: f64) -> [f64; 3] {
     let across = -theta.sin();
     [across * psi.cos(), across * psi.sin(), outgoing_sign(side, scatter) * theta.cos()]
 }
 
-/// The direction at a place of the unit disk, by Lambert's equal-area projection of the hemisphere `side` of `z`; `None`
-/// outside the disk. The light is on the left: a positive `x` points away from it. `y` is up. Both hemispheres are
-/// looked at from the lit side.
+/// The direction at a point of the unit disk, by Lambert's equal-area projection of the hemisphere `side` of `z`;
+/// `None` outside the disk. The light is on the left: a positive `x` points away from it. `y` is up. Both hemispheres
+/// are seen from the lit side.
 ///
 /// `r = sqrt(2) sin(theta / 2)`: equal areas are equal solid angles (J. P. Snyder, "Map Projections: A Working Manual",
 /// 1987, equation 24-3).
@@ -50,7 +50,7 @@ pub(crate) fn from_disk(side: Side, scatter: Scatter, psi: f64, x: f64, y: f64) 
     Some([-along * cos + across * sin, -along * sin - across * cos, outgoing_sign(side, scatter) * (1.0 - square)])
 }
 
-/// The place of a direction on the unit disk: the inverse of [`from_disk`].
+/// The point of a direction on the unit disk: the inverse of [`from_disk`].
 pub(crate) fn to_disk(side: Side, psi: f64, direction: [f64; 3]) -> [f64; 2] {
     let [x, y, z] = direction;
     let (sin, cos) = psi.sin_cos();

@@ -1,12 +1,12 @@
-//! Pictures of pixels.
+//! Raster images.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-/// Pixels with an alpha that is not multiplied in, sRGB, rows from the top.
+/// sRGB pixels with straight (not premultiplied) alpha, row by row from the top.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
-    /// Pixels a row.
+    /// Pixels per row.
     pub width: u32,
     /// Rows.
     pub height: u32,
@@ -26,12 +26,12 @@ impl Image {
             writer.write_image_data(&self.rgba)?;
             writer.finish()
         });
-        // Writing into memory fails only where the pixels do not fill the picture.
-        written.expect("four bytes a pixel");
+        // Writing to memory fails only if the number of pixels is wrong.
+        written.expect("four bytes per pixel");
         bytes
     }
 
-    /// The picture as an address that holds all of it.
+    /// The picture as a `data:` URL.
     pub(crate) fn data_url(&self) -> String {
         format!("data:image/png;base64,{}", STANDARD.encode(self.png()))
     }

@@ -14,24 +14,24 @@ pub struct Curve {
     pub sigma: f64,
     /// Reflection or transmission.
     pub scatter: Scatter,
-    /// The angle of view in radians, ascending, as in [`in_plane`](crate::in_plane()).
+    /// The viewing angle in radians, ascending, as in [`in_plane`](crate::in_plane()).
     pub theta: Vec<f64>,
     /// The quantity of the view at each angle, in 1/sr.
     pub f: Vec<f32>,
-    /// Whether the value at each angle was measured, and is not only the continuation of what was.
+    /// Whether each value lies within the measurement, rather than in its continuation.
     pub is_measured: Vec<bool>,
 }
 
-/// Steps of the angle of view in degrees: everywhere, and within [`NEAR`] of the mirror direction and of the light.
+/// Steps of the viewing angle in degrees: everywhere, and within [`NEAR`] of the mirror direction and of the light.
 const STEP: f64 = 0.1;
 const FINE: f64 = 0.02;
 const NEAR: f64 = 2.0;
-/// The last angle of view in degrees. At the horizon there is no value.
+/// The last viewing angle in degrees. At the horizon there is no value.
 const LAST: f64 = 89.9;
-/// More curves than this cannot be told apart.
+/// More curves than this cannot be distinguished.
 pub(crate) const MOST: usize = 8;
 
-/// The curves of a view: one an incidence, reflection before transmission.
+/// The curves of a view: one per incidence, reflection before transmission.
 pub fn curves(subject: &Subject, view: &View, progress: &dyn Progress) -> Vec<Curve> {
     let scatters = subject.scatters(view.side);
     let sigmas = view.incidences(subject, MOST);
@@ -58,7 +58,7 @@ pub fn curves(subject: &Subject, view: &View, progress: &dyn Progress) -> Vec<Cu
         .collect()
 }
 
-/// The angles of view for light at `sigma`, ascending, in radians.
+/// The viewing angles for light at `sigma`, ascending, in radians.
 fn angles(sigma: f64) -> Vec<f64> {
     let sigma = sigma.to_degrees();
     let mut angles: Vec<f64> = (0..=(2.0 * LAST / STEP).round() as usize).map(|i| STEP * i as f64 - LAST).collect();

@@ -1,11 +1,11 @@
 //! Figures of measured materials: what a goniometer engineer or a shading artist looks at first.
 //!
-//! [`Subject`] is an opened file with what is known about where it was measured; a [`View`] says what of it to look at;
-//! [`draw`] makes one figure as SVG, [`rasterise`] turns that into a PNG, and [`page()`] is a self-contained HTML page of
-//! all figures. A figure is a pure function of file and view: no clock, no random numbers.
+//! [`Subject`] is an opened file together with the directions at which it was measured; a [`View`] says what to show;
+//! [`draw`] makes one figure as SVG, [`rasterise`] turns that into a PNG, and [`page()`] is a self-contained HTML page
+//! of all figures. A figure is a pure function of file and view: no clock, no random numbers.
 //!
-//! Conventions of every figure: the light comes from the left; angles of view are positive on the side of the mirror
-//! direction (for transmission: of the ray straight through); `f` is in 1/sr, without the cosine.
+//! Conventions of every figure: the light comes from the left; viewing angles are positive on the side of the mirror
+//! direction (for transmission: of the straight-through ray); `f` is in 1/sr, without the cosine.
 #![forbid(unsafe_code)]
 
 mod albedo;

@@ -1,4 +1,5 @@
-//! Where a material was measured: the incidences to draw, the directions to mark, and what is only continued.
+//! The directions at which a material was measured: the incidences to draw, the directions to mark, and the parts of
+//! the hemisphere that are only continued.
 
 use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -16,15 +17,15 @@ use crate::geometry::{dot, incident};
 /// Angles nearer than this, in radians, are the same.
 const SAME: f64 = 1e-4;
 
-/// What was measured for light from one side that leaves to one side.
+/// The measurement of light that comes from one side and leaves on one side.
 #[derive(Debug)]
 pub(crate) struct Part {
     scatter: Scatter,
     /// `None` holds for light from either side.
     side: Option<Side>,
-    /// Polar angles of the light in radians, ascending; empty where the representation has none of its own.
+    /// Polar angles of the light in radians, ascending; empty if the representation has none of its own.
     pub(crate) incidences: Vec<f64>,
-    /// The azimuth of the light to begin with, in radians.
+    /// The azimuth of the light in the default view, in radians.
     pub(crate) psi: f64,
     places: Places,
 }
@@ -36,7 +37,7 @@ enum Places {
     Everywhere,
     /// A grid about the mirror direction, or about the refracted ray: sigma and its polar angle.
     Specular { theta: Vec<f64>, phi: Vec<f64>, zenith: Vec<[f64; 2]> },
-    /// A grid about the normal; azimuths from that of the light where it is isotropic.
+    /// A grid about the normal; azimuths count from that of the light if it is isotropic.
     Spherical { theta: Vec<f64>, phi: Vec<f64>, is_relative: bool, is_mirrored: bool },
     /// Any directions, a list for each incidence.
     Scattered { incidences: Vec<Cloud>, is_isotropic: bool },
@@ -44,7 +45,7 @@ enum Places {
     Bins(half_diff::Data),
 }
 
-/// The outgoing directions of one incident direction, and how far each speaks for its surroundings, in radians.
+/// The outgoing directions of one incident direction, and the radius around each that counts as measured, in radians.
 #[derive(Debug)]
 struct Cloud {
     light: [f64; 2],
@@ -95,8 +96,8 @@ impl Part {
         self.scatter == scatter && self.side.unwrap_or(Side::Front) == side
     }
 
-    /// The outgoing directions that were measured for light at `sigma` and `psi`, as if light and view were both above, as far as
-    /// they are above the horizon. Empty where the representation has no directions of its own.
+    /// The outgoing directions above the horizon that were measured for light at `sigma` and `psi`, as if light and
+    /// viewer were both above. Empty if the representation has no directions of its own.
     pub(crate) fn directions(&self, sigma: f64, psi: f64) -> Vec<[f64; 3]> {
         let spherical = |theta: f64, phi: f64| [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()];
         let mut found = match &self.places {
@@ -125,15 +126,15 @@ impl Part {
         found
     }
 
-    /// A test of outgoing directions for light at `sigma` and `psi`, as if light and view were both above: is the value
-    /// there one of the measurement, and not only its continuation?
+    /// A test of outgoing directions for light at `sigma` and `psi`, as if light and viewer were both above: does the
+    /// value lie within the measurement, rather than in its continuation?
     pub(crate) fn coverage(&self, sigma: f64, psi: f64) -> Box<dyn Fn([f64; 3]) -> bool + Sync + '_> {
         if matches!(self.places, Places::Everywhere) {
             return Box::new(|_| true);
         }
         let first = self.incidences.first().copied().unwrap_or(0.0);
         let last = self.incidences.last().copied().unwrap_or(FRAC_PI_2);
-        // One incidence is all that there is: its figure is that of the measurement.
+        // With one incidence there is nothing to be between.
         let is_between = self.incidences.len() > 1 && (first - SAME..=last + SAME).contains(&sigma);
         if !is_between && !self.incidences.iter().any(|knot| (knot - sigma).abs() < SAME) && !self.incidences.is_empty()
         {
@@ -164,7 +165,7 @@ impl Part {
     }
 }
 
-/// Finds whether a direction has others near it, in cells as wide as that is.
+/// Tells whether a direction has others near it, by cells as wide as that distance.
 struct Near {
     cells: HashMap<[i32; 3], Vec<[f64; 3]>>,
     width: f64,
@@ -174,7 +175,7 @@ struct Near {
 impl Near {
     /// `reach` is how far near is, in radians.
     fn new(directions: Vec<[f64; 3]>, reach: f64) -> Self {
-        // The chord of the angle: nothing nearer is farther than one cell away.
+        // The chord of the angle: a neighbour is at most one cell away.
         let mut near = Near { cells: HashMap::new(), width: (2.0 * (0.5 * reach).sin()).max(1e-3), cos: reach.cos() };
         for direction in directions {
             near.cells.entry(near.cell(direction)).or_default().push(direction);
@@ -239,7 +240,7 @@ fn scattered(data: &scattered::Data) -> Part {
         sides = [sides[0] || across > SAME, sides[1] || across < -SAME];
         clouds[at].outgoing.push([theta_o, relative]);
     }
-    // One half of an isotropic material stands for both.
+    // If only one half of an isotropic material was measured, it stands for both.
     if data.is_isotropic() && sides[0] != sides[1] {
         for cloud in &mut clouds {
             let mirrored: Vec<_> = cloud.outgoing.iter().map(|&[theta, phi]| [theta, -phi]).collect();
@@ -262,7 +263,7 @@ fn scattered(data: &scattered::Data) -> Part {
 fn reach(outgoing: &[[f64; 2]]) -> f64 {
     let directions: Vec<[f64; 3]> =
         outgoing.iter().map(|[theta, phi]| [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]).collect();
-    // A few hundred directions tell as much as all of them.
+    // A few hundred directions are enough to tell.
     let step = directions.len().div_ceil(200);
     let mut nearest: Vec<f64> = Vec::new();
     for a in directions.iter().step_by(step) {
@@ -278,7 +279,7 @@ fn window(data: &window::Data) -> Vec<Part> {
     let Some(band) = data.bands.first() else { return Vec::new() };
     let mut parts = Vec::new();
     for block in Block::ALL {
-        // A missing transmission block is the other one the other way round.
+        // A missing transmission block is the other one with light and viewer exchanged.
         let stand_in = match block {
             Block::TransmissionFront => Block::TransmissionBack,
             Block::TransmissionBack => Block::TransmissionFront,
@@ -313,7 +314,7 @@ fn middles(basis: &AngleBasis) -> Vec<f64> {
 fn at_sigma(zenith: &[[f64; 2]], sigma: f64) -> f64 {
     let upper = zenith.partition_point(|[knot, _]| *knot < sigma).min(zenith.len() - 1);
     let ([a, from], [b, to]) = (zenith[upper.saturating_sub(1)], zenith[upper]);
-    // Not what lies between the knots is interpolated but its distance from sigma, which is 0 without refraction.
+    // The offset from sigma is interpolated, which is 0 without refraction.
     let share = if b > a { ((sigma - a) / (b - a)).clamp(0.0, 1.0) } else { 0.0 };
     sigma + (1.0 - share) * (from - a) + share * (to - b)
 }

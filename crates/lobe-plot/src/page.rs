@@ -9,16 +9,16 @@ use quick_xml::escape::escape;
 
 use crate::albedo::{Albedo, albedos};
 use crate::evaluate::Progress;
-use crate::figures::{Figure, degrees, draw, series_colour_on_dark, side_name};
+use crate::figures::{Figure, Series, degrees, draw, side_name};
 use crate::in_plane::MOST;
 use crate::scale::{Scaling, short};
 use crate::subject::Subject;
 use crate::view::View;
 
-/// The look of the page, for light and dark screens and for paper.
+/// The style of the page, for light and dark screens and for paper.
 const STYLE: &str = include_str!("page.css");
 
-/// A table of names and values on a page, for people.
+/// A table of names and values on a page.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Facts {
     /// Its heading.
@@ -27,22 +27,24 @@ pub struct Facts {
     pub rows: Vec<(String, String)>,
 }
 
-/// A page of HTML that needs nothing beside itself: what is known about the file, the albedo at each incidence, and all
+/// A self-contained HTML page: what is known about the file, the albedo at each incidence, and all
 /// figures. An anisotropic material is shown from two azimuths, a sheet from both sides.
 pub fn page(subject: &Subject, view: &View, facts: &[Facts], progress: &dyn Progress) -> String {
     let mut sections = vec![overview(subject, view, facts, progress)];
-    let mut views = vec![(String::from("In the plane of incidence and over the hemisphere"), view.clone(), true)];
+    let title = String::from("In the plane of incidence and over the hemisphere");
+    let mut views = vec![Section { title, view: view.clone(), is_first: true }];
     if subject.is_anisotropic(view.side) {
         let turned = View { psi: view.psi + FRAC_PI_2, ..view.clone() };
-        views[0].0 = format!("The light at ψ = {}", degrees(view.psi));
-        views.push((format!("The light at ψ = {}", degrees(turned.psi)), turned, false));
+        views[0].title = format!("The light at ψ = {}", degrees(view.psi));
+        let title = format!("The light at ψ = {}", degrees(turned.psi));
+        views.push(Section { title, view: turned, is_first: false });
     }
     for side in subject.sides().into_iter().filter(|&side| side != view.side) {
         let other = View { side, psi: subject.psi(side), ..view.clone() };
-        views.push((format!("The light from {}", side_name(side)), other, false));
+        views.push(Section { title: format!("The light from {}", side_name(side)), view: other, is_first: false });
     }
-    for (title, view, is_first) in views {
-        sections.push(figures(subject, &view, (&title, is_first), progress));
+    for section in &views {
+        sections.push(figures(subject, section, progress));
     }
     let name = escape(subject.name());
     format!(
@@ -55,7 +57,7 @@ pub fn page(subject: &Subject, view: &View, facts: &[Facts], progress: &dyn Prog
     )
 }
 
-/// What the material is, in a line.
+/// A one-line description of the material.
 fn summary(subject: &Subject) -> String {
     let material = subject.material();
     let said = |name: &str| material.source().iter().find(|(key, _)| key.eq_ignore_ascii_case(name));
@@ -67,11 +69,11 @@ fn summary(subject: &Subject) -> String {
     format!("{}{}, {}, {channels}.", named.unwrap_or_default(), material.format().name(), material.kind())
 }
 
-/// The curves of a dark page, as light as the page is dark.
+/// The colours of the curves on a dark page.
 fn dark_series(count: usize) -> String {
     let mut rules = String::new();
     for index in 0..count {
-        let colour = series_colour_on_dark(index, count);
+        let colour = Series { index, count }.colour_on_dark();
         let _ = write!(rules, ".figure .s{index} {{ stroke: {colour}; }} .figure .m{index} {{ fill: {colour}; }} ");
     }
     format!("@media screen and (prefers-color-scheme: dark) {{ {rules}}}\n")
@@ -90,7 +92,7 @@ fn overview(subject: &Subject, view: &View, facts: &[Facts], progress: &dyn Prog
         format!("<table><tbody>\n{}</tbody></table>", rows.iter().map(row).collect::<String>())
     };
     if let Some((first, rest)) = facts.split_first() {
-        // What the file is stays open; the rest unfolds.
+        // The first table is always shown; the others unfold.
         let _ = writeln!(out, "<div class=\"card\"><h3>{}</h3>{}", escape(&first.title), table(&first.rows));
         for Facts { title, rows } in rest {
             let _ = writeln!(out, "<details><summary>{}</summary>{}</details>", escape(title), table(rows));
@@ -147,13 +149,22 @@ fn albedo_table(view: &View, albedos: &[Albedo]) -> String {
     out
 }
 
-/// The figures of one view; the first has the linear curves too.
-fn figures(subject: &Subject, view: &View, (title, is_first): (&str, bool), progress: &dyn Progress) -> String {
+/// One view of the material on the page.
+struct Section {
+    title: String,
+    view: View,
+    /// The first view has the linear curves too.
+    is_first: bool,
+}
+
+/// The figures of one view.
+fn figures(subject: &Subject, section: &Section, progress: &dyn Progress) -> String {
+    let Section { title, view, is_first } = section;
     let mut out = format!("<section>\n<h2>{}</h2>\n<div class=\"cards\">\n", escape(title));
     let log = View { scaling: Some(Scaling::Log), ..view.clone() };
     let linear = View { scaling: Some(Scaling::Linear), ..view.clone() };
     let mut wanted = vec![(Figure::Curves, log)];
-    if is_first {
+    if *is_first {
         wanted.push((Figure::Curves, linear));
     }
     wanted.extend([(Figure::Polar, view.clone()), (Figure::Slices, view.clone())]);

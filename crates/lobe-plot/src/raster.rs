@@ -12,12 +12,12 @@ use crate::image::Image;
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum RasterError {
     /// Not an SVG.
-    #[error("the figure is no SVG: {0}")]
+    #[error("the figure is not an SVG: {0}")]
     Svg(String),
     /// No pixels, or more than fit in memory.
     #[error("a picture of {width} x {height} pixels cannot be made")]
     Size {
-        /// Pixels a row.
+        /// Pixels per row.
         width: u32,
         /// Rows.
         height: u32,
@@ -40,10 +40,10 @@ fn fonts() -> Arc<fontdb::Database> {
     Arc::clone(FONTS.get_or_init(load))
 }
 
-/// The pixels of a figure, `width` of them a row, as a PNG file.
+/// A figure as a PNG file `width` pixels wide.
 ///
 /// # Errors
-/// [`RasterError`] where `svg` is none, or `width` is 0 or far too large.
+/// [`RasterError`] if `svg` is not an SVG, or `width` is 0 or far too large.
 pub fn rasterise(svg: &str, width: u32) -> Result<Vec<u8>, RasterError> {
     let options = Options { font_family: "Roboto".into(), fontdb: fonts(), ..Options::default() };
     let tree = Tree::from_str(svg, &options).map_err(|error| RasterError::Svg(error.to_string()))?;

@@ -3,9 +3,9 @@
 /// How values are spread along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scaling {
-    /// Equal factors are equally long.
+    /// Equal ratios have equal lengths.
     Log,
-    /// Equal differences are equally long.
+    /// Equal differences have equal lengths.
     Linear,
 }
 
@@ -29,7 +29,7 @@ pub(crate) struct Scale {
 }
 
 impl Scale {
-    /// An axis that holds all values, with ends at round numbers.
+    /// An axis that covers all values, with ends at round numbers.
     pub(crate) fn around(values: impl Iterator<Item = f64>, scaling: Scaling) -> Self {
         let (mut least, mut most, mut least_positive) = (0.0_f64, 0.0_f64, f64::INFINITY);
         for value in values.filter(|value| value.is_finite()) {
@@ -40,7 +40,7 @@ impl Scale {
             }
         }
         if most <= 0.0 && (least >= 0.0 || scaling == Scaling::Log) {
-            // Nothing is there to see, on any axis.
+            // There is nothing to show, on any axis.
             return Scale { scaling, low: if scaling == Scaling::Log { 0.1 } else { 0.0 }, high: 1.0 };
         }
         match scaling {
@@ -64,7 +64,7 @@ impl Scale {
         }
     }
 
-    /// The place of a value: 0 at the low end, 1 at the high one. What has no logarithm is far below.
+    /// The position of a value: 0 at the low end, 1 at the high end. Values without a logarithm are far below.
     pub(crate) fn place(&self, value: f64) -> f64 {
         match self.scaling {
             Scaling::Linear => (value - self.low) / (self.high - self.low),
@@ -73,7 +73,7 @@ impl Scale {
         }
     }
 
-    /// The value at a place.
+    /// The value at a position.
     #[cfg(test)]
     pub(crate) fn value(&self, place: f64) -> f64 {
         match self.scaling {
@@ -102,7 +102,7 @@ impl Scale {
     fn log_ticks(&self) -> Vec<Tick> {
         let (first, last) = (exponent(self.low), exponent(self.high));
         let decades = (self.high / self.low).log10();
-        // On a short axis a power of ten alone would leave it bare.
+        // Powers of ten alone would leave a short axis bare.
         let labelled: &[u32] = match decades {
             decades if decades < 2.2 => &[1, 2, 5],
             _ => &[1],
@@ -122,7 +122,7 @@ impl Scale {
     }
 }
 
-/// A digit times a power of ten: a plain number where that is short.
+/// A digit times a power of ten: a plain number if that is short.
 fn power(digit: u32, exponent: i32) -> String {
     match exponent {
         0..=2 => format!("{}", digit * 10_u32.pow(exponent as u32)),
@@ -134,12 +134,12 @@ fn power(digit: u32, exponent: i32) -> String {
     }
 }
 
-/// With the sign that is as wide as a digit.
+/// With a true minus sign, which is as wide as a digit.
 pub(crate) fn minus(number: &str) -> String {
     number.replace('-', "\u{2212}")
 }
 
-/// A number with three digits that count.
+/// A number with three significant digits.
 pub(crate) fn short(value: f64) -> String {
     let magnitude = value.abs();
     if magnitude == 0.0 {

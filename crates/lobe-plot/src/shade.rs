@@ -19,20 +19,21 @@ struct Light {
     toward: [f64; 3],
     /// The angle from its middle to its rim, in radians.
     radius: f64,
-    /// How much of the light of a standard one, whose irradiance on a surface that faces it is pi.
+    /// Its power relative to a standard light, whose irradiance on a surface that faces it is pi.
     power: f64,
 }
 
 /// How a sphere is lit. The viewer is far away, so that all sight lines are parallel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Studio {
-    /// A round light of 12 degrees from the upper left, and an eighth of it from the right: most of what there is to see.
+    /// A round light of 12 degrees from the upper left, and one of an eighth of its power from the right: shows most of
+    /// a material.
     Key,
     /// A light of 2 degrees, 3 degrees beside the viewer: what a driver sees.
     Viewer,
-    /// A light 75 degrees aside, beyond the left rim: what shows at grazing angles.
+    /// A light 75 degrees to the side, beyond the left rim: what shows at grazing angles.
     Rim,
-    /// The key light with the sample turned by a quarter on the sphere.
+    /// The key light with the sample on the sphere turned by a quarter turn.
     Turned,
     /// A light behind the sphere, which is a thin shell: what is transmitted.
     Behind,
@@ -65,18 +66,18 @@ impl Studio {
 pub struct Sphere {
     /// Pixels along each side of the picture, which the sphere just fills.
     pub size: usize,
-    /// The light of each pixel, linear sRGB: 1 is what a white Lambert surface sends back that faces a standard light.
+    /// The radiance of each pixel, linear sRGB: a white Lambertian surface that faces a standard light has 1.
     pub linear: Vec<[f32; 3]>,
     /// How much of each pixel the sphere covers.
     pub cover: Vec<f32>,
 }
 
-/// Pairs of directions a pixel and light.
+/// Pairs of directions per pixel and light.
 const SAMPLES: usize = 8;
 
 /// A sphere of the material of a view. The sample lies on it with its x axis along the circles of latitude.
 ///
-/// Every pixel is the mean of eight places in it, each with another point of the light.
+/// Every pixel is the mean of eight points in it, each lit by a different point of the light.
 pub fn shade(subject: &Subject, view: &View, studio: Studio, size: usize, progress: &dyn Progress) -> Sphere {
     let lights = studio.lights();
     let places = places(size);
@@ -86,7 +87,7 @@ pub fn shade(subject: &Subject, view: &View, studio: Studio, size: usize, progre
     let pair = |at: usize| {
         let (place, light) = (&places[at / lights.len()], &lights[at % lights.len()]);
         let frame = Frame::on_sphere(place.normal, turn);
-        // The side that is lit looks out of the sphere.
+        // The lit side of the sample faces outward.
         let local = |w: [f64; 3]| {
             let [x, y, z] = frame.local(w);
             [x, flip * y, flip * z]
@@ -121,8 +122,8 @@ pub fn shade(subject: &Subject, view: &View, studio: Studio, size: usize, progre
 }
 
 impl Sphere {
-    /// The exposure in stops at which nine tenths of the sphere are darker than six tenths of white, and a peak has room
-    /// above: a whole number of halves.
+    /// The exposure in stops at which nine tenths of the sphere are darker than six tenths of white, and a peak has
+    /// room above: a whole number of halves.
     pub fn exposure(&self) -> f64 {
         let covered = self.linear.iter().zip(&self.cover).filter(|(_, cover)| **cover > 0.5);
         let mut bright: Vec<f32> =
@@ -147,7 +148,7 @@ impl Sphere {
     }
 }
 
-/// A place on the sphere that is looked at.
+/// A visible point on the sphere.
 struct Place {
     pixel: usize,
     normal: [f64; 3],
@@ -155,8 +156,8 @@ struct Place {
     uniform: [f64; 2],
 }
 
-/// The places of all pixels, those off the sphere left out. The points of each pixel are those of the R2 sequence
-/// (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018), which go on from pixel to pixel for the
+/// The points of all pixels, without those off the sphere. The points in each pixel are those of the R2 sequence (M.
+/// Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018), which go on from pixel to pixel for the
 /// light, so that neighbours differ and no pattern shows.
 fn places(size: usize) -> Vec<Place> {
     // The plastic number, the root of x^3 = x + 1.
@@ -190,7 +191,7 @@ impl Light {
     }
 }
 
-/// The axes of the sample at a place on the sphere.
+/// The axes of the sample at a point on the sphere.
 struct Frame {
     x: [f64; 3],
     y: [f64; 3],
@@ -213,7 +214,7 @@ impl Frame {
     }
 }
 
-/// The spheres that a material deserves: those that show something, and something else than the others.
+/// The spheres worth showing of a material: those that show something that the others do not.
 pub(crate) fn studios(subject: &Subject, side: Side) -> Vec<Studio> {
     let scatters = subject.scatters(side);
     let mut studios = Vec::new();

@@ -1,7 +1,8 @@
 //! Fewer points for the same line.
 
-/// Drops the points of a line that lie within `tolerance` of what is left: D. Douglas and T. Peucker, "Algorithms for the
-/// Reduction of the Number of Points Required to Represent a Digitized Line or its Caricature", Cartographica 10(2), 1973.
+/// Drops the points of a line that lie within `tolerance` of the rest: D. Douglas and T. Peucker, "Algorithms for the
+/// Reduction of the Number of Points Required to Represent a Digitized Line or its Caricature", Cartographica 10(2),
+/// 1973.
 pub(crate) fn simplify(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
     if points.len() < 3 {
         return points.to_vec();
@@ -22,7 +23,7 @@ pub(crate) fn simplify(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
     points.iter().zip(is_kept).filter(|(_, kept)| *kept).map(|(point, _)| *point).collect()
 }
 
-/// From a point to the segment between two others.
+/// The distance from a point to the segment between two others.
 fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     let (along, from) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let square = along[0] * along[0] + along[1] * along[1];

@@ -19,17 +19,18 @@ pub struct Slice {
     pub size: usize,
     /// The quantity of the view in 1/sr, rows from the top; `None` outside the disk.
     pub f: Vec<Option<f32>>,
-    /// Whether the value was measured, and is not only the continuation of what was.
+    /// Whether each value lies within the measurement, rather than in its continuation.
     pub is_measured: Vec<bool>,
-    /// The directions that were measured, as places in the square of `[-1, 1]`, y up.
+    /// The directions that were measured, as positions in the square `[-1, 1]`, y up.
     pub measured: Vec<[f64; 2]>,
 }
 
-/// The slice of one incidence.
+/// The slice for light at the polar angle `sigma`, in radians, `size` pixels wide.
 pub fn slice(
     subject: &Subject,
     view: &View,
-    (sigma, scatter): (f64, Scatter),
+    sigma: f64,
+    scatter: Scatter,
     size: usize,
     progress: &dyn Progress,
 ) -> Slice {

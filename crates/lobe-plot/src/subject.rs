@@ -52,7 +52,7 @@ impl Subject {
         &self.measured.material
     }
 
-    /// The file as the operations on it want it.
+    /// The file as a subject of `lobe-ops`.
     pub(crate) fn measured(&self) -> &lobe_ops::Subject {
         &self.measured
     }
@@ -73,11 +73,11 @@ impl Subject {
     }
 
     /// The polar angles of the light to draw, in radians: at most `most` of the knots of the measurement, or every 15
-    /// degrees where it has none of its own.
+    /// degrees if it has none of its own.
     pub fn incidences(&self, side: Side, most: usize) -> Vec<f64> {
         let part = self.scatters(side).first().and_then(|&scatter| self.part(side, scatter));
         let mut knots: Vec<f64> = part.map(|part| part.incidences.clone()).unwrap_or_default();
-        // Grazing light has no value.
+        // Values at grazing incidence are meaningless.
         knots.retain(|knot| *knot < 88.5_f64.to_radians());
         if knots.is_empty() {
             knots = [0.0, 15.0, 30.0, 45.0, 60.0, 75.0].map(f64::to_radians).into();
@@ -85,7 +85,7 @@ impl Subject {
         if knots.len() <= most {
             return knots;
         }
-        // As even in the angle as the knots allow.
+        // As evenly spaced in angle as the knots allow.
         let (first, last) = (knots[0], knots[knots.len() - 1]);
         let mut chosen: Vec<f64> = (0..most)
             .map(|i| first + (last - first) * i as f64 / (most - 1).max(1) as f64)
@@ -95,13 +95,13 @@ impl Subject {
         chosen
     }
 
-    /// The azimuth of the light to begin with, in radians.
+    /// The azimuth of the light in the default view, in radians.
     pub fn psi(&self, side: Side) -> f64 {
         self.scatters(side).first().and_then(|&scatter| self.part(side, scatter)).map_or(0.0, |part| part.psi)
     }
 
-    /// Whether turning the sample by an eighth or a quarter makes a difference: a twentieth of the colours or more, for a
-    /// few hundred pairs of directions.
+    /// Whether turning the sample by an eighth or a quarter of a turn changes the colours by a twentieth or more, over
+    /// a few hundred pairs of directions.
     pub fn is_anisotropic(&self, side: Side) -> bool {
         let scatters = self.scatters(side);
         let Some(&scatter) = scatters.first() else { return false };

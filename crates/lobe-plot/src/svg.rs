@@ -10,15 +10,15 @@ use quick_xml::escape::escape;
 /// What an element is, which decides its colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// Text that is to be read.
+    /// Primary text.
     Ink,
-    /// Text beside it.
+    /// Secondary text.
     Muted,
     /// The frame of a plot.
     Frame,
     /// Lines of a grid.
     Grid,
-    /// Lines of a grid between the others.
+    /// Minor lines of a grid.
     Faint,
 }
 
@@ -44,7 +44,7 @@ impl Role {
     }
 }
 
-/// Where the position of a text is.
+/// Which part of a text is at its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
@@ -61,11 +61,11 @@ pub(crate) struct Text {
     pub(crate) is_heavy: bool,
     /// Turned to read upward.
     pub(crate) is_upward: bool,
-    /// With a rim in the colour of the paper, to be read across lines.
+    /// With a halo in the colour of the paper, so that it can be read across lines.
     pub(crate) has_halo: bool,
 }
 
-/// Text of the size of labels.
+/// Text in the style of labels.
 pub(crate) const LABEL: Text =
     Text { size: 17.0, role: Role::Ink, anchor: Anchor::Start, is_heavy: false, is_upward: false, has_halo: false };
 
@@ -80,7 +80,7 @@ pub(crate) struct Area {
 
 /// A figure that is being drawn.
 pub(crate) struct Svg {
-    /// Tells the marks of this figure from those of others on the same page.
+    /// Distinguishes the ids of this figure from those of others on the same page.
     name: String,
     body: String,
     clips: usize,
@@ -91,8 +91,8 @@ impl Svg {
         Svg { name: name.into(), body: String::new(), clips: 0 }
     }
 
-    /// The figure, `width` units wide, shown with `pixels`. `title` says for those who cannot see it what it shows.
-    pub(crate) fn finish(self, (width, height): (f64, f64), pixels: u32, title: &str) -> String {
+    /// The figure, `width` units wide, shown with `pixels`. `title` describes it to screen readers.
+    pub(crate) fn finish(self, [width, height]: [f64; 2], pixels: u32, title: &str) -> String {
         let rows = (f64::from(pixels) * height / width).round();
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"figure\" viewBox=\"0 0 {} {}\" width=\"{pixels}\" \
@@ -105,7 +105,7 @@ impl Svg {
         )
     }
 
-    /// A text in which `_{x}` is below the line and `^{x}` above it.
+    /// A text in which `_{x}` is a subscript and `^{x}` a superscript.
     pub(crate) fn rich(&mut self, at: [f64; 2], style: Text, text: &str) {
         let mut spans = String::new();
         let mut rest = text;
@@ -133,7 +133,7 @@ impl Svg {
         self.write_text(at, style, &spans);
     }
 
-    /// A text as it is.
+    /// A text without markup.
     pub(crate) fn text(&mut self, at: [f64; 2], style: Text, text: &str) {
         self.write_text(at, style, &escape(text));
     }
@@ -211,7 +211,7 @@ impl Svg {
         let _ = writeln!(self.body, "<polygon points=\"{}\" class=\"m{index}\" fill=\"{colour}\"/>", points.join(" "));
     }
 
-    /// Whatever has a fixed colour on every page.
+    /// Raw markup, whose colours are the same on every page.
     pub(crate) fn raw(&mut self, element: &str) {
         self.body.push_str(element);
         self.body.push('\n');
@@ -229,7 +229,7 @@ impl Svg {
         );
     }
 
-    /// What `draw` draws, where it is within the area.
+    /// What `draw` draws, clipped to the area.
     pub(crate) fn clipped(&mut self, area: Area, draw: impl FnOnce(&mut Svg)) {
         let id = format!("{}-clip-{}", self.name, self.clips);
         self.clips += 1;
@@ -246,7 +246,7 @@ impl Svg {
     }
 }
 
-/// A coordinate with a hundredth of a unit.
+/// A coordinate to a hundredth of a unit.
 pub(crate) fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
@@ -261,7 +261,7 @@ mod tests {
     fn names_of_files_cannot_break_out() {
         let mut svg = Svg::new("test");
         svg.text([0.0, 0.0], LABEL, "a<b>&\"_{c}");
-        let figure = svg.finish((10.0, 10.0), 10, "</title><script>");
+        let figure = svg.finish([10.0, 10.0], 10, "</title><script>");
         assert!(figure.contains("a&lt;b&gt;&amp;&quot;_{c}"), "{figure}");
         assert!(!figure.contains("<script>"), "{figure}");
     }

@@ -1,4 +1,4 @@
-//! What of a material to look at.
+//! What a figure shows of a material.
 
 use lobe::Side;
 use lobe_colour::Reduction;
@@ -8,16 +8,16 @@ use crate::quantity::Quantity;
 use crate::scale::Scaling;
 use crate::subject::Subject;
 
-/// What of a material a figure shows.
+/// What a figure shows of a material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
     /// Where the light is.
     pub side: Side,
-    /// The polar angles of the light, in radians; where there are none, those of [`Subject::incidences`].
+    /// The polar angles of the light, in radians; if there are none, those of [`Subject::incidences`].
     pub sigmas: Vec<f64>,
     /// The azimuth of the light, in radians.
     pub psi: f64,
-    /// Axes of values; `None` lets every figure choose.
+    /// The scaling of value axes; `None` lets each figure choose.
     pub scaling: Option<Scaling>,
     /// The number that curves and maps show.
     pub quantity: Quantity,
@@ -47,8 +47,8 @@ pub enum ViewError {
 }
 
 impl View {
-    /// The view of a material that a figure starts with: the light above, where there is anything to see from there, and
-    /// at the azimuth of the first knot.
+    /// The default view of a material: the light is above if anything was measured there, at the azimuth of the first
+    /// knot.
     pub fn new(subject: &Subject) -> Self {
         let side = subject.sides().first().copied().unwrap_or(Side::Front);
         let channels = subject.material().channels();
@@ -74,7 +74,7 @@ impl View {
         }
     }
 
-    /// The same view of one channel, in any case of letters.
+    /// The same view of one channel, whose name is compared without regard to case.
     ///
     /// # Errors
     /// [`ViewError::Channel`].

@@ -169,7 +169,7 @@ fn the_drawn_line_goes_through_the_values() {
 }
 
 #[test]
-fn what_was_not_measured_is_told_apart() {
+fn what_was_not_measured_is_marked() {
     let subject = lambert([0.5; 3], Scatter::Reflection);
     let view = View { sigmas: vec![0.5], ..View::new(&subject) };
     let curve = &curves(&subject, &view, &Silent)[0];
@@ -179,13 +179,13 @@ fn what_was_not_measured_is_told_apart() {
             assert_eq!(*is_measured, distance < PI / 3.0, "{theta}");
         }
     }
-    let slice = lobe_plot::slice(&subject, &view, (0.5, Scatter::Reflection), 64, &Silent);
+    let slice = lobe_plot::slice(&subject, &view, 0.5, Scatter::Reflection, 64, &Silent);
     assert!(slice.is_measured[32 * 64 + 40], "the mirror direction is on the right");
     assert!(!slice.is_measured[32 * 64 + 2], "the far left is 60 degrees and more away from it");
     assert_eq!(slice.f[0], None, "outside the disk");
     // At 29 degrees all four nodes are above the horizon, at 57 degrees one is below it.
     assert_eq!(slice.measured.len(), 4);
-    assert_eq!(lobe_plot::slice(&subject, &view, (1.0, Scatter::Reflection), 16, &Silent).measured.len(), 3);
+    assert_eq!(lobe_plot::slice(&subject, &view, 1.0, Scatter::Reflection, 16, &Silent).measured.len(), 3);
     // Light beyond the last knot was not measured at all.
     let view = View { sigmas: vec![1.5], ..view };
     assert!(curves_are_dark(&subject, &view));

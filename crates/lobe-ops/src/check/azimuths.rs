@@ -2,13 +2,13 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::finding::{Finding, Status, degrees, percent};
 use super::grid::Grid;
-use super::{Finding, Status, degrees, percent};
 use crate::samples::closes_circle;
 
 /// A difference of this part of the largest value at the seam is more than rounding.
 const SAME: f64 = 1e-3;
-/// A gap as wide as this, 45 degrees, is not one step of a circle more.
+/// A gap as wide as this, 45 degrees, is more than one step of a circle.
 const WIDE: f64 = PI / 4.0 + 1e-3;
 
 pub(super) fn check(grid: &Grid<'_>, part: &str) -> Vec<Finding> {
@@ -34,7 +34,7 @@ pub(super) fn check(grid: &Grid<'_>, part: &str) -> Vec<Finding> {
 /// The first and the last azimuth are the same, and so should be their values.
 fn seam(grid: &Grid<'_>, part: &str, axis: usize) -> Finding {
     let last = grid.knots[axis].len() - 1;
-    let (difference, _) = pairs(grid, axis, |_| 0, |index| (index == last).then_some(last));
+    let Apart { largest: difference, .. } = pairs(grid, axis, |_| 0, |index| (index == last).then_some(last));
     let name = grid.names[axis];
     let (status, text) = match difference {
         d if d <= SAME => (Status::Pass, format!("{name} closes at 360 degrees with the values of 0")),
@@ -86,7 +86,7 @@ fn mirror(grid: &Grid<'_>, part: &str) -> Option<Finding> {
     if with_twin < 2 {
         return None;
     }
-    let (difference, mean) = pairs(grid, 3, |index| index, twin);
+    let Apart { largest: difference, mean } = pairs(grid, 3, |index| index, twin);
     let (status, text) = match difference {
         d if d <= SAME => (Status::Pass, "both sides of the plane of incidence are alike".into()),
         d => {
@@ -101,14 +101,16 @@ fn mirror(grid: &Grid<'_>, part: &str) -> Option<Finding> {
     Some(Finding::new("symmetry", part, status, text).number("difference", difference).number("mean", mean))
 }
 
-/// The largest difference between the values at two azimuths of an axis, as a part of the largest value of the grid, and the
-/// mean difference as a part of the mean value.
-fn pairs(
-    grid: &Grid<'_>,
-    axis: usize,
-    one: impl Fn(usize) -> usize,
-    other: impl Fn(usize) -> Option<usize>,
-) -> (f64, f64) {
+/// How far the values at pairs of azimuths are apart.
+struct Apart {
+    /// The largest difference, relative to the largest value of the grid.
+    largest: f64,
+    /// The mean difference, relative to the mean value.
+    mean: f64,
+}
+
+/// The differences between the values at azimuths of an axis and those at their partners.
+fn pairs(grid: &Grid<'_>, axis: usize, one: impl Fn(usize) -> usize, other: impl Fn(usize) -> Option<usize>) -> Apart {
     let counts = grid.knots.each_ref().map(Vec::len);
     let (mut worst, mut sum, mut values) = (0.0_f64, 0.0, 0.0);
     for index in 0..counts.iter().product() {
@@ -123,5 +125,5 @@ fn pairs(
         }
     }
     let peak = grid.values.iter().map(|value| f64::from(value.abs())).fold(0.0, f64::max);
-    (if peak > 0.0 { worst / peak } else { 0.0 }, if values > 0.0 { sum / values } else { 0.0 })
+    Apart { largest: if peak > 0.0 { worst / peak } else { 0.0 }, mean: if values > 0.0 { sum / values } else { 0.0 } }
 }

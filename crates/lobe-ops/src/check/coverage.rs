@@ -1,4 +1,4 @@
-//! Which part of the hemisphere was measured.
+//! Which parts of the hemisphere were measured.
 
 use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
@@ -8,7 +8,7 @@ use lobe_table::specular::AXIS_NAMES;
 use lobe_table::window::{Band, Block};
 use lobe_table::{Data, scattered, specular};
 
-use super::{Finding, Status, degrees, part_name, percent};
+use super::finding::{Finding, Status, degrees, part_name, percent};
 use crate::directions::spherical;
 use crate::samples::{directions, nodes};
 
@@ -32,7 +32,7 @@ fn of_part(data: &Data, name: &str) -> Vec<Finding> {
     findings
 }
 
-/// Which sides and ways a band of a window has.
+/// Which of the four measurements of a sheet a band has.
 fn of_band(band: &Band) -> Finding {
     let missing: Vec<String> = Block::ALL
         .into_iter()
@@ -49,7 +49,7 @@ fn of_band(band: &Band) -> Finding {
     Finding::new("coverage", &band.wavelength, status, text)
 }
 
-/// Nodes of a table above the horizon that are exactly dark, and which share of the hemisphere they are.
+/// Nodes of a table above the horizon that are exactly 0, and their share of all.
 fn dark_nodes(samples: &specular::Data, part: &str) -> Option<Finding> {
     let channels = samples.channels().count();
     let (mut dark, mut above) = (0_usize, 0_usize);
@@ -73,12 +73,12 @@ fn dark_nodes(samples: &specular::Data, part: &str) -> Option<Finding> {
     Some(Finding::new("coverage", part, status, text).number("dark", dark as f64).number("above", above as f64))
 }
 
-/// Whether nobody looked anywhere but in the plane of incidence, so that no integral over the hemisphere is a measurement.
+/// Whether only the plane of incidence was measured, so that no integral over the hemisphere is a measurement.
 pub(super) fn is_in_plane(data: &scattered::Data) -> bool {
     data.samples().all(|([_, phi_i, theta, phi], _)| theta < 1e-3 || (phi - phi_i).sin().abs() < 1e-3)
 }
 
-/// For which light the brightest sample is toward it: such materials are often read the wrong way round.
+/// The incidences at which the brightest sample is toward the light: such data are often read the wrong way round.
 fn backward(data: &scattered::Data, part: &str) -> Option<Finding> {
     let mut brightest: Vec<([f64; 4], f64)> = Vec::new();
     for (angles, texel) in data.samples() {
@@ -106,11 +106,11 @@ fn backward(data: &scattered::Data, part: &str) -> Option<Finding> {
     })
 }
 
-/// The sectors of outgoing directions that a count is over: steps of 15 degrees of the polar angle, of 30 of the azimuth.
+/// The sectors of outgoing directions that are counted: 15 degrees of polar angle by 30 of azimuth.
 const RINGS: usize = 6;
 const SECTORS: usize = 12;
 
-/// Which light there was, and in how many sectors of the hemisphere somebody looked.
+/// The incidences, and the number of sectors of the hemisphere with samples.
 fn of_samples(data: &scattered::Data, part: &str) -> Vec<Finding> {
     let mut findings = Vec::new();
     let incidences: Vec<[f64; 2]> = data.incidences().collect();
@@ -154,7 +154,7 @@ fn of_samples(data: &scattered::Data, part: &str) -> Vec<Finding> {
             sectors.clear();
         }
     }
-    // Where one side of the plane was measured, the other is its mirror image.
+    // If only one side of the plane was measured, the other is its mirror image.
     let all = RINGS * SECTORS / if data.is_isotropic() && (is_left || is_right) { 2 } else { 1 };
     let (status, text) = if is_in_plane(data) {
         (Status::Warn, "measured in the plane of incidence only, and guessed everywhere else".to_string())

@@ -1,11 +1,12 @@
-//! Energy: the albedo of every slice, the total integrated scatter that a file states, and what both say about the unit.
+//! Energy: the albedo of every slice, the total integrated scatter that a file states, and what both say about the
+//! unit.
 
 use std::f64::consts::PI;
 
 use lobe_table::{Data, scattered};
 
 use super::coverage::is_in_plane;
-use super::{Finding, Status, Thoroughness, degrees, percent};
+use super::finding::{Finding, Status, Thoroughness, degrees, percent};
 use crate::albedo::{Albedo, albedo_of};
 use crate::directions::spherical;
 use crate::hemisphere::Effort;
@@ -16,11 +17,11 @@ use crate::{Aspect, Subject};
 const GRAZING: f64 = 85.5 * PI / 180.0;
 /// How far above 1 an albedo may be before it fails: instruments are calibrated to a per cent or so.
 const CALIBRATION: f64 = 0.01;
-/// The blackest coatings that there are reflect about half as much.
+/// The blackest coatings reflect about half as much.
 const BLACK: f64 = 1e-3;
-/// A stated total that is further off than this part is not the integral of the values.
+/// A stated total that deviates by more than this part is not the integral of the values.
 const TIS_APART: f64 = 0.05;
-/// How near a ratio has to be to pi, as a part, to be taken for it.
+/// The relative deviation from pi up to which a ratio counts as pi.
 const NEAR: f64 = 0.15;
 
 pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness, progress: impl Fn(f64)) -> Vec<Finding> {
@@ -129,7 +130,7 @@ fn energy(part: &str, aspect: &Aspect, albedos: &[Albedo], names: &[String]) -> 
     finding.number("smallest", low.smallest()).number("largest", high.largest()).number("error", error)
 }
 
-/// Whether albedos are those of a material at all, if values are what they are taken for.
+/// Whether the albedos are plausible for values in 1/sr.
 fn unit(part: &str, albedos: &[Albedo]) -> Option<Finding> {
     let mut means: Vec<f64> =
         albedos.iter().map(|albedo| albedo.values.iter().sum::<f64>() / albedo.values.len() as f64).collect();
@@ -151,7 +152,7 @@ fn unit(part: &str, albedos: &[Albedo]) -> Option<Finding> {
     Some(Finding::new("unit", part, Status::Warn, text).number("albedo", median))
 }
 
-/// Whether values fall off toward the horizon as a cosine does, which a BRDF has no reason to and `f cos` has.
+/// Whether values fall off toward the horizon as a cosine does, as those of `f cos` would and those of `f` seldom do.
 fn cosine(subject: &Subject, aspect: Aspect, part: &str) -> Option<Finding> {
     let incidences = subject.incidences(aspect);
     let [theta, phi] = *incidences.iter().min_by(|a, b| (a[0] - 0.5).abs().total_cmp(&(b[0] - 0.5).abs()))?;
@@ -175,7 +176,7 @@ fn cosine(subject: &Subject, aspect: Aspect, part: &str) -> Option<Finding> {
     })
 }
 
-/// What is reflected and what passes through cannot be more than there was.
+/// Reflected and transmitted light together cannot exceed the incident light.
 fn sides(all: &[(Aspect, Vec<Albedo>)]) -> Vec<Finding> {
     let mut findings = Vec::new();
     for (index, (one, albedos)) in all.iter().enumerate() {

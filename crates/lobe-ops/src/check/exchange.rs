@@ -2,15 +2,15 @@
 
 use lobe_table::Scatter;
 
-use super::{Finding, Status, Thoroughness, degrees, percent};
+use super::finding::{Finding, Status, Thoroughness, degrees, percent};
 use crate::Subject;
 use crate::reciprocity::reciprocity;
 
-/// Beyond this, 80 degrees, few instruments see anything.
+/// Beyond this, 80 degrees, few instruments measure anything.
 const LIMIT: f64 = 80.0 * std::f64::consts::PI / 180.0;
 /// A relative difference (root mean square) that interpolation alone makes.
 const SAME: f64 = 0.02;
-/// One that is more than errors of measurement.
+/// One that is more than measurement error.
 const APART: f64 = 0.15;
 
 pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness) -> Vec<Finding> {
@@ -19,7 +19,7 @@ pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness) -> Vec<Findi
     for (index, &aspect) in aspects.iter().enumerate() {
         let part = if aspects.len() > 1 { aspect.to_string() } else { String::new() };
         let way_back = aspects.iter().position(|&other| other == aspect.reversed());
-        // A pair of ways is the same pair from either end.
+        // A measurement and its reverse are compared once.
         if way_back.is_some_and(|back| back < index) {
             continue;
         }

@@ -3,9 +3,9 @@
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Deref;
 
-use super::{Finding, Status, degrees, percent};
+use super::finding::{Finding, Status, degrees, percent};
 
-/// A grid whose knots and poles are looked at.
+/// A grid whose knots and poles are checked.
 pub(super) struct Grid<'a>(pub(super) lobe_table::data::Grid<'a>);
 
 impl<'a> Deref for Grid<'a> {
@@ -21,6 +21,14 @@ const SAME: f64 = 1e-3;
 /// A difference of this part is more than noise.
 const APART: f64 = 0.05;
 
+/// How far texels that should be equal are apart.
+struct Spread {
+    /// The largest difference, relative to the largest of the texels.
+    difference: f64,
+    /// The index of the group in which it is.
+    group: usize,
+}
+
 impl<'a> Grid<'a> {
     /// The channels at a node.
     pub(super) fn texel(&self, node: [usize; 4]) -> &'a [f32] {
@@ -33,7 +41,7 @@ impl<'a> Grid<'a> {
         (0..self.knots[0].len()).flat_map(|polar| (0..self.knots[1].len()).map(move |azimuth| [polar, azimuth]))
     }
 
-    /// That the knots ascend, which they do, or the reader would have refused the file; and what they reach.
+    /// Reports the knots, which ascend, or the reader would have refused the file; and whether they reach far enough.
     pub(super) fn check_knots(&self, part: &str) -> Vec<Finding> {
         let counts = self.knots.each_ref().map(Vec::len);
         let each: Vec<String> =
@@ -68,7 +76,7 @@ impl<'a> Grid<'a> {
         findings
     }
 
-    /// That the pole of the viewer is one direction with one value, whatever the azimuth, and that of the light too.
+    /// Whether the pole of the viewer, and that of the light, has one value at all azimuths.
     pub(super) fn check_pole(&self, part: &str) -> Vec<Finding> {
         let mut findings = Vec::new();
         let [light, rotations, viewer, azimuths] = self.knots.each_ref().map(Vec::len);
@@ -88,7 +96,7 @@ impl<'a> Grid<'a> {
         findings
     }
 
-    fn pole(&self, part: &str, axis: &str, (worst, place): (f64, usize)) -> Finding {
+    fn pole(&self, part: &str, axis: &str, Spread { difference: worst, group: place }: Spread) -> Finding {
         let (status, text) = match worst {
             worst if worst <= SAME => (Status::Pass, format!("one value at {axis} 0, whatever the azimuth")),
             worst => {
@@ -107,8 +115,8 @@ impl<'a> Grid<'a> {
         Finding::new("pole", part, status, text).number("difference", worst)
     }
 
-    /// The largest difference among texels that should be alike, as a part of the largest of them, and in which group.
-    fn spread(&self, groups: impl Iterator<Item = Vec<&'a [f32]>>) -> (f64, usize) {
+    /// The largest difference among groups of texels that should be equal.
+    fn spread(&self, groups: impl Iterator<Item = Vec<&'a [f32]>>) -> Spread {
         let of_group = |texels: Vec<&[f32]>| {
             let of_channel = |channel: usize| {
                 let values = texels.iter().map(|texel| f64::from(texel[channel]));
@@ -119,6 +127,10 @@ impl<'a> Grid<'a> {
             (0..self.channels).map(of_channel).fold(0.0, f64::max)
         };
         let each = groups.map(of_group).enumerate();
-        each.fold((0.0, 0), |worst, (index, spread)| if spread > worst.0 { (spread, index) } else { worst })
+        let start = Spread { difference: 0.0, group: 0 };
+        each.fold(start, |worst, (group, difference)| match difference > worst.difference {
+            true => Spread { difference, group },
+            false => worst,
+        })
     }
 }

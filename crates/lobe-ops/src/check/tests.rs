@@ -1,4 +1,4 @@
-//! Every check finds what it is for, and nothing where there is nothing.
+//! Every check finds what it is for, and nothing if there is nothing to find.
 
 use std::f64::consts::PI;
 use std::path::Path;

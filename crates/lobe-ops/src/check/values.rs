@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 use lobe_formats::{Document, Part};
 use lobe_table::data::Gaps;
 
-use super::{Finding, Status, part_name, percent};
+use super::finding::{Finding, Status, part_name, percent};
 
 /// A number that is this share of all, and is not 0, did not come from a measurement alone.
 const OFTEN: f64 = 0.02;
-/// Below this many numbers, nothing is said about how often one occurs.
+/// With fewer numbers than this, repeated ones are not reported.
 const FEW: usize = 100;
 
 pub(super) fn check(document: &Document) -> Vec<Finding> {

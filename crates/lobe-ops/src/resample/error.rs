@@ -1,4 +1,4 @@
-//! How far a table is from the material that it was made of.
+//! How far a table is from the material that it was made from.
 
 use std::f64::consts::{PI, TAU};
 
@@ -14,7 +14,7 @@ use crate::{Aspect, Scattering};
 /// The differences between a table and its origin over a set of directions, all channels together.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Resampling {
-    /// At how many pairs of directions they were compared.
+    /// The number of pairs of directions that were compared.
     pub probes: usize,
     /// The largest value of the material among them, in 1/sr.
     pub peak: f64,
@@ -24,9 +24,9 @@ pub struct Resampling {
     pub rms: f64,
     /// `max / peak`.
     pub relative_to_peak: f64,
-    /// The largest difference as a part of the value there, where that is at least a thousandth of the peak.
+    /// The largest difference relative to the value there, among values of at least a thousandth of the peak.
     pub relative_to_value: f64,
-    /// Where the largest difference is: `wi` and `wo`, with z > 0.
+    /// The directions of the largest difference: `wi` and `wo`, with z > 0.
     pub worst: [[f64; 3]; 2],
 }
 
@@ -34,11 +34,11 @@ pub struct Resampling {
 pub(super) const LOWEST: f64 = 0.06;
 
 /// Compares a table with its origin at up to `count` pairs of directions that are the same at every call: evenly in the
-/// four angles, theta more densely toward the mirror direction, within the knots of sigma, and both with polar angles up
-/// to `limit` in radians.
+/// four angles, theta more densely toward the mirror direction, within the knots of sigma, and both with polar angles
+/// up to `limit` in radians.
 ///
 /// # Errors
-/// Where the table is too large to be evaluated.
+/// If the table is too large to be evaluated.
 pub fn error(
     scattering: &dyn Scattering,
     aspect: Aspect,

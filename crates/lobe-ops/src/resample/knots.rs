@@ -12,21 +12,21 @@ use crate::{Aspect, Scattering};
 /// How large the interpolation error may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bound {
-    /// As a part of the largest value of the material; or of each value, but of no less than a thousandth of the largest.
+    /// Relative to the largest value of the material; or to each value, but at least to a thousandth of the largest.
     pub error: f64,
     /// Which of the two.
     pub per_value: bool,
-    /// The polar angle of both directions up to which it has to hold, in radians. Toward the horizon values grow, and the
-    /// largest with them.
+    /// The polar angle of both directions up to which it has to hold, in radians. Toward the horizon values grow, and
+    /// the largest with them.
     pub limit: f64,
 }
 
-/// A table with knots of our own choice.
+/// A table with chosen knots.
 #[derive(Clone, Debug)]
 pub struct Chosen {
     /// The table.
     pub samples: specular::Data,
-    /// The error that was found, on directions that had no part in the choice, in the terms of the bound.
+    /// The error at directions that had no part in the choice, measured as in the bound.
     pub error: f64,
 }
 
@@ -49,7 +49,7 @@ impl Knots {
 
 /// Values of more channels than this are probed at this many of them.
 const CHANNELS: usize = 4;
-/// Values below this part of the largest are as exact as it asks for, in a bound on each value.
+/// Values below this part of the largest count as that part, in a bound on each value.
 const FLOOR: f64 = 1e-3;
 /// How far beyond the limit, in radians, nodes have to be exact, so that there is something to interpolate toward: more
 /// than the longest step between candidates.
@@ -57,14 +57,15 @@ const MARGIN: f64 = 0.09;
 /// Directions on which the result is tested.
 pub const PROBES: usize = 100_000;
 
-/// Measures a material on a dense grid, keeps of its knots those that linear interpolation needs, and measures again there.
+/// Measures a material on a dense grid, keeps of its knots those that linear interpolation needs, and measures again
+/// there.
 ///
 /// On each axis to choose, the knot with the largest error is added until the error there is within its share of the
 /// bound. The multilinear interpolant is no further from the material than the sum of the errors of the axes, so equal
 /// shares are enough; more is tried first, as errors seldom meet. `progress` is told the share that is done.
 ///
-/// The result may miss the bound: see [`Chosen::error`]. Between the candidates nothing can be added, and a material that
-/// jumps, as a Klems matrix does, cannot be interpolated to any bound.
+/// The result may miss the bound: see [`Chosen::error`]. Between the candidates nothing can be added, and a material
+/// that jumps, as a Klems matrix does, cannot be interpolated to any bound.
 ///
 /// # Errors
 /// As [`measure`].
@@ -118,11 +119,11 @@ pub fn candidates(is_isotropic: bool) -> [Vec<f64>; 4] {
 /// The values of a material at dense knots.
 struct Grid {
     knots: [Vec<f64>; 4],
-    /// `[node][channel]`, each divided by what an error there is measured in.
+    /// `[node][channel]`, each divided by the unit of its error.
     values: Vec<f64>,
-    /// What errors are measured in, as the values.
+    /// The units of errors, in the layout of the values.
     scales: Vec<f64>,
-    /// One a node: an error there counts.
+    /// One per node: whether an error there counts.
     counts: Vec<bool>,
     channels: usize,
 }
@@ -154,7 +155,7 @@ impl Grid {
         }
     }
 
-    /// The knots of an axis between which no other is further off a straight line than `error`.
+    /// The knots of an axis between which no other deviates from a straight line by more than `error`.
     fn thin(&self, axis: usize, error: f64) -> Vec<f64> {
         let knots = &self.knots[axis];
         if knots.len() < 3 {
@@ -217,7 +218,7 @@ mod tests {
             let bound = Bound { error: bound, per_value: false, limit: LIMIT };
             let chosen = choose(&material, Aspect::REFLECTION, &isotropic(), bound, |_| {}).expect("a table");
             assert!(chosen.error <= bound.error, "{} is over {}", chosen.error, bound.error);
-            // Directions that the choice has not seen.
+            // Directions that had no part in the choice.
             let found = error(&material, Aspect::REFLECTION, &chosen.samples, LIMIT, 300_000).expect("a table");
             assert!(found.relative_to_peak <= 1.5 * bound.error, "{found:?}");
             chosen.samples.values().len()

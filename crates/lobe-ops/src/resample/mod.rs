@@ -1,7 +1,7 @@
 //! Any material into a table of specular coordinates.
 //!
-//! Nothing else in lobe resamples: a file is evaluated on its own grid. This is for programs that want another grid, and
-//! it always says how far the table is from the material.
+//! Nothing else in lobe resamples: a file is evaluated on its own grid. This is for programs that want another grid,
+//! and it always says how far the table is from the material.
 
 mod error;
 mod knots;
@@ -16,14 +16,14 @@ use lobe_table::{GridError, specular};
 use crate::scattering::eval_pairs;
 use crate::{Aspect, Scattering};
 
-/// Measures a material at every node of `knots`: sigma, psi, theta and phi in radians, as in [`specular::Data`]. `progress` is
-/// told the share that is done, now and then.
+/// Measures a material at every node of `knots`: sigma, psi, theta and phi in radians, as in [`specular::Data`].
+/// `progress` is told the share that is done from time to time.
 ///
 /// A node below 3.4 degrees of elevation takes the value of the same azimuth a little higher (see [`lift`]): below the
 /// horizon there is no value, and a table needs one there to interpolate toward it.
 ///
 /// # Errors
-/// [`GridError`] where the knots make no table, or a value of the material is not finite.
+/// [`GridError`] if the knots make no table, or a value of the material is not finite.
 pub fn measure(
     scattering: &dyn Scattering,
     aspect: Aspect,

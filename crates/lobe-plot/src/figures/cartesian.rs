@@ -1,9 +1,9 @@
-//! Curves against the angle of view.
+//! Curves against the viewing angle.
 
 use lobe::Scatter;
 
 use super::legend::{has_continued, incidences, legend, runs};
-use super::{MARGIN, MIDDLE, TOP, WIDTH, conditions, heading, id, scatter_name, series_colour};
+use super::shared::{MARGIN, MIDDLE, Series, TOP, WIDTH, conditions, heading, id, scatter_name};
 use crate::evaluate::Progress;
 use crate::in_plane::{Curve, curves};
 use crate::scale::{Scale, Scaling, minus};
@@ -11,7 +11,7 @@ use crate::subject::Subject;
 use crate::svg::{Anchor, Area, LABEL, Role, Svg, Text};
 use crate::view::View;
 
-/// How far a drawn line may be from the values, in units of the figure.
+/// How far a drawn line may deviate from the values, in units of the figure.
 const TOLERANCE: f64 = 0.05;
 const LEFT: f64 = 92.0;
 const RIGHT: f64 = 138.0;
@@ -34,14 +34,14 @@ pub(super) fn draw(subject: &Subject, view: &View, progress: &dyn Progress) -> S
             for (index, &sigma) in sigmas.iter().enumerate() {
                 let of = |curve: &&Curve| curve.sigma == sigma && curve.scatter == scatter;
                 if let Some(curve) = curves.iter().find(of) {
-                    plot(svg, area, &scale, curve, (index, sigmas.len()));
+                    plot(svg, area, &scale, curve, Series { index, count: sigmas.len() });
                 }
             }
         });
         for (index, &sigma) in sigmas.iter().enumerate() {
             let x = place(area, sigma);
             let corners = [[x - 5.5, y - 10.0], [x + 5.5, y - 10.0], [x, y - 0.8]];
-            svg.mark(index, &series_colour(index, sigmas.len()), &corners);
+            svg.mark(index, &Series { index, count: sigmas.len() }.colour(), &corners);
         }
         frame(&mut svg, area);
         let name = match scatters.len() {
@@ -62,11 +62,11 @@ pub(super) fn draw(subject: &Subject, view: &View, progress: &dyn Progress) -> S
     let upward = Text { is_upward: true, ..MIDDLE };
     svg.rich([MARGIN + 4.0, 0.5 * (TOP + bottom)], upward, "f (1/sr)");
     let title = format!("{}: f against the viewing angle in the plane of incidence", subject.name());
-    svg.finish((WIDTH, bottom + 72.0), view.width, &title)
+    svg.finish([WIDTH, bottom + 72.0], view.width, &title)
 }
 
-/// The values that the axis has to hold: those near the horizon are no guide to a logarithmic one, and what was not
-/// measured is one only where nothing was.
+/// The values that the axis has to cover. Values near the horizon are left out, and those that were not measured too
+/// unless nothing was.
 fn shown(curves: &[Curve], scatter: Scatter) -> impl Iterator<Item = f64> {
     let of = move |curve: &&Curve| curve.scatter == scatter;
     let any = curves.iter().filter(of).any(|curve| curve.is_measured.contains(&true));
@@ -81,14 +81,14 @@ fn place(area: Area, theta: f64) -> f64 {
     area.x + area.width * (0.5 + theta.to_degrees() / 180.0)
 }
 
-fn plot(svg: &mut Svg, area: Area, scale: &Scale, curve: &Curve, (index, count): (usize, usize)) {
+fn plot(svg: &mut Svg, area: Area, scale: &Scale, curve: &Curve, series: Series) {
     let y = |f: f32| area.y + area.height * (1.0 - scale.place(f64::from(f)).clamp(-0.2, 1.2));
     let points: Vec<[f64; 2]> =
         curve.theta.iter().zip(&curve.f).map(|(&theta, &f)| [place(area, theta), y(f)]).collect();
-    svg.series(index, &series_colour(index, count), &runs(&points, &curve.is_measured, TOLERANCE));
+    svg.series(series.index, &series.colour(), &runs(&points, &curve.is_measured, TOLERANCE));
 }
 
-/// The grid and the numbers along it.
+/// The grid lines and their numbers.
 fn axes(svg: &mut Svg, area: Area, scale: &Scale, is_last: bool) {
     let number = Text { size: 16.0, ..LABEL };
     for angle in (-90..=90).step_by(10) {

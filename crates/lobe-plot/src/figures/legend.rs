@@ -1,18 +1,18 @@
-//! What the curves of a figure are.
+//! Legends of curves.
 
-use super::{degrees, series_colour};
+use super::shared::{Series, degrees};
 use crate::in_plane::Curve;
 use crate::svg::{LABEL, Role, Svg, Text};
 
-/// The distance of two entries.
+/// The distance between two entries.
 const STEP: f64 = 25.0;
 
-/// The incidences of curves, one an entry, from `top` down; and how the lines of a curve are to be read.
+/// The incidences of curves, one per entry, from `top` down; and what the lines of a curve mean.
 pub(super) fn legend(svg: &mut Svg, [x, top]: [f64; 2], sigmas: &[f64], has_continued: bool) {
     svg.rich([x, top], Text { role: Role::Muted, size: 16.0, ..LABEL }, "incidence σ");
     for (index, &sigma) in sigmas.iter().enumerate() {
         let y = top + STEP * (index + 1) as f64;
-        let colour = series_colour(index, sigmas.len());
+        let colour = Series { index, count: sigmas.len() }.colour();
         svg.series(index, &colour, &[(true, vec![[x, y - 5.5], [x + 26.0, y - 5.5]])]);
         svg.text([x + 36.0, y], LABEL, &degrees(sigma));
     }
@@ -57,12 +57,12 @@ pub(super) fn incidences(curves: &[Curve]) -> Vec<f64> {
     sigmas
 }
 
-/// Whether some value of the curves was not measured.
+/// Whether any value of the curves was not measured.
 pub(super) fn has_continued(curves: &[Curve]) -> bool {
     curves.iter().any(|curve| curve.is_measured.contains(&false))
 }
 
-/// Splits a line where it stops or starts to be measured. Neighbouring runs share a point, so that no gap shows.
+/// Splits a line into runs that were measured and runs that were not. Neighbouring runs share a point, so no gap shows.
 pub(super) fn runs(points: &[[f64; 2]], is_measured: &[bool], tolerance: f64) -> Vec<(bool, Vec<[f64; 2]>)> {
     let mut runs: Vec<(bool, Vec<[f64; 2]>)> = Vec::new();
     for (&point, &measured) in points.iter().zip(is_measured) {

@@ -1,9 +1,9 @@
-//! Lobes: the values in the plane of incidence about the point of incidence.
+//! Lobes: the values in the plane of incidence, in polar coordinates about the point of incidence.
 
 use lobe::Scatter;
 
 use super::legend::{has_continued, incidences, legend, runs};
-use super::{MARGIN, MIDDLE, TOP, WIDTH, conditions, heading, id, scatter_name, series_colour};
+use super::shared::{MARGIN, MIDDLE, Series, TOP, WIDTH, conditions, degrees, heading, id, scatter_name};
 use crate::evaluate::Progress;
 use crate::in_plane::{Curve, curves};
 use crate::scale::{Scale, Scaling};
@@ -14,7 +14,7 @@ use crate::view::View;
 const TOLERANCE: f64 = 0.05;
 const RADIUS: f64 = 246.0;
 const CENTRE: f64 = 292.0;
-/// Where the largest value of a curve is this many times that of another, a linear radius shows only the first.
+/// If the largest value of one curve is this many times that of another, a linear radius shows only the first.
 const WIDE: f64 = 8.0;
 
 /// Reflection above the surface, transmission below it.
@@ -37,7 +37,7 @@ pub(super) fn draw(subject: &Subject, view: &View, progress: &dyn Progress) -> S
         subject.name(),
         &format!("Lobes in the plane of incidence, {radius}, {}", conditions(subject, view)),
     );
-    grid(&mut svg, centre, &scale, (has_up, has_down));
+    grid(&mut svg, centre, &scale, &scatters);
     let area = |scatter| match scatter {
         Scatter::Reflection => Area { x: CENTRE - RADIUS - 3.0, y: TOP, width: 2.0 * RADIUS + 6.0, height: up },
         Scatter::Transmission => {
@@ -48,7 +48,7 @@ pub(super) fn draw(subject: &Subject, view: &View, progress: &dyn Progress) -> S
         svg.clipped(area(scatter), |svg| {
             for (index, &sigma) in sigmas.iter().enumerate() {
                 for curve in curves.iter().filter(|curve| curve.sigma == sigma && curve.scatter == scatter) {
-                    lobe(svg, centre, &scale, curve, (index, sigmas.len()));
+                    lobe(svg, centre, &scale, curve, Series { index, count: sigmas.len() });
                 }
             }
         });
@@ -65,10 +65,10 @@ pub(super) fn draw(subject: &Subject, view: &View, progress: &dyn Progress) -> S
     let bottom = centre[1] + down + 34.0;
     let title = format!("{}: lobes in the plane of incidence", subject.name());
     svg.rich([CENTRE, bottom - 4.0], MIDDLE, "viewing angle θ_{o} around, f (1/sr) outward");
-    svg.finish((WIDTH, bottom + 18.0), view.width, &title)
+    svg.finish([WIDTH, bottom + 18.0], view.width, &title)
 }
 
-/// Linear where all curves can be seen that way.
+/// Linear if all curves can be seen that way.
 fn scale(curves: &[Curve], asked: Option<Scaling>) -> Scale {
     let inner = |curve: &Curve| -> Vec<f64> {
         let of = curve.theta.iter().zip(&curve.f).filter(|(theta, _)| theta.abs() < 1.5);
@@ -88,7 +88,7 @@ fn scale(curves: &[Curve], asked: Option<Scaling>) -> Scale {
             // A radius cannot be negative.
             Scale { low: 0.0, ..scale }
         }
-        // The centre is a tenth of what most values are, so that noise does not blow the lobes up.
+        // The centre lies below most values, so that noise does not inflate the lobes.
         Scaling::Log => Scale::around([most, (0.3 * quartile).max(1e-5 * most)].into_iter(), Scaling::Log),
     }
 }
@@ -98,26 +98,25 @@ fn at([x, y]: [f64; 2], radius: f64, theta: f64, scatter: Scatter) -> [f64; 2] {
     [x + radius * theta.sin(), y + up * radius * theta.cos()]
 }
 
-fn lobe(svg: &mut Svg, centre: [f64; 2], scale: &Scale, curve: &Curve, (index, count): (usize, usize)) {
+fn lobe(svg: &mut Svg, centre: [f64; 2], scale: &Scale, curve: &Curve, series: Series) {
     let radius = |f: f32| RADIUS * scale.place(f64::from(f)).clamp(0.0, 1.2);
     let point = |(&theta, &f): (&f64, &f32)| at(centre, radius(f), theta, curve.scatter);
     let points: Vec<[f64; 2]> = curve.theta.iter().zip(&curve.f).map(point).collect();
-    svg.series(index, &series_colour(index, count), &runs(&points, &curve.is_measured, TOLERANCE));
+    svg.series(series.index, &series.colour(), &runs(&points, &curve.is_measured, TOLERANCE));
 }
 
 /// Circles at the ticks, and rays every 15 degrees.
-fn grid(svg: &mut Svg, centre: [f64; 2], scale: &Scale, (has_up, has_down): (bool, bool)) {
-    let halves = [(has_up, Scatter::Reflection), (has_down, Scatter::Transmission)];
+fn grid(svg: &mut Svg, centre: [f64; 2], scale: &Scale, scatters: &[Scatter]) {
     let ticks = scale.ticks();
     for tick in ticks.iter().filter(|tick| tick.label.is_some()) {
         let radius = RADIUS * scale.place(tick.value);
         if radius > 0.5 {
-            for (_, scatter) in halves.iter().filter(|(is_there, _)| *is_there) {
+            for scatter in scatters {
                 arc(svg, centre, radius, *scatter, if radius > RADIUS - 0.5 { Role::Frame } else { Role::Grid });
             }
         }
     }
-    for (_, scatter) in halves.into_iter().filter(|(is_there, _)| *is_there) {
+    for &scatter in scatters {
         arc(svg, centre, RADIUS, scatter, Role::Frame);
         for angle in (-90_i32..=90).step_by(15) {
             let theta = f64::from(angle).to_radians();
@@ -126,7 +125,7 @@ fn grid(svg: &mut Svg, centre: [f64; 2], scale: &Scale, (has_up, has_down): (boo
             svg.line(at(centre, 0.08 * RADIUS, theta, scatter), at(centre, RADIUS, theta, scatter), role, 1.0);
             if is_major && angle.abs() < 90 {
                 let [x, y] = at(centre, RADIUS + 24.0, theta, scatter);
-                svg.text([x, y + 5.5], Text { size: 15.0, role: Role::Muted, ..MIDDLE }, &super::degrees(theta));
+                svg.text([x, y + 5.5], Text { size: 15.0, role: Role::Muted, ..MIDDLE }, &degrees(theta));
             }
         }
     }
@@ -140,7 +139,7 @@ fn numbers(svg: &mut Svg, centre: [f64; 2], scale: &Scale, has_down: bool) {
     let mut last = f64::NEG_INFINITY;
     for tick in labelled {
         let radius = RADIUS * scale.place(tick.value);
-        // Numbers that would run into each other are left out.
+        // Numbers that would overlap are left out.
         if radius - last < 46.0 && radius > 0.0 || radius > RADIUS + 0.5 {
             continue;
         }
@@ -161,13 +160,13 @@ fn surface(svg: &mut Svg, [x, y]: [f64; 2]) {
     svg.line([x - RADIUS - 12.0, y], [x + RADIUS + 12.0, y], Role::Frame, 1.6);
 }
 
-/// Where the mirror directions and the rays straight through are.
+/// Marks the mirror directions and the straight-through rays.
 fn marks(svg: &mut Svg, centre: [f64; 2], scatters: &[Scatter], sigmas: &[f64]) {
     for &scatter in scatters {
         for (index, &sigma) in sigmas.iter().enumerate() {
             let tip = at(centre, RADIUS + 1.5, sigma, scatter);
             let [left, right] = [-0.021, 0.021].map(|turn| at(centre, RADIUS + 10.0, sigma + turn, scatter));
-            svg.mark(index, &series_colour(index, sigmas.len()), &[left, right, tip]);
+            svg.mark(index, &Series { index, count: sigmas.len() }.colour(), &[left, right, tip]);
         }
     }
 }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use lobe::Scatter;
 
-use super::{MARGIN, MIDDLE, TOP, WIDTH, conditions, degrees, heading, id, scatter_name};
+use super::shared::{MARGIN, MIDDLE, TOP, WIDTH, conditions, degrees, heading, id, scatter_name};
 use crate::evaluate::Progress;
 use crate::geometry::{incident, to_disk};
 use crate::image::Image;
@@ -21,21 +21,22 @@ const CELL: f64 = (WIDTH - 2.0 * MARGIN) / COLUMNS as f64;
 const RADIUS: f64 = 100.0;
 /// From one row of disks to the next.
 const ROW: f64 = 2.0 * RADIUS + 40.0;
-/// More marks than this would hide what they mark.
+/// More marks than this would hide the values.
 const MARKS: usize = 1500;
-/// What was not measured is mixed with this much of a light grey.
+/// The colour, and its share, that values that were not measured are mixed with.
 const GREY: ([f32; 3], f32) = ([206.0, 209.0, 214.0], 0.74);
 
 /// Reflection above transmission, with the same colours.
 pub(super) fn draw(subject: &Subject, view: &View, progress: &dyn Progress) -> String {
     let sigmas = view.incidences(subject, MOST);
     let scatters = subject.scatters(view.side);
-    // A pixel and a half for each of the figure: disks are looked at closely.
+    // One and a half image pixels per pixel of the figure, as disks are looked at closely.
     let size = (1.5 * 2.0 * RADIUS * f64::from(view.width) / WIDTH).round().clamp(96.0, 480.0) as usize;
     let pixels = std::f64::consts::FRAC_PI_4 * (size * size) as f64;
     progress.begin("slices", (pixels * (scatters.len() * sigmas.len()) as f64) as u64);
-    let all = scatters.iter().flat_map(|&scatter| sigmas.iter().map(move |&sigma| (sigma, scatter)));
-    let slices: Vec<Slice> = all.map(|of| slice(subject, view, of, size, progress)).collect();
+    let of = |scatter, sigma| slice(subject, view, sigma, scatter, size, progress);
+    let slices: Vec<Slice> =
+        scatters.iter().flat_map(|&scatter| sigmas.iter().map(move |&sigma| of(scatter, sigma))).collect();
     let scale = scale(&slices, view.scaling.unwrap_or(Scaling::Log));
 
     let mut svg = Svg::new(id("slices", view));
@@ -60,10 +61,10 @@ pub(super) fn draw(subject: &Subject, view: &View, progress: &dyn Progress) -> S
     bar(&mut svg, top + 14.0, &scale);
     let bottom = notes(&mut svg, top + 92.0, &slices);
     let title = format!("{}: f over the outgoing hemisphere for each incidence", subject.name());
-    svg.finish((WIDTH, bottom + 6.0), view.width, &title)
+    svg.finish([WIDTH, bottom + 6.0], view.width, &title)
 }
 
-/// The axis of the colours: what was measured, without the lowest hundredth.
+/// The colour scale: the range of the measured values, without the lowest hundredth.
 fn scale(slices: &[Slice], scaling: Scaling) -> Scale {
     let measured = |slice: &Slice| {
         let of = slice.f.iter().zip(&slice.is_measured).filter(|(_, measured)| **measured);
@@ -126,7 +127,7 @@ fn disk(svg: &mut Svg, [x, y]: [f64; 2], slice: &Slice, view: &View, scale: &Sca
         ));
     }
     svg.circle([x, y], RADIUS, Role::Frame, 1.4);
-    // The light, where it comes from, and the mirror direction or the ray straight through.
+    // The light, where it comes from, and the mirror direction or the straight-through ray.
     let [u, v] = to_disk(view.side, view.psi, incident(view.side, slice.sigma, view.psi));
     let (light, mirror) = ([x + RADIUS * u, y - RADIUS * v], [x - RADIUS * u, y + RADIUS * v]);
     svg.raw(&sun(light));
@@ -135,7 +136,7 @@ fn disk(svg: &mut Svg, [x, y]: [f64; 2], slice: &Slice, view: &View, scale: &Sca
     svg.text([x, y - RADIUS - 9.0], label, &format!("σ = {}", degrees(slice.sigma)));
 }
 
-/// Marks are white with a dark rim, to be seen on every colour.
+/// Marks are white with a dark rim, so that they show on every colour.
 fn sun([x, y]: [f64; 2]) -> String {
     let (x, y) = (number(x), number(y));
     format!(
@@ -153,7 +154,7 @@ fn cross_mark([x, y]: [f64; 2]) -> String {
     )
 }
 
-/// The colours with their values.
+/// The colour bar.
 fn bar(svg: &mut Svg, y: f64, scale: &Scale) {
     const LEFT: f64 = 150.0;
     const LENGTH: f64 = WIDTH - 2.0 * LEFT;
@@ -191,7 +192,7 @@ fn bar(svg: &mut Svg, y: f64, scale: &Scale) {
     svg.text([LEFT - 86.0, y + 14.0], Text { size: 16.0, role: Role::Muted, ..LABEL }, scaling);
 }
 
-/// How to read the disks; returns where the figure ends.
+/// How to read the disks; returns the y at which the figure ends.
 fn notes(svg: &mut Svg, y: f64, slices: &[Slice]) -> f64 {
     let style = Text { size: 15.0, role: Role::Muted, ..LABEL };
     let direction = match slices.iter().any(|slice| slice.scatter == Scatter::Transmission) {
@@ -209,10 +210,10 @@ fn notes(svg: &mut Svg, y: f64, slices: &[Slice]) -> f64 {
     match marks {
         0 => {}
         1..=MARKS => lines.push("Dots: measured directions.".into()),
-        _ => lines.push(format!("{marks} directions were measured at an incidence, too many to mark.")),
+        _ => lines.push(format!("Up to {marks} directions were measured per incidence, too many to mark.")),
     }
     if is_continued {
-        lines.push("Grey: not measured; the nearest measured values go on.".into());
+        lines.push("Grey: not measured; extrapolated from the nearest measured values.".into());
     }
     for (at, line) in lines.iter().enumerate() {
         svg.text([MARGIN, y + 22.0 * (at + 1) as f64], style, line);

@@ -1,6 +1,6 @@
-//! Spheres under lights: one large, and beside it what other lights show.
+//! Spheres under several lights: one large, and smaller ones beside it.
 
-use super::{MARGIN, MIDDLE, TOP, WIDTH, conditions, heading, id};
+use super::shared::{MARGIN, MIDDLE, TOP, WIDTH, conditions, heading, id};
 use crate::evaluate::Progress;
 use crate::scale::minus;
 use crate::shade::{Studio, shade, studios};
@@ -8,11 +8,11 @@ use crate::subject::Subject;
 use crate::svg::{Area, LABEL, Role, Svg, Text};
 use crate::view::View;
 
-/// Between a sphere and the edge of its backdrop.
+/// The distance between a sphere and the edge of its backdrop.
 const PADDING: f64 = 12.0;
-/// Between backdrops.
+/// The distance between backdrops.
 const GAP: f64 = 12.0;
-/// Below a backdrop, for what it shows and how it is exposed.
+/// Room below a backdrop for its captions.
 const CAPTION: f64 = 44.0;
 
 /// The first light large, the others small beside it.
@@ -51,10 +51,10 @@ pub(super) fn draw(subject: &Subject, view: &View, progress: &dyn Progress) -> S
     svg.text(
         [MARGIN, bottom],
         note,
-        "At 0 EV a white Lambert surface that faces the light is as bright as the picture can be.",
+        "At 0 EV a white Lambertian surface that faces the light is as bright as a pixel can be.",
     );
     let title = format!("{}: spheres of the material under {} lights", subject.name(), studios.len());
-    svg.finish((WIDTH, bottom + 18.0), view.width, &title)
+    svg.finish([WIDTH, bottom + 18.0], view.width, &title)
 }
 
 fn name(studio: Studio) -> &'static str {
@@ -72,7 +72,7 @@ fn exposure(stops: f64) -> String {
     minus(&format!("exposure {sign}{stops} EV"))
 }
 
-/// A grey on which white edges and black ones can be seen.
+/// A grey on which both white and black edges can be seen.
 fn backdrop(svg: &mut Svg, Area { x, y, width, height }: Area) {
     svg.raw(&format!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" rx=\"6\" fill=\"#6f747b\"/>"));
 }
