@@ -1,7 +1,7 @@
 //! From the channels of a material to those of a format: a linear map.
 
 use lobe::Channels;
-use lobe_colour::{RGB_TO_XYZ, XYZ_TO_RGB};
+use lobe_colour::{RGB_TO_XYZ, WHITE, XYZ_TO_RGB};
 use lobe_model::Surface;
 
 use crate::failure::Failure;
@@ -11,7 +11,7 @@ use crate::target::Target;
 pub struct ChannelMap {
     /// What it leads to.
     pub channels: Channels,
-    /// What is to be said about it; `None` where it changes nothing.
+    /// What to tell the user about it; `None` if it changes nothing.
     pub note: Option<String>,
     /// A row for each channel it leads to.
     rows: Vec<Vec<f64>>,
@@ -41,7 +41,7 @@ impl ChannelMap {
             map.channels = Channels::Mono;
         }
         if target.holds(&map.channels) {
-            return Ok(map);
+            return Ok(map.with_white_of(target));
         }
         let (channels, matrix, note): (_, Vec<&[f64]>, _) = match map.channels {
             Channels::Mono if target.holds(&Channels::Rgb) => {
@@ -67,15 +67,28 @@ impl ChannelMap {
                 .collect::<Vec<f64>>()
         };
         let note = map.note.iter().map(String::as_str).chain([note]).collect::<Vec<_>>().join(", ");
-        Ok(ChannelMap { channels, rows: matrix.iter().map(product).collect(), note: Some(note) })
+        let map = ChannelMap { channels, rows: matrix.iter().map(product).collect(), note: Some(note) };
+        Ok(map.with_white_of(target))
     }
 
-    /// `true` where nothing changes.
+    /// XYZ relative to the white that a format has: in window sheets that of equal energy, X = Y = Z.
+    fn with_white_of(mut self, target: Target) -> Self {
+        if target == Target::Klems && self.channels == Channels::Xyz {
+            for (row, white) in self.rows.iter_mut().zip(WHITE) {
+                row.iter_mut().for_each(|weight| *weight /= white);
+            }
+            let white = "relative to a white of X = Y = Z";
+            self.note = Some(self.note.map_or_else(|| format!("X Y Z {white}"), |note| format!("{note} {white}")));
+        }
+        self
+    }
+
+    /// Whether nothing changes.
     pub fn is_identity(&self) -> bool {
         self.note.is_none()
     }
 
-    /// Maps texels of the old channels to such of the new.
+    /// Maps texels of the old channels to texels of the new.
     pub fn apply(&self, texels: &[f32]) -> Vec<f32> {
         if self.is_identity() {
             return texels.to_vec();
@@ -109,6 +122,28 @@ impl Surface for Mapped<'_> {
         for (out, texel) in out.chunks_exact_mut(to).zip(texels.chunks_exact(from)) {
             for (out, row) in out.iter_mut().zip(&self.map.rows) {
                 *out = row.iter().zip(texel).map(|(weight, f)| weight * f).sum();
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neutral_stays_neutral_in_every_format() {
+        for from in [Channels::Rgb, Channels::Xyz] {
+            for target in [Target::Klems, Target::Zemax, Target::Ddr] {
+                let map = ChannelMap::new(&from, None, target).expect("colours");
+                let grey = if from == Channels::Xyz { WHITE.map(|c| 0.5 * c as f32) } else { [0.5; 3] };
+                let white = match (&map.channels, target) {
+                    (Channels::Rgb, _) | (_, Target::Klems) => [1.0; 3],
+                    _ => WHITE,
+                };
+                for (found, white) in map.apply(&grey).iter().zip(white) {
+                    assert!((f64::from(*found) - 0.5 * white).abs() < 1e-6, "{found} in {target}");
+                }
             }
         }
     }
