@@ -11,7 +11,7 @@ pub struct ToneMap {
     pub exposure: f32,
 }
 
-/// Where the shoulder begins.
+/// The value at which the shoulder begins.
 const SHOULDER: f32 = 0.7;
 
 impl ToneMap {

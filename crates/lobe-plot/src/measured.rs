@@ -82,6 +82,7 @@ fn of_data(data: &Data) -> Vec<Part> {
             vec![Part { incidences: theta, ..Part::reflection(places) }]
         }
         Data::Window(data) => window(data),
+        // Nothing is known about the directions of the others, so all are drawn as measured.
         _ => vec![Part::reflection(Places::Everywhere)],
     }
 }

@@ -12,7 +12,7 @@ use crate::evaluate::{Silent, evaluate};
 use crate::geometry::{in_plane, incident};
 use crate::measured::{Part, parts};
 
-/// A measured material, and what is known about where it was measured.
+/// A measured material, with the directions at which it was measured.
 #[derive(Debug)]
 pub struct Subject {
     name: String,

@@ -11,7 +11,7 @@ use crate::subject::Subject;
 /// What a figure shows of a material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
-    /// Where the light is.
+    /// The side that the light comes from.
     pub side: Side,
     /// The polar angles of the light, in radians; if there are none, those of [`Subject::incidences`].
     pub sigmas: Vec<f64>,
