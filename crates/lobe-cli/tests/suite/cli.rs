@@ -84,7 +84,7 @@ fn info_shows_refraction_and_mirror_reflectance() {
     assert!(printed(&["info", text(&mirror)]).contains("2 of mirror reflectance by angle of incidence, 0.04 to 1"));
     let (code, message) = failed(&["eval", text(&mirror), "--angles", "0,0,0,0"]);
     assert_eq!(code, Some(1));
-    assert!(message.contains("mirror.sdr: found a mirror reflectance; expected a BRDF or BTDF"), "{message}");
+    assert!(message.contains("mirror.sdr: found mirror reflectance; expected a BRDF or BTDF"), "{message}");
 }
 
 /// Lines of a name and a number; the numbers agree within a few roundings of `f32`.
