@@ -7,9 +7,9 @@ use glam::DVec3;
 /// A run of triangles with a name, and the material that its file asked for.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Group {
-    /// Name of the object or group, empty where the file has none.
+    /// Name of the object or group, empty if the file has none.
     pub name: String,
-    /// Name of the material, where the file has one.
+    /// Name of the material, if the file has one.
     pub material: Option<String>,
     /// The triangles, as a range of indices into [`Parts::triangles`].
     pub triangles: Range<u32>,
@@ -20,11 +20,11 @@ pub struct Group {
 pub struct Parts {
     /// Vertex positions.
     pub positions: Vec<[f32; 3]>,
-    /// Unit normals, one a vertex.
+    /// Unit normals, one per vertex.
     pub normals: Option<Vec<[f32; 3]>>,
-    /// Texture coordinates (u, v), v up, one a vertex.
+    /// Texture coordinates (u, v), v up, one per vertex.
     pub uvs: Option<Vec<[f32; 2]>>,
-    /// Unit tangents along dp/du with the handedness (+1 or -1) in the fourth component, one a vertex.
+    /// Unit tangents along dp/du with the handedness (+1 or -1) in the fourth component, one per vertex.
     pub tangents: Option<Vec<[f32; 4]>>,
     /// Triangles: three vertex indices, counterclockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
@@ -43,7 +43,7 @@ pub struct Geometry(Parts);
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GeometryError {
     /// An attribute is not as long as the positions.
-    #[error("found {found} {attribute}; expected {expected}, one a vertex")]
+    #[error("found {found} {attribute}; expected {expected}, one per vertex")]
     Length {
         /// Name of the attribute.
         attribute: &'static str,
@@ -105,7 +105,7 @@ pub enum GeometryError {
         group: usize,
         /// Its range.
         found: Range<u32>,
-        /// Where it should begin.
+        /// The triangle that it should begin with.
         start: u32,
         /// Number of triangles.
         triangles: usize,

@@ -1,4 +1,4 @@
-//! Normals where a file has none.
+//! Normals for files without them.
 
 use std::collections::HashMap;
 
@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::Geometry;
 use crate::geometry::{Parts, cross, narrow, wide};
 
-/// What becomes of edges where normals are computed.
+/// What becomes of edges when normals are computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shading {
     /// Edges are smoothed away: the normal of a vertex is the mean of its triangles' normals, each weighted by its
@@ -64,7 +64,7 @@ fn separate(parts: &mut Parts) {
     parts.triangles = (0..corners.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
 }
 
-/// Unit vector along `v`, or zero where there is none.
+/// Unit vector along `v`, or zero if there is none.
 fn direction(v: DVec3) -> DVec3 {
     v.try_normalize().unwrap_or(DVec3::ZERO)
 }

@@ -12,13 +12,13 @@ use crate::normals::unit;
 use crate::{Geometry, GeometryError, Group, Parts, Shading};
 
 impl Geometry {
-    /// Each triangle cut into `pieces * pieces`, curved as its normals are; a mesh without normals is taken for smooth.
+    /// Each triangle cut into `pieces * pieces`, curved as its normals are; a mesh without normals counts as smooth.
     /// Normals, texture coordinates and tangents are interpolated.
     ///
-    /// Where two triangles have different normals at a vertex they share, a hard edge, they curve apart and leave a gap.
+    /// Two triangles that have different normals at a vertex they share, a hard edge, curve apart and leave a gap.
     ///
     /// # Errors
-    /// Where there are more triangles than 32 bits can count, or a position becomes infinite.
+    /// If there are more triangles than 32 bits can count, or a position becomes infinite.
     pub fn refined(self, pieces: u32) -> Result<Geometry, GeometryError> {
         let pieces = pieces.max(1);
         let found = (self.triangles.len() as u64).saturating_mul(u64::from(pieces).pow(2));
@@ -88,7 +88,7 @@ impl Refined<'_> {
 
     /// The vertices between two others: the number of the first, and whether they go from `a` to `b`.
     fn edge(&mut self, a: u32, b: u32) -> (u32, bool) {
-        // By their places: where texture coordinates have a seam, two edges are at one place, and what is computed from
+        // By position: at a seam of the texture coordinates two edges are at one position, and what is computed from
         // the same end is the same bits.
         let place = |end: u32| (self.mesh.positions[end as usize], end);
         let forward = place(a) <= place(b);

@@ -10,15 +10,15 @@ use crate::geometry::{Parts, narrow, wide};
 use crate::{Geometry, Shading};
 
 impl Geometry {
-    /// The mesh with what is missing: smooth normals, then tangents where there are texture coordinates.
+    /// The mesh with what is missing: smooth normals, then tangents if there are texture coordinates.
     pub fn complete(self) -> Geometry {
         let geometry = if self.normals.is_some() { self } else { self.with_normals(Shading::Smooth) };
         if geometry.tangents.is_some() || geometry.uvs.is_none() { geometry } else { geometry.with_tangents() }
     }
 
-    /// The mesh with tangents computed anew from its texture coordinates and normals (smooth ones where it has none).
+    /// The mesh with tangents computed anew from its texture coordinates and normals (smooth ones if it has none).
     ///
-    /// A vertex where texture coordinates are mirrored has two tangents, and is doubled. Without texture coordinates
+    /// A vertex at which texture coordinates are mirrored has two tangents, and is doubled. Without texture coordinates
     /// there are no tangents.
     pub fn with_tangents(self) -> Geometry {
         let geometry = if self.normals.is_some() { self } else { self.with_normals(Shading::Smooth) };

@@ -1,6 +1,6 @@
 //! Axis-aligned boxes on the host side.
 
-/// A box by its two extreme corners; empty where a lower coordinate is above the upper one.
+/// A box by its two extreme corners; empty if a lower coordinate is above the upper one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
     /// The smallest coordinates.

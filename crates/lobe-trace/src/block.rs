@@ -130,7 +130,7 @@ impl Block {
         self.octant[ray & (RAYS - 1)] as usize & 7
     }
 
-    /// `true` where all live rays of the group that begins at `at` point into one octant.
+    /// `true` if all live rays of the group that begins at `at` point into one octant.
     #[inline(always)]
     pub fn group_is_coherent<L: Lanes>(&self, lanes: L, at: usize, live: L::M) -> bool {
         lanes.uniform(lanes.load_int(&self.octant[first_ray::<L>(at)..]), live).0
@@ -167,7 +167,7 @@ pub(crate) fn first_ray<L: Lanes>(at: usize) -> usize {
     at & (RAYS - L::LANES)
 }
 
-/// Three rows of a group, a ray a lane.
+/// Three rows of a group, one ray per lane.
 #[inline(always)]
 pub(crate) fn group_rows<L: Lanes>(lanes: L, rows: &[Row; 3], at: usize) -> [L::F; 3] {
     let at = first_ray::<L>(at);
@@ -214,7 +214,7 @@ pub(crate) struct Found {
     pub u: [i32; RAYS],
     /// As bits.
     pub v: [i32; RAYS],
-    /// [`Found::NONE`] where nothing has been hit.
+    /// [`Found::NONE`] if nothing has been hit.
     pub primitive: [i32; RAYS],
     pub instance: [i32; RAYS],
 }

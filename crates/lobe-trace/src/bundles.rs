@@ -137,7 +137,7 @@ impl Bundles {
         (ray / RAYS_EACH) & (BUNDLES - 1)
     }
 
-    /// A box a lane: below what t no ray of the bundle is inside the box, and above what t none is or still looks.
+    /// One box per lane: below what t no ray of the bundle is inside the box, and above what t none is or still looks.
     #[inline(always)]
     pub fn interval<L: Lanes>(&self, lanes: L, bundle: usize, near: [L::F; 3], far: [L::F; 3]) -> [L::F; 2] {
         let bundle = bundle & (BUNDLES - 1);
@@ -172,7 +172,7 @@ impl Bundles {
         bits & bundles
     }
 
-    /// Learns where the bundles of some rays end now.
+    /// Updates the ends of the bundles of some rays.
     #[inline(always)]
     pub fn shorten<L: Lanes>(&mut self, lanes: L, found: &Found, some: u64) {
         let mut left = some;
@@ -194,7 +194,7 @@ impl Bundles {
     }
 }
 
-/// The least and the greatest number of the bundles from `first` on, a bundle a lane, of those rays that have a bit.
+/// The least and the greatest number of the bundles from `first` on, one bundle per lane, of those rays that have a bit.
 #[inline(always)]
 fn extremes<L: Lanes>(lanes: L, row: &Row, first: usize, bits: L::I) -> [L::F; 2] {
     let (most, least) = (lanes.splat(f32::INFINITY), lanes.splat(f32::NEG_INFINITY));

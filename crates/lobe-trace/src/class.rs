@@ -19,7 +19,7 @@ pub enum RayClass {
 }
 
 impl RayClass {
-    /// The class of the next ray of a path: `specular` where the bounce keeps neighbours neighbours.
+    /// The class of the next ray of a path: `specular` if the bounce keeps neighbours neighbours.
     pub fn bounce(self, specular: bool) -> Self {
         match self {
             RayClass::Camera | RayClass::Mirror if specular => RayClass::Mirror,
@@ -27,7 +27,7 @@ impl RayClass {
         }
     }
 
-    /// The class of a shadow ray from where this ray hit: `point` where the light has no extent.
+    /// The class of a shadow ray from where this ray hit: `point` if the light has no extent.
     pub fn shadow(self, point: bool) -> Self {
         match self {
             RayClass::Camera | RayClass::Mirror if point => RayClass::Shadow,
@@ -49,14 +49,14 @@ impl RayClass {
 /// Packets whose directions differ in a sign are taken apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Form {
-    /// A lane a ray, with masks (Wald, Slusallek, Benthin, Wagner 2001).
+    /// One lane per ray, with masks (Wald, Slusallek, Benthin, Wagner 2001).
     Packet,
     /// [`Packet`](Form::Packet) until few rays are live, then [`Single`](Form::Single) for each of them.
     Hybrid,
     /// Up to 64 rays at once, those of one octant: all children of a node against bundles of eight rays, the rays
     /// themselves at the leaves. Few rays of an octant, and rays that begin before zero, go one by one.
     Large,
-    /// A lane a child: one ray against all boxes of a node.
+    /// One lane per child: one ray against all boxes of a node.
     Single,
 }
 

@@ -12,7 +12,7 @@ use crate::slab::{Sides, child_bits, least_lane};
 ///
 /// A plane ahead of all origins is met no sooner than by a ray from the nearest of them with the inverse of smallest
 /// magnitude, and no later than by one from the farthest with the largest. A plane behind some origin gives a number
-/// below zero for the near planes, which says nothing where no ray begins below zero, and rightly ends the rays for the
+/// below zero for the near planes, which says nothing if no ray begins below zero, and rightly ends the rays for the
 /// far planes.
 #[derive(Clone, Copy)]
 pub(crate) struct Edges<L: Lanes> {
@@ -44,7 +44,7 @@ pub(crate) struct Hull<L: Lanes> {
 }
 
 impl<L: Lanes> Hull<L> {
-    /// Around the rays of `live`; `None` where a ray begins before zero, or where there is but one lane.
+    /// Around the rays of `live`; `None` if a ray begins before zero, or if there is only one lane.
     #[inline(always)]
     pub fn around(lanes: L, rays: &Block, at: usize, octant: usize, live: L::M) -> Option<Self> {
         let at = first_ray::<L>(at);
@@ -66,14 +66,14 @@ impl<L: Lanes> Hull<L> {
         Some(Hull { edges, t_min, end: lanes.splat(f32::INFINITY) })
     }
 
-    /// Learns where the rays of `live` end now.
+    /// Updates the ends of the rays of `live`.
     #[inline(always)]
     pub fn shorten(&mut self, lanes: L, ends_at: L::F, live: L::M) {
         let [_, end] = ends(lanes, ends_at, live);
         self.end = end;
     }
 
-    /// A box a lane: before what t no ray is inside the box, and after what t none is or still looks.
+    /// One box per lane: before what t no ray is inside the box, and after what t none is or still looks.
     #[inline(always)]
     pub fn interval(&self, lanes: L, near: [L::F; 3], far: [L::F; 3]) -> [L::F; 2] {
         let (mut enter, mut leave) = (self.t_min, self.end);

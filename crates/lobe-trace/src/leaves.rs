@@ -22,7 +22,7 @@ pub(crate) trait Leaves {
     /// Any hit is enough.
     fn any(&self) -> bool;
 
-    /// Several rays of one octant have met the leaf: those of `live`, a bit each. What `around` tells that none of them
+    /// Several rays of one octant have met the leaf: those of `live`, one bit each. What `around` tells that none of them
     /// meets is left out. Returns which rays may have been hit.
     fn packet<L: Lanes>(
         &mut self,

@@ -51,7 +51,7 @@ impl Mesh {
     /// A mesh of vertices `[x, y, z]` and triangles of three vertex indices each.
     ///
     /// # Errors
-    /// Where a coordinate is not a number of reasonable magnitude or an index is out of range.
+    /// If a coordinate is not a number of reasonable magnitude or an index is out of range.
     pub fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
         for (vertex, position) in positions.iter().enumerate() {
             for (axis, &found) in position.iter().enumerate() {
@@ -87,7 +87,7 @@ impl Mesh {
     /// The three vertices of a triangle.
     ///
     /// # Panics
-    /// Where there is no such triangle.
+    /// If there is no such triangle.
     #[inline]
     pub fn corners(&self, triangle: usize) -> [[f32; 3]; 3] {
         self.triangles[triangle].map(|vertex| self.positions[vertex as usize])

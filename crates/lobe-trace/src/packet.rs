@@ -2,7 +2,7 @@
 
 use lobe_lane::Lanes;
 
-/// A ray a lane; see [`RaySoA`](crate::RaySoA) for what a ray is.
+/// One ray per lane; see [`RaySoA`](crate::RaySoA) for what a ray is.
 #[derive(Clone, Copy, Debug)]
 pub struct Packet<L: Lanes> {
     /// Origins.

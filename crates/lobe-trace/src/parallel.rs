@@ -7,7 +7,7 @@ use crate::{Hits, Intersect, Occluded, RayClass, Rays, Scene};
 /// Rays that are worth a task: some hundred microseconds.
 const TASK: usize = 4096;
 
-/// Where a batch is cut: in the middle, but never through a packet.
+/// The cut of a batch: in the middle, but never through a packet.
 fn middle(n: usize) -> usize {
     (n / 2).next_multiple_of(64)
 }
@@ -15,7 +15,7 @@ fn middle(n: usize) -> usize {
 /// The nearest hits of a batch, as [`Intersect`] finds them.
 ///
 /// # Panics
-/// Where there are not as many places for hits as rays.
+/// If there are not as many places for hits as rays.
 pub fn intersect<L: Lanes, const W: usize>(
     lanes: L,
     scene: &Scene<W>,
@@ -34,7 +34,7 @@ pub fn intersect<L: Lanes, const W: usize>(
 /// Which rays of a batch hit anything, as [`Occluded`] finds it.
 ///
 /// # Panics
-/// Where there are not as many answers as rays.
+/// If there are not as many answers as rays.
 pub fn occluded<L: Lanes, const W: usize>(
     lanes: L,
     scene: &Scene<W>,

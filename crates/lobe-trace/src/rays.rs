@@ -46,7 +46,7 @@ impl RaySoA {
     /// All of them, borrowed.
     ///
     /// # Panics
-    /// Where the arrays differ in length.
+    /// If the arrays differ in length.
     pub fn view(&self) -> Rays<'_> {
         let n = self.len();
         let all = self.origin.iter().chain(&self.direction).chain([&self.t_max]);
@@ -83,7 +83,7 @@ impl<'a> Rays<'a> {
     /// The first `n` rays and the others.
     ///
     /// # Panics
-    /// Where there are fewer.
+    /// If there are fewer.
     pub fn split_at(self, n: usize) -> (Self, Self) {
         let cut = |range: std::ops::Range<usize>| Rays {
             origin: self.origin.map(|x| &x[range.clone()]),
@@ -98,7 +98,7 @@ impl<'a> Rays<'a> {
 /// The primitive and instance of a ray that hits nothing.
 pub const MISS: i32 = -1;
 
-/// The nearest hits of a batch. Where a ray hits nothing, `primitive` and `instance` are [`MISS`], `t` is infinite and
+/// The nearest hits of a batch. If a ray hits nothing, `primitive` and `instance` are [`MISS`], `t` is infinite and
 /// `u` and `v` are zero.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HitSoA {
@@ -123,7 +123,7 @@ impl HitSoA {
     /// All of them, borrowed for writing.
     ///
     /// # Panics
-    /// Where the arrays differ in length.
+    /// If the arrays differ in length.
     pub fn view(&mut self) -> Hits<'_> {
         let n = self.t.len();
         let lengths = [self.u.len(), self.v.len(), self.primitive.len(), self.instance.len()];
@@ -162,7 +162,7 @@ impl Hits<'_> {
     /// The first `n` and the others.
     ///
     /// # Panics
-    /// Where there are fewer.
+    /// If there are fewer.
     pub fn split_at(self, n: usize) -> (Self, Self) {
         let (t, u, v) = (self.t.split_at_mut(n), self.u.split_at_mut(n), self.v.split_at_mut(n));
         let (primitive, instance) = (self.primitive.split_at_mut(n), self.instance.split_at_mut(n));

@@ -1,4 +1,4 @@
-//! Meshes, where they stand, and the trees over them.
+//! Meshes, their instances, and the trees over them.
 
 use crate::bvh::{Binary, Child, WideBvh};
 use crate::triangles::Tree;
@@ -18,7 +18,7 @@ pub enum SceneError {
         meshes: usize,
     },
     /// A transform that flattens space, or has numbers that are not finite or not of reasonable size.
-    #[error("instance {instance} has a transform that cannot be undone in numbers of magnitude up to {LIMIT:e}")]
+    #[error("instance {instance} has a transform without an inverse in numbers of magnitude up to {LIMIT:e}")]
     Transform {
         /// Which instance.
         instance: usize,
@@ -62,7 +62,7 @@ impl SceneBuilder {
     /// Builds the trees. `progress` is called after each mesh.
     ///
     /// # Errors
-    /// Where an instance names no mesh or its transform cannot be undone.
+    /// If an instance names no mesh or its transform has no inverse.
     pub fn build<const W: usize>(self, mut progress: impl FnMut(Progress)) -> Result<Scene<W>, SceneError> {
         let meshes = self.meshes.len();
         for (instance, &(found, _)) in self.instances.iter().enumerate() {
@@ -157,7 +157,7 @@ impl<const W: usize> Scene<W> {
     /// The mesh of an instance.
     ///
     /// # Panics
-    /// Where there is no such instance.
+    /// If there is no such instance.
     pub fn mesh_of(&self, instance: usize) -> &Mesh {
         &self.meshes[self.instances[instance].mesh]
     }
@@ -165,7 +165,7 @@ impl<const W: usize> Scene<W> {
     /// The map from an instance's space to the world.
     ///
     /// # Panics
-    /// Where there is no such instance.
+    /// If there is no such instance.
     pub fn to_world(&self, instance: usize) -> &Affine {
         &self.instances[instance].to_world
     }

@@ -8,7 +8,7 @@ use lobe_lane::{Floats, Lanes, Mask};
 use crate::block::{Block, group_rows, ray_rows};
 use crate::bvh::Node;
 
-/// What a box test knows of rays, a value a lane.
+/// What a box test knows of rays, one value per lane.
 #[derive(Clone, Copy)]
 pub(crate) struct SlabRay<L: Lanes> {
     inverse: [L::F; 3],
@@ -17,7 +17,7 @@ pub(crate) struct SlabRay<L: Lanes> {
 }
 
 impl<L: Lanes> SlabRay<L> {
-    /// A ray a lane.
+    /// One ray per lane.
     #[inline(always)]
     pub fn group(lanes: L, rays: &Block, at: usize) -> Self {
         SlabRay {
@@ -94,7 +94,7 @@ impl Sides {
         planes
     }
 
-    /// The planes of the children from `slot` on, a child a lane; zeros beyond the last.
+    /// The planes of the children from `slot` on, one child per lane; zeros beyond the last.
     #[inline(always)]
     pub fn children<L: Lanes, const W: usize>(&self, lanes: L, node: &Node<W>, slot: usize) -> [[L::F; 3]; 2] {
         let mut planes = [[lanes.splat(0.0); 3]; 2];

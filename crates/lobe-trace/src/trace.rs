@@ -156,7 +156,7 @@ impl<'a, const W: usize> Intersect<'a, W> {
     /// The kernel for these rays.
     ///
     /// # Panics
-    /// Where there are not as many places for hits as rays.
+    /// If there are not as many places for hits as rays.
     pub fn new(scene: &'a Scene<W>, class: RayClass, rays: Rays<'a>, hits: Hits<'a>) -> Self {
         assert_eq!(rays.len(), hits.len(), "rays, and places for hits");
         Intersect { scene, form: class.form(), rays, hits }
@@ -208,7 +208,7 @@ impl<'a, const W: usize> Occluded<'a, W> {
     /// The kernel for these rays.
     ///
     /// # Panics
-    /// Where there are not as many answers as rays.
+    /// If there are not as many answers as rays.
     pub fn new(scene: &'a Scene<W>, class: RayClass, rays: Rays<'a>, out: &'a mut [bool]) -> Self {
         assert_eq!(rays.len(), out.len(), "rays, and places for answers");
         Occluded { scene, form: class.form(), rays, out }

@@ -1,4 +1,4 @@
-//! Where an instance stands.
+//! The transform of an instance.
 
 /// An affine map `x -> A x + b` from an instance's own space to the world, as three rows `[A | b]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,7 +21,7 @@ impl Affine {
         self.rows.map(|[a, b, c, d]| a * p[0] + b * p[1] + c * p[2] + d)
     }
 
-    /// The map back, worked out in `f64`; none where the map flattens space or a number is not finite.
+    /// The map back, worked out in `f64`; none if the map flattens space or a number is not finite.
     pub fn inverse(&self) -> Option<Affine> {
         let m = self.rows.map(|row| row.map(f64::from));
         let cofactor = |i: usize, j: usize| {

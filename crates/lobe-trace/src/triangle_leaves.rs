@@ -224,7 +224,7 @@ impl Leaves for Triangles<'_> {
     ) -> u64 {
         let sides = Sides::of(rays.octant(live.trailing_zeros() as usize));
         let (block, count) = self.block(leaf);
-        // A ray at a time takes as many triangles at once as there are lanes: better where rays are few.
+        // A ray at a time takes as many triangles at once as there are lanes: better if rays are few.
         let each = count.div_ceil(L::LANES) as u32;
         let fitted = !matches!(around, Around::Nothing);
         let few = match around {
@@ -252,7 +252,7 @@ impl Leaves for Triangles<'_> {
             }
             let majors = lanes.load_int(&rays.major[at..]);
             while bits != 0 {
-                // Once, but where the group looks along a diagonal.
+                // Once, unless the group looks along a diagonal.
                 let major = rays.major[(at + bits.trailing_zeros() as usize) & (RAYS - 1)];
                 let same = majors.eq(lanes.splat_int(major)).bits() & bits;
                 let some = self.group(lanes, (block, slots), (rays, at, same), (&sides, fitted), found);

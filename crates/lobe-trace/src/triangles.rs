@@ -11,7 +11,7 @@ use crate::{Aabb, Mesh};
 /// Triangles of a block, which fill the lanes of the widest backends.
 pub(crate) const SLOTS: usize = 8;
 
-/// Corners of triangles, a triangle a lane: `[corner][axis]`.
+/// Corners of triangles, one triangle per lane: `[corner][axis]`.
 pub(crate) type Corners<L> = [[<L as Lanes>::F; 3]; 3];
 
 /// Eight triangles in five cache lines. Coordinate `axis` of corner `corner` of triangle `slot` is
@@ -62,7 +62,7 @@ impl TriangleBlock {
         corners
     }
 
-    /// The corners of the triangles from `slot` on, a triangle a lane; what is beyond the last is to be ignored.
+    /// The corners of the triangles from `slot` on, one triangle per lane; what is beyond the last is to be ignored.
     #[inline(always)]
     pub fn several<L: Lanes>(&self, lanes: L, slot: usize, axes: [usize; 3]) -> Corners<L> {
         let mut corners = [[lanes.splat(0.0); 3]; 3];
@@ -82,7 +82,7 @@ impl TriangleBlock {
         let mut corner = 1;
         while corner < 3 {
             let x = self.row(corner, axis)[slot & (SLOTS - 1)];
-            // As lanes do it, also where zeros of both signs meet: the later one stays.
+            // As lanes do it, also if zeros of both signs meet: the later one stays.
             let first = if upper { side > x } else { side < x };
             side = if first { side } else { x };
             corner += 1;
@@ -90,7 +90,7 @@ impl TriangleBlock {
         side
     }
 
-    /// The lower and the upper corners of the boxes of the triangles from `slot` on, a triangle a lane.
+    /// The lower and the upper corners of the boxes of the triangles from `slot` on, one triangle per lane.
     #[inline(always)]
     pub fn extent<L: Lanes>(&self, lanes: L, slot: usize) -> [[L::F; 3]; 2] {
         let [a, b, c] = self.several(lanes, slot, [0, 1, 2]);

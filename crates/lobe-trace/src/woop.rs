@@ -10,7 +10,7 @@ use lobe_lane::{Floats, Lanes, MAX_LANES, Mask};
 use crate::block::{Block, group_rows, ray_rows};
 use crate::triangles::Corners;
 
-/// What a triangle test knows of rays, a value a lane.
+/// What a triangle test knows of rays, one value per lane.
 #[derive(Clone, Copy)]
 pub(crate) struct ShearRay<L: Lanes> {
     shear: [L::F; 3],
@@ -34,7 +34,7 @@ pub(crate) fn axes_of_any(major: i32) -> [usize; 3] {
     AXES[major as usize & 3]
 }
 
-/// Where triangles are met, a value a lane. Only lanes of the mask mean something.
+/// Where triangles are met, one value per lane. Only lanes of the mask mean something.
 #[derive(Clone, Copy)]
 pub(crate) struct Candidates<L: Lanes> {
     pub mask: L::M,
@@ -44,7 +44,7 @@ pub(crate) struct Candidates<L: Lanes> {
 }
 
 impl<L: Lanes> ShearRay<L> {
-    /// A ray a lane.
+    /// One ray per lane.
     #[inline(always)]
     pub fn group(lanes: L, rays: &Block, at: usize) -> Self {
         ShearRay { shear: group_rows(lanes, &rays.shear, at), pivot: group_rows(lanes, &rays.pivot, at) }
@@ -57,7 +57,7 @@ impl<L: Lanes> ShearRay<L> {
     }
 
     /// Tests triangles, their vertices given in the turned order of axes. The t of a hit is limited by nothing yet.
-    /// `None` where all are missed: what nobody can foresee is asked once.
+    /// `None` if all are missed: the one branch that is unpredictable.
     #[inline(always)]
     pub fn test(&self, lanes: L, vertices: Corners<L>, live: L::M) -> Option<Candidates<L>> {
         let mut x = [lanes.splat(0.0); 3];
@@ -80,7 +80,7 @@ impl<L: Lanes> ShearRay<L> {
             return None;
         }
         let mut sum = u + v + w;
-        // Where the signs agree, the edge function that is zero is the least or the most of the three.
+        // If the signs agree, the edge function that is zero is the least or the most of the three.
         let unsure = mask & (least.eq(zero) | most.eq(zero) | sum.abs().lt(lanes.splat(TINY)));
         if unsure.any() {
             let mut edges = Edges { x: [[0.0; MAX_LANES]; 3], y: [[0.0; MAX_LANES]; 3] };
@@ -115,7 +115,7 @@ struct Edges {
 }
 
 impl Edges {
-    /// Leaves in `x` the edge functions divided by their sum, or zeros where their exact signs differ. The products are
+    /// Leaves in `x` the edge functions divided by their sum, or zeros if their exact signs differ. The products are
     /// exact in double precision, and so are the signs of their differences.
     #[cold]
     #[inline(never)]

@@ -91,7 +91,7 @@ impl Cloth {
         }
     }
 
-    /// Where the particles are.
+    /// The positions of the particles.
     pub fn positions(&self) -> impl Iterator<Item = DVec3> {
         self.positions.iter().copied()
     }

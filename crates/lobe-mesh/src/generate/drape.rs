@@ -18,7 +18,7 @@ pub struct Drape {
     pub side: f64,
     /// Radius of the sphere, which lies on the ground y = 0 with its centre above the origin.
     pub radius: f64,
-    /// Where the middle of the cloth comes down, x and z.
+    /// The point where the middle of the cloth comes down, x and z.
     pub offset: [f64; 2],
     /// Seconds until the cloth hangs still.
     pub duration: f64,

@@ -101,7 +101,7 @@ pub(super) struct Sparse {
     pub values: Region,
 }
 
-/// Where the indices or values of a sparse accessor are.
+/// The location of the indices or values of a sparse accessor.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Region {

@@ -56,7 +56,7 @@ impl Source<'_> {
         let vectors = self.vectors(accessor, budget)?;
         if vectors.len() != positions.len() {
             let found = format!("{} elements in accessor {accessor}", vectors.len());
-            return Err(wrong(self.path, found, format!("{}, one a vertex", positions.len())));
+            return Err(wrong(self.path, found, format!("{}, one per vertex", positions.len())));
         }
         Ok(Some(vectors))
     }

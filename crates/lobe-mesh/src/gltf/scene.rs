@@ -87,7 +87,7 @@ fn transform(parts: &mut Parts, place: DMat4) {
     }
     let linear = DMat3::from_mat4(place);
     let mirrored = linear.determinant() < 0.0;
-    // The inverse transpose but for its length, which also exists where a mesh is squashed flat.
+    // The inverse transpose but for its length, which also exists if a mesh is squashed flat.
     let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis];
     let sign = if mirrored { -1.0 } else { 1.0 };
     let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign;

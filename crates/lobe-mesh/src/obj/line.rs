@@ -49,7 +49,7 @@ impl<'a> Line<'a> {
         Ok(numbers)
     }
 
-    /// Texture coordinates: u, and v where there is one.
+    /// Texture coordinates: u, and v if there is one.
     pub fn coordinates(&mut self) -> Result<[f32; 2], FormatError> {
         let [u] = self.numbers("u and v")?;
         let v = self.words.next().map_or(Ok(0.0), |word| self.number(word))?;

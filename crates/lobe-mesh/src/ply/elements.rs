@@ -1,4 +1,4 @@
-//! Where the values of a PLY file go.
+//! The destinations of the values of a PLY file.
 
 use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
 

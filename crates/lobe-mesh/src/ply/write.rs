@@ -6,7 +6,7 @@ use lobe_formats::{FormatError, write_whole};
 
 use crate::Geometry;
 
-/// Writes a mesh with all that it has. Indices take two bytes each where they fit.
+/// Writes a mesh with all that it has. Indices take two bytes each if they fit.
 ///
 /// The file appears whole or not at all. Line feeds in names of groups and materials become spaces.
 ///

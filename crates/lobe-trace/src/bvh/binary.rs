@@ -41,7 +41,7 @@ impl BinaryNode {
     }
 }
 
-/// A binary tree over boxes; node 0 is the root, and there is none where there are no boxes.
+/// A binary tree over boxes; node 0 is the root, and there is none if there are no boxes.
 #[derive(Debug)]
 pub(crate) struct Binary {
     /// In the order of a depth-first walk.
@@ -76,7 +76,7 @@ impl Binary {
         tree
     }
 
-    /// Puts nodes and primitives, of which the source has one a leaf, in the order of a depth-first walk.
+    /// Puts nodes and primitives, of which the source has one per leaf, in the order of a depth-first walk.
     fn walked(source: &Bvh2, primitives: usize, pairs: bool) -> Self {
         let (mut nodes, mut order) = (Vec::with_capacity(source.nodes.len()), Vec::with_capacity(primitives));
         // Nodes to come, and the node whose second child each is.

@@ -47,7 +47,7 @@ impl Child {
         self.0 as usize
     }
 
-    /// The number of a leaf; also of a node, where it does not matter that there may be more of them.
+    /// The number of a leaf; also of a node, if it does not matter that there may be more of them.
     #[inline(always)]
     pub fn first(self) -> usize {
         (self.0 & 0x0fff_ffff) as usize
@@ -104,7 +104,7 @@ pub struct WideBvh<const W: usize> {
     /// Node 0 is the root, and always there.
     pub(crate) nodes: Storage<Node<W>>,
     pub(crate) bounds: Aabb,
-    /// Room for the references that may wait at once while the tree is walked, and one more to be written over.
+    /// Room for the references that may wait at once while the tree is walked, and one more to be overwritten.
     pub(crate) stack: usize,
 }
 

@@ -1,4 +1,4 @@
-//! A packet of coherent rays, a ray a lane.
+//! A packet of coherent rays, one ray per lane.
 
 use lobe_lane::{Floats, Lanes, MAX_LANES, Mask};
 
@@ -57,7 +57,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
             let node = &nodes[child.index()];
             let best = lanes.load(&found.t[at..]);
             let mut hits = 0;
-            // Rays are told apart only where their hull meets a child.
+            // Rays are tested one by one only if their hull meets a child.
             let mut met = match &hull {
                 Some(hull) => hull.children(lanes, node, &sides),
                 None => (1 << W) - 1,

@@ -1,7 +1,7 @@
 //! Up to 64 rays of one octant.
 //!
-//! All children of a node are tested at once, a child a lane, against one bundle of eight rays after another. Rays are
-//! told apart where all bundles are wide, and at the leaves.
+//! All children of a node are tested at once, one child per lane, against one bundle of eight rays after another. Rays are
+//! tested one by one if all bundles are wide, and at the leaves.
 
 use core::hint::select_unpredictable;
 
@@ -73,7 +73,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                 waiting += 1;
             }
         }
-        // The nearest on top. How many there are and which is nearer cannot be foreseen: their places are counted, and two
+        // The nearest on top. How many there are and which is nearer are unpredictable: their places are counted, and two
         // at a time take no branch; a second that is not there goes beyond the last.
         while bits != 0 {
             let one = bits.trailing_zeros() as usize & (W - 1);

@@ -35,7 +35,7 @@ impl<'a, const W: usize> Nodes<'a, W> {
         }
     }
 
-    /// Has the caches bring in what waits. Whether that is a node or a leaf cannot be foreseen, so it is not asked.
+    /// Has the caches bring in what waits. Whether that is a node or a leaf is unpredictable, so it is not asked.
     #[inline(always)]
     fn prefetch<L: Lanes>(&self, lanes: L, child: Child) {
         let kind = usize::from(child.is_leaf());
@@ -112,7 +112,7 @@ impl<V: Leaves, const W: usize> Kernel for Single<'_, V, W> {
     }
 }
 
-/// The group that begins at ray `at`; single rays where no more than `few` are live.
+/// The group that begins at ray `at`; single rays if no more than `few` are live.
 struct Group<'a, V, const W: usize> {
     walk: Walk<'a, V, W>,
     at: usize,

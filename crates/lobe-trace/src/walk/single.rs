@@ -1,7 +1,7 @@
-//! One ray against all boxes of a node, a child a lane; all rays of a block under way at once.
+//! One ray against all boxes of a node, one child per lane; all rays of a block under way at once.
 //!
-//! A ray alone waits at every step: for a box to arrive, for the comparison of eight of them, and where it goes on cannot
-//! be foreseen. So all take a step each, by turns, and what one of them waits for does not hold up the others.
+//! A ray alone waits at every step: for a box to arrive, for the comparison of eight of them, and its next step is
+//! unpredictable. So all take a step each, in turn, and what one of them waits for does not hold up the others.
 
 use core::hint::select_unpredictable;
 
@@ -56,7 +56,7 @@ struct Turns {
 impl List {
     const EMPTY: Self = List { rays: [0; RAYS], count: 0 };
 
-    /// Adds a ray where `is`.
+    /// Adds a ray if `is`.
     #[inline(always)]
     fn add(&mut self, ray: usize, is: bool) {
         self.rays[self.count & (RAYS - 1)] = ray as u8;
@@ -123,7 +123,7 @@ impl<'a> Flock<'a> {
         keys: &[f32; MAX_LANES],
         mut bits: u32,
     ) -> usize {
-        // How many children are met, and which of two is nearer, cannot be foreseen: up to two take no branch.
+        // How many children are met, and which of two is nearer, are unpredictable: up to two take no branch.
         let one = entry(node, keys, bits);
         let more = bits & bits.wrapping_sub(1);
         let other = entry(node, keys, more);
@@ -148,7 +148,7 @@ impl<'a> Flock<'a> {
             top += 1;
         }
         self.stack[top] = near;
-        // Where nothing was met, neither of the two is there.
+        // If nothing was met, neither of the two exists.
         if near == Entry::LAST { floor } else { top + 1 }
     }
 
@@ -206,7 +206,7 @@ fn meet<L: Lanes, const W: usize>(
     bits
 }
 
-/// The first child of `bits`; the last entry of all where there is none.
+/// The first child of `bits`; the last entry of all if there is none.
 #[inline(always)]
 fn entry<const W: usize>(node: &Node<W>, keys: &[f32; MAX_LANES], bits: u32) -> Entry {
     let slot = bits.trailing_zeros() as usize & (W - 1);

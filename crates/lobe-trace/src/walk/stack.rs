@@ -17,7 +17,7 @@ impl Entry {
         Entry((key.to_bits() as i64) << 32 | child.bits() as i64)
     }
 
-    /// Not below any entry of a child that is entered at `t` or before; where `t` is below zero, of one entered at zero.
+    /// Not below any entry of a child that is entered at `t` or before; if `t` is below zero, of one entered at zero.
     #[inline(always)]
     pub fn until(t: f32) -> Self {
         let t = if t > 0.0 { t } else { 0.0 };
@@ -40,7 +40,7 @@ pub(crate) struct State {
     pub top: u32,
 }
 
-/// A child of a node to be visited by some bundles, a bit each; `key` is below where any of their rays enters it.
+/// A child of a node to be visited by some bundles, one bit each; `key` is below where any of their rays enters it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LargeEntry {
     pub key: f32,
