@@ -1,14 +1,16 @@
 //! `lobe preview`: a material on a ball and on a cloth, without a scene.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 use clap::ValueEnum;
 use lobe::{Given, Lookup, Options};
+use lobe_render::integrator::Path;
 use lobe_render::picture::{Meta, ToneMap, write_exr, write_png};
 use lobe_render::preview::{Show, studio};
 use lobe_render::shader::open;
-use lobe_render::{Film, Filter, Integrator, Rect, Settings, render};
+use lobe_render::{Film, Filter, Rect, Settings, render};
 
 use crate::failure::Failure;
 use crate::render::{Kind, Machine};
@@ -80,7 +82,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         size: args.size,
         window,
         filter: Filter::Tent,
-        integrator: Integrator::Path { depth: 4, limit: 4.0 },
+        integrator: Arc::new(Path { depth: 4, limit: 4.0 }),
         samples: 0..args.samples,
         backend,
         threads: args.machine.threads(),

@@ -1,5 +1,5 @@
-//! Numbers of 64 rays side by side: what lanes work on between scalars that gather and scalars that scatter. There are
-//! enough of them that what scalars wrote has left for the cache when lanes read it.
+//! Numbers of 64 rays side by side: what lanes work on between scalar code that gathers and scalar code that scatters.
+//! There are enough of them that what scalar code wrote has reached the cache when lanes read it.
 
 use lobe_lane::Lanes;
 
@@ -13,7 +13,7 @@ pub(crate) type Column = [f32; RAYS];
 
 pub(crate) const ZEROS: Column = [0.0; RAYS];
 
-/// Makes room for `n` entries, which need not be overwritten where there is room already.
+/// Makes room for `n` entries; those that exist already keep their values.
 pub(crate) fn ensure_len<T: Clone>(entries: &mut Vec<T>, n: usize, nothing: T) {
     if entries.len() < n {
         entries.resize(n, nothing);

@@ -1,25 +1,27 @@
-//! Surface interactions: places on surfaces that rays have hit, found in lanes. Nothing is fused, so the bits are the same on every machine.
+//! Surface interactions: points on surfaces that rays have hit, found in lanes. Nothing is fused, so the bits are the same
+//! on every machine.
 
 use lobe::{Backend, Floats, Kernel, Lanes};
 use lobe_lane::{Block, Mask};
 use lobe_trace::{HitSoA, RaySoA};
 
 use crate::columns::{Column, RAYS, ZEROS, ensure_len, load, store, vector};
+use crate::transport::Transport;
 use crate::vec3::Vec3;
 use crate::vectors::{add, blend, cross, dot, max_component, neg, perpendicular, scale, select, sub, unit_or};
 use crate::world::{Corner, World};
 
-/// Surface interactions: places on surfaces that rays have hit.
+/// The surface interactions of a wave, in the order of the sort by material.
 #[derive(Debug, Default)]
 pub(crate) struct Interactions {
     blocks: Vec<InteractionBlock>,
-    /// Which part of the world each is on.
-    parts: Vec<u32>,
+    /// Which group of triangles each is on.
+    groups: Vec<u32>,
     /// Back along the rays, in the frames of the material.
     wo: Vec<Vec3>,
 }
 
-/// A place a lane.
+/// A point on a surface in each lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfaceInteraction<L: Lanes> {
     pub position: [L::F; 3],
@@ -46,30 +48,42 @@ impl<L: Lanes> SurfaceInteraction<L> {
         blend::<L>(self.frame, local)
     }
 
-    /// Whether the direction is on the same side of the facet as of the smooth surface. Where it is not, light would
-    /// leak through the surface.
+    /// Whether the direction is on the same side of the facet and of the smooth surface. If it is not, light would leak
+    /// through the surface.
     #[inline(always)]
     pub fn same_side(&self, lanes: L, world: [L::F; 3], local: [L::F; 3]) -> L::M {
         let zero = lanes.splat(0.0);
         !(dot::<L>(self.geometric, world).gt(zero) ^ local[2].gt(zero))
     }
 
-    /// The origin of a ray at this place, off the surface on the side that `direction` leads to.
+    /// The origin of a ray at `from`, off the surface on the side that `direction` leads to.
     #[inline(always)]
     pub fn offset_origin(&self, lanes: L, from: [L::F; 3], direction: [L::F; 3]) -> [L::F; 3] {
         let below = dot::<L>(self.geometric, direction).lt(lanes.splat(0.0));
         add::<L>(from, scale::<L>(self.geometric, lanes.select(below, -self.step, self.step)))
     }
+
+    /// What importance is multiplied by because the shading normal is not that of the triangle (Veach 1997, section
+    /// 5.3.2), for a path that arrives from `wo` and goes on to `wi`, both in the frame. 1 if the normals are equal.
+    #[inline(always)]
+    pub fn adjoint_correction(&self, lanes: L, wo: [L::F; 3], wi: [L::F; 3]) -> L::F {
+        let from = dot::<L>(self.geometric, self.world(wo)).abs();
+        let to = dot::<L>(self.geometric, self.world(wi)).abs();
+        let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
+        let divisor = from * wi[2].abs();
+        let usable = zero.lt(divisor);
+        lanes.select(usable, wo[2].abs() * to / lanes.select(usable, divisor, one), zero)
+    }
 }
 
 impl Interactions {
     pub fn len(&self) -> usize {
-        self.parts.len()
+        self.groups.len()
     }
 
-    /// Which part of the world each is on.
-    pub fn parts(&self) -> &[u32] {
-        &self.parts
+    /// Which group of triangles each is on.
+    pub fn groups(&self) -> &[u32] {
+        &self.groups
     }
 
     /// Back along the rays, in the frames of the material.
@@ -82,15 +96,15 @@ impl Interactions {
         vector(&self.blocks[hit / RAYS].frame[2], hit % RAYS)
     }
 
-    /// The cosine between the ray and the normal of the triangle, positive where the ray met the side that the corners
-    /// are counterclockwise from.
+    /// The cosine between the ray and the normal of the triangle, positive if the ray met the side from which the corners
+    /// are counterclockwise.
     pub fn front(&self, hit: usize) -> f32 {
         self.blocks[hit / RAYS].front[hit % RAYS]
     }
 
-    /// The places from `at` on, which the number of lanes divides. Lanes beyond the last place have any numbers.
+    /// The interactions from `at` on, a multiple of the number of lanes. Lanes beyond the last one are unspecified.
     #[inline(always)]
-    pub fn places<L: Lanes>(&self, lanes: L, at: usize) -> SurfaceInteraction<L> {
+    pub fn load<L: Lanes>(&self, lanes: L, at: usize) -> SurfaceInteraction<L> {
         let (block, at) = (&self.blocks[at / RAYS], at & (RAYS - L::LANES));
         SurfaceInteraction {
             position: load(lanes, &block.position, at),
@@ -105,16 +119,16 @@ impl Interactions {
         }
     }
 
-    /// Finds the places that some of the rays, which are of unit length, have hit; all of them have hit something.
-    pub fn find<const C: usize>(
+    /// Finds the interactions of some of the rays, which are of unit length and have all hit something.
+    pub fn find<T: Transport>(
         &mut self,
         backend: Backend,
-        world: &World<C>,
+        world: &World<T>,
         which: &[u32],
         rays: &RaySoA,
         found: &HitSoA,
     ) {
-        self.parts.clear();
+        self.groups.clear();
         self.wo.clear();
         ensure_len(&mut self.blocks, which.len().div_ceil(RAYS), InteractionBlock::ZEROS);
         backend.run(FindInteractions { world, which, rays, found, hits: self });
@@ -122,25 +136,25 @@ impl Interactions {
 }
 
 /// [`Interactions::find`] in lanes.
-struct FindInteractions<'a, const C: usize> {
-    world: &'a World<C>,
+struct FindInteractions<'a, T: Transport> {
+    world: &'a World<T>,
     which: &'a [u32],
     rays: &'a RaySoA,
     found: &'a HitSoA,
     hits: &'a mut Interactions,
 }
 
-/// What is known of some rays.
+/// What the kernel reads of 64 hits.
 struct HitBlock {
-    /// Where the first number of each corner is.
+    /// The offset of the first number of each corner.
     corners: [[i32; RAYS]; 3],
     direction: [Column; 3],
     uv: [Column; 2],
-    /// 1 where light may pass through.
+    /// 1 if light may pass through.
     transmits: Column,
 }
 
-/// What is found out about them; see [`SurfaceInteraction`].
+/// What it finds; see [`SurfaceInteraction`].
 #[derive(Clone, Debug)]
 struct InteractionBlock {
     position: [Column; 3],
@@ -162,20 +176,20 @@ impl InteractionBlock {
     };
 }
 
-impl<const C: usize> Kernel for FindInteractions<'_, C> {
+impl<T: Transport> Kernel for FindInteractions<'_, T> {
     type Out = ();
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         let FindInteractions { world, which, rays, found, hits } = self;
-        let Interactions { blocks, parts, wo } = hits;
+        let Interactions { blocks, groups, wo } = hits;
         let (all, corners) = (world.triangles.as_slice(), world.corners.as_slice());
         let mut known = HitBlock { corners: [[0; RAYS]; 3], direction: [ZEROS; 3], uv: [ZEROS; 2], transmits: ZEROS };
         let mut back = [ZEROS; 3];
         for (which, places) in which.chunks(RAYS).zip(blocks) {
             for (lane, ray) in which.iter().enumerate() {
                 let ray = *ray as usize;
-                let [a, b, c, part] = all[found.primitive[ray] as usize];
+                let [a, b, c, group] = all[found.primitive[ray] as usize];
                 for (column, corner) in known.corners.iter_mut().zip([a, b, c]) {
                     // Vertices are anywhere in memory: all are asked for before the first is needed.
                     lanes.prefetch::<1, _>(corners, corner as usize);
@@ -186,8 +200,8 @@ impl<const C: usize> Kernel for FindInteractions<'_, C> {
                 }
                 known.uv[0][lane] = found.u[ray];
                 known.uv[1][lane] = found.v[ray];
-                known.transmits[lane] = world.parts[part as usize].transmits;
-                parts.push(part);
+                known.transmits[lane] = world.groups[group as usize].transmits;
+                groups.push(group);
             }
             let corners = Block::new(corners.as_flattened(), [0, 4, 8]);
             let mut at = 0;
@@ -205,7 +219,7 @@ impl<const C: usize> Kernel for FindInteractions<'_, C> {
 /// How many numbers a corner has.
 const NUMBERS: usize = size_of::<Corner>() / size_of::<f32>();
 
-/// Corners a lane: their positions, normals and tangents, and the handedness of the frames.
+/// A corner in each lane: its position, normal and tangent, and the handedness of the frame.
 #[inline(always)]
 fn corner<L: Lanes>(lanes: L, corners: &Block<'_, 3, 4>, at: &[i32]) -> ([[L::F; 3]; 3], L::F) {
     let [a, b, c] = lanes.gather_quads(corners, lanes.load_int(at));
@@ -291,4 +305,37 @@ fn find<L: Lanes>(
         wo[k] = dot::<L>(frame[k], toward);
     }
     wo
+}
+
+#[cfg(test)]
+mod tests {
+    use lobe_scalar::Scalar;
+
+    use super::*;
+
+    #[test]
+    fn importance_is_corrected_for_shading_normals_and_only_for_them() {
+        let lanes = Scalar::<1>;
+        let splat = |v: [f32; 3]| lanes.splat_xyz(v);
+        let frame = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(splat);
+        let at = |geometric| SurfaceInteraction::<Scalar<1>> {
+            position: splat([0.0; 3]),
+            lifted: splat([0.0; 3]),
+            geometric: splat(geometric),
+            frame,
+            step: lanes.splat(0.0),
+        };
+        let (wo, wi) = (splat([0.6, 0.0, 0.8]), splat([0.0, -0.8, 0.6]));
+        let of = |surface: &SurfaceInteraction<Scalar<1>>, wo, wi| {
+            lanes.extract(surface.adjoint_correction(lanes, wo, wi), 0)
+        };
+        assert!((of(&at([0.0, 0.0, 1.0]), wo, wi) - 1.0).abs() < 1e-6);
+        // |wo . ns| |wi . ng| / (|wo . ng| |wi . ns|), by hand.
+        let bent = at([0.28, 0.0, 0.96]);
+        let expected = 0.8 * (0.6 * 0.96) / ((0.6 * 0.28 + 0.8 * 0.96) * 0.6);
+        assert!((of(&bent, wo, wi) - expected).abs() < 1e-6);
+        // The way back undoes it.
+        assert!((of(&bent, wo, wi) * of(&bent, wi, wo) - 1.0).abs() < 1e-6);
+        assert_eq!(of(&bent, wo, splat([1.0, 0.0, 0.0])), 0.0);
+    }
 }

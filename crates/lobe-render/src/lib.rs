@@ -5,25 +5,25 @@
 //! traced, and what goes on is the next wave.
 //!
 //! - [`World`] has triangles, materials ([`shader`]) and lights ([`light`]); [`scene`] reads it from a file.
-//! - [`render`] makes a [`Film`] of it by an [`Integrator`]; [`picture`] writes films as EXR and PNG.
+//! - [`render`] makes a [`Film`] of it by an [integrator]; [`picture`] writes films as EXR and PNG.
 //! - Random numbers depend on pixel, sample and dimension only, and a film sums in integers. So the picture does not
 //!   depend on threads, tiles, machines or the order of work; on backends in strict form not on the backend either.
 //!
-//! Channels are a parameter of nearly everything (`C`); materials of files come in linear sRGB (`C` = 3), and that is
-//! what there is a renderer for ([`Renderable`]).
+//! What travels along a path is a parameter of nearly everything: a [`Transport`], of which there is [`Rgb`] now. Colours
+//! in scenes and materials of files come in linear sRGB.
 //!
 //! Coordinates are right-handed with +y up. Lengths are in any unit, angles in radians; radiance in W/(m^2 sr) or any
 //! multiple of it.
 #![forbid(unsafe_code)]
 
 mod camera;
+mod channels;
 mod columns;
 mod film;
-mod integrator;
+pub mod integrator;
 mod interaction;
 pub mod light;
 mod merge;
-mod painter;
 pub mod picture;
 pub mod preview;
 mod random;
@@ -32,16 +32,18 @@ pub mod scene;
 pub mod shader;
 mod stats;
 mod transform;
+mod transport;
 mod vec3;
 mod vectors;
 mod wavefront;
 mod world;
 
-pub use camera::{Camera, CameraError, Filter};
-pub use film::{Film, Pixel, Rect, Sample};
+pub use camera::{Camera, CameraError, CameraPdf, CameraSample, Filter, View};
+pub use channels::Channels;
+pub use film::{Film, FirstHit, Pixel, RADIANCE_UNIT, Rect, SURFACE_UNIT, Sample};
 pub use integrator::Integrator;
 pub use merge::{MergeError, merge};
-pub use painter::Renderable;
 pub use render::{Progress, RenderError, Settings, render};
 pub use stats::{DEPTHS, Shading, Stats};
+pub use transport::{RadianceSums, Rgb, Transport, TransportMode};
 pub use world::{Shape, World, WorldBuilder, WorldError};

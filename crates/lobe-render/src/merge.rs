@@ -12,7 +12,7 @@ pub enum MergeError {
     #[error(transparent)]
     Picture(#[from] PictureError),
     /// No parts.
-    #[error("no parts; expected at least one")]
+    #[error("found no parts; expected at least one")]
     Nothing,
     /// Parts of different pictures.
     #[error("{second}: found {found} of {value}; expected {expected} as in {first}")]
@@ -47,17 +47,17 @@ pub enum MergeError {
         expected: u64,
     },
     /// What lies between the parts is far more than the parts.
-    #[error("parts that span {0:?}, of which they have too little; expected parts that lie together")]
+    #[error("parts that cover too little of {0:?}, which spans them; expected adjacent parts")]
     Sparse(Rect),
 }
 
 /// Reads parts and adds them. The result is the same bits as the picture rendered at once.
 ///
 /// # Errors
-/// Where a part cannot be read, is of another picture, or has samples that another one has too; and unless `gaps` are
-/// allowed where samples are missing.
-pub fn merge(paths: &[impl AsRef<Path>], gaps: bool) -> Result<(Film<3>, Meta), MergeError> {
-    let mut parts: Vec<(PathBuf, Film<3>, Meta)> = Vec::new();
+/// If a part cannot be read, is of another picture, or has samples that another one has too; and if samples are
+/// missing, unless `gaps` are allowed.
+pub fn merge(paths: &[impl AsRef<Path>], gaps: bool) -> Result<(Film, Meta), MergeError> {
+    let mut parts: Vec<(PathBuf, Film, Meta)> = Vec::new();
     for path in paths {
         let path = path.as_ref();
         let (film, meta) = read_partial(path)?;

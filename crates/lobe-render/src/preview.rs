@@ -27,8 +27,8 @@ pub enum Show {
 /// The studio with a material in it, and the camera. What is there beside the material runs on the backend.
 ///
 /// # Errors
-/// Never for the shapes that come with the program.
-pub fn studio(material: Arc<dyn Shader<3>>, show: Show, backend: Backend) -> Result<(World<3>, Camera), WorldError> {
+/// Never: the shapes come with the program.
+pub fn studio(material: Arc<dyn Shader>, show: Show, backend: Backend) -> Result<(World, Camera), WorldError> {
     let mut world = WorldBuilder::new();
     let material = world.material(material);
     let backdrop = world.material(Arc::new(Lambert::new([0.32; 3], backend)));
@@ -75,7 +75,7 @@ pub fn studio(material: Arc<dyn Shader<3>>, show: Show, backend: Backend) -> Res
 /// Size of the cloth in the studio over that in its file.
 const CLOTH: f32 = 2.1;
 
-/// Into how many an edge of the cloth is cut: where a fold throws a shadow on itself, facets would show.
+/// The number of pieces that each edge of the cloth is cut into: a fold that shadows itself would show facets.
 const PIECES: u32 = 3;
 
 const LENS: Camera = Camera {

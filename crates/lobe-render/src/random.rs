@@ -9,12 +9,12 @@ use lobe::{Backend, Floats, Ints, Kernel, Lanes};
 use lobe_lane::MAX_LANES;
 use sobol_burley::parts;
 
-/// What a set of four dimensions is used for.
+/// Sets of four dimensions, by what they are used for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Dimensions {
     /// Place in the pixel (2), place on the lens (2).
     Camera,
-    /// Which light, where on it (2); at the vertex of that depth.
+    /// Which light, the point on it (2); at the vertex of that depth.
     Light(u32),
     /// The direction (2), which of several ways, whether the path goes on; at the vertex of that depth.
     Scatter(u32),
@@ -50,8 +50,13 @@ pub(crate) struct Numbers {
 }
 
 impl Numbers {
-    /// Draws for each of the sequences.
-    pub fn draw(&mut self, backend: Backend, sequences: impl ExactSizeIterator<Item = Sequence>, of: Dimensions) {
+    /// Samples the dimensions of each of the sequences.
+    pub fn sample(
+        &mut self,
+        backend: Backend,
+        sequences: impl ExactSizeIterator<Item = Sequence>,
+        dimensions: Dimensions,
+    ) {
         let Numbers { index, seed, numbers } = self;
         let n = sequences.len().next_multiple_of(MAX_LANES);
         index.resize(n, 0);
@@ -60,7 +65,7 @@ impl Numbers {
             (*index, *seed) = (sequence.index as i32, sequence.seed as i32);
         }
         numbers.iter_mut().for_each(|column| column.resize(n, 0.0));
-        let set = match of {
+        let set = match dimensions {
             Dimensions::Camera => 0,
             Dimensions::Light(depth) => 1 + 2 * depth,
             Dimensions::Scatter(depth) => 2 + 2 * depth,
@@ -75,14 +80,14 @@ impl Numbers {
         backend.run(SampleSobol { index, seed, set: set as i32, vectors, numbers });
     }
 
-    /// What was drawn for a sequence.
+    /// The numbers of a sequence.
     #[inline]
     pub fn of(&self, sequence: usize) -> [f32; 4] {
         self.numbers.each_ref().map(|column| column[sequence])
     }
 
-    /// What was drawn for the sequences from `at` on, which the number of lanes divides. Lanes beyond the last sequence
-    /// have any numbers in `[0, 1)`.
+    /// The numbers of the sequences from `at` on, a multiple of the number of lanes. Lanes beyond the last sequence have
+    /// unspecified numbers in `[0, 1)`.
     #[inline(always)]
     pub fn lanes<L: Lanes>(&self, lanes: L, at: usize) -> [L::F; 4] {
         let [a, b, c, d] = &self.numbers;
@@ -214,15 +219,15 @@ fn hash(mut x: u32) -> u32 {
 mod tests {
     use super::*;
 
-    fn drawn(backend: &str, sequences: &[Sequence], of: Dimensions) -> Vec<[f32; 4]> {
+    fn sampled(backend: &str, sequences: &[Sequence], dimensions: Dimensions) -> Vec<[f32; 4]> {
         let mut numbers = Numbers::default();
-        numbers.draw(Backend::named(backend).unwrap(), sequences.iter().copied(), of);
+        numbers.sample(Backend::named(backend).unwrap(), sequences.iter().copied(), dimensions);
         (0..sequences.len()).map(|at| numbers.of(at)).collect()
     }
 
     #[test]
     fn numbers_are_stratified_and_differ_by_pixel_sample_and_dimension() {
-        let of = |pixel, sample, set| drawn("scalar", &[Sequence::new(pixel, sample)], set)[0];
+        let of = |pixel, sample, set| sampled("scalar", &[Sequence::new(pixel, sample)], set)[0];
         let mut strata = [0; 16];
         for sample in 0..16 {
             strata[(of([3, 5], sample, Dimensions::Scatter(2))[0] * 16.0) as usize] += 1;
@@ -241,13 +246,13 @@ mod tests {
     }
 
     #[test]
-    fn lanes_draw_what_the_crate_draws() {
+    fn lanes_sample_what_the_crate_samples() {
         let sequences: Vec<_> = (0..19).map(|i| Sequence::new([i, 3 * i], 3456 * i)).collect();
         for (of, set) in [(Dimensions::Camera, 0), (Dimensions::Scatter(1), 4), (Dimensions::Light(30), 61)] {
             let expected = |s: &Sequence| sobol_burley::sample_4d(s.index, set, s.seed);
             let expected: Vec<_> = sequences.iter().map(expected).collect();
             for backend in Backend::available() {
-                assert_eq!(drawn(backend.name(), &sequences, of), expected, "{}, {of:?}", backend.name());
+                assert_eq!(sampled(backend.name(), &sequences, of), expected, "{}, {of:?}", backend.name());
             }
         }
     }

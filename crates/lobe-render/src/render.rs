@@ -2,22 +2,22 @@
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::camera::{Camera, CameraError, Filter, View};
 use crate::film::{Film, Rect};
-use crate::integrator::Integrator;
-use crate::painter::{Renderable, Task};
+use crate::integrator::{Integrator, Task};
 use crate::shader::Backend;
 use crate::stats::Stats;
+use crate::transport::{Rgb, Transport};
 use crate::wavefront::PATHS;
 use crate::world::World;
 
 /// What to render and how.
 #[derive(Clone, Debug)]
-pub struct Settings {
-    /// Where the picture is taken from.
+pub struct Settings<T: Transport = Rgb> {
+    /// What the picture is taken with.
     pub camera: Camera,
     /// Columns and rows of the whole picture, each in `1 ..= 65536`.
     pub size: [u32; 2],
@@ -26,7 +26,7 @@ pub struct Settings {
     /// How samples are spread around a pixel.
     pub filter: Filter,
     /// How radiance is found.
-    pub integrator: Integrator,
+    pub integrator: Arc<dyn Integrator<T>>,
     /// The numbers of the samples to render.
     pub samples: Range<u32>,
     /// The lanes that rays are traced in; materials have theirs. With both in strict form the picture is the same bits
@@ -45,7 +45,7 @@ pub enum RenderError {
     #[error(transparent)]
     Camera(#[from] CameraError),
     /// The window is empty or not inside of the picture.
-    #[error("the window {window:?} of a picture of {} x {}; expected a window inside of it that is not empty", size[0], size[1])]
+    #[error("the window {window:?} of a picture of {} x {}; expected a non-empty window inside it", size[0], size[1])]
     Window {
         /// What was asked for.
         window: Rect,
@@ -69,53 +69,53 @@ pub enum RenderError {
 const TILE: u32 = 64;
 
 /// How far a rendering is.
-pub struct Progress<'a, const C: usize> {
+pub struct Progress<'a, T: Transport = Rgb> {
     /// Samples done, those of an earlier rendering that goes on with them.
     pub done: u64,
     /// Samples to do, or as many as there would be without a time limit.
     pub total: u64,
     /// Time since the beginning.
     pub elapsed: Duration,
-    shared: &'a Shared<C>,
+    shared: &'a Shared<T>,
 }
 
-impl<const C: usize> Progress<'_, C> {
+impl<T: Transport> Progress<'_, T> {
     /// A copy of the film as it is: whole samples, the first ones of each pixel.
-    pub fn film(&self) -> Film<C> {
+    pub fn film(&self) -> Film<T> {
         self.shared.lock().film.clone()
     }
 }
 
 /// What the threads share.
-struct Shared<const C: usize> {
-    state: Mutex<State<C>>,
+struct Shared<T: Transport> {
+    state: Mutex<State<T>>,
     finished: Condvar,
 }
 
-struct State<const C: usize> {
-    film: Film<C>,
-    tiles: Vec<Tile<C>>,
+struct State<T: Transport> {
+    film: Film<T>,
+    tiles: Vec<Tile<T>>,
     running: usize,
 }
 
 /// The pixels of a tile. Samples are added in order, so that a film which is written in between has the first ones.
-struct Tile<const C: usize> {
+struct Tile<T: Transport> {
     rect: Rect,
     /// The next sample to be added.
     next: u32,
     /// Samples that were done before those that come before them.
-    early: Vec<(Range<u32>, Film<C>)>,
+    early: Vec<(Range<u32>, Film<T>)>,
 }
 
-impl<const C: usize> Shared<C> {
+impl<T: Transport> Shared<T> {
     /// A thread that panicked leaves whole samples behind, and its panic goes on when the threads are joined.
-    fn lock(&self) -> MutexGuard<'_, State<C>> {
+    fn lock(&self) -> MutexGuard<'_, State<T>> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl<const C: usize> State<C> {
-    fn add(&mut self, tile: usize, samples: Range<u32>, seen: Film<C>) {
+impl<T: Transport> State<T> {
+    fn add(&mut self, tile: usize, samples: Range<u32>, seen: Film<T>) {
         let State { film, tiles, .. } = self;
         let tile = &mut tiles[tile];
         tile.early.push((samples, seen));
@@ -131,16 +131,13 @@ impl<const C: usize> State<C> {
 /// tenth of a second or so, and ends the rendering when it returns `false`.
 ///
 /// # Errors
-/// [`RenderError`] where the settings make no sense.
-pub fn render<const C: usize>(
-    world: &World<C>,
-    settings: &Settings,
-    film: Film<C>,
-    mut watch: impl FnMut(&Progress<'_, C>) -> bool,
-) -> Result<(Film<C>, Stats), RenderError>
-where
-    World<C>: Renderable<C>,
-{
+/// [`RenderError`] if the settings make no sense.
+pub fn render<T: Transport>(
+    world: &World<T>,
+    settings: &Settings<T>,
+    film: Film<T>,
+    mut watch: impl FnMut(&Progress<'_, T>) -> bool,
+) -> Result<(Film<T>, Stats), RenderError> {
     let Settings { size, window, samples, .. } = settings.clone();
     let whole = Rect { x: 0, y: 0, width: size[0], height: size[1] };
     if window.area() == 0 || whole.intersection(&window) != Some(window) {
@@ -150,9 +147,8 @@ where
         return Err(RenderError::Film { found: film.window(), expected: window });
     }
     let view = View::new(&settings.camera, size, settings.filter)?;
-    let task = Task { view, integrator: settings.integrator, backend: settings.backend };
     let tiles = tiles(&film, &samples)?;
-    // Where time is short, every pixel gets its first sample soon; else waves are as large as they can be.
+    // If time is limited, every pixel gets its first sample soon; else waves are as large as they can be.
     let first = if settings.time.is_some() { 1 } else { (PATHS as u32).div_ceil(TILE * TILE) };
     let jobs = Jobs::new(&tiles, samples.clone(), first);
     let begun = Instant::now();
@@ -164,17 +160,18 @@ where
     let ended = AtomicBool::new(false);
     let worker = || {
         let _leaving = Leaving(&shared);
-        let mut painter = world.painter(&task);
+        let task = Task { world, view: &view, backend: settings.backend };
+        let mut renderer = settings.integrator.tile_renderer(task);
         while let Some(job) = jobs.next() {
             let late = settings.time.is_some_and(|limit| begun.elapsed() >= limit) && !job.first;
             if late || ended.load(Ordering::Relaxed) {
                 break;
             }
-            let seen = painter.paint(job.rect, job.samples.clone());
+            let seen = renderer.render(job.rect, job.samples.clone());
             done.fetch_add(job.rect.area() as u64 * u64::from(job.samples.end - job.samples.start), Ordering::Relaxed);
             shared.lock().add(job.tile, job.samples, seen);
         }
-        painter.stats()
+        renderer.stats()
     };
     let stats = std::thread::scope(|scope| {
         let handles: Vec<_> = (0..threads).map(|_| scope.spawn(worker)).collect();
@@ -204,9 +201,9 @@ where
 }
 
 /// Says that a thread has ended, also by a panic.
-struct Leaving<'a, const C: usize>(&'a Shared<C>);
+struct Leaving<'a, T: Transport>(&'a Shared<T>);
 
-impl<const C: usize> Drop for Leaving<'_, C> {
+impl<T: Transport> Drop for Leaving<'_, T> {
     fn drop(&mut self) {
         self.0.lock().running -= 1;
         self.0.finished.notify_all();
@@ -214,7 +211,7 @@ impl<const C: usize> Drop for Leaving<'_, C> {
 }
 
 /// The tiles of a window, and how many samples each has.
-fn tiles<const C: usize>(film: &Film<C>, samples: &Range<u32>) -> Result<Vec<Tile<C>>, RenderError> {
+fn tiles<T: Transport>(film: &Film<T>, samples: &Range<u32>) -> Result<Vec<Tile<T>>, RenderError> {
     let window = film.window();
     let mut tiles = Vec::new();
     for y in window.rows().step_by(TILE as usize) {
@@ -243,7 +240,7 @@ struct Job {
 struct Jobs {
     /// For each tile its pixels and the first sample that is left.
     tiles: Vec<(Rect, u32)>,
-    /// Where passes end, rising.
+    /// The ends of passes, rising.
     passes: Vec<u32>,
     start: u32,
     next: AtomicUsize,
@@ -251,7 +248,7 @@ struct Jobs {
 
 impl Jobs {
     /// With so many samples in the first pass.
-    fn new<const C: usize>(tiles: &[Tile<C>], samples: Range<u32>, first: u32) -> Self {
+    fn new<T: Transport>(tiles: &[Tile<T>], samples: Range<u32>, first: u32) -> Self {
         let mut passes = Vec::new();
         let (mut end, mut size) = (samples.start, first);
         while end < samples.end {

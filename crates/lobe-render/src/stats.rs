@@ -1,4 +1,4 @@
-//! Where time and lanes go.
+//! What time and lanes are spent on.
 
 use std::ops::AddAssign;
 use std::time::Duration;
@@ -6,7 +6,7 @@ use std::time::Duration;
 /// What materials were asked for at one depth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Shading {
-    /// Pairs of directions, and drawings.
+    /// Pairs of directions evaluated, and directions sampled.
     pub queries: u64,
     /// Lanes that were occupied by them, full or not.
     pub occupied: u64,
@@ -35,7 +35,7 @@ impl AddAssign for Shading {
     }
 }
 
-/// Depths that are told apart; the last one stands for all that are deeper.
+/// Depths that are counted separately; the last one stands for all that are deeper.
 pub const DEPTHS: usize = 8;
 
 /// What a rendering took, summed over threads.
@@ -45,9 +45,9 @@ pub struct Stats {
     pub samples: u64,
     /// Rays traced, shadow rays with them.
     pub rays: u64,
-    /// Samples whose radiance was no finite number, and which count as black.
+    /// Samples whose radiance was not finite, and which count as black.
     pub invalid: u64,
-    /// Materials by the number of surfaces that the ray had met before: values, densities and drawn directions.
+    /// Materials by the number of surfaces that the ray had met before: values, densities and sampled directions.
     pub shading: [Shading; DEPTHS],
     /// Everything.
     pub total: Duration,
@@ -57,9 +57,9 @@ pub struct Stats {
     pub interactions: Duration,
     /// Sorting by material.
     pub sort: Duration,
-    /// Drawing places on lights, and preparing shadow rays.
+    /// Sampling lights, and preparing shadow rays.
     pub lights: Duration,
-    /// Preparing drawn directions and the next rays.
+    /// Preparing sampled directions and the next rays.
     pub scatter: Duration,
 }
 

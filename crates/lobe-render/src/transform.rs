@@ -1,4 +1,4 @@
-//! Where a mesh stands in the world.
+//! The position and orientation of a mesh in the world.
 
 use lobe_mesh::Geometry;
 

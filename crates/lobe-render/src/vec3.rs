@@ -31,7 +31,7 @@ pub(crate) fn length(a: Vec3) -> f32 {
     dot(a, a).sqrt()
 }
 
-/// The unit vector along `a`; `None` where it points nowhere.
+/// The unit vector along `a`; `None` if it points nowhere.
 pub(crate) fn unit(a: Vec3) -> Option<Vec3> {
     // Scaled by the largest component first, so that no square overflows or vanishes.
     let largest = a.iter().fold(0.0f32, |largest, c| largest.max(c.abs()));

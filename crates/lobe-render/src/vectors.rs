@@ -47,7 +47,7 @@ pub(crate) fn max_component<L: Lanes>(a: [L::F; 3]) -> L::F {
     a[0].abs().max(a[1].abs()).max(a[2].abs())
 }
 
-/// The unit vector along `a`, or `other` where it points nowhere.
+/// The unit vector along `a`, or `other` if it points nowhere.
 #[inline(always)]
 pub(crate) fn unit_or<L: Lanes>(lanes: L, a: [L::F; 3], other: [L::F; 3]) -> [L::F; 3] {
     // Scaled by the largest component first, so that no square overflows or vanishes.
@@ -69,6 +69,19 @@ pub(crate) fn perpendicular<L: Lanes>(lanes: L, n: [L::F; 3]) -> [L::F; 3] {
     scale::<L>(along, lanes.splat(1.0) / dot::<L>(along, along).sqrt())
 }
 
+/// A right-handed frame whose z axis is the unit vector `n`.
+#[inline(always)]
+pub(crate) fn frame_of<L: Lanes>(lanes: L, n: [L::F; 3]) -> [[L::F; 3]; 3] {
+    let tangent = perpendicular(lanes, n);
+    [tangent, cross::<L>(n, tangent), n]
+}
+
+/// A vector given in a frame, in the world.
+#[inline(always)]
+pub(crate) fn to_world<L: Lanes>(frame: [[L::F; 3]; 3], local: [L::F; 3]) -> [L::F; 3] {
+    blend::<L>(frame, local)
+}
+
 /// Sines and cosines of angles in turns, no more than a few of them. The error is below 3e-7.
 #[inline(always)]
 pub(crate) fn sin_cos<L: Lanes>(lanes: L, turns: L::F) -> [L::F; 2] {
@@ -77,7 +90,7 @@ pub(crate) fn sin_cos<L: Lanes>(lanes: L, turns: L::F) -> [L::F; 2] {
     let quarter = (lanes.splat(4.0) * turns + round) - round;
     let x = (turns - lanes.splat(0.25) * quarter) * lanes.splat(std::f32::consts::TAU);
     let x2 = x * x;
-    // Taylor's series, whose next terms are below 2e-9 and 3e-8 where x is pi / 4.
+    // Taylor's series, whose next terms are below 2e-9 and 3e-8 at x = pi / 4.
     let mut sin = lanes.splat(1.0 / 362_880.0);
     let mut cos = lanes.splat(1.0 / 40_320.0);
     let terms = [(-1.0 / 5040.0, -1.0 / 720.0), (1.0 / 120.0, 1.0 / 24.0), (-1.0 / 6.0, -0.5)];
@@ -109,7 +122,7 @@ pub(crate) fn disk<L: Lanes>(lanes: L, u: [L::F; 2]) -> [L::F; 2] {
     [radius * cos, radius * sin]
 }
 
-/// Directions drawn in proportion to their cosine with +z: the [`disk`] lifted to the hemisphere. Their density is
+/// Directions sampled in proportion to their cosine with +z: the [`disk`] lifted to the hemisphere. Their density is
 /// `z / pi`.
 #[inline(always)]
 pub(crate) fn cosine_hemisphere<L: Lanes>(lanes: L, u: [L::F; 2]) -> [L::F; 3] {

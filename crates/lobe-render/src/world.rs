@@ -5,9 +5,10 @@ use std::sync::Arc;
 use lobe_memory::Storage;
 use lobe_trace::{Mesh, MeshError, Scene};
 
-use crate::light::{AreaLight, Light, Lights};
+use crate::light::{AreaLight, Light, Lights, SceneBounds};
 use crate::shader::Shader;
-use crate::vec3::{length, sub};
+use crate::transport::{Rgb, Transport};
+use crate::vec3::{add, length, scale, sub};
 
 /// A mesh of one material.
 ///
@@ -17,22 +18,22 @@ use crate::vec3::{length, sub};
 pub struct Shape {
     /// Vertices in the world.
     pub positions: Vec<[f32; 3]>,
-    /// Unit normals, one a vertex.
+    /// Unit normals, one per vertex.
     pub normals: Vec<[f32; 3]>,
-    /// Unit tangents, one a vertex.
+    /// Unit tangents, one per vertex.
     pub tangents: Vec<[f32; 4]>,
-    /// Three vertex indices a triangle, counterclockwise seen from outside.
+    /// Three vertex indices per triangle, counterclockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// What keeps shapes from being a world.
+/// Why shapes make no world.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum WorldError {
     /// A coordinate or an index is wrong.
     #[error(transparent)]
     Mesh(#[from] MeshError),
     /// Normals or tangents are not as many as the vertices.
-    #[error("{found} {attribute}; expected {expected}, one a vertex")]
+    #[error("{found} {attribute}; expected {expected}, one per vertex")]
     Attribute {
         /// `normals` or `tangents`.
         attribute: &'static str,
@@ -41,7 +42,7 @@ pub enum WorldError {
         /// How many vertices.
         expected: usize,
     },
-    /// A normal or tangent that is no finite number.
+    /// A normal or tangent that is not a finite number.
     #[error("{attribute} of vertex {vertex} have {found}; expected finite numbers")]
     NotFinite {
         /// `normals` or `tangents`.
@@ -51,10 +52,10 @@ pub enum WorldError {
         /// What was found.
         found: f32,
     },
-    /// A shape without area is to shine.
-    #[error("a light without area; expected triangles that have some")]
+    /// A shape without area was to emit light.
+    #[error("a light without area; expected triangles with an area")]
     NoArea,
-    /// A shape is of a material that is not there.
+    /// A shape is of a material that does not exist.
     #[error("material {found}; expected one below {materials}")]
     Material {
         /// The material asked for.
@@ -73,22 +74,22 @@ pub enum WorldError {
 }
 
 /// Collects what makes a [`World`].
-#[derive(Debug, Default)]
-pub struct WorldBuilder<const C: usize> {
+#[derive(Debug)]
+pub struct WorldBuilder<T: Transport = Rgb> {
     shape: Shape,
-    parts: Vec<Part>,
-    materials: Vec<Arc<dyn Shader<C>>>,
-    lights: Vec<Light<C>>,
+    groups: Vec<MaterialGroup>,
+    materials: Vec<Arc<dyn Shader<T>>>,
+    lights: Vec<Light<T::Spectrum>>,
 }
 
 /// Triangles of one material, in the order of the mesh.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Part {
+pub(crate) struct MaterialGroup {
     /// One past its last triangle.
     end: u32,
     pub material: u32,
     pub light: Option<u32>,
-    /// 1 where light may pass through, else 0.
+    /// 1 if light may pass through, else 0.
     pub transmits: f32,
 }
 
@@ -98,32 +99,38 @@ pub(crate) type Corner = [f32; 12];
 /// The most vertices of a world: lanes find their floats by 31 bits.
 const MOST: usize = i32::MAX as usize / size_of::<Corner>() * size_of::<f32>();
 
-impl<const C: usize> WorldBuilder<C> {
+impl<T: Transport> Default for WorldBuilder<T> {
+    fn default() -> Self {
+        WorldBuilder::new()
+    }
+}
+
+impl<T: Transport> WorldBuilder<T> {
     /// Nothing.
     pub fn new() -> Self {
-        WorldBuilder { shape: Shape::default(), parts: Vec::new(), materials: Vec::new(), lights: Vec::new() }
+        WorldBuilder { shape: Shape::default(), groups: Vec::new(), materials: Vec::new(), lights: Vec::new() }
     }
 
     /// Adds a material and returns its number.
-    pub fn material(&mut self, shader: Arc<dyn Shader<C>>) -> usize {
+    pub fn material(&mut self, shader: Arc<dyn Shader<T>>) -> usize {
         self.materials.push(shader);
         self.materials.len() - 1
     }
 
-    /// Adds a light that is no shape.
-    pub fn light(&mut self, light: Light<C>) {
+    /// Adds a light that is not a shape.
+    pub fn light(&mut self, light: Light<T::Spectrum>) {
         self.lights.push(light);
     }
 
-    /// Adds a shape of a material. With `radiance` in W/(m^2 sr) it shines as well, on both sides where `two_sided`.
+    /// Adds a shape of a material. With `radiance` in W/(m^2 sr) it emits light as well, on both sides if `two_sided`.
     ///
     /// # Errors
-    /// Where its numbers do not fit together.
+    /// If its numbers do not fit together.
     pub fn shape(
         &mut self,
         shape: &Shape,
         material: usize,
-        radiance: Option<[f32; C]>,
+        radiance: Option<T::Spectrum>,
         two_sided: bool,
     ) -> Result<(), WorldError> {
         let vertices = shape.positions.len();
@@ -157,16 +164,16 @@ impl<const C: usize> WorldBuilder<C> {
         whole.normals.extend(&shape.normals);
         whole.tangents.extend(&shape.tangents);
         whole.triangles.extend(shape.triangles.iter().map(|corners| corners.map(|index| index + first as u32)));
-        let transmits = f32::from(u8::from(self.materials[material].transmits()));
-        self.parts.push(Part { end: end as u32, material: material as u32, light, transmits });
+        let transmits = f32::from(u8::from(self.materials[material].lobes().transmits));
+        self.groups.push(MaterialGroup { end: end as u32, material: material as u32, light, transmits });
         Ok(())
     }
 
     /// Builds the tree.
     ///
     /// # Errors
-    /// Where there are more triangles than can be numbered.
-    pub fn build(self) -> Result<World<C>, WorldError> {
+    /// If there are more triangles than can be numbered.
+    pub fn build(self) -> Result<World<T>, WorldError> {
         let Shape { positions, normals, tangents, triangles } = self.shape;
         let vertices = positions.iter().zip(&normals).zip(&tangents);
         let corners = vertices.map(|(([x, y, z], [a, b, c]), [t, u, v, w])| {
@@ -174,21 +181,27 @@ impl<const C: usize> WorldBuilder<C> {
             corner
         });
         let corners = Storage::copied(&corners.collect::<Vec<Corner>>());
-        let mut part = 0;
-        let with_part = triangles.iter().enumerate().map(|(number, [a, b, c])| {
-            while self.parts[part].end as usize <= number {
-                part += 1;
+        let mut group = 0;
+        let with_group = triangles.iter().enumerate().map(|(number, [a, b, c])| {
+            while self.groups[group].end as usize <= number {
+                group += 1;
             }
-            [*a, *b, *c, part as u32]
+            [*a, *b, *c, group as u32]
         });
-        let with_parts = Storage::copied(&with_part.collect::<Vec<_>>());
+        let with_groups = Storage::copied(&with_group.collect::<Vec<_>>());
         let scene: Scene = Scene::of_mesh(Mesh::new(positions, triangles)?);
         let bounds = scene.bounds();
         let diagonal = sub(bounds.upper, bounds.lower);
-        let radius = if diagonal.iter().all(|d| *d >= 0.0) { 0.5 * f64::from(length(diagonal)) } else { 1.0 };
-        let lights = Lights::new(self.lights, radius);
-        let (parts, materials) = (self.parts, self.materials);
-        Ok(World { scene, corners, triangles: with_parts, parts, materials, lights })
+        // A world without triangles has no extent.
+        let sphere = if diagonal.iter().all(|d| *d >= 0.0) {
+            let center = scale(add(bounds.lower, bounds.upper), 0.5);
+            SceneBounds { center, radius: 0.5 * f64::from(length(diagonal)) }
+        } else {
+            SceneBounds { center: [0.0; 3], radius: 1.0 }
+        };
+        let lights = Lights::new(self.lights, sphere);
+        let (groups, materials) = (self.groups, self.materials);
+        Ok(World { scene, corners, triangles: with_groups, groups, materials, lights })
     }
 }
 
@@ -197,22 +210,32 @@ fn finite<const N: usize>(attribute: &'static str, values: &[[f32; N]]) -> Resul
     bad.map_or(Ok(()), |at| Err(WorldError::NotFinite { attribute, vertex: at / N, found: values.as_flattened()[at] }))
 }
 
-/// Triangles, materials and lights, ready to be rendered with `C` channels.
+/// Triangles, materials and lights, ready to be rendered with the transport `T`.
 #[derive(Debug)]
-pub struct World<const C: usize> {
+pub struct World<T: Transport = Rgb> {
     pub(crate) scene: Scene,
     /// What is known of each vertex, side by side: the cache brings it together.
     pub(crate) corners: Storage<Corner>,
-    /// For each triangle its corners and the part that it belongs to.
+    /// For each triangle its corners and the group that it belongs to.
     pub(crate) triangles: Storage<[u32; 4]>,
-    pub(crate) parts: Vec<Part>,
-    pub(crate) materials: Vec<Arc<dyn Shader<C>>>,
-    pub(crate) lights: Lights<C>,
+    pub(crate) groups: Vec<MaterialGroup>,
+    pub(crate) materials: Vec<Arc<dyn Shader<T>>>,
+    pub(crate) lights: Lights<T::Spectrum>,
 }
 
-impl<const C: usize> World<C> {
+impl<T: Transport> World<T> {
+    /// The lights.
+    pub fn lights(&self) -> &[Light<T::Spectrum>] {
+        &self.lights.all
+    }
+
+    /// A sphere around the triangles, which light from infinitely far away enters the scene through.
+    pub fn bounds(&self) -> SceneBounds {
+        self.lights.bounds
+    }
+
     /// How many triangles there are.
     pub fn triangles(&self) -> usize {
-        self.parts.last().map_or(0, |part| part.end as usize)
+        self.groups.last().map_or(0, |group| group.end as usize)
     }
 }

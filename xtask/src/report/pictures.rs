@@ -85,14 +85,14 @@ pub fn measure(quick: bool) -> anyhow::Result<Pictures> {
 const SHARED: u32 = 8;
 
 /// How long a frame took, and what for.
-fn picture(world: &World<3>, settings: Settings) -> (Duration, Stats) {
+fn picture(world: &World, settings: Settings) -> (Duration, Stats) {
     let begun = Instant::now();
     let (_, stats) = render(world, &settings, Film::new(settings.window), |_| true).expect("a camera and a window");
     (begun.elapsed(), stats)
 }
 
 impl Frame {
-    fn take(world: &World<3>, backend: Backend) -> Self {
+    fn take(world: &World, backend: Backend) -> Self {
         let (time, stats) = picture(world, Settings { backend, threads: 1, ..scene::settings() });
         let bounced = stats.shading(1..DEPTHS);
         let depths = (0..DEPTHS).map(|depth| stats.shading([depth])).take_while(|shading| shading.queries > 0);

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use lobe::{Backend, Options};
 use lobe_plot::{Subject, View};
+use lobe_render::TransportMode;
 use lobe_render::shader::{Evaluated, Scratch, open};
 
 /// The files of a folder, and of the folders in it.
@@ -38,7 +39,7 @@ fn plot_and_preview_agree_on_the_colour_of_every_file() {
         }
         let (mut rendered, mut pdf) = (vec![[0.0; 3]; wi.len()], vec![0.0; wi.len()]);
         let out = Evaluated { f: &mut rendered, pdf: &mut pdf };
-        shader.eval(&wi, &wo, out, &mut Scratch::default());
+        shader.eval(TransportMode::Radiance, &wi, &wo, out, &mut Scratch::default());
 
         let view = View::new(&subject);
         let channels = subject.material().channel_count();

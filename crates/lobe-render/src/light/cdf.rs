@@ -1,9 +1,9 @@
-//! Drawing from lists of weights.
+//! Sampling from lists of weights.
 
 use lobe_lane::{Floats, Ints, Lanes, Mask};
 use lobe_memory::Storage;
 
-/// Lists of `n` weights each, ready to be drawn from.
+/// Lists of `n` weights each, ready to be sampled.
 #[derive(Clone, Debug)]
 pub(super) struct Cdf {
     n: usize,

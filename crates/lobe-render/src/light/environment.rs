@@ -1,13 +1,15 @@
 //! Radiance from all directions: an image of longitude and latitude.
 
 use std::f32::consts::{PI, TAU};
+use std::marker::PhantomData;
 
 use lobe_lane::{Block, Floats, Ints, Lanes};
 use lobe_memory::Storage;
 use lobe_scalar::Reference;
 
-use super::LightSample;
 use super::cdf::Cdf;
+use super::sample::LightSample;
+use crate::channels::Channels;
 use crate::vec3::Vec3;
 use crate::vectors::sin_cos;
 
@@ -24,7 +26,7 @@ pub enum EnvironmentError {
         /// Rows.
         height: usize,
     },
-    /// A radiance that is negative or no finite number.
+    /// A radiance that is negative or not a finite number.
     #[error("radiance {value} at column {x} of row {y}; expected a finite number that is not negative")]
     Radiance {
         /// Column, from the left.
@@ -41,7 +43,7 @@ pub enum EnvironmentError {
 /// Rows go from +y at the top to -y; the middle of the image is -z, its left quarter -x, its right quarter +x, as seen
 /// by a camera that looks along -z with +y up.
 #[derive(Clone, Debug)]
-pub struct Environment<const C: usize> {
+pub struct Environment<S: Channels = [f32; 3]> {
     width: usize,
     height: usize,
     /// Channels of each texel, as many as fill quads.
@@ -50,36 +52,40 @@ pub struct Environment<const C: usize> {
     turn: f32,
     mean: f64,
     rows: Cdf,
-    /// One list a row.
+    /// One list per row.
     columns: Cdf,
     /// Density of a texel over the unit square.
     density: Storage<f32>,
+    spectrum: PhantomData<S>,
 }
 
-impl<const C: usize> Environment<C> {
+impl<S: Channels> Environment<S> {
     /// Floats from one texel to the next.
-    const STRIDE: usize = C.next_multiple_of(4);
+    const STRIDE: usize = S::COUNT.next_multiple_of(4);
 
     /// The same radiance from everywhere.
     ///
     /// # Errors
-    /// Where it is negative or not finite.
-    pub fn constant(radiance: [f32; C]) -> Result<Self, EnvironmentError> {
+    /// If it is negative or not finite.
+    pub fn constant(radiance: S) -> Result<Self, EnvironmentError> {
         Environment::image(1, 1, vec![radiance], 0.0)
     }
 
     /// From the radiance straight up over that of the horizon to that straight down, smooth in the height.
     ///
     /// # Errors
-    /// Where a radiance is negative or not finite.
-    pub fn gradient(zenith: [f32; C], horizon: [f32; C], ground: [f32; C]) -> Result<Self, EnvironmentError> {
+    /// If a radiance is negative or not finite.
+    pub fn gradient(zenith: S, horizon: S, ground: S) -> Result<Self, EnvironmentError> {
         const ROWS: usize = 128;
         let mut texels = Vec::with_capacity(2 * ROWS);
         for row in 0..ROWS {
             let height = libm::cosf(PI * (row as f32 + 0.5) / ROWS as f32);
             let end = if height > 0.0 { zenith } else { ground };
             let t = height.abs().sqrt();
-            let texel = std::array::from_fn(|k| horizon[k] + t * (end[k] - horizon[k]));
+            let mut texel = horizon;
+            for (texel, end) in texel.as_mut().iter_mut().zip(end.as_ref()) {
+                *texel += t * (end - *texel);
+            }
             texels.extend([texel; 2]);
         }
         Environment::image(2, ROWS, texels, 0.0)
@@ -88,20 +94,20 @@ impl<const C: usize> Environment<C> {
     /// An image of `height` rows from the top, turned about +y by an angle in radians.
     ///
     /// # Errors
-    /// Where the texels are not that many, negative or not finite.
-    pub fn image(width: usize, height: usize, texels: Vec<[f32; C]>, turn: f32) -> Result<Self, EnvironmentError> {
+    /// If the texels are not that many, negative or not finite.
+    pub fn image(width: usize, height: usize, texels: Vec<S>, turn: f32) -> Result<Self, EnvironmentError> {
         if texels.is_empty() || width.checked_mul(height) != Some(texels.len()) {
             return Err(EnvironmentError::Size { found: texels.len(), width, height });
         }
         for (at, texel) in texels.iter().enumerate() {
-            if let Some(&value) = texel.iter().find(|value| !(value.is_finite() && **value >= 0.0)) {
+            if let Some(&value) = texel.as_ref().iter().find(|value| !(value.is_finite() && **value >= 0.0)) {
                 return Err(EnvironmentError::Radiance { x: at % width, y: at / width, value });
             }
         }
         let (weights, mean) = weights(width, height, &texels);
         let mut padded = Storage::zeros(texels.len() * Self::STRIDE);
         for (texel, padded) in texels.iter().zip(padded.as_mut_slice().chunks_exact_mut(Self::STRIDE)) {
-            padded[..C].copy_from_slice(texel);
+            padded[..S::COUNT].copy_from_slice(texel.as_ref());
         }
         let across: Vec<f64> = weights.chunks_exact(width).map(|row| row.iter().sum()).collect();
         let total: f64 = across.iter().sum();
@@ -115,6 +121,7 @@ impl<const C: usize> Environment<C> {
             rows: Cdf::new(height, &across),
             columns: Cdf::new(width, &weights),
             density: Storage::copied(&weights.iter().map(density).collect::<Vec<_>>()),
+            spectrum: PhantomData,
         })
     }
 
@@ -124,15 +131,19 @@ impl<const C: usize> Environment<C> {
     }
 
     /// Radiance from the unit direction `wi`.
-    pub fn radiance(&self, wi: [f32; 3]) -> [f32; C] {
-        self.seen(wi).0
+    pub fn radiance(&self, wi: [f32; 3]) -> S {
+        self.radiance_and_pdf(wi).0
     }
 
-    /// Radiance from where there is no surface, and the density with which [`sample_li`](Environment::sample_li) finds it.
-    pub(crate) fn seen(&self, wi: Vec3) -> ([f32; C], f32) {
+    /// Radiance from a direction, and the density with which [`sample_li`](Environment::sample_li) samples it.
+    pub(crate) fn radiance_and_pdf(&self, wi: Vec3) -> (S, f32) {
         let lanes = Reference::default();
         let (u, v) = if self.is_constant() { (0.0, 0.0) } else { self.place(wi) };
-        let radiance = self.interpolated(lanes, [lanes.splat(u), lanes.splat(v)]).map(|x| lanes.extract(x, 0));
+        let interpolated = self.interpolated(lanes, [lanes.splat(u), lanes.splat(v)]);
+        let mut radiance = S::ZERO;
+        for (radiance, value) in radiance.as_mut().iter_mut().zip(interpolated.as_ref()) {
+            *radiance = lanes.extract(*value, 0);
+        }
         if self.is_constant() {
             return (radiance, 0.25 / PI);
         }
@@ -147,7 +158,7 @@ impl<const C: usize> Environment<C> {
 
     /// Radiance at places of the unit square.
     #[inline(always)]
-    fn interpolated<L: Lanes>(&self, lanes: L, [u, v]: [L::F; 2]) -> [L::F; C] {
+    fn interpolated<L: Lanes>(&self, lanes: L, [u, v]: [L::F; 2]) -> S::InLanes<L> {
         let (zero, none, one) = (lanes.splat(0.0), lanes.splat_int(0), lanes.splat_int(1));
         let half = lanes.splat(0.5);
         let x = u * lanes.splat(self.width as f32) - half;
@@ -164,9 +175,9 @@ impl<const C: usize> Environment<C> {
         let fy = y - top.to_float();
         let bottom = (top + one).min(height - one);
         let block = Block::new(self.texels.as_slice(), [0]);
-        let mut radiance = [zero; C];
+        let mut radiance = S::ZERO.in_lanes(lanes);
         let mut from = 0;
-        while from < C {
+        while from < S::COUNT {
             let mut corners = [[zero; 4]; 4];
             let places = [(top, left), (top, right), (bottom, left), (bottom, right)];
             let mut corner = 0;
@@ -178,10 +189,10 @@ impl<const C: usize> Environment<C> {
             }
             let [a, b, c, d] = corners;
             let mut k = 0;
-            while k < 4 && from + k < C {
+            while k < 4 && from + k < S::COUNT {
                 let upper = a[k] + fx * (b[k] - a[k]);
                 let lower = c[k] + fx * (d[k] - c[k]);
-                radiance[from + k] = (upper + fy * (lower - upper)).max(zero);
+                radiance.as_mut()[from + k] = (upper + fy * (lower - upper)).max(zero);
                 k += 1;
             }
             from += 4;
@@ -189,9 +200,9 @@ impl<const C: usize> Environment<C> {
         radiance
     }
 
-    /// Draws directions about in proportion to radiance.
+    /// Samples directions roughly in proportion to radiance.
     #[inline(always)]
-    pub(crate) fn sample_li<L: Lanes>(&self, lanes: L, [u, v]: [L::F; 2]) -> LightSample<L, C> {
+    pub(crate) fn sample_li<L: Lanes>(&self, lanes: L, [u, v]: [L::F; 2]) -> LightSample<L, S> {
         let (zero, one, half) = (lanes.splat(0.0), lanes.splat(1.0), lanes.splat(0.5));
         let infinite = lanes.splat(f32::INFINITY);
         if self.is_constant() {
@@ -217,7 +228,7 @@ impl<const C: usize> Environment<C> {
         LightSample { wi, distance: infinite, radiance: self.interpolated(lanes, place), pdf, valid }
     }
 
-    /// Where in the unit square a direction is.
+    /// The point of the unit square that stands for a direction.
     fn place(&self, [x, y, z]: Vec3) -> (f32, f32) {
         let u = libm::atan2f(x, -z) / TAU + 0.5 - self.turn;
         let u = u - u.floor();
@@ -230,11 +241,13 @@ fn sin_of([x, _, z]: Vec3) -> f32 {
     (x * x + z * z).sqrt().max(1e-6)
 }
 
-/// What texels are drawn by: the mean of a texel and its neighbours, which are what the interpolation reads, times the
+/// What texels are sampled by: the mean of a texel and its neighbours, which are what the interpolation reads, times the
 /// solid angle. Returns also the mean radiance over the sphere.
-fn weights<const C: usize>(width: usize, height: usize, texels: &[[f32; C]]) -> (Vec<f64>, f64) {
-    let grey: Vec<f64> =
-        texels.iter().map(|texel| texel.iter().map(|x| f64::from(*x)).sum::<f64>() / C as f64).collect();
+fn weights<S: Channels>(width: usize, height: usize, texels: &[S]) -> (Vec<f64>, f64) {
+    let grey: Vec<f64> = texels
+        .iter()
+        .map(|texel| texel.as_ref().iter().map(|x| f64::from(*x)).sum::<f64>() / S::COUNT as f64)
+        .collect();
     let sine = |y: usize| libm::sin(std::f64::consts::PI * (y as f64 + 0.5) / height as f64);
     let (mut sum, mut angle) = (0.0, 0.0);
     for (y, row) in grey.chunks_exact(width).enumerate() {
@@ -260,7 +273,7 @@ mod tests {
 
     use super::*;
 
-    fn sun() -> Environment<1> {
+    fn sun() -> Environment<[f32; 1]> {
         let mut texels = vec![[0.5f32]; 32 * 16];
         texels[3 * 32 + 20] = [1000.0];
         Environment::image(32, 16, texels, 0.7).unwrap()
@@ -276,7 +289,7 @@ mod tests {
             let u = [((i / n) as f32 + 0.5) / n as f32, ((i % n) as f32 + 0.5) / n as f32];
             let sample = light.sample_li(lanes, u.map(|u| lanes.splat(u)));
             assert!(sample.valid.all());
-            let pdf = light.seen(lanes.extract_xyz(sample.wi, 0)).1;
+            let pdf = light.radiance_and_pdf(lanes.extract_xyz(sample.wi, 0)).1;
             let drawn = lanes.extract(sample.pdf, 0);
             // Rounding puts a few directions of an edge into the next texel.
             angle += f64::from(((pdf - drawn).abs() > 1e-3 * drawn) as u8) / f64::from(n * n);

@@ -13,11 +13,11 @@ use crate::light::Environment;
 const EXR: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 
 /// Reads an image of longitude and latitude, turned about +y by an angle in radians, every radiance multiplied by
-/// `scale`. Negative radiances, which resampling leaves in such files, are taken for 0.
+/// `scale`. Negative radiances, which resampling leaves in such files, count as 0.
 ///
 /// # Errors
-/// Where the file cannot be read, is damaged, or has radiances that are no finite numbers.
-pub fn read_environment(path: &Path, turn: f32, scale: f32) -> Result<Environment<3>, PictureError> {
+/// If the file cannot be read, is damaged, or has radiances that are not finite numbers.
+pub fn read_environment(path: &Path, turn: f32, scale: f32) -> Result<Environment, PictureError> {
     let bytes = std::fs::read(path).map_err(|error| PictureError::Io { file: path.into(), error })?;
     let (width, height, texels) = if bytes.starts_with(&EXR) { exr(path, &bytes)? } else { hdr(path, &bytes)? };
     let texels = texels.into_iter().map(|texel| texel.map(|x| (x * scale).max(if x.is_nan() { x } else { 0.0 })));

@@ -1,8 +1,9 @@
 //! OpenEXR: what was seen, and for parts of pictures the exact sums.
 //!
 //! Channels: `R G B` (mean radiance, linear sRGB), `albedo.R G B`, `normal.X Y Z`, `depth.Z` (distance to the nearest
-//! surface in the pixel, infinite where there is none), `material.id` (the material there, counted from 1) and
-//! `samples`. A part of a picture also has `sum.*`: the words of the integers that [`Pixel`] sums in, low word first.
+//! surface in the pixel, infinite if there is none), `material.id` (the material there, counted from 1) and
+//! `samples`. A part of a picture also has `sum.*`, the words of the integers that [`Pixel`] sums in, low word first; and
+//! `splat.*`, those of what light paths have splatted, if there are any.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -13,7 +14,8 @@ use exr::prelude::{
 };
 
 use super::{Meta, PictureError, replace};
-use crate::film::{Film, Pixel};
+use crate::film::{Film, Pixel, Splat};
+use crate::transport::Rgb;
 
 /// The attribute that holds the [`Meta`].
 const ATTRIBUTE: &str = "lobe";
@@ -25,24 +27,26 @@ const XYZ: [&str; 3] = ["X", "Y", "Z"];
 /// The bytes depend on the film and on `meta`, and on nothing else.
 ///
 /// # Errors
-/// Where the system refuses.
-pub fn write_exr(path: &Path, film: &Film<3>, meta: &Meta, partial: bool) -> Result<(), PictureError> {
+/// If the system refuses.
+pub fn write_exr(path: &Path, film: &Film, meta: &Meta, partial: bool) -> Result<(), PictureError> {
     replace(path, &encode(film, meta, partial).map_err(|error| content(path, error, "a picture that EXR can hold"))?)
 }
 
-fn encode(film: &Film<3>, meta: &Meta, partial: bool) -> exr::error::Result<Vec<u8>> {
+fn encode(film: &Film, meta: &Meta, partial: bool) -> exr::error::Result<Vec<u8>> {
     let mut channels = Vec::new();
     let pixels = film.pixels();
-    let mut float = |name: String, value: &dyn Fn(&Pixel<3>) -> f32| {
+    for (k, name) in RGB.into_iter().enumerate() {
+        channels.push(AnyChannel::new(name, FlatSamples::F32(film.colours().map(|colour| colour[k]).collect())));
+    }
+    let mut float = |name: String, value: &dyn Fn(&Pixel) -> f32| {
         channels.push(AnyChannel::new(name.as_str(), FlatSamples::F32(pixels.iter().map(value).collect())));
     };
     for k in 0..3 {
-        float(RGB[k].into(), &|pixel| pixel.mean_radiance()[k]);
         float(format!("albedo.{}", RGB[k]), &|pixel| pixel.mean_albedo()[k]);
         float(format!("normal.{}", XYZ[k]), &|pixel| pixel.mean_normal()[k]);
     }
     float("depth.Z".into(), &Pixel::depth);
-    let mut whole = |name: String, value: &dyn Fn(&Pixel<3>) -> u32| {
+    let mut whole = |name: String, value: &dyn Fn(&Pixel) -> u32| {
         channels.push(AnyChannel::new(name.as_str(), FlatSamples::U32(pixels.iter().map(value).collect())));
     };
     whole("material.id".into(), &|pixel| pixel.material);
@@ -50,6 +54,12 @@ fn encode(film: &Film<3>, meta: &Meta, partial: bool) -> exr::error::Result<Vec<
     if partial {
         for (name, word, value) in words() {
             whole(name, &|pixel| (value(pixel) >> (32 * word)) as u32);
+        }
+        for (name, word, value) in splat_words() {
+            let words: Vec<u32> = film.splats().iter().map(|splat| (value(splat) >> (32 * word)) as u32).collect();
+            if !words.is_empty() {
+                channels.push(AnyChannel::new(name.as_str(), FlatSamples::U32(words)));
+            }
         }
     }
     let window = film.window();
@@ -70,7 +80,7 @@ fn encode(film: &Film<3>, meta: &Meta, partial: bool) -> exr::error::Result<Vec<
 }
 
 /// What the `sum.*` channels hold: a name, which word of 32 bits, and the sum.
-type Word = (String, u32, Box<dyn Fn(&Pixel<3>) -> i128>);
+type Word = (String, u32, Box<dyn Fn(&Pixel) -> i128>);
 
 fn words() -> Vec<Word> {
     let mut words: Vec<Word> = Vec::new();
@@ -87,11 +97,27 @@ fn words() -> Vec<Word> {
     words
 }
 
+/// What the `splat.*` channels hold, which are written only if light paths were added.
+type SplatWord = (String, u32, Box<dyn Fn(&Splat<Rgb>) -> i128>);
+
+fn splat_words() -> Vec<SplatWord> {
+    let mut words: Vec<SplatWord> = Vec::new();
+    for (k, name) in RGB.into_iter().enumerate() {
+        for word in 0..4 {
+            words.push((format!("splat.{name}.{word}"), word, Box::new(move |splat| splat.sums[k])));
+        }
+    }
+    for word in 0..2 {
+        words.push((format!("splat.paths.{word}"), word, Box::new(|splat| splat.paths.into())));
+    }
+    words
+}
+
 /// Reads a part of a picture as [`write_exr`] has written it.
 ///
 /// # Errors
-/// Where the file cannot be read, is damaged, or is not a part of a picture.
-pub fn read_partial(path: &Path) -> Result<(Film<3>, Meta), PictureError> {
+/// If the file cannot be read, is damaged, or is not a part of a picture.
+pub fn read_partial(path: &Path) -> Result<(Film, Meta), PictureError> {
     const EXPECTED: &str = "a part of a picture that lobe has written";
     let wrong = |found: String| content(path, found, EXPECTED);
     let bytes = std::fs::read(path).map_err(|error| PictureError::Io { file: path.into(), error })?;
@@ -122,7 +148,7 @@ pub fn read_partial(path: &Path) -> Result<(Film<3>, Meta), PictureError> {
         FlatSamples::U32(values) => Ok(values),
         _ => Err(wrong(format!("floats in the channel `{name}`"))),
     };
-    let mut film = Film::new(meta.window);
+    let mut film: Film = Film::new(meta.window);
     let FlatSamples::F32(depth) = column("depth.Z")? else { return Err(wrong("integers in `depth.Z`".into())) };
     for (at, pixel) in film.pixels_mut().iter_mut().enumerate() {
         pixel.depth = depth[at].to_bits();
@@ -155,6 +181,23 @@ pub fn read_partial(path: &Path) -> Result<(Film<3>, Meta), PictureError> {
             }
         }
     }
+    // A part of a picture that no light path was added to has no such channels.
+    if column("splat.paths.0").is_ok() {
+        let splats = film.splats_mut();
+        for (k, name) in RGB.into_iter().enumerate() {
+            for low in 0..4 {
+                let values = whole(&format!("splat.{name}.{low}"))?;
+                for (splat, &value) in splats.iter_mut().zip(values) {
+                    splat.sums[k] |= i128::from(value) << (32 * low);
+                }
+            }
+        }
+        for low in 0..2 {
+            for (splat, &value) in splats.iter_mut().zip(whole(&format!("splat.paths.{low}"))?) {
+                splat.paths |= u64::from(value) << (32 * low);
+            }
+        }
+    }
     Ok((film, meta))
 }
 
@@ -178,4 +221,50 @@ pub(crate) fn check_size(path: &Path, bytes: &[u8]) -> Result<(), PictureError> 
 
 pub(crate) fn content(path: &Path, found: impl ToString, expected: &'static str) -> PictureError {
     PictureError::Content { file: path.into(), found: found.to_string(), expected }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Filter;
+    use crate::film::{Rect, Sample};
+    use crate::merge;
+
+    #[test]
+    fn splats_are_written_read_and_merged_exactly_and_only_if_there_are_any() {
+        let folder = tempfile::tempdir().unwrap();
+        let window = Rect { x: 0, y: 0, width: 5, height: 4 };
+        let meta = |samples| Meta { scene: "ab12".into(), size: [5, 4], window, samples, total: 2 };
+        let part = |step: f32| {
+            let mut film = Film::new(window);
+            film.pixels_mut().iter_mut().for_each(|pixel| {
+                pixel.add(&Sample { radiance: [step, 0.5, 1e-7], ..Sample::EMPTY });
+            });
+            film
+        };
+        let splatted = |step: f32| {
+            let mut film = part(step);
+            film.add_light_paths(1 << 40);
+            for i in 0..20 {
+                let at = (i as f32 * step).fract();
+                assert!(film.splat([5.0 * at, 4.0 * at], [-at, 1e9 * at, 1e-3], Filter::Tent));
+            }
+            film
+        };
+        let path = |name: &str| folder.path().join(name);
+        let films = [splatted(0.618_034), splatted(0.754_878)];
+        for (k, film) in films.iter().enumerate() {
+            write_exr(&path(&format!("{k}.exr")), film, &meta(k as u32..k as u32 + 1), true).unwrap();
+            assert!(read_partial(&path(&format!("{k}.exr"))).unwrap().0 == *film);
+        }
+        let merged = merge(&[path("0.exr"), path("1.exr")], false).unwrap().0;
+        let mut expected = films[0].clone();
+        expected.merge(&films[1]);
+        assert!(merged == expected);
+        // Without light paths, nothing of them is in the file.
+        write_exr(&path("none.exr"), &part(0.3), &meta(0..1), true).unwrap();
+        let bytes = std::fs::read(path("none.exr")).unwrap();
+        assert!(!bytes.windows(6).any(|six| six == b"splat."));
+        assert!(read_partial(&path("none.exr")).unwrap().0.splats().is_empty());
+    }
 }

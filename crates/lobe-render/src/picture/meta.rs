@@ -32,7 +32,7 @@ impl fmt::Display for Meta {
 }
 
 impl Meta {
-    /// Reads what [`Display`](fmt::Display) has written. `None` where it is something else, or makes no sense.
+    /// Reads what [`Display`](fmt::Display) has written. `None` if it is something else, or makes no sense.
     pub fn parse(text: &str) -> Option<Self> {
         let table = toml::de::DeTable::parse(text).ok()?;
         let table = table.get_ref();

@@ -1,4 +1,4 @@
-//! PNG, 8 bits a channel, tone-mapped.
+//! PNG, 8 bits per channel, tone-mapped.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use crate::film::Film;
 /// The PNG file of pixels in sRGB: a byte each for red, green and blue, row by row from the top.
 ///
 /// # Panics
-/// Where a side is 0, or `bytes` are not three a pixel.
+/// If a side is 0, or `bytes` are not three per pixel.
 pub fn encode_rgb(width: u32, height: u32, bytes: &[u8]) -> Vec<u8> {
     let mut out = Vec::new();
     let mut encoder = png::Encoder::new(&mut out, width, height);
@@ -24,16 +24,15 @@ pub fn encode_rgb(width: u32, height: u32, bytes: &[u8]) -> Vec<u8> {
 }
 
 /// The PNG file of a film.
-pub fn encode_png(film: &Film<3>, tone: ToneMap) -> Vec<u8> {
-    let bytes: Vec<u8> =
-        film.pixels().iter().flat_map(|pixel| pixel.mean_radiance().map(|radiance| tone.byte(radiance))).collect();
+pub fn encode_png(film: &Film, tone: ToneMap) -> Vec<u8> {
+    let bytes: Vec<u8> = film.colours().flat_map(|colour| colour.map(|radiance| tone.byte(radiance))).collect();
     encode_rgb(film.window().width, film.window().height, &bytes)
 }
 
 /// Writes a film as PNG.
 ///
 /// # Errors
-/// Where the system refuses.
-pub fn write_png(path: &Path, film: &Film<3>, tone: ToneMap) -> Result<(), PictureError> {
+/// If the system refuses.
+pub fn write_png(path: &Path, film: &Film, tone: ToneMap) -> Result<(), PictureError> {
     replace(path, &encode_png(film, tone))
 }

@@ -18,7 +18,10 @@ pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(),
             "directional" => {
                 let direction = node.required_vector("direction")?;
                 let toward = unit(neg(direction)).ok_or_else(|| {
-                    node.error("direction", "found a direction of no length; expected the way that light goes")
+                    node.error(
+                        "direction",
+                        "found a direction of length 0; expected the direction in which the light travels",
+                    )
                 })?;
                 Light::Directional { toward, irradiance: node.required_colour("irradiance", f64::MAX)? }
             }
@@ -39,11 +42,11 @@ pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(),
     Ok(())
 }
 
-fn spot(node: &Node<'_, '_>) -> Result<Light<3>, SceneError> {
+fn spot(node: &Node<'_, '_>) -> Result<Light, SceneError> {
     let position = node.required_vector("position")?;
     let target = node.required_vector("target")?;
     let direction = unit(sub(target, position))
-        .ok_or_else(|| node.error("target", "found the place of the light; expected another place"))?;
+        .ok_or_else(|| node.error("target", "found the position of the light; expected another point"))?;
     let half = "degrees above 0 and up to 180";
     let angle = node.number("angle", half, |x| x > 0.0 && x <= 180.0)?.unwrap_or(45.0);
     let inner = node.number("inner_angle", "degrees from 0 to `angle`", |x| (0.0..=angle).contains(&x))?;
@@ -53,7 +56,7 @@ fn spot(node: &Node<'_, '_>) -> Result<Light<3>, SceneError> {
 }
 
 /// An image, one radiance from everywhere, or a gradient from the zenith over the horizon to the ground.
-fn environment(node: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<Environment<3>, SceneError> {
+fn environment(node: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<Environment, SceneError> {
     if let Some(path) = reading.file(node, "file")? {
         let turn = node.number("turn", "degrees from -360 to 360", |x| x.abs() <= 360.0)?.unwrap_or(0.0);
         let scale = node.number("scale", "a number from 0 to 1e9", |x| (0.0..=1e9).contains(&x))?.unwrap_or(1.0);

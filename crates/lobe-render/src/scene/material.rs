@@ -64,7 +64,7 @@ fn options(node: &Node<'_, '_>) -> Result<Options, SceneError> {
     Ok(Options { edges, lookup, indexed_by, ..Options::default() })
 }
 
-fn model_named(node: &Node<'_, '_>, name: &str, backend: Backend) -> Result<Arc<dyn Shader<3>>, SceneError> {
+fn model_named(node: &Node<'_, '_>, name: &str, backend: Backend) -> Result<Arc<dyn Shader>, SceneError> {
     let wide = |colour: [f32; 3]| colour.map(f64::from);
     let share = |key: &str| Ok::<_, SceneError>(wide(node.required_colour(key, 1.0)?));
     let exponent = || {
@@ -101,7 +101,7 @@ fn model_named(node: &Node<'_, '_>, name: &str, backend: Backend) -> Result<Arc<
     }
 }
 
-/// Roughness along x and y: `alpha`, and `alpha_y` where it is another one.
+/// Roughness along x and y: `alpha`, and `alpha_y` if it differs.
 fn alpha(node: &Node<'_, '_>) -> Result<[f64; 2], SceneError> {
     let read = |key: &str| node.number(key, "a number from 0.001 to 1", |x| (0.001..=1.0).contains(&x));
     let x = read("alpha")?.ok_or_else(|| node.error("alpha", "found nothing; expected a number"))?;
@@ -112,7 +112,7 @@ fn modelled(
     node: &Node<'_, '_>,
     backend: Backend,
     model: impl Model + Debug + Send + Sync + 'static,
-) -> Result<Arc<dyn Shader<3>>, SceneError> {
+) -> Result<Arc<dyn Shader>, SceneError> {
     let shader = ModelShader::new(model, backend).map_err(|error| node.error("model", error.to_string()))?;
     Ok(Arc::new(shader))
 }

@@ -9,6 +9,7 @@ mod view;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
@@ -16,16 +17,17 @@ use crate::camera::{Camera, Filter};
 use crate::integrator::Integrator;
 use crate::shader::Backend;
 use crate::world::{World, WorldBuilder};
-use node::{Node, Source};
+use node::Source;
 
+pub(crate) use node::Node;
 pub use node::SceneError;
 
 /// What a scene file says.
 #[derive(Debug)]
 pub struct Scene {
     /// Shapes, materials and lights.
-    pub world: World<3>,
-    /// Where the picture is taken from.
+    pub world: World,
+    /// What the picture is taken with.
     pub camera: Camera,
     /// Columns and rows.
     pub size: [u32; 2],
@@ -34,8 +36,8 @@ pub struct Scene {
     /// For pictures that are tone-mapped, in stops.
     pub exposure: f32,
     /// How radiance is found.
-    pub integrator: Integrator,
-    /// Samples a pixel.
+    pub integrator: Arc<dyn Integrator>,
+    /// Samples per pixel.
     pub samples: u32,
     /// A hash of the scene file and of all files that it names, in hexadecimal.
     pub hash: String,
@@ -43,9 +45,9 @@ pub struct Scene {
 
 /// What is collected while a scene is read.
 struct Reading<'p> {
-    /// Where relative paths begin.
+    /// The folder that relative paths begin at.
     folder: &'p Path,
-    world: WorldBuilder<3>,
+    world: WorldBuilder,
     /// What materials run on.
     backend: Backend,
     materials: BTreeMap<String, usize>,
@@ -58,7 +60,7 @@ impl Reading<'_> {
         node.text(key)?.map(|name| self.named_file(node, key, name)).transpose()
     }
 
-    /// As [`file`](Self::file), of an array of names; empty where there is no such key.
+    /// As [`file`](Self::file), of an array of names; empty if there is no such key.
     fn files(&mut self, node: &Node<'_, '_>, key: &str) -> Result<Vec<PathBuf>, SceneError> {
         node.texts(key)?.into_iter().map(|name| self.named_file(node, key, name)).collect()
     }

@@ -13,16 +13,16 @@ use toml::de::{DeTable, DeValue};
 pub struct SceneError {
     /// The scene file.
     pub file: PathBuf,
-    /// The line, counted from 1; 1 as well where it is the file as a whole.
+    /// The line, counted from 1; also 1 if it is about the file as a whole.
     pub line: usize,
-    /// The key, with dots between its parts; empty where there is none.
+    /// The key, with dots between its parts; empty if there is none.
     pub key: String,
     /// What was found and what was expected.
     pub message: String,
 }
 
 /// The text of a scene file.
-pub(super) struct Source<'t> {
+pub(crate) struct Source<'t> {
     pub file: &'t Path,
     pub text: &'t str,
 }
@@ -44,7 +44,7 @@ impl Source<'_> {
 }
 
 /// A table that remembers which of its keys were asked for.
-pub(super) struct Node<'s, 't> {
+pub(crate) struct Node<'s, 't> {
     source: &'s Source<'t>,
     /// The name of the table: `camera`, `light[2]`.
     pub name: String,
@@ -69,7 +69,7 @@ impl<'s, 't> Node<'s, 't> {
         self.table.get(key)
     }
 
-    /// An error about the value of a key, or about the table where the key is not there.
+    /// An error about the value of a key, or about the table if the key is missing.
     pub fn error(&self, key: &str, message: impl Into<String>) -> SceneError {
         match self.table.get(key) {
             Some(value) => self.source.error(value.span().start, self.path(key), message),
@@ -86,7 +86,7 @@ impl<'s, 't> Node<'s, 't> {
         Err(self.error(key, format!("found {}; expected {expected}", shown(value.get_ref()))))
     }
 
-    /// Fails where there are keys that nobody has asked for.
+    /// Fails if there are keys that nobody has asked for.
     pub fn finish(&self) -> Result<(), SceneError> {
         let asked = self.asked.borrow();
         match self.table.keys().find(|key| !asked.contains(&**key.get_ref())) {
@@ -113,7 +113,7 @@ impl<'s, 't> Node<'s, 't> {
         }
     }
 
-    /// The tables of an array; none where there is no such key.
+    /// The tables of an array; none if there is no such key.
     pub fn children(&self, key: &str) -> Result<Vec<Node<'s, 't>>, SceneError> {
         let Some(value) = self.get(key) else { return Ok(Vec::new()) };
         let Some(array) = value.get_ref().as_array() else { return self.wrong(key, value, "an array of tables") };
@@ -135,12 +135,12 @@ impl<'s, 't> Node<'s, 't> {
         }
     }
 
-    /// Text that has to be there.
+    /// Text that is required.
     pub fn required_text(&self, key: &str, expected: &str) -> Result<&'s str, SceneError> {
         self.text(key)?.ok_or_else(|| self.missing(key, expected))
     }
 
-    /// An array of texts; none where there is no such key.
+    /// An array of texts; none if there is no such key.
     pub fn texts(&self, key: &str) -> Result<Vec<&'s str>, SceneError> {
         let Some(value) = self.get(key) else { return Ok(Vec::new()) };
         let texts =
@@ -148,7 +148,7 @@ impl<'s, 't> Node<'s, 't> {
         texts.map_or_else(|| self.wrong(key, value, "an array of texts in quotes"), Ok)
     }
 
-    /// `true` or `false`; `false` where there is no such key.
+    /// `true` or `false`; `false` if there is no such key.
     pub fn flag(&self, key: &str) -> Result<bool, SceneError> {
         let Some(value) = self.get(key) else { return Ok(false) };
         match value.get_ref().as_bool() {
@@ -164,6 +164,12 @@ impl<'s, 't> Node<'s, 't> {
             Some(found) if fits(found) => Ok(Some(found)),
             _ => self.wrong(key, value, expected),
         }
+    }
+
+    /// A number above 0.
+    pub fn positive(&self, key: &str) -> Result<Option<f32>, SceneError> {
+        let found = self.number(key, "a number above 0", |x| x > 0.0 && x as f32 > 0.0)?;
+        Ok(found.map(|x| x as f32))
     }
 
     /// A whole number in a range.
@@ -191,7 +197,7 @@ impl<'s, 't> Node<'s, 't> {
         Ok(three.map(|v| v.map(|x| x as f32)))
     }
 
-    /// A point or a direction that has to be there.
+    /// A point or a direction that is required.
     pub fn required_vector(&self, key: &str) -> Result<[f32; 3], SceneError> {
         self.vector(key)?.ok_or_else(|| self.missing(key, "three numbers"))
     }
@@ -210,7 +216,7 @@ impl<'s, 't> Node<'s, 't> {
         Ok(self.three(key, &expected, fits)?.map(|c| c.map(|x| x as f32)))
     }
 
-    /// A colour that has to be there.
+    /// A colour that is required.
     pub fn required_colour(&self, key: &str, most: f64) -> Result<[f32; 3], SceneError> {
         self.colour(key, most)?.ok_or_else(|| self.missing(key, "a colour, three numbers or one"))
     }

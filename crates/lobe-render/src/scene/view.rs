@@ -1,8 +1,10 @@
 //! `[camera]`, `[film]` and `[integrator]`.
 
+use std::sync::Arc;
+
 use super::node::{Node, SceneError};
 use crate::camera::{Camera, Filter, View};
-use crate::integrator::Integrator;
+use crate::integrator::{self, INTEGRATORS, Integrator};
 
 /// The largest side of a picture.
 const SIDE: u32 = 65_536;
@@ -49,25 +51,20 @@ pub(super) fn film(root: &Node<'_, '_>) -> Result<([u32; 2], Filter, f32), Scene
     Ok((size, filter, exposure as f32))
 }
 
-pub(super) fn integrator(root: &Node<'_, '_>) -> Result<(Integrator, u32), SceneError> {
-    const DEFAULT: (Integrator, u32) = (Integrator::Path { depth: 8, limit: f32::INFINITY }, 64);
-    let Some(node) = root.child("integrator")? else { return Ok(DEFAULT) };
-    let positive = |key: &str| node.number(key, "a number above 0", |x| x > 0.0 && x as f32 > 0.0);
-    let kind = node.text("kind")?.unwrap_or("path");
-    let integrator = match kind {
-        "path" => Integrator::Path {
-            depth: node.whole("depth", 1..=1000)?.unwrap_or(8),
-            limit: positive("limit")?.map_or(f32::INFINITY, |x| x as f32),
-        },
-        "whitted" => Integrator::Whitted { depth: node.whole("depth", 1..=32)?.unwrap_or(8) },
-        "ao" => Integrator::Ambient { distance: positive("distance")?.map_or(f32::INFINITY, |x| x as f32) },
-        "normals" => Integrator::Normals,
-        found => {
-            let message = format!("found `{found}`; expected path, whitted, ao or normals");
-            return Err(node.error("kind", message));
-        }
+/// An integrator and the samples per pixel.
+pub(super) fn integrator(root: &Node<'_, '_>) -> Result<(Arc<dyn Integrator>, u32), SceneError> {
+    const SAMPLES: u32 = 64;
+    let first = &INTEGRATORS[0];
+    let Some(node) = root.child("integrator")? else { return Ok(((first.default)(), SAMPLES)) };
+    let kind = node.text("kind")?.unwrap_or(first.name);
+    let Some(spec) = integrator::named(kind) else {
+        let names: Vec<&str> = INTEGRATORS.iter().map(|spec| spec.name).collect();
+        let (last, others) = names.split_last().expect("there are integrators");
+        let message = format!("found `{kind}`; expected {} or {last}", others.join(", "));
+        return Err(node.error("kind", message));
     };
-    let samples = node.whole("samples", 1..=u32::MAX - 1)?.unwrap_or(DEFAULT.1);
+    let integrator = (spec.read)(&node)?;
+    let samples = node.whole("samples", 1..=u32::MAX - 1)?.unwrap_or(SAMPLES);
     node.finish()?;
     Ok((integrator, samples))
 }

@@ -1,51 +1,65 @@
 //! Surfaces that send a ray into one or two exact directions.
 
-use super::{Evaluated, Sampled, Scratch, Shader};
+use super::{Evaluated, Lobes, Sampled, Scratch, Shader};
+use crate::channels::Channels;
+use crate::transport::{Transport, TransportMode};
 use crate::vec3::Vec3;
 
-/// One of the directions that light comes from, and the share of it that goes on to the viewer.
+/// One of the exact directions that a path may take, and what that does to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DeltaSample<const C: usize> {
-    /// Toward the light.
+pub struct DeltaSample<S> {
+    /// Where the path goes on.
     pub wi: [f32; 3],
-    /// What radiance is multiplied by.
-    pub weight: [f32; C],
+    /// What radiance, or importance, is multiplied by.
+    pub weight: S,
+}
+
+/// The exact directions for a known one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeltaSamples<S> {
+    /// The mirrored direction.
+    pub reflection: DeltaSample<S>,
+    /// The refracted direction, if there is one.
+    pub transmission: Option<DeltaSample<S>>,
 }
 
 /// What a smooth surface does to a ray.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Delta<const C: usize> {
+pub enum Delta<S: Channels = [f32; 3]> {
     /// Mirrors a constant share of the light.
-    Mirror([f32; C]),
+    Mirror(S),
     /// Mirrors a share of the light that depends on the angle to the normal: rising angles in radians with a share each.
-    Measured(Vec<(f32, [f32; C])>),
+    Measured(Vec<(f32, S)>),
     /// Mirrors and refracts by the equations of Fresnel.
     Glass {
-        /// Refractive index inside (where the normal does not point) over that outside.
+        /// Refractive index inside (the side that the normal points away from) over that outside.
         eta: f32,
         /// What mirrored and refracted light are multiplied by.
-        tint: [f32; C],
+        tint: S,
     },
 }
 
-impl<const C: usize> Delta<C> {
-    /// The mirrored direction, and the refracted one where there is one, for a viewer in the direction `wo`.
-    pub fn samples(&self, wo: [f32; 3]) -> (DeltaSample<C>, Option<DeltaSample<C>>) {
+impl<S: Channels> Delta<S> {
+    /// Where a path goes on whose known direction is `wo`.
+    pub fn samples(&self, mode: TransportMode, wo: [f32; 3]) -> DeltaSamples<S> {
         let mirrored = [-wo[0], -wo[1], wo[2]];
+        let mirror = |weight| DeltaSamples { reflection: DeltaSample { wi: mirrored, weight }, transmission: None };
         match self {
-            Delta::Mirror(share) => (DeltaSample { wi: mirrored, weight: *share }, None),
-            Delta::Measured(shares) => (DeltaSample { wi: mirrored, weight: share_at(shares, wo) }, None),
+            Delta::Mirror(share) => mirror(*share),
+            Delta::Measured(shares) => mirror(share_at(shares, wo)),
             Delta::Glass { eta, tint } => {
                 let ratio = if wo[2] > 0.0 { 1.0 / eta } else { *eta };
                 let (share, refracted) = refract(wo, ratio);
-                let mirror = DeltaSample { wi: mirrored, weight: tint.map(|t| t * share) };
-                let through = refracted.map(|wi| {
-                    // Radiance is squeezed into the smaller cone of the denser medium.
-                    let weight = tint.map(|t| t * (1.0 - share) * (ratio * ratio));
-                    DeltaSample { wi, weight }
+                let transmission = refracted.map(|wi| {
+                    // Radiance, but not importance, is squeezed into the smaller cone of the denser medium.
+                    let squeezed = match mode {
+                        TransportMode::Radiance => ratio * ratio,
+                        TransportMode::Importance => 1.0,
+                    };
+                    DeltaSample { wi, weight: tint.map(|t| t * (1.0 - share) * squeezed) }
                 });
-                (mirror, through)
+                DeltaSamples { transmission, ..mirror(tint.map(|t| t * share)) }
             }
         }
     }
@@ -68,44 +82,48 @@ fn refract(wo: Vec3, ratio: f32) -> (f32, Option<Vec3>) {
 }
 
 /// Linear between the angles, constant beyond them.
-fn share_at<const C: usize>(shares: &[(f32, [f32; C])], wo: Vec3) -> [f32; C] {
+fn share_at<S: Channels>(shares: &[(f32, S)], wo: Vec3) -> S {
     let theta = libm::acosf(wo[2].abs().min(1.0));
     let after = shares.partition_point(|(angle, _)| *angle <= theta);
     match (after.checked_sub(1).and_then(|before| shares.get(before)), shares.get(after)) {
         (Some((from, a)), Some((to, b))) => {
             let t = (theta - from) / (to - from);
-            std::array::from_fn(|k| a[k] + t * (b[k] - a[k]))
+            let mut share = *a;
+            for (a, b) in share.as_mut().iter_mut().zip(b.as_ref()) {
+                *a += t * (b - *a);
+            }
+            share
         }
         (Some((_, only)), None) | (None, Some((_, only))) => *only,
-        (None, None) => [0.0; C],
+        (None, None) => S::ZERO,
     }
 }
 
 /// A material that is a [`Delta`] and nothing else.
 #[derive(Clone, Debug, PartialEq)]
-pub struct DeltaShader<const C: usize>(pub Delta<C>);
+pub struct DeltaShader<S: Channels = [f32; 3]>(pub Delta<S>);
 
-impl<const C: usize> Shader<C> for DeltaShader<C> {
-    fn transmits(&self) -> bool {
-        matches!(self.0, Delta::Glass { .. })
+impl<T: Transport> Shader<T> for DeltaShader<T::Spectrum> {
+    fn lobes(&self) -> Lobes {
+        Lobes { values: false, delta: true, transmits: matches!(self.0, Delta::Glass { .. }) }
     }
 
-    fn delta(&self) -> Option<&Delta<C>> {
+    fn delta(&self) -> Option<&Delta<T::Spectrum>> {
         Some(&self.0)
     }
 
     /// White, as denoisers want smooth surfaces to be.
-    fn albedo(&self) -> [f32; C] {
-        [1.0; C]
+    fn albedo(&self) -> [f32; 3] {
+        [1.0; 3]
     }
 
-    fn eval(&self, _: &[[f32; 3]], _: &[[f32; 3]], out: Evaluated<'_, C>, _: &mut Scratch) {
-        out.f.fill([0.0; C]);
+    fn eval(&self, _: TransportMode, _: &[Vec3], _: &[Vec3], out: Evaluated<'_, T>, _: &mut Scratch) {
+        out.f.fill(T::ABSORBED);
         out.pdf.fill(0.0);
     }
 
-    fn sample(&self, _: &[[f32; 3]], _: &[[f32; 2]], out: Sampled<'_, C>, _: &mut Scratch) {
-        out.weight.fill([0.0; C]);
+    fn sample(&self, _: TransportMode, _: &[Vec3], _: &[[f32; 2]], out: Sampled<'_, T>, _: &mut Scratch) {
+        out.weight.fill(T::ABSORBED);
         out.pdf.fill(0.0);
     }
 }
@@ -118,26 +136,47 @@ mod tests {
     fn glass_divides_light_and_obeys_snell() {
         let glass = Delta::Glass { eta: 1.5, tint: [1.0] };
         let wo = [0.6, 0.0, 0.8];
-        let (mirror, through) = glass.samples(wo);
-        let through = through.unwrap();
+        let DeltaSamples { reflection: mirror, transmission } = glass.samples(TransportMode::Radiance, wo);
+        let through = transmission.unwrap();
         assert_eq!(mirror.wi, [-0.6, 0.0, 0.8]);
         assert!((through.wi[0] + 0.6 / 1.5).abs() < 1e-6 && through.wi[2] < 0.0);
         // Without the factor of the cones, what is not mirrored goes through.
         assert!((mirror.weight[0] + through.weight[0] * 1.5 * 1.5 - 1.0).abs() < 1e-6);
         // And the way back is the same way.
-        let (_, back) = glass.samples(through.wi);
-        let back = back.unwrap().wi;
+        let back = glass.samples(TransportMode::Radiance, through.wi).transmission.unwrap().wi;
         assert!(wo.iter().zip(back).all(|(a, b)| (a - b).abs() < 1e-6), "{back:?}");
         // From inside at a flat angle all is mirrored.
-        assert!(glass.samples([0.9, 0.0, -0.43589]).1.is_none());
+        assert!(glass.samples(TransportMode::Radiance, [0.9, 0.0, -0.43589]).transmission.is_none());
         // At the normal: ((n - 1) / (n + 1))^2.
-        assert!((glass.samples([0.0, 0.0, 1.0]).0.weight[0] - 0.04).abs() < 1e-6);
+        assert!((glass.samples(TransportMode::Radiance, [0.0, 0.0, 1.0]).reflection.weight[0] - 0.04).abs() < 1e-6);
+    }
+
+    /// Radiance along a path and importance along its reverse are scaled alike but for eta^2, which cancels where a
+    /// path enters a medium and leaves it again.
+    #[test]
+    fn glass_scales_radiance_by_the_index_and_importance_not() {
+        let glass = Delta::Glass { eta: 1.5, tint: [1.0, 0.5] };
+        for wo in [[0.6, 0.0, 0.8], [0.3, 0.2, -0.933]] {
+            let of = |mode| glass.samples(mode, wo);
+            let [radiance, importance] = [TransportMode::Radiance, TransportMode::Importance].map(of);
+            assert_eq!(radiance.reflection, importance.reflection);
+            let [radiance, importance] = [radiance, importance].map(|samples| samples.transmission.unwrap());
+            assert_eq!(radiance.wi, importance.wi);
+            let ratio: f32 = if wo[2] > 0.0 { 1.0 / 1.5 } else { 1.5 };
+            for k in 0..2 {
+                assert!((radiance.weight[k] / importance.weight[k] - ratio * ratio).abs() < 1e-6);
+            }
+            // What importance carries in, radiance carries back, for one side of the surface and the other.
+            let back = glass.samples(TransportMode::Importance, importance.wi).transmission.unwrap();
+            assert!((back.weight[0] - importance.weight[0]).abs() < 1e-5);
+        }
     }
 
     #[test]
     fn measured_shares_are_linear_between_angles() {
         let mirror = Delta::Measured(vec![(0.0, [0.2]), (1.0, [0.6])]);
-        let at = |theta: f32| mirror.samples([theta.sin(), 0.0, theta.cos()]).0.weight[0];
+        let at =
+            |theta: f32| mirror.samples(TransportMode::Radiance, [theta.sin(), 0.0, theta.cos()]).reflection.weight[0];
         assert!((at(0.5) - 0.4).abs() < 1e-5 && (at(1.3) - 0.6).abs() < 1e-6, "{} {}", at(0.5), at(1.3));
     }
 }

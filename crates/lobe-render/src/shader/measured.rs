@@ -1,4 +1,4 @@
-//! Measured materials: files of any format, evaluated and sampled in lanes wherever their representation is.
+//! Measured materials: files of any format, evaluated and sampled in lanes if their representation is.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -8,7 +8,11 @@ use lobe::table::mirror;
 use lobe::{Given, Material, OpenError, Options, Sampler, SamplerError, SamplerOptions, Scatter};
 use lobe_colour::Reduction;
 
-use super::{Backend, Delta, DeltaShader, Evaluated, Sampled, Scratch, Shader, albedo_of, times_cosine};
+use super::{
+    Backend, Conversion, Delta, DeltaShader, Evaluated, Lobes, Sampled, Scratch, Shader, albedo_of, times_cosine,
+};
+use crate::transport::{Rgb, Transport, TransportMode};
+use crate::vec3::Vec3;
 
 /// Why a file makes no material.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -19,7 +23,7 @@ pub enum MaterialError {
     /// What it holds cannot be evaluated.
     #[error(transparent)]
     Open(#[from] OpenError),
-    /// Directions cannot be drawn for it.
+    /// Directions cannot be sampled for it.
     #[error("{file}: {why}")]
     Sampler {
         /// The file.
@@ -33,7 +37,7 @@ pub enum MaterialError {
 ///
 /// # Errors
 /// [`MaterialError`] names the file.
-pub fn open(path: &Path, options: &Options, backend: Backend) -> Result<Arc<dyn Shader<3>>, MaterialError> {
+pub fn open(path: &Path, options: &Options, backend: Backend) -> Result<Arc<dyn Shader<Rgb>>, MaterialError> {
     let (format, document) = lobe::formats::open(path)?;
     if let Some(data) = document.only().and_then(|data| data.representation().mirror())
         && data.scatter() == Scatter::Reflection
@@ -53,18 +57,18 @@ pub fn open_sheet(
     back: &[PathBuf],
     options: &Options,
     backend: Backend,
-) -> Result<Arc<dyn Shader<3>>, MaterialError> {
+) -> Result<Arc<dyn Shader<Rgb>>, MaterialError> {
     let first = front.iter().chain(back).next().cloned().unwrap_or_default();
     prepare(Material::open_sheet(front, back, options)?, &first, backend)
 }
 
-fn prepare(material: Material, path: &Path, backend: Backend) -> Result<Arc<dyn Shader<3>>, MaterialError> {
+fn prepare(material: Material, path: &Path, backend: Backend) -> Result<Arc<dyn Shader<Rgb>>, MaterialError> {
     let shader = MeasuredShader::new(material.with_backend(backend));
     Ok(Arc::new(shader.map_err(|why| MaterialError::Sampler { file: path.into(), why })?))
 }
 
 /// Reflectance by the angle of the light, averaged over its azimuths.
-fn mirror(specular: &mirror::Data) -> Delta<3> {
+fn mirror(specular: &mirror::Data) -> Delta {
     let [sigma, psi] = specular.knots();
     let reduction = Reduction::for_display(specular.channels());
     let mut colours = vec![[0.0; 3]; sigma.len() * psi.len()];
@@ -80,59 +84,73 @@ fn mirror(specular: &mirror::Data) -> Delta<3> {
 #[derive(Debug)]
 pub struct MeasuredShader {
     sampler: Sampler,
-    reduction: Reduction,
-    transmits: bool,
+    conversion: <Rgb as Transport>::Conversion,
+    lobes: Lobes,
     albedo: [f32; 3],
 }
 
 impl MeasuredShader {
-    /// Builds the distributions that directions are drawn by.
+    /// Builds the distributions that directions are sampled from.
     ///
     /// # Errors
-    /// Where there is no sampler for the material.
+    /// If there is no sampler for the material.
     pub fn new(material: Material) -> Result<Self, SamplerError> {
         let transmits = material.holds(true, Scatter::Transmission)
             || [Scatter::Reflection, Scatter::Transmission].into_iter().any(|way| material.holds(false, way));
-        let reduction = Reduction::for_display(material.channels());
+        let conversion = <Rgb as Transport>::Conversion::of(material.channels());
         let sampler = Sampler::new(Arc::new(material), &SamplerOptions::default())?;
-        let mut shader = MeasuredShader { sampler, reduction, transmits, albedo: [0.0; 3] };
-        shader.albedo = albedo_of(&shader);
+        // Whether there are mirrors beside the values is the sampler's business; samples of them say so.
+        let lobes = Lobes { values: true, delta: true, transmits };
+        let mut shader = MeasuredShader { sampler, conversion, lobes, albedo: [0.0; 3] };
+        shader.albedo = albedo_of::<Rgb>(&shader);
         Ok(shader)
     }
 }
 
-impl Shader<3> for MeasuredShader {
-    fn transmits(&self) -> bool {
-        self.transmits
+/// Which direction is known.
+fn given(mode: TransportMode) -> Given {
+    match mode {
+        TransportMode::Radiance => Given::Viewer,
+        TransportMode::Importance => Given::Light,
+    }
+}
+
+impl Shader<Rgb> for MeasuredShader {
+    fn lobes(&self) -> Lobes {
+        self.lobes
     }
 
     fn albedo(&self) -> [f32; 3] {
         self.albedo
     }
 
-    fn eval(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: Evaluated<'_, 3>, scratch: &mut Scratch) {
+    fn eval(&self, mode: TransportMode, wi: &[Vec3], wo: &[Vec3], out: Evaluated<'_, Rgb>, scratch: &mut Scratch) {
         let Evaluated { f, pdf } = out;
-        if self.reduction.is_identity() {
-            self.sampler.eval_pdf_batch(Given::Viewer, wi, wo, f.as_flattened_mut(), pdf);
+        let [light, viewer] = match mode {
+            TransportMode::Radiance => [wi, wo],
+            TransportMode::Importance => [wo, wi],
+        };
+        if let Some(values) = self.conversion.in_place(f) {
+            self.sampler.eval_pdf_batch(given(mode), light, viewer, values, pdf);
         } else {
-            let values = scratch.values(wi.len() * self.reduction.channels());
-            self.sampler.eval_pdf_batch(Given::Viewer, wi, wo, values, pdf);
-            self.reduction.apply_batch(values, f);
+            let values = scratch.values(wi.len() * self.conversion.count());
+            self.sampler.eval_pdf_batch(given(mode), light, viewer, values, pdf);
+            self.conversion.convert(values, f);
         }
-        times_cosine(f, wi);
+        times_cosine::<Rgb>(f, wi);
     }
 
-    /// Mirrors that were measured beside the values are drawn too: their density is infinite.
-    fn sample(&self, wo: &[[f32; 3]], u: &[[f32; 2]], out: Sampled<'_, 3>, scratch: &mut Scratch) {
+    /// Mirrors that were measured beside the values are sampled too: their density is infinite.
+    fn sample(&self, mode: TransportMode, wo: &[Vec3], u: &[[f32; 2]], out: Sampled<'_, Rgb>, scratch: &mut Scratch) {
         let Sampled { wi, weight, pdf } = out;
-        if self.reduction.is_identity() {
-            let sampled = lobe::Sampled { directions: wi, weights: weight.as_flattened_mut(), pdfs: pdf };
-            self.sampler.sample_batch(Given::Viewer, wo, u, sampled);
-        } else {
-            let values = scratch.values(wo.len() * self.reduction.channels());
+        if let Some(values) = self.conversion.in_place(weight) {
             let sampled = lobe::Sampled { directions: wi, weights: values, pdfs: pdf };
-            self.sampler.sample_batch(Given::Viewer, wo, u, sampled);
-            self.reduction.apply_batch(values, weight);
+            self.sampler.sample_batch(given(mode), wo, u, sampled);
+        } else {
+            let values = scratch.values(wo.len() * self.conversion.count());
+            let sampled = lobe::Sampled { directions: wi, weights: values, pdfs: pdf };
+            self.sampler.sample_batch(given(mode), wo, u, sampled);
+            self.conversion.convert(values, weight);
         }
     }
 }

@@ -1,9 +1,10 @@
 //! Materials as a renderer needs them: batches of values with densities, and batches of drawn directions.
 //!
-//! Directions are unit vectors in the frame of the surface, normal on +z; `wo` leads to the viewer and is known, `wi` to
-//! the light and is drawn. A batch is of one material and as long as can be, so that all lanes are in use. Materials run
+//! Directions are unit vectors in the frame of the surface, normal on +z; `wo` is known (for a path from the camera it
+//! leads to the viewer), `wi` is sampled. A batch is of one material and as long as can be, so that all lanes are in use. Materials run
 //! on the backend that they were made with.
 
+mod conversion;
 mod delta;
 mod lambert;
 mod measured;
@@ -11,30 +12,51 @@ mod model;
 
 use std::fmt::Debug;
 
-pub use delta::{Delta, DeltaSample, DeltaShader};
+pub use conversion::Conversion;
+pub use delta::{Delta, DeltaSample, DeltaSamples, DeltaShader};
 pub use lambert::Lambert;
 pub use lobe::Backend;
 pub use measured::{MaterialError, MeasuredShader, open, open_sheet};
 pub use model::ModelShader;
 
-/// Where values go, one entry a pair of directions.
+use crate::channels::Channels;
+use crate::transport::{Rgb, Transport, TransportMode};
+
+/// Where values go, one entry per pair of directions.
 #[derive(Debug)]
-pub struct Evaluated<'a, const C: usize> {
+pub struct Evaluated<'a, T: Transport> {
     /// `f` times `|cos theta_i|` in 1/sr.
-    pub f: &'a mut [[f32; C]],
-    /// The density with which [`Shader::sample`] draws this `wi` for this `wo`, 1/sr.
+    pub f: &'a mut [T::Scattering],
+    /// The density with which [`Shader::sample`] samples this `wi` for this `wo`, 1/sr.
     pub pdf: &'a mut [f32],
 }
 
-/// Where drawn directions go, one entry a `wo`.
+/// Where sampled directions go, one entry per `wo`.
 #[derive(Debug)]
-pub struct Sampled<'a, const C: usize> {
+pub struct Sampled<'a, T: Transport> {
     /// The directions.
     pub wi: &'a mut [[f32; 3]],
-    /// `f` times `|cos theta_i|` over the density; 0 where nothing was drawn.
-    pub weight: &'a mut [[f32; C]],
-    /// The densities, 1/sr; 0 where nothing was drawn, infinite where the direction could be no other.
+    /// `f` times `|cos theta_i|` over the density; 0 if nothing was sampled.
+    pub weight: &'a mut [T::Scattering],
+    /// The densities, 1/sr; 0 if nothing was sampled, infinite for the direction of a delta lobe.
     pub pdf: &'a mut [f32],
+}
+
+/// What kinds of lobes a material has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Lobes {
+    /// It has values for pairs of directions: [`Shader::eval`] and [`Shader::sample`] answer for it.
+    pub values: bool,
+    /// It sends light into exact directions: [`Shader::delta`], or samples of infinite density.
+    pub delta: bool,
+    /// Light may pass through, so that the two sides of a surface differ. Other materials look the same from both
+    /// sides.
+    pub transmits: bool,
+}
+
+impl Lobes {
+    /// A material that reflects, with values for all pairs of directions.
+    pub const REFLECTION: Self = Lobes { values: true, delta: false, transmits: false };
 }
 
 /// Memory for channels on their way to a picture, kept from batch to batch.
@@ -52,47 +74,52 @@ impl Scratch {
     }
 }
 
-/// A material of `C` channels.
-pub trait Shader<const C: usize>: Debug + Send + Sync {
-    /// Whether light may pass through, so that the two sides of a surface differ. Other materials look the same from
-    /// both sides.
-    fn transmits(&self) -> bool {
-        false
+/// A material as a renderer of the transport `T` sees it.
+///
+/// In [`TransportMode::Importance`] the path comes from a light: the known direction `wo` leads to the light, and `wi` is
+/// where it goes on. Values are those of the pair that light takes, times the cosine of `wi` in either mode.
+pub trait Shader<T: Transport = Rgb>: Debug + Send + Sync {
+    /// What kinds of lobes it has.
+    fn lobes(&self) -> Lobes {
+        Lobes::REFLECTION
     }
 
-    /// Mirrors and glass, which have no value for a pair of directions. [`eval`](Shader::eval) and
-    /// [`sample`](Shader::sample) are not called for them.
-    fn delta(&self) -> Option<&Delta<C>> {
+    /// The exact directions of mirrors and glass, which have no value for a pair of directions.
+    fn delta(&self) -> Option<&Delta<T::Spectrum>> {
         None
     }
 
-    /// Roughly the share of light that comes back, for the albedo image.
-    fn albedo(&self) -> [f32; C];
+    /// Roughly the share of light that comes back, in linear sRGB, for the albedo image.
+    fn albedo(&self) -> [f32; 3];
 
-    /// Values and densities of pairs of directions. All slices are equally long.
-    fn eval(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: Evaluated<'_, C>, scratch: &mut Scratch);
+    /// Values and densities of pairs of directions. All slices are equally long. Not called without
+    /// [values](Lobes::values).
+    fn eval(&self, mode: TransportMode, wi: &[[f32; 3]], wo: &[[f32; 3]], out: Evaluated<'_, T>, scratch: &mut Scratch);
 
-    /// Draws a `wi` for each `wo` from two numbers in `[0, 1)`. All slices are equally long.
-    fn sample(&self, wo: &[[f32; 3]], u: &[[f32; 2]], out: Sampled<'_, C>, scratch: &mut Scratch);
+    /// Samples a `wi` for each `wo` from two numbers in `[0, 1)`. All slices are equally long. Not called without
+    /// [values](Lobes::values).
+    fn sample(&self, mode: TransportMode, wo: &[[f32; 3]], u: &[[f32; 2]], out: Sampled<'_, T>, scratch: &mut Scratch);
 }
 
-/// The mean weight of directions that a shader draws for a viewer 30 degrees from the normal: its albedo there.
-fn albedo_of<const C: usize>(shader: &impl Shader<C>) -> [f32; C] {
+/// The mean weight of directions that a shader samples for a viewer 30 degrees from the normal: its albedo there.
+fn albedo_of<T: Transport>(shader: &impl Shader<T>) -> [f32; 3] {
     const SIDE: usize = 24;
     let n = SIDE * SIDE;
-    let place = |i: usize| (i as f32 + 0.5) / SIDE as f32;
-    let u: Vec<[f32; 2]> = (0..n).map(|i| [place(i % SIDE), place(i / SIDE)]).collect();
+    let at = |i: usize| (i as f32 + 0.5) / SIDE as f32;
+    let u: Vec<[f32; 2]> = (0..n).map(|i| [at(i % SIDE), at(i / SIDE)]).collect();
     let wo = vec![[0.5, 0.0, 0.75f32.sqrt()]; n];
-    let (mut wi, mut weight, mut pdf) = (vec![[0.0; 3]; n], vec![[0.0; C]; n], vec![0.0; n]);
+    let (mut wi, mut weight, mut pdf) = (vec![[0.0; 3]; n], vec![T::ABSORBED; n], vec![0.0; n]);
     let out = Sampled { wi: &mut wi, weight: &mut weight, pdf: &mut pdf };
-    shader.sample(&wo, &u, out, &mut Scratch::default());
-    std::array::from_fn(|k| (weight.iter().map(|w| f64::from(w[k])).sum::<f64>() / n as f64).clamp(0.0, 1.0) as f32)
+    shader.sample(TransportMode::Radiance, &wo, &u, out, &mut Scratch::default());
+    let colours: Vec<[f32; 3]> =
+        weight.into_iter().map(|weight| T::colour(T::radiance(T::apply(T::START, weight), T::Spectrum::ONE))).collect();
+    std::array::from_fn(|k| (colours.iter().map(|c| f64::from(c[k])).sum::<f64>() / n as f64).clamp(0.0, 1.0) as f32)
 }
 
-/// Values times the cosine. Those below 0 stay: they are of colours that the channels cannot show, or noise, and without
-/// them the sums of many values would be too bright.
-fn times_cosine<const C: usize>(f: &mut [[f32; C]], wi: &[[f32; 3]]) {
+/// Values times the cosine. Negative values stay: they are of colours that the channels cannot show, or noise, and
+/// without them the sums of many values would be too bright.
+fn times_cosine<T: Transport>(f: &mut [T::Scattering], wi: &[[f32; 3]]) {
     for (f, wi) in f.iter_mut().zip(wi) {
-        *f = f.map(|x| x * wi[2].abs());
+        *f = T::scale(*f, wi[2].abs());
     }
 }

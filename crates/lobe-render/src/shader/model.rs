@@ -3,12 +3,14 @@
 use std::fmt::Debug;
 
 use lobe::Scatter;
-use lobe_model::{Model, Rgb, is_isotropic};
+use lobe_model::{Model, is_isotropic};
 use lobe_table::{Distribution, DistributionError, DistributionOptions};
 
 use super::{Backend, Evaluated, Sampled, Scratch, Shader, albedo_of, times_cosine};
+use crate::transport::{Rgb, TransportMode};
+use crate::vec3::Vec3;
 
-/// A model that reflects, and the distribution that directions are drawn by.
+/// A model that reflects, and the distribution that directions are sampled from.
 #[derive(Debug)]
 pub struct ModelShader<M> {
     model: M,
@@ -24,9 +26,9 @@ impl<M: Model + Debug + Send + Sync> ModelShader<M> {
     /// Measures where the model sends light; it is the model itself that is seen.
     ///
     /// # Errors
-    /// Where the model answers what no distribution can be made of.
+    /// If no distribution can be made of the model's answers.
     pub fn new(model: M, backend: Backend) -> Result<Self, DistributionError> {
-        let options = DistributionOptions::unknown(Scatter::Reflection, is_isotropic(&Rgb(&model)), BYTES);
+        let options = DistributionOptions::unknown(Scatter::Reflection, is_isotropic(&lobe_model::Rgb(&model)), BYTES);
         let mut colours = Vec::new();
         // Models are reciprocal, so it does not matter that the known direction is the viewer's.
         let mut light = |wo: &[[f32; 3]], wi: &[[f32; 3]], out: &mut [f32]| {
@@ -48,22 +50,23 @@ fn values(model: &impl Model, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [[f32;
     }
 }
 
-impl<M: Model + Debug + Send + Sync> Shader<3> for ModelShader<M> {
+impl<M: Model + Debug + Send + Sync> Shader<Rgb> for ModelShader<M> {
     fn albedo(&self) -> [f32; 3] {
         self.albedo
     }
 
-    fn eval(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: Evaluated<'_, 3>, _: &mut Scratch) {
+    // Models are reciprocal: both modes have the same values.
+    fn eval(&self, _: TransportMode, wi: &[Vec3], wo: &[Vec3], out: Evaluated<'_, Rgb>, _: &mut Scratch) {
         values(&self.model, wi, wo, out.f);
-        times_cosine(out.f, wi);
+        times_cosine::<Rgb>(out.f, wi);
         self.distribution.pdf_batch(self.backend, wo, wi, out.pdf);
     }
 
-    fn sample(&self, wo: &[[f32; 3]], u: &[[f32; 2]], out: Sampled<'_, 3>, _: &mut Scratch) {
+    fn sample(&self, _: TransportMode, wo: &[Vec3], u: &[[f32; 2]], out: Sampled<'_, Rgb>, _: &mut Scratch) {
         let Sampled { wi, weight, pdf } = out;
         self.distribution.draw_batch(self.backend, wo, u, wi, pdf);
         values(&self.model, wi, wo, weight);
-        times_cosine(weight, wi);
+        times_cosine::<Rgb>(weight, wi);
         for (weight, &pdf) in weight.iter_mut().zip(&*pdf) {
             *weight = if pdf > 0.0 { weight.map(|w| w / pdf) } else { [0.0; 3] };
         }

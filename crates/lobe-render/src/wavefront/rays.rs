@@ -1,12 +1,19 @@
-//! Rays and what they carry.
+//! Queues of rays, each with the state of its path.
 
 use lobe_trace::{HitSoA, MISS, RaySoA};
 
 use crate::vec3::Vec3;
 
-/// Rays that begin at `t` 0, each with what it carries.
+/// Where a ray begins and where it goes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ray {
+    pub origin: Vec3,
+    pub direction: Vec3,
+}
+
+/// Rays that begin at `t` 0, each with a state.
 #[derive(Debug)]
-pub(super) struct RayQueue<T> {
+pub(crate) struct RayQueue<T> {
     pub rays: RaySoA,
     pub states: Vec<T>,
 }
@@ -38,16 +45,16 @@ impl<T: Copy> RayQueue<T> {
     }
 
     /// Adds a ray.
-    pub fn push(&mut self, (origin, direction): (Vec3, Vec3), t_max: f32, states: T) {
+    pub fn push(&mut self, Ray { origin, direction }: Ray, t_max: f32, state: T) {
         self.rays.push(origin, direction, 0.0, t_max);
-        self.states.push(states);
+        self.states.push(state);
     }
 
     /// Adds those of at most `more` rays that `write` keeps.
     #[inline(always)]
     pub fn extend(&mut self, more: usize, write: impl FnOnce(&mut Room<'_, T>)) {
         let begin = self.len();
-        // One more, to be written over.
+        // One more, to be overwritten.
         let more = more + 1;
         fill(&mut self.rays, begin + more);
         let RaySoA { origin, direction, t_max, .. } = &mut self.rays;
@@ -66,8 +73,8 @@ impl<T: Copy> RayQueue<T> {
     }
 }
 
-/// Room for rays to be written one after the other.
-pub(super) struct Room<'a, T> {
+/// Room for rays, written one after another.
+pub(crate) struct Room<'a, T> {
     origin: [&'a mut [f32]; 3],
     direction: [&'a mut [f32]; 3],
     t_max: &'a mut [f32],
@@ -77,17 +84,16 @@ pub(super) struct Room<'a, T> {
 }
 
 impl<T: Copy> Room<'_, T> {
-    /// Writes a ray. One that is not to be kept is written over by the next: whether it is cannot be foreseen, and so is
-    /// not asked.
+    /// Writes a ray. One that is not kept is overwritten by the next: a branch would be unpredictable.
     #[inline(always)]
-    pub fn write(&mut self, (origin, direction): (Vec3, Vec3), t_max: f32, states: T, keep: bool) {
+    pub fn write(&mut self, Ray { origin, direction }: Ray, t_max: f32, state: T, keep: bool) {
         for axis in 0..3 {
             self.origin[axis][self.count] = origin[axis];
             self.direction[axis][self.count] = direction[axis];
         }
         self.t_max[self.count] = t_max;
         self.states.truncate(self.begin + self.count);
-        self.states.push(states);
+        self.states.push(state);
         self.count += usize::from(keep);
     }
 }

@@ -1,147 +1,184 @@
-//! The next rays of the paths.
+//! The stage that scatters paths: the rays of the next wave.
 
 use std::time::Instant;
 
 use lobe_lane::{Lanes, MAX_LANES, Mask};
 use lobe_scalar::Reference;
 
+use super::rays::Ray;
 use super::spawn::{Origin, SpawnedRays, spawn_rays};
 use super::{PathState, Wavefront};
+use crate::channels::Channels;
 use crate::columns::RAYS;
-use crate::integrator::Integrator;
+use crate::interaction::Interactions;
 use crate::random::Dimensions;
-use crate::shader::{Delta, Sampled};
+use crate::shader::{Delta, DeltaSample, DeltaSamples, Sampled};
+use crate::transport::{Transport, TransportMode};
 use crate::vec3::Vec3;
 use crate::vectors::{dot, scale, sub};
 
-/// Directions drawn by materials, one a hit.
-#[derive(Debug, Default)]
-pub(super) struct BsdfSamples<const C: usize> {
+/// How paths are scattered.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scatter {
+    /// How many surfaces the path has met before this one.
+    pub depth: u32,
+    /// What the path carries.
+    pub mode: TransportMode,
+    /// Which of the exact directions of mirrors and glass are followed.
+    pub delta: DeltaChoice,
+    /// From which depth on paths end by chance (Russian roulette); `None` if paths end at materials that have values.
+    pub roulette: Option<u32>,
+}
+
+/// Which exact directions are followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum DeltaChoice {
+    /// One of them by chance.
+    One,
+    /// All that carry more than this.
+    Branch(f32),
+}
+
+/// Directions sampled by materials, one per hit.
+#[derive(Debug)]
+pub(super) struct BsdfSamples<T: Transport> {
     u: Vec<[f32; 2]>,
     wi: Vec<Vec3>,
-    weight: Vec<[f32; C]>,
+    weight: Vec<T::Scattering>,
     pdf: Vec<f32>,
     rays: Vec<SpawnedRays>,
 }
 
-/// A ray of `whitted` that carries less than this is not followed.
-const NEGLIGIBLE: f32 = 1e-3;
-/// From this depth on paths end by chance.
-const ROULETTE: u32 = 3;
+impl<T: Transport> Default for BsdfSamples<T> {
+    fn default() -> Self {
+        BsdfSamples { u: Vec::new(), wi: Vec::new(), weight: Vec::new(), pdf: Vec::new(), rays: Vec::new() }
+    }
+}
 
-impl<const C: usize> Wavefront<'_, C> {
-    /// Draws the next rays of the sorted hits. Returns whether all of them are mirrored or refracted.
-    pub(super) fn scatter(&mut self, depth: u32) -> bool {
-        self.sent.clear();
+impl<T: Transport> Wavefront<'_, T> {
+    /// Replaces the rays of the wave by those that its hits scatter. Returns whether all of them have exact directions.
+    pub fn scatter(&mut self, scatter: Scatter) -> bool {
+        self.rays.clear();
         let begun = Instant::now();
-        self.draw(Dimensions::Scatter(depth));
+        self.sample_numbers(Dimensions::Scatter(scatter.depth));
         let n = self.hits.len();
         let BsdfSamples { u, wi, weight, pdf, .. } = &mut self.bsdf_samples;
         u.clear();
         u.extend((0..n).map(|hit| self.numbers.of(hit)).map(|[a, b, ..]| [a, b]));
         wi.resize(n.next_multiple_of(MAX_LANES), [0.0; 3]);
-        weight.resize(n, [0.0; C]);
+        weight.resize(n, T::ABSORBED);
         pdf.resize(n, 0.0);
         self.stats.scatter += begun.elapsed();
         let mut specular = true;
-        for part in 0..self.queue.parts.len() {
-            let material = self.queue.parts[part].0;
-            match (self.world.materials[material].delta(), self.integrator) {
-                (Some(delta), _) => self.scatter_delta(part, delta),
-                (None, Integrator::Path { .. }) => {
-                    specular = false;
-                    self.sample(part, depth);
-                }
-                (None, _) => {}
+        for group in 0..self.queue.groups.len() {
+            let shader = &self.world.materials[self.queue.groups[group].material];
+            if let Some(delta) = shader.delta() {
+                self.scatter_delta(group, delta, scatter);
+            } else if scatter.roulette.is_some() {
+                specular = false;
+                self.sample_bsdf(group, scatter);
             }
         }
-        if !specular {
-            self.continue_paths(depth);
+        if let Some(roulette) = scatter.roulette
+            && !specular
+        {
+            self.continue_paths(scatter, roulette);
         }
         specular
     }
 
     /// Rays along the exact directions of a smooth surface: one of them by chance, or all.
-    fn scatter_delta(&mut self, part: usize, delta: &Delta<C>) {
+    fn scatter_delta(&mut self, group: usize, delta: &Delta<T::Spectrum>, scatter: Scatter) {
         let begun = Instant::now();
-        for hit in self.queue.parts[part].1.clone() {
-            let (mirror, through) = delta.samples(self.hits.wo()[hit]);
-            let ways = [Some(mirror), through].into_iter().flatten();
-            if matches!(self.integrator, Integrator::Whitted { .. }) {
-                for way in ways {
-                    self.push_delta(hit, way.wi, way.weight, NEGLIGIBLE);
+        for hit in self.queue.groups[group].hits.clone() {
+            let DeltaSamples { reflection, transmission } = delta.samples(scatter.mode, self.hits.wo()[hit]);
+            if let DeltaChoice::Branch(least) = scatter.delta {
+                self.push_delta(hit, reflection, scatter, least);
+                if let Some(transmission) = transmission {
+                    self.push_delta(hit, transmission, scatter, least);
                 }
                 continue;
             }
-            let size = |weight: [f32; C]| weight.into_iter().sum::<f32>();
-            let (a, b) = (size(mirror.weight), through.map_or(0.0, |way| size(way.weight)));
+            let size = |sample: &DeltaSample<T::Spectrum>| sample.weight.as_ref().iter().sum::<f32>();
+            let (a, b) = (size(&reflection), transmission.as_ref().map_or(0.0, size));
             if a + b <= 0.0 {
                 continue;
             }
             let chance = a / (a + b);
             let u = self.numbers.of(hit)[2];
-            let (way, chance) = match through {
-                Some(way) if u >= chance => (way, 1.0 - chance),
-                _ => (mirror, chance),
+            let (sample, chance) = match transmission {
+                Some(transmission) if u >= chance => (transmission, 1.0 - chance),
+                _ => (reflection, chance),
             };
-            self.push_delta(hit, way.wi, way.weight.map(|w| w / chance), 0.0);
+            let weight = sample.weight.map(|w| w / chance);
+            self.push_delta(hit, DeltaSample { weight, ..sample }, scatter, 0.0);
         }
         self.stats.scatter += begun.elapsed();
     }
 
-    fn push_delta(&mut self, hit: usize, local: Vec3, weight: [f32; C], least: f32) {
-        let arrived = &self.arrived[hit];
-        let throughput: [f32; C] = std::array::from_fn(|k| arrived.throughput[k] * weight[k]);
-        if !throughput.iter().any(|t| t.abs() > least) {
+    fn push_delta(&mut self, hit: usize, sample: DeltaSample<T::Spectrum>, scatter: Scatter, least: f32) {
+        let PathState { slot, throughput, .. } = self.arrived[hit];
+        let mut throughput = T::apply(throughput, T::scattering(sample.weight));
+        // NaN is not followed either.
+        let carries = T::magnitude(&throughput) > least;
+        if !carries {
             return;
         }
         let lanes = Reference::default();
-        let place = self.hits.places(lanes, hit);
-        let local = lanes.splat_xyz(local);
-        let mut wi = place.world(local);
-        if !place.same_side(lanes, wi, local).any() {
+        let surface = self.hits.load(lanes, hit);
+        let local = lanes.splat_xyz(sample.wi);
+        let mut wi = surface.world(local);
+        if !surface.same_side(lanes, wi, local).any() {
             // At the silhouette of facets that a smooth normal hides, the direction is turned back out of the facet.
-            let (normal, two) = (place.geometric, lanes.splat(2.0));
+            let (normal, two) = (surface.geometric, lanes.splat(2.0));
             wi = sub::<Reference>(wi, scale::<Reference>(normal, two * dot::<Reference>(normal, wi)));
         }
-        let origin = place.offset_origin(lanes, place.position, wi);
-        let ray = (lanes.extract_xyz(origin, 0), lanes.extract_xyz(wi, 0));
-        self.sent.push(ray, f32::INFINITY, PathState { slot: arrived.slot, throughput, pdf: f32::INFINITY });
+        if scatter.mode == TransportMode::Importance {
+            throughput = T::weigh(throughput, adjoint_correction(&self.hits, hit, sample.wi));
+        }
+        let origin = lanes.extract_xyz(surface.offset_origin(lanes, surface.position, wi), 0);
+        let ray = Ray { origin, direction: lanes.extract_xyz(wi, 0) };
+        self.rays.push(ray, f32::INFINITY, PathState { slot, throughput, pdf: f32::INFINITY });
     }
 
     /// One material's hits, in full lanes.
-    fn sample(&mut self, part: usize, depth: u32) {
+    fn sample_bsdf(&mut self, group: usize, scatter: Scatter) {
         let begun = Instant::now();
-        let (material, range) = &self.queue.parts[part];
+        let hits = self.queue.groups[group].hits.clone();
         let BsdfSamples { u, wi, weight, pdf, .. } = &mut self.bsdf_samples;
-        let (wo, u) = (&self.hits.wo()[range.clone()], &u[range.clone()]);
-        let out =
-            Sampled { wi: &mut wi[range.clone()], weight: &mut weight[range.clone()], pdf: &mut pdf[range.clone()] };
-        self.world.materials[*material].sample(wo, u, out, &mut self.scratch);
-        self.stats.at(depth).count(wo.len(), self.backend.lanes());
-        self.stats.at(depth).time += begun.elapsed();
+        let (wo, u) = (&self.hits.wo()[hits.clone()], &u[hits.clone()]);
+        let out = Sampled { wi: &mut wi[hits.clone()], weight: &mut weight[hits.clone()], pdf: &mut pdf[hits] };
+        let shader = &self.world.materials[self.queue.groups[group].material];
+        shader.sample(scatter.mode, wo, u, out, &mut self.scratch);
+        self.stats.at(scatter.depth).count(wo.len(), self.backend.lanes());
+        self.stats.at(scatter.depth).time += begun.elapsed();
     }
 
-    /// Rays along the directions drawn, as far as they carry something and chance lets them.
-    fn continue_paths(&mut self, depth: u32) {
+    /// Rays along the sampled directions, if they carry something and survive Russian roulette.
+    fn continue_paths(&mut self, scatter: Scatter, roulette: u32) {
         let begun = Instant::now();
+        let Scatter { depth, mode, .. } = scatter;
+        let Wavefront { world, hits, arrived, numbers, queue, .. } = self;
         let BsdfSamples { wi, weight, pdf, rays, .. } = &mut self.bsdf_samples;
-        spawn_rays(self.backend, &self.hits, Origin::Surface, wi, rays);
-        self.sent.extend(self.hits.len(), |out| {
-            for (material, range) in &self.queue.parts {
-                if self.world.materials[*material].delta().is_some() {
+        spawn_rays(self.backend, hits, Origin::Surface, wi, rays);
+        self.rays.extend(hits.len(), |out| {
+            for group in &queue.groups {
+                if world.materials[group.material].delta().is_some() {
                     continue;
                 }
-                for hit in range.clone() {
-                    let (arrived, ray) = (&self.arrived[hit], &rays[hit / RAYS]);
-                    let mut throughput: [f32; C] = std::array::from_fn(|k| arrived.throughput[k] * weight[hit][k]);
-                    let most = throughput.iter().fold(0.0f32, |most, t| most.max(t.abs()));
-                    // NaN is no more than 0 either.
+                for hit in group.hits.clone() {
+                    let (arrived, ray) = (&arrived[hit], &rays[hit / RAYS]);
+                    let mut throughput = T::apply(arrived.throughput, weight[hit]);
+                    if mode == TransportMode::Importance {
+                        throughput = T::weigh(throughput, adjoint_correction(hits, hit, wi[hit]));
+                    }
+                    let most = T::magnitude(&throughput);
+                    // NaN is not above 0 either.
                     let mut goes = (pdf[hit] > 0.0) & (most > 0.0) & ray.goes(hit % RAYS);
-                    if depth >= ROULETTE {
+                    if depth >= roulette {
                         let chance = most.min(0.95);
-                        goes &= self.numbers.of(hit)[3] < chance;
-                        throughput = throughput.map(|t| t / chance);
+                        goes &= numbers.of(hit)[3] < chance;
+                        throughput = T::survive(throughput, chance);
                     }
                     let state = PathState { slot: arrived.slot, throughput, pdf: pdf[hit] };
                     out.write(ray.ray(hit % RAYS), f32::INFINITY, state, goes);
@@ -150,4 +187,11 @@ impl<const C: usize> Wavefront<'_, C> {
         });
         self.stats.scatter += begun.elapsed();
     }
+}
+
+/// What importance is multiplied by at a hit because of its shading normal.
+fn adjoint_correction(hits: &Interactions, hit: usize, wi: Vec3) -> f32 {
+    let lanes = Reference::default();
+    let [wo, wi] = [hits.wo()[hit], wi].map(|local| lanes.splat_xyz(local));
+    lanes.extract(hits.load(lanes, hit).adjoint_correction(lanes, wo, wi), 0)
 }

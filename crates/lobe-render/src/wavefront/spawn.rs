@@ -1,14 +1,15 @@
-//! Rays from surfaces into directions that are given in the frames of the material.
+//! Rays from surfaces into directions that are given in the frames of their materials.
 
 use lobe::{Backend, Kernel, Lanes};
 
+use super::rays::Ray;
 use crate::columns::{Column, RAYS, ZEROS, ensure_len, store, vector};
 use crate::interaction::Interactions;
 use crate::vec3::Vec3;
 
 /// Where rays begin.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Origin {
+pub(crate) enum Origin {
     /// On the triangles.
     Surface,
     /// On the smooth surface that the triangles stand for, as shadow rays do.
@@ -17,10 +18,10 @@ pub(super) enum Origin {
 
 /// Rays from 64 surfaces.
 #[derive(Clone, Debug)]
-pub(super) struct SpawnedRays {
+pub(crate) struct SpawnedRays {
     origin: [Column; 3],
     direction: [Column; 3],
-    /// 1 where the ray is on the same side of the triangle and of the smooth surface, else 0.
+    /// 1 if the ray is on the same side of the triangle and of the smooth surface, else 0.
     goes: Column,
 }
 
@@ -33,26 +34,26 @@ impl SpawnedRays {
     }
 
     /// Origin and direction.
-    pub fn ray(&self, at: usize) -> (Vec3, Vec3) {
-        (vector(&self.origin, at), vector(&self.direction, at))
+    pub fn ray(&self, at: usize) -> Ray {
+        Ray { origin: vector(&self.origin, at), direction: vector(&self.direction, at) }
     }
 }
 
 /// The rays from hits into the directions `local`, of which there are as many as fill the lanes.
-pub(super) fn spawn_rays(
+pub(crate) fn spawn_rays(
     backend: Backend,
     hits: &Interactions,
-    start: Origin,
+    from: Origin,
     local: &[Vec3],
     out: &mut Vec<SpawnedRays>,
 ) {
     ensure_len(out, hits.len().div_ceil(RAYS), SpawnedRays::ZEROS);
-    backend.run(SpawnRays { hits, start, local, out });
+    backend.run(SpawnRays { hits, from, local, out });
 }
 
 struct SpawnRays<'a> {
     hits: &'a Interactions,
-    start: Origin,
+    from: Origin,
     local: &'a [Vec3],
     out: &'a mut [SpawnedRays],
 }
@@ -62,21 +63,21 @@ impl Kernel for SpawnRays<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        let SpawnRays { hits, start, local, out } = self;
+        let SpawnRays { hits, from, local, out } = self;
         let (one, zero) = (lanes.splat(1.0), lanes.splat(0.0));
         let mut at = 0;
         while at < hits.len() {
             let (out, lane) = (&mut out[at / RAYS], at & (RAYS - L::LANES));
-            let place = hits.places(lanes, at);
+            let surface = hits.load(lanes, at);
             let local = lanes.load_xyz(&local[at..]);
-            let world = place.world(local);
-            let origin = match start {
-                Origin::Surface => place.position,
-                Origin::Lifted => place.lifted,
+            let world = surface.world(local);
+            let origin = match from {
+                Origin::Surface => surface.position,
+                Origin::Lifted => surface.lifted,
             };
-            store(lanes, &mut out.origin, lane, place.offset_origin(lanes, origin, world));
+            store(lanes, &mut out.origin, lane, surface.offset_origin(lanes, origin, world));
             store(lanes, &mut out.direction, lane, world);
-            lanes.store(&mut out.goes[lane..], lanes.select(place.same_side(lanes, world, local), one, zero));
+            lanes.store(&mut out.goes[lane..], lanes.select(surface.same_side(lanes, world, local), one, zero));
             at += L::LANES;
         }
     }

@@ -4,11 +4,30 @@ use std::path::Path;
 use std::sync::Arc;
 
 use lobe::Options;
+use lobe_render::integrator::{AmbientOcclusion, Integrator, Path as PathTracing, Whitted};
 use lobe_render::light::{Environment, Light};
 use lobe_render::shader::{Backend, Delta, DeltaShader, Lambert, Shader, open};
-use lobe_render::{Camera, Film, Filter, Integrator, Rect, Settings, Shape, World, WorldBuilder, render};
+use lobe_render::{Camera, Film, Filter, Rect, Settings, Shape, World, WorldBuilder, render};
 
-pub const PATH: Integrator = Integrator::Path { depth: 8, limit: f32::INFINITY };
+/// Paths of up to 8 surfaces.
+pub fn path_tracing() -> Arc<dyn Integrator> {
+    path_of(8)
+}
+
+/// Paths of up to that many surfaces.
+pub fn path_of(depth: u32) -> Arc<dyn Integrator> {
+    Arc::new(PathTracing { depth, limit: f32::INFINITY })
+}
+
+/// Direct light, and up to that many surfaces.
+pub fn whitted(depth: u32) -> Arc<dyn Integrator> {
+    Arc::new(Whitted { depth })
+}
+
+/// Surfaces up to a distance occlude.
+pub fn ambient(distance: f32) -> Arc<dyn Integrator> {
+    Arc::new(AmbientOcclusion { distance })
+}
 
 /// A square of side 2 in the plane y = 0 that faces +y; its tangent is turned about +y.
 pub fn plane(turn: f32) -> Shape {
@@ -47,21 +66,21 @@ pub fn sphere(center: [f32; 3], radius: f32) -> Shape {
 /// The fixture of a woven cloth.
 pub const CLOTH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/cloth-17x7x17x13.ddr");
 
-pub fn cloth(backend: Backend) -> Arc<dyn Shader<3>> {
+pub fn cloth(backend: Backend) -> Arc<dyn Shader> {
     open(Path::new(CLOTH), &Options::default(), backend).unwrap()
 }
 
-pub fn lambert(albedo: f32, backend: Backend) -> Arc<dyn Shader<3>> {
+pub fn lambert(albedo: f32, backend: Backend) -> Arc<dyn Shader> {
     Arc::new(Lambert::new([albedo; 3], backend))
 }
 
 /// Something of everything: cloth, glass, a mirror, a lamp, a sky, a point light.
-pub fn mixed() -> World<3> {
+pub fn mixed() -> World {
     mixed_on(Backend::best())
 }
 
 /// The same with materials that run on a backend.
-pub fn mixed_on(backend: Backend) -> World<3> {
+pub fn mixed_on(backend: Backend) -> World {
     let mut world = WorldBuilder::new();
     let materials: Vec<usize> = [
         cloth(backend),
@@ -83,7 +102,7 @@ pub fn mixed_on(backend: Backend) -> World<3> {
     world.build().unwrap()
 }
 
-pub fn settings(size: [u32; 2], samples: u32, integrator: Integrator) -> Settings {
+pub fn settings(size: [u32; 2], samples: u32, integrator: Arc<dyn Integrator>) -> Settings {
     let camera = Camera {
         position: [0.0, 1.2, 4.0],
         target: [0.0, 0.5, 0.0],
@@ -106,14 +125,14 @@ pub fn settings(size: [u32; 2], samples: u32, integrator: Integrator) -> Setting
     }
 }
 
-pub fn picture(world: &World<3>, settings: &Settings) -> Film<3> {
+pub fn picture(world: &World, settings: &Settings) -> Film {
     let (film, stats) = render(world, settings, Film::new(settings.window), |_| true).unwrap();
     assert_eq!(stats.invalid, 0, "samples that are no numbers");
     film
 }
 
 /// The mean over all pixels and channels.
-pub fn mean(film: &Film<3>) -> f64 {
+pub fn mean(film: &Film) -> f64 {
     let sum: f64 = film.pixels().iter().flat_map(|pixel| pixel.mean_radiance()).map(f64::from).sum();
     sum / (3 * film.pixels().len()) as f64
 }

@@ -3,7 +3,7 @@
 use lobe::Brdf;
 use lobe_render::light::Light;
 use lobe_render::shader::Backend;
-use lobe_render::{Camera, Filter, Integrator, WorldBuilder};
+use lobe_render::{Camera, Filter, WorldBuilder};
 
 use super::common::*;
 
@@ -43,7 +43,8 @@ fn a_measured_plane_under_a_point_light() {
         brdf.eval(wi, wo, &mut f);
         let r2 = dot(toward(light), toward(light));
 
-        for integrator in [PATH, Integrator::Whitted { depth: 2 }] {
+        for integrator in [path_tracing(), whitted(2)] {
+            let name = format!("{integrator:?}");
             let mut settings = settings([1, 1], 4, integrator);
             settings.backend = Backend::best().strict();
             settings.filter = Filter::Box;
@@ -58,11 +59,7 @@ fn a_measured_plane_under_a_point_light() {
             for k in 0..3 {
                 let expected = f64::from(f[k]) * f64::from(wi[2]) * f64::from(intensity[k]) / r2;
                 let error = (f64::from(seen[k]) / expected - 1.0).abs();
-                assert!(
-                    expected > 1e-3 && error < 1e-5,
-                    "{integrator:?}, turned by {turn}: {} for {expected}",
-                    seen[k]
-                );
+                assert!(expected > 1e-3 && error < 1e-5, "{name}, turned by {turn}: {} for {expected}", seen[k]);
             }
         }
     }
@@ -76,7 +73,7 @@ fn a_point_light_behind_an_obstacle_gives_nothing() {
     world.shape(&sphere([0.0, 2.0, 0.0], 0.3), white, None, false).unwrap();
     world.light(Light::Point { position: [0.0, 4.0, 0.0], intensity: [10.0; 3] });
     let world = world.build().unwrap();
-    let mut settings = settings([1, 1], 4, Integrator::Whitted { depth: 1 });
+    let mut settings = settings([1, 1], 4, whitted(1));
     let at = |x: f32| Camera { position: [x, 1.0, 0.3], target: [x, 0.0, 0.0], field_of_view: 1e-3, ..settings.camera };
     // The sphere's shadow is a disk of radius 4 tan(asin(0.3 / 2)) = 0.61.
     let (dark, bright) = (at(0.5), at(0.9));

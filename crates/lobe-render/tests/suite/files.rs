@@ -18,7 +18,7 @@ fn meta(window: Rect, samples: std::ops::Range<u32>) -> Meta {
 #[test]
 fn parts_merge_to_the_same_bytes_as_the_whole() {
     let world = mixed();
-    let settings = settings(SIZE, 6, PATH);
+    let settings = settings(SIZE, 6, path_tracing());
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str| folder.path().join(name);
     let whole = picture(&world, &settings);
@@ -55,7 +55,7 @@ fn parts_merge_to_the_same_bytes_as_the_whole() {
 
 #[test]
 fn damaged_files_are_errors() {
-    let settings = settings([16, 16], 1, PATH);
+    let settings = settings([16, 16], 1, path_tracing());
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("part.exr");
     let film = picture(&mixed(), &settings);
@@ -102,7 +102,7 @@ fn environments_come_from_exr_and_hdr() {
     assert!(read_environment(&path, 0.0, 1.0).is_err(), "no memory for a header that promises too much");
 
     let path = folder.path().join("sky.exr");
-    let settings = settings([16, 8], 2, PATH);
+    let settings = settings([16, 8], 2, path_tracing());
     let film = picture(&mixed(), &settings);
     write_exr(&path, &film, &meta(settings.window, 0..2), false).unwrap();
     let sky = read_environment(&path, 0.0, 1.0).unwrap();
@@ -111,7 +111,7 @@ fn environments_come_from_exr_and_hdr() {
 
 #[test]
 fn a_png_is_what_the_tone_map_says() {
-    let settings = settings([20, 10], 1, PATH);
+    let settings = settings([20, 10], 1, path_tracing());
     let film = picture(&mixed(), &settings);
     let tone = ToneMap { exposure: 0.5 };
     let folder = tempfile::tempdir().unwrap();

@@ -5,13 +5,14 @@ use std::sync::Arc;
 
 use lobe::{Channels, Edges, Options, Scatter, specular};
 use lobe_model::{Conductor, Ggx};
+use lobe_render::integrator::Integrator;
 use lobe_render::light::{AreaLight, Environment, Light};
 use lobe_render::shader::{Backend, Delta, DeltaShader, ModelShader, Shader, open, open_sheet};
-use lobe_render::{Integrator, World, WorldBuilder};
+use lobe_render::{World, WorldBuilder};
 
 use super::common::*;
 
-fn furnace(shader: Arc<dyn Shader<3>>) -> World<3> {
+fn furnace(shader: Arc<dyn Shader>) -> World {
     let mut world = WorldBuilder::new();
     let material = world.material(shader);
     world.shape(&sphere([0.0, 0.5, 0.0], 1.0), material, None, false).unwrap();
@@ -32,7 +33,7 @@ fn even(folder: &Path, scatter: Scatter, albedo: f32) -> PathBuf {
 }
 
 /// The largest difference of a pixel from 1, and that of the mean.
-fn from_white(world: &World<3>, integrator: Integrator) -> (f64, f64) {
+fn from_white(world: &World, integrator: Arc<dyn Integrator>) -> (f64, f64) {
     let film = picture(world, &settings([48, 40], 64, integrator));
     let pixels = film.pixels().iter().flat_map(|pixel| pixel.mean_radiance());
     let largest = pixels.map(|x| (f64::from(x) - 1.0).abs()).fold(0.0, f64::max);
@@ -45,7 +46,7 @@ fn white_surfaces_vanish_in_a_white_sky() {
     let white = even(folder.path(), Scatter::Reflection, 1.0);
     let table = open(&white, &Options::default(), Backend::best()).unwrap();
     let oren_nayar = lobe_model::OrenNayar { albedo: [1.0; 3], roughness: 0.0 };
-    let shaders: [(&str, Arc<dyn Shader<3>>, f64, f64); 4] = [
+    let shaders: [(&str, Arc<dyn Shader>, f64, f64); 4] = [
         ("lambert", lambert(1.0, Backend::best()), 0.08, 2e-3),
         ("table", table, 0.25, 3e-3),
         ("model", Arc::new(ModelShader::new(oren_nayar, Backend::best()).unwrap()), 0.25, 3e-3),
@@ -53,10 +54,10 @@ fn white_surfaces_vanish_in_a_white_sky() {
     ];
     for (name, shader, pixel, whole) in shaders {
         let world = furnace(shader);
-        let (largest, mean) = from_white(&world, PATH);
+        let (largest, mean) = from_white(&world, path_tracing());
         assert!(largest < pixel && mean < whole, "path, {name}: a pixel is {largest} off, the mean {mean}");
         // Convex things have direct light only.
-        let (largest, mean) = from_white(&world, Integrator::Whitted { depth: 4 });
+        let (largest, mean) = from_white(&world, whitted(4));
         assert!(largest < 2.0 * pixel && mean < 6e-3, "whitted, {name}: a pixel is {largest} off, the mean {mean}");
     }
 }
@@ -68,8 +69,8 @@ fn values_below_zero_are_seen() {
     let file = even(folder.path(), Scatter::Reflection, -0.25);
     let edges = Edges { non_negative: false, ..Edges::default() };
     let world = furnace(open(&file, &Options { edges, ..Options::default() }, Backend::best()).unwrap());
-    for integrator in [PATH, Integrator::Whitted { depth: 2 }] {
-        let film = picture(&world, &settings([48, 40], 64, integrator));
+    for integrator in [path_tracing(), whitted(2)] {
+        let film = picture(&world, &settings([48, 40], 64, integrator.clone()));
         let seen = film.pixels()[film.index(24, 20)].mean_radiance();
         assert!(seen.iter().all(|x| (x + 0.25).abs() < 0.03), "{integrator:?}: {seen:?}");
     }
@@ -78,8 +79,8 @@ fn values_below_zero_are_seen() {
 #[test]
 fn glass_loses_nothing_when_all_of_its_rays_are_followed() {
     let world = furnace(Arc::new(DeltaShader(Delta::Glass { eta: 1.5, tint: [1.0; 3] })));
-    for integrator in [Integrator::Path { depth: 60, limit: f32::INFINITY }, Integrator::Whitted { depth: 16 }] {
-        let (_, mean) = from_white(&world, integrator);
+    for integrator in [path_of(60), whitted(16)] {
+        let (_, mean) = from_white(&world, integrator.clone());
         assert!(mean < 4e-3, "{integrator:?}: the mean is {mean} off");
     }
 }
@@ -89,27 +90,23 @@ fn a_sheet_that_reflects_half_and_lets_half_through_vanishes() {
     let folder = tempfile::tempdir().unwrap();
     let files = [Scatter::Reflection, Scatter::Transmission].map(|scatter| even(folder.path(), scatter, 0.5));
     let sheet = open_sheet(&files, &files, &Options::default(), Backend::best()).unwrap();
-    assert!(sheet.transmits());
-    let (largest, mean) = from_white(&furnace(sheet), Integrator::Path { depth: 40, limit: f32::INFINITY });
+    assert!(sheet.lobes().transmits);
+    let (largest, mean) = from_white(&furnace(sheet), path_of(40));
     assert!(largest < 0.3 && mean < 3e-3, "a pixel is {largest} off, the mean {mean}");
 }
 
 #[test]
 fn nothing_occludes_a_convex_thing() {
-    let (largest, _) =
-        from_white(&furnace(lambert(1.0, Backend::best())), Integrator::Ambient { distance: f32::INFINITY });
+    let (largest, _) = from_white(&furnace(lambert(1.0, Backend::best())), ambient(f32::INFINITY));
     // Pixels beside the sphere are black, as there is no surface.
     assert_eq!(largest, 1.0);
-    let film = picture(
-        &furnace(lambert(1.0, Backend::best())),
-        &settings([48, 40], 16, Integrator::Ambient { distance: f32::INFINITY }),
-    );
+    let film = picture(&furnace(lambert(1.0, Backend::best())), &settings([48, 40], 16, ambient(f32::INFINITY)));
     let middle = film.pixels()[film.index(24, 20)];
     assert!((middle.mean_radiance()[0] - 1.0).abs() < 1e-6, "{:?}", middle.mean_radiance());
 }
 
 /// A lamp above a square, by its lights alone, and by lights and materials together.
-fn assert_the_same_light(name: &str, material: Arc<dyn Shader<3>>) {
+fn assert_the_same_light(name: &str, material: Arc<dyn Shader>) {
     let mut world = WorldBuilder::new();
     let material = world.material(material);
     let black = world.material(lambert(0.0, Backend::best()));
@@ -117,15 +114,15 @@ fn assert_the_same_light(name: &str, material: Arc<dyn Shader<3>>) {
     world.shape(&sphere([0.3, 1.5, 0.2], 0.4), black, Some([5.0, 6.0, 7.0]), false).unwrap();
     let world = world.build().unwrap();
     let of = |integrator| mean(&picture(&world, &settings([40, 40], 128, integrator)));
-    let both = of(Integrator::Path { depth: 1, limit: f32::INFINITY });
-    let lights = of(Integrator::Whitted { depth: 1 });
+    let both = of(path_of(1));
+    let lights = of(whitted(1));
     assert!(both > 0.05, "{name}: {both}");
     assert!((both / lights - 1.0).abs() < 5e-3, "{name}: {both} with both, {lights} with lights");
 }
 
 #[test]
 fn drawing_lights_and_drawing_materials_find_the_same_light() {
-    assert!(AreaLight::<3>::new(vec![], [1.0; 3], false).is_none());
+    assert!(AreaLight::<[f32; 3]>::new(vec![], [1.0; 3], false).is_none());
     assert_the_same_light("cloth", cloth(Backend::best()));
     let gold = Ggx { alpha: [0.1, 0.3] };
     let gold = Conductor { ggx: gold, eta: [0.143, 0.375, 1.442], k: [3.983, 2.386, 1.603] };

@@ -1,22 +1,27 @@
 //! Pictures that have to be the same bits, however they are made.
 
+use std::sync::Arc;
+
+use lobe_render::integrator::{INTEGRATORS, Integrator};
 use lobe_render::shader::Backend;
-use lobe_render::{DEPTHS, Film, Integrator, Rect, Settings, render};
+use lobe_render::{DEPTHS, Film, Rect, Settings, render};
 
 use super::common::*;
 
 const SIZE: [u32; 2] = [100, 70];
 const SAMPLES: u32 = 7;
 
-fn kinds() -> [Integrator; 4] {
-    [PATH, Integrator::Whitted { depth: 5 }, Integrator::Ambient { distance: 1.0 }, Integrator::Normals]
+/// All integrators, and some with other parameters.
+fn kinds() -> Vec<Arc<dyn Integrator>> {
+    let defaults = INTEGRATORS.iter().map(|spec| (spec.default)());
+    defaults.chain([whitted(5), ambient(1.0)]).collect()
 }
 
 #[test]
 fn threads_do_not_matter() {
     let world = mixed();
     for integrator in kinds() {
-        let settings = settings(SIZE, SAMPLES, integrator);
+        let settings = settings(SIZE, SAMPLES, integrator.clone());
         let one = picture(&world, &Settings { threads: 1, ..settings.clone() });
         assert!(mean(&one) > 0.05, "{integrator:?} sees something");
         for threads in [2, 3] {
@@ -29,7 +34,7 @@ fn threads_do_not_matter() {
 fn parts_of_the_picture_and_of_the_samples_add_up() {
     let world = mixed();
     for integrator in kinds() {
-        let settings = settings(SIZE, SAMPLES, integrator);
+        let settings = settings(SIZE, SAMPLES, integrator.clone());
         let whole = picture(&world, &settings);
         let mut sum = Film::new(settings.window);
         for (window, samples) in [
@@ -47,7 +52,7 @@ fn parts_of_the_picture_and_of_the_samples_add_up() {
 #[test]
 fn what_was_stopped_goes_on() {
     let world = mixed();
-    let settings = settings(SIZE, 100, PATH);
+    let settings = settings(SIZE, 100, path_tracing());
     let whole = picture(&world, &settings);
     // Stopped at the first look, and then again at the third.
     let mut film = Film::new(settings.window);
@@ -66,7 +71,7 @@ fn what_was_stopped_goes_on() {
 #[test]
 fn copies_made_on_the_way_have_the_first_samples() {
     let world = mixed();
-    let settings = settings(SIZE, 100, PATH);
+    let settings = settings(SIZE, 100, path_tracing());
     let mut copies = Vec::new();
     let whole = render(&world, &settings, Film::new(settings.window), |progress| {
         copies.push(progress.film());
@@ -83,8 +88,8 @@ fn strict_backends_agree() {
     let worlds: Vec<_> =
         Backend::available().into_iter().map(|backend| (backend.strict(), mixed_on(backend.strict()))).collect();
     for integrator in kinds() {
-        let settings = settings(SIZE, 4, integrator);
-        let films: Vec<(&str, Film<3>)> = worlds
+        let settings = settings(SIZE, 4, integrator.clone());
+        let films: Vec<(&str, Film)> = worlds
             .iter()
             .map(|(backend, world)| {
                 (backend.name(), picture(world, &Settings { backend: *backend, ..settings.clone() }))
@@ -99,7 +104,7 @@ fn strict_backends_agree() {
 #[test]
 fn lanes_are_in_use_after_a_bounce_among_several_materials() {
     let world = mixed();
-    let settings = settings([128, 128], 4, PATH);
+    let settings = settings([128, 128], 4, path_tracing());
     let (_, stats) = render(&world, &settings, Film::new(settings.window), |_| true).unwrap();
     let (all, bounced) = (stats.materials(), stats.shading(1..DEPTHS));
     assert!(all.queries > 50_000 && bounced.queries > 10_000, "{stats:?}");

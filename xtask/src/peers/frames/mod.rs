@@ -88,9 +88,9 @@ fn contender(room: &Room) -> anyhow::Result<Contender> {
     let backend = Backend::best().fused();
     let world = room.world(Given::Viewer, backend)?;
     let settings = settings(SIZE, 0..SAMPLES, backend, 1);
-    let run = move |film: &mut Film<3>| {
+    let run = move |film: &mut Film| {
         (*film, _) = render(&world, &settings, Film::new(settings.window), |_| true).expect("a camera and a window");
     };
-    let values = |film: &Film<3>| [picture::linear(film), picture::linear(film)].concat();
+    let values = |film: &Film| [picture::linear(film), picture::linear(film)].concat();
     Ok(Contender::new("lobe", Contender::UNCHECKED, Film::new(scene::whole(SIZE)), run, values))
 }

@@ -4,8 +4,8 @@ use lobe_render::Film;
 use lobe_render::picture::{ToneMap, encode_rgb};
 
 /// Mean radiance of the pixels, three values each, row by row from the top.
-pub fn linear(film: &Film<3>) -> Vec<f32> {
-    film.pixels().iter().flat_map(lobe_render::Pixel::mean_radiance).collect()
+pub fn linear(film: &Film) -> Vec<f32> {
+    film.colours().flatten().collect()
 }
 
 /// Two pictures of the same size and the difference of each pixel in standard deviations, from left to right, as PNG.

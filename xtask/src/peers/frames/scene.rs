@@ -7,9 +7,10 @@ use std::sync::Arc;
 use anyhow::Context;
 use lobe::{Backend, Given, Options};
 use lobe_mesh::{Geometry, Group, Parts, generate, ply, shapes};
+use lobe_render::integrator::Path as PathTracing;
 use lobe_render::light::{Environment, Light};
 use lobe_render::shader::{self, Lambert, Shader};
-use lobe_render::{Camera, Filter, Integrator, Rect, Settings, Shape, World, WorldBuilder};
+use lobe_render::{Camera, Filter, Rect, Settings, Shape, World, WorldBuilder};
 use serde_json::{Value, json};
 
 /// What things are made of.
@@ -83,10 +84,10 @@ impl Room {
     ///
     /// # Errors
     /// Where a file cannot be read.
-    pub fn world(&self, indexed_by: Given, backend: Backend) -> anyhow::Result<World<3>> {
+    pub fn world(&self, indexed_by: Given, backend: Backend) -> anyhow::Result<World> {
         let mut world = WorldBuilder::new();
         for surface in &self.surfaces {
-            let shader: Arc<dyn Shader<3>> = match surface {
+            let shader: Arc<dyn Shader> = match surface {
                 Surface::Diffuse(albedo) => Arc::new(Lambert::new(*albedo, backend)),
                 Surface::Measured(file) => shader::open(file, &Options { indexed_by, ..Options::default() }, backend)?,
             };
@@ -161,7 +162,7 @@ pub fn settings(size: [u32; 2], samples: std::ops::Range<u32>, backend: Backend,
         size,
         window: whole(size),
         filter: Filter::Box,
-        integrator: Integrator::Path { depth: DEPTH, limit: f32::INFINITY },
+        integrator: Arc::new(PathTracing { depth: DEPTH, limit: f32::INFINITY }),
         samples,
         backend,
         threads,

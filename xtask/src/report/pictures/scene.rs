@@ -6,9 +6,10 @@ use std::sync::Arc;
 use lobe::formats::{Document, Format};
 use lobe::{Backend, Data, Material, Options, specular};
 use lobe_mesh::{Geometry, shapes};
+use lobe_render::integrator::Path as PathTracing;
 use lobe_render::light::{Environment, Light};
 use lobe_render::shader::{Lambert, MeasuredShader};
-use lobe_render::{Camera, Filter, Integrator, Rect, Settings, Shape, World, WorldBuilder};
+use lobe_render::{Camera, Filter, Rect, Settings, Shape, World, WorldBuilder};
 
 /// A table of its own for each of them, the size of the paper's anisotropic one.
 pub const MATERIALS: usize = 36;
@@ -17,7 +18,7 @@ const SIDE: usize = 6;
 const CLOTH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../fixtures/cloth-17x7x17x13.ddr");
 
 /// The scene with materials on that backend.
-pub fn world(backend: Backend) -> anyhow::Result<World<3>> {
+pub fn world(backend: Backend) -> anyhow::Result<World> {
     let (format, document) = lobe::formats::open(Path::new(CLOTH))?;
     let Some(Data::Specular(cloth)) = document.only() else { anyhow::bail!("{CLOTH}: no specular table") };
     let mut world = WorldBuilder::new();
@@ -76,7 +77,7 @@ pub fn settings() -> Settings {
         size,
         window: Rect { x: 0, y: 0, width: size[0], height: size[1] },
         filter: Filter::Tent,
-        integrator: Integrator::Path { depth: 4, limit: f32::INFINITY },
+        integrator: Arc::new(PathTracing { depth: 4, limit: f32::INFINITY }),
         samples: 0..2,
         backend: Backend::best(),
         threads: 1,

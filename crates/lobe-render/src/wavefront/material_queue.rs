@@ -2,25 +2,40 @@
 
 use std::ops::Range;
 
-/// The rays of a wave that have hit something, those of one material after those of another, in their order within each.
+/// The rays of a wave that have hit something, one material after another, in their order within each.
 #[derive(Debug, Default)]
-pub(super) struct Queue {
+pub(crate) struct MaterialQueue {
     /// Numbers of rays.
     pub order: Vec<u32>,
-    /// For each material that was hit its number and its part of `order`.
-    pub parts: Vec<(usize, Range<usize>)>,
+    /// The hits of each material.
+    pub groups: Vec<MaterialHits>,
     /// Rays that have hit nothing.
     pub missed: Vec<u32>,
     hit: Vec<u32>,
-    /// Rays and materials, as they come.
-    met: Vec<[u32; 2]>,
+    /// Rays and materials, in the order of the rays.
+    met: Vec<RayOfMaterial>,
     counts: Vec<usize>,
 }
 
-impl Queue {
-    /// Tells rays that have hit something from those that have not.
+/// The hits of one material.
+#[derive(Clone, Debug)]
+pub(crate) struct MaterialHits {
+    pub material: usize,
+    /// Their places in the order of the sort.
+    pub hits: Range<usize>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct RayOfMaterial {
+    ray: u32,
+    material: u32,
+}
+
+impl MaterialQueue {
+    /// Separates rays that have hit something from those that have not.
     pub fn split(&mut self, hit: impl ExactSizeIterator<Item = bool>) {
-        // Each is written to both lists, and written over where it does not belong: which it is cannot be foreseen.
+        // Each is written to both lists, and overwritten in the one where it does not belong: a branch would be
+        // unpredictable.
         let room = hit.len() + 1;
         self.hit.resize(room, 0);
         self.missed.resize(room, 0);
@@ -38,29 +53,31 @@ impl Queue {
     /// A counting sort of the rays that have hit something by which of `materials` it was; without those that are
     /// followed no further.
     pub fn sort(&mut self, materials: usize, material: impl Fn(usize) -> Option<u32>) {
-        let Queue { order, parts, hit, met, counts, .. } = self;
+        let MaterialQueue { order, groups, hit, met, counts, .. } = self;
         met.clear();
-        met.extend(hit.iter().filter_map(|&ray| material(ray as usize).map(|material| [ray, material])));
+        met.extend(
+            hit.iter().filter_map(|&ray| material(ray as usize).map(|material| RayOfMaterial { ray, material })),
+        );
         counts.clear();
         counts.resize(materials, 0);
-        for [_, material] in &*met {
-            counts[*material as usize] += 1;
+        for met in &*met {
+            counts[met.material as usize] += 1;
         }
-        parts.clear();
+        groups.clear();
         let mut begin = 0;
         for (material, count) in counts.iter_mut().enumerate() {
             let end = begin + *count;
             if *count > 0 {
-                parts.push((material, begin..end));
+                groups.push(MaterialHits { material, hits: begin..end });
             }
             *count = begin;
             begin = end;
         }
         order.resize(met.len(), 0);
-        for [ray, material] in &*met {
-            let place = &mut counts[*material as usize];
-            order[*place] = *ray;
-            *place += 1;
+        for met in &*met {
+            let next = &mut counts[met.material as usize];
+            order[*next] = met.ray;
+            *next += 1;
         }
     }
 }

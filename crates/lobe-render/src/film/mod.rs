@@ -1,0 +1,90 @@
+//! What has been measured so far, in sums that are exact.
+//!
+//! Sums are integers: a radiance counts in units of `2^-64`, so that adding is exact and its order leaves no trace in the
+//! result. That is what makes pictures of any number of threads, tiles and machines the same bits.
+
+mod pixel;
+mod rect;
+mod splats;
+
+pub use pixel::{FirstHit, Pixel, RADIANCE_UNIT, SURFACE_UNIT, Sample};
+pub use rect::Rect;
+pub(crate) use splats::Splat;
+
+use crate::camera::Filter;
+use crate::channels::Channels;
+use crate::transport::{Rgb, Transport};
+
+/// The pixels of a window of a picture.
+///
+/// A pixel is the mean of the samples of its own paths, plus the mean over light paths of what they have splatted.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Film<T: Transport = Rgb> {
+    window: Rect,
+    pixels: Vec<Pixel<T>>,
+    /// One per pixel; empty until light paths are added.
+    splats: Vec<Splat<T>>,
+}
+
+impl<T: Transport> Film<T> {
+    /// An empty film for these pixels of a picture.
+    pub fn new(window: Rect) -> Self {
+        Film { window, pixels: vec![Pixel::EMPTY; window.area()], splats: Vec::new() }
+    }
+
+    /// Which pixels of the picture it has.
+    pub fn window(&self) -> Rect {
+        self.window
+    }
+
+    /// The pixels, row by row from the top.
+    pub fn pixels(&self) -> &[Pixel<T>] {
+        &self.pixels
+    }
+
+    /// The pixels for writing, row by row from the top.
+    pub fn pixels_mut(&mut self) -> &mut [Pixel<T>] {
+        &mut self.pixels
+    }
+
+    /// Adds the sums of another film, as far as their windows overlap.
+    pub fn merge(&mut self, other: &Film<T>) {
+        let Some(shared) = self.window.intersection(&other.window) else { return };
+        for y in shared.rows() {
+            for x in shared.columns() {
+                let at = self.index(x, y);
+                self.pixels[at].merge(&other.pixels[other.index(x, y)]);
+            }
+        }
+        self.merge_splats(other, shared);
+    }
+
+    /// Where a pixel of the picture is among [`pixels`](Film::pixels).
+    ///
+    /// # Panics
+    /// If it is left of or above the window.
+    pub fn index(&self, x: u32, y: u32) -> usize {
+        (y - self.window.y) as usize * self.window.width as usize + (x - self.window.x) as usize
+    }
+
+    /// The smallest and the largest number of samples of a pixel.
+    pub fn samples(&self) -> (u32, u32) {
+        let counts = || self.pixels.iter().map(|pixel| pixel.samples);
+        (counts().min().unwrap_or(0), counts().max().unwrap_or(0))
+    }
+
+    /// The radiance of a pixel: the mean of its samples and of what was splatted.
+    pub fn radiance(&self, index: usize) -> T::Radiance {
+        let mut radiance = self.pixels[index].mean_radiance();
+        if let Some(splat) = self.splats.get(index) {
+            let splatted = splat.mean_radiance();
+            radiance.as_mut().iter_mut().zip(splatted.as_ref()).for_each(|(sum, more)| *sum += more);
+        }
+        radiance
+    }
+
+    /// The colours of the pixels in linear sRGB, row by row from the top.
+    pub fn colours(&self) -> impl Iterator<Item = [f32; 3]> {
+        (0..self.pixels.len()).map(|index| T::colour(self.radiance(index)))
+    }
+}

@@ -1,0 +1,73 @@
+//! Path tracing with multiple importance sampling.
+
+use lobe_trace::RayClass;
+
+use super::Stages;
+use crate::scene::{Node, SceneError};
+use crate::transport::{Transport, TransportMode};
+use crate::wavefront::{DeltaChoice, Keep, LightChoice, NextEvent, Scatter, Wavefront};
+
+/// Paths that light takes over many surfaces, without bias: lights and materials are sampled together (multiple
+/// importance sampling), and paths that carry little end by chance (Russian roulette).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Path {
+    /// How many surfaces a path may meet.
+    pub depth: u32,
+    /// The most that one sample may add after the first surface, per channel; infinite for no limit. A limit takes away
+    /// bright dots, and a little light with them.
+    pub limit: f32,
+}
+
+impl Default for Path {
+    fn default() -> Self {
+        Path { depth: 8, limit: f32::INFINITY }
+    }
+}
+
+/// From this depth on paths end by chance.
+const ROULETTE: u32 = 3;
+
+impl Path {
+    /// The most that may be added by light that reaches the viewer over that many surfaces.
+    fn limit(&self, surfaces: u32) -> f32 {
+        if surfaces > 1 { self.limit } else { f32::INFINITY }
+    }
+}
+
+impl Stages for Path {
+    const NAME: &'static str = "path";
+    const SUMMARY: &'static str = "Light over many surfaces, without bias";
+
+    fn read(table: &Node<'_, '_>) -> Result<Self, SceneError> {
+        let default = Path::default();
+        Ok(Path {
+            depth: table.whole("depth", 1..=1000)?.unwrap_or(default.depth),
+            limit: table.positive("limit")?.unwrap_or(default.limit),
+        })
+    }
+
+    fn follow<T: Transport>(&self, wave: &mut Wavefront<'_, T>) {
+        let mut class = RayClass::Camera;
+        for depth in 0..=self.depth {
+            if wave.rays.is_empty() {
+                break;
+            }
+            // The last rays look for lights only.
+            let last = depth == self.depth;
+            wave.intersect(class, if last { Keep::Emitters } else { Keep::All });
+            if depth == 0 {
+                wave.record_first_hits();
+            }
+            wave.escape(self.limit(depth));
+            wave.emit(self.limit(depth));
+            if last {
+                break;
+            }
+            let limit = self.limit(depth + 1);
+            wave.next_event(NextEvent { class, depth, lights: LightChoice::One, weighted: true, limit });
+            let (mode, delta) = (TransportMode::Radiance, DeltaChoice::One);
+            let specular = wave.scatter(Scatter { depth, mode, delta, roulette: Some(ROULETTE) });
+            class = class.bounce(specular);
+        }
+    }
+}
