@@ -4,7 +4,9 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use lobe::Backend;
+use lobe_render::integrator::{self, INTEGRATORS};
 use lobe_render::picture::{Meta, ToneMap, read_partial, write_exr, write_png};
 use lobe_render::scene::Scene;
 use lobe_render::{Film, Rect, Settings, render};
@@ -40,6 +42,9 @@ pub struct Args {
     /// Samples a pixel, in place of what the scene says.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..u32::MAX as i64))]
     samples: Option<u32>,
+    /// The integrator, with its default parameters, in place of what the scene says.
+    #[arg(long, value_name = "NAME", value_parser = integrators())]
+    integrator: Option<String>,
     /// Stop after this time, such as 90s or 10m, at the latest; every pixel has a sample by then.
     #[arg(long, value_name = "TIME", value_parser = humantime::parse_duration)]
     time: Option<Duration>,
@@ -103,6 +108,12 @@ impl Machine {
     }
 }
 
+/// The names of integrators, each with what it does.
+fn integrators() -> PossibleValuesParser {
+    let values: Vec<_> = INTEGRATORS.iter().map(|spec| PossibleValue::new(spec.name).help(spec.summary)).collect();
+    PossibleValuesParser::new(values)
+}
+
 fn parse_crop(text: &str) -> Result<Rect, String> {
     let numbers: Vec<u32> =
         text.split(',').map(|part| part.trim().parse::<u32>()).collect::<Result<_, _>>().map_err(|e| e.to_string())?;
@@ -143,7 +154,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         )));
     }
     let window = window(args, scene.size)?;
-    let meta = Meta { scene: scene.hash.clone(), size: scene.size, window, samples: samples.clone(), total };
+    let (integrator, hash) = match args.integrator.as_deref().and_then(integrator::named) {
+        // Parts of pictures by different integrators must not be merged.
+        Some(spec) => ((spec.default)(), format!("{}-{}", scene.hash, spec.name)),
+        None => (scene.integrator, scene.hash),
+    };
+    let meta = Meta { scene: hash, size: scene.size, window, samples: samples.clone(), total };
     let partial = args.tile.is_some() || args.samples_range.is_some();
     if partial && kind == Kind::Png {
         let message = format!("{}: found a PNG file; expected .exr, which holds exact sums", args.output.display());
@@ -156,7 +172,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         size: scene.size,
         window,
         filter: scene.filter,
-        integrator: scene.integrator,
+        integrator,
         samples,
         backend,
         threads: args.machine.threads(),
@@ -258,7 +274,7 @@ impl Output<'_> {
     }
 
     /// The film so far: to look at, and to go on with.
-    fn write_part(&self, film: &Film<3>) -> Result<(), Failure> {
+    fn write_part(&self, film: &Film) -> Result<(), Failure> {
         write_exr(&self.part(), film, &self.meta, true)?;
         if self.kind == Kind::Png {
             write_png(self.path, film, self.tone)?;
@@ -266,7 +282,7 @@ impl Output<'_> {
         Ok(())
     }
 
-    fn write(&self, film: &Film<3>, partial: bool) -> Result<(), Failure> {
+    fn write(&self, film: &Film, partial: bool) -> Result<(), Failure> {
         match self.kind {
             // What ended before its time says what it has, not what it was to have.
             Kind::Exr if !partial => {
@@ -290,7 +306,7 @@ impl Output<'_> {
     }
 
     /// The film that an earlier rendering has left; an empty one where there is none.
-    fn resume(&self) -> Result<Film<3>, Failure> {
+    fn resume(&self) -> Result<Film, Failure> {
         let part = self.part();
         if !part.exists() {
             return Ok(Film::new(self.meta.window));
