@@ -2,6 +2,9 @@
 //!
 //! | module | what it has |
 //! |---|---|
+//! | [`backends`] | running a test on every backend, in every form, and on emulated widths |
+//! | [`conformance`](mod@conformance) | every method of a backend against plain scalar arithmetic |
+//! | [`patterns`] | floats and integers on which implementations differ |
 //! | [`files`] | the fixtures of the repository, and measured files beside it |
 //! | [`golden`] | the answers of other programs about such files |
 //! | [`made`] | files that are made by a rule |
@@ -10,6 +13,8 @@
 //! | `examples`, `probe` | a small file of every format; reading any bytes (feature `formats`) |
 #![forbid(unsafe_code)]
 
+pub mod backends;
+pub mod conformance;
 pub mod damage;
 #[cfg(feature = "formats")]
 pub mod examples;
@@ -17,6 +22,7 @@ pub mod files;
 pub mod golden;
 pub mod made;
 pub mod memory;
+pub mod patterns;
 #[cfg(feature = "formats")]
 pub mod probe;
 

@@ -8,8 +8,8 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
 use super::lanes::{floats, ints};
-use super::patterns;
 use super::record::{Bound, Record};
+use lobe_testing::patterns;
 
 const EDGES: [Edge; 4] = [Edge::Clamp, Edge::Extrapolate, Edge::Zero, Edge::Periodic];
 

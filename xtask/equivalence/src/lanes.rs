@@ -3,7 +3,7 @@
 use lobe_lane::{Floats, Ints, Kernel, Lanes, MAX_LANES, Mask};
 
 use super::Record;
-use super::patterns;
+use lobe_testing::patterns;
 
 /// Appends the lanes of `x`.
 #[inline(always)]

@@ -13,7 +13,6 @@ mod lanes;
 mod machine;
 mod math;
 mod memory;
-mod patterns;
 mod record;
 mod report;
 mod representations;

@@ -4,8 +4,8 @@ use lobe_lane::{Kernel, Lanes};
 use lobe_math::bounds;
 
 use super::lanes::floats;
-use super::patterns;
 use super::record::{Bound, Record};
+use lobe_testing::patterns;
 
 /// The functions, over dense input and over all pairs of patterns.
 pub(super) struct Functions;

@@ -4,7 +4,7 @@ use lobe_lane::{Block, Kernel, Lanes, MAX_LANES};
 
 use super::Record;
 use super::lanes::{floats, ints};
-use super::patterns;
+use lobe_testing::patterns;
 
 /// A float that no test writes, to see what a store leaves alone.
 const UNTOUCHED: f32 = -12345.5;

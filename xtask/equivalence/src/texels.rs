@@ -3,7 +3,7 @@
 use lobe_lane::{Block, Kernel, Lanes};
 
 use super::Record;
-use super::patterns;
+use lobe_testing::patterns;
 
 pub(super) struct QuadsAndOcts;
 

@@ -1,0 +1,104 @@
+//! Gathers, with indices inside, outside and far outside of tables of every small length.
+
+use half::f16;
+use lobe_lane::{Block, Kernel, Lanes};
+
+use super::floats;
+use crate::patterns;
+
+/// Every gather of `Lanes`.
+#[derive(Clone, Copy)]
+pub struct Gathers;
+
+impl Kernel for Gathers {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let indices = patterns::padded(patterns::INTS.to_vec());
+        for len in (1..=9).chain([31, 64, 65, 1000]) {
+            singles(lanes, &indices, len);
+        }
+        for len in [30, 31, 64, 200] {
+            let table: Vec<f32> = (0..len).map(|i| i as f32 + 0.5).collect();
+            quads(lanes, &indices, Block::new(&table, [0]));
+            quads(lanes, &indices, Block::new(&table, [4, 0]));
+            quads(lanes, &indices, Block::new(&table, [0, 5, 13, 26]));
+            let halves: Vec<u16> = (0..len).map(|i| f16::from_f32(i as f32 + 0.5).to_bits()).collect();
+            half_quads(lanes, &indices, Block::new(&halves, [0]));
+            half_quads(lanes, &indices, Block::new(&halves, [0, 5, 13, 26]));
+        }
+        let eight: [f32; 8] = std::array::from_fn(|i| i as f32 + 0.5);
+        let mut at = 0;
+        while at < indices.len() {
+            let found = floats(lanes, lanes.oct_lookup(lanes.oct_load(&eight), lanes.load_int(&indices[at..])));
+            for lane in 0..L::LANES {
+                let index = indices[at + lane];
+                assert_eq!(found[lane], eight[(index & 7) as usize], "oct_lookup at {index}");
+            }
+            at += L::LANES;
+        }
+    }
+}
+
+/// An index outside, also a negative one, reads the last entry.
+fn clamped(index: i32, last: usize) -> usize {
+    usize::try_from(index).map_or(last, |index| index.min(last))
+}
+
+#[inline(always)]
+fn singles<L: Lanes>(lanes: L, indices: &[i32], len: usize) {
+    let table: Vec<f32> = (0..len).map(|i| i as f32 + 0.5).collect();
+    let pairs: Vec<[f32; 2]> = (0..len).map(|i| [i as f32, -(i as f32) - 0.5]).collect();
+    let mut at = 0;
+    while at < indices.len() {
+        let index = lanes.load_int(&indices[at..]);
+        let found = floats(lanes, lanes.gather(&table, index));
+        let [first, second] = lanes.gather_pair(&pairs, index);
+        let (first, second) = (floats(lanes, first), floats(lanes, second));
+        for lane in 0..L::LANES {
+            let entry = clamped(indices[at + lane], len - 1);
+            assert_eq!(found[lane], table[entry], "gather at {} of {len}", indices[at + lane]);
+            assert_eq!([first[lane], second[lane]], pairs[entry], "gather_pair at {} of {len}", indices[at + lane]);
+        }
+        at += L::LANES;
+    }
+}
+
+#[inline(always)]
+fn quads<L: Lanes, const N: usize>(lanes: L, indices: &[i32], block: Block<'_, N, 4>) {
+    let mut at = 0;
+    while at < indices.len() {
+        let found = lanes.gather_quads(&block, lanes.load_int(&indices[at..]));
+        for corner in 0..N {
+            for k in 0..4 {
+                let column = floats(lanes, found[corner][k]);
+                for lane in 0..L::LANES {
+                    let base = clamped(indices[at + lane], block.last_base());
+                    let expected = block.data()[base + block.offsets()[corner] + k];
+                    assert_eq!(column[lane], expected, "corner {corner}, float {k}, base {}", indices[at + lane]);
+                }
+            }
+        }
+        at += L::LANES;
+    }
+}
+
+#[inline(always)]
+fn half_quads<L: Lanes, const N: usize>(lanes: L, indices: &[i32], block: Block<'_, N, 4, u16>) {
+    let mut at = 0;
+    while at < indices.len() {
+        let found = lanes.gather_quads_half(&block, lanes.load_int(&indices[at..]));
+        for corner in 0..N {
+            for k in 0..4 {
+                let column = floats(lanes, found[corner][k]);
+                for lane in 0..L::LANES {
+                    let base = clamped(indices[at + lane], block.last_base());
+                    let expected = f16::from_bits(block.data()[base + block.offsets()[corner] + k]).to_f32();
+                    assert_eq!(column[lane], expected, "corner {corner}, half {k}, base {}", indices[at + lane]);
+                }
+            }
+        }
+        at += L::LANES;
+    }
+}

@@ -1,0 +1,88 @@
+//! Slices that are too short: what touches memory has to refuse them.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use lobe_lane::{Kernel, Lanes, MAX_LANES};
+
+/// What is given a slice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Access {
+    Load,
+    Store,
+    LoadInt,
+    StoreInt,
+    LoadXyz,
+    QuadLoad,
+    QuadStore,
+    OctLoad,
+    OctStore,
+    Gather,
+    GatherPair,
+}
+
+impl Access {
+    const ALL: [Access; 11] = [
+        Access::Load,
+        Access::Store,
+        Access::LoadInt,
+        Access::StoreInt,
+        Access::LoadXyz,
+        Access::QuadLoad,
+        Access::QuadStore,
+        Access::OctLoad,
+        Access::OctStore,
+        Access::Gather,
+        Access::GatherPair,
+    ];
+
+    /// The length that it needs.
+    fn needs(self, lanes: usize) -> usize {
+        match self {
+            Access::Load | Access::Store | Access::LoadInt | Access::StoreInt | Access::LoadXyz => lanes,
+            Access::QuadLoad | Access::QuadStore => 4,
+            Access::OctLoad | Access::OctStore => 8,
+            Access::Gather | Access::GatherPair => 1,
+        }
+    }
+}
+
+/// Accesses a slice of `len` elements.
+struct Touch {
+    access: Access,
+    len: usize,
+}
+
+impl Kernel for Touch {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Touch { access, len } = self;
+        let (mut floats, mut ints) = (vec![0.0f32; len], vec![0i32; len]);
+        match access {
+            Access::Load => _ = lanes.load(&floats),
+            Access::Store => lanes.store(&mut floats, lanes.splat(1.0)),
+            Access::LoadInt => _ = lanes.load_int(&ints),
+            Access::StoreInt => lanes.store_int(&mut ints, lanes.iota()),
+            Access::LoadXyz => drop(lanes.load_xyz(&vec![[0.0; 3]; len])),
+            Access::QuadLoad => _ = lanes.quad_load(&floats),
+            Access::QuadStore => lanes.quad_store(&mut floats, lanes.quad_splat(1.0)),
+            Access::OctLoad => _ = lanes.oct_load(&floats),
+            Access::OctStore => lanes.oct_store(&mut floats, lanes.oct_splat(1.0)),
+            Access::Gather => _ = lanes.gather(&floats, lanes.iota()),
+            Access::GatherPair => drop(lanes.gather_pair(&vec![[0.0; 2]; len], lanes.iota())),
+        }
+    }
+}
+
+/// # Panics
+/// If a slice that is too short is not refused, or one that is long enough is.
+pub fn refuses_short_slices<L: Lanes>(lanes: L) {
+    for access in Access::ALL {
+        let needs = access.needs(L::LANES);
+        for len in 0..=MAX_LANES {
+            let accepted = catch_unwind(AssertUnwindSafe(|| lanes.vectorize(Touch { access, len }))).is_ok();
+            assert_eq!(accepted, len >= needs, "{access:?} of a slice of {len}, {needs} needed");
+        }
+    }
+}
