@@ -64,13 +64,13 @@ impl Kernel for Touch {
             Access::Store => lanes.store(&mut floats, lanes.splat(1.0)),
             Access::LoadInt => _ = lanes.load_int(&ints),
             Access::StoreInt => lanes.store_int(&mut ints, lanes.iota()),
-            Access::LoadXyz => drop(lanes.load_xyz(&vec![[0.0; 3]; len])),
+            Access::LoadXyz => _ = lanes.load_xyz(&vec![[0.0; 3]; len]),
             Access::QuadLoad => _ = lanes.quad_load(&floats),
             Access::QuadStore => lanes.quad_store(&mut floats, lanes.quad_splat(1.0)),
             Access::OctLoad => _ = lanes.oct_load(&floats),
             Access::OctStore => lanes.oct_store(&mut floats, lanes.oct_splat(1.0)),
             Access::Gather => _ = lanes.gather(&floats, lanes.iota()),
-            Access::GatherPair => drop(lanes.gather_pair(&vec![[0.0; 2]; len], lanes.iota())),
+            Access::GatherPair => _ = lanes.gather_pair(&vec![[0.0; 2]; len], lanes.iota()),
         }
     }
 }
