@@ -6,7 +6,6 @@ use lobe::math;
 use lobe::{Kernel, Lanes};
 
 use super::{Contender, Contest, Tolerance, backends};
-use crate::baseline;
 use crate::workload::Input;
 
 /// Rounding of an `f32` near pi.
@@ -37,7 +36,7 @@ fn contest<const TERMS: usize>(input: Input, count: usize, tolerance: Tolerance)
     let baselines = vec![
         scalar("libm", f32::acos),
         #[cfg(target_arch = "x86_64")]
-        scalar("x87", baseline::x87::acos),
+        scalar("x87", crate::baseline::x87::acos),
     ];
     let contenders = backends().into_iter().map(|named| {
         let cosines = cosines.clone();

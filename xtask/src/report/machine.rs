@@ -50,16 +50,19 @@ fn load() -> Option<f64> {
     std::fs::read_to_string("/proc/loadavg").ok()?.split_whitespace().next()?.parse().ok()
 }
 
+#[cfg(target_arch = "x86_64")]
 fn features() -> Vec<&'static str> {
     let mut found = Vec::new();
-    #[cfg(target_arch = "x86_64")]
-    {
-        macro_rules! detect {
-            ($($name:tt)*) => { $(if std::is_x86_feature_detected!($name) { found.push($name); })* };
-        }
-        detect!("sse2" "sse4.1" "popcnt" "avx" "f16c" "fma" "avx2" "bmi1" "bmi2" "lzcnt" "avx512f");
+    macro_rules! detect {
+        ($($name:tt)*) => { $(if std::is_x86_feature_detected!($name) { found.push($name); })* };
     }
+    detect!("sse2" "sse4.1" "popcnt" "avx" "f16c" "fma" "avx2" "bmi1" "bmi2" "lzcnt" "avx512f");
     found
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+fn features() -> Vec<&'static str> {
+    Vec::new()
 }
 
 fn commit() -> String {
