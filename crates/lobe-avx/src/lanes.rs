@@ -104,13 +104,25 @@ impl Lanes for Avx2 {
     #[inline(always)]
     fn gather(self, table: &[f32], index: Ints) -> Floats {
         let last = table.len().checked_sub(1).expect("a gather from an empty table");
-        let [a, b, c, d, e, f, g, h] = memory::indices(self, index.0).map(|index| table[index.min(last)]);
-        Floats(op!(_mm256_setr_ps(a, b, c, d, e, f, g, h)))
+        let indices = memory::indices(self, index.0);
+        let mut x = [0.0; 8];
+        let mut lane = 0;
+        while lane < 8 {
+            x[lane] = table[indices[lane].min(last)];
+            lane += 1;
+        }
+        Floats(op!(_mm256_setr_ps(x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7])))
     }
     #[inline(always)]
     fn gather_pair(self, table: &[[f32; 2]], index: Ints) -> [Floats; 2] {
-        let [a, b, c, d, e, f, g, h] =
-            memory::indices(self, index.0).map(|index| memory::load_pair(self, table, index));
+        let indices = memory::indices(self, index.0);
+        let mut pairs = [op!(_mm_setzero_ps()); 8];
+        let mut lane = 0;
+        while lane < 8 {
+            pairs[lane] = memory::load_pair(self, table, indices[lane]);
+            lane += 1;
+        }
+        let [a, b, c, d, e, f, g, h] = pairs;
         op!({
             let (ab, cd) = (_mm_unpacklo_ps(a, b), _mm_unpacklo_ps(c, d));
             let (ef, gh) = (_mm_unpacklo_ps(e, f), _mm_unpacklo_ps(g, h));

@@ -74,15 +74,22 @@ pub(crate) fn load_halves(proof: Avx2, low: &[f32], high: &[f32]) -> __m256 {
 pub(crate) fn indices(proof: Avx2, x: __m256i) -> [usize; 8] {
     let mut lanes = [0; 8];
     store_int(proof, &mut lanes, x);
-    lanes.map(|index| index as u32 as usize)
+    let mut indices = [0; 8];
+    let mut lane = 0;
+    while lane < 8 {
+        indices[lane] = lanes[lane] as u32 as usize;
+        lane += 1;
+    }
+    indices
 }
 
 /// Two floats of `table[index]`, in the low half of the register; an index outside reads the last entry.
 #[inline(always)]
 pub(crate) fn load_pair(_proof: Avx2, table: &[[f32; 2]], index: usize) -> __m128 {
     let last = table.len().checked_sub(1).expect("a gather from an empty table");
-    // SAFETY: `index.min(last)` is inside `table`, so eight bytes can be read there; the token proves AVX.
-    unsafe { _mm_castpd_ps(_mm_load_sd(table.as_ptr().add(index.min(last)).cast())) }
+    // SAFETY: `index.min(last)` is inside `table`, so eight bytes can be read there; the token proves AVX; the load of eight
+    // bytes needs no alignment.
+    unsafe { _mm_castsi128_ps(_mm_loadl_epi64(table.as_ptr().add(index.min(last)).cast())) }
 }
 
 /// Four floats at `base + offsets[corner]`; `base` is clamped to the block's last.

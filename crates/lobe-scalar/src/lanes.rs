@@ -83,7 +83,8 @@ impl<const N: usize> Lanes for Scalar<N> {
     #[inline(always)]
     fn load_xyz(self, src: &[[f32; 3]]) -> [Floats<N>; 3] {
         let src = &src[..N];
-        std::array::from_fn(|axis| Floats(each(|lane| src[lane][axis])))
+        let axis = |axis: usize| Floats(each(|lane| src[lane][axis]));
+        [axis(0), axis(1), axis(2)]
     }
 
     #[inline(always)]
@@ -92,31 +93,38 @@ impl<const N: usize> Lanes for Scalar<N> {
     }
     #[inline(always)]
     fn gather_pair(self, table: &[[f32; 2]], index: Ints<N>) -> [Floats<N>; 2] {
-        std::array::from_fn(|half| Floats(each(|lane| table[clamp_index(index.0[lane], table.len())][half])))
+        let half = |half: usize| Floats(each(|lane| table[clamp_index(index.0[lane], table.len())][half]));
+        [half(0), half(1)]
     }
     #[inline(always)]
     fn gather_quads<const K: usize>(self, block: &Block<'_, K, 4>, base: Ints<N>) -> [[Floats<N>; 4]; K] {
-        std::array::from_fn(|corner| {
-            let offset = block.offsets()[corner];
-            std::array::from_fn(|k| {
-                Floats(each(|lane| {
-                    let base = (base.0[lane] as u32 as usize).min(block.last_base());
-                    block.data()[base + offset + k]
-                }))
-            })
-        })
+        let mut corners = [[self.splat(0.0); 4]; K];
+        let mut at = 0;
+        while at < 4 * K {
+            let (corner, k) = (at / 4, at % 4);
+            let offset = block.offsets()[corner] + k;
+            corners[corner][k] = Floats(each(|lane| {
+                let base = (base.0[lane] as u32 as usize).min(block.last_base());
+                block.data()[base + offset]
+            }));
+            at += 1;
+        }
+        corners
     }
     #[inline(always)]
     fn gather_quads_half<const K: usize>(self, block: &Block<'_, K, 4, u16>, base: Ints<N>) -> [[Floats<N>; 4]; K] {
-        std::array::from_fn(|corner| {
-            let offset = block.offsets()[corner];
-            std::array::from_fn(|k| {
-                Floats(each(|lane| {
-                    let base = (base.0[lane] as u32 as usize).min(block.last_base());
-                    from_half(block.data()[base + offset + k])
-                }))
-            })
-        })
+        let mut corners = [[self.splat(0.0); 4]; K];
+        let mut at = 0;
+        while at < 4 * K {
+            let (corner, k) = (at / 4, at % 4);
+            let offset = block.offsets()[corner] + k;
+            corners[corner][k] = Floats(each(|lane| {
+                let base = (base.0[lane] as u32 as usize).min(block.last_base());
+                from_half(block.data()[base + offset])
+            }));
+            at += 1;
+        }
+        corners
     }
     #[inline(always)]
     fn oct_lookup(self, table: Texel<8>, index: Ints<N>) -> Floats<N> {

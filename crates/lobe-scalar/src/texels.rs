@@ -10,14 +10,18 @@ use crate::Scalar;
 #[derive(Clone, Copy, Debug)]
 pub struct Texel<const K: usize>(pub(crate) [f32; K]);
 
-impl<const K: usize> Texel<K> {
-    #[inline(always)]
-    fn zip(self, other: Self, f: impl Fn(f32, f32) -> f32) -> Self {
-        Texel(std::array::from_fn(
-            #[inline(always)]
-            |i| f(self.0[i], other.0[i]),
-        ))
-    }
+/// Applies a function of two floats to each pair. A macro and a loop: closures would have to be inlined one by one.
+macro_rules! zip {
+    ($a:expr, $b:expr, |$x:ident, $y:ident| $f:expr) => {{
+        let (mut a, b) = ($a.0, $b.0);
+        let mut i = 0;
+        while i < a.len() {
+            let ($x, $y) = (a[i], b[i]);
+            a[i] = $f;
+            i += 1;
+        }
+        Texel(a)
+    }};
 }
 
 macro_rules! operators {
@@ -27,11 +31,7 @@ macro_rules! operators {
 
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                self.zip(
-                    other,
-                    #[inline(always)]
-                    |$x, $y| $f,
-                )
+                zip!(self, other, |$x, $y| $f)
             }
         })*
     };
@@ -58,15 +58,24 @@ impl<const N: usize> Texels for Scalar<N> {
     #[inline(always)]
     fn quad_corners<const K: usize>(self, block: &Block<'_, K, 4>, base: usize) -> [Texel<4>; K] {
         let base = base.min(block.last_base());
-        std::array::from_fn(|corner| self.quad_load(&block.data()[base + block.offsets()[corner]..]))
+        let mut corners = [self.quad_splat(0.0); K];
+        let mut corner = 0;
+        while corner < K {
+            corners[corner] = self.quad_load(&block.data()[base + block.offsets()[corner]..]);
+            corner += 1;
+        }
+        corners
     }
     #[inline(always)]
     fn quad_corners_half<const K: usize>(self, block: &Block<'_, K, 4, u16>, base: usize) -> [Texel<4>; K] {
         let base = base.min(block.last_base());
-        std::array::from_fn(|corner| {
-            let texel = &block.data()[base + block.offsets()[corner]..][..4];
-            Texel(std::array::from_fn(|i| from_half(texel[i])))
-        })
+        let mut corners = [self.quad_splat(0.0); K];
+        let mut corner = 0;
+        while corner < K {
+            corners[corner] = halves(&block.data()[base + block.offsets()[corner]..]);
+            corner += 1;
+        }
+        corners
     }
     #[inline(always)]
     fn quad_splat(self, x: f32) -> Texel<4> {
@@ -78,17 +87,14 @@ impl<const N: usize> Texels for Scalar<N> {
     }
     #[inline(always)]
     fn quad_max(self, a: Texel<4>, b: Texel<4>) -> Texel<4> {
-        a.zip(
-            b,
-            #[inline(always)]
-            |x, y| if x > y { x } else { y },
-        )
+        zip!(a, b, |x, y| if x > y { x } else { y })
     }
 
     #[inline(always)]
     fn oct_load(self, src: &[f32]) -> Texel<8> {
-        let src = &src[..8];
-        Texel(std::array::from_fn(|i| src[i]))
+        let mut texel = Texel([0.0; 8]);
+        texel.0.copy_from_slice(&src[..8]);
+        texel
     }
     #[inline(always)]
     fn oct_store(self, dst: &mut [f32], x: Texel<8>) {
@@ -101,15 +107,24 @@ impl<const N: usize> Texels for Scalar<N> {
     #[inline(always)]
     fn oct_corners<const K: usize>(self, block: &Block<'_, K, 8>, base: usize) -> [Texel<8>; K] {
         let base = base.min(block.last_base());
-        std::array::from_fn(|corner| self.oct_load(&block.data()[base + block.offsets()[corner]..]))
+        let mut corners = [self.oct_splat(0.0); K];
+        let mut corner = 0;
+        while corner < K {
+            corners[corner] = self.oct_load(&block.data()[base + block.offsets()[corner]..]);
+            corner += 1;
+        }
+        corners
     }
     #[inline(always)]
     fn oct_corners_half<const K: usize>(self, block: &Block<'_, K, 8, u16>, base: usize) -> [Texel<8>; K] {
         let base = base.min(block.last_base());
-        std::array::from_fn(|corner| {
-            let texels = &block.data()[base + block.offsets()[corner]..][..8];
-            Texel(std::array::from_fn(|i| from_half(texels[i])))
-        })
+        let mut corners = [self.oct_splat(0.0); K];
+        let mut corner = 0;
+        while corner < K {
+            corners[corner] = halves(&block.data()[base + block.offsets()[corner]..]);
+            corner += 1;
+        }
+        corners
     }
     #[inline(always)]
     fn oct_mul_add(self, a: Texel<8>, b: Texel<8>, c: Texel<8>) -> Texel<8> {
@@ -117,11 +132,7 @@ impl<const N: usize> Texels for Scalar<N> {
     }
     #[inline(always)]
     fn oct_max(self, a: Texel<8>, b: Texel<8>) -> Texel<8> {
-        a.zip(
-            b,
-            #[inline(always)]
-            |x, y| if x > y { x } else { y },
-        )
+        zip!(a, b, |x, y| if x > y { x } else { y })
     }
     #[inline(always)]
     fn oct_halves(self, x: Texel<8>) -> [Texel<4>; 2] {
@@ -130,8 +141,25 @@ impl<const N: usize> Texels for Scalar<N> {
     }
     #[inline(always)]
     fn oct_count_le(self, knots: Texel<8>, x: f32) -> u32 {
-        knots.0.iter().take_while(|&&knot| knot <= x).count() as u32
+        let mut count = 0;
+        while count < 8 && knots.0[count] <= x {
+            count += 1;
+        }
+        count as u32
     }
+}
+
+/// The first `K` half-precision floats.
+#[inline(always)]
+fn halves<const K: usize>(src: &[u16]) -> Texel<K> {
+    let src = &src[..K];
+    let mut texel = [0.0; K];
+    let mut i = 0;
+    while i < K {
+        texel[i] = from_half(src[i]);
+        i += 1;
+    }
+    Texel(texel)
 }
 
 /// A finite half-precision float, exactly: its exponent and mantissa moved to where `f32` has them, and the difference of

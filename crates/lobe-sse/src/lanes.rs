@@ -97,12 +97,14 @@ impl<V: Level> Lanes for Sse<V> {
     #[inline(always)]
     fn gather(self, table: &[f32], index: Ints<V>) -> Floats<V> {
         let last = table.len().checked_sub(1).expect("a gather from an empty table");
-        let [a, b, c, d] = memory::indices(index.0).map(|index| table[index.min(last)]);
-        floats(op!(_mm_setr_ps(a, b, c, d)))
+        let [a, b, c, d] = memory::indices(index.0);
+        floats(op!(_mm_setr_ps(table[a.min(last)], table[b.min(last)], table[c.min(last)], table[d.min(last)])))
     }
     #[inline(always)]
     fn gather_pair(self, table: &[[f32; 2]], index: Ints<V>) -> [Floats<V>; 2] {
-        let [a, b, c, d] = memory::indices(index.0).map(|index| memory::load_pair(table, index));
+        let [a, b, c, d] = memory::indices(index.0);
+        let (a, b) = (memory::load_pair(table, a), memory::load_pair(table, b));
+        let (c, d) = (memory::load_pair(table, c), memory::load_pair(table, d));
         op!({
             let (ab, cd) = (_mm_unpacklo_ps(a, b), _mm_unpacklo_ps(c, d));
             [floats(_mm_movelh_ps(ab, cd)), floats(_mm_movehl_ps(cd, ab))]
@@ -147,15 +149,15 @@ impl<V: Level> Lanes for Sse<V> {
         let mut buffer = [0.0; 8];
         memory::store(&mut buffer, table.0.0);
         memory::store(&mut buffer[4..], table.1.0);
-        let [a, b, c, d] = memory::indices(index.0).map(|index| buffer[index & 7]);
-        floats(op!(_mm_setr_ps(a, b, c, d)))
+        let [a, b, c, d] = memory::indices(index.0);
+        floats(op!(_mm_setr_ps(buffer[a & 7], buffer[b & 7], buffer[c & 7], buffer[d & 7])))
     }
 }
 
 /// Rows to columns.
 #[inline(always)]
-fn transpose<V: Level>(rows: [Floats<V>; 4]) -> [Floats<V>; 4] {
-    let [a, b, c, d] = rows.map(|row| row.0);
+fn transpose<V: Level>([a, b, c, d]: [Floats<V>; 4]) -> [Floats<V>; 4] {
+    let (a, b, c, d) = (a.0, b.0, c.0, d.0);
     op!({
         let (ab_low, ab_high) = (_mm_unpacklo_ps(a, b), _mm_unpackhi_ps(a, b));
         let (cd_low, cd_high) = (_mm_unpacklo_ps(c, d), _mm_unpackhi_ps(c, d));

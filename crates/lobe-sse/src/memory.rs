@@ -49,15 +49,17 @@ pub(crate) fn store_int(dst: &mut [i32], x: __m128i) {
 pub(crate) fn indices(x: __m128i) -> [usize; 4] {
     let mut lanes = [0; 4];
     store_int(&mut lanes, x);
-    lanes.map(|index| index as u32 as usize)
+    let [a, b, c, d] = lanes;
+    [a as u32 as usize, b as u32 as usize, c as u32 as usize, d as u32 as usize]
 }
 
 /// Two floats of `table[index]`, in the low half of the register; an index outside reads the last entry.
 #[inline(always)]
 pub(crate) fn load_pair(table: &[[f32; 2]], index: usize) -> __m128 {
     let last = table.len().checked_sub(1).expect("a gather from an empty table");
-    // SAFETY: `index.min(last)` is inside `table`, so eight bytes can be read there; SSE2 is the baseline.
-    unsafe { _mm_castpd_ps(_mm_load_sd(table.as_ptr().add(index.min(last)).cast())) }
+    // SAFETY: `index.min(last)` is inside `table`, so eight bytes can be read there; SSE2 is the baseline; the load of eight
+    // bytes needs no alignment.
+    unsafe { _mm_castsi128_ps(_mm_loadl_epi64(table.as_ptr().add(index.min(last)).cast())) }
 }
 
 /// Four floats at `base + offsets[corner]`; `base` is clamped to the block's last.
