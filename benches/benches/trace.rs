@@ -7,10 +7,9 @@
 use std::time::Instant;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
+use lobe::Backend;
 use lobe_benches::tracing::{self, RaySet};
-use lobe_lane::Lanes;
-use lobe_scalar::Scalar;
-use lobe_trace::{Form, HitSoA, Intersect, Occluded, RayClass, Rays, Scene};
+use lobe_trace::{Form, HitSoA, Rays, Scene};
 
 /// Traces rays; the flag says that any hit is enough.
 type Run<'a> = Box<dyn Fn(Rays<'_>, bool) + 'a>;
@@ -21,36 +20,25 @@ struct Contestant<'a> {
     run: Run<'a>,
 }
 
-fn contestants<const W: usize>(scene: &Scene<W>) -> Vec<Contestant<'_>> {
-    let mut all = Vec::new();
-    enter(&mut all, Scalar::<1>, scene);
-    #[cfg(target_arch = "x86_64")]
-    {
-        enter(&mut all, lobe_sse::Sse2::new(), scene);
-        if let Some(avx2) = lobe_avx::Avx2::detect() {
-            enter(&mut all, avx2, scene);
-        }
-    }
-    all
+fn contestants(scene: &Scene) -> Vec<Contestant<'_>> {
+    let backends = Backend::available();
+    backends.into_iter().flat_map(|backend| Form::ALL.map(|form| contestant(scene, backend, form))).collect()
 }
 
-fn enter<'a, L: Lanes, const W: usize>(all: &mut Vec<Contestant<'a>>, lanes: L, scene: &'a Scene<W>) {
-    for form in Form::ALL {
-        all.push(Contestant {
-            name: format!("{} {form:?}", L::NAME),
-            run: Box::new(move |rays, any| {
-                let class = RayClass::Camera;
-                if any {
-                    let mut out = vec![false; rays.len()];
-                    lanes.vectorize(Occluded::new(scene, class, rays, &mut out).by(form));
-                    std::hint::black_box(out);
-                } else {
-                    let mut hits = HitSoA::new(rays.len());
-                    lanes.vectorize(Intersect::new(scene, class, rays, hits.view()).by(form));
-                    std::hint::black_box(hits);
-                }
-            }),
-        });
+fn contestant(scene: &Scene, backend: Backend, form: Form) -> Contestant<'_> {
+    Contestant {
+        name: format!("{backend} {form:?}"),
+        run: Box::new(move |rays, any| {
+            if any {
+                let mut out = vec![false; rays.len()];
+                scene.occluded_by(backend, form, rays, &mut out);
+                std::hint::black_box(out);
+            } else {
+                let mut hits = HitSoA::new(rays.len());
+                scene.intersect_by(backend, form, rays, hits.view());
+                std::hint::black_box(hits);
+            }
+        }),
     }
 }
 
@@ -80,10 +68,10 @@ fn best_times(sets: &[RaySet], contestants: &[Contestant<'_>]) -> Vec<Vec<f64>> 
 }
 
 /// Millions of rays a second, and in brackets how many times the same form on the scalar backend.
-fn table<const W: usize>(title: &str, scene: &Scene<W>, pixels: usize) {
+fn table(title: &str, scene: &Scene, pixels: usize) {
     let (sets, contestants) = (tracing::sets(scene, pixels), contestants(scene));
     let best = best_times(&sets, &contestants);
-    print!("\n{title}, {W} children a node: Mrays/s (times the scalar backend)\n{:16}", "");
+    print!("\n{title}: Mrays/s (times the scalar backend)\n{:16}", "");
     sets.iter().for_each(|set| print!("{:>16}", set.name));
     println!();
     for (row, contestant) in best.iter().zip(&contestants) {

@@ -3,9 +3,8 @@
 use std::collections::HashMap;
 use std::f32::consts::TAU;
 
-use lobe_lane::Lanes;
-use lobe_scalar::Reference;
-use lobe_trace::{HitSoA, Intersect, MISS, Mesh, RayClass, RaySoA, Scene};
+use lobe::Backend;
+use lobe_trace::{HitSoA, MISS, Mesh, RayClass, RaySoA, Scene};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -100,7 +99,7 @@ pub struct RaySet {
 }
 
 /// Rays in the room: a picture of some pixels, and what follows from each of its rays.
-pub fn sets<const W: usize>(scene: &Scene<W>, pixels: usize) -> Vec<RaySet> {
+pub fn sets(scene: &Scene, pixels: usize) -> Vec<RaySet> {
     let mut rng = Pcg64Mcg::seed_from_u64(1);
     let camera = camera(pixels);
     let mirror = next(scene, &camera, |d, _, n| (add(d, n, -2.0 * dot(d, n)), f32::INFINITY));
@@ -138,9 +137,9 @@ fn camera(pixels: usize) -> RaySoA {
 }
 
 /// Secondary rays: what happens at each hit is told by a function of the ray's direction, place and normal.
-fn next<const W: usize>(scene: &Scene<W>, rays: &RaySoA, mut turn: impl FnMut(V, V, V) -> (V, f32)) -> RaySoA {
+fn next(scene: &Scene, rays: &RaySoA, mut turn: impl FnMut(V, V, V) -> (V, f32)) -> RaySoA {
     let mut hits = HitSoA::new(rays.len());
-    Reference::default().vectorize(Intersect::new(scene, RayClass::Diffuse, rays.view(), hits.view()));
+    scene.intersect(Backend::scalar(), RayClass::Diffuse, rays.view(), hits.view());
     let mut out = RaySoA::with_capacity(rays.len());
     for ray in 0..rays.len() {
         if hits.primitive[ray] == MISS {

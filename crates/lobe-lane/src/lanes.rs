@@ -14,6 +14,14 @@ pub trait Kernel {
     fn run<L: Lanes>(self, lanes: L) -> Self::Out;
 }
 
+/// Runs a kernel from inside another one as a call, so that its code stands once per backend and not at every place that
+/// runs it. The call costs a few nanoseconds: it is for a block of work, and nothing may be in registers across it that the
+/// loops around it need.
+#[inline(never)]
+pub fn call<L: Lanes, K: Kernel>(lanes: L, kernel: K) -> K::Out {
+    lanes.vectorize(kernel)
+}
+
 /// A SIMD backend: a zero-sized proof that the CPU has the instructions, and the only source of lane values.
 ///
 /// Methods that touch memory check their slices, once per call and not per lane.

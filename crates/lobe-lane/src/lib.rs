@@ -42,7 +42,7 @@ mod texels;
 mod values;
 
 pub use block::Block;
-pub use lanes::{Kernel, Lanes, MAX_LANES};
+pub use lanes::{Kernel, Lanes, MAX_LANES, call};
 pub use strict::Strict;
 pub use texels::Texels;
 pub use values::{Floats, Ints, Mask};

@@ -37,7 +37,7 @@ impl RayClass {
     }
 
     /// The walk that measured best for the class.
-    pub(crate) fn form(self) -> Form {
+    pub fn form(self) -> Form {
         match self {
             RayClass::Camera | RayClass::Mirror | RayClass::Shadow | RayClass::SoftShadow => Form::Large,
             RayClass::Diffuse | RayClass::ScatteredShadow => Form::Single,

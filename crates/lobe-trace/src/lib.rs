@@ -1,8 +1,8 @@
 //! Coherent ray tracing on SIMD lanes.
 //!
 //! A [`Scene`] is built from checked [meshes](Mesh) and their instances. Batches of rays ([`RaySoA`]) go through it by
-//! the kernels [`Intersect`] (nearest hits) and [`Occluded`] (any hit) on any [`lobe_lane`] backend; a caller's own
-//! kernel traces as many rays as it has lanes by a [`Tracer`].
+//! [`Scene::intersect`] (nearest hits) and [`Scene::occluded`] (any hit) on any [`Backend`](lobe_backend::Backend); a
+//! caller's own kernel traces as many rays as it has lanes by a [`Tracer`].
 //!
 //! - **The class of a ray chooses the way through the tree** ([`RayClass`]): 64 rays at once for the camera, mirrors and
 //!   lights, one ray against all boxes of a node after a diffuse bounce. Rays that do not fit together are traced one by
@@ -14,15 +14,15 @@
 //! - A ray with a NaN, and a zero-area triangle, hit nothing. [`LIMIT`] bounds all coordinates.
 //!
 //! ```
-//! use lobe_lane::Lanes;
-//! use lobe_trace::{HitSoA, Intersect, Mesh, RayClass, RaySoA, Scene};
+//! use lobe_backend::Backend;
+//! use lobe_trace::{HitSoA, Mesh, RayClass, RaySoA, Scene};
 //!
 //! let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 //! let scene: Scene = Scene::of_mesh(Mesh::new(corners, vec![[0, 1, 2]])?);
 //! let mut rays = RaySoA::default();
 //! rays.push([0.25, 0.5, 3.0], [0.0, 0.0, -1.0], 0.0, f32::INFINITY);
 //! let mut hits = HitSoA::new(1);
-//! lobe_scalar::Scalar::<1>.vectorize(Intersect::new(&scene, RayClass::Camera, rays.view(), hits.view()));
+//! scene.intersect(Backend::best(), RayClass::Camera, rays.view(), hits.view());
 //! assert_eq!((hits.primitive[0], hits.t[0], hits.u[0], hits.v[0]), (0, 3.0, 0.25, 0.5));
 //! # Ok::<(), lobe_trace::MeshError>(())
 //! ```

@@ -1,5 +1,6 @@
 //! Batches and packets of rays through a scene.
 
+use lobe_backend::Backend;
 use lobe_lane::{Floats, Ints, Kernel, Lanes, Mask};
 
 use crate::block::{Block, Found, RAYS, first_ray};
@@ -10,6 +11,41 @@ use crate::scene::Scene;
 use crate::triangle_leaves::Triangles;
 use crate::walk::{Nodes, Stacks, Walk};
 use crate::{Form, RayClass};
+
+/// Compiled once, here, for trees of eight children per node.
+impl Scene<8> {
+    /// Finds the nearest hits of a batch of rays.
+    ///
+    /// # Panics
+    /// If there are not as many places for hits as rays.
+    pub fn intersect(&self, backend: Backend, class: RayClass, rays: Rays<'_>, hits: Hits<'_>) {
+        self.intersect_by(backend, class.form(), rays, hits);
+    }
+
+    /// The same by any way through the tree, to compare: the hits are the same bits.
+    ///
+    /// # Panics
+    /// If there are not as many places for hits as rays.
+    pub fn intersect_by(&self, backend: Backend, form: Form, rays: Rays<'_>, hits: Hits<'_>) {
+        backend.run(Intersect::new(self, form, rays, hits));
+    }
+
+    /// Finds which rays of a batch hit anything.
+    ///
+    /// # Panics
+    /// If there are not as many answers as rays.
+    pub fn occluded(&self, backend: Backend, class: RayClass, rays: Rays<'_>, out: &mut [bool]) {
+        self.occluded_by(backend, class.form(), rays, out);
+    }
+
+    /// The same by any way through the tree, to compare: the answers are the same.
+    ///
+    /// # Panics
+    /// If there are not as many answers as rays.
+    pub fn occluded_by(&self, backend: Backend, form: Form, rays: Rays<'_>, out: &mut [bool]) {
+        backend.run(Occluded::new(self, form, rays, out));
+    }
+}
 
 /// The working memory of tracing one scene. Making one allocates; tracing with it does not.
 #[derive(Debug)]
@@ -143,7 +179,8 @@ fn packet_form(class: RayClass) -> Form {
     }
 }
 
-/// Finds the nearest hits of a batch: a kernel to be run on a backend by [`Lanes::vectorize`].
+/// Finds the nearest hits of a batch, as a kernel: for trees of four children per node and lanes that are no
+/// [`Backend`]. All others call [`Scene::intersect`].
 #[derive(Debug)]
 pub struct Intersect<'a, const W: usize> {
     scene: &'a Scene<W>,
@@ -157,14 +194,9 @@ impl<'a, const W: usize> Intersect<'a, W> {
     ///
     /// # Panics
     /// If there are not as many places for hits as rays.
-    pub fn new(scene: &'a Scene<W>, class: RayClass, rays: Rays<'a>, hits: Hits<'a>) -> Self {
+    pub fn new(scene: &'a Scene<W>, form: Form, rays: Rays<'a>, hits: Hits<'a>) -> Self {
         assert_eq!(rays.len(), hits.len(), "rays, and places for hits");
-        Intersect { scene, form: class.form(), rays, hits }
-    }
-
-    /// The same by another way through the tree, to compare: the hits are the same bits.
-    pub fn by(self, form: Form) -> Self {
-        Intersect { form, ..self }
+        Intersect { scene, form, rays, hits }
     }
 }
 
@@ -195,7 +227,8 @@ impl<const W: usize> Kernel for Intersect<'_, W> {
     }
 }
 
-/// Finds which rays of a batch hit anything: a kernel to be run on a backend by [`Lanes::vectorize`].
+/// Finds which rays of a batch hit anything, as a kernel: for trees of four children per node and lanes that are no
+/// [`Backend`]. All others call [`Scene::occluded`].
 #[derive(Debug)]
 pub struct Occluded<'a, const W: usize> {
     scene: &'a Scene<W>,
@@ -209,14 +242,9 @@ impl<'a, const W: usize> Occluded<'a, W> {
     ///
     /// # Panics
     /// If there are not as many answers as rays.
-    pub fn new(scene: &'a Scene<W>, class: RayClass, rays: Rays<'a>, out: &'a mut [bool]) -> Self {
+    pub fn new(scene: &'a Scene<W>, form: Form, rays: Rays<'a>, out: &'a mut [bool]) -> Self {
         assert_eq!(rays.len(), out.len(), "rays, and places for answers");
-        Occluded { scene, form: class.form(), rays, out }
-    }
-
-    /// The same by another way through the tree, to compare: the answers are the same.
-    pub fn by(self, form: Form) -> Self {
-        Occluded { form, ..self }
+        Occluded { scene, form, rays, out }
     }
 }
 

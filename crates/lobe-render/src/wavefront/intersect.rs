@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use lobe_trace::{Intersect, MISS, RayClass};
+use lobe_trace::{MISS, RayClass};
 
 use super::{Wavefront, rays};
 use crate::transport::Transport;
@@ -29,7 +29,7 @@ impl<T: Transport> Wavefront<'_, T> {
     fn trace(&mut self, class: RayClass) {
         let begun = Instant::now();
         rays::fit(&mut self.found, self.rays.len());
-        self.backend.run(Intersect::new(&self.world.scene, class, self.rays.rays.view(), self.found.view()));
+        self.world.scene.intersect(self.backend, class, self.rays.rays.view(), self.found.view());
         self.stats.trace += begun.elapsed();
         self.stats.rays += self.rays.len() as u64;
     }

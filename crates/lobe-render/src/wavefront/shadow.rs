@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use lobe_trace::{Occluded, RayClass};
+use lobe_trace::RayClass;
 
 use super::Wavefront;
 use super::rays::RayQueue;
@@ -36,7 +36,7 @@ impl<T: Transport> Wavefront<'_, T> {
         let begun = Instant::now();
         let ShadowRays { queue, hidden } = &mut self.shadow;
         hidden.resize(queue.len(), false);
-        self.backend.run(Occluded::new(&self.world.scene, class, queue.rays.view(), hidden));
+        self.world.scene.occluded(self.backend, class, queue.rays.view(), hidden);
         for (ShadowRay { slot, radiance }, hidden) in queue.states.iter().zip(&*hidden) {
             if !hidden {
                 let sum = &mut self.slots[*slot as usize].sample.radiance;

@@ -1,8 +1,8 @@
 //! A packet of coherent rays, one ray per lane.
 
-use lobe_lane::{Floats, Lanes, MAX_LANES, Mask};
+use lobe_lane::{Floats, Lanes, MAX_LANES, Mask, call};
 
-use super::{Single, Walk, enter};
+use super::{Single, Walk};
 use crate::block::{first_ray, mask_of};
 use crate::bvh::Child;
 use crate::hull::Hull;
@@ -41,7 +41,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
     loop {
         if bits.count_ones() <= few {
             let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
-            enter(lanes, Single { walk, from: child, live: (bits as u64) << at });
+            call(lanes, Single { walk, from: child, live: (bits as u64) << at });
         } else if child.is_leaf() {
             let around = match &hull {
                 Some(hull) => Around::Hull(hull),

@@ -5,10 +5,10 @@
 
 use core::hint::select_unpredictable;
 
-use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
+use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask, call};
 
 use super::stack::LargeEntry;
-use super::{Nodes, Single, Walk, enter};
+use super::{Nodes, Single, Walk};
 use crate::block::{Block, Found, first_ray, group_bits};
 use crate::bundles::Bundles;
 use crate::bvh::Node;
@@ -119,7 +119,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
             if !child.is_leaf() {
                 if live.count_ones() <= ALONE && L::LANES >= 8 {
                     let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
-                    enter(lanes, Single { walk, from: child, live });
+                    call(lanes, Single { walk, from: child, live });
                     bundles.shorten(lanes, found, live);
                     continue;
                 }

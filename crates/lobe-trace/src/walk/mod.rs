@@ -6,7 +6,7 @@ mod single;
 mod stack;
 
 use bytemuck::Pod;
-use lobe_lane::{Kernel, Lanes};
+use lobe_lane::{Kernel, Lanes, call};
 
 use crate::Form;
 use crate::block::{Block, Found, RAYS, group_bits, mask_of};
@@ -66,7 +66,7 @@ impl<V: Leaves, const W: usize> Walk<'_, V, W> {
                 left &= !(together | 1 << ray);
                 if together.count_ones() > large::FEW {
                     let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
-                    enter(lanes, Large(walk, together));
+                    call(lanes, Large(walk, together));
                     alone &= !together;
                 }
             }
@@ -77,23 +77,16 @@ impl<V: Leaves, const W: usize> Walk<'_, V, W> {
             if bits != 0 && rays.group_is_coherent(lanes, at, mask_of(lanes, bits)) {
                 let few = if form == Form::Packet { 0 } else { group::FEW };
                 let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
-                enter(lanes, Group { walk, at, live: bits, few });
+                call(lanes, Group { walk, at, live: bits, few });
                 alone &= !((bits as u64) << at);
             }
             at += L::LANES;
         }
         if alone != 0 {
             let walk = Walk { bvh, leaves, rays, found, stacks };
-            enter(lanes, Single { walk, from: Child::node(0), live: alone });
+            call(lanes, Single { walk, from: Child::node(0), live: alone });
         }
     }
-}
-
-/// Enters the backend anew, so that the code of a walk stands there once and not at every place that may fall back to
-/// it. A call a walk is nothing. Not generic code on lanes itself, it need not be inlined.
-#[inline(never)]
-fn enter<L: Lanes, K: Kernel>(lanes: L, walk: K) -> K::Out {
-    lanes.vectorize(walk)
 }
 
 /// Rays one by one, from a child on.

@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use lobe_backend::Backend;
 use lobe_lane::{Kernel, Lanes};
 use lobe_scalar::Scalar;
 use lobe_trace::{
@@ -62,7 +63,7 @@ pub static CASES: LazyLock<Vec<Case>> = LazyLock::new(|| {
             let bounds = eight.bounds();
             let sets = [rays::camera(bounds, 32), rays::bounded(bounds, 128, 4), rays::mixed(bounds, 1500, 3)];
             let rays = rays::joined(&sets);
-            let hits = intersect(Scalar::<1>, &eight, &rays, Form::Single);
+            let hits = intersect(Backend::scalar(), &eight, &rays, Form::Single);
             let count = reference::check(&eight, &rays, &hits, name);
             println!("{name}: {count} of {} rays hit", rays.len());
             assert!(count > rays.len() / 10 && count < rays.len(), "{name}: {count} of {} rays hit", rays.len());
@@ -71,15 +72,72 @@ pub static CASES: LazyLock<Vec<Case>> = LazyLock::new(|| {
         .collect()
 });
 
-pub fn intersect<L: Lanes, const W: usize>(lanes: L, scene: &Scene<W>, rays: &RaySoA, form: Form) -> HitSoA {
+/// What traces: a backend, through the functions that everybody calls, or lanes that are none.
+pub trait Tracing: Copy {
+    fn name(self) -> &'static str;
+    fn is_fused(self) -> bool;
+    fn run<K: Kernel>(self, kernel: K);
+    fn intersect(self, scene: &Scene, form: Form, rays: &RaySoA, hits: &mut HitSoA);
+    fn occluded(self, scene: &Scene, form: Form, rays: &RaySoA, out: &mut [bool]);
+}
+
+impl Tracing for Backend {
+    fn name(self) -> &'static str {
+        Backend::name(&self)
+    }
+
+    fn is_fused(self) -> bool {
+        self.has_fused_form() && !self.is_strict()
+    }
+
+    fn run<K: Kernel>(self, kernel: K) {
+        Backend::run(&self, kernel);
+    }
+
+    fn intersect(self, scene: &Scene, form: Form, rays: &RaySoA, hits: &mut HitSoA) {
+        scene.intersect_by(self, form, rays.view(), hits.view());
+    }
+
+    fn occluded(self, scene: &Scene, form: Form, rays: &RaySoA, out: &mut [bool]) {
+        scene.occluded_by(self, form, rays.view(), out);
+    }
+}
+
+/// Lanes that are no backend, or trees that backends have no function for.
+#[derive(Clone, Copy)]
+struct On<L>(L);
+
+impl<L: Lanes> Tracing for On<L> {
+    fn name(self) -> &'static str {
+        L::NAME
+    }
+
+    fn is_fused(self) -> bool {
+        L::FUSED
+    }
+
+    fn run<K: Kernel>(self, kernel: K) {
+        self.0.vectorize(kernel);
+    }
+
+    fn intersect(self, scene: &Scene, form: Form, rays: &RaySoA, hits: &mut HitSoA) {
+        self.run(Intersect::new(scene, form, rays.view(), hits.view()));
+    }
+
+    fn occluded(self, scene: &Scene, form: Form, rays: &RaySoA, out: &mut [bool]) {
+        self.run(Occluded::new(scene, form, rays.view(), out));
+    }
+}
+
+pub fn intersect(tracing: impl Tracing, scene: &Scene, rays: &RaySoA, form: Form) -> HitSoA {
     let mut hits = HitSoA::new(rays.len());
-    lanes.vectorize(Intersect::new(scene, RayClass::Camera, rays.view(), hits.view()).by(form));
+    tracing.intersect(scene, form, rays, &mut hits);
     hits
 }
 
-fn occluded<L: Lanes, const W: usize>(lanes: L, scene: &Scene<W>, rays: &RaySoA, form: Form) -> Vec<bool> {
+fn occluded(tracing: impl Tracing, scene: &Scene, rays: &RaySoA, form: Form) -> Vec<bool> {
     let mut out = vec![false; rays.len()];
-    lanes.vectorize(Occluded::new(scene, RayClass::Shadow, rays.view(), &mut out).by(form));
+    tracing.occluded(scene, form, rays, &mut out);
     out
 }
 
@@ -105,11 +163,11 @@ fn same_bits<const W: usize>(scene: &Scene<W>, rays: &RaySoA, found: &HitSoA, tr
 }
 
 /// In strict form the bits of the reference; fused, the bits of its own single rays and the tolerance of the reference.
-fn check_form<L: Lanes>(lanes: L, form: Form) {
+fn check_form(lanes: impl Tracing, form: Form) {
     for case in CASES.iter() {
-        let name = format!("{} {} {form:?}", case.name, L::NAME);
+        let name = format!("{} {} {form:?}", case.name, lanes.name());
         let found = intersect(lanes, &case.eight, &case.rays, form);
-        if L::FUSED {
+        if lanes.is_fused() {
             let single = intersect(lanes, &case.eight, &case.rays, Form::Single);
             same_bits(&case.eight, &case.rays, &found, &single, &name);
             reference::check(&case.eight, &case.rays, &found, &name);
@@ -122,12 +180,14 @@ fn check_form<L: Lanes>(lanes: L, form: Form) {
 }
 
 /// Trees of four children a node give the same as those of eight.
-fn check_four<L: Lanes>(lanes: L) {
+fn check_four(lanes: impl Tracing) {
     for case in CASES.iter() {
-        let name = format!("{} {}", case.name, L::NAME);
+        let name = format!("{} {}", case.name, lanes.name());
         let truth = intersect(lanes, &case.eight, &case.rays, Form::Single);
         for form in Form::ALL {
-            same_bits(&case.four, &case.rays, &intersect(lanes, &case.four, &case.rays, form), &truth, &name);
+            let mut found = HitSoA::new(case.rays.len());
+            lanes.run(Intersect::new(&case.four, form, case.rays.view(), found.view()));
+            same_bits(&case.four, &case.rays, &found, &truth, &name);
         }
     }
 }
@@ -166,12 +226,12 @@ impl Kernel for ByPacket<'_> {
     }
 }
 
-fn check_packet_call<L: Lanes>(lanes: L) {
+fn check_packet_call(lanes: impl Tracing) {
     for case in CASES.iter() {
         for class in [RayClass::Camera, RayClass::Diffuse] {
             let mut found = HitSoA::new(case.rays.len());
-            lanes.vectorize(ByPacket(&case.eight, class, &case.rays, &mut found));
-            let name = format!("{} {} packet call", case.name, L::NAME);
+            lanes.run(ByPacket(&case.eight, class, &case.rays, &mut found));
+            let name = format!("{} {} packet call", case.name, lanes.name());
             same_bits(&case.eight, &case.rays, &found, &intersect(lanes, &case.eight, &case.rays, Form::Single), &name);
         }
     }
@@ -218,34 +278,30 @@ macro_rules! on {
 }
 
 on! {
-    scalar: Some(Scalar::<1>);
-    emulated4: Some(Scalar::<4>);
-    emulated8: Some(Scalar::<8>);
-}
-
-#[cfg(target_arch = "x86_64")]
-on! {
-    sse2: Some(lobe_sse::Sse2::new());
-    sse41: lobe_sse::Sse41::detect();
-    avx2: lobe_avx::Avx2::detect();
-    avx2_strict: lobe_avx::Avx2::detect().map(Lanes::strict);
+    scalar: Some(Backend::scalar());
+    emulated4: Some(On(Scalar::<4>));
+    emulated8: Some(On(Scalar::<8>));
+    sse2: Backend::named("sse2").ok();
+    sse41: Backend::named("sse4.1").ok();
+    avx2: Backend::named("avx2").ok().map(Backend::fused);
+    avx2_strict: Backend::named("avx2").ok().map(Backend::strict);
 }
 
 #[test]
 fn four_children_scalar() {
-    check_four(Scalar::<1>);
+    check_four(On(Scalar::<1>));
 }
 
 /// More lanes than children.
 #[test]
 fn four_children_emulated8() {
-    check_four(Scalar::<8>);
+    check_four(On(Scalar::<8>));
 }
 
 #[cfg(target_arch = "x86_64")]
 #[test]
 fn four_children_sse2() {
-    check_four(lobe_sse::Sse2::new());
+    check_four(On(lobe_sse::Sse2::new()));
 }
 
 #[cfg(feature = "rayon")]
@@ -254,13 +310,13 @@ fn threads_change_nothing() {
     let case = &CASES[1];
     let rays = rays::joined(&vec![case.rays.clone(); 5]);
     let mut hits = HitSoA::new(rays.len());
-    lobe_trace::intersect(Scalar::<4>, &case.eight, RayClass::Mirror, rays.view(), hits.view());
+    lobe_trace::intersect(Backend::best().strict(), &case.eight, RayClass::Mirror, rays.view(), hits.view());
     let n = case.rays.len();
     for run in 0..5 {
         assert_eq!(hits.primitive[run * n..][..n], case.hits.primitive);
         assert_eq!(hits.t[run * n..][..n], case.hits.t);
     }
     let mut out = vec![false; rays.len()];
-    lobe_trace::occluded(Scalar::<4>, &case.eight, RayClass::Shadow, rays.view(), &mut out);
+    lobe_trace::occluded(Backend::best().strict(), &case.eight, RayClass::Shadow, rays.view(), &mut out);
     assert!(out.iter().zip(&hits.primitive).all(|(&hit, &primitive)| hit == (primitive != MISS)));
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use lobe_scalar::Scalar;
+use lobe_backend::Backend;
 use lobe_testing::files::{fixture, shared_file};
 use lobe_trace::{Form, Mesh, Scene};
 
@@ -32,12 +32,12 @@ fn check(path: &Path, count: usize) {
     let triangles = mesh.triangles().len();
     let scene: Scene = Scene::of_mesh(mesh);
     let rays = rays::joined(&[rays::camera(scene.bounds(), 16), rays::mixed(scene.bounds(), count, 9)]);
-    let truth = intersect(Scalar::<1>, &scene, &rays, Form::Single);
+    let truth = intersect(Backend::scalar(), &scene, &rays, Form::Single);
     let hits = reference::check(&scene, &rays, &truth, &name);
     println!("{name}: {triangles} triangles, {hits} of {} rays hit", rays.len());
     assert!(hits > rays.len() / 20, "{name}: {hits} of {}", rays.len());
     for form in Form::ALL {
-        assert_eq!(intersect(Scalar::<1>, &scene, &rays, form), truth, "{name} {form:?}");
+        assert_eq!(intersect(Backend::scalar(), &scene, &rays, form), truth, "{name} {form:?}");
     }
 }
 

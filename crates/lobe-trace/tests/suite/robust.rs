@@ -1,6 +1,6 @@
 //! Input that is wrong or extreme.
 
-use lobe_scalar::Scalar;
+use lobe_backend::Backend;
 use lobe_trace::{Affine, Form, MISS, Mesh, MeshError, Progress, RayClass, RaySoA, Scene, SceneBuilder, SceneError};
 
 use crate::backends::intersect;
@@ -63,7 +63,7 @@ fn nothing_is_hit_in_an_empty_scene() {
         [Scene::<8>::of_mesh(empty), SceneBuilder::new().build(|_| ()).unwrap(), of_empty_mesh.build(|_| ()).unwrap()];
     for scene in &scenes {
         for form in Form::ALL {
-            let hits = intersect(Scalar::<1>, scene, &rays, form);
+            let hits = intersect(Backend::scalar(), scene, &rays, form);
             assert!(hits.primitive.iter().all(|&primitive| primitive == MISS));
             assert!(hits.t.iter().all(|&t| t == f32::INFINITY));
         }
@@ -79,7 +79,7 @@ fn a_million_triangles_in_one_place() {
     rays.push([0.25, 0.25, 0.0], [0.0, 0.0, 1.0], 0.0, f32::INFINITY);
     rays.push([2.0, 0.25, 0.0], [0.0, 0.0, 1.0], 0.0, f32::INFINITY);
     for form in Form::ALL {
-        let hits = intersect(Scalar::<1>, &scene, &rays, form);
+        let hits = intersect(Backend::scalar(), &scene, &rays, form);
         assert_eq!((hits.primitive[0], hits.t[0], hits.primitive[1]), (0, 1.0, MISS), "{form:?}");
     }
 }
@@ -103,7 +103,7 @@ fn a_long_fence_and_points_and_needles() {
     rays.push([1.0, 1.0, 5.0], [0.0, 0.0, -1.0], 0.0, f32::INFINITY);
     rays.push([3.0, 1.0, 5.0], [0.0, 0.0, -1.0], 0.0, 4.5);
     for form in Form::ALL {
-        let hits = intersect(Scalar::<1>, &scene, &rays, form);
+        let hits = intersect(Backend::scalar(), &scene, &rays, form);
         // The point touches the tip of a post and hides it from nobody.
         assert_eq!(hits.primitive, [0, 3 * 777, 3 * 49_999, 3, MISS], "{form:?}");
     }
@@ -122,7 +122,7 @@ fn of_equal_hits_the_smallest_numbers_win() {
     let mut rays = RaySoA::default();
     rays.push([0.25, 0.25, 0.0], [0.0, 0.0, 1.0], 0.0, f32::INFINITY);
     for form in Form::ALL {
-        let hits = intersect(Scalar::<1>, &scene, &rays, form);
+        let hits = intersect(Backend::scalar(), &scene, &rays, form);
         assert_eq!((hits.primitive[0], hits.instance[0]), (0, 0), "{form:?}");
     }
 }
@@ -137,7 +137,7 @@ fn both_ends_of_an_interval_belong_to_it() {
         rays.push([0.25, 0.25, 0.0], [0.0, 0.0, 1.0], t_min, t_max);
     }
     for form in Form::ALL {
-        let hits = intersect(Scalar::<1>, &scene, &rays, form);
+        let hits = intersect(Backend::scalar(), &scene, &rays, form);
         assert_eq!(hits.primitive, [0, 0, 0, MISS, MISS], "{form:?}");
     }
 }
@@ -150,7 +150,7 @@ fn scale_and_place_do_not_matter() {
         let moved = mesh.positions().iter().map(|p| p.map(|x| x * scale + shift)).collect();
         let scene: Scene = Scene::of_mesh(Mesh::new(moved, mesh.triangles().to_vec()).unwrap());
         let rays = rays::camera(scene.bounds(), 24);
-        let hits = intersect(Scalar::<1>, &scene, &rays, Form::Large);
+        let hits = intersect(Backend::scalar(), &scene, &rays, Form::Large);
         assert!(reference::check(&scene, &rays, &hits, &format!("scale {scale} shift {shift}")) > 50);
     }
 }

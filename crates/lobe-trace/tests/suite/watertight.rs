@@ -1,7 +1,6 @@
 //! No ray from inside a closed mesh gets out, least of all through its edges and vertices.
 
-use lobe_lane::Lanes;
-use lobe_scalar::Scalar;
+use lobe_backend::Backend;
 use lobe_trace::{Affine, Form, MISS, Mesh, RaySoA, Scene, SceneBuilder};
 use rand::RngExt;
 
@@ -28,25 +27,17 @@ fn through_edges(mesh: &Mesh, origins: &[[f32; 3]]) -> RaySoA {
     rays
 }
 
-fn leaks<L: Lanes, const W: usize>(lanes: L, scene: &Scene<W>, rays: &RaySoA) {
+fn leaks(backend: Backend, scene: &Scene, rays: &RaySoA) {
     for form in Form::ALL {
-        let hits = intersect(lanes, scene, rays, form);
+        let hits = intersect(backend, scene, rays, form);
         let leaks = hits.primitive.iter().filter(|&&primitive| primitive == MISS).count();
-        assert_eq!(leaks, 0, "{} {form:?}: of {} rays", L::NAME, rays.len());
+        assert_eq!(leaks, 0, "{backend} {form:?}: of {} rays", rays.len());
     }
 }
 
 /// On backends of every width and rounding.
 fn no_leak(scene: &Scene, rays: &RaySoA) {
-    leaks(Scalar::<1>, scene, rays);
-    #[cfg(target_arch = "x86_64")]
-    {
-        leaks(lobe_sse::Sse2::new(), scene, rays);
-        match lobe_avx::Avx2::detect() {
-            Some(avx2) => leaks(avx2, scene, rays),
-            None => println!("SKIP: this CPU has no AVX2"),
-        }
-    }
+    Backend::forms().into_iter().for_each(|backend| leaks(backend, scene, rays));
 }
 
 const ORIGINS: [[f32; 3]; 4] = [[0.0; 3], [0.1, -0.2, 0.3], [0.5, 0.5, -0.5], [-0.9, 0.01, 0.0]];
