@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use lobe_lane::{Lanes, MAX_LANES};
+use lobe_lane::{Kernel, Lanes, MAX_LANES, call};
 
 use super::axis::Axis;
 use super::cells;
@@ -177,6 +177,12 @@ impl Interpolator {
         }
     }
 
+    /// From the angles of a block to its values, `out[query][channel]`: all that is after the coordinates.
+    #[inline(always)]
+    pub(crate) fn values<L: Lanes>(&self, lanes: L, scratch: &mut Scratch, out: &mut [f32]) {
+        call(lanes, Interpolate { grid: self, scratch, out });
+    }
+
     /// The values of as many found queries as there are lanes: `out[channel]` holds that channel in all lanes.
     #[inline(always)]
     pub(crate) fn blend_lanes<L: Lanes>(&self, lanes: L, scratch: &mut Scratch, out: &mut [L::F]) {
@@ -197,6 +203,24 @@ impl Interpolator {
                 *channel = lanes.load(&column);
             }
         }
+    }
+}
+
+/// [`Interpolator::values`]: whatever interpolates a grid calls it, so that it is compiled once.
+struct Interpolate<'a> {
+    grid: &'a Interpolator,
+    scratch: &'a mut Scratch,
+    out: &'a mut [f32],
+}
+
+impl Kernel for Interpolate<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Interpolate { grid, scratch, out } = self;
+        grid.find(lanes, (out.len() / grid.channels()).next_multiple_of(L::LANES), scratch);
+        grid.blend(lanes, &grid.layout.texels(), scratch, 0..grid.channels(), out);
     }
 }
 

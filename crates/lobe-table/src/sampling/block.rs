@@ -5,15 +5,14 @@
 
 use lobe_lane::{Lanes, MAX_LANES};
 
-use super::distribution::{Distribution, leave, place};
+use super::distribution::{Distribution, Places, leave};
 use super::incident::Incident;
-use super::slices::{Place, Row, Search, Sums, View};
-use crate::directions::{Directions, PADDING};
+use super::slices::{Row, Search, Sums, View};
+use crate::directions::DirectionBlock;
 use crate::passes::block::Column;
 
 /// The columns that the passes hand on.
 struct Scratch {
-    weights: [Column; 4],
     first: Column<i32>,
     cell: Column<i32>,
     target: Column,
@@ -27,7 +26,6 @@ struct Scratch {
 
 impl Scratch {
     const ZERO: Self = Scratch {
-        weights: [Column::<f32>::ZERO; 4],
         first: Column::<i32>::ZERO,
         cell: Column::<i32>::ZERO,
         target: Column::<f32>::ZERO,
@@ -36,12 +34,6 @@ impl Scratch {
         scale: Column::<f32>::ZERO,
         phi: Column::<f32>::ZERO,
     };
-
-    #[inline(always)]
-    fn weights<L: Lanes>(&self, lanes: L, at: usize) -> [L::F; 4] {
-        let [a, b, c, d] = &self.weights;
-        [a.load(lanes, at), b.load(lanes, at), c.load(lanes, at), d.load(lanes, at)]
-    }
 
     #[inline(always)]
     fn search<L: Lanes>(&self, lanes: L, at: usize) -> Search<L> {
@@ -81,31 +73,20 @@ pub(super) fn draw<L: Lanes, S: Sums>(
     lanes: L,
     distribution: &Distribution,
     view: &View<'_, S>,
-    (known, u): (&[[f32; 3]], &[[f32; 2]]),
+    (known, u, places): (DirectionBlock<'_>, &[[f32; 2]], &Places),
     out: Out<'_>,
 ) {
-    let n = known.len();
-    let mut padding = PADDING;
-    let known = Directions::from(known);
-    let known = known.block(0, &mut padding);
+    let n = u.len();
     let mut scratch = Scratch::ZERO;
 
     let mut at = 0;
     while at < n {
         // Beyond the last pair of numbers that pair is read again.
         let [first, second] = lanes.gather_pair(u, lanes.iota() + lanes.splat_int(at as i32));
-        let incident = Incident::new(lanes, &distribution.surface, known.load(lanes, at));
-        let place = place(lanes, distribution, &incident);
-        let (search, total) = view.begin(lanes, &place, first);
+        let (search, total) = view.begin(lanes, &places.load(lanes, at), first);
         scratch.begin(lanes, at, search);
         scratch.scale.store(lanes, at, total);
         scratch.phi.store(lanes, at, second);
-        let Place { weights, .. } = place;
-        let mut slice = 0;
-        while slice < 4 {
-            scratch.weights[slice].store(lanes, at, weights[slice]);
-            slice += 1;
-        }
         at += L::LANES;
     }
 
@@ -113,7 +94,7 @@ pub(super) fn draw<L: Lanes, S: Sums>(
     while half > 0 {
         let mut at = 0;
         while at < n {
-            let search = view.row_step(lanes, scratch.search(lanes, at), half, &scratch.weights(lanes, at));
+            let search = view.row_step(lanes, scratch.search(lanes, at), half, &places.load(lanes, at).weights);
             scratch.step(lanes, at, search);
             at += L::LANES;
         }
@@ -134,7 +115,7 @@ pub(super) fn draw<L: Lanes, S: Sums>(
     while half > 0 {
         let mut at = 0;
         while at < n {
-            let search = view.column_step(lanes, scratch.search(lanes, at), half, &scratch.weights(lanes, at));
+            let search = view.column_step(lanes, scratch.search(lanes, at), half, &places.load(lanes, at).weights);
             scratch.step(lanes, at, search);
             at += L::LANES;
         }

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use lobe_backend::Backend;
-use lobe_lane::{Floats, Kernel, Lanes};
+use lobe_lane::{Floats, Kernel, Lanes, call};
 use thiserror::Error;
 
 use super::block;
@@ -11,8 +11,9 @@ use super::build::Builder;
 use super::histogram::{Bin, Histogram, Light};
 use super::incident::{Incident, Local, Surface};
 use super::slices::{Draw, Place, Slices};
+use crate::directions::{DirectionBlock, Directions, PADDING};
 use crate::grid::axis::Axis;
-use crate::passes::block::BLOCK;
+use crate::passes::block::{BLOCK, Column};
 use crate::{AxisError, Edge, Scatter};
 
 /// What a [`Distribution`] is laid out for.
@@ -242,10 +243,14 @@ impl Distribution {
     pub fn pdf_lanes<L: Lanes>(&self, lanes: L, known: [L::F; 3], other: [L::F; 3]) -> L::F {
         let incident = Incident::new(lanes, &self.surface, known);
         let place = place(lanes, self, &incident);
-        let Local { v, phi, height, valid } = incident.locate(lanes, other);
+        self.density(lanes, &place, incident.locate(lanes, other))
+    }
+
+    #[inline(always)]
+    fn density<L: Lanes>(&self, lanes: L, place: &Place<L>, Local { v, phi, height, valid }: Local<L>) -> L::F {
         let density = match self.slices.width {
-            2 => self.slices.pairs().density(lanes, &place, v, phi),
-            _ => self.slices.quads().density(lanes, &place, v, phi),
+            2 => self.slices.pairs().density(lanes, place, v, phi),
+            _ => self.slices.quads().density(lanes, place, v, phi),
         };
         (density / height).masked(valid)
     }
@@ -255,11 +260,16 @@ impl Distribution {
     pub fn brightness_lanes<L: Lanes>(&self, lanes: L, known: [L::F; 3]) -> L::F {
         let incident = Incident::new(lanes, &self.surface, known);
         let place = place(lanes, self, &incident);
+        self.brightness(lanes, &place, incident.valid)
+    }
+
+    #[inline(always)]
+    fn brightness<L: Lanes>(&self, lanes: L, place: &Place<L>, valid: L::M) -> L::F {
         let total = match self.slices.width {
-            2 => self.slices.pairs().total(lanes, &place),
-            _ => self.slices.quads().total(lanes, &place),
+            2 => self.slices.pairs().total(lanes, place),
+            _ => self.slices.quads().total(lanes, place),
         };
-        (total * lanes.splat(self.brightest)).masked(incident.valid)
+        (total * lanes.splat(self.brightest)).masked(valid)
     }
 }
 
@@ -280,7 +290,7 @@ fn cell<L: Lanes>(lanes: L, axis: &Axis, angle: L::F) -> (L::I, L::F) {
 
 /// The slices about an incident direction, in sigma and psi.
 #[inline(always)]
-pub(super) fn place<L: Lanes>(lanes: L, distribution: &Distribution, incident: &Incident<L>) -> Place<L> {
+fn place<L: Lanes>(lanes: L, distribution: &Distribution, incident: &Incident<L>) -> Place<L> {
     let one = lanes.splat(1.0);
     let rest = incident.sin2 / (one + incident.cos);
     let (sigma, up) = cell(lanes, &distribution.sigma, lobe_math::acos_from(lanes, incident.cos, rest));
@@ -308,12 +318,12 @@ pub(super) fn leave<L: Lanes>(lanes: L, incident: &Incident<L>, draw: Draw<L>, m
 }
 
 /// All samples of a batch.
-pub(super) struct Draws<'a> {
-    pub(super) distribution: &'a Distribution,
-    pub(super) known: &'a [[f32; 3]],
-    pub(super) u: &'a [[f32; 2]],
-    pub(super) directions: &'a mut [[f32; 3]],
-    pub(super) pdfs: &'a mut [f32],
+struct Draws<'a> {
+    distribution: &'a Distribution,
+    known: &'a [[f32; 3]],
+    u: &'a [[f32; 2]],
+    directions: &'a mut [[f32; 3]],
+    pdfs: &'a mut [f32],
 }
 
 impl Kernel for Draws<'_> {
@@ -322,11 +332,15 @@ impl Kernel for Draws<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         let Draws { distribution, known, u, directions, pdfs } = self;
+        let known = Directions::from(known);
+        let (mut padding, mut places) = (PADDING, Places::ZERO);
         let mut at = 0;
-        while at < known.len() {
-            let end = known.len().min(at + BLOCK);
-            let input = (&known[at..end], &u[at..end]);
+        while at < u.len() {
+            let end = u.len().min(at + BLOCK);
+            let known = known.block(at, &mut padding);
+            call(lanes, Locate { distribution, known, count: end - at, places: &mut places });
             let out = block::Out { directions: &mut directions[at..end], pdfs: &mut pdfs[at..end] };
+            let input = (known, &u[at..end], &places);
             match distribution.slices.width {
                 2 => block::draw(lanes, distribution, &distribution.slices.pairs(), input, out),
                 _ => block::draw(lanes, distribution, &distribution.slices.quads(), input, out),
@@ -350,11 +364,21 @@ impl Kernel for Densities<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         let Densities { distribution, known, other, pdfs } = self;
+        let (known, other) = (Directions::from(known), Directions::from(other));
+        let (mut padding, mut places) = ((PADDING, PADDING), Places::ZERO);
         let mut at = 0;
         while at < pdfs.len() {
-            let end = pdfs.len().min(at + L::LANES);
-            let (known, other) = (load(lanes, &known[at..end]), load(lanes, &other[at..end]));
-            lanes.store_partial(&mut pdfs[at..end], distribution.pdf_lanes(lanes, known, other));
+            let end = pdfs.len().min(at + BLOCK);
+            let (known, other) = (known.block(at, &mut padding.0), other.block(at, &mut padding.1));
+            call(lanes, Locate { distribution, known, count: end - at, places: &mut places });
+            let mut query = 0;
+            while at + query < end {
+                let incident = Incident::new(lanes, &distribution.surface, known.load(lanes, query));
+                let local = incident.locate(lanes, other.load(lanes, query));
+                let density = distribution.density(lanes, &places.load(lanes, query), local);
+                lanes.store_partial(&mut pdfs[at + query..end], density);
+                query += L::LANES;
+            }
             at = end;
         }
     }
@@ -373,23 +397,67 @@ impl Kernel for Brightnesses<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         let Brightnesses { distribution, known, out } = self;
+        let known = Directions::from(known);
+        let (mut padding, mut places) = (PADDING, Places::ZERO);
         let mut at = 0;
         while at < out.len() {
-            let end = out.len().min(at + L::LANES);
-            let known = load(lanes, &known[at..end]);
-            lanes.store_partial(&mut out[at..end], distribution.brightness_lanes(lanes, known));
+            let end = out.len().min(at + BLOCK);
+            let known = known.block(at, &mut padding);
+            call(lanes, Locate { distribution, known, count: end - at, places: &mut places });
+            let mut query = 0;
+            while at + query < end {
+                let incident = Incident::new(lanes, &distribution.surface, known.load(lanes, query));
+                let brightness = distribution.brightness(lanes, &places.load(lanes, query), incident.valid);
+                lanes.store_partial(&mut out[at + query..end], brightness);
+                query += L::LANES;
+            }
             at = end;
         }
     }
 }
 
-/// Up to a register of vectors, zeros behind them.
-#[inline(always)]
-pub(super) fn load<L: Lanes>(lanes: L, vectors: &[[f32; 3]]) -> [L::F; 3] {
-    if vectors.len() >= L::LANES {
-        return lanes.load_xyz(vectors);
+/// The slices about the incident directions of a block.
+pub(super) struct Places {
+    block: Column<i32>,
+    pub(super) weights: [Column; 4],
+}
+
+impl Places {
+    pub(super) const ZERO: Self = Places { block: Column::<i32>::ZERO, weights: [Column::<f32>::ZERO; 4] };
+
+    #[inline(always)]
+    pub(super) fn load<L: Lanes>(&self, lanes: L, at: usize) -> Place<L> {
+        let [a, b, c, d] = &self.weights;
+        let weights = [a.load(lanes, at), b.load(lanes, at), c.load(lanes, at), d.load(lanes, at)];
+        Place { block: self.block.load(lanes, at), weights }
     }
-    let mut padded = [[0.0; 3]; lobe_lane::MAX_LANES];
-    padded[..vectors.len()].copy_from_slice(vectors);
-    lanes.load_xyz(&padded)
+}
+
+/// Finds the slices of a block. Draws, densities and brightnesses call it, so that it is compiled once.
+struct Locate<'a> {
+    distribution: &'a Distribution,
+    known: DirectionBlock<'a>,
+    count: usize,
+    places: &'a mut Places,
+}
+
+impl Kernel for Locate<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Locate { distribution, known, count, places } = self;
+        let mut query = 0;
+        while query < count {
+            let incident = Incident::new(lanes, &distribution.surface, known.load(lanes, query));
+            let Place { block, weights } = place(lanes, distribution, &incident);
+            places.block.store(lanes, query, block);
+            let mut slice = 0;
+            while slice < 4 {
+                places.weights[slice].store(lanes, query, weights[slice]);
+                slice += 1;
+            }
+            query += L::LANES;
+        }
+    }
 }

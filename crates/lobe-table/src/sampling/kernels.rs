@@ -1,9 +1,8 @@
 //! Samples of a table with their weights.
 
-use lobe_lane::{Floats, Kernel, Lanes};
+use lobe_lane::{Floats, Lanes};
 
-use super::distribution::{self, load};
-use super::{Given, Sampler};
+use super::{Given, Values};
 use crate::passes::block::BLOCK;
 
 /// Where the samples of a batch go.
@@ -32,71 +31,40 @@ pub(super) fn pair<T>(given: Given, known: T, other: T) -> (T, T) {
     }
 }
 
-/// All samples of a batch.
-pub(super) struct Draws<'a> {
-    pub(super) sampler: &'a Sampler,
-    pub(super) given: Given,
-    pub(super) directions: &'a [[f32; 3]],
-    pub(super) u: &'a [[f32; 2]],
-    pub(super) out: Sampled<'a>,
-}
+/// Draws directions and densities: from the known directions and numbers to both.
+pub(super) type Draw<'a> = dyn Fn(&[[f32; 3]], &[[f32; 2]], &mut [[f32; 3]], &mut [f32]) + 'a;
 
 /// Queries between the two halves of the work: few enough that their directions stay in the first cache.
 const CHUNK: usize = 8 * BLOCK;
 
-impl Kernel for Draws<'_> {
-    type Out = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) {
-        let Draws { sampler, given, directions, u, out } = self;
-        let channels = sampler.table.channel_count();
-        let mut factors = [0.0f32; CHUNK];
-        let mut at = 0;
-        while at < directions.len() {
-            let n = CHUNK.min(directions.len() - at);
-            let known = &directions[at..][..n];
-            let sampled = &mut out.directions[at..][..n];
-            let pdfs = &mut out.pdfs[at..][..n];
-            let u = &u[at..][..n];
-            let draws =
-                distribution::Draws { distribution: &sampler.distribution, known, u, directions: sampled, pdfs };
-            draws.run(lanes);
-            let sampled = &out.directions[at..][..n];
-            fill_factors(lanes, sampled, &out.pdfs[at..][..n], &mut factors);
-            let weights = &mut out.weights[at * channels..][..n * channels];
-            let (wi, wo) = pair(given, known, sampled);
-            sampler.table.batch(wi.into(), wo.into(), weights).run(lanes);
-            scale(&factors[..n], weights);
-            at += n;
-        }
-    }
-}
-
-/// Values to weights.
-#[inline(always)]
-fn scale(factors: &[f32], weights: &mut [f32]) {
-    let channels = weights.len() / factors.len();
-    let mut query = 0;
-    while query < factors.len() {
-        let texel = &mut weights[query * channels..][..channels];
-        let mut channel = 0;
-        while channel < channels {
-            texel[channel] *= factors[query];
-            channel += 1;
-        }
-        query += 1;
-    }
-}
-
-/// What makes a weight of each `f`.
-#[inline(always)]
-fn fill_factors<L: Lanes>(lanes: L, directions: &[[f32; 3]], pdfs: &[f32], factors: &mut [f32; CHUNK]) {
+/// All samples of a batch whose directions `draw` finds and whose `f` `values` finds, each of which enters the backend.
+pub(super) fn sample(
+    (draw, values): (&Draw<'_>, &Values<'_>),
+    given: Given,
+    known: &[[f32; 3]],
+    u: &[[f32; 2]],
+    out: Sampled<'_>,
+) {
+    let channels = out.weights.len().checked_div(known.len()).unwrap_or(0);
     let mut at = 0;
-    while at < directions.len() {
-        let end = directions.len().min(at + L::LANES);
-        let [_, _, z] = load(lanes, &directions[at..end]);
-        lanes.store_partial(&mut factors[at..end], factor(lanes, z, lanes.load_partial(&pdfs[at..end])));
+    while at < known.len() {
+        let end = known.len().min(at + CHUNK);
+        let (sampled, pdfs) = (&mut out.directions[at..end], &mut out.pdfs[at..end]);
+        draw(&known[at..end], &u[at..end], sampled, pdfs);
+        let weights = &mut out.weights[at * channels..end * channels];
+        let (wi, wo) = pair(given, &known[at..end], &*sampled);
+        values(wi, wo, weights);
+        weigh(weights, channels, sampled, pdfs);
         at = end;
+    }
+}
+
+/// Values to weights: times cosine over density, 0 where the density is.
+fn weigh(values: &mut [f32], channels: usize, directions: &[[f32; 3]], pdfs: &[f32]) {
+    for ((texel, direction), &pdf) in values.chunks_exact_mut(channels).zip(directions).zip(pdfs) {
+        let factor = if 0.0 < pdf { direction[2].abs() / pdf } else { 0.0 };
+        for value in texel {
+            *value *= factor;
+        }
     }
 }

@@ -28,14 +28,14 @@ use std::sync::Arc;
 
 use lobe_backend::Backend;
 use lobe_colour::luminance;
-use lobe_lane::{Floats, Kernel, Lanes};
+use lobe_lane::{Floats, Lanes};
 use thiserror::Error;
 
 use crate::specular::{self, PHI, PSI, SIGMA, THETA};
 use distribution::Plan;
 use histogram::{Bin, Histogram, weigh};
 use incident::Surface;
-use kernels::{Draws, factor, pair};
+use kernels::{factor, pair, sample};
 
 pub use distribution::{Distribution, DistributionError, DistributionOptions};
 pub use kernels::Sampled;
@@ -207,25 +207,45 @@ impl Sampler {
         u: &[[f32; 2]],
         out: Sampled<'_>,
     ) {
-        backend.run(self.sampling(given, directions, u, out));
+        self.check(directions, u, &out);
+        let draw = |known: &[[f32; 3]], u: &[[f32; 2]], directions: &mut [[f32; 3]], pdfs: &mut [f32]| {
+            self.distribution.draw_batch(backend, known, u, directions, pdfs);
+        };
+        let values = |wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]| {
+            self.table.eval_batch(backend, wi.into(), wo.into(), out);
+        };
+        sample((&draw, &values), given, directions, u, out);
     }
 
-    /// The sampling of many directions as a kernel, for lanes that are no [`Backend`] (see [`sample_batch`](Self::sample_batch)).
+    /// As [`sample_batch`](Self::sample_batch), on lanes that are no [`Backend`].
     ///
     /// # Panics
     /// As [`sample_batch`](Self::sample_batch).
-    pub fn sampling<'a>(
-        &'a self,
+    pub fn sample_on_lanes<L: Lanes>(
+        &self,
+        lanes: L,
         given: Given,
-        directions: &'a [[f32; 3]],
-        u: &'a [[f32; 2]],
-        out: Sampled<'a>,
-    ) -> impl Kernel<Out = ()> + 'a {
+        directions: &[[f32; 3]],
+        u: &[[f32; 2]],
+        out: Sampled<'_>,
+    ) {
+        self.check(directions, u, &out);
+        let draw = |known: &[[f32; 3]], u: &[[f32; 2]], directions: &mut [[f32; 3]], pdfs: &mut [f32]| {
+            lanes.vectorize(self.distribution.drawing(known, u, directions, pdfs));
+        };
+        let values = |wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]| {
+            lanes.vectorize(self.table.batch(wi.into(), wo.into(), out));
+        };
+        sample((&draw, &values), given, directions, u, out);
+    }
+
+    /// # Panics
+    /// If there is not one of each per direction, and a weight per direction and channel.
+    fn check(&self, directions: &[[f32; 3]], u: &[[f32; 2]], out: &Sampled<'_>) {
         let count = directions.len();
         assert_eq!(u.len(), count, "a pair of numbers a direction");
         assert_eq!((out.directions.len(), out.pdfs.len()), (count, count), "an output a direction");
         assert_eq!(out.weights.len(), count * self.table.channel_count(), "a weight a direction and channel");
-        Draws { sampler: self, given, directions, u, out }
     }
 
     /// The densities of many pairs, as [`pdf`](Sampler::pdf).

@@ -78,14 +78,14 @@ impl Table {
         }
         let [wi, wo] = directions.each_ref().map(|[x, y, z]| DirectionBlock::Columns([x, y, z]));
         let mut scratch = Scratch::ZERO;
-        self.locate(lanes, L::LANES, (wi, wo), &mut scratch);
+        self.angles(lanes, L::LANES, (wi, wo), &mut scratch);
+        self.grid.find(lanes, L::LANES, &mut scratch.grid);
         self.grid.blend_lanes(lanes, &mut scratch.grid, out);
     }
 
-    /// The first passes: from the directions of queries `0..n` to base indices and corner weights. `n` is a multiple of
-    /// the lanes.
+    /// The first passes: from the directions of queries `0..n` to their angles. `n` is a multiple of the lanes.
     #[inline(always)]
-    fn locate<L: Lanes>(
+    fn angles<L: Lanes>(
         &self,
         lanes: L,
         n: usize,
@@ -95,7 +95,6 @@ impl Table {
         let Scratch { frame, grid } = scratch;
         frame::run(lanes, n, directions, self.scatter(), self.refraction.as_ref(), frame, &mut grid.valid);
         angles::run(lanes, n, self.is_anisotropic(), frame, &mut grid.angles);
-        self.grid.find(lanes, n, grid);
     }
 }
 
@@ -114,7 +113,6 @@ impl Kernel for Batch<'_> {
     fn run<L: Lanes>(self, lanes: L) {
         let Batch { table, wi, wo, out } = self;
         let channels = table.channel_count();
-        let texels = table.grid.layout().texels();
         let count = wi.count();
         let mut scratch = Scratch::ZERO;
         let mut padding = (PADDING, PADDING);
@@ -122,9 +120,8 @@ impl Kernel for Batch<'_> {
         while at < count {
             let n = (count - at).min(BLOCK);
             let block = (wi.block(at, &mut padding.0), wo.block(at, &mut padding.1));
-            table.locate(lanes, n.next_multiple_of(L::LANES), block, &mut scratch);
-            let target = &mut out[at * channels..][..n * channels];
-            table.grid.blend(lanes, &texels, &mut scratch.grid, 0..channels, target);
+            table.angles(lanes, n.next_multiple_of(L::LANES), block, &mut scratch);
+            table.grid.values(lanes, &mut scratch.grid, &mut out[at * channels..][..n * channels]);
             at += n;
         }
     }

@@ -49,7 +49,6 @@ impl Kernel for Interpolation<'_> {
     fn run<L: Lanes>(self, lanes: L) {
         let Interpolation { table, angles, out } = self;
         let channels = table.channel_count();
-        let texels = table.grid.layout().texels();
         let count = angles[0].len();
         let mut scratch = Scratch::ZERO;
         let mut at = 0;
@@ -62,9 +61,7 @@ impl Kernel for Interpolation<'_> {
                 }
             }
             leave_out(lanes, n, table.is_anisotropic(), &mut scratch);
-            table.grid.find(lanes, n, &mut scratch);
-            let target = &mut out[at * channels..][..left * channels];
-            table.grid.blend(lanes, &texels, &mut scratch, 0..channels, target);
+            table.grid.values(lanes, &mut scratch, &mut out[at * channels..][..left * channels]);
             at += left;
         }
     }

@@ -115,13 +115,14 @@ impl Table {
         }
         let [wi, wo] = directions.each_ref().map(|[x, y, z]| DirectionBlock::Columns([x, y, z]));
         let mut scratch = Scratch::ZERO;
-        self.locate(lanes, L::LANES, (wi, wo), &mut scratch);
+        self.angles(lanes, L::LANES, (wi, wo), &mut scratch);
+        self.grid.find(lanes, L::LANES, &mut scratch);
         self.grid.blend_lanes(lanes, &mut scratch, out);
     }
 
-    /// From the directions of queries `0..n` to their cells.
+    /// From the directions of queries `0..n` to their angles.
     #[inline(always)]
-    fn locate<L: Lanes>(
+    fn angles<L: Lanes>(
         &self,
         lanes: L,
         n: usize,
@@ -133,7 +134,6 @@ impl Table {
             Scatter::Transmission => Sides::Opposite,
         };
         coordinates::run(lanes, n, directions, sides, self.azimuths, &mut scratch.angles, &mut scratch.valid);
-        self.grid.find(lanes, n, scratch);
     }
 }
 
@@ -154,7 +154,7 @@ impl Blockwise for &Table {
         scratch: &mut Scratch,
         out: &mut [f32],
     ) {
-        self.locate(lanes, count.next_multiple_of(L::LANES), directions, scratch);
-        self.grid.blend(lanes, &self.grid.layout().texels(), scratch, 0..self.grid.channels(), out);
+        self.angles(lanes, count.next_multiple_of(L::LANES), directions, scratch);
+        self.grid.values(lanes, scratch, out);
     }
 }

@@ -94,8 +94,7 @@ impl Blockwise for &Table {
         let n = count.next_multiple_of(L::LANES);
         let Scratch { angles, valid, .. } = scratch;
         coordinates::run(lanes, n, directions, Sides::Above, Azimuths::Both, angles, valid);
-        self.grid.find(lanes, n, scratch);
-        self.grid.blend(lanes, &self.grid.layout().texels(), scratch, 0..3, out);
+        self.grid.values(lanes, scratch, out);
         if self.decode == Decode::Srgb {
             undo_curve(lanes, out);
         }

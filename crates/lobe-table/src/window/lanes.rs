@@ -271,11 +271,15 @@ impl Group {
         let (from, to) = if self.exchanged { (&*wo, &*wi) } else { (&*wi, &*wo) };
         match &self.members {
             Members::Klems(bases, members) => {
-                let [incident, exit] = &**bases;
-                // Light arrives through the patch that it travels toward.
-                incident.find(lanes, n, (from, -1.0), patches, (arriving, valid));
-                exit.find(lanes, n, (to, 1.0), patches, (leaving, valid));
-                let stride = lanes.splat_int(exit.basis().patches() as i32);
+                let mut side = 0;
+                while side < 2 {
+                    // Light arrives through the patch that it travels toward.
+                    let (toward, patch) =
+                        if side == 0 { ((from, -1.0), &mut *arriving) } else { ((to, 1.0), &mut *leaving) };
+                    bases[side].find(lanes, n, toward, patches, (patch, valid));
+                    side += 1;
+                }
+                let stride = lanes.splat_int(bases[1].basis().patches() as i32);
                 let mut query = 0;
                 while query < n {
                     let pair = arriving.load(lanes, query) * stride + leaving.load(lanes, query);

@@ -1,7 +1,7 @@
 //! Evaluation of many pairs of directions, block by block.
 
 use lobe_backend::Backend;
-use lobe_lane::{Floats, Kernel, Lanes};
+use lobe_lane::{Floats, Kernel, Lanes, call};
 
 use super::Table;
 use super::angles;
@@ -111,26 +111,38 @@ impl Table {
         frame::run(lanes, n, directions, self.symmetry, cosine, frame);
         angles::incident(lanes, n, self.azimuthal, frame, incident);
         angles::half(lanes, n, frame, u_m);
-        self.blend::<L, SLICES>(lanes, n, &mut frame.valid, incident, blend);
+        call(lanes, Slices::<SLICES> { table: self, n, valid: &mut frame.valid, incident, blend: &mut *blend });
         places.find(lanes, n, &self.vndf.grid, &blend.slice, u_m);
         invert::run::<L, SLICES>(lanes, n, &self.vndf, (u_m, blend), places, s, density);
     }
+}
 
-    /// The slices that queries `0..n` blend; none where they are not `valid`. The angles turn into fractions.
+/// The slices that queries `0..n` blend; none where they are not `valid`. The angles turn into fractions. Evaluation and
+/// drawing call it, so that it is compiled once.
+pub(super) struct Slices<'a, const SLICES: usize> {
+    pub(super) table: &'a Table,
+    pub(super) n: usize,
+    pub(super) valid: &'a mut Column<i32>,
+    pub(super) incident: &'a mut Incident,
+    pub(super) blend: &'a mut Blend,
+}
+
+impl<const SLICES: usize> Kernel for Slices<'_, SLICES> {
+    type Out = ();
+
     #[inline(always)]
-    pub(super) fn blend<L: Lanes, const SLICES: usize>(
-        &self,
-        lanes: L,
-        n: usize,
-        valid: &mut Column<i32>,
-        incident: &mut Incident,
-        blend: &mut Blend,
-    ) {
-        let Incident { theta, phi, .. } = incident;
+    fn run<L: Lanes>(self, lanes: L) {
+        let Slices { table, n, valid, incident: Incident { theta, phi, .. }, blend } = self;
         blend.slice = Column::<i32>::ZERO;
-        cells::run(lanes, n, &self.theta_i, 1, theta, &mut blend.slice, valid);
+        let axes = [(&table.theta_i, 1), (&table.phi_i, table.theta_i.knots().len())];
+        let mut axis = 0;
+        while axis < SLICES / 2 {
+            let (knots, stride) = axes[axis];
+            let angle = if axis == 0 { &mut *theta } else { &mut *phi };
+            cells::run(lanes, n, knots, stride, angle, &mut blend.slice, valid);
+            axis += 1;
+        }
         if SLICES == 4 {
-            cells::run(lanes, n, &self.phi_i, self.theta_i.knots().len(), phi, &mut blend.slice, valid);
             weights::run(lanes, n, [phi, theta], valid, 1.0, &mut blend.weights);
         } else {
             weights::run(lanes, n, [theta], valid, 1.0, &mut blend.weights);
@@ -210,8 +222,8 @@ impl Batch<'_> {
             let block = (wi.block(at, &mut padding.0), wo.block(at, &mut padding.1));
             table.locate::<L, SLICES>(lanes, n, (block, cosine), &mut scratch);
             if let Some(values) = &mut values {
-                let target = &mut values[at * channels..][..left * channels];
-                table.values::<L, SLICES, PAIRS, FOURS>(lanes, n, &mut scratch, target);
+                let out = &mut values[at * channels..][..left * channels];
+                call(lanes, Values::<SLICES, PAIRS, FOURS> { table, n, scratch: &mut scratch, out });
             }
             if let Some(pdf) = &mut pdf {
                 table.density::<L, SLICES>(lanes, n, &mut scratch);
@@ -222,24 +234,30 @@ impl Batch<'_> {
     }
 }
 
-impl Table {
-    /// The values of the located queries `0..n`.
+/// The values of the located queries `0..n`. Evaluation and drawing call it, so that it is compiled once.
+pub(super) struct Values<'a, const SLICES: usize, const PAIRS: usize, const FOURS: usize> {
+    pub(super) table: &'a Table,
+    pub(super) n: usize,
+    pub(super) scratch: &'a mut Scratch,
+    pub(super) out: &'a mut [f32],
+}
+
+impl<const SLICES: usize, const PAIRS: usize, const FOURS: usize> Kernel for Values<'_, SLICES, PAIRS, FOURS> {
+    type Out = ();
+
     #[inline(always)]
-    pub(super) fn values<L: Lanes, const SLICES: usize, const PAIRS: usize, const FOURS: usize>(
-        &self,
-        lanes: L,
-        n: usize,
-        scratch: &mut Scratch,
-        out: &mut [f32],
-    ) {
+    fn run<L: Lanes>(self, lanes: L) {
+        let Values { table, n, scratch, out } = self;
         let Scratch { frame, incident, blend, u_m, places, s, weights, tile, .. } = scratch;
-        if let Some(factor) = &self.factor {
+        if let Some(factor) = &table.factor {
             factor.run(lanes, n, &incident.u, u_m, &mut frame.factor);
         }
-        places.find(lanes, n, &self.spectra.grid, &blend.slice, s);
-        self.spectra.run::<L, SLICES, PAIRS, FOURS>(lanes, n, places, (blend, &frame.factor), (weights, tile), out);
+        places.find(lanes, n, &table.spectra.grid, &blend.slice, s);
+        table.spectra.run::<L, SLICES, PAIRS, FOURS>(lanes, n, places, (blend, &frame.factor), (weights, tile), out);
     }
+}
 
+impl Table {
     /// The density over solid angle of the located queries `0..n`, in place of that of the visible normals.
     #[inline(always)]
     fn density<L: Lanes, const SLICES: usize>(&self, lanes: L, n: usize, scratch: &mut Scratch) {

@@ -1,9 +1,9 @@
 //! Drawing many directions, block by block.
 
 use lobe_backend::Backend;
-use lobe_lane::{Kernel, Lanes};
+use lobe_lane::{Kernel, Lanes, call};
 
-use super::batch::Scratch;
+use super::batch::{Scratch, Slices, Values};
 use super::{Table, angles, draw, reflect};
 use crate::directions::{Directions, PADDING};
 use crate::passes::block::{BLOCK, Column};
@@ -91,7 +91,7 @@ impl Sampling<'_> {
             let Scratch { frame, incident, blend, u_m, s, density, weights, .. } = &mut scratch;
             reflect::incident(lanes, n, block, table.symmetry, frame);
             angles::incident(lanes, n, table.azimuthal, frame, incident);
-            table.blend::<L, SLICES>(lanes, n, &mut frame.valid, incident, blend);
+            call(lanes, Slices::<SLICES> { table, n, valid: &mut frame.valid, incident, blend: &mut *blend });
             let [first, second] = match order {
                 UniformOrder::Powitacq => [1, 0],
                 UniformOrder::Pbrt => [0, 1],
@@ -101,12 +101,18 @@ impl Sampling<'_> {
                 s[1].0[query] = uniform[second];
             }
             *density = Column([1.0; BLOCK]);
-            draw::run::<L, SLICES>(lanes, n, &table.luminance, blend, weights, s, density);
+            // By luminance first, then by the visible normals from there.
             *u_m = *s;
-            draw::run::<L, SLICES>(lanes, n, &table.vndf, blend, weights, u_m, density);
+            let mut step = 0;
+            while step < 2 {
+                *s = *u_m;
+                let warp = if step == 0 { &table.luminance } else { &table.vndf };
+                draw::run::<L, SLICES>(lanes, n, warp, blend, weights, u_m, density);
+                step += 1;
+            }
             reflect::run(lanes, n, (block, table.symmetry), (u_m, frame), &mut wo, density);
             let weights = &mut drawn.weights[at * channels..][..left * channels];
-            table.values::<L, SLICES, PAIRS, FOURS>(lanes, n, &mut scratch, weights);
+            call(lanes, Values::<SLICES, PAIRS, FOURS> { table, n, scratch: &mut scratch, out: weights });
             drawn.pdf[at..][..left].copy_from_slice(&scratch.density.0[..left]);
             for (query, target) in drawn.wo[at..][..left].iter_mut().enumerate() {
                 *target = [wo[0].one(query), wo[1].one(query), wo[2].one(query)];
