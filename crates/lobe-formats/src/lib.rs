@@ -39,6 +39,7 @@ pub mod utia;
 pub mod window_xml;
 mod write;
 pub mod zemax;
+mod zip;
 
 pub use document::{Document, Measured, Part, open, read};
 pub use error::{FormatError, Place};

@@ -6,7 +6,7 @@
 //! same with `theta_i`, `phi_i`, `theta_o`, `phi_o`; scattered samples one of each angle a sample. Other kinds have the
 //! names of their own format. Parts of a sheet have a number and a point before the name.
 
-use std::io::{self, Cursor, Write};
+use std::io;
 use std::path::Path;
 
 use lobe_table::specular::AXIS_NAMES;
@@ -14,10 +14,9 @@ use lobe_table::spherical;
 use lobe_table::window::klems::AngleBasis;
 use lobe_table::window::{self, Block, Component};
 use lobe_table::{Channels, Data, Scatter, Side};
-use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, ZipWriter};
 
 use crate::write::{unwritable, write_whole};
+use crate::zip::Archive;
 use crate::{Document, FormatError};
 
 /// Writes `path` whole or not at all, without compression, so that a reader may map it.
@@ -30,32 +29,29 @@ pub fn write(document: &Document, path: &Path) -> Result<(), FormatError> {
 }
 
 fn to_bytes(document: &Document) -> io::Result<Vec<u8>> {
-    let mut arrays = Arrays { zip: ZipWriter::new(Cursor::new(Vec::new())), prefix: String::new() };
+    let mut arrays = Arrays { archive: Archive::default(), prefix: String::new() };
     arrays.document(document)?;
-    Ok(arrays.zip.finish()?.into_inner())
+    Ok(arrays.archive.finish())
 }
 
 /// The arrays of a file that is being written.
 struct Arrays {
-    zip: ZipWriter<Cursor<Vec<u8>>>,
+    archive: Archive,
     prefix: String,
 }
 
 impl Arrays {
     /// One array: its elements in row-major order, as little-endian bytes of NumPy's type `descr`.
     fn array(&mut self, name: &str, descr: &str, shape: &[usize], data: &[u8]) -> io::Result<()> {
-        let options = SimpleFileOptions::default()
-            .compression_method(CompressionMethod::Stored)
-            .large_file(data.len() > u32::MAX as usize / 2);
-        self.zip.start_file(format!("{}{name}.npy", self.prefix), options)?;
         let sizes: String = shape.iter().map(|n| format!("{n}, ")).collect();
         let header = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': ({}), }}", sizes.trim_end());
         // Version 1.0: the data begin at a multiple of 64, the header ends with a line feed.
         let padded = (10 + header.len() + 1).next_multiple_of(64) - 10;
-        self.zip.write_all(b"\x93NUMPY\x01\x00")?;
-        self.zip.write_all(&(padded as u16).to_le_bytes())?;
-        self.zip.write_all(format!("{header:<width$}\n", width = padded - 1).as_bytes())?;
-        self.zip.write_all(data)
+        let length = (padded as u16).to_le_bytes();
+        let header = format!("{header:<width$}\n", width = padded - 1);
+        let parts = [b"\x93NUMPY\x01\x00".as_slice(), &length, header.as_bytes(), data];
+        self.archive.add(&format!("{}{name}.npy", self.prefix), &parts);
+        Ok(())
     }
 
     fn floats(&mut self, name: &str, shape: &[usize], data: &[f32]) -> io::Result<()> {
