@@ -4,5 +4,6 @@ pub mod baseline;
 pub mod clock;
 pub mod contest;
 pub mod tables;
+#[cfg(feature = "tracing")]
 pub mod tracing;
 pub mod workload;

@@ -1,30 +1,93 @@
-//! `cargo xtask COMMAND`: the workspace's own commands, one module a command.
+//! `cargo xtask COMMAND`: the workspace's own commands.
+//!
+//! Each is a program in a package of its own, which is built when it is asked for, so that no command compiles what another
+//! needs. This one has no dependencies and is there at once.
+#![forbid(unsafe_code)]
 
-use clap::Parser;
+mod ci;
 
-/// The workspace's own commands.
-#[derive(Parser)]
-#[command(bin_name = "cargo xtask", disable_help_subcommand = true)]
-enum Command {
-    Report(xtask::report::Options),
-    #[cfg(target_os = "linux")]
-    Peers(xtask::peers::Options),
-    Equivalence(xtask::equivalence::Args),
-    Sweep(xtask::sweep::Args),
-    Asm(xtask::asm::Args),
-    Fixtures(xtask::fixtures::Args),
-    Gallery(xtask::gallery::Args),
+use std::process::{Command, ExitCode};
+
+/// A command: its name, what it does, and the programs that do it, one after the other with the same arguments.
+struct Task {
+    name: &'static str,
+    about: &'static str,
+    packages: &'static [&'static str],
 }
 
-fn main() -> anyhow::Result<()> {
-    match Command::parse() {
-        Command::Report(options) => xtask::report::run(&options),
-        #[cfg(target_os = "linux")]
-        Command::Peers(options) => xtask::peers::run(&options),
-        Command::Equivalence(args) => xtask::equivalence::run(&args),
-        Command::Sweep(args) => xtask::sweep::run(&args),
-        Command::Asm(args) => xtask::asm::run(&args),
-        Command::Fixtures(args) => xtask::fixtures::run(&args),
-        Command::Gallery(args) => xtask::gallery::run(&args),
+const TASKS: [Task; 7] = [
+    Task {
+        name: "report",
+        about: "Measure this machine: the paper's tables first, then everything beyond them",
+        packages: &["xtask-tables", "xtask-report"],
+    },
+    Task { name: "peers", about: "Compare speed, values and noise with other libraries", packages: &["xtask-peers"] },
+    Task {
+        name: "equivalence",
+        about: "Check every backend of this CPU against the scalar reference, bit by bit",
+        packages: &["xtask-equivalence"],
+    },
+    Task {
+        name: "sweep",
+        about: "Compare acos and asin on every backend with f64, over every f32 of [-1, 1]",
+        packages: &["xtask-sweep"],
+    },
+    Task {
+        name: "asm",
+        about: "Check that no SIMD intrinsic is called out of line in the release binaries",
+        packages: &["xtask-asm"],
+    },
+    Task {
+        name: "fixtures",
+        about: "Make the tables and meshes in fixtures/ from their seeds, or check those that are there",
+        packages: &["xtask-fixtures"],
+    },
+    Task {
+        name: "gallery",
+        about: "Render the scenes in fixtures/scenes, and write docs/gallery.md",
+        packages: &["xtask-gallery"],
+    },
+];
+
+fn main() -> ExitCode {
+    let mut arguments = std::env::args().skip(1);
+    let name = arguments.next().unwrap_or_default();
+    let arguments: Vec<String> = arguments.collect();
+    if name == "ci" {
+        return ci::run(&arguments);
     }
+    let Some(task) = TASKS.iter().find(|task| task.name == name) else {
+        help();
+        return if ["", "-h", "--help"].contains(&name.as_str()) { ExitCode::SUCCESS } else { ExitCode::from(2) };
+    };
+    // The programs of a command share their options, so that one explains them all.
+    let is_question = arguments.iter().any(|argument| ["-h", "--help"].contains(&argument.as_str()));
+    let packages = if is_question { &task.packages[..1] } else { task.packages };
+    for package in packages {
+        let mut cargo = cargo();
+        cargo.args(["run", "--release", "--quiet", "--package", package, "--"]).args(&arguments);
+        match cargo.status() {
+            Ok(status) if status.success() => {}
+            Ok(status) => return ExitCode::from(status.code().and_then(|code| code.try_into().ok()).unwrap_or(1)),
+            Err(error) => {
+                eprintln!("cargo cannot be run: {error}");
+                return ExitCode::FAILURE;
+            }
+        }
+    }
+    ExitCode::SUCCESS
+}
+
+/// The cargo that runs this.
+fn cargo() -> Command {
+    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+}
+
+fn help() {
+    println!("The workspace's own commands\n\nUsage: cargo xtask COMMAND [OPTIONS]\n\nCommands:");
+    for Task { name, about, .. } in &TASKS {
+        println!("  {name:12} {about}");
+    }
+    println!("  {:12} {}", "ci", ci::ABOUT);
+    println!("\n`cargo xtask COMMAND --help` explains the options of a command.");
 }

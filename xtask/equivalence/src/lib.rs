@@ -126,16 +126,15 @@ pub fn compare(found: &[Record], reference: &[Record], backend: &str, form: Form
 }
 
 /// Check every backend of this CPU against the scalar reference, bit by bit
-#[derive(clap::Args, Debug)]
+#[derive(clap::Parser, Debug)]
+#[command(bin_name = "cargo xtask equivalence")]
 pub struct Args {
     /// Write all checks to this file, as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-}
-
-/// Runs everything: a line for each backend and form, in words, and whether all of it holds.
-pub fn summary() -> (Vec<[String; 2]>, bool) {
-    report::Outcome::measure().summary()
+    /// Write a line for each backend to this file, as JSON, and print nothing
+    #[arg(long, value_name = "FILE", hide = true)]
+    summary: Option<PathBuf>,
 }
 
 /// Runs everything, prints a table, and writes the file asked for.
@@ -144,9 +143,12 @@ pub fn summary() -> (Vec<[String; 2]>, bool) {
 /// Where a check fails, a backend that this CPU has to have does not run, or the file cannot be written.
 pub fn run(args: &Args) -> anyhow::Result<()> {
     let outcome = report::Outcome::measure();
+    if let Some(path) = &args.summary {
+        return report::write(path, &outcome.summary());
+    }
     outcome.print();
     if let Some(path) = &args.json {
-        outcome.write(path)?;
+        report::write(path, &outcome)?;
     }
     outcome.verdict()
 }

@@ -145,7 +145,7 @@ impl<const N: usize> Machine for Emulated<N> {
     }
 
     fn sample(self, sampler: &Sampler, given: Given, known: &[[f32; 3]], u: &[[f32; 2]], out: Sampled<'_>) {
-        self.run(sampler.sampling(given, known, u, out));
+        sampler.sample_on_lanes(Scalar::<N>, given, known, u, out);
     }
 
     fn densities(self, sampler: &Sampler, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {

@@ -10,6 +10,24 @@ use serde::Serialize;
 
 use super::{Check, Form, Property, Subject, compare, facade_agrees, reference};
 
+/// A line for each backend and form, in words, and whether all of it holds.
+#[derive(Serialize)]
+pub(super) struct Summary {
+    rows: Vec<[String; 2]>,
+    ok: bool,
+}
+
+/// Writes JSON beside its target and renames it.
+pub(super) fn write(path: &Path, content: &impl Serialize) -> anyhow::Result<()> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let failed = || format!("{}: cannot be written", path.display());
+    let mut file = tempfile::NamedTempFile::new_in(folder).with_context(failed)?;
+    serde_json::to_writer_pretty(&mut file, content).with_context(failed)?;
+    file.write_all(b"\n").with_context(failed)?;
+    file.persist(path).with_context(failed)?;
+    Ok(())
+}
+
 /// What all backends gave.
 #[derive(Serialize)]
 pub(super) struct Outcome {
@@ -79,7 +97,7 @@ impl Outcome {
     }
 
     /// A line for each backend and form: its name, and what came out.
-    pub(super) fn summary(&self) -> (Vec<[String; 2]>, bool) {
+    pub(super) fn summary(&self) -> Summary {
         let mut lines: Vec<(&str, Form, usize, usize, bool)> = Vec::new();
         for row in &self.rows {
             match lines.iter_mut().find(|line| (line.0, line.1) == (row.backend, row.form)) {
@@ -96,7 +114,7 @@ impl Outcome {
             };
             [format!("{backend}, {}", format!("{form:?}").to_lowercase()), verdict]
         };
-        (lines.into_iter().map(words).collect(), self.ok)
+        Summary { rows: lines.into_iter().map(words).collect(), ok: self.ok }
     }
 
     fn add(&mut self, backend: &'static str, form: Form, property: Property, checks: Vec<Check>) {
@@ -157,17 +175,6 @@ impl Outcome {
         for fault in &self.faults {
             println!("FAILED: {fault}");
         }
-    }
-
-    /// Writes the JSON beside its target and renames it.
-    pub(super) fn write(&self, path: &Path) -> anyhow::Result<()> {
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let failed = || format!("{}: cannot be written", path.display());
-        let mut file = tempfile::NamedTempFile::new_in(folder).with_context(failed)?;
-        serde_json::to_writer_pretty(&mut file, self).with_context(failed)?;
-        file.write_all(b"\n").with_context(failed)?;
-        file.persist(path).with_context(failed)?;
-        Ok(())
     }
 
     pub(super) fn verdict(&self) -> anyhow::Result<()> {

@@ -17,32 +17,37 @@ fn check(subject: Subject, form: Form, property: Property) {
 }
 
 macro_rules! tests {
-    ($($backend:ident: ($subject:expr) $form:ident;)*) => {$(
-        mod $backend {
+    ($($backend:ident: ($subject:expr) $form:ident;)*) => {
+        /// What has tests here.
+        fn listed() -> Vec<(Subject, Form)> {
+            vec![$(($subject, Form::$form)),*]
+        }
+
+        $(mod $backend {
             tests! { @properties ($subject) $form:
                 floats Floats; ints Ints; masks Masks; memory Memory; texels Texels; math Math; axes Axes;
                 evaluation Evaluation; interpolation Interpolation; rgl Rgl; sampling Sampling;
                 representations Representations;
             }
-        }
-    )*};
+        })*
+    };
     (@properties ($subject:expr) $form:ident: $($name:ident $property:ident;)*) => {$(
         #[test]
         fn $name() {
-            use super::{Form, Property};
+            use super::{Form, Property, Subject};
             super::check($subject, Form::$form, Property::$property);
         }
     )*};
 }
 
 tests! {
-    emulated4: (super::Subject::Emulated4) Strict;
-    emulated8: (super::Subject::Emulated8) Strict;
-    emulated16: (super::Subject::Emulated16) Strict;
-    sse2: (super::Subject::Native("sse2")) Strict;
-    sse41: (super::Subject::Native("sse4.1")) Strict;
-    avx2: (super::Subject::Native("avx2")) Strict;
-    avx2_fused: (super::Subject::Native("avx2")) Fused;
+    emulated4: (Subject::Emulated4) Strict;
+    emulated8: (Subject::Emulated8) Strict;
+    emulated16: (Subject::Emulated16) Strict;
+    sse2: (Subject::Native("sse2")) Strict;
+    sse41: (Subject::Native("sse4.1")) Strict;
+    avx2: (Subject::Native("avx2")) Strict;
+    avx2_fused: (Subject::Native("avx2")) Fused;
 }
 
 #[test]
@@ -59,6 +64,9 @@ fn the_reference_holds_what_its_definition_says() {
 fn the_expected_backends_ran() {
     let (mut run, mut skipped) = (0, 0);
     for subject in Subject::all() {
+        for &form in subject.forms() {
+            assert!(listed().contains(&(subject, form)), "{} {form:?} has no tests in this file", subject.name());
+        }
         let tests = subject.forms().len() * Property::ALL.len();
         let ran = subject.record(Form::Strict, Property::Masks).is_some();
         assert_eq!(ran, subject.expected(), "{}", subject.name());

@@ -1,0 +1,147 @@
+//! `cargo xtask asm`: no intrinsic is left as a function of its own in the release binaries.
+//!
+//! A helper that is generic over the lanes but not `#[inline(always)]` is compiled without the backend's features, so
+//! that each intrinsic in it becomes a call of a function of one instruction. That costs up to a factor of 75 and no
+//! compiler warns of it, but the function leaves a symbol.
+#![forbid(unsafe_code)]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, bail, ensure};
+use clap::Parser;
+use object::{Object, ObjectSymbol, SymbolKind};
+
+/// Who calls kernels in all ways, and what users run.
+const PACKAGES: [&str; 2] = ["xtask-report", "lobe-cli"];
+
+/// Check that no SIMD intrinsic is called out of line in the release binaries
+#[derive(Parser, Debug)]
+#[command(bin_name = "cargo xtask asm")]
+struct Args {
+    /// Packages whose binaries are looked at
+    #[arg(long = "package", value_name = "NAME", value_delimiter = ',', default_values = PACKAGES)]
+    packages: Vec<String>,
+}
+
+/// Builds the binaries in release mode and looks through their symbols.
+///
+/// # Errors
+/// Where the build fails, a binary has no symbols to look at, or an intrinsic is a function of its own.
+fn main() -> anyhow::Result<()> {
+    let args = Args::parse();
+    let mut found = Vec::new();
+    for binary in build(&args.packages)? {
+        let symbols = Symbols::read(&binary)?;
+        println!("{}: {} functions", binary.display(), symbols.functions);
+        for name in &symbols.detection {
+            println!("  detection, allowed: {name}");
+        }
+        for name in &symbols.out_of_line {
+            println!("  OUT OF LINE: {name}");
+        }
+        found.extend(symbols.out_of_line);
+    }
+    ensure!(
+        found.is_empty(),
+        "{} intrinsics out of line: some function generic over the lanes is not `#[inline(always)]`",
+        found.len()
+    );
+    println!("no intrinsic out of line");
+    Ok(())
+}
+
+/// Builds, and returns the paths of the executables.
+///
+/// One package at a time: together their dependencies would have other features than by themselves, and all of it would
+/// have to be compiled once more.
+fn build(packages: &[String]) -> anyhow::Result<Vec<PathBuf>> {
+    let mut binaries = Vec::new();
+    for package in packages {
+        let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+        cargo.args(["build", "--release", "--bins", "--message-format=json-render-diagnostics", "--package", package]);
+        let output = cargo.stderr(std::process::Stdio::inherit()).output().context("cargo cannot be run")?;
+        ensure!(output.status.success(), "the release build of {package} failed");
+        let built = executables(&output.stdout)?;
+        ensure!(built.len() == 1, "the build of {package} made {built:?}; expected one binary");
+        binaries.extend(built);
+    }
+    Ok(binaries)
+}
+
+/// The executables that cargo's messages name.
+fn executables(messages: &[u8]) -> anyhow::Result<Vec<PathBuf>> {
+    let mut binaries = Vec::new();
+    for line in messages.split(|&byte| byte == b'\n').filter(|line| !line.is_empty()) {
+        let message: serde_json::Value = serde_json::from_slice(line).context("a message of cargo")?;
+        binaries.extend(message["executable"].as_str().map(PathBuf::from));
+    }
+    Ok(binaries)
+}
+
+/// What the symbols of a binary say.
+#[derive(Debug, Default)]
+struct Symbols {
+    functions: usize,
+    /// Functions of `core::arch` that ask the CPU what it can do.
+    detection: Vec<String>,
+    /// Intrinsics that should have been inlined.
+    out_of_line: Vec<String>,
+}
+
+impl Symbols {
+    fn read(path: &Path) -> anyhow::Result<Self> {
+        let bytes = std::fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))?;
+        let file = object::File::parse(&*bytes).with_context(|| format!("{}: no object file", path.display()))?;
+        let mut symbols = Symbols::default();
+        for symbol in file.symbols().filter(|symbol| symbol.kind() == SymbolKind::Text) {
+            symbols.functions += 1;
+            symbols.sort_in(symbol.name().unwrap_or_default());
+        }
+        if symbols.functions == 0 {
+            bail!("{}: no symbols, so nothing can be said about it; was it stripped?", path.display());
+        }
+        Ok(symbols)
+    }
+
+    fn sort_in(&mut self, mangled: &str) {
+        let name = format!("{:#}", rustc_demangle::demangle(mangled));
+        if !name.contains("core_arch::") {
+            return;
+        }
+        let function = name.rsplit("::").next().unwrap_or_default();
+        if function.starts_with("_mm") {
+            self.out_of_line.push(name);
+        } else if function == "_xgetbv" || function.starts_with("__cpuid") {
+            self.detection.push(name);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn intrinsics_are_found_in_both_manglings() {
+        let mut symbols = Symbols::default();
+        symbols.sort_in("_ZN4core9core_arch3x863avx16_mm256_blendv_ps17h0123456789abcdefE");
+        symbols.sort_in("_RNvNtNtNtCs1234_4core9core_arch3x864sse210__mm_add_ps");
+        assert_eq!(symbols.out_of_line.len(), 2, "{symbols:?}");
+        symbols.sort_in("_ZN4core9core_arch3x865xsave7_xgetbv17h0123456789abcdefE");
+        symbols.sort_in("_ZN8lobe_avx5lanes6_mm_no17h0123456789abcdefE");
+        assert_eq!((symbols.out_of_line.len(), symbols.detection.len()), (2, 1), "{symbols:?}");
+    }
+
+    #[test]
+    fn the_functions_of_an_executable_are_seen() {
+        let symbols = Symbols::read(&std::env::current_exe().unwrap()).unwrap();
+        assert!(symbols.functions > 1000, "{symbols:?}");
+    }
+
+    #[test]
+    fn executables_are_read_from_the_messages_of_cargo() {
+        let messages = b"{\"reason\":\"x\",\"executable\":null}\n{\"executable\":\"/t/lobe\"}\n{\"success\":true}\n";
+        assert_eq!(executables(messages).unwrap(), [PathBuf::from("/t/lobe")]);
+    }
+}

@@ -1,0 +1,176 @@
+//! `xtask gallery`: pictures of the scenes in fixtures/scenes, and a page with them.
+#![forbid(unsafe_code)]
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+use clap::Parser;
+use lobe::Backend;
+use lobe_render::picture::{ToneMap, write_png};
+use lobe_render::scene::Scene;
+use lobe_render::{Film, Rect, Settings, render};
+
+use xtask_common::Steps;
+use xtask_common::replace;
+
+/// Render the scenes in fixtures/scenes into docs/pictures, and write docs/gallery.md.
+#[derive(Parser)]
+#[command(bin_name = "cargo xtask gallery")]
+struct Args {
+    /// Render only these scenes, named by their files; docs/gallery.md is then left alone
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    only: Vec<String>,
+    /// Samples per pixel instead of those in the scenes, for a quick look; docs/gallery.md is then left alone
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..65_537))]
+    samples: Option<u32>,
+    /// Folder for the pictures [default: docs/pictures]
+    #[arg(long, value_name = "DIR", hide_default_value = true)]
+    #[arg(default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/pictures"))]
+    pictures: PathBuf,
+}
+
+/// A picture of the gallery.
+struct Picture {
+    /// Of the scene in fixtures/scenes and of the picture, without their extensions.
+    name: &'static str,
+    title: &'static str,
+    /// What there is to see.
+    caption: &'static str,
+}
+
+const PICTURES: [Picture; 3] = [
+    Picture {
+        name: "cloth-metal-paint",
+        title: "Cloth, metal and paint",
+        caption: "This project's version of Fig. 3 of the paper. The cloth draped over a sphere is shot silk: \
+                  its table of 17 x 7 x 17 x 13 angles was measured on a simulated weave of blue warp and \
+                  orange weft, so each fold shows one colour or the other. The knot is brushed along its \
+                  length, so its highlights run around it. The ball is car paint, a table whose clear coat \
+                  mirrors the lamps. Every object casts shadows and appears in reflections.",
+    },
+    Picture {
+        name: "material-balls",
+        title: "Material balls",
+        caption: "In front, the tables of `fixtures`: silk, dusty gold and car paint. Behind them, analytic \
+                  models evaluated directly: green and white plastic, brushed aluminium and copper.",
+    },
+    Picture {
+        name: "knot-at-dusk",
+        title: "Knot at dusk",
+        caption: "The gold table under a sky that is bright at the horizon, next to a glass ball and a silk \
+                  ball on a wet floor.",
+    },
+];
+
+const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/scenes");
+const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/gallery.md");
+
+/// Renders, and writes the pictures and the page.
+///
+/// # Errors
+/// If a scene is wrong or a file cannot be written.
+fn main() -> anyhow::Result<()> {
+    let args = Args::parse();
+    std::fs::create_dir_all(&args.pictures).with_context(|| format!("making {}", args.pictures.display()))?;
+    if let Some(unknown) = args.only.iter().find(|name| PICTURES.iter().all(|picture| picture.name != *name)) {
+        let names: Vec<_> = PICTURES.iter().map(|picture| picture.name).collect();
+        anyhow::bail!("no scene `{unknown}`; the scenes are {}", names.join(", "));
+    }
+    for picture in &PICTURES {
+        if args.only.is_empty() || args.only.iter().any(|name| name == picture.name) {
+            picture.render(&args.pictures, args.samples)?;
+        }
+    }
+    if args.only.is_empty() && args.samples.is_none() {
+        replace(Path::new(PAGE), page()?)?;
+        println!("{PAGE}");
+    }
+    Ok(())
+}
+
+impl Picture {
+    /// In strict form: the pictures are the same bytes on every machine.
+    fn scene(&self) -> Result<Scene> {
+        let path = Path::new(SCENES).join(self.name).with_extension("toml");
+        Ok(Scene::open(&path, Backend::detect()?.strict())?)
+    }
+
+    fn render(&self, folder: &Path, samples: Option<u32>) -> Result<()> {
+        let scene = self.scene()?;
+        let window = Rect { x: 0, y: 0, width: scene.size[0], height: scene.size[1] };
+        let settings = Settings {
+            camera: scene.camera,
+            size: scene.size,
+            window,
+            filter: scene.filter,
+            integrator: scene.integrator,
+            samples: 0..samples.unwrap_or(scene.samples),
+            backend: Backend::detect()?.strict(),
+            threads: std::thread::available_parallelism().map_or(1, usize::from),
+            time: None,
+        };
+        let steps = Steps::new(1);
+        steps.begin(self.name);
+        let begun = Instant::now();
+        let (film, _) = render(&scene.world, &settings, Film::new(window), |progress| {
+            steps.are(progress.done, progress.total);
+            true
+        })?;
+        drop(steps);
+        let path = folder.join(self.name).with_extension("png");
+        write_png(&path, &film, ToneMap { exposure: scene.exposure })?;
+        println!("{} in {:.0} s", path.display(), begun.elapsed().as_secs_f64());
+        Ok(())
+    }
+}
+
+/// The text of docs/gallery.md.
+fn page() -> Result<String> {
+    let mut text = String::from(
+        "# Gallery\n\n\
+         The scenes are in [fixtures/scenes](../fixtures/scenes), and everything in them comes from this project: the \
+         falling\ncloth and the weave were simulated, and the tables were computed. `cargo xtask gallery` renders the \
+         pictures and\nwrites this page.\n",
+    );
+    for picture in &PICTURES {
+        let Picture { name, title, caption } = picture;
+        let scene = picture.scene()?;
+        let [width, height] = scene.size;
+        let (samples, triangles) = (scene.samples, scene.world.triangles());
+        _ = write!(
+            text,
+            "\n## {title}\n\n![{title}](pictures/{name}.png)\n\n{caption}\n\n\
+             {width} x {height} pixels, {samples} samples each, {triangles} triangles.\n\n\
+             ```sh\nlobe render fixtures/scenes/{name}.toml -o {name}.png --strict\n```\n"
+        );
+    }
+    Ok(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_scene_is_in_the_gallery_and_the_page_is_up_to_date() {
+        let mut scenes = Vec::new();
+        for entry in std::fs::read_dir(SCENES).expect("fixtures/scenes") {
+            let path = entry.expect("an entry").path();
+            if path.extension().is_some_and(|extension| extension == "toml") {
+                scenes.push(path.file_stem().expect("a name").to_string_lossy().into_owned());
+            }
+        }
+        scenes.sort();
+        let mut names: Vec<_> = PICTURES.iter().map(|picture| picture.name.to_owned()).collect();
+        names.sort();
+        assert_eq!(scenes, names);
+        assert_eq!(std::fs::read_to_string(PAGE).expect("docs/gallery.md"), page().expect("scenes"));
+        for name in names {
+            let path = Path::new(SCENES).join("../../docs/pictures").join(name).with_extension("png");
+            let bytes = std::fs::metadata(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display())).len();
+            assert!(bytes < 400_000, "{}: {bytes} bytes", path.display());
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! Whether all backends give the same bits, as one table of the page.
+
+use std::fs::File;
+use std::path::Path;
+use std::process::Command;
+
+use anyhow::{Context, ensure};
+use serde::{Deserialize, Serialize};
+
+/// What it is called.
+pub const ID: &str = "equivalence";
+
+/// What the equivalence check found.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct EquivalenceSummary {
+    /// One line per check: what was compared, and what came out.
+    pub rows: Vec<[String; 2]>,
+    /// `true` if everything held.
+    pub ok: bool,
+}
+
+/// Runs the check, which is a program of its own, and reads its summary.
+///
+/// # Errors
+/// If it cannot be built or run; that something does not hold is no error here.
+pub fn summary(out: &Path) -> anyhow::Result<EquivalenceSummary> {
+    let path = out.join("equivalence.json");
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.args(["run", "--release", "--quiet", "--package", "xtask-equivalence", "--", "--summary"]).arg(&path);
+    let status = cargo.status().context("cargo cannot be run")?;
+    ensure!(status.success(), "the check of equivalence did not run");
+    let file = File::open(&path).with_context(|| format!("cannot read {}", path.display()))?;
+    serde_json::from_reader(file).with_context(|| format!("{}: no summary", path.display()))
+}
+
+/// Prints it.
+pub fn print(summary: &EquivalenceSummary) {
+    println!("\nEquivalence of the backends");
+    for [what, found] in &summary.rows {
+        println!("{what}: {found}");
+    }
+    println!("{}", if summary.ok { "Everything holds." } else { "Something does not hold." });
+}

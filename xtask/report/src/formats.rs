@@ -1,0 +1,57 @@
+//! How far the values of every format are from those of the programs that define it.
+
+use lobe::Backend;
+
+use xtask_common::Grid;
+
+use crate::golden::{self, Comparison};
+
+/// By which it is asked for alone.
+pub const ID: &str = "formats";
+
+/// Compares all files that there are answers for, in the lanes of the best backend.
+///
+/// # Errors
+/// As [`golden::compare`].
+pub fn compare() -> anyhow::Result<Vec<Comparison>> {
+    golden::compare(Backend::best().fused())
+}
+
+/// The table; none where it was not asked for.
+pub fn grids(comparisons: Option<&[Comparison]>) -> Vec<Grid> {
+    let grid = |comparisons: &[Comparison]| {
+        Grid::new(
+            "Formats",
+            reading(comparisons),
+            ["file", "reader", "pairs", "largest error", "allowed", "against"],
+            comparisons.iter().map(row).collect(),
+        )
+    };
+    comparisons.map(grid).into_iter().collect()
+}
+
+fn reading(comparisons: &[Comparison]) -> String {
+    if comparisons.is_empty() {
+        return format!("Skipped: no answers of other programs in {}; set LOBE_SHARED.", golden::folder().display());
+    }
+    let pairs: usize = comparisons.iter().map(|comparison| comparison.pairs).sum();
+    let wrong = comparisons.iter().filter(|comparison| !comparison.ok()).count();
+    let verdict = if wrong == 0 { "all of them agree".to_owned() } else { format!("{wrong} DO NOT AGREE") };
+    format!(
+        "Values in lanes beside the answers of the programs that define the formats: {} files, {pairs} pairs of \
+         directions, {verdict}.",
+        comparisons.len()
+    )
+}
+
+fn row(comparison: &Comparison) -> Vec<String> {
+    let Comparison { file, reader, against, pairs, error, of, bound } = comparison;
+    vec![
+        file.clone(),
+        reader.clone(),
+        pairs.to_string(),
+        if *error == 0.0 { "none".into() } else { format!("{error:.1e} {}", of.name()) },
+        if *bound == 0.0 { "none".into() } else { format!("{bound:.1e}") },
+        (*against).to_owned(),
+    ]
+}

@@ -1,0 +1,115 @@
+//! `cargo xtask ci`: what a change must pass.
+
+use std::io::{BufRead, BufReader};
+use std::process::{Command, ExitCode, Stdio};
+use std::time::Instant;
+
+use super::cargo;
+
+pub const ABOUT: &str = "Run what a change must pass: format, lints, documentation, checks, and the tests, last";
+
+/// The steps before the tests: their arguments to cargo, and an environment variable.
+///
+/// The quick report is the longest of those that measure: its programs are also those that `asm` looks at.
+const STEPS: [(&[&str], Option<(&str, &str)>); 7] = [
+    (&["fmt", "--all", "--check"], None),
+    (&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], None),
+    (&["doc", "--workspace", "--no-deps", "--quiet"], Some(("RUSTDOCFLAGS", "-D warnings"))),
+    (&["xtask", "fixtures", "--check"], None),
+    (&["xtask", "report", "--quick"], None),
+    (&["xtask", "equivalence"], None),
+    (&["xtask", "asm", "--package", "xtask-report"], None),
+];
+
+pub fn run(arguments: &[String]) -> ExitCode {
+    if let Some(unknown) = arguments.first() {
+        println!("{ABOUT}\n\nUsage: cargo xtask ci");
+        return if ["-h", "--help"].contains(&unknown.as_str()) { ExitCode::SUCCESS } else { ExitCode::from(2) };
+    }
+    let begun = Instant::now();
+    for (arguments, variable) in STEPS {
+        println!("\n== cargo {} ({:.0} s)", arguments.join(" "), begun.elapsed().as_secs_f64());
+        let mut cargo = quiet();
+        cargo.args(arguments).envs(variable);
+        match cargo.status() {
+            Ok(status) if status.success() => {}
+            Ok(_) => return ExitCode::FAILURE,
+            Err(error) => {
+                eprintln!("cargo cannot be run: {error}");
+                return ExitCode::FAILURE;
+            }
+        }
+    }
+    println!("\n== cargo test --workspace ({:.0} s)", begun.elapsed().as_secs_f64());
+    test()
+}
+
+/// Cargo, which need not prepare for changes: nothing is compiled twice here.
+fn quiet() -> Command {
+    let mut cargo = cargo();
+    cargo.env("CARGO_INCREMENTAL", "0");
+    cargo
+}
+
+/// What the test runner says in sum.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Counts {
+    passed: u64,
+    failed: u64,
+    skipped: u64,
+}
+
+impl Counts {
+    /// Adds what a line of a test program says: each closes with one of its own, and the last counts documentation
+    /// examples alone.
+    fn add(&mut self, line: &str) {
+        let Some(counts) = line.strip_prefix("test result:") else { return };
+        for part in counts.split([';', '.']) {
+            let mut words = part.split_whitespace();
+            let Some(count) = words.next().and_then(|word| word.parse::<u64>().ok()) else { continue };
+            match words.next() {
+                Some("passed") => self.passed += count,
+                Some("failed") => self.failed += count,
+                Some("ignored") => self.skipped += count,
+                _ => {}
+            }
+        }
+    }
+}
+
+/// Runs all tests, shows what they print, and ends with the sum of all.
+fn test() -> ExitCode {
+    let mut cargo = quiet();
+    cargo.args(["test", "--workspace"]).stdout(Stdio::piped());
+    let mut running = match cargo.spawn() {
+        Ok(running) => running,
+        Err(error) => {
+            eprintln!("cargo cannot be run: {error}");
+            return ExitCode::FAILURE;
+        }
+    };
+    let mut counts = Counts::default();
+    if let Some(output) = running.stdout.take() {
+        for line in BufReader::new(output).lines().map_while(Result::ok) {
+            println!("{line}");
+            counts.add(&line);
+        }
+    }
+    let succeeded = running.wait().is_ok_and(|status| status.success());
+    println!("{} passed, {} failed, {} skipped", counts.passed, counts.failed, counts.skipped);
+    if succeeded { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_lines_of_all_test_programs_are_added_up() {
+        let mut counts = Counts::default();
+        counts.add("test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 3 filtered out; finished in 0.01s");
+        counts.add("test result: FAILED. 4 passed; 2 failed; 0 ignored; 0 measured; 0 filtered out; finished in 1.50s");
+        counts.add("test tests::result: 7 passed");
+        assert_eq!(counts, Counts { passed: 16, failed: 2, skipped: 1 });
+    }
+}

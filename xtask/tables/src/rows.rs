@@ -1,0 +1,48 @@
+//! The figures of a report: one row for each backend, input and baseline.
+
+use serde::{Deserialize, Serialize};
+
+/// One ratio.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Row {
+    /// Of the question, as in `lobe_benches::contest::QUESTIONS`.
+    pub id: String,
+    /// Which backend, `-strict` where that is a form of its own.
+    pub backend: String,
+    /// `coherent` or `incoherent`.
+    pub input: String,
+    /// What it is compared with.
+    pub baseline: String,
+    /// Nanoseconds a query.
+    pub ns: f64,
+    /// Nanoseconds a query of the baseline, in the same run.
+    pub baseline_ns: f64,
+    /// How many times the speed of the baseline: `baseline_ns / ns`.
+    pub ratio: f64,
+}
+
+/// The rows of one question on one input.
+pub fn of<'a>(rows: &'a [Row], id: &'a str, input: &'a str) -> impl Iterator<Item = &'a Row> {
+    rows.iter().filter(move |row| row.id == id && row.input == input)
+}
+
+/// The row of one cell.
+pub fn find<'a>(rows: &'a [Row], id: &str, input: &str, backend: &str, baseline: &str) -> Option<&'a Row> {
+    rows.iter().find(|r| r.id == id && r.input == input && r.backend == backend && r.baseline == baseline)
+}
+
+/// The distinct names of a column, in order of appearance.
+pub fn distinct<'a>(rows: impl Iterator<Item = &'a Row>, column: fn(&Row) -> &str) -> Vec<&'a str> {
+    let mut names: Vec<&str> = Vec::new();
+    for name in rows.map(column) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// A backend's name as it is shown.
+pub fn shown(backend: &str) -> String {
+    backend.replace('-', " ")
+}
