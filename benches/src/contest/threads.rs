@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use lobe::table::specular::reference;
-use lobe::{Brdf, Directions, Edges};
+use lobe::{Directions, Edges, Material, Options};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::{Contender, Contest, Tolerance};
@@ -23,12 +23,12 @@ pub fn iso(input: Input, count: usize) -> Contest {
         let (wi, wo) = pairs.get(query);
         reference::eval(&samples, &Edges::default(), wi.map(f64::from), wo.map(f64::from), out);
     }
-    let brdf = Rc::new(Brdf::new(&samples, &Edges::default()).expect("a small table and a backend"));
+    let material = Rc::new(Material::from_samples(samples, &Options::default()).expect("a small table and a backend"));
     let two = std::thread::available_parallelism().is_ok_and(|cores| cores.get() > 1);
     Contest {
         count,
-        baselines: vec![contender("1 thread", pool(1), &brdf, &pairs)],
-        contenders: two.then(|| contender("2 threads", pool(2), &brdf, &pairs)).into_iter().collect(),
+        baselines: vec![contender("1 thread", pool(1), &material, &pairs)],
+        contenders: two.then(|| contender("2 threads", pool(2), &material, &pairs)).into_iter().collect(),
         expected,
     }
 }
@@ -37,13 +37,13 @@ fn pool(threads: usize) -> ThreadPool {
     ThreadPoolBuilder::new().num_threads(threads).build().expect("threads")
 }
 
-fn contender(name: &'static str, pool: ThreadPool, brdf: &Rc<Brdf>, pairs: &Rc<Pairs>) -> Contender {
-    let (brdf, pairs) = (brdf.clone(), pairs.clone());
+fn contender(name: &'static str, pool: ThreadPool, material: &Rc<Material>, pairs: &Rc<Pairs>) -> Contender {
+    let (material, pairs) = (material.clone(), pairs.clone());
     let out = vec![f32::NAN; 3 * pairs.len()];
     let run = move |out: &mut Vec<f32>| {
         let [wi, wo] = [&pairs.wi, &pairs.wo].map(|[x, y, z]| Directions::columns(x, y, z));
-        let brdf: &Brdf = &brdf;
-        pool.install(|| brdf.eval_batch(wi, wo, out));
+        let material: &Material = &material;
+        pool.install(|| material.eval_batch(wi, wo, out));
     };
     Contender::new(name, TOLERANCE, out, run, Vec::clone)
 }

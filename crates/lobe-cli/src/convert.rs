@@ -49,7 +49,7 @@ enum ScatterKind {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let (target, out) = (args.output.target()?, args.output.out.as_path());
-    let (format, document) = lobe_formats::open(&args.file)?;
+    let (_, document) = lobe_formats::open(&args.file)?;
     let document = choose(document, target, args)?;
     if let Some(done) = lossless::write(&document, target, args.output.channel.as_deref(), out)? {
         eprintln!("{}: {target}, {done}", out.display());
@@ -71,7 +71,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         eprintln!("{}: {loss}", args.file.display());
     }
     let options = Options { lookup: Lookup::Linear, ..Options::default() };
-    let material = Material::new(&args.file, format, document, &options)?;
+    let material = Material::from_document(&document, &options).map_err(|error| error.in_file(&args.file))?;
     measure::write(&MaterialSurface { material, scatter }, sides, &args.output)
 }
 

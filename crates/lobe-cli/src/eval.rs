@@ -118,7 +118,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         IndexRule::Viewer => Given::Viewer,
     };
     let options = Options { edges: args.edge.edges(), lookup, indexed_by, ..Options::default() };
-    let (format, document) = lobe::formats::open(&args.file)?;
+    let (_, document) = lobe::formats::open(&args.file)?;
     let pairs = match (args.wi, args.wo, args.angles, &args.pairs) {
         (Some(wi), Some(wo), ..) => vec![Pair { wi, wo }],
         (_, _, Some(angles), _) => {
@@ -133,7 +133,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         (.., Some(file)) => read_pairs(file)?,
         _ => return Err(Failure::Usage("found no directions; expected --wi and --wo, --angles or --pairs".into())),
     };
-    let material = Material::new(&args.file, format, document, &options)?;
+    let material = Material::from_document(&document, &options).map_err(|error| error.in_file(&args.file))?;
     let all = material.channels().names();
     let chosen = choose(&all, &args.channels)?;
     let names: Vec<&str> = chosen.iter().map(|&channel| all[channel].as_str()).collect();

@@ -12,6 +12,8 @@ use crate::{
 /// What was found in a file, in the form in which it was measured.
 #[derive(Clone, Debug)]
 pub struct Document {
+    /// The format, if it was read from a file.
+    pub format: Option<Format>,
     /// The measurements, in the order of the file. More than one are those of a sheet: reflection and transmission, or
     /// both of its sides.
     pub parts: Vec<Part>,
@@ -50,7 +52,7 @@ impl Part {
 impl Document {
     /// One measurement about which there is nothing else to say.
     pub fn new(data: impl Into<Data>) -> Self {
-        Document { parts: vec![Part::new("", data)], source: Vec::new(), tis: Vec::new() }
+        Document { format: None, parts: vec![Part::new("", data)], source: Vec::new(), tis: Vec::new() }
     }
 
     /// The measurements of a sheet. The name of a single one that is of no particular side becomes a fact of the header.
@@ -61,7 +63,7 @@ impl Document {
         {
             source.push(("name".into(), std::mem::take(name)));
         }
-        Document { parts, source, tis: Vec::new() }
+        Document { format: None, parts, source, tis: Vec::new() }
     }
 
     /// The data, if they are one measurement of no particular side.
@@ -112,15 +114,29 @@ impl<T: Into<Data>> From<Measured<T>> for Document {
 /// [`FormatError`] where the file cannot be read, is of no known format, or is damaged.
 pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
     if path.is_dir() {
-        return Ok((Format::Rpc, Document::new(fred::read_rpc_folder(path)?)));
+        let document = Document::new(fred::read_rpc_folder(path)?);
+        return Ok((Format::Rpc, Document { format: Some(Format::Rpc), ..document }));
     }
     let bytes = std::fs::read(path)
         .map_err(|error| FormatError::new(path, Place::File, error.to_string(), "a file that can be read"))?;
-    let format = sniff(&bytes).ok_or_else(|| {
+    let format = recognised(&bytes, path)?;
+    Ok((format, read(format, &bytes, path)?))
+}
+
+/// Reads the content of a file in memory, whatever its format. `path` names it in errors, and its extension counts as in
+/// [`open`].
+///
+/// # Errors
+/// As [`open`].
+pub fn from_bytes(bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
+    read(recognised(bytes, path)?, bytes, path)
+}
+
+fn recognised(bytes: &[u8], path: &Path) -> Result<Format, FormatError> {
+    sniff(bytes).ok_or_else(|| {
         let known: Vec<&str> = Format::ALL.iter().map(Format::name).collect();
         FormatError::new(path, Place::File, "content of no known format", format!("one of {}", known.join(", ")))
-    })?;
-    Ok((format, read(format, &bytes, path)?))
+    })
 }
 
 /// Reads `bytes` as a file of this format, whatever they look like. `path` names it in errors, and its extension counts
@@ -129,7 +145,7 @@ pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
 /// # Errors
 /// [`FormatError`] where the bytes are no sound file of the format.
 pub fn read(format: Format, bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
-    Ok(match format {
+    let document = match format {
         Format::Pbsdf => Document::new(pbsdf::read(bytes, path)?),
         Format::Rgl => {
             let data = rgl::read(bytes, path)?;
@@ -158,7 +174,8 @@ pub fn read(format: Format, bytes: &[u8], path: &Path) -> Result<Document, Forma
         Format::Goniometer => Document::new(goniometer::read(bytes, path)?),
         Format::Ddr => ddr::read(bytes, path, scatter_of_extension(path))?.into(),
         Format::Sdr => sdr::read(bytes, path, scatter_of_extension(path))?.into(),
-    })
+    };
+    Ok(Document { format: Some(format), ..document })
 }
 
 /// Integra's extensions: a `t` at the end is transmission.

@@ -41,7 +41,7 @@ mod write;
 pub mod zemax;
 mod zip;
 
-pub use document::{Document, Measured, Part, open, read};
+pub use document::{Document, Measured, Part, from_bytes, open, read};
 pub use error::{FormatError, Place};
 pub use sheet::Sides;
 pub use sniff::{Format, sniff};

@@ -1,8 +1,11 @@
 //! What a goniometer measures.
 
 use std::f64::consts::TAU;
+use std::fmt::Debug;
 
-use lobe_table::Channels;
+use lobe_backend::Backend;
+use lobe_table::bsdf::OnBackend;
+use lobe_table::{Bsdf, Channels, Directions};
 
 use crate::Model;
 use crate::vec3::spherical;
@@ -19,7 +22,7 @@ pub trait Surface: Sync {
     fn f(&self, wi: [f64; 3], viewers: &[[f64; 3]], out: &mut [f64]);
 }
 
-/// A [`Model`] as a [`Surface`] of three channels, red, green and blue.
+/// A [`Model`] as a [`Surface`], and as a [`Bsdf`], of three channels, red, green and blue.
 #[derive(Clone, Copy, Debug)]
 pub struct Rgb<M>(pub M);
 
@@ -30,6 +33,28 @@ impl<M: Model + Sync> Surface for Rgb<M> {
 
     fn f(&self, wi: [f64; 3], viewers: &[[f64; 3]], out: &mut [f64]) {
         out.copy_from_slice(self.0.f_many(wi, viewers).as_flattened());
+    }
+}
+
+/// A model evaluates in `f64`, pair by pair, whatever the backend.
+impl<M: Model + Debug + Send + Sync> Bsdf for Rgb<M> {
+    fn channels(&self) -> &Channels {
+        &Channels::Rgb
+    }
+
+    fn eval_batch(&self, _: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        assert_eq!(wi.count(), wo.count(), "as many wi as wo");
+        assert_eq!(out.len(), 3 * wi.count(), "three values per query");
+        for (query, texel) in out.chunks_exact_mut(3).enumerate() {
+            let value = self.0.f(wi.get(query).map(f64::from), wo.get(query).map(f64::from));
+            texel.iter_mut().zip(value).for_each(|(out, value)| *out = value as f32);
+        }
+    }
+}
+
+impl<'a, M: Model + Debug + Send + Sync> From<&'a Rgb<M>> for OnBackend<'a> {
+    fn from(model: &'a Rgb<M>) -> Self {
+        OnBackend::new(model, Backend::best())
     }
 }
 

@@ -7,9 +7,9 @@ use serde::Serialize;
 
 use crate::directions::spherical;
 use crate::hemisphere::{Effort, Panels, integrate};
+use crate::pairs::eval_pairs;
 use crate::samples::signed_edges;
-use crate::scattering::eval_pairs;
-use crate::{Aspect, Scattering, Subject};
+use crate::{Aspect, OnBackend, Subject};
 
 /// The share of the light from one direction that is scattered: the integral of `f cos(theta_o)` over the hemisphere.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -37,14 +37,14 @@ impl Albedo {
 }
 
 /// The albedo of anything for light at a polar angle and an azimuth, in radians, by adaptive quadrature in `panels`.
-pub fn albedo(
-    scattering: &dyn Scattering,
+pub fn albedo<'a>(
+    scattering: impl Into<OnBackend<'a>>,
     aspect: Aspect,
     [theta, phi]: [f64; 2],
     panels: &Panels,
     effort: Effort,
 ) -> Albedo {
-    let light = spherical(theta, phi);
+    let (scattering, light) = (scattering.into(), spherical(theta, phi));
     let integral = integrate(panels, scattering.channels().count(), effort, |viewers, out| {
         let pairs: Vec<_> = viewers.iter().map(|&viewer| aspect.place(light, viewer)).collect();
         out.copy_from_slice(&eval_pairs(scattering, &pairs));

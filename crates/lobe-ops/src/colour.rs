@@ -1,10 +1,11 @@
 //! Tables and materials in CIE XYZ or in RGB, as [`lobe_colour`] has it. Values stay in 1/sr.
 
+use lobe::Backend;
 use lobe_colour::{Channels, NoColour, Reduction, Space};
-use lobe_table::{GridError, specular};
+use lobe_table::{Aspect, Bsdf, Directions, GridError, specular};
 use thiserror::Error;
 
-use crate::Scattering;
+use crate::OnBackend;
 
 /// The same table with XYZ or RGB channels. Colours outside the triangle of the primaries have negative RGB, which are
 /// kept.
@@ -41,8 +42,9 @@ pub enum ColourError {
 }
 
 /// A material in another colour space.
+#[derive(Debug)]
 pub struct Coloured<'a> {
-    scattering: &'a dyn Scattering,
+    scattering: OnBackend<'a>,
     reduction: Reduction,
     channels: Channels,
 }
@@ -52,21 +54,32 @@ impl<'a> Coloured<'a> {
     ///
     /// # Errors
     /// Those of [`Reduction::new`].
-    pub fn new(scattering: &'a dyn Scattering, space: Space) -> Result<Self, NoColour> {
+    pub fn new(scattering: impl Into<OnBackend<'a>>, space: Space) -> Result<Self, NoColour> {
+        let scattering = scattering.into();
         let reduction = Reduction::new(scattering.channels(), space)?;
         Ok(Coloured { scattering, reduction, channels: channels(space) })
     }
 }
 
-impl Scattering for Coloured<'_> {
+impl<'a> From<&'a Coloured<'_>> for OnBackend<'a> {
+    fn from(coloured: &'a Coloured<'_>) -> Self {
+        OnBackend::new(coloured, coloured.scattering.backend)
+    }
+}
+
+impl Bsdf for Coloured<'_> {
     fn channels(&self) -> &Channels {
         &self.channels
     }
 
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
+    fn holds(&self, aspect: Aspect) -> bool {
+        self.scattering.bsdf.holds(aspect)
+    }
+
+    fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
         let count = self.scattering.channels().count();
-        let mut values = vec![0.0; wi.len() * count];
-        self.scattering.eval_batch(wi, wo, &mut values);
+        let mut values = vec![0.0; wi.count() * count];
+        self.scattering.bsdf.eval_batch(backend, wi, wo, &mut values);
         for (out, texel) in out.chunks_exact_mut(3).zip(values.chunks_exact(count)) {
             out.iter_mut().zip(self.reduction.exact(texel)).for_each(|(out, value)| *out = value as f32);
         }

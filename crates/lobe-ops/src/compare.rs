@@ -7,8 +7,8 @@ use serde::Serialize;
 
 use crate::colour::Coloured;
 use crate::directions::pairs;
-use crate::scattering::eval_pairs;
-use crate::{Aspect, Scattering};
+use crate::pairs::eval_pairs;
+use crate::{Aspect, OnBackend};
 
 /// The differences of two materials over a set of directions, all channels together, in 1/sr.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -52,13 +52,14 @@ pub struct Visible {
 ///
 /// # Errors
 /// [`NoColour`] if the channels differ and those of one material have no colour.
-pub fn difference(
-    a: &dyn Scattering,
-    b: &dyn Scattering,
+pub fn difference<'a>(
+    a: impl Into<OnBackend<'a>>,
+    b: impl Into<OnBackend<'a>>,
     aspect: Aspect,
     limit: f64,
     count: usize,
 ) -> Result<Difference, NoColour> {
+    let (a, b) = (a.into(), b.into());
     if a.channels() != b.channels() {
         let (a, b) = (Coloured::new(a, Space::Xyz)?, Coloured::new(b, Space::Xyz)?);
         return difference(&a, &b, aspect, limit, count);
@@ -101,7 +102,12 @@ pub fn difference(
 ///
 /// # Errors
 /// [`NoColour`] if the channels of one material have no colour.
-pub fn visible(a: &dyn Scattering, b: &dyn Scattering, aspect: Aspect, size: usize) -> Result<Visible, NoColour> {
+pub fn visible<'a>(
+    a: impl Into<OnBackend<'a>>,
+    b: impl Into<OnBackend<'a>>,
+    aspect: Aspect,
+    size: usize,
+) -> Result<Visible, NoColour> {
     let pixels = lit_pixels(size);
     let (first, second) = (colours(a, aspect, &pixels)?, colours(b, aspect, &pixels)?);
     let mut errors: Vec<f64> = first.into_iter().zip(second).map(|(a, b)| delta_e(a, b)).collect();
@@ -144,8 +150,8 @@ fn lit_pixels(size: usize) -> Vec<([f64; 3], [f64; 3])> {
 }
 
 /// XYZ of the pixels, of which a perfect white that faces the light has Y = 1.
-fn colours(
-    scattering: &dyn Scattering,
+fn colours<'a>(
+    scattering: impl Into<OnBackend<'a>>,
     aspect: Aspect,
     pixels: &[([f64; 3], [f64; 3])],
 ) -> Result<Vec<[f64; 3]>, NoColour> {

@@ -9,7 +9,7 @@
 //! - [`colour`]: spectra to CIE XYZ and to RGB;
 //! - [`compare`]: how far two materials are apart, in numbers and to the eye.
 //!
-//! What has values is a [`Scattering`]: a [`lobe::Material`], or a model. A [`Subject`] is an opened file with what the
+//! What has values is any [`Bsdf`](lobe_table::Bsdf) on a backend, such as a [`lobe::Material`]. A [`Subject`] is an opened file with what the
 //! operations have to know about it. Directions point away from the surface, normal on +z; angles are radians; values
 //! are `f` in 1/sr, without the cosine.
 #![forbid(unsafe_code)]
@@ -22,15 +22,15 @@ mod directions;
 pub mod energy;
 pub mod fill;
 pub mod hemisphere;
+mod pairs;
 pub mod reciprocity;
 pub mod resample;
 mod samples;
-mod scattering;
 mod subject;
 pub mod symmetrise;
 #[cfg(test)]
 mod testing;
 
 pub use lobe_table::Aspect;
-pub use scattering::Scattering;
+pub use lobe_table::bsdf::OnBackend;
 pub use subject::Subject;

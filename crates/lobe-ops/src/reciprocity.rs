@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use crate::directions::pairs;
-use crate::scattering::eval_pairs;
-use crate::{Aspect, Scattering};
+use crate::pairs::eval_pairs;
+use crate::{Aspect, OnBackend};
 
 /// How far `f(wi, wo)` and `f(wo, wi)` are apart.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -28,7 +28,8 @@ pub struct Reciprocity {
 ///
 /// Transmission is compared with transmission in the opposite direction. If a file has one direction only, both are the
 /// same data, and the result says nothing.
-pub fn reciprocity(scattering: &dyn Scattering, aspect: Aspect, limit: f64, count: usize) -> Reciprocity {
+pub fn reciprocity<'a>(scattering: impl Into<OnBackend<'a>>, aspect: Aspect, limit: f64, count: usize) -> Reciprocity {
+    let scattering = scattering.into();
     let pairs = pairs(count, limit);
     let there: Vec<_> = pairs.iter().map(|&(wi, wo)| aspect.place(wi, wo)).collect();
     let back: Vec<_> = there.iter().map(|&(wi, wo)| (wo, wi)).collect();

@@ -33,7 +33,7 @@ impl Subject {
     /// As [`Material::open_with`].
     pub fn open(path: &Path, options: &Options) -> Result<Self, OpenError> {
         let (format, document) = lobe_formats::open(path)?;
-        let material = Material::new(path, format, document.clone(), options)?;
+        let material = Material::from_document(&document, options).map_err(|error| error.in_file(path))?;
         Ok(Subject::new(format, document, material, options))
     }
 

@@ -68,8 +68,7 @@ mod tests {
     use crate::reciprocity::reciprocity;
     use crate::resample::measure;
     use crate::testing::{Mono, degrees};
-    use lobe::Brdf;
-    use lobe_table::Edges;
+    use lobe::{Material, Options};
 
     fn knots(psis: &[f64]) -> [Vec<f64>; 4] {
         let steps =
@@ -110,8 +109,8 @@ mod tests {
         let samples =
             measure(&uneven, Aspect::REFLECTION, knots(&[0.0, 90.0, 180.0, 270.0, 360.0]), |_| {}).expect("a table");
         let error = |samples: &specular::Data| {
-            let brdf = Brdf::new(samples, &Edges::default()).expect("a table");
-            reciprocity(&brdf, Aspect::REFLECTION, 1.2, 2000).relative_rms
+            let material = Material::from_samples(samples.clone(), &Options::default()).expect("a table");
+            reciprocity(&material, Aspect::REFLECTION, 1.2, 2000).relative_rms
         };
         let averaged = reciprocal(&samples).expect("a table");
         assert!(error(&samples) > 0.05, "{}", error(&samples));

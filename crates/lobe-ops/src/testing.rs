@@ -1,38 +1,38 @@
 //! Materials that are known exactly.
 
-use lobe_model::{Conductor, Ggx, Model};
-use lobe_table::Channels;
+use std::fmt;
 
-use crate::Scattering;
+use lobe::Backend;
+pub(crate) use lobe_model::Rgb as Exact;
+use lobe_model::{Conductor, Ggx};
+use lobe_table::{Bsdf, Channels, Directions};
 
-/// An analytic model as it is, without a table between.
-pub(crate) struct Exact<M>(pub(crate) M);
-
-impl<M: Model> Scattering for Exact<M> {
-    fn channels(&self) -> &Channels {
-        &Channels::Rgb
-    }
-
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        for ((wi, wo), texel) in wi.iter().zip(wo).zip(out.chunks_exact_mut(3)) {
-            let value = self.0.f(wi.map(f64::from), wo.map(f64::from));
-            texel.iter_mut().zip(value).for_each(|(out, value)| *out = value as f32);
-        }
-    }
-}
+use crate::OnBackend;
 
 /// A function of two directions, the same in one channel.
 pub(crate) struct Mono<F>(pub(crate) F);
 
-impl<F: Fn([f64; 3], [f64; 3]) -> f64> Scattering for Mono<F> {
+impl<F> fmt::Debug for Mono<F> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Mono")
+    }
+}
+
+impl<F: Fn([f64; 3], [f64; 3]) -> f64 + Send + Sync> Bsdf for Mono<F> {
     fn channels(&self) -> &Channels {
         &Channels::Mono
     }
 
-    fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        for ((wi, wo), out) in wi.iter().zip(wo).zip(out) {
-            *out = (self.0)(wi.map(f64::from), wo.map(f64::from)) as f32;
+    fn eval_batch(&self, _: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        for (query, out) in out.iter_mut().enumerate() {
+            *out = (self.0)(wi.get(query).map(f64::from), wo.get(query).map(f64::from)) as f32;
         }
+    }
+}
+
+impl<'a, F: Fn([f64; 3], [f64; 3]) -> f64 + Send + Sync> From<&'a Mono<F>> for OnBackend<'a> {
+    fn from(function: &'a Mono<F>) -> Self {
+        OnBackend::new(function, Backend::best())
     }
 }
 

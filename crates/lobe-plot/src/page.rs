@@ -66,7 +66,12 @@ fn summary(subject: &Subject) -> String {
         1 => "1 channel".into(),
         n => format!("{n} channels"),
     };
-    format!("{}{}, {}, {channels}.", named.unwrap_or_default(), material.format().name(), material.kind())
+    format!(
+        "{}{}, {}, {channels}.",
+        named.unwrap_or_default(),
+        material.format().map_or("made", |format| format.name()),
+        material.kind()
+    )
 }
 
 /// The colours of the curves on a dark page.

@@ -33,12 +33,12 @@ impl Subject {
     /// A document that was read from `path`, after whose last part the figures are named.
     ///
     /// # Errors
-    /// As [`Material::new`].
+    /// As [`Material::from_document`].
     pub fn new(path: &Path, format: Format, document: Document) -> Result<Self, OpenError> {
         let parts = parts(&document);
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into());
         let options = Options::default();
-        let material = Material::new(path, format, document.clone(), &options)?;
+        let material = Material::from_document(&document, &options).map_err(|error| error.in_file(path))?;
         Ok(Subject { name, measured: lobe_ops::Subject::new(format, document, material, &options), parts })
     }
 

@@ -71,6 +71,17 @@ impl<'a> Directions<'a> {
         }
     }
 
+    /// One direction.
+    ///
+    /// # Panics
+    /// If there are not so many.
+    pub fn get(&self, index: usize) -> [f32; 3] {
+        match self {
+            Directions::Vectors(vectors) => vectors[index],
+            Directions::Columns(columns) => columns.map(|column| column[index]),
+        }
+    }
+
     /// Directions `range`, for splitting a batch.
     ///
     /// # Panics

@@ -18,6 +18,7 @@
 //! They share [`Axis`] and the other parts of a grid, and [`Channels`] and [`Scatter`], which say what the values are.
 #![forbid(unsafe_code)]
 
+pub mod bsdf;
 pub mod data;
 mod direction;
 mod directions;
@@ -37,7 +38,8 @@ pub mod spherical;
 pub mod utia;
 pub mod window;
 
-pub use data::{Aspect, Data, Kind, Representation, Side};
+pub use bsdf::{Bsdf, BsdfLanes};
+pub use data::{Aspect, Data, Kind, Options, PrepareError, Representation, Side};
 pub use directions::Directions;
 pub use grid::{Axis, AxisError, Cell, Edge, Edges, Function, GridError, Precision, TableError};
 pub use invalid::Invalid;

@@ -1,6 +1,7 @@
 //! The reflectance of a smooth surface, a delta function in direction, by angle of incidence.
 
-use crate::data::Section;
+use crate::bsdf::Bsdf;
+use crate::data::{Options, PrepareError, Section};
 use crate::specular::AXIS_NAMES;
 use crate::{Aspect, Channels, Kind, Representation, Scatter};
 
@@ -91,6 +92,10 @@ impl Representation for Data {
             section.axes.pop();
         }
         vec![Section { quantity: "mirror reflectance by angle of incidence", ..section }]
+    }
+
+    fn prepare(&self, _: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
+        Err(PrepareError::NoValues(KIND))
     }
 
     fn mirror(&self) -> Option<&Data> {

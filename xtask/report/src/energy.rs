@@ -89,7 +89,7 @@ pub fn all() -> anyhow::Result<Vec<Energy>> {
 
 fn of(name: &str, format: Format, document: Document) -> anyhow::Result<Energy> {
     let options = Options::default();
-    let material = || Material::new(Path::new(name), format, document.clone(), &options);
+    let material = || Material::from_document(&document, &options);
     let sampler = Sampler::new(Arc::new(material()?), &SamplerOptions::default()).context("no sampler")?;
     let subject = Subject::new(format, document.clone(), material()?, &options);
     let psis = if subject.is_isotropic() { &PSIS[..1] } else { &PSIS };

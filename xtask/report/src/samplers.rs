@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use anyhow::Context;
-use lobe::formats::{Document, Format};
+use lobe::formats::Document;
 use lobe::table::half_diff;
 use lobe::{Material, Options, Sampler, SamplerOptions};
 use lobe_benches::tables;
@@ -55,7 +55,7 @@ pub fn all(quick: bool) -> anyhow::Result<Vec<SamplerCost>> {
 }
 
 fn cost(material: &'static str, document: Document, (goal, rounds): (f64, usize)) -> anyhow::Result<SamplerCost> {
-    let made = Material::new(material.as_ref(), Format::Merl, document, &Options::default())?;
+    let made = Material::from_document(&document, &Options::default())?;
     let made = Arc::new(made);
     let mut least = Duration::MAX;
     let mut bytes = 0;

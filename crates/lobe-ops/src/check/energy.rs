@@ -10,7 +10,7 @@ use super::finding::{Finding, Status, Thoroughness, degrees, percent};
 use crate::albedo::{Albedo, albedo_of};
 use crate::directions::spherical;
 use crate::hemisphere::Effort;
-use crate::scattering::eval_pairs;
+use crate::pairs::eval_pairs;
 use crate::{Aspect, Subject};
 
 /// Light beyond 85 degrees is extrapolated by most measurements, and not looked at.

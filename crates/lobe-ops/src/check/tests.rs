@@ -1,11 +1,9 @@
 //! Every check finds what it is for, and nothing if there is nothing to find.
 
-use std::f64::consts::PI;
-use std::path::Path;
-
 use lobe::{Material, Options};
 use lobe_formats::{Document, Format};
 use lobe_table::{Channels, Scatter, specular};
+use std::f64::consts::PI;
 
 use super::*;
 use crate::testing::degrees as radians;
@@ -14,7 +12,7 @@ const THETAS: [f64; 6] = [0.0, 5.0, 20.0, 60.0, 120.0, 180.0];
 
 fn subject(samples: specular::Data, tis: Vec<f32>) -> Subject {
     let document = Document { tis, ..Document::new(samples) };
-    let material = Material::new(Path::new("test"), Format::Zemax, document.clone(), &Options::default());
+    let material = Material::from_document(&document, &Options::default());
     Subject::new(Format::Zemax, document, material.expect("a material"), &Options::default())
 }
 

@@ -2,14 +2,14 @@
 
 use std::f64::consts::{PI, TAU};
 
-use lobe::{Brdf, OpenError};
+use lobe::{Material, OpenError, Options};
 use lobe_table::specular::coords::angles_to_directions;
 use lobe_table::{Edges, specular};
 use serde::Serialize;
 
 use crate::directions::quasi_random;
-use crate::scattering::eval_pairs;
-use crate::{Aspect, Scattering};
+use crate::pairs::eval_pairs;
+use crate::{Aspect, OnBackend};
 
 /// The differences between a table and its origin over a set of directions, all channels together.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -39,13 +39,14 @@ pub(super) const LOWEST: f64 = 0.06;
 ///
 /// # Errors
 /// If the table is too large to be evaluated.
-pub fn error(
-    scattering: &dyn Scattering,
+pub fn error<'a>(
+    scattering: impl Into<OnBackend<'a>>,
     aspect: Aspect,
     samples: &specular::Data,
     limit: f64,
     count: usize,
 ) -> Result<Resampling, OpenError> {
+    let scattering = scattering.into();
     let lowest = limit.cos().max(LOWEST);
     let sigmas = &samples.knots()[0];
     let (low, high) = (sigmas[0], sigmas[sigmas.len() - 1]);
@@ -54,7 +55,8 @@ pub fn error(
         angles_to_directions([low + a * (high - low), TAU * b, PI * c.powi(3), TAU * d], |sigma| sigma)
     };
     let probes: Vec<_> = (0..count).map(probe).filter(|(wi, wo)| wi[2] >= lowest && wo[2] >= lowest).collect();
-    let table = Brdf::new(samples, &Edges { non_negative: false, ..Edges::default() })?;
+    let edges = Edges { non_negative: false, ..Edges::default() };
+    let table = Material::from_samples(samples.clone(), &Options { edges, ..Options::default() })?;
     let placed: Vec<_> = probes.iter().map(|&(wi, wo)| aspect.place(wi, wo)).collect();
     let (exact, found) = (eval_pairs(scattering, &placed), eval_pairs(&table, &placed));
 

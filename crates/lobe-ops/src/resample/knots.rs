@@ -7,7 +7,7 @@ use lobe_table::{GridError, specular};
 use super::error::LOWEST;
 use super::{error, measure};
 use crate::samples::{directions, nodes};
-use crate::{Aspect, Scattering};
+use crate::{Aspect, OnBackend};
 
 /// How large the interpolation error may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,13 +69,14 @@ pub const PROBES: usize = 100_000;
 ///
 /// # Errors
 /// As [`measure`].
-pub fn choose(
-    scattering: &dyn Scattering,
+pub fn choose<'a>(
+    scattering: impl Into<OnBackend<'a>>,
     aspect: Aspect,
     axes: &[Knots; 4],
     bound: Bound,
     progress: impl Fn(f64),
 ) -> Result<Chosen, GridError> {
+    let scattering = scattering.into();
     let free = axes.iter().filter(|axis| matches!(axis, Knots::Choose(knots) if knots.len() > 1)).count().max(1);
     let dense = axes.each_ref().map(|axis| axis.all().to_vec());
     let grid = Grid::new(&measure(scattering, aspect, dense, |done| progress(0.8 * done))?, bound);

@@ -13,8 +13,8 @@ use lobe_model::goniometer::lift;
 use lobe_table::specular::coords::angles_to_directions;
 use lobe_table::{GridError, specular};
 
-use crate::scattering::eval_pairs;
-use crate::{Aspect, Scattering};
+use crate::pairs::eval_pairs;
+use crate::{Aspect, OnBackend};
 
 /// Measures a material at every node of `knots`: sigma, psi, theta and phi in radians, as in [`specular::Data`].
 /// `progress` is told the share that is done from time to time.
@@ -24,12 +24,13 @@ use crate::{Aspect, Scattering};
 ///
 /// # Errors
 /// [`GridError`] if the knots make no table, or a value of the material is not finite.
-pub fn measure(
-    scattering: &dyn Scattering,
+pub fn measure<'a>(
+    scattering: impl Into<OnBackend<'a>>,
     aspect: Aspect,
     knots: [Vec<f64>; 4],
     progress: impl Fn(f64),
 ) -> Result<specular::Data, GridError> {
+    let scattering = scattering.into();
     let [sigmas, psis, thetas, phis] = &knots;
     let mut values = Vec::new();
     for (index, &sigma) in sigmas.iter().enumerate() {

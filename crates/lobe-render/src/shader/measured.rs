@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use lobe::formats::FormatError;
 use lobe::table::mirror;
-use lobe::{Given, Material, OpenError, Options, Sampler, SamplerError, SamplerOptions, Scatter};
+use lobe::{Aspect, Given, Material, OpenError, Options, Sampler, SamplerError, SamplerOptions, Scatter};
 use lobe_colour::Reduction;
 
 use super::{
@@ -38,13 +38,14 @@ pub enum MaterialError {
 /// # Errors
 /// [`MaterialError`] names the file.
 pub fn open(path: &Path, options: &Options, backend: Backend) -> Result<Arc<dyn Shader<Rgb>>, MaterialError> {
-    let (format, document) = lobe::formats::open(path)?;
+    let (_, document) = lobe::formats::open(path)?;
     if let Some(data) = document.only().and_then(|data| data.representation().mirror())
         && data.scatter() == Scatter::Reflection
     {
         return Ok(Arc::new(DeltaShader(mirror(data))));
     }
-    prepare(Material::new(path, format, document, options)?, path, backend)
+    let material = Material::from_document(&document, options).map_err(|error| error.in_file(path))?;
+    prepare(material, path, backend)
 }
 
 /// Opens the files of a sheet, measured with light on its front and on its back, as
@@ -95,8 +96,7 @@ impl MeasuredShader {
     /// # Errors
     /// If there is no sampler for the material.
     pub fn new(material: Material) -> Result<Self, SamplerError> {
-        let transmits = material.holds(true, Scatter::Transmission)
-            || [Scatter::Reflection, Scatter::Transmission].into_iter().any(|way| material.holds(false, way));
+        let transmits = Aspect::ALL.into_iter().any(|aspect| aspect != Aspect::REFLECTION && material.holds(aspect));
         let conversion = <Rgb as Transport>::Conversion::of(material.channels());
         let sampler = Sampler::new(Arc::new(material), &SamplerOptions::default())?;
         // Whether there are mirrors beside the values is the sampler's business; samples of them say so.

@@ -1,6 +1,6 @@
 //! One surface, one light: `f cos / r^2`.
 
-use lobe::Brdf;
+use lobe::Material;
 use lobe_render::light::Light;
 use lobe_render::shader::Backend;
 use lobe_render::{Camera, Filter, WorldBuilder};
@@ -18,7 +18,7 @@ fn unit(a: [f64; 3]) -> [f64; 3] {
 
 #[test]
 fn a_measured_plane_under_a_point_light() {
-    let brdf = Brdf::open(CLOTH).unwrap().with_backend(Backend::best().strict());
+    let brdf = Material::open(CLOTH).unwrap().with_backend(Backend::best().strict());
     let shader = cloth(Backend::best().strict());
     for (turn, light, eye) in [
         (0.0f32, [0.4f64, 1.0, 0.3], [-0.7f64, 1.1, 0.2]),

@@ -5,11 +5,15 @@
 
 mod aspect;
 mod kind;
+mod options;
+mod prepare;
 mod representation;
 mod section;
 
 pub use aspect::{Aspect, Side};
 pub use kind::Kind;
+pub use options::Options;
+pub use prepare::PrepareError;
 pub use representation::Representation;
 pub(crate) use section::pairs;
 pub use section::{ANGLE_ROUNDING, Fact, Gaps, Grid, Kinks, Section, SectionAxis, closes_circle};

@@ -2,7 +2,8 @@
 
 use std::fmt::Debug;
 
-use super::{Aspect, Gaps, Grid, Kind, Kinks, Section};
+use super::{Aspect, Gaps, Grid, Kind, Kinks, Options, PrepareError, Section};
+use crate::bsdf::Bsdf;
 use crate::{Channels, Edges, Scatter, mirror};
 
 /// What programs ask of measured data without knowing their representation.
@@ -20,6 +21,12 @@ pub trait Representation: Debug + Send + Sync {
 
     /// `true` if values do not depend on the rotation of the sample.
     fn is_isotropic(&self) -> bool;
+
+    /// The data made ready to be evaluated.
+    ///
+    /// # Errors
+    /// If they have no value for a pair of directions, or are too large.
+    fn prepare(&self, options: &Options) -> Result<Box<dyn Bsdf>, PrepareError>;
 
     /// `true` if the data tell light on the front from light on the back.
     fn is_two_sided(&self) -> bool {

@@ -1,7 +1,9 @@
 //! What programs ask of grids of half and difference angles.
 
-use super::Data;
-use crate::data::{Gaps, Section};
+use super::prepared::Prepared;
+use super::{Data, Table};
+use crate::bsdf::Bsdf;
+use crate::data::{Gaps, Options, PrepareError, Section};
 use crate::{Aspect, Channels, Kind, Representation};
 
 /// The name of the representation.
@@ -40,5 +42,9 @@ impl Representation for Data {
     fn gaps(&self) -> Option<Gaps> {
         let missing = self.each_bin().filter(|&bin| !self.is_measured(bin)).count();
         Some(Gaps { missing, all: self.bins.iter().product(), of: "bins", is_used: true })
+    }
+
+    fn prepare(&self, options: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
+        Ok(Box::new(Prepared { table: Table::new(self)?, lookup: options.lookup }))
     }
 }

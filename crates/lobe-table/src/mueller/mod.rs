@@ -8,6 +8,7 @@
 //! unpolarised light sees of them, made ready for evaluation in SIMD lanes.
 
 mod lanes;
+mod prepared;
 mod reference;
 mod representation;
 #[cfg(test)]

@@ -2,8 +2,10 @@
 
 use std::borrow::Cow;
 
-use super::{AXES, Data, ELEMENTS};
-use crate::data::{Gaps, Section};
+use super::prepared::Prepared;
+use super::{AXES, Data, ELEMENTS, Table};
+use crate::bsdf::Bsdf;
+use crate::data::{Gaps, Options, PrepareError, Section};
 use crate::{Aspect, Channels, Kind, Representation};
 
 /// The name of the representation.
@@ -53,5 +55,9 @@ impl Representation for Data {
 
     fn is_polarised(&self) -> bool {
         true
+    }
+
+    fn prepare(&self, _: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
+        Ok(Box::new(Prepared { data: self.clone(), table: Table::new(self)?, channels: self.channels() }))
     }
 }

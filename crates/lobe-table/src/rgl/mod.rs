@@ -12,6 +12,7 @@
 
 mod lanes;
 mod marginal;
+mod prepared;
 mod reference;
 mod representation;
 

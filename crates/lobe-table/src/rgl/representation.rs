@@ -1,7 +1,11 @@
 //! What programs ask of materials of the EPFL database.
 
-use super::Data;
-use crate::data::{Gaps, Section, pairs};
+use std::sync::Arc;
+
+use super::prepared::Prepared;
+use super::{Data, Options as TableOptions, Table};
+use crate::bsdf::Bsdf;
+use crate::data::{Gaps, Options, PrepareError, Section, pairs};
 use crate::{Aspect, Channels, Kind, Representation};
 
 /// The name of the representation.
@@ -44,6 +48,11 @@ impl Representation for Data {
             false => "f cos(theta_o) in 1/sr",
         };
         vec![Section { quantity, ..section }]
+    }
+
+    fn prepare(&self, options: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
+        let table = Arc::new(Table::new(self, TableOptions::default())?);
+        Ok(Box::new(Prepared { table, indexed_by: options.indexed_by }))
     }
 
     fn incidences(&self, _: Aspect) -> Vec<[f64; 2]> {

@@ -16,6 +16,21 @@ pub struct Sampled<'a> {
     pub pdfs: &'a mut [f32],
 }
 
+impl Sampled<'_> {
+    /// Turns values of `f` in place of the weights into weights: times cosine over density.
+    ///
+    /// # Panics
+    /// If the weights are not as many as a whole number of channels asks for.
+    pub fn times_cosine_over_density(&mut self) {
+        let channels = self.weights.len().checked_div(self.directions.len()).unwrap_or(0).max(1);
+        let texels = self.weights.chunks_exact_mut(channels);
+        for ((texel, direction), &pdf) in texels.zip(&*self.directions).zip(&*self.pdfs) {
+            let factor = if pdf > 0.0 { direction[2].abs() / pdf } else { 0.0 };
+            texel.iter_mut().for_each(|value| *value *= factor);
+        }
+    }
+}
+
 /// What `f` times becomes a weight: cosine over density, 0 where the density is.
 #[inline(always)]
 pub(super) fn factor<L: Lanes>(lanes: L, z: L::F, pdf: L::F) -> L::F {

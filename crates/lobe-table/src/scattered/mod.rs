@@ -9,6 +9,7 @@
 
 mod line;
 mod mesh;
+mod prepared;
 mod representation;
 
 use std::collections::BTreeMap;

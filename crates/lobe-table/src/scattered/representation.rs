@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 
 use super::Data;
-use crate::data::Section;
+use crate::bsdf::Bsdf;
+use crate::data::{Options, PrepareError, Section};
 use crate::{Aspect, Channels, Kind, Representation};
 
 /// The name of the representation.
@@ -45,5 +46,9 @@ impl Representation for Data {
 
     fn incidences(&self, _: Aspect) -> Vec<[f64; 2]> {
         Data::incidences(self).collect()
+    }
+
+    fn prepare(&self, _: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
+        Ok(Box::new(self.clone()))
     }
 }

@@ -9,6 +9,7 @@ mod data;
 mod eval;
 pub(crate) mod frame;
 mod interpolate;
+mod prepared;
 pub mod reference;
 mod representation;
 mod single;

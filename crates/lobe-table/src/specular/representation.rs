@@ -1,8 +1,12 @@
 //! What programs ask of tables in specular coordinates.
 
+use std::sync::Arc;
+
+use super::prepared::Prepared;
 use super::reference::zenith;
-use super::{AXIS_NAMES, Data};
-use crate::data::{Grid, Kinks, Section, pairs};
+use super::{AXIS_NAMES, Data, Table};
+use crate::bsdf::Bsdf;
+use crate::data::{Grid, Kinks, Options, PrepareError, Section, pairs};
 use crate::{Aspect, Channels, Edges, Kind, Representation};
 
 /// The name of the representation.
@@ -57,5 +61,9 @@ impl Representation for Data {
             is_mirrored: false,
             is_specular: true,
         })
+    }
+
+    fn prepare(&self, options: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
+        Ok(Box::new(Prepared(Arc::new(Table::new(self, &options.edges)?))))
     }
 }

@@ -5,6 +5,7 @@
 
 pub(crate) mod coordinates;
 mod data;
+mod prepared;
 mod reference;
 mod representation;
 mod table;

@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::{AXIS_NAMES, Data};
-use crate::data::{ANGLE_ROUNDING, Grid, Kinks, Section, pairs};
+use super::{AXIS_NAMES, Data, Table};
+use crate::bsdf::Bsdf;
+use crate::data::{ANGLE_ROUNDING, Grid, Kinks, Options, PrepareError, Section, pairs};
 use crate::{Aspect, Channels, Edges, Kind, Representation};
 
 /// The name of the representation.
@@ -66,5 +67,9 @@ impl Representation for Data {
             is_mirrored: self.is_mirrored(),
             is_specular: false,
         })
+    }
+
+    fn prepare(&self, _: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
+        Ok(Box::new(Table::new(self)?))
     }
 }

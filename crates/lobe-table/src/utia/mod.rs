@@ -7,6 +7,7 @@
 //! evaluation in SIMD lanes.
 
 mod lanes;
+mod prepared;
 mod reference;
 mod representation;
 #[cfg(test)]

@@ -2,8 +2,9 @@
 
 use std::borrow::Cow;
 
-use super::{Data, PHIS, STEPS, THETAS};
-use crate::data::{Section, pairs};
+use super::{Data, PHIS, STEPS, THETAS, Table};
+use crate::bsdf::Bsdf;
+use crate::data::{Options, PrepareError, Section, pairs};
 use crate::{Aspect, Channels, Kind, Representation};
 
 /// The name of the representation.
@@ -51,5 +52,9 @@ impl Representation for Data {
 
     fn extent(&self) -> Option<&'static str> {
         Some("both directions from 0 to 75 degrees; beyond, values are extrapolated")
+    }
+
+    fn prepare(&self, options: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
+        Ok(Box::new(Table::new(self, options.decode)?))
     }
 }

@@ -1,9 +1,11 @@
 //! The blocks of a sheet in every band of wavelengths, as they were measured.
 
 use super::klems::{self, AngleBasis, Ring};
+use super::prepared::Prepared;
 use super::tensor_tree::{self, Rank};
 use super::{Block, Blocks, Component};
-use crate::data::Section;
+use crate::bsdf::Bsdf;
+use crate::data::{Options, PrepareError, Section};
 use crate::{Aspect, Channels, Kind, Representation};
 
 /// Klems matrices or tensor trees of the two sides of a sheet, in bands of wavelengths that have names.
@@ -86,6 +88,10 @@ impl Representation for Data {
             }
         }
         sections
+    }
+
+    fn prepare(&self, _: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
+        Ok(Box::new(Prepared::new(self)?))
     }
 
     /// The middles of the rings of Klems matrices, at azimuth 0.

@@ -6,6 +6,7 @@
 mod data;
 pub mod klems;
 mod lanes;
+mod prepared;
 pub mod tensor_tree;
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,6 @@
 //! Light that is mirrored, or goes straight through: what has no value for a pair of directions.
 
-use lobe_table::{Scatter, Side, mirror};
+use lobe_table::{Aspect, Scatter, Side, mirror};
 
 /// A mirror reflectance or a transmittance straight through, and the side from which it was measured.
 #[derive(Clone, Debug)]
@@ -11,13 +11,12 @@ pub(crate) struct Mirror {
 }
 
 impl Mirror {
-    /// Whether this answers for light from that side.
-    pub(crate) fn answers(&self, front: bool, scatter: Scatter) -> bool {
-        let side = if front { Side::Front } else { Side::Back };
-        self.data.scatter() == scatter && self.side.is_none_or(|of| of == side)
+    /// Whether this answers for an aspect.
+    pub(crate) fn answers(&self, aspect: Aspect) -> bool {
+        self.data.scatter() == aspect.scatter && self.side.is_none_or(|side| side == aspect.light)
     }
 
-    /// The share of the light from `wi` that goes on, one value a channel.
+    /// The share of the light from `wi` that goes on, one value per channel.
     pub(crate) fn reflectance(&self, [x, y, z]: [f32; 3]) -> Vec<f32> {
         let [x, y, z] = [x, y, z.abs()].map(f64::from);
         let sigma = x.hypot(y).atan2(z);

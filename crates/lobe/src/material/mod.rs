@@ -1,111 +1,39 @@
-//! A material from a file, whatever its representation, ready to be evaluated.
+//! A measured material, whatever its representation, ready to be evaluated.
 
-mod evaluator;
-mod half_diff;
-mod kind;
 mod mirror;
-mod mueller;
-mod rgl;
+mod open;
 mod sheet;
-mod spherical;
-mod table;
-mod utia;
-mod window;
 
-use std::path::Path;
+use std::sync::Arc;
 
-use lobe_formats::{self as formats, Document, Format};
-pub use lobe_table::half_diff::Lookup;
+use lobe_formats::Format;
+use lobe_table::bsdf::OnBackend;
 use lobe_table::mueller::Matrix;
-use lobe_table::utia::Decode;
-use lobe_table::{Channels, Data, Edges, Given, Scatter, Side};
+use lobe_table::{Aspect, Bsdf, Channels, Directions, Kind, Scatter, Side, specular};
 
-use crate::{Backend, Brdf, OpenError};
-use evaluator::Evaluator;
-pub(crate) use evaluator::Native;
-pub use kind::Kind;
+use crate::error::{ShapeError, expect, fitting};
+use crate::{Backend, parallel};
 use mirror::Mirror;
 pub(crate) use mirror::mirrored;
+pub use sheet::SHEET;
 pub(crate) use sheet::flipped;
 
-/// What a file leaves open.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Options {
-    /// What holds outside the measured angles of specular tables. The other representations have their own rule, which
-    /// is that of the programs that defined them.
-    pub edges: Edges,
-    /// How half-difference grids are looked up.
-    pub lookup: Lookup,
-    /// What to make of the numbers of the UTIA database, whose unit is not documented.
-    pub decode: Decode,
-    /// Which direction finds the slice of a material of the EPFL database: the light, as it was measured, or the viewer,
-    /// as renderers that trace from the camera do (Mitsuba, pbrt). They differ as far as the data are not reciprocal. The
-    /// direction given is the one that is best sampled by.
-    pub indexed_by: Given,
-}
-
-/// The measurements of a sheet as they are read.
-#[derive(Default)]
-struct Parts {
-    parts: Vec<sheet::Part>,
-    mirrors: Vec<Mirror>,
-}
-
-impl Parts {
-    fn add(&mut self, path: &Path, side: Option<Side>, data: Data, options: &Options) -> Result<(), OpenError> {
-        if let Some(data) = data.representation().mirror() {
-            self.mirrors.push(Mirror { side, data: data.clone() });
-            return Ok(());
-        }
-        let scatter = data.representation().scatter();
-        self.parts.push(sheet::Part { scatter, side, evaluator: evaluator(path, data, options)? });
-        Ok(())
-    }
-
-    fn finish(self, path: &Path, (format, source): (Format, Vec<(String, String)>)) -> Result<Material, OpenError> {
-        let Parts { parts, mirrors } = self;
-        let not_a_table = |found: &'static str| OpenError::NotATable { file: path.display().to_string(), found };
-        let channels = parts.first().ok_or_else(|| not_a_table("mirror reflectances"))?.evaluator.channels().clone();
-        let differ = parts.iter().any(|part| *part.evaluator.channels() != channels)
-            || mirrors.iter().any(|mirror| *mirror.data.channels() != channels);
-        if differ {
-            return Err(not_a_table("parts with different channels"));
-        }
-        let evaluator = Box::new(sheet::Sheet { channels, parts });
-        Ok(Material { format, source, evaluator, mirrors, backend: Backend::detect()? })
-    }
-}
-
-fn evaluator(path: &Path, data: Data, options: &Options) -> Result<Box<dyn Evaluator>, OpenError> {
-    let not_a_table = |found: &'static str| OpenError::NotATable { file: path.display().to_string(), found };
-    let too_large = |error| OpenError::TooLarge { file: path.display().to_string(), source: error };
-    Ok(match data {
-        Data::Specular(data) => Box::new(Brdf::new(&data, &options.edges)?),
-        Data::Spherical(data) => Box::new(lobe_table::spherical::Table::new(&data)?),
-        Data::Scattered(data) => Box::new(data),
-        Data::Rgl(data) => {
-            let table = lobe_table::rgl::Table::new(&data, lobe_table::rgl::Options::default()).map_err(too_large)?;
-            Box::new(rgl::Parametrised { table, indexed_by: options.indexed_by })
-        }
-        Data::HalfDiff(data) => {
-            let table = lobe_table::half_diff::Table::new(&data).map_err(too_large)?;
-            Box::new(half_diff::HalfDifference { table, lookup: options.lookup })
-        }
-        Data::Utia(data) => {
-            let table = lobe_table::utia::Table::new(&data, options.decode).map_err(too_large)?;
-            Box::new(utia::UtiaGrid { table })
-        }
-        Data::Mueller(data) => Box::new(mueller::Polarised::new(data).map_err(too_large)?),
-        Data::Window(data) => Box::new(window::Bands::new(data).map_err(too_large)?),
-        other => return Err(not_a_table(other.representation().kind().name())),
-    })
+/// Where a material comes from.
+#[derive(Debug)]
+struct Origin {
+    format: Option<Format>,
+    source: Vec<(String, String)>,
+    kind: Kind,
 }
 
 /// A measured material in the form in which it was measured: nothing is resampled.
 ///
 /// `wi` points to the light and `wo` to the viewer: unit vectors away from the surface, normal on +z. Values are `f` in
-/// 1/sr, without the cosine, one per channel. All representations are evaluated in the SIMD lanes of the backend, except for
-/// scattered samples, which are evaluated in `f64`, pair by pair.
+/// 1/sr, without the cosine, one per channel. All representations are evaluated in the SIMD lanes of the backend, except
+/// for those that have no form in lanes, which are evaluated in `f64`, pair by pair.
+///
+/// Batches of [`PARALLEL_FROM`](crate::PARALLEL_FROM) queries or more are shared among the threads of the current rayon
+/// pool (feature `rayon`); results are the same bits for any number of threads.
 ///
 /// ```no_run
 /// let material = lobe::Material::open("paint.bsdf")?;
@@ -118,84 +46,13 @@ fn evaluator(path: &Path, data: Data, options: &Options) -> Result<Box<dyn Evalu
 /// ```
 #[derive(Debug)]
 pub struct Material {
-    format: Format,
-    source: Vec<(String, String)>,
-    evaluator: Box<dyn Evaluator>,
+    origin: Origin,
+    bsdf: Box<dyn Bsdf>,
     mirrors: Vec<Mirror>,
     backend: Backend,
 }
 
 impl Material {
-    /// Opens a file of any format that `lobe_formats` reads, on the detected backend.
-    ///
-    /// # Errors
-    /// [`OpenError`] where the file cannot be read or holds nothing that has a value for a pair of directions, or
-    /// `LOBE_BACKEND` is wrong.
-    pub fn open(path: impl AsRef<Path>) -> Result<Self, OpenError> {
-        Material::open_with(path, &Options::default())
-    }
-
-    /// As [`open`](Material::open), with answers to what the file leaves open.
-    ///
-    /// # Errors
-    /// As [`open`](Material::open).
-    pub fn open_with(path: impl AsRef<Path>, options: &Options) -> Result<Self, OpenError> {
-        let path = path.as_ref();
-        let (format, document) = lobe_formats::open(path)?;
-        Material::new(path, format, document, options)
-    }
-
-    /// The material of a document that was read from `path`, which is named in errors.
-    ///
-    /// # Errors
-    /// As [`open`](Material::open).
-    pub fn new(path: &Path, format: Format, document: Document, options: &Options) -> Result<Self, OpenError> {
-        let Document { mut parts, source, .. } = document;
-        if let [formats::Part { side: None, .. }] = parts.as_slice()
-            && let Some(part) = parts.pop()
-        {
-            let evaluator = evaluator(path, part.data, options)?;
-            return Ok(Material { format, source, evaluator, mirrors: Vec::new(), backend: Backend::detect()? });
-        }
-        let mut sheet = Parts::default();
-        for part in parts {
-            sheet.add(path, part.side, part.data, options)?;
-        }
-        sheet.finish(path, (format, source))
-    }
-
-    /// A sheet of which both sides, and both ways through, were measured into files of their own: those measured with
-    /// light on the front (z > 0), and those with light on the back, each with its own side up. Files of mirror
-    /// reflectance (SDR) and of transmittance straight through (SDT) are its [mirrors](Material::mirror).
-    ///
-    /// Transmission that was measured in one direction only is the same in the other one; a side without reflection is
-    /// black.
-    ///
-    /// # Errors
-    /// As [`open`](Material::open), and if the files do not have the same channels, or one of them is a sheet itself.
-    pub fn open_sheet<P: AsRef<Path>>(front: &[P], back: &[P], options: &Options) -> Result<Self, OpenError> {
-        let mut parts_of_sheet = Parts::default();
-        let sides = [(front, Side::Front), (back, Side::Back)];
-        let mut last = None;
-        for (path, side) in sides.iter().flat_map(|(paths, side)| paths.iter().map(|path| (path.as_ref(), *side))) {
-            let (format, document) = lobe_formats::open(path)?;
-            let Document { mut parts, source, .. } = document;
-            let is_two_sided = |part: &formats::Part| part.data.representation().is_two_sided();
-            let (Some(part), true) =
-                (parts.pop().filter(|part| part.side.is_none() && !is_two_sided(part)), parts.is_empty())
-            else {
-                let found = "data that are no part of a sheet";
-                return Err(OpenError::NotATable { file: path.display().to_string(), found });
-            };
-            parts_of_sheet.add(path, Some(side), part.data, options)?;
-            last = Some((path, (format, source)));
-        }
-        let Some((path, what)) = last else {
-            return Err(OpenError::NotATable { file: "a sheet".into(), found: "no files" });
-        };
-        parts_of_sheet.finish(path, what)
-    }
-
     /// The same material on another backend.
     pub fn with_backend(self, backend: Backend) -> Self {
         Material { backend, ..self }
@@ -206,24 +63,24 @@ impl Material {
         self.backend
     }
 
-    /// The format of the file.
-    pub fn format(&self) -> Format {
-        self.format
+    /// The format of the file, if it was read from one.
+    pub fn format(&self) -> Option<Format> {
+        self.origin.format
     }
 
-    /// The representation.
+    /// The representation: the `KIND` of its module, or [`SHEET`].
     pub fn kind(&self) -> Kind {
-        self.evaluator.kind()
+        self.origin.kind
     }
 
     /// What the header of the file says: names and values in its order.
     pub fn source(&self) -> &[(String, String)] {
-        &self.source
+        &self.origin.source
     }
 
     /// What the channels stand for.
     pub fn channels(&self) -> &Channels {
-        self.evaluator.channels()
+        self.bsdf.channels()
     }
 
     /// How many channels a value has.
@@ -231,7 +88,7 @@ impl Material {
         self.channels().count()
     }
 
-    /// The wavelength of each channel in nm, where channels are wavelengths.
+    /// The wavelength of each channel in nm, if channels are wavelengths.
     pub fn wavelengths(&self) -> Option<&[f64]> {
         match self.channels() {
             Channels::Spectral(wavelengths) => Some(wavelengths),
@@ -241,27 +98,27 @@ impl Material {
 
     /// Bytes of memory that the data take.
     pub fn bytes(&self) -> usize {
-        self.evaluator.bytes()
+        self.bsdf.bytes()
     }
 
-    /// `true` where values do not depend on the rotation of the sample.
+    /// `true` if values do not depend on the rotation of the sample.
     pub fn is_isotropic(&self) -> bool {
-        self.evaluator.is_isotropic()
+        self.bsdf.is_isotropic()
     }
 
-    /// Whether there are values for light from the side of z > 0 (`front`), or from that of z < 0, that is reflected or
-    /// transmitted.
-    pub fn holds(&self, front: bool, scatter: Scatter) -> bool {
-        self.evaluator.holds(front, scatter)
+    /// Whether there are values for light from a side that is reflected, or transmitted.
+    pub fn holds(&self, aspect: Aspect) -> bool {
+        self.bsdf.holds(aspect)
     }
 
-    /// The share of the light from `wi` that is mirrored, or goes straight through, into `out`, one value a channel; and
-    /// where it goes. `None` where that was not measured. These have no value for a pair of directions.
+    /// The share of the light from `wi` that is mirrored, or goes straight through, into `out`, one value per channel; and
+    /// where it goes. `None` if that was not measured. These have no value for a pair of directions.
     ///
     /// # Panics
-    /// Where `out` is not as long as there are channels.
+    /// If `out` is not as long as there are channels.
     pub fn mirror(&self, wi: [f32; 3], scatter: Scatter, out: &mut [f32]) -> Option<[f32; 3]> {
-        let mirror = self.mirrors.iter().find(|mirror| mirror.answers(wi[2] > 0.0, scatter))?;
+        let aspect = Aspect { scatter, light: Side::of(wi) };
+        let mirror = self.mirrors.iter().find(|mirror| mirror.answers(aspect))?;
         out.copy_from_slice(&mirror.reflectance(wi));
         Some(mirrored(wi, scatter))
     }
@@ -271,40 +128,140 @@ impl Material {
         !self.mirrors.is_empty()
     }
 
-    /// What makes a sampler better than the values alone do.
-    pub(crate) fn native(&self) -> Native<'_> {
-        self.evaluator.native()
+    /// The table, if the material is one in specular coordinates, for its axes, and for evaluation in lanes inside a kernel
+    /// of your own.
+    pub fn specular_table(&self) -> Option<&Arc<specular::Table>> {
+        self.bsdf.specular_table()
     }
 
-    /// Evaluates one pair into `out`, one value a channel. For many pairs use [`eval_batch`](Material::eval_batch).
+    /// The function without the backend, for what takes any [`Bsdf`].
+    pub fn bsdf(&self) -> &dyn Bsdf {
+        &*self.bsdf
+    }
+
+    /// Evaluates one pair into `out`, one value per channel. For many pairs use [`eval_batch`](Material::eval_batch).
     ///
     /// # Panics
-    /// Where `out` is not as long as there are channels.
+    /// If `out` is not as long as there are channels.
     pub fn eval(&self, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
-        self.eval_batch(&[wi], &[wo], out);
+        fitting(self.try_eval(wi, wo, out));
     }
 
-    /// Evaluates many pairs: `out[query * channel_count + channel]`.
+    /// As [`eval`](Material::eval), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// If `out` is not as long as there are channels.
+    pub fn try_eval(&self, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) -> Result<(), ShapeError> {
+        expect("values", out.len(), self.channel_count())?;
+        self.bsdf.eval(self.backend, wi, wo, out);
+        Ok(())
+    }
+
+    /// Evaluates many pairs: `out[query * channel_count + channel]`. `wi` and `wo` are slices of vectors, or
+    /// [columns](Directions::columns) of components.
     ///
     /// # Panics
-    /// Where there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
-    pub fn eval_batch(&self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        self.eval_batch_on(self.backend, wi, wo, out);
+    /// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+    pub fn eval_batch<'a>(&self, wi: impl Into<Directions<'a>>, wo: impl Into<Directions<'a>>, out: &mut [f32]) {
+        fitting(self.try_eval_batch(wi, wo, out));
+    }
+
+    /// As [`eval_batch`](Material::eval_batch), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+    pub fn try_eval_batch<'a>(
+        &self,
+        wi: impl Into<Directions<'a>>,
+        wo: impl Into<Directions<'a>>,
+        out: &mut [f32],
+    ) -> Result<(), ShapeError> {
+        self.try_eval_on(self.backend, wi.into(), wo.into(), out)
     }
 
     /// As [`eval_batch`](Material::eval_batch), on the backend given: for a renderer that chooses one for all of a picture.
     ///
     /// # Panics
     /// As [`eval_batch`](Material::eval_batch).
-    pub fn eval_batch_on(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        assert_eq!(wi.len(), wo.len(), "as many wi as wo");
-        assert_eq!(out.len(), wi.len() * self.channel_count(), "one output a query and channel");
-        self.evaluator.eval_batch(backend, wi, wo, out);
+    pub fn eval_batch_on<'a>(
+        &self,
+        backend: Backend,
+        wi: impl Into<Directions<'a>>,
+        wo: impl Into<Directions<'a>>,
+        out: &mut [f32],
+    ) {
+        fitting(self.try_eval_on(backend, wi.into(), wo.into(), out));
+    }
+
+    fn try_eval_on(
+        &self,
+        backend: Backend,
+        wi: Directions<'_>,
+        wo: Directions<'_>,
+        out: &mut [f32],
+    ) -> Result<(), ShapeError> {
+        let (count, channels) = (length(wi)?, self.channel_count());
+        expect("directions wo", length(wo)?, count)?;
+        expect("values", out.len(), count * channels)?;
+        parallel::fill(channels, out, &|range, out| {
+            self.bsdf.eval_batch(backend, wi.part(range.clone()), wo.part(range), out);
+        });
+        Ok(())
     }
 
     /// The Mueller matrix in 1/sr for light from `wi` to `wo` at a wavelength in nm, in the Stokes frames of
-    /// [`stokes_basis`](lobe_table::mueller::stokes_basis). `None` where the representation has no polarisation.
+    /// [`stokes_basis`](lobe_table::mueller::stokes_basis). `None` if the representation has no polarisation.
     pub fn mueller(&self, wi: [f32; 3], wo: [f32; 3], nm: f64) -> Option<Matrix> {
-        self.evaluator.mueller(wi, wo, nm)
+        self.bsdf.mueller(wi, wo, nm)
+    }
+}
+
+/// How many directions there are.
+fn length(directions: Directions<'_>) -> Result<usize, ShapeError> {
+    match directions {
+        Directions::Vectors(vectors) => Ok(vectors.len()),
+        Directions::Columns([x, y, z]) => {
+            expect("components y", y.len(), x.len())?;
+            expect("components z", z.len(), x.len())?;
+            Ok(x.len())
+        }
+    }
+}
+
+/// Evaluated as [`Material::eval_batch_on`]; sampled in proportion to the cosine, which a [`Sampler`](crate::Sampler) does
+/// better. [Mirrors](Material::mirror) have no value and no density.
+impl Bsdf for Material {
+    fn channels(&self) -> &Channels {
+        self.bsdf.channels()
+    }
+
+    fn holds(&self, aspect: Aspect) -> bool {
+        self.bsdf.holds(aspect)
+    }
+
+    fn is_isotropic(&self) -> bool {
+        self.bsdf.is_isotropic()
+    }
+
+    fn bytes(&self) -> usize {
+        self.bsdf.bytes()
+    }
+
+    fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        self.eval_batch_on(backend, wi, wo, out);
+    }
+
+    fn mueller(&self, wi: [f32; 3], wo: [f32; 3], nm: f64) -> Option<Matrix> {
+        self.bsdf.mueller(wi, wo, nm)
+    }
+
+    fn specular_table(&self) -> Option<&Arc<specular::Table>> {
+        self.bsdf.specular_table()
+    }
+}
+
+impl<'a> From<&'a Material> for OnBackend<'a> {
+    fn from(material: &'a Material) -> Self {
+        OnBackend::new(material, material.backend)
     }
 }

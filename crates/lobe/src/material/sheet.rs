@@ -1,9 +1,11 @@
 //! Several measurements of one sheet: the sides of the two directions choose which of them answers.
 
-use lobe_table::{Channels, Scatter, Side};
+use lobe_table::{Aspect, Bsdf, Channels, Directions, Kind, Scatter, Side};
 
-use super::evaluator::Evaluator;
-use crate::{Backend, Kind};
+use crate::Backend;
+
+/// What a sheet is called, of which there are several measurements.
+pub const SHEET: Kind = Kind::new("sheet");
 
 /// A measurement, and for which directions it holds.
 #[derive(Debug)]
@@ -11,7 +13,7 @@ pub(super) struct Part {
     pub(super) scatter: Scatter,
     /// `None` holds for both sides.
     pub(super) side: Option<Side>,
-    pub(super) evaluator: Box<dyn Evaluator>,
+    pub(super) bsdf: Box<dyn Bsdf>,
 }
 
 impl Part {
@@ -30,7 +32,7 @@ impl Part {
     }
 }
 
-/// The same direction where the other side is up.
+/// The same direction with the other side up.
 pub(crate) fn flipped([x, y, z]: [f32; 3]) -> [f32; 3] {
     [x, y, -z]
 }
@@ -44,42 +46,41 @@ pub(super) struct Sheet {
 
 impl Sheet {
     /// Whether a part was measured with light from that side.
-    fn measures(&self, front: bool, scatter: Scatter) -> bool {
-        let side = if front { Side::Front } else { Side::Back };
-        self.parts.iter().any(|part| part.scatter == scatter && part.side.is_none_or(|of| of == side))
+    fn measures(&self, aspect: Aspect) -> bool {
+        let fits = |part: &Part| part.scatter == aspect.scatter && part.side.is_none_or(|side| side == aspect.light);
+        self.parts.iter().any(fits)
     }
 }
 
-impl Evaluator for Sheet {
-    fn kind(&self) -> Kind {
-        Kind::Sheet
-    }
-
+impl Bsdf for Sheet {
     fn channels(&self) -> &Channels {
         &self.channels
     }
 
     fn bytes(&self) -> usize {
-        self.parts.iter().map(|part| part.evaluator.bytes()).sum()
+        self.parts.iter().map(|part| part.bsdf.bytes()).sum()
     }
 
     fn is_isotropic(&self) -> bool {
-        self.parts.iter().all(|part| part.evaluator.is_isotropic())
+        self.parts.iter().all(|part| part.bsdf.is_isotropic())
     }
 
-    fn holds(&self, front: bool, scatter: Scatter) -> bool {
-        self.measures(front, scatter) || (scatter == Scatter::Transmission && self.measures(!front, scatter))
+    fn holds(&self, aspect: Aspect) -> bool {
+        self.measures(aspect) || (aspect.scatter == Scatter::Transmission && self.measures(aspect.reversed()))
     }
 
     /// Transmission that was measured in one direction only is the same in the other one (Helmholtz reciprocity).
-    fn eval_batch(&self, backend: Backend, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
-        let channels = self.channels.count();
+    fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        let (count, channels) = (wi.count(), self.channels.count());
+        assert_eq!(count, wo.count(), "as many wi as wo");
+        assert_eq!(out.len(), count * channels, "one value per query and channel");
         out.fill(0.0);
-        let through = [true, false].map(|front| self.measures(front, Scatter::Transmission));
+        let transmission = |light| Aspect { scatter: Scatter::Transmission, light };
+        let through = [Side::Front, Side::Back].map(|light| self.measures(transmission(light)));
         for part in &self.parts {
             let (mut queries, mut lights, mut viewers) = (Vec::new(), Vec::new(), Vec::new());
-            for query in 0..wi.len() {
-                let (mut light, mut viewer) = (wi[query], wo[query]);
+            for query in 0..count {
+                let (mut light, mut viewer) = (wi.get(query), wo.get(query));
                 if part.scatter == Scatter::Transmission && !through[usize::from(light[2] < 0.0)] {
                     (light, viewer) = (viewer, light);
                 }
@@ -94,7 +95,7 @@ impl Evaluator for Sheet {
                 }
             }
             let mut values = vec![0.0; queries.len() * channels];
-            part.evaluator.eval_batch(backend, &lights, &viewers, &mut values);
+            part.bsdf.eval_batch(backend, (&lights).into(), (&viewers).into(), &mut values);
             for (&query, value) in queries.iter().zip(values.chunks_exact(channels)) {
                 out[query * channels..][..channels].copy_from_slice(value);
             }

@@ -1,14 +1,14 @@
 //! A mixture of lobes: for each side a lobe of reflection and one of transmission, and mirrors.
 
 use lobe_table::{
-    Distribution, DistributionError, DistributionOptions, Given, PatchSampler, Sampled, SamplerError, Scatter,
+    Aspect, Distribution, DistributionOptions, Given, PatchSampler, Sampled, SamplerError, Scatter, Side,
 };
 
-use super::weigh;
-use crate::Material;
-use crate::material::{Native, flipped, mirrored};
+use crate::material::{flipped, mirrored};
+use crate::{Backend, Material};
 
 const SCATTERS: [Scatter; 2] = [Scatter::Reflection, Scatter::Transmission];
+const SIDES: [Side; 2] = [Side::Front, Side::Back];
 
 /// The lobes of light from the front and from the back, of reflection and of transmission.
 #[derive(Debug)]
@@ -31,21 +31,22 @@ impl Lobes {
         luminance: Vec<f32>,
         progress: &mut dyn FnMut(usize, usize),
     ) -> Result<Self, SamplerError> {
-        let ways = [true, false].map(|front| SCATTERS.map(|scatter| material.holds(front, scatter)));
+        let ways = SIDES.map(|light| SCATTERS.map(|scatter| material.holds(Aspect { scatter, light })));
         let count = ways.iter().flatten().filter(|&&holds| holds).count().max(1);
         let mut done = 0;
         let mut lobe = |front: usize, way: usize| -> Result<Option<Lobe>, SamplerError> {
             if !ways[front][way] {
                 return Ok(None);
             }
-            let (is_front, scatter) = (front == 0, SCATTERS[way]);
-            if let Some(patches) = patches(material, is_front, scatter, (&luminance, defensive))? {
+            let aspect = Aspect { scatter: SCATTERS[way], light: SIDES[front] };
+            let is_front = aspect.light == Side::Front;
+            if let Some(patches) = material.bsdf().patches(aspect, &luminance, defensive)? {
                 return Ok(Some(Lobe::Patches(patches)));
             }
             let bytes = (material.bytes() + material.bytes() / 2) / count;
-            let mut options = DistributionOptions::unknown(scatter, material.is_isotropic(), bytes);
+            let mut options = DistributionOptions::unknown(aspect.scatter, material.is_isotropic(), bytes);
             options.defensive = defensive;
-            let mut side = Side { material, is_front, luminance: &luminance, values: Vec::new() };
+            let mut side = LitSide { material, is_front, luminance: &luminance, values: Vec::new() };
             let mut light = |wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]| side.fill(wi, wo, out);
             let mut progress = |slice: usize, all: usize| progress(done * all + slice, count * all);
             let distribution = Distribution::of_function(material.backend(), &options, &mut light, &mut progress)?;
@@ -73,8 +74,7 @@ impl Lobes {
     }
 
     /// How likely each lobe is for each direction: reflection, transmission, and the mirrors of both.
-    fn shares(&self, material: &Material, known: &[[f32; 3]]) -> Vec<[f32; 4]> {
-        let backend = material.backend();
+    fn shares(&self, material: &Material, backend: Backend, known: &[[f32; 3]]) -> Vec<[f32; 4]> {
         let mut shares = vec![[0.0; 4]; known.len()];
         for (front, way, lobe) in self.each() {
             let queries = of_side(known, front);
@@ -116,15 +116,15 @@ impl Lobes {
     pub(super) fn draw(
         &self,
         material: &Material,
+        backend: Backend,
         known: &[[f32; 3]],
         u: &[[f32; 2]],
         directions: &mut [[f32; 3]],
         pdfs: &mut [f32],
     ) -> Vec<(usize, f32)> {
-        let backend = material.backend();
         directions.fill([0.0; 3]);
         pdfs.fill(0.0);
-        let shares = self.shares(material, known);
+        let shares = self.shares(material, backend, known);
         // The first number chooses the lobe, and what is left of it is as even as it was.
         let chosen: Vec<(usize, [f32; 2])> = shares.iter().zip(u).map(|(shares, &u)| choose(shares, u)).collect();
         for (front, way, lobe) in self.each() {
@@ -160,16 +160,17 @@ impl Lobes {
     pub(super) fn sample(
         &self,
         material: &Material,
+        backend: Backend,
         given: Given,
         known: &[[f32; 3]],
         u: &[[f32; 2]],
-        out: Sampled<'_>,
+        mut out: Sampled<'_>,
     ) {
         let channels = material.channel_count();
-        let lobes = self.draw(material, known, u, out.directions, out.pdfs);
+        let lobes = self.draw(material, backend, known, u, out.directions, out.pdfs);
         let (wi, wo) = if given == Given::Light { (known, &*out.directions) } else { (&*out.directions, known) };
-        material.eval_batch(wi, wo, out.weights);
-        weigh(out.weights, channels, out.directions, out.pdfs);
+        material.eval_batch_on(backend, wi, wo, out.weights);
+        out.times_cosine_over_density();
         for (query, &(lobe, share)) in lobes.iter().enumerate().filter(|(_, (lobe, _))| *lobe >= 2) {
             let weight = &mut out.weights[query * channels..][..channels];
             if material.mirror(known[query], SCATTERS[lobe - 2], weight).is_some() {
@@ -178,9 +179,15 @@ impl Lobes {
         }
     }
 
-    pub(super) fn pdf(&self, material: &Material, known: &[[f32; 3]], other: &[[f32; 3]], pdfs: &mut [f32]) {
-        let backend = material.backend();
-        let shares = self.shares(material, known);
+    pub(super) fn pdf(
+        &self,
+        material: &Material,
+        backend: Backend,
+        known: &[[f32; 3]],
+        other: &[[f32; 3]],
+        pdfs: &mut [f32],
+    ) {
+        let shares = self.shares(material, backend, known);
         pdfs.fill(0.0);
         for (front, way, lobe) in self.each() {
             let mut queries = of_side(known, front);
@@ -202,28 +209,15 @@ impl Lobes {
     }
 }
 
-/// The lobe of Klems matrices, where that is what the material has for this way of light.
-fn patches(
-    material: &Material,
-    front: bool,
-    scatter: Scatter,
-    (luminance, defensive): (&[f32], f32),
-) -> Result<Option<PatchSampler>, DistributionError> {
-    let Native::Klems(windows) = material.native() else { return Ok(None) };
-    let Some(matrices) = windows.block(front, scatter) else { return Ok(None) };
-    let channels: Vec<_> = matrices.into_iter().zip(luminance.iter().copied()).collect();
-    PatchSampler::new(scatter, &channels, defensive)
-}
-
 /// A material lit from one side.
-struct Side<'a> {
+struct LitSide<'a> {
     material: &'a Material,
     is_front: bool,
     luminance: &'a [f32],
     values: Vec<f32>,
 }
 
-impl Side<'_> {
+impl LitSide<'_> {
     /// Luminance times `f` of pairs that are given with this side up.
     fn fill(&mut self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         let channels = self.luminance.len();

@@ -4,11 +4,11 @@ mod lobes;
 
 use std::sync::Arc;
 
-use lobe_table::rgl::{Drawn, UniformOrder, Wanted};
-use lobe_table::{Given, Sampled, SamplerError, SamplerOptions, luminance};
+use lobe_table::bsdf::Scheme;
+use lobe_table::{Aspect, Bsdf, Channels, Directions, Given, Sampled, SamplerError, SamplerOptions, luminance};
 
-use crate::Material;
-use crate::material::Native;
+use crate::error::{ShapeError, expect, fitting};
+use crate::{Backend, Material, parallel};
 use lobes::Lobes;
 
 /// A material and what is needed to sample directions in proportion to luminance times `f` times cosine.
@@ -35,14 +35,15 @@ use lobes::Lobes;
 #[derive(Clone, Debug)]
 pub struct Sampler {
     material: Arc<Material>,
-    scheme: Scheme,
+    distribution: Distribution,
 }
 
+/// How directions are drawn.
 #[derive(Clone, Debug)]
-enum Scheme {
-    Table(Box<lobe_table::Sampler>),
-    /// The scheme is in the material.
-    Rgl,
+enum Distribution {
+    /// The representation has a scheme of its own.
+    Own(Scheme),
+    /// A lobe for each side and way.
     Lobes(Arc<Lobes>),
 }
 
@@ -50,7 +51,7 @@ impl Sampler {
     /// Builds the distributions of a material.
     ///
     /// # Errors
-    /// Where the options make no sense for this material.
+    /// If the options make no sense for this material.
     pub fn new(material: Arc<Material>, options: &SamplerOptions) -> Result<Self, SamplerError> {
         Sampler::with_progress(material, options, &mut |_, _| {})
     }
@@ -64,23 +65,20 @@ impl Sampler {
         options: &SamplerOptions,
         progress: &mut dyn FnMut(usize, usize),
     ) -> Result<Self, SamplerError> {
-        let scheme = match material.native() {
-            Native::Table(brdf) if !material.has_mirrors() => {
-                let table = brdf.table().clone();
-                let sampler = lobe_table::Sampler::with_progress(material.backend(), table, options, progress)?;
-                Scheme::Table(Box::new(sampler))
-            }
-            Native::Rgl(_) if !material.has_mirrors() => Scheme::Rgl,
-            _ => {
-                let weights = options.luminance.clone().unwrap_or_else(|| luminance(material.channels()));
-                let channels = material.channel_count();
-                if weights.len() != channels || !weights.iter().all(|&y| y.is_finite() && y >= 0.0) {
-                    return Err(SamplerError::Luminance { found: weights, channels });
-                }
-                Scheme::Lobes(Arc::new(Lobes::new(&material, options.defensive, weights, progress)?))
-            }
+        let own = match material.has_mirrors() {
+            false => material.bsdf().sampled(material.backend(), options, progress)?,
+            true => None,
         };
-        Ok(Sampler { material, scheme })
+        if let Some(scheme) = own {
+            return Ok(Sampler { material, distribution: Distribution::Own(scheme) });
+        }
+        let weights = options.luminance.clone().unwrap_or_else(|| luminance(material.channels()));
+        let channels = material.channel_count();
+        if weights.len() != channels || !weights.iter().all(|&y| y.is_finite() && y >= 0.0) {
+            return Err(SamplerError::Luminance { found: weights, channels });
+        }
+        let lobes = Arc::new(Lobes::new(&material, options.defensive, weights, progress)?);
+        Ok(Sampler { material, distribution: Distribution::Lobes(lobes) })
     }
 
     /// The material that is sampled.
@@ -91,20 +89,19 @@ impl Sampler {
     /// Bytes of memory that the distributions take beside the material: at most one and a half times what it takes, but
     /// for the tiniest.
     pub fn bytes(&self) -> usize {
-        match &self.scheme {
-            Scheme::Table(sampler) => sampler.bytes(),
-            Scheme::Rgl => 0,
-            Scheme::Lobes(lobes) => lobes.bytes(),
+        match &self.distribution {
+            Distribution::Own(scheme) => scheme.bytes,
+            Distribution::Lobes(lobes) => lobes.bytes(),
         }
     }
 
     /// Samples one direction for two numbers in `[0, 1)`. Returns it with its density, and `weight` is set to `f` times
-    /// cosine over the density, one value a channel. Where the draw leads nowhere, everything is 0.
+    /// cosine over the density, one value per channel. If the draw leads nowhere, everything is 0.
     ///
     /// A mirror has a density of infinity, and its weight is its reflectance over the probability of choosing it.
     ///
     /// # Panics
-    /// Where `weight` is not as long as there are channels.
+    /// If `weight` is not as long as there are channels.
     pub fn sample(&self, given: Given, direction: [f32; 3], u: [f32; 2], weight: &mut [f32]) -> ([f32; 3], f32) {
         let (mut sampled, mut pdf) = ([[0.0; 3]], [0.0]);
         let out = Sampled { directions: &mut sampled, weights: weight, pdfs: &mut pdf };
@@ -123,69 +120,107 @@ impl Sampler {
     /// Samples a direction for each direction given, as [`sample`](Sampler::sample).
     ///
     /// # Panics
-    /// Where `u` or a part of `out` does not have one entry a direction, and the weights one more a channel.
+    /// If `u` or a part of `out` does not have one entry per direction, or the weights one more per channel.
     pub fn sample_batch(&self, given: Given, directions: &[[f32; 3]], u: &[[f32; 2]], out: Sampled<'_>) {
-        let (count, channels, backend) = (directions.len(), self.material.channel_count(), self.material.backend());
-        assert_eq!(u.len(), count, "a pair of numbers a direction");
-        assert_eq!((out.directions.len(), out.pdfs.len()), (count, count), "an output a direction");
-        assert_eq!(out.weights.len(), count * channels, "a weight a direction and channel");
-        match &self.scheme {
-            Scheme::Table(sampler) => sampler.sample_batch(backend, given, directions, u, out),
-            Scheme::Rgl => {
-                let Native::Rgl(rgl) = self.material.native() else { return };
-                let drawn = Drawn { wo: out.directions, pdf: out.pdfs, weights: out.weights };
-                rgl.table.sample_batch(backend, directions.into(), u, UniformOrder::default(), drawn);
-                if given != rgl.indexed_by {
-                    // These are the weights with light and viewer exchanged.
-                    let found = &*out.directions;
-                    let (wi, wo) = if given == Given::Light { (directions, found) } else { (found, directions) };
-                    self.material.eval_batch(wi, wo, out.weights);
-                    weigh(out.weights, channels, found, out.pdfs);
-                }
+        fitting(self.try_sample_batch(given, directions, u, out));
+    }
+
+    /// As [`sample_batch`](Sampler::sample_batch), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// If `u` or a part of `out` does not have one entry per direction, or the weights one more per channel.
+    pub fn try_sample_batch(
+        &self,
+        given: Given,
+        directions: &[[f32; 3]],
+        u: &[[f32; 2]],
+        out: Sampled<'_>,
+    ) -> Result<(), ShapeError> {
+        let count = directions.len();
+        expect("pairs of numbers", u.len(), count)?;
+        expect("sampled directions", out.directions.len(), count)?;
+        expect("densities", out.pdfs.len(), count)?;
+        expect("weights", out.weights.len(), count * self.material.channel_count())?;
+        self.sample_on(self.material.backend(), given, directions, u, out);
+        Ok(())
+    }
+
+    fn sample_on(&self, backend: Backend, given: Given, known: &[[f32; 3]], u: &[[f32; 2]], out: Sampled<'_>) {
+        parallel::sample(self.material.channel_count(), out, &|range, out| {
+            let (known, u) = (&known[range.clone()], &u[range]);
+            match &self.distribution {
+                Distribution::Own(scheme) => scheme.bsdf.sample_batch(backend, given, known, u, out),
+                Distribution::Lobes(lobes) => lobes.sample(&self.material, backend, given, known, u, out),
             }
-            Scheme::Lobes(lobes) => lobes.sample(&self.material, given, directions, u, out),
-        }
+        });
     }
 
     /// Draws directions and their densities as [`sample_batch`](Sampler::sample_batch) does, without the weights: for
     /// programs that evaluate later. A density of infinity is a mirror's.
     ///
     /// # Panics
-    /// Where the slices do not have the same length.
+    /// If the slices do not have the same length.
     pub fn draw_batch(&self, known: &[[f32; 3]], u: &[[f32; 2]], directions: &mut [[f32; 3]], pdfs: &mut [f32]) {
+        self.draw_on(self.material.backend(), known, u, directions, pdfs);
+    }
+
+    fn draw_on(
+        &self,
+        backend: Backend,
+        known: &[[f32; 3]],
+        u: &[[f32; 2]],
+        directions: &mut [[f32; 3]],
+        pdfs: &mut [f32],
+    ) {
         let count = known.len();
-        assert_eq!((u.len(), directions.len(), pdfs.len()), (count, count, count), "one of each a direction");
-        let backend = self.material.backend();
-        match &self.scheme {
-            Scheme::Table(sampler) => {
-                sampler.distribution().draw_batch(backend, known, u, directions, pdfs);
+        assert_eq!((u.len(), directions.len(), pdfs.len()), (count, count, count), "one of each per direction");
+        parallel::fill_both(1, directions, pdfs, &|range, directions, pdfs| {
+            let (known, u) = (&known[range.clone()], &u[range]);
+            match &self.distribution {
+                Distribution::Own(scheme) => scheme.bsdf.draw_batch(backend, known, u, directions, pdfs),
+                Distribution::Lobes(lobes) => {
+                    lobes.draw(&self.material, backend, known, u, directions, pdfs);
+                }
             }
-            Scheme::Rgl => {
-                let mut weights = vec![0.0; count * self.material.channel_count()];
-                self.sample_batch(Given::Light, known, u, Sampled { directions, weights: &mut weights, pdfs });
-            }
-            Scheme::Lobes(lobes) => {
-                lobes.draw(&self.material, known, u, directions, pdfs);
-            }
-        }
+        });
     }
 
     /// The densities of many pairs, as [`pdf`](Sampler::pdf).
     ///
     /// # Panics
-    /// Where there are not as many `wi` as `wo` and `pdfs`.
+    /// If there are not as many `wi` as `wo` and `pdfs`.
     pub fn pdf_batch(&self, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], pdfs: &mut [f32]) {
-        assert_eq!((wi.len(), wo.len()), (pdfs.len(), pdfs.len()), "as many wi as wo and densities");
-        let backend = self.material.backend();
-        let (known, other) = if given == Given::Light { (wi, wo) } else { (wo, wi) };
-        match &self.scheme {
-            Scheme::Table(sampler) => sampler.distribution().pdf_batch(backend, known, other, pdfs),
-            Scheme::Rgl => {
-                let Native::Rgl(rgl) = self.material.native() else { return };
-                rgl.table.pdf_batch(backend, known.into(), other.into(), pdfs);
+        fitting(self.try_pdf_batch(given, wi, wo, pdfs));
+    }
+
+    /// As [`pdf_batch`](Sampler::pdf_batch), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// If there are not as many `wi` as `wo` and `pdfs`.
+    pub fn try_pdf_batch(
+        &self,
+        given: Given,
+        wi: &[[f32; 3]],
+        wo: &[[f32; 3]],
+        pdfs: &mut [f32],
+    ) -> Result<(), ShapeError> {
+        expect("directions wo", wo.len(), wi.len())?;
+        expect("densities", pdfs.len(), wi.len())?;
+        self.pdf_on(self.material.backend(), given, wi, wo, pdfs);
+        Ok(())
+    }
+
+    fn pdf_on(&self, backend: Backend, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], pdfs: &mut [f32]) {
+        parallel::fill(1, pdfs, &|range, pdfs| {
+            let (wi, wo) = (&wi[range.clone()], &wo[range]);
+            match &self.distribution {
+                Distribution::Own(scheme) => scheme.bsdf.pdf_batch(backend, given, wi, wo, pdfs),
+                Distribution::Lobes(lobes) => {
+                    let (known, other) = if given == Given::Light { (wi, wo) } else { (wo, wi) };
+                    lobes.pdf(&self.material, backend, known, other, pdfs);
+                }
             }
-            Scheme::Lobes(lobes) => lobes.pdf(&self.material, known, other, pdfs),
-        }
+        });
     }
 
     /// Values, `f` in 1/sr as [`Material::eval_batch`] gives them, `[pair][channel]`, and densities, as
@@ -193,26 +228,79 @@ impl Sampler {
     /// time than one after the other where they are found in the same place of a table.
     ///
     /// # Panics
-    /// Where there are not as many `wi` as `wo` and `pdfs`, and that many values a channel.
+    /// If there are not as many `wi` as `wo` and `pdfs`, and that many values per channel.
     pub fn eval_pdf_batch(&self, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], values: &mut [f32], pdfs: &mut [f32]) {
-        match self.material.native() {
-            Native::Rgl(rgl) if matches!(self.scheme, Scheme::Rgl) && rgl.indexed_by == given => {
-                let (known, other) = if given == Given::Light { (wi, wo) } else { (wo, wi) };
-                let wanted = Wanted::ValuesAndPdf(values, pdfs);
-                rgl.table.evaluate(self.material.backend(), known.into(), other.into(), wanted);
-            }
-            _ => {
-                self.material.eval_batch(wi, wo, values);
-                self.pdf_batch(given, wi, wo, pdfs);
+        self.eval_pdf_on(self.material.backend(), given, wi, wo, values, pdfs);
+    }
+
+    fn eval_pdf_on(
+        &self,
+        backend: Backend,
+        given: Given,
+        wi: &[[f32; 3]],
+        wo: &[[f32; 3]],
+        values: &mut [f32],
+        pdfs: &mut [f32],
+    ) {
+        let channels = self.material.channel_count();
+        fitting(expect("directions wo", wo.len(), wi.len()));
+        fitting(expect("densities", pdfs.len(), wi.len()));
+        fitting(expect("values", values.len(), wi.len() * channels));
+        match &self.distribution {
+            Distribution::Own(scheme) => parallel::fill_both(channels, values, pdfs, &|range, values, pdfs| {
+                let (wi, wo) = (&wi[range.clone()], &wo[range]);
+                scheme.bsdf.eval_pdf_batch(backend, given, wi, wo, values, pdfs);
+            }),
+            Distribution::Lobes(_) => {
+                self.material.eval_batch_on(backend, wi, wo, values);
+                self.pdf_on(backend, given, wi, wo, pdfs);
             }
         }
     }
 }
 
-/// Values to weights: times cosine over density.
-fn weigh(values: &mut [f32], channels: usize, directions: &[[f32; 3]], pdfs: &[f32]) {
-    for ((texel, direction), &pdf) in values.chunks_exact_mut(channels).zip(directions).zip(pdfs) {
-        let factor = if pdf > 0.0 { direction[2].abs() / pdf } else { 0.0 };
-        texel.iter_mut().for_each(|value| *value *= factor);
+impl Bsdf for Sampler {
+    fn channels(&self) -> &Channels {
+        self.material.channels()
+    }
+
+    fn holds(&self, aspect: Aspect) -> bool {
+        self.material.holds(aspect)
+    }
+
+    fn is_isotropic(&self) -> bool {
+        self.material.is_isotropic()
+    }
+
+    fn bytes(&self) -> usize {
+        self.material.bytes() + Sampler::bytes(self)
+    }
+
+    fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        self.material.eval_batch_on(backend, wi, wo, out);
+    }
+
+    fn sample_batch(&self, backend: Backend, given: Given, known: &[[f32; 3]], u: &[[f32; 2]], out: Sampled<'_>) {
+        self.sample_on(backend, given, known, u, out);
+    }
+
+    fn draw_batch(&self, backend: Backend, known: &[[f32; 3]], u: &[[f32; 2]], out: &mut [[f32; 3]], pdfs: &mut [f32]) {
+        self.draw_on(backend, known, u, out, pdfs);
+    }
+
+    fn pdf_batch(&self, backend: Backend, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], pdfs: &mut [f32]) {
+        self.pdf_on(backend, given, wi, wo, pdfs);
+    }
+
+    fn eval_pdf_batch(
+        &self,
+        backend: Backend,
+        given: Given,
+        wi: &[[f32; 3]],
+        wo: &[[f32; 3]],
+        values: &mut [f32],
+        pdfs: &mut [f32],
+    ) {
+        self.eval_pdf_on(backend, given, wi, wo, values, pdfs);
     }
 }

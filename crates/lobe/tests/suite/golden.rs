@@ -16,7 +16,7 @@ fn backends() -> Vec<Backend> {
 
 /// The largest deviation on each backend.
 fn check(file: &Path, answers: &Path, expected_pairs: usize) {
-    let (format, document) = lobe::formats::open(file).unwrap_or_else(|error| panic!("{error}"));
+    let (_, document) = lobe::formats::open(file).unwrap_or_else(|error| panic!("{error}"));
     let Some(Data::Specular(samples)) = document.only() else { panic!("{} is no table", file.display()) };
     let scale = samples.values().iter().fold(0.0_f64, |largest, &value| largest.max(f64::from(value).abs()));
     let queries = queries(answers);
@@ -24,8 +24,7 @@ fn check(file: &Path, answers: &Path, expected_pairs: usize) {
     let narrow = |query: &[f64], at| direction(query, at).map(|c| c as f32);
     let (wi, wo): (Vec<_>, Vec<_>) = queries.iter().map(|(query, _)| (narrow(query, 0), narrow(query, 3))).unzip();
     let options = Options { edges: Edges::extrapolate(), ..Options::default() };
-    let mut material =
-        Material::new(file, format, document.clone(), &options).unwrap_or_else(|error| panic!("{error}"));
+    let mut material = Material::from_document(&document, &options).unwrap_or_else(|error| panic!("{error}"));
     let channels = material.channel_count();
     let mut failures = Vec::new();
     for backend in backends() {

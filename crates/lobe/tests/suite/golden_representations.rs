@@ -16,7 +16,7 @@ fn backends() -> Vec<Backend> {
 
 fn material(format: Format, bytes: &[u8], path: &Path) -> Material {
     let document = lobe::formats::read(format, bytes, path).unwrap_or_else(|error| panic!("{error}"));
-    Material::new(path, format, document, &Options::default()).unwrap_or_else(|error| panic!("{error}"))
+    Material::from_document(&document, &Options::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn narrow(pairs: &[([f64; 3], [f64; 3])]) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {

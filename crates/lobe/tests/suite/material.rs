@@ -1,22 +1,22 @@
 //! One interface over all representations: the value is that of the representation, whatever it is.
 
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::path::Path;
 use std::sync::Arc;
 
-use lobe::formats::{Document, Format, Part};
+use lobe::formats::{Document, Part};
 use lobe::table::rgl::{self, Images, Parts, Reference};
 use lobe::table::{half_diff, mirror, mueller, spherical};
 use lobe::{
-    Channels, Data, Given, Kind, Lookup, Material, OpenError, Options, Sampler, SamplerOptions, Scatter, Side, specular,
+    Channels, Data, Given, Lookup, Material, OpenError, Options, SHEET, Sampler, SamplerOptions, Scatter, Side,
+    specular,
 };
 
 fn sheet(parts: Vec<Part>) -> Document {
-    Document { parts, source: vec![("by".into(), "hand".into())], tis: Vec::new() }
+    Document { source: vec![("by".into(), "hand".into())], ..Document::of_parts(parts) }
 }
 
 fn open(document: Document, options: &Options) -> Result<Material, OpenError> {
-    Material::new(Path::new("made.file"), Format::Ssdd, document, options)
+    Material::from_document(&document, options)
 }
 
 fn material(document: Document) -> Material {
@@ -51,7 +51,7 @@ fn the_sides_choose_the_part_of_a_sheet() {
         flat(Scatter::Transmission, 3.0, Some(Side::Front)),
     ];
     let sheet = material(sheet(parts));
-    assert_eq!((sheet.kind(), sheet.channel_count(), sheet.wavelengths()), (Kind::Sheet, 1, None));
+    assert_eq!((sheet.kind(), sheet.channel_count(), sheet.wavelengths()), (SHEET, 1, None));
     assert_eq!(sheet.source(), [("by".to_string(), "hand".to_string())]);
     let graze = [1.0, 0.0, 0.0];
     let (wi, wo) = ([UP, DOWN, UP, DOWN, UP, graze], [UP, DOWN, DOWN, UP, graze, UP]);
@@ -69,7 +69,7 @@ fn sheets_without_one_answer_are_refused() {
     };
     let mirror = mirror::Data::new(Scatter::Reflection, [vec![0.0], vec![0.0]], Channels::Mono, vec![0.5]);
     let mirror = Part::new("", Data::Mirror(mirror.expect("a mirror")));
-    assert_eq!(refused(vec![mirror]), "made.file: found mirror reflectances; expected a BRDF or BTDF");
+    assert_eq!(refused(vec![mirror]), "found mirror reflectances; expected a BRDF or BTDF");
     let knots = [vec![0.0], vec![0.0], vec![0.0], vec![0.0]];
     let rgb = specular::Data::new(Scatter::Transmission, knots, Channels::Rgb, vec![1.0; 3]).expect("a table");
     let parts = vec![flat(Scatter::Reflection, 1.0, None), Part::new("", Data::Specular(rgb))];
@@ -89,7 +89,7 @@ fn half_difference_grids_are_looked_up_as_asked() {
     for (lookup, expected) in expected {
         let options = Options { lookup, ..Options::default() };
         let material = open(Document::new(data.clone()), &options).expect("a material");
-        assert_eq!((material.kind(), material.channels()), (Kind::HalfDiff, &Channels::Rgb));
+        assert_eq!((material.kind(), material.channels()), (half_diff::KIND, &Channels::Rgb));
         for (found, expected) in value(&material, UP, wo).into_iter().zip(expected) {
             assert!((f64::from(found) - expected).abs() < 1e-4, "{lookup:?}: {found}, not {expected}");
         }
@@ -112,7 +112,7 @@ fn polarised_materials_have_the_value_of_unpolarised_light() {
     let knots = [vec![-3.0, 3.0], vec![0.0, 1.5], vec![0.0, 1.5], vec![500.0, 600.0]];
     let data = mueller::Data::new(knots, (0..256).map(|i| 0.1 + (i % 37) as f32).collect()).expect("matrices");
     let material = material(Document::new(data));
-    assert_eq!((material.kind(), material.wavelengths()), (Kind::Mueller, Some([500.0, 600.0].as_slice())));
+    assert_eq!((material.kind(), material.wavelengths()), (mueller::KIND, Some([500.0, 600.0].as_slice())));
     let wo = [0.0, 0.28, 0.96];
     for (nm, found) in [500.0, 600.0].into_iter().zip(value(&material, UP, wo)) {
         let matrix = material.mueller(UP, wo, nm).expect("a matrix");

@@ -2,8 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use lobe::Kind::{self, Klems, Mueller, Rgl, Scattered, Sheet, Specular, Spherical, TensorTree};
-use lobe::Material;
+use lobe::table::mueller::KIND as MUELLER;
+use lobe::table::rgl::KIND as RGL;
+use lobe::table::scattered::KIND as SCATTERED;
+use lobe::table::specular::KIND as SPECULAR;
+use lobe::table::spherical::KIND as SPHERICAL;
+use lobe::table::window::klems::KIND as KLEMS;
+use lobe::table::window::tensor_tree::KIND as TENSOR_TREE;
+use lobe::{Kind, Material, SHEET};
 use lobe_testing::files::{files, shared};
 
 /// What is to become of a file.
@@ -20,37 +26,37 @@ const UNKNOWN: Outcome = Refused("content of no known format");
 
 /// Folders, beginnings of names, and their outcome; the first that fits counts.
 const OUTCOMES: &[(&str, &str, Outcome)] = &[
-    ("alta_dat", "retro", Opens(Scattered, 1)),
-    ("cornell_brdf", "", Opens(Scattered, 31)),
+    ("alta_dat", "retro", Opens(SCATTERED, 1)),
+    ("cornell_brdf", "", Opens(SCATTERED, 31)),
     // Fourier series, compressed.
     ("fourier_bsdf", "", UNKNOWN),
-    ("fred_txt", "", Opens(Scattered, 1)),
-    ("kaist_pbsdf", "", Opens(Mueller, 5)),
-    ("klems_xml", "me", Opens(Klems, 1)),
-    ("klems_xml", "mcs6216", Opens(Klems, 1)),
-    ("klems_xml", "", Opens(Klems, 2)),
-    ("lumos_csv", "", Opens(Scattered, 1)),
+    ("fred_txt", "", Opens(SCATTERED, 1)),
+    ("kaist_pbsdf", "", Opens(MUELLER, 5)),
+    ("klems_xml", "me", Opens(KLEMS, 1)),
+    ("klems_xml", "mcs6216", Opens(KLEMS, 1)),
+    ("klems_xml", "", Opens(KLEMS, 2)),
+    ("lumos_csv", "", Opens(SCATTERED, 1)),
     ("mdl_mbsdf", "test_file_format_error", UNKNOWN),
     ("mdl_mbsdf", "test_none", Refused("the end of the file")),
-    ("mdl_mbsdf", "test_rgb", Opens(Spherical, 3)),
-    ("mdl_mbsdf", "test_reflection_scalar_theta_2_phi_3_transmission", Opens(Sheet, 1)),
-    ("mdl_mbsdf", "test", Opens(Spherical, 1)),
-    ("mdl_mbsdf", "", Opens(Spherical, 3)),
+    ("mdl_mbsdf", "test_rgb", Opens(SPHERICAL, 3)),
+    ("mdl_mbsdf", "test_reflection_scalar_theta_2_phi_3_transmission", Opens(SHEET, 1)),
+    ("mdl_mbsdf", "test", Opens(SPHERICAL, 1)),
+    ("mdl_mbsdf", "", Opens(SPHERICAL, 3)),
     // Weights of networks, and a table without a header.
     ("merl_derived", "", UNKNOWN),
-    ("nist_mueller_csv", "PTFE.data", Opens(Scattered, 4)),
+    ("nist_mueller_csv", "PTFE.data", Opens(SCATTERED, 4)),
     // Coefficients of a fit, and a description.
     ("nist_mueller_csv", "", UNKNOWN),
-    ("openmaterial3d_json", "asphalt", Opens(Scattered, 32)),
+    ("openmaterial3d_json", "asphalt", Opens(SCATTERED, 32)),
     ("openmaterial3d_json", "material_brdf_schema", UNKNOWN),
-    ("rgl_bsdf", "", Opens(Rgl, 3)),
-    ("rpc_txt", "EDS10", Opens(Scattered, 1)),
+    ("rgl_bsdf", "", Opens(RGL, 3)),
+    ("rpc_txt", "EDS10", Opens(SCATTERED, 1)),
     // A script.
     ("rpc_txt", "construct", UNKNOWN),
-    ("speos_anisotropicbsdf", "Gaussian_Fresnel", Opens(Sheet, 2)),
-    ("speos_anisotropicbsdf", "", Opens(Scattered, 2)),
-    ("tensortree_xml", "", Opens(TensorTree, 1)),
-    ("zemax_bsdf", "", Opens(Specular, 1)),
+    ("speos_anisotropicbsdf", "Gaussian_Fresnel", Opens(SHEET, 2)),
+    ("speos_anisotropicbsdf", "", Opens(SCATTERED, 2)),
+    ("tensortree_xml", "", Opens(TENSOR_TREE, 1)),
+    ("zemax_bsdf", "", Opens(SPECULAR, 1)),
 ];
 
 /// Folders without measurements.
@@ -86,7 +92,7 @@ fn every_file_has_its_outcome() {
                     check_values(&material, &path);
                     opened += 1;
                     let channels = material.channels().names().join(" ");
-                    format!("{}, {}: {channels}", material.format(), material.kind())
+                    format!("{:?}, {}: {channels}", material.format(), material.kind())
                 }
                 (Err(error), Some(Refused(why))) => {
                     let message = error.to_string();
@@ -113,6 +119,6 @@ fn every_file_has_its_outcome() {
 fn a_folder_of_a_diffuser_is_one_material() {
     let Some(shared) = shared() else { return };
     let material = Material::open(shared.join("data/rpc_txt")).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(material.kind(), Scattered);
+    assert_eq!(material.kind(), SCATTERED);
     check_values(&material, Path::new("rpc_txt"));
 }

@@ -1,14 +1,14 @@
 //! Sharing a batch among threads changes nothing.
 #![cfg(feature = "rayon")]
 
-use lobe::{Brdf, Channels, Edges, PARALLEL_FROM, Scatter, specular};
+use lobe::{Channels, Material, Options, PARALLEL_FROM, Scatter, specular};
 
 #[test]
 fn results_do_not_depend_on_the_number_of_threads() {
     let knots = [vec![0.0, 0.5, 1.2], vec![0.0], vec![0.0, 0.1, 0.7, 3.0], vec![0.0, 2.0, 4.0]];
     let values = (0..3 * 4 * 3 * 3).map(|i| (i * 37 % 101) as f32).collect();
     let samples = specular::Data::new(Scatter::Reflection, knots, Channels::Rgb, values).unwrap();
-    let brdf = Brdf::new(&samples, &Edges::default()).unwrap();
+    let material = Material::from_samples(samples, &Options::default()).unwrap();
 
     // Neither a multiple of the block nor of the task.
     let count = 3 * PARALLEL_FROM + 77;
@@ -22,7 +22,7 @@ fn results_do_not_depend_on_the_number_of_threads() {
     let evaluate = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let mut out = vec![f32::NAN; 3 * count];
-        pool.install(|| brdf.eval_batch(wi.as_slice(), wo.as_slice(), &mut out));
+        pool.install(|| material.eval_batch(&wi, &wo, &mut out));
         out
     };
     let one = evaluate(1);
@@ -34,7 +34,7 @@ fn results_do_not_depend_on_the_number_of_threads() {
     let mut pieces = vec![f32::NAN; 3 * count];
     for (at, out) in pieces.chunks_mut(3 * 1000).enumerate() {
         let range = 1000 * at..1000 * at + out.len() / 3;
-        brdf.eval_batch(&wi[range.clone()], &wo[range], out);
+        material.eval_batch(&wi[range.clone()], &wo[range], out);
     }
     assert_eq!(pieces, one);
 }

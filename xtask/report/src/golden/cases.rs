@@ -73,7 +73,7 @@ impl Subject {
             Some(Data::Specular(table)) => table.values().iter().fold(0.0, |most: f64, x| most.max(f64::from(x.abs()))),
             _ => 0.0,
         };
-        let material = Material::new(path, format, document, options)?.with_backend(backend);
+        let material = Material::from_document(&document, options)?.with_backend(backend);
         let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         Ok(Subject { file, format, material, largest })
     }

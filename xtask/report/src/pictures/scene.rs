@@ -3,7 +3,6 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use lobe::formats::{Document, Format};
 use lobe::{Backend, Data, Material, Options, specular};
 use lobe_mesh::{Geometry, shapes};
 use lobe_render::integrator::Path as PathTracing;
@@ -19,11 +18,11 @@ const CLOTH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/cloth-1
 
 /// The scene with materials on that backend.
 pub fn world(backend: Backend) -> anyhow::Result<World> {
-    let (format, document) = lobe::formats::open(Path::new(CLOTH))?;
+    let (_, document) = lobe::formats::open(Path::new(CLOTH))?;
     let Some(Data::Specular(cloth)) = document.only() else { anyhow::bail!("{CLOTH}: no specular table") };
     let mut world = WorldBuilder::new();
     let materials = (0..MATERIALS)
-        .map(|number| Ok(world.material(Arc::new(dyed(format, cloth, number, backend)?))))
+        .map(|number| Ok(world.material(Arc::new(dyed(cloth, number, backend)?))))
         .collect::<anyhow::Result<Vec<_>>>()?;
     let black = world.material(Arc::new(Lambert::new([0.0; 3], backend)));
     let (ball, tile) = (shapes::sphere(0.36, 48), shapes::plane(1.0, 1));
@@ -42,12 +41,11 @@ pub fn world(backend: Backend) -> anyhow::Result<World> {
 }
 
 /// The cloth in another colour.
-fn dyed(format: Format, cloth: &specular::Data, number: usize, backend: Backend) -> anyhow::Result<MeasuredShader> {
+fn dyed(cloth: &specular::Data, number: usize, backend: Backend) -> anyhow::Result<MeasuredShader> {
     let dye: [f32; 3] = std::array::from_fn(|k| 0.5 + 0.5 * ((number * (k + 2) * 5) % 17) as f32 / 16.0);
     let values = cloth.values().iter().enumerate().map(|(at, value)| value * dye[at % 3]).collect();
     let samples = specular::Data::new(cloth.scatter(), cloth.knots().clone(), cloth.channels().clone(), values)?;
-    let document = Document::new(samples);
-    let material = Material::new(Path::new(CLOTH), format, document, &Options::default())?;
+    let material = Material::from_samples(samples, &Options::default())?;
     Ok(MeasuredShader::new(material.with_backend(backend))?)
 }
 

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 
 use lobe::table::specular::coords;
-use lobe::{Given, Material, Sampler, Scatter};
+use lobe::{Aspect, Given, Material, Sampler, Scatter, Side};
 use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -114,7 +114,7 @@ fn expected(sampler: &Sampler, incident: [f32; 3]) -> Vec<f64> {
     let front = incident[2] > 0.0;
     let mut bins = Vec::new();
     for scatter in [Scatter::Reflection, Scatter::Transmission] {
-        if !sampler.material().holds(front, scatter) {
+        if !sampler.material().holds(Aspect { scatter, light: Side::of(incident) }) {
             bins.extend([0.0; THETAS * PHIS]);
             continue;
         }
@@ -183,12 +183,12 @@ fn samples_follow_the_density() {
     let samplers: Vec<_> = materials().into_par_iter().map(|(name, m)| (name, sampler(m))).collect();
     let mut cases = Vec::new();
     for (name, sampler) in &samplers {
-        let reaches = |front| {
-            let material = sampler.material();
-            [Scatter::Reflection, Scatter::Transmission].iter().any(|&scatter| material.holds(front, scatter))
+        let reaches = |light| {
+            let aspects = Aspect::ALL.into_iter().filter(|aspect| aspect.light == light);
+            aspects.into_iter().any(|aspect| sampler.material().holds(aspect))
         };
-        let above = if reaches(true) { incidents() } else { Vec::new() };
-        let below = if reaches(false) && above.is_empty() { below(&incidents()) } else { Vec::new() };
+        let above = if reaches(Side::Front) { incidents() } else { Vec::new() };
+        let below = if reaches(Side::Back) && above.is_empty() { below(&incidents()) } else { Vec::new() };
         cases.extend(above.into_iter().chain(below).map(|incident| (name, sampler, incident)));
     }
     // Sidak: all tests together pass with probability 0.99 where all hypotheses hold.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use lobe::{Given, Sampled, Sampler, Scatter, luminance};
+use lobe::{Aspect, Given, Sampled, Sampler, Scatter, Side, luminance};
 
 use super::materials::{fixture, made, sampler, shared};
 use super::{cosine, direction, incidents, numbers};
@@ -32,9 +32,9 @@ fn albedo(sampler: &Sampler, given: Given, known: [f32; 3], count: usize) -> [(f
     sampler.sample_batch(given, &known, &u, out);
     let by_samples = moments(values.chunks(channels).map(|weight| dot(weight, &weights)));
 
-    let front = known[0][2] > 0.0;
-    let reflects = material.holds(front, Scatter::Reflection);
-    let transmits = material.holds(front, Scatter::Transmission);
+    let light = Side::of(known[0]);
+    let reflects = material.holds(Aspect { scatter: Scatter::Reflection, light });
+    let transmits = material.holds(Aspect { scatter: Scatter::Transmission, light });
     let side = |query: usize| match (reflects, transmits) {
         (true, true) => [1.0, -1.0][query % 2],
         (true, false) => 1.0,
@@ -53,9 +53,9 @@ fn estimates_agree_with_those_of_the_cosine() {
     for (name, material) in made().into_iter().chain(shared()) {
         // The published scheme of the EPFL database loses what falls below the horizon, and its measurements have values
         // where the scheme has no density.
-        let tolerance = if material.kind() == lobe::Kind::Rgl { 0.02 } else { 0.0 };
+        let tolerance = if material.kind() == lobe::table::rgl::KIND { 0.02 } else { 0.0 };
         let sampler = sampler(material);
-        let front = [Scatter::Reflection, Scatter::Transmission].iter().any(|&s| sampler.material().holds(true, s));
+        let front = [Aspect::REFLECTION, Aspect::TRANSMISSION].iter().any(|&aspect| sampler.material().holds(aspect));
         for given in [Given::Light, Given::Viewer] {
             for (sigma, psi) in [(3.0, 20.0), (41.0, 130.0), (70.0, 250.0)] {
                 let [x, y, z] = direction(sigma, psi);
@@ -99,7 +99,7 @@ fn memory_is_at_most_one_and_a_half_materials() {
 #[test]
 fn values_and_densities_at_once_are_those_of_one_after_the_other() {
     // Those with a way of their own, and some without.
-    let shared = shared().into_iter().filter(|(_, material)| material.kind() == lobe::Kind::Rgl);
+    let shared = shared().into_iter().filter(|(_, material)| material.kind() == lobe::table::rgl::KIND);
     for (name, material) in made().into_iter().chain(shared) {
         let sampler = sampler(material);
         let material = sampler.material();
@@ -111,7 +111,7 @@ fn values_and_densities_at_once_are_those_of_one_after_the_other() {
             material.eval_batch(&wi, &wo, &mut values);
             sampler.pdf_batch(given, &wi, &wo, &mut pdfs);
             sampler.eval_pdf_batch(given, &wi, &wo, &mut both, &mut both_pdfs);
-            assert!(pdfs.iter().any(|&pdf| pdf > 0.0) || material.holds(true, Scatter::Transmission), "{name}");
+            assert!(pdfs.iter().any(|&pdf| pdf > 0.0) || material.holds(Aspect::TRANSMISSION), "{name}");
             assert_eq!((values, pdfs), (both, both_pdfs), "{name}, {given:?}");
         }
     }

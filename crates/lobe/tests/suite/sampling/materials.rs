@@ -1,10 +1,9 @@
 //! The materials that are sampled: fixtures, noise, and the files beside the project.
 
 use std::f64::consts::{PI, TAU};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use lobe::formats::{Document, Format};
 use lobe::{Channels, Material, Options, Sampler, SamplerOptions, Scatter, specular};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -14,8 +13,7 @@ pub fn fixture(name: &str) -> Material {
 }
 
 pub fn of_samples(samples: specular::Data) -> Material {
-    let document = Document::new(samples);
-    Material::new(Path::new("made"), Format::Ssdd, document, &Options::default()).unwrap()
+    Material::from_samples(samples, &Options::default()).unwrap()
 }
 
 pub fn sampler(material: Material) -> Sampler {

@@ -1,12 +1,11 @@
 //! Materials with two sides: which lobe is drawn, mirrors, and what was not measured.
 
-use lobe::formats::{Document, Format, Part};
+use lobe::formats::{Document, Part};
 use lobe::table::mirror;
 use lobe::{Channels, Data, Given, Material, Options, Sampled, Scatter, Side, specular};
 
 use super::materials::sampler;
 use super::{direction, numbers};
-use std::path::Path;
 
 fn constant(scatter: Scatter, value: f32) -> specular::Data {
     let knots = [vec![0.0], vec![0.0], vec![0.0], vec![0.0]];
@@ -25,8 +24,7 @@ fn sheet() -> Material {
         part(Side::Front, flat(0.25, Scatter::Transmission)),
         part(Side::Front, Data::Mirror(mirror)),
     ];
-    let document = Document { parts, source: Vec::new(), tis: Vec::new() };
-    Material::new(Path::new("made"), Format::Ssdd, document, &Options::default()).unwrap()
+    Material::from_document(&Document::of_parts(parts), &Options::default()).unwrap()
 }
 
 #[test]
@@ -93,6 +91,6 @@ fn sheets_open_from_the_files_of_their_sides() {
         out[0]
     };
     assert_eq!([value(up, up), value(down, down), value(up, down), value(down, up)], [0.1, 0.02, 0.05, 0.05]);
-    let none: [&Path; 0] = [];
+    let none: [&std::path::Path; 0] = [];
     assert!(Material::open_sheet(&none, &none, &options).unwrap_err().to_string().contains("no files"));
 }

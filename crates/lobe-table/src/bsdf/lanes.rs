@@ -1,0 +1,30 @@
+//! Functions of pairs of directions inside a kernel of the caller's own.
+
+use lobe_lane::Lanes;
+
+use crate::specular;
+
+/// A function of pairs of directions that can be evaluated a pair per lane, without leaving the caller's kernel.
+///
+/// It is for programs that know their type when they are compiled; the conventions are those of [`Bsdf`](super::Bsdf).
+pub trait BsdfLanes: Sync {
+    /// How many channels a value has.
+    fn channel_count(&self) -> usize;
+
+    /// The value of a pair in each lane, one number per channel; 0 in the lanes that `mask` leaves out.
+    ///
+    /// # Panics
+    /// If `out` is not as long as there are channels.
+    fn eval_lanes<L: Lanes>(&self, lanes: L, wi: [L::F; 3], wo: [L::F; 3], mask: L::M, out: &mut [L::F]);
+}
+
+impl BsdfLanes for specular::Table {
+    fn channel_count(&self) -> usize {
+        specular::Table::channel_count(self)
+    }
+
+    #[inline(always)]
+    fn eval_lanes<L: Lanes>(&self, lanes: L, wi: [L::F; 3], wo: [L::F; 3], mask: L::M, out: &mut [L::F]) {
+        specular::Table::eval_lanes(self, lanes, wi, wo, mask, out);
+    }
+}

@@ -1,0 +1,214 @@
+//! What has a value for every pair of directions, ready to be evaluated and sampled in batches.
+
+mod cosine;
+mod lanes;
+
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use lobe_backend::Backend;
+
+use crate::mueller::Matrix;
+use crate::{
+    Aspect, Channels, Directions, DistributionError, Given, PatchSampler, Sampled, SamplerError, SamplerOptions,
+    specular,
+};
+
+pub use lanes::BsdfLanes;
+
+/// A function of pairs of directions, which measured materials, analytic models and whatever else scatters light are.
+///
+/// `wi` points to the light and `wo` to the viewer: unit vectors away from the surface, normal on +z. Values are `f` in
+/// 1/sr, without the cosine, one per channel; densities are over solid angle, in 1/sr. A delta function in direction has no
+/// value here and no density.
+///
+/// Only [`channels`](Self::channels) and [`eval_batch`](Self::eval_batch) have to be written: directions are then sampled in
+/// proportion to the cosine, on the sides that [`holds`](Self::holds) names.
+pub trait Bsdf: Debug + Send + Sync {
+    /// What the channels of a value stand for.
+    fn channels(&self) -> &Channels;
+
+    /// Whether there are values for this side of the light and this kind of scatter: reflection on the front, unless
+    /// told otherwise.
+    fn holds(&self, aspect: Aspect) -> bool {
+        aspect == Aspect::REFLECTION
+    }
+
+    /// `true` if values are known not to depend on the rotation of the sample.
+    fn is_isotropic(&self) -> bool {
+        false
+    }
+
+    /// Bytes of memory that the data take.
+    fn bytes(&self) -> usize {
+        0
+    }
+
+    /// Values of many pairs: `out[query * channels + channel]`.
+    ///
+    /// # Panics
+    /// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+    fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]);
+
+    /// The value of one pair, one number per channel.
+    ///
+    /// # Panics
+    /// If `out` is not as long as there are channels.
+    fn eval(&self, backend: Backend, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
+        self.eval_batch(backend, (&[wi]).into(), (&[wo]).into(), out);
+    }
+
+    /// Samples a direction for each of the `known` ones, which are those to the light or to the viewer as `given` says,
+    /// from two numbers in `[0, 1)` each. Weights are values times cosine over density.
+    ///
+    /// # Panics
+    /// If `u` or a part of `out` does not have one entry per direction, or the weights one more per channel.
+    fn sample_batch(&self, backend: Backend, given: Given, known: &[[f32; 3]], u: &[[f32; 2]], out: Sampled<'_>) {
+        cosine::sample_batch(self, backend, given, known, u, out);
+    }
+
+    /// Draws directions and their densities as [`sample_batch`](Self::sample_batch) does, without the weights.
+    ///
+    /// # Panics
+    /// If the slices do not have the same length.
+    fn draw_batch(&self, backend: Backend, known: &[[f32; 3]], u: &[[f32; 2]], out: &mut [[f32; 3]], pdfs: &mut [f32]) {
+        let mut weights = vec![0.0; known.len() * self.channels().count()];
+        let out = Sampled { directions: out, weights: &mut weights, pdfs };
+        self.sample_batch(backend, Given::Light, known, u, out);
+    }
+
+    /// The densities with which [`sample_batch`](Self::sample_batch) finds the direction of each pair that is not given.
+    ///
+    /// # Panics
+    /// If there are not as many `wi` as `wo` and `pdfs`.
+    fn pdf_batch(&self, backend: Backend, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], pdfs: &mut [f32]) {
+        let _ = backend;
+        cosine::pdf_batch(self, given, wi, wo, pdfs);
+    }
+
+    /// Values and densities of many pairs: both at once may take less time than one after the other.
+    ///
+    /// # Panics
+    /// As [`eval_batch`](Self::eval_batch) and [`pdf_batch`](Self::pdf_batch).
+    fn eval_pdf_batch(
+        &self,
+        backend: Backend,
+        given: Given,
+        wi: &[[f32; 3]],
+        wo: &[[f32; 3]],
+        values: &mut [f32],
+        pdfs: &mut [f32],
+    ) {
+        self.eval_batch(backend, wi.into(), wo.into(), values);
+        self.pdf_batch(backend, given, wi, wo, pdfs);
+    }
+
+    /// The same function, sampled in proportion to luminance times value times cosine, if it has a scheme of its own for
+    /// that. `progress` is called with the parts that are done and all of them.
+    ///
+    /// # Errors
+    /// If the options make no sense for it.
+    fn sampled(
+        &self,
+        backend: Backend,
+        options: &SamplerOptions,
+        progress: &mut dyn FnMut(usize, usize),
+    ) -> Result<Option<Scheme>, SamplerError> {
+        let _ = (backend, options, progress);
+        Ok(None)
+    }
+
+    /// A lobe of its own for one side and kind of scatter, if it is constant on patches. `luminance` is how much each
+    /// channel counts, and `defensive` the part that is a cosine distribution.
+    ///
+    /// # Errors
+    /// If the options make no sense for it.
+    fn patches(
+        &self,
+        aspect: Aspect,
+        luminance: &[f32],
+        defensive: f32,
+    ) -> Result<Option<PatchSampler>, DistributionError> {
+        let _ = (aspect, luminance, defensive);
+        Ok(None)
+    }
+
+    /// The Mueller matrix at a wavelength in nm, if polarisation is known.
+    fn mueller(&self, wi: [f32; 3], wo: [f32; 3], nm: f64) -> Option<Matrix> {
+        let _ = (wi, wo, nm);
+        None
+    }
+
+    /// The table, if this is one in specular coordinates, for evaluation inside a kernel of the caller's own.
+    fn specular_table(&self) -> Option<&Arc<specular::Table>> {
+        None
+    }
+}
+
+/// A function with a scheme of its own to sample it.
+#[derive(Clone, Debug)]
+pub struct Scheme {
+    /// The function; its values are what they were.
+    pub bsdf: Arc<dyn Bsdf>,
+    /// Bytes of memory that the distributions take beside the values.
+    pub bytes: usize,
+}
+
+/// A function and the backend that it is evaluated on.
+#[derive(Clone, Copy, Debug)]
+pub struct OnBackend<'a> {
+    /// The function.
+    pub bsdf: &'a dyn Bsdf,
+    /// Where it runs.
+    pub backend: Backend,
+}
+
+impl<'a> OnBackend<'a> {
+    /// A function on the backend given.
+    pub fn new(bsdf: &'a dyn Bsdf, backend: Backend) -> Self {
+        OnBackend { bsdf, backend }
+    }
+
+    /// What the channels of a value stand for.
+    pub fn channels(&self) -> &'a Channels {
+        self.bsdf.channels()
+    }
+
+    /// Values of many pairs, as [`Bsdf::eval_batch`].
+    ///
+    /// # Panics
+    /// As [`Bsdf::eval_batch`].
+    pub fn eval_batch<'b>(&self, wi: impl Into<Directions<'b>>, wo: impl Into<Directions<'b>>, out: &mut [f32]) {
+        self.bsdf.eval_batch(self.backend, wi.into(), wo.into(), out);
+    }
+}
+
+/// Evaluates pair by pair with an evaluator in `f64`, which finds unit vectors there to the last digit. Directions
+/// that have no length or are not finite give 0.
+///
+/// # Panics
+/// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+pub(crate) fn pair_by_pair(
+    channels: &Channels,
+    wi: Directions<'_>,
+    wo: Directions<'_>,
+    out: &mut [f32],
+    mut eval: impl FnMut([f64; 3], [f64; 3], &mut [f32]),
+) {
+    let (count, channels) = (wi.count(), channels.count());
+    assert_eq!(count, wo.count(), "as many wi as wo");
+    assert_eq!(out.len(), count * channels, "one value per query and channel");
+    for (query, texel) in out.chunks_exact_mut(channels).enumerate() {
+        match unit(wi.get(query)).zip(unit(wo.get(query))) {
+            Some((wi, wo)) => eval(wi, wo, texel),
+            None => texel.fill(0.0),
+        }
+    }
+}
+
+/// A direction in `f64`; `None` if it points nowhere.
+pub(crate) fn unit(direction: [f32; 3]) -> Option<[f64; 3]> {
+    let v = direction.map(f64::from);
+    let length = v.iter().map(|c| c * c).sum::<f64>().sqrt();
+    (length.is_finite() && length > 0.0).then(|| v.map(|c| c / length))
+}

@@ -1,0 +1,30 @@
+//! Grids of spherical coordinates, ready to be evaluated.
+
+use lobe_backend::Backend;
+
+use super::Table;
+use crate::bsdf::Bsdf;
+use crate::{Aspect, Channels, Directions, Scatter, Side};
+
+impl Bsdf for Table {
+    fn channels(&self) -> &Channels {
+        Table::channels(self)
+    }
+
+    /// Values of transmission take light from either side.
+    fn holds(&self, aspect: Aspect) -> bool {
+        self.scatter() == aspect.scatter && (aspect.light == Side::Front || aspect.scatter == Scatter::Transmission)
+    }
+
+    fn is_isotropic(&self) -> bool {
+        Table::is_isotropic(self)
+    }
+
+    fn bytes(&self) -> usize {
+        Table::bytes(self)
+    }
+
+    fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        Table::eval_batch(self, backend, wi, wo, out);
+    }
+}

@@ -1,0 +1,21 @@
+//! The grid of the UTIA database, ready to be evaluated.
+
+use lobe_backend::Backend;
+
+use super::Table;
+use crate::bsdf::Bsdf;
+use crate::{Channels, Directions};
+
+impl Bsdf for Table {
+    fn channels(&self) -> &Channels {
+        &Channels::Rgb
+    }
+
+    fn bytes(&self) -> usize {
+        Table::bytes(self)
+    }
+
+    fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        Table::eval_batch(self, backend, wi, wo, out);
+    }
+}

@@ -1,0 +1,132 @@
+//! Materials from files, from bytes, from documents and from data.
+
+use std::path::Path;
+
+use lobe_formats::{Document, FormatError, Part};
+use lobe_table::{Data, Options, Side};
+
+use super::mirror::Mirror;
+use super::sheet::{self, SHEET, Sheet};
+use super::{Material, Origin};
+use crate::{Backend, OpenError};
+
+/// The measurements of a sheet as they are read.
+#[derive(Default)]
+struct Parts {
+    parts: Vec<sheet::Part>,
+    mirrors: Vec<Mirror>,
+}
+
+impl Parts {
+    fn add(&mut self, side: Option<Side>, data: &Data, options: &Options) -> Result<(), OpenError> {
+        let data = data.representation();
+        match data.mirror() {
+            Some(mirror) => self.mirrors.push(Mirror { side, data: mirror.clone() }),
+            None => self.parts.push(sheet::Part { scatter: data.scatter(), side, bsdf: data.prepare(options)? }),
+        }
+        Ok(())
+    }
+
+    fn finish(self, origin: Origin) -> Result<Material, OpenError> {
+        let Parts { parts, mirrors } = self;
+        let Some(first) = parts.first() else { return Err(OpenError::not_a_material("mirror reflectances")) };
+        let channels = first.bsdf.channels().clone();
+        let differ = parts.iter().any(|part| *part.bsdf.channels() != channels)
+            || mirrors.iter().any(|mirror| *mirror.data.channels() != channels);
+        if differ {
+            return Err(OpenError::not_a_material("parts with different channels"));
+        }
+        let origin = Origin { kind: SHEET, ..origin };
+        Ok(Material { origin, bsdf: Box::new(Sheet { channels, parts }), mirrors, backend: Backend::detect()? })
+    }
+}
+
+impl Material {
+    /// Opens a file of any format that [`formats`](crate::formats) reads, on the detected backend.
+    ///
+    /// # Errors
+    /// [`OpenError`] if the file cannot be read or holds nothing that has a value for a pair of directions, or
+    /// `LOBE_BACKEND` is wrong.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, OpenError> {
+        Material::open_with(path, &Options::default())
+    }
+
+    /// As [`open`](Material::open), with answers to what the file leaves open.
+    ///
+    /// # Errors
+    /// As [`open`](Material::open).
+    pub fn open_with(path: impl AsRef<Path>, options: &Options) -> Result<Self, OpenError> {
+        let path = path.as_ref();
+        let (_, document) = lobe_formats::open(path)?;
+        Material::from_document(&document, options).map_err(|error| error.in_file(path))
+    }
+
+    /// A material from the content of a file in memory. `name` is what the file is called in errors; its extension counts
+    /// only where the content says too little, as in [`formats::open`](lobe_formats::open).
+    ///
+    /// # Errors
+    /// As [`open`](Material::open).
+    pub fn from_bytes(bytes: &[u8], name: impl AsRef<Path>, options: &Options) -> Result<Self, OpenError> {
+        let name = name.as_ref();
+        let document = lobe_formats::from_bytes(bytes, name)?;
+        Material::from_document(&document, options).map_err(|error| error.in_file(name))
+    }
+
+    /// The material of a document that was read or made.
+    ///
+    /// # Errors
+    /// As [`open`](Material::open); the error names no file.
+    pub fn from_document(document: &Document, options: &Options) -> Result<Self, OpenError> {
+        let origin = Origin { format: document.format, source: document.source.clone(), kind: SHEET };
+        if let Some(data) = document.only() {
+            let bsdf = data.representation().prepare(options)?;
+            let origin = Origin { kind: data.representation().kind(), ..origin };
+            return Ok(Material { origin, bsdf, mirrors: Vec::new(), backend: Backend::detect()? });
+        }
+        let mut parts = Parts::default();
+        for part in &document.parts {
+            parts.add(part.side, &part.data, options)?;
+        }
+        parts.finish(origin)
+    }
+
+    /// The material of samples in any representation, such as [`specular::Data`](lobe_table::specular::Data).
+    ///
+    /// # Errors
+    /// As [`from_document`](Material::from_document).
+    pub fn from_samples(samples: impl Into<Data>, options: &Options) -> Result<Self, OpenError> {
+        Material::from_document(&Document::new(samples), options)
+    }
+
+    /// A sheet of which both sides, and both ways through, were measured into files of their own: those measured with
+    /// light on the front (z > 0), and those with light on the back, each with its own side up. Files of mirror
+    /// reflectance (SDR) and of transmittance straight through (SDT) are its [mirrors](Material::mirror).
+    ///
+    /// Transmission that was measured in one direction only is the same in the other one; a side without reflection is
+    /// black.
+    ///
+    /// # Errors
+    /// As [`open`](Material::open), and if the files do not have the same channels, or one of them is a sheet itself.
+    pub fn open_sheet<P: AsRef<Path>>(front: &[P], back: &[P], options: &Options) -> Result<Self, OpenError> {
+        let mut parts = Parts::default();
+        let mut last = None;
+        for (paths, side) in [(front, Side::Front), (back, Side::Back)] {
+            for path in paths.iter().map(AsRef::as_ref) {
+                let document = add_file(&mut parts, path, side, options).map_err(|error| error.in_file(path))?;
+                let origin = Origin { format: document.format, source: document.source, kind: SHEET };
+                last = Some((path, origin));
+            }
+        }
+        let Some((path, origin)) = last else { return Err(OpenError::not_a_material("no files")) };
+        parts.finish(origin).map_err(|error| error.in_file(path))
+    }
+}
+
+fn add_file(parts: &mut Parts, path: &Path, side: Side, options: &Options) -> Result<Document, OpenError> {
+    let (_, document) = lobe_formats::open(path).map_err(|error: FormatError| OpenError::from(error))?;
+    match document.parts.as_slice() {
+        [part] if Part::is_of_any_side(part) => parts.add(Some(side), &part.data, options)?,
+        _ => return Err(OpenError::not_a_material("data that are no part of a sheet")),
+    }
+    Ok(document)
+}
