@@ -16,7 +16,33 @@
 //! [`Data`] is any of them, of which the trait [`Representation`] tells what programs ask.
 //!
 //! They share [`Axis`] and the other parts of a grid, and [`Channels`] and [`Scatter`], which say what the values are.
+//!
+//! # Features
+//!
+//! | feature | the `Table` of |
+//! |---|---|
+//! | `half-diff` | [`half_diff`] |
+//! | `mueller` | [`mueller`] |
+//! | `rgl` | [`rgl`] |
+//! | `spherical` | [`spherical`] |
+//! | `utia` | [`utia`] |
+//! | `window` | [`window`] |
+//!
+//! All of them are on by default. [`specular`] is always there, and so are the data of every representation with their
+//! evaluation in `f64`: what takes the compiler long are the kernels.
 #![forbid(unsafe_code)]
+// Without some of the kernels, some of what they share is left over.
+#![cfg_attr(
+    not(all(
+        feature = "half-diff",
+        feature = "mueller",
+        feature = "rgl",
+        feature = "spherical",
+        feature = "utia",
+        feature = "window"
+    )),
+    allow(dead_code, unused_imports)
+)]
 
 pub mod bsdf;
 pub mod data;

@@ -7,6 +7,21 @@
 //!
 //! The crates below are here by their contents: [`table`] has the representations, [`formats`] the readers and writers,
 //! [`math`] the functions in lanes. What most programs name is re-exported at the top.
+//!
+//! # Features
+//!
+//! All are on by default; `default-features = false` builds specular tables only. A file of a representation that was left
+//! out opens with an error that says so.
+//!
+//! | feature | what it adds |
+//! |---|---|
+//! | `rayon` | large batches are shared among the threads of the current rayon pool |
+//! | `half-diff` | grids of half and difference angles, as in the MERL database |
+//! | `mueller` | Mueller matrices |
+//! | `rgl` | materials of the EPFL database |
+//! | `spherical` | grids of spherical coordinates |
+//! | `utia` | materials of the UTIA database |
+//! | `window` | Klems matrices and tensor trees |
 #![forbid(unsafe_code)]
 
 mod error;

@@ -12,6 +12,9 @@ pub enum PrepareError {
     /// They have no value for a pair of directions.
     #[error("found {0}; expected a BRDF or BTDF")]
     NoValues(Kind),
+    /// This program was built without the feature that evaluates them.
+    #[error("found {0}, whose feature this program was built without")]
+    LeftOut(Kind),
     /// They are too large for a table.
     #[error(transparent)]
     Table(#[from] TableError),

@@ -25,8 +25,11 @@ pub trait Representation: Debug + Send + Sync {
     /// The data made ready to be evaluated.
     ///
     /// # Errors
-    /// If they have no value for a pair of directions, or are too large.
-    fn prepare(&self, options: &Options) -> Result<Box<dyn Bsdf>, PrepareError>;
+    /// If they have no value for a pair of directions, or are too large, or if this program was built without the feature
+    /// of the representation.
+    fn prepare(&self, _options: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
+        Err(PrepareError::LeftOut(self.kind()))
+    }
 
     /// `true` if the data tell light on the front from light on the back.
     fn is_two_sided(&self) -> bool {

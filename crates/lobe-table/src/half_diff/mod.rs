@@ -6,17 +6,20 @@
 //! [`Data`] are the bins as they were measured, with their evaluation in `f64`; a [`Table`] is made ready for
 //! evaluation in SIMD lanes.
 
+#[cfg(feature = "half-diff")]
 mod lanes;
+#[cfg(feature = "half-diff")]
 mod prepared;
 mod reference;
 mod representation;
-#[cfg(test)]
+#[cfg(all(test, feature = "half-diff"))]
 mod tests;
 
 use std::f64::consts::{PI, TAU};
 
 use crate::invalid::{Invalid, count, finite};
 
+#[cfg(feature = "half-diff")]
 pub use lanes::Table;
 pub use representation::KIND;
 

@@ -2,9 +2,15 @@
 
 use lobe_backend::Backend;
 
-use super::{Lookup, Table};
+use super::{Data, Lookup, Table};
 use crate::bsdf::Bsdf;
+use crate::data::PrepareError;
 use crate::{Channels, Directions};
+
+/// Lays the data out.
+pub(super) fn prepare(data: &Data, options: &crate::data::Options) -> Result<Box<dyn Bsdf>, PrepareError> {
+    Ok(Box::new(Prepared { table: Table::new(data)?, lookup: options.lookup }))
+}
 
 /// A table, and how it is looked up.
 #[derive(Debug)]

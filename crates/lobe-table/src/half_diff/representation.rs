@@ -1,7 +1,6 @@
 //! What programs ask of grids of half and difference angles.
 
-use super::prepared::Prepared;
-use super::{Data, Table};
+use super::Data;
 use crate::bsdf::Bsdf;
 use crate::data::{Gaps, Options, PrepareError, Section};
 use crate::{Aspect, Channels, Kind, Representation};
@@ -44,7 +43,8 @@ impl Representation for Data {
         Some(Gaps { missing, all: self.bins.iter().product(), of: "bins", is_used: true })
     }
 
+    #[cfg(feature = "half-diff")]
     fn prepare(&self, options: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
-        Ok(Box::new(Prepared { table: Table::new(self)?, lookup: options.lookup }))
+        super::prepared::prepare(self, options)
     }
 }

@@ -7,15 +7,18 @@
 //! [`Data`] are the matrices as they were measured, with their evaluation in `f64`; a [`Table`] has what
 //! unpolarised light sees of them, made ready for evaluation in SIMD lanes.
 
+#[cfg(feature = "mueller")]
 mod lanes;
+#[cfg(feature = "mueller")]
 mod prepared;
 mod reference;
 mod representation;
-#[cfg(test)]
+#[cfg(all(test, feature = "mueller"))]
 mod tests;
 
 use crate::invalid::{Invalid, ascending, count};
 
+#[cfg(feature = "mueller")]
 pub use lanes::Table;
 pub use reference::{coordinates, plane_normal, rounding, stokes_basis};
 pub use representation::KIND;

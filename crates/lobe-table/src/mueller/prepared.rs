@@ -5,7 +5,13 @@ use lobe_backend::Backend;
 
 use super::{Data, Matrix, Table};
 use crate::bsdf::{Bsdf, unit};
-use crate::{Channels, Directions};
+use crate::data::PrepareError;
+use crate::{Channels, Directions, Representation};
+
+/// Lays the data out.
+pub(super) fn prepare(data: &Data, _: &crate::data::Options) -> Result<Box<dyn Bsdf>, PrepareError> {
+    Ok(Box::new(Prepared { data: data.clone(), table: Table::new(data)?, channels: data.channels() }))
+}
 
 /// The matrices, and what unpolarised light sees of them.
 #[derive(Debug)]

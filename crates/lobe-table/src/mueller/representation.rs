@@ -2,8 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::prepared::Prepared;
-use super::{AXES, Data, ELEMENTS, Table};
+use super::{AXES, Data, ELEMENTS};
 use crate::bsdf::Bsdf;
 use crate::data::{Gaps, Options, PrepareError, Section};
 use crate::{Aspect, Channels, Kind, Representation};
@@ -57,7 +56,8 @@ impl Representation for Data {
         true
     }
 
-    fn prepare(&self, _: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
-        Ok(Box::new(Prepared { data: self.clone(), table: Table::new(self)?, channels: self.channels() }))
+    #[cfg(feature = "mueller")]
+    fn prepare(&self, options: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
+        super::prepared::prepare(self, options)
     }
 }

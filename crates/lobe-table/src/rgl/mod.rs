@@ -10,15 +10,18 @@
 //! [`Data`] is the data; [`Reference`] evaluates it one query at a time in `f64`; [`Table`]
 //! evaluates many in SIMD lanes; [`Warp`] is the interpolant between.
 
+#[cfg(feature = "rgl")]
 mod lanes;
 mod marginal;
+#[cfg(feature = "rgl")]
 mod prepared;
 mod reference;
 mod representation;
 
-#[cfg(test)]
+#[cfg(all(test, feature = "rgl"))]
 mod tests;
 
+#[cfg(feature = "rgl")]
 pub use lanes::{Drawn, Options, Table, Wanted};
 pub use marginal::{Blend, Warp};
 pub use reference::{Reference, Sample, UniformOrder};

@@ -4,9 +4,16 @@ use std::sync::Arc;
 
 use lobe_backend::Backend;
 
-use super::{Drawn, Table, UniformOrder, Wanted};
+use super::{Data, Drawn, Options, Table, UniformOrder, Wanted};
 use crate::bsdf::{Bsdf, Scheme};
+use crate::data::PrepareError;
 use crate::{Channels, Directions, Given, Sampled, SamplerError, SamplerOptions};
+
+/// Lays the data out.
+pub(super) fn prepare(data: &Data, options: &crate::data::Options) -> Result<Box<dyn Bsdf>, PrepareError> {
+    let table = Arc::new(Table::new(data, Options::default())?);
+    Ok(Box::new(Prepared { table, indexed_by: options.indexed_by }))
+}
 
 /// A table, and which direction it is indexed by.
 #[derive(Clone, Debug)]

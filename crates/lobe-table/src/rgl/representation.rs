@@ -1,9 +1,6 @@
 //! What programs ask of materials of the EPFL database.
 
-use std::sync::Arc;
-
-use super::prepared::Prepared;
-use super::{Data, Options as TableOptions, Table};
+use super::Data;
 use crate::bsdf::Bsdf;
 use crate::data::{Gaps, Options, PrepareError, Section, pairs};
 use crate::{Aspect, Channels, Kind, Representation};
@@ -50,9 +47,9 @@ impl Representation for Data {
         vec![Section { quantity, ..section }]
     }
 
+    #[cfg(feature = "rgl")]
     fn prepare(&self, options: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
-        let table = Arc::new(Table::new(self, TableOptions::default())?);
-        Ok(Box::new(Prepared { table, indexed_by: options.indexed_by }))
+        super::prepared::prepare(self, options)
     }
 
     fn incidences(&self, _: Aspect) -> Vec<[f64; 2]> {

@@ -5,11 +5,14 @@
 
 pub(crate) mod coordinates;
 mod data;
+#[cfg(feature = "spherical")]
 mod prepared;
 mod reference;
 mod representation;
+#[cfg(feature = "spherical")]
 mod table;
 
 pub use data::{AXIS_NAMES, Data};
 pub use representation::KIND;
+#[cfg(feature = "spherical")]
 pub use table::Table;

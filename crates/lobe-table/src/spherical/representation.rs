@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{AXIS_NAMES, Data, Table};
+use super::{AXIS_NAMES, Data};
 use crate::bsdf::Bsdf;
 use crate::data::{ANGLE_ROUNDING, Grid, Kinks, Options, PrepareError, Section, pairs};
 use crate::{Aspect, Channels, Edges, Kind, Representation};
@@ -69,7 +69,8 @@ impl Representation for Data {
         })
     }
 
-    fn prepare(&self, _: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
-        Ok(Box::new(Table::new(self)?))
+    #[cfg(feature = "spherical")]
+    fn prepare(&self, options: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
+        super::prepared::prepare(self, options)
     }
 }

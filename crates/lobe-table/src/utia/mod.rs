@@ -6,15 +6,18 @@
 //! [`Data`] are the values as they were measured, with their evaluation in `f64`; a [`Table`] is made ready for
 //! evaluation in SIMD lanes.
 
+#[cfg(feature = "utia")]
 mod lanes;
+#[cfg(feature = "utia")]
 mod prepared;
 mod reference;
 mod representation;
-#[cfg(test)]
+#[cfg(all(test, feature = "utia"))]
 mod tests;
 
 use crate::invalid::{Invalid, count};
 
+#[cfg(feature = "utia")]
 pub use lanes::Table;
 pub use representation::KIND;
 

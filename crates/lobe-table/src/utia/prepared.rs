@@ -2,9 +2,15 @@
 
 use lobe_backend::Backend;
 
-use super::Table;
+use super::{Data, Table};
 use crate::bsdf::Bsdf;
+use crate::data::PrepareError;
 use crate::{Channels, Directions};
+
+/// Lays the data out.
+pub(super) fn prepare(data: &Data, options: &crate::data::Options) -> Result<Box<dyn Bsdf>, PrepareError> {
+    Ok(Box::new(Table::new(data, options.decode)?))
+}
 
 impl Bsdf for Table {
     fn channels(&self) -> &Channels {

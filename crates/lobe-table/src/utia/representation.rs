@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::{Data, PHIS, STEPS, THETAS, Table};
+use super::{Data, PHIS, STEPS, THETAS};
 use crate::bsdf::Bsdf;
 use crate::data::{Options, PrepareError, Section, pairs};
 use crate::{Aspect, Channels, Kind, Representation};
@@ -54,7 +54,8 @@ impl Representation for Data {
         Some("both directions from 0 to 75 degrees; beyond, values are extrapolated")
     }
 
+    #[cfg(feature = "utia")]
     fn prepare(&self, options: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
-        Ok(Box::new(Table::new(self, options.decode)?))
+        super::prepared::prepare(self, options)
     }
 }

@@ -1,7 +1,6 @@
 //! The blocks of a sheet in every band of wavelengths, as they were measured.
 
 use super::klems::{self, AngleBasis, Ring};
-use super::prepared::Prepared;
 use super::tensor_tree::{self, Rank};
 use super::{Block, Blocks, Component};
 use crate::bsdf::Bsdf;
@@ -90,8 +89,9 @@ impl Representation for Data {
         sections
     }
 
-    fn prepare(&self, _: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
-        Ok(Box::new(Prepared::new(self)?))
+    #[cfg(feature = "window")]
+    fn prepare(&self, options: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
+        super::prepared::prepare(self, options)
     }
 
     /// The middles of the rings of Klems matrices, at azimuth 0.

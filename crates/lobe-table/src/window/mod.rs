@@ -5,10 +5,12 @@
 
 mod data;
 pub mod klems;
+#[cfg(feature = "window")]
 mod lanes;
+#[cfg(feature = "window")]
 mod prepared;
 pub mod tensor_tree;
-#[cfg(test)]
+#[cfg(all(test, feature = "window"))]
 mod tests;
 
 use crate::{Aspect, Scatter, Side};
@@ -16,6 +18,7 @@ use klems::KlemsMatrix;
 use tensor_tree::TensorTree;
 
 pub use data::{Band, Data};
+#[cfg(feature = "window")]
 pub use lanes::Table;
 
 /// The values of one block, in the form its file has them.

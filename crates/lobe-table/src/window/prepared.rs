@@ -5,7 +5,13 @@ use lobe_backend::Backend;
 use super::klems::KlemsMatrix;
 use super::{Block, Component, Data, Table};
 use crate::bsdf::Bsdf;
+use crate::data::PrepareError;
 use crate::{Aspect, Channels, Directions, DistributionError, Invalid, PatchSampler, Representation, Scatter};
+
+/// Lays the data out.
+pub(super) fn prepare(data: &Data, _: &crate::data::Options) -> Result<Box<dyn Bsdf>, PrepareError> {
+    Ok(Box::new(Prepared::new(data)?))
+}
 
 #[derive(Debug)]
 pub(crate) struct Prepared {

@@ -6,6 +6,7 @@
 //!
 //! The evaluation in SIMD lanes is that of [`Table`](super::Table).
 
+#[cfg(feature = "window")]
 pub(crate) mod lanes;
 mod reference;
 #[cfg(test)]

@@ -8,6 +8,7 @@
 //! Nodes and leaf values lie in flat arrays, so that a walk down the tree is a gather per level. The evaluation in SIMD
 //! lanes is that of [`Table`](super::Table).
 
+#[cfg(feature = "window")]
 pub(crate) mod lanes;
 mod reference;
 #[cfg(test)]
