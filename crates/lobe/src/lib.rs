@@ -1,12 +1,73 @@
 //! Measured BRDFs and BSDFs: open a file, evaluate it in batches on the best SIMD backend of the machine.
 //!
-//! [`Material`] is what most programs want: from a file of any format, from bytes in memory, or from samples, in any
-//! representation; [`Sampler`] draws directions for it. Both are a [`Bsdf`], and so are the models of `lobe-model`. A
-//! renderer that is itself vectorised takes a [`specular::Table`] and calls [`specular::Table::eval_lanes`] inside a
-//! [`Kernel`] of its own, which [`Backend::run`] runs.
+//! A [`Material`] comes from a file of any format, from bytes in memory, or from samples, in any representation; a
+//! [`Sampler`] draws directions for it. Both are a [`Bsdf`], and so are the models of `lobe-model`. Directions are unit vectors away from the surface, whose normal is +z: `wi` toward
+//! the light, `wo` toward the viewer. Values are `f` in 1/sr, without the cosine, one per channel.
 //!
-//! The crates below are here by their contents: [`table`] has the representations, [`formats`] the readers and writers,
-//! [`math`] the functions in lanes. What most programs name is re-exported at the top.
+//! # Three ways to evaluate
+//!
+//! One pair of directions:
+//!
+//! ```no_run
+//! # use lobe::Material;
+//! let material = Material::open("paint.ddr")?;
+//! let mut f = vec![0.0; material.channel_count()];
+//! material.eval([0.6, 0.0, 0.8], [-0.6, 0.0, 0.8], &mut f);
+//! # Ok::<(), lobe::OpenError>(())
+//! ```
+//!
+//! A batch, of vectors or of [columns](Directions::columns): many times as fast per pair. Large ones are shared among threads.
+//!
+//! ```no_run
+//! # use lobe::Material;
+//! # let material = Material::open("paint.ddr")?;
+//! let wi = [[0.6, 0.0, 0.8], [0.0, 0.0, 1.0]];
+//! let wo = [[-0.6, 0.0, 0.8], [0.0, 0.6, 0.8]];
+//! let mut f = vec![0.0; wi.len() * material.channel_count()];
+//! material.eval_batch(&wi, &wo, &mut f); // f[query * channel_count + channel]
+//! # Ok::<(), lobe::OpenError>(())
+//! ```
+//!
+//! In lanes, inside a [`Kernel`] of your own, which [`Backend::run`] compiles for every backend. A renderer that is itself
+//! vectorised pays for no dispatch and no memory between its own arithmetic and the table's:
+//!
+//! ```no_run
+//! use lobe::{Kernel, Lanes, Material, specular};
+//!
+//! /// f of a grey table for one light and as many viewers as there are lanes.
+//! struct Viewers<'a> {
+//!     table: &'a specular::Table,
+//!     wo: [&'a [f32]; 3],
+//!     out: &'a mut [f32],
+//! }
+//!
+//! impl Kernel for Viewers<'_> {
+//!     type Out = ();
+//!
+//!     #[inline(always)]
+//!     fn run<L: Lanes>(self, lanes: L) {
+//!         let wi = lanes.splat_xyz([0.6, 0.0, 0.8]);
+//!         let [x, y, z] = self.wo;
+//!         let mut at = 0;
+//!         while at < self.out.len() {
+//!             let wo = [lanes.load_partial(&x[at..]), lanes.load_partial(&y[at..]), lanes.load_partial(&z[at..])];
+//!             let mut f = [lanes.splat(0.0)];
+//!             self.table.eval_lanes(lanes, wi, wo, lanes.first_n(self.out.len() - at), &mut f);
+//!             lanes.store_partial(&mut self.out[at..], f[0]);
+//!             at += L::LANES;
+//!         }
+//!     }
+//! }
+//!
+//! # let material = Material::open("grey.ddr")?;
+//! # let (x, y, z) = (vec![0.0; 9], vec![0.0; 9], vec![1.0; 9]);
+//! # let mut out = vec![0.0; 9];
+//! let table = material.specular_table().expect("a table in specular coordinates");
+//! material.backend().run(Viewers { table, wo: [&x, &y, &z], out: &mut out });
+//! # Ok::<(), lobe::OpenError>(())
+//! ```
+//!
+//! The [examples](https://github.com/lobe-rs/lobe/tree/main/crates/lobe/examples) have whole programs.
 //!
 //! # Features
 //!
@@ -22,6 +83,11 @@
 //! | `spherical` | grids of spherical coordinates |
 //! | `utia` | materials of the UTIA database |
 //! | `window` | Klems matrices and tensor trees |
+//!
+//! # Crates below
+//!
+//! What most programs name is re-exported here. The rest is in [`table`] (representations), [`formats`] (readers and
+//! writers) and [`math`] (functions over lanes).
 #![forbid(unsafe_code)]
 
 mod error;

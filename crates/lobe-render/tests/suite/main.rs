@@ -2,6 +2,7 @@
 
 mod common;
 mod direct;
+mod examples;
 mod files;
 mod furnace;
 mod identical;

@@ -1,5 +1,6 @@
 //! Materials of every kind: what they evaluate to, on every backend, and how they are sampled.
 
+mod examples;
 mod golden;
 mod golden_representations;
 mod material;
