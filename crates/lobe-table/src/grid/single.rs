@@ -10,7 +10,7 @@ use lobe_lane::{Block, Lanes};
 
 use super::axis::{Axis, Bounds, Search};
 use super::interpolation::Interpolator;
-use super::layout::{Corners, TURN, Texels};
+use super::layout::{Corners, LAST, TURN, Texels};
 use super::texel::Stored;
 
 /// Where in a grid a query lies.
@@ -25,18 +25,17 @@ impl Interpolator {
     #[inline(always)]
     pub(crate) fn single<L: Lanes>(&self, lanes: L, angles: [f32; 4], valid: bool, out: &mut [f32]) {
         let strides = self.layout().strides();
-        let (mut base, mut fractions, mut valid) = (0_u32, [0.0; 4], valid);
-        let mut axis = 0;
-        while axis < 4 {
-            if axis != TURN || self.is_anisotropic() {
-                let OneCell { index, fraction, contained } = self.axes()[axis].cell_one(lanes, angles[axis]);
-                base = base.wrapping_add(index.wrapping_mul(strides[axis] as u32));
-                fractions[axis] = fraction;
-                valid &= contained;
-            }
-            axis += 1;
-        }
-        let located = Located { at: base as usize, fractions, valid };
+        let find = |index: usize| {
+            let OneCell { index: cell, fraction, contained } = self.axes()[index].cell_one(lanes, angles[index]);
+            (cell.wrapping_mul(strides[index] as u32), fraction, contained)
+        };
+        let (at_first, first, in_first) = find(0);
+        let (at_third, third, in_third) = find(2);
+        let (at_last, last, in_last) = find(LAST);
+        let (at_turn, turn, in_turn) = if self.is_anisotropic() { find(TURN) } else { (0, 0.0, true) };
+        let base = at_first.wrapping_add(at_turn).wrapping_add(at_third).wrapping_add(at_last);
+        let valid = valid & in_first & in_turn & in_third & in_last;
+        let located = Located { at: base as usize, fractions: [first, turn, third, last], valid };
         match self.layout().texels() {
             Texels::Single(corners) => located.read(lanes, self, corners, out),
             Texels::Half(corners) => located.read(lanes, self, corners, out),
