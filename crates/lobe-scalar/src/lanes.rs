@@ -34,7 +34,10 @@ impl<const N: usize> Lanes for Scalar<N> {
     }
     #[inline(always)]
     fn first_four(self, x: [f32; 4]) -> Floats<N> {
-        Floats(each(|lane| x.get(lane).copied().unwrap_or(0.0)))
+        Floats(each(
+            #[inline(always)]
+            |lane| x.get(lane).copied().unwrap_or(0.0),
+        ))
     }
     #[inline(always)]
     fn splat_int(self, x: i32) -> Ints<N> {
@@ -42,7 +45,10 @@ impl<const N: usize> Lanes for Scalar<N> {
     }
     #[inline(always)]
     fn iota(self) -> Ints<N> {
-        Ints(each(|lane| lane as i32))
+        Ints(each(
+            #[inline(always)]
+            |lane| lane as i32,
+        ))
     }
     #[inline(always)]
     fn mul_add(self, a: Floats<N>, b: Floats<N>, c: Floats<N>) -> Floats<N> {
@@ -50,22 +56,34 @@ impl<const N: usize> Lanes for Scalar<N> {
     }
     #[inline(always)]
     fn select(self, mask: Mask<N>, a: Floats<N>, b: Floats<N>) -> Floats<N> {
-        Floats(each(|lane| if mask.0[lane] { a.0[lane] } else { b.0[lane] }))
+        Floats(each(
+            #[inline(always)]
+            |lane| if mask.0[lane] { a.0[lane] } else { b.0[lane] },
+        ))
     }
     #[inline(always)]
     fn select_int(self, mask: Mask<N>, a: Ints<N>, b: Ints<N>) -> Ints<N> {
-        Ints(each(|lane| if mask.0[lane] { a.0[lane] } else { b.0[lane] }))
+        Ints(each(
+            #[inline(always)]
+            |lane| if mask.0[lane] { a.0[lane] } else { b.0[lane] },
+        ))
     }
 
     #[inline(always)]
     fn select_negative(self, sign: Ints<N>, a: Floats<N>, b: Floats<N>) -> Floats<N> {
-        Floats(each(|lane| if sign.0[lane] < 0 { a.0[lane] } else { b.0[lane] }))
+        Floats(each(
+            #[inline(always)]
+            |lane| if sign.0[lane] < 0 { a.0[lane] } else { b.0[lane] },
+        ))
     }
 
     #[inline(always)]
     fn load(self, src: &[f32]) -> Floats<N> {
         let src = &src[..N];
-        Floats(each(|lane| src[lane]))
+        Floats(each(
+            #[inline(always)]
+            |lane| src[lane],
+        ))
     }
     #[inline(always)]
     fn store(self, dst: &mut [f32], x: Floats<N>) {
@@ -74,7 +92,10 @@ impl<const N: usize> Lanes for Scalar<N> {
     #[inline(always)]
     fn load_int(self, src: &[i32]) -> Ints<N> {
         let src = &src[..N];
-        Ints(each(|lane| src[lane]))
+        Ints(each(
+            #[inline(always)]
+            |lane| src[lane],
+        ))
     }
     #[inline(always)]
     fn store_int(self, dst: &mut [i32], x: Ints<N>) {
@@ -83,18 +104,37 @@ impl<const N: usize> Lanes for Scalar<N> {
     #[inline(always)]
     fn load_xyz(self, src: &[[f32; 3]]) -> [Floats<N>; 3] {
         let src = &src[..N];
-        let axis = |axis: usize| Floats(each(|lane| src[lane][axis]));
-        [axis(0), axis(1), axis(2)]
+        let mut axes = [self.splat(0.0); 3];
+        let mut axis = 0;
+        while axis < 3 {
+            axes[axis] = Floats(each(
+                #[inline(always)]
+                |lane| src[lane][axis],
+            ));
+            axis += 1;
+        }
+        axes
     }
 
     #[inline(always)]
     fn gather(self, table: &[f32], index: Ints<N>) -> Floats<N> {
-        Floats(each(|lane| table[clamp_index(index.0[lane], table.len())]))
+        Floats(each(
+            #[inline(always)]
+            |lane| table[clamp_index(index.0[lane], table.len())],
+        ))
     }
     #[inline(always)]
     fn gather_pair(self, table: &[[f32; 2]], index: Ints<N>) -> [Floats<N>; 2] {
-        let half = |half: usize| Floats(each(|lane| table[clamp_index(index.0[lane], table.len())][half]));
-        [half(0), half(1)]
+        let mut halves = [self.splat(0.0); 2];
+        let mut half = 0;
+        while half < 2 {
+            halves[half] = Floats(each(
+                #[inline(always)]
+                |lane| table[clamp_index(index.0[lane], table.len())][half],
+            ));
+            half += 1;
+        }
+        halves
     }
     #[inline(always)]
     fn gather_quads<const K: usize>(self, block: &Block<'_, K, 4>, base: Ints<N>) -> [[Floats<N>; 4]; K] {
@@ -103,10 +143,13 @@ impl<const N: usize> Lanes for Scalar<N> {
         while at < 4 * K {
             let (corner, k) = (at / 4, at % 4);
             let offset = block.offsets()[corner] + k;
-            corners[corner][k] = Floats(each(|lane| {
-                let base = (base.0[lane] as u32 as usize).min(block.last_base());
-                block.data()[base + offset]
-            }));
+            corners[corner][k] = Floats(each(
+                #[inline(always)]
+                |lane| {
+                    let base = (base.0[lane] as u32 as usize).min(block.last_base());
+                    block.data()[base + offset]
+                },
+            ));
             at += 1;
         }
         corners
@@ -118,17 +161,23 @@ impl<const N: usize> Lanes for Scalar<N> {
         while at < 4 * K {
             let (corner, k) = (at / 4, at % 4);
             let offset = block.offsets()[corner] + k;
-            corners[corner][k] = Floats(each(|lane| {
-                let base = (base.0[lane] as u32 as usize).min(block.last_base());
-                from_half(block.data()[base + offset])
-            }));
+            corners[corner][k] = Floats(each(
+                #[inline(always)]
+                |lane| {
+                    let base = (base.0[lane] as u32 as usize).min(block.last_base());
+                    from_half(block.data()[base + offset])
+                },
+            ));
             at += 1;
         }
         corners
     }
     #[inline(always)]
     fn oct_lookup(self, table: Texel<8>, index: Ints<N>) -> Floats<N> {
-        Floats(each(|lane| table.0[(index.0[lane] & 7) as usize]))
+        Floats(each(
+            #[inline(always)]
+            |lane| table.0[(index.0[lane] & 7) as usize],
+        ))
     }
 }
 
