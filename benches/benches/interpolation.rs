@@ -1,4 +1,4 @@
-//! What does interpolation cost where the angles are known?
+//! What does interpolation cost if the angles are known?
 
 mod common;
 

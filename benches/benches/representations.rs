@@ -1,4 +1,4 @@
-//! How fast are representations evaluated that are no specular tables?
+//! How fast are the representations other than specular tables evaluated?
 
 mod common;
 

@@ -1,8 +1,8 @@
-//! How fast are rays of each class, by each way through the tree, on each backend?
+//! How fast are rays of each class traced, by each form, on each backend?
 //!
-//! A torus knot of 70 thousand triangles in a closed room, made here, so that the figures can be had anywhere. Before
-//! criterion's own figures stands a table in which all contestants take turns at small pieces and the best of several
-//! runs of each counts: its ratios hold on a busy machine too.
+//! A torus knot of 70 thousand triangles in a closed room, made here, so that the figures can be reproduced anywhere.
+//! Before criterion's own figures comes a table for which all contestants take turns at small pieces and the best of
+//! several runs of each counts: its ratios hold on a busy machine too.
 
 use std::time::Instant;
 
@@ -11,7 +11,7 @@ use lobe::Backend;
 use lobe_benches::tracing::{self, RaySet};
 use lobe_trace::{Form, HitSoA, Rays, Scene};
 
-/// Traces rays; the flag says that any hit is enough.
+/// Traces rays; the flag means that any hit is enough.
 type Run<'a> = Box<dyn Fn(Rays<'_>, bool) + 'a>;
 
 /// A form on a backend.
@@ -42,7 +42,7 @@ fn contestant(scene: &Scene, backend: Backend, form: Form) -> Contestant<'_> {
     }
 }
 
-/// Rays of a piece: a few milliseconds, which often pass without an interruption.
+/// Rays per piece: a few milliseconds, which often pass without an interruption.
 const PIECE: usize = 1 << 14;
 
 /// How long each contestant takes for each set: the sum of the best times of its pieces.
@@ -67,7 +67,7 @@ fn best_times(sets: &[RaySet], contestants: &[Contestant<'_>]) -> Vec<Vec<f64>> 
     best
 }
 
-/// Millions of rays a second, and in brackets how many times the same form on the scalar backend.
+/// Millions of rays per second, and in brackets the ratio to the same form on the scalar backend.
 fn table(title: &str, scene: &Scene, pixels: usize) {
     let (sets, contestants) = (tracing::sets(scene, pixels), contestants(scene));
     let best = best_times(&sets, &contestants);

@@ -1,15 +1,15 @@
-//! Ratios that can be trusted on a machine that is not quiet.
+//! Ratios that can be trusted on a machine that is not idle.
 
 use std::time::{Duration, Instant};
 
-/// How often everybody has a turn.
+/// How many turns every contender gets.
 #[derive(Clone, Copy, Debug)]
 pub struct Rounds {
-    /// At most this often.
+    /// At most this many.
     pub most: usize,
-    /// At least this often, however long it takes.
+    /// At least this many, however long they take.
     pub least: usize,
-    /// Between the two, until so much time is over.
+    /// Between the two, until this much time has passed.
     pub time: Duration,
 }
 

@@ -35,7 +35,8 @@ fn knots(nodes: [usize; 4]) -> [Vec<f64>; 4] {
     ]
 }
 
-/// An RGB table of smooth values, so that a small error of an angle stays one of the value where cells are narrow.
+/// An RGB table of smooth values, so that a small error in an angle remains a small error in the value even if cells
+/// are narrow.
 pub fn smooth(nodes: [usize; 4]) -> specular::Data {
     let knots = knots(nodes);
     let mut values = Vec::with_capacity(3 * nodes.iter().product::<usize>());
@@ -44,7 +45,7 @@ pub fn smooth(nodes: [usize; 4]) -> specular::Data {
         for (_, cos_psi) in &waves[1] {
             for (sin_theta, cos_theta) in &waves[2] {
                 for (sin_phi, cos_phi) in &waves[3] {
-                    // No psi at the normal and no phi at the poles of theta, where they mean nothing.
+                    // Independent of psi at the normal and of phi at the poles of theta, where they mean nothing.
                     let base = 1.0 + 0.3 * sin_sigma * cos_psi + 0.4 * cos_theta;
                     let around = 0.2 * sin_theta;
                     values.extend([base, base + around * cos_phi, base + around * sin_phi].map(|x| x as f32));
@@ -126,12 +127,12 @@ fn waves(part: &'static str, [slices, height, width]: [usize; 3], low: f32) -> I
     Images::new(part, [slices, height, width], texels).expect("valid images")
 }
 
-/// A number in `(0, 1]` for each index, of which neighbours have others.
+/// A number in `(0, 1]` for each index, different for neighbouring indices.
 fn value(index: usize) -> f32 {
     (1 + index * 7919 % 10_007) as f32 / 10_007.0
 }
 
-/// A grid of that many bins, as those of the MERL database are `[90, 90, 180]`.
+/// A grid with that many bins; those of the MERL database have `[90, 90, 180]`.
 pub fn half_difference(bins: [usize; 3]) -> half_diff::Data {
     half_diff::Data::new(bins, (0..3 * bins.iter().product::<usize>()).map(value).collect()).expect("a valid grid")
 }
@@ -187,7 +188,7 @@ pub fn tensor_tree(rank: Rank) -> window::Blocks {
     let dimensions = rank.dimensions();
     let children = 1 << dimensions;
     let (mut nodes, mut count) = (vec![Node::Branch(1)], 0_usize);
-    // The children of the root, of which every third is divided again.
+    // The children of the root, every third of which is divided again.
     let divided = |child: usize| child.is_multiple_of(3);
     let mut next = 1 + children;
     for child in 0..children {

@@ -1,4 +1,4 @@
-//! Meshes and rays that tracing is measured on.
+//! Meshes and rays for measurements of tracing.
 
 use std::collections::HashMap;
 use std::f32::consts::TAU;
@@ -49,7 +49,7 @@ pub fn knot(along: usize, around: usize) -> Parts {
     (positions, triangles)
 }
 
-/// Four triangles for each, and the vertices moved a little, so that neighbours do not lie in one plane.
+/// Each triangle becomes four, and the vertices move a little, so that neighbours are not coplanar.
 pub fn subdivided((mut positions, triangles): Parts) -> Parts {
     let mut middles = HashMap::new();
     let mut fine = Vec::with_capacity(4 * triangles.len());
@@ -67,10 +67,10 @@ pub fn subdivided((mut positions, triangles): Parts) -> Parts {
     (positions.into_iter().map(moved).collect(), fine)
 }
 
-/// A mesh made three units large, inside a closed room of six.
+/// A mesh scaled to three units, inside a closed room of six.
 ///
 /// # Panics
-/// Where it is no mesh.
+/// If the mesh is invalid.
 pub fn in_room((positions, mut triangles): Parts) -> Mesh {
     let end = |axis: usize, most: f32| positions.iter().fold(-f32::INFINITY, |end, p| end.max(most * p[axis]));
     let [low, high]: [V; 2] = [-1.0, 1.0].map(|most| std::array::from_fn(|axis| most * end(axis, most)));
@@ -90,7 +90,7 @@ pub fn in_room((positions, mut triangles): Parts) -> Mesh {
 pub struct RaySet {
     /// Short name.
     pub name: &'static str,
-    /// What the rays are for.
+    /// The purpose of the rays.
     pub class: RayClass,
     /// Any hit is enough.
     pub any: bool,
@@ -98,7 +98,7 @@ pub struct RaySet {
     pub rays: RaySoA,
 }
 
-/// Rays in the room: a picture of some pixels, and what follows from each of its rays.
+/// Rays in the room: a picture of some pixels, and the rays that follow from each of its rays.
 pub fn sets(scene: &Scene, pixels: usize) -> Vec<RaySet> {
     let mut rng = Pcg64Mcg::seed_from_u64(1);
     let camera = camera(pixels);
@@ -136,7 +136,7 @@ fn camera(pixels: usize) -> RaySoA {
     rays
 }
 
-/// Secondary rays: what happens at each hit is told by a function of the ray's direction, place and normal.
+/// Secondary rays: a function of the direction, position and normal of a hit gives what happens there.
 fn next(scene: &Scene, rays: &RaySoA, mut turn: impl FnMut(V, V, V) -> (V, f32)) -> RaySoA {
     let mut hits = HitSoA::new(rays.len());
     scene.intersect(Backend::scalar(), RayClass::Diffuse, rays.view(), hits.view());

@@ -1,4 +1,4 @@
-//! Pairs of directions as a renderer asks for them.
+//! Pairs of directions as a renderer queries them.
 
 use std::f32::consts::TAU;
 
@@ -60,7 +60,7 @@ impl Pairs {
         self.wi[0].len()
     }
 
-    /// `true` where there is none.
+    /// `true` if there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -107,13 +107,13 @@ impl Pairs {
         const TILE: u32 = 8 * 8;
         // The tiles of a square whose side is the next power of two.
         const TILES: u32 = SIZE.next_power_of_two().pow(2) / TILE;
-        // Odd, and near the golden section of the number of tiles: every tile comes once, far from the one before.
+        // Odd, and near the golden section of the number of tiles: every tile comes once, far from the previous one.
         const STEP: u32 = (TILES as f64 * 0.618) as u32 | 1;
         let light = [2.0f32, 3.0, 4.0];
         let mut pairs = Pairs::default();
         let mut pixel = 0u32;
         while pairs.len() < count {
-            // A picture that is used up begins again: it has more visible pixels than any workload asks for at once.
+            // A picture that is used up begins again: it has more visible pixels than any workload requests at once.
             let tile = (pixel / TILE).wrapping_mul(STEP) % TILES;
             let code = tile * TILE + pixel % TILE;
             pixel = (pixel + 1) % (TILES * TILE);
@@ -143,7 +143,7 @@ impl Pairs {
     }
 }
 
-/// The bits at even positions, drawn together.
+/// The bits at even positions, compacted.
 fn even_bits(code: u32) -> u32 {
     (0..16).fold(0, |sum, bit| sum | (code >> (2 * bit) & 1) << bit)
 }

@@ -1,5 +1,5 @@
 //! Fills `fuzz/corpus`: each target gets small files of its format, our own ones, and those in the folder that
-//! `LOBE_SHARED` names or in `shared` beside the workspace.
+//! `LOBE_SHARED` names, or else in `shared` beside the workspace.
 #![forbid(unsafe_code)]
 
 use std::path::Path;
@@ -20,7 +20,7 @@ fn main() -> io::Result<()> {
     }
     for (index, (format, bytes)) in seeds.iter().enumerate() {
         let mut targets = vec![target(*format)];
-        // Told by nothing but its size, which mutations change.
+        // Recognised by nothing but its size, which mutations change.
         if *format != Format::Utia {
             targets.push("sniff".into());
         }

@@ -1,4 +1,4 @@
-//! Any file: the format is told, and the reader of that format reads it.
+//! Any file: its format is detected, and the reader of that format reads it.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {

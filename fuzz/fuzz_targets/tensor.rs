@@ -1,4 +1,4 @@
-//! Tensor files with any fields; what is read and written has to come back the same.
+//! Tensor files with any fields; what is read and written must come back the same.
 #![no_main]
 
 use std::path::Path;
@@ -8,7 +8,7 @@ use lobe_formats::tensor;
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let file = Path::new("fuzz");
     let Ok(tensors) = tensor::read(bytes, file) else { return };
-    // Fields may overlap, and what is written has each of them in full.
+    // Fields may overlap, but the written file has each of them in full.
     if tensors.fields.iter().map(|field| field.data.len()).sum::<usize>() > 1 << 20 {
         return;
     }

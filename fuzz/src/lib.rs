@@ -1,4 +1,4 @@
-//! What all fuzz targets do: read, check the memory that it took, evaluate.
+//! What all fuzz targets do: read, check the memory used, evaluate.
 //!
 //! `docs/fuzzing.md` says how to run them.
 #![forbid(unsafe_code)]
@@ -13,9 +13,9 @@ lobe_testing::count_memory!();
 /// Reads `bytes` as a file of `format` and evaluates what is in it.
 ///
 /// # Panics
-/// If a reader or an evaluation does, or a reader took more memory than the size of the file can justify.
+/// If a reader or an evaluation does, or a reader used more memory than the size of the file justifies.
 pub fn read(format: Format, bytes: &[u8]) {
-    // Whether it is a sound file is not the question.
+    // Whether it is a valid file does not matter here.
     let _ = probe(format, bytes, Path::new("fuzz"));
 }
 

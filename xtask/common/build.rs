@@ -1,4 +1,4 @@
-//! Passes on which compiler builds the kernels that the report measures.
+//! Records the compiler that builds the kernels that the report measures.
 
 use std::process::Command;
 

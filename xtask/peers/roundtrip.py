@@ -1,12 +1,12 @@
-"""Files that lobe writes, evaluated by the programs they are written for.
+"""Evaluates files that lobe writes with the programs that they are written for.
 
     python -m venv venv && venv/bin/pip install -r xtask/peers/requirements.txt
     cargo build --release -p lobe-cli
     venv/bin/python xtask/peers/roundtrip.py target/release/lobe
 
 RGL files are evaluated in Mitsuba's `measured` plugin, Klems matrices in pyradiance, arrays and columns in NumPy, all
-at the same directions as in `lobe eval` on the same file, which has to agree, and on what the file was made of, which
-shows the error of resampling. The exit code is 1 where a peer disagrees.
+at the same directions as `lobe eval` on the same file, which must agree, and on the file's source, which shows the
+error of resampling. The exit code is 1 if a peer disagrees.
 """
 
 import argparse
@@ -20,11 +20,11 @@ import numpy as np
 
 FIXTURES = pathlib.Path(__file__).parents[2] / "fixtures"
 
-# What a file may differ by between lobe and a peer, relative to the value or to a hundredth of the mean value.
+# The largest difference between lobe and a peer for a file, relative to the value or to a hundredth of the mean value.
 MITSUBA = 1e-3
 # Radiance changes its values by up to 3.5e-4 on purpose, to break ties in sampling.
 RADIANCE = 4e-4
-# Radiance keeps the colour of a patch as u' and v' in steps of 1/410, rounded by chance: two of them at most.
+# Radiance keeps the colour of a patch as u' and v' in steps of 1/410, randomly rounded: two steps at most.
 RADIANCE_COLOUR = 2 / 410
 
 PAIRS = 5000

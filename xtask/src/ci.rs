@@ -10,7 +10,7 @@ pub const ABOUT: &str = "Run what a change must pass: format, lints, documentati
 
 /// The steps before the tests: their arguments to cargo, and an environment variable.
 ///
-/// The quick report is the longest of those that measure: its programs are also those that `asm` looks at.
+/// The quick report comes before `asm`, which checks the same programs.
 const STEPS: [(&[&str], Option<(&str, &str)>); 7] = [
     (&["fmt", "--all", "--check"], None),
     (&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], None),
@@ -44,14 +44,14 @@ pub fn run(arguments: &[String]) -> ExitCode {
     test()
 }
 
-/// Cargo, which need not prepare for changes: nothing is compiled twice here.
+/// Cargo without incremental compilation, as nothing is compiled twice here.
 fn quiet() -> Command {
     let mut cargo = cargo();
     cargo.env("CARGO_INCREMENTAL", "0");
     cargo
 }
 
-/// What the test runner says in sum.
+/// The totals of the test runner.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Counts {
     passed: u64,
@@ -60,8 +60,8 @@ struct Counts {
 }
 
 impl Counts {
-    /// Adds what a line of a test program says: each closes with one of its own, and the last counts documentation
-    /// examples alone.
+    /// Adds the counts of a line of output: each test program ends with such a line, and the last counts the
+    /// documentation examples.
     fn add(&mut self, line: &str) {
         let Some(counts) = line.strip_prefix("test result:") else { return };
         for part in counts.split([';', '.']) {
@@ -77,7 +77,7 @@ impl Counts {
     }
 }
 
-/// Runs all tests, shows what they print, and ends with the sum of all.
+/// Runs all tests, shows their output, and ends with the totals.
 fn test() -> ExitCode {
     let mut cargo = quiet();
     cargo.args(["test", "--workspace"]).stdout(Stdio::piped());

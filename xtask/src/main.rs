@@ -1,7 +1,7 @@
 //! `cargo xtask COMMAND`: the workspace's own commands.
 //!
-//! Each is a program in a package of its own, which is built when it is asked for, so that no command compiles what another
-//! needs. This one has no dependencies and is there at once.
+//! Each is a program in its own package, which is built when it is used, so that no command compiles what another
+//! needs. This one has no dependencies and starts at once.
 #![forbid(unsafe_code)]
 
 mod ci;
@@ -60,7 +60,7 @@ fn main() -> ExitCode {
         help();
         return if ["", "-h", "--help"].contains(&name.as_str()) { ExitCode::SUCCESS } else { ExitCode::from(2) };
     };
-    // The programs of a command share their options, so that one explains them all.
+    // The programs of a command share their options, so the first one explains them all.
     let is_question = arguments.iter().any(|argument| ["-h", "--help"].contains(&argument.as_str()));
     let packages = if is_question { &task.packages[..1] } else { task.packages };
     for package in packages {

@@ -4,13 +4,13 @@ use criterion::{BenchmarkId, Criterion, Throughput};
 use lobe_benches::contest::Question;
 use lobe_benches::workload::Input;
 
-/// Queries a run: enough to leave the first cache, as a renderer's batches do.
+/// Queries per run: enough to exceed the first cache, as a renderer's batches do.
 const COUNT: usize = 1 << 14;
 
-/// Benchmarks all contenders of the questions of those ids, on both inputs.
+/// Benchmarks all contenders of the questions with these ids, on both inputs.
 ///
 /// # Panics
-/// Where somebody's values are not those of the reference.
+/// If the values of a contender are not those of the reference.
 pub fn bench(criterion: &mut Criterion, ids: &[&str]) {
     for id in ids {
         let question = Question::named(id).expect("a question of the contests");

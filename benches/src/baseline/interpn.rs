@@ -1,9 +1,9 @@
-//! The `interpn` crate, a peer for interpolation alone: one channel a call, no coordinates.
+//! The `interpn` crate, a peer for interpolation alone: one channel per call, no coordinates.
 
 use interpn::multilinear::rectilinear;
 use lobe::specular;
 
-/// A table as `interpn` takes it: the axes that have cells, and each channel by itself.
+/// A table in the form that `interpn` takes: the axes that have cells, and each channel by itself.
 #[derive(Clone, Debug)]
 pub struct Grid {
     axes: Vec<usize>,
@@ -15,9 +15,9 @@ impl Grid {
     /// From samples of three channels.
     ///
     /// # Panics
-    /// Where there are not three channels.
+    /// If there are not three channels.
     pub fn new(samples: &specular::Data) -> Self {
-        assert_eq!(samples.channels().count(), 3, "the peers are asked for RGB");
+        assert_eq!(samples.channels().count(), 3, "the peers are queried for RGB");
         let axes: Vec<_> = (0..4).filter(|&axis| samples.knots()[axis].len() > 1).collect();
         let knots = axes.iter().map(|&axis| samples.knots()[axis].iter().map(|&knot| knot as f32).collect());
         let channel = |k: usize| samples.values().iter().skip(k).step_by(3).copied().collect();

@@ -31,7 +31,7 @@ pub fn eval(table: &ScalarTable, wi: [f32; 3], wo: [f32; 3]) -> [f32; 3] {
     table.interpolate(cell, fraction).map(|value| value.max(0.0))
 }
 
-/// The angle of (x, y) in a full circle. By the arc cosine, which takes a fifth of the time of `atan2`.
+/// The angle of (x, y) in a full circle. Uses the arc cosine, which takes a fifth of the time of `atan2`.
 fn azimuth(x: f32, y: f32) -> f32 {
     let length = (x * x + y * y).sqrt();
     let half_turn = if length > 0.0 { (x / length).clamp(-1.0, 1.0).acos() } else { 0.0 };

@@ -1,7 +1,8 @@
 //! What the lanes are compared with: the same evaluation one query at a time.
 //!
-//! Both baselines use the specular coordinates of the library and give its values to rounding. They differ in what an
-//! author of their time would have written: [`libm`] today, [`x87`] in 2005. [`interpn`] is a library that interpolates.
+//! Both baselines use the specular coordinates of the library and give its values to rounding. They differ in what a
+//! programmer of their time would have written: [`libm`] today, [`x87`] in 2005. [`interpn`] is a library that
+//! interpolates.
 
 pub mod interpn;
 pub mod libm;
@@ -10,7 +11,7 @@ pub mod x87;
 
 use lobe::specular;
 
-/// A table of RGB texels, one node after the other, as a scalar program keeps it.
+/// A table of RGB texels, one node after the other, as a scalar program stores it.
 #[derive(Clone, Debug)]
 pub struct ScalarTable {
     /// Knots of sigma, psi, theta and phi in radians.
@@ -23,7 +24,7 @@ impl ScalarTable {
     /// From samples of three channels whose phi and psi close the circle.
     ///
     /// # Panics
-    /// Where there are not three channels.
+    /// If there are not three channels.
     pub fn new(samples: &specular::Data) -> Self {
         assert_eq!(samples.channels().count(), 3, "the baselines are written for RGB");
         let (texels, _) = samples.values().as_chunks::<3>();

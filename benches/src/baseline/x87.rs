@@ -32,7 +32,7 @@ pub fn acos(x: f32) -> f32 {
     angle
 }
 
-/// The cell of an angle by bisection with a branch at each step, as the paper's scalar version; clamped at the ends.
+/// The cell of an angle by bisection with a branch at each step, as in the paper's scalar version; clamped at the ends.
 pub fn bisect(knots: &[f32], angle: f32) -> usize {
     let (mut low, mut high) = (0, knots.len() - 1);
     while high - low > 1 {

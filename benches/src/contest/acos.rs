@@ -1,4 +1,4 @@
-//! Arc cosines of what an evaluation takes them of.
+//! Arc cosines of the arguments that occur in an evaluation.
 
 use std::rc::Rc;
 
@@ -24,7 +24,7 @@ pub fn four_terms(input: Input, count: usize) -> Contest {
 fn contest<const TERMS: usize>(input: Input, count: usize, tolerance: Tolerance) -> Contest {
     let cosines: Rc<[f32]> = input.thetas(count).iter().map(|theta| theta.cos() as f32).collect();
     let expected: Vec<f64> = cosines.iter().map(|&x| f64::from(x).acos()).collect();
-    // Tolerances are parts of the largest value, bounds are radians.
+    // Tolerances are relative to the largest value, bounds are in radians.
     let scale = expected.iter().fold(0.0f64, |a, b| a.max(*b));
     let tolerance = Tolerance { max: tolerance.max / scale, rms: tolerance.rms / scale };
 

@@ -5,7 +5,7 @@ use lobe::{Backend, Kernel, Lanes};
 /// A backend in one of its forms.
 #[derive(Clone, Copy, Debug)]
 pub struct Named {
-    /// The backend's name, with `-strict` where that is a form of its own.
+    /// The backend's name, with `-strict` if that is a separate form.
     pub name: &'static str,
     /// The backend.
     pub backend: Backend,

@@ -12,14 +12,14 @@ use crate::tables;
 use crate::workload::{Input, Pairs};
 
 // The tables of the contests hold random values, so that the steepest cells change by their largest value over 0.012 rad
-// of theta, and by as much over any phi at the mirror peak, where phi means nothing. The largest errors come from there;
-// the mean ones tell a wrong kernel, which would be off by about a third.
+// of theta, and by as much over any phi at the mirror peak, where phi means nothing. The largest errors come from
+// there; the mean ones reveal a wrong kernel, which would be off by about a third.
 
 /// Angles from differences of vectors, within 4e-7 rad.
 const ACCURATE: Tolerance = Tolerance { max: 2e-3, rms: 2e-5 };
 /// Angles from arc cosines of rounded cosines, up to 5e-4 rad off near the peak.
 const COSINES: Tolerance = Tolerance { max: 1e-1, rms: 5e-4 };
-/// And by four terms, up to 1.4e-4 rad off anywhere.
+/// The same with four terms, up to 1.4e-4 rad off anywhere.
 const FOUR_TERMS: Tolerance = Tolerance { max: 1e-1, rms: 2e-3 };
 
 /// Isotropic, in batches.
@@ -27,7 +27,7 @@ pub fn iso(input: Input, count: usize) -> Contest {
     contest(tables::isotropic(), input, count, batch)
 }
 
-/// Isotropic, one query a call.
+/// Isotropic, one query per call.
 pub fn iso_single(input: Input, count: usize) -> Contest {
     contest(tables::isotropic(), input, count, single)
 }
@@ -42,7 +42,7 @@ pub fn aniso(input: Input, count: usize) -> Contest {
     contest(tables::anisotropic(), input, count, batch)
 }
 
-/// Anisotropic, one query a call.
+/// Anisotropic, one query per call.
 pub fn aniso_single(input: Input, count: usize) -> Contest {
     contest(tables::anisotropic(), input, count, single)
 }
@@ -52,7 +52,7 @@ pub fn aniso_paper(input: Input, count: usize) -> Contest {
     contest(tables::anisotropic(), input, count, paper)
 }
 
-/// Isotropic, in batches: the strict form beside the fused one.
+/// Isotropic, in batches: the strict form and the fused one.
 pub fn iso_strict(input: Input, count: usize) -> Contest {
     let mut whole = iso(input, count);
     let (strict, fused): (Vec<_>, Vec<_>) = whole.contenders.into_iter().partition(|c| c.name.ends_with("-strict"));

@@ -1,4 +1,4 @@
-//! Interpolation alone: the angles are known, RGB is asked for.
+//! Interpolation alone: from known angles to RGB.
 
 use std::rc::Rc;
 

@@ -10,7 +10,7 @@ use crate::baseline::{self, ScalarTable};
 use crate::tables;
 use crate::workload::{Input, Pairs};
 
-// Smooth tables, whose values change by 0.4 a radian: an error of an angle is an error of about that size.
+// Smooth tables, whose values change by 0.4 per radian: an error of an angle is an error of about that size.
 
 /// Angles within 4e-7 rad, and rounding.
 const SINGLE: Tolerance = Tolerance { max: 2e-6, rms: 2e-7 };
@@ -48,7 +48,7 @@ fn contest(samples: &specular::Data, input: Input, count: usize) -> Contest {
     Contest { count, baselines: vec![baseline], contenders: single.into_iter().chain(half).collect(), expected }
 }
 
-/// The backends in their fastest forms, over one table in that precision.
+/// The backends in their fastest forms, with one table in that precision.
 fn batches(samples: &specular::Data, precision: Precision, pairs: &Rc<Pairs>) -> Vec<Contender> {
     let table =
         specular::Table::with_precision(samples, &Edges::default(), precision).expect("a table that can be indexed");

@@ -22,7 +22,7 @@ use crate::workload::Input;
 pub use backends::{Named, backends};
 pub use interpolation::angles;
 
-/// A question that a contest answers, by its id in the report.
+/// A question that a contest answers.
 #[derive(Clone, Copy, Debug)]
 pub struct Question {
     /// Short name, as in `report.json`.
@@ -31,7 +31,7 @@ pub struct Question {
     pub title: &'static str,
     /// What one answer is, as in "nanoseconds per search".
     pub unit: &'static str,
-    /// Queries that a run takes at least, for what shows in long runs only.
+    /// The least number of queries per run, for effects that only long runs show.
     pub least: usize,
     build: fn(Input, usize) -> Contest,
 }
@@ -63,7 +63,7 @@ pub const QUESTIONS: [Question; 28] = [
     Question { id: "iso", title: "Isotropic table, batch", unit: "evaluation", least: 1, build: evaluation::iso },
     Question {
         id: "iso-single",
-        title: "Isotropic table, one query a call",
+        title: "Isotropic table, one query per call",
         unit: "evaluation",
         least: 1,
         build: evaluation::iso_single,
@@ -78,7 +78,7 @@ pub const QUESTIONS: [Question; 28] = [
     Question { id: "aniso", title: "Anisotropic table, batch", unit: "evaluation", least: 1, build: evaluation::aniso },
     Question {
         id: "aniso-single",
-        title: "Anisotropic table, one query a call",
+        title: "Anisotropic table, one query per call",
         unit: "evaluation",
         least: 1,
         build: evaluation::aniso_single,
@@ -189,18 +189,18 @@ pub const QUESTIONS: [Question; 28] = [
 ];
 
 impl Question {
-    /// The question of that id.
+    /// The question with this id.
     pub fn named(id: &str) -> Option<Self> {
         QUESTIONS.into_iter().find(|question| question.id == id)
     }
 
-    /// Prepares the contest on `count` queries, or on [`least`](Self::least) where those are more.
+    /// Prepares the contest on `count` queries, or on [`least`](Self::least) if that is more.
     pub fn contest(&self, input: Input, count: usize) -> Contest {
         (self.build)(input, count.max(self.least))
     }
 }
 
-/// Work that is repeated, and what it wrote.
+/// Work that is repeated, and its output.
 pub trait Task {
     /// Does the whole work once.
     fn run(&mut self);
@@ -226,7 +226,7 @@ impl<O, R: FnMut(&mut O), V: Fn(&O) -> Vec<f32>> Task for Job<O, R, V> {
     }
 }
 
-/// How far values may be from the reference, in parts of the largest expected one.
+/// How far values may be from the reference, relative to the largest expected one.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerance {
     /// The largest error.
@@ -235,17 +235,17 @@ pub struct Tolerance {
     pub rms: f64,
 }
 
-/// Who takes part in a contest.
+/// A participant in a contest.
 pub struct Contender {
     /// A backend, as `avx2` or `avx2-strict`, or a baseline.
     pub name: &'static str,
-    /// What its values are held to.
+    /// The accuracy required of its values.
     pub tolerance: Tolerance,
     task: Box<dyn Task>,
 }
 
 impl Contender {
-    /// Where somebody else compares the values.
+    /// For values that are compared elsewhere.
     pub const UNCHECKED: Tolerance = Tolerance { max: f64::INFINITY, rms: f64::INFINITY };
 
     /// Runs `run` on `out`, whose values are in the order of the expected ones.
@@ -276,18 +276,18 @@ pub struct Contest {
     pub count: usize,
     /// What the contenders are compared with.
     pub baselines: Vec<Contender>,
-    /// One a backend.
+    /// One per backend.
     pub contenders: Vec<Contender>,
-    /// The right values.
+    /// The correct values.
     expected: Vec<f64>,
 }
 
 /// A contender whose values are not those of the reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WrongValues {
-    /// Who.
+    /// Its name.
     pub name: &'static str,
-    /// Largest error, in parts of the largest expected value.
+    /// Largest error, relative to the largest expected value.
     pub max: f64,
     /// Root of the mean squared error, likewise.
     pub rms: f64,
@@ -302,17 +302,17 @@ impl fmt::Display for WrongValues {
 
 impl std::error::Error for WrongValues {}
 
-/// Nanoseconds a query.
+/// Nanoseconds per query.
 #[derive(Clone, Debug)]
 pub struct Timing {
-    /// Of each baseline, in order.
+    /// For each baseline, in order.
     pub baselines: Vec<f64>,
-    /// Of each contender, in order.
+    /// For each contender, in order.
     pub contenders: Vec<f64>,
 }
 
 impl Contest {
-    /// Runs everybody once and compares all values with the reference.
+    /// Runs all contenders once and compares all values with the reference.
     ///
     /// # Errors
     /// Names the first whose values are wrong.
@@ -326,7 +326,7 @@ impl Contest {
             let (max, sum) =
                 errors.fold((0.0f64, 0.0), |(max, sum), error| (max.max(error.abs()), sum + error * error));
             let rms = (sum / values.len() as f64).sqrt();
-            // The maximum passes over a NaN, the mean does not.
+            // The maximum ignores a NaN, the mean does not.
             if !(max <= contender.tolerance.max && rms <= contender.tolerance.rms) {
                 return Err(WrongValues { name: contender.name, max, rms });
             }
@@ -334,7 +334,7 @@ impl Contest {
         Ok(())
     }
 
-    /// Times everybody in turn.
+    /// Times all contenders in turn.
     pub fn time(&mut self, rounds: Rounds) -> Timing {
         let mut runs: Vec<_> =
             self.baselines.iter_mut().chain(&mut self.contenders).map(|contender| || contender.task.run()).collect();

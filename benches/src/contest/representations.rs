@@ -1,4 +1,4 @@
-//! Representations that are no specular tables, in lanes against their `f64` reference one pair at a time.
+//! Representations other than specular tables, in lanes compared with their `f64` reference one pair at a time.
 
 use std::rc::Rc;
 
@@ -11,9 +11,9 @@ use super::{Contender, Contest, Tolerance, backends};
 use crate::tables;
 use crate::workload::{Input, Pairs};
 
-/// Of cells that are chosen and not interpolated: the stored value.
+/// For cells that are selected rather than interpolated: the stored value.
 const STORED: Tolerance = Tolerance { max: 1e-7, rms: 1e-7 };
-/// Of interpolated values, of queries whose bound is at most this.
+/// For interpolated values, of queries whose bound is at most this.
 const LINEAR: Tolerance = Tolerance { max: SURE, rms: 2e-5 };
 const SURE: f64 = 5e-4;
 
@@ -35,7 +35,7 @@ pub fn half_difference(input: Input, count: usize) -> Contest {
     )
 }
 
-/// The same table, interpolated between the middles of its bins.
+/// The same table, interpolated between the centres of its bins.
 pub fn half_difference_linear(input: Input, count: usize) -> Contest {
     let data = Rc::new(tables::half_difference([90, 90, 180]));
     let table = half_diff::Table::new(&data).expect("a grid that lanes can index");
@@ -48,7 +48,7 @@ pub fn half_difference_linear(input: Input, count: usize) -> Contest {
     )
 }
 
-/// RGB of half a grid of spherical coordinates.
+/// RGB of half a grid in spherical coordinates.
 pub fn spherical(input: Input, count: usize) -> Contest {
     let data = Rc::new(tables::spherical());
     let table = spherical::Table::new(&data).expect("a small grid");
@@ -118,7 +118,8 @@ fn sheet(window: window::Blocks, input: Input, count: usize) -> Contest {
     )
 }
 
-/// Queries of which not `sure`ly known is what lanes give, next to the border of two cells, are replaced by the one before.
+/// Queries for which it is not `sure` what lanes give, next to the border of two cells, are replaced by the preceding
+/// one.
 fn contest(
     (input, count, width, tolerance): (Input, usize, usize, Tolerance),
     sure: impl Fn([f64; 3], [f64; 3]) -> bool,

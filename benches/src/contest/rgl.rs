@@ -14,9 +14,9 @@ use crate::workload::{Input, Pairs};
 // A direction is rounded to 6e-8, which moves the half vector of grazing pairs, and with it the texels, by some 1e-5 of
 // the square.
 
-/// Of the lanes.
+/// For the lanes.
 const TOLERANCE: Tolerance = Tolerance { max: 1e-4, rms: 1e-6 };
-/// Of the reference, which is rounded to `f32` in the end.
+/// For the reference, which is rounded to `f32` in the end.
 const EXACT: Tolerance = Tolerance { max: 1e-7, rms: 1e-7 };
 
 struct Setup {

@@ -13,15 +13,15 @@ use crate::baseline::{self, ScalarTable};
 use crate::tables;
 use crate::workload::Input;
 
-/// Of directions. Where a cell is dark, the numbers that lead into it are few, and rounding moves a draw far within it.
+/// For directions. If a cell is dark, few numbers lead into it, and rounding moves a draw far within it.
 const TOLERANCE: Tolerance = Tolerance { max: 5e-2, rms: 5e-4 };
 
-/// Of an isotropic table.
+/// From an isotropic table.
 pub fn iso(input: Input, count: usize) -> Contest {
     contest(tables::isotropic(), input, count)
 }
 
-/// Of an anisotropic table.
+/// From an anisotropic table.
 pub fn aniso(input: Input, count: usize) -> Contest {
     contest(tables::anisotropic(), input, count)
 }

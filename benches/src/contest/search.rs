@@ -9,7 +9,7 @@ use super::{Contender, Contest, Tolerance, backends};
 use crate::workload::Input;
 use crate::{baseline, tables};
 
-/// In parts of the 16 cells: positions up to 16 are rounded to 1e-6, and as much again for knots and widths.
+/// Relative to the 16 cells: positions up to 16 are rounded to 1e-6, and as much again for knots and widths.
 const TOLERANCE: Tolerance = Tolerance { max: 3e-7, rms: 1e-7 };
 
 /// Cells, and fractions into them.

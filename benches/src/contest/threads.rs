@@ -10,11 +10,11 @@ use super::{Contender, Contest, Tolerance};
 use crate::tables;
 use crate::workload::{Input, Pairs};
 
-/// As of a short batch on average. The nearest of a million pairs is ten times as near the mirror peak as that of ten
-/// thousand, and the error of phi there ten times as large.
+/// On average as for a short batch. The nearest of a million pairs is ten times as near to the mirror peak as that of
+/// ten thousand, and the error of phi there is ten times as large.
 const TOLERANCE: Tolerance = Tolerance { max: 2e-2, rms: 2e-5 };
 
-/// Isotropic, two threads beside one; nobody beside it on a machine of one core.
+/// Isotropic, two threads compared with one; no contender on a machine with one core.
 pub fn iso(input: Input, count: usize) -> Contest {
     let samples = tables::isotropic();
     let pairs = Rc::new(input.pairs(count));

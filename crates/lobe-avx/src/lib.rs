@@ -1,8 +1,8 @@
 //! The 8-lane backend of x86_64: [`Avx2`], with fused multiply-add, half-precision loads, and the instructions on bits that
 //! came with it: kernels walk through masks.
 //!
-//! `unsafe` stands in three places: in the `op!` macro (register-only intrinsics, safe because the token proves the
-//! features), in `memory.rs` (loads and stores, each checked where it stands), and at the door `vectorize`.
+//! `unsafe` occurs in three places: in the `op!` macro (register-only intrinsics, safe because the token proves the
+//! features), in `memory.rs` (loads and stores, each checked where it is used), and in `vectorize`, the way in.
 #![cfg(target_arch = "x86_64")]
 #![no_std]
 

@@ -1,9 +1,9 @@
 //! Which SIMD instructions to use, chosen when the program runs.
 //!
 //! This is the only crate that names the backends: each is one line of the list in `src/list.rs`, and everything else
-//! asks a [`Backend`]. [`Backend::run`] compiles a kernel for every backend of the target, so a kernel belongs behind a
-//! function that is not generic, in the crate that the kernel is written in: then it is compiled once per backend and not
-//! once more in every program.
+//! asks a [`Backend`]. [`Backend::run`] compiles a kernel for every backend of the target, so put a kernel behind a
+//! non-generic function in the crate that defines it: it is then compiled once per backend, and not again in every
+//! program.
 #![forbid(unsafe_code)]
 
 mod list;
@@ -44,15 +44,15 @@ pub struct Backend {
     strict: bool,
 }
 
-/// A name that is no backend of this machine.
+/// The name of a backend that does not exist, or that this machine cannot run.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("backend `{name}` is {why}; this machine has: {available}")]
 pub struct BackendError {
-    /// The name asked for.
+    /// The requested name.
     pub name: String,
     /// `unknown`, or `not supported by this CPU`.
     pub why: &'static str,
-    /// The backends that there are, separated by commas.
+    /// The available backends, separated by commas.
     pub available: String,
 }
 
@@ -60,10 +60,10 @@ impl Backend {
     /// The names of all backends, slowest first, whether or not this machine can run them.
     pub const ALL: &[&str] = NAMES;
 
-    /// The backend that the environment variable `LOBE_BACKEND` names, else the fastest of this CPU.
+    /// The backend named by the environment variable `LOBE_BACKEND`, or else the fastest that this CPU can run.
     ///
     /// # Errors
-    /// If the variable holds a name that is unknown or that this CPU cannot run; the error lists what there is.
+    /// If the variable holds a name that is unknown or that this CPU cannot run; the error lists those available.
     pub fn detect() -> Result<Self, BackendError> {
         static DETECTED: OnceLock<Result<Backend, BackendError>> = OnceLock::new();
         DETECTED
@@ -76,18 +76,18 @@ impl Backend {
 
     /// The fastest backend of this CPU, whatever the environment says.
     pub fn best() -> Self {
-        *Backend::available().last().expect("the scalar backend is always there")
+        *Backend::available().last().expect("the scalar backend is always available")
     }
 
-    /// The scalar backend, which defines what every other gives in strict form.
+    /// The scalar backend, which defines the strict results of all others.
     pub fn scalar() -> Self {
         Backend::available()[0]
     }
 
-    /// The backend of that name.
+    /// The backend with this name.
     ///
     /// # Errors
-    /// If the name is unknown, or this CPU cannot run it; the error lists what there is.
+    /// If the name is unknown, or this CPU cannot run it; the error lists those available.
     pub fn named(name: &str) -> Result<Self, BackendError> {
         let available = Backend::available();
         available.iter().copied().find(|backend| backend.name() == name).ok_or_else(|| BackendError {
@@ -102,14 +102,14 @@ impl Backend {
         Isa::detect().into_iter().map(|isa| Backend { isa, strict: STRICT_BY_DEFAULT }).collect()
     }
 
-    /// All backends of this CPU, slowest first: each in strict form and, if that is another, in fused form.
+    /// All backends of this CPU, slowest first: each in strict form and, if it differs, in fused form.
     pub fn forms() -> Vec<Self> {
         let forms = |backend: Backend| [Some(backend.strict()), backend.has_fused_form().then(|| backend.fused())];
         Backend::available().into_iter().flat_map(forms).flatten().collect()
     }
 
-    /// The names of the backends whose instructions the CPU reports, slowest first. It does not ask the backends, so
-    /// that their own detection can be checked: these are the names of [`available`](Backend::available).
+    /// The names of the backends whose instructions the CPU reports, slowest first. The backends are not consulted, so
+    /// that their own detection can be checked: the names must be those of [`available`](Backend::available).
     pub fn reported() -> Vec<&'static str> {
         Isa::reported()
     }
@@ -119,7 +119,7 @@ impl Backend {
         Backend { strict: true, ..self }
     }
 
-    /// The same backend with multiply-adds rounded once if the hardware does so: fastest, and equal to the strict form
+    /// The same backend with multiply-adds rounded once if the hardware can: fastest, and equal to the strict form
     /// within the bounds of `docs/accuracy.md`.
     pub fn fused(self) -> Self {
         Backend { strict: false, ..self }
@@ -130,22 +130,22 @@ impl Backend {
         self.strict
     }
 
-    /// `true` if the fused form is another than the strict one.
+    /// `true` if the fused form differs from the strict one.
     pub fn has_fused_form(&self) -> bool {
         self.isa.fuses()
     }
 
-    /// The name, as `LOBE_BACKEND` takes it.
+    /// The name, as accepted by `LOBE_BACKEND`.
     pub fn name(&self) -> &'static str {
         self.isa.name()
     }
 
-    /// How many lanes it has.
+    /// The number of lanes.
     pub fn lanes(&self) -> usize {
         self.isa.lanes()
     }
 
-    /// Runs a kernel on this backend. Once per batch: the dispatch and the loss of inlining are paid each time.
+    /// Runs a kernel on this backend. Call it once per batch: each call pays for dispatch and is not inlined.
     #[inline]
     pub fn run<K: Kernel>(&self, kernel: K) -> K::Out {
         self.isa.run(self.strict, kernel)
@@ -158,7 +158,7 @@ impl fmt::Display for Backend {
     }
 }
 
-/// Which form a backend has unless told otherwise; the measurement that decided is in `docs/accuracy.md`.
+/// The form that a backend has by default; the measurement behind the choice is in `docs/accuracy.md`.
 const STRICT_BY_DEFAULT: bool = false;
 
 #[cfg(test)]
@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn backends_find_themselves_where_the_cpu_reports_their_instructions() {
+    fn backends_detect_what_the_cpu_reports() {
         let found: Vec<_> = Backend::available().iter().map(Backend::name).collect();
         assert_eq!(found, Backend::reported());
     }

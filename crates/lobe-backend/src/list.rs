@@ -1,4 +1,4 @@
-//! The backends, and what follows from the list of them.
+//! The list of backends, and what follows from it.
 
 use lobe_lane::{Kernel, Lanes};
 
@@ -15,7 +15,7 @@ macro_rules! backends {
             $($(#[$target])* $variant($token),)*
         }
 
-        /// Every name that some machine may have, slowest first.
+        /// The names of all backends of this target, slowest first.
         pub(crate) const NAMES: &[&str] = &[$($name),*];
 
         impl Isa {
@@ -63,7 +63,7 @@ macro_rules! backends {
     };
 }
 
-// One line per backend, slowest first: its name, its token, how the token is found, and the CPU features it stands for.
+// One line per backend, slowest first: its name, its token, how the token is found, and the CPU features that it needs.
 backends! {
     "scalar", Scalar(lobe_scalar::Scalar<1>), Some(lobe_scalar::Scalar), [];
     #[cfg(target_arch = "x86_64")]

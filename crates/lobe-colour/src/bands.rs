@@ -10,13 +10,13 @@
 /// - Otherwise the visible band is grey.
 /// - Without one there is no colour; pictures show the first band as grey.
 ///
-/// Chromaticities (`CIE-u`, `CIE-v`) are no linear map of the bands and are not used. A table that has the channels
+/// Chromaticities (`CIE-u`, `CIE-v`) are not a linear map of the bands and are not used. A table that has the channels
 /// X, Y, Z or wavelengths says so by its kind: such names do not get here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NamedBands {
     /// The visible band, `CIE-Y` if there is no band called visible.
     pub visible: Option<usize>,
-    /// X and Z beside the visible band, if there are both.
+    /// X and Z in addition to the visible band, if both exist.
     pub x_and_z: Option<[usize; 2]>,
 }
 

@@ -1,6 +1,6 @@
-//! What the numbers of a value stand for.
+//! What the numbers of a value mean.
 
-/// What the channels of a table stand for.
+/// What the channels of a table mean.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Channels {
     /// One value, no colour.

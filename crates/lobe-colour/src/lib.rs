@@ -5,7 +5,7 @@
 //! and linear sRGB 1, 1, 1. XYZ in files is taken to be relative to the same white; nothing is adapted from one white
 //! to another, except the bands of window sheets (see [`NamedBands`]).
 //!
-//! - [`Channels`]: what the numbers of a value stand for;
+//! - [`Channels`]: what the numbers of a value mean;
 //! - [`Reduction`]: from these to XYZ or to linear sRGB, a linear map;
 //! - [`luminance()`]: how much each channel counts when directions are drawn;
 //! - [`RGB_TO_XYZ`], [`XYZ_TO_RGB`], [`WHITE`], [`LUMINANCE`]: the numbers behind them;

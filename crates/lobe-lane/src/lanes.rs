@@ -14,9 +14,9 @@ pub trait Kernel {
     fn run<L: Lanes>(self, lanes: L) -> Self::Out;
 }
 
-/// Runs a kernel from inside another one as a call, so that its code stands once per backend and not at every place that
-/// runs it. The call costs a few nanoseconds: it is for a block of work, and nothing may be in registers across it that the
-/// loops around it need.
+/// Runs a kernel from inside another one as a call, so that its code exists once per backend and not at every place
+/// that runs it. The call costs a few nanoseconds: it is for a block of work, and nothing may be in registers across it
+/// that the loops around it need.
 #[inline(never)]
 pub fn call<L: Lanes, K: Kernel>(lanes: L, kernel: K) -> K::Out {
     lanes.vectorize(kernel)
@@ -129,8 +129,8 @@ pub trait Lanes: Texels {
         let n = dst.len();
         dst.copy_from_slice(&buffer[..n]);
     }
-    /// Has cache lines brought in, where the backend can: entry `at` of a slice, on the first of them, will be read soon.
-    /// It may lie outside the slice, in which case nothing is gained.
+    /// Prefetches cache lines if the backend can: entry `at` of a slice, on the first of them, will be read soon. It
+    /// may lie outside the slice, in which case nothing is gained.
     #[inline(always)]
     fn prefetch<const LINES: usize, T>(self, _memory: &[T], _at: usize) {}
     /// `LANES` vectors of three floats, as `[x, y, z]`.

@@ -34,11 +34,11 @@ pub fn acos<L: Lanes>(lanes: L, x: L::F) -> L::F {
     lanes.select(x.lt(lanes.splat(0.0)), lanes.splat(PI) - angle, angle)
 }
 
-/// Arc cosine of `c` where the caller knows `rest = 1 - |c|` better than that subtraction would.
+/// Arc cosine of `c`, for a caller that knows `rest = 1 - |c|` better than that subtraction would give it.
 ///
-/// Near the poles the arc cosine is all in `rest`: an error of 6e-8 in a cosine near 1 is an error of 3e-4 rad in the
-/// angle. From the sine, `rest = s^2 / (1 + |c|)` keeps full precision. `c` needs only to be near its true value;
-/// `rest` must be in `[0, 1]`.
+/// Near the poles the arc cosine depends on `rest` alone: an error of 6e-8 in a cosine near 1 is an error of 3e-4 rad
+/// in the angle. From the sine, `rest = s^2 / (1 + |c|)` keeps full precision. `c` needs only to be near its true
+/// value; `rest` must be in `[0, 1]`.
 ///
 /// Largest error against the angle that `rest` and the sign of `c` define: that of [`acos`].
 #[inline(always)]

@@ -1,14 +1,15 @@
-//! Roots that no instruction computes.
+//! Roots for which there is no instruction.
 
 use lobe_lane::{Floats, Ints, Lanes};
 
-/// Four fifths of the bits of the exponent of 1, less what centres the error of a logarithm treated as linear.
+/// Four fifths of the bits of the exponent of 1, minus a shift that centres the error of treating the logarithm as
+/// linear.
 const OFFSET: i32 = 851_981_000;
 
 /// The fifth root of a positive normal number.
 ///
-/// The bits of a float are nearly its logarithm, so a fifth of them is a root within 4 %, and each of three steps of Newton's
-/// method doubles the digits.
+/// Read as an integer, a float is nearly its own logarithm, so a fifth of it is the root to within 4 %, and each of
+/// three steps of Newton's method doubles the digits.
 ///
 /// Largest error: [`bounds::FIFTH_ROOT`](crate::bounds::FIFTH_ROOT), relative.
 #[inline(always)]

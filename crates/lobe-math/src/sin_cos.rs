@@ -29,7 +29,7 @@ pub fn sin_cos<L: Lanes>(lanes: L, x: L::F) -> (L::F, L::F) {
     let cos = lanes.mul_add(square, lanes.splat(-0.5), lanes.splat(1.0));
     let cos = lanes.mul_add(square * square, horner(lanes, square, COS_TERMS), cos);
 
-    // Odd quarters swap the two; quarters 2 and 3 turn the sine, 1 and 2 the cosine.
+    // Odd quadrants swap the two; quadrants 2 and 3 negate the sine, 1 and 2 the cosine.
     let one = lanes.splat_int(1);
     let swap = (quarter & one).eq(one);
     let sin_sign = quarter.shr::<1>().shl::<31>().as_float();

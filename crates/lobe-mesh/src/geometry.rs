@@ -28,7 +28,8 @@ pub struct Parts {
     pub tangents: Option<Vec<[f32; 4]>>,
     /// Triangles: three vertex indices, counterclockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// Groups, which divide the triangles in order and without gaps. None at all stand for one without a name.
+    /// Groups, which divide the triangles in order and without gaps. If there are none, all triangles are in one group
+    /// without a name.
     pub groups: Vec<Group>,
 }
 

@@ -19,7 +19,7 @@ pub enum Shading {
 }
 
 impl Geometry {
-    /// The mesh with normals computed anew. Tangents are dropped, for they were made for the former normals.
+    /// The mesh with recomputed normals. Tangents are dropped, because they belong to the old normals.
     pub fn with_normals(self, shading: Shading) -> Geometry {
         let mut parts = self.into_parts();
         parts.tangents = None;

@@ -25,7 +25,7 @@ pub use write::{to_bytes, write};
 /// Reads a PLY file.
 ///
 /// # Errors
-/// The file cannot be read, is cut short, counts more than it can hold, or is no sound mesh.
+/// The file cannot be read, is cut short, counts more than it can hold, or is not a valid mesh.
 pub fn read(path: &Path) -> Result<Geometry, FormatError> {
     parse(path, &file::bytes(path)?)
 }

@@ -1,7 +1,7 @@
 //! Shapes by formula, with exact normals, texture coordinates and tangents.
 //!
-//! All are centred at the origin; +y is up. `segments` is how finely a shape is cut, at least 3 where it closes a
-//! circle; fewer count as that.
+//! All are centred at the origin; +y is up. `segments` is how finely a shape is cut, at least 3 if it closes a circle;
+//! fewer count as that.
 
 mod builder;
 mod knot;

@@ -16,7 +16,7 @@ impl Geometry {
         if geometry.tangents.is_some() || geometry.uvs.is_none() { geometry } else { geometry.with_tangents() }
     }
 
-    /// The mesh with tangents computed anew from its texture coordinates and normals (smooth ones if it has none).
+    /// The mesh with tangents recomputed from its texture coordinates and normals (smooth ones if it has none).
     ///
     /// A vertex at which texture coordinates are mirrored has two tangents, and is doubled. Without texture coordinates
     /// there are no tangents.

@@ -26,7 +26,7 @@ use crate::{Model, Rgb, Surface};
 /// is called after each of them; there are sigma knots times psi knots.
 ///
 /// # Errors
-/// [`GridError`] where the knots make no table.
+/// [`GridError`] if the knots make no table.
 pub fn measure(
     model: &(impl Model + Sync),
     knots: [Vec<f64>; 4],
@@ -105,8 +105,8 @@ const LOWEST: f64 = 0.02;
 /// Directions higher than this, 3.4 degrees, are measured as they are.
 const UNTOUCHED: f64 = 0.06;
 
-/// A direction that can be measured, close to `w`: `w` itself where its z is above 0.06, else the same azimuth at a height
-/// that falls smoothly to 0.02. Height and its derivative are continuous.
+/// A direction that can be measured, close to `w`: `w` itself if its z is above 0.06, or else the same azimuth at a
+/// height that falls smoothly to 0.02. Height and its derivative are continuous.
 pub fn lift(w: [f64; 3]) -> [f64; 3] {
     if w[2] >= UNTOUCHED {
         return w;
@@ -114,7 +114,7 @@ pub fn lift(w: [f64; 3]) -> [f64; 3] {
     let room = UNTOUCHED - LOWEST;
     let z = LOWEST + room * ((w[2] - UNTOUCHED) / room).exp();
     let across = w[0].hypot(w[1]);
-    // Straight down there is no azimuth but that of rounding errors, and any will do.
+    // Straight down the azimuth comes from rounding errors only, and any will do.
     let (x, y) = if across > 1e-9 { (w[0] / across, w[1] / across) } else { (1.0, 0.0) };
     let radius = (1.0 - z * z).sqrt();
     [x * radius, y * radius, z]

@@ -2,7 +2,7 @@
 
 /// A reflecting surface with a colour of three channels.
 pub trait Model {
-    /// The BRDF at one pair of directions, in 1/sr, without the cosine. Zero where `wi` or `wo` is not above the surface.
+    /// The BRDF at one pair of directions, in 1/sr, without the cosine. Zero if `wi` or `wo` is not above the surface.
     fn f(&self, wi: [f64; 3], wo: [f64; 3]) -> [f64; 3];
 
     /// [`Model::f`] for one direction of the light and many viewers, in their order.

@@ -15,7 +15,7 @@ use crate::vec3::spherical;
 /// Directions are unit vectors that point away from the surface, normal on +z; `wi` toward the light. Values are `f` in
 /// 1/sr, without the cosine.
 pub trait Surface: Sync {
-    /// What the channels stand for.
+    /// What the channels mean.
     fn channels(&self) -> &Channels;
 
     /// The values for light from `wi` to each of the viewers: `out[viewer * channels + channel]`, which is as long as that.
@@ -68,7 +68,7 @@ impl<M: Model + ?Sized> Model for &M {
     }
 }
 
-/// `true` where the values do not depend on the rotation of the surface about its normal.
+/// `true` if the values do not depend on the rotation of the surface about its normal.
 ///
 /// 400 pairs of directions are looked at before and after a turn; 1 % of them may differ by more than a thousandth of the
 /// value, since a table that is constant on bins may fall into the next bin by rounding.

@@ -79,7 +79,7 @@ impl Subject {
         incidences.iter().map(|[theta, _]| *theta).fold(0.0, f64::max)
     }
 
-    /// The data that answer for an aspect. The only measurement of a file that does not tell sides apart answers for
+    /// The data that answer for an aspect. The only measurement of a file that does not distinguish sides answers for
     /// all.
     pub fn data(&self, aspect: Aspect) -> Option<&Data> {
         let answers = |part: &&Part| {

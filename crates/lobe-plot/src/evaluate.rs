@@ -3,7 +3,7 @@
 use lobe::Material;
 use rayon::prelude::*;
 
-/// Is told how far a drawing has progressed.
+/// Called with the progress of a drawing.
 pub trait Progress: Sync {
     /// A figure begins that takes this many steps, usually pairs of directions.
     fn begin(&self, figure: &str, steps: u64);

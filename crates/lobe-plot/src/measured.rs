@@ -241,7 +241,7 @@ fn scattered(data: &scattered::Data) -> Part {
         sides = [sides[0] || across > SAME, sides[1] || across < -SAME];
         clouds[at].outgoing.push([theta_o, relative]);
     }
-    // If only one half of an isotropic material was measured, it stands for both.
+    // If only one half of an isotropic material was measured, it is used for both.
     if data.is_isotropic() && sides[0] != sides[1] {
         for cloud in &mut clouds {
             let mirrored: Vec<_> = cloud.outgoing.iter().map(|&[theta, phi]| [theta, -phi]).collect();
@@ -264,7 +264,7 @@ fn scattered(data: &scattered::Data) -> Part {
 fn reach(outgoing: &[[f64; 2]]) -> f64 {
     let directions: Vec<[f64; 3]> =
         outgoing.iter().map(|[theta, phi]| [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]).collect();
-    // A few hundred directions are enough to tell.
+    // A few hundred directions are enough for an estimate.
     let step = directions.len().div_ceil(200);
     let mut nearest: Vec<f64> = Vec::new();
     for a in directions.iter().step_by(step) {

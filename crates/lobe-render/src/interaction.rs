@@ -96,8 +96,8 @@ impl Interactions {
         vector(&self.blocks[hit / RAYS].frame[2], hit % RAYS)
     }
 
-    /// The cosine between the ray and the normal of the triangle, positive if the ray met the side from which the corners
-    /// are counterclockwise.
+    /// The cosine between the ray and the normal of the triangle, positive if the ray hit the side from which the
+    /// corners are counterclockwise.
     pub fn front(&self, hit: usize) -> f32 {
         self.blocks[hit / RAYS].front[hit % RAYS]
     }

@@ -24,7 +24,7 @@ pub enum Show {
     Cloth,
 }
 
-/// The studio with a material in it, and the camera. What is there beside the material runs on the backend.
+/// The studio with a material in it, and the camera. Everything other than the material runs on the backend.
 ///
 /// # Errors
 /// Never: the shapes come with the program.

@@ -175,7 +175,7 @@ fn threes(vectors: &Vectors) -> Threes {
     })
 }
 
-/// What tells the four dimensions of a set apart.
+/// What distinguishes the four dimensions of a set.
 const SCRAMBLES: [u32; 4] = [0x912f_69ba, 0x174f_18ab, 0x691e_72ca, 0xb40c_c1b8];
 
 /// Owen's scrambling of numbers whose bits are in reverse order: the hash of Vegdahl 2021 ("Building a Better LK Hash"),

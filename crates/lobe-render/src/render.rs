@@ -52,7 +52,7 @@ pub enum RenderError {
         /// The picture.
         size: [u32; 2],
     },
-    /// The film to go on with has another window.
+    /// The film to continue has another window.
     #[error("a film of the window {found:?}; expected {expected:?}")]
     Film {
         /// Its window.
@@ -60,12 +60,12 @@ pub enum RenderError {
         /// That of the settings.
         expected: Rect,
     },
-    /// The film to go on with was not written by a rendering of this window.
+    /// The film to continue was not written by a rendering of this window.
     #[error("a film whose samples differ within a tile; expected one that a rendering of the same window has begun")]
     Uneven,
 }
 
-/// Tiles are squares of this many pixels a side; a few samples of one are a wave.
+/// Tiles are squares of this many pixels per side; a few samples of one are a wave.
 const TILE: u32 = 64;
 
 /// How far a rendering is.

@@ -35,7 +35,7 @@ impl AddAssign for Shading {
     }
 }
 
-/// Depths that are counted separately; the last one stands for all that are deeper.
+/// Depths that are counted separately; the last one includes all that are deeper.
 pub const DEPTHS: usize = 8;
 
 /// What a rendering took, summed over threads.
@@ -47,13 +47,13 @@ pub struct Stats {
     pub rays: u64,
     /// Samples whose radiance was not finite, and which count as black.
     pub invalid: u64,
-    /// Materials by the number of surfaces that the ray had met before: values, densities and sampled directions.
+    /// Materials by the number of surfaces that the ray had hit before: values, densities and sampled directions.
     pub shading: [Shading; DEPTHS],
     /// Everything.
     pub total: Duration,
     /// Tracing rays.
     pub trace: Duration,
-    /// Positions and frames of hits, and the light that rays meet.
+    /// Positions and frames of hits, and the light that rays hit.
     pub interactions: Duration,
     /// Sorting by material.
     pub sort: Duration,

@@ -13,7 +13,7 @@ pub(crate) struct Transform {
 }
 
 impl Transform {
-    /// The axes of something that stands as it was made.
+    /// The axes of something that is not transformed.
     pub const IDENTITY: [Vec3; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
     fn direction(&self, [x, y, z]: Vec3) -> Vec3 {

@@ -1,8 +1,8 @@
 //! The 4-lane backends of x86_64: [`Sse2`], which every such CPU has, and [`Sse41`].
 //!
-//! Both are one piece of code over a [`Level`], the few instructions that differ. `unsafe` stands in three places: in
+//! Both are one piece of code over a [`Level`], the few instructions that differ. `unsafe` occurs in three places: in
 //! the `op!` macro (register-only intrinsics, safe because the token proves the feature), in `memory.rs` (loads and
-//! stores, each checked where it stands), and at the door `vectorize`.
+//! stores, each checked where it is used), and in `vectorize`, the way in.
 #![cfg(target_arch = "x86_64")]
 #![no_std]
 

@@ -8,7 +8,7 @@ use lobe_scalar::Scalar;
 
 pub use lobe_backend::Backend;
 
-/// Defines tests whose body runs on every backend of this CPU, in strict and in fused form: a failure says which.
+/// Defines tests whose body runs on every backend of this CPU, in strict and in fused form: a failure names both.
 ///
 /// ```
 /// # use lobe_lane::Lanes;
@@ -62,10 +62,10 @@ macro_rules! on_all_lanes {
     )*};
 }
 
-/// Runs `body` on every backend of this CPU, in strict form and, if that is another, in fused form. Says which backends
-/// this CPU lacks, and which one a failure belongs to.
+/// Runs `body` on every backend of this CPU, in strict form and, if it differs, in fused form. Reports which backends
+/// this CPU lacks, and on which one a failure happened.
 pub fn each(mut body: impl FnMut(Backend)) {
-    say_what_is_missing();
+    report_missing();
     for backend in Backend::forms() {
         let form = if backend.is_strict() { "strict" } else { "fused" };
         let _culprit = Culprit(format_args!("{backend}, {form}").to_string());
@@ -87,8 +87,8 @@ fn on<L: Lanes>(lanes: L, kernel: impl Kernel<Out = ()>) {
     lanes.vectorize(kernel);
 }
 
-/// Past the test harness, which swallows what a passing test prints.
-fn say_what_is_missing() {
+/// Writes past the test harness, which hides the output of passing tests.
+fn report_missing() {
     let available = Backend::available();
     for name in Backend::ALL.iter().filter(|name| available.iter().all(|backend| backend.name() != **name)) {
         let _ = writeln!(std::io::stderr(), "SKIPPED: this CPU cannot run {name}");

@@ -5,7 +5,7 @@ use std::path::Path;
 use rand::seq::IndexedRandom;
 use rand::{Rng, RngExt};
 
-/// Text in the place of a number: not a number, one that is too large, or a count that nothing follows.
+/// Replacements for a number: text that is not one, numbers that are too large, and counts that nothing follows.
 const NUMBERS: [&str; 14] = [
     "NaN",
     "inf",
@@ -22,7 +22,7 @@ const NUMBERS: [&str; 14] = [
     "99999999999999",
     "",
 ];
-/// Bytes that mean something to one format or another.
+/// Bytes that have a meaning in some format.
 const MARKS: [&[u8]; 12] = [b"{", b"}", b"[", b"\"", b",", b"#", b"&b;", b"<a>", b"</a>", b"\n", b"\0", b"\xff\xfe"];
 
 /// `file` with one to four changes: bits, numbers, lines, pieces of itself or of `other`, or its end.
@@ -55,10 +55,11 @@ pub fn mutant(random: &mut impl Rng, file: &[u8], other: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// Reads every beginning of `bytes`. `read` says whether it found a whole file; at least the first half must not be one.
+/// Reads every prefix of `bytes`. `read` returns whether it found a whole file, which no prefix of up to half the
+/// length may be.
 ///
 /// # Panics
-/// If the whole file is not one, or a beginning that short is.
+/// If the whole file is not accepted, or such a short prefix is.
 pub fn truncations(bytes: &[u8], read: impl Fn(&[u8]) -> bool) {
     assert!(read(bytes), "the whole file must be readable");
     for end in 0..bytes.len() {
@@ -67,11 +68,11 @@ pub fn truncations(bytes: &[u8], read: impl Fn(&[u8]) -> bool) {
     }
 }
 
-/// Parses every beginning of a file, which must give an error that names the file, or, from byte `sound` on, may give
-/// what the whole file gives.
+/// Parses every prefix of a file. Each must give an error that names the file, but prefixes of at least `sound` bytes
+/// may also be accepted.
 ///
 /// # Panics
-/// If one does neither.
+/// If a prefix does neither.
 pub fn truncate<T, E: std::fmt::Display>(
     name: &str,
     bytes: &[u8],
@@ -114,7 +115,7 @@ fn flip(random: &mut impl Rng, bytes: &mut [u8]) {
     }
 }
 
-/// Writes the bytes of an integer or a float that is at the end of what it can be, as binary files have them.
+/// Overwrites bytes with an extreme integer or float, as binary files store them.
 fn overwrite(random: &mut impl Rng, bytes: &mut [u8]) {
     let words: [&[u8]; 8] = [
         &u32::MAX.to_le_bytes(),
@@ -127,7 +128,7 @@ fn overwrite(random: &mut impl Rng, bytes: &mut [u8]) {
         &f32::MAX.to_le_bytes(),
     ];
     let word = words.choose(random).expect("a word");
-    // Half of the changes are to the header, where a file has one.
+    // Half of the changes are in the header, if the file has one.
     let end = if random.random() { bytes.len().min(256) } else { bytes.len() };
     if let Some(last) = end.checked_sub(word.len()) {
         let at = random.random_range(0..=last);
@@ -135,7 +136,7 @@ fn overwrite(random: &mut impl Rng, bytes: &mut [u8]) {
     }
 }
 
-/// Puts another number in the place of one.
+/// Replaces a number with another.
 fn number(random: &mut impl Rng, bytes: &mut Vec<u8>) {
     let is_part = |byte: &u8| byte.is_ascii_digit() || b"+-.".contains(byte);
     let from = random.random_range(0..=bytes.len());

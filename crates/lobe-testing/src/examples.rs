@@ -1,4 +1,4 @@
-//! A small sound file of every format.
+//! A small valid file of every format.
 
 use std::f64::consts::PI;
 
@@ -51,7 +51,7 @@ pub const NIST: &str = "lambda,thetai,phi,thetar,phir,f_r11,a,b,c,d,e,f,g,h,i,j,
         0.532,-30,0,30,0,0.4,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\r\n0.532,-30,0,10,90,0.3,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\r\n\
         0.633,-30,0,30,0,0.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\r\n0.633,-30,0,10,90,0.3,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\r\n";
 
-/// A grid of both kinds of coordinates, rows in no order.
+/// A grid in either kind of coordinates, with its rows in no particular order.
 pub fn csv(head: &str, unit: f64) -> String {
     let mut rows = Vec::new();
     for (i, (sigma, theta)) in [(10.0, 0.0), (40.0, 0.0), (40.0, 30.0), (10.0, 30.0)].into_iter().enumerate() {
@@ -148,12 +148,12 @@ pub fn tiny_pbsdf() -> Vec<u8> {
     pbsdf::to_bytes(&mueller::Data::new(knots, vec![0.25; 128]).expect("a valid material")).expect("bytes")
 }
 
-/// A file in the format of MERL, of few bins.
+/// A file in the MERL format, with few bins.
 pub fn tiny_merl() -> Vec<u8> {
     merl::to_bytes(&half_diff::Data::new([2, 1, 3], vec![0.5; 18]).expect("a valid material")).expect("bytes")
 }
 
-/// A small MDL file of two sides.
+/// A small MDL file with two sides.
 pub fn tiny_mbsdf() -> Vec<u8> {
     let side = |scatter, phis: &[f64]| {
         let thetas = vec![0.0, PI / 4.0];
@@ -165,7 +165,7 @@ pub fn tiny_mbsdf() -> Vec<u8> {
     mbsdf::to_bytes(&Sides { reflection, transmission: side(Scatter::Transmission, &[0.0]) }).expect("bytes")
 }
 
-/// One file at least of every format but UTIA, whose files have all the same two million bytes.
+/// At least one file of every format except UTIA, whose files are all two million bytes long.
 pub fn all() -> Vec<(Format, Vec<u8>)> {
     let texts = [
         (Format::Ddr, DDR.into()),

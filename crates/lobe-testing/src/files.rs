@@ -1,8 +1,8 @@
-//! Where test files are: fixtures in the repository, and measured files beside it.
+//! Paths of test files: fixtures in the repository, and measured files beside it.
 //!
 //! Measured files and the answers of other programs are not part of the project. They are in the folder that the
-//! environment variable `LOBE_SHARED` names, else in `shared` beside the repository. A test that needs one that is missing
-//! passes, and says on standard error that it was skipped.
+//! environment variable `LOBE_SHARED` names, or else in `shared` beside the repository. A test that needs one that is
+//! missing passes, and says on standard error that it was skipped.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -23,7 +23,7 @@ pub fn find_shared() -> Option<PathBuf> {
     folder.join("golden").is_dir().then_some(folder)
 }
 
-/// The folder that holds `golden` and `data`; says that the test is skipped if there is none.
+/// The folder that holds `golden` and `data`; reports the test as skipped if it does not exist.
 pub fn shared() -> Option<PathBuf> {
     let folder = find_shared();
     if folder.is_none() {
@@ -32,7 +32,7 @@ pub fn shared() -> Option<PathBuf> {
     folder
 }
 
-/// A file or folder of the shared folder, by its path in it; says that the test is skipped if it is missing.
+/// A file or folder of the shared folder, by its path in it; reports the test as skipped if it is missing.
 pub fn shared_file(path: &str) -> Option<PathBuf> {
     let file = shared_folder().join(path);
     if file.exists() {
@@ -47,13 +47,13 @@ fn shared_folder() -> PathBuf {
         .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared"), PathBuf::from)
 }
 
-/// Says that a test, or a part of one, is skipped: past the test harness, which swallows what a passing test prints.
+/// Reports that a test, or part of one, is skipped: past the test harness, which hides the output of passing tests.
 fn skipped(why: &str) {
     // A closed standard error is no reason for a test to fail.
     let _ = writeln!(std::io::stderr(), "SKIPPED: {why}; set LOBE_SHARED to the folder with `golden` and `data`");
 }
 
-/// The bytes of a file that has to exist.
+/// The bytes of a file that must exist.
 ///
 /// # Panics
 /// If it cannot be read.

@@ -27,14 +27,14 @@ pub fn unit(numbers: &[f64], at: usize) -> [f64; 3] {
 /// The largest deviation seen, and where.
 #[derive(Default, Debug)]
 pub struct Worst {
-    /// The deviation; NaN once any was.
+    /// The deviation; NaN once any deviation was.
     pub error: f64,
     /// The query that it belongs to.
     pub at: usize,
 }
 
 impl Worst {
-    /// Takes in the deviation of query `at`.
+    /// Records the deviation of query `at`.
     pub fn see(&mut self, error: f64, at: usize) {
         if error.is_nan() || error > self.error {
             *self = Worst { error, at };
@@ -47,7 +47,7 @@ pub fn relative(a: f64, b: f64, floor: f64) -> f64 {
     (a - b).abs() / b.abs().max(floor)
 }
 
-/// WINDOW files with their answers: those made for it, whose second column is the exact value, and real ones.
+/// WINDOW files with their answers: synthetic ones, whose second column is the exact value, and real ones.
 pub fn sheets(shared: &Path) -> [Vec<(PathBuf, PathBuf)>; 2] {
     let folder = shared.join("golden");
     let mut synthetic = Vec::new();

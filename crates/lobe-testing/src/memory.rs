@@ -1,10 +1,10 @@
-//! How much memory a piece of work takes.
+//! The memory use of a piece of work.
 
 use std::hint::black_box;
 
 use peak_alloc::PeakAlloc;
 
-/// Makes the program count the memory that it allocates: stands once at the root of a test or fuzz target.
+/// Makes a program count the memory that it allocates. Invoke it once, at the root of a test or fuzz target.
 #[macro_export]
 macro_rules! count_memory {
     () => {
@@ -13,15 +13,18 @@ macro_rules! count_memory {
     };
 }
 
-/// The result of `work`, and the most memory it had at once beyond what there was before, in bytes. The allocations of
-/// all threads count, so a program that measures has one test.
+/// The result of `work`, and its peak memory use beyond what was in use before, in bytes. Allocations of all threads
+/// count, so a program that measures must have a single test.
 ///
 /// # Panics
-/// If the program does not count: see [`count_memory`](crate::count_memory).
+/// If the program does not count allocations; see [`count_memory`](crate::count_memory).
 pub fn peak<T>(work: impl FnOnce() -> T) -> (T, usize) {
     let before = PeakAlloc.current_usage();
     let counted = black_box(vec![0u8; 1 << 12]);
-    assert!(PeakAlloc.current_usage() > before, "nothing counts: `lobe_testing::count_memory!()` is missing");
+    assert!(
+        PeakAlloc.current_usage() > before,
+        "allocations are not counted: `lobe_testing::count_memory!()` is missing"
+    );
     drop(counted);
     PeakAlloc.reset_peak_usage();
     let before = PeakAlloc.current_usage();

@@ -3,7 +3,8 @@
 /// How many patterns there are of each type; all pairs fill whole vectors of 16 lanes.
 const COUNT: usize = 60;
 
-/// Bits of floats: zeros, denormals, infinities, NaN of all sorts, the ends of the ranges of `i32` and of whole numbers.
+/// Bits of floats: zeros, denormals, infinities, NaNs of all kinds, the ends of the ranges of `i32` and of whole
+/// numbers.
 pub const FLOATS: [u32; COUNT] = [
     0x0000_0000,
     0x8000_0000,
@@ -67,7 +68,7 @@ pub const FLOATS: [u32; COUNT] = [
     0x47f1_2066,
 ];
 
-/// Integers: the ends of the range, rounding ties of the conversion to `f32`, indices just inside and outside of short
+/// Integers: the ends of the range, rounding ties of the conversion to `f32`, indices just inside and outside short
 /// tables, factors whose products overflow.
 pub const INTS: [i32; COUNT] = [
     0,

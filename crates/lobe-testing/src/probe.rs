@@ -1,5 +1,5 @@
-//! Reads a file and evaluates what is in it: must not go wrong for any bytes at all. The program that uses it counts
-//! memory: see [`count_memory`](crate::count_memory).
+//! Reads a file and evaluates its contents, which must not go wrong whatever the bytes are. The program that uses it
+//! must count memory: see [`count_memory`](crate::count_memory).
 
 use std::path::Path;
 
@@ -21,31 +21,31 @@ const PAIRS: [[[f64; 3]; 2]; 6] = [
     [[0.0, 0.0, -1.0], [0.0, -0.6, -0.8]],
 ];
 
-/// Memory that a reader may take whatever the size of its file: for its own tables, and for an error to tell.
+/// Memory in bytes that a reader may use regardless of the size of the file: for its own tables and for errors.
 const BASE: usize = 1 << 16;
 
-/// The most memory, in bytes, that the reader of a format may take for each byte of a file.
+/// The most memory, in bytes, that the reader of a format may use per byte of the file.
 fn bytes_per_byte(format: Format) -> usize {
     match format {
         // Bytes of a file are bytes of values, and are copied once or twice.
         Format::Pbsdf | Format::Rgl | Format::Mbsdf | Format::Merl | Format::Utia => 16,
         // Two characters of text become a number, of which there are a few copies.
         Format::WindowXml | Format::Zemax | Format::LightTools | Format::Ssdd | Format::Ddr | Format::Sdr => 64,
-        // A sample is kept once per wavelength, and 64 are for each byte the most; see the reader.
+        // A sample is kept once per wavelength, at most 64 times per byte; see the reader.
         Format::Speos => 2048,
         // A line becomes a vertex of a triangulation with its edges and triangles.
         _ => 256,
     }
 }
 
-/// Reads `bytes`, evaluates what was found at some directions and drops it. Gives the peak of memory that reading took.
+/// Reads `bytes`, evaluates what was found at some directions and drops it. Returns the peak memory use of reading.
 ///
 /// # Panics
-/// If the reader took more memory than the size of the file can justify, or an error does not name the file.
+/// If the reader used more memory than the size of the file justifies, or an error does not name the file.
 pub fn probe(format: Format, bytes: &[u8], path: &Path) -> (Result<(), FormatError>, usize) {
     let (document, peak) = peak(|| lobe_formats::read(format, bytes, path));
     let most = BASE + bytes_per_byte(format) * bytes.len();
-    assert!(peak <= most, "{peak} bytes of memory for a {format} file of {}; at most {most} are due", bytes.len());
+    assert!(peak <= most, "{peak} bytes of memory for a {format} file of {}; at most {most} are allowed", bytes.len());
     let result = match document {
         Ok(document) => {
             evaluate(&document);

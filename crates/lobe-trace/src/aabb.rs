@@ -1,6 +1,6 @@
 //! Axis-aligned boxes on the host side.
 
-/// A box by its two extreme corners; empty if a lower coordinate is above the upper one.
+/// A box given by its two extreme corners; empty if a lower coordinate is above the upper one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
     /// The smallest coordinates.
@@ -10,7 +10,7 @@ pub struct Aabb {
 }
 
 impl Aabb {
-    /// The box of nothing: no ray meets it.
+    /// The empty box, which no ray hits.
     pub const EMPTY: Aabb = Aabb { lower: [f32::INFINITY; 3], upper: [f32::NEG_INFINITY; 3] };
 
     /// The smallest box around the points.
@@ -22,7 +22,7 @@ impl Aabb {
     /// The smallest box around both.
     #[inline]
     pub fn union(self, other: Aabb) -> Aabb {
-        // No `f32::min`: it is four instructions for one, since it asks which of the two is a number.
+        // Not `f32::min`, which takes four instructions instead of one because it handles NaN.
         let least = |a: f32, b: f32| if b < a { b } else { a };
         let most = |a: f32, b: f32| if b > a { b } else { a };
         Aabb {
@@ -31,7 +31,7 @@ impl Aabb {
         }
     }
 
-    /// Half the surface: what the chance of a ray to meet the box is proportional to.
+    /// Half the surface area, to which the probability that a ray hits the box is proportional.
     #[inline]
     pub fn half_area(self) -> f32 {
         let size = |axis: usize| self.upper[axis] - self.lower[axis];

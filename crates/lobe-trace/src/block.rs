@@ -1,4 +1,4 @@
-//! 64 rays with everything that the walks need worked out once.
+//! 64 rays, with everything that the walks need computed once.
 
 use lobe_lane::{Floats, Ints, Lanes, Mask};
 
@@ -8,36 +8,36 @@ use crate::packet::Packet;
 /// Rays of a block; every number of lanes divides it.
 pub(crate) const RAYS: usize = 64;
 
-/// One float a ray.
+/// One float per ray.
 pub(crate) type Row = [f32; RAYS];
 
 /// Rays in one space. A *group* is as many neighbouring rays as there are lanes; `at` is always the first ray of a
 /// group.
 ///
-/// A plane `x = p` is met at `p inverse + near` by a box test that must not miss. It is moved by the ray's *pad*
-/// against the ray for the near planes (`near`) and along it for the far planes (`far`). The pad of `2^-20` of the
-/// largest magnitude there is covers what the box test and the triangle test lose by rounding: at most 4 and 8
-/// half-units in the last place of it.
+/// A box test, which must not miss, takes a plane `x = p` to be reached at `p inverse + near`. It is moved by the ray's
+/// *pad* against the ray for the near planes (`near`) and along it for the far planes (`far`). The pad, `2^-20` of the
+/// largest magnitude involved, covers what the box test and the triangle test lose to rounding: at most 4 and 8
+/// half-units in its last place.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct Block {
     pub origin: [Row; 3],
     pub direction: [Row; 3],
-    /// `+inf` for a ray that is not there, is not valid or has been answered.
+    /// `+inf` for a ray that is absent, invalid or already answered.
     pub t_min: Row,
     pub inverse: [Row; 3],
     pub near: [Row; 3],
     pub far: [Row; 3],
     pub pad: Row,
-    /// `-x / z`, `-y / z` and `1 / z` of the direction, its axes turned so that z is the one of largest magnitude.
+    /// `-x / z`, `-y / z` and `1 / z` of the direction, its axes permuted so that z has the largest magnitude.
     pub shear: [Row; 3],
-    /// The origin with its axes turned in the same way.
+    /// The origin with its axes permuted in the same way.
     pub pivot: [Row; 3],
     /// Which axis became z.
     pub major: [i32; RAYS],
     /// Bit `a` is the sign of the direction along axis `a`.
     pub octant: [i32; RAYS],
-    /// What the hits' t is limited to: where the ray is inside the box of the instance.
+    /// What the t of hits is clamped to: where the ray is inside the box of the instance.
     pub enter: Row,
     /// See [`enter`](Block::enter).
     pub leave: Row,
@@ -79,15 +79,15 @@ impl Block {
         let near_enough = o_x.abs().le(limit) & o_y.abs().le(limit) & o_z.abs().le(limit);
         let valid = live & within & near_enough & t_min.le(t_max);
 
-        // Dead rays get harmless numbers: all that is worked out from them stays finite.
+        // Dead rays get harmless numbers, so that everything computed from them stays finite.
         let origin = [o_x.masked(valid), o_y.masked(valid), o_z.masked(valid)];
         let direction = [d_x.masked(valid), d_y.masked(valid), lanes.select(valid, d_z, lanes.splat(1.0))];
         let [o_x, o_y, o_z] = origin;
         let (is_x, is_y) = (is_x & valid, is_y & valid);
         let size = o_x.abs().max(o_y.abs()).max(o_z.abs()) + lanes.splat(reach);
         let pad = size * lanes.splat(1.0 / 1_048_576.0);
-        // A component of almost nothing has no finite inverse. Over the size of the scene this replacement turns the
-        // ray by less than the pad.
+        // A tiny component has no finite inverse. Across the whole scene this replacement moves the ray by less than
+        // the pad.
         let floor = lanes.select(valid, largest, lanes.splat(1.0)) * lanes.splat(1.0 / 1_073_741_824.0);
         let mut octant = lanes.splat_int(0);
         let mut inverses = origin;
@@ -151,7 +151,7 @@ impl Block {
     }
 }
 
-/// Coordinates with the axes turned so that z is the major one.
+/// Coordinates with the axes permuted so that z is the major one.
 #[inline(always)]
 fn turned<L: Lanes>(lanes: L, is_x: L::M, is_y: L::M, [x, y, z]: [L::F; 3]) -> [L::F; 3] {
     [
@@ -161,7 +161,7 @@ fn turned<L: Lanes>(lanes: L, is_x: L::M, is_y: L::M, [x, y, z]: [L::F; 3]) -> [
     ]
 }
 
-/// The same number; the compiler learns that a whole group follows it.
+/// Returns `at`; the compiler learns that a whole group follows it.
 #[inline(always)]
 pub(crate) fn first_ray<L: Lanes>(at: usize) -> usize {
     at & (RAYS - L::LANES)
@@ -207,10 +207,10 @@ pub(crate) fn mask_of<L: Lanes>(lanes: L, bits: u32) -> L::M {
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct Found {
-    /// The best so far; the ray's end before the first. `-inf` once it is enough to know of a hit.
+    /// The best so far; the ray's end before the first hit. `-inf` after it if any hit is enough.
     pub t: Row,
-    /// As bits: rows of integers are written whole. Of floats that a mask chooses compilers make masked stores, which
-    /// some processors take 40 steps for.
+    /// As bits, since rows of integers are written whole: for floats that a mask selects, compilers emit masked stores,
+    /// which take 40 steps on some processors.
     pub u: [i32; RAYS],
     /// As bits.
     pub v: [i32; RAYS],

@@ -1,4 +1,4 @@
-//! Eight rays of one octant tested like one: what a walk of 64 rays asks of the inner nodes.
+//! Eight rays of one octant tested as one, which is how a walk of 64 rays tests inner nodes.
 
 use lobe_lane::{Block as Pattern, Floats, Ints, Lanes, MAX_LANES, Mask};
 
@@ -13,7 +13,7 @@ const RAYS_EACH: usize = 8;
 /// Bundles of a block.
 const BUNDLES: usize = RAYS / RAYS_EACH;
 
-/// One float a bundle; the others are room for as many lanes as there may be.
+/// One float per bundle; the rest is padding for the widest lanes.
 type Line = [f32; MAX_LANES];
 
 /// The hulls of the bundles of a block; see [`Edges`].
@@ -22,11 +22,12 @@ pub(crate) struct Bundles {
     near: [Line; 3],
     fast: [Line; 3],
     far: [Line; 3],
-    /// Before it no ray of any bundle begins.
+    /// No ray of any bundle begins before it.
     t_min: f32,
-    /// Where the last ray of each bundle ends as things stand.
+    /// Where the last ray of each bundle currently ends.
     end: Line,
-    /// How far apart the rays of a bundle may be at `t` along the axis where they are farthest: `spread + t fan`.
+    /// How far apart the rays of a bundle may be at `t` along the axis on which they are farthest apart: `spread + t
+    /// fan`.
     spread: Line,
     fan: Line,
     /// The rays of all bundles.
@@ -77,14 +78,14 @@ impl Bundles {
                 let [least, greatest] = extremes(lanes, &rays.inverse[axis], first, bits);
                 let mut inverses = [greatest, least];
                 if ending.any() {
-                    // Between where rays begin and where all have ended, the greatest of their coordinates is nowhere
-                    // above the line from the greatest at the one to the greatest at the other; the least likewise.
+                    // Between where rays begin and where all have ended, their greatest coordinate is never above the
+                    // line from the greatest at one end to the greatest at the other, and likewise for the least.
                     let ends = extremes(lanes, &end_points(lanes, rays, axis, &bundles.end), first, bits);
                     let lower = (end / (ends[0] - low)).max(least).min(greatest);
                     let upper = (end / (ends[1] - high)).max(least).min(greatest);
                     inverses = [lanes.select(ending, lower, greatest), lanes.select(ending, upper, least)];
                 }
-                // Of a bundle without rays these are not numbers, and it is never asked.
+                // These are NaN for a bundle without rays, which is never tested.
                 let edges = Edges::<L>::new(octant >> axis & 1 != 0, [low, high], inverses, pad);
                 let one = lanes.splat(1.0);
                 spread = spread.max(high - low);
@@ -123,7 +124,7 @@ impl Bundles {
         (high * 0xff) & self.live
     }
 
-    /// The bundles that have some of these rays.
+    /// The bundles that contain any of these rays.
     #[inline(always)]
     pub fn of_rays(&self, rays: u64) -> u32 {
         let low = 0x7f7f_7f7f_7f7f_7f7f;
@@ -137,7 +138,8 @@ impl Bundles {
         (ray / RAYS_EACH) & (BUNDLES - 1)
     }
 
-    /// One box per lane: below what t no ray of the bundle is inside the box, and above what t none is or still looks.
+    /// One box per lane: the t before which no ray of the bundle is inside the box, and the t after which none is
+    /// inside or still searching.
     #[inline(always)]
     pub fn interval<L: Lanes>(&self, lanes: L, bundle: usize, near: [L::F; 3], far: [L::F; 3]) -> [L::F; 2] {
         let bundle = bundle & (BUNDLES - 1);
@@ -160,7 +162,7 @@ impl Bundles {
         lanes.mul_add(t, lanes.splat(self.fan[bundle]), lanes.splat(self.spread[bundle]))
     }
 
-    /// Those of `bundles` that have rays which look as far as `t`.
+    /// Those of `bundles` with rays that search as far as `t`.
     #[inline(always)]
     pub fn looking<L: Lanes>(&self, lanes: L, bundles: u32, t: f32) -> u32 {
         let mut bits = 0;
@@ -194,7 +196,8 @@ impl Bundles {
     }
 }
 
-/// The least and the greatest number of the bundles from `first` on, one bundle per lane, of those rays that have a bit.
+/// The least and the greatest number of the bundles from `first` on, one bundle per lane, over the rays whose bits are
+/// set.
 #[inline(always)]
 fn extremes<L: Lanes>(lanes: L, row: &Row, first: usize, bits: L::I) -> [L::F; 2] {
     let (most, least) = (lanes.splat(f32::INFINITY), lanes.splat(f32::NEG_INFINITY));

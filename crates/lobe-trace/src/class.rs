@@ -19,7 +19,7 @@ pub enum RayClass {
 }
 
 impl RayClass {
-    /// The class of the next ray of a path: `specular` if the bounce keeps neighbours neighbours.
+    /// The class of the next ray of a path: `specular` if neighbouring rays stay neighbours.
     pub fn bounce(self, specular: bool) -> Self {
         match self {
             RayClass::Camera | RayClass::Mirror if specular => RayClass::Mirror,
@@ -45,8 +45,8 @@ impl RayClass {
     }
 }
 
-/// A way through the tree. The class of a ray chooses it; it is public so that tests and measurements can compare.
-/// Packets whose directions differ in a sign are taken apart.
+/// A way to walk the tree. The class of a ray chooses it; it is public so that tests and measurements can compare.
+/// Packets whose directions differ in sign are split.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Form {
     /// One lane per ray, with masks (Wald, Slusallek, Benthin, Wagner 2001).
@@ -54,7 +54,8 @@ pub enum Form {
     /// [`Packet`](Form::Packet) until few rays are live, then [`Single`](Form::Single) for each of them.
     Hybrid,
     /// Up to 64 rays at once, those of one octant: all children of a node against bundles of eight rays, the rays
-    /// themselves at the leaves. Few rays of an octant, and rays that begin before zero, go one by one.
+    /// themselves at the leaves. If an octant has few rays they are traced one by one, as are rays that begin before
+    /// zero.
     Large,
     /// One lane per child: one ray against all boxes of a node.
     Single,

@@ -1,4 +1,4 @@
-//! Several rays tested against boxes like one.
+//! Several rays tested against boxes as one.
 
 use lobe_lane::{Floats, Lanes, Mask};
 
@@ -6,14 +6,14 @@ use crate::block::{Block, first_ray};
 use crate::bvh::Node;
 use crate::slab::{Sides, child_bits, least_lane};
 
-/// A ray with two origins and two inverses that stands for rays of one octant which begin at `t >= 0`:
-/// `(plane - origin) * inverse` is `plane * slow + near` for a plane that rays meet first, `plane * fast + far` for one
-/// that they meet last.
+/// A ray with two origins and two inverses that represents rays of one octant which begin at `t >= 0`: `(plane -
+/// origin) * inverse` is `plane * slow + near` for a plane that rays reach first, `plane * fast + far` for one that
+/// they reach last.
 ///
-/// A plane ahead of all origins is met no sooner than by a ray from the nearest of them with the inverse of smallest
-/// magnitude, and no later than by one from the farthest with the largest. A plane behind some origin gives a number
-/// below zero for the near planes, which says nothing if no ray begins below zero, and rightly ends the rays for the
-/// far planes.
+/// A plane ahead of all origins is reached no sooner than by a ray from the nearest of them with the inverse of
+/// smallest magnitude, and no later than by one from the farthest with the largest. A plane behind some origin gives a
+/// number below zero for the near planes, which says nothing if no ray begins below zero, and rightly ends the rays for
+/// the far planes.
 #[derive(Clone, Copy)]
 pub(crate) struct Edges<L: Lanes> {
     pub slow: L::F,
@@ -23,8 +23,8 @@ pub(crate) struct Edges<L: Lanes> {
 }
 
 impl<L: Lanes> Edges<L> {
-    /// Along one axis, from the least and the greatest origins, and the inverses with which the edges that begin there
-    /// go on. The rays' `pad` is taken twice, since this test rounds differently from theirs.
+    /// Along one axis, from the least and the greatest origins, and the inverses of the edges that begin there. The
+    /// rays' `pad` is applied twice, since this test rounds differently from theirs.
     #[inline(always)]
     pub fn new(backward: bool, [low, high]: [L::F; 2], [lower, upper]: [L::F; 2], pad: L::F) -> Self {
         let wide = pad + pad;
@@ -38,7 +38,7 @@ impl<L: Lanes> Edges<L> {
 #[derive(Clone, Copy)]
 pub(crate) struct Hull<L: Lanes> {
     edges: [Edges<L>; 3],
-    /// Before it no ray begins, and behind it none looks.
+    /// No ray begins before it, and none searches beyond it.
     t_min: L::F,
     end: L::F,
 }
@@ -73,7 +73,8 @@ impl<L: Lanes> Hull<L> {
         self.end = end;
     }
 
-    /// One box per lane: before what t no ray is inside the box, and after what t none is or still looks.
+    /// One box per lane: the t before which no ray is inside the box, and the t after which none is inside or still
+    /// searching.
     #[inline(always)]
     pub fn interval(&self, lanes: L, near: [L::F; 3], far: [L::F; 3]) -> [L::F; 2] {
         let (mut enter, mut leave) = (self.t_min, self.end);
@@ -87,7 +88,7 @@ impl<L: Lanes> Hull<L> {
         [enter, leave]
     }
 
-    /// The bits of the children of a node that a ray may meet.
+    /// The bits of the children of a node that some ray may hit.
     #[inline(always)]
     pub fn children<const W: usize>(&self, lanes: L, node: &Node<W>, sides: &Sides) -> u32 {
         let mut bits = 0;

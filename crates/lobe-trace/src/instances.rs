@@ -1,4 +1,4 @@
-//! Instances as leaves: rays are carried into the instance's own space and walk its tree there.
+//! Instances as leaves: rays are transformed into the instance's own space and traced through its tree there.
 
 use lobe_lane::{Lanes, Mask};
 
@@ -23,9 +23,9 @@ pub(crate) struct Instances<'a, const W: usize> {
 }
 
 impl<const W: usize> Instances<'_, W> {
-    /// Carries rays of a group into the space of an instance. Returns the bits of those that may meet it.
+    /// Transforms rays of a group into the space of an instance. Returns the bits of those that may hit it.
     #[inline(always)]
-    fn carry<L: Lanes>(&mut self, lanes: L, instance: &Instance, rays: &Block, at: usize, live: u32) -> u32 {
+    fn transform<L: Lanes>(&mut self, lanes: L, instance: &Instance, rays: &Block, at: usize, live: u32) -> u32 {
         let at = first_ray::<L>(at);
         let (mut lower, mut upper) = ([lanes.splat(0.0); 3], [lanes.splat(0.0); 3]);
         let mut axis = 0;
@@ -37,15 +37,15 @@ impl<const W: usize> Instances<'_, W> {
         let [enter, leave] = SlabRay::group(lanes, rays, at).interval_any(lanes, lower, upper);
         lanes.store(&mut self.local.enter[at..], enter);
         lanes.store(&mut self.local.leave[at..], leave);
-        let origin = carried(lanes, &instance.to_local, group_rows(lanes, &rays.origin, at), 1.0);
-        let direction = carried(lanes, &instance.to_local, group_rows(lanes, &rays.direction, at), 0.0);
+        let origin = image(lanes, &instance.to_local, group_rows(lanes, &rays.origin, at), 1.0);
+        let direction = image(lanes, &instance.to_local, group_rows(lanes, &rays.direction, at), 0.0);
         let t_min = lanes.load(&rays.t_min[at..]);
         let packet = Packet { origin, direction, t_min, t_max: lanes.splat(f32::INFINITY) };
         let reach = self.scene.trees[instance.mesh].bvh.bounds().reach();
         self.local.prepare(lanes, at, packet, mask_of(lanes, live), reach).bits()
     }
 
-    /// Traces rays that have been carried into the space of an instance.
+    /// Traces rays that have been transformed into the space of an instance.
     #[inline(always)]
     fn trace<L: Lanes>(&mut self, lanes: L, number: usize, form: Form, live: u64, found: &mut Found) {
         let tree = &self.scene.trees[self.scene.instances[number].mesh];
@@ -57,7 +57,7 @@ impl<const W: usize> Instances<'_, W> {
 
 /// The image of points (`w` 1) or directions (`w` 0).
 #[inline(always)]
-fn carried<L: Lanes>(lanes: L, map: &Affine, x: [L::F; 3], w: f32) -> [L::F; 3] {
+fn image<L: Lanes>(lanes: L, map: &Affine, x: [L::F; 3], w: f32) -> [L::F; 3] {
     let mut image = x;
     let mut row = 0;
     while row < 3 {
@@ -86,26 +86,26 @@ impl<const W: usize> Leaves for Instances<'_, W> {
         _around: Around<'_, L>,
     ) -> u64 {
         let instance = &self.scene.instances[leaf.first()];
-        let mut carried = 0;
+        let mut transformed = 0;
         let mut at = 0;
         while at < RAYS {
             let bits = group_bits::<L>(live, at);
             if bits != 0 {
-                carried |= (self.carry(lanes, instance, rays, at, bits) as u64) << at;
+                transformed |= (self.transform(lanes, instance, rays, at, bits) as u64) << at;
             } else {
                 lanes.store(&mut self.local.t_min[at..], lanes.splat(f32::INFINITY));
             }
             at += L::LANES;
         }
-        self.trace(lanes, leaf.first(), self.form, carried, found);
-        carried
+        self.trace(lanes, leaf.first(), self.form, transformed, found);
+        transformed
     }
 
     #[inline(always)]
     fn single<L: Lanes>(&mut self, lanes: L, leaf: Child, rays: &Block, ray: usize, found: &mut Found) {
         let instance = &self.scene.instances[leaf.first()];
         let at = first_ray::<L>(ray);
-        let bits = self.carry(lanes, instance, rays, at, 1 << (ray - at));
+        let bits = self.transform(lanes, instance, rays, at, 1 << (ray - at));
         self.trace(lanes, leaf.first(), Form::Single, (bits as u64) << at, found);
     }
 }

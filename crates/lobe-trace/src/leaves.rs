@@ -1,4 +1,4 @@
-//! What stands in the leaves of a tree: triangles, or instances of trees of triangles.
+//! What the leaves of a tree hold: triangles, or instances of trees of triangles.
 
 use lobe_lane::Lanes;
 
@@ -7,7 +7,7 @@ use crate::bundles::Bundles;
 use crate::bvh::Child;
 use crate::hull::Hull;
 
-/// What is known of several rays at once.
+/// What several rays have in common.
 #[derive(Clone, Copy)]
 pub(crate) enum Around<'a, L: Lanes> {
     Nothing,
@@ -17,13 +17,13 @@ pub(crate) enum Around<'a, L: Lanes> {
     Bundles(&'a Bundles),
 }
 
-/// What a walk calls when it comes to a leaf. Hits go to `found` if they are nearer than what stands there.
+/// What a walk calls at a leaf. Hits go to `found` if they are nearer than those already there.
 pub(crate) trait Leaves {
     /// Any hit is enough.
     fn any(&self) -> bool;
 
-    /// Several rays of one octant have met the leaf: those of `live`, one bit each. What `around` tells that none of them
-    /// meets is left out. Returns which rays may have been hit.
+    /// Tests several rays of one octant that have reached the leaf: those of `live`, one bit each. Whatever `around`
+    /// shows that none of them can hit is left out. Returns which rays may have hit something.
     fn packet<L: Lanes>(
         &mut self,
         lanes: L,
@@ -34,6 +34,6 @@ pub(crate) trait Leaves {
         around: Around<'_, L>,
     ) -> u64;
 
-    /// One ray has met the leaf.
+    /// Tests one ray that has reached the leaf.
     fn single<L: Lanes>(&mut self, lanes: L, leaf: Child, rays: &Block, ray: usize, found: &mut Found);
 }

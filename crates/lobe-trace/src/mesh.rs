@@ -1,7 +1,7 @@
-//! Triangles as a user gives them.
+//! Triangles as supplied by a user.
 
 /// The largest magnitude of a coordinate of a vertex, of a ray's origin, and the bounds of a ray's direction
-/// (`1 / LIMIT ..= LIMIT` for its largest component): within it no intermediate result overflows an `f32`.
+/// (`1 / LIMIT ..= LIMIT` for its largest component): within these no intermediate result overflows an `f32`.
 pub const LIMIT: f32 = 1_099_511_627_776.0;
 
 /// What is wrong with a mesh.
@@ -17,7 +17,7 @@ pub enum MeshError {
         /// The coordinate.
         found: f32,
     },
-    /// A corner names a vertex that is not there.
+    /// A corner names a vertex that does not exist.
     #[error("corner {corner} of triangle {triangle} is vertex {found}, expected one below {vertices}")]
     Index {
         /// Which triangle.
@@ -51,7 +51,7 @@ impl Mesh {
     /// A mesh of vertices `[x, y, z]` and triangles of three vertex indices each.
     ///
     /// # Errors
-    /// If a coordinate is not a number of reasonable magnitude or an index is out of range.
+    /// If a coordinate is NaN or beyond [`LIMIT`], or an index is out of range.
     pub fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
         for (vertex, position) in positions.iter().enumerate() {
             for (axis, &found) in position.iter().enumerate() {

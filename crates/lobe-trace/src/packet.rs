@@ -15,12 +15,12 @@ pub struct Packet<L: Lanes> {
     pub t_max: L::F,
 }
 
-/// The nearest hits of a packet; in the lanes not of `mask` as for a miss of [`HitSoA`](crate::HitSoA).
+/// The nearest hits of a packet; lanes outside `mask` hold a miss, as in [`HitSoA`](crate::HitSoA).
 #[derive(Clone, Copy, Debug)]
 pub struct PacketHits<L: Lanes> {
     /// The rays that hit something.
     pub mask: L::M,
-    /// Where along the ray.
+    /// The position along the ray.
     pub t: L::F,
     /// Weight of the triangle's second vertex.
     pub u: L::F,

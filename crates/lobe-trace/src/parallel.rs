@@ -4,10 +4,10 @@ use lobe_backend::Backend;
 
 use crate::{Hits, RayClass, Rays, Scene};
 
-/// Rays that are worth a task: some hundred microseconds.
+/// Rays that are worth a task, which takes some hundred microseconds.
 const TASK: usize = 4096;
 
-/// The cut of a batch: in the middle, but never through a packet.
+/// Where a batch is split: in the middle, but never within a packet.
 fn middle(n: usize) -> usize {
     (n / 2).next_multiple_of(64)
 }
@@ -15,7 +15,7 @@ fn middle(n: usize) -> usize {
 /// The nearest hits of a batch, as [`Scene::intersect`] finds them.
 ///
 /// # Panics
-/// If there are not as many places for hits as rays.
+/// If `rays` and `hits` differ in length.
 pub fn intersect(backend: Backend, scene: &Scene, class: RayClass, rays: Rays<'_>, hits: Hits<'_>) {
     if rays.len() <= TASK {
         return scene.intersect(backend, class, rays, hits);
@@ -31,7 +31,7 @@ pub fn intersect(backend: Backend, scene: &Scene, class: RayClass, rays: Rays<'_
 /// Which rays of a batch hit anything, as [`Scene::occluded`] finds it.
 ///
 /// # Panics
-/// If there are not as many answers as rays.
+/// If `rays` and `out` differ in length.
 pub fn occluded(backend: Backend, scene: &Scene, class: RayClass, rays: Rays<'_>, out: &mut [bool]) {
     if rays.len() <= TASK {
         return scene.occluded(backend, class, rays, out);

@@ -1,8 +1,8 @@
-//! Rays and hits by the batch, one array a component.
+//! Batches of rays and hits, one array per component.
 
 /// A batch of rays. A ray is `origin + t direction` for `t` in the closed interval `[t_min, t_max]`; the direction may
-/// have any length, and `t` counts in it. A ray with a NaN anywhere, an empty interval, a zero direction, or numbers
-/// beyond [`LIMIT`](crate::LIMIT) hits nothing. All arrays have one entry a ray.
+/// have any length, and `t` is measured in it. A ray with a NaN anywhere, an empty interval, a zero direction, or
+/// numbers beyond [`LIMIT`](crate::LIMIT) hits nothing. All arrays have one entry per ray.
 #[derive(Clone, Debug, Default)]
 pub struct RaySoA {
     /// Origins: all x, all y, all z.
@@ -16,7 +16,7 @@ pub struct RaySoA {
 }
 
 impl RaySoA {
-    /// No rays yet, room for `capacity`.
+    /// No rays yet, but room for `capacity`.
     pub fn with_capacity(capacity: usize) -> Self {
         let make = || Vec::with_capacity(capacity);
         RaySoA { origin: [make(), make(), make()], direction: [make(), make(), make()], t_min: make(), t_max: make() }
@@ -33,12 +33,12 @@ impl RaySoA {
         self.t_max.push(t_max);
     }
 
-    /// How many rays.
+    /// The number of rays.
     pub fn len(&self) -> usize {
         self.t_min.len()
     }
 
-    /// No rays.
+    /// `true` if there are no rays.
     pub fn is_empty(&self) -> bool {
         self.t_min.is_empty()
     }
@@ -70,17 +70,17 @@ pub struct Rays<'a> {
 }
 
 impl<'a> Rays<'a> {
-    /// How many rays.
+    /// The number of rays.
     pub fn len(&self) -> usize {
         self.t_min.len()
     }
 
-    /// No rays.
+    /// `true` if there are no rays.
     pub fn is_empty(&self) -> bool {
         self.t_min.is_empty()
     }
 
-    /// The first `n` rays and the others.
+    /// The first `n` rays, and the rest.
     ///
     /// # Panics
     /// If there are fewer.
@@ -102,7 +102,7 @@ pub const MISS: i32 = -1;
 /// `u` and `v` are zero.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HitSoA {
-    /// Where along the ray, in lengths of its direction.
+    /// The position along the ray, in lengths of its direction.
     pub t: Vec<f32>,
     /// Weight of the triangle's second vertex.
     pub u: Vec<f32>,
@@ -149,17 +149,17 @@ pub struct Hits<'a> {
 }
 
 impl Hits<'_> {
-    /// Room for how many hits.
+    /// The number of hits that there is room for.
     pub fn len(&self) -> usize {
         self.t.len()
     }
 
-    /// Room for none.
+    /// `true` if there is room for none.
     pub fn is_empty(&self) -> bool {
         self.t.is_empty()
     }
 
-    /// The first `n` and the others.
+    /// The first `n`, and the rest.
     ///
     /// # Panics
     /// If there are fewer.

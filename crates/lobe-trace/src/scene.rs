@@ -4,10 +4,10 @@ use crate::bvh::{Binary, Child, WideBvh};
 use crate::triangles::Tree;
 use crate::{Aabb, Affine, LIMIT, Mesh};
 
-/// What keeps a scene from being built.
+/// Why a scene cannot be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SceneError {
-    /// An instance names a mesh that is not there.
+    /// An instance names a mesh that does not exist.
     #[error("instance {instance} is of mesh {found}, expected one below {meshes}")]
     Mesh {
         /// Which instance.
@@ -25,7 +25,7 @@ pub enum SceneError {
     },
 }
 
-/// How far the building of a scene is.
+/// Progress of building a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
     /// Triangles whose trees are done.
@@ -42,18 +42,18 @@ pub struct SceneBuilder {
 }
 
 impl SceneBuilder {
-    /// Nothing.
+    /// A builder without meshes.
     pub fn new() -> Self {
         SceneBuilder::default()
     }
 
-    /// Adds a mesh, which is not seen before an instance of it is added. Returns its number.
+    /// Adds a mesh, which is invisible until an instance of it is added. Returns its number.
     pub fn mesh(&mut self, mesh: Mesh) -> usize {
         self.meshes.push(mesh);
         self.meshes.len() - 1
     }
 
-    /// Adds an instance of a mesh, carried into the world by `to_world`. Returns its number.
+    /// Adds an instance of a mesh, placed in the world by `to_world`. Returns its number.
     pub fn instance(&mut self, mesh: usize, to_world: Affine) -> usize {
         self.instances.push((mesh, to_world));
         self.instances.len() - 1
@@ -62,7 +62,7 @@ impl SceneBuilder {
     /// Builds the trees. `progress` is called after each mesh.
     ///
     /// # Errors
-    /// If an instance names no mesh or its transform has no inverse.
+    /// If the mesh of an instance does not exist or its transform has no inverse.
     pub fn build<const W: usize>(self, mut progress: impl FnMut(Progress)) -> Result<Scene<W>, SceneError> {
         let meshes = self.meshes.len();
         for (instance, &(found, _)) in self.instances.iter().enumerate() {
@@ -98,7 +98,7 @@ pub(crate) struct Instance {
     pub mesh: usize,
     pub to_world: Affine,
     pub to_local: Affine,
-    /// Around it in the world.
+    /// The box around it in the world.
     pub bounds: Aabb,
 }
 
@@ -109,14 +109,14 @@ impl Instance {
         if !small(&to_world) || !small(&to_local) {
             return None;
         }
-        let bounds = if local == Aabb::EMPTY { Aabb::EMPTY } else { carried_box(local, &to_world, &to_local) };
+        let bounds = if local == Aabb::EMPTY { Aabb::EMPTY } else { transformed_box(local, &to_world, &to_local) };
         (bounds.reach() <= LIMIT).then_some(Instance { mesh, to_world, to_local, bounds })
     }
 }
 
-/// A box around the image of a box, wide enough for what rounding does to a ray that is carried back: `2^-21` of each
-/// number that goes into one, eight half-units in the last place.
-fn carried_box(local: Aabb, to_world: &Affine, to_local: &Affine) -> Aabb {
+/// A box around the image of a box, large enough for the rounding of a ray that is transformed back: `2^-21` of each
+/// number that goes into it, eight half-units in the last place.
+fn transformed_box(local: Aabb, to_world: &Affine, to_local: &Affine) -> Aabb {
     let exact = Aabb::of((0..8).map(|corner: usize| {
         let pick = |axis: usize| if corner >> axis & 1 == 0 { local.lower[axis] } else { local.upper[axis] };
         to_world.point([pick(0), pick(1), pick(2)])
@@ -141,7 +141,7 @@ pub struct Scene<const W: usize = 8> {
 }
 
 impl<const W: usize> Scene<W> {
-    /// A scene of one mesh as it stands.
+    /// A scene of one untransformed mesh.
     pub fn of_mesh(mesh: Mesh) -> Self {
         let mut builder = SceneBuilder::new();
         let mesh = builder.mesh(mesh);
@@ -149,7 +149,7 @@ impl<const W: usize> Scene<W> {
         builder.build(|_| ()).expect("a mesh that was checked, untransformed")
     }
 
-    /// How many instances there are.
+    /// The number of instances.
     pub fn instance_count(&self) -> usize {
         self.instances.len()
     }
@@ -175,7 +175,7 @@ impl<const W: usize> Scene<W> {
         self.top.bounds()
     }
 
-    /// The tree of the only instance where it stands as it is: then there is nothing to carry rays into.
+    /// The tree of the only instance, if it is not transformed: then rays need not be transformed either.
     #[inline(always)]
     pub(crate) fn plain(&self) -> Option<&Tree<W>> {
         match self.instances.as_slice() {

@@ -37,8 +37,8 @@ impl<L: Lanes> SlabRay<L> {
         }
     }
 
-    /// Where rays enter and leave boxes, given by the three planes they meet first and the three they meet last.
-    /// A ray whose first number is not below or at its second misses the box.
+    /// Where rays enter and leave boxes, given by the three planes they reach first and the three they reach last. A
+    /// ray misses the box unless its first number is at most its second.
     #[inline(always)]
     pub fn interval(&self, lanes: L, near: [L::F; 3], far: [L::F; 3]) -> [L::F; 2] {
         let enter_x = lanes.mul_add(near[0], self.inverse[0], self.near[0]);
@@ -66,7 +66,7 @@ impl<L: Lanes> SlabRay<L> {
     }
 }
 
-/// Which rows of a node hold the planes that rays of an octant meet first and last.
+/// Which rows of a node hold the planes that rays of an octant reach first and last.
 #[derive(Clone, Copy)]
 pub(crate) struct Sides {
     pub near: [usize; 3],
@@ -119,7 +119,7 @@ pub(crate) fn row_from<L: Lanes, const W: usize>(lanes: L, row: &[f32; W], slot:
 pub(crate) fn least_lane<L: Lanes>(lanes: L, x: L::F) -> f32 {
     let mut buffer = [f32::INFINITY; lobe_lane::MAX_LANES];
     lanes.store(&mut buffer, x);
-    // By halves: a chain of comparisons would be as long as there are lanes.
+    // By halves: a chain of comparisons would have one step per lane.
     let mut half = L::LANES / 2;
     while half > 0 {
         let mut lane = 0;

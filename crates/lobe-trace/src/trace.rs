@@ -17,15 +17,15 @@ impl Scene<8> {
     /// Finds the nearest hits of a batch of rays.
     ///
     /// # Panics
-    /// If there are not as many places for hits as rays.
+    /// If `rays` and `hits` differ in length.
     pub fn intersect(&self, backend: Backend, class: RayClass, rays: Rays<'_>, hits: Hits<'_>) {
         self.intersect_by(backend, class.form(), rays, hits);
     }
 
-    /// The same by any way through the tree, to compare: the hits are the same bits.
+    /// The same by any form of walk, for comparison: the hits are the same bits.
     ///
     /// # Panics
-    /// If there are not as many places for hits as rays.
+    /// If `rays` and `hits` differ in length.
     pub fn intersect_by(&self, backend: Backend, form: Form, rays: Rays<'_>, hits: Hits<'_>) {
         backend.run(Intersect::new(self, form, rays, hits));
     }
@@ -33,21 +33,21 @@ impl Scene<8> {
     /// Finds which rays of a batch hit anything.
     ///
     /// # Panics
-    /// If there are not as many answers as rays.
+    /// If `rays` and `out` differ in length.
     pub fn occluded(&self, backend: Backend, class: RayClass, rays: Rays<'_>, out: &mut [bool]) {
         self.occluded_by(backend, class.form(), rays, out);
     }
 
-    /// The same by any way through the tree, to compare: the answers are the same.
+    /// The same by any form of walk, for comparison: the answers are the same.
     ///
     /// # Panics
-    /// If there are not as many answers as rays.
+    /// If `rays` and `out` differ in length.
     pub fn occluded_by(&self, backend: Backend, form: Form, rays: Rays<'_>, out: &mut [bool]) {
         backend.run(Occluded::new(self, form, rays, out));
     }
 }
 
-/// The working memory of tracing one scene. Making one allocates; tracing with it does not.
+/// The working memory of tracing one scene. Creating it allocates; tracing with it does not.
 #[derive(Debug)]
 pub struct Tracer<'s, const W: usize> {
     scene: &'s Scene<W>,
@@ -62,7 +62,7 @@ impl<'s, const W: usize> Tracer<'s, W> {
     /// Working memory for a scene.
     pub fn new(scene: &'s Scene<W>) -> Self {
         let deepest = scene.trees.iter().map(|tree| tree.bvh.stack).max().unwrap_or(0);
-        // A scene of one mesh in its own place is walked by one walk, not by one within another.
+        // A scene of one untransformed mesh takes one walk, not one within another.
         let below = if scene.plain().is_some() { 0 } else { deepest };
         Tracer {
             scene,
@@ -74,7 +74,7 @@ impl<'s, const W: usize> Tracer<'s, W> {
         }
     }
 
-    /// The nearest hits of the rays of `live`. To be called inside a kernel.
+    /// The nearest hits of the rays of `live`. Call it inside a kernel.
     #[inline(always)]
     pub fn intersect_packet<L: Lanes>(
         &mut self,
@@ -88,7 +88,7 @@ impl<'s, const W: usize> Tracer<'s, W> {
         self.conclude(lanes, 0)
     }
 
-    /// Which rays of `live` hit anything. To be called inside a kernel.
+    /// Which rays of `live` hit anything. Call it inside a kernel.
     #[inline(always)]
     pub fn occluded_packet<L: Lanes>(&mut self, lanes: L, class: RayClass, rays: Packet<L>, live: L::M) -> L::M {
         let live = self.set(lanes, 0, rays, live);
@@ -96,11 +96,11 @@ impl<'s, const W: usize> Tracer<'s, W> {
         !lanes.load_int(&self.found.primitive).eq(lanes.splat_int(Found::NONE))
     }
 
-    /// Puts a group of rays in its place. Returns which are valid.
+    /// Stores a group of rays. Returns which are valid.
     #[inline(always)]
     fn set<L: Lanes>(&mut self, lanes: L, at: usize, rays: Packet<L>, live: L::M) -> L::M {
         let reach = self.scene.bounds().reach();
-        // A limit that is not infinite keeps a ray that misses a box from seeming to meet it at infinity. NaN stays.
+        // A finite limit keeps a ray that misses a box from seeming to hit it at infinity. NaN stays NaN.
         let t_max = lanes.splat(f32::MAX).min(rays.t_max);
         let valid = self.rays.prepare(lanes, at, Packet { t_max, ..rays }, live, reach);
         self.found.reset(lanes, at, lanes.select(valid, t_max, lanes.splat(f32::NEG_INFINITY)));
@@ -170,7 +170,7 @@ impl<'s, const W: usize> Tracer<'s, W> {
     }
 }
 
-/// A packet of as many rays as lanes is not large.
+/// A packet of one ray per lane is never large.
 #[inline(always)]
 fn packet_form(class: RayClass) -> Form {
     match class.form() {
@@ -179,8 +179,8 @@ fn packet_form(class: RayClass) -> Form {
     }
 }
 
-/// Finds the nearest hits of a batch, as a kernel: for trees of four children per node and lanes that are no
-/// [`Backend`]. All others call [`Scene::intersect`].
+/// Finds the nearest hits of a batch, as a kernel: for trees of four children per node and lanes that are not a
+/// [`Backend`]. In all other cases call [`Scene::intersect`].
 #[derive(Debug)]
 pub struct Intersect<'a, const W: usize> {
     scene: &'a Scene<W>,
@@ -193,9 +193,9 @@ impl<'a, const W: usize> Intersect<'a, W> {
     /// The kernel for these rays.
     ///
     /// # Panics
-    /// If there are not as many places for hits as rays.
+    /// If `rays` and `hits` differ in length.
     pub fn new(scene: &'a Scene<W>, form: Form, rays: Rays<'a>, hits: Hits<'a>) -> Self {
-        assert_eq!(rays.len(), hits.len(), "rays, and places for hits");
+        assert_eq!(rays.len(), hits.len(), "one hit per ray");
         Intersect { scene, form, rays, hits }
     }
 }
@@ -227,8 +227,8 @@ impl<const W: usize> Kernel for Intersect<'_, W> {
     }
 }
 
-/// Finds which rays of a batch hit anything, as a kernel: for trees of four children per node and lanes that are no
-/// [`Backend`]. All others call [`Scene::occluded`].
+/// Finds which rays of a batch hit anything, as a kernel: for trees of four children per node and lanes that are not a
+/// [`Backend`]. In all other cases call [`Scene::occluded`].
 #[derive(Debug)]
 pub struct Occluded<'a, const W: usize> {
     scene: &'a Scene<W>,
@@ -241,9 +241,9 @@ impl<'a, const W: usize> Occluded<'a, W> {
     /// The kernel for these rays.
     ///
     /// # Panics
-    /// If there are not as many answers as rays.
+    /// If `rays` and `out` differ in length.
     pub fn new(scene: &'a Scene<W>, form: Form, rays: Rays<'a>, out: &'a mut [bool]) -> Self {
-        assert_eq!(rays.len(), out.len(), "rays, and places for answers");
+        assert_eq!(rays.len(), out.len(), "one answer per ray");
         Occluded { scene, form, rays, out }
     }
 }

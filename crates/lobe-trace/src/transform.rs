@@ -8,10 +8,10 @@ pub struct Affine {
 }
 
 impl Affine {
-    /// The map that changes nothing.
+    /// The identity.
     pub const IDENTITY: Affine = Affine { rows: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]] };
 
-    /// A shift.
+    /// A translation.
     pub fn translation([x, y, z]: [f32; 3]) -> Self {
         Affine { rows: [[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, y], [0.0, 0.0, 1.0, z]] }
     }
@@ -21,7 +21,7 @@ impl Affine {
         self.rows.map(|[a, b, c, d]| a * p[0] + b * p[1] + c * p[2] + d)
     }
 
-    /// The map back, worked out in `f64`; none if the map flattens space or a number is not finite.
+    /// The inverse, computed in `f64`; `None` if the map flattens space or a number is not finite.
     pub fn inverse(&self) -> Option<Affine> {
         let m = self.rows.map(|row| row.map(f64::from));
         let cofactor = |i: usize, j: usize| {

@@ -1,4 +1,4 @@
-//! Triangles as leaves, one block each.
+//! Triangles as leaves, one block per leaf.
 
 use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
 
@@ -14,29 +14,29 @@ use crate::woop::{ShearRay, axes_of, axes_of_any};
 pub(crate) struct Triangles<'a> {
     blocks: &'a [TriangleBlock],
     instance: i32,
-    /// Rays were carried into the instance's space: hits are kept inside its box.
-    carried: bool,
+    /// Rays were transformed into the instance's space: hits are kept inside its box.
+    transformed: bool,
     /// Any hit is enough.
     any: bool,
     /// Boxes of triangles of the block that was tested last, in the order of a node's rows.
     boxes: [[f32; MAX_LANES]; 6],
 }
 
-/// How few rays of a large packet are tested one by one, each against all triangles at once.
+/// Up to how many rays of a large packet are tested one by one, each against all triangles at once.
 const FEW: u32 = 10;
 
 impl<'a> Triangles<'a> {
-    pub fn new(blocks: &'a [TriangleBlock], instance: usize, carried: bool, any: bool) -> Self {
-        Triangles { blocks, instance: instance as i32, carried, any, boxes: [[0.0; MAX_LANES]; 6] }
+    pub fn new(blocks: &'a [TriangleBlock], instance: usize, transformed: bool, any: bool) -> Self {
+        Triangles { blocks, instance: instance as i32, transformed, any, boxes: [[0.0; MAX_LANES]; 6] }
     }
 
-    /// The block of a leaf and how many triangles it has.
+    /// The block of a leaf, and its number of triangles.
     #[inline(always)]
     fn block(&self, leaf: Child) -> (&'a TriangleBlock, usize) {
         (&self.blocks[leaf.first()], leaf.count())
     }
 
-    /// Works out the boxes of a block's first triangles.
+    /// Computes the boxes of a block's first triangles.
     #[inline(always)]
     fn fit<L: Lanes>(&mut self, lanes: L, (block, count): (&TriangleBlock, usize)) {
         let mut slot = 0;
@@ -52,9 +52,9 @@ impl<'a> Triangles<'a> {
         }
     }
 
-    /// The bits of the first triangles, their boxes at hand, that some of several rays may meet.
+    /// The bits of those of the first triangles, whose boxes have been computed, that any of several rays may hit.
     #[inline(always)]
-    fn met<L: Lanes>(&self, lanes: L, count: usize, sides: &Sides, around: Around<'_, L>, rays: u64) -> u32 {
+    fn candidates<L: Lanes>(&self, lanes: L, count: usize, sides: &Sides, around: Around<'_, L>, rays: u64) -> u32 {
         let mut bits = 0;
         let mut slot = 0;
         while slot < count {
@@ -87,7 +87,7 @@ impl<'a> Triangles<'a> {
     }
 
     /// Tests triangles of a block, those of `slots`, against rays of a group that have one octant and one major axis.
-    /// `fitted`: their boxes are at hand. Returns the bits of the rays that were hit.
+    /// `fitted`: their boxes have been computed. Returns the bits of the rays that hit one.
     #[inline(always)]
     fn group<L: Lanes>(
         &mut self,
@@ -123,9 +123,10 @@ impl<'a> Triangles<'a> {
             }
             let own = SlabRay::group(lanes, rays, at).interval(lanes, near, far);
             let (mut t, mut hit) = (candidates.t, candidates.mask);
-            // t is moved into where the ray is inside the boxes of the triangle and of the instance. So every box around
-            // the triangle holds the hit as the walks see it, and no answer depends on the order in which boxes are opened.
-            if self.carried {
+            // t is clamped to where the ray is inside the boxes of the triangle and of the instance. Every box around
+            // the triangle then contains the hit as the walks see it, and no answer depends on the order in which boxes
+            // are visited.
+            if self.transformed {
                 let instance = [lanes.load(&rays.enter[at..]), lanes.load(&rays.leave[at..])];
                 t = t.max(instance[0]).min(instance[1]).max(own[0]).min(own[1]);
                 hit = hit & t.ge(instance[0]) & t.le(instance[1]);
@@ -141,7 +142,7 @@ impl<'a> Triangles<'a> {
             let other = lanes.splat_int(self.instance);
             let old_number = lanes.load_int(&found.primitive[at..]);
             let old_other = lanes.load_int(&found.instance[at..]);
-            // Of two hits at one place the smaller numbers win, whoever comes first.
+            // Of two hits at the same t the smaller numbers win, whichever comes first.
             let first = number.lt(old_number) | (number.eq(old_number) & other.lt(old_other));
             let hit = hit & (t.lt(best) | first);
             some |= hit.bits();
@@ -156,7 +157,7 @@ impl<'a> Triangles<'a> {
         some
     }
 
-    /// Tests the first triangles of a block against one ray, whose axes are turned like that. Returns whether it was hit.
+    /// Tests the first triangles of a block against one ray, with its axes in that order. Returns whether it hit one.
     #[inline(always)]
     fn one<L: Lanes>(
         &self,
@@ -175,7 +176,7 @@ impl<'a> Triangles<'a> {
                 let [lower, upper] = block.extent(lanes, slot);
                 let own = SlabRay::single(lanes, rays, index).interval_any(lanes, lower, upper);
                 let (mut t, mut hit) = (candidates.t, candidates.mask);
-                if self.carried {
+                if self.transformed {
                     let instance = [lanes.splat(rays.enter[index]), lanes.splat(rays.leave[index])];
                     t = t.max(instance[0]).min(instance[1]).max(own[0]).min(own[1]);
                     hit = hit & t.ge(instance[0]) & t.le(instance[1]);
@@ -224,7 +225,7 @@ impl Leaves for Triangles<'_> {
     ) -> u64 {
         let sides = Sides::of(rays.octant(live.trailing_zeros() as usize));
         let (block, count) = self.block(leaf);
-        // A ray at a time takes as many triangles at once as there are lanes: better if rays are few.
+        // One ray at a time is tested against as many triangles as there are lanes, which is better for few rays.
         let each = count.div_ceil(L::LANES) as u32;
         let fitted = !matches!(around, Around::Nothing);
         let few = match around {
@@ -241,8 +242,11 @@ impl Leaves for Triangles<'_> {
             let at = first_ray::<L>(left.trailing_zeros() as usize);
             let mut bits = group_bits::<L>(left, at);
             left ^= (bits as u64) << at;
-            let slots =
-                if fitted { self.met(lanes, count, &sides, around, (bits as u64) << at) } else { (1 << count) - 1 };
+            let slots = if fitted {
+                self.candidates(lanes, count, &sides, around, (bits as u64) << at)
+            } else {
+                (1 << count) - 1
+            };
             if bits.count_ones() * each < slots.count_ones() {
                 alone |= (bits as u64) << at;
                 continue;

@@ -45,7 +45,7 @@ impl TriangleBlock {
     /// A coordinate of a corner of all triangles.
     #[inline(always)]
     fn row(&self, corner: usize, axis: usize) -> &[f32; SLOTS] {
-        // Masked, so that the compiler sees that no row is beyond the last, and asks nothing.
+        // Masked, so that the compiler sees that no row is beyond the last, and emits no check.
         &self.rows[3 * corner + (axis & 3)]
     }
 
@@ -62,7 +62,7 @@ impl TriangleBlock {
         corners
     }
 
-    /// The corners of the triangles from `slot` on, one triangle per lane; what is beyond the last is to be ignored.
+    /// The corners of the triangles from `slot` on, one triangle per lane; lanes beyond the last are to be ignored.
     #[inline(always)]
     pub fn several<L: Lanes>(&self, lanes: L, slot: usize, axes: [usize; 3]) -> Corners<L> {
         let mut corners = [[lanes.splat(0.0); 3]; 3];
@@ -82,7 +82,7 @@ impl TriangleBlock {
         let mut corner = 1;
         while corner < 3 {
             let x = self.row(corner, axis)[slot & (SLOTS - 1)];
-            // As lanes do it, also if zeros of both signs meet: the later one stays.
+            // As in lanes, even for two zeros of different sign: the later one wins.
             let first = if upper { side > x } else { side < x };
             side = if first { side } else { x };
             corner += 1;
@@ -134,7 +134,7 @@ impl<const W: usize> Tree<W> {
 }
 
 /// `false` for a triangle with two corners in one place. Two of its edge functions cancel to the bit whatever the ray,
-/// so it need not stand in the tree.
+/// so it need not be in the tree.
 fn can_be_hit([a, b, c]: [[f32; 3]; 3]) -> bool {
     a != b && b != c && c != a
 }

@@ -17,7 +17,7 @@ pub(crate) struct ShearRay<L: Lanes> {
     pivot: [L::F; 3],
 }
 
-/// Which axes become x, y and z, for rays that mostly agree in it.
+/// Which axes become x, y and z, for rays that mostly have the same.
 #[inline(always)]
 pub(crate) fn axes_of(major: i32) -> [usize; 3] {
     match major {
@@ -27,14 +27,14 @@ pub(crate) fn axes_of(major: i32) -> [usize; 3] {
     }
 }
 
-/// The same without branches, for rays of which one tells nothing of the next.
+/// The same without branches, for rays of which none predicts the next.
 #[inline(always)]
 pub(crate) fn axes_of_any(major: i32) -> [usize; 3] {
     const AXES: [[usize; 3]; 4] = [[1, 2, 0], [2, 0, 1], [0, 1, 2], [0, 1, 2]];
     AXES[major as usize & 3]
 }
 
-/// Where triangles are met, one value per lane. Only lanes of the mask mean something.
+/// Where triangles are hit, one value per lane. Only the lanes of the mask are meaningful.
 #[derive(Clone, Copy)]
 pub(crate) struct Candidates<L: Lanes> {
     pub mask: L::M,
@@ -56,8 +56,8 @@ impl<L: Lanes> ShearRay<L> {
         ShearRay { shear: ray_rows(lanes, &rays.shear, ray), pivot: ray_rows(lanes, &rays.pivot, ray) }
     }
 
-    /// Tests triangles, their vertices given in the turned order of axes. The t of a hit is limited by nothing yet.
-    /// `None` if all are missed: the one branch that is unpredictable.
+    /// Tests triangles, their vertices given in the permuted order of axes. The t of a hit is not limited yet. `None`
+    /// if all are missed: the only unpredictable branch.
     #[inline(always)]
     pub fn test(&self, lanes: L, vertices: Corners<L>, live: L::M) -> Option<Candidates<L>> {
         let mut x = [lanes.splat(0.0); 3];
@@ -80,7 +80,7 @@ impl<L: Lanes> ShearRay<L> {
             return None;
         }
         let mut sum = u + v + w;
-        // If the signs agree, the edge function that is zero is the least or the most of the three.
+        // If the signs agree, an edge function that is zero is the least or the greatest of the three.
         let unsure = mask & (least.eq(zero) | most.eq(zero) | sum.abs().lt(lanes.splat(TINY)));
         if unsure.any() {
             let mut edges = Edges { x: [[0.0; MAX_LANES]; 3], y: [[0.0; MAX_LANES]; 3] };
@@ -99,13 +99,13 @@ impl<L: Lanes> ShearRay<L> {
         mask = mask & !sum.eq(zero);
         let inverse = lanes.splat(1.0) / sum;
         let (u, v, w) = (u * inverse, v * inverse, w * inverse);
-        // The weights have one sign: t stays between those of the vertices up to rounding.
+        // The weights have the same sign, so t stays between those of the vertices up to rounding.
         let t = lanes.mul_add(u, z[0], lanes.mul_add(v, z[1], w * z[2])) * self.shear[2];
         Some(Candidates { mask, t, u: v, v: w })
     }
 }
 
-/// Below it a sum of edge functions has lost digits or has no inverse.
+/// A sum of edge functions below this has lost digits or has no inverse.
 const TINY: f32 = 1e-30;
 
 /// Edge functions that were zero or tiny in single precision.
@@ -115,7 +115,7 @@ struct Edges {
 }
 
 impl Edges {
-    /// Leaves in `x` the edge functions divided by their sum, or zeros if their exact signs differ. The products are
+    /// Puts into `x` the edge functions divided by their sum, or zeros if their exact signs differ. The products are
     /// exact in double precision, and so are the signs of their differences.
     #[cold]
     #[inline(never)]

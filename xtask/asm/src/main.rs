@@ -1,8 +1,8 @@
-//! `cargo xtask asm`: no intrinsic is left as a function of its own in the release binaries.
+//! `cargo xtask asm`: checks that no intrinsic is left as a function of its own in the release binaries.
 //!
 //! A helper that is generic over the lanes but not `#[inline(always)]` is compiled without the backend's features, so
-//! that each intrinsic in it becomes a call of a function of one instruction. That costs up to a factor of 75 and no
-//! compiler warns of it, but the function leaves a symbol.
+//! each intrinsic in it becomes a call to a function of one instruction. That costs up to a factor of 75. No compiler
+//! warns about it, but the function leaves a symbol.
 #![forbid(unsafe_code)]
 
 use std::path::{Path, PathBuf};
@@ -12,22 +12,22 @@ use anyhow::{Context, bail, ensure};
 use clap::Parser;
 use object::{Object, ObjectSymbol, SymbolKind};
 
-/// Who calls kernels in all ways, and what users run.
+/// The package that calls kernels in every way, and the one that users run.
 const PACKAGES: [&str; 2] = ["xtask-report", "lobe-cli"];
 
 /// Check that no SIMD intrinsic is called out of line in the release binaries
 #[derive(Parser, Debug)]
 #[command(bin_name = "cargo xtask asm")]
 struct Args {
-    /// Packages whose binaries are looked at
+    /// Packages whose binaries are checked
     #[arg(long = "package", value_name = "NAME", value_delimiter = ',', default_values = PACKAGES)]
     packages: Vec<String>,
 }
 
-/// Builds the binaries in release mode and looks through their symbols.
+/// Builds the binaries in release mode and searches their symbols.
 ///
 /// # Errors
-/// Where the build fails, a binary has no symbols to look at, or an intrinsic is a function of its own.
+/// If the build fails, a binary has no symbols to look at, or an intrinsic is a function of its own.
 fn main() -> anyhow::Result<()> {
     let args = Args::parse();
     let mut found = Vec::new();
@@ -44,7 +44,7 @@ fn main() -> anyhow::Result<()> {
     }
     ensure!(
         found.is_empty(),
-        "{} intrinsics out of line: some function generic over the lanes is not `#[inline(always)]`",
+        "{} intrinsics out of line: some function that is generic over the lanes is not `#[inline(always)]`",
         found.len()
     );
     println!("no intrinsic out of line");
@@ -53,8 +53,8 @@ fn main() -> anyhow::Result<()> {
 
 /// Builds, and returns the paths of the executables.
 ///
-/// One package at a time: together their dependencies would have other features than by themselves, and all of it would
-/// have to be compiled once more.
+/// One package at a time: built together, their dependencies would have different features, and everything would have
+/// to be compiled again.
 fn build(packages: &[String]) -> anyhow::Result<Vec<PathBuf>> {
     let mut binaries = Vec::new();
     for package in packages {
@@ -79,7 +79,7 @@ fn executables(messages: &[u8]) -> anyhow::Result<Vec<PathBuf>> {
     Ok(binaries)
 }
 
-/// What the symbols of a binary say.
+/// What the symbols of a binary show.
 #[derive(Debug, Default)]
 struct Symbols {
     functions: usize,
@@ -92,14 +92,14 @@ struct Symbols {
 impl Symbols {
     fn read(path: &Path) -> anyhow::Result<Self> {
         let bytes = std::fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))?;
-        let file = object::File::parse(&*bytes).with_context(|| format!("{}: no object file", path.display()))?;
+        let file = object::File::parse(&*bytes).with_context(|| format!("{}: not an object file", path.display()))?;
         let mut symbols = Symbols::default();
         for symbol in file.symbols().filter(|symbol| symbol.kind() == SymbolKind::Text) {
             symbols.functions += 1;
             symbols.sort_in(symbol.name().unwrap_or_default());
         }
         if symbols.functions == 0 {
-            bail!("{}: no symbols, so nothing can be said about it; was it stripped?", path.display());
+            bail!("{}: no symbols, so it cannot be checked; was it stripped?", path.display());
         }
         Ok(symbols)
     }

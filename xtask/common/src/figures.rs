@@ -1,4 +1,4 @@
-//! Figures as they are shown.
+//! How figures are formatted.
 
 /// A ratio with as many digits as it deserves.
 pub fn times(ratio: f64) -> String {

@@ -1,10 +1,10 @@
-//! Tables of figures that are no ratios of speeds, as text in cells: the same on the terminal and on pages.
+//! Tables of figures that are not ratios of speeds, as text in cells: the same on the terminal and on pages.
 
 use comfy_table::{CellAlignment, Table, presets};
 
 use super::svg::escape;
 
-/// A heading, what there is to know, and rows of cells; the first column names the row.
+/// A heading, an explanation, and rows of cells; the first column names the row.
 #[derive(Clone, Debug)]
 pub struct Grid {
     title: &'static str,
@@ -15,7 +15,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// A table with a heading and how to read it. Where there are no rows, the reading says why.
+    /// A table with a heading and an explanation. If there are no rows, the explanation says why.
     pub fn new(
         title: &'static str,
         reading: impl Into<String>,
@@ -26,12 +26,12 @@ impl Grid {
         Grid { title, reading: reading.into(), header, rows, notes: Vec::new() }
     }
 
-    /// With what follows the table, a line or paragraph each.
+    /// Adds notes below the table, one line or paragraph each.
     pub fn with_notes(self, notes: Vec<String>) -> Self {
         Grid { notes, ..self }
     }
 
-    /// On the terminal.
+    /// Prints it on the terminal.
     pub fn print(&self) {
         println!("\n{}\n{}", self.title, self.reading);
         if !self.rows.is_empty() {

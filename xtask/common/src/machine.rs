@@ -1,4 +1,4 @@
-//! Where and from what the figures come.
+//! Where the figures come from.
 
 use std::process::Command;
 use std::time::SystemTime;
@@ -12,20 +12,20 @@ pub struct Machine {
     pub cpu: String,
     /// Logical cores.
     pub cores: usize,
-    /// SIMD extensions, as the program detects them.
+    /// SIMD extensions, as detected by the program.
     pub features: Vec<String>,
-    /// Processes that wanted a core in the last minute when the run began: above 1, figures are noisy.
+    /// Processes that wanted a core during the minute before the run began: above 1, figures are noisy.
     pub load: Option<f64>,
     /// Compiler and its target.
     pub compiler: String,
     /// Date and time in UTC.
     pub date: String,
-    /// Commit of the source, with `+changes` where files differ from it.
+    /// Commit of the source, with `+changes` if files differ from it.
     pub commit: String,
 }
 
 impl Machine {
-    /// Of this process.
+    /// Describes this process.
     pub fn here() -> Self {
         let compiler = format!("{}, {}, opt-level {}", env!("LOBE_RUSTC"), env!("LOBE_TARGET"), env!("LOBE_OPT_LEVEL"));
         Machine {

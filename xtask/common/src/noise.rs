@@ -1,4 +1,4 @@
-//! The noise of samples: mean and variance of the albedo that one sample estimates, `f cos / pdf`, in luminance.
+//! The noise of samples: mean and variance of the estimate of the albedo from one sample, `f cos / pdf`, in luminance.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,22 +6,22 @@ use lobe::{Given, Material, Sampled, Sampler, luminance};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
-/// Of the luminance of single samples.
+/// Statistics of the luminance of single samples.
 #[derive(Clone, Copy, Debug)]
 pub struct Moments {
     /// The albedo.
     pub mean: f64,
-    /// The variance over the square of the mean.
+    /// The variance divided by the square of the mean.
     pub variance: f64,
 }
 
-/// Pairs of random numbers in `[0, 1)`, the same at every call.
+/// Pairs of random numbers in `[0, 1)`, the same for every call.
 pub fn uniforms(count: usize) -> Vec<[f32; 2]> {
     let mut rng = Pcg32::seed_from_u64(2018);
     (0..count).map(|_| [rng.random(), rng.random()]).collect()
 }
 
-/// Of weights, one a sample and channel of the material.
+/// The noise of weights, one per sample and channel of the material.
 pub fn of_weights(material: &Material, weights: &[f32]) -> Moments {
     let luminance = luminance(material.channels());
     let (mut count, mut sum, mut squares) = (0.0, 0.0, 0.0);
@@ -30,11 +30,11 @@ pub fn of_weights(material: &Material, weights: &[f32]) -> Moments {
         (count, sum, squares) = (count + 1.0, sum + value, squares + value * value);
     }
     let mean = sum / count;
-    // Rounding could put that of equal values below 0.
+    // Rounding could make the variance of equal values negative.
     Moments { mean, variance: (squares / count / (mean * mean) - 1.0).max(0.0) }
 }
 
-/// Of samples for one direction above the surface.
+/// The noise of samples for one direction above the surface.
 pub fn by_samples(sampler: &Sampler, given: Given, known: [f32; 3], uniforms: &[[f32; 2]]) -> Moments {
     let count = uniforms.len();
     let (mut directions, mut pdfs) = (vec![[0.0; 3]; count], vec![0.0; count]);
@@ -44,7 +44,7 @@ pub fn by_samples(sampler: &Sampler, given: Given, known: [f32; 3], uniforms: &[
     of_weights(sampler.material(), &weights)
 }
 
-/// Of directions that are drawn by their cosine for one direction above the surface.
+/// The noise of directions drawn in proportion to their cosine, for one direction above the surface.
 pub fn by_cosine(material: &Material, given: Given, known: [f32; 3], uniforms: &[[f32; 2]]) -> Moments {
     let draw = |&[u, w]: &[f32; 2]| {
         let (sin, cos) = (f64::from(w) * TAU).sin_cos();

@@ -1,23 +1,23 @@
-//! How far long work is: a bar where somebody sees it, else a line for each part that begins.
+//! Progress of long work: a bar on a terminal, or else a line as each part begins.
 
 use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Work of some steps, done in parts that have names.
+/// Work of several steps, done in parts that have names.
 pub struct Steps {
     bar: ProgressBar,
     begun: Instant,
 }
 
 impl Steps {
-    /// No step of them is done.
+    /// No step is done yet.
     pub fn new(steps: u64) -> Self {
         let style = ProgressStyle::with_template("{bar:32} {percent:>3} % {eta:>4} {msg}").expect("a valid template");
         Steps { bar: ProgressBar::new(steps).with_style(style), begun: Instant::now() }
     }
 
-    /// This part begins.
+    /// Begins a part.
     pub fn begin(&self, part: impl Into<String>) {
         let part = part.into();
         if self.bar.is_hidden() {
@@ -26,7 +26,7 @@ impl Steps {
         self.bar.set_message(part);
     }
 
-    /// This part of one step begins, and is over.
+    /// Runs a part of one step.
     pub fn part<T>(&self, part: &str, work: impl FnOnce() -> T) -> T {
         self.begin(part);
         let made = work();
@@ -34,12 +34,12 @@ impl Steps {
         made
     }
 
-    /// So many steps more are done.
+    /// Marks this many more steps as done.
     pub fn done(&self, steps: u64) {
         self.bar.inc(steps);
     }
 
-    /// Where work is known only once it is under way: so many steps are done, of that many.
+    /// For work whose size is known only once it is under way: this many steps are done, of that many.
     pub fn are(&self, done: u64, of: u64) {
         self.bar.set_length(of);
         self.bar.set_position(done);

@@ -11,19 +11,19 @@ pub struct Svg {
     body: String,
 }
 
-/// Where a text is anchored.
+/// Which point of a text is anchored.
 #[derive(Clone, Copy)]
 pub enum Anchor {
-    /// The text begins there.
+    /// Its beginning.
     Start,
-    /// Its middle is there.
+    /// Its middle.
     Middle,
-    /// It ends there.
+    /// Its end.
     End,
 }
 
 impl Svg {
-    /// An empty picture; the title is what a screen reader says.
+    /// An empty picture; the title is for screen readers.
     pub fn new(width: f64, height: f64, title: &str) -> Self {
         Svg { width, height, title: title.into(), body: String::new() }
     }
@@ -71,7 +71,7 @@ impl Svg {
     }
 }
 
-/// Text as it stands in HTML and SVG.
+/// Text escaped for HTML and SVG.
 pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

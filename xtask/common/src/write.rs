@@ -1,4 +1,4 @@
-//! Files that are whole or not there.
+//! Files that are either complete or absent.
 
 use std::io::Write;
 use std::path::Path;
@@ -9,7 +9,7 @@ use tempfile::NamedTempFile;
 /// Writes `content` to a temporary file beside `path` and renames it.
 ///
 /// # Errors
-/// Where the directory cannot be written to; what was there before is left as it was.
+/// If the directory cannot be written to; an existing file is then left unchanged.
 pub fn replace(path: &Path, content: impl AsRef<[u8]>) -> anyhow::Result<()> {
     let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let write = || -> anyhow::Result<()> {

@@ -64,7 +64,8 @@ fn knots() -> Vec<(&'static str, Vec<f64>)> {
     all
 }
 
-/// Queries at the knots and a step to either side, between, outside near and far, and on adversarial bits.
+/// Queries at the knots and one step to either side, between them, just outside and far outside, and on adversarial
+/// bits.
 fn queries(axis: &Axis) -> Vec<f32> {
     let knots = axis.knots();
     let mut queries: Vec<f32> = knots.iter().flat_map(|&knot| [knot, knot.next_down(), knot.next_up()]).collect();
@@ -106,8 +107,8 @@ fn search<L: Lanes>(lanes: L, kind: &str, function: &Function, records: &mut Vec
     records.push(Record::bounded(format!("{kind}: function"), values, Bound::Each(bounds)));
 }
 
-/// Whether `cell` holds `x`: exactly, or to a cell's rounding where the position is computed and not searched for.
-/// Queries outside belong to the outermost cells.
+/// Whether `cell` contains `x`: exactly, or up to the rounding of a cell if the position is computed rather than
+/// searched for. Queries outside belong to the outermost cells.
 fn is_cell_of(axis: &Axis, kind: &str, x: f32, cell: u32) -> bool {
     let knots = axis.knots();
     let last = knots.len().saturating_sub(2);

@@ -1,4 +1,4 @@
-//! How far a fused evaluation may be from a strict one. `docs/accuracy.md` derives the figures.
+//! How far a fused evaluation may differ from a strict one. `docs/accuracy.md` derives the figures.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -9,9 +9,9 @@ use lobe_table::{Edge, Edges, Scatter, specular};
 
 /// The relative error of one rounding.
 const UNIT: f64 = 1.0 / (1 << 24) as f64;
-/// Difference in an angle that comes from its last place, for angles of up to 2 pi.
+/// Difference in an angle due to its last place, for angles up to 2 pi.
 const LAST_PLACE: f64 = 4.0 * UNIT * TAU;
-/// Roundings of the tangent of half an angle, both forms together; its error reaches the angle at most doubled.
+/// Roundings of the tangent of half an angle, in both forms together; its error at most doubles in the angle.
 const TANGENT: f64 = 12.0 * UNIT;
 /// Differences in sigma and psi: two functions of `lobe_math`, each within its bound, and their arguments.
 const SIGMA: f64 = 2.0 * bounds::DOUBLE_ATAN.abs + TANGENT + LAST_PLACE;
@@ -20,16 +20,16 @@ const PSI: f64 = 2.0 * bounds::AZIMUTH.abs + TANGENT + LAST_PLACE;
 const ACROSS: f64 = 45.0 * UNIT;
 /// Roundings of weights and sums of up to 16 corners, both forms together.
 pub(super) const SUM: f64 = 44.0 * UNIT;
-/// How far outside an axis a query counts as inside, as the table has it.
+/// How far outside an axis a query counts as inside, as in the table.
 const INSIDE: f64 = 1e-6;
 
 /// What the bound needs to know about a table.
 pub(super) struct FusedBound<'a> {
     samples: &'a specular::Data,
     edges: &'a Edges,
-    /// The largest value, without its sign.
+    /// The largest magnitude of a value.
     largest: f64,
-    /// The steepest slope along each axis, in values a radian.
+    /// The steepest slope along each axis, in values per radian.
     slopes: [f64; 4],
     /// The largest step from the last knot of psi and phi to the first.
     steps: [f64; 4],
@@ -69,7 +69,7 @@ impl<'a> FusedBound<'a> {
         bound
     }
 
-    /// The largest value of the table, without its sign.
+    /// The largest magnitude of a value of the table.
     pub(super) fn largest(&self) -> f64 {
         self.largest
     }
@@ -89,7 +89,7 @@ impl<'a> FusedBound<'a> {
         largest
     }
 
-    /// Whether a bound allows any values of the table, as it does at a step: it says nothing then.
+    /// Whether a bound allows any value of the table, as it does at a step: it then says nothing.
     pub(super) fn is_void(&self, bound: f64) -> bool {
         bound >= 2.0 * self.largest
     }
@@ -102,7 +102,7 @@ impl<'a> FusedBound<'a> {
         if !(finite && wi[2] > 0.0 && wo[2] > 0.0) {
             return 0.0;
         }
-        // At the pole of wi psi is 0 by definition.
+        // If wi is the pole, psi is 0 by definition.
         let at_pole = wi[0] * wi[0] + wi[1] * wi[1] < 1e-30;
         let wi = if at_pole { [0.0, 0.0, wi[2]] } else { wi };
         let angles = directions_to_angles(wi, wo, |sigma| zenith(self.samples, self.edges, sigma));
@@ -121,7 +121,7 @@ impl<'a> FusedBound<'a> {
         bound
     }
 
-    /// How far sigma, psi, theta and phi may be apart.
+    /// How far apart sigma, psi, theta and phi may be.
     fn angle_errors(&self, theta: f64) -> [f64; 4] {
         // The zenith is exact unless refraction moves it.
         let zenith = match self.samples.refraction() {
@@ -140,7 +140,8 @@ impl<'a> FusedBound<'a> {
         ]
     }
 
-    /// The largest sum of the two weights' sizes within reach: more than 1 where a straight line goes on beyond the knots.
+    /// The largest sum of the two weights' sizes within reach: more than 1 if a straight line continues beyond the
+    /// knots.
     fn stretch(&self, axis: usize, x: f64, error: f64) -> f64 {
         let knots = &self.samples.knots()[axis];
         let last = knots.len() - 1;
@@ -148,7 +149,7 @@ impl<'a> FusedBound<'a> {
             return 1.0;
         }
         let (mut lowest, mut highest) = (x - error, x + error);
-        // What reaches across the seam of a circle may come out at its other end.
+        // What reaches across the seam of a circle may reappear at its other end.
         if axis % 2 == 1 && (lowest <= 0.0 || highest >= TAU) {
             (lowest, highest) = (0.0, TAU);
         }
@@ -157,7 +158,7 @@ impl<'a> FusedBound<'a> {
         1.0 + 2.0 * below.max(above).max(0.0)
     }
 
-    /// Whether the two forms may read on either side of a step.
+    /// Whether the two forms may read on different sides of a step.
     fn is_near_step(&self, axis: usize, x: f64, error: f64) -> bool {
         let knots = &self.samples.knots()[axis];
         if knots.len() == 1 {

@@ -1,4 +1,4 @@
-//! Whole evaluations of tables, in every way of calling.
+//! Whole evaluations of tables, called in every way.
 
 use lobe_lane::{Ints, Kernel, Lanes};
 use lobe_table::{Directions, Scatter, specular};
@@ -10,7 +10,7 @@ use super::tables::{Case, Queries, cases};
 
 /// What every case records.
 ///
-/// A function and not a kernel: each way of calling enters the backend by itself, as a caller's would.
+/// A function and not a kernel: each call enters the backend by itself, as a user's would.
 pub(super) fn record(machine: impl Machine) -> Vec<Record> {
     cases().iter().flat_map(|case| evaluate(machine, case)).collect()
 }
@@ -64,7 +64,7 @@ fn evaluate(machine: impl Machine, case: &Case) -> Vec<Record> {
     records
 }
 
-/// Whether a pair of directions has no value by the promise of [`specular::Table`].
+/// Whether [`specular::Table`] promises that a pair of directions has no value.
 fn is_nothing(table: &specular::Table, wi: [f32; 3], wo: [f32; 3]) -> bool {
     let above = |z: f32| match table.scatter() {
         Scatter::Reflection => z > 0.0,
@@ -88,7 +88,7 @@ impl Kernel for Masked<'_> {
     fn run<L: Lanes>(self, lanes: L) -> Vec<f32> {
         let Masked { table, queries: Queries { wi, wo }, keep } = self;
         let channels = table.channel_count();
-        // Lanes beyond the last query are masked too, whatever directions they hold.
+        // Lanes beyond the last query are masked as well, whatever directions they hold.
         let whole = wi.len().next_multiple_of(L::LANES);
         let (mut wi, mut wo, mut keep) = (wi.clone(), wo.clone(), keep.to_vec());
         wi.resize(whole, [f32::NAN; 3]);

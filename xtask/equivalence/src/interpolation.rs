@@ -9,10 +9,10 @@ use super::machine::Machine;
 use super::record::{Bound, Record};
 use super::tables::{Case, cases};
 
-/// Queries of each table: whole blocks, and a rest that is no multiple of any number of lanes.
+/// Queries of each table: whole blocks, and a remainder that is not a multiple of any number of lanes.
 const QUERIES: usize = 64 * 2 + 5;
 
-/// Every table once, at angles inside and outside its knots, on them, and at what is no angle.
+/// Every table once, at angles inside and outside its knots, on them, and at NaN and infinities.
 pub(super) fn record(machine: impl Machine) -> Vec<Record> {
     let tables = cases().iter().filter(|case| case.name.ends_with("incoherent"));
     tables.enumerate().map(|(seed, case)| interpolate(machine, case, seed as u64)).collect()
@@ -25,7 +25,7 @@ fn interpolate(machine: impl Machine, case: &Case, seed: u64) -> Record {
     let mut values = vec![f32::NAN; QUERIES * table.channel_count()];
     machine.interpolate(table, angles.each_ref().map(Vec::as_slice), &mut values);
     // Cells and fractions of the same angles are the same bits in both forms, so only the sums differ; beyond the knots
-    // of a table that goes on in straight lines weights have any size.
+    // of a table that continues in straight lines, weights may have any size.
     let bound = if *table.edges() == Edges::extrapolate() {
         Bound::StrictOnly
     } else {

@@ -75,7 +75,7 @@ impl Kernel for FloatLanes {
             floats "select" |a, b| lanes.select(a.lt(b), a, b);
         }
 
-        // Three operands, by the definition of the form at hand.
+        // Three operands, by the definition of the current form.
         let all = patterns::floats();
         let mut defined = Vec::new();
         for &c in &all {
@@ -134,7 +134,8 @@ impl Kernel for IntLanes {
     }
 }
 
-/// Every operation of [`Mask`], and what depends on the number of lanes and so is compared with its definition.
+/// Every operation of [`Mask`], and operations that depend on the number of lanes and so are compared with their
+/// definition.
 pub(super) struct Masks;
 
 impl Kernel for Masks {
@@ -216,7 +217,7 @@ fn uniform<L: Lanes>(lanes: L) -> Vec<bool> {
         if odd < L::LANES {
             index[odd] = -7;
         }
-        // All masks of up to eight lanes, and a good part of those of sixteen.
+        // All masks of up to eight lanes, and many of those of sixteen.
         for set in (0..1u32 << L::LANES).step_by(if L::LANES > 8 { 37 } else { 1 }) {
             let flags: [i32; MAX_LANES] = std::array::from_fn(|lane| (set >> lane & 1) as i32);
             let active = lanes.load_int(&flags).eq(lanes.splat_int(1));

@@ -1,8 +1,8 @@
 //! `cargo xtask equivalence`: every backend against the scalar reference.
 //!
 //! A [`Property`] records, generic over the lanes, rows of results that must not depend on the backend. In strict form
-//! they have to be the same bits as those of [`Scalar<1>`](lobe_scalar::Scalar), all NaN being one value; in fused form
-//! floats may differ within a stated bound.
+//! they must be the same bits as those of [`Scalar<1>`](lobe_scalar::Scalar), with all NaNs treated as equal; in fused
+//! form floats may differ within a stated bound.
 #![forbid(unsafe_code)]
 
 mod axes;
@@ -28,14 +28,14 @@ use machine::Machine;
 pub use record::{Bound, Check, Record, Values};
 pub use subject::{Form, Subject, facade_agrees, reference};
 
-/// A group of results that every backend has to agree on.
+/// A group of results on which all backends must agree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Property {
     /// Arithmetic and comparison of floats.
     Floats,
     /// Arithmetic and comparison of integers.
     Ints,
-    /// Masks, and what depends on the number of lanes.
+    /// Masks, and operations that depend on the number of lanes.
     Masks,
     /// Loads, stores and gathers.
     Memory,
@@ -92,7 +92,7 @@ impl Property {
         }
     }
 
-    /// Computes everything in one way.
+    /// Computes all results in one way of running them.
     fn record(self, machine: impl Machine) -> Vec<Record> {
         match self {
             Property::Floats => machine.run(lanes::FloatLanes),
@@ -111,9 +111,9 @@ impl Property {
     }
 }
 
-/// Compares what a backend recorded with the reference, record by record; records of one name become one check.
+/// Compares what a backend recorded with the reference, record by record; records of the same name become one check.
 pub fn compare(found: &[Record], reference: &[Record], backend: &str, form: Form) -> Vec<Check> {
-    assert_eq!(found.len(), reference.len(), "{backend}: other records than the reference");
+    assert_eq!(found.len(), reference.len(), "{backend}: its records are not those of the reference");
     let mut checks: Vec<Check> = Vec::new();
     for (found, reference) in found.iter().zip(reference) {
         let Some(check) = found.compare(reference, backend, form) else { continue };
@@ -137,10 +137,10 @@ pub struct Args {
     summary: Option<PathBuf>,
 }
 
-/// Runs everything, prints a table, and writes the file asked for.
+/// Runs everything, prints a table, and writes the requested file.
 ///
 /// # Errors
-/// Where a check fails, a backend that this CPU has to have does not run, or the file cannot be written.
+/// If a check fails, a backend that this CPU should have does not run, or the file cannot be written.
 pub fn run(args: &Args) -> anyhow::Result<()> {
     let outcome = report::Outcome::measure();
     if let Some(path) = &args.summary {

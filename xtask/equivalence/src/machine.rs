@@ -1,5 +1,4 @@
-//! What is checked: backends, through the functions that everybody calls, and emulated widths, which only these checks
-//! compile.
+//! What is checked: backends, through the public functions, and emulated widths, which only these checks compile.
 
 use std::sync::Arc;
 
@@ -13,7 +12,7 @@ use lobe_table::{Directions, Given, Sampled, Sampler, SamplerOptions, mueller, s
 /// Pairs of directions.
 pub(crate) type Pairs<'a> = [Directions<'a>; 2];
 
-/// A way of running everything that is checked. Each call enters the backend by itself, as a caller's would.
+/// A way of running everything that is checked. Each call enters the backend by itself, as a user's would.
 pub(crate) trait Machine: Copy {
     fn run<K: Kernel>(self, kernel: K) -> K::Out;
     fn eval(self, table: &specular::Table, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]);

@@ -36,8 +36,8 @@ impl Kernel for Functions {
     }
 }
 
-/// Applies functions of two slices; inside the domain each is within `abs` of the truth in both forms, so the two forms
-/// are within twice that of each other.
+/// Applies functions of two slices; inside the domain both forms are within `abs` of the truth, and so within twice
+/// that of each other.
 macro_rules! record {
     ($lanes:ident, $records:ident, $domain:ident, $xs:ident, $ys:ident; $($what:literal $abs:expr, |$a:pat_param, $b:pat_param| $value:expr;)*) => {$({
         let mut out = Vec::with_capacity($xs.len());
@@ -61,7 +61,7 @@ fn one_argument<L: Lanes>(lanes: L, xs: &[f32], rests: &[f32], domain: bool, rec
         "acos" bounds::ACOS.abs, |x, _| lobe_math::acos(lanes, x);
         "acos_from" bounds::ACOS.abs, |x, rest| lobe_math::acos_from(lanes, x, rest);
         "asin" bounds::ASIN.abs, |x, _| lobe_math::asin(lanes, x);
-        // The error of the paper's formula is that of its polynomial, which both forms share. What is left is the
+        // The error of the paper's formula is that of its polynomial, which both forms share. What remains is the
         // rounding of fewer terms than those of `acos`.
         "paper acos" bounds::ACOS.abs, |x, _| lobe_math::paper::acos(lanes, x);
         "paper asin" bounds::ACOS.abs, |x, _| lobe_math::paper::asin(lanes, x);
@@ -102,7 +102,7 @@ fn unit_interval() -> Vec<f32> {
     patterns::padded(xs)
 }
 
-/// Vectors all around, of very different lengths, and along the axes and diagonals.
+/// Vectors in all directions, of very different lengths, and along the axes and diagonals.
 fn around() -> (Vec<f32>, Vec<f32>) {
     let spiral = (0..1 << 14).map(|i| {
         let (angle, length) = (f64::from(i) * 0.618, 10f64.powi(i % 13 - 6));

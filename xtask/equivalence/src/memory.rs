@@ -6,7 +6,7 @@ use super::Record;
 use super::lanes::{floats, ints};
 use lobe_testing::patterns;
 
-/// A float that no test writes, to see what a store leaves alone.
+/// A float that no test writes, to see what a store leaves untouched.
 const UNTOUCHED: f32 = -12345.5;
 
 /// Every operation of [`Lanes`] that touches memory.
@@ -27,7 +27,7 @@ impl Kernel for Memory {
     }
 }
 
-/// Whole vectors keep their bits, also from places that are not aligned, and stores write nothing beyond.
+/// Whole vectors keep their bits, even at unaligned addresses, and stores write nothing beyond them.
 #[inline(always)]
 fn whole<L: Lanes>(lanes: L) -> Vec<bool> {
     let source: Vec<f32> = (0..2 * MAX_LANES).map(|i| i as f32 + 0.25).collect();
@@ -48,7 +48,7 @@ fn whole<L: Lanes>(lanes: L) -> Vec<bool> {
     holds
 }
 
-/// Every length from nothing to more than a vector.
+/// Every length from zero to more than a vector.
 #[inline(always)]
 fn partial<L: Lanes>(lanes: L) -> Vec<bool> {
     let source: Vec<f32> = (1..=MAX_LANES + 3).map(|i| i as f32).collect();

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::Form;
 
-/// A named row of results, item by item the same on every backend whatever its width.
+/// A named row of results, item by item the same on every backend, whatever its width.
 #[derive(Clone, Debug)]
 pub struct Record {
     /// What was computed.
@@ -22,7 +22,7 @@ pub enum Values {
     Floats(Vec<f32>),
     /// Integers, indices, mask bits: equal in every form.
     Words(Vec<u32>),
-    /// Statements that have to be true by definition, on the reference as well.
+    /// Statements that must be true by definition, on the reference as well.
     Holds(Vec<bool>),
 }
 
@@ -33,9 +33,9 @@ pub enum Bound {
     Same,
     /// By an absolute difference.
     Within(f64),
-    /// By an absolute difference of its own for each item.
+    /// By an absolute difference for each item.
     Each(Vec<f64>),
-    /// Nothing is promised, as the input is outside the domain.
+    /// Nothing is promised, because the input is outside the domain.
     StrictOnly,
 }
 
@@ -52,7 +52,7 @@ pub struct Check {
     pub items: usize,
     /// How many of them differ in any bit.
     pub differing: usize,
-    /// The difference of the item that comes nearest to its bound, or goes farthest beyond.
+    /// The difference of the item that comes nearest to its bound, or exceeds it most.
     pub max_abs: f64,
     /// The bound of that item.
     pub bound: f64,
@@ -92,10 +92,10 @@ impl Record {
         Record { what: what.into(), values: Values::Floats(values), bound }
     }
 
-    /// Compares `self` with what the reference recorded; `None` where nothing is promised in this form.
+    /// Compares `self` with what the reference recorded; `None` if nothing is promised in this form.
     ///
     /// # Panics
-    /// Where the two are not records of the same thing.
+    /// If the two are not records of the same thing.
     pub fn compare(&self, reference: &Record, backend: &str, form: Form) -> Option<Check> {
         assert_eq!(self.what, reference.what, "records in another order");
         let fused = form == Form::Fused;
@@ -125,8 +125,8 @@ impl Record {
                     };
                     let same = found.to_bits() == expected.to_bits() || (found.is_nan() && expected.is_nan());
                     let difference = if same { 0.0 } else { difference(found, expected) };
-                    // A zero of the other sign is a fault, though no difference, but in sums that are fused: there
-                    // a product of no weight and a negative value keeps its sign.
+                    // A zero of the other sign is a fault although the difference is 0, except in fused sums: there the
+                    // product of a zero weight and a negative value keeps its sign.
                     let fused_sum = fused && matches!(reference.bound, Bound::Each(_));
                     let fault = !same && (difference > bound || (bound == 0.0 && !fused_sum));
                     let show = |x: f32| format!("{x:e} ({:#010x})", x.to_bits());
@@ -155,7 +155,7 @@ impl Record {
 }
 
 impl Check {
-    /// Takes in a check of the same thing on other input.
+    /// Merges a check of the same thing on other input.
     pub fn merge(&mut self, other: Check) {
         self.items += other.items;
         self.differing += other.differing;
@@ -166,7 +166,7 @@ impl Check {
         self.first_fault = self.first_fault.take().or(other.first_fault);
     }
 
-    /// The difference as a part of its bound.
+    /// The difference as a fraction of its bound.
     pub fn nearness(&self) -> f64 {
         nearness(self.max_abs, self.bound)
     }
@@ -181,12 +181,12 @@ impl Check {
     }
 }
 
-/// A difference as a part of its bound; any difference is far beyond a bound of 0.
+/// A difference as a fraction of its bound; any difference is far beyond a bound of 0.
 fn nearness(difference: f64, bound: f64) -> f64 {
     difference / bound.max(f64::MIN_POSITIVE)
 }
 
-/// The absolute difference; infinite where one of the two is NaN.
+/// The absolute difference; infinite if one of the two is NaN.
 fn difference(a: f32, b: f32) -> f64 {
     let difference = (f64::from(a) - f64::from(b)).abs();
     if difference.is_nan() { f64::INFINITY } else { difference }

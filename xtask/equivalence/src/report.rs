@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::{Check, Form, Property, Subject, compare, facade_agrees, reference};
 
-/// A line for each backend and form, in words, and whether all of it holds.
+/// A line for each backend and form, in words, and whether everything holds.
 #[derive(Serialize)]
 pub(super) struct Summary {
     rows: Vec<[String; 2]>,
@@ -28,7 +28,7 @@ pub(super) fn write(path: &Path, content: &impl Serialize) -> anyhow::Result<()>
     Ok(())
 }
 
-/// What all backends gave.
+/// The results of all backends.
 #[derive(Serialize)]
 pub(super) struct Outcome {
     backends: Vec<BackendRow>,
@@ -56,7 +56,7 @@ struct Row {
     checks: usize,
     items: usize,
     differing: usize,
-    /// The check nearest to its bound, in fused form; the bound at a step says nothing.
+    /// The check nearest to its bound, in fused form, except at steps, where the bound says nothing.
     nearest: Option<Check>,
     ok: bool,
 }
@@ -69,7 +69,7 @@ impl Outcome {
         let mut ran = vec![false; subjects.len()];
         for property in Property::ALL {
             let expected = reference(property);
-            // What has to hold by definition is asked of the reference too.
+            // What must hold by definition is checked on the reference too.
             outcome.add("scalar", Form::Strict, property, compare(&expected, &expected, "scalar", Form::Strict));
             for (subject, ran) in subjects.iter().copied().zip(&mut ran) {
                 for &form in subject.forms() {
@@ -84,7 +84,7 @@ impl Outcome {
         for (subject, ran) in subjects.into_iter().zip(ran) {
             outcome.backends.push(BackendRow { name: subject.name(), lanes: subject.lanes(), available: ran });
             if ran != subject.expected() {
-                let did = if ran { "ran, though" } else { "did not run, though" };
+                let did = if ran { "ran although" } else { "did not run although" };
                 let has = if subject.expected() { "has" } else { "does not have" };
                 outcome.faults.push(format!("{} {did} this CPU {has} its features", subject.name()));
             }
@@ -96,7 +96,7 @@ impl Outcome {
         outcome
     }
 
-    /// A line for each backend and form: its name, and what came out.
+    /// A line for each backend and form: its name and its outcome.
     pub(super) fn summary(&self) -> Summary {
         let mut lines: Vec<(&str, Form, usize, usize, bool)> = Vec::new();
         for row in &self.rows {

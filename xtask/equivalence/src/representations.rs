@@ -1,4 +1,4 @@
-//! Whole evaluations of the representations that are no specular tables.
+//! Whole evaluations of all representations except specular tables.
 
 use std::sync::OnceLock;
 
@@ -13,12 +13,12 @@ use super::machine::{Machine, Pairs};
 use super::record::{Bound, Record};
 use super::tables::{Queries, adversarial, not_unit, workload};
 
-/// A representation and what is asked of it.
+/// A representation and its queries.
 struct Case {
     name: &'static str,
     representation: Representation,
     width: usize,
-    /// How far the lanes may be from the truth, or in the second place what they may choose among.
+    /// How far the lanes may be from the truth, or else which values they may choose from.
     reference: Box<dyn Fn([f64; 3], [f64; 3]) -> f64 + Send + Sync>,
 }
 
@@ -54,11 +54,11 @@ pub(super) fn record(machine: impl Machine) -> Vec<Record> {
 }
 
 impl Case {
-    /// Named queries, and for each how far the fused form may be away; none where nothing is promised.
+    /// Named queries, and for each how far the fused form may differ; `None` if nothing is promised.
     fn sets(&self) -> [(&'static str, Queries, Option<Vec<f64>>); 4] {
         let bounded = |queries: Queries| {
             let pairs = queries.wi.iter().zip(&queries.wo);
-            // Both forms are as near to the truth as that.
+            // Both forms are that near to the truth.
             let bound = |(&wi, &wo): (&[f32; 3], &[f32; 3])| {
                 unit(wi).zip(unit(wo)).map_or(0.0, |(wi, wo)| 2.0 * (self.reference)(wi, wo))
             };
@@ -172,7 +172,7 @@ fn cases() -> &'static [Case] {
     })
 }
 
-/// Half of how far the values that lanes may choose among are apart: 0 where they have no choice.
+/// Half the spread of the values that lanes may choose from: 0 if they have no choice.
 fn spread(candidates: impl Iterator<Item = f64>) -> f64 {
     let (least, most) =
         candidates.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| (least.min(value), most.max(value)));
@@ -188,7 +188,7 @@ fn on_all_sides(mut queries: Queries) -> Queries {
     queries
 }
 
-/// The direction in `f64`; `None` where it points nowhere.
+/// The direction in `f64`; `None` if it is zero or not finite.
 fn unit(w: [f32; 3]) -> Option<[f64; 3]> {
     let w = w.map(f64::from);
     let length = w.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -11,8 +11,8 @@ use super::record::{Bound, Record};
 use super::sampling::numbers;
 use super::tables::{Queries, adversarial, workload};
 
-/// How far either form is from `f64` at most: values and densities, in parts of the larger of the value and one, and
-/// directions; densities and weights of samples. `docs/accuracy.md` says where that is tested.
+/// How far either form is from `f64` at most: values and densities, relative to the larger of the value and one, and
+/// directions; densities and weights of samples. `docs/accuracy.md` says which tests check that.
 const VALUE: f64 = 2e-5;
 const DIRECTION: f64 = 2e-5;
 const SAMPLE: f64 = 1e-4;
@@ -53,7 +53,7 @@ fn evaluate(machine: impl Machine, name: &str, table: &rgl::Table, Queries { wi,
         let bound = |(at, value): (usize, &f32)| 2.0 * VALUE * f64::from(value.abs()).max(unit(at / each));
         Bound::Each(values.iter().enumerate().map(bound).collect())
     };
-    // Without the cosine a value is the one with it, divided.
+    // A value without the cosine is the one with it, divided by it.
     let f_bound = bounds(&f, &|query| 1.0 / f64::from(wo[query][2].abs()));
     let (cos_bound, pdf_bound) = (bounds(&cos, &|_| 1.0), bounds(&pdf, &|_| 1.0));
     [
@@ -70,7 +70,7 @@ fn sample(machine: impl Machine, name: &str, table: &rgl::Table, Queries { wi, .
     let drawn = Drawn { wo: &mut directions, pdf: &mut pdf, weights: &mut weights };
     machine.rgl_sample(table, wi.into(), &numbers(wi.len()), drawn);
 
-    // A sample along the surface may lie on either side of it, and is nothing on one of them.
+    // A sample along the surface may lie on either side of it, and is rejected on one of them.
     let along = |query: usize| directions[query][2] < 10.0 * DIRECTION as f32 && wi[query][2] > 0.0;
     let bounds = |values: &[f32], bound: &dyn Fn(f64) -> f64| {
         let each = values.len() / wi.len();

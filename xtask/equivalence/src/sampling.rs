@@ -16,8 +16,8 @@ pub(super) fn record(machine: impl Machine) -> Vec<Record> {
     cases().iter().filter(is_wanted).flat_map(|case| sample(machine, case)).collect()
 }
 
-/// A histogram has steps, and a draw beside one may fall on either side, so the fused form promises no bits: that its
-/// samples have their density is for statistics to show.
+/// A histogram has steps, and a draw next to one may fall on either side, so nothing is promised of the fused form
+/// here: statistical tests show that its samples have their density.
 fn sample(machine: impl Machine, case: &Case) -> Vec<Record> {
     let channels = case.table.channel_count();
     let sampler = machine.sampler(Arc::new(case.table.clone()));
@@ -62,7 +62,7 @@ fn sample(machine: impl Machine, case: &Case) -> Vec<Record> {
     records
 }
 
-/// Pairs of numbers, among them the ends of what is allowed, and what is not.
+/// Pairs of numbers, among them the ends of the allowed range, and numbers outside it.
 pub(super) fn numbers(count: usize) -> Vec<[f32; 2]> {
     let mut rng = Pcg32::seed_from_u64(12);
     let mut u: Vec<[f32; 2]> = (0..count).map(|_| [rng.random(), rng.random()]).collect();

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::machine::Emulated;
 use super::{Property, Record};
 
-/// Whether multiply-adds round twice or, where the hardware does so, once.
+/// Whether multiply-adds round twice or, if the hardware can, once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Form {
@@ -36,7 +36,7 @@ impl Subject {
         emulated.into_iter().chain(Backend::ALL[1..].iter().map(|name| Self::Native(name))).collect()
     }
 
-    /// The name, which for backends is that of `LOBE_BACKEND`.
+    /// The name, which for backends is the one that `LOBE_BACKEND` takes.
     pub fn name(self) -> &'static str {
         match self {
             Subject::Emulated4 => "emulated4",
@@ -46,7 +46,7 @@ impl Subject {
         }
     }
 
-    /// The backend, if it is one and this CPU has it.
+    /// The backend, if this is one and this CPU has it.
     fn backend(self) -> Option<Backend> {
         match self {
             Subject::Native(name) => Backend::named(name).ok(),
@@ -54,7 +54,7 @@ impl Subject {
         }
     }
 
-    /// How many lanes it has; nothing if this CPU does not have it.
+    /// The number of lanes; `None` if this CPU does not have the backend.
     pub fn lanes(self) -> Option<usize> {
         match self {
             Subject::Emulated4 => Some(4),
@@ -72,7 +72,7 @@ impl Subject {
         }
     }
 
-    /// Whether this CPU has to be able to run it. Asks the CPU and not the backends, whose own detection is checked
+    /// Whether this CPU should be able to run it. Asks the CPU rather than the backends, whose own detection is checked
     /// against this.
     pub fn expected(self) -> bool {
         match self {
@@ -94,18 +94,18 @@ impl Subject {
     }
 }
 
-/// What everything is compared with.
+/// What everything else is compared with.
 pub fn reference(property: Property) -> Vec<Record> {
     property.record(Backend::scalar().strict())
 }
 
-/// Whether exactly the backends are there that this CPU has to have.
+/// Whether exactly those backends are available that this CPU should have.
 ///
 /// # Errors
 /// The two lists, if they differ.
 pub fn facade_agrees() -> anyhow::Result<()> {
     let expected = Backend::reported();
     let offered: Vec<&str> = Backend::available().iter().map(Backend::name).collect();
-    anyhow::ensure!(offered == expected, "the facade offers {offered:?}; this CPU has to have {expected:?}");
+    anyhow::ensure!(offered == expected, "the facade offers {offered:?}; this CPU should have {expected:?}");
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Tables of every layout, with the queries that are put to them.
+//! Tables of every layout, with their queries.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::path::{Path, PathBuf};
@@ -11,26 +11,26 @@ use rand_pcg::Pcg32;
 
 use super::bound::FusedBound;
 
-/// Queries of each workload: whole blocks, and a rest that is no multiple of any number of lanes.
+/// Queries of each workload: whole blocks, and a remainder that is not a multiple of any number of lanes.
 const QUERIES: usize = 64 * 4 + 3;
 
-/// A table and what is asked of it.
+/// A table and its queries.
 pub(super) struct Case {
     /// What the results are called; several cases share a name.
     pub(super) name: String,
     pub(super) table: specular::Table,
-    /// The largest value of the table, without its sign.
+    /// The largest magnitude of a value of the table.
     pub(super) largest: f64,
     pub(super) queries: Queries,
-    /// For each query how far the fused form may be away; none for queries that are not unit vectors.
+    /// For each query how far the fused form may differ; `None` for queries that are not unit vectors.
     pub(super) bounds: Option<Vec<Allowed>>,
 }
 
-/// How far the fused form may be away.
+/// How far the fused form may differ.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Allowed {
     pub(super) difference: f64,
-    /// Where the table has a step.
+    /// Whether the query is at a step of the table.
     pub(super) at_step: bool,
 }
 
@@ -60,7 +60,7 @@ pub(super) fn cases() -> &'static [Case] {
         for path in fixtures() {
             let document = lobe_formats::open(&path).map(|(_, document)| document);
             let Some(Data::Specular(samples)) = document.as_ref().ok().and_then(|document| document.only()) else {
-                panic!("{}: not a table that can be read", path.display());
+                panic!("{}: not a readable table", path.display());
             };
             for edges in [Edges::default(), Edges::extrapolate(), Edges::zero()] {
                 let name = path.file_name().expect("a file").to_string_lossy();
@@ -91,7 +91,7 @@ fn add(cases: &mut Vec<Case>, name: &str, samples: &specular::Data, edges: &Edge
     }
 }
 
-/// The tables in `fixtures/`, in the order of their names; none where the folder does not exist.
+/// The tables in `fixtures/`, in the order of their names; empty if the folder does not exist.
 fn fixtures() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures");
     let mut files: Vec<PathBuf> = std::fs::read_dir(folder)
@@ -103,7 +103,7 @@ fn fixtures() -> Vec<PathBuf> {
 }
 
 /// A table of random values, some negative, whose knots are searched in all ways over the seeds. The ends of psi and
-/// phi are the same where the knots close the circle.
+/// phi agree if the knots close the circle.
 fn random(seed: u64, channels: usize, anisotropic: bool, scatter: Scatter) -> specular::Data {
     let mut rng = Pcg32::seed_from_u64(seed);
     let closed = rng.random::<bool>();
@@ -125,7 +125,7 @@ fn random(seed: u64, channels: usize, anisotropic: bool, scatter: Scatter) -> sp
     let mut values = Vec::new();
     for node in 0..sizes.iter().product::<usize>() {
         let (phi_index, psi_index) = (node % sizes[3], node / (sizes[3] * sizes[2]) % sizes[1]);
-        // Where a circle closes its last values are its first.
+        // If a circle closes, its last values are its first.
         let mut source = node;
         if closed && phi_index + 1 == sizes[3] {
             source -= phi_index;
@@ -147,7 +147,7 @@ fn random(seed: u64, channels: usize, anisotropic: bool, scatter: Scatter) -> sp
     let samples = specular::Data::new(scatter, [sigma, psi, theta, phi], channels, values).expect("valid samples");
     match scatter {
         Scatter::Reflection => samples,
-        Scatter::Transmission => samples.with_refraction(offsets).expect("an offset a knot"),
+        Scatter::Transmission => samples.with_refraction(offsets).expect("one offset per knot"),
     }
 }
 
@@ -158,7 +158,7 @@ pub(super) fn workload(input: Input) -> Queries {
 }
 
 /// All pairs of the normal and its neighbours, grazing directions, mirror images, directions below the horizon, and
-/// such as are none.
+/// invalid directions.
 pub(super) fn adversarial() -> Queries {
     let mut directions = vec![
         [0.0, 0.0, 1.0],
@@ -196,7 +196,7 @@ pub(super) fn adversarial() -> Queries {
     queries
 }
 
-/// Vectors of any length: outside what is promised but for the bits of the strict form.
+/// Vectors of any length, for which nothing is promised except the bits of the strict form.
 pub(super) fn not_unit() -> Queries {
     let mut rng = Pcg32::seed_from_u64(5);
     let mut vector = || {

@@ -71,7 +71,7 @@ fn octs<L: Lanes>(lanes: L, xs: &[f32], ys: &[f32], records: &mut Vec<Record>) {
     while at < xs.len() {
         let oct = lanes.oct_load(&xs[at..]);
         let [low, high] = lanes.oct_halves(oct);
-        // High half first, so that a backend that swaps the two is seen.
+        // High half first, so that a backend that swaps the two is caught.
         lanes.quad_store(&mut halves[at..], high);
         lanes.quad_store(&mut halves[at + 4..], low);
         for &y in &patterns::floats() {
@@ -87,7 +87,7 @@ fn octs<L: Lanes>(lanes: L, xs: &[f32], ys: &[f32], records: &mut Vec<Record>) {
     records.push(Record::exact("oct_count_le", counts));
 }
 
-/// By the definition of the form at hand.
+/// By the definition of the current form.
 #[inline(always)]
 fn mul_adds<L: Lanes>(lanes: L, xs: &[f32], ys: &[f32], records: &mut Vec<Record>) {
     let (mut quad, mut oct, mut scalar) = (Vec::new(), Vec::new(), Vec::new());

@@ -1,6 +1,6 @@
-//! Every backend agrees with the scalar reference on every property: one test each.
+//! Every backend agrees with the scalar reference on every property, with one test for each.
 //!
-//! A test of a backend that this CPU does not have prints SKIP; `the_expected_backends_ran` counts those and fails where
+//! A test of a backend that this CPU does not have prints SKIP; `the_expected_backends_ran` counts those and fails if
 //! one was skipped that this CPU has.
 
 use xtask_equivalence::{Form, Property, Subject, compare, facade_agrees, reference};
@@ -18,7 +18,7 @@ fn check(subject: Subject, form: Form, property: Property) {
 
 macro_rules! tests {
     ($($backend:ident: ($subject:expr) $form:ident;)*) => {
-        /// What has tests here.
+        /// What is tested here.
         fn listed() -> Vec<(Subject, Form)> {
             vec![$(($subject, Form::$form)),*]
         }

@@ -19,10 +19,10 @@ use xtask_common::replace;
 #[derive(Parser)]
 #[command(bin_name = "cargo xtask gallery")]
 struct Args {
-    /// Render only these scenes, named by their files; docs/gallery.md is then left alone
+    /// Render only these scenes, given by file name; docs/gallery.md is then left unchanged
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     only: Vec<String>,
-    /// Samples per pixel instead of those in the scenes, for a quick look; docs/gallery.md is then left alone
+    /// Samples per pixel instead of those in the scenes, for a quick look; docs/gallery.md is then left unchanged
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..65_537))]
     samples: Option<u32>,
     /// Folder for the pictures [default: docs/pictures]
@@ -33,10 +33,10 @@ struct Args {
 
 /// A picture of the gallery.
 struct Picture {
-    /// Of the scene in fixtures/scenes and of the picture, without their extensions.
+    /// File name of the scene in fixtures/scenes and of the picture, without the extensions.
     name: &'static str,
     title: &'static str,
-    /// What there is to see.
+    /// A description of what it shows.
     caption: &'static str,
 }
 
@@ -91,7 +91,7 @@ fn main() -> anyhow::Result<()> {
 }
 
 impl Picture {
-    /// In strict form: the pictures are the same bytes on every machine.
+    /// In strict form, so that the pictures are the same bytes on every machine.
     fn scene(&self) -> Result<Scene> {
         let path = Path::new(SCENES).join(self.name).with_extension("toml");
         Ok(Scene::open(&path, Backend::detect()?.strict())?)

@@ -13,7 +13,7 @@ use super::material::{COUNT, pairs};
 /// The isotropic table of the paper's size on both inputs, in batches as long as Mitsuba's wavefronts.
 ///
 /// # Errors
-/// Where a file cannot be written.
+/// If a file cannot be written.
 pub fn all(exchange: &mut Exchange) -> anyhow::Result<Vec<Contest>> {
     Input::ALL.into_iter().map(|input| contest(exchange, input)).collect()
 }

@@ -1,4 +1,4 @@
-//! Whether the values of a peer are those of this library, and who is right where they are not.
+//! Whether the values of a peer agree with those of this library, and which is right if they do not.
 
 use std::collections::BTreeSet;
 
@@ -7,16 +7,16 @@ use anyhow::bail;
 /// How far values may differ.
 #[derive(Clone, Copy, Debug)]
 pub struct Agreement {
-    /// The largest difference, in parts of the peer's value.
+    /// The largest difference, relative to the peer's value.
     pub relative: f64,
-    /// The value in whose parts it is measured where the peer's is smaller.
+    /// The value that it is relative to if the peer's is smaller.
     pub floor: f64,
     /// The share of values that may differ by more.
     pub outliers: f64,
 }
 
 impl Agreement {
-    /// How far a value is from the other, relative; infinite where one is no number.
+    /// The relative difference of two values; infinite if either is NaN.
     fn difference(&self, ours: f32, theirs: f32) -> f64 {
         let (ours, theirs) = (f64::from(ours), f64::from(theirs));
         let difference = (ours - theirs).abs() / theirs.abs().max(self.floor);
@@ -27,25 +27,25 @@ impl Agreement {
 /// How the values of a peer differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
-    /// The largest but for the outliers that are allowed and those in which the peer alone may be wrong, relative.
+    /// The largest relative difference, except for allowed outliers and those in which only the peer may be wrong.
     pub largest: f64,
     /// How many answers of the peer the judge finds wrong.
     pub wrong: usize,
 }
 
-/// Who decides where values differ: somebody slow, and exact.
+/// What decides if values differ: slow, and exact.
 pub trait Judge {
     /// How many questions there are. The values at `question`, `question + questions`, ... are the answer to that one.
     fn questions(&self) -> usize;
 
-    /// Whether values are a right answer to a question.
+    /// Whether values are a correct answer to a question.
     fn is_right(&self, question: usize, answer: &[f32]) -> bool;
 }
 
-/// Answers that a judge is asked about. Where more differ, not rounding is the cause, and all of them count.
+/// The number of answers that a judge is asked about. If more differ, rounding is not the cause, and all of them count.
 const MOST: usize = 100;
 
-/// Takes out the differences above `limit` of answers that are right. Returns how many of the peer's are wrong.
+/// Removes the differences above `limit` of correct answers. Returns how many of the peer's are wrong.
 fn decide(judge: &dyn Judge, limit: f64, differences: &mut [f64], ours: &[f32], theirs: &[f32]) -> usize {
     let (count, questions) = (differences.len(), judge.questions());
     let asked: BTreeSet<usize> = (0..count).filter(|at| differences[*at] > limit).map(|at| at % questions).collect();
@@ -69,10 +69,10 @@ fn decide(judge: &dyn Judge, limit: f64, differences: &mut [f64], ours: &[f32], 
 }
 
 /// Compares the values of a peer with those of this library; `names` are those of the question, its input and the peer.
-/// Without an agreement they are of different materials, and need only be numbers.
+/// Without an agreement they are of different materials, and only need to be finite.
 ///
 /// # Errors
-/// Where they differ by more than is allowed.
+/// If they differ by more than is allowed.
 pub fn compare(
     agreement: Option<Agreement>,
     judge: Option<&dyn Judge>,
@@ -83,7 +83,7 @@ pub fn compare(
     let (id, on, peer) = names;
     let Some(agreement) = agreement else {
         if !ours.iter().chain(theirs).all(|value| value.is_finite()) {
-            bail!("{id} {on}: {peer} or lobe gives values that are no numbers");
+            bail!("{id} {on}: {peer} or lobe gives values that are not numbers");
         }
         return Ok(None);
     };
@@ -141,7 +141,7 @@ mod tests {
         difference(one, &ours, &[1.0; 100]).unwrap_err();
     }
 
-    /// Wants answers of two values: the question's number, and 7 or 8.
+    /// Expects answers of two values: the question's number, and 7 or 8.
     struct Sevens(usize);
 
     impl Judge for Sevens {
@@ -175,9 +175,9 @@ mod tests {
         found(&with(&[(50, 51.0)]), &right).unwrap_err();
         found(&with(&[(1050, 9.0)]), &right).unwrap_err();
         found(&with(&[(1050, f32::NAN)]), &right).unwrap_err();
-        // Both wrong, and otherwise.
+        // Both are wrong, in different ways.
         found(&with(&[(1050, 9.0)]), &with(&[(1050, 10.0)])).unwrap_err();
-        // What is below the limit is no matter for the judge.
+        // The judge is not asked about differences below the limit.
         let near = found(&right, &with(&[(1020, 7.0035), (1030, 8.0)])).unwrap();
         assert!((near.largest - 5e-4).abs() < 1e-6 && near.wrong == 0, "{near:?}");
     }

@@ -8,19 +8,19 @@ use super::processor;
 use super::program::Programs;
 use super::record::Row;
 
-/// Runs of everybody in a turn: the first finds the caches as the one before left them.
+/// Runs of each contestant per turn: the first finds the caches as the previous contestant left them.
 const TIMES: usize = 3;
 
-/// A peer: this one answers a task in a program of its own.
+/// A peer that answers a task in a separate program.
 #[derive(Clone, Debug)]
 pub struct Outside {
-    /// As it is shown.
+    /// Its displayed name.
     pub name: &'static str,
     /// Which program.
     pub program: &'static str,
-    /// Which of its tasks.
+    /// Which of the program's tasks.
     pub task: String,
-    /// It uses wider vectors than this library has: it is shown, and no goal stands at it.
+    /// It uses wider vectors than this library has: it is shown, but not compared with a goal.
     pub wider: bool,
 }
 
@@ -39,11 +39,11 @@ impl Outside {
 pub struct Contest {
     /// Short name.
     pub id: &'static str,
-    /// On what.
+    /// The data and input.
     pub on: String,
     /// What is counted, as in "nanoseconds per lookup".
     pub unit: &'static str,
-    /// How many of them a run does.
+    /// How many of them one run does.
     pub count: usize,
     /// This library.
     pub lobe: Contender,
@@ -51,30 +51,30 @@ pub struct Contest {
     pub inside: Vec<Contender>,
     /// Peers in others.
     pub outside: Vec<Outside>,
-    /// What the values of all are held to; `None` where they are not of the same material.
+    /// How closely the values of all must agree; `None` if they are not of the same material.
     pub agreement: Option<Agreement>,
-    /// Who decides where they differ by more; `None` where all differences count.
+    /// Who decides if they differ by more; `None` if all differences count.
     pub judge: Option<Box<dyn Judge>>,
-    /// How many times the speed of the fastest peer this library shall have, of those whose vectors are no wider.
+    /// The goal: how many times as fast as the fastest peer whose vectors are no wider.
     pub goal: Option<f64>,
 }
 
 impl Contest {
-    /// What is asked, and on what.
+    /// The question, and its data and input.
     pub fn name(&self) -> String {
         format!("{} {}", self.id, self.on)
     }
 
-    /// Leaves out the peers that do not run; `false` where nobody is left.
+    /// Leaves out the peers that do not run; `false` if none is left.
     pub fn keep_present(&mut self, programs: &Programs) -> bool {
         self.outside.retain(|peer| programs.has(peer.program));
         !(self.inside.is_empty() && self.outside.is_empty())
     }
 
-    /// Runs everybody once and compares the values: one difference for each peer, those inside first.
+    /// Runs all contestants once and compares the values: one difference for each peer, those in this process first.
     ///
     /// # Errors
-    /// Where values differ by more than is allowed.
+    /// If values differ by more than is allowed.
     pub fn check(&mut self, programs: &mut Programs, exchange: &Exchange) -> anyhow::Result<Vec<Option<Difference>>> {
         self.lobe.run();
         let ours = self.lobe.values();
@@ -90,17 +90,18 @@ impl Contest {
             let file = exchange.answer(peer.program, &peer.task);
             programs.write(peer.program, &peer.task, &file)?;
             let theirs = exchange.read(&file, ours.len())?;
-            // Some of these files are large, and nobody reads them again.
+            // Some of these files are large, and are not read again.
             std::fs::remove_file(&file)?;
             differences.push(compared(peer.name, &theirs)?);
         }
         Ok(differences)
     }
 
-    /// Times everybody in turns, in processor time, the least of all runs. `progress` is called after each turn.
+    /// Times all contestants in turns, in processor time; the shortest of all runs counts. `progress` is called after
+    /// each turn.
     ///
     /// # Errors
-    /// Where a program breaks off.
+    /// If a program fails.
     pub fn time(
         &mut self,
         programs: &mut Programs,
@@ -140,7 +141,7 @@ impl Contest {
     }
 }
 
-/// The least processor seconds of the runs of a turn.
+/// The least processor time of the runs of a turn, in seconds.
 fn seconds(contender: &mut Contender) -> f64 {
     let run = |_| {
         let start = processor::seconds();

@@ -6,16 +6,16 @@ use super::contest::Contest;
 use super::exchange::Exchange;
 use super::{analytic, frames, interpolation, material, tracing, trigonometry};
 
-/// Those whose names begin like one of `only`, or all. Files and tasks go to `exchange`.
+/// Those whose names begin with one of `only`, or all. Files and tasks go to `exchange`.
 ///
 /// # Errors
-/// Where a measured material cannot be read, or a file cannot be written.
+/// If a measured material cannot be read, or a file cannot be written.
 pub fn all(data: &Path, exchange: &mut Exchange, only: &[String]) -> anyhow::Result<Vec<Contest>> {
     let mut contests = vec![trigonometry::acos(exchange)?];
     contests.extend(interpolation::all(exchange)?);
     contests.extend(analytic::all(exchange)?);
     contests.extend(material::all(data, exchange)?);
-    // Large scenes, not made for nothing.
+    // Scenes are large, so they are made only if they are needed.
     let wants = |prefix: &str| {
         only.is_empty() || only.iter().any(|start| start.starts_with(prefix) || prefix.starts_with(start.as_str()))
     };

@@ -17,7 +17,7 @@ impl Exchange {
     /// In `exchange` under that directory.
     ///
     /// # Errors
-    /// Where the directory cannot be made.
+    /// If the directory cannot be created.
     pub fn new(out: &Path) -> anyhow::Result<Self> {
         let directory = out.join("exchange");
         std::fs::create_dir_all(&directory).with_context(|| format!("cannot create {}", directory.display()))?;
@@ -27,7 +27,7 @@ impl Exchange {
     /// Writes rows of floats one after the other, little-endian.
     ///
     /// # Errors
-    /// Where the file cannot be written.
+    /// If the file cannot be written.
     pub fn floats(&self, name: &str, rows: &[&[f32]]) -> anyhow::Result<PathBuf> {
         let path = self.directory.join(name).with_extension("f32");
         let bytes: Vec<u8> = rows.iter().copied().flatten().flat_map(|x| x.to_le_bytes()).collect();
@@ -35,7 +35,7 @@ impl Exchange {
         Ok(path)
     }
 
-    /// Where a program is to write what a task computes.
+    /// The path where a program is to write what a task computes.
     pub fn answer(&self, program: &str, task: &str) -> PathBuf {
         self.directory.join(format!("{program}-{task}.f32"))
     }
@@ -43,7 +43,7 @@ impl Exchange {
     /// The floats of such a file.
     ///
     /// # Errors
-    /// Where there are not `count` of them.
+    /// If there are not `count` of them.
     pub fn read(&self, path: &Path, count: usize) -> anyhow::Result<Vec<f32>> {
         let bytes = std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
         let (floats, rest) = bytes.as_chunks::<4>();
@@ -53,27 +53,27 @@ impl Exchange {
         Ok(floats.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect())
     }
 
-    /// Adds a task for the programs that are told of theirs in a file.
+    /// Adds a task for the programs that read theirs from a file.
     pub fn task(&mut self, name: &str, task: Value) {
         self.tasks.insert(name.to_owned(), task);
     }
 
-    /// Writes the tasks, all that were added.
+    /// Writes all tasks that were added.
     ///
     /// # Errors
-    /// Where the file cannot be written.
+    /// If the file cannot be written.
     pub fn write_tasks(&self) -> anyhow::Result<PathBuf> {
         let path = self.directory.join("tasks.json");
         xtask_common::replace(&path, serde_json::to_string(&self.tasks)?)?;
         Ok(path)
     }
 
-    /// Where all files are.
+    /// The directory of all files.
     pub fn directory(&self) -> &Path {
         &self.directory
     }
 
-    /// What the arc cosine is taken of.
+    /// The arguments of the arc cosine.
     pub fn cosines(&self) -> PathBuf {
         self.directory.join("cosines.f32")
     }

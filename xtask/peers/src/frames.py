@@ -1,7 +1,7 @@
 """Frames by Mitsuba 3 on request: `python frames.py VARIANT TASKS [wide]`.
 
-Answers as `serve.py` does, with path-traced frames of scenes: `values` writes the linear RGB of two frames with other
-random numbers, rows from the top.
+Answers as `serve.py` does, with path-traced frames of scenes: `values` writes the linear RGB of two frames with
+different random numbers, rows from the top.
 """
 
 import importlib.metadata
@@ -78,7 +78,7 @@ class Frame:
 def main():
     variant, tasks = sys.argv[1], json.load(open(sys.argv[2]))
     mi.set_variant(variant)
-    # Measured values below zero are what the files hold, and no reason to write into the answers.
+    # Negative measured values come from the files, and are no reason to print a warning among the answers.
     mi.set_log_level(mi.LogLevel.Error)
     # Without a usable LLVM this ends the process, so do it before saying that all is well.
     str(mi.Float(1) + 1)

@@ -7,7 +7,7 @@ use anyhow::{Context, bail};
 
 use super::exchange::Exchange;
 
-/// The wheels: package and version, so that figures compare from one day to another.
+/// The wheels: package and version, so that figures from different days can be compared.
 const WHEELS: [(&str, &str); 3] = [("interpn", "0.11.2"), ("mitsuba", "3.9.1"), ("scipy", "1.17.1")];
 
 /// What runs peers of one kind: its name and text.
@@ -16,12 +16,12 @@ type Script = (&'static str, &'static str);
 const PEERS: Script = ("peers.py", include_str!("peers.py"));
 const FRAMES: Script = ("frames.py", include_str!("frames.py"));
 
-/// The programs by name, ready to be started, or why they cannot be. `tasks` is for those that are told of their tasks in
-/// a file, `exchange` has the files of the others.
+/// The programs by name, ready to be started, or why they cannot be. `tasks` is for those that read their tasks from a
+/// file, `exchange` has the files of the others.
 pub fn all(out: &Path, tasks: &Path, exchange: &Exchange) -> Vec<(&'static str, anyhow::Result<Command>)> {
     let environment = environment(out).map_err(|error| format!("{error:#}"));
     let python = || environment.clone().map_err(anyhow::Error::msg);
-    // `wide` asks for vectors wider than this library's, where the processor has them.
+    // `wide` asks for vectors wider than this library's, if the processor has them.
     let run = |script: Script, what: &str, wide: bool| -> anyhow::Result<Command> {
         let mut command = command(out, &python()?, script)?;
         command.arg(what).arg(tasks).args(wide.then_some("wide"));
@@ -50,7 +50,7 @@ pub fn all(out: &Path, tasks: &Path, exchange: &Exchange) -> Vec<(&'static str, 
     programs
 }
 
-/// Runs a script, which lies beside what all scripts share.
+/// Runs a script, which is placed next to the code that all scripts share.
 fn command(out: &Path, python: &Path, (name, text): Script) -> anyhow::Result<Command> {
     std::fs::write(out.join("serve.py"), include_str!("serve.py"))?;
     let script = out.join(name);
@@ -60,7 +60,7 @@ fn command(out: &Path, python: &Path, (name, text): Script) -> anyhow::Result<Co
     Ok(command)
 }
 
-/// The interpreter of the virtual environment, which is made where there is none.
+/// The interpreter of the virtual environment, which is created if it does not exist.
 fn environment(out: &Path) -> anyhow::Result<std::path::PathBuf> {
     let directory = out.join("venv");
     let python = directory.join("bin/python");
@@ -71,7 +71,7 @@ fn environment(out: &Path) -> anyhow::Result<std::path::PathBuf> {
     Ok(python)
 }
 
-/// Installs a wheel unless that version is there.
+/// Installs a wheel unless that version is already installed.
 fn install(python: &Path, package: &str, version: &str) -> anyhow::Result<()> {
     let check = format!("import importlib.metadata as m; assert m.version('{package}') == '{version}'");
     if finish(Command::new(python).args(["-c", &check])).is_ok() {
@@ -87,7 +87,7 @@ struct Source {
     name: &'static str,
     text: &'static str,
     libraries: &'static [&'static str],
-    /// That has the library in Debian.
+    /// The Debian package that has the library.
     package: &'static str,
 }
 
@@ -113,7 +113,7 @@ impl Source {
 /// Runs a command to its end.
 ///
 /// # Errors
-/// Where it fails: with the first line that it wrote which speaks of an error, or else the last.
+/// If it fails: with the first line of its output that mentions an error, or else the last line.
 fn finish(command: &mut Command) -> anyhow::Result<()> {
     let name = command.get_program().to_string_lossy().into_owned();
     let output = command.output().with_context(|| format!("cannot start {name}"))?;

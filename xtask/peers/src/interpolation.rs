@@ -1,4 +1,4 @@
-//! Interpolation on rectilinear grids, the angles being known.
+//! Interpolation on rectilinear grids, at known angles.
 
 use std::rc::Rc;
 
@@ -13,13 +13,13 @@ use super::comparison::Agreement;
 use super::contest::{Contest, Outside};
 use super::exchange::Exchange;
 
-/// Points a run.
+/// Points per run.
 const COUNT: usize = 1 << 16;
 
 /// Both tables of the paper's sizes, on both inputs.
 ///
 /// # Errors
-/// Where a file cannot be written.
+/// If a file cannot be written.
 pub fn all(exchange: &mut Exchange) -> anyhow::Result<Vec<Contest>> {
     let mut contests = Vec::new();
     for (name, shown, samples) in
@@ -43,7 +43,7 @@ fn contest(
     let rows: Vec<&[f32]> = axes.iter().map(|&axis| angles[axis].as_slice()).collect();
     let points = exchange.floats(&format!("{name}-{}", input.name()), &rows)?;
     let values = exchange.floats(name, &[samples.values()])?;
-    // Everybody gets the knots as this library rounds them.
+    // All contestants get the knots as this library rounds them.
     let knots: Vec<Vec<f32>> =
         axes.iter().map(|&axis| samples.knots()[axis].iter().map(|&knot| knot as f32).collect()).collect();
     let mut outside = Vec::new();

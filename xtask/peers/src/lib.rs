@@ -1,8 +1,8 @@
-//! `cargo xtask peers`: other people's programs beside this library, on the same tables and queries, in turns.
+//! `cargo xtask peers`: other people's programs next to this library, on the same tables and queries, in turns.
 //!
 //! What a package registry serves as wheels is installed into a virtual environment, SLEEF is taken from the system.
-//! Each peer runs in a process of its own, which answers one request a line; a peer that cannot be had is
-//! left out with a line that says why. Everybody's values are compared before anything is timed.
+//! Each peer runs in a separate process, which answers one request per line; a peer that is unavailable is left out
+//! with a line that says why. All values are compared before anything is timed.
 #![cfg(target_os = "linux")]
 #![forbid(unsafe_code)]
 
@@ -44,10 +44,10 @@ use xtask_common::{Machine, replace};
   cargo xtask peers --record"
 )]
 pub struct Options {
-    /// Turns that everybody gets
+    /// Number of turns of every contestant
     #[arg(long, value_name = "COUNT", default_value_t = 12)]
     turns: usize,
-    /// Only the contests whose names begin like this
+    /// Only the contests whose names begin with this
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     only: Vec<String>,
     /// Directory of the environment, of exchanged files and of peers.json
@@ -64,11 +64,11 @@ pub struct Options {
 /// Installs, checks, measures, prints and writes.
 ///
 /// # Errors
-/// Where a peer's values are not those of this library, a program breaks off, or a file cannot be written.
+/// If a peer's values differ from those of this library, a program fails, or a file cannot be written.
 pub fn run(options: &Options) -> anyhow::Result<()> {
     let machine = Machine::here();
     std::fs::create_dir_all(&options.out).with_context(|| format!("cannot create {}", options.out.display()))?;
-    // Programs are started with absolute paths, so that they may be started anywhere.
+    // Programs are started with absolute paths, so that they can be started from anywhere.
     let out = options.out.canonicalize()?;
     let data = options.data.clone().unwrap_or_else(default_data);
     let mut exchange = Exchange::new(&out)?;
@@ -79,7 +79,7 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
     let pictures = is_asked(frames::Question::NAME).then(|| frames::Question::new(&data, &mut exchange));
     let (variance, pictures) = (variance.transpose()?, pictures.transpose()?);
     if contests.is_empty() && variance.is_none() && pictures.is_none() {
-        bail!("no contest begins with {}", options.only.join(" or "));
+        bail!("no contest has a name that begins with {}", options.only.join(" or "));
     }
     let tasks = exchange.write_tasks()?;
 
@@ -153,7 +153,7 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Where two renderers are shown side by side.
+/// The file that shows the pictures of two renderers side by side.
 fn difference_picture(options: &Options, out: &Path) -> PathBuf {
     const NAME: &str = "mitsuba-difference.png";
     if options.record { workspace().join("docs/pictures").join(NAME) } else { out.join(NAME) }

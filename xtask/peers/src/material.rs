@@ -17,7 +17,7 @@ use super::comparison::Agreement;
 use super::contest::{Contest, Outside};
 use super::exchange::Exchange;
 
-/// Queries a run: enough that what a wavefront costs by itself does not count.
+/// Queries per run: enough that the fixed cost of a wavefront does not matter.
 pub const COUNT: usize = 1 << 20;
 
 /// The RGB files, in order of their names.
@@ -35,7 +35,7 @@ fn is_rgb(path: &Path) -> bool {
 /// Pairs of directions, and the file of their six components.
 ///
 /// # Errors
-/// Where it cannot be written.
+/// If it cannot be written.
 pub fn pairs(exchange: &Exchange, input: Input) -> anyhow::Result<(Rc<Pairs>, PathBuf)> {
     let pairs = input.pairs(COUNT);
     let rows: Vec<&[f32]> = pairs.wi.iter().chain(&pairs.wo).map(Vec::as_slice).collect();
@@ -46,7 +46,7 @@ pub fn pairs(exchange: &Exchange, input: Input) -> anyhow::Result<(Rc<Pairs>, Pa
 /// Values of every file on both inputs, densities and samples on the incoherent one.
 ///
 /// # Errors
-/// Where a file cannot be read or written.
+/// If a file cannot be read or written.
 pub fn all(data: &Path, exchange: &mut Exchange) -> anyhow::Result<Vec<Contest>> {
     let mut contests = Vec::new();
     let files = files(data);
@@ -95,7 +95,7 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// `f cos(theta_o)`, which is what Mitsuba gives.
+    /// `f cos(theta_o)`, which is what Mitsuba returns.
     fn eval(&self, exchange: &mut Exchange, input: Input, (pairs, file): &(Rc<Pairs>, PathBuf)) -> Contest {
         let (table, backend, pairs) = (self.table.clone(), self.backend, pairs.clone());
         let run = move |out: &mut Vec<f32>| {

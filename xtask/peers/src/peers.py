@@ -1,6 +1,6 @@
 """Runs peers of lobe on request: `python peers.py PACKAGE TASKS [wide]`, answering as `serve.py` does.
 
-TASKS is a JSON file, an object of tasks by name. Arrays come from files of little-endian f32.
+TASKS is a JSON file, an object that maps names to tasks. Arrays come from files of little-endian f32.
 """
 
 import importlib.metadata
@@ -35,7 +35,7 @@ class Scipy:
 
 
 class Interpn:
-    """The same by interpn, a channel a call."""
+    """The same by interpn, one channel per call."""
 
     def __init__(self, task):
         from interpn import raw
@@ -56,7 +56,7 @@ class Interpn:
 
 
 class Mitsuba:
-    """A BSDF of Mitsuba 3, one wavefront a run."""
+    """A BSDF of Mitsuba 3, one wavefront per run."""
 
     def __init__(self, task):
         import drjit as dr
@@ -98,7 +98,7 @@ class Mitsuba:
     def values(self):
         parts = [np.atleast_2d(np.array(part)) for part in self.out]
         if len(parts) > 1:
-            # A draw that leads below the surface keeps its direction and density in Mitsuba; here it has none.
+            # In Mitsuba a draw that leads below the surface keeps its direction and density; in lobe it has neither.
             (_, _, z), pdf, weight = parts
             leads = (z > 0) & np.any(weight != 0, axis=0)
             parts = [part * leads for part in parts]

@@ -1,10 +1,10 @@
-//! The processor: one core for everybody, and the time that it has worked.
+//! The processor: one core for all contestants, and its processor time.
 
 use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity};
 use rustix::time::{ClockId, clock_gettime};
 
 /// Keeps this thread, and what it starts or has started with it as a pattern, on the last core that it may use. Returns
-/// that core, or `None` where the system refuses.
+/// that core, or `None` if the system refuses.
 pub fn pin() -> Option<usize> {
     let allowed = sched_getaffinity(None).ok()?;
     let core = (0..CpuSet::MAX_CPU).rev().find(|&core| allowed.is_set(core))?;
@@ -16,8 +16,8 @@ pub fn pin() -> Option<usize> {
 
 /// Seconds that this process has been on a processor.
 ///
-/// Unlike a wall clock it stands still while other programs have the core, so that long runs can be timed on a machine
-/// that is not quiet.
+/// Unlike a wall clock, this does not count the time of other programs on the core, so long runs can be timed on a
+/// machine that is not idle.
 pub fn seconds() -> f64 {
     let time = clock_gettime(ClockId::ProcessCPUTime);
     time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64

@@ -1,4 +1,4 @@
-//! A peer in a process of its own, which answers one request a line; `serve.py` says how.
+//! A peer in a separate process, which answers one request per line; `serve.py` says how.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -8,7 +8,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 use anyhow::{Context, anyhow, bail};
 
-/// A program that waits for requests. It ends with its value.
+/// A program that waits for requests. It ends when this value is dropped.
 #[derive(Debug)]
 pub struct Program {
     version: String,
@@ -21,7 +21,7 @@ impl Program {
     /// Starts a program and waits until it is ready. What it writes to standard error goes to `log`.
     ///
     /// # Errors
-    /// Where it does not get ready; the last line of its log is in the error.
+    /// If it does not become ready; the error contains the last line of its log.
     pub fn start(mut command: Command, log: &Path) -> anyhow::Result<Self> {
         let errors = File::create(log).with_context(|| format!("cannot create {}", log.display()))?;
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(errors);
@@ -31,23 +31,24 @@ impl Program {
         let mut program = Program { version: String::new(), child, input, output };
         let line = program.line().map_err(|_| {
             let text = std::fs::read_to_string(log).unwrap_or_default();
-            anyhow!("it does not start: {}", text.lines().next_back().unwrap_or("it said nothing"))
+            anyhow!("it does not start: {}", text.lines().next_back().unwrap_or("it wrote nothing"))
         })?;
-        program.version = line.strip_prefix("ready ").with_context(|| format!("it said `{line}`"))?.to_owned();
+        program.version =
+            line.strip_prefix("ready ").with_context(|| format!("it answered `{line}`; expected `ready`"))?.to_owned();
         Ok(program)
     }
 
-    /// The least processor seconds of some runs of a task.
+    /// The least processor time of some runs of a task, in seconds.
     fn run(&mut self, task: &str, times: usize) -> anyhow::Result<f64> {
         let answer = self.ask(&format!("run {task} {times}"))?;
-        answer.parse().with_context(|| format!("it said `{answer}` where seconds were expected"))
+        answer.parse().with_context(|| format!("it answered `{answer}`; expected seconds"))
     }
 
-    /// Has what a run of a task computes written to a file.
+    /// Has the results of a run of a task written to a file.
     fn write(&mut self, task: &str, file: &Path) -> anyhow::Result<()> {
         match self.ask(&format!("values {task} {}", file.display()))?.as_str() {
             "written" => Ok(()),
-            answer => bail!("it said `{answer}` where `written` was expected"),
+            answer => bail!("it answered `{answer}`; expected `written`"),
         }
     }
 
@@ -67,13 +68,13 @@ impl Program {
 
 impl Drop for Program {
     fn drop(&mut self) {
-        // It may have ended by itself, which is as good.
+        // It may have ended already, which is just as well.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
 }
 
-/// The programs by name, those that could be started and why the others could not.
+/// The programs by name: those that could be started, and why the others could not.
 #[derive(Debug, Default)]
 pub struct Programs(BTreeMap<&'static str, anyhow::Result<Program>>);
 
@@ -98,18 +99,18 @@ impl Programs {
         self.0.iter().filter_map(|(name, program)| Some((*name, program.as_ref().ok()?.version.clone()))).collect()
     }
 
-    /// The least processor seconds of some runs of a task.
+    /// The least processor time of some runs of a task, in seconds.
     ///
     /// # Errors
-    /// Where the program does not answer.
+    /// If the program does not answer.
     pub fn run(&mut self, name: &str, task: &str, times: usize) -> anyhow::Result<f64> {
         self.get(name)?.run(task, times).with_context(|| format!("{name}, {task}"))
     }
 
-    /// Has what a run of a task computes written to a file.
+    /// Has the results of a run of a task written to a file.
     ///
     /// # Errors
-    /// Where the program does not answer.
+    /// If the program does not answer.
     pub fn write(&mut self, name: &str, task: &str, file: &Path) -> anyhow::Result<()> {
         self.get(name)?.write(task, file).with_context(|| format!("{name}, {task}"))
     }

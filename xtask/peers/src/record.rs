@@ -1,4 +1,4 @@
-//! What came out: on the terminal, as JSON, and as the page in the documentation.
+//! The results: on the terminal, as JSON, and as the page in the documentation.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -10,28 +10,28 @@ use super::frames::{self, Agreement};
 use super::variance::{self, Variance};
 use xtask_common::{Grid, Machine, nanoseconds, times};
 
-/// This library against one peer.
+/// This library compared with one peer.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// What is asked.
+    /// The question.
     pub id: &'static str,
-    /// On which data and input.
+    /// The data and input.
     pub on: String,
     /// What is counted.
     pub unit: &'static str,
-    /// Against whom.
+    /// The peer.
     pub peer: &'static str,
-    /// Nanoseconds of this library, in processor time.
+    /// This library's processor time, in nanoseconds.
     pub ns: f64,
-    /// Nanoseconds of the peer.
+    /// The peer's, in nanoseconds.
     pub peer_ns: f64,
-    /// How many times the speed of the peer.
+    /// How many times as fast as the peer.
     pub ratio: f64,
-    /// How many times it shall be, where this is the fastest peer.
+    /// The goal for that, if this is the fastest peer.
     pub goal: Option<f64>,
-    /// The largest relative difference of the values, where they are of the same material.
+    /// The largest relative difference of the values, if they are of the same material.
     pub difference: Option<f64>,
-    /// How many answers of the peer are wrong where one had to decide.
+    /// How many disputed answers of the peer are wrong.
     pub peer_wrong: usize,
 }
 
@@ -54,14 +54,14 @@ impl Row {
 
 const HEADER: [&str; 8] = ["question", "on", "peer", "peer, ns", "lobe, ns", "speed", "goal", "difference"];
 
-/// All that was measured.
+/// Everything that was measured.
 #[derive(Debug, Serialize)]
 pub struct Record {
-    /// Where.
+    /// The machine.
     pub machine: Machine,
-    /// On which core, if on one.
+    /// The core, if the process was pinned to one.
     pub core: Option<usize>,
-    /// In how many turns.
+    /// The number of turns.
     pub turns: usize,
     /// The peers that took part.
     pub versions: BTreeMap<&'static str, String>,
@@ -71,7 +71,7 @@ pub struct Record {
     pub rows: Vec<Row>,
     /// How noisy samples are.
     pub variances: Vec<Variance>,
-    /// How far pictures are from those of another renderer.
+    /// How much pictures differ from those of another renderer.
     pub pictures: Vec<Agreement>,
 }
 

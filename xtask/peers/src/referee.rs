@@ -1,4 +1,4 @@
-//! Rays against all triangles of a mesh in double precision, where answers in single precision differ.
+//! Rays against all triangles of a mesh in double precision, for rays whose answers in single precision differ.
 
 use std::rc::Rc;
 
@@ -17,23 +17,23 @@ fn cross(a: V, b: V) -> V {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// How far outside a triangle, in parts of its heights, single precision may see a ray inside. A triangle that looks a
-/// hundred times as small as its coordinates are large loses two digits of seven, and more when seen from its side.
+/// How far outside a triangle, relative to its heights, a ray may seem inside in single precision. A triangle that is a
+/// hundred times smaller than its coordinates loses two digits of seven, and more if seen edge-on.
 const EDGE: f64 = 1e-3;
 
 /// A ray and a triangle's plane.
 #[derive(Clone, Copy, Debug)]
 struct Meeting {
     t: f64,
-    /// The least of the three weights: below 0 outside of the triangle.
+    /// The least of the three weights: negative outside the triangle.
     inside: f64,
-    /// How far t moves where the plane does by half a unit in the last place of single precision: far where the ray looks
-    /// along it.
+    /// How far t moves if the plane moves by half a unit in the last place of single precision: far if the ray is
+    /// nearly parallel to it.
     doubt: f64,
 }
 
-/// By the volumes between the ray and each edge. Both triangles of an edge find the same for it, but for the sign, to the
-/// last bit: no ray slips between them.
+/// By the volumes between the ray and each edge. Both triangles of an edge get the same volume, to the last bit except
+/// for its sign, so no ray slips between them.
 fn meet(origin: V, direction: V, corners: [[f32; 3]; 3]) -> Meeting {
     let [a, b, c] = corners.map(|corner| std::array::from_fn(|axis| f64::from(corner[axis]) - origin[axis]));
     let volumes = [(b, c), (c, a), (a, b)].map(|(from, to)| dot(direction, cross(from, to)));
@@ -45,21 +45,21 @@ fn meet(origin: V, direction: V, corners: [[f32; 3]; 3]) -> Meeting {
     let reach =
         corners.as_flattened().iter().map(|x| f64::from(x.abs())).chain(origin.map(f64::abs)).fold(0.0, f64::max);
     let doubt = 0.5 * f64::from(f32::EPSILON) * reach * dot(normal, normal).sqrt() / sum.abs();
-    // A ray within the plane has no weights, and no minimum may pass over that.
+    // A ray within the plane has NaN weights, which a minimum would ignore.
     Meeting { t, inside: if sum == 0.0 { f64::NEG_INFINITY } else { u.min(v).min(w) }, doubt }
 }
 
-/// Decides about answers to rays: t and the two halves of the triangle's number, -1 for a miss; where any hit is enough, 1
+/// Decides about answers to rays: t and the two halves of the triangle's number, -1 for a miss; if any hit is enough, 1
 /// or 0.
 ///
-/// A right one names a triangle that is met, if only at its edge, where the nearest hit is to within `agreement`, and t
-/// is that of the triangle, as far as single precision can tell.
+/// A correct one names a triangle that is hit, if only at its edge, and whose t is within `agreement` of the nearest
+/// hit's; its t is that of the triangle within the accuracy of single precision.
 pub struct Referee {
     /// All triangles.
     pub mesh: Rc<Mesh>,
     /// All rays.
     pub set: Rc<RaySet>,
-    /// How near is near enough.
+    /// The tolerance of t.
     pub agreement: Agreement,
 }
 

@@ -1,9 +1,9 @@
 """How a peer answers. It says `ready VERSION` once, then answers each line of its input:
 
-    run TASK TIMES      the least processor seconds of that many runs
+    run TASK TIMES      the least processor time of that many runs, in seconds
     values TASK FILE    `written`, after writing what a run computes to FILE, as little-endian f32
 
-What it takes to get a task into place is not timed.
+Preparing a task is not timed.
 """
 
 import ctypes
@@ -16,11 +16,11 @@ import numpy as np
 
 
 def choose_lanes(wide):
-    """Has Dr.Jit compile for AVX2, which is what the library under comparison has; or, if `wide`, leaves it its choice and
-    ends the program where that is no wider. To be called once a variant is chosen that needs LLVM."""
+    """Makes Dr.Jit compile for AVX2, which is what the compared library uses; or, if `wide`, leaves the choice to it and
+    ends the program if that is no wider. Call it once a variant that needs LLVM has been chosen."""
     import drjit
 
-    # Functions that its header declares, by the names that C++ gives them.
+    # Functions that its header declares, by their mangled C++ names.
     library = next(pathlib.Path(drjit.__file__).parent.glob("libdrjit-core.*"))
     core = ctypes.CDLL(str(library))
     lanes = getattr(core, "_Z21jit_llvm_vector_widthv")
@@ -29,14 +29,14 @@ def choose_lanes(wide):
     if wide and lanes() <= 8:
         sys.exit("this processor has no vectors wider than those of AVX2")
     if not wide and lanes() > 8:
-        # AVX2 with gathers that LLVM takes for fast, as it does on all processors with AVX-512: for older ones it takes
-        # them apart, and `measured` takes four times as long.
+        # AVX2 with gathers that LLVM considers fast, as it does on all processors with AVX-512: for older ones it splits
+        # them, and `measured` takes four times as long.
         target(b"skylake", None, 8)
         assert lanes() == 8
 
 
 def serve(version, make, warm_runs):
-    """Answers with `make(TASK)`, which has `run()` and `values()`, and is run so many times before it is first timed."""
+    """Answers with `make(TASK)`, which has `run()` and `values()`, and is run `warm_runs` times before it is first timed."""
     ready = {}
 
     def prepared(name):

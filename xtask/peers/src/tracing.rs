@@ -1,4 +1,4 @@
-//! Rays through scenes against Embree, which chooses the fastest of its own ways, and trees against its trees.
+//! Rays through scenes compared with Embree in its fastest mode, and the building of trees.
 
 use std::path::Path;
 use std::rc::Rc;
@@ -17,20 +17,20 @@ use super::referee::Referee;
 /// The first word of the contests' names.
 pub const PREFIX: &str = "trace";
 
-/// Pixels along a side of the picture that all rays begin with.
+/// Pixels per side of the picture with which all rays begin.
 const PIXELS: usize = 512;
 
-/// Beyond it a scene does not fit into the caches, and goals are lower.
+/// A scene with more triangles does not fit into the caches, and goals are lower.
 const LARGE: usize = 200_000;
 
-/// `t` and the number of the triangle. Of two triangles that meet at an edge either may be found by a ray that passes it
-/// closely, and a peer may find neither; the [`Referee`] decides, and this library has to be right in all.
+/// `t` and the number of the triangle. A ray that passes close to an edge may hit either of its two triangles, and a
+/// peer may find neither; the [`Referee`] decides, and this library must always be right.
 const HITS: Agreement = Agreement { relative: 1e-5, floor: 0.1, outliers: 0.0 };
 
 /// All sets of rays in all scenes.
 ///
 /// # Errors
-/// Where a mesh cannot be read, or a file cannot be written.
+/// If a mesh cannot be read, or a file cannot be written.
 pub fn all(data: &Path, exchange: &Exchange) -> anyhow::Result<Vec<Contest>> {
     let mut scenes: Vec<(&'static str, Parts)> = vec![
         ("knot", tracing::knot(700, 50)),
@@ -47,7 +47,7 @@ pub fn all(data: &Path, exchange: &Exchange) -> anyhow::Result<Vec<Contest>> {
     Ok(contests)
 }
 
-/// A scan, where the folder of meshes has it.
+/// A scan, if the folder of meshes has it.
 fn statue(data: &Path) -> anyhow::Result<Option<Parts>> {
     let path = statue_file(data);
     if !path.is_file() {
@@ -57,7 +57,7 @@ fn statue(data: &Path) -> anyhow::Result<Option<Parts>> {
     Ok(Some((parts.positions, parts.triangles)))
 }
 
-/// Where that scan is.
+/// The path of that scan.
 pub fn statue_file(data: &Path) -> std::path::PathBuf {
     data.join("geometry/lionstatue.obj")
 }
@@ -153,7 +153,7 @@ impl Subject {
         })
     }
 
-    /// Building trees; what must agree is the box around everything.
+    /// Building trees; the box around everything must agree.
     fn build(&self) -> Contest {
         let mesh = self.mesh.clone();
         let run = move |out: &mut Option<Scene>| *out = Some(Scene::of_mesh(Mesh::clone(&mesh)));
@@ -180,7 +180,7 @@ impl Subject {
     }
 }
 
-/// A backend that traces a set of rays, by the way of their class or by another.
+/// A backend that traces a set of rays, by the form of their class or by another.
 fn tracer(name: &'static str, scene: &Rc<Scene>, set: &Rc<RaySet>, backend: Backend, form: Option<Form>) -> Contender {
     let (scene, set) = (scene.clone(), set.clone());
     let (count, form) = (set.rays.len(), form.unwrap_or(set.class.form()));

@@ -1,4 +1,4 @@
-//! The arc cosine of eight lanes against that of SLEEF.
+//! The arc cosine of eight lanes compared with that of SLEEF.
 
 use std::rc::Rc;
 
@@ -10,15 +10,15 @@ use super::comparison::Agreement;
 use super::contest::{Contest, Outside};
 use super::exchange::Exchange;
 
-/// Values in the first cache or the second.
+/// The number of values, which fit into the first or second cache.
 const COUNT: usize = 1 << 14;
-/// How often a run takes all of them, as `acos.c` does.
+/// How often a run goes through all of them, as `acos.c` does.
 const PASSES: usize = 64;
 
-/// The contest; its cosines are in a file of their own.
+/// The contest; its cosines are in a separate file.
 ///
 /// # Errors
-/// Where that cannot be written.
+/// If that cannot be written.
 pub fn acos(exchange: &Exchange) -> anyhow::Result<Contest> {
     let cosines: Rc<[f32]> = Input::Incoherent.thetas(COUNT).iter().map(|theta| theta.cos() as f32).collect();
     exchange.floats("cosines", &[&cosines])?;

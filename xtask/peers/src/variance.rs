@@ -18,27 +18,27 @@ use xtask_common::{Grid, times};
 /// Polar angles of the known direction in degrees.
 const ANGLES: [f64; 8] = [0.0, 15.0, 30.0, 45.0, 60.0, 70.0, 80.0, 85.0];
 
-/// Samples a direction.
+/// Samples per direction.
 const COUNT: usize = 1 << 17;
 
-/// By how much the albedos that Mitsuba and this library find may differ, relative: the numbers are the same, so they
-/// differ by rounding alone.
+/// By how much the albedos that Mitsuba and this library find may differ, relative: the random numbers are the same, so
+/// they differ by rounding alone.
 const AGREEMENT: f64 = 1e-3;
 
 /// Relative variances of the luminance of a single sample.
 #[derive(Clone, Debug, Serialize)]
 pub struct Variance {
-    /// Of which material.
+    /// The material.
     pub on: String,
     /// Polar angle of the known direction in degrees.
     pub degrees: f64,
-    /// Of Mitsuba's sampler.
+    /// With Mitsuba's sampler.
     pub mitsuba: f64,
-    /// Of this library's, the file being indexed by the viewer, who is known, as in Mitsuba.
+    /// With this library's, the file being indexed by the viewer, the known direction, as in Mitsuba.
     pub lobe: f64,
-    /// Of this library's, the file being indexed by the light that is found.
+    /// With this library's, the file being indexed by the sampled light direction.
     pub by_light: f64,
-    /// Of a cosine distribution.
+    /// With a cosine distribution.
     pub cosine: f64,
 }
 
@@ -54,7 +54,7 @@ impl Variance {
 
 const HEADER: [&str; 7] = ["material", "angle", "Mitsuba", "lobe", "lobe, by light", "cosine", "cosine / lobe"];
 
-/// What is shown; nothing where nothing was measured.
+/// The table; `None` if nothing was measured.
 pub fn grid(variances: &[Variance]) -> Option<Grid> {
     let rows = variances.iter().map(Variance::cells).collect();
     (!variances.is_empty()).then(|| Grid::new("Noise of samples", READING, HEADER, rows))
@@ -83,17 +83,17 @@ struct Subject {
 }
 
 impl Question {
-    /// By which it is asked for alone.
+    /// The name by which it can be selected.
     pub const NAME: &str = "variance";
 
     /// Asks for samples of all files.
     ///
     /// # Errors
-    /// Where a file cannot be read or written.
+    /// If a file cannot be read or written.
     pub fn new(data: &Path, exchange: &mut Exchange) -> anyhow::Result<Self> {
         let uniforms = noise::uniforms(COUNT);
         let direction = |(at, degrees): (usize, f64)| {
-            // Another azimuth each.
+            // Each has a different azimuth.
             let ((sin, cos), (sin_phi, cos_phi)) = (degrees.to_radians().sin_cos(), (at as f64 * 2.4).sin_cos());
             (degrees, [sin * cos_phi, sin * sin_phi, cos].map(|x| x as f32))
         };
@@ -121,10 +121,10 @@ impl Question {
         Ok(Question { known, uniforms, subjects })
     }
 
-    /// The variances of everybody; none where Mitsuba does not run.
+    /// The variances of all samplers; empty if Mitsuba does not run.
     ///
     /// # Errors
-    /// Where Mitsuba breaks off, or finds another albedo.
+    /// If Mitsuba fails, or finds a different albedo.
     pub fn answer(&self, programs: &mut Programs, exchange: &Exchange) -> anyhow::Result<Vec<Variance>> {
         let mut answers = Vec::new();
         if !programs.has("mitsuba") {

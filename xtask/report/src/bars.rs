@@ -13,14 +13,14 @@ const BAR: f64 = 12.0;
 const GAP: f64 = 10.0;
 const AXIS: f64 = 24.0;
 
-/// Bars of one question on one input. `most` is the ratio at the full width, so that pictures beside each other share
-/// their scale, and at least 1. `paper` is the paper's own speed-up, at most `most`, drawn as a mark.
+/// Bars of one question on one input. `most` is the ratio at the full width, so that pictures side by side share their
+/// scale; it is at least 1. `paper` is the paper's own speed-up, at most `most`, drawn as a mark.
 pub fn bars(all: &[Row], id: &str, input: &str, most: f64, paper: Option<f64>) -> String {
     let backends = rows::distinct(rows::of(all, id, input), |row| &row.backend);
     let baselines = rows::distinct(rows::of(all, id, input), |row| &row.baseline);
     let group = BAR * baselines.len() as f64 + GAP;
     let bottom = TOP + group * backends.len() as f64;
-    let title = format!("{id}, {input} input: times the speed of {}", baselines.join(" and of "));
+    let title = format!("{id}, {input} input: times as fast as {}", baselines.join(" and "));
     let mut svg = Svg::new(WIDTH, bottom + AXIS, &title);
     let x = |ratio: f64| LEFT + ratio / most * (WIDTH - LEFT - RIGHT);
 
@@ -45,7 +45,7 @@ pub fn bars(all: &[Row], id: &str, input: &str, most: f64, paper: Option<f64>) -
             }
         }
     }
-    // Over the bars, so that those shorter and longer than a line can be told apart, and under the figures.
+    // Above the bars, so that it is visible whether a bar ends before or after a line, and below the figures.
     svg.line("base", [x(1.0), TOP], [x(1.0), bottom]);
     if let Some(ratio) = paper {
         svg.line("paper", [x(ratio), TOP - 4.0], [x(ratio), bottom]);

@@ -1,4 +1,4 @@
-//! Whether light is kept: albedos by quadrature and by samples, the integrals of densities, reciprocity.
+//! Whether energy is conserved: albedos by quadrature and by samples, the integrals of densities, reciprocity.
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -17,17 +17,17 @@ use serde::Serialize;
 
 use xtask_common::{Grid, noise, times};
 
-/// By which it is asked for alone.
+/// The name by which it can be selected.
 pub const ID: &str = "energy";
 
-/// Polar angles of the light in degrees, and its azimuths where those count.
+/// Polar angles of the light in degrees, and its azimuths if those matter.
 const SIGMAS: [f64; 5] = [0.0, 30.0, 60.0, 80.0, 85.0];
 const PSIS: [f64; 2] = [0.0, 80.0];
 
-/// Samples a direction of the light.
+/// Samples per direction of the light.
 const COUNT: usize = 1 << 18;
 
-/// Points that densities are summed over, and how many at a time.
+/// Number of points over which densities are summed, and how many at a time.
 const POINTS: usize = 1 << 21;
 const CHUNK: usize = 1 << 12;
 
@@ -35,16 +35,16 @@ const CHUNK: usize = 1 << 12;
 const PAIRS: usize = 20_000;
 const LIMIT: f64 = 80.0;
 
-/// What is known of the energy of a material.
+/// The energy of a material.
 #[derive(Clone, Debug, Serialize)]
 pub struct Energy {
-    /// Which material.
+    /// The material.
     pub material: String,
     /// The largest albedo of a channel at the incidences below.
     pub largest: f64,
-    /// The root of the mean squared difference of exchanged pairs, as a part of that of the values.
+    /// The root of the mean squared difference of exchanged pairs, relative to that of the values.
     pub reciprocity_rms: f64,
-    /// Half of the exchanged pairs differ by less, relative.
+    /// The median of the relative differences of exchanged pairs.
     pub reciprocity_median: f64,
     /// By the direction of the light.
     pub incidences: Vec<Incidence>,
@@ -63,7 +63,7 @@ pub struct Incidence {
     pub error: f64,
     /// The integral of the density of samples.
     pub density: f64,
-    /// The variance of one weight over the square of the mean, and the same with directions drawn by the cosine.
+    /// The variance of one weight divided by the square of the mean, and the same with directions drawn by the cosine.
     pub variance: f64,
     /// By the cosine.
     pub variance_by_cosine: f64,
@@ -72,7 +72,7 @@ pub struct Incidence {
 /// Measures a white surface and the fixtures.
 ///
 /// # Errors
-/// Where a fixture cannot be read.
+/// If a fixture cannot be read.
 pub fn all() -> anyhow::Result<Vec<Energy>> {
     let fixtures = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures"));
     let mut subjects = Vec::new();
@@ -132,12 +132,12 @@ fn direction([theta, phi]: [f64; 2]) -> [f32; 3] {
 
 /// The integral of the density over the hemisphere, in polar coordinates about the mirror direction.
 ///
-/// A density by histograms has steps that no panel ends at, so it is summed over points of which no two share an angle: the
-/// additive recurrence of the plastic number (Roberts 2018).
+/// A density of histograms has steps at which no panel ends, so it is summed over points of which no two share an
+/// angle: the additive recurrence of the plastic number (Roberts 2018).
 fn density(sampler: &Sampler, [sigma, psi]: [f64; 2]) -> f64 {
     let place = |point: usize| {
         let [u, w] = [0.754_877_666_246_693, 0.569_840_290_998_053].map(|step| (point as f64 * step).fract());
-        // The peak is at theta = 0, and points are as dense there as it is narrow.
+        // The peak is at theta = 0, and the density of points there matches its width.
         let theta = PI * u * u;
         let (_, viewer) = angles_to_directions([sigma, psi, theta, TAU * w], |sigma| sigma);
         (viewer.map(|x| x as f32), 2.0 * PI * u * theta.sin() * TAU)
@@ -152,7 +152,7 @@ fn density(sampler: &Sampler, [sigma, psi]: [f64; 2]) -> f64 {
     (0..POINTS).step_by(CHUNK).map(chunk).sum::<f64>() / POINTS as f64
 }
 
-/// What is shown: by the direction of the light, and of each material.
+/// The tables: by direction of the light, and per material.
 pub fn grids(energies: &[Energy]) -> Vec<Grid> {
     if energies.is_empty() {
         return Vec::new();

@@ -7,30 +7,30 @@ use std::process::Command;
 use anyhow::{Context, ensure};
 use serde::{Deserialize, Serialize};
 
-/// What it is called.
+/// Its name.
 pub const ID: &str = "equivalence";
 
 /// What the equivalence check found.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct EquivalenceSummary {
-    /// One line per check: what was compared, and what came out.
+    /// One line per check: what was compared, and the outcome.
     pub rows: Vec<[String; 2]>,
     /// `true` if everything held.
     pub ok: bool,
 }
 
-/// Runs the check, which is a program of its own, and reads its summary.
+/// Runs the check, which is a separate program, and reads its summary.
 ///
 /// # Errors
-/// If it cannot be built or run; that something does not hold is no error here.
+/// If it cannot be built or run; a check that fails is not an error here.
 pub fn summary(out: &Path) -> anyhow::Result<EquivalenceSummary> {
     let path = out.join("equivalence.json");
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.args(["run", "--release", "--quiet", "--package", "xtask-equivalence", "--", "--summary"]).arg(&path);
     let status = cargo.status().context("cargo cannot be run")?;
-    ensure!(status.success(), "the check of equivalence did not run");
+    ensure!(status.success(), "the equivalence check did not run");
     let file = File::open(&path).with_context(|| format!("cannot read {}", path.display()))?;
-    serde_json::from_reader(file).with_context(|| format!("{}: no summary", path.display()))
+    serde_json::from_reader(file).with_context(|| format!("{}: not a summary", path.display()))
 }
 
 /// Prints it.

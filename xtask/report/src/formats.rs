@@ -6,10 +6,10 @@ use xtask_common::Grid;
 
 use crate::golden::{self, Comparison};
 
-/// By which it is asked for alone.
+/// The name by which it can be selected.
 pub const ID: &str = "formats";
 
-/// Compares all files that there are answers for, in the lanes of the best backend.
+/// Compares all files for which there are answers, in the lanes of the best backend.
 ///
 /// # Errors
 /// As [`golden::compare`].
@@ -17,7 +17,7 @@ pub fn compare() -> anyhow::Result<Vec<Comparison>> {
     golden::compare(Backend::best().fused())
 }
 
-/// The table; none where it was not asked for.
+/// The table; `None` if it was not requested.
 pub fn grids(comparisons: Option<&[Comparison]>) -> Vec<Grid> {
     let grid = |comparisons: &[Comparison]| {
         Grid::new(

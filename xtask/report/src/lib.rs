@@ -1,4 +1,5 @@
-//! What the report has beside the tables of the paper: formats, energy, samplers, pictures, equivalence, and the page.
+//! What the report has in addition to the tables of the paper: formats, energy, samplers, pictures, equivalence, and
+//! the page.
 #![forbid(unsafe_code)]
 
 mod bars;
@@ -24,7 +25,7 @@ use golden::Comparison;
 use pictures::Pictures;
 use samplers::SamplerCost;
 
-/// All that is shown, and the document in `report.json`.
+/// Everything that is shown, and the document in `report.json`.
 #[derive(Debug, Serialize)]
 struct Report {
     machine: Machine,
@@ -48,8 +49,8 @@ impl Report {
     }
 }
 
-/// Measures what is no table, prints it, has the backends compared, and writes the page with the tables that were measured
-/// before.
+/// Measures everything except the tables, prints it, has the backends compared, and writes the page with the tables
+/// that were measured before.
 ///
 /// # Errors
 /// If there are no tables, a contender's values are wrong, or a file cannot be read or written.
@@ -71,7 +72,7 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
     let mut report =
         Report { machine, quick: options.quick, rows, equivalence: None, formats, energy, samplers, pictures };
     report.grids().iter().for_each(Grid::print);
-    // Compiling that takes as long as all figures, so it comes after them.
+    // Compiling that takes as long as measuring all figures, so it comes after them.
     report.equivalence = options.is_asked(equivalence::ID).then(|| equivalence::summary(&options.out)).transpose()?;
     if let Some(summary) = &report.equivalence {
         equivalence::print(summary);

@@ -59,7 +59,7 @@ fn heading(report: &Report) -> String {
     text
 }
 
-/// The figures to take away: the fastest backend on incoherent input.
+/// The figures to remember: the fastest backend on incoherent input.
 fn cards(all: &[Row]) -> String {
     let mut cards = String::new();
     for (id, what) in [("iso", "isotropic table"), ("aniso", "anisotropic table")] {
@@ -119,7 +119,7 @@ fn printed(paper: &PaperTable) -> String {
     )
 }
 
-/// One question: what came out in a sentence, the bars, and all figures.
+/// One question: the outcome in a sentence, the bars, and all figures.
 fn answer(all: &[Row], question: &Question, paper: Option<&PaperTable>) -> String {
     let of_question = || all.iter().filter(|row| row.id == question.id);
     let baselines = rows::distinct(of_question(), |row| &row.baseline);
@@ -153,7 +153,7 @@ fn answer(all: &[Row], question: &Question, paper: Option<&PaperTable>) -> Strin
     text + &figures(all, question, &baselines, paper)
 }
 
-/// All times and ratios of a question; the paper's on top.
+/// All times and ratios of a question, with the paper's on top.
 fn figures(all: &[Row], question: &Question, baselines: &[&str], paper: Option<&PaperTable>) -> String {
     let find =
         |input: Input, backend: &str, baseline: &str| rows::find(all, question.id, input.name(), backend, baseline);

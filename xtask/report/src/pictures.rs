@@ -1,4 +1,4 @@
-//! What the lanes are worth in whole pictures: frames of a scene of many measured materials, and the rays alone.
+//! What the lanes gain in whole pictures: frames of a scene of many measured materials, and the rays alone.
 
 mod packets;
 mod scene;
@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use packets::Packets;
 
-/// By which it is asked for alone.
+/// The name by which it can be selected.
 pub const ID: &str = "pictures";
 
 /// All figures of the section.
@@ -22,11 +22,11 @@ pub struct Pictures {
     materials: usize,
     /// Triangles of the scene.
     triangles: usize,
-    /// One a backend, scalar first.
+    /// One per backend, scalar first.
     frames: Vec<Frame>,
-    /// Time of a frame on one thread over that on two, on the last backend; `None` on a machine of one core.
+    /// Time of a frame on one thread divided by that on two, on the last backend; `None` on a machine of one core.
     threads: Option<f64>,
-    /// Four-ray packets against the scalar instance of the same code; none on a machine without SSE2.
+    /// Four-ray packets against the scalar instance of the same code; empty on a machine without SSE2.
     packets: Vec<Packets>,
 }
 
@@ -39,14 +39,14 @@ struct Frame {
     material_share: f64,
     /// Nanoseconds in a material for each pair of directions or drawing, after at least one bounce.
     bounced_nanoseconds: f64,
-    /// The share of lanes in use while materials were evaluated, by the number of surfaces met before.
+    /// The share of lanes in use while materials were evaluated, by the number of surfaces hit before.
     lanes_in_use: Vec<f64>,
 }
 
 /// Renders and traces.
 ///
 /// # Errors
-/// Where the fixture of the cloth cannot be read.
+/// If the fixture of the cloth cannot be read.
 pub fn measure(quick: bool) -> anyhow::Result<Pictures> {
     let rounds = if quick { 3 } else { 12 };
     let mut backends = vec![Backend::named("scalar")?];
@@ -84,7 +84,7 @@ pub fn measure(quick: bool) -> anyhow::Result<Pictures> {
 /// Samples of the frames that threads share: enough work that the last tile of each is a small part of it.
 const SHARED: u32 = 8;
 
-/// How long a frame took, and what for.
+/// How long a frame took, and where the time went.
 fn picture(world: &World, settings: Settings) -> (Duration, Stats) {
     let begun = Instant::now();
     let (_, stats) = render(world, &settings, Film::new(settings.window), |_| true).expect("a camera and a window");

@@ -14,7 +14,7 @@ use serde::Serialize;
 
 use xtask_common::{Grid, times};
 
-/// By which it is asked for alone.
+/// The name by which it can be selected.
 pub const ID: &str = "samplers";
 
 /// Bins of the MERL database: half angle, difference angle, azimuth of the difference.
@@ -31,14 +31,14 @@ pub struct SamplerCost {
     pub sampler_bytes: usize,
     /// Seconds to build it on one core, the least of a few times.
     pub seconds: f64,
-    /// How many seconds it may take.
+    /// The goal for that, in seconds.
     pub goal: f64,
 }
 
 /// Builds the samplers of tables of the paper's sizes and, unless `quick`, of a material of MERL's size.
 ///
 /// # Errors
-/// Where there is no sampler.
+/// If there is no sampler.
 pub fn all(quick: bool) -> anyhow::Result<Vec<SamplerCost>> {
     let mut costs = vec![
         cost("7 × 8 × 13", Document::new(tables::isotropic()), (0.05, 20))?,
@@ -94,5 +94,5 @@ pub fn grids(costs: &[SamplerCost]) -> Vec<Grid> {
     )]
 }
 
-const READING: &str = "What a sampler takes beside its material, at most one and a half times as much where the material is not tiny, and how long it \
+const READING: &str = "What a sampler takes in addition to its material, at most one and a half times as much unless the material is tiny, and how long it \
 takes to build.";

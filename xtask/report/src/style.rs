@@ -1,4 +1,4 @@
-//! The style sheet of the page: one column on a phone, pictures in pairs where there is room, light and dark.
+//! The style sheet of the page: one column on a phone, pictures in pairs if there is room, light and dark.
 
 /// All of it.
 pub const CSS: &str = r"

@@ -15,14 +15,14 @@ use xtask_common::Steps;
 #[derive(Parser, Debug)]
 #[command(bin_name = "cargo xtask sweep")]
 struct Args {
-    /// Look at each N-th float only
+    /// Check only every N-th float
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     step: u32,
 }
 
-/// Bits of 1: the floats of `[0, 1]` are those with bits from 0 to these.
+/// The bits of 1: the floats of `[0, 1]` are those whose bits are at most these.
 const ONE: u32 = 1f32.to_bits();
-/// Arguments a chunk.
+/// Arguments per chunk.
 const CHUNK: usize = 1 << 14;
 
 /// The functions that are swept, with what is stated about each.
@@ -40,7 +40,7 @@ const NONE: Errors = [Bound { abs: 0.0, ulp: 0.0 }; FUNCTIONS.len()];
 /// Sweeps, with a progress bar, and prints a table.
 ///
 /// # Errors
-/// Where an error is above its stated bound.
+/// If an error is above its stated bound.
 fn main() -> anyhow::Result<()> {
     let args = Args::parse();
     let forms: Vec<Backend> = Backend::available()
@@ -122,7 +122,7 @@ struct Chunk {
     out: Vec<f32>,
 }
 
-/// A true result, and the `f32` steps a unit there, 0 where no ULP bound is given.
+/// A true result, and the number of `f32` steps per unit there, 0 if no ULP bound is given.
 #[derive(Clone, Copy)]
 struct Truth {
     value: f64,

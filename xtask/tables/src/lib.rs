@@ -43,16 +43,16 @@ pub struct Options {
     pub out: PathBuf,
 }
 
-/// What is no question about speed.
+/// The sections that are not about speed.
 pub const SECTIONS: [&str; 5] = ["formats", "energy", "samplers", "pictures", "equivalence"];
 
 impl Options {
-    /// Whether a section is asked for.
+    /// Whether a section is requested.
     pub fn is_asked(&self, section: &str) -> bool {
         self.only.is_empty() || self.only.iter().any(|asked| asked == section)
     }
 
-    /// The questions that are asked for; `None` if it is all of them.
+    /// The questions that are requested; `None` for all of them.
     fn questions(&self) -> Option<Vec<&str>> {
         let is_question = |id: &&str| !SECTIONS.contains(id);
         (!self.only.is_empty()).then(|| self.only.iter().map(String::as_str).filter(is_question).collect())
@@ -81,7 +81,8 @@ impl Tables {
     pub fn read(out: &Path) -> anyhow::Result<Self> {
         let path = file(out);
         let opened = File::open(&path).with_context(|| format!("cannot read {}", path.display()))?;
-        serde_json::from_reader(BufReader::new(opened)).with_context(|| format!("{}: no tables", path.display()))
+        serde_json::from_reader(BufReader::new(opened))
+            .with_context(|| format!("{}: not tables of figures", path.display()))
     }
 }
 

@@ -11,22 +11,22 @@ use xtask_common::Steps;
 use super::rows::Row;
 use super::sections::{self, Section};
 
-/// Queries a run, but where a question has a number of its own.
+/// Queries per run, unless a question has its own number.
 ///
-/// A run of the slowest contender has to fit between two interruptions for its shortest time to mean anything: some
-/// milliseconds. The rest is in the number of rounds.
+/// A run of the slowest contender must fit between two interruptions, some milliseconds apart, for its shortest time to
+/// mean anything. More rounds do the rest.
 const COUNT: usize = 1 << 13;
 
 /// For figures to be kept.
 pub const FULL: Rounds = Rounds { most: 400, least: 10, time: Duration::from_secs(5) };
-/// For a look, and for continuous integration.
+/// For a quick look, and for continuous integration.
 pub const QUICK: Rounds = Rounds { most: 40, least: 3, time: Duration::from_millis(500) };
 
-/// Verifies everybody's values and times the questions on both inputs, those named or all, section by section: those of
-/// the paper come first. Each section is `shown` as soon as it is measured.
+/// Verifies all values and times the questions on both inputs, those named or all, section by section: those of the
+/// paper come first. Each section is `shown` as soon as it is measured.
 ///
 /// # Errors
-/// If there is no question of a name, or values are wrong; nothing of that section is timed then.
+/// If a name is not that of a question, or values are wrong; nothing of that section is then timed.
 pub fn all(rounds: Rounds, only: Option<&[&str]>, shown: impl Fn(&Section, &[Row])) -> anyhow::Result<Vec<Row>> {
     if let Some(unknown) = only.into_iter().flatten().find(|id| Question::named(id).is_none()) {
         let ids: Vec<_> = QUESTIONS.iter().map(|question| question.id).collect();

@@ -20,12 +20,12 @@ pub struct PaperTable {
 }
 
 impl PaperTable {
-    /// Nanoseconds of one, without and with SSE, from the longest run.
+    /// Nanoseconds each, without and with SSE, from the longest run.
     pub fn nanoseconds(&self) -> [f64; 2] {
         [self.scalar[2], self.sse[2]].map(|seconds| number(seconds) / self.most * 1e9)
     }
 
-    /// How many times the speed SSE gave in the longest run.
+    /// The speed-up by SSE in the longest run.
     pub fn ratio(&self) -> f64 {
         number(self.speed_up[2])
     }
@@ -83,7 +83,7 @@ pub const ANISOTROPIC: PaperTable = PaperTable {
 mod tests {
     use super::*;
 
-    /// The printed speed-ups are the printed times divided, so that a slip of the pen above would show.
+    /// The printed speed-ups are the ratios of the printed times, so a typing error above would show.
     #[test]
     fn speed_ups_follow_from_the_times() {
         for table in [ACOS, SEARCH, ISOTROPIC, ANISOTROPIC] {

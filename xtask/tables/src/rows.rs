@@ -7,17 +7,17 @@ use serde::{Deserialize, Serialize};
 pub struct Row {
     /// Of the question, as in `lobe_benches::contest::QUESTIONS`.
     pub id: String,
-    /// Which backend, `-strict` where that is a form of its own.
+    /// Which backend, with `-strict` if that is a separate form.
     pub backend: String,
     /// `coherent` or `incoherent`.
     pub input: String,
     /// What it is compared with.
     pub baseline: String,
-    /// Nanoseconds a query.
+    /// Nanoseconds per query.
     pub ns: f64,
-    /// Nanoseconds a query of the baseline, in the same run.
+    /// Nanoseconds per query of the baseline, in the same run.
     pub baseline_ns: f64,
-    /// How many times the speed of the baseline: `baseline_ns / ns`.
+    /// How many times as fast as the baseline: `baseline_ns / ns`.
     pub ratio: f64,
 }
 
@@ -42,7 +42,7 @@ pub fn distinct<'a>(rows: impl Iterator<Item = &'a Row>, column: fn(&Row) -> &st
     names
 }
 
-/// A backend's name as it is shown.
+/// A backend's displayed name.
 pub fn shown(backend: &str) -> String {
     backend.replace('-', " ")
 }

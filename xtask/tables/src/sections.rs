@@ -1,4 +1,4 @@
-//! Which questions stand together on the page, and beside which table of the paper.
+//! Which questions are shown together on the page, and with which table of the paper.
 
 use lobe_benches::contest::{QUESTIONS, Question};
 

@@ -7,7 +7,7 @@ use xtask_common::{Machine, nanoseconds, times};
 use super::rows::{self, Row};
 use super::sections::Section;
 
-/// Says where the figures are from.
+/// Prints where the figures come from.
 pub fn heading(machine: &Machine) {
     println!("{}, {} cores, {}", machine.cpu, machine.cores, machine.compiler);
     if let Some(load) = machine.load.filter(|load| *load > 1.0) {

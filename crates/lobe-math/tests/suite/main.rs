@@ -20,7 +20,7 @@ enum Function {
     FifthRoot,
 }
 
-/// Applies a function of two arguments to slices whose length is a multiple of the lanes.
+/// Applies a function of two arguments to slices whose length is a multiple of the number of lanes.
 struct Apply<'a>(Function, &'a [f32], &'a [f32], &'a mut [f32]);
 
 impl Kernel for Apply<'_> {
@@ -61,7 +61,7 @@ fn unit_interval() -> Vec<f32> {
     xs
 }
 
-/// Directions all around, of very different lengths.
+/// Vectors in all directions, of very different lengths.
 fn directions() -> (Vec<f32>, Vec<f32>) {
     (0..1 << 16)
         .map(|i| {
@@ -85,11 +85,11 @@ fn check(backend: &str, name: &str, bound: Bound, pairs: impl Iterator<Item = (f
     println!("{backend:>10} {name:<10} abs {abs:.3e} ulp {ulp:.2}");
     assert!(abs <= bound.abs, "{backend} {name}: absolute error {abs:e} over {:e}", bound.abs);
     assert!(ulp <= bound.ulp, "{backend} {name}: {ulp} ULP over {}", bound.ulp);
-    // A bound far above what happens would hide a regression.
-    assert!(abs >= bound.abs / 8.0, "{backend} {name}: absolute error {abs:e} is far under the stated {:e}", bound.abs);
+    // A bound far above the actual error would hide a regression.
+    assert!(abs >= bound.abs / 8.0, "{backend} {name}: absolute error {abs:e} is far below the stated {:e}", bound.abs);
 }
 
-/// What computes: a backend in one of its forms.
+/// What runs a function: a backend in one of its forms, or emulated lanes.
 struct On<'a> {
     name: &'a str,
     run: &'a dyn Fn(Apply<'_>),

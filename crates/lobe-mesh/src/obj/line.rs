@@ -16,7 +16,7 @@ pub(super) struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    /// A line without its comment. Bytes that are no text end it: they can only be in names and comments.
+    /// A line without its comment. Bytes that are not text end it: they can only be in names and comments.
     pub fn new(path: &'a Path, number: usize, bytes: &'a [u8]) -> Self {
         let content = bytes.split(|&byte| byte == b'#').next().unwrap_or_default();
         let text = content.utf8_chunks().next().map_or("", |chunk| chunk.valid());

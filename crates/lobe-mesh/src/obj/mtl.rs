@@ -62,14 +62,14 @@ fn entry(material: &mut Material, keyword: &str, line: &mut Line<'_>) -> Result<
         "Ni" => material.refraction = Some(line.numbers::<1>("an index of refraction")?[0]),
         "d" => material.opacity = Some(line.numbers::<1>("an opacity")?[0]),
         "Tr" => material.opacity = Some(1.0 - line.numbers::<1>("a transparency")?[0]),
-        // Options come first, so the name is the last word. Names with spaces cannot be told from options.
+        // Options come first, so the name is the last word. Names with spaces cannot be distinguished from options.
         "map_Kd" => material.diffuse_map = line.name()?.split(' ').next_back().map(Into::into),
         _ => {}
     }
     Ok(())
 }
 
-/// RGB; one number stands for three.
+/// RGB; a single number means three equal ones.
 fn colour(line: &mut Line<'_>) -> Result<[f32; 3], FormatError> {
     let [red] = line.numbers("RGB")?;
     match line.word() {

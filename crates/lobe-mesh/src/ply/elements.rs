@@ -70,7 +70,7 @@ impl PropertyAccess for Face {
 
     fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
         match (name, property) {
-            // Indices that are not whole or negative leave a face without corners, which is told with its number.
+            // Indices that are not whole or negative leave a face without corners, which is reported with its number.
             ("vertex_indices" | "vertex_index", property) => self.corners = property.to_u32_list().unwrap_or_default(),
             ("group", Property::UChar(group)) => self.group = group.into(),
             ("group", Property::UInt(group)) => self.group = group,

@@ -87,7 +87,7 @@ impl Weave {
         middle + section * (self.roundness + ridge)
     }
 
-    /// `true` where yarn number `yarn` is above the `crossing`-th yarn of the other family.
+    /// `true` if yarn number `yarn` is above the `crossing`-th yarn of the other family.
     fn on_top(&self, thread: Thread, yarn: f64, crossing: f64) -> bool {
         // Symmetric in warp and weft, so that where one is on top the other is not.
         let warp_on_top = (yarn + crossing).rem_euclid(f64::from(self.period())) < f64::from(self.over);

@@ -13,14 +13,14 @@ pub const MERL: [usize; 3] = [90, 90, 180];
 /// What a bin holds that has no directions above the surface.
 const NOT_MEASURED: f32 = -1.0;
 
-/// Measures an isotropic surface in the middle of each bin; where that is below the horizon, at those of eight points about
-/// it that are not. Negative values become 0, since they mean "not measured" here.
+/// Measures an isotropic surface in the middle of each bin; if that is below the horizon, at those of eight points
+/// about it that are not. Negative values become 0, since they mean "not measured" here.
 ///
-/// Half a turn of `phi_d` stands for the whole one, so that a bin is the mean of a pair of directions and its exchange.
-/// Values of `theta_h` are shared out over the threads of rayon; `progress` is called after each of them.
+/// Half a turn of `phi_d` represents the whole turn, so that a bin is the mean of a pair of directions and its
+/// exchange. Values of `theta_h` are shared out over the threads of rayon; `progress` is called after each of them.
 ///
 /// # Errors
-/// [`Invalid`] where the channels are not RGB, there are no bins, or a value is not finite.
+/// [`Invalid`] if the channels are not RGB, there are no bins, or a value is not finite.
 pub fn measure(
     surface: &dyn Surface,
     bins: [usize; 3],

@@ -12,14 +12,14 @@ use crate::vec3::Vec3;
 /// Directions in a patch: as many rows of polar angle, and of azimuth.
 const ROWS: usize = 4;
 
-/// Measures a block of a sheet, a matrix a channel: each value is the mean of `f` over 16 directions of the one patch and 16
-/// of the other, which stand for equal projected solid angles. So the flux from patch to patch is right, and a lobe that
-/// is narrower than a patch is spread over it.
+/// Measures a block of a sheet, one matrix per channel: each value is the mean of `f` over 16 directions of the one
+/// patch and 16 of the other, which represent equal projected solid angles. So the flux from patch to patch is right,
+/// and a lobe that is narrower than a patch is spread over it.
 ///
 /// Incident patches are shared out over the threads of rayon; `progress` is called after each of them.
 ///
 /// # Errors
-/// [`KlemsError::ValueNotFinite`] where the surface has a value that is not finite.
+/// [`KlemsError::ValueNotFinite`] if the surface has a value that is not finite.
 pub fn measure(
     surface: &dyn Surface,
     [incident, exit]: [&AngleBasis; 2],

@@ -1,9 +1,9 @@
 //! Surfaces in the adaptive parameterisation of the EPFL database.
 //!
 //! J. Dupuy and W. Jakob, *An adaptive parameterization for efficient material acquisition and rendering*, ACM TOG 37(6),
-//! 2018. The surface is taken for a crowd of small mirrors whose normals are found from the light that comes straight
-//! back; the distribution of the normals that each light sees warps the unit square, so that equal steps on it lead to
-//! viewers who receive about equal shares of the light. What is left in the images is smooth.
+//! 2018. The surface is treated as a collection of small mirrors whose normals are found from the light that comes
+//!       straight back; the distribution of the normals that each light sees warps the unit square, so that equal steps
+//!       on it lead to viewers who receive about equal shares of the light. What is left in the images is smooth.
 
 use std::f64::consts::{PI, TAU};
 
@@ -47,8 +47,8 @@ impl Resolution {
 const LAST_THETA: f64 = 89.0 * PI / 180.0;
 /// Iterations for the distribution of normals; four leave an error below that of the images.
 const ITERATIONS: usize = 8;
-/// How much of the microfacets is taken for oriented at random, so that no direction is without: little, as values are
-/// smooth only where they are divided by the microfacets that they come from.
+/// The share of microfacets that are assumed to be oriented at random, so that no direction has none: little, as values
+/// are smooth only where they are divided by the microfacets that they come from.
 const RANDOM: f64 = 1e-4;
 /// How much of a warp is even over the square of zenith and azimuth. The microfacets alone would leave the directions
 /// about the normal, of which there are few, to a single row of texels.
@@ -61,7 +61,7 @@ const EVEN: f64 = 0.5;
 /// rayon; `progress` is called after each of them, and for each row of the microfacets.
 ///
 /// # Errors
-/// [`Invalid`] where the channels are neither RGB nor ascending wavelengths, the resolution is below its least, or a value
+/// [`Invalid`] if the channels are neither RGB nor ascending wavelengths, the resolution is below its least, or a value
 /// is not finite.
 pub fn measure(
     surface: &dyn Surface,
@@ -116,7 +116,7 @@ pub fn measure(
     })
 }
 
-/// The small mirrors that the surface is taken for.
+/// The small mirrors as which the surface is treated.
 struct Microfacets {
     /// Their distribution over the normals, in 1/sr; the integral weighted with the cosine is 1.
     ndf: Images,
@@ -151,7 +151,7 @@ impl Microfacets {
         let squares = |side: usize| positions(side).take(rows(side) * side).collect::<Vec<_>>();
 
         let normals: Vec<Vec3> = positions(side).map(|u| spherical(theta(u[0]), phi(u[1]))).collect();
-        // Area of the sphere that each node stands for: trapezoids.
+        // Area of the sphere that each node represents, by the trapezoidal rule.
         let step = 1.0 / (side - 1) as f64;
         let halved = |i: usize| if i == 0 || i == side - 1 { 0.5 * step } else { step };
         let areas: Vec<f64> =

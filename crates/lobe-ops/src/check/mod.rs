@@ -20,7 +20,7 @@ use grid::Grid;
 
 pub use finding::{Finding, Status, Thoroughness};
 
-/// Checks a file. `progress` is told the share that is done from time to time.
+/// Checks a file. `progress` is called from time to time with the share that is done.
 ///
 /// Knots that do not ascend and values that are NaN do not get this far: the reader refuses such a file and names the
 /// line.

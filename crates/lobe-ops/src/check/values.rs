@@ -22,7 +22,7 @@ pub(super) fn check(document: &Document) -> Vec<Finding> {
     findings
 }
 
-/// The numbers that stand for light, with the names of the parts; without those that mean a gap.
+/// The numbers that represent light, with the names of the parts, without those that mark a gap.
 fn numbers(document: &Document) -> Vec<(String, Vec<f32>)> {
     let mut numbers = Vec::new();
     for part in &document.parts {

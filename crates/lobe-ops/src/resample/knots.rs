@@ -62,7 +62,7 @@ pub const PROBES: usize = 100_000;
 ///
 /// On each axis to choose, the knot with the largest error is added until the error there is within its share of the
 /// bound. The multilinear interpolant is no further from the material than the sum of the errors of the axes, so equal
-/// shares are enough; more is tried first, as errors seldom meet. `progress` is told the share that is done.
+/// shares are enough; more is tried first, as errors seldom meet. `progress` is called with the share that is done.
 ///
 /// The result may miss the bound: see [`Chosen::error`]. Between the candidates nothing can be added, and a material
 /// that jumps, as a Klems matrix does, cannot be interpolated to any bound.

@@ -17,7 +17,7 @@ use crate::pairs::eval_pairs;
 use crate::{Aspect, OnBackend};
 
 /// Measures a material at every node of `knots`: sigma, psi, theta and phi in radians, as in [`specular::Data`].
-/// `progress` is told the share that is done from time to time.
+/// `progress` is called from time to time with the share that is done.
 ///
 /// A node below 3.4 degrees of elevation takes the value of the same azimuth a little higher (see [`lift`]): below the
 /// horizon there is no value, and a table needs one there to interpolate toward it.

@@ -39,7 +39,7 @@ impl fmt::Display for Figure {
     }
 }
 
-/// One figure as an SVG that stands alone: on white, `view.width` pixels wide, readable at any size.
+/// One figure as a self-contained SVG: on white, `view.width` pixels wide, readable at any size.
 pub fn draw(subject: &Subject, view: &View, figure: Figure, progress: &dyn Progress) -> String {
     match figure {
         Figure::Curves => cartesian::draw(subject, view, progress),

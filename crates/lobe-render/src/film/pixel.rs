@@ -13,7 +13,7 @@ pub struct Sample<T: Transport = Rgb> {
 }
 
 impl<T: Transport> Sample<T> {
-    /// A path that met nothing.
+    /// A path that hit nothing.
     pub const EMPTY: Self = Sample { radiance: T::Radiance::ZERO, first_hit: FirstHit::NONE };
 }
 
@@ -113,7 +113,7 @@ impl<T: Transport> Pixel<T> {
         self.normal.map(|sum| mean(sum as f64 * SURFACE_UNIT, u64::from(self.samples)))
     }
 
-    /// Distance to the nearest surface that was met; infinite if there is none.
+    /// Distance to the nearest surface that was hit; infinite if there is none.
     pub fn depth(&self) -> f32 {
         f32::from_bits(self.depth)
     }

@@ -28,7 +28,7 @@ impl Default for AmbientOcclusion {
 
 impl Stages for AmbientOcclusion {
     const NAME: &'static str = "ao";
-    const SUMMARY: &'static str = "Ambient occlusion: the share of directions that meet no surface";
+    const SUMMARY: &'static str = "Ambient occlusion: the share of directions that hit no surface";
 
     fn read(table: &Node<'_, '_>) -> Result<Self, SceneError> {
         let default = AmbientOcclusion::default();

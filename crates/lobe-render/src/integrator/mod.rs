@@ -83,7 +83,7 @@ pub(crate) trait Stages: Clone + Debug + Default + Send + Sync + 'static {
     fn follow<T: Transport>(&self, wave: &mut Wavefront<'_, T>);
 }
 
-/// An integrator that a name stands for.
+/// An integrator that a name denotes.
 #[derive(Clone, Copy, Debug)]
 pub struct IntegratorSpec {
     /// The name in scene files and on the command line.

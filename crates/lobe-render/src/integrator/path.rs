@@ -11,7 +11,7 @@ use crate::wavefront::{DeltaChoice, Keep, LightChoice, NextEvent, Scatter, Wavef
 /// importance sampling), and paths that carry little end by chance (Russian roulette).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Path {
-    /// How many surfaces a path may meet.
+    /// The most surfaces that a path may hit.
     pub depth: u32,
     /// The most that one sample may add after the first surface, per channel; infinite for no limit. A limit takes away
     /// bright dots, and a little light with them.

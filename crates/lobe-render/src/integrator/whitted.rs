@@ -11,7 +11,7 @@ use crate::wavefront::{DeltaChoice, Keep, LightChoice, NextEvent, Scatter, Wavef
 /// Improved Illumination Model for Shaded Display".
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Whitted {
-    /// How many surfaces a ray may meet.
+    /// The most surfaces that a ray may hit.
     pub depth: u32,
 }
 

@@ -228,7 +228,7 @@ impl<S: Channels> Environment<S> {
         LightSample { wi, distance: infinite, radiance: self.interpolated(lanes, place), pdf, valid }
     }
 
-    /// The point of the unit square that stands for a direction.
+    /// The point of the unit square that represents a direction.
     fn place(&self, [x, y, z]: Vec3) -> (f32, f32) {
         let u = libm::atan2f(x, -z) / TAU + 0.5 - self.turn;
         let u = u - u.floor();

@@ -159,7 +159,7 @@ pub fn read_partial(path: &Path) -> Result<(Film, Meta), PictureError> {
     let most = meta.samples.end - meta.samples.start;
     for (at, &samples) in whole("samples")?.iter().enumerate() {
         if samples > most {
-            return Err(wrong(format!("{samples} samples of a pixel where {:?} were rendered", meta.samples)));
+            return Err(wrong(format!("{samples} samples of a pixel, but {:?} were rendered", meta.samples)));
         }
         film.pixels_mut()[at].samples = samples;
     }

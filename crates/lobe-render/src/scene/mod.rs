@@ -94,7 +94,7 @@ impl Scene {
         let bytes = std::fs::read(path).map_err(|error| whole(error.to_string()))?;
         let text = String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();
-            whole(format!("found byte {} that is no UTF-8; expected text", at))
+            whole(format!("found byte {} that is not UTF-8; expected text", at))
         })?;
         let folder = path.parent().unwrap_or(Path::new(""));
         Scene::parse(path, folder, &text, backend)

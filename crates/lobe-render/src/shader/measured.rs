@@ -99,7 +99,7 @@ impl MeasuredShader {
         let transmits = Aspect::ALL.into_iter().any(|aspect| aspect != Aspect::REFLECTION && material.holds(aspect));
         let conversion = <Rgb as Transport>::Conversion::of(material.channels());
         let sampler = Sampler::new(Arc::new(material), &SamplerOptions::default())?;
-        // Whether there are mirrors beside the values is the sampler's business; samples of them say so.
+        // Whether there are mirrors in addition to the values is up to the sampler; their samples are marked.
         let lobes = Lobes { values: true, delta: true, transmits };
         let mut shader = MeasuredShader { sampler, conversion, lobes, albedo: [0.0; 3] };
         shader.albedo = albedo_of::<Rgb>(&shader);
@@ -140,7 +140,7 @@ impl Shader<Rgb> for MeasuredShader {
         times_cosine::<Rgb>(f, wi);
     }
 
-    /// Mirrors that were measured beside the values are sampled too: their density is infinite.
+    /// Mirrors that were measured in addition to the values are sampled too: their density is infinite.
     fn sample(&self, mode: TransportMode, wo: &[Vec3], u: &[[f32; 2]], out: Sampled<'_, Rgb>, scratch: &mut Scratch) {
         let Sampled { wi, weight, pdf } = out;
         if let Some(values) = self.conversion.in_place(weight) {

@@ -26,7 +26,7 @@ use crate::vectors::{add, dot, scale, select, sub};
 pub(crate) struct NextEvent {
     /// The class of the rays that have arrived.
     pub class: RayClass,
-    /// How many surfaces the paths have met before this one.
+    /// How many surfaces the paths have hit before this one.
     pub depth: u32,
     pub lights: LightChoice,
     /// Whether samples are weighted against directions that materials sample (multiple importance sampling).
@@ -196,7 +196,7 @@ impl<T: Transport> Wavefront<'_, T> {
                 let share = if event.weighted { power_heuristic(sample.pdf[at], pdf) } else { 1.0 };
                 let radiance = T::radiance(T::apply(arrived.throughput, f), sample.emitted(at));
                 let radiance = radiance.map(|value| clamped(value * share, event.limit));
-                // NaN must go on, to be counted.
+                // NaN must continue, to be counted.
                 let some = radiance.as_ref().iter().fold(false, |some, x| some | (*x != 0.0));
                 let ray = Ray { origin: vector(&sample.origin, at), direction: vector(&sample.direction, at) };
                 out.write(ray, sample.t_max[at], ShadowRay { slot: arrived.slot, radiance }, some);

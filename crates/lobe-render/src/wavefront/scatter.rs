@@ -20,7 +20,7 @@ use crate::vectors::{dot, scale, sub};
 /// How paths are scattered.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scatter {
-    /// How many surfaces the path has met before this one.
+    /// How many surfaces the path has hit before this one.
     pub depth: u32,
     /// What the path carries.
     pub mode: TransportMode,

@@ -12,7 +12,7 @@ use crate::vec3::Vec3;
 pub(crate) enum Origin {
     /// On the triangles.
     Surface,
-    /// On the smooth surface that the triangles stand for, as shadow rays do.
+    /// On the smooth surface that the triangles approximate, as shadow rays do.
     Lifted,
 }
 

@@ -127,7 +127,7 @@ pub fn settings(size: [u32; 2], samples: u32, integrator: Arc<dyn Integrator>) -
 
 pub fn picture(world: &World, settings: &Settings) -> Film {
     let (film, stats) = render(world, settings, Film::new(settings.window), |_| true).unwrap();
-    assert_eq!(stats.invalid, 0, "samples that are no numbers");
+    assert_eq!(stats.invalid, 0, "samples that are not numbers");
     film
 }
 

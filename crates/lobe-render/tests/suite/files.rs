@@ -44,7 +44,7 @@ fn parts_merge_to_the_same_bytes_as_the_whole() {
     write_exr(&file("merged.exr"), &film, &said, false).unwrap();
     assert!(std::fs::read(file("merged.exr")).unwrap() == std::fs::read(file("whole.exr")).unwrap());
 
-    // A picture without sums is no part, and one of another scene does not fit.
+    // A picture without sums is not a part, and one of another scene does not fit.
     let error = merge(&[file("whole.exr")], false).unwrap_err().to_string();
     assert!(error.contains("whole.exr") && error.contains("sum.R.0"), "{error}");
     let (part, said) = read_partial(&parts[0]).unwrap();

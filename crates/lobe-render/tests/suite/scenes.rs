@@ -144,7 +144,7 @@ fn meshes_with_bad_numbers_are_errors() {
     // Far beyond what rays can reach.
     let error = scene("v 0 0 0\nv 1e30 0 0\nv 0 0 1\nf 1 2 3\n").expect_err("a huge triangle");
     assert!(error.contains("object[0]"), "{error}");
-    // A degenerate triangle is no error, but no lamp.
+    // A degenerate triangle is not an error, but it does not emit.
     assert!(scene("v 0 0 0\nv 1 0 0\nv 1 0 0\nf 1 2 3\n").is_ok());
     let text = GOOD.replacen("size = 4", "size = 4\nradiance = 5", 1);
     assert!(parse(&text).is_ok());

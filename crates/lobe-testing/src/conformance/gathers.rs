@@ -1,4 +1,4 @@
-//! Gathers, with indices inside, outside and far outside of tables of every small length.
+//! Gathers, with indices inside, outside and far outside tables of every small length.
 
 use half::f16;
 use lobe_lane::{Block, Kernel, Lanes};
@@ -41,7 +41,7 @@ impl Kernel for Gathers {
     }
 }
 
-/// An index outside, also a negative one, reads the last entry.
+/// An index out of range, even a negative one, reads the last entry.
 fn clamped(index: i32, last: usize) -> usize {
     usize::try_from(index).map_or(last, |index| index.min(last))
 }

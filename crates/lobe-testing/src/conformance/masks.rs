@@ -1,4 +1,4 @@
-//! Masks, and what makes values from nothing or takes single lanes.
+//! Masks, and operations that create values or extract single lanes.
 
 use lobe_lane::{Floats as _, Ints as _, Kernel, Lanes, MAX_LANES, Mask as _};
 
@@ -23,7 +23,7 @@ impl Kernel for Masks {
     }
 }
 
-/// A mask with lane `i` set as bit `i` of `bits` is.
+/// A mask whose lane `i` is set if bit `i` of `bits` is.
 #[inline(always)]
 fn mask<L: Lanes>(lanes: L, bits: u32) -> L::M {
     let mut flags = [0; MAX_LANES];
@@ -35,7 +35,7 @@ fn mask<L: Lanes>(lanes: L, bits: u32) -> L::M {
     lanes.load_int(&flags).eq(lanes.splat_int(1))
 }
 
-/// Every bit pattern of up to eight lanes, and a good part of those of sixteen.
+/// Every bit pattern of up to eight lanes, and many of those of sixteen.
 fn all_bits(lanes: usize) -> impl Iterator<Item = u32> + Clone {
     (0..1u32 << lanes).step_by(if lanes > 8 { 37 } else { 1 }).chain([(1u32 << lanes) - 1])
 }
@@ -102,7 +102,7 @@ fn extractions<L: Lanes>(lanes: L) {
     }
 }
 
-/// For every mask, over lanes that agree and lanes of which one differs.
+/// For every mask, over lanes that all agree and over lanes of which one differs.
 #[inline(always)]
 fn uniform<L: Lanes>(lanes: L) {
     for odd in 0..=L::LANES {

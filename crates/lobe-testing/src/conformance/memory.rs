@@ -5,7 +5,7 @@ use lobe_lane::{Floats as _, Kernel, Lanes, MAX_LANES};
 use super::{floats, ints};
 use crate::patterns;
 
-/// A float that no test writes, to see what a store leaves alone.
+/// A float that no test writes, to see what a store leaves untouched.
 const UNTOUCHED: f32 = -12345.5;
 /// The same for integers.
 const UNTOUCHED_INT: i32 = 0x0bad_cafe;
@@ -23,7 +23,7 @@ impl Kernel for Memory {
         partial(lanes);
         keeps_bits(lanes);
         vectors(lanes);
-        // Nothing to see, but it must not touch what it is given.
+        // There is no effect to see, but it must leave its argument untouched.
         for at in [0, 1, 63, 1 << 20, usize::MAX] {
             lanes.prefetch::<4, f32>(&[1.0; 3], at);
             lanes.prefetch::<1, [u64; 9]>(&[], at);
@@ -48,7 +48,7 @@ fn whole<L: Lanes>(lanes: L) {
     }
 }
 
-/// Every length from nothing to more than a register.
+/// Every length from zero to more than a register.
 #[inline(always)]
 fn partial<L: Lanes>(lanes: L) {
     let source: Vec<f32> = (1..=MAX_LANES + 3).map(|i| i as f32).collect();
@@ -71,7 +71,7 @@ fn partial<L: Lanes>(lanes: L) {
     }
 }
 
-/// Loads and stores keep every bit, those of NaN included.
+/// Loads and stores keep every bit, including those of NaN.
 #[inline(always)]
 fn keeps_bits<L: Lanes>(lanes: L) {
     let (xs, _) = patterns::pairs(&patterns::floats());
@@ -97,7 +97,7 @@ fn vectors<L: Lanes>(lanes: L) {
             assert_eq!(found.map(|column| column[lane]), source[at + lane], "vector {lane} at {at}");
         }
     }
-    // The last vectors of a slice, behind which nothing may be read.
+    // The last vectors of a slice, beyond which nothing may be read.
     let exact: Vec<[f32; 3]> = source[..L::LANES].to_vec();
     let [_, _, z] = lanes.load_xyz(&exact);
     assert_eq!(floats(lanes, z)[L::LANES - 1], exact[L::LANES - 1][2]);

@@ -19,8 +19,8 @@ pub use memory::Memory;
 pub use short::refuses_short_slices;
 pub use texels::Texels;
 
-/// Defines the tests of a backend: a module per token, which is an `Option` as detection gives it. A token that this CPU
-/// lacks says so.
+/// Defines the tests of a backend: a module per token, which is an `Option` as returned by detection. A backend that
+/// this CPU lacks is reported as skipped.
 ///
 /// ```
 /// lobe_testing::conformance! {
@@ -73,7 +73,7 @@ impl<K: lobe_lane::Kernel<Out = ()>> Check for Run<K> {
     }
 }
 
-/// Gives slices that are too short.
+/// Passes slices that are too short.
 #[doc(hidden)]
 #[derive(Clone, Copy)]
 pub struct Short;
@@ -96,7 +96,7 @@ pub fn on<L: Lanes>(token: Option<L>, test: &str, check: impl Check + Copy) {
     }
 }
 
-/// The lanes of `x`, zeros behind them.
+/// The lanes of `x`, followed by zeros.
 #[inline(always)]
 fn floats<L: Lanes>(lanes: L, x: L::F) -> [f32; MAX_LANES] {
     let mut buffer = [0.0; MAX_LANES];
@@ -104,7 +104,7 @@ fn floats<L: Lanes>(lanes: L, x: L::F) -> [f32; MAX_LANES] {
     buffer
 }
 
-/// The lanes of `x`, zeros behind them.
+/// The lanes of `x`, followed by zeros.
 #[inline(always)]
 fn ints<L: Lanes>(lanes: L, x: L::I) -> [i32; MAX_LANES] {
     let mut buffer = [0; MAX_LANES];
@@ -112,14 +112,14 @@ fn ints<L: Lanes>(lanes: L, x: L::I) -> [i32; MAX_LANES] {
     buffer
 }
 
-/// The lanes of `mask`, `false` behind them.
+/// The lanes of `mask`, followed by `false`.
 #[inline(always)]
 fn truths<L: Lanes>(_lanes: L, mask: L::M) -> [bool; MAX_LANES] {
     let bits = lobe_lane::Mask::bits(mask);
     std::array::from_fn(|lane| bits >> lane & 1 == 1)
 }
 
-/// Whether a result is the one that is expected.
+/// Whether a result is the expected one.
 trait Same: Copy + std::fmt::Debug {
     fn same(self, expected: Self) -> bool;
 }

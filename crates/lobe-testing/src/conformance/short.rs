@@ -1,10 +1,10 @@
-//! Slices that are too short: what touches memory has to refuse them.
+//! Slices that are too short, which every operation on memory must refuse.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use lobe_lane::{Kernel, Lanes, MAX_LANES};
 
-/// What is given a slice.
+/// An operation that takes a slice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Access {
     Load,

@@ -1,4 +1,4 @@
-//! Quads and octs: as many floats on every backend.
+//! Quads and octs, which hold the same number of floats on every backend.
 
 use half::f16;
 use lobe_lane::{Block, Kernel, Lanes};
@@ -102,13 +102,13 @@ fn parts<L: Lanes>(lanes: L, xs: &[f32]) {
         }
         at += 8;
     }
-    // Ascending knots, as searches have them.
+    // Ascending knots, as in searches.
     let knots = [-3.0, -0.0, 0.0, 1.0, 1.0, 2.5, f32::MAX, f32::INFINITY];
     for x in knots.into_iter().chain([-4.0, 0.5, 2.0, f32::NAN]) {
         let expected = knots.iter().filter(|knot| **knot <= x).count();
         assert_eq!(lanes.oct_count_le(lanes.oct_load(&knots), x) as usize, expected, "knots <= {x}");
     }
-    // A store leaves the rest alone.
+    // A store leaves the rest untouched.
     let mut target = [7.0; 10];
     lanes.quad_store(&mut target[1..], lanes.quad_splat(1.0));
     assert_eq!(target, [7.0, 1.0, 1.0, 1.0, 1.0, 7.0, 7.0, 7.0, 7.0, 7.0]);
@@ -145,7 +145,7 @@ fn corners<L: Lanes>(lanes: L) {
     }
 }
 
-/// Every finite half, subnormal ones and both zeros included.
+/// Every finite half, including subnormals and both zeros.
 #[inline(always)]
 fn halves<L: Lanes>(lanes: L) {
     let finite: Vec<u16> = (0..=u16::MAX).filter(|bits| f16::from_bits(*bits).is_finite()).collect();

@@ -1,4 +1,4 @@
-//! Binary trees, made by the crate `obvhs`: nothing else of the project knows it.
+//! Binary trees, built by the crate `obvhs`, which nothing else in the project uses.
 
 use obvhs::aabb::Aabb as BuilderBox;
 use obvhs::bvh2::Bvh2;
@@ -17,7 +17,7 @@ pub(crate) struct BinaryNode {
     first: u32,
     /// How many primitives it has.
     count: u32,
-    /// Where its second child stands. The first one, of a node that has children, is its neighbour.
+    /// The index of its second child. The first child of a node that has children is the next node.
     second: u32,
 }
 
@@ -41,7 +41,7 @@ impl BinaryNode {
     }
 }
 
-/// A binary tree over boxes; node 0 is the root, and there is none if there are no boxes.
+/// A binary tree over boxes; node 0 is the root, and without boxes there are no nodes.
 #[derive(Debug)]
 pub(crate) struct Binary {
     /// In the order of a depth-first walk.
@@ -60,14 +60,14 @@ impl Boundable for Primitive {
 
 impl Binary {
     /// Builds a tree over boxes: parallel locally-ordered clustering (Meister and Bittner 2018), then reinsertion, which
-    /// gave 9 to 23 per cent cheaper trees than 16-bin SAH in the same time. With `pairs` two leaves of one parent are one:
-    /// where leaves hold more, hardly any pair is better parted.
+    /// gave 9 to 23 per cent cheaper trees than 16-bin SAH in the same time. With `pairs`, two leaves of one parent
+    /// become one: if leaves may hold more, hardly any pair is better split.
     pub fn build(boxes: &[Aabb], pairs: bool) -> Self {
         if boxes.is_empty() {
             return Binary { nodes: Vec::new(), order: Vec::new() };
         }
         let reach = boxes.iter().fold(0.0, |most, bounds| bounds.reach().max(most));
-        // In units of the largest number: surfaces of tiny boxes would all be zero.
+        // In units of the largest number, as the areas of tiny boxes would otherwise all be zero.
         let scale = 1.0 / reach.max(f32::MIN_POSITIVE);
         let uneven = |(index, &bounds): (usize, &Aabb)| Primitive(loosened(bounds, index, scale));
         let primitives: Vec<Primitive> = boxes.iter().enumerate().map(uneven).collect();
@@ -79,7 +79,7 @@ impl Binary {
     /// Puts nodes and primitives, of which the source has one per leaf, in the order of a depth-first walk.
     fn walked(source: &Bvh2, primitives: usize, pairs: bool) -> Self {
         let (mut nodes, mut order) = (Vec::with_capacity(source.nodes.len()), Vec::with_capacity(primitives));
-        // Nodes to come, and the node whose second child each is.
+        // Nodes still to be visited, and the node whose second child each is.
         let mut waiting = vec![(0, None)];
         while let Some((at, parent)) = waiting.pop() {
             let node = &source.nodes[at];
@@ -124,16 +124,16 @@ impl Binary {
     }
 }
 
-/// How far along the curve a box looks for its nearest: two neighbours each way. After reinsertion trees are about as
-/// cheap as with the fourteen of the medium preset (1.3 per cent dearer to 3.5 cheaper, of twelve meshes), and built in two
-/// thirds of the time.
+/// How far along the curve a box searches for its nearest neighbour: two boxes each way. After reinsertion, trees are
+/// about as cheap as with the medium preset's fourteen (from 1.3 per cent dearer to 3.5 per cent cheaper, over twelve
+/// meshes), and they are built in two thirds of the time.
 const SEARCH: PlocSearchDistance = PlocSearchDistance::VeryLow;
 
 /// The share of nodes that a round of reinsertion moves: the presets' 0.05 takes a third longer for trees that are half a
 /// per cent cheaper.
 const REINSERTED: f32 = 0.005;
 
-/// Small trees would hardly be changed by that: in them a round moves twice as many nodes as this, if there are as many.
+/// That would hardly change small trees: in them a round moves twice this many nodes, if there are as many.
 const FEWEST: f32 = 500.0;
 
 /// The builder's own sequence for its medium preset, without the check that it adds in debug builds: that recurses as
@@ -153,11 +153,12 @@ fn clustered(primitives: &[Primitive]) -> Bvh2 {
     tree
 }
 
-/// A scaled box made larger by up to a thirtieth of its size, a different part for each.
+/// A scaled box enlarged by up to a thirtieth of its size, by a different amount for each.
 ///
-/// Clustering joins boxes that are each other's nearest. Where all costs are equal, as along a fence of equal posts or
-/// in a heap of equal triangles, everybody's nearest is the neighbour on one side, only one pair joins a round, and a
-/// million boxes take hours and make a tree a million deep. Uneven boxes have mutual neighbours everywhere.
+/// Clustering joins boxes that are each other's nearest. If all costs are equal, as along a fence of equal posts or in
+/// a heap of equal triangles, the nearest box is always the neighbour on the same side, only one pair joins per round,
+/// and a million boxes take hours and make a tree a million levels deep. Uneven boxes have mutual nearest neighbours
+/// everywhere.
 fn loosened(bounds: Aabb, index: usize, scale: f32) -> Aabb {
     let mut bounds = bounds;
     let mut state = index as u64;

@@ -1,4 +1,4 @@
-//! From two children a node to `W`.
+//! From two children per node to `W`.
 
 use std::ops::Range;
 
@@ -8,9 +8,8 @@ use super::{Binary, Child, Node, WideBvh};
 use crate::Aabb;
 
 impl<const W: usize> WideBvh<W> {
-    /// Makes the wide tree of least cost with up to `leaf` primitives a leaf. `emit` makes the leaf of the
-    /// primitives at some places of the binary tree's order. Nodes lie in the order of a depth-first walk, a subtree in
-    /// one piece.
+    /// Makes the wide tree of least cost with up to `leaf` primitives per leaf. `emit` makes a leaf of a range of
+    /// primitives in the binary tree's order. Nodes are in the order of a depth-first walk, each subtree in one piece.
     pub(crate) fn collapse(binary: &Binary, leaf: usize, mut emit: impl FnMut(Range<usize>) -> Child) -> Self {
         const { assert!(W == 4 || W == 8, "nodes have 4 or 8 children") };
         let Some(root) = binary.nodes.first() else {
@@ -22,7 +21,7 @@ impl<const W: usize> WideBvh<W> {
         let mut most = 0;
         while let Some(Waiting { at, beside, parent, slot }) = waiting.pop() {
             let index = nodes.len();
-            // The root has no parent, and is no node yet.
+            // The root has no parent, and is not a node yet.
             if let Some(parent) = nodes.get_mut(parent) {
                 parent.refer(slot, Child::node(index));
             }
@@ -51,14 +50,14 @@ const LEAF_COST: f32 = 1.5;
 /// A binary node that is to become a wide one, and the slot of the parent that is to refer to it.
 struct Waiting {
     at: usize,
-    /// How many others wait at most while it is visited.
+    /// The most nodes that may wait while it is visited.
     beside: usize,
     parent: usize,
     slot: usize,
 }
 
-/// What becomes of a binary subtree: whether it is best as a leaf, and how its two children share `k` roots where it may
-/// be up to `k` subtrees of the wide tree, 4 bits for each `k`. Zero: it is better as one.
+/// What becomes of a binary subtree: whether it is best as a leaf, and how its two children share `k` roots if it may
+/// become up to `k` subtrees of the wide tree, 4 bits for each `k`. Zero: it is better as one subtree.
 #[derive(Clone, Copy, Default)]
 struct Plan(u32);
 
@@ -78,8 +77,8 @@ impl Plan {
     }
 }
 
-/// The plans of least cost (Ylitie, Karras, Laine 2017): the chance of a ray to visit a node or a leaf is proportional
-/// to its surface.
+/// The plans of least cost (Ylitie, Karras, Laine 2017): the probability that a ray visits a node or a leaf is
+/// proportional to its surface area.
 fn plans<const W: usize>(binary: &Binary, leaf: usize) -> Vec<Plan> {
     let mut plans = vec![Plan::default(); binary.nodes.len()];
     // Costs of subtrees whose parents are still to come, `[k - 1]` of at most `k` roots. Children come before their
@@ -95,7 +94,7 @@ fn plans<const W: usize>(binary: &Binary, leaf: usize) -> Vec<Plan> {
         }
         let (Some(one), Some(other)) = (waiting.pop(), waiting.pop()) else { break };
         let mut own = [f32::INFINITY; W];
-        // No more roots than primitives: of small subtrees, which are most, little is to be compared.
+        // No more roots than primitives: for small subtrees, which are the majority, there is little to compare.
         let most = node.count().min(W);
         for roots in 2..=most {
             let mut best = 1;

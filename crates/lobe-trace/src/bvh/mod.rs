@@ -1,4 +1,4 @@
-//! Trees of boxes, 4 or 8 children a node.
+//! Trees of boxes, with 4 or 8 children per node.
 
 mod binary;
 mod collapse;

@@ -60,9 +60,9 @@ impl Child {
     }
 }
 
-/// Up to `W` children, 4 cache lines for eight. Rows lower x, upper x, lower y, ... of their boxes, one entry a child; the
-/// references to them as bits; and a row that fills the last line. Absent children come last and have the empty box,
-/// which nothing meets.
+/// Up to `W` children, 4 cache lines for eight. Rows lower x, upper x, lower y, ... of their boxes, one entry per
+/// child; the references to them as bits; and a row that fills the last line. Absent children come last and have the
+/// empty box, which nothing hits.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(transparent)]
 pub(crate) struct Node<const W: usize>([[f32; W]; 8]);
@@ -98,13 +98,13 @@ impl<const W: usize> Node<W> {
     }
 }
 
-/// A tree with up to `W` children a node, `W` being 4 or 8.
+/// A tree with up to `W` children per node; `W` is 4 or 8.
 #[derive(Clone, Debug)]
 pub struct WideBvh<const W: usize> {
-    /// Node 0 is the root, and always there.
+    /// Node 0 is the root and always exists.
     pub(crate) nodes: Storage<Node<W>>,
     pub(crate) bounds: Aabb,
-    /// Room for the references that may wait at once while the tree is walked, and one more to be overwritten.
+    /// Room for the references that may wait at once during a walk, and for one more to be overwritten.
     pub(crate) stack: usize,
 }
 

@@ -9,7 +9,7 @@ use crate::hull::Hull;
 use crate::leaves::{Around, Leaves};
 use crate::slab::{Sides, SlabRay};
 
-/// From how few live rays on a hybrid traces them one by one.
+/// Up to how many live rays a hybrid traces one by one.
 pub(super) const FEW: u32 = 2;
 
 #[inline(always)]
@@ -57,7 +57,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
             let node = &nodes[child.index()];
             let best = lanes.load(&found.t[at..]);
             let mut hits = 0;
-            // Rays are tested one by one only if their hull meets a child.
+            // Rays are tested one by one only if their hull hits a child.
             let mut met = match &hull {
                 Some(hull) => hull.children(lanes, node, &sides),
                 None => (1 << W) - 1,
@@ -72,7 +72,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
                 let bits = meets.bits();
                 if bits != 0 {
                     lanes.store(&mut enters[slot], lanes.select(meets, enter, never));
-                    // The first ray that meets it speaks for all; the nearest comes last.
+                    // The first ray that hits it decides for all; the nearest comes last.
                     let key = enters[slot][bits.trailing_zeros() as usize & (MAX_LANES - 1)];
                     let mut place = hits & (W - 1);
                     while place > 0 && order[place - 1].0 < key {

@@ -15,13 +15,13 @@ use crate::bvh::Node;
 use crate::leaves::{Around, Leaves};
 use crate::slab::{Sides, SlabRay, child_bits};
 
-/// The part of a box that a bundle may be wide and still be taken at its word that a ray of it meets the box.
+/// The width of a bundle, as a fraction of a box, up to which it is trusted that one of its rays hits the box.
 const WIDE: f32 = 0.5;
 
-/// How few rays that meet a child go on one by one.
+/// Up to how many rays that hit a child continue one by one.
 const ALONE: u32 = 5;
 
-/// How few rays of an octant are traced one by one.
+/// Up to how many rays of an octant are traced one by one.
 pub(super) const FEW: u32 = 6;
 
 #[inline(always)]
@@ -31,7 +31,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
     let sides = Sides::of(octant);
     let mut bundles = Bundles::around(lanes, rays, found, octant, live);
     let nodes = bvh.all;
-    // Taken out, so that single rays can have the other stacks; put back at the end.
+    // Taken out, so that single rays can use the other stacks; put back at the end.
     let mut stack = std::mem::take(&mut stacks.large);
     let (mut keys, mut meeting) = ([0.0; MAX_LANES], [0; MAX_LANES]);
     let never = lanes.splat(f32::INFINITY);
@@ -53,7 +53,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                 left &= left - 1;
                 let [enter, leave] = bundles.interval(lanes, bundle as usize, near, far);
                 let meets = enter.le(leave);
-                // Also of a bundle that misses the child: a key may be too small, and this is one operation.
+                // Even for a bundle that misses the child: a key may be too small, and this takes one operation.
                 key = enter.min(key);
                 let narrow = bundles.width(lanes, bundle as usize, enter).le(size);
                 let word = lanes.splat_int(0x100 << bundle).as_float().masked(narrow).bits();
@@ -73,8 +73,8 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                 waiting += 1;
             }
         }
-        // The nearest on top. How many there are and which is nearer are unpredictable: their places are counted, and two
-        // at a time take no branch; a second that is not there goes beyond the last.
+        // The nearest goes on top. How many there are and which is nearer are unpredictable, so their positions are
+        // counted, and two at a time take no branch; a second that does not exist goes beyond the last.
         while bits != 0 {
             let one = bits.trailing_zeros() as usize & (W - 1);
             bits &= bits - 1;
@@ -100,7 +100,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
             let node = &nodes[entry.node as usize];
             let slot = entry.slot as usize & (W - 1);
             let child = node.child(slot);
-            // A bundle that is narrow is taken at its word.
+            // A narrow bundle is trusted.
             if !child.is_leaf() && asking & entry.bundles >> 8 != 0 {
                 current = child.index();
                 break;
@@ -133,7 +133,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
     }
 }
 
-/// What stands for a child of a node until it is visited. Memory is asked for it.
+/// The stack entry of a child of a node, which is prefetched.
 #[inline(always)]
 fn entry<L: Lanes, const W: usize>(
     lanes: L,
@@ -147,7 +147,7 @@ fn entry<L: Lanes, const W: usize>(
     LargeEntry { key: keys[slot], node: index as u32, slot: slot as u32, bundles: meeting[slot] as u32 }
 }
 
-/// How many of the children of `met` lie behind one of them; of two at one place the first does.
+/// How many of the children of `met` lie behind one of them; of two at the same distance the first does.
 #[inline(always)]
 fn farther<L: Lanes, const W: usize>(lanes: L, keys: &[f32; MAX_LANES], slot: usize, met: u32) -> usize {
     let own = lanes.splat(keys[slot]);
@@ -163,7 +163,7 @@ fn farther<L: Lanes, const W: usize>(lanes: L, keys: &[f32; MAX_LANES], slot: us
     ((behind | beside & before) & met).count_ones() as usize
 }
 
-/// The bits of those rays of a group that meet a child before their best hit.
+/// The bits of those rays of a group that hit a child before their best hit.
 #[inline(always)]
 fn group_meets<L: Lanes, const W: usize>(
     lanes: L,

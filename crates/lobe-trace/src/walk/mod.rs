@@ -1,4 +1,4 @@
-//! Ways through a tree.
+//! Ways to walk a tree.
 
 mod group;
 mod large;
@@ -15,7 +15,7 @@ use crate::leaves::Leaves;
 
 pub(crate) use stack::Stacks;
 
-/// The nodes of a tree, and where they and its leaves lie.
+/// The nodes of a tree, and where they and its leaves are in memory.
 #[derive(Clone, Copy)]
 pub(crate) struct Nodes<'a, const W: usize> {
     all: &'a [Node<W>],
@@ -35,7 +35,7 @@ impl<'a, const W: usize> Nodes<'a, W> {
         }
     }
 
-    /// Has the caches bring in what waits. Whether that is a node or a leaf is unpredictable, so it is not asked.
+    /// Prefetches what waits. Whether that is a node or a leaf is unpredictable, so nothing branches on it.
     #[inline(always)]
     fn prefetch<L: Lanes>(&self, lanes: L, child: Child) {
         let kind = usize::from(child.is_leaf());
@@ -53,7 +53,7 @@ pub(crate) struct Walk<'a, V, const W: usize> {
 }
 
 impl<V: Leaves, const W: usize> Walk<'_, V, W> {
-    /// Traces the rays of `live` by a form, those that are not coherent one by one.
+    /// Traces the rays of `live` by a form; those that are not coherent are traced one by one.
     #[inline(always)]
     pub fn trace<L: Lanes>(self, lanes: L, form: Form, live: u64) {
         let Walk { bvh, leaves, rays, found, stacks } = self;

@@ -1,7 +1,7 @@
 //! One ray against all boxes of a node, one child per lane; all rays of a block under way at once.
 //!
-//! A ray alone waits at every step: for a box to arrive, for the comparison of eight of them, and its next step is
-//! unpredictable. So all take a step each, in turn, and what one of them waits for does not hold up the others.
+//! A single ray waits at every step, for boxes to arrive and then for the comparison of eight of them, and its next
+//! step is unpredictable. So all rays take one step each, in turn, and no ray's wait holds up the others.
 
 use core::hint::select_unpredictable;
 
@@ -26,16 +26,16 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
         while let Some(ray) = turns.next() {
             let State { child, top, .. } = flock.states[ray];
             let node = &bvh.all[child.index()];
-            let bits = meet(lanes, node, rays, found, ray, &mut keys);
+            let bits = hit_children(lanes, node, rays, found, ray, &mut keys);
             let top = flock.push(top as usize, node, &keys, bits);
-            flock.go_on(lanes, &bvh, found, ray, top);
+            flock.go_next(lanes, &bvh, found, ray, top);
         }
         let mut turns = flock.leaves.take();
         while let Some(ray) = turns.next() {
             let State { child, top, bottom } = flock.states[ray];
             leaves.single(lanes, child, rays, ray, found);
             let ended = leaves.any() && found.t[ray] == f32::NEG_INFINITY;
-            flock.go_on(lanes, &bvh, found, ray, if ended { bottom } else { top } as usize);
+            flock.go_next(lanes, &bvh, found, ray, if ended { bottom } else { top } as usize);
         }
     }
 }
@@ -47,7 +47,7 @@ struct List {
     count: usize,
 }
 
-/// What a list had when a round began.
+/// The rays of a list when a round began.
 struct Turns {
     list: List,
     at: usize,
@@ -56,11 +56,11 @@ struct Turns {
 impl List {
     const EMPTY: Self = List { rays: [0; RAYS], count: 0 };
 
-    /// Adds a ray if `is`.
+    /// Adds a ray if `wanted`.
     #[inline(always)]
-    fn add(&mut self, ray: usize, is: bool) {
+    fn add(&mut self, ray: usize, wanted: bool) {
         self.rays[self.count & (RAYS - 1)] = ray as u8;
-        self.count += usize::from(is);
+        self.count += usize::from(wanted);
     }
 
     #[inline(always)]
@@ -114,7 +114,7 @@ impl<'a> Flock<'a> {
         self.leaves.add(ray, child.is_leaf());
     }
 
-    /// Puts the children that have a bit on the stack, the nearest on top. Returns where the next entry goes.
+    /// Pushes the children whose bits are set, the nearest on top. Returns where the next entry goes.
     #[inline(always)]
     fn push<const W: usize>(
         &mut self,
@@ -123,7 +123,7 @@ impl<'a> Flock<'a> {
         keys: &[f32; MAX_LANES],
         mut bits: u32,
     ) -> usize {
-        // How many children are met, and which of two is nearer, are unpredictable: up to two take no branch.
+        // How many children are hit, and which of two is nearer, are unpredictable: up to two take no branch.
         let one = entry(node, keys, bits);
         let more = bits & bits.wrapping_sub(1);
         let other = entry(node, keys, more);
@@ -148,13 +148,13 @@ impl<'a> Flock<'a> {
             top += 1;
         }
         self.stack[top] = near;
-        // If nothing was met, neither of the two exists.
+        // If nothing was hit, neither of the two exists.
         if near == Entry::LAST { floor } else { top + 1 }
     }
 
-    /// Finds out where a ray goes next: to what waits on its stack below `top`.
+    /// Finds where a ray goes next: to what waits on its stack below `top`.
     #[inline(always)]
-    fn go_on<L: Lanes, const W: usize>(
+    fn go_next<L: Lanes, const W: usize>(
         &mut self,
         lanes: L,
         bvh: &Nodes<'_, W>,
@@ -180,9 +180,9 @@ impl<'a> Flock<'a> {
     }
 }
 
-/// The bits of the children that a ray meets before its best hit, and where it enters them.
+/// The bits of the children that a ray hits before its best hit, and where it enters them.
 #[inline(always)]
-fn meet<L: Lanes, const W: usize>(
+fn hit_children<L: Lanes, const W: usize>(
     lanes: L,
     node: &Node<W>,
     rays: &Block,

@@ -1,4 +1,4 @@
-//! What waits while a tree is walked.
+//! What waits during a walk.
 
 use crate::block::RAYS;
 use crate::bvh::Child;
@@ -8,16 +8,16 @@ use crate::bvh::Child;
 pub(crate) struct Entry(i64);
 
 impl Entry {
-    /// Behind all others.
+    /// After all others.
     pub const LAST: Self = Entry(i64::MAX);
 
-    /// Of a child that is entered at `key`, which is not below zero: the bits of such floats are in their order.
+    /// For a child that is entered at `key`, which must not be negative: the bits of such floats are in the same order.
     #[inline(always)]
     pub fn new(key: f32, child: Child) -> Self {
         Entry((key.to_bits() as i64) << 32 | child.bits() as i64)
     }
 
-    /// Not below any entry of a child that is entered at `t` or before; if `t` is below zero, of one entered at zero.
+    /// Not below the entry of any child that is entered at `t` or before; if `t` is negative, of any entered at zero.
     #[inline(always)]
     pub fn until(t: f32) -> Self {
         let t = if t > 0.0 { t } else { 0.0 };
@@ -30,7 +30,7 @@ impl Entry {
     }
 }
 
-/// A single ray on its way.
+/// The state of a single ray.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct State {
     /// Where it is.
@@ -40,7 +40,7 @@ pub(crate) struct State {
     pub top: u32,
 }
 
-/// A child of a node to be visited by some bundles, one bit each; `key` is below where any of their rays enters it.
+/// A child of a node to be visited by some bundles, one bit each; `key` is a lower bound of where their rays enter it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LargeEntry {
     pub key: f32,

@@ -27,7 +27,7 @@ fn single(mesh: Mesh) -> SceneBuilder {
     builder
 }
 
-/// Turned, stretched, mirrored, shifted; two in one place.
+/// Rotated, stretched, mirrored and translated instances; two in the same place.
 fn instanced() -> SceneBuilder {
     let mut builder = SceneBuilder::new();
     let (knot, cloth) = (builder.mesh(meshes::torus_knot(60, 8)), builder.mesh(meshes::cloth(12)));
@@ -59,7 +59,7 @@ pub static CASES: LazyLock<Vec<Case>> = LazyLock::new(|| {
         .map(|(name, builder)| {
             let eight: Scene<8> = builder.clone().build(|_| ()).unwrap();
             let four = builder.build(|_| ()).unwrap();
-            // A number of rays that no packet divides.
+            // A number of rays that is not a multiple of any packet.
             let bounds = eight.bounds();
             let sets = [rays::camera(bounds, 32), rays::bounded(bounds, 128, 4), rays::mixed(bounds, 1500, 3)];
             let rays = rays::joined(&sets);
@@ -72,7 +72,7 @@ pub static CASES: LazyLock<Vec<Case>> = LazyLock::new(|| {
         .collect()
 });
 
-/// What traces: a backend, through the functions that everybody calls, or lanes that are none.
+/// What traces: a backend, through the functions that users call, or lanes that are not a backend.
 pub trait Tracing: Copy {
     fn name(self) -> &'static str;
     fn is_fused(self) -> bool;
@@ -103,7 +103,7 @@ impl Tracing for Backend {
     }
 }
 
-/// Lanes that are no backend, or trees that backends have no function for.
+/// Lanes that are not a backend, or trees that backends have no function for.
 #[derive(Clone, Copy)]
 struct On<L>(L);
 
@@ -162,7 +162,8 @@ fn same_bits<const W: usize>(scene: &Scene<W>, rays: &RaySoA, found: &HitSoA, tr
     }
 }
 
-/// In strict form the bits of the reference; fused, the bits of its own single rays and the tolerance of the reference.
+/// A strict form must give the bits of the reference; a fused one those of its own single rays, within the tolerance of
+/// the reference.
 fn check_form(lanes: impl Tracing, form: Form) {
     for case in CASES.iter() {
         let name = format!("{} {} {form:?}", case.name, lanes.name());
@@ -179,7 +180,7 @@ fn check_form(lanes: impl Tracing, form: Form) {
     }
 }
 
-/// Trees of four children a node give the same as those of eight.
+/// Trees with four children per node give the same as those with eight.
 fn check_four(lanes: impl Tracing) {
     for case in CASES.iter() {
         let name = format!("{} {}", case.name, lanes.name());
@@ -237,7 +238,7 @@ fn check_packet_call(lanes: impl Tracing) {
     }
 }
 
-/// One named test a form and backend. A backend that the CPU lacks says so.
+/// One named test per form and backend. A backend that the CPU lacks is reported as skipped.
 macro_rules! on {
     ($($name:ident: $lanes:expr;)*) => {$(
         mod $name {

@@ -1,4 +1,4 @@
-//! The meshes of the project's own scenes, and scanned and modelled ones where they are at hand.
+//! The meshes of the project's own scenes, and scanned and modelled ones if they are available.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -10,7 +10,7 @@ use lobe_trace::{Form, Mesh, Scene};
 use crate::backends::intersect;
 use crate::{rays, reference};
 
-/// Random rays through all meshes together: what the variable `LOBE_RAYS` says. A million take minutes.
+/// The number of random rays through all meshes together, from the variable `LOBE_RAYS`. A million take minutes.
 fn ray_count() -> usize {
     std::env::var("LOBE_RAYS").map_or(20_000, |count| count.parse().expect("LOBE_RAYS is a number"))
 }
@@ -24,7 +24,7 @@ fn meshes(folder: &Path) -> Vec<PathBuf> {
     paths
 }
 
-/// Rays from a camera and random ones: what is hit is what double precision finds, by every form.
+/// Rays from a camera and random ones: every form hits what double precision finds.
 fn check(path: &Path, count: usize) {
     let name = path.file_name().expect("a file").to_string_lossy();
     let parts = lobe_mesh::read(path).unwrap_or_else(|error| panic!("{error}")).into_parts();

@@ -8,7 +8,7 @@ pub fn random(seed: u64) -> Pcg64Mcg {
     Pcg64Mcg::seed_from_u64(seed)
 }
 
-/// A surface over a grid of `n` by `m` cells, closed in either parameter where the last row is to be the first.
+/// A surface over a grid of `n` by `m` cells, closed in a parameter if its last row is to be the first.
 fn grid(n: usize, m: usize, closed: [bool; 2], point: impl Fn(f64, f64) -> [f64; 3]) -> Mesh {
     let (rows, columns) = (n + !closed[0] as usize, m + !closed[1] as usize);
     let mut positions = Vec::new();
@@ -64,7 +64,7 @@ pub fn cloth(n: usize) -> Mesh {
     })
 }
 
-/// Random triangles: some ordinary, some flat boxes, needles, points, doubles of another.
+/// Random triangles: some ordinary, some flat boxes, needles, points, copies of another.
 pub fn soup(n: usize) -> Mesh {
     let mut rng = random(7);
     let mut positions: Vec<[f32; 3]> = Vec::new();

@@ -21,7 +21,7 @@ pub fn camera(bounds: Aabb, n: usize) -> RaySoA {
     rays
 }
 
-/// Packets of 64 rays between two small boxes, of all widths and one of them often a point: all end at about the same t.
+/// Packets of 64 rays between two small boxes, of all sizes, one of them often a point: all end at about the same t.
 pub fn bounded(bounds: Aabb, packets: usize, seed: u64) -> RaySoA {
     let mut rng = random(seed);
     let mut rays = RaySoA::default();

@@ -11,7 +11,7 @@ fn triangle(z: f32) -> Mesh {
 }
 
 #[test]
-fn a_mesh_of_wrong_numbers_is_refused() {
+fn invalid_meshes_are_refused() {
     let good = [0.0; 3];
     let error = Mesh::new(vec![good, [0.0, f32::NAN, 0.0]], vec![]).unwrap_err();
     assert!(matches!(error, MeshError::Coordinate { vertex: 1, axis: 1, found } if found.is_nan()), "{error}");
@@ -23,7 +23,7 @@ fn a_mesh_of_wrong_numbers_is_refused() {
 }
 
 #[test]
-fn a_scene_of_wrong_instances_is_refused() {
+fn invalid_instances_are_refused() {
     let mut builder = SceneBuilder::new();
     builder.mesh(triangle(0.0));
     builder.instance(1, Affine::IDENTITY);
@@ -70,7 +70,7 @@ fn nothing_is_hit_in_an_empty_scene() {
     }
 }
 
-/// A million boxes that are alike, and where clustering would have joined one pair a round.
+/// A million identical boxes, of which clustering would have joined one pair per round.
 #[test]
 fn a_million_triangles_in_one_place() {
     let corners = vec![[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]];
@@ -104,7 +104,7 @@ fn a_long_fence_and_points_and_needles() {
     rays.push([3.0, 1.0, 5.0], [0.0, 0.0, -1.0], 0.0, 4.5);
     for form in Form::ALL {
         let hits = intersect(Backend::scalar(), &scene, &rays, form);
-        // The point touches the tip of a post and hides it from nobody.
+        // The point touches the tip of a post and hides it from no ray.
         assert_eq!(hits.primitive, [0, 3 * 777, 3 * 49_999, 3, MISS], "{form:?}");
     }
 }

@@ -1,4 +1,4 @@
-//! Whether both renderers make the same picture: their difference beside the noise of both.
+//! Whether both renderers make the same picture: their difference compared with the noise of both.
 
 use std::path::Path;
 
@@ -13,20 +13,19 @@ use crate::exchange::Exchange;
 use crate::program::Programs;
 use xtask_common::{Grid, replace};
 
-/// Columns and rows of the pictures.
+/// Width and height of the pictures.
 const SIZE: [u32; 2] = [320, 320];
-/// Samples a pixel of each of two pictures by everybody.
+/// Samples per pixel of each of the two pictures by each renderer.
 const SAMPLES: u32 = 48;
-/// Of a pixel that is darker than this, differences count as if it were not: radiance.
+/// Differences of a pixel that is darker than this count as if it had this radiance.
 const FLOOR: f64 = 0.02;
-/// By how much the difference may be larger than what noise explains. Its own error is half a hundredth.
+/// By how much the difference may exceed what noise explains. Its own error is half a per cent.
 const LIMIT: f64 = 1.03;
 
-/// How far the pictures are apart. Everything is the root of the mean square over pixels and channels, relative to the
-/// pixel.
+/// How much the pictures differ. All figures are root mean squares over pixels and channels, relative to the pixel.
 #[derive(Clone, Debug, Serialize)]
 pub struct Agreement {
-    /// Of which room.
+    /// The name of the room.
     pub on: &'static str,
     /// The difference of the two pictures.
     pub difference: f64,
@@ -34,14 +33,14 @@ pub struct Agreement {
     pub noise: f64,
     /// The noise of the other's.
     pub peer_noise: f64,
-    /// The mean of this renderer's picture over that of the other's.
+    /// The mean of this renderer's picture divided by that of the other's.
     pub mean: f64,
-    /// The mean where measured materials are indexed by the light, over that of the other's.
+    /// The mean if measured materials are indexed by the light, divided by that of the other's.
     pub mean_by_light: f64,
 }
 
 impl Agreement {
-    /// The difference in parts of what both noises make.
+    /// The difference divided by the combined noise of both.
     fn ratio(&self) -> f64 {
         self.difference / self.noise.hypot(self.peer_noise)
     }
@@ -62,7 +61,7 @@ impl Agreement {
 
 const HEADER: [&str; 7] = ["room", "noise", "Mitsuba's noise", "both", "difference", "of means", "indexed by light"];
 
-/// What is shown; nothing where nothing was rendered.
+/// The table; `None` if nothing was rendered.
 pub fn grid(agreements: &[Agreement]) -> Option<Grid> {
     let rows = agreements.iter().map(Agreement::cells).collect();
     (!agreements.is_empty()).then(|| Grid::new("Pictures", READING, HEADER, rows))
@@ -81,13 +80,13 @@ pub struct Question {
 }
 
 impl Question {
-    /// By which it is asked for alone.
+    /// The name by which it can be selected.
     pub const NAME: &str = "picture";
 
     /// Asks for pictures of all rooms.
     ///
     /// # Errors
-    /// Where a file cannot be written.
+    /// If a file cannot be written.
     pub fn new(data: &Path, exchange: &mut Exchange) -> anyhow::Result<Self> {
         let mut rooms = Vec::new();
         for Subject { name, surfaces, .. } in subjects(data) {
@@ -102,7 +101,7 @@ impl Question {
     /// Renders and compares. The pictures of the last room go to `file`, side by side.
     ///
     /// # Errors
-    /// Where pictures differ by more than noise, or a program breaks off.
+    /// If pictures differ by more than noise, or a program fails.
     pub fn answer(&self, programs: &mut Programs, exchange: &Exchange, file: &Path) -> anyhow::Result<Vec<Agreement>> {
         let mut agreements = Vec::new();
         let (program, _) = VARIANTS[0];
@@ -117,7 +116,7 @@ impl Question {
             std::fs::remove_file(&answer)?;
             let (first, second) = values.split_at(values.len() / 2);
             let theirs = Pair::new(first, second);
-            // A sequence of samples begins anew, scrambled otherwise, after 2^16 of them.
+            // A sequence of samples restarts after 2^16 of them, scrambled differently.
             let [first, second] = [0, 1 << 16].map(|from| frame(room, Given::Viewer, from));
             let ours = Pair::new(&first?, &second?);
             let by_light = frame(room, Given::Light, 0)?;
@@ -138,7 +137,7 @@ fn task(name: &str) -> String {
     format!("{}-{name}", Question::NAME)
 }
 
-/// A picture by this renderer, its samples beginning with that number.
+/// A picture by this renderer, beginning with the sample of that number.
 fn frame(room: &Room, known: Given, from: u32) -> anyhow::Result<Vec<f32>> {
     let backend = Backend::best().fused();
     let world = room.world(known, backend)?;
@@ -150,7 +149,7 @@ fn frame(room: &Room, known: Given, from: u32) -> anyhow::Result<Vec<f32>> {
 /// Two pictures with independent noise.
 struct Pair {
     mean: Vec<f64>,
-    /// The variance of the mean, as one difference estimates it.
+    /// The variance of the mean, as estimated from one difference.
     variance: Vec<f64>,
 }
 
@@ -184,8 +183,8 @@ fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
     values.sum::<f64>() / count
 }
 
-/// The difference of each pixel, in standard deviations of it; variances are those of squares of seven by seven pixels, as
-/// one pixel says little about its own.
+/// The difference of each pixel, in standard deviations; variances are averaged over squares of seven by seven pixels,
+/// as a single pixel says little about its own.
 fn deviations(ours: &Pair, theirs: &Pair) -> Vec<f64> {
     let [width, height] = SIZE.map(|side| side as i64);
     let sum = |values: &[f64], at: usize| values[3 * at..][..3].iter().sum::<f64>();
@@ -193,7 +192,7 @@ fn deviations(ours: &Pair, theirs: &Pair) -> Vec<f64> {
     let variance = |x: i64, y: i64| {
         let square = (-3..=3).flat_map(|dy| (-3..=3).map(move |dx| (x + dx, y + dy)));
         let sums = square.map(|(x, y)| sum(&ours.variance, pixel(x, y)) + sum(&theirs.variance, pixel(x, y)));
-        // The channels of a pixel go up and down together.
+        // The channels of a pixel vary together.
         3.0 * sums.sum::<f64>() / 49.0
     };
     let deviation = |(x, y): (i64, i64)| {
@@ -212,7 +211,7 @@ mod tests {
 
     #[test]
     fn noise_explains_noise_and_nothing_else() {
-        // Noise of a hundredth in each of the two pictures of a pair.
+        // One per cent of noise in each of the two pictures of a pair.
         let noisy = |seed: u64, level: f32| -> Vec<f32> {
             let mut rng = Pcg32::seed_from_u64(seed);
             (0..30_000).map(|_| level * (1.0 + 0.06 * (rng.random::<f32>() - 0.5))).collect()

@@ -1,4 +1,4 @@
-//! Whole pictures, path-traced, against Mitsuba 3: the same meshes, materials, lights and camera, as many samples.
+//! Whole pictures, path-traced, against Mitsuba 3: the same meshes, materials, lights and camera, and as many samples.
 
 mod agreement;
 mod picture;
@@ -17,42 +17,42 @@ use scene::{Room, Surface, settings};
 
 pub use agreement::{Agreement, Question, grid};
 
-/// How the names of all of these contests begin.
+/// The beginning of the names of these contests.
 pub const PREFIX: &str = "frame";
 
-/// Columns and rows of the pictures that are timed.
+/// Width and height of the pictures that are timed.
 const SIZE: [u32; 2] = [256, 256];
-/// Samples a pixel of these.
+/// Samples per pixel of these.
 const SAMPLES: u32 = 8;
-/// Programs that render by the other renderer, one a variant of it, and what is shown.
+/// Programs that render with the other renderer, one per variant of it, and their displayed names.
 const VARIANTS: [(&str, &str); 2] = [("mitsuba-llvm", "Mitsuba llvm_ad_rgb"), ("mitsuba-scalar", "Mitsuba scalar_rgb")];
-/// The first of these with vectors wider than this renderer's, where the processor has them.
+/// The first of these with vectors wider than this renderer's, if the processor has them.
 const WIDER: (&str, &str) = ("mitsuba-llvm-wide", "Mitsuba llvm_ad_rgb, AVX-512");
 
-/// What a room is made of, and how many times the speed of each variant shall be reached in it.
+/// What a room is made of, and the goal against each variant: how many times as fast.
 struct Subject {
     name: &'static str,
     surfaces: [Surface; scene::SURFACES],
     goals: [f64; 2],
 }
 
-/// The room of diffuse surfaces, and that of measured ones where there are files.
+/// The room of diffuse surfaces, and that of measured ones if there are files.
 fn subjects(data: &Path) -> Vec<Subject> {
     let colours = [[0.7, 0.3, 0.2], [0.7, 0.6, 0.2], [0.4, 0.2, 0.6], [0.6; 3], [0.7; 3], [0.6, 0.55, 0.5]];
     let mut subjects = vec![Subject { name: "diffuse", surfaces: colours.map(Surface::Diffuse), goals: [1.3, 2.4] }];
     let files = material::files(data);
     if !files.is_empty() {
-        // In the order of the names: two shining ones, two of paper or leather, a golden one.
+        // In the order of the names: two shiny ones, two of paper or leather, and a golden one.
         let surfaces = [0, 4, 1, 2, 3, 3].map(|number| Surface::Measured(files[number % files.len()].clone()));
         subjects.push(Subject { name: "measured", surfaces, goals: [2.5, 5.0] });
     }
     subjects
 }
 
-/// Pictures of both rooms against both variants.
+/// Pictures of both rooms, compared with both variants.
 ///
 /// # Errors
-/// Where a file cannot be read or written.
+/// If a file cannot be read or written.
 pub fn all(data: &Path, exchange: &mut Exchange) -> anyhow::Result<Vec<Contest>> {
     let mut contests = Vec::new();
     for Subject { name, surfaces, goals } in subjects(data) {
@@ -73,7 +73,7 @@ pub fn all(data: &Path, exchange: &mut Exchange) -> anyhow::Result<Vec<Contest>>
                 lobe: contender(&room)?,
                 inside: Vec::new(),
                 outside,
-                // Noise is compared by itself.
+                // Noise is compared separately.
                 agreement: None,
                 judge: None,
                 goal: Some(goal),
@@ -83,7 +83,7 @@ pub fn all(data: &Path, exchange: &mut Exchange) -> anyhow::Result<Vec<Contest>>
     Ok(contests)
 }
 
-/// This renderer. A peer gives two pictures where it is asked for values, and so this does.
+/// This renderer. A peer that is asked for values returns two pictures, so this does too.
 fn contender(room: &Room) -> anyhow::Result<Contender> {
     let backend = Backend::best().fused();
     let world = room.world(Given::Viewer, backend)?;

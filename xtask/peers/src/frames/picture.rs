@@ -1,4 +1,4 @@
-//! Pictures side by side, and how far they are apart.
+//! Pictures side by side, and how much they differ.
 
 use lobe_render::Film;
 use lobe_render::picture::{ToneMap, encode_rgb};

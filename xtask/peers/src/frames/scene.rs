@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 /// What things are made of.
 #[derive(Clone, Debug)]
 pub enum Surface {
-    /// Reflects this share, the same into all directions.
+    /// Reflects this share, equally into all directions.
     Diffuse([f32; 3]),
     /// A file of the EPFL database.
     Measured(PathBuf),
@@ -26,7 +26,7 @@ pub enum Surface {
 struct Part {
     name: &'static str,
     mesh: Geometry,
-    /// Which of the surfaces; `None` for what shines and reflects nothing.
+    /// Which of the surfaces; `None` for one that emits and does not reflect.
     surface: Option<usize>,
 }
 
@@ -38,11 +38,11 @@ pub struct Room {
 
 /// How many surfaces a room has.
 pub const SURFACES: usize = 6;
-/// What the panel under the ceiling shines with.
+/// The radiance of the panel under the ceiling.
 const RADIANCE: [f32; 3] = [17.0, 16.0, 14.0];
-/// Surfaces that a path may meet.
+/// The most surfaces that a path may hit.
 const DEPTH: u32 = 5;
-/// Columns and rows of the sky.
+/// Width and height of the sky.
 const SKY: [usize; 2] = [128, 64];
 
 const CAMERA: Camera = Camera {
@@ -83,7 +83,7 @@ impl Room {
     /// For this renderer, with measured materials indexed by one of the directions.
     ///
     /// # Errors
-    /// Where a file cannot be read.
+    /// If a file cannot be read.
     pub fn world(&self, indexed_by: Given, backend: Backend) -> anyhow::Result<World> {
         let mut world = WorldBuilder::new();
         for surface in &self.surfaces {
@@ -98,16 +98,16 @@ impl Room {
             let radiance = part.surface.is_none().then_some(RADIANCE);
             world.shape(&shape(&part.mesh), part.surface.unwrap_or(black), radiance, false)?;
         }
-        // Both renderers interpolate between texels, but have rows in other places.
+        // Both renderers interpolate between texels, but place the rows differently.
         let texels = sky(|row, rows| (row as f32 + 0.5) / rows as f32, 0.5);
         world.light(Light::Environment(Environment::image(SKY[0], SKY[1], texels, 0.0)?));
         Ok(world.build()?)
     }
 
-    /// For Mitsuba: files in a directory, and what refers to them.
+    /// For Mitsuba: files in a directory, and a description that refers to them.
     ///
     /// # Errors
-    /// Where a file cannot be written.
+    /// If a file cannot be written.
     pub fn task(&self, directory: &Path, size: [u32; 2], samples: u32) -> anyhow::Result<Value> {
         std::fs::create_dir_all(directory).with_context(|| format!("cannot create {}", directory.display()))?;
         let black = json!({ "type": "diffuse", "reflectance": { "type": "rgb", "value": 0.0 } });
@@ -142,8 +142,8 @@ impl Room {
             "camera": { "position": position, "target": target, "up": up, "degrees": field_of_view.to_degrees() },
             "size": size,
             "samples": samples,
-            // It counts the segments of a path, the one from the camera with them, and begins to end paths by chance
-            // where this renderer does.
+            // It counts the segments of a path, including the one from the camera, and starts Russian roulette where
+            // this renderer does.
             "max_depth": DEPTH + 1,
             "rr_depth": 4,
         }))
@@ -155,7 +155,7 @@ impl Room {
     }
 }
 
-/// How this renderer makes the picture.
+/// The settings of this renderer for the picture.
 pub fn settings(size: [u32; 2], samples: std::ops::Range<u32>, backend: Backend, threads: usize) -> Settings {
     Settings {
         camera: CAMERA,
@@ -175,8 +175,8 @@ pub fn whole([width, height]: [u32; 2]) -> Rect {
     Rect { x: 0, y: 0, width, height }
 }
 
-/// A smooth sky with a wide glow that shines into the room. The height of a row is a share of the whole; `turn` is where
-/// the middle of the picture is, in turns from -z.
+/// A smooth sky with a wide glow that shines into the room. The height of a row is a fraction of the whole; `turn` is
+/// the direction of the middle of the picture, in turns from -z.
 fn sky(height: impl Fn(usize, usize) -> f32, turn: f32) -> Vec<[f32; 3]> {
     let [columns, rows] = SKY;
     let glow = [-0.41, 0.52, 0.75];
@@ -207,7 +207,7 @@ fn placed(mesh: &Geometry, scale: f32, to: [f32; 3]) -> Geometry {
     Geometry::new(parts).expect("a good mesh, moved")
 }
 
-/// A rectangle that faces where its first edge turns counterclockwise to its second.
+/// A rectangle that faces the side from which its first edge turns counterclockwise to its second.
 fn rectangle(corner: [f32; 3], u: [f32; 3], v: [f32; 3]) -> Geometry {
     let at = |a: f32, b: f32| [0, 1, 2].map(|k| corner[k] + a * u[k] + b * v[k]);
     let cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];

@@ -6,7 +6,7 @@ use anyhow::Context;
 
 use lobe_testing::made::spherical;
 
-/// What was asked, and what came out.
+/// Inputs and outputs.
 #[derive(Clone, Debug)]
 pub(super) struct Answer {
     pub(super) inputs: Vec<f64>,
@@ -32,7 +32,7 @@ pub(super) fn direction(angles: [f64; 2]) -> [f32; 3] {
     spherical(angles).map(|x| x as f32)
 }
 
-/// All answers of a file, each with at least so many numbers.
+/// All answers of a file, each with at least this many numbers.
 pub(super) fn read(path: &Path, [inputs, outputs]: [usize; 2]) -> anyhow::Result<Vec<Answer>> {
     let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
     let numbers = |text: &str| text.split_whitespace().map(|x| x.parse().ok()).collect::<Option<Vec<f64>>>();

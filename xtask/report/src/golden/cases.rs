@@ -1,4 +1,4 @@
-//! What is asked in each kind of file of answers, and what is allowed.
+//! What each kind of file of answers contains, and which differences are allowed.
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,7 @@ use super::answers::{self, Answer, direction};
 use super::{Comparison, Measure};
 use lobe_testing::made::{merl_formula, utia_numbers};
 
-/// The file of answers `name`; none where it is no such file.
+/// The file of answers `name`; `None` if it is not such a file.
 pub(super) fn compare(backend: Backend, shared: &Path, answers: &Path, name: &str) -> anyhow::Result<Vec<Comparison>> {
     let one = match name {
         "merl_formula.txt" => merl(backend, answers)?,
@@ -36,7 +36,7 @@ pub(super) fn compare(backend: Backend, shared: &Path, answers: &Path, name: &st
     Ok(vec![one])
 }
 
-/// The file that answers are about: `real_` names one among the measured files, everything else lies beside its answers.
+/// The file that answers are about: `real_` names one among the measured files, everything else is next to its answers.
 fn source(shared: &Path, stem: &str) -> anyhow::Result<PathBuf> {
     let candidates: Vec<PathBuf> = match stem.strip_prefix("real_") {
         Some(file) => {
@@ -45,10 +45,10 @@ fn source(shared: &Path, stem: &str) -> anyhow::Result<PathBuf> {
         }
         None => ["", ".bsdf", ".xml"].map(|end| shared.join("golden").join(format!("{stem}{end}"))).to_vec(),
     };
-    candidates.into_iter().find(|path| path.is_file()).with_context(|| format!("the file {stem} is not there"))
+    candidates.into_iter().find(|path| path.is_file()).with_context(|| format!("the file {stem} is missing"))
 }
 
-/// A material on the backend, and what has to be known of its file.
+/// A material on the backend, and what must be known about its file.
 struct Subject {
     file: String,
     format: Format,
@@ -88,7 +88,7 @@ impl Subject {
         texels.map(|(texel, wo)| texel.iter().map(|x| f64::from(*x) * scale(wo)).collect()).collect()
     }
 
-    /// The largest difference between `found` and the outputs of `answers`, one by one, as far as there are both.
+    /// The largest difference between `found` and the outputs of `answers`, one by one, as far as both exist.
     fn against(
         self,
         program: &'static str,
@@ -111,7 +111,7 @@ impl Subject {
         };
         let each = found.iter().zip(answers).flat_map(|(found, answer)| found.iter().zip(&answer.outputs));
         let error = each.map(|(found, expected)| difference(*found, *expected)).fold(0.0, |most: f64, x| {
-            // NaN must not be lost.
+            // A NaN must not be lost.
             if x > most || x.is_nan() { x } else { most }
         });
         Comparison {
@@ -181,7 +181,7 @@ fn mitsuba_mueller(backend: Backend, file: &Path, path: &Path) -> anyhow::Result
 ///
 /// A pair in mirror directions has the normal for its half vector, and around that an azimuth in the rounding of the
 /// directions alone; the tables are not the same from all azimuths. Such pairs, which are mirror directions to the last
-/// digit in `f64`, are none in lanes; the `f64` reference is held to them by the tests of `lobe-formats`.
+/// digit in `f64`, have no defined value in lanes; the `f64` reference is held to them by the tests of `lobe-formats`.
 fn mitsuba_values(backend: Backend, shared: &Path, path: &Path) -> anyhow::Result<Vec<Comparison>> {
     let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
     let files: serde_json::Map<String, serde_json::Value> =
@@ -206,8 +206,8 @@ fn mitsuba_values(backend: Backend, shared: &Path, path: &Path) -> anyhow::Resul
     Ok(comparisons)
 }
 
-/// The visible band of a window system. Radiance moves values by up to 3.5e-4 on purpose; where a second column has the
-/// value before that, it counts.
+/// The visible band of a window system. Radiance perturbs values by up to 3.5e-4 on purpose; if a second column has the
+/// unperturbed value, that one counts.
 fn radiance(backend: Backend, file: &Path, path: &Path) -> anyhow::Result<Comparison> {
     let subject = Subject::open(backend, file, &Options::default())?;
     let names = subject.material.channels().names();
@@ -235,7 +235,7 @@ fn utia(backend: Backend, path: &Path) -> anyhow::Result<Comparison> {
     angles(backend, path, made, "UTIA-brdf", (Measure::Largest, 0.0, 2e-5))
 }
 
-/// A table that is made here, asked by zenith angles and azimuths.
+/// A table that is made here, queried by zenith angles and azimuths.
 fn angles(
     backend: Backend,
     path: &Path,

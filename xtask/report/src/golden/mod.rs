@@ -1,7 +1,7 @@
-//! Materials in lanes beside the answers of the programs that define their formats.
+//! Materials in lanes compared with the answers of the programs that define their formats.
 //!
-//! The answers, and the measured files, lie beside the project and not in it: in the folder that the environment variable
-//! `LOBE_SHARED` names, else in `shared` beside the workspace.
+//! The answers and the measured files are not part of the project: they are in the folder that the environment variable
+//! `LOBE_SHARED` names, or else in `shared` beside the workspace.
 
 mod answers;
 mod cases;
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use lobe::Backend;
 use serde::Serialize;
 
-/// One file and what another program made of it.
+/// One file, compared with another program's answers.
 #[derive(Clone, Debug, Serialize)]
 pub struct Comparison {
     /// The file.
@@ -24,13 +24,13 @@ pub struct Comparison {
     pub pairs: usize,
     /// The largest difference found.
     pub error: f64,
-    /// In parts of what.
+    /// What the difference is relative to.
     pub of: Measure,
-    /// What is allowed.
+    /// The largest difference that is allowed.
     pub bound: f64,
 }
 
-/// In parts of what a difference is measured.
+/// What a difference is relative to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Measure {
@@ -38,7 +38,7 @@ pub enum Measure {
     Largest,
     /// The value itself.
     Value,
-    /// None: it is the difference as it is.
+    /// Nothing: the difference is absolute.
     Absolute,
 }
 
@@ -60,16 +60,16 @@ impl Comparison {
     }
 }
 
-/// Where the answers are.
+/// The folder of the answers.
 pub fn folder() -> PathBuf {
     std::env::var_os("LOBE_SHARED")
         .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared"), PathBuf::from)
 }
 
-/// Compares every file that there are answers for, on this backend; nothing where there are none.
+/// Compares every file for which there are answers on this backend; empty if there are none.
 ///
 /// # Errors
-/// Where a file cannot be read or has no such answers.
+/// If a file cannot be read or has no such answers.
 pub fn compare(backend: Backend) -> anyhow::Result<Vec<Comparison>> {
     let shared = folder();
     let Ok(entries) = std::fs::read_dir(shared.join("golden")) else { return Ok(Vec::new()) };

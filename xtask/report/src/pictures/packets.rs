@@ -12,18 +12,18 @@ use serde::Serialize;
 pub struct Packets {
     /// What kind of rays.
     pub rays: &'static str,
-    /// Millions of rays a second, one lane.
+    /// Millions of rays per second, one lane.
     pub scalar: f64,
-    /// Millions of rays a second, four lanes of SSE2.
+    /// Millions of rays per second, four lanes of SSE2.
     pub sse2: f64,
 }
 
-/// Rays along a side of the picture.
+/// Rays per side of the picture.
 const SIDE: usize = 256;
-/// Rays that are traced in a row: a few milliseconds.
+/// Rays that are traced at a time: a few milliseconds.
 const PIECE: usize = 1 << 14;
 
-/// Traces a knot of 70 thousand triangles; nothing where there is no SSE2.
+/// Traces a knot of 70 thousand triangles; empty if there is no SSE2.
 pub fn measure(rounds: usize) -> Vec<Packets> {
     let (Ok(scalar), Ok(sse2)) = (Backend::named("scalar"), Backend::named("sse2")) else { return Vec::new() };
     let knot = shapes::torus_knot(2, 3, 0.19, 1000, 35);
@@ -38,7 +38,7 @@ pub fn measure(rounds: usize) -> Vec<Packets> {
     vec![of("camera", &camera, false), of("shadow", &shadow, true)]
 }
 
-/// A picture in squares of 8 by 8 rays, so that packets are of neighbours.
+/// A picture in squares of 8 by 8 rays, so that packets are neighbours.
 fn camera() -> RaySoA {
     let mut rays = RaySoA::with_capacity(SIDE * SIDE);
     for at in 0..SIDE * SIDE {
@@ -50,7 +50,7 @@ fn camera() -> RaySoA {
     rays
 }
 
-/// From what the camera sees, and from as far away where it sees nothing, toward a point light.
+/// From what the camera sees, or from as far away if it sees nothing, toward a point light.
 fn shadows(scene: &Scene, camera: &RaySoA, backend: Backend) -> RaySoA {
     let mut hits = HitSoA::new(camera.len());
     scene.intersect(backend, RayClass::Camera, camera.view(), hits.view());

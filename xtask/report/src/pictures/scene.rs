@@ -1,4 +1,5 @@
-//! Balls and tiles in a room, each of another material: what neighbouring rays hit is unrelated after a bounce.
+//! Balls and tiles in a room, each of a different material, so that what neighbouring rays hit is unrelated after a
+//! bounce.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -12,7 +13,7 @@ use lobe_render::{Camera, Filter, Rect, Settings, Shape, World, WorldBuilder};
 
 /// A table of its own for each of them, the size of the paper's anisotropic one.
 pub const MATERIALS: usize = 36;
-/// Balls and tiles along a side of the floor.
+/// Balls and tiles per side of the floor.
 const SIDE: usize = 6;
 const CLOTH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/cloth-17x7x17x13.ddr");
 
@@ -29,7 +30,7 @@ pub fn world(backend: Backend) -> anyhow::Result<World> {
     for (number, &material) in materials.iter().enumerate() {
         let [x, z] = [number % SIDE, number / SIDE].map(|i| i as f32 - 0.5 * (SIDE - 1) as f32);
         world.shape(&moved(&ball, [x, 0.36, z]), material, None, false)?;
-        // Another material under it than its own.
+        // Below it is a material other than its own.
         world.shape(&moved(&tile, [x, 0.0, z]), materials[(number * 7 + 11) % MATERIALS], None, false)?;
     }
     // A low ceiling sends much of the light back.
@@ -60,7 +61,7 @@ fn moved(geometry: &Geometry, to: [f32; 3]) -> Shape {
     }
 }
 
-/// The camera, and all but the backend and the threads.
+/// The camera, and all settings except the backend and the threads.
 pub fn settings() -> Settings {
     let size = [256, 256];
     Settings {

@@ -22,7 +22,7 @@ impl Pictures {
         )
     }
 
-    /// As many depths as any backend has met.
+    /// As many depths as any backend reached.
     fn depths(&self) -> usize {
         self.frames.iter().map(|frame| frame.lanes_in_use.len()).max().unwrap_or(0)
     }
@@ -59,7 +59,7 @@ impl Pictures {
         let mut notes = Vec::new();
         if let (Some(threads), Some(frame)) = (self.threads, self.frames.last()) {
             notes.push(format!(
-                "Two threads render the frame in {} the speed of one ({}).",
+                "Two threads render the frame at {} the speed of one ({}).",
                 times(threads),
                 frame.backend
             ));
