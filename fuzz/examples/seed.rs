@@ -1,5 +1,5 @@
 //! Fills `fuzz/corpus`: each target gets small files of its format, our own ones, and those in the folder that
-//! `LOBE_SHARED` names, or else in `shared` beside the workspace.
+//! `LOBE_SHARED` names, or else in `shared` next to the workspace.
 #![forbid(unsafe_code)]
 
 use std::path::Path;

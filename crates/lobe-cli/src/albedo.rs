@@ -15,7 +15,7 @@ use crate::failure::Failure;
 /// Compute the albedo (directional-hemispherical reflectance, or transmittance) by incident direction and channel.
 #[derive(clap::Args)]
 #[command(
-    after_help = "The integral of f cos(theta_o) over the hemisphere of viewers. Without --sigma, at the angles of incidence at which the file was measured, else from 0 to 80 degrees. Grids are integrated between their knots, Klems matrices summed over their patches.
+    after_help = "The integral of f cos(theta_o) over the hemisphere of viewers. Without --sigma, the angles of incidence are those at which the file was measured, or else 0 to 80 degrees. Grids are integrated between their knots, Klems matrices summed over their patches.
 
 Examples:
   lobe albedo paint.ddr
@@ -31,13 +31,13 @@ pub struct Args {
     /// Azimuths of the light in degrees.
     #[arg(long, value_name = "LIST", value_parser = parse_angles, requires = "sigma")]
     psi: Option<Angles>,
-    /// Reflection or transmission only, where the file has both.
+    /// Reflection or transmission only, if the file has both.
     #[arg(long, value_enum)]
     scatter: Option<ScatterRule>,
-    /// Light from one side only, where the file has both.
+    /// Light from one side only, if the file has both.
     #[arg(long, value_enum)]
     side: Option<SideRule>,
-    /// The absolute error that is good enough.
+    /// The absolute error to aim for.
     #[arg(long, default_value_t = 1e-4)]
     tolerance: f64,
     /// Print JSON, angles in radians.

@@ -19,7 +19,7 @@ pub struct Angles(pub Vec<f64>);
 /// The longest list: more knots than any instrument has positions.
 const LONGEST: f64 = 100_000.0;
 
-/// Parses degrees with commas between them; `first:last:step` stands for a row of them.
+/// Parses degrees with commas between them; `first:last:step` means a sequence of them.
 pub fn parse_angles(text: &str) -> Result<Angles, String> {
     let mut angles = Vec::new();
     for item in text.split(',') {
@@ -58,7 +58,7 @@ pub enum SideRule {
     Back,
 }
 
-/// The measurements of a file that are asked for, all of them where nothing is.
+/// The requested measurements of a file; all of them if none is requested.
 pub fn choose_aspects(
     file: &Path,
     subject: &Subject,
@@ -75,7 +75,7 @@ pub fn choose_aspects(
     if chosen.is_empty() {
         let there: Vec<String> = all.iter().map(Aspect::to_string).collect();
         return Err(Failure::Usage(format!(
-            "{}: found {}; expected what was asked for",
+            "{}: found {}; expected the requested scatter and side",
             file.display(),
             there.join(", ")
         )));
@@ -99,7 +99,7 @@ pub fn table(header: Vec<String>, rows: Vec<Vec<String>>, words: usize) -> Table
     table
 }
 
-/// A bar that is told the share that is done.
+/// A progress bar that receives the share that is done.
 pub fn progress(what: &'static str) -> impl Fn(f64) {
     let (bar, done) = (Progress::new(100, what), Cell::new(0));
     move |share: f64| {

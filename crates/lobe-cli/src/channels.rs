@@ -9,16 +9,16 @@ use crate::target::Target;
 
 /// A linear map of channels.
 pub struct ChannelMap {
-    /// What it leads to.
+    /// The channels of its result.
     pub channels: Channels,
-    /// What to tell the user about it; `None` if it changes nothing.
+    /// A note about it for the user; `None` if it changes nothing.
     pub note: Option<String>,
-    /// A row for each channel it leads to.
+    /// A row for each resulting channel.
     rows: Vec<Vec<f64>>,
 }
 
 impl ChannelMap {
-    /// The way from these channels, or from the one of them that was chosen, to a format.
+    /// The map from these channels, or from a chosen one of them, to those of a format.
     pub fn new(from: &Channels, chosen: Option<&str>, target: Target) -> Result<Self, Failure> {
         let count = from.count();
         let unit = |index: usize| (0..count).map(|i| if i == index { 1.0 } else { 0.0 }).collect::<Vec<f64>>();
@@ -104,7 +104,7 @@ impl ChannelMap {
 
 /// A surface whose channels are mapped.
 pub struct Mapped<'a> {
-    /// What is looked at.
+    /// The surface.
     pub surface: &'a dyn Surface,
     /// How its channels are mapped.
     pub map: &'a ChannelMap,

@@ -13,16 +13,14 @@ use crate::failure::Failure;
 
 /// Check measurements: values, knots, poles, seams, coverage, energy, stated totals, units, reciprocity.
 #[derive(clap::Args)]
-#[command(
-    after_help = "pass: as it should be. note: worth knowing. warn: probably not what was meant. FAIL: cannot be.
+#[command(after_help = "pass: as it should be. note: worth knowing. warn: probably a mistake. FAIL: impossible.
 
 Examples:
   lobe check paint.ddr
   lobe check --strict scans/*.bsdf
   lobe check --json paint.ddr | jq '.[0].findings[] | select(.status == \"fail\") | .text'
 
-Exit codes: 0 nothing failed, 1 a file is unreadable or damaged, 3 a check failed (with --strict: or warned)."
-)]
+Exit codes: 0 nothing failed, 1 a file is unreadable or damaged, 3 a check failed (with --strict: or warned).")]
 pub struct Args {
     /// The files to check.
     #[arg(required = true)]
@@ -30,7 +28,7 @@ pub struct Args {
     /// Warnings count as failures.
     #[arg(long)]
     strict: bool,
-    /// Print JSON: an array with an object a file.
+    /// Print JSON: an array with one object per file.
     #[arg(long)]
     json: bool,
 }
@@ -129,7 +127,7 @@ impl Report {
         };
         let rows = self.findings.iter().map(row).collect();
         let mut table = table(header.map(String::from).collect(), rows, 4);
-        // Where nobody reads it on a terminal, lines are as long as they are.
+        // Lines are wrapped on a terminal only.
         if !stdout().is_terminal() {
             table.set_content_arrangement(comfy_table::ContentArrangement::Disabled);
         }

@@ -11,10 +11,10 @@ use serde::Serialize;
 use crate::angles::{ScatterRule, SideRule, choose_aspects, progress, show_direction};
 use crate::failure::Failure;
 
-/// Compare two materials: in numbers over many directions, and as two spheres look.
+/// Compare two materials: their values over many directions, and the appearance of two spheres.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Both files are asked at the same pairs of directions, every other one near the mirror direction. Where their channels differ they are compared in CIE XYZ under D65. Delta E is CIE 2000, between the pixels of two spheres under one light; about 1 is just noticed, side by side.
+    after_help = "Both files are evaluated at the same pairs of directions, every other one near the mirror direction. If their channels differ they are compared in CIE XYZ under D65. Delta E is CIE 2000, between the pixels of two spheres under one light; about 1 is just noticeable side by side.
 
 Examples:
   lobe compare paint.ddr paint-resampled.ddr
@@ -26,22 +26,22 @@ pub struct Args {
     first: PathBuf,
     /// The material to compare with it.
     second: PathBuf,
-    /// Reflection or transmission only, where the files have both.
+    /// Reflection or transmission only, if the files have both.
     #[arg(long, value_enum)]
     scatter: Option<ScatterRule>,
-    /// Light from one side only, where the files have both.
+    /// Light from one side only, if the files have both.
     #[arg(long, value_enum)]
     side: Option<SideRule>,
-    /// How many pairs of directions.
+    /// The number of pairs of directions.
     #[arg(long, default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     pairs: u32,
     /// The largest polar angle of both directions, in degrees.
     #[arg(long, default_value_t = 85.0)]
     limit: f64,
-    /// How many pixels the spheres are wide.
+    /// The width of the spheres in pixels.
     #[arg(long, default_value_t = 128, value_parser = clap::value_parser!(u16).range(8..=4096))]
     pixels: u16,
-    /// The largest relative difference (root mean square) that is no failure.
+    /// The largest relative difference (root mean square) that is not a failure.
     #[arg(long, value_name = "SHARE")]
     within: Option<f64>,
     /// Print JSON: an array with an object for each measurement that both files have.
@@ -53,7 +53,7 @@ pub struct Args {
 struct Answer {
     aspect: String,
     difference: Difference,
-    /// `None` where channels have no colour.
+    /// `None` if channels have no colour.
     delta_e: Option<Visible>,
 }
 

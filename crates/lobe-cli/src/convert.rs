@@ -16,7 +16,7 @@ use crate::target::Target;
 /// Convert a material to another format.
 #[derive(clap::Args)]
 #[command(
-    after_help = "The format to write is told from the extension of OUT or from --to. Where it has the representation of the file, knots and values are written as they are. Where it has not, the material is resampled, which is said, together with the error at probes. What the format cannot hold is refused.
+    after_help = "The format to write follows from the extension of OUT or from --to. If it has the representation of the file, knots and values are written unchanged. Otherwise the material is resampled, which is reported together with the error at sample directions. What the format cannot hold is refused.
 
 Examples:
   lobe convert paint.ddr paint.ssdd                        the same table in another format
@@ -26,14 +26,14 @@ Examples:
   lobe convert paint.bsdf paint.npz                        for numpy.load
   lobe convert film.ssdd film.bsdf --to zemax --channel Y --scatter transmission
 
-Grids of half and difference angles (MERL) are read linearly between the middles of their bins."
+Grids of half and difference angles (MERL) are interpolated between the centres of their bins."
 )]
 pub struct Args {
     /// The file of a measured material.
     file: PathBuf,
     #[command(flatten)]
     output: Output,
-    /// Which measurement of a sheet to write, where the file has both and the format has room for one.
+    /// Which measurement of a sheet to write, if the file has both and the format holds one.
     #[arg(long, value_enum)]
     scatter: Option<ScatterKind>,
 }
@@ -75,7 +75,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     measure::write(&MaterialSurface { material, scatter }, sides, &args.output)
 }
 
-/// What of a document values for pairs of directions on one side leave out.
+/// What a table for one side leaves out of a document.
 fn loss(document: &Document, target: Target) -> Option<&'static str> {
     let data = || document.parts.iter().map(|part| part.data.representation());
     if data().any(|data| data.is_polarised()) {
@@ -89,7 +89,7 @@ fn loss(document: &Document, target: Target) -> Option<&'static str> {
         .then_some("a sheet with two sides; one kind of scatter of light from z > 0 is written")
 }
 
-/// The one measurement of a sheet that is to be written, where the target has room for one.
+/// The one measurement of a sheet to write, if the target holds one.
 fn choose(document: Document, target: Target, args: &Args) -> Result<Document, Failure> {
     let asked = args.scatter.map(|kind| match kind {
         ScatterKind::Reflection => Scatter::Reflection,

@@ -14,7 +14,7 @@ pub struct Part {
     pub scatter: &'static str,
     pub channels: Vec<String>,
     pub axes: Vec<Axis>,
-    /// Whatever else there is to say.
+    /// Further facts.
     pub facts: Vec<(&'static str, String)>,
     pub values: Values,
 }
@@ -78,7 +78,7 @@ pub fn describe(document: &Document) -> Vec<Part> {
     document.parts.iter().flat_map(of_part).collect()
 }
 
-/// What a part of a sheet is called.
+/// The name of a part of a sheet.
 fn name(part: &formats::Part, section: &Section<'_>) -> String {
     let side = match part.side {
         Some(Side::Front) => " from the front",
@@ -130,7 +130,7 @@ pub fn range(values: impl Iterator<Item = f32>) -> (f32, f32) {
     values.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
 }
 
-/// Files hold degrees that `f32` can hold, so rounding to that shows what the file says.
+/// Files hold degrees in `f32` precision, so rounding to that shows what the file says.
 fn degrees(radians: &[f64]) -> Vec<f32> {
     radians.iter().map(|angle| angle.to_degrees() as f32).collect()
 }

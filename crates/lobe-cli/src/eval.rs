@@ -17,7 +17,7 @@ use crate::pairs::{Pair, parse_direction, parse_numbers, read_pairs};
 #[derive(clap::Args)]
 #[command(
     group(ArgGroup::new("query").required(true).args(["wi", "angles", "pairs"])),
-    after_help = "Directions point away from the surface, with the normal on +z: wi to the light, wo to the viewer. They are normalised. Below the horizon f is 0; tables of transmission take either sign of z, and files of both sides of a sheet tell them by it.
+    after_help = "Directions point away from the surface, with the normal on +z: wi to the light, wo to the viewer. They are normalised. Below the horizon f is 0; transmission tables accept either sign of z, and in files with both sides of a sheet it selects the side.
 
 Examples:
   lobe eval paint.ddr --wi -0.5,0,0.8 --wo 0.4,0.1,0.9
@@ -37,7 +37,7 @@ pub struct Args {
     /// The direction to the viewer.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "wi", value_parser = parse_direction)]
     wo: Option<[f64; 3]>,
-    /// Specular coordinates in degrees in place of two directions.
+    /// Specular coordinates in degrees instead of two directions.
     #[arg(long, value_name = "SIGMA,PSI,THETA,PHI", allow_hyphen_values = true, value_parser = parse_numbers::<4>)]
     angles: Option<[f64; 4]>,
     /// A CSV file with six columns, wi then wo; `-` is the standard input. Prints a line of channels for each pair.
@@ -52,13 +52,13 @@ pub struct Args {
     /// Which direction the tables of the EPFL database (RGL) are indexed by.
     #[arg(long, value_enum, default_value = "light")]
     indexed_by: IndexRule,
-    /// Print this channel only, by the name that `lobe info` shows: Y, R, 550nm. May be given again.
+    /// Print this channel only, by the name that `lobe info` shows: Y, R, 550nm. May be repeated.
     #[arg(long = "channel", value_name = "NAME")]
     channels: Vec<String>,
     /// Print f times the cosine between wo and the normal.
     #[arg(long)]
     cosine: bool,
-    /// Print JSON: an object, or with --pairs an object a line.
+    /// Print JSON: an object, or with --pairs one object per line.
     #[arg(long)]
     json: bool,
 }
@@ -87,7 +87,7 @@ impl EdgeRule {
 enum LookupRule {
     /// The value of the bin.
     Nearest,
-    /// Linear between the middles of bins.
+    /// Linear between the centres of bins.
     Linear,
 }
 
@@ -163,7 +163,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     Ok(out.flush()?)
 }
 
-/// The positions of the channels asked for, or of all.
+/// The positions of the requested channels, or of all.
 fn choose(all: &[String], asked: &[String]) -> Result<Vec<usize>, Failure> {
     if asked.is_empty() {
         return Ok((0..all.len()).collect());
@@ -176,7 +176,7 @@ fn choose(all: &[String], asked: &[String]) -> Result<Vec<usize>, Failure> {
     asked.iter().map(position).collect()
 }
 
-/// The shortest number that is this one in `f32`.
+/// The shortest decimal that reads back as this `f32`.
 fn shortest(value: f32) -> String {
     let digits = format!("{value:?}");
     digits.strip_suffix(".0").map_or(digits.clone(), String::from)

@@ -13,11 +13,11 @@ use lobe_render::picture::PictureError;
 pub enum Failure {
     /// A file cannot be read or written, or is damaged. Exit code 1.
     File(String),
-    /// What was asked for makes no sense. Exit code 2.
+    /// The request makes no sense. Exit code 2.
     Usage(String),
-    /// What was checked is not in order, or a bound was not met. Exit code 3.
+    /// A check failed, or a bound was not met. Exit code 3.
     Check(String),
-    /// Whoever reads the output has read enough, as `head` does. No failure at all.
+    /// The reader of the output has closed it, as `head` does. Not a failure.
     OutputClosed,
 }
 

@@ -18,7 +18,7 @@ use crate::output::Output;
   lobe generate ward paint.binary --alpha 0.15 --specular 0.3 --diffuse 0.5,0.1,0.1
   lobe generate cloth silk.ddr --paths 500
 
-Colours are one number or three for red, green and blue. `lobe generate MODEL --help` lists the parameters of a model.")]
+A colour is one number, or three for red, green and blue. `lobe generate MODEL --help` lists the parameters of a model.")]
 pub struct Args {
     #[command(subcommand)]
     model: ModelArgs,
@@ -110,9 +110,9 @@ enum ModelArgs {
         #[command(flatten)]
         output: Output,
     },
-    /// Woven cloth whose threads are followed by light: Volevich et al. 1997.
+    /// Woven cloth, by tracing light through its threads: Volevich et al. 1997.
     #[command(
-        after_help = "Example:\n  lobe generate cloth silk.ddr --warp 0.02,0.08,0.45 --weft 0.6,0.18,0.02 --paths 500\n\nThe values are simulated with as many paths of light for each of its directions as --paths says: their noise falls with its square root."
+        after_help = "Example:\n  lobe generate cloth silk.ddr --warp 0.02,0.08,0.45 --weft 0.6,0.18,0.02 --paths 500\n\nThe values are simulated with --paths paths of light for each direction of the light: their noise falls with the square root of that number."
     )]
     Cloth {
         /// Colour of the yarns along y.
@@ -121,10 +121,10 @@ enum ModelArgs {
         /// Colour of the yarns along x.
         #[arg(long, default_value = "0.6,0.18,0.02", value_parser = share)]
         weft: Colour,
-        /// Share of the shining fibres.
+        /// Share of the glossy fibres.
         #[arg(long, default_value = "0.6", value_parser = fraction)]
         shine: f64,
-        /// Roughness of the shine along and across the fibres.
+        /// Roughness of the gloss along and across the fibres.
         #[arg(long, default_value = "0.16,0.4", value_parser = roughness)]
         alpha: [f64; 2],
         /// Wefts that a warp yarn passes over, then under: 1,1 is plain weave.
@@ -141,10 +141,10 @@ enum ModelArgs {
     },
 }
 
-/// A diffuse part under a lobe.
+/// A diffuse component under a lobe.
 #[derive(clap::Args)]
 struct Diffuse {
-    /// Colour of a diffuse part that takes half of the surface; none where it is left out.
+    /// Colour of a diffuse component that covers half of the surface; none by default.
     #[arg(long, value_parser = share)]
     diffuse: Option<Colour>,
 }

@@ -18,7 +18,7 @@ use crate::failure::Failure;
 The format is told from the content. Only .ddt and .sdt files are known by their extension to be transmission.
 A folder is read as the RPC Photonics files in it, which are one material.")]
 pub struct Args {
-    /// The file to look at.
+    /// The file to show.
     file: PathBuf,
     /// Print JSON, for programs.
     #[arg(long)]
@@ -34,7 +34,7 @@ struct Info {
     file_bytes: Option<u64>,
     /// One for each block of values; most files have one.
     parts: Vec<Part>,
-    /// Total integrated scatter, as the file states it.
+    /// Total integrated scatter, as stated in the file.
     tis: Vec<f32>,
     source: Vec<(String, String)>,
 }

@@ -1,4 +1,4 @@
-//! Writing what a file holds as it is, where the format has its representation: no value is computed anew.
+//! Writing the contents of a file unchanged, if the format has its representation: no value is recomputed.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use crate::channels::ChannelMap;
 use crate::failure::Failure;
 use crate::target::Target;
 
-/// Writes the document, if the target has its representation; `false` if it has to be resampled.
+/// Writes the document, if the target has its representation; `false` if it must be resampled.
 pub fn write(document: &Document, target: Target, chosen: Option<&str>, out: &Path) -> Result<Option<String>, Failure> {
     match (target, document.only()) {
         (Target::Npz, _) if chosen.is_none() => npz::write(document, out)?,
@@ -58,7 +58,7 @@ fn write_data(data: &Data, target: Target, out: &Path) -> Result<(), Failure> {
         (Target::Csv, data) => goniometer::write(data, out)?,
         (Target::Ssdd, data) => ssdd::write(&[Part::new("", data.clone())], Encoding::Ascii, out)?,
         (Target::Npz, data) => npz::write(&Document::new(data.clone()), out)?,
-        _ => return Err(Failure::Usage(format!("{target}: no such table can be written"))),
+        _ => return Err(Failure::Usage(format!("{target}: such a table cannot be written"))),
     }
     Ok(())
 }

@@ -34,7 +34,7 @@ use clap::{Parser, Subcommand};
 
 use crate::failure::Failure;
 
-/// Look at measured BRDFs and BTDFs, check, evaluate, convert and draw them.
+/// Inspect, check, evaluate, convert and draw measured BRDFs and BTDFs.
 #[derive(Parser)]
 #[command(
     name = "lobe",

@@ -1,4 +1,4 @@
-//! Measuring a surface anew, on the nodes of the format that is written.
+//! Resampling a surface at the nodes of the format that is written.
 
 use std::path::Path;
 
@@ -23,11 +23,11 @@ use crate::target::Target;
 pub enum Sides {
     /// One kind of scatter.
     One(Scatter),
-    /// The surface tells the sides apart.
+    /// The surface distinguishes the sides.
     Both,
 }
 
-/// Measures a surface and writes it; says how, and how far the file is from the surface, on the standard error.
+/// Measures a surface and writes it; reports the nodes and the error of the file on standard error.
 pub fn write(surface: &dyn Surface, sides: Sides, output: &Output) -> Result<(), Failure> {
     let (target, out) = (output.target()?, output.out.as_path());
     let map = ChannelMap::new(surface.channels(), output.channel.as_deref(), target)?;
@@ -84,7 +84,7 @@ pub fn write(surface: &dyn Surface, sides: Sides, output: &Output) -> Result<(),
     }
     match errors(surface, target, sides, scatter, out)? {
         Some(errors) => eprintln!("  {errors}"),
-        None => eprintln!("  lobe does not read this format, so that the error is not known"),
+        None => eprintln!("  lobe does not read this format, so the error is not known"),
     }
     Ok(())
 }
@@ -100,7 +100,7 @@ fn file(out: &Path, error: &dyn std::fmt::Display) -> Failure {
 /// The blocks of a sheet that are not dark.
 fn sheet(surface: &dyn Surface, output: &Output, sides: Sides) -> Result<window::Data, Failure> {
     let names: Vec<String> = match surface.channels() {
-        // Radiance takes X and Z beside Visible for colour.
+        // Radiance uses X and Z in addition to Visible for colour.
         Channels::Xyz => ["CIE-X", "Visible", "CIE-Z"].map(String::from).into(),
         Channels::Mono => vec!["Visible".into()],
         other => other.names(),
@@ -145,7 +145,7 @@ fn errors(
         material: Material::open_with(out, &options)?,
         scatter: if is_klems { None } else { Some(scatter) },
     };
-    // Where only one side was written, the other is no error.
+    // If only one side was written, the other is not an error.
     let with_transmission =
         if is_klems { sides != Sides::One(Scatter::Reflection) } else { scatter == Scatter::Transmission };
     Ok(Some(Errors::between(surface, &found, with_transmission)))

@@ -18,7 +18,7 @@ pub struct Args {
     /// The picture, .exr or .png.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Write what there is, although samples are missing.
+    /// Write the picture even if samples are missing.
     #[arg(long)]
     allow_gaps: bool,
     /// For PNG: multiply radiance by two to this power.

@@ -1,4 +1,4 @@
-//! Where a table is written, and how finely.
+//! The options for writing a table: where, and how finely.
 
 use std::path::PathBuf;
 
@@ -13,33 +13,33 @@ use crate::target::Target;
 /// Arguments of the commands that write tables.
 #[derive(clap::Args)]
 pub struct Output {
-    /// The file to write; one that is there is replaced.
+    /// The file to write; an existing one is replaced.
     pub out: PathBuf,
-    /// The format to write, where the extension does not say it.
+    /// The format to write, if the extension does not determine it.
     #[arg(long, value_enum)]
     pub to: Option<Target>,
     /// Write this channel only, by the name that `lobe info` shows.
     #[arg(long, value_name = "NAME")]
     pub channel: Option<String>,
-    /// Knots of specular tables where values are resampled: angle of incidence. Else 19 from 0 to 88, or 11 where psi counts.
+    /// Knots of resampled specular tables: angle of incidence. By default 19 from 0 to 88, or 11 if psi matters.
     #[arg(long, value_name = "DEGREES", value_delimiter = ',', help_heading = "Resampling")]
     pub sigma: Vec<f64>,
-    /// Rotation of the sample; a single 0 for isotropic ones. Else every 15 degrees, where it makes a difference.
+    /// Rotation of the sample; a single 0 for isotropic ones. By default every 15 degrees, if it makes a difference.
     #[arg(long, value_name = "DEGREES", value_delimiter = ',', help_heading = "Resampling")]
     pub psi: Vec<f64>,
-    /// Angle to the mirror direction. Else 30 from 0 to 180, dense near 0.
+    /// Angle to the mirror direction. By default 30 from 0 to 180, dense near 0.
     #[arg(long, value_name = "DEGREES", value_delimiter = ',', help_heading = "Resampling")]
     pub theta: Vec<f64>,
-    /// Azimuth about the mirror direction. Else every 15 degrees.
+    /// Azimuth about the mirror direction. By default every 15 degrees.
     #[arg(long, value_name = "DEGREES", value_delimiter = ',', help_heading = "Resampling")]
     pub phi: Vec<f64>,
-    /// Zenith angles of the light in RGL files. Else 48, or 20 where the material is anisotropic.
+    /// Number of polar angles of the light in RGL files. By default 48, or 20 if the material is anisotropic.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(2..=512), help_heading = "Resampling")]
     pub zeniths: Option<u16>,
-    /// Azimuths of the light in RGL files of anisotropic materials. Else 25.
+    /// Number of azimuths of the light in RGL files of anisotropic materials. By default 25.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(3..=512), help_heading = "Resampling")]
     pub azimuths: Option<u16>,
-    /// Rows and columns of the images of values in RGL files. Else 64, or 40 where the material is anisotropic.
+    /// Rows and columns of the images of values in RGL files. By default 64, or 40 if the material is anisotropic.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(2..=1024), help_heading = "Resampling")]
     pub texels: Option<u16>,
     /// Patches of WINDOW XML files.
@@ -72,7 +72,7 @@ impl Output {
         Target::of(&self.out, self.to)
     }
 
-    /// The knots of a specular table in radians: those asked for, else some that suit most materials.
+    /// The knots of a specular table in radians: the requested ones, or else some that suit most materials.
     pub fn knots(&self, is_isotropic: bool) -> [Vec<f64>; 4] {
         let every_15: Vec<f64> = (0..=24).map(|step| 15.0 * f64::from(step)).collect();
         let defaults = [

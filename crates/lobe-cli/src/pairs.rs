@@ -44,14 +44,14 @@ fn normalise(v: [f64; 3]) -> Result<[f64; 3], String> {
     // Scaled by the largest component first, so that no square overflows or vanishes.
     let largest = v.iter().fold(0.0_f64, |largest, c| largest.max(c.abs()));
     if largest == 0.0 {
-        return Err("found a direction of zero length; expected one that points somewhere".into());
+        return Err("found a direction of zero length; expected a non-zero vector".into());
     }
     let v = v.map(|c| c / largest);
     let length = v.iter().map(|c| c * c).sum::<f64>().sqrt();
     Ok(v.map(|c| c / length))
 }
 
-/// Reads six columns, wi then wo, with commas between, from a file, or from the standard input where it is called `-`.
+/// Reads six columns, wi then wo, with commas between, from a file, or from standard input if it is called `-`.
 ///
 /// A first line without any number is a header; lines that start with `#` are comments.
 pub fn read_pairs(path: &Path) -> Result<Vec<Pair>, Failure> {

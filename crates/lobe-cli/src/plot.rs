@@ -26,7 +26,7 @@ angles of view are positive on the side of the mirror direction, and f is in 1/s
 pub struct Args {
     /// The file of a measured BRDF or BTDF.
     file: PathBuf,
-    /// The file to write: .html, .svg or .png. One that is there is replaced.
+    /// The file to write: .html, .svg or .png. An existing one is replaced.
     #[arg(short, long)]
     out: PathBuf,
     /// What to draw; by default a page in .html and curves in .svg and .png.
@@ -35,7 +35,7 @@ pub struct Args {
     /// Logarithmic values.
     #[arg(long, conflicts_with = "linear")]
     log: bool,
-    /// Linear values. By default curves and slices are logarithmic, and lobes where their peaks differ much.
+    /// Linear values. By default curves and slices are logarithmic, and lobes if their peaks differ much.
     #[arg(long)]
     linear: bool,
     /// Polar angles of the light in degrees; by default knots of the measurement.
@@ -44,13 +44,13 @@ pub struct Args {
     /// Azimuth of the light in degrees; by default that of the first knot.
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = parse_angle)]
     psi: Option<f64>,
-    /// The side from which the light comes; by default above, where there are values.
+    /// The side from which the light comes; by default above, if there are values.
     #[arg(long, value_enum)]
     side: Option<LightSide>,
     /// Draw this channel, by the name that `lobe info` shows; by default the luminance, and spheres in colour.
     #[arg(long, value_name = "NAME")]
     channel: Option<String>,
-    /// Pixels across a figure.
+    /// The width of a figure in pixels.
     #[arg(long, default_value_t = 960, value_parser = clap::value_parser!(u32).range(100..=8000))]
     width: u32,
 }
@@ -77,7 +77,7 @@ enum LightSide {
     Below,
 }
 
-/// What a file is to hold.
+/// What a file will contain.
 enum Target {
     Page,
     Svg(Figure),
@@ -106,7 +106,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     Ok(write_whole(&args.out, &content)?)
 }
 
-/// The extension and the kind have to agree.
+/// The extension and the kind must agree.
 fn target(out: &Path, kind: Option<Kind>) -> Result<Target, Failure> {
     let extension = out.extension().map(|extension| extension.to_string_lossy().to_lowercase());
     let figure = match kind {
@@ -190,10 +190,10 @@ fn parse_sigma(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A bar on the standard error, where that is a terminal, once a second has passed.
+/// A bar on standard error, if that is a terminal, once a second has passed.
 struct Bar(ProgressBar);
 
-/// What takes less than this shows no bar.
+/// Work that takes less than this shows no bar.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 impl Bar {

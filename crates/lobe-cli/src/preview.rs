@@ -31,10 +31,10 @@ pub struct Args {
     /// What to show it on.
     #[arg(long, value_enum, default_value = "both")]
     show: Shown,
-    /// Columns and rows.
+    /// Width and height in pixels.
     #[arg(long, value_name = "WxH", default_value = "800x600", value_parser = parse_size)]
     size: [u32; 2],
-    /// Samples a pixel.
+    /// Samples per pixel.
     #[arg(long, value_name = "N", default_value_t = 48, value_parser = clap::value_parser!(u32).range(1..65_537))]
     samples: u32,
     /// Stop after this time at the latest; every pixel has a sample by then.
@@ -49,7 +49,7 @@ pub struct Args {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Shown {
-    /// The ball beside the cloth.
+    /// The ball next to the cloth.
     Both,
     /// The ball alone.
     Ball,

@@ -10,7 +10,7 @@ use crate::progress::Progress;
 /// Pairs of directions that are compared.
 const PROBES: u32 = 4096;
 
-/// Differences at the probes, relative to the value, or to a hundredth of the mean value where that is larger.
+/// Differences at the probes, relative to the value, or to a hundredth of the mean value if that is larger.
 pub struct Errors {
     probes: usize,
     median: f64,

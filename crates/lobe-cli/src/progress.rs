@@ -4,10 +4,10 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// What takes less than this shows no bar.
+/// Work that takes less than this shows no bar.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// A bar on the standard error, where that is a terminal, once a second has passed.
+/// A bar on standard error, if that is a terminal, once a second has passed.
 pub struct Progress(ProgressBar);
 
 impl Progress {
@@ -35,7 +35,8 @@ impl Drop for Progress {
     }
 }
 
-/// A bar of work that ends with its samples or its time, whichever is first; nothing where the standard error is none.
+/// A bar for work that ends with its samples or its time, whichever is first; nothing if standard error is not a
+/// terminal.
 pub struct Bar(ProgressBar);
 
 impl Bar {
@@ -43,11 +44,11 @@ impl Bar {
     pub fn new(quiet: bool) -> Self {
         let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let style = ProgressStyle::with_template("{wide_bar} {percent:>3}%  {elapsed} / {eta} left  {msg}")
-            .expect("a template that is right");
+            .expect("a valid template");
         Bar(ProgressBar::with_draw_target(Some(0), target).with_style(style))
     }
 
-    /// Shows how many samples are done, and how much of the time that there is at most.
+    /// Shows how many samples are done, and how much of the time limit has passed.
     pub fn show(&self, done: u64, total: u64, time: Option<(Duration, Duration)>) {
         let share = done as f64 / total.max(1) as f64;
         // Whichever limit is nearer.
@@ -58,7 +59,7 @@ impl Bar {
         self.0.set_message(format!("{:.1} M samples", done as f64 / 1e6));
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub fn finish(&self) {
         self.0.finish_and_clear();
     }

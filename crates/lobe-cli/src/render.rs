@@ -21,8 +21,8 @@ use crate::summary::Summary;
     after_help = "The picture does not depend on threads, tiles, or the order of work. With --strict it does not depend \
 on the instructions of the machine either.
 
-Every 30 seconds the picture so far is written; an EXR file then also has the exact sums that --resume goes \
-on with. A PNG has them beside it, in OUT.part.exr.
+Every 30 seconds the picture so far is written; an EXR file then also has the exact sums from which \
+--resume continues. For a PNG they are next to it, in OUT.part.exr.
 
 Examples:
   lobe render scene.toml -o picture.exr
@@ -39,28 +39,28 @@ pub struct Args {
     /// The picture, .exr or .png.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Samples a pixel, in place of what the scene says.
+    /// Samples per pixel, instead of those in the scene.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..u32::MAX as i64))]
     samples: Option<u32>,
-    /// The integrator, with its default parameters, in place of what the scene says.
+    /// The integrator, with its default parameters, instead of the one in the scene.
     #[arg(long, value_name = "NAME", value_parser = integrators())]
     integrator: Option<String>,
     /// Stop after this time, such as 90s or 10m, at the latest; every pixel has a sample by then.
     #[arg(long, value_name = "TIME", value_parser = humantime::parse_duration)]
     time: Option<Duration>,
-    /// Render the pixels from column X0 and row Y0 up to but without X1 and Y1, counted from the upper left.
+    /// Render the pixels from column X0 and row Y0 up to, but not including, X1 and Y1, counted from the upper left.
     #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = parse_crop)]
     crop: Option<Rect>,
     /// Render part I of N, counted from 1, and write it so that `lobe merge` can add it to the others.
     #[arg(long, value_name = "I/N", value_parser = parse_tile, conflicts_with = "crop")]
     tile: Option<(u32, u32)>,
-    /// Render these of the samples only, and write them so that `lobe merge` can add them to the others.
+    /// Render only these samples, and write them so that `lobe merge` can add them to the others.
     #[arg(long, value_name = "A..B", value_parser = parse_range, conflicts_with = "time")]
     samples_range: Option<Range<u32>>,
     /// How often the picture so far is written.
     #[arg(long, value_name = "TIME", default_value = "30s", value_parser = humantime::parse_duration)]
     write_every: Duration,
-    /// Go on with the file that a rendering which was stopped has left.
+    /// Continue from the file that a stopped rendering has left.
     #[arg(long)]
     resume: bool,
     /// Print what the rendering took as JSON.
@@ -70,16 +70,16 @@ pub struct Args {
     machine: Machine,
 }
 
-/// How to use the machine; the picture does not depend on it, but for the last digits on other backends.
+/// How to use the machine; the picture does not depend on it, except for the last digits on other backends.
 #[derive(clap::Args)]
 pub struct Machine {
-    /// How many threads; by default one for each of the machine's.
+    /// Number of threads; by default as many as the machine has.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..1025))]
     threads: Option<u16>,
     /// The instructions: scalar, sse2, sse4.1 or avx2; by default the best of this machine.
     #[arg(long, value_name = "NAME")]
     backend: Option<String>,
-    /// Round the same on all machines and instructions, a little more slowly.
+    /// Round the same way on all machines and instructions, which is a little slower.
     #[arg(long)]
     strict: bool,
     /// Show no progress.
@@ -88,7 +88,7 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// The backend that was asked for.
+    /// The requested backend.
     pub fn backend(&self) -> Result<Backend, Failure> {
         let backend = match &self.backend {
             Some(name) => Backend::named(name).map_err(|error| Failure::Usage(error.to_string()))?,
@@ -97,7 +97,7 @@ impl Machine {
         Ok(if self.strict { backend.strict() } else { backend })
     }
 
-    /// How many threads.
+    /// The number of threads.
     pub fn threads(&self) -> usize {
         self.threads.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
     }
@@ -133,7 +133,7 @@ fn parse_range(text: &str) -> Result<Range<u32>, String> {
     pair.filter(|range: &Range<u32>| !range.is_empty()).ok_or_else(|| "expected A..B with A < B".into())
 }
 
-/// With a time limit alone there is no other.
+/// With a time limit only, there is no other limit.
 const UNLIMITED: u32 = 1 << 20;
 
 /// Runs the command.
@@ -195,7 +195,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     let (film, stats) = rendered.map_err(|error| Failure::Usage(error.to_string()))?;
     if stats.invalid > 0 {
-        eprintln!("warning: {} samples were no finite numbers and count as black", stats.invalid);
+        eprintln!("warning: {} samples were not finite and count as black", stats.invalid);
     }
     output.write(&film, partial)?;
     let summary = Summary::new([window.width, window.height], film.samples(), begun.elapsed(), &stats);
@@ -224,8 +224,7 @@ fn window(args: &Args, size: [u32; 2]) -> Result<Rect, Failure> {
     match whole.intersection(&crop) {
         Some(inside) if inside == crop => Ok(crop),
         _ => {
-            let message =
-                format!("--crop: found pixels outside of the picture; expected up to {},{}", size[0], size[1]);
+            let message = format!("--crop: found pixels outside the picture; expected up to {},{}", size[0], size[1]);
             Err(Failure::Usage(message))
         }
     }
@@ -241,7 +240,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// The kind that the name of a file asks for.
+    /// The kind given by the name of a file.
     pub fn of(path: &Path) -> Result<Self, Failure> {
         let is = |extension: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
         match (is("exr"), is("png")) {
@@ -261,7 +260,7 @@ struct Output<'a> {
 }
 
 impl Output<'_> {
-    /// The file that a rendering which was stopped leaves.
+    /// The file that a stopped rendering leaves.
     fn part(&self) -> PathBuf {
         match self.kind {
             Kind::Exr => self.path.into(),
@@ -273,7 +272,7 @@ impl Output<'_> {
         }
     }
 
-    /// The film so far: to look at, and to go on with.
+    /// The film so far: to look at, and to continue.
     fn write_part(&self, film: &Film) -> Result<(), Failure> {
         write_exr(&self.part(), film, &self.meta, true)?;
         if self.kind == Kind::Png {
@@ -305,7 +304,7 @@ impl Output<'_> {
         Ok(())
     }
 
-    /// The film that an earlier rendering has left; an empty one where there is none.
+    /// The film that an earlier rendering has left; an empty one if there is none.
     fn resume(&self) -> Result<Film, Failure> {
         let part = self.part();
         if !part.exists() {
@@ -317,7 +316,7 @@ impl Output<'_> {
             && meta.samples.start == self.meta.samples.start;
         if !same {
             let message = format!(
-                "{}: found a part of another picture, or of other pixels or samples of it; expected this one's",
+                "{}: found a part of another picture, or of other pixels or samples of it; expected a part of this one",
                 part.display()
             );
             return Err(Failure::Usage(message));

@@ -18,10 +18,10 @@ use serde::Serialize;
 use crate::angles::{Angles, ScatterRule, SideRule, choose_aspects, parse_angles, progress, show_direction};
 use crate::failure::Failure;
 
-/// Resample any material into a table of specular coordinates, repair it, and say how far it is from the original.
+/// Resample any material into a table in specular coordinates, repair it, and report how far it is from the original.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Axes that are not given get the knots that keep the interpolation error below --error, as a part of the largest value (or, with --per-value, of each value above a thousandth of that). A specular table keeps its knots unless an axis or --error is given; then knots are chosen among its own. Errors count up to polar angles of --limit.
+    after_help = "Axes that are not given get the knots that keep the interpolation error below --error, relative to the largest value (or, with --per-value, to each value above a thousandth of that). A specular table keeps its knots unless an axis or --error is given; then knots are chosen among its own. Errors count up to polar angles of --limit.
 
 Repairs come after, in the order of this list: colour, fill, mirror, reciprocal, conserve.
 
@@ -31,7 +31,7 @@ Examples:
   lobe resample sensor.bsdf sensor.ddr --fill zeros --beyond linear --mask filled.csv --conserve
   lobe resample paint.brdf paint.ddr --colour rgb
 
-Exit code 3, and no file, where the bound is not met."
+If the bound is not met, the exit code is 3 and no file is written."
 )]
 pub struct Args {
     /// The material.
@@ -41,7 +41,7 @@ pub struct Args {
     /// The largest interpolation error [default: 0.01].
     #[arg(long, value_name = "SHARE")]
     error: Option<f64>,
-    /// The error is a part of each value, not of the largest.
+    /// The error is relative to each value, not to the largest.
     #[arg(long)]
     per_value: bool,
     /// The polar angle of both directions, in degrees, up to which errors count: toward the horizon values grow.
@@ -59,10 +59,10 @@ pub struct Args {
     /// Knots of the azimuth about the mirror direction in degrees.
     #[arg(long, value_name = "LIST", value_parser = parse_angles)]
     phi: Option<Angles>,
-    /// Reflection or transmission, where the file has both; the first otherwise.
+    /// Reflection or transmission, if the file has both; by default the first.
     #[arg(long, value_enum)]
     scatter: Option<ScatterRule>,
-    /// The side that the light comes from, where the file has both; the first otherwise.
+    /// The side that the light comes from, if the file has both; by default the first.
     #[arg(long, value_enum)]
     side: Option<SideRule>,
     /// Turn spectra and the like into colours.
@@ -71,7 +71,7 @@ pub struct Args {
     /// Fill what was not measured.
     #[arg(long, value_enum)]
     fill: Option<FillRule>,
-    /// How values go on beyond the last that was measured.
+    /// How values continue beyond the last measured one.
     #[arg(long, value_enum, default_value = "nearest", requires = "fill")]
     beyond: BeyondRule,
     /// Write the nodes that were filled: CSV of sigma, psi, theta, phi in degrees.
@@ -101,9 +101,9 @@ enum ColourRule {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum FillRule {
-    /// Where all channels are exactly 0.
+    /// Values whose channels are all exactly 0.
     Zeros,
-    /// Where any channel is negative.
+    /// Values of which any channel is negative.
     Negatives,
 }
 
@@ -122,7 +122,7 @@ struct Answer {
     /// Knots of sigma, psi, theta and phi.
     knots: [usize; 4],
     channels: Vec<String>,
-    /// `None` where the table kept its knots.
+    /// `None` if the table kept its knots.
     resampling: Option<Resampling>,
     repairs: Vec<String>,
 }
@@ -156,7 +156,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     Ok(out.flush()?)
 }
 
-/// The table before repairs, and its error where it is not the file's own.
+/// The table before repairs, and its error unless it is the file's own.
 fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(specular::Data, Option<Resampling>), Failure> {
     let given = [&args.sigma, &args.psi, &args.theta, &args.phi];
     let own = match subject.data(aspect) {
@@ -185,7 +185,7 @@ fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(specular::Da
     let chosen = choose(&subject.material, aspect, &axes, bound, &bar)
         .map_err(|error| Failure::Usage(format!("{}: {error}", args.output.display())))?;
     drop(bar);
-    // With all knots given there is no bound to meet, unless one was asked for.
+    // With all knots given there is no bound to meet, unless one was requested.
     if chosen.error > bound.error && !(is_all_given && args.error.is_none()) {
         return Err(Failure::Check(format!(
             "{}: the smallest error that was reached is {:.4}; expected {} or less",
@@ -268,7 +268,7 @@ fn extension(path: &Path) -> String {
     path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
 }
 
-/// Before anything takes long.
+/// Checked before anything takes long.
 fn check_output(path: &Path, scatter: Scatter) -> Result<(), Failure> {
     let (wanted, what) = match scatter {
         Scatter::Reflection => ("ddr", "reflection"),

@@ -17,11 +17,11 @@ pub struct Summary {
     seconds: f64,
     /// Rays traced.
     rays: u64,
-    /// Samples that were no finite numbers.
+    /// Samples that were not finite.
     invalid: u64,
     /// Shares of the threads' time.
     shares: Shares,
-    /// The share of lanes in use while materials were evaluated, by the number of surfaces met before.
+    /// The share of lanes in use while materials were evaluated, by the number of surfaces hit before.
     lanes_in_use: Vec<f64>,
     /// The same at all depths together.
     lanes: f64,

@@ -1,4 +1,4 @@
-//! A material from a file, as something to be measured anew.
+//! A material from a file, as a surface to be measured again.
 
 use lobe::{Channels, Material, Scatter};
 use lobe_model::Surface;
@@ -7,7 +7,7 @@ use lobe_model::Surface;
 pub struct MaterialSurface {
     /// The material.
     pub material: Material,
-    /// The only kind of scatter that it holds; `None` where it tells the sides apart itself.
+    /// The only kind of scatter that it holds; `None` if it distinguishes the sides itself.
     pub scatter: Option<Scatter>,
 }
 

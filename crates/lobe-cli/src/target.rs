@@ -32,7 +32,7 @@ pub enum Target {
 }
 
 impl Target {
-    /// The format that was asked for, or that the extension of the file names.
+    /// The requested format, or the one that the extension of the file names.
     pub fn of(path: &Path, to: Option<Target>) -> Result<Target, Failure> {
         if let Some(target) = to {
             return Ok(target);
@@ -51,11 +51,11 @@ impl Target {
             "npz" => Target::Npz,
             "bsdf" => return unknown("found the extension .bsdf, which RGL and Zemax files share"),
             "" => return unknown("found no extension"),
-            other => return unknown(&format!("found the extension .{other}, of no format that lobe writes")),
+            other => return unknown(&format!("found the extension .{other}, which no format that lobe writes has")),
         })
     }
 
-    /// What these channels are in this format, and the way there: `None` where it has nothing like them.
+    /// What these channels become in this format, and how: `None` if it has nothing like them.
     pub fn holds(self, channels: &Channels) -> bool {
         match self {
             Target::Ddr | Target::Sdr => matches!(channels, Channels::Mono | Channels::Rgb | Channels::Spectral(_)),
@@ -81,7 +81,7 @@ impl Target {
         }
     }
 
-    /// The side that a file of this name can only hold, where its name or format says one.
+    /// The only side that a file of this name can hold, if its name or format implies one.
     pub fn side(self, path: &Path) -> Option<Scatter> {
         let is_transmission =
             path.extension().is_some_and(|e| e.eq_ignore_ascii_case("ddt") || e.eq_ignore_ascii_case("sdt"));

@@ -1,11 +1,10 @@
 //! Data files of the ALTA library, text form.
 //!
-//! `#KEY value` lines, among them `#DIM inputs outputs`, `#PARAM_IN` and `#PARAM_OUT`, then a record a line. Read here
-//! are two parametrisations of isotropic materials: `ISOTROPIC_TL_TV_PROJ_DPHI`, which is `theta_i`,
-//! `theta_o cos(dphi)`, `theta_o sin(dphi)`, and `ISOTROPIC_TV_TL_DPHI`, which is `theta_o`, `theta_i`, `dphi`; radians.
-//! Values are `f` in 1/sr (`INV_STERADIAN`), or with the cosine of the outgoing direction
-//! (`INV_STERADIAN_COSINE_FACTOR`), which is divided out; at the horizon, where it is zero, such a sample says nothing
-//! and is left out.
+//! `#KEY value` lines, among them `#DIM inputs outputs`, `#PARAM_IN` and `#PARAM_OUT`, then one record per line. Read
+//! here are two parametrisations of isotropic materials: `ISOTROPIC_TL_TV_PROJ_DPHI`, which is `theta_i`, `theta_o
+//! cos(dphi)`, `theta_o sin(dphi)`, and `ISOTROPIC_TV_TL_DPHI`, which is `theta_o`, `theta_i`, `dphi`; radians. Values
+//! are `f` in 1/sr (`INV_STERADIAN`), or with the cosine of the outgoing direction (`INV_STERADIAN_COSINE_FACTOR`),
+//! which is divided out; at the horizon, where it is zero, such a sample says nothing and is left out.
 
 use std::path::Path;
 
@@ -15,10 +14,10 @@ use crate::lines::{lines, shown};
 use crate::records::Records;
 use crate::{FormatError, Place};
 
-/// Below this cosine a value cannot be told from the error that the division makes of it.
+/// Below this cosine a value cannot be distinguished from the error of the division.
 const LEAST_COSINE: f64 = 1e-3;
 
-/// `true` where the lines at the start that begin with `#` have `#DIM` and `#PARAM_IN`.
+/// `true` if the lines at the start that begin with `#` have `#DIM` and `#PARAM_IN`.
 pub fn matches(bytes: &[u8]) -> bool {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
     let has = |key: &str| head.lines().take_while(|line| line.starts_with('#')).any(|line| line.starts_with(key));

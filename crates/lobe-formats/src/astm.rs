@@ -1,9 +1,9 @@
 //! ASTM E1392 text files of scattered light, as the Cornell Program of Computer Graphics has them.
 //!
 //! Lines of a keyword and a value, among them `NUM_POINTS`; the last is `VARS` with the names of the columns. Then a
-//! comma-separated record a line: `theta_i`, `phi_i`, `theta_s`, `phi_s` in radians, or `theta_i`, `theta_s`, `phi_s` with
-//! the light at azimuth 0, and `f` in 1/sr: `R,G,B`, or `X,Y,Z`, or columns such as `400nm`, or one of any name. Whether
-//! it is reflection or transmission the file does not say.
+//! comma-separated record per line: `theta_i`, `phi_i`, `theta_s`, `phi_s` in radians, or `theta_i`, `theta_s`, `phi_s`
+//! with the light at azimuth 0, and `f` in 1/sr: `R,G,B`, or `X,Y,Z`, or columns such as `400nm`, or one of any name.
+//! Whether it is reflection or transmission the file does not say.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ use crate::lines::{Line, lines, shown};
 use crate::records::Records;
 use crate::{FormatError, Place};
 
-/// `true` where the lines at the start have `NUM_POINTS` and `VARS`.
+/// `true` if the lines at the start have `NUM_POINTS` and `VARS`.
 pub fn matches(bytes: &[u8]) -> bool {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 16)]);
     let has = |key: &str| head.lines().any(|line| line.split_whitespace().next() == Some(key));

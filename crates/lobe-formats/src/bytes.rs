@@ -52,7 +52,7 @@ impl<'a, 'f> Cursor<'a, 'f> {
         Ok(array)
     }
 
-    /// The next `count` 32-bit floats. Fails before it allocates where the file does not hold them.
+    /// The next `count` 32-bit floats. Fails before it allocates if the file does not hold them.
     pub fn floats(&mut self, count: Option<usize>, what: &str) -> Result<Vec<f32>, FormatError> {
         let Some(bytes) = count.and_then(|count| count.checked_mul(4)) else {
             return Err(self.error("more values than memory holds", what));

@@ -11,7 +11,7 @@ use crate::FormatError;
 use crate::records::Records;
 use crate::text::Text;
 
-/// `true` where the comments at the start announce the number of wavelengths.
+/// `true` if the comments at the start announce the number of wavelengths.
 pub fn matches(bytes: &[u8]) -> bool {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
     let mut comments = head.lines().map(str::trim).take_while(|line| line.is_empty() || line.starts_with('#'));

@@ -139,7 +139,7 @@ fn read_sigmat(text: &mut Text<'_>, token: Token<'_>, sigmas: usize) -> Result<V
     (0..sigmas).map(|_| read_angle(text, "sigmat", LIMITS[0])).collect()
 }
 
-/// The factors of the slices, `[psi][sigma]`: 1 where an absolute block has none.
+/// The factors of the slices, `[psi][sigma]`: 1 if an absolute block has none.
 fn read_kbdf(text: &mut Text<'_>, header: &Header) -> Result<Vec<f64>, FormatError> {
     let count = header.grid.incidences();
     match text.peek() {
@@ -162,13 +162,13 @@ fn read_block(text: &mut Text<'_>, grid: &Grid) -> Result<Vec<f64>, FormatError>
 }
 
 /// Writes `path` whole or not at all: `Luminance Absolute` over the whole circle of phi with every kbdf 1, and `sigmat`
-/// where the table has refraction offsets.
+/// if the table has refraction offsets.
 ///
 /// Values have nine significant digits and come back the same when they are read again. The format holds angles as `f32`
 /// degrees: knots that came from such a file come back the same, others within 2e-5 degrees.
 ///
 /// # Errors
-/// [`FormatError`] where the file cannot be written, the channels are XYZ, two knots are one in `f32` degrees, or the
+/// [`FormatError`] if the file cannot be written, the channels are XYZ, two knots are one in `f32` degrees, or the
 /// extension (`.ddr` for reflection, `.ddt` for transmission) would make readers take it for the other kind.
 pub fn write(samples: &specular::Data, path: &Path) -> Result<(), FormatError> {
     write_whole(path, text(samples, path)?.as_bytes())

@@ -30,15 +30,15 @@ pub struct Document {
 pub struct Part {
     /// The name in the file; may be empty.
     pub name: String,
-    /// The side from which the light comes; `None` if the file does not tell the sides apart, or if the data do
-    /// (see [`Representation::is_two_sided`](lobe_table::Representation::is_two_sided)).
+    /// The side from which the light comes; `None` if the file does not distinguish the sides, or if the data do (see
+    /// [`Representation::is_two_sided`](lobe_table::Representation::is_two_sided)).
     pub side: Option<Side>,
     /// The values.
     pub data: Data,
 }
 
 impl Part {
-    /// A part of a file that does not tell the sides apart.
+    /// A part of a file that does not distinguish the sides.
     pub fn new(name: impl Into<String>, data: impl Into<Data>) -> Self {
         Part { name: name.into(), side: None, data: data.into() }
     }
@@ -104,14 +104,14 @@ impl<T: Into<Data>> From<Measured<T>> for Document {
     }
 }
 
-/// Reads a file of any supported format, which is told from the content. Formats that do not say whether they hold
-/// reflection or transmission are taken for reflection; only those of Integra are asked for their extension: `.ddt` and
-/// `.sdt` are transmission.
+/// Reads a file of any supported format, which is recognised from the content. Formats that do not say whether they
+/// hold reflection or transmission are assumed to hold reflection; only for those of Integra the extension decides:
+/// `.ddt` and `.sdt` are transmission.
 ///
 /// A folder is read as the RPC Photonics files in it, which are one material.
 ///
 /// # Errors
-/// [`FormatError`] where the file cannot be read, is of no known format, or is damaged.
+/// [`FormatError`] if the file cannot be read, is of no known format, or is damaged.
 pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
     if path.is_dir() {
         let document = Document::new(fred::read_rpc_folder(path)?);
@@ -143,7 +143,7 @@ fn recognised(bytes: &[u8], path: &Path) -> Result<Format, FormatError> {
 /// as in [`open`].
 ///
 /// # Errors
-/// [`FormatError`] where the bytes are no sound file of the format.
+/// [`FormatError`] if the bytes are not a valid file of the format.
 pub fn read(format: Format, bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
     let document = match format {
         Format::Pbsdf => Document::new(pbsdf::read(bytes, path)?),

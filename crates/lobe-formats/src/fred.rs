@@ -34,7 +34,7 @@ struct Units {
     scale: f64,
 }
 
-/// Reads a FRED table as reflection, which the format does not tell from transmission; see [`read_as`].
+/// Reads a FRED table as reflection, which the format does not distinguish from transmission; see [`read_as`].
 ///
 /// # Errors
 /// See [`read_as`].
@@ -107,7 +107,7 @@ pub fn read_rpc_set<B: AsRef<[u8]>>(files: &[(PathBuf, B)]) -> Result<scattered:
 /// Reads all RPC files of a folder as one material; other files in it are let be.
 ///
 /// # Errors
-/// [`FormatError`] where the folder or a file cannot be read, where none is an RPC file, and as in [`read_rpc_set`].
+/// [`FormatError`] if the folder or a file cannot be read or none is an RPC file, and as in [`read_rpc_set`].
 pub fn read_rpc_folder(folder: &Path) -> Result<scattered::Data, FormatError> {
     let failed = |path: &Path, error: std::io::Error| {
         FormatError::new(path, Place::File, error.to_string(), "files that can be read")

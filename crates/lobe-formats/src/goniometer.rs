@@ -1,14 +1,14 @@
 //! Tables of people's own goniometers: CSV or JSON with named columns.
 //!
 //! Columns of angles are `theta_i`, `phi_i`, `theta_o`, `phi_o`, or in specular coordinates `sigma`, `psi`, `theta`, `phi`;
-//! `phi_i` and `psi` may be left out where they make no difference. Each may end in `_deg` or `_rad`; without, the unit is
-//! that of [`Options`]. All other columns are channels of `f` in 1/sr, without the cosine: `R`, `G`, `B`; `X`, `Y`, `Z`;
-//! wavelengths in nm such as `550` or `550nm`; or one of any name.
+//! `phi_i` and `psi` may be left out if they make no difference. Each may end in `_deg` or `_rad`; without that, the
+//! unit is that of [`Options`]. All other columns are channels of `f` in 1/sr, without the cosine: `R`, `G`, `B`; `X`,
+//! `Y`, `Z`; wavelengths in nm such as `550` or `550nm`; or one of any name.
 //!
 //! CSV has a line of names, `#` comments, and commas, semicolons or tabs; a comment `# scatter: transmission` before the
 //! names says that it is a BTDF. JSON has an object with a list of numbers a
-//! column. Rows may be in any order: where they are all nodes of a grid over more than half a turn they
-//! become a grid, else scattered samples.
+//! column. Rows may be in any order: if they are all nodes of a grid over more than half a turn they become a grid,
+//! else scattered samples.
 
 mod write;
 
@@ -43,7 +43,7 @@ impl Default for Options {
 const SPHERICAL: [&str; 4] = ["theta_i", "phi_i", "theta_o", "phi_o"];
 const SPECULAR: [&str; 4] = ["sigma", "psi", "theta", "phi"];
 
-/// The comment, before the names, that tells a BTDF from a BRDF.
+/// The comment, before the names, that distinguishes a BTDF from a BRDF.
 const TRANSMISSION: &str = "scatter: transmission";
 
 /// `true` for CSV or JSON with the names of these columns of angles.
@@ -62,7 +62,7 @@ pub fn matches(bytes: &[u8]) -> bool {
     has(&line.split([',', ';', '\t']).map(|name| name.trim().trim_matches('"').to_lowercase()).collect::<Vec<_>>())
 }
 
-/// Reads a table with the default [`Options`]: a grid where there are all nodes of one, else scattered samples, of which
+/// Reads a table with the default [`Options`]: a grid if all nodes of one are present, else scattered samples, of which
 /// those in specular coordinates that are below the horizon are left out.
 ///
 /// # Errors
@@ -75,7 +75,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Data, FormatError> {
 ///
 /// # Errors
 /// [`FormatError`] with the line of CSV, or the column of JSON: columns that are missing or twice there, channels that are
-/// neither colours nor wavelengths nor one, rows of another length, and words that are no finite numbers.
+/// neither colours nor wavelengths nor one, rows of another length, and words that are not finite numbers.
 pub fn read_with(bytes: &[u8], file: &Path, options: Options) -> Result<Data, FormatError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if bytes.trim_ascii_start().starts_with(b"{") {
@@ -202,7 +202,7 @@ impl Table {
     }
 }
 
-/// Knots and values, where the samples are each node of a grid once. A line of directions is no grid.
+/// Knots and values, if the samples are each node of a grid once. A line of directions is not a grid.
 fn grid(records: &Records, channels: usize) -> Option<([Vec<f64>; 4], Vec<f32>)> {
     // Angles that were written with six digits of radians are the same knot.
     let key = |angle: f64| (angle * 1e6).round() as i64;

@@ -134,7 +134,8 @@ impl Grid {
         self.degrees[0].len() * self.degrees[1].len()
     }
 
-    /// Puts one block a channel into the order of [`specular::Data`], with the second half of a plane-symmetrical circle.
+    /// Puts one block per channel into the order of [`specular::Data`], with the second half of a plane-symmetrical
+    /// circle.
     pub fn samples(
         &self,
         file: &Path,

@@ -12,7 +12,7 @@ use crate::FormatError;
 use crate::lines::lines;
 use crate::records::Records;
 
-/// `true` where a comment at the start names the columns.
+/// `true` if a comment at the start names the columns.
 pub fn matches(bytes: &[u8]) -> bool {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
     let comments = head.lines().take_while(|line| line.starts_with('#'));
@@ -26,7 +26,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 /// Reads a file. `file` only names it in errors.
 ///
 /// # Errors
-/// [`FormatError`] with the line that has other than five finite numbers, or where there is none.
+/// [`FormatError`] with the line that does not have five finite numbers, or if there is none.
 pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
     let text = String::from_utf8_lossy(bytes);
     let mut records = Records::default();

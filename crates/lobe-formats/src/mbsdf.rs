@@ -31,7 +31,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 /// Where on an axis of `n` values over `[0, end]` the values lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Nodes {
-    /// At `i / n` of the range: the end is no node.
+    /// At `i / n` of the range: the end is not a node.
     LowerEdge,
     /// At `(i + 1/2) / n`: the middles of equal bins.
     Middle,
@@ -61,7 +61,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Sides<spherical::Data>, FormatE
 /// Reads both sides, with values that lie as `nodes` say on the zenith axes and on the azimuth axis.
 ///
 /// # Errors
-/// [`FormatError`] where the signature or all data are missing, a block is cut off, or something follows the last one.
+/// [`FormatError`] if the signature or all data are missing, a block is cut off, or something follows the last one.
 pub fn read_with(bytes: &[u8], file: &Path, nodes: [Nodes; 2]) -> Result<Sides<spherical::Data>, FormatError> {
     let mut cursor = Cursor::new(bytes, file);
     cursor.signature(MAGIC, MAGIC.trim_ascii().escape_ascii().to_string().as_str())?;
@@ -149,7 +149,7 @@ fn block(
 /// The bytes of an `.mbsdf` file.
 ///
 /// # Errors
-/// [`io::ErrorKind::InvalidInput`] where there is neither side, and for grids other than the mirrored ones that
+/// [`io::ErrorKind::InvalidInput`] if there is neither side, and for grids other than the mirrored ones that
 /// [`read_with`] makes.
 pub fn to_bytes(sides: &Sides<spherical::Data>) -> io::Result<Vec<u8>> {
     let mut bytes = MAGIC.to_vec();
@@ -187,7 +187,7 @@ pub fn to_bytes(sides: &Sides<spherical::Data>) -> io::Result<Vec<u8>> {
 /// Writes an `.mbsdf` file, replacing what was there at once.
 ///
 /// # Errors
-/// [`FormatError`] as [`to_bytes`], and where the file system refuses.
+/// [`FormatError`] as [`to_bytes`], and if the file system refuses.
 pub fn write(sides: &Sides<spherical::Data>, path: &Path) -> Result<(), FormatError> {
     write_whole(path, &to_bytes(sides).map_err(|error| unwritable(path, &error))?)
 }

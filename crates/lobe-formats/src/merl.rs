@@ -28,7 +28,7 @@ fn header(bytes: &[u8]) -> Option<([usize; 3], usize)> {
     Some((bins, size.checked_add(HEADER)?))
 }
 
-/// Whether the size of the file is the one that its header asks for. There is no signature.
+/// Whether the size of the file is the one that its header implies. There is no signature.
 pub fn matches(bytes: &[u8]) -> bool {
     header(bytes).is_some_and(|(_, size)| size == bytes.len())
 }
@@ -36,7 +36,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 /// Reads a MERL material.
 ///
 /// # Errors
-/// [`FormatError`] where the size of the file does not follow from its header or a value is not finite.
+/// [`FormatError`] if the size of the file does not follow from its header or a value is not finite.
 pub fn read(bytes: &[u8], file: &Path) -> Result<half_diff::Data, FormatError> {
     let mut cursor = Cursor::new(bytes, file);
     let Some((bins, size)) = header(bytes) else {
@@ -66,7 +66,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<half_diff::Data, FormatError> {
 /// The bytes of a MERL file.
 ///
 /// # Errors
-/// [`io::ErrorKind::InvalidInput`] where a dimension does not fit into `i32`.
+/// [`io::ErrorKind::InvalidInput`] if a dimension does not fit into `i32`.
 pub fn to_bytes(material: &half_diff::Data) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::with_capacity(HEADER + size_of::<f64>() * material.values().len());
     for bins in material.bins() {
@@ -83,7 +83,7 @@ pub fn to_bytes(material: &half_diff::Data) -> io::Result<Vec<u8>> {
 /// Writes a MERL file, replacing what was there at once.
 ///
 /// # Errors
-/// [`FormatError`] as [`to_bytes`], and where the file system refuses.
+/// [`FormatError`] as [`to_bytes`], and if the file system refuses.
 pub fn write(material: &half_diff::Data, path: &Path) -> Result<(), FormatError> {
     write_whole(path, &to_bytes(material).map_err(|error| unwritable(path, &error))?)
 }

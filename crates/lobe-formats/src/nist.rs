@@ -3,7 +3,7 @@
 //!
 //! A line that names the columns, then comma-separated records: wavelength in micrometres, `thetai`, azimuth of
 //! incidence, `thetar`, `phir` in degrees, the unpolarised BRDF in 1/sr, and 15 elements of the Mueller matrix relative
-//! to it, which are not read. `thetai` is negative where the light is on the side of azimuth 180.
+//! to it, which are not read. `thetai` is negative if the light is on the side of azimuth 180.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ use crate::{FormatError, Place};
 
 const COLUMNS: usize = 21;
 
-/// `true` where the first line names the columns.
+/// `true` if the first line names the columns.
 pub fn matches(bytes: &[u8]) -> bool {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(1024)]);
     let names: Vec<String> = head.lines().next().unwrap_or_default().split(',').map(simple).collect();
@@ -29,7 +29,7 @@ fn simple(name: &str) -> String {
 /// Reads the unpolarised BRDF. `file` only names it in errors.
 ///
 /// # Errors
-/// [`FormatError`] with the line that has other than 21 finite numbers, or where wavelengths have different directions.
+/// [`FormatError`] with the line that does not have 21 finite numbers, or if wavelengths have different directions.
 pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
     let text = String::from_utf8_lossy(bytes);
     let mut lines = lines(file, &text);

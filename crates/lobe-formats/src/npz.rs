@@ -2,9 +2,9 @@
 //!
 //! Angles are in radians and values `f` in 1/sr unless their name says otherwise; every file has `kind` (text). Grids in
 //! specular coordinates have `sigma`, `psi`, `theta`, `phi` and `values [sigma, psi, theta, phi, channel]`, with `channels`
-//! (text), `scatter` (text) and, where channels are wavelengths, `wavelengths` in nm; grids in spherical coordinates the
-//! same with `theta_i`, `phi_i`, `theta_o`, `phi_o`; scattered samples one of each angle a sample. Other kinds have the
-//! names of their own format. Parts of a sheet have a number and a point before the name.
+//! (text), `scatter` (text) and, if channels are wavelengths, `wavelengths` in nm; grids in spherical coordinates the
+//! same with `theta_i`, `phi_i`, `theta_o`, `phi_o`; scattered samples have one of each angle per sample. Other kinds
+//! have the names of their own format. Parts of a sheet have a number and a dot before the name.
 
 use std::io;
 use std::path::Path;
@@ -22,7 +22,7 @@ use crate::{Document, FormatError};
 /// Writes `path` whole or not at all, without compression, so that a reader may map it.
 ///
 /// # Errors
-/// [`FormatError`] where the file cannot be written, or the document has tensor trees, which are no arrays.
+/// [`FormatError`] if the file cannot be written, or the document has tensor trees, which are not arrays.
 pub fn write(document: &Document, path: &Path) -> Result<(), FormatError> {
     let bytes = to_bytes(document).map_err(|error| unwritable(path, &error))?;
     write_whole(path, &bytes)
@@ -87,7 +87,7 @@ impl Arrays {
         self.text("scatter", if scatter == Scatter::Reflection { "reflection" } else { "transmission" })
     }
 
-    /// Knots, one array an axis, and values over all of them and the channels.
+    /// Knots, one array per axis, and values over all of them and the channels.
     fn grid(&mut self, names: &[&str], knots: &[Vec<f64>], channels: &Channels, values: &[f32]) -> io::Result<()> {
         for (name, knots) in names.iter().zip(knots) {
             self.doubles(name, &[knots.len()], knots)?;
@@ -202,7 +202,7 @@ impl Arrays {
                 match band.window.block(block) {
                     None => {}
                     Some(Component::Tree(_)) => {
-                        return Err(io::Error::new(io::ErrorKind::InvalidInput, "tensor trees, which are no arrays"));
+                        return Err(io::Error::new(io::ErrorKind::InvalidInput, "tensor trees, which are not arrays"));
                     }
                     Some(Component::Klems(matrix)) => {
                         self.prefix = format!("{}.{name}.", band.wavelength);

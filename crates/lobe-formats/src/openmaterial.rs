@@ -34,7 +34,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 /// measured there.
 ///
 /// # Errors
-/// [`FormatError`] with the line of the JSON that is wrong; wavelengths that are not positive; or where wavelengths have
+/// [`FormatError`] with the line of the JSON that is wrong; wavelengths that are not positive; or if wavelengths have
 /// different directions.
 pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);

@@ -21,7 +21,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 /// Reads a polarised material.
 ///
 /// # Errors
-/// [`FormatError`] where the file is no tensor file, or a field is missing or does not fit the others.
+/// [`FormatError`] if the file is not a tensor file, or a field is missing or does not fit the others.
 pub fn read(bytes: &[u8], file: &Path) -> Result<mueller::Data, FormatError> {
     let tensors = tensor::read(bytes, file)?;
     let (values, shape) = tensors.floats("M", 6)?;
@@ -44,7 +44,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<mueller::Data, FormatError> {
     mueller::Data::new(knots, values).map_err(|invalid| tensors.invalid(invalid))
 }
 
-/// The `n` knots of an axis, over `[low, high]` where the file has none.
+/// The `n` knots of an axis, over `[low, high]` if the file has none.
 fn angles(tensors: &TensorFile<'_>, name: &str, n: usize, low: f32, high: f32) -> Result<Vec<f32>, FormatError> {
     let (knots, shape) = tensors.floats(name, 2)?;
     match *shape {
@@ -59,7 +59,7 @@ fn angles(tensors: &TensorFile<'_>, name: &str, n: usize, low: f32, high: f32) -
 /// The bytes of a `.pbsdf` file.
 ///
 /// # Errors
-/// [`io::ErrorKind::InvalidInput`] where a wavelength is no whole number of nm below 65536.
+/// [`io::ErrorKind::InvalidInput`] if a wavelength is not a whole number of nm below 65536.
 pub fn to_bytes(material: &mueller::Data) -> io::Result<Vec<u8>> {
     let [p, d, h, nm] = material.knots();
     if let Some(bad) = nm.iter().find(|nm| f32::from(**nm as u16) != **nm) {
@@ -80,7 +80,7 @@ pub fn to_bytes(material: &mueller::Data) -> io::Result<Vec<u8>> {
 /// Writes a `.pbsdf` file, replacing what was there at once.
 ///
 /// # Errors
-/// [`FormatError`] as [`to_bytes`], and where the file system refuses.
+/// [`FormatError`] as [`to_bytes`], and if the file system refuses.
 pub fn write(material: &mueller::Data, path: &Path) -> Result<(), FormatError> {
     write_whole(path, &to_bytes(material).map_err(|error| unwritable(path, &error))?)
 }

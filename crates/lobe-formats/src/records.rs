@@ -66,7 +66,7 @@ impl ByWavelength {
             let expected = format!("all {wavelengths} wavelengths for each of {geometries} pairs of directions");
             Err(FormatError::new(file, Place::File, found, expected))
         };
-        // Checked before memory is asked for: the product may be far larger than the file.
+        // Checked before memory is allocated: the product may be far larger than the file.
         if geometries.checked_mul(wavelengths).is_none_or(|product| product > self.samples.len()) {
             return missing(format!("{} samples", self.samples.len()));
         }

@@ -22,7 +22,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 /// Reads an RGL material.
 ///
 /// # Errors
-/// [`FormatError`] where the file is no tensor file, or a field is missing or does not fit the others.
+/// [`FormatError`] if the file is not a tensor file, or a field is missing or does not fit the others.
 pub fn read(bytes: &[u8], file: &Path) -> Result<rgl::Data, FormatError> {
     let tensors = tensor::read(bytes, file)?;
     let (phi_i, _) = tensors.floats("phi_i", 1)?;
@@ -81,7 +81,7 @@ fn images(tensors: &TensorFile<'_>, name: &'static str, leading: &[usize]) -> Re
 /// The bytes of an RGL file.
 ///
 /// # Errors
-/// [`io::ErrorKind::InvalidInput`] where the material does not fit the format.
+/// [`io::ErrorKind::InvalidInput`] if the material does not fit the format.
 pub fn to_bytes(rgl: &rgl::Data) -> io::Result<Vec<u8>> {
     let parts = rgl.parts();
     let (p, t) = (parts.phi_i.len(), parts.theta_i.len());
@@ -115,7 +115,7 @@ pub fn to_bytes(rgl: &rgl::Data) -> io::Result<Vec<u8>> {
 /// Writes an RGL file, replacing what was there at once.
 ///
 /// # Errors
-/// [`FormatError`] as [`to_bytes`], and where the file system refuses.
+/// [`FormatError`] as [`to_bytes`], and if the file system refuses.
 pub fn write(rgl: &rgl::Data, path: &Path) -> Result<(), FormatError> {
     write_whole(path, &to_bytes(rgl).map_err(|error| unwritable(path, &error))?)
 }

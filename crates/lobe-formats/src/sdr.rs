@@ -1,6 +1,6 @@
 //! Integra SDR (mirror reflectance) and SDT (transmittance straight through).
 //!
-//! The header has `TypeColorModel` and `sigma`; each block is a name, `def`, one ratio a sigma, `enddef`. Keywords are
+//! The header has `TypeColorModel` and `sigma`; each block is a name, `def`, one ratio per sigma, `enddef`. Keywords are
 //! read in any case of letters and written in the one that stricter readers ask for.
 
 use std::fmt::Write as _;
@@ -59,7 +59,7 @@ pub fn read(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Measured<mirr
 /// Writes `path` whole or not at all; nine significant digits, which give the same values when they are read again.
 ///
 /// # Errors
-/// [`FormatError`] where the file cannot be written, the channels are not one, RGB or
+/// [`FormatError`] if the file cannot be written, the channels are not one, RGB or
 /// wavelengths, there is more than one psi, or the extension (`.sdr` for reflection,
 /// `.sdt` for transmission) would make readers take it for the other kind.
 pub fn write(specular: &mirror::Data, path: &Path) -> Result<(), FormatError> {
@@ -88,7 +88,7 @@ pub(crate) fn push_row(out: &mut String, numbers: impl Iterator<Item = f64>) {
     out.push('\n');
 }
 
-/// The extension is all that tells reflection from transmission in this family: refuse the misleading ones.
+/// Only the extension distinguishes reflection from transmission in this family: refuse the misleading ones.
 pub(crate) fn check_extension(path: &Path, scatter: Scatter, names: [&str; 2]) -> Result<(), FormatError> {
     if scatter_of_extension(path) == scatter {
         return Ok(());

@@ -1,4 +1,4 @@
-//! Which format a file has, told from its content: `.bsdf` alone is the extension of four different ones.
+//! Recognises the format of a file from its content: `.bsdf` alone is the extension of four different ones.
 
 use std::fmt;
 
@@ -57,8 +57,8 @@ pub enum Format {
 }
 
 impl Format {
-    /// All formats, in the order in which [`sniff`] tries them: first those with a signature, then those told by their
-    /// size, then texts, those with the commonest words last.
+    /// All formats, in the order in which [`sniff`] tries them: first those with a signature, then those recognised by
+    /// their size, then texts, those with the commonest words last.
     pub const ALL: &[Format] = &[
         Format::Pbsdf,
         Format::Rgl,
@@ -110,7 +110,7 @@ impl Format {
         }
     }
 
-    /// `true` where the content looks like this format. Formats later in [`Format::ALL`] may look alike.
+    /// `true` if the content looks like this format. Formats later in [`Format::ALL`] may look alike.
     fn matches(self, bytes: &[u8]) -> bool {
         let integra = |words: &[&str]| has_words(bytes, ";;", words);
         match self {
@@ -151,7 +151,7 @@ impl fmt::Display for Format {
     }
 }
 
-/// The format of a file from its content; `None` where it is none that is known.
+/// The format of a file from its content; `None` if it is unknown.
 pub fn sniff(bytes: &[u8]) -> Option<Format> {
     Format::ALL.iter().copied().find(|format| format.matches(bytes))
 }

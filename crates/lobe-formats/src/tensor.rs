@@ -114,7 +114,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 /// Reads a tensor file. The fields borrow from `bytes`, so that nothing of the size of the data is allocated.
 ///
 /// # Errors
-/// [`FormatError`] where the header or a field is cut off, unknown or outside the file.
+/// [`FormatError`] if the header or a field is cut off, unknown or outside the file.
 pub fn read<'a>(bytes: &'a [u8], file: &Path) -> Result<TensorFile<'a>, FormatError> {
     let mut cursor = Cursor::new(bytes, file);
     cursor.signature(MAGIC, "tensor_file")?;
@@ -157,7 +157,7 @@ impl<'a> TensorFile<'a> {
     /// The field of this name, checked to have this type and number of dimensions.
     ///
     /// # Errors
-    /// [`FormatError`] where there is no such field or it has another type or number of dimensions.
+    /// [`FormatError`] if there is no such field or it has another type or number of dimensions.
     pub fn require(&self, name: &str, dtype: DType, dimensions: usize) -> Result<&Field<'a>, FormatError> {
         let Some(field) = self.get(name) else {
             let names: Vec<_> = self.fields.iter().map(|field| &*field.name).collect();
@@ -199,7 +199,7 @@ impl<'a> TensorFile<'a> {
     /// The bytes of the file.
     ///
     /// # Errors
-    /// [`io::ErrorKind::InvalidInput`] where a name, a shape or the number of fields does not fit the format, or the
+    /// [`io::ErrorKind::InvalidInput`] if a name, a shape or the number of fields does not fit the format, or the
     /// data of a field do not fit its shape.
     pub fn to_bytes(&self) -> io::Result<Vec<u8>> {
         let mut at = HEADER;
@@ -230,7 +230,7 @@ impl<'a> TensorFile<'a> {
     /// Writes the file, replacing what was there at once.
     ///
     /// # Errors
-    /// [`FormatError`] as [`to_bytes`](Self::to_bytes), and where the file system refuses.
+    /// [`FormatError`] as [`to_bytes`](Self::to_bytes), and if the file system refuses.
     pub fn write(&self, path: &Path) -> Result<(), FormatError> {
         write_whole(path, &self.to_bytes().map_err(|error| unwritable(path, &error))?)
     }

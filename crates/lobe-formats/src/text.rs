@@ -12,7 +12,7 @@ use crate::{FormatError, Place};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Token<'a> {
     bytes: &'a [u8],
-    /// The line it stands on, counted from 1.
+    /// The line that it is on, counted from 1.
     pub line: usize,
 }
 
@@ -22,12 +22,12 @@ impl<'a> Token<'a> {
         String::from_utf8_lossy(self.bytes)
     }
 
-    /// `true` where the word is `word` in any spelling of upper and lower case.
+    /// `true` if the word is `word` in any spelling of upper and lower case.
     pub fn is(&self, word: &str) -> bool {
         self.bytes.eq_ignore_ascii_case(word.as_bytes())
     }
 
-    /// `true` where the word is a number.
+    /// `true` if the word is a number.
     pub fn is_number(&self) -> bool {
         self.parse::<f64>().is_some()
     }
@@ -159,7 +159,7 @@ impl<'a> Text<'a> {
     }
 
     /// Checks that `count` numbers (`None`: more than can be counted) fit into the rest of the file, one character and
-    /// one space each, so that a count can be trusted before memory is asked for.
+    /// one space each, so that a count can be trusted before memory is allocated.
     pub fn room(&self, count: Option<usize>, what: &str, line: usize) -> Result<(), FormatError> {
         let limit = (self.bytes.len() - self.at).div_ceil(2);
         match count {
@@ -196,9 +196,9 @@ impl<'a> Text<'a> {
     }
 }
 
-/// `true` where the beginning of a text contains every one of `words` as a token, in any case of letters.
+/// `true` if the beginning of a text contains every one of `words` as a token, in any case of letters.
 ///
-/// Only the first MiB is looked at, comments not counted among the words; a file with a zero byte is no text.
+/// Only the first MiB is looked at, comments not counted among the words; a file with a zero byte is not text.
 pub(crate) fn has_words(bytes: &[u8], marker: &'static str, words: &[&str]) -> bool {
     const HEAD: usize = 1 << 20;
     let head = &bytes[..bytes.len().min(HEAD)];
@@ -216,8 +216,8 @@ pub(crate) fn has_words(bytes: &[u8], marker: &'static str, words: &[&str]) -> b
     false
 }
 
-/// A number with nine significant digits, which is enough to tell every `f32` from its neighbours, in the shortest
-/// form that says the same.
+/// A number with nine significant digits, which is enough to distinguish every `f32` from its neighbours, in the
+/// shortest form that says the same.
 pub fn nine_digits(x: f64) -> String {
     let rounded: f64 = format!("{x:.8e}").parse().expect("a number that was just printed");
     match rounded.abs() {

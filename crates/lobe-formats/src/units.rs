@@ -18,7 +18,7 @@ const HORIZON: f64 = 1.745e-3;
 ///
 /// `block` is `[psi][sigma][phi][theta]`, `zeniths` the polar angle of the frame at each sigma. At and below the horizon
 /// there is no quotient: such a node takes the `f` of the nearest node above it in its row of theta, which keeps the
-/// interpolation across the horizon sane, and 0 where the whole row is below.
+/// interpolation across the horizon sane, and 0 if the whole row is below.
 pub(crate) fn divide_by_cosine(grid: &Grid, zeniths: &[f64], block: &mut [f64]) {
     let [sigmas, psis, thetas, phis] = grid.degrees.each_ref().map(Vec::len);
     let theta = crate::grid::radians(&grid.degrees[2]);
@@ -45,7 +45,7 @@ pub(crate) fn divide_by_cosine(grid: &Grid, zeniths: &[f64], block: &mut [f64]) 
 
 /// Scales each slice, a pair of sigma and psi knots in one channel, to a given directional-hemispherical reflectance.
 ///
-/// `targets` holds for each channel one number a pair, `[psi][sigma]`.
+/// `targets` holds for each channel one number per pair, `[psi][sigma]`.
 pub(crate) fn scale_slices(
     file: &Path,
     samples: &specular::Data,

@@ -10,7 +10,7 @@ use std::path::Path;
 
 const SIZE: usize = 3 * PLANE * size_of::<f64>();
 
-/// Whether the file has the size of a UTIA file, by which alone it can be told.
+/// Whether the file has the size of a UTIA file, which is the only way to recognise it.
 pub fn matches(bytes: &[u8]) -> bool {
     bytes.len() == SIZE
 }
@@ -18,7 +18,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 /// Reads a UTIA material.
 ///
 /// # Errors
-/// [`FormatError`] where the size of the file is another or a value is not finite.
+/// [`FormatError`] if the size of the file is wrong or a value is not finite.
 pub fn read(bytes: &[u8], file: &Path) -> Result<utia::Data, FormatError> {
     let mut cursor = Cursor::new(bytes, file);
     if !matches(bytes) {
@@ -41,7 +41,7 @@ pub fn to_bytes(material: &utia::Data) -> Vec<u8> {
 /// Writes a UTIA file, replacing what was there at once.
 ///
 /// # Errors
-/// [`FormatError`] where the file system refuses.
+/// [`FormatError`] if the file system refuses.
 pub fn write(material: &utia::Data, path: &Path) -> Result<(), FormatError> {
     write_whole(path, &to_bytes(material))
 }

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use crate::{FormatError, Place};
 
-/// Writes `content` to a temporary file beside `path` and renames it, so that nobody ever sees half a file.
+/// Writes `content` to a temporary file next to `path` and renames it, so that no half-written file is ever visible.
 ///
 /// # Errors
-/// [`FormatError`] where the folder or the file cannot be written.
+/// [`FormatError`] if the folder or the file cannot be written.
 pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), FormatError> {
     replace(path, content).map_err(|error| unwritable(path, &error))
 }

@@ -1,8 +1,8 @@
 //! Zemax (Radiant Imaging) tabular `.bsdf`.
 //!
-//! A header of keywords, then one block a channel between `DataBegin` and `DataEnd`; in it, for each rotation of the
-//! sample and each angle of incidence, a line `TIS x` and the values, radial angle fastest. `f` in 1/sr as it stands.
-//! The axes are the specular coordinates: AngleOfIncidence is sigma, SampleRotation psi, ScatterRadial theta,
+//! A header of keywords, then one block per channel between `DataBegin` and `DataEnd`; in it, for each rotation of the
+//! sample and each angle of incidence, a line `TIS x` and the values, radial angle fastest. `f` in 1/sr, unchanged. The
+//! axes are the specular coordinates: AngleOfIncidence is sigma, SampleRotation psi, ScatterRadial theta,
 //! ScatterAzimuth phi. The details and the policies are in `docs/formats.md`.
 
 mod write;

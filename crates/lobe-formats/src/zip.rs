@@ -1,7 +1,7 @@
 //! Archives whose members are stored as they are, which is what NumPy's `.npz` files are.
 //!
-//! The fields are those of PKWARE's APPNOTE 6.3, sections 4.3 and 4.5.3. Sizes and offsets that do not fit 32 bits stand in
-//! the ZIP64 fields.
+//! The fields are those of PKWARE's APPNOTE 6.3, sections 4.3 and 4.5.3. Sizes and offsets that do not fit 32 bits are
+//! in the ZIP64 fields.
 
 /// What a 32-bit field holds if the number is in the ZIP64 field.
 const ELSEWHERE: u32 = u32::MAX;

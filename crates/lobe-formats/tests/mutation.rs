@@ -30,7 +30,7 @@ struct Cost {
     bytes_per_byte: f64,
 }
 
-/// Reads one file; where that goes wrong, keeps the file and says which it is.
+/// Reads one file; if that goes wrong, keeps the file and reports which it is.
 fn run(format: Format, name: &str, bytes: &[u8], costs: &mut BTreeMap<&'static str, Cost>) -> bool {
     let start = Instant::now();
     let outcome = catch_unwind(AssertUnwindSafe(|| {
@@ -46,7 +46,7 @@ fn run(format: Format, name: &str, bytes: &[u8], costs: &mut BTreeMap<&'static s
     cost.files += 1;
     cost.sound += usize::from(result.is_ok());
     cost.slowest = cost.slowest.max(start.elapsed());
-    // A short file still has an error to tell.
+    // Even a short file must give an error.
     cost.bytes_per_byte = cost.bytes_per_byte.max(peak as f64 / bytes.len().max(1_000) as f64);
     result.is_ok()
 }
@@ -54,7 +54,7 @@ fn run(format: Format, name: &str, bytes: &[u8], costs: &mut BTreeMap<&'static s
 /// A number from the environment.
 fn variable(name: &str, default: usize) -> usize {
     std::env::var(name)
-        .map_or(default, |value| value.parse().unwrap_or_else(|_| panic!("{name} is no number: {value}")))
+        .map_or(default, |value| value.parse().unwrap_or_else(|_| panic!("{name} is not a number: {value}")))
 }
 
 /// One test, so that no other thread allocates meanwhile.

@@ -26,8 +26,8 @@ pub(crate) fn wrong(path: &Path, found: impl Into<String>, expected: impl Into<S
     FormatError::new(path, Place::File, found, expected)
 }
 
-/// A mesh of what a file holds. Normals become unit vectors, and where a file has a normal without direction, a smooth
-/// one takes its place; tangents that make no frame are dropped, to be computed.
+/// A mesh of what a file holds. Normals become unit vectors, and if a file has a normal without direction, a smooth one
+/// takes its place; tangents that make no frame are dropped, to be computed.
 pub(crate) fn geometry(path: &Path, mut parts: Parts) -> Result<Geometry, FormatError> {
     if parts.triangles.is_empty() {
         return Err(wrong(path, "no triangles", "a mesh with at least one"));

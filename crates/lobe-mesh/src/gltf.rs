@@ -34,7 +34,7 @@ pub fn read(path: &Path) -> Result<Geometry, FormatError> {
     parse(path, &file::bytes(path)?)
 }
 
-/// Reads the content of a glTF file; buffers outside it are looked for beside `path`.
+/// Reads the content of a glTF file; buffers outside it are looked for next to `path`.
 ///
 /// # Errors
 /// As those of [`read`].

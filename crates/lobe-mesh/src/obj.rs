@@ -1,4 +1,4 @@
-//! Wavefront OBJ, and the material libraries (MTL) beside it.
+//! Wavefront OBJ, and the material libraries (MTL) next to it.
 //!
 //! `v`, `vt`, `vn`, `f`, `o`, `g`, `usemtl` and `mtllib` are read; lines, points, curves and smoothing groups are
 //! skipped. Polygons become fans of triangles, so they should be convex. A group of the mesh is a run of faces of one
@@ -25,7 +25,7 @@ pub fn read(path: &Path) -> Result<Geometry, FormatError> {
     parse(path, &file::bytes(path)?)
 }
 
-/// Reads the mesh of an OBJ file and the libraries that it names, which lie beside it.
+/// Reads the mesh of an OBJ file and the libraries that it names, which lie next to it.
 ///
 /// # Errors
 /// As those of [`read`], for each of the files.

@@ -1,7 +1,7 @@
 //! Triangles cut into smaller ones that follow the smooth surface implied by their normals.
 //!
 //! Vlachos, Peters, Boyd and Mitchell, "Curved PN Triangles", 2001: a cubic patch for each triangle, which meets those
-//! beside it because its border depends on nothing but the two corners there.
+//! next to it because its border depends on nothing but the two corners there.
 
 use std::collections::HashMap;
 
@@ -145,7 +145,7 @@ fn along((first, forward): (u32, bool), k: u32, n: u32) -> u32 {
     first + if forward { k } else { n - k } - 1
 }
 
-/// The control point of an edge beside `from`: a third of the way, projected onto the plane given by the normal there.
+/// The control point of an edge next to `from`: a third of the way, projected onto the plane given by the normal there.
 fn toward(from: (DVec3, DVec3), to: (DVec3, DVec3)) -> DVec3 {
     let way = to.0 - from.0;
     from.0 + (way - from.1 * way.dot(from.1)) / 3.0

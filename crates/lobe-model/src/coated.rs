@@ -7,7 +7,7 @@ use crate::{Ggx, Model, fresnel_conductor};
 ///
 /// `f = coat + (1 - F(cos_i)) (1 - F(cos_o)) base`: the coat is a rough dielectric, and the base gets what passes the coat
 /// on the way in and out. After Weidlich and Wilkie, *Arbitrarily layered micro-facet surfaces*, GRAPHITE 2007, section 4,
-/// for a thin coat that absorbs nothing and does not bend what the base sees. Reciprocal where the base is.
+/// for a thin coat that absorbs nothing and does not bend what the base sees. Reciprocal if the base is.
 ///
 /// What passes is that of a smooth coat, while facets reflect less than a smooth one at grazing angles: beyond 60 degrees
 /// light is lost there, more than a quarter of it at 80 degrees with `alpha = 0.2`.

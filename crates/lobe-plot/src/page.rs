@@ -84,7 +84,7 @@ fn dark_series(count: usize) -> String {
     format!("@media screen and (prefers-color-scheme: dark) {{ {rules}}}\n")
 }
 
-/// The sphere and the albedo, and the facts beside them.
+/// The sphere and the albedo, and the facts next to them.
 fn overview(subject: &Subject, view: &View, facts: &[Facts], progress: &dyn Progress) -> String {
     let mut out = String::from("<section class=\"cards\">\n<div class=\"stack\">\n");
     let _ =

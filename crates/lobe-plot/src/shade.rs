@@ -29,7 +29,7 @@ pub enum Studio {
     /// A round light of 12 degrees from the upper left, and one of an eighth of its power from the right: shows most of
     /// a material.
     Key,
-    /// A light of 2 degrees, 3 degrees beside the viewer: what a driver sees.
+    /// A light of 2 degrees, 3 degrees next to the viewer: what a driver sees.
     Viewer,
     /// A light 75 degrees to the side, beyond the left rim: what shows at grazing angles.
     Rim,

@@ -15,7 +15,7 @@ use crate::world::{Shape, World, WorldBuilder, WorldError};
 /// What to show the material on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Show {
-    /// A ball beside a cloth.
+    /// A ball next to a cloth.
     #[default]
     Both,
     /// The ball alone.

@@ -25,7 +25,7 @@ pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The unit vector along `a`, or zero where `a` is zero.
+/// The unit vector along `a`, or zero if `a` is zero.
 pub(crate) fn normalize(a: Vector) -> Vector {
     let length = dot(a, a).sqrt();
     if length > 0.0 { scale(a, 1.0 / length) } else { [0.0; 3] }
@@ -63,7 +63,7 @@ pub(crate) fn wrap(phi: f64) -> f64 {
 /// The coordinates of Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", 1998: the zenith
 /// angle of the half vector, and zenith angle and azimuth in `(-pi, pi]` of `wi` in the frame of the half vector.
 ///
-/// Where the half vector is the normal its azimuth is taken as 0; where `wi` is the half vector `phi_d` is 0.
+/// If the half vector is the normal its azimuth is taken as 0; if `wi` is the half vector `phi_d` is 0.
 pub(crate) fn half_difference(wi: Vector, wo: Vector) -> (f64, f64, f64) {
     let h = normalize(add(wi, wo));
     let (sin, cos) = ((h[0] * h[0] + h[1] * h[1]).sqrt(), h[2]);

@@ -13,7 +13,7 @@
 //! - [`window`]: Klems matrices and tensor trees of the two sides of a sheet;
 //! - [`mirror`]: mirror reflectances, which have no value for a pair of directions.
 //!
-//! [`Data`] is any of them, of which the trait [`Representation`] tells what programs ask.
+//! [`Data`] is any of them, with the trait [`Representation`] for what programs need to know of it.
 //!
 //! They share [`Axis`] and the other parts of a grid, and [`Channels`] and [`Scatter`], which say what the values are.
 //!

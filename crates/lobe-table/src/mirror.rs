@@ -11,7 +11,7 @@ pub const KIND: Kind = Kind::new("mirror reflectance");
 /// Mirror reflectance (or transmittance straight through) by the direction of the light: a ratio of fluxes, 0 to 1, no
 /// pi in it.
 ///
-/// It stands beside a BRDF or BTDF as its delta part.
+/// It accompanies a BRDF or BTDF as its delta part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Data {
     scatter: Scatter,
@@ -43,7 +43,7 @@ impl Data {
         &self.knots
     }
 
-    /// What the channels stand for.
+    /// What the channels mean.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }

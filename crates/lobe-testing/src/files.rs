@@ -1,7 +1,7 @@
-//! Paths of test files: fixtures in the repository, and measured files beside it.
+//! Paths of test files: fixtures in the repository, and measured files next to it.
 //!
 //! Measured files and the answers of other programs are not part of the project. They are in the folder that the
-//! environment variable `LOBE_SHARED` names, or else in `shared` beside the repository. A test that needs one that is
+//! environment variable `LOBE_SHARED` names, or else in `shared` next to the repository. A test that needs one that is
 //! missing passes, and says on standard error that it was skipped.
 
 use std::io::Write as _;

@@ -15,7 +15,7 @@ pub enum OpenError {
     /// The file cannot be read.
     #[error(transparent)]
     Format(#[from] FormatError),
-    /// What was found is no material: mirror reflectances only, or parts that do not go together.
+    /// What was found is not a material: mirror reflectances only, or parts that do not go together.
     #[error("{}found {found}; expected {expected}", before(.file))]
     NotAMaterial {
         /// The file, if there is one.
@@ -82,7 +82,7 @@ pub(crate) fn expect(what: &'static str, found: usize, expected: usize) -> Resul
     if found == expected { Ok(()) } else { Err(ShapeError { what, found, expected }) }
 }
 
-/// The value, or a panic that tells what does not fit.
+/// The value, or a panic that says what does not fit.
 #[track_caller]
 pub(crate) fn fitting<T>(result: Result<T, ShapeError>) -> T {
     match result {

@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::Context;
 use tempfile::NamedTempFile;
 
-/// Writes `content` to a temporary file beside `path` and renames it.
+/// Writes `content` to a temporary file next to `path` and renames it.
 ///
 /// # Errors
 /// If the directory cannot be written to; an existing file is then left unchanged.

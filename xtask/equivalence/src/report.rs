@@ -17,7 +17,7 @@ pub(super) struct Summary {
     ok: bool,
 }
 
-/// Writes JSON beside its target and renames it.
+/// Writes JSON next to its target and renames it.
 pub(super) fn write(path: &Path, content: &impl Serialize) -> anyhow::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let failed = || format!("{}: cannot be written", path.display());

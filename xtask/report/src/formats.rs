@@ -38,7 +38,7 @@ fn reading(comparisons: &[Comparison]) -> String {
     let wrong = comparisons.iter().filter(|comparison| !comparison.ok()).count();
     let verdict = if wrong == 0 { "all of them agree".to_owned() } else { format!("{wrong} DO NOT AGREE") };
     format!(
-        "Values in lanes beside the answers of the programs that define the formats: {} files, {pairs} pairs of \
+        "Values in lanes compared with the answers of the programs that define the formats: {} files, {pairs} pairs of \
          directions, {verdict}.",
         comparisons.len()
     )

@@ -1,4 +1,4 @@
-//! `lobe check` from outside, and on the real files where they are there.
+//! `lobe check` from outside, and on the real files if they are available.
 
 use std::path::Path;
 

@@ -125,7 +125,7 @@ fn what_a_format_cannot_hold_is_refused() {
     let said = folder.refused(&["convert", "glass.ddt", "x.bsdf"], "x.bsdf");
     assert!(said.contains("the extension .bsdf, which RGL and Zemax files share; expected --to"), "{said}");
     let said = folder.refused(&["convert", "glass.ddt", "x.txt"], "x.txt");
-    assert!(said.contains("the extension .txt, of no format that lobe writes"), "{said}");
+    assert!(said.contains("the extension .txt, which no format that lobe writes has"), "{said}");
     let said = folder.refused(&["convert", "glass.ddt", "x.sdt"], "x.sdt");
     assert!(said.contains("expected mirror reflectances"), "{said}");
     let said = folder.refused(&["convert", "glass.ddt", "x.ssdd", "--channel", "R"], "x.ssdd");

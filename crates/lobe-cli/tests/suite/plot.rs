@@ -53,7 +53,7 @@ fn the_extension_chooses_what_is_written() {
         assert!(output.stdout.is_empty() && output.stderr.is_empty(), "{args:?}");
     }
     let read = |name: &str| std::fs::read_to_string(out(name)).unwrap();
-    // A disk for each of the two incidences asked for, and the bar of colours.
+    // A disk for each of the two requested incidences, and the colour bar.
     assert_eq!(count(&read("slices.svg"), "image"), 3);
     assert!(read("slices.svg").contains("σ = 45°") && read("slices.svg").contains("channel G"));
     assert_eq!(count(&read("curves.svg"), "clipPath"), 1);

@@ -16,7 +16,7 @@ use crate::{FormatError, Place};
 /// written with phi 0 and 360, and a spherical grid of less than a whole turn comes back as scattered samples.
 ///
 /// # Errors
-/// [`FormatError`] where the file cannot be written, and for what the format cannot say: several bands that have names
+/// [`FormatError`] if the file cannot be written, and for what the format cannot say: several bands that have names
 /// only, refraction offsets, and mirror reflectances.
 pub fn write(data: &Data, path: &Path) -> Result<(), FormatError> {
     let refuse = |found: &str, expected: &str| Err(FormatError::new(path, Place::File, found, expected));

@@ -89,7 +89,9 @@ fn read_tables(
     }
     let scale = scale(&tables, spectrum);
     if !(scale.is_finite() && scale > 0.0) {
-        return Err(source.error("tables without light where the spectrum holds", "values with a positive integral"));
+        return Err(
+            source.error("tables without light at the direction of the spectrum", "values with a positive integral")
+        );
     }
     // All samples are kept once per wavelength, and so a file of many of both would take the square of its size. Those of
     // instruments have a few hundred wavelengths, and write a sample in eight characters or more.

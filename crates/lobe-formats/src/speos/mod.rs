@@ -19,7 +19,7 @@ use crate::lines::shown;
 use crate::{FormatError, Sides};
 use table::Source;
 
-/// `true` where the first line is that of one of these files.
+/// `true` if the first line is that of one of these files.
 pub fn matches(bytes: &[u8]) -> bool {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(128)]).to_ascii_lowercase();
     head.starts_with("optis - ")
@@ -47,7 +47,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Sides<scattered::Data>, FormatE
     }
     source.line("a comment")?;
     let length = source.line("the length of the description")?.trim().parse::<usize>();
-    let length = length.map_err(|_| source.error("no number", "the length of the description"))?;
+    let length = length.map_err(|_| source.error("a word that is not a number", "the length of the description"))?;
     source.description(length)?;
     if is_brdf { brdf::read(&mut source) } else { anisotropic::read(&mut source) }
 }

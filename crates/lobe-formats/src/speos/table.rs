@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::lines::shown;
 use crate::{FormatError, Place};
 
-/// Below this cosine an intensity cannot be told from the error that dividing by it makes.
+/// Below this cosine an intensity cannot be distinguished from the error of dividing by it.
 const LEAST_COSINE: f64 = 1e-3;
 
 /// A text that is read line by line in its head and number by number after it.

@@ -8,7 +8,7 @@ use lobe_table::{Channels, Data, Scatter, mirror, specular, spherical};
 use crate::lines::shown;
 use crate::{FormatError, Part, Place};
 
-/// `true` where the lines at the start have `VERSION` and `DATA_TYPE`.
+/// `true` if the lines at the start have `VERSION` and `DATA_TYPE`.
 pub fn matches(bytes: &[u8]) -> bool {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 16)]);
     let has = |key: &str| head.lines().any(|line| line.split_whitespace().next() == Some(key));
@@ -78,7 +78,7 @@ impl Source<'_> {
         FormatError::new(self.file, Place::Line(self.line.max(1)), found, expected)
     }
 
-    /// `count` values, a colour a line, or `f32` each.
+    /// `count` values, one colour per line, or `f32` each.
     fn values(&mut self, count: Option<usize>, channels: usize, is_binary: bool) -> Result<Vec<f32>, FormatError> {
         let rest = self.bytes.len() - self.at;
         // A value has four bytes, or a digit and what separates it from the next.

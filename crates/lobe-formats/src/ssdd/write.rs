@@ -20,7 +20,7 @@ pub enum Encoding {
 /// Writes a file. Values come back exactly, angles to a billionth of a degree. The file appears whole or not at all.
 ///
 /// # Errors
-/// [`FormatError`] where the file system refuses, and for what the format cannot say: no block, two of the same type,
+/// [`FormatError`] if the file system refuses, and for what the format cannot say: no block, two of the same type,
 /// scattered samples, halves of mirrored grids, bands that have names only, and one side of a sheet.
 pub fn write(blocks: &[Part], encoding: Encoding, path: &Path) -> Result<(), FormatError> {
     write_whole(path, &to_bytes(blocks, encoding).map_err(|error| unwritable(path, &error))?)
@@ -33,7 +33,7 @@ fn to_bytes(blocks: &[Part], encoding: Encoding) -> io::Result<Vec<u8>> {
         return Err(unfit("an SSDD file has one to four blocks of different types"));
     }
     if blocks.iter().any(|block| block.side.is_some()) {
-        return Err(unfit("an SSDD file does not tell the sides of a sheet apart"));
+        return Err(unfit("an SSDD file does not distinguish the sides of a sheet"));
     }
     let mut out = Vec::new();
     writeln!(out, "VERSION 0.3")?;

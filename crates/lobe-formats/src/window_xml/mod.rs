@@ -18,7 +18,7 @@ use crate::{FormatError, Measured};
 
 pub use write::write;
 
-/// `true` where the file starts like one of these; lines before the XML are let pass, which real files have.
+/// `true` if the file starts like one of these; lines before the XML, which real files have, are skipped.
 pub fn matches(bytes: &[u8]) -> bool {
     const HEAD: usize = 16 * 1024;
     document::decode(&bytes[..bytes.len().min(HEAD)]).contains("<WindowElement")
@@ -28,7 +28,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// [`FormatError`] with the line: XML that is not well-formed or cut off, an unknown basis or direction, a count of
-/// values that does not fit the basis, braces that make no tree, and values that are no finite numbers.
+/// values that does not fit the basis, braces that do not form a tree, and values that are not finite numbers.
 pub fn read(bytes: &[u8], file: &Path) -> Result<Measured<window::Data>, FormatError> {
     document::Document::parse(&document::decode(bytes), file)
 }

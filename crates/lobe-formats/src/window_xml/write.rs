@@ -15,8 +15,8 @@ use crate::write::{unwritable, write_whole};
 /// digits as they need. The facts `name` and `manufacturer` of `source` become those of the layer. The file appears whole or not at all.
 ///
 /// # Errors
-/// [`FormatError`] where the file system refuses; and where no block is there, or matrices and trees, or trees of both
-/// ranks, are mixed, which a file cannot say.
+/// [`FormatError`] if the file system refuses, and if there is no block, or matrices and trees, or trees of both ranks,
+/// are mixed, which a file cannot say.
 pub fn write(sheet: &Data, source: &[(String, String)], path: &Path) -> Result<(), FormatError> {
     write_whole(path, &to_bytes(sheet, source).map_err(|error| unwritable(path, &error))?)
 }

@@ -18,7 +18,7 @@ use crate::{FormatError, Place};
 /// degrees: knots that came from such a file come back the same, others within 2e-5 degrees.
 ///
 /// # Errors
-/// [`FormatError`] where the file cannot be written, the channels are neither one nor XYZ, the table has refraction
+/// [`FormatError`] if the file cannot be written, the channels are neither one nor XYZ, the table has refraction
 /// offsets, or two knots are one in `f32` degrees.
 pub fn write(samples: &specular::Data, path: &Path) -> Result<(), FormatError> {
     let refuse = |found: String, expected: &str| Err(FormatError::new(path, Place::File, found, expected));

@@ -5,6 +5,6 @@ pub fn truncations(bytes: &[u8], read: impl Fn(&[u8]) -> bool) {
     assert!(read(bytes), "the whole file must be readable");
     for end in 0..bytes.len() {
         let complete = read(&bytes[..end]);
-        assert!(!complete || end > bytes.len() / 2, "{end} of {} bytes are taken for a whole file", bytes.len());
+        assert!(!complete || end > bytes.len() / 2, "{end} of {} bytes are accepted as a whole file", bytes.len());
     }
 }

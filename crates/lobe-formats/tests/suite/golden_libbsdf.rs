@@ -23,7 +23,7 @@ fn largest_error(samples: &specular::Data, answers: &Path) -> (usize, f64) {
 
 fn check(file: &Path, answers: &Path, expected_pairs: usize) {
     let document = open(file).unwrap().1;
-    let Some(Data::Specular(samples)) = document.only() else { panic!("{} is no table", file.display()) };
+    let Some(Data::Specular(samples)) = document.only() else { panic!("{} is not a table", file.display()) };
     let (pairs, error) = largest_error(samples, answers);
     println!("{}: {pairs} pairs, largest error {error:.2e} of the largest value", file.display());
     assert_eq!(pairs, expected_pairs);

@@ -221,7 +221,7 @@ fn tables_of_goniometers_find_their_shape_and_unit() {
     let text = csv("phi_deg,sigma,theta,Y", 1.0);
     let Ok(Data::Specular(samples)) = goniometer::read(text.as_bytes(), file()) else { panic!("a grid") };
     assert_eq!(samples.texel([1, 0, 1, 1]), [9.0]);
-    // A row less is no grid, and the direction of each row stays what it was.
+    // With a row missing it is not a grid, and the direction of each row stays what it was.
     let less = text.rsplit_once("\n").and_then(|(text, _)| text.rsplit_once('\n')).expect("lines").0;
     let Ok(Data::Scattered(data)) = goniometer::read(less.as_bytes(), file()) else { panic!("samples") };
     assert!(

@@ -1,4 +1,4 @@
-//! The bytes of buffers: inside the file, in its text, or in files beside it.
+//! The bytes of buffers: inside the file, in its text, or in files next to it.
 
 use std::collections::HashMap;
 use std::path::{Component, Path, PathBuf};

@@ -36,7 +36,7 @@ pub struct Ply {
     pub along: u32,
     /// Ridges across the yarn; the sign says whether the twist is S or Z. Not 0.
     pub across: f64,
-    /// Height of a ridge above the groove beside it; 0 for a smooth yarn.
+    /// Height of a ridge above the groove next to it; 0 for a smooth yarn.
     pub depth: f64,
 }
 

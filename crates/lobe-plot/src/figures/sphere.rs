@@ -1,4 +1,4 @@
-//! Spheres under several lights: one large, and smaller ones beside it.
+//! Spheres under several lights: one large, and smaller ones next to it.
 
 use super::shared::{MARGIN, MIDDLE, TOP, WIDTH, conditions, heading, id};
 use crate::evaluate::Progress;
@@ -15,7 +15,7 @@ const GAP: f64 = 12.0;
 /// Room below a backdrop for its captions.
 const CAPTION: f64 = 44.0;
 
-/// The first light large, the others small beside it.
+/// The first light large, the others small next to it.
 pub(super) fn draw(subject: &Subject, view: &View, progress: &dyn Progress) -> String {
     let studios = studios(subject, view.side);
     let mut svg = Svg::new(id("sphere", view));

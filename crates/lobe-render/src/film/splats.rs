@@ -29,7 +29,7 @@ impl<T: Transport> Film<T> {
 
     /// Adds the contribution of a light path at a place of the picture: columns from its left edge and rows from its top
     /// edge, in pixels. The filter spreads it as it spreads the samples of pixels, so that both have equal means. Parts
-    /// outside of the window are dropped. Returns `false` if the radiance was not finite and counted as 0.
+    /// outside the window are dropped. Returns `false` if the radiance was not finite and counted as 0.
     ///
     /// A pixel shows the mean over light paths. [Importance](crate::View::sample_we) integrates to 1 over the whole film;
     /// a contribution is in terms of one pixel, so it is multiplied by the number of pixels of the picture.

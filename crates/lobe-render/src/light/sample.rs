@@ -72,7 +72,7 @@ pub(crate) struct Emitted<S> {
 /// Rays that leave a light, one per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct EmissionSample<L: Lanes, S: Channels> {
-    /// Where they begin: on the light, or outside of the scene for a light at infinity.
+    /// Where they begin: on the light, or outside the scene for a light at infinity.
     pub origin: [L::F; 3],
     /// Where they go, unit length.
     pub direction: [L::F; 3],

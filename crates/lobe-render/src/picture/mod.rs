@@ -37,7 +37,7 @@ pub enum PictureError {
     },
 }
 
-/// Writes beside the file and renames, so that there is never half a file.
+/// Writes next to the file and renames, so that there is never half a file.
 fn replace(path: &Path, bytes: &[u8]) -> Result<(), PictureError> {
     let failed = |error| PictureError::Io { file: path.into(), error };
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));

@@ -98,7 +98,7 @@ fn a_sheet_that_reflects_half_and_lets_half_through_vanishes() {
 #[test]
 fn nothing_occludes_a_convex_thing() {
     let (largest, _) = from_white(&furnace(lambert(1.0, Backend::best())), ambient(f32::INFINITY));
-    // Pixels beside the sphere are black, as there is no surface.
+    // Pixels next to the sphere are black, as there is no surface.
     assert_eq!(largest, 1.0);
     let film = picture(&furnace(lambert(1.0, Backend::best())), &settings([48, 40], 16, ambient(f32::INFINITY)));
     let middle = film.pixels()[film.index(24, 20)];

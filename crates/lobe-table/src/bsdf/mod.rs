@@ -25,11 +25,11 @@ pub use lanes::BsdfLanes;
 /// Only [`channels`](Self::channels) and [`eval_batch`](Self::eval_batch) have to be written: directions are then sampled in
 /// proportion to the cosine, on the sides that [`holds`](Self::holds) names.
 pub trait Bsdf: Debug + Send + Sync {
-    /// What the channels of a value stand for.
+    /// What the channels of a value mean.
     fn channels(&self) -> &Channels;
 
-    /// Whether there are values for this side of the light and this kind of scatter: reflection on the front, unless
-    /// told otherwise.
+    /// Whether there are values for this side of the light and this kind of scatter: by default, reflection on the
+    /// front.
     fn holds(&self, aspect: Aspect) -> bool {
         aspect == Aspect::REFLECTION
     }
@@ -58,8 +58,8 @@ pub trait Bsdf: Debug + Send + Sync {
         self.eval_batch(backend, (&[wi]).into(), (&[wo]).into(), out);
     }
 
-    /// Samples a direction for each of the `known` ones, which are those to the light or to the viewer as `given` says,
-    /// from two numbers in `[0, 1)` each. Weights are values times cosine over density.
+    /// Samples one direction for each of the `known` ones, which are those to the light or to the viewer as `given`
+    /// says, from two numbers in `[0, 1)` each. Weights are values times cosine over density.
     ///
     /// # Panics
     /// If `u` or a part of `out` does not have one entry per direction, or the weights one more per channel.
@@ -150,7 +150,7 @@ pub trait Bsdf: Debug + Send + Sync {
 pub struct Scheme {
     /// The function; its values are what they were.
     pub bsdf: Arc<dyn Bsdf>,
-    /// Bytes of memory that the distributions take beside the values.
+    /// Bytes of memory that the distributions take in addition to the values.
     pub bytes: usize,
 }
 
@@ -169,7 +169,7 @@ impl<'a> OnBackend<'a> {
         OnBackend { bsdf, backend }
     }
 
-    /// What the channels of a value stand for.
+    /// What the channels of a value mean.
     pub fn channels(&self) -> &'a Channels {
         self.bsdf.channels()
     }

@@ -1,7 +1,7 @@
 //! What was measured, whatever its representation.
 //!
 //! [`Data`] is the only enum of representations, and the only match over it is [`Data::representation`]: programs ask the
-//! trait [`Representation`], which each representation implements beside its data.
+//! trait [`Representation`], which each representation implements next to its data.
 
 mod aspect;
 mod kind;
@@ -29,7 +29,7 @@ macro_rules! representations {
         }
 
         impl Data {
-            /// What every representation can tell.
+            /// What every representation can report.
             pub fn representation(&self) -> &dyn Representation {
                 match self {
                     $(Data::$variant(data) => data),*

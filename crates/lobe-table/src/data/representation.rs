@@ -1,4 +1,4 @@
-//! What every representation can tell.
+//! What every representation can report.
 
 use std::fmt::Debug;
 
@@ -13,7 +13,7 @@ pub trait Representation: Debug + Send + Sync {
     /// The name of the representation.
     fn kind(&self) -> Kind;
 
-    /// What the channels of a value stand for.
+    /// What the channels of a value mean.
     fn channels(&self) -> Channels;
 
     /// What was measured, in the order of the file: at least one, unless every block is missing.
@@ -31,7 +31,7 @@ pub trait Representation: Debug + Send + Sync {
         Err(PrepareError::LeftOut(self.kind()))
     }
 
-    /// `true` if the data tell light on the front from light on the back.
+    /// `true` if the data distinguish light on the front from light on the back.
     fn is_two_sided(&self) -> bool {
         false
     }
@@ -76,7 +76,7 @@ pub trait Representation: Debug + Send + Sync {
         true
     }
 
-    /// `true` if the data know more of polarised light than a value for a pair of directions can tell.
+    /// `true` if the data know more of polarised light than a value for a pair of directions can express.
     fn is_polarised(&self) -> bool {
         false
     }

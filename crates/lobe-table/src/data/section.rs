@@ -15,7 +15,7 @@ pub struct Section<'a> {
     pub kind: Kind,
     /// What was measured.
     pub aspect: Aspect,
-    /// What the channels stand for.
+    /// What the channels mean.
     pub channels: Channels,
     /// The knots of each axis. Empty if the representation has no lists of knots.
     pub axes: Vec<SectionAxis>,
@@ -27,7 +27,7 @@ pub struct Section<'a> {
     pub values: Cow<'a, [f32]>,
     /// The memory that the values take, in bytes.
     pub bytes: usize,
-    /// Those of the values that stand for light and were measured; `None` if all do.
+    /// Those of the values that represent light and were measured; `None` if all do.
     pub measured: Option<Vec<f32>>,
 }
 
@@ -79,7 +79,7 @@ impl<'a> Section<'a> {
         self
     }
 
-    /// The values that stand for light and were measured.
+    /// The values that represent light and were measured.
     pub fn measured(&self) -> &[f32] {
         self.measured.as_deref().unwrap_or(&self.values)
     }

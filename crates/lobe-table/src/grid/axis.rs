@@ -31,7 +31,7 @@ pub struct Axis {
 pub(crate) struct Bounds {
     /// Angles below this move up a turn.
     pub(crate) turn_below: f32,
-    /// Where angles are clamped: at the least to what an angle can be, so that no NaN gets beyond.
+    /// The range to which angles are clamped: at least to that of all angles, so that no NaN gets through.
     pub(crate) clamp: [f32; 2],
     /// Outside these the value is 0.
     pub(crate) inside: [f32; 2],
@@ -179,12 +179,12 @@ impl Axis {
     }
 }
 
-/// `1 / width`, at most the largest float: a cell may be so narrow that the inverse is none.
+/// `1 / width`, at most the largest float: a cell may be so narrow that the inverse is infinite.
 fn inverse(width: f64) -> f32 {
     (1.0 / width).min(f64::from(f32::MAX)) as f32
 }
 
-/// Cells a radian where all cells are equal to within `f32` rounding of the knots.
+/// Cells per radian if all cells are equal to within `f32` rounding of the knots.
 fn uniform(knots: &[f64]) -> Option<f32> {
     let cells = knots.len() - 1;
     let (first, last) = (knots[0], knots[cells]);

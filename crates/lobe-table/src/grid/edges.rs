@@ -39,7 +39,7 @@ impl Edges {
         Edges { axes: [Edge::Extrapolate; 4], non_negative: false }
     }
 
-    /// 0 where sigma or theta lies outside the knots, periodic in psi and phi, never negative.
+    /// 0 if sigma or theta lies outside the knots, periodic in psi and phi, never negative.
     pub fn zero() -> Self {
         Edges { axes: [Edge::Zero, Edge::Periodic, Edge::Zero, Edge::Periodic], non_negative: true }
     }

@@ -58,7 +58,7 @@ pub enum GridError {
     /// The table would have more entries than memory can address.
     #[error("the axes and channels ask for more values than memory can address")]
     TooLarge,
-    /// No channel, or a wavelength that is no positive finite number.
+    /// No channel, or a wavelength that is not a positive finite number.
     #[error("{0}")]
     Channels(String),
     /// A value that is NaN or infinite.

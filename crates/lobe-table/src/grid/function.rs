@@ -22,7 +22,7 @@ impl Function {
     /// A function with a value at each knot. Knots are radians, strictly ascending.
     ///
     /// # Errors
-    /// Where knots and values do not match, or the knots are not finite and strictly ascending.
+    /// If knots and values do not match, or the knots are not finite and strictly ascending.
     pub fn new(knots: &[f64], values: &[f64], edge: Edge) -> Result<Self, AxisError> {
         let axis = Axis::new(knots, edge)?;
         if values.len() != knots.len() {

@@ -1,4 +1,4 @@
-//! Multilinear interpolation in four angles, whatever these stand for.
+//! Multilinear interpolation in four angles, whatever these mean.
 
 use std::ops::Range;
 

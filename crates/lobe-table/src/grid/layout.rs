@@ -13,7 +13,7 @@ pub(crate) enum Kind {
     /// One channel: for each cell of the last two axes its four corners side by side, the last axis faster, which one load
     /// of four floats brings.
     Mono,
-    /// Two or three channels: four floats a node, so that one load of eight brings two neighbours along the last axis.
+    /// Two or three channels: four floats per node, so that one load of eight brings two neighbours along the last axis.
     Rgb,
     /// More: the channels of a node, padded to a multiple of eight.
     Wide,

@@ -230,8 +230,9 @@ fn look_up<L: Lanes, const OCTS: usize>(lanes: L, octs: [L::Oct; OCTS], index: L
 impl<L: Lanes, const LEVELS: usize, const OCTS: usize> Find<L> for Permute<L, LEVELS, OCTS> {
     #[inline(always)]
     fn find(self, lanes: L, x: L::F) -> Cell<L> {
-        // From node n on to node 2 n, or 2 n + 1 where the query is not left of its knot. Levels 1 to 3 are nodes 1 to 7
-        // and lie in the first oct, level 4 fills the second, level 5 the last two: one look-up a level up to the fourth.
+        // From node n on to node 2 n, or 2 n + 1 if the query is not left of its knot. Levels 1 to 3 are nodes 1 to 7
+        // and lie in the first oct, level 4 fills the second, level 5 the last two: one look-up per level up to the
+        // fourth.
         let mut node = lanes.splat_int(1);
         let mut level = 0;
         while level < LEVELS {

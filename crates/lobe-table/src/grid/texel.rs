@@ -63,7 +63,7 @@ impl Stored for u16 {
 
 /// The bits of the half-precision float nearest to `x`; of two that are equally near, of the one that ends in 0.
 fn to_half(x: f32) -> u16 {
-    /// The least normal half, the first power of two that is none, and infinity, as bits of floats.
+    /// The least normal half, the first power of two beyond halves, and infinity, as bits of floats.
     const NORMAL: u32 = (127 - 14) << 23;
     const BEYOND: u32 = (127 + 16) << 23;
     const INFINITE: u32 = 255 << 23;
@@ -79,7 +79,7 @@ fn to_half(x: f32) -> u16 {
     } else if bits < NORMAL {
         (f32::from_bits(bits) + f32::from_bits(SUBNORMAL)).to_bits() - SUBNORMAL
     } else {
-        // Half a unit of what is cut off, less one where the last bit that stays is 0; and the other bias of the exponent.
+        // Half a unit of what is cut off, less one if the last bit that stays is 0; and the other bias of the exponent.
         let odd = bits >> 13 & 1;
         (bits + 0xfff + odd - ((127 - 15) << 23)) >> 13
     };

@@ -34,7 +34,7 @@ pub(crate) fn rgb<L: Lanes, T: Stored, const CORNERS: usize>(
     let floor = lanes.quad_splat(floor);
     let mut first = 0;
     while first < n {
-        // A few queries a turn, which the compiler writes out: the loop itself would be a tenth of the work.
+        // A few queries per iteration, which the compiler writes out: the loop itself would be a tenth of the work.
         let mut query = first;
         while query < first + L::LANES {
             let [low, high] = pair(lanes, query, corners, located);
@@ -48,7 +48,7 @@ pub(crate) fn rgb<L: Lanes, T: Stored, const CORNERS: usize>(
 }
 
 /// As [`rgb`], with texels that say by their fourth float whether there is a value: those without one are 0 all through and
-/// take no part in the average. 0 where there is none at all.
+/// take no part in the average. 0 if there is none at all.
 #[inline(always)]
 pub(crate) fn measured<L: Lanes, T: Stored, const CORNERS: usize>(
     lanes: L,
@@ -91,7 +91,7 @@ fn pair<L: Lanes, T: Stored, const CORNERS: usize>(
     lanes.oct_halves(sum)
 }
 
-/// One texel of up to three channels a query, as it is stored.
+/// One texel of up to three channels per query, as it is stored.
 #[inline(always)]
 pub(crate) fn nearest<L: Lanes, T: Stored>(
     lanes: L,

@@ -15,7 +15,7 @@ use crate::passes::block::{BLOCK, Column};
 use crate::passes::half_vector::HalfVector;
 use lobe_memory::Storage;
 
-/// Floats of a bin: three channels, and 1 where the bin was measured. All four are 0 where it was not.
+/// Floats of a bin: three channels, and 1 if the bin was measured. All four are 0 if it was not.
 const TEXEL: usize = 4;
 
 /// [`Data`] laid out for evaluation in SIMD lanes.
@@ -39,7 +39,7 @@ impl Table {
     /// Lays out the bins: 16 bytes each.
     ///
     /// # Errors
-    /// [`Invalid`] where the bins are more than the 32-bit index of a lane reaches.
+    /// [`Invalid`] if the bins are more than the 32-bit index of a lane reaches.
     pub fn new(data: &Data) -> Result<Self, Invalid> {
         let [h, d, p] = data.bins();
         let row = (p + 1).checked_mul(TEXEL);
@@ -86,7 +86,7 @@ impl Table {
         backend.run(self.batch(lookup, wi, wo, out));
     }
 
-    /// The evaluation of many pairs as a kernel, for lanes that are no [`Backend`]: `out[3 * query + channel]`, in 1/sr.
+    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[3 * query + channel]`, in 1/sr.
     ///
     /// # Panics
     /// If there are not as many `wi` as `wo`, or `out` is not three times as long.
@@ -189,7 +189,7 @@ impl Table {
         }
     }
 
-    /// Places to the bins that they lie in; the dark one where a query is not valid.
+    /// Turns positions into the bins that they lie in; the dark one if a query is not valid.
     #[inline(always)]
     fn bins<L: Lanes>(&self, lanes: L, n: usize, scratch: &mut Scratch) {
         let Scratch { angles, base, places: [h, d, p], .. } = scratch;
@@ -205,7 +205,7 @@ impl Table {
             let d = d.load(lanes, query).to_int().min(d_last);
             let p = p.load(lanes, query).to_int().min(p_last);
             let bin = h * h_stride + d * d_stride + p * p_stride;
-            // An index outside the table is taken for its last, the dark bin.
+            // An index outside the table reads its last entry, the dark bin.
             let valid = angles.valid.load(lanes, query).lt(zero);
             base.store(lanes, query, lanes.select_int(valid, bin, dark));
             query += L::LANES;

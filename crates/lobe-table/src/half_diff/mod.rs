@@ -78,7 +78,7 @@ impl Data {
     /// The values of a bin in the three channels, as they are stored.
     ///
     /// # Panics
-    /// Where there is no such bin.
+    /// If there is no such bin.
     pub fn texel(&self, bin: [usize; 3]) -> [f32; 3] {
         let [h, d, p] = self.bins;
         assert!(bin[0] < h && bin[1] < d && bin[2] < p, "bin {bin:?} of {:?}", self.bins);

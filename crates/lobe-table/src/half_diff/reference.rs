@@ -15,7 +15,7 @@ impl Data {
     }
 
     /// The value of the bin that the directions fall into, without interpolation, as the reader of the database does
-    /// it. 0 where nothing was measured or a direction is not above the surface.
+    /// it. 0 if nothing was measured or a direction is not above the surface.
     pub fn eval_nearest(&self, wi: [f64; 3], wo: [f64; 3]) -> [f64; 3] {
         let bin = self.bin(wi, wo);
         if wi[2] <= 0.0 || wo[2] <= 0.0 || !self.is_measured(bin) {
@@ -57,7 +57,7 @@ impl Data {
     }
 
     /// All values that [`eval_nearest`](Self::eval_nearest) may have in the lanes of a [`Table`](crate::half_diff::Table): the one of the bin,
-    /// and where the directions are within rounding of another bin, the one of that too.
+    /// and if the directions are within rounding of another bin, that bin's as well.
     pub fn candidates(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<[f64; 3]> {
         if wi[2] <= 0.0 || wo[2] <= 0.0 {
             return vec![[0.0; 3]];
@@ -107,7 +107,7 @@ impl Data {
     }
 
     /// How far [`eval_linear`](Self::eval_linear) may be off in the lanes of a [`Table`](crate::half_diff::Table), in parts
-    /// of the largest difference of two values, where all bins were measured.
+    /// of the largest difference of two values, if all bins were measured.
     pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
         // Between the middles of two bins, a bin apart, the value changes by their difference.
         self.rounding(wi, wo).iter().sum::<f64>() + SUM

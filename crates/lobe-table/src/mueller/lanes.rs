@@ -42,7 +42,7 @@ impl Table {
     /// Lays out the first elements: 4 bytes each, a sixteenth of the matrices.
     ///
     /// # Errors
-    /// [`Invalid`] names an axis, or `M` where the elements are more than the 32-bit index of a lane reaches.
+    /// [`Invalid`] names an axis, or `M` if the elements are more than the 32-bit index of a lane reaches.
     pub fn new(data: &Data) -> Result<Self, Invalid> {
         let axis = |index: usize| {
             let knots: Vec<f64> = data.knots()[index].iter().map(|knot| f64::from(*knot)).collect();
@@ -94,7 +94,7 @@ impl Table {
         backend.run(self.batch(wi, wo, out));
     }
 
-    /// The evaluation of many pairs as a kernel, for lanes that are no [`Backend`]: `out[query * channels + channel]`, in 1/sr.
+    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[query * channels + channel]`, in 1/sr.
     ///
     /// # Panics
     /// If there are not as many `wi` as `wo`, or `out` is not that many times the wavelengths long.

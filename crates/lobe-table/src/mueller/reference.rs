@@ -12,7 +12,7 @@ impl Data {
     /// The Mueller matrix in 1/sr, without the cosine, for light that comes from `wi` and leaves along `wo`.
     ///
     /// It maps Stokes vectors with the x axis [`stokes_basis`]`(-wi)` to such with the x axis [`stokes_basis`]`(wo)`.
-    /// Zero where a direction is not above the surface or nothing was measured.
+    /// Zero if a direction is not above the surface or nothing was measured.
     pub fn eval(&self, wi: [f64; 3], wo: [f64; 3], nm: f64) -> Matrix {
         let Some(matrix) = self.in_plane(wi, wo, nm) else { return [[0.0; 4]; 4] };
         let propagation = wi.map(|x| -x);
@@ -23,7 +23,7 @@ impl Data {
     }
 
     /// The stored matrix, linear in all four axes and constant beyond them, for Stokes vectors with the x axis [`plane_normal`].
-    /// `None` where a direction is not above the surface or nothing was measured.
+    /// `None` if a direction is not above the surface or nothing was measured.
     pub fn in_plane(&self, wi: [f64; 3], wo: [f64; 3], nm: f64) -> Option<Matrix> {
         if wi[2] <= 0.0 || wo[2] <= 0.0 {
             return None;
@@ -48,7 +48,7 @@ impl Data {
     }
 
     /// How far a value may be off in the lanes of a [`Table`](crate::mueller::Table), in parts of the largest first element
-    /// of a matrix, where all matrices around were measured.
+    /// of a matrix, if all matrices around were measured.
     pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
         let at = coordinates(wi, wo);
         let errors = rounding(at);
@@ -65,7 +65,7 @@ impl Data {
 }
 
 /// `phi_d` in `(-pi, pi]`, `theta_d` and `theta_h`, with the viewer turned to azimuth 0 as in figure 3 of Baek et al.:
-/// where the half vector is the normal, and its azimuth open, the result then still follows a rotation of both.
+/// if the half vector is the normal, and its azimuth undefined, the result still follows a rotation of both.
 pub fn coordinates(wi: [f64; 3], wo: [f64; 3]) -> [f64; 3] {
     let turn = phi(wo);
     let (theta_h, theta_d, phi_d) = half_difference(rotate_z(wi, -turn), rotate_z(wo, -turn));
@@ -79,7 +79,7 @@ pub fn rounding([_, theta_d, theta_h]: [f64; 3]) -> [f64; 3] {
 }
 
 /// The x axis of the Stokes frames that the table uses, the same before and after the reflection: the normal of the
-/// plane of the two directions. Where they span no plane it is [`stokes_basis`]`(-wi)`.
+/// plane of the two directions. If they span no plane it is [`stokes_basis`]`(-wi)`.
 pub fn plane_normal(wi: [f64; 3], wo: [f64; 3]) -> [f64; 3] {
     let normal = cross(wi, wo);
     if dot(normal, normal) < 1e-24 {

@@ -41,7 +41,7 @@ fn acos<L: Lanes>(lanes: L, cos: L::F) -> L::F {
     lobe_math::paper::acos(lanes, cos.max(-one).min(one))
 }
 
-/// Where both directions are finite and above the horizon.
+/// The lanes in which both directions are finite and above the horizon.
 #[inline(always)]
 pub(super) fn above_horizon<L: Lanes>(lanes: L, wi: [L::F; 3], wo: [L::F; 3]) -> L::M {
     let (zero, limit) = (lanes.splat(0.0), lanes.splat(2.0));

@@ -1,6 +1,6 @@
 //! Binary search of a knot array for all lanes at once (paper, section 2.2).
 //!
-//! All lanes go down the same branch for as long as they agree. Where they do not, the branch of the lanes at or above
+//! All lanes go down the same branch for as long as they agree. When they do not, the branch of the lanes at or above
 //! the knot waits on a stack and the others go on. The sets of lanes on the stack and at hand have no lane in common,
 //! so that at most `LANES - 1` branches ever wait.
 //!
@@ -14,7 +14,7 @@ use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
 /// cells.
 ///
 /// # Panics
-/// Where there are fewer than two knots.
+/// If there are fewer than two knots.
 #[inline(always)]
 pub fn index<L: Lanes>(lanes: L, knots: &[f32], x: L::F, mask: L::M) -> L::F {
     let mut index = lanes.splat(0.0);
@@ -27,7 +27,7 @@ pub fn index<L: Lanes>(lanes: L, knots: &[f32], x: L::F, mask: L::M) -> L::F {
 /// `cells[i]` is `[knots[i], 1 / (knots[i + 1] - knots[i])]`.
 ///
 /// # Panics
-/// Where there are fewer than two knots, or fewer cells than one less than knots.
+/// If there are fewer than two knots, or fewer cells than one less than knots.
 #[inline(always)]
 pub fn weights<L: Lanes>(lanes: L, knots: &[f32], cells: &[[f32; 2]], x: L::F, mask: L::M) -> (L::F, [L::F; 2]) {
     let zero = lanes.splat(0.0);
@@ -41,7 +41,7 @@ pub fn weights<L: Lanes>(lanes: L, knots: &[f32], cells: &[[f32; 2]], x: L::F, m
 /// `cells[i]` is the value at `knots[i]` and the slope from there to the next knot.
 ///
 /// # Panics
-/// Where there are fewer than two knots, or fewer cells than one less than knots.
+/// If there are fewer than two knots, or fewer cells than one less than knots.
 #[inline(always)]
 pub fn value<L: Lanes>(lanes: L, knots: &[f32], cells: &[[f32; 2]], x: L::F, mask: L::M) -> L::F {
     let mut value = lanes.splat(0.0);
@@ -105,7 +105,7 @@ impl<L: Lanes> Leaf<L> for Value<'_, L::F> {
 struct Branch {
     low: u32,
     high: u32,
-    /// One bit a lane.
+    /// One bit per lane.
     lanes: u32,
 }
 

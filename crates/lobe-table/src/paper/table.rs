@@ -9,7 +9,7 @@ use crate::grid::axis::Axis;
 use crate::passes::block::BLOCK;
 use crate::{AxisError, Edge, Edges, Scatter, specular, specular::AXIS_NAMES};
 
-/// Floats hold every integer up to this one, so no more texels can be told apart.
+/// Floats hold every integer up to this one, so no more texels can be distinguished.
 const MAX_TEXELS: usize = 1 << 24;
 
 /// An RGB table in specular coordinates, three-dimensional (isotropic) or four-dimensional, evaluated as in the paper.
@@ -89,12 +89,12 @@ impl PaperTable {
         Ok(PaperTable { axes, texels, strides })
     }
 
-    /// `true` where the value depends on the rotation of the sample.
+    /// `true` if the value depends on the rotation of the sample.
     pub fn is_anisotropic(&self) -> bool {
         self.axes[1].knots().len() > 1
     }
 
-    /// Evaluates one pair a lane: red, green and blue, 0 in the lanes that `mask` leaves out.
+    /// Evaluates one pair per lane: red, green and blue, 0 in the lanes that `mask` leaves out.
     #[inline(always)]
     pub fn eval_lanes<L: Lanes>(&self, lanes: L, wi: [L::F; 3], wo: [L::F; 3], mask: L::M) -> [L::F; 3] {
         let zero = lanes.splat(0.0);
@@ -147,7 +147,7 @@ impl PaperTable {
     /// The work of evaluating many pairs, as a kernel: `out[channel][query]`.
     ///
     /// # Panics
-    /// Where `wi`, `wo` and the three outputs differ in length.
+    /// If `wi`, `wo` and the three outputs differ in length.
     pub fn batch<'a>(
         &'a self,
         wi: Directions<'a>,
@@ -155,7 +155,7 @@ impl PaperTable {
         out: [&'a mut [f32]; 3],
     ) -> impl Kernel<Out = ()> + 'a {
         assert_eq!(wi.count(), wo.count(), "as many wi as wo");
-        assert!(out.iter().all(|channel| channel.len() == wi.count()), "one output a query and channel");
+        assert!(out.iter().all(|channel| channel.len() == wi.count()), "one output per query and channel");
         Batch { table: self, wi, wo, out }
     }
 }

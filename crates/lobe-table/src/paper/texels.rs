@@ -5,7 +5,7 @@ use lobe_lane::{Floats, Lanes, MAX_LANES, Mask};
 /// RGB in each lane: the corners at `base + offsets[i]`, weighted and summed. Lanes outside the mask have weights of 0.
 ///
 /// # Panics
-/// Where a corner of a lane inside the mask lies outside `texels`.
+/// If a corner of a lane inside the mask lies outside `texels`.
 #[inline(always)]
 pub(super) fn interpolate<L: Lanes, const CORNERS: usize>(
     lanes: L,

@@ -12,7 +12,7 @@ pub(crate) trait Blockwise: Copy {
     /// The scratch before the first block.
     const SCRATCH: Self::Scratch;
 
-    /// Values a pair.
+    /// Values per pair.
     fn channel_count(self) -> usize;
 
     /// Evaluates queries `0..count` of a block into `out`, `[query][channel]`. Must be `#[inline(always)]`.
@@ -39,7 +39,7 @@ impl<'a, E: Blockwise> Batch<'a, E> {
     /// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
     pub(crate) fn new(evaluator: E, wi: Directions<'a>, wo: Directions<'a>, out: &'a mut [f32]) -> Self {
         assert_eq!(wi.count(), wo.count(), "as many wi as wo");
-        assert_eq!(out.len(), wi.count() * evaluator.channel_count(), "one output a query and channel");
+        assert_eq!(out.len(), wi.count() * evaluator.channel_count(), "one output per query and channel");
         Batch { evaluator, wi, wo, out }
     }
 }

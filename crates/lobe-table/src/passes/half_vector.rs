@@ -20,7 +20,7 @@ pub(crate) struct HalfVector {
     /// `phi_d` in `[-pi, pi]`; before, `wi` across the half vector, away from the normal and toward the side.
     pub(crate) phi_d: Column,
     side: Column,
-    /// All bits set where both directions point above the horizon.
+    /// All bits set if both directions point above the horizon.
     pub(crate) valid: Column<i32>,
 }
 
@@ -35,7 +35,7 @@ impl HalfVector {
 
     /// Fills the angles of queries `0..n`. `n` is a multiple of the lanes.
     ///
-    /// Where the half vector is the normal its azimuth is that of `wo` where it is `VIEWED`, else 0.
+    /// If the half vector is the normal, its azimuth is that of `wo` if `VIEWED`, or else 0.
     #[inline(always)]
     pub(crate) fn run<L: Lanes, const VIEWED: bool>(
         &mut self,

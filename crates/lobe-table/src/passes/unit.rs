@@ -18,7 +18,7 @@ pub(crate) const FARTHEST: f32 = 16.0;
 /// the roundings of a unit vector, and [`lobe_math::bounds`].
 pub(crate) const SPHERICAL: f64 = 1.2e-6;
 
-/// The unit vectors along `x`, `y`, `z`, and where there are such: not in lanes that are not finite or have no length.
+/// The unit vectors along `x`, `y`, `z`, and the lanes that have one: not those that are not finite or have no length.
 #[inline(always)]
 pub(crate) fn unit<L: Lanes>(lanes: L, [x, y, z]: [L::F; 3]) -> ([L::F; 3], L::M) {
     let length2 = lanes.mul_add(x, x, lanes.mul_add(y, y, z * z));

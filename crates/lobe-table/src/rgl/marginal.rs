@@ -28,7 +28,7 @@ impl Blend {
     /// The first slice of a table, by itself.
     pub const FIRST: Blend = Blend { terms: [(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)] };
 
-    /// The blended value of anything that has a value a slice.
+    /// The blended value of anything that has a value per slice.
     pub(super) fn mix(&self, mut value: impl FnMut(usize) -> f64) -> f64 {
         let mut sum = 0.0;
         for (slice, weight) in self.terms {
@@ -66,7 +66,7 @@ fn lerp(a: f64, b: f64, t: f64) -> f64 {
 #[derive(Clone, Debug)]
 pub struct Warp {
     images: Images,
-    /// One factor a slice, after which the cells of the slice add up to one.
+    /// One factor per slice, after which the cells of the slice add up to one.
     norm: Vec<f64>,
     /// `[slice][row][column]`: integral of the row up to the column, in cells.
     conditional: Vec<f64>,
@@ -116,7 +116,7 @@ impl Warp {
 
     /// The uniform position that [`sample`](Self::sample) turns into `u`, and the density at `u`.
     ///
-    /// Where a whole row has no density the position in it is not defined, and 0.
+    /// If a whole row has no density, the position in it is undefined, and is 0.
     pub fn invert(&self, u: [f64; 2], blend: &Blend) -> ([f64; 2], f64) {
         let [height, width] = self.images.size();
         let ((col, fx), (row, fy)) = (place(u[0], width), place(u[1], height));
@@ -198,7 +198,7 @@ impl Warp {
     }
 }
 
-/// The density that a texel stands for.
+/// The density that a texel represents.
 fn density(texel: f32) -> f64 {
     f64::from(texel).max(0.0)
 }

@@ -82,7 +82,7 @@ impl Images {
     /// The texels of one image, `[row][column]`.
     ///
     /// # Panics
-    /// Where there is no such slice.
+    /// If there is no such slice.
     pub fn slice(&self, index: usize) -> &[f32] {
         &self.texels[index * self.height * self.width..][..self.height * self.width]
     }
@@ -90,7 +90,7 @@ impl Images {
     /// The bilinear value of one image at `u`, which is clamped to the unit square.
     ///
     /// # Panics
-    /// Where there is no such slice.
+    /// If there is no such slice.
     pub fn bilinear(&self, index: usize, u: [f64; 2]) -> f64 {
         let image = self.slice(index);
         marginal::bilinear(self, u, |texel| f64::from(image[texel]))
@@ -116,7 +116,7 @@ pub struct Parts {
     pub luminance: Images,
     /// [`Channels::Rgb`], or [`Channels::Spectral`] with ascending wavelengths.
     pub channels: Channels,
-    /// `P x T x C` images: `f cos(theta_o)` without the microfacet factor where [`jacobian`](Self::jacobian) is set.
+    /// `P x T x C` images: `f cos(theta_o)` without the microfacet factor if [`jacobian`](Self::jacobian) is set.
     pub spectra: Images,
     /// Whether values are to be multiplied by `ndf / (4 sigma)`.
     pub jacobian: bool,
@@ -180,7 +180,7 @@ impl Data {
         self.parts
     }
 
-    /// `true` where the values do not depend on the rotation of the sample.
+    /// `true` if the values do not depend on the rotation of the sample.
     pub fn is_isotropic(&self) -> bool {
         self.parts.phi_i.len() <= 2
     }

@@ -75,12 +75,12 @@ impl Reference {
         }
     }
 
-    /// `f cos(theta_o)`, what the tables hold, in every channel; 0 where a direction is not above the surface.
+    /// `f cos(theta_o)`, what the tables hold, in every channel; 0 if a direction is not above the surface.
     ///
     /// # Panics
     /// Unless `out` has as many elements as there are channels.
     pub fn eval_cos(&self, wi: [f64; 3], wo: [f64; 3], out: &mut [f64]) {
-        assert_eq!(out.len(), self.channels(), "one output a channel");
+        assert_eq!(out.len(), self.channels(), "one output per channel");
         match self.footprint(wi, wo) {
             Some(footprint) => self.channels_at(&footprint, out),
             None => out.fill(0.0),
@@ -103,7 +103,7 @@ impl Reference {
         self.footprint(wi, wo).map_or(0.0, |at| at.p_v * self.luminance.density(at.s, &at.blend) / at.jacobian)
     }
 
-    /// Draws `wo` for a `wi` from two numbers in `[0, 1)`. `None` where the sample lies below the surface.
+    /// Draws `wo` for a `wi` from two numbers in `[0, 1)`. `None` if the sample lies below the surface.
     pub fn sample(&self, wi: [f64; 3], uniform: [f64; 2], order: UniformOrder) -> Option<Sample> {
         if wi[2] <= 0.0 {
             return None;

@@ -10,7 +10,7 @@ use super::slices::Slices;
 use crate::grid::axis::Axis;
 use lobe_memory::Storage;
 
-/// At most this many cells a slice, as a power of two: what the caches near a core can hold of a few slices.
+/// At most this many cells per slice, as a power of two: what the caches near a core can hold of a few slices.
 const MOST_BITS: u32 = 13;
 /// At least this many.
 const LEAST_BITS: u32 = 4;
@@ -41,8 +41,8 @@ pub(crate) struct Builder<'a, 'l> {
 }
 
 impl Builder<'_, '_> {
-    /// Builds the slices, and tells `progress` how many of how many are done. With them comes the brightness that sums
-    /// of 1 stand for.
+    /// Builds the slices, and reports to `progress` how many of how many are done. Also returns the brightness that
+    /// sums of 1 represent.
     pub(crate) fn build(mut self, progress: &mut dyn FnMut(usize, usize)) -> Result<(Slices, f64), DistributionError> {
         let (sigma, psi) = (knots(self.sigma), self.psi.map_or(vec![0.0], knots));
         let count = sigma.len() * psi.len();

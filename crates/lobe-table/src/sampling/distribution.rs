@@ -23,7 +23,7 @@ pub struct DistributionOptions {
     pub scatter: Scatter,
     /// Polar angles of incidence in radians, ascending in `[0, pi/2]`: at each there is a slice.
     pub sigma: Vec<f64>,
-    /// Azimuths of incidence in radians, ascending in `[0, 2 pi)`; one or none where the azimuth does not count.
+    /// Azimuths of incidence in radians, ascending in `[0, 2 pi)`; one or none if the azimuth does not matter.
     pub psi: Vec<f64>,
     /// Angles from the mirror direction, radians in `[0, pi]`, between which the light varies little.
     pub theta: Vec<f64>,
@@ -37,7 +37,7 @@ pub struct DistributionOptions {
 
 impl DistributionOptions {
     /// A grid for light of which nothing is known: steps in theta that are finest at the mirror direction, and slices
-    /// every 5 degrees and closer at grazing; where psi counts, every 10 degrees, and of psi every 22.5.
+    /// every 5 degrees and closer at grazing; if psi matters, every 10 degrees, and of psi every 22.5.
     pub fn unknown(scatter: Scatter, isotropic: bool, bytes: usize) -> Self {
         let (step, last) = if isotropic { (5, 17) } else { (10, 9) };
         let mut sigma: Vec<f64> = (0..last).map(|i| f64::from(step * i).to_radians()).collect();
@@ -51,7 +51,7 @@ impl DistributionOptions {
 /// Why there is no distribution.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum DistributionError {
-    /// A part of cosine that is no part, or none.
+    /// A defensive part that is not in `(0, 1]`.
     #[error("a defensive part of {found}; expected a number in (0, 1]")]
     Defensive {
         /// What was found.
@@ -65,7 +65,7 @@ pub enum DistributionError {
         /// What is wrong with it.
         source: AxisError,
     },
-    /// Edges of a grid that single precision does not tell apart.
+    /// Edges of a grid that single precision does not distinguish.
     #[error("the grid of the distribution: {source}")]
     Grid {
         /// What is wrong with it.
@@ -88,14 +88,14 @@ pub struct Distribution {
 }
 
 impl Distribution {
-    /// Builds the distribution of a function that tells luminance times `f`, 1/sr, of many pairs: it gets the incident
-    /// directions, as many scattered ones, and where to put the results. It is asked for incident directions with
-    /// `z > 0` only, and for scattered ones on the side that `options` say.
+    /// Builds the distribution of a function that returns luminance times `f`, 1/sr, of many pairs: it gets the
+    /// incident directions, as many scattered ones, and where to put the results. It is asked for incident directions
+    /// with `z > 0` only, and for scattered ones on the side that `options` say.
     ///
     /// `progress(done, all)` is called after each slice.
     ///
     /// # Errors
-    /// Where the options make no sense.
+    /// If the options make no sense.
     pub fn of_function(
         backend: Backend,
         options: &DistributionOptions,
@@ -152,11 +152,11 @@ impl Distribution {
         self.slices.bytes() + self.sigma.bytes() + psi
     }
 
-    /// Draws a scattered direction, and its density, for each known direction and two numbers in `[0, 1)`; zeros where
-    /// the known direction is none above the surface.
+    /// Draws a scattered direction, and its density, for each known direction and two numbers in `[0, 1)`; zeros if the
+    /// known direction is not above the surface.
     ///
     /// # Panics
-    /// Where the slices do not have the same length.
+    /// If the slices do not have the same length.
     pub fn draw_batch(
         &self,
         backend: Backend,
@@ -168,10 +168,10 @@ impl Distribution {
         backend.run(self.drawing(known, u, directions, pdfs));
     }
 
-    /// The drawing of many directions as a kernel, for lanes that are no [`Backend`] (see [`draw_batch`](Self::draw_batch)).
+    /// The drawing of many directions as a kernel, for lanes that are not a [`Backend`] (see [`draw_batch`](Self::draw_batch)).
     ///
     /// # Panics
-    /// Where the slices do not have the same length.
+    /// If the slices do not have the same length.
     pub fn drawing<'a>(
         &'a self,
         known: &'a [[f32; 3]],
@@ -184,18 +184,18 @@ impl Distribution {
         Draws { distribution: self, known, u, directions, pdfs }
     }
 
-    /// The density of each of the `other` directions given the known one; 0 where one of them is none above the surface.
+    /// The density of each of the `other` directions given the known one; 0 if one of them is not above the surface.
     ///
     /// # Panics
-    /// Where the slices do not have the same length.
+    /// If the slices do not have the same length.
     pub fn pdf_batch(&self, backend: Backend, known: &[[f32; 3]], other: &[[f32; 3]], pdfs: &mut [f32]) {
         backend.run(self.densities(known, other, pdfs));
     }
 
-    /// The densities of many pairs as a kernel, for lanes that are no [`Backend`] (see [`pdf_batch`](Self::pdf_batch)).
+    /// The densities of many pairs as a kernel, for lanes that are not a [`Backend`] (see [`pdf_batch`](Self::pdf_batch)).
     ///
     /// # Panics
-    /// Where the slices do not have the same length.
+    /// If the slices do not have the same length.
     pub fn densities<'a>(
         &'a self,
         known: &'a [[f32; 3]],
@@ -207,25 +207,25 @@ impl Distribution {
     }
 
     /// How bright the surface is for light from each known direction: the integral of luminance times `f` times cosine,
-    /// interpolated between the slices; 0 where it is no direction above the surface.
+    /// interpolated between the slices; 0 if it is not a direction above the surface.
     ///
     /// # Panics
-    /// Where the slices do not have the same length.
+    /// If the slices do not have the same length.
     pub fn brightness_batch(&self, backend: Backend, known: &[[f32; 3]], out: &mut [f32]) {
         backend.run(self.brightnesses(known, out));
     }
 
-    /// The brightness for many directions as a kernel, for lanes that are no [`Backend`] (see [`brightness_batch`](Self::brightness_batch)).
+    /// The brightness for many directions as a kernel, for lanes that are not a [`Backend`] (see [`brightness_batch`](Self::brightness_batch)).
     ///
     /// # Panics
-    /// Where the slices do not have the same length.
+    /// If the slices do not have the same length.
     pub fn brightnesses<'a>(&'a self, known: &'a [[f32; 3]], out: &'a mut [f32]) -> impl Kernel<Out = ()> + 'a {
         assert_eq!(known.len(), out.len(), "a direction a result");
         Brightnesses { distribution: self, known, out }
     }
 
-    /// A direction a lane and its density, inside a caller's own kernel; zeros where `known` is none above the surface
-    /// and where `mask` leaves out.
+    /// A direction per lane and its density, inside a caller's own kernel; zeros if `known` is not above the surface
+    /// and in lanes outside `mask`.
     #[inline(always)]
     pub fn draw_lanes<L: Lanes>(&self, lanes: L, known: [L::F; 3], u: [L::F; 2], mask: L::M) -> ([L::F; 3], L::F) {
         let incident = Incident::new(lanes, &self.surface, known);
@@ -237,8 +237,7 @@ impl Distribution {
         leave(lanes, &incident, draw, mask)
     }
 
-    /// The density of `other` given `known`, inside a caller's own kernel; 0 where one of them is none above the
-    /// surface.
+    /// The density of `other` given `known`, inside a caller's own kernel; 0 if one of them is not above the surface.
     #[inline(always)]
     pub fn pdf_lanes<L: Lanes>(&self, lanes: L, known: [L::F; 3], other: [L::F; 3]) -> L::F {
         let incident = Incident::new(lanes, &self.surface, known);

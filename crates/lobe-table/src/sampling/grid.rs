@@ -73,7 +73,7 @@ pub(crate) fn candidate_columns(theta: &[f32]) -> Vec<f64> {
     for &theta in theta {
         let root = (1.0 - f64::from(theta).cos()).max(0.0).sqrt();
         let last = knots[knots.len() - 1];
-        // Knots closer than single precision tells apart are one.
+        // Knots that single precision does not distinguish become one.
         if root > last + 1e-5 && root < 1.0 - 1e-5 {
             knots.push(root);
         }

@@ -4,7 +4,7 @@ use lobe_lane::{Kernel, Lanes};
 
 use super::incident::{Incident, Surface};
 
-/// Tells luminance times `f`, 1/sr, of each pair of incident and scattered directions, and where to put it.
+/// Computes luminance times `f`, 1/sr, of each pair of incident and scattered directions into its last argument.
 pub(crate) type Light<'a> = dyn FnMut(&[[f32; 3]], &[[f32; 3]], &mut [f32]) + 'a;
 
 /// The light of values, `[pair][channel]`, each channel counting as `luminance` says.

@@ -16,7 +16,7 @@ use crate::grid::function::Function;
 use crate::passes::unit::{FARTHEST, POLE};
 use crate::specular::frame::{Refracted, Zenith};
 
-/// What the frame of scattered light depends on, beside the incident direction.
+/// What the frame of scattered light depends on, in addition to the incident direction.
 #[derive(Clone, Debug)]
 pub(crate) struct Surface {
     pub(crate) scatter: Scatter,
@@ -37,7 +37,7 @@ pub(crate) struct Incident<L: Lanes> {
     sin_zenith: L::F,
     /// The sign that z of a scattered direction has.
     side: L::F,
-    /// Set where the direction is finite and above the horizon.
+    /// Set if the direction is finite and above the horizon.
     pub(crate) valid: L::M,
 }
 
@@ -47,7 +47,7 @@ pub(crate) struct Local<L: Lanes> {
     pub(crate) v: L::F,
     pub(crate) phi: L::F,
     pub(crate) height: L::F,
-    /// Set where the direction is finite and above the horizon.
+    /// Set if the direction is finite and above the horizon.
     pub(crate) valid: L::M,
 }
 

@@ -31,7 +31,7 @@ impl Sampled<'_> {
     }
 }
 
-/// What `f` times becomes a weight: cosine over density, 0 where the density is.
+/// What `f` times becomes a weight: cosine over density, 0 if the density is.
 #[inline(always)]
 pub(super) fn factor<L: Lanes>(lanes: L, z: L::F, pdf: L::F) -> L::F {
     (z.abs() / pdf).masked(lanes.splat(0.0).lt(pdf))
@@ -74,7 +74,7 @@ pub(super) fn sample(
     }
 }
 
-/// Values to weights: times cosine over density, 0 where the density is.
+/// Values to weights: times cosine over density, 0 if the density is.
 fn weigh(values: &mut [f32], channels: usize, directions: &[[f32; 3]], pdfs: &[f32]) {
     for ((texel, direction), &pdf) in values.chunks_exact_mut(channels).zip(directions).zip(pdfs) {
         let factor = if 0.0 < pdf { direction[2].abs() / pdf } else { 0.0 };

@@ -62,7 +62,7 @@ pub struct SamplerOptions {
     /// The part of every slice that is a cosine distribution, in `(0, 1]`. With part `d` a weight is at most
     /// about `pi f / d`, and noise where the histogram fits grows by `1 / (1 - d)`.
     pub defensive: f32,
-    /// How much each channel counts in luminance; as the function [`luminance`] says where it is `None`. Where a path is
+    /// How much each channel counts in luminance; as the function [`luminance`] says if it is `None`. If a path is
     /// traced at a few wavelengths, those count.
     pub luminance: Option<Vec<f32>>,
 }
@@ -107,7 +107,7 @@ impl Sampler {
     /// They are the same bits whichever backend builds them.
     ///
     /// # Errors
-    /// Where the options make no sense for this table.
+    /// If the options make no sense for this table.
     pub fn new(backend: Backend, table: Arc<specular::Table>, options: &SamplerOptions) -> Result<Self, SamplerError> {
         Sampler::with_progress(backend, table, options, &mut |_, _| {})
     }
@@ -131,7 +131,7 @@ impl Sampler {
         Ok(Sampler { table, distribution })
     }
 
-    /// As [`new`](Sampler::new), on lanes that are no [`Backend`].
+    /// As [`new`](Sampler::new), on lanes that are not a [`Backend`].
     ///
     /// # Errors
     /// As [`new`](Sampler::new).
@@ -159,17 +159,18 @@ impl Sampler {
         &self.distribution
     }
 
-    /// Bytes of memory that the distributions take beside the table: at most one and a half times what the table takes,
-    /// but for the tiniest tables.
+    /// Bytes of memory that the distributions take in addition to the table: at most one and a half times what the
+    /// table takes, but for the tiniest tables.
     pub fn bytes(&self) -> usize {
         self.distribution.bytes()
     }
 
     /// Samples one direction for two numbers in `[0, 1)`. Returns it with its density, and `weight` is set to `f` times
-    /// cosine over the density, one value a channel. Where `given` is no direction above the surface, everything is 0.
+    /// cosine over the density, one value per channel. If `given` is not a direction above the surface, everything is
+    /// 0.
     ///
     /// # Panics
-    /// Where `weight` is not as long as there are channels.
+    /// If `weight` is not as long as there are channels.
     pub fn sample(
         &self,
         backend: Backend,
@@ -195,10 +196,10 @@ impl Sampler {
         pdf[0]
     }
 
-    /// Samples a direction for each direction given, as [`sample`](Sampler::sample).
+    /// Samples one direction for each given direction, as [`sample`](Sampler::sample).
     ///
     /// # Panics
-    /// Where `u` or a part of `out` does not have one entry a direction, and the weights one more a channel.
+    /// If `u` or a part of `out` does not have one entry per direction, or the weights one per direction and channel.
     pub fn sample_batch(
         &self,
         backend: Backend,
@@ -217,7 +218,7 @@ impl Sampler {
         sample((&draw, &values), given, directions, u, out);
     }
 
-    /// As [`sample_batch`](Self::sample_batch), on lanes that are no [`Backend`].
+    /// As [`sample_batch`](Self::sample_batch), on lanes that are not a [`Backend`].
     ///
     /// # Panics
     /// As [`sample_batch`](Self::sample_batch).
@@ -261,7 +262,7 @@ impl Sampler {
     /// `mask` leaves out.
     ///
     /// # Panics
-    /// Where `weight` is not as long as there are channels.
+    /// If `weight` is not as long as there are channels.
     #[inline(always)]
     pub fn sample_lanes<L: Lanes>(
         &self,

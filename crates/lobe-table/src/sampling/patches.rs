@@ -21,11 +21,11 @@ pub struct PatchSampler {
 }
 
 impl PatchSampler {
-    /// A sampler of the weighted sum of matrices, one a channel. `None` where their patches are not the same, or there
+    /// A sampler of the weighted sum of matrices, one per channel. `None` if their patches are not the same, or there
     /// are none.
     ///
     /// # Errors
-    /// Where `defensive`, the part of a cosine, is not in `(0, 1]`.
+    /// If `defensive`, the part of a cosine, is not in `(0, 1]`.
     pub fn new(
         scatter: Scatter,
         channels: &[(&KlemsMatrix, f32)],
@@ -72,7 +72,7 @@ impl PatchSampler {
         self.row(wi).map_or(0.0, |row| self.brightness[row])
     }
 
-    /// A direction and its density, 1/sr, for light from `wi` and two numbers in `[0, 1)`; zeros where `wi` lies in no
+    /// A direction and its density, 1/sr, for light from `wi` and two numbers in `[0, 1)`; zeros if `wi` lies in no
     /// patch.
     pub fn draw(&self, wi: [f32; 3], [u, w]: [f32; 2]) -> ([f32; 3], f32) {
         let Some(row) = self.row(wi) else { return ([0.0; 3], 0.0) };
@@ -95,7 +95,7 @@ impl PatchSampler {
         (direction, (mass / self.exit.projected_solid_angle(patch) * z) as f32)
     }
 
-    /// The density of [`draw`](Self::draw), 1/sr, where it finds `wo` for light from `wi`.
+    /// The density of [`draw`](Self::draw), 1/sr, if it finds `wo` for light from `wi`.
     pub fn pdf(&self, wi: [f32; 3], wo: [f32; 3]) -> f32 {
         let sides = f64::from(wi[2]) * f64::from(wo[2]);
         if (self.scatter == Scatter::Reflection && sides <= 0.0)
@@ -134,7 +134,7 @@ fn ring_of(basis: &AngleBasis, patch: usize) -> (crate::window::klems::Ring, usi
     unreachable!("patch {patch} of a basis with {}", basis.patches())
 }
 
-/// A direction of length 1; `None` where it points nowhere.
+/// A direction of length 1; `None` if it is zero or not finite.
 fn unit(direction: [f32; 3]) -> Option<[f64; 3]> {
     let v = direction.map(f64::from);
     let length = v.iter().map(|c| c * c).sum::<f64>().sqrt();

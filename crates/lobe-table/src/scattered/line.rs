@@ -3,7 +3,7 @@
 /// Points on a line, and how to interpolate between them.
 #[derive(Clone, Debug)]
 pub(crate) struct Line {
-    /// An end of the line, and its direction; of no length where there is one point only.
+    /// An end of the line, and its direction; of no length if there is only one point.
     start: [f64; 2],
     direction: [f64; 2],
     /// How far along the line each point is, ascending, and which it is.
@@ -11,7 +11,7 @@ pub(crate) struct Line {
 }
 
 impl Line {
-    /// The points as a line; `None` where there is no point, or one is further than `tolerance` from the line through those
+    /// The points as a line; `None` if there is no point, or one is further than `tolerance` from the line through those
     /// at its ends.
     pub(crate) fn new(points: &[[f64; 2]], tolerance: f64) -> Option<Self> {
         let farthest = |from: [f64; 2]| {

@@ -42,7 +42,7 @@ pub(crate) struct Triangles {
     triangles: Delaunay,
     /// The edges around all triangles that are not [`FLAT`].
     rim: Vec<[FixedVertexHandle; 2]>,
-    /// By the index of a triangle, whether it lies outside of the rim.
+    /// By the index of a triangle, whether it lies outside the rim.
     is_outside: Vec<bool>,
 }
 
@@ -50,7 +50,7 @@ pub(crate) struct Triangles {
 pub(crate) type Weights = [(usize, f64); 3];
 
 impl Mesh {
-    /// Triangulates points that are finite and different from each other; `None` where there is no point.
+    /// Triangulates points that are finite and different from each other; `None` if there is no point.
     pub(crate) fn new(points: &[[f64; 2]]) -> Option<Self> {
         match Line::new(points, FLAT) {
             Some(line) => Some(Mesh::Line(line)),
@@ -59,7 +59,7 @@ impl Mesh {
     }
 
     /// The weights at a point of the plane. Outside of the convex hull they are those of the nearest point of its rim,
-    /// and so they are where all points lie on a line.
+    /// and so they are if all points lie on a line.
     pub(crate) fn weights(&self, point: [f64; 2]) -> Weights {
         match self {
             Mesh::Line(line) => {

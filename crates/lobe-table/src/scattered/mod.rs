@@ -22,7 +22,7 @@ use crate::spherical::AXIS_NAMES;
 use crate::{Channels, Scatter};
 use mesh::Mesh;
 
-/// Why angles and values are no measurement.
+/// Why angles and values are not a measurement.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ScatteredError {
     /// No samples or no channels.
@@ -44,7 +44,7 @@ pub enum ScatteredError {
         /// What was found.
         value: f32,
     },
-    /// An angle that is not finite, or a polar angle outside of `[0, pi/2]`.
+    /// An angle that is not finite, or a polar angle outside `[0, pi/2]`.
     #[error("{name} of sample {sample} is {angle} rad; expected a finite angle, a polar one in [0, pi/2]")]
     Angle {
         /// `theta_i`, `phi_i`, `theta_o` or `phi_o`.
@@ -76,7 +76,7 @@ struct Incidence {
 
 /// Scattered measurements of a BRDF or BTDF. Values are `f` in 1/sr, without the cosine; negative ones are kept.
 ///
-/// Where all incident directions have one azimuth the material is taken for isotropic. Where the outgoing directions of
+/// If all incident directions have one azimuth the material is assumed to be isotropic. If the outgoing directions of
 /// an isotropic material are all on one side of the plane of incidence, the other side is their mirror image.
 ///
 /// They are evaluated in `f64`, a pair at a time, and have no form in lanes: finding the triangle of a point is a walk from
@@ -86,7 +86,7 @@ pub struct Data {
     scatter: Scatter,
     channels: Channels,
     is_isotropic: bool,
-    /// 1 or -1 where only outgoing directions with a sine of that sign were measured, 0 else.
+    /// 1 or -1 if only outgoing directions with a sine of that sign were measured, or else 0.
     measured_side: f64,
     incidences: Vec<Incidence>,
     mesh: Mesh,
@@ -158,12 +158,12 @@ impl Data {
         self.scatter
     }
 
-    /// What the channels stand for.
+    /// What the channels mean.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }
 
-    /// `true` where the value depends on the difference of the azimuths only.
+    /// `true` if the value depends on the difference of the azimuths only.
     pub fn is_isotropic(&self) -> bool {
         self.is_isotropic
     }
@@ -185,8 +185,8 @@ impl Data {
 
     /// The channels of `f` in 1/sr for light from `wi` to `wo`, unit vectors that point away from the surface.
     ///
-    /// Zero for directions that graze the surface, for two sides where reflection was measured, and for one side where
-    /// transmission was. The two sides of the surface are taken for alike.
+    /// Zero for directions that graze the surface, for two sides if reflection was measured, and for one side if
+    /// transmission was. The two sides of the surface are assumed to be alike.
     pub fn eval(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f32> {
         let count = self.channels.count();
         let (mut sum, mut out) = (vec![0.0; count], vec![0.0; count]);
@@ -197,7 +197,7 @@ impl Data {
     /// As [`eval`](Self::eval), into `out`; `sum` holds the channels while they are added up. Many pairs share both.
     ///
     /// # Panics
-    /// Where one of the two is shorter than there are channels.
+    /// If one of the two is shorter than there are channels.
     pub fn eval_into(&self, wi: [f64; 3], wo: [f64; 3], sum: &mut [f64], out: &mut [f32]) {
         let count = self.channels.count();
         let (sum, out) = (&mut sum[..count], &mut out[..count]);

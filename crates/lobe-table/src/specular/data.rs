@@ -80,12 +80,12 @@ impl Data {
         &self.knots
     }
 
-    /// The refraction offset at each sigma knot, in radians, where the table has them.
+    /// The refraction offset at each sigma knot, in radians, if the table has them.
     pub fn refraction(&self) -> Option<&[f64]> {
         self.refraction.as_deref()
     }
 
-    /// What the channels stand for.
+    /// What the channels mean.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }
@@ -95,7 +95,7 @@ impl Data {
         &self.values
     }
 
-    /// `true` where psi has one knot, so that the value does not depend on the rotation of the sample.
+    /// `true` if psi has one knot, so that the value does not depend on the rotation of the sample.
     pub fn is_isotropic(&self) -> bool {
         self.knots[1].len() == 1
     }
@@ -103,7 +103,7 @@ impl Data {
     /// The channels at one node; `node` holds the knot indices of sigma, psi, theta and phi.
     ///
     /// # Panics
-    /// Where an index is outside its axis.
+    /// If an index is outside its axis.
     pub fn texel(&self, node: [usize; 4]) -> &[f32] {
         let mut at = 0;
         for (axis, index) in self.knots.iter().zip(node) {

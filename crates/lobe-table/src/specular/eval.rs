@@ -1,4 +1,4 @@
-//! The ways to evaluate a [`Table`]: batches and lanes through the same passes, single queries beside them.
+//! The ways to evaluate a [`Table`]: batches and lanes through the same passes, single queries separately.
 
 use lobe_backend::Backend;
 use lobe_lane::{Floats, Kernel, Lanes};
@@ -21,10 +21,10 @@ impl Scratch {
 }
 
 impl Table {
-    /// Evaluates one pair into `out`, one value a channel, on a backend.
+    /// Evaluates one pair into `out`, one value per channel, on a backend.
     ///
     /// # Panics
-    /// Where `out` is not as long as there are channels.
+    /// If `out` is not as long as there are channels.
     pub fn eval(&self, backend: Backend, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
         backend.run(self.single(wi, wo, out));
     }
@@ -37,16 +37,16 @@ impl Table {
         backend.run(self.batch(wi, wo, out));
     }
 
-    /// The work of [`eval`](Table::eval) as a kernel, for lanes that are no [`Backend`].
+    /// The work of [`eval`](Table::eval) as a kernel, for lanes that are not a [`Backend`].
     ///
     /// # Panics
-    /// Where `out` is not as long as there are channels.
+    /// If `out` is not as long as there are channels.
     pub fn single<'a>(&'a self, wi: [f32; 3], wo: [f32; 3], out: &'a mut [f32]) -> impl Kernel<Out = ()> + 'a {
-        assert_eq!(out.len(), self.channel_count(), "one output a channel");
+        assert_eq!(out.len(), self.channel_count(), "one output per channel");
         Single { table: self, wi, wo, out }
     }
 
-    /// The work of [`eval_batch`](Table::eval_batch) as a kernel, for lanes that are no [`Backend`].
+    /// The work of [`eval_batch`](Table::eval_batch) as a kernel, for lanes that are not a [`Backend`].
     ///
     /// # Panics
     /// As [`eval_batch`](Table::eval_batch).
@@ -57,18 +57,18 @@ impl Table {
         out: &'a mut [f32],
     ) -> impl Kernel<Out = ()> + 'a {
         assert_eq!(wi.count(), wo.count(), "as many wi as wo");
-        assert_eq!(out.len(), wi.count() * self.channel_count(), "one output a query and channel");
+        assert_eq!(out.len(), wi.count() * self.channel_count(), "one output per query and channel");
         Batch { table: self, wi, wo, out }
     }
 
-    /// Evaluates one pair a lane inside a caller's own kernel: `out[channel]` holds that channel in all lanes, 0 in the
-    /// lanes that `mask` leaves out.
+    /// Evaluates one pair per lane inside a caller's own kernel: `out[channel]` holds that channel in all lanes, 0 in
+    /// the lanes that `mask` leaves out.
     ///
     /// # Panics
-    /// Where `out` is not as long as there are channels.
+    /// If `out` is not as long as there are channels.
     #[inline(always)]
     pub fn eval_lanes<L: Lanes>(&self, lanes: L, wi: [L::F; 3], wo: [L::F; 3], mask: L::M, out: &mut [L::F]) {
-        assert_eq!(out.len(), self.channel_count(), "one output a channel");
+        assert_eq!(out.len(), self.channel_count(), "one output per channel");
         let mut directions = [[[0.0f32; BLOCK]; 3]; 2];
         for (side, w) in [wi, wo].into_iter().enumerate() {
             for (k, component) in w.into_iter().enumerate() {

@@ -55,7 +55,7 @@ pub(crate) fn run<L: Lanes>(
 
 /// Where the zenith of the scattered light lies.
 pub(crate) trait Zenith: Copy {
-    /// `true` where directions below the surface are folded up.
+    /// `true` if directions below the surface are folded up.
     const FOLD: bool;
 
     /// The zenith mirrored about the normal, which is `wi` itself unless light is refracted, and the sine of its polar
@@ -63,7 +63,7 @@ pub(crate) trait Zenith: Copy {
     fn opposite<L: Lanes>(self, lanes: L, wi: [L::F; 3], sin: L::F, psi: [L::F; 2]) -> ([L::F; 3], L::F);
 }
 
-/// The mirror direction, or where `FOLD`, straight through the surface and folded up.
+/// The mirror direction, or if `FOLD`, straight through the surface and folded up.
 #[derive(Clone, Copy)]
 struct Mirror<const FOLD: bool>;
 

@@ -1,4 +1,4 @@
-//! A [`Table`] where the angles are known: the evaluation without its directions.
+//! A [`Table`] at known angles: the evaluation without its directions.
 
 use lobe_backend::Backend;
 use lobe_lane::{Floats, Kernel, Lanes};
@@ -11,15 +11,15 @@ impl Table {
     /// Interpolates at many points on a backend: `out[query * channels + channel]`, in 1/sr.
     ///
     /// `angles` are sigma, psi, theta and phi in radians, see [`coords`](crate::specular::coords); psi and phi are in `[0, 2 pi]`.
-    /// An isotropic table does not read psi, which may be empty. Results are 0 where an angle is not finite.
+    /// An isotropic table does not read psi, which may be empty. Results are 0 if an angle is not finite.
     ///
     /// # Panics
-    /// Where the angles differ in number, or `out` is not that many times the channels long.
+    /// If the angles differ in number, or `out` is not that many times the channels long.
     pub fn interpolate_batch(&self, backend: Backend, angles: [&[f32]; 4], out: &mut [f32]) {
         backend.run(self.interpolation(angles, out));
     }
 
-    /// The work of [`interpolate_batch`](Table::interpolate_batch) as a kernel, for lanes that are no
+    /// The work of [`interpolate_batch`](Table::interpolate_batch) as a kernel, for lanes that are not a
     /// [`Backend`].
     ///
     /// # Panics
@@ -30,7 +30,7 @@ impl Table {
             let unread = axis == PSI && !self.is_anisotropic();
             assert!(unread || angles.len() == count, "as many angles of each kind");
         }
-        assert_eq!(out.len(), count * self.channel_count(), "one output a query and channel");
+        assert_eq!(out.len(), count * self.channel_count(), "one output per query and channel");
         Interpolation { table: self, angles, out }
     }
 }
@@ -67,7 +67,7 @@ impl Kernel for Interpolation<'_> {
     }
 }
 
-/// Queries `0..n` are valid where all angles are finite; those that are not become 0.
+/// Queries `0..n` are valid if all their angles are finite; angles that are not become 0.
 #[inline(always)]
 fn leave_out<L: Lanes>(lanes: L, n: usize, anisotropic: bool, scratch: &mut Scratch) {
     let mut query = 0;

@@ -9,15 +9,15 @@ use crate::specular::Data;
 use crate::specular::coords::directions_to_angles;
 use crate::{Edge, Edges, Scatter};
 
-/// Evaluates `f(wi, wo)` in 1/sr into `out`, one value a channel.
+/// Evaluates `f(wi, wo)` in 1/sr into `out`, one value per channel.
 ///
 /// `wi` points to the light and `wo` to the viewer, unit vectors that point away from the surface, normal on +z. A
 /// reflection table answers 0 unless both have `z > 0`. A transmission table takes `|z|` of both, since its values are
-/// stored mirrored up at the surface, and answers 0 where one of them is 0: which side the light is on is the business
-/// of the material that owns the table. A direction with a NaN or infinite component gives 0.
+/// stored mirrored up at the surface, and answers 0 if one of them is 0: which side the light is on is the business of
+/// the material that owns the table. A direction with a NaN or infinite component gives 0.
 ///
 /// # Panics
-/// Where `out` is not as long as there are channels.
+/// If `out` is not as long as there are channels.
 pub fn eval(samples: &Data, edges: &Edges, wi: [f64; 3], wo: [f64; 3], out: &mut [f64]) {
     let fold = |v: [f64; 3]| match samples.scatter() {
         Scatter::Reflection => v,
@@ -36,10 +36,10 @@ pub fn eval(samples: &Data, edges: &Edges, wi: [f64; 3], wo: [f64; 3], out: &mut
 /// angles, with the policy of each axis outside its knots.
 ///
 /// # Panics
-/// Where `out` is not as long as there are channels.
+/// If `out` is not as long as there are channels.
 pub fn eval_angles(samples: &Data, edges: &Edges, angles: [f64; 4], out: &mut [f64]) {
     let channels = samples.channels().count();
-    assert_eq!(out.len(), channels, "one output a channel");
+    assert_eq!(out.len(), channels, "one output per channel");
     out.fill(0.0);
     let mut cell = [Neighbours::ONLY; 4];
     for (axis, found) in cell.iter_mut().enumerate() {
@@ -61,7 +61,7 @@ pub fn eval_angles(samples: &Data, edges: &Edges, angles: [f64; 4], out: &mut [f
 }
 
 /// The polar angle in `[0, pi/2]` of the zenith of `(theta, phi)` for light at `sigma`: `sigma` plus the refraction
-/// offset, where the table has offsets, interpolated with the policy of the sigma axis ([`Edge::Zero`] as
+/// offset, if the table has offsets, interpolated with the policy of the sigma axis ([`Edge::Zero`] as
 /// [`Edge::Clamp`]).
 pub fn zenith(samples: &Data, edges: &Edges, sigma: f64) -> f64 {
     let Some(offsets) = samples.refraction() else { return sigma };

@@ -68,7 +68,7 @@ fn angles<L: Lanes>(lanes: L, table: &Table, wi: [f32; 3], wo: [f32; 3]) -> ([f3
     let half_phi = y * reach * shared;
     let half_psi = if table.is_anisotropic() { sin_psi / (1.0 + cos_psi.abs()) } else { 0.0 };
 
-    // One polynomial for all four: where a polar angle's tangent is not negative, it is an azimuth like another. Sigma is
+    // One polynomial for all four: a polar angle whose tangent is not negative is an azimuth like any other. Sigma is
     // never beyond pi/2.
     let halves = [half_sigma, half_psi, half_theta, half_phi];
     (azimuths(lanes, halves, [1.0, cos_psi, along, x]), valid)

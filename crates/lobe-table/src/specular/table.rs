@@ -9,7 +9,7 @@ use crate::{Axis, Channels, Edge, Edges, Function, Precision, Scatter, TableErro
 /// There are three ways to evaluate it, all giving the same bits on one backend (and, in strict form, on all):
 /// - [`eval`](Table::eval): one pair of directions;
 /// - [`eval_batch`](Table::eval_batch): many pairs, as arrays of vectors or as separate components;
-/// - [`eval_lanes`](Table::eval_lanes): one pair a lane, under a mask, inside a caller's own kernel.
+/// - [`eval_lanes`](Table::eval_lanes): one pair per lane, under a mask, inside a caller's own kernel.
 ///
 /// `wi` points to the light and `wo` to the viewer, unit vectors that point away from the surface, normal on +z.
 /// Results are `f` in 1/sr without the cosine. A reflection table gives 0 unless both directions have `z > 0`; a
@@ -60,7 +60,7 @@ impl Table {
         self.scatter
     }
 
-    /// What the channels stand for.
+    /// What the channels mean.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }

@@ -77,7 +77,7 @@ impl Data {
         &self.knots
     }
 
-    /// What the channels stand for.
+    /// What the channels mean.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }

@@ -57,7 +57,7 @@ impl Table {
         self.scatter
     }
 
-    /// What the channels stand for.
+    /// What the channels mean.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }
@@ -85,7 +85,7 @@ impl Table {
         backend.run(self.batch(wi, wo, out));
     }
 
-    /// The evaluation of many pairs as a kernel, for lanes that are no [`Backend`]: `out[query * channels + channel]`.
+    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[query * channels + channel]`.
     ///
     /// # Panics
     /// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.

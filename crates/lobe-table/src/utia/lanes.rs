@@ -60,7 +60,7 @@ impl Table {
         backend.run(self.batch(wi, wo, out));
     }
 
-    /// The evaluation of many pairs as a kernel, for lanes that are no [`Backend`]: `out[3 * query + channel]`.
+    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[3 * query + channel]`.
     ///
     /// # Panics
     /// If there are not as many `wi` as `wo`, or `out` is not three times as long.

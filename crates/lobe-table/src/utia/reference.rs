@@ -7,7 +7,7 @@ use crate::grid::weights::SUM;
 use crate::passes::unit::SPHERICAL;
 
 impl Data {
-    /// The value for light from `wi` seen from `wo`; 0 where a direction is not above the surface.
+    /// The value for light from `wi` seen from `wo`; 0 if a direction is not above the surface.
     pub fn eval(&self, wi: [f64; 3], wo: [f64; 3], decode: Decode) -> [f64; 3] {
         if wi[2] <= 0.0 || wo[2] <= 0.0 {
             return [0.0; 3];

@@ -16,7 +16,7 @@ use crate::passes::unit::unit;
 
 /// The bands of wavelengths of a sheet, made ready for evaluation in SIMD lanes.
 ///
-/// The values are those of [`Blocks::eval`], `f` in 1/sr, one channel a band. The directions need not be unit vectors, but
+/// The values are those of [`Blocks::eval`], `f` in 1/sr, one channel per band. The directions need not be unit vectors, but
 /// their lengths have to be between 1e-15 and 1e15. A query that is within rounding of the border of two patches or cells may
 /// be given to either, see [`Blocks::candidates`].
 ///
@@ -49,7 +49,7 @@ impl Table {
     /// Makes the bands ready. The values stay where they are.
     ///
     /// # Errors
-    /// [`Invalid`] where the values are more than the 32-bit index of a lane reaches, or the rings of a basis are too narrow.
+    /// [`Invalid`] if the values are more than the 32-bit index of a lane reaches, or the rings of a basis are too narrow.
     pub fn new(bands: Vec<Blocks>) -> Result<Self, Invalid> {
         let mut groups: [Vec<Group>; 4] = Default::default();
         for (groups, block) in groups.iter_mut().zip(Block::ALL) {
@@ -93,7 +93,7 @@ impl Table {
         backend.run(self.batch(wi, wo, out));
     }
 
-    /// The evaluation of many pairs as a kernel, for lanes that are no [`Backend`]: `out[query * bands + band]`, in 1/sr.
+    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[query * bands + band]`, in 1/sr.
     ///
     /// # Panics
     /// If there are not as many `wi` as `wo`, or `out` is not that many times the bands long.
@@ -158,7 +158,7 @@ fn add(
 pub(crate) struct Scratch {
     wi: [Column; 3],
     wo: [Column; 3],
-    /// Which [`Block`] a query is for; -1 where for none.
+    /// Which [`Block`] a query is for; -1 if for none.
     side: Column<i32>,
     valid: Column<i32>,
     patches: PatchScratch,

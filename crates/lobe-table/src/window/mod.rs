@@ -39,8 +39,8 @@ impl Component {
         }
     }
 
-    /// All values that [`eval`](Self::eval) may have in the lanes: where directions are within rounding of the border of two
-    /// patches or cells, those of both.
+    /// All values that [`eval`](Self::eval) may have in the lanes: if directions are within rounding of the border of
+    /// two patches or cells, those of both.
     pub fn candidates(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f64> {
         match self {
             Component::Klems(matrix) => matrix.candidates(wi, wo),
@@ -129,7 +129,7 @@ pub struct Blocks {
 }
 
 impl Blocks {
-    /// The values of a block, where the file has it.
+    /// The values of a block, if the file has it.
     pub fn block(&self, block: Block) -> Option<&Component> {
         self.blocks[block as usize].as_ref()
     }
@@ -147,7 +147,7 @@ impl Blocks {
         self.answer(wi, wo).map_or(0.0, |(component, wi, wo)| component.eval(wi, wo))
     }
 
-    /// All values that [`eval`](Self::eval) may have in the lanes of a [`Table`]: where directions are within rounding of
+    /// All values that [`eval`](Self::eval) may have in the lanes of a [`Table`]: if directions are within rounding of
     /// the border of two patches or cells, those of both.
     pub fn candidates(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f64> {
         self.answer(wi, wo).map_or(vec![0.0], |(component, wi, wo)| component.candidates(wi, wo))

@@ -32,7 +32,7 @@ impl Bsdf for Prepared {
         &self.channels
     }
 
-    /// One block of transmission stands for the other one too.
+    /// One block of transmission serves for the other as well.
     fn holds(&self, aspect: Aspect) -> bool {
         let has = |aspect| self.table.bands().iter().any(|band| band.block(Block::of_aspect(aspect)).is_some());
         has(aspect) || (aspect.scatter == Scatter::Transmission && has(aspect.reversed()))

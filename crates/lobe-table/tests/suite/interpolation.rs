@@ -31,7 +31,7 @@ fn samples(psi: usize, channels: Channels) -> specular::Data {
     specular::Data::new(Scatter::Reflection, knots, channels, values).expect("a valid table")
 }
 
-/// Points in all of the table and outside it; the first eight have an angle that is none.
+/// Points in all of the table and outside it; the first eight have an angle that is not finite.
 fn angles() -> [Vec<f32>; 4] {
     let mut rng = Pcg32::seed_from_u64(3);
     let mut angles = [FRAC_PI_2, TAU, PI, TAU].map(|end| {
@@ -63,7 +63,7 @@ fn compare(samples: &specular::Data, edges: &Edges, angles: &[Vec<f32>; 4], out:
     for (query, texel) in out.chunks_exact(channels).enumerate() {
         let at = angles.each_ref().map(|angles| f64::from(angles[query]));
         let mut expected = vec![0.0; channels];
-        // Where there is one psi knot, psi is not read, so it may be anything.
+        // If there is one psi knot, psi is not read, so it may be anything.
         let at = if anisotropic { at } else { [at[0], 0.0, at[2], at[3]] };
         if at.iter().all(|angle| angle.is_finite()) {
             reference::eval_angles(samples, edges, at, &mut expected);

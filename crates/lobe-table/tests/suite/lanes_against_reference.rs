@@ -44,7 +44,7 @@ fn directions(count: usize) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
         }
     };
     let (mut wi, mut wo): (Vec<_>, Vec<_>) = (0..count).map(|_| (any(), any())).unzip();
-    // The mirror direction and the normal, exactly and nearly; a direction below the horizon; and what is no direction.
+    // The mirror direction and the normal, exactly and nearly; a direction below the horizon; and invalid directions.
     wo[0] = [-wi[0][0], -wi[0][1], wi[0][2]];
     (wi[1], wo[2]) = ([0.0, 0.0, 1.0], [0.0, 0.0, 1.0]);
     wi[3] = [1e-4, 0.0, 1.0];
@@ -121,7 +121,7 @@ fn check_stored(
         };
         let (wi, wo) = (exact(wi[query]), exact(wo[query]));
         reference::eval(samples, edges, wi, wo, &mut expected);
-        // Where the ends of phi are not joined, a hair to either side of 0 gives one end's value or the other's.
+        // If the ends of phi are not joined, a hair to either side of 0 gives one end's value or the other's.
         let [.., phi] = coords::directions_to_angles(wi, wo, |sigma| reference::zenith(samples, edges, sigma));
         if edges.axes[3] != Edge::Periodic && phi.min(TAU - phi) < 1e-6 {
             continue;

@@ -1,4 +1,4 @@
-//! What is far outside, or no number at all, neither reaches a wrong cell nor spoils a value.
+//! Angles far outside, and NaN, neither reach a wrong cell nor spoil a value.
 
 use std::f64::consts::{PI, TAU};
 
@@ -34,7 +34,7 @@ fn knots_as_close_as_denormals_give_numbers() {
     }
 }
 
-/// With every channel layout, and with a zenith that is computed and so is finite even where wi is not.
+/// With every channel layout, and with a zenith that is computed and so is finite even if wi is not.
 #[test]
 fn directions_that_are_none_give_zero() {
     let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];

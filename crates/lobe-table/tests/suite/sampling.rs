@@ -16,7 +16,7 @@ use rand_pcg::Pcg32;
 fn fixture(name: &str) -> specular::Data {
     match lobe_formats::open(&lobe_testing::files::fixture(name)).unwrap().1.only() {
         Some(Data::Specular(samples)) => samples.clone(),
-        _ => panic!("{name} is no table"),
+        _ => panic!("{name} is not a table"),
     }
 }
 
@@ -125,7 +125,7 @@ impl Kernel for OneLane<'_> {
     }
 }
 
-/// Incident directions with, among them, what is no direction above the surface; and numbers with what is out of range.
+/// Incident directions, some of which are not above the surface; and numbers, some of which are out of range.
 fn hostile(count: usize) -> (Vec<[f32; 3]>, Vec<[f32; 2]>) {
     let mut u = numbers(8, count);
     u[..6].copy_from_slice(&[
@@ -175,7 +175,7 @@ fn check_ways(backend: Backend) {
                 let (wi, wo) = if given == Given::Light { (known[k], direction) } else { (direction, known[k]) };
                 assert_eq!(sampler.pdf(backend, given, wi, wo), again, "{name}: one density, query {k}");
                 if (11..=14).contains(&k) || (k == 10 && !through) {
-                    assert_eq!((direction, pdf), ([0.0; 3], 0.0), "{name}: query {k} is no direction");
+                    assert_eq!((direction, pdf), ([0.0; 3], 0.0), "{name}: query {k} is not a direction");
                     assert!(weights.iter().all(|&w| w == 0.0));
                     continue;
                 }
@@ -191,7 +191,7 @@ fn check_ways(backend: Backend) {
                 drawn += 1;
                 agree += usize::from((pdf - again).abs() <= 2e-3 * pdf);
             }
-            // At the edge of a cell, and beside light that skims the surface, rounding may lead to another cell.
+            // At the edge of a cell, and near light that skims the surface, rounding may lead to another cell.
             assert!(agree + 12 > drawn, "{name} {given:?}: {agree} of {drawn} densities are found again");
         }
     }
@@ -213,7 +213,8 @@ fn lanes_draw_what_the_f64_reference_draws() {
             let found = drawn.directions[query].map(f64::from);
             let distance = (0..3).map(|i| (found[i] - direction[i]).powi(2)).sum::<f64>().sqrt();
             let density = (f64::from(drawn.pdfs[query]) / pdf - 1.0).abs();
-            // At the edge of a cell rounding leads to the other cell, and phi turns fast where the light skims.
+            // At the edge of a cell rounding leads to the other cell, and phi changes fast if the light skims the
+            // surface.
             apart += usize::from(distance > 2e-3 || density > 2e-3);
         }
         assert!(apart < u.len() / 100, "{name}: {apart} of {} samples", u.len());
@@ -288,8 +289,8 @@ fn memory_is_at_most_one_and_a_half_tables() {
     for (name, samples) in tables() {
         let sampler = sampler(&samples);
         let (bytes, table) = (sampler.bytes(), sampler.table().bytes());
-        println!("{name}: {bytes} bytes beside the {table} of the table");
-        assert!(2 * bytes <= 3 * table, "{name}: {bytes} bytes beside {table}");
+        println!("{name}: {bytes} bytes in addition to the {table} of the table");
+        assert!(2 * bytes <= 3 * table, "{name}: {bytes} bytes for a table of {table}");
     }
 }
 

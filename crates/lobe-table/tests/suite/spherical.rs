@@ -149,7 +149,7 @@ fn a_peak_moves_with_the_mirror_direction() {
     let data = scattered::Data::new(Scatter::Reflection, Channels::Mono, &angles, &values).expect("samples");
     let at_mirror = data.eval(direction(0.5, 1.0), direction(0.5, 1.0 + TAU / 2.0))[0];
     let at_ghost = data.eval(direction(0.5, 1.0), direction(0.2, 1.0 + TAU / 2.0))[0];
-    assert!(at_mirror > 0.95 && at_ghost < 0.05, "{at_mirror} at the mirror direction, {at_ghost} beside it");
+    assert!(at_mirror > 0.95 && at_ghost < 0.05, "{at_mirror} at the mirror direction, {at_ghost} next to it");
 }
 
 #[test]

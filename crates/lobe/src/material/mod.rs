@@ -78,7 +78,7 @@ impl Material {
         &self.origin.source
     }
 
-    /// What the channels stand for.
+    /// What the channels mean.
     pub fn channels(&self) -> &Channels {
         self.bsdf.channels()
     }

@@ -62,7 +62,7 @@ impl Material {
     }
 
     /// A material from the content of a file in memory. `name` is what the file is called in errors; its extension counts
-    /// only where the content says too little, as in [`formats::open`](lobe_formats::open).
+    /// only if the content says too little, as in [`formats::open`](lobe_formats::open).
     ///
     /// # Errors
     /// As [`open`](Material::open).
@@ -126,7 +126,7 @@ fn add_file(parts: &mut Parts, path: &Path, side: Side, options: &Options) -> Re
     let (_, document) = lobe_formats::open(path).map_err(|error: FormatError| OpenError::from(error))?;
     match document.parts.as_slice() {
         [part] if Part::is_of_any_side(part) => parts.add(Some(side), &part.data, options)?,
-        _ => return Err(OpenError::not_a_material("data that are no part of a sheet")),
+        _ => return Err(OpenError::not_a_material("data that cannot be part of a sheet")),
     }
     Ok(document)
 }

@@ -244,7 +244,7 @@ fn of_side(directions: &[[f32; 3]], front: bool) -> Vec<usize> {
     (0..directions.len()).filter(|&query| on_side(directions[query][2])).collect()
 }
 
-/// Some of the directions, flipped where the back is to be up.
+/// Some of the directions, flipped if the back is to be up.
 fn pick(directions: &[[f32; 3]], queries: &[usize], flip: bool) -> Vec<[f32; 3]> {
     let of = |&query: &usize| if flip { flipped(directions[query]) } else { directions[query] };
     queries.iter().map(of).collect()

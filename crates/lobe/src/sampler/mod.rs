@@ -86,8 +86,8 @@ impl Sampler {
         &self.material
     }
 
-    /// Bytes of memory that the distributions take beside the material: at most one and a half times what it takes, but
-    /// for the tiniest.
+    /// Bytes of memory that the distributions take in addition to the material: at most one and a half times what it
+    /// takes, but for the tiniest.
     pub fn bytes(&self) -> usize {
         match &self.distribution {
             Distribution::Own(scheme) => scheme.bytes,
@@ -117,7 +117,7 @@ impl Sampler {
         pdf[0]
     }
 
-    /// Samples a direction for each direction given, as [`sample`](Sampler::sample).
+    /// Samples one direction for each given direction, as [`sample`](Sampler::sample).
     ///
     /// # Panics
     /// If `u` or a part of `out` does not have one entry per direction, or the weights one more per channel.
@@ -225,7 +225,7 @@ impl Sampler {
 
     /// Values, `f` in 1/sr as [`Material::eval_batch`] gives them, `[pair][channel]`, and densities, as
     /// [`pdf`](Sampler::pdf), of many pairs: what light that is drawn from lights is weighted by. Both at once take less
-    /// time than one after the other where they are found in the same place of a table.
+    /// time than one after the other if they are in the same place of a table.
     ///
     /// # Panics
     /// If there are not as many `wi` as `wo` and `pdfs`, and that many values per channel.

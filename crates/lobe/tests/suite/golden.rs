@@ -17,7 +17,7 @@ fn backends() -> Vec<Backend> {
 /// The largest deviation on each backend.
 fn check(file: &Path, answers: &Path, expected_pairs: usize) {
     let (_, document) = lobe::formats::open(file).unwrap_or_else(|error| panic!("{error}"));
-    let Some(Data::Specular(samples)) = document.only() else { panic!("{} is no table", file.display()) };
+    let Some(Data::Specular(samples)) = document.only() else { panic!("{} is not a table", file.display()) };
     let scale = samples.values().iter().fold(0.0_f64, |largest, &value| largest.max(f64::from(value).abs()));
     let queries = queries(answers);
     assert_eq!(queries.len(), expected_pairs);

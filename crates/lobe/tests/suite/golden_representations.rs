@@ -110,7 +110,7 @@ fn polarised_values_agree_with_mitsuba() {
     let material = Material::open(shared.join("golden/syn.pbsdf")).expect("a polarised material");
     let wavelengths: Vec<f64> = material.wavelengths().expect("wavelengths").to_vec();
     let queries = queries(&shared.join("golden/syn.pbsdf.mitsuba.txt"));
-    // The program was asked between wavelengths too, where lanes have no values.
+    // The program was also queried between wavelengths, where lanes have no values.
     let at_knots: Vec<_> = queries
         .iter()
         .filter_map(|(query, answer)| Some((query, answer[0], wavelengths.iter().position(|nm| *nm == query[6])?)))
@@ -129,10 +129,11 @@ fn polarised_values_agree_with_mitsuba() {
     }
 }
 
-/// Where no border is near, the value of the table; Radiance, which moves values by up to 3.5e-4 on purpose, is that near.
+/// If no border is near, the value of the table; Radiance, which perturbs values by up to 3.5e-4 on purpose, is that
+/// near.
 fn check_sheet(xml: &Path, answers: &Path, exact: Option<usize>) -> usize {
     let (_, document) = lobe::formats::open(xml).unwrap_or_else(|error| panic!("{error}"));
-    let Some(Data::Window(data)) = document.only() else { panic!("{} is no sheet", xml.display()) };
+    let Some(Data::Window(data)) = document.only() else { panic!("{} is not a sheet", xml.display()) };
     let band = data.bands.iter().position(|band| band.wavelength.eq_ignore_ascii_case("visible"));
     let band = band.expect("a visible band");
     let window = &data.bands[band].window;

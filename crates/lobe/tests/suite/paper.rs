@@ -74,7 +74,7 @@ fn evaluate(backend: Backend, table: &PaperTable, pairs: &[[[f32; 3]; 2]]) -> Ve
     (0..pairs.len()).map(|i| [r[i], g[i], b[i]]).collect()
 }
 
-/// How far the arc cosine moves where its argument, the cosine of `angle`, is `delta` off.
+/// How far the arc cosine moves if its argument, the cosine of `angle`, is `delta` off.
 fn shaken(angle: f64, delta: f64) -> f64 {
     let acos = |shift: f64| (angle.cos() + shift).clamp(-1.0, 1.0).acos();
     (acos(delta) - angle).abs().max((acos(-delta) - angle).abs())

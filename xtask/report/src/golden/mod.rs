@@ -1,7 +1,7 @@
 //! Materials in lanes compared with the answers of the programs that define their formats.
 //!
 //! The answers and the measured files are not part of the project: they are in the folder that the environment variable
-//! `LOBE_SHARED` names, or else in `shared` beside the workspace.
+//! `LOBE_SHARED` names, or else in `shared` next to the workspace.
 
 mod answers;
 mod cases;

@@ -15,7 +15,7 @@ const TURNS_PER_RADIAN: f32 = 0.5 * FRAC_1_PI;
 
 /// Zenith angle and azimuth of `wi` in radians, and its position on the unit square, from the frame of queries `0..n`.
 ///
-/// Where not `azimuthal` the azimuth is not computed; nothing may depend on it then.
+/// Unless `azimuthal`, the azimuth is not computed; nothing may then depend on it.
 #[inline(always)]
 pub(super) fn incident<L: Lanes>(lanes: L, n: usize, azimuthal: bool, frame: &Frame, incident: &mut Incident) {
     let mut query = 0;

@@ -21,7 +21,7 @@ pub enum Wanted<'a> {
     Values(&'a mut [f32]),
     /// `f cos(theta_o)` in 1/sr: `[query][channel]`.
     ValuesCos(&'a mut [f32]),
-    /// The density of sampling `wo` for a `wi`, 1/sr, one a query.
+    /// The density of sampling `wo` for a `wi`, 1/sr, one per query.
     Pdf(&'a mut [f32]),
     /// `f`, and the density.
     ValuesAndPdf(&'a mut [f32], &'a mut [f32]),
@@ -59,10 +59,10 @@ impl Table {
         self.evaluate(backend, wi, wo, Wanted::Pdf(out));
     }
 
-    /// Evaluates `f` in 1/sr of one pair into `out`, one value a channel, on a backend.
+    /// Evaluates `f` in 1/sr of one pair into `out`, one value per channel, on a backend.
     ///
     /// # Panics
-    /// Where `out` is not as long as there are channels.
+    /// If `out` is not as long as there are channels.
     pub fn eval(&self, backend: Backend, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
         self.eval_batch(backend, (&[wi]).into(), (&[wo]).into(), out);
     }
@@ -76,7 +76,7 @@ impl Table {
         backend.run(self.batch(wi, wo, wanted));
     }
 
-    /// The evaluation of many pairs as a kernel, for lanes that are no [`Backend`].
+    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`].
     ///
     /// # Panics
     /// If there are not as many `wi` as `wo`, or a slice in `wanted` is not as long as that asks for.
@@ -90,10 +90,10 @@ impl Table {
         let count = wi.count();
         assert_eq!(count, wo.count(), "as many wi as wo");
         if let Some(values) = &values {
-            assert_eq!(values.len(), count * self.channel_count(), "one value a query and channel");
+            assert_eq!(values.len(), count * self.channel_count(), "one value per query and channel");
         }
         if let Some(pdf) = &pdf {
-            assert_eq!(pdf.len(), count, "one density a query");
+            assert_eq!(pdf.len(), count, "one density per query");
         }
         Batch { table: self, wi, wo, values, cosine, pdf }
     }
@@ -117,7 +117,7 @@ impl Table {
     }
 }
 
-/// The slices that queries `0..n` blend; none where they are not `valid`. The angles turn into fractions. Evaluation and
+/// The slices that queries `0..n` blend; none if they are not `valid`. The angles turn into fractions. Evaluation and
 /// drawing call it, so that it is compiled once.
 pub(super) struct Slices<'a, const SLICES: usize> {
     pub(super) table: &'a Table,

@@ -200,7 +200,7 @@ fn split<L: Lanes>(lanes: L, warp: &Warp, place: L::F) -> (L::I, L::F) {
 }
 
 /// The `t` in `[0, 1]` at which the integral from 0 to `t` of a function that goes linearly from `a` at 0 to `b` at 1 is `q`;
-/// 0 where there is nothing to integrate. The root is guarded: rounding may make its argument negative.
+/// 0 if there is nothing to integrate. The root is guarded: rounding may make its argument negative.
 #[inline(always)]
 fn solve<L: Lanes>(lanes: L, a: L::F, b: L::F, q: L::F) -> L::F {
     let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));

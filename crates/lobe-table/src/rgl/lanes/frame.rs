@@ -22,7 +22,7 @@ pub(super) struct Frame {
     pub(super) cos_d: Column,
     /// What every value is multiplied by so far: 1, or the inverse of the cosine of `wo`.
     pub(super) factor: Column,
-    /// All bits set where both directions are finite and above the surface.
+    /// All bits set if both directions are finite and above the surface.
     pub(super) valid: Column<i32>,
 }
 

@@ -6,7 +6,7 @@ use crate::invalid::Invalid;
 use crate::passes::block::Column;
 use crate::rgl::Images;
 
-/// Images of one size, a fixed number of floats a texel.
+/// Images of one size, a fixed number of floats per texel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grid {
     /// Cells along x and y.
@@ -20,7 +20,7 @@ impl Grid {
     /// floats.
     ///
     /// # Errors
-    /// Where that is more than the 32-bit index of a lane reaches.
+    /// If that is more than the 32-bit index of a lane reaches.
     pub(super) fn new(
         part: &'static str,
         images: &Images,

@@ -6,7 +6,7 @@
 //! 2. `angles`: inverse trigonometry, and positions on the unit square;
 //! 3. the slices to blend, by zenith angle and azimuth of `wi`;
 //! 4. `invert`: the position of the half vector back to the uniform position that the visible normals warp to it;
-//! 5. `factor`: `ndf / (4 sigma)`, where the material asks for it;
+//! 5. `factor`: `ndf / (4 sigma)`, if the material requires it;
 //! 6. `spectra`: the texels at the uniform position, weighted and summed.
 //!
 //! Sampling goes the other way: `draw` warps uniform numbers by the luminance and then by the visible normals, `reflect`
@@ -48,9 +48,8 @@ pub struct Options {
 ///
 /// `wi` is the direction that the tables are indexed by, `wo` the other one: the same choice as in
 /// [`Reference`](super::Reference), with whose values these agree. Both are unit vectors that point away from the surface,
-/// normal on +z. Results are 0 unless both have `z > 0`, and where a component is not finite. Values are `f` in 1/sr or,
-/// where asked for, `f cos(theta_o)`, one for each stored channel; densities are those of sampling `wo` for a `wi`, in
-/// 1/sr.
+/// normal on +z. Results are 0 unless both have `z > 0`, and if a component is not finite. Values are `f` in 1/sr or,
+/// on request, `f cos(theta_o)`, one for each stored channel; densities are those of sampling `wo` for a `wi`, in 1/sr.
 ///
 /// In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
@@ -96,7 +95,7 @@ impl Table {
         })
     }
 
-    /// What the channels stand for.
+    /// What the channels mean.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }
@@ -106,7 +105,7 @@ impl Table {
         self.spectra.channels
     }
 
-    /// `true` where the values do not depend on the rotation of the sample.
+    /// `true` if the values do not depend on the rotation of the sample.
     pub fn is_isotropic(&self) -> bool {
         self.symmetry.isotropic
     }

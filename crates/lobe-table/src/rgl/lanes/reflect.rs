@@ -27,7 +27,7 @@ pub(super) fn incident<L: Lanes>(lanes: L, n: usize, wi: DirectionBlock<'_>, sym
     }
 }
 
-/// Directions and densities from the half vectors at `u_m`, in place of the density on the unit square; 0 where a direction
+/// Directions and densities from the half vectors at `u_m`, in place of the density on the unit square; 0 if a direction
 /// is not above the surface. The factor becomes the inverse of the density.
 #[inline(always)]
 pub(super) fn run<L: Lanes>(

@@ -24,7 +24,7 @@ impl Table {
     /// Draws a `wo` for each `wi` from two numbers in `[0, 1)`, on a backend.
     ///
     /// # Panics
-    /// If there are not as many `wi` as uniforms, directions and densities, and that many weights a channel.
+    /// If there are not as many `wi` as uniforms, directions and densities, and that many weights per channel.
     pub fn sample_batch(
         &self,
         backend: Backend,
@@ -36,7 +36,7 @@ impl Table {
         backend.run(self.sampling(wi, uniforms, order, drawn));
     }
 
-    /// The drawing of many directions as a kernel, for lanes that are no [`Backend`].
+    /// The drawing of many directions as a kernel, for lanes that are not a [`Backend`].
     ///
     /// # Panics
     /// As [`sample_batch`](Table::sample_batch).

@@ -11,8 +11,8 @@ use crate::passes::block::{BLOCK, Column};
 use crate::rgl::Images;
 use lobe_memory::Storage;
 
-/// Up to this many channels are kept as four floats a texel, two neighbours of which one load brings; more are padded to
-/// eights.
+/// Up to this many channels are kept as four floats per texel, so that one load brings two neighbours; more are padded
+/// to eights.
 const FEW: usize = 3;
 
 /// The spectra, `[azimuth][zenith angle][row][column][channel]`.
@@ -54,8 +54,8 @@ impl Spectra {
         Ok(Spectra { grid, channels, texels, offsets, floor })
     }
 
-    /// The values of queries `0..count`, a value a channel, at `places`. `n` is `count` rounded up to
-    /// the lanes. `FEW_CORNERS` is twice, and `MANY_CORNERS` four times the `SLICES`.
+    /// The values of queries `0..count`, one value per channel, at `places`. `n` is `count` rounded up to the lanes.
+    /// `FEW_CORNERS` is twice, and `MANY_CORNERS` four times the `SLICES`.
     #[inline(always)]
     pub(super) fn run<L: Lanes, const SLICES: usize, const FEW_CORNERS: usize, const MANY_CORNERS: usize>(
         &self,

@@ -23,7 +23,7 @@ pub(super) struct Warp {
     coarse: Storage<f32>,
     /// For a row: the integral of what lies below it in this slice and the next, then its own integral in both.
     rows: Storage<f32>,
-    /// Slices of an azimuth; 0 where there is only one, which is its own neighbour.
+    /// Slices of an azimuth; 0 if there is only one, which is its own neighbour.
     zeniths: usize,
     /// Cells of the unit square: from a density in cells to one on the square.
     pub(super) scale: f32,

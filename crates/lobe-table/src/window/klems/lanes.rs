@@ -38,7 +38,7 @@ impl PatchScratch {
 
 impl Patches {
     /// # Errors
-    /// [`Invalid`] where no ring is wide enough for `f32` to tell its bounds apart.
+    /// [`Invalid`] if no ring is wide enough for `f32` to distinguish its bounds.
     pub(crate) fn new(basis: &AngleBasis) -> Result<Self, Invalid> {
         let (mut bounds, mut sectors, mut first) = (vec![0.0], Vec::new(), 0);
         for ring in basis.rings() {

@@ -151,7 +151,7 @@ impl AngleBasis {
     /// The solid angle of a patch projected on the surface, in sr: `pi (cos^2 lower - cos^2 upper) / patches`.
     ///
     /// # Panics
-    /// Where `patch` is not below [`patches`](Self::patches).
+    /// If `patch` is not below [`patches`](Self::patches).
     pub fn projected_solid_angle(&self, patch: usize) -> f64 {
         assert!(patch < self.patches, "patch {patch} of a basis with {}", self.patches);
         let mut end = 0;
@@ -211,7 +211,7 @@ impl KlemsMatrix {
     /// The share of the light arriving through `incident` that leaves: the sum of `f` times projected solid angle.
     ///
     /// # Panics
-    /// Where `incident` is not a patch of the incident basis.
+    /// If `incident` is not a patch of the incident basis.
     pub fn albedo(&self, incident: usize) -> f64 {
         let row = &self.values[incident * self.exit.patches..][..self.exit.patches];
         row.iter().enumerate().map(|(exit, &f)| f64::from(f) * self.exit.projected_solid_angle(exit)).sum()

@@ -25,7 +25,7 @@ impl AngleBasis {
         None
     }
 
-    /// All patches that may hold a direction in the lanes: that of the direction, and where it is within rounding of the
+    /// All patches that may hold a direction in the lanes: that of the direction, and if it is within rounding of the
     /// border of another one, that too.
     fn candidates(&self, [x, y, z]: [f64; 3]) -> Vec<Option<usize>> {
         let (theta, phi) = (x.hypot(y).atan2(z), y.atan2(x));
@@ -45,7 +45,7 @@ impl AngleBasis {
 
 impl KlemsMatrix {
     /// The value for light from `wi` to `wo`, unit vectors that point away from the surface, each on either side.
-    /// Zero where a direction is beyond the last ring of its basis.
+    /// Zero if a direction is beyond the last ring of its basis.
     pub fn eval(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
         let incident = self.incident.patch([-wi[0], -wi[1], wi[2].abs()]);
         let exit = self.exit.patch([wo[0], wo[1], wo[2].abs()]);
@@ -55,7 +55,7 @@ impl KlemsMatrix {
         }
     }
 
-    /// All values that [`eval`](Self::eval) may have in the lanes: the one of the patches, and where a direction is within
+    /// All values that [`eval`](Self::eval) may have in the lanes: the one of the patches, and if a direction is within
     /// rounding of another patch, the one of that too.
     pub fn candidates(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f64> {
         let exits = self.exit.candidates([wo[0], wo[1], wo[2].abs()]);

@@ -14,13 +14,13 @@ use crate::passes::unit::POLE;
 #[derive(Clone, Debug)]
 pub(crate) struct Walk {
     /// The bits of the position of the first node or value of the grid, and how many cells it has along each dimension,
-    /// negative where they are nodes.
+    /// negative if they are nodes.
     nodes: Vec<[f32; 2]>,
 }
 
 impl Walk {
     /// # Errors
-    /// [`Invalid`] where the tree has more nodes or values than bit patterns of positive floats.
+    /// [`Invalid`] if the tree has more nodes or values than bit patterns of positive floats.
     pub(crate) fn new(tree: &TensorTree) -> Result<Self, Invalid> {
         // No pattern may be that of a NaN, whose bits a processor need not keep.
         let most = f32::INFINITY.to_bits() as usize;

@@ -11,7 +11,7 @@ impl TensorTree {
         self.at(self.position(wi, wo))
     }
 
-    /// All values that [`eval`](Self::eval) may have in the lanes: the one of the cell, and where the position is within
+    /// All values that [`eval`](Self::eval) may have in the lanes: the one of the cell, and if the position is within
     /// rounding of another cell, the one of that too.
     pub fn candidates(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f64> {
         let position = self.position(wi, wo);

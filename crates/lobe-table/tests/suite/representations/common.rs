@@ -16,7 +16,7 @@ pub struct Pairs {
 
 impl Pairs {
     /// Pairs on both sides of the surface, or on the upper one: a quarter around the mirror direction, some along the
-    /// normal, the horizon and each other, some of other lengths, and behind them such as are none.
+    /// normal, the horizon and each other, some of other lengths, followed by invalid ones.
     pub fn new(two_sided: bool) -> Self {
         let mut rng = Pcg32::seed_from_u64(7);
         let mut any = |spread: f32| loop {

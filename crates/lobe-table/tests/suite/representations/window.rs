@@ -22,7 +22,7 @@ fn klems(incident: &AngleBasis, exit: &AngleBasis) -> Component {
     Component::Klems(KlemsMatrix::new(incident.clone(), exit.clone(), values).expect("a matrix"))
 }
 
-/// Rings that end before the horizon; one of them is none.
+/// Rings that end before the horizon; one of them is empty.
 fn short() -> AngleBasis {
     let ring = |lower, upper, patches| Ring { lower, upper, patches };
     let rings = vec![ring(0.0, 20.0, 3), ring(20.0, 40.0, 7), ring(39.9995, 39.9999, 2), ring(40.0, 70.0, 1)];

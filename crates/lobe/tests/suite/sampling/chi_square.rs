@@ -191,7 +191,7 @@ fn samples_follow_the_density() {
         let below = if reaches(Side::Back) && above.is_empty() { below(&incidents()) } else { Vec::new() };
         cases.extend(above.into_iter().chain(below).map(|incident| (name, sampler, incident)));
     }
-    // Sidak: all tests together pass with probability 0.99 where all hypotheses hold.
+    // Sidak: all tests together pass with probability 0.99 if all hypotheses hold.
     let significance = 1.0 - 0.99f64.powf(1.0 / cases.len() as f64);
     assert!(!cases.is_empty(), "nothing to test");
     println!("{} materials, {} tests, p at least {significance:.1e}", samplers.len(), cases.len());

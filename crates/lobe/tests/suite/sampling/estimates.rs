@@ -92,7 +92,7 @@ fn memory_is_at_most_one_and_a_half_materials() {
         let sampler = sampler(material);
         let (bytes, material) = (sampler.bytes(), sampler.material().bytes());
         // The coarsest grid of the tiniest material has no room to shrink.
-        assert!(2 * bytes <= 3 * material || bytes < 120_000, "{name}: {bytes} bytes beside {material}");
+        assert!(2 * bytes <= 3 * material || bytes < 120_000, "{name}: {bytes} bytes for a material of {material}");
     }
 }
 

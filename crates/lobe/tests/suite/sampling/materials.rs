@@ -1,4 +1,4 @@
-//! The materials that are sampled: fixtures, noise, and the files beside the project.
+//! The materials that are sampled: fixtures, noise, and the measured files outside the project.
 
 use std::f64::consts::{PI, TAU};
 use std::path::PathBuf;
@@ -56,7 +56,7 @@ pub fn made() -> Vec<(String, Material)> {
     made
 }
 
-/// The measured files and golden inputs beside the project that make a material.
+/// The measured files and golden inputs outside the project that make a material.
 pub fn shared() -> Vec<(String, Material)> {
     let Some(root) = lobe_testing::files::shared() else { return Vec::new() };
     let folders = lobe_testing::files::files(&root.join("data")).into_iter().filter(|path| path.is_dir());
