@@ -100,8 +100,8 @@ impl Pairs {
     }
 
     /// The pixels of a picture of a sphere under a point light, in tiles of 8 x 8 pixels, each in Morton order, so that
-    /// every run of four or eight is a block of neighbouring pixels. The tiles are spread over the picture, so that a few
-    /// stand for all of it. The local frame's x axis follows the circles of latitude.
+    /// every run of four or eight is a block of neighbouring pixels. The tiles are spread over the picture, so that a
+    /// few represent all of it. The local frame's x axis follows the circles of latitude.
     pub fn sphere_picture(count: usize) -> Self {
         const SIZE: u32 = 760;
         const TILE: u32 = 8 * 8;

@@ -121,7 +121,7 @@ impl Answer {
         match &self.delta_e {
             Some(visible) => writeln!(
                 out,
-                "delta E   {:.3} in the mean of {} pixels, 95 % below {:.3}, at most {:.3}",
+                "delta E   {:.3} on average over {} pixels, 95 % below {:.3}, at most {:.3}",
                 visible.mean, visible.pixels, visible.percentile_95, visible.max
             ),
             None => writeln!(out, "delta E   none, as these channels have no colour"),

@@ -6,7 +6,7 @@ use crate::{Channels, LUMINANCE};
 /// The weight of each channel in luminance: Y of XYZ, the weights of Rec. 709 for RGB, and Y of the spectrum that has
 /// the value 1 at one wavelength, as [`Reduction`](crate::Reduction) interpolates it. The weights sum to 1.
 ///
-/// Named bands count alike, as any of them may be asked for, and so do wavelengths of which none can be seen.
+/// Named bands count equally, as any of them may be requested, and so do wavelengths if none of them is visible.
 pub fn luminance(channels: &Channels) -> Vec<f32> {
     match channels {
         Channels::Mono => vec![1.0],

@@ -3,8 +3,8 @@
 /// A tone map: exposure, a shoulder, and the curve of sRGB.
 ///
 /// Radiance is multiplied by `2^exposure`. Up to 0.7 it is then shown as it is, so that colours of materials stay what
-/// they are; what is brighter approaches 1 along `1 - 0.3 exp((0.7 - x) / 0.3)`, which goes on with the same slope, so
-/// that highlights do not end in flat patches. Last comes the transfer function of IEC 61966-2-1.
+/// they are; what is brighter approaches 1 along `1 - 0.3 exp((0.7 - x) / 0.3)`, which continues with the same slope,
+/// so that highlights do not end in flat patches. Last comes the transfer function of IEC 61966-2-1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ToneMap {
     /// In stops.

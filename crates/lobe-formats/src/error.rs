@@ -25,7 +25,7 @@ pub struct FormatError {
     pub place: Place,
     /// What was found there.
     pub found: String,
-    /// What the format asks for there.
+    /// What the format requires there.
     pub expected: String,
 }
 

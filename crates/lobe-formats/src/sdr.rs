@@ -1,7 +1,7 @@
 //! Integra SDR (mirror reflectance) and SDT (transmittance straight through).
 //!
 //! The header has `TypeColorModel` and `sigma`; each block is a name, `def`, one ratio per sigma, `enddef`. Keywords are
-//! read in any case of letters and written in the one that stricter readers ask for.
+//! read in any case of letters and written in the one that stricter readers require.
 
 use std::fmt::Write as _;
 use std::path::Path;

@@ -4,7 +4,7 @@ use std::ops::{Deref, Range};
 
 use glam::DVec3;
 
-/// A run of triangles with a name, and the material that its file asked for.
+/// A run of triangles with a name, and the material that its file names.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Group {
     /// Name of the object or group, empty if the file has none.

@@ -29,7 +29,8 @@ const KNOWN: [&str; 4] = ["KHR_materials_", "KHR_texture_", "KHR_lights_punctual
 /// Reads the meshes of the scene of a glTF file, with the buffers that it names.
 ///
 /// # Errors
-/// A file cannot be read, is cut short, refers to what is not there, or asks for more memory than its size justifies.
+/// A file cannot be read, is cut short, refers to something that is missing, or needs more memory than its size
+/// justifies.
 pub fn read(path: &Path) -> Result<Geometry, FormatError> {
     parse(path, &file::bytes(path)?)
 }

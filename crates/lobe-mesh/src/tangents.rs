@@ -1,6 +1,6 @@
 //! Tangents from texture coordinates, as everybody else computes them: MikkTSpace.
 //!
-//! Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008; glTF 2.0 asks for the same algorithm.
+//! Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008; glTF 2.0 requires the same algorithm.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! Operations on measured materials: what people who own them ask for.
+//! Operations on measured materials: what their owners need.
 //!
 //! - [`albedo`]: the share of the light from one direction that is scattered;
 //! - [`reciprocity`], [`check`]: whether a measurement is sound, and what it covers;

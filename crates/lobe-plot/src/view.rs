@@ -33,7 +33,7 @@ pub enum ViewError {
     /// No channel of this name.
     #[error("found no channel {asked}; expected one of {}", known.join(", "))]
     Channel {
-        /// What was asked for.
+        /// What was requested.
         asked: String,
         /// What there is.
         known: Vec<String>,
@@ -41,7 +41,7 @@ pub enum ViewError {
     /// Nothing was measured for light from this side.
     #[error("found no values for light from {}", match side { Side::Front => "above", Side::Back => "below" })]
     Side {
-        /// The side that was asked for.
+        /// The requested side.
         side: Side,
     },
 }

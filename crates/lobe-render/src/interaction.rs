@@ -64,7 +64,7 @@ impl<L: Lanes> SurfaceInteraction<L> {
     }
 
     /// What importance is multiplied by because the shading normal is not that of the triangle (Veach 1997, section
-    /// 5.3.2), for a path that arrives from `wo` and goes on to `wi`, both in the frame. 1 if the normals are equal.
+    /// 5.3.2), for a path that arrives from `wo` and continues to `wi`, both in the frame. 1 if the normals are equal.
     #[inline(always)]
     pub fn adjoint_correction(&self, lanes: L, wo: [L::F; 3], wi: [L::F; 3]) -> L::F {
         let from = dot::<L>(self.geometric, self.world(wo)).abs();
@@ -191,7 +191,7 @@ impl<T: Transport> Kernel for FindInteractions<'_, T> {
                 let ray = *ray as usize;
                 let [a, b, c, group] = all[found.primitive[ray] as usize];
                 for (column, corner) in known.corners.iter_mut().zip([a, b, c]) {
-                    // Vertices are anywhere in memory: all are asked for before the first is needed.
+                    // Vertices are anywhere in memory: all are prefetched before the first is needed.
                     lanes.prefetch::<1, _>(corners, corner as usize);
                     column[lane] = corner as i32 * NUMBERS as i32;
                 }

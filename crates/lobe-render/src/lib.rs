@@ -2,7 +2,7 @@
 //!
 //! A tile is rendered as a wave: all of its paths at the same depth. Camera rays are traced in packets, hits are sorted
 //! by material, each material is evaluated and sampled in full lanes for all of its hits at once, shadow rays are
-//! traced, and what goes on is the next wave.
+//! traced, and the paths that continue are the next wave.
 //!
 //! - [`World`] has triangles, materials ([`shader`]) and lights ([`light`]); [`scene`] reads it from a file.
 //! - [`render`] makes a [`Film`] of it by an [integrator]; [`picture`] writes films as EXR and PNG.

@@ -16,7 +16,7 @@ pub(crate) enum Dimensions {
     Camera,
     /// Which light, the point on it (2); at the vertex of that depth.
     Light(u32),
-    /// The direction (2), which of several ways, whether the path goes on; at the vertex of that depth.
+    /// The direction (2), which of several lobes, whether the path continues; at the vertex of that depth.
     Scatter(u32),
 }
 

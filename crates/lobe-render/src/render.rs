@@ -47,7 +47,7 @@ pub enum RenderError {
     /// The window is empty or not inside of the picture.
     #[error("the window {window:?} of a picture of {} x {}; expected a non-empty window inside it", size[0], size[1])]
     Window {
-        /// What was asked for.
+        /// What was requested.
         window: Rect,
         /// The picture.
         size: [u32; 2],
@@ -70,7 +70,7 @@ const TILE: u32 = 64;
 
 /// How far a rendering is.
 pub struct Progress<'a, T: Transport = Rgb> {
-    /// Samples done, those of an earlier rendering that goes on with them.
+    /// Samples done, including those of an earlier rendering that this one continues.
     pub done: u64,
     /// Samples to do, or as many as there would be without a time limit.
     pub total: u64,
@@ -108,7 +108,7 @@ struct Tile<T: Transport> {
 }
 
 impl<T: Transport> Shared<T> {
-    /// A thread that panicked leaves whole samples behind, and its panic goes on when the threads are joined.
+    /// A thread that panicked leaves whole samples behind, and its panic is propagated when the threads are joined.
     fn lock(&self) -> MutexGuard<'_, State<T>> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }

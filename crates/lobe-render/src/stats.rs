@@ -3,7 +3,7 @@
 use std::ops::AddAssign;
 use std::time::Duration;
 
-/// What materials were asked for at one depth.
+/// The queries of materials at one depth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Shading {
     /// Pairs of directions evaluated, and directions sampled.

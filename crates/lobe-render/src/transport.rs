@@ -58,7 +58,7 @@ pub trait Transport: Copy + Debug + Default + PartialEq + Eq + Send + Sync + 'st
     /// What a path carries that has gone on by this chance.
     fn survive(throughput: Self::Throughput, chance: f32) -> Self::Throughput;
 
-    /// The largest magnitude of what a path carries, which decides whether it goes on. NaN counts as 0.
+    /// The largest magnitude of what a path carries, which decides whether it continues. NaN counts as 0.
     fn magnitude(throughput: &Self::Throughput) -> f32;
 
     /// What arrives of emitted light.

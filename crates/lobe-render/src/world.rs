@@ -58,7 +58,7 @@ pub enum WorldError {
     /// A shape is of a material that does not exist.
     #[error("material {found}; expected one below {materials}")]
     Material {
-        /// The material asked for.
+        /// The requested material.
         found: usize,
         /// How many there are.
         materials: usize,

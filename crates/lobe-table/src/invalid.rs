@@ -46,7 +46,7 @@ pub(crate) fn ascending(part: &'static str, knots: &[f32]) -> Result<(), Invalid
     }
 }
 
-/// Checks that there are as many values as the dimensions ask for.
+/// Checks that there are as many values as the dimensions require.
 pub(crate) fn count(part: &'static str, found: usize, shape: &[usize]) -> Result<(), Invalid> {
     let expected = shape.iter().try_fold(1usize, |product, &n| product.checked_mul(n));
     if expected == Some(found) {

@@ -221,7 +221,8 @@ fn unfolded(half: Vec<f64>) -> (Vec<f64>, Vec<usize>) {
     all.into_iter().unzip()
 }
 
-/// From the file's order, the first parameter fastest, to `[p0][p1][p2][p3][channel]`, with the columns of p3 asked for.
+/// From the file's order, the first parameter fastest, to `[p0][p1][p2][p3][channel]`, with the requested columns of
+/// p3.
 fn reordered(values: &[f32], [n0, n1, n2, _]: [usize; 4], columns: &[usize], channels: usize) -> Vec<f32> {
     let mut out = Vec::with_capacity(n0 * n1 * n2 * columns.len() * channels);
     for p0 in 0..n0 {

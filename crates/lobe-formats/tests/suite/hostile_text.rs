@@ -129,7 +129,7 @@ fn damage_is_named_with_its_line() {
     }
 }
 
-/// Lists of a thousand knots each fit into a small file; the values they ask for do not.
+/// Lists of a thousand knots each fit into a small file; the values that they require do not.
 #[test]
 fn products_of_counts_are_checked_before_memory_is_asked_for() {
     let list: String = (0..1000).map(|i| format!(" {}", f64::from(i) * 0.09)).collect();

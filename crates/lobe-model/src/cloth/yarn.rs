@@ -24,8 +24,8 @@ pub struct Yarn {
 }
 
 impl Yarn {
-    /// A direction in which light from `wi` goes on, and the share of it that does: `f cos / pdf`. `None` if the sampled
-    /// direction is into the yarn.
+    /// A direction in which light from `wi` continues, and the share of it that does: `f cos / pdf`. `None` if the
+    /// sampled direction is into the yarn.
     pub(super) fn sample(&self, wi: Vec3, rng: &mut impl Rng) -> Option<(Vec3, Vec3)> {
         let ggx = Ggx { alpha: self.roughness };
         let u: [f64; 2] = [rng.random(), rng.random()];

@@ -23,7 +23,7 @@ pub(super) fn check(grid: &Grid<'_>, part: &str) -> Vec<Finding> {
     let is_isotropic = grid.knots[1].len() == 1;
     if grid.knots[3].len() == 1 {
         let what = if grid.is_specular { "the mirror direction" } else { "the normal" };
-        let text = format!("one {} only: the same all round {what}", grid.names[3]);
+        let text = format!("one {} only: the same all around {what}", grid.names[3]);
         findings.push(Finding::new("symmetry", part, Status::Note, text));
     } else if is_isotropic && !grid.is_mirrored {
         findings.extend(mirror(grid, part));
@@ -91,7 +91,7 @@ fn mirror(grid: &Grid<'_>, part: &str) -> Option<Finding> {
         d if d <= SAME => (Status::Pass, "both sides of the plane of incidence are alike".into()),
         d => {
             let text = format!(
-                "both sides of the plane of incidence differ, by up to {} of the largest value and by {} in the mean",
+                "both sides of the plane of incidence differ, by up to {} of the largest value and by {} on average",
                 percent(d),
                 percent(mean)
             );

@@ -42,7 +42,7 @@ fn of_band(band: &Band) -> Finding {
     let (status, text) = match missing.as_slice() {
         [] => (Status::Pass, "transmission and reflection of both sides".into()),
         [one] if one.starts_with("transmission") => {
-            (Status::Note, format!("no {one}: the transmission of the other side serves for it"))
+            (Status::Note, format!("no {one}: the transmission of the other side is used for it"))
         }
         _ => (Status::Warn, format!("no {}: dark there", missing.join(", no "))),
     };
@@ -120,7 +120,7 @@ fn of_samples(data: &scattered::Data, part: &str) -> Vec<Finding> {
     let widest = list.len().max(1);
     let shown = if widest > 12 { format!("{} polar angles to {}", widest, list[widest - 1]) } else { list.join(" ") };
     let text = format!(
-        "light from {}, at {shown} degrees; between and beyond, the nearest goes on",
+        "light from {}, at {shown} degrees; between and beyond these, the nearest is used",
         match incidences.len() {
             1 => "one direction".into(),
             n => format!("{n} directions"),

@@ -30,7 +30,7 @@ pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness) -> Vec<Findi
         }
         let limit = subject.measured_up_to(aspect).min(subject.measured_up_to(aspect.reversed())).min(LIMIT);
         if limit < 0.1 {
-            let text = "no two angles of incidence: nothing to exchange".into();
+            let text = "fewer than two angles of incidence: nothing to exchange".into();
             findings.push(Finding::new("reciprocity", &part, Status::Note, text));
             continue;
         }

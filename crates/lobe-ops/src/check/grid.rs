@@ -53,7 +53,7 @@ impl<'a> Grid<'a> {
         let (first, last) = (light[0], light[light.len() - 1]);
         if last < FRAC_PI_2 - 0.01 || first > 0.01 {
             let text = format!(
-                "light was measured from {} to {} degrees only; beyond, the nearest measurement goes on",
+                "light was measured from {} to {} degrees only; beyond, the nearest measurement is used",
                 degrees(first),
                 degrees(last)
             );
@@ -65,7 +65,7 @@ impl<'a> Grid<'a> {
         let needed = if self.is_specular { FRAC_PI_2 + last } else { FRAC_PI_2 };
         if reach < needed - 0.05 {
             let text = format!(
-                "{} ends at {} degrees, and the hemisphere at {}; beyond, the last value goes on",
+                "{} ends at {} degrees, and the hemisphere at {}; beyond, the last value is used",
                 self.names[2],
                 degrees(reach),
                 degrees(needed)

@@ -86,10 +86,10 @@ fn repeated(part: &str, values: &[f32]) -> Option<Finding> {
     }
     let (least, most) = values.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)));
     let reading = match value {
-        0.0 => "below the horizon, below the noise, or not measured; the interpolation takes them for dark",
+        0.0 => "below the horizon, below the noise, or not measured; the interpolation treats them as dark",
         value if value == least => "a floor, below which nothing was kept",
-        value if value == most => "a ceiling, above which the instrument was blind",
-        _ => "more often than a measurement would have it",
+        value if value == most => "a ceiling, above which the instrument saturated",
+        _ => "more often than is plausible for a measurement",
     };
     let text = format!("{count} of {} values ({}) are {value}: {reading}", values.len(), percent(share));
     let finding = Finding::new("repeated values", part, Status::Note, text);

@@ -14,7 +14,7 @@ pub struct Meta {
     pub size: [u32; 2],
     /// The pixels that were rendered.
     pub window: Rect,
-    /// The numbers of the samples that were asked for.
+    /// The numbers of the requested samples.
     pub samples: Range<u32>,
     /// How many samples the whole picture has.
     pub total: u32,

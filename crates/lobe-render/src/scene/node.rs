@@ -1,4 +1,5 @@
-//! A TOML document whose tables are asked for what they may have, so that every mistake is found where it is.
+//! A TOML document whose tables are queried for the keys that they may have, so that every mistake is reported at its
+//! place.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -43,7 +44,7 @@ impl Source<'_> {
     }
 }
 
-/// A table that remembers which of its keys were asked for.
+/// A table that remembers which of its keys were read.
 pub(crate) struct Node<'s, 't> {
     source: &'s Source<'t>,
     /// The name of the table: `camera`, `light[2]`.
@@ -86,7 +87,7 @@ impl<'s, 't> Node<'s, 't> {
         Err(self.error(key, format!("found {}; expected {expected}", shown(value.get_ref()))))
     }
 
-    /// Fails if there are keys that nobody has asked for.
+    /// Fails if there are keys that were never read.
     pub fn finish(&self) -> Result<(), SceneError> {
         let asked = self.asked.borrow();
         match self.table.keys().find(|key| !asked.contains(&**key.get_ref())) {

@@ -74,7 +74,7 @@ fn geometry(node: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<Geometry, 
 /// The most triangles that `refine` makes of a mesh: a scene of few words must not fill the memory.
 const MOST: u64 = 1 << 26;
 
-/// The mesh, its triangles cut as finely as `refine` asks for.
+/// The mesh, its triangles cut as finely as `refine` requires.
 fn refined(node: &Node<'_, '_>, geometry: Geometry) -> Result<Geometry, SceneError> {
     let Some(pieces) = node.whole("refine", 1..=32)? else { return Ok(geometry) };
     let triangles = geometry.triangles.len() as u64 * u64::from(pieces).pow(2);

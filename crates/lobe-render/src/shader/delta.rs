@@ -8,7 +8,7 @@ use crate::vec3::Vec3;
 /// One of the exact directions that a path may take, and what that does to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DeltaSample<S> {
-    /// Where the path goes on.
+    /// The direction in which the path continues.
     pub wi: [f32; 3],
     /// What radiance, or importance, is multiplied by.
     pub weight: S,
@@ -41,7 +41,7 @@ pub enum Delta<S: Channels = [f32; 3]> {
 }
 
 impl<S: Channels> Delta<S> {
-    /// Where a path goes on whose known direction is `wo`.
+    /// The direction in which a path with the known direction `wo` continues.
     pub fn samples(&self, mode: TransportMode, wo: [f32; 3]) -> DeltaSamples<S> {
         let mirrored = [-wo[0], -wo[1], wo[2]];
         let mirror = |weight| DeltaSamples { reflection: DeltaSample { wi: mirrored, weight }, transmission: None };

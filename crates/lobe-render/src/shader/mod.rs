@@ -77,7 +77,7 @@ impl Scratch {
 /// A material as a renderer of the transport `T` sees it.
 ///
 /// In [`TransportMode::Importance`] the path comes from a light: the known direction `wo` leads to the light, and `wi` is
-/// where it goes on. Values are those of the pair that light takes, times the cosine of `wi` in either mode.
+/// where it continues. Values are those of the pair that light takes, times the cosine of `wi` in either mode.
 pub trait Shader<T: Transport = Rgb>: Debug + Send + Sync {
     /// What kinds of lobes it has.
     fn lobes(&self) -> Lobes {

@@ -6,7 +6,7 @@ use super::{Aspect, Gaps, Grid, Kind, Kinks, Options, PrepareError, Section};
 use crate::bsdf::Bsdf;
 use crate::{Channels, Edges, Scatter, mirror};
 
-/// What programs ask of measured data without knowing their representation.
+/// What programs need from measured data without knowing their representation.
 ///
 /// Directions are unit vectors away from the surface, normal on +z; angles are in radians.
 pub trait Representation: Debug + Send + Sync {

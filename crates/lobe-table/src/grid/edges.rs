@@ -7,7 +7,7 @@
 pub enum Edge {
     /// The query moves to the nearest knot.
     Clamp,
-    /// The outermost cell goes on in a straight line. Values can become negative.
+    /// The outermost cell continues in a straight line. Values can become negative.
     Extrapolate,
     /// The value is 0 outside the knots.
     Zero,

@@ -52,11 +52,11 @@ pub enum GridError {
     ValueCount {
         /// What was found.
         found: usize,
-        /// What the axes and channels ask for.
+        /// What the axes and channels require.
         expected: usize,
     },
     /// The table would have more entries than memory can address.
-    #[error("the axes and channels ask for more values than memory can address")]
+    #[error("the axes and channels require more values than memory can address")]
     TooLarge,
     /// No channel, or a wavelength that is not a positive finite number.
     #[error("{0}")]

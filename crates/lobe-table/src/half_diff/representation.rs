@@ -1,4 +1,4 @@
-//! What programs ask of grids of half and difference angles.
+//! What programs need from grids of half and difference angles.
 
 use super::Data;
 use crate::bsdf::Bsdf;

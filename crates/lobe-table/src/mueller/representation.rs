@@ -1,4 +1,4 @@
-//! What programs ask of Data matrices.
+//! What programs need from Mueller matrices.
 
 use std::borrow::Cow;
 

@@ -1,4 +1,4 @@
-//! What programs ask of materials of the EPFL database.
+//! What programs need from materials of the EPFL database.
 
 use super::Data;
 use crate::bsdf::Bsdf;

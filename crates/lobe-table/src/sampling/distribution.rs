@@ -89,7 +89,7 @@ pub struct Distribution {
 
 impl Distribution {
     /// Builds the distribution of a function that returns luminance times `f`, 1/sr, of many pairs: it gets the
-    /// incident directions, as many scattered ones, and where to put the results. It is asked for incident directions
+    /// incident directions, as many scattered ones, and where to put the results. It is called for incident directions
     /// with `z > 0` only, and for scattered ones on the side that `options` say.
     ///
     /// `progress(done, all)` is called after each slice.

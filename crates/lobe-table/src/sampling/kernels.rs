@@ -17,10 +17,8 @@ pub struct Sampled<'a> {
 }
 
 impl Sampled<'_> {
-    /// Turns values of `f` in place of the weights into weights: times cosine over density.
-    ///
-    /// # Panics
-    /// If the weights are not as many as a whole number of channels asks for.
+    /// Turns values of `f` in place of the weights into weights: times cosine over density. There must be a whole
+    /// number of weights per direction.
     pub fn times_cosine_over_density(&mut self) {
         let channels = self.weights.len().checked_div(self.directions.len()).unwrap_or(0).max(1);
         let texels = self.weights.chunks_exact_mut(channels);

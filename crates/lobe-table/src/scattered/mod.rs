@@ -33,7 +33,7 @@ pub enum ScatteredError {
     ValueCount {
         /// What was found.
         found: usize,
-        /// What samples and channels ask for.
+        /// What samples and channels require.
         expected: usize,
     },
     /// A value that is NaN or infinite.

@@ -1,4 +1,4 @@
-//! What programs ask of scattered samples.
+//! What programs need from scattered samples.
 
 use std::borrow::Cow;
 

@@ -1,4 +1,4 @@
-//! What programs ask of tables in specular coordinates.
+//! What programs need from tables in specular coordinates.
 
 use std::sync::Arc;
 

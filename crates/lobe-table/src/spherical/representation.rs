@@ -1,4 +1,4 @@
-//! What programs ask of grids in spherical coordinates.
+//! What programs need from grids in spherical coordinates.
 
 use std::f64::consts::TAU;
 

@@ -44,14 +44,14 @@ impl Data {
     /// How far a [raw](Decode::Raw) value may be off in the lanes of a [`Table`](crate::utia::Table), in parts of the largest
     /// one.
     pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
-        // Beyond the last zenith angle the sizes of the two weights of the line that goes on add up to more than 1.
+        // Beyond the last zenith angle the sizes of the two weights of the continued line add up to more than 1.
         let stretch = |w: [f64; 3]| 1.0 + 2.0 * (zenith(theta(w)).weights[1] - 1.0).max(0.0);
         let cells = STEPS.iter().map(|step| 2.0 * SPHERICAL / step.to_radians());
         (cells.sum::<f64>() + SUM) * stretch(wi) * stretch(wo)
     }
 }
 
-/// The place among the zenith angles, whose last cell goes on.
+/// The place among the zenith angles, whose last cell continues.
 fn zenith(theta: f64) -> Neighbours {
     uniform(theta.to_degrees() / STEPS[0], THETAS - 2)
 }

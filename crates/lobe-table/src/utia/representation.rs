@@ -1,4 +1,4 @@
-//! What programs ask of the grid of the UTIA database.
+//! What programs need from the grid of the UTIA database.
 
 use std::borrow::Cow;
 

@@ -84,7 +84,7 @@ const NOTHING: std::ops::Range<usize> = 10..38;
 /// Not a multiple of any number of lanes, and more than one block.
 const COUNT: usize = 331;
 
-/// `f`, `f cos` and densities, which must not depend on what is asked for together; and directions drawn, with their
+/// `f`, `f cos` and densities, which must not depend on what is requested together; and directions drawn, with their
 /// densities and weights.
 fn evaluate(backend: Backend, table: &rgl::Table) -> [Vec<f32>; 6] {
     let (wi, wo) = directions(COUNT);

@@ -16,7 +16,7 @@ impl Mirror {
         self.data.scatter() == aspect.scatter && self.side.is_none_or(|side| side == aspect.light)
     }
 
-    /// The share of the light from `wi` that goes on, one value per channel.
+    /// The share of the light from `wi` that continues, one value per channel.
     pub(crate) fn reflectance(&self, [x, y, z]: [f32; 3]) -> Vec<f32> {
         let [x, y, z] = [x, y, z.abs()].map(f64::from);
         let sigma = x.hypot(y).atan2(z);

@@ -79,7 +79,7 @@ impl Table {
     /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`].
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo`, or a slice in `wanted` is not as long as that asks for.
+    /// If there are not as many `wi` as `wo`, or a slice in `wanted` is not as long as that requires.
     pub fn batch<'a>(
         &'a self,
         wi: Directions<'a>,

@@ -50,7 +50,7 @@ pub enum KlemsError {
     ValueCount {
         /// What was found.
         found: usize,
-        /// What the bases ask for.
+        /// What the bases require.
         expected: usize,
     },
     /// A value that is NaN or infinite.
