@@ -1,6 +1,7 @@
 //! What has a value for every pair of directions, ready to be evaluated and sampled in batches.
 
 mod cosine;
+mod histograms;
 mod lanes;
 
 use std::fmt::Debug;
@@ -14,13 +15,15 @@ use crate::{
     specular,
 };
 
+pub use histograms::ByHistograms;
 pub use lanes::BsdfLanes;
 
 /// A function of pairs of directions, which measured materials, analytic models and whatever else scatters light are.
 ///
 /// `wi` points to the light and `wo` to the viewer: unit vectors away from the surface, normal on +z. Values are `f` in
 /// 1/sr, without the cosine, one per channel; densities are over solid angle, in 1/sr. A delta function in direction has no
-/// value here and no density.
+/// value here; if [`sample_batch`](Self::sample_batch) finds such a direction, its density is infinite, and
+/// [`samples_mirrors`](Self::samples_mirrors) tells so.
 ///
 /// Only [`channels`](Self::channels) and [`eval_batch`](Self::eval_batch) have to be written: directions are then sampled in
 /// proportion to the cosine, on the sides that [`holds`](Self::holds) names.
@@ -36,6 +39,11 @@ pub trait Bsdf: Debug + Send + Sync {
 
     /// `true` if values are known not to depend on the rotation of the sample.
     fn is_isotropic(&self) -> bool {
+        false
+    }
+
+    /// Whether sampled directions may be those of mirrors, which have an infinite density.
+    fn samples_mirrors(&self) -> bool {
         false
     }
 

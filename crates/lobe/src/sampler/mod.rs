@@ -272,6 +272,10 @@ impl Bsdf for Sampler {
         self.material.is_isotropic()
     }
 
+    fn samples_mirrors(&self) -> bool {
+        self.material.has_mirrors()
+    }
+
     fn bytes(&self) -> usize {
         self.material.bytes() + Sampler::bytes(self)
     }

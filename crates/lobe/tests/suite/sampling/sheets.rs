@@ -2,7 +2,7 @@
 
 use lobe::formats::{Document, Part};
 use lobe::table::mirror;
-use lobe::{Channels, Data, Given, Material, Options, Sampled, Scatter, Side, specular};
+use lobe::{Bsdf, Channels, Data, Given, Material, Options, Sampled, Scatter, Side, specular};
 
 use super::materials::sampler;
 use super::{direction, numbers};
@@ -30,6 +30,7 @@ fn sheet() -> Material {
 #[test]
 fn every_lobe_is_drawn_as_often_as_it_is_bright() {
     let sampler = sampler(sheet());
+    assert!(sampler.samples_mirrors());
     let count = 200_000;
     for (z, expected) in [(1.0, [0.3, 0.25, 0.2]), (-1.0, [0.1, 0.25, 0.0])] {
         let [x, y, cos] = direction(40.0, 20.0);
