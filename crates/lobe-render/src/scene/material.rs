@@ -8,7 +8,8 @@ use lobe_model::{Blinn, Coated, Conductor, Ggx, Model, OrenNayar, Phong, Ward};
 
 use super::Reading;
 use super::node::{Node, SceneError};
-use crate::shader::{Backend, Delta, DeltaShader, Lambert, ModelShader, Shader, open, open_sheet};
+use crate::shader::{Backend, BsdfShader, Delta, DeltaShader, Lambert, Shader, open, open_sheet};
+use crate::transport::Rgb;
 
 const MODELS: &str = "lambert, mirror, glass, oren-nayar, phong, blinn, ward, conductor or plastic";
 
@@ -113,6 +114,6 @@ fn modelled(
     backend: Backend,
     model: impl Model + Debug + Send + Sync + 'static,
 ) -> Result<Arc<dyn Shader>, SceneError> {
-    let shader = ModelShader::new(model, backend).map_err(|error| node.error("model", error.to_string()))?;
+    let shader = BsdfShader::<Rgb>::model(model, backend).map_err(|error| node.error("model", error.to_string()))?;
     Ok(Arc::new(shader))
 }

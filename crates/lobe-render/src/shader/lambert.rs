@@ -2,7 +2,7 @@
 
 use std::f32::consts::PI;
 
-use lobe::{Kernel, Lanes};
+use lobe::{Bsdf, Channels as Names, Directions, Given, Kernel, Lanes};
 use lobe_lane::MAX_LANES;
 
 use super::{Backend, Evaluated, Sampled, Scratch, Shader};
@@ -25,6 +25,58 @@ impl<S: Channels> Lambert<S> {
     }
 }
 
+/// Of the light on the front; the backend is that of the call.
+impl Bsdf for Lambert {
+    fn channels(&self) -> &Names {
+        &Names::Rgb
+    }
+
+    fn is_isotropic(&self) -> bool {
+        true
+    }
+
+    fn eval_batch(&self, _: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        assert_eq!(wi.count(), wo.count(), "as many wi as wo");
+        assert_eq!(out.len(), 3 * wi.count(), "three values per query");
+        for (query, texel) in out.chunks_exact_mut(3).enumerate() {
+            let above = wi.get(query)[2] > 0.0 && wo.get(query)[2] > 0.0;
+            texel.copy_from_slice(&self.albedo.map(|albedo| if above { albedo / PI } else { 0.0 }));
+        }
+    }
+
+    fn sample_batch(&self, backend: Backend, _: Given, known: &[Vec3], u: &[[f32; 2]], out: lobe::Sampled<'_>) {
+        let lobe::Sampled { directions, weights, pdfs } = out;
+        assert_eq!(weights.len(), 3 * known.len(), "three weights per direction");
+        self.draw_batch(backend, known, u, directions, pdfs);
+        for (texel, known) in weights.chunks_exact_mut(3).zip(known) {
+            texel.copy_from_slice(&if known[2] > 0.0 { self.albedo } else { [0.0; 3] });
+        }
+    }
+
+    fn draw_batch(&self, backend: Backend, known: &[Vec3], u: &[[f32; 2]], out: &mut [Vec3], pdfs: &mut [f32]) {
+        let count = known.len();
+        assert_eq!((u.len(), out.len(), pdfs.len()), (count, count, count), "one of each per direction");
+        sample_cosine(backend, u, out);
+        for ((pdf, known), sampled) in pdfs.iter_mut().zip(known).zip(&*out) {
+            *pdf = density(*known, *sampled);
+        }
+    }
+
+    fn pdf_batch(&self, _: Backend, given: Given, wi: &[Vec3], wo: &[Vec3], pdfs: &mut [f32]) {
+        assert_eq!((wi.len(), wo.len()), (pdfs.len(), pdfs.len()), "as many wi as wo and densities");
+        let (known, other) = if given == Given::Light { (wi, wo) } else { (wo, wi) };
+        for ((pdf, known), other) in pdfs.iter_mut().zip(known).zip(other) {
+            *pdf = density(*known, *other);
+        }
+    }
+}
+
+/// The density with which a direction is sampled for a known one.
+fn density(known: Vec3, sampled: Vec3) -> f32 {
+    if known[2] > 0.0 { sampled[2].max(0.0) / PI } else { 0.0 }
+}
+
+/// As the [`Bsdf`], in the channels of any transport.
 impl<T: Transport> Shader<T> for Lambert<T::Spectrum> {
     fn albedo(&self) -> [f32; 3] {
         T::colour(T::radiance(T::START, self.albedo))
@@ -33,7 +85,7 @@ impl<T: Transport> Shader<T> for Lambert<T::Spectrum> {
     fn eval(&self, _: TransportMode, wi: &[Vec3], wo: &[Vec3], out: Evaluated<'_, T>, _: &mut Scratch) {
         let albedo = T::scattering(self.albedo);
         for (i, (wi, wo)) in wi.iter().zip(wo).enumerate() {
-            let pdf = if wo[2] > 0.0 { wi[2].max(0.0) / PI } else { 0.0 };
+            let pdf = density(*wo, *wi);
             (out.f[i], out.pdf[i]) = (T::scale(albedo, pdf), pdf);
         }
     }
@@ -43,9 +95,8 @@ impl<T: Transport> Shader<T> for Lambert<T::Spectrum> {
         sample_cosine(self.backend, u, wi);
         let albedo = T::scattering(self.albedo);
         for (i, wo) in wo.iter().enumerate() {
-            let above = wo[2] > 0.0;
-            pdf[i] = if above { wi[i][2] / PI } else { 0.0 };
-            weight[i] = if above { albedo } else { T::ABSORBED };
+            pdf[i] = density(*wo, wi[i]);
+            weight[i] = if wo[2] > 0.0 { albedo } else { T::ABSORBED };
         }
     }
 }

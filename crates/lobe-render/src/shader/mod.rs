@@ -4,20 +4,20 @@
 //! leads to the viewer), `wi` is sampled. A batch is of one material and as long as can be, so that all lanes are in use. Materials run
 //! on the backend that they were made with.
 
+mod bsdf;
 mod conversion;
 mod delta;
 mod lambert;
-mod measured;
-mod model;
+mod open;
 
 use std::fmt::Debug;
 
+pub use bsdf::BsdfShader;
 pub use conversion::Conversion;
 pub use delta::{Delta, DeltaSample, DeltaSamples, DeltaShader};
 pub use lambert::Lambert;
 pub use lobe::Backend;
-pub use measured::{MaterialError, MeasuredShader, open, open_sheet};
-pub use model::ModelShader;
+pub use open::{MaterialError, open, open_sheet};
 
 use crate::channels::Channels;
 use crate::transport::{Rgb, Transport, TransportMode};

@@ -7,8 +7,8 @@ use lobe::{Channels, Edges, Options, Scatter, specular};
 use lobe_model::{Conductor, Ggx};
 use lobe_render::integrator::Integrator;
 use lobe_render::light::{AreaLight, Environment, Light};
-use lobe_render::shader::{Backend, Delta, DeltaShader, ModelShader, Shader, open, open_sheet};
-use lobe_render::{World, WorldBuilder};
+use lobe_render::shader::{Backend, BsdfShader, Delta, DeltaShader, Shader, open, open_sheet};
+use lobe_render::{Rgb, World, WorldBuilder};
 
 use super::common::*;
 
@@ -49,7 +49,7 @@ fn white_surfaces_vanish_in_a_white_sky() {
     let shaders: [(&str, Arc<dyn Shader>, f64, f64); 4] = [
         ("lambert", lambert(1.0, Backend::best()), 0.08, 2e-3),
         ("table", table, 0.25, 3e-3),
-        ("model", Arc::new(ModelShader::new(oren_nayar, Backend::best()).unwrap()), 0.25, 3e-3),
+        ("model", Arc::new(BsdfShader::<Rgb>::model(oren_nayar, Backend::best()).unwrap()), 0.25, 3e-3),
         ("mirror", Arc::new(DeltaShader(Delta::Mirror([1.0; 3]))), 0.05, 1e-3),
     ];
     for (name, shader, pixel, whole) in shaders {
@@ -126,7 +126,7 @@ fn drawing_lights_and_drawing_materials_find_the_same_light() {
     assert_the_same_light("cloth", cloth(Backend::best()));
     let gold = Ggx { alpha: [0.1, 0.3] };
     let gold = Conductor { ggx: gold, eta: [0.143, 0.375, 1.442], k: [3.983, 2.386, 1.603] };
-    assert_the_same_light("gold", Arc::new(ModelShader::new(gold, Backend::best()).unwrap()));
+    assert_the_same_light("gold", Arc::new(BsdfShader::<Rgb>::model(gold, Backend::best()).unwrap()));
 
     let shared = std::env::var_os("LOBE_SHARED").map(PathBuf::from);
     let shared = shared.unwrap_or_else(|| concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared").into());

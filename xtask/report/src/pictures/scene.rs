@@ -8,7 +8,7 @@ use lobe::{Backend, Data, Material, Options, specular};
 use lobe_mesh::{Geometry, shapes};
 use lobe_render::integrator::Path as PathTracing;
 use lobe_render::light::{Environment, Light};
-use lobe_render::shader::{Lambert, MeasuredShader};
+use lobe_render::shader::{BsdfShader, Lambert};
 use lobe_render::{Camera, Filter, Rect, Settings, Shape, World, WorldBuilder};
 
 /// A table of its own for each of them, the size of the paper's anisotropic one.
@@ -42,12 +42,12 @@ pub fn world(backend: Backend) -> anyhow::Result<World> {
 }
 
 /// The cloth in another colour.
-fn dyed(cloth: &specular::Data, number: usize, backend: Backend) -> anyhow::Result<MeasuredShader> {
+fn dyed(cloth: &specular::Data, number: usize, backend: Backend) -> anyhow::Result<BsdfShader> {
     let dye: [f32; 3] = std::array::from_fn(|k| 0.5 + 0.5 * ((number * (k + 2) * 5) % 17) as f32 / 16.0);
     let values = cloth.values().iter().enumerate().map(|(at, value)| value * dye[at % 3]).collect();
     let samples = specular::Data::new(cloth.scatter(), cloth.knots().clone(), cloth.channels().clone(), values)?;
     let material = Material::from_samples(samples, &Options::default())?;
-    Ok(MeasuredShader::new(material.with_backend(backend))?)
+    Ok(BsdfShader::measured(material.with_backend(backend))?)
 }
 
 /// A mesh at a place.

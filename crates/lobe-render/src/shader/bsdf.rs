@@ -1,0 +1,183 @@
+//! Any [`Bsdf`] as a material of pictures: a measured one, an analytic model, a function of a program's own.
+
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use lobe::{Aspect, Bsdf, Given, Material, Sampler, SamplerError, SamplerOptions, Scatter};
+use lobe_model::{Model, is_isotropic};
+use lobe_table::bsdf::ByHistograms;
+use lobe_table::{DistributionError, DistributionOptions};
+
+use super::{Backend, Conversion, Evaluated, Lobes, Sampled, Scratch, Shader, albedo_of, times_cosine};
+use crate::transport::{Rgb, Transport, TransportMode};
+use crate::vec3::Vec3;
+
+/// A function of pairs of directions, in what the transport applies.
+#[derive(Debug)]
+pub struct BsdfShader<T: Transport = Rgb> {
+    bsdf: Arc<dyn Bsdf>,
+    backend: Backend,
+    conversion: T::Conversion,
+    lobes: Lobes,
+    albedo: [f32; 3],
+}
+
+/// The most memory that the histograms of a model take: the sharpest peaks of `alpha` = 0.01 are followed.
+const BYTES: usize = 4 << 20;
+
+impl<T: Transport> BsdfShader<T> {
+    /// A function that is evaluated and sampled on the backend given.
+    pub fn new(bsdf: Arc<dyn Bsdf>, backend: Backend) -> Self {
+        let conversion = T::Conversion::of(bsdf.channels());
+        let transmits = Aspect::ALL.into_iter().any(|aspect| aspect != Aspect::REFLECTION && bsdf.holds(aspect));
+        let lobes = Lobes { values: true, delta: bsdf.samples_mirrors(), transmits };
+        let mut shader = BsdfShader { bsdf, backend, conversion, lobes, albedo: [0.0; 3] };
+        shader.albedo = albedo_of::<T>(&shader);
+        shader
+    }
+
+    /// A material and the distributions that its directions are sampled from, on the backend of the material.
+    ///
+    /// # Errors
+    /// If there is no sampler for the material.
+    pub fn measured(material: Material) -> Result<Self, SamplerError> {
+        let backend = material.backend();
+        let sampler = Sampler::new(Arc::new(material), &SamplerOptions::default())?;
+        Ok(BsdfShader::new(Arc::new(sampler), backend))
+    }
+
+    /// A model that reflects, and histograms of what it answers, which directions are sampled from.
+    ///
+    /// # Errors
+    /// If no distribution can be made of the model's answers.
+    pub fn model(
+        model: impl Model + Debug + Send + Sync + 'static,
+        backend: Backend,
+    ) -> Result<Self, DistributionError> {
+        let model = lobe_model::Rgb(model);
+        let options = DistributionOptions::unknown(Scatter::Reflection, is_isotropic(&model), BYTES);
+        let sampled = ByHistograms::new(model, backend, Given::Viewer, &options)?;
+        Ok(BsdfShader::new(Arc::new(sampled), backend))
+    }
+}
+
+/// Which direction is known.
+fn given(mode: TransportMode) -> Given {
+    match mode {
+        TransportMode::Radiance => Given::Viewer,
+        TransportMode::Importance => Given::Light,
+    }
+}
+
+impl<T: Transport> Shader<T> for BsdfShader<T> {
+    fn lobes(&self) -> Lobes {
+        self.lobes
+    }
+
+    fn albedo(&self) -> [f32; 3] {
+        self.albedo
+    }
+
+    fn eval(&self, mode: TransportMode, wi: &[Vec3], wo: &[Vec3], out: Evaluated<'_, T>, scratch: &mut Scratch) {
+        let Evaluated { f, pdf } = out;
+        let [light, viewer] = match mode {
+            TransportMode::Radiance => [wi, wo],
+            TransportMode::Importance => [wo, wi],
+        };
+        if let Some(values) = self.conversion.in_place(f) {
+            self.bsdf.eval_pdf_batch(self.backend, given(mode), light, viewer, values, pdf);
+        } else {
+            let values = scratch.values(wi.len() * self.conversion.count());
+            self.bsdf.eval_pdf_batch(self.backend, given(mode), light, viewer, values, pdf);
+            self.conversion.convert(values, f);
+        }
+        times_cosine::<T>(f, wi);
+    }
+
+    /// Mirrors that were measured in addition to the values are sampled too: their density is infinite.
+    fn sample(&self, mode: TransportMode, wo: &[Vec3], u: &[[f32; 2]], out: Sampled<'_, T>, scratch: &mut Scratch) {
+        let Sampled { wi, weight, pdf } = out;
+        if let Some(values) = self.conversion.in_place(weight) {
+            let sampled = lobe::Sampled { directions: wi, weights: values, pdfs: pdf };
+            self.bsdf.sample_batch(self.backend, given(mode), wo, u, sampled);
+        } else {
+            let values = scratch.values(wo.len() * self.conversion.count());
+            let sampled = lobe::Sampled { directions: wi, weights: values, pdfs: pdf };
+            self.bsdf.sample_batch(self.backend, given(mode), wo, u, sampled);
+            self.conversion.convert(values, weight);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use lobe::formats::{Document, Part};
+    use lobe::table::mirror;
+    use lobe::{Channels, Data, Options};
+
+    use super::*;
+
+    const CLOTH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/cloth-17x7x17x13.ddr");
+
+    /// For known directions in both modes: samples, whose weights and densities are those of the pairs.
+    fn assert_samples_agree(name: &str, shader: &BsdfShader, value: &dyn Fn([Vec3; 2]) -> [f32; 3]) {
+        const SIDE: usize = 12;
+        let n = SIDE * SIDE;
+        let at = |i: usize| (i as f32 + 0.5) / SIDE as f32;
+        let u: Vec<[f32; 2]> = (0..n).map(|i| [at(i % SIDE), at(i / SIDE)]).collect();
+        for mode in [TransportMode::Radiance, TransportMode::Importance] {
+            let known = vec![[0.48, 0.36, 0.8]; n];
+            let (mut wi, mut weight, mut drawn) = (vec![[0.0; 3]; n], vec![[0.0; 3]; n], vec![0.0; n]);
+            let out = Sampled { wi: &mut wi, weight: &mut weight, pdf: &mut drawn };
+            shader.sample(mode, &known, &u, out, &mut Scratch::default());
+            let (mut f, mut pdf) = (vec![[0.0; 3]; n], vec![0.0; n]);
+            shader.eval(mode, &wi, &known, Evaluated { f: &mut f, pdf: &mut pdf }, &mut Scratch::default());
+            let (mut apart, mut lit) = (0, 0);
+            for i in (0..n).filter(|&i| drawn[i] > 0.0) {
+                let pair = if mode == TransportMode::Radiance { [wi[i], known[i]] } else { [known[i], wi[i]] };
+                let expected = value(pair).map(|f| f * wi[i][2].abs());
+                let near = |a: f32, b: f32, tolerance: f32| (a - b).abs() <= tolerance * a.abs().max(b.abs()) + 1e-6;
+                for k in 0..3 {
+                    assert!(near(f[i][k], expected[k], 1e-3), "{name}, {mode:?}: {:?}, not {expected:?}", f[i]);
+                    apart += usize::from(!near(weight[i][k] * drawn[i], f[i][k], 1e-3));
+                }
+                apart += usize::from(!near(drawn[i], pdf[i], 1e-2));
+                lit += 1;
+            }
+            // At the edge of a cell rounding leads to the other one.
+            assert!(lit > n / 2 && apart <= lit / 50, "{name}, {mode:?}: {apart} apart of {lit}");
+        }
+    }
+
+    #[test]
+    fn samples_for_a_given_viewer_and_for_given_light_weigh_what_pairs_do() {
+        let backend = Backend::best();
+        let open = || Material::open(CLOTH).unwrap().with_backend(backend);
+        let (material, shader) = (open(), BsdfShader::measured(open()).unwrap());
+        assert_samples_agree("cloth", &shader, &|[light, viewer]| {
+            let mut out = [0.0; 3];
+            material.eval(light, viewer, &mut out);
+            out
+        });
+        let gold = lobe_model::Conductor {
+            ggx: lobe_model::Ggx { alpha: [0.2, 0.4] },
+            eta: [0.143, 0.375, 1.442],
+            k: [3.983, 2.386, 1.603],
+        };
+        assert_samples_agree("gold", &BsdfShader::model(gold, backend).unwrap(), &|[light, viewer]| {
+            gold.f(light.map(f64::from), viewer.map(f64::from)).map(|x| x as f32)
+        });
+    }
+
+    #[test]
+    fn only_materials_with_mirrors_have_delta_lobes() {
+        let table = Material::open(CLOTH).unwrap();
+        assert_eq!(BsdfShader::<Rgb>::measured(table).unwrap().lobes(), Lobes::REFLECTION);
+        let document = lobe::formats::open(CLOTH.as_ref()).unwrap().1;
+        let mirror = mirror::Data::new(lobe::Scatter::Reflection, [vec![0.0], vec![0.0]], Channels::Rgb, vec![0.2; 3]);
+        let mut parts = document.parts;
+        parts.push(Part::new("", Data::Mirror(mirror.unwrap())));
+        let both = Material::from_document(&Document::of_parts(parts), &Options::default()).unwrap();
+        assert!(BsdfShader::<Rgb>::measured(both).unwrap().lobes().delta);
+    }
+}
