@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use lobe::formats::Document;
 use lobe::{Data, Lookup, Material, Options, Scatter, Side};
+use lobe_formats::{Document, Format, convert};
+use lobe_table::window::klems;
 
 use crate::failure::Failure;
-use crate::lossless;
 use crate::measure::{self, Sides};
 use crate::output::Output;
 use crate::surface::MaterialSurface;
@@ -51,13 +51,15 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let (target, out) = (args.output.target()?, args.output.out.as_path());
     let (_, document) = lobe_formats::open(&args.file)?;
     let document = choose(document, target, args)?;
-    if let Some(done) = lossless::write(&document, target, args.output.channel.as_deref(), out)? {
-        eprintln!("{}: {target}, {done}", out.display());
+    let format = target.format;
+    if let Some(written) = convert(&document, format, args.output.channel.as_deref(), out)? {
+        let note = written.note.map(|note| format!("; {note}")).unwrap_or_default();
+        eprintln!("{}: {format}, the values and nodes of the file{note}", out.display());
         return Ok(());
     }
     let sides = match document.only() {
         Some(Data::Mirror(_)) => {
-            let message = format!("{target}: found mirror reflectances; expected values for pairs of directions");
+            let message = format!("{format}: found mirror reflectances; expected values for pairs of directions");
             return Err(Failure::Usage(message));
         }
         Some(data) if !data.representation().is_two_sided() => Sides::One(data.representation().scatter()),
@@ -85,7 +87,7 @@ fn loss(document: &Document, target: Target) -> Option<&'static str> {
         return Some("the unit of the values is not documented; they are written as they are stored");
     }
     let is_sheet = document.is_sheet() || data().any(|data| data.is_two_sided());
-    (is_sheet && target != Target::Klems)
+    (is_sheet && target.writer.resampled_as != Some(klems::KIND))
         .then_some("a sheet with two sides; one kind of scatter of light from z > 0 is written")
 }
 
@@ -98,11 +100,11 @@ fn choose(document: Document, target: Target, args: &Args) -> Result<Document, F
     if !document.is_sheet() {
         return Ok(document);
     }
-    if asked.is_none() && matches!(target, Target::Ssdd | Target::Npz | Target::Klems) {
+    if asked.is_none() && target.writer.holds_sheets {
         return Ok(document);
     }
-    let wanted = asked.or(target.side(&args.output.out));
-    let is_delta = target == Target::Sdr;
+    let wanted = asked.or((target.writer.scatter)(&args.output.out));
+    let is_delta = target.format == Format::Sdr;
     let fits = |data: &&Data| {
         let data = data.representation();
         data.mirror().is_some() == is_delta && wanted.is_none_or(|wanted| data.scatter() == wanted)
@@ -117,8 +119,9 @@ fn choose(document: Document, target: Target, args: &Args) -> Result<Document, F
             Ok(Document::new(data.clone()))
         }
         [] => Err(Failure::Usage(format!(
-            "{}: found no such measurement; expected what {target} holds",
-            args.file.display()
+            "{}: found no such measurement; expected what {} holds",
+            args.file.display(),
+            target.format
         ))),
         _ => Err(Failure::Usage(format!(
             "{}: found {} measurements; expected --scatter with the one to write",

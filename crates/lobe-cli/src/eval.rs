@@ -123,9 +123,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         (Some(wi), Some(wo), ..) => vec![Pair { wi, wo }],
         (_, _, Some(angles), _) => {
             // A table with refraction counts theta from the refracted ray.
-            let zenith = |sigma| match document.only() {
-                Some(Data::Specular(samples)) => zenith(samples, &options.edges, sigma),
-                _ => sigma,
+            let zenith = |sigma| {
+                let Some(Data::Specular(samples)) = document.only() else { return sigma };
+                zenith(samples, &options.edges, sigma)
             };
             let (wi, wo) = angles_to_directions(angles.map(f64::to_radians), zenith);
             vec![Pair { wi, wo }]

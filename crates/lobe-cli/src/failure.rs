@@ -5,7 +5,7 @@ use std::io;
 use std::process::ExitCode;
 
 use lobe::OpenError;
-use lobe_formats::FormatError;
+use lobe_formats::{ConvertError, FormatError};
 use lobe_render::picture::PictureError;
 
 /// Why a command stopped.
@@ -45,6 +45,15 @@ impl fmt::Display for Failure {
 impl From<FormatError> for Failure {
     fn from(error: FormatError) -> Self {
         Failure::File(error.to_string())
+    }
+}
+
+impl From<ConvertError> for Failure {
+    fn from(error: ConvertError) -> Self {
+        match error {
+            ConvertError::Channels(message) => Failure::Usage(message),
+            error => Failure::File(error.to_string()),
+        }
     }
 }
 

@@ -12,7 +12,6 @@ mod eval;
 mod failure;
 mod generate;
 mod info;
-mod lossless;
 mod measure;
 mod merge;
 mod output;

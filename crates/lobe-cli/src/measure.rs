@@ -4,14 +4,14 @@ use std::path::Path;
 
 use lobe::{Channels, Material, Scatter};
 use lobe::{Lookup, Options};
-use lobe_formats::{merl, rgl, window_xml};
-use lobe_model::goniometer::{half_diff, klems, measure_surface, rgl as parameterised};
+use lobe_formats::{ChannelMap, Document};
+use lobe_model::goniometer::{half_diff as bins, klems as patches, measure_surface, rgl as parameterised};
 use lobe_model::{Surface, is_isotropic};
-use lobe_table::window::{self, Band, Block, Component};
+use lobe_table::window::{self, Band, Block, Component, klems};
+use lobe_table::{half_diff, rgl};
 
-use crate::channels::{ChannelMap, Mapped};
+use crate::channels::Mapped;
 use crate::failure::Failure;
-use crate::lossless;
 use crate::output::{Output, side};
 use crate::probe::Errors;
 use crate::progress::Progress;
@@ -30,12 +30,13 @@ pub enum Sides {
 /// Measures a surface and writes it; reports the nodes and the error of the file on standard error.
 pub fn write(surface: &dyn Surface, sides: Sides, output: &Output) -> Result<(), Failure> {
     let (target, out) = (output.target()?, output.out.as_path());
-    let map = ChannelMap::new(surface.channels(), output.channel.as_deref(), target)?;
+    let (format, writer) = (target.format, target.writer);
+    let map = ChannelMap::new(surface.channels(), output.channel.as_deref(), format)?;
     let surface: &dyn Surface = &Mapped { surface, map: &map };
     let refuse = |found: &str, expected: &str| {
-        Err(Failure::Usage(format!("{}: found {found}; expected {expected} in {target}", out.display())))
+        Err(Failure::Usage(format!("{}: found {found}; expected {expected} in {format}", out.display())))
     };
-    let scatter = match (target.side(out), sides) {
+    let scatter = match ((writer.scatter)(out), sides) {
         (Some(Scatter::Reflection), Sides::One(Scatter::Transmission)) => return refuse("transmission", "reflection"),
         (Some(Scatter::Transmission), Sides::One(Scatter::Reflection)) => return refuse("reflection", "transmission"),
         (_, Sides::One(scatter)) => scatter,
@@ -43,42 +44,42 @@ pub fn write(surface: &dyn Surface, sides: Sides, output: &Output) -> Result<(),
         (None, Sides::Both) => Scatter::Reflection,
     };
     let isotropic = is_isotropic(surface);
-    let nodes = match target {
-        Target::Sdr => return refuse("values for pairs of directions", "mirror reflectances"),
-        Target::Merl if !isotropic => return refuse("an anisotropic material", "an isotropic one"),
-        Target::Merl => {
-            let progress = Progress::new(half_diff::MERL[0], "bins");
-            let table = half_diff::measure(surface, half_diff::MERL, || progress.step()).map_err(|e| file(out, &e))?;
-            merl::write(&table, out)?;
+    let nodes = match writer.resampled_as {
+        None => return refuse("values for pairs of directions", "the format's own representation"),
+        Some(half_diff::KIND) if !isotropic => return refuse("an anisotropic material", "an isotropic one"),
+        Some(half_diff::KIND) => {
+            let progress = Progress::new(bins::MERL[0], "bins");
+            let table = bins::measure(surface, bins::MERL, || progress.step()).map_err(|e| file(out, &e))?;
+            (writer.write)(&Document::new(table), out)?;
             "90 x 90 x 180 bins of half and difference angles".into()
         }
-        Target::Rgl => {
+        Some(rgl::KIND) => {
             let resolution = output.rgl(isotropic);
             let progress = Progress::new(resolution.steps(), "directions of the light");
             let material =
                 parameterised::measure(surface, resolution, || progress.step()).map_err(|e| file(out, &e))?;
-            rgl::write(&material, out)?;
+            (writer.write)(&Document::new(material), out)?;
             let parameterised::Resolution { theta_i, phi_i, spectra, .. } = resolution;
             format!("{theta_i} theta_i x {phi_i} phi_i, {spectra} x {spectra} texels")
         }
-        Target::Klems => {
+        Some(klems::KIND) => {
             let basis = output.basis();
             let sheet = sheet(surface, output, sides)?;
             let name = output.out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            window_xml::write(&sheet, &[("name".into(), name)], out)?;
+            (writer.write)(&Document { source: vec![("name".into(), name)], ..Document::new(sheet) }, out)?;
             format!("means over {n} x {n} patches", n = basis.patches())
         }
-        Target::Ddr | Target::Ssdd | Target::Zemax | Target::Csv | Target::Npz => {
+        Some(_) => {
             let knots = output.knots(isotropic);
             let [sigma, psi, theta, phi] = knots.each_ref().map(Vec::len);
             let progress = Progress::new(sigma * psi, "directions of the light");
             let samples = measure_surface(surface, scatter, knots, || progress.step()).map_err(|e| file(out, &e))?;
-            lossless::write_table(samples, target, out)?;
+            (writer.write)(&Document::new(samples), out)?;
             format!("{sigma} sigma x {psi} psi x {theta} theta x {phi} phi")
         }
     };
     let kind = if isotropic { "isotropic" } else { "anisotropic" };
-    eprintln!("{}: {target}, resampled: {kind} {}, {nodes}", out.display(), side_of(target, sides, scatter));
+    eprintln!("{}: {format}, resampled: {kind} {}, {nodes}", out.display(), side_of(target, sides, scatter));
     if let Some(note) = &map.note {
         eprintln!("  {note}");
     }
@@ -90,7 +91,11 @@ pub fn write(surface: &dyn Surface, sides: Sides, output: &Output) -> Result<(),
 }
 
 fn side_of(target: Target, sides: Sides, scatter: Scatter) -> &'static str {
-    if target == Target::Klems && sides == Sides::Both { "reflection and transmission" } else { side(scatter) }
+    if target.writer.resampled_as == Some(klems::KIND) && sides == Sides::Both {
+        "reflection and transmission"
+    } else {
+        side(scatter)
+    }
 }
 
 fn file(out: &Path, error: &dyn std::fmt::Display) -> Failure {
@@ -116,8 +121,8 @@ fn sheet(surface: &dyn Surface, output: &Output, sides: Sides) -> Result<window:
     let blocks: Vec<Block> = Block::ALL.into_iter().filter(wanted).collect();
     let progress = Progress::new(blocks.len() * basis.patches(), "patches");
     for block in blocks {
-        let matrices =
-            klems::measure(surface, [&basis, &basis], block, || progress.step()).map_err(|e| file(&output.out, &e))?;
+        let matrices = patches::measure(surface, [&basis, &basis], block, || progress.step())
+            .map_err(|e| file(&output.out, &e))?;
         if matrices.iter().all(|matrix| matrix.values().iter().all(|f| *f == 0.0)) {
             continue;
         }
@@ -136,11 +141,11 @@ fn errors(
     scatter: Scatter,
     out: &Path,
 ) -> Result<Option<Errors>, Failure> {
-    if target == Target::Npz {
+    if target.format.spec().read.is_none() {
         return Ok(None);
     }
     let options = Options { lookup: Lookup::Linear, ..Options::default() };
-    let is_klems = target == Target::Klems;
+    let is_klems = target.writer.resampled_as == Some(klems::KIND);
     let found = MaterialSurface {
         material: Material::open_with(out, &options)?,
         scatter: if is_klems { None } else { Some(scatter) },

@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 use lobe::Scatter;
+use lobe_formats::Format;
 use lobe_model::goniometer::rgl;
 use lobe_table::window::klems::AngleBasis;
 
 use crate::failure::Failure;
-use crate::target::Target;
+use crate::target::{Target, parser, target};
 
 /// Arguments of the commands that write tables.
 #[derive(clap::Args)]
@@ -16,8 +17,8 @@ pub struct Output {
     /// The file to write; an existing one is replaced.
     pub out: PathBuf,
     /// The format to write, if the extension does not determine it.
-    #[arg(long, value_enum)]
-    pub to: Option<Target>,
+    #[arg(long, value_name = "FORMAT", value_parser = parser())]
+    pub to: Option<Format>,
     /// Write this channel only, by the name that `lobe info` shows.
     #[arg(long, value_name = "NAME")]
     pub channel: Option<String>,
@@ -69,7 +70,7 @@ const THETA: &[f64] = &[
 impl Output {
     /// The format to write.
     pub fn target(&self) -> Result<Target, Failure> {
-        Target::of(&self.out, self.to)
+        target(&self.out, self.to)
     }
 
     /// The knots of a specular table in radians: the requested ones, or else some that suit most materials.

@@ -159,10 +159,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 /// The table before repairs, and its error unless it is the file's own.
 fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(specular::Data, Option<Resampling>), Failure> {
     let given = [&args.sigma, &args.psi, &args.theta, &args.phi];
-    let own = match subject.data(aspect) {
-        Some(Data::Specular(samples)) => Some(samples),
-        _ => None,
-    };
+    let own = if let Some(Data::Specular(samples)) = subject.data(aspect) { Some(samples) } else { None };
     if let Some(samples) = own.filter(|_| args.error.is_none() && given.iter().all(|axis| axis.is_none())) {
         return Ok((samples.clone(), None));
     }

@@ -12,7 +12,18 @@ use lobe_table::{Channels, Scatter, scattered};
 
 use crate::lines::{lines, shown};
 use crate::records::Records;
-use crate::{FormatError, Place};
+use crate::spec::FormatSpec;
+use crate::{Document, FormatError, Place};
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "ALTA",
+    word: "alta",
+    extensions: &["dat"],
+    matches,
+    read: Some(|bytes, path| Ok(Document::new(read(bytes, path)?))),
+    writer: None,
+};
 
 /// Below this cosine a value cannot be distinguished from the error of the division.
 const LEAST_COSINE: f64 = 1e-3;

@@ -12,7 +12,18 @@ use lobe_table::{Channels, Scatter, scattered};
 use crate::columns::channels;
 use crate::lines::{Line, lines, shown};
 use crate::records::Records;
-use crate::{FormatError, Place};
+use crate::spec::FormatSpec;
+use crate::{Document, FormatError, Place};
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "ASTM E1392",
+    word: "astm",
+    extensions: &[],
+    matches,
+    read: Some(|bytes, path| Ok(Document::new(read(bytes, path)?))),
+    writer: None,
+};
 
 /// `true` if the lines at the start have `NUM_POINTS` and `VARS`.
 pub fn matches(bytes: &[u8]) -> bool {

@@ -7,9 +7,21 @@ use std::path::Path;
 
 use lobe_table::{Channels, Scatter, scattered};
 
+use crate::Document;
 use crate::FormatError;
 use crate::records::Records;
+use crate::spec::FormatSpec;
 use crate::text::Text;
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "Cornell BRDF",
+    word: "cornell",
+    extensions: &["brdf"],
+    matches,
+    read: Some(|bytes, path| Ok(Document::new(read(bytes, path)?))),
+    writer: None,
+};
 
 /// `true` if the comments at the start announce the number of wavelengths.
 pub fn matches(bytes: &[u8]) -> bool {

@@ -1,19 +1,12 @@
 //! What a file holds: the data, and what the file says about them.
 
-use std::path::Path;
-
-use lobe_table::{Data, Scatter, Side};
-
-use crate::{
-    Format, FormatError, Place, alta, astm, cornell, ddr, fred, goniometer, light_tools, lumos, mbsdf, merl, nist,
-    openmaterial, pbsdf, rgl, sdr, sniff, speos, ssdd, utia, window_xml, zemax,
-};
+use lobe_table::{Data, Side};
 
 /// What was found in a file, in the form in which it was measured.
 #[derive(Clone, Debug)]
 pub struct Document {
-    /// The format, if it was read from a file.
-    pub format: Option<Format>,
+    /// The name of the format, if it was read from a file.
+    pub format: Option<&'static str>,
     /// The measurements, in the order of the file. More than one are those of a sheet: reflection and transmission, or
     /// both of its sides.
     pub parts: Vec<Part>,
@@ -80,7 +73,7 @@ impl Document {
     }
 
     /// The same with facts of the header; those without a value are left out.
-    fn with_source(mut self, source: &[(&str, &str)]) -> Self {
+    pub(crate) fn with_source(mut self, source: &[(&str, &str)]) -> Self {
         let stated = source.iter().filter(|(_, value)| !value.is_empty());
         self.source.extend(stated.map(|(name, value)| ((*name).into(), (*value).into())));
         self
@@ -102,84 +95,4 @@ impl<T: Into<Data>> From<Measured<T>> for Document {
     fn from(Measured { data, source, tis }: Measured<T>) -> Self {
         Document { source, tis, ..Document::new(data) }
     }
-}
-
-/// Reads a file of any supported format, which is recognised from the content. Formats that do not say whether they
-/// hold reflection or transmission are assumed to hold reflection; only for those of Integra the extension decides:
-/// `.ddt` and `.sdt` are transmission.
-///
-/// A folder is read as the RPC Photonics files in it, which are one material.
-///
-/// # Errors
-/// [`FormatError`] if the file cannot be read, is of no known format, or is damaged.
-pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
-    if path.is_dir() {
-        let document = Document::new(fred::read_rpc_folder(path)?);
-        return Ok((Format::Rpc, Document { format: Some(Format::Rpc), ..document }));
-    }
-    let bytes = std::fs::read(path)
-        .map_err(|error| FormatError::new(path, Place::File, error.to_string(), "a file that can be read"))?;
-    let format = recognised(&bytes, path)?;
-    Ok((format, read(format, &bytes, path)?))
-}
-
-/// Reads the content of a file in memory, whatever its format. `path` names it in errors, and its extension counts as in
-/// [`open`].
-///
-/// # Errors
-/// As [`open`].
-pub fn from_bytes(bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
-    read(recognised(bytes, path)?, bytes, path)
-}
-
-fn recognised(bytes: &[u8], path: &Path) -> Result<Format, FormatError> {
-    sniff(bytes).ok_or_else(|| {
-        let known: Vec<&str> = Format::ALL.iter().map(Format::name).collect();
-        FormatError::new(path, Place::File, "content of no known format", format!("one of {}", known.join(", ")))
-    })
-}
-
-/// Reads `bytes` as a file of this format, whatever they look like. `path` names it in errors, and its extension counts
-/// as in [`open`].
-///
-/// # Errors
-/// [`FormatError`] if the bytes are not a valid file of the format.
-pub fn read(format: Format, bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
-    let document = match format {
-        Format::Pbsdf => Document::new(pbsdf::read(bytes, path)?),
-        Format::Rgl => {
-            let data = rgl::read(bytes, path)?;
-            let description = data.parts().description.clone();
-            Document::new(data).with_source(&[("description", &description)])
-        }
-        Format::Mbsdf => Document::of_parts(mbsdf::read(bytes, path)?.into_parts()),
-        Format::WindowXml => window_xml::read(bytes, path)?.into(),
-        Format::Speos => Document::of_parts(speos::read(bytes, path)?.into_parts()),
-        Format::Merl => Document::new(merl::read(bytes, path)?),
-        Format::Utia => {
-            let unit = ("unit", "not documented; values are as they are stored");
-            Document::new(utia::read(bytes, path)?).with_source(&[unit])
-        }
-        Format::Zemax => zemax::read(bytes, path)?.into(),
-        Format::LightTools => Document::of_parts(light_tools::read(bytes, path)?),
-        Format::Ssdd => Document::of_parts(ssdd::read(bytes, path)?),
-        Format::Astm => Document::new(astm::read(bytes, path)?),
-        Format::OpenMaterial => Document::new(openmaterial::read(bytes, path)?),
-        Format::Fred => Document::new(fred::read(bytes, path)?),
-        Format::Rpc => Document::new(fred::read_rpc(bytes, path)?),
-        Format::Cornell => Document::new(cornell::read(bytes, path)?),
-        Format::Alta => Document::new(alta::read(bytes, path)?),
-        Format::Nist => Document::new(nist::read(bytes, path)?),
-        Format::Lumos => Document::new(lumos::read(bytes, path)?),
-        Format::Goniometer => Document::new(goniometer::read(bytes, path)?),
-        Format::Ddr => ddr::read(bytes, path, scatter_of_extension(path))?.into(),
-        Format::Sdr => sdr::read(bytes, path, scatter_of_extension(path))?.into(),
-    };
-    Ok(Document { format: Some(format), ..document })
-}
-
-/// Integra's extensions: a `t` at the end is transmission.
-pub(crate) fn scatter_of_extension(path: &Path) -> Scatter {
-    let is = |extension: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
-    if is("ddt") || is("sdt") { Scatter::Transmission } else { Scatter::Reflection }
 }

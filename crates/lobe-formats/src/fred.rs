@@ -13,7 +13,28 @@ use lobe_table::{Channels, Scatter, scattered};
 
 use crate::lines::{Line, lines, shown};
 use crate::records::Records;
-use crate::{FormatError, Place};
+use crate::spec::FormatSpec;
+use crate::{Document, FormatError, Place};
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "FRED",
+    word: "fred",
+    extensions: &["txt"],
+    matches,
+    read: Some(|bytes, path| Ok(Document::new(read(bytes, path)?))),
+    writer: None,
+};
+
+/// This format in the registry.
+pub(crate) static RPC: FormatSpec = FormatSpec {
+    name: "RPC Photonics",
+    word: "rpc",
+    extensions: &["txt"],
+    matches: matches_rpc,
+    read: Some(|bytes, path| Ok(Document::new(read_rpc(bytes, path)?))),
+    writer: None,
+};
 
 /// `true` for a FRED table.
 pub fn matches(bytes: &[u8]) -> bool {

@@ -23,7 +23,30 @@ pub use write::write;
 use crate::columns::channels;
 use crate::lines::shown;
 use crate::records::Records;
-use crate::{FormatError, Place};
+use crate::spec::{FormatSpec, Writer, either, unfit};
+use crate::{Document, FormatError, Place};
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "table with named columns",
+    word: "csv",
+    extensions: &["csv", "json"],
+    matches,
+    read: Some(|bytes, path| Ok(Document::new(read(bytes, path)?))),
+    writer: Some(Writer {
+        extensions: &["csv"],
+        holds_channels: |channels| !matches!(channels, Channels::Named(_)),
+        channels: "one channel, R G B, X Y Z or wavelengths",
+        holds: |document| matches!(document.only(), Some(Data::Specular(_) | Data::Spherical(_) | Data::Scattered(_))),
+        holds_sheets: false,
+        scatter: either,
+        resampled_as: Some(specular::KIND),
+        write: |document, path| match document.only() {
+            Some(data) => write(data, path),
+            None => Err(unfit(document, path, "one measurement")),
+        },
+    }),
+};
 
 /// What a table does not say itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

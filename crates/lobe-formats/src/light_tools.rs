@@ -11,8 +11,19 @@ use std::path::Path;
 
 use lobe_table::{Channels, Data, Scatter, Side, spherical};
 
+use crate::spec::FormatSpec;
 use crate::text::{Text, has_words};
-use crate::{FormatError, Part};
+use crate::{Document, FormatError, Part};
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "LightTools BSDF",
+    word: "lighttools",
+    extensions: &["bsdf"],
+    matches,
+    read: Some(|bytes, path| Ok(Document::of_parts(read(bytes, path)?))),
+    writer: None,
+};
 
 /// `true` for a text with the words `ScatterRadial` and `AOI`.
 pub fn matches(bytes: &[u8]) -> bool {

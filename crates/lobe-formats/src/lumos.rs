@@ -8,9 +8,21 @@ use std::path::Path;
 
 use lobe_table::{Channels, Scatter, scattered};
 
+use crate::Document;
 use crate::FormatError;
 use crate::lines::lines;
 use crate::records::Records;
+use crate::spec::FormatSpec;
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "lumos-sat CSV",
+    word: "lumos",
+    extensions: &["csv"],
+    matches,
+    read: Some(|bytes, path| Ok(Document::new(read(bytes, path)?))),
+    writer: None,
+};
 
 /// `true` if a comment at the start names the columns.
 pub fn matches(bytes: &[u8]) -> bool {

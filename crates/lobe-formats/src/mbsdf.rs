@@ -9,14 +9,38 @@
 //! uniform in `[0, pi]`. Measured files bear out the first: with `theta_out` index 0 their values do not depend on the
 //! azimuth, so it is the pole itself.
 
+use crate::Document;
 use crate::Sides;
 use crate::bytes::Cursor;
 use crate::error::FormatError;
+use crate::spec::{FormatSpec, Writer, either, unfit};
 use crate::write::{unwritable, write_whole};
-use lobe_table::{Channels, Scatter, spherical};
+use lobe_table::{Channels, Data, Scatter, spherical};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::io;
 use std::path::Path;
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "MDL MBSDF",
+    word: "mbsdf",
+    extensions: &["mbsdf"],
+    matches,
+    read: Some(|bytes, path| Ok(Document::of_parts(read(bytes, path)?.into_parts()))),
+    writer: Some(Writer {
+        extensions: &["mbsdf"],
+        holds_channels: |channels| matches!(channels, Channels::Mono | Channels::Rgb),
+        channels: "one channel or R G B",
+        holds: |document| sides(document).is_some_and(|sides| to_bytes(&sides).is_ok()),
+        holds_sheets: true,
+        scatter: either,
+        resampled_as: None,
+        write: |document, path| match sides(document) {
+            Some(sides) => write(&sides, path),
+            None => Err(unfit(document, path, "one grid of spherical coordinates for each kind of scatter")),
+        },
+    }),
+};
 
 const MAGIC: &[u8] = b"NVIDIA ARC MBSDF V1\n";
 const DATA: &[u8] = b"MBSDF_DATA=\n";
@@ -190,4 +214,20 @@ pub fn to_bytes(sides: &Sides<spherical::Data>) -> io::Result<Vec<u8>> {
 /// [`FormatError`] as [`to_bytes`], and if the file system refuses.
 pub fn write(sides: &Sides<spherical::Data>, path: &Path) -> Result<(), FormatError> {
     write_whole(path, &to_bytes(sides).map_err(|error| unwritable(path, &error))?)
+}
+
+/// The grids of a document, if it has at most one for each kind of scatter and does not tell sides apart.
+fn sides(document: &Document) -> Option<Sides<spherical::Data>> {
+    let mut sides = Sides { reflection: None, transmission: None };
+    for part in &document.parts {
+        let Data::Spherical(grid) = &part.data else { return None };
+        let side = match grid.scatter() {
+            Scatter::Reflection => &mut sides.reflection,
+            Scatter::Transmission => &mut sides.transmission,
+        };
+        if part.side.is_some() || side.replace(grid.clone()).is_some() {
+            return None;
+        }
+    }
+    Some(sides)
 }

@@ -4,12 +4,36 @@
 //! 360 for `phi_d` in its relatives that are not reciprocal; then one `f64` a bin for red, green and blue, one channel
 //! after the other, `phi_d` fastest. `f` in 1/sr is the stored number times 1/1500, 1.15/1500, 1.66/1500.
 
+use crate::Document;
 use crate::bytes::Cursor;
 use crate::error::FormatError;
+use crate::spec::{FormatSpec, Writer, reflection, unfit};
 use crate::write::{unwritable, write_whole};
-use lobe_table::half_diff;
+use lobe_table::{Channels, Data, half_diff};
 use std::io;
 use std::path::Path;
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "MERL",
+    word: "merl",
+    extensions: &["binary"],
+    matches,
+    read: Some(|bytes, path| Ok(Document::new(read(bytes, path)?))),
+    writer: Some(Writer {
+        extensions: &["binary"],
+        holds_channels: |channels| matches!(channels, Channels::Rgb),
+        channels: "R G B",
+        holds: |document| matches!(document.only(), Some(Data::HalfDiff(_))),
+        holds_sheets: false,
+        scatter: reflection,
+        resampled_as: Some(half_diff::KIND),
+        write: |document, path| match document.only() {
+            Some(Data::HalfDiff(data)) => write(data, path),
+            _ => Err(unfit(document, path, "a grid of half and difference angles")),
+        },
+    }),
+};
 
 /// What red, green and blue are multiplied by.
 const SCALE: [f64; 3] = [1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0];

@@ -11,7 +11,18 @@ use lobe_table::{Scatter, scattered};
 
 use crate::lines::{lines, shown};
 use crate::records::ByWavelength;
-use crate::{FormatError, Place};
+use crate::spec::FormatSpec;
+use crate::{Document, FormatError, Place};
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "NIST Mueller CSV",
+    word: "nist",
+    extensions: &["csv"],
+    matches,
+    read: Some(|bytes, path| Ok(Document::new(read(bytes, path)?))),
+    writer: None,
+};
 
 const COLUMNS: usize = 21;
 

@@ -9,15 +9,35 @@
 use std::io;
 use std::path::Path;
 
-use lobe_table::specular::AXIS_NAMES;
+use lobe_table::specular::{self, AXIS_NAMES};
 use lobe_table::spherical;
 use lobe_table::window::klems::AngleBasis;
 use lobe_table::window::{self, Block, Component};
 use lobe_table::{Channels, Data, Scatter, Side};
 
+use crate::spec::{FormatSpec, Writer, either};
 use crate::write::{unwritable, write_whole};
 use crate::zip::Archive;
 use crate::{Document, FormatError};
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "NumPy npz",
+    word: "npz",
+    extensions: &["npz"],
+    matches: |_| false,
+    read: None,
+    writer: Some(Writer {
+        extensions: &["npz"],
+        holds_channels: |_| true,
+        channels: "any channels",
+        holds: |_| true,
+        holds_sheets: true,
+        scatter: either,
+        resampled_as: Some(specular::KIND),
+        write,
+    }),
+};
 
 /// Writes `path` whole or not at all, without compression, so that a reader may map it.
 ///

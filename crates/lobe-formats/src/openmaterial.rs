@@ -7,10 +7,21 @@ use lobe_table::{Scatter, scattered};
 use serde::Deserialize;
 
 use crate::records::ByWavelength;
-use crate::{FormatError, Place};
+use crate::spec::FormatSpec;
+use crate::{Document, FormatError, Place};
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "OpenMATERIAL 3D",
+    word: "openmaterial",
+    extensions: &["xompt"],
+    matches,
+    read: Some(|bytes, path| Ok(Document::new(read(bytes, path)?))),
+    writer: None,
+};
 
 #[derive(Deserialize)]
-struct Document {
+struct Json {
     brdf: Brdf,
 }
 
@@ -38,7 +49,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 /// different directions.
 pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let document: Document = serde_json::from_slice(bytes).map_err(|error| {
+    let document: Json = serde_json::from_slice(bytes).map_err(|error| {
         FormatError::new(file, Place::Line(error.line()), error.to_string(), "brdf.lookupTable, rows of 5 numbers")
     })?;
     let mut samples = ByWavelength::default();

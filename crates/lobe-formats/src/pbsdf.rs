@@ -4,13 +4,38 @@
 //! and `wvls [L]` in nm as `u16`. There are files that give the angles with the shape `[0, n]` and do not store them;
 //! they are then taken to lie uniformly over a quarter turn, and `phi_d` over the whole turn from `-pi`.
 
+use crate::Document;
 use crate::error::FormatError;
+use crate::spec::{FormatSpec, Writer, reflection, unfit};
 use crate::tensor::{self, DType, Field, TensorFile};
 use crate::write::{unwritable, write_whole};
 use lobe_table::mueller::{self, AXES};
+use lobe_table::{Channels, Data};
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::io;
 use std::path::Path;
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "KAIST pBSDF",
+    word: "pbsdf",
+    extensions: &["pbsdf"],
+    matches,
+    read: Some(|bytes, path| Ok(Document::new(read(bytes, path)?))),
+    writer: Some(Writer {
+        extensions: &["pbsdf"],
+        holds_channels: |channels| matches!(channels, Channels::Spectral(_)),
+        channels: "wavelengths",
+        holds: |document| matches!(document.only(), Some(Data::Mueller(_))),
+        holds_sheets: false,
+        scatter: reflection,
+        resampled_as: None,
+        write: |document, path| match document.only() {
+            Some(Data::Mueller(data)) => write(data, path),
+            _ => Err(unfit(document, path, "Mueller matrices")),
+        },
+    }),
+};
 
 /// Whether `bytes` are a tensor file with the fields of a polarised material.
 pub fn matches(bytes: &[u8]) -> bool {

@@ -5,13 +5,41 @@
 //! with `spectra [P, T, L, H, W]`, all 32-bit floats, and `description`, `jacobian` and, if there is one, `valid` in
 //! bytes. Their order is free. Other fields are passed over: [`tensor::read`] has them.
 
+use crate::Document;
 use crate::error::FormatError;
+use crate::spec::{FormatSpec, Writer, reflection, unfit};
 use crate::tensor::{self, DType, Field, TensorFile};
 use crate::write::{unwritable, write_whole};
-use lobe_table::Channels;
 use lobe_table::rgl::{self, Images, Parts};
+use lobe_table::{Channels, Data};
 use std::io;
 use std::path::Path;
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "RGL BSDF",
+    word: "rgl",
+    extensions: &["bsdf"],
+    matches: tensor::matches,
+    read: Some(|bytes, path| {
+        let data = read(bytes, path)?;
+        let description = data.parts().description.clone();
+        Ok(Document::new(data).with_source(&[("description", &description)]))
+    }),
+    writer: Some(Writer {
+        extensions: &["bsdf"],
+        holds_channels: |channels| matches!(channels, Channels::Rgb | Channels::Spectral(_)),
+        channels: "R G B or wavelengths",
+        holds: |document| matches!(document.only(), Some(Data::Rgl(_))),
+        holds_sheets: false,
+        scatter: reflection,
+        resampled_as: Some(rgl::KIND),
+        write: |document, path| match document.only() {
+            Some(Data::Rgl(data)) => write(data, path),
+            _ => Err(unfit(document, path, "the parameterisation of the EPFL database")),
+        },
+    }),
+};
 
 /// Whether `bytes` are a tensor file with the fields of an RGL material.
 pub fn matches(bytes: &[u8]) -> bool {

@@ -231,6 +231,15 @@ fn is_blank(byte: u8) -> bool {
     byte.is_ascii_whitespace() || matches!(byte, 0x0b | 0x1a)
 }
 
+/// Adds a line of numbers.
+pub(crate) fn push_row(out: &mut String, numbers: impl Iterator<Item = f64>) {
+    for number in numbers {
+        out.push(' ');
+        out.push_str(&nine_digits(number));
+    }
+    out.push('\n');
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,11 +2,39 @@
 //!
 //! No header: 3 x 288 x 288 little-endian `f64`, `[channel][theta_i][phi_i][theta_v][phi_v]`, 1,990,656 bytes.
 
+use crate::Document;
 use crate::bytes::Cursor;
 use crate::error::FormatError;
+use crate::spec::{FormatSpec, Writer, reflection, unfit};
 use crate::write::write_whole;
 use lobe_table::utia::{self, PLANE};
+use lobe_table::{Channels, Data};
 use std::path::Path;
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "UTIA",
+    word: "utia",
+    extensions: &["bin"],
+    matches,
+    read: Some(|bytes, path| {
+        let unit = ("unit", "not documented; values are as they are stored");
+        Ok(Document::new(read(bytes, path)?).with_source(&[unit]))
+    }),
+    writer: Some(Writer {
+        extensions: &["bin"],
+        holds_channels: |channels| matches!(channels, Channels::Rgb),
+        channels: "R G B",
+        holds: |document| matches!(document.only(), Some(Data::Utia(_))),
+        holds_sheets: false,
+        scatter: reflection,
+        resampled_as: None,
+        write: |document, path| match document.only() {
+            Some(Data::Utia(data)) => write(data, path),
+            _ => Err(unfit(document, path, "the grid of the UTIA database")),
+        },
+    }),
+};
 
 const SIZE: usize = 3 * PLANE * size_of::<f64>();
 

@@ -9,14 +9,37 @@ mod write;
 
 use std::path::Path;
 
-use lobe_table::{Channels, Scatter, specular};
+use lobe_table::{Channels, Data, Scatter, specular};
 
 pub use write::write;
 
-use crate::grid::{Axes, Grid};
+use crate::integra::grid::{Axes, Grid};
 use crate::integra::keep_comments;
-use crate::text::{Text, Token};
+use crate::spec::{FormatSpec, Writer, either, unfit};
+use crate::text::{Text, Token, has_words};
 use crate::{FormatError, Measured};
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "Zemax BSDF",
+    word: "zemax",
+    extensions: &["bsdf"],
+    matches: |bytes| has_words(bytes, "#", &["ScatterRadial", "AngleOfIncidence"]),
+    read: Some(|bytes, path| Ok(read(bytes, path)?.into())),
+    writer: Some(Writer {
+        extensions: &["bsdf"],
+        holds_channels: |channels| matches!(channels, Channels::Mono | Channels::Xyz),
+        channels: "one channel or X Y Z",
+        holds: |document| matches!(document.only(), Some(Data::Specular(samples)) if samples.refraction().is_none()),
+        holds_sheets: false,
+        scatter: either,
+        resampled_as: Some(specular::KIND),
+        write: |document, path| match document.only() {
+            Some(Data::Specular(data)) => write(data, path),
+            _ => Err(unfit(document, path, "a table of specular coordinates")),
+        },
+    }),
+};
 
 const AXES: [&str; 4] = ["AngleOfIncidence", "SampleRotation", "ScatterRadial", "ScatterAzimuth"];
 const XYZ: [&str; 3] = ["TristimulusX", "TristimulusY", "TristimulusZ"];

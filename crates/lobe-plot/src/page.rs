@@ -66,12 +66,7 @@ fn summary(subject: &Subject) -> String {
         1 => "1 channel".into(),
         n => format!("{n} channels"),
     };
-    format!(
-        "{}{}, {}, {channels}.",
-        named.unwrap_or_default(),
-        material.format().map_or("made", |format| format.name()),
-        material.kind()
-    )
+    format!("{}{}, {}, {channels}.", named.unwrap_or_default(), material.format().unwrap_or("made"), material.kind())
 }
 
 /// The colours of the curves on a dark page.

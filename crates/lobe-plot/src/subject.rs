@@ -3,9 +3,8 @@
 use std::f64::consts::FRAC_PI_4;
 use std::path::Path;
 
-use lobe::Side;
 use lobe::formats::{Document, Format};
-use lobe::{Material, OpenError, Options, Scatter};
+use lobe::{Aspect, Material, OpenError, Options, Scatter, Side};
 use lobe_colour::Reduction;
 
 use crate::evaluate::{Silent, evaluate};
@@ -17,7 +16,6 @@ use crate::measured::{Part, parts};
 pub struct Subject {
     name: String,
     measured: lobe_ops::Subject,
-    parts: Vec<Part>,
 }
 
 impl Subject {
@@ -35,11 +33,10 @@ impl Subject {
     /// # Errors
     /// As [`Material::from_document`].
     pub fn new(path: &Path, format: Format, document: Document) -> Result<Self, OpenError> {
-        let parts = parts(&document);
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into());
         let options = Options::default();
         let material = Material::from_document(&document, &options).map_err(|error| error.in_file(path))?;
-        Ok(Subject { name, measured: lobe_ops::Subject::new(format, document, material, &options), parts })
+        Ok(Subject { name, measured: lobe_ops::Subject::new(format, document, material, &options) })
     }
 
     /// The name of the file.
@@ -68,15 +65,16 @@ impl Subject {
         [Side::Front, Side::Back].into_iter().filter(|&side| !self.scatters(side).is_empty()).collect()
     }
 
-    pub(crate) fn part(&self, side: Side, scatter: Scatter) -> Option<&Part> {
-        self.parts.iter().find(|part| part.answers(side, scatter))
+    pub(crate) fn part(&self, side: Side, scatter: Scatter) -> Option<Part<'_>> {
+        let aspect = Aspect { scatter, light: side };
+        parts(&self.measured.document).into_iter().find(|part| part.aspect == aspect)
     }
 
     /// The polar angles of the light to draw, in radians: at most `most` of the knots of the measurement, or every 15
     /// degrees if it has none of its own.
     pub fn incidences(&self, side: Side, most: usize) -> Vec<f64> {
         let part = self.scatters(side).first().and_then(|&scatter| self.part(side, scatter));
-        let mut knots: Vec<f64> = part.map(|part| part.incidences.clone()).unwrap_or_default();
+        let mut knots: Vec<f64> = part.map(|part| part.incidences()).unwrap_or_default();
         // Values at grazing incidence are meaningless.
         knots.retain(|knot| *knot < 88.5_f64.to_radians());
         if knots.is_empty() {
@@ -97,7 +95,7 @@ impl Subject {
 
     /// The azimuth of the light in the default view, in radians.
     pub fn psi(&self, side: Side) -> f64 {
-        self.scatters(side).first().and_then(|&scatter| self.part(side, scatter)).map_or(0.0, |part| part.psi)
+        self.scatters(side).first().and_then(|&scatter| self.part(side, scatter)).map_or(0.0, |part| part.psi())
     }
 
     /// Whether turning the sample by an eighth or a quarter of a turn changes the colours by a twentieth or more, over

@@ -1,9 +1,9 @@
 //! The reflectance of a smooth surface, a delta function in direction, by angle of incidence.
 
 use crate::bsdf::Bsdf;
-use crate::data::{Options, PrepareError, Section};
+use crate::data::{Options, PrepareError, Section, ValueMap};
 use crate::specular::AXIS_NAMES;
-use crate::{Aspect, Channels, Kind, Representation, Scatter};
+use crate::{Aspect, Channels, Invalid, Kind, Representation, Scatter};
 
 /// The name of the representation.
 pub const KIND: Kind = Kind::new("mirror reflectance");
@@ -92,6 +92,12 @@ impl Representation for Data {
             section.axes.pop();
         }
         vec![Section { quantity: "mirror reflectance by angle of incidence", ..section }]
+    }
+
+    fn map_channels(&self, channels: Channels, map: &ValueMap<'_>) -> Option<Result<crate::Data, Invalid>> {
+        let mapped = Data::new(self.scatter, self.knots.clone(), channels, map(&self.values));
+        let failed = || Invalid::new("channels", "values that are not finite", "values that f32 can hold");
+        Some(mapped.map(Into::into).ok_or_else(failed))
     }
 
     fn prepare(&self, _: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {

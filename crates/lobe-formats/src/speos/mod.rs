@@ -16,8 +16,19 @@ use std::path::Path;
 use lobe_table::scattered;
 
 use crate::lines::shown;
-use crate::{FormatError, Sides};
+use crate::spec::FormatSpec;
+use crate::{Document, FormatError, Sides};
 use table::Source;
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "Speos BSDF",
+    word: "speos",
+    extensions: &["brdf", "anisotropicbsdf"],
+    matches,
+    read: Some(|bytes, path| Ok(Document::of_parts(read(bytes, path)?.into_parts()))),
+    writer: None,
+};
 
 /// `true` if the first line is that of one of these files.
 pub fn matches(bytes: &[u8]) -> bool {

@@ -9,3 +9,34 @@ mod write;
 
 pub use read::{matches, read};
 pub use write::{Encoding, write};
+
+use lobe_table::{Channels, Data, specular};
+
+use crate::Document;
+use crate::spec::{FormatSpec, Writer, either};
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "SSDD",
+    word: "ssdd",
+    extensions: &["ssdd"],
+    matches,
+    read: Some(|bytes, path| Ok(Document::of_parts(read(bytes, path)?))),
+    writer: Some(Writer {
+        extensions: &["ssdd"],
+        holds_channels: |channels| {
+            matches!(channels, Channels::Mono | Channels::Rgb | Channels::Xyz | Channels::Spectral(_))
+        },
+        channels: "one channel, R G B, X Y Z or wavelengths",
+        holds: |document| match document.only() {
+            Some(Data::Spherical(grid)) => !grid.is_mirrored(),
+            Some(Data::Specular(_) | Data::Mirror(_)) => true,
+            Some(_) => false,
+            None => true,
+        },
+        holds_sheets: true,
+        scatter: either,
+        resampled_as: Some(specular::KIND),
+        write: |document, path| write(&document.parts, Encoding::Ascii, path),
+    }),
+};

@@ -73,8 +73,7 @@ fn write_block(out: &mut Vec<u8>, block: &Part, data_type: &str, encoding: Encod
         }
         Data::Spherical(grid) => (grid.knots().as_slice(), None, grid.values(), Some("spherical_coordinate_system")),
         Data::Mirror(mirror) => (mirror.knots().as_slice(), None, mirror.values(), None),
-        // Refused before.
-        _ => return Ok(()),
+        other => return Err(unfit(other.representation().kind().name())),
     };
     let channels = block.data.representation().channels();
     writeln!(out, "\nDATA_TYPE {data_type}")?;

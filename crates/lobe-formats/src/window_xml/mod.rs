@@ -12,11 +12,35 @@ mod write;
 
 use std::path::Path;
 
-use lobe_table::window;
+use lobe_table::window::{self, klems};
+use lobe_table::{Channels, Data};
 
+use crate::spec::{FormatSpec, Writer, either, unfit};
 use crate::{FormatError, Measured};
 
 pub use write::write;
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "WINDOW XML",
+    word: "klems",
+    extensions: &["xml"],
+    matches,
+    read: Some(|bytes, path| Ok(read(bytes, path)?.into())),
+    writer: Some(Writer {
+        extensions: &["xml"],
+        holds_channels: |channels| matches!(channels, Channels::Mono | Channels::Xyz | Channels::Named(_)),
+        channels: "one channel, X Y Z or named bands",
+        holds: |document| matches!(document.only(), Some(Data::Window(_))),
+        holds_sheets: true,
+        scatter: either,
+        resampled_as: Some(klems::KIND),
+        write: |document, path| match document.only() {
+            Some(Data::Window(data)) => write(data, &document.source, path),
+            _ => Err(unfit(document, path, "Klems matrices or tensor trees")),
+        },
+    }),
+};
 
 /// `true` if the file starts like one of these; lines before the XML, which real files have, are skipped.
 pub fn matches(bytes: &[u8]) -> bool {

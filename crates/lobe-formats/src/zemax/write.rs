@@ -6,8 +6,8 @@ use std::path::Path;
 use lobe_table::{Channels, Scatter, specular};
 
 use super::{AXES, XYZ};
-use crate::sdr::push_row;
-use crate::units::reflectances;
+use crate::integra::units::reflectances;
+use crate::text::push_row;
 use crate::write::write_whole;
 use crate::{FormatError, Place};
 

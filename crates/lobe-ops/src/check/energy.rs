@@ -63,10 +63,8 @@ pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness, progress: im
 }
 
 fn scattered(subject: &Subject, aspect: Aspect) -> Option<&scattered::Data> {
-    match subject.data(aspect) {
-        Some(Data::Scattered(data)) => Some(data),
-        _ => None,
-    }
+    let Data::Scattered(data) = subject.data(aspect)? else { return None };
+    Some(data)
 }
 
 /// What can be said without an integral: no albedo is above pi times the largest value.

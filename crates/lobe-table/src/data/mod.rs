@@ -5,6 +5,7 @@
 
 mod aspect;
 mod kind;
+mod near;
 mod options;
 mod prepare;
 mod representation;
@@ -12,9 +13,10 @@ mod section;
 
 pub use aspect::{Aspect, Side};
 pub use kind::Kind;
+pub(crate) use near::{Near, SAME, direction, reach, spans};
 pub use options::Options;
 pub use prepare::PrepareError;
-pub use representation::Representation;
+pub use representation::{Coverage, Representation, ValueMap};
 pub(crate) use section::pairs;
 pub use section::{ANGLE_ROUNDING, Fact, Gaps, Grid, Kinks, Section, SectionAxis, closes_circle};
 

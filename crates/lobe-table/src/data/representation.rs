@@ -2,9 +2,15 @@
 
 use std::fmt::Debug;
 
-use super::{Aspect, Gaps, Grid, Kind, Kinks, Options, PrepareError, Section};
+use super::{Aspect, Data, Gaps, Grid, Kind, Kinks, Options, PrepareError, Section};
 use crate::bsdf::Bsdf;
-use crate::{Channels, Edges, Scatter, mirror};
+use crate::{Channels, Edges, Invalid, Scatter, mirror};
+
+/// Turns values of one set of channels into those of another one.
+pub type ValueMap<'a> = dyn Fn(&[f32]) -> Vec<f32> + 'a;
+
+/// A test of outgoing directions.
+pub type Coverage<'a> = Box<dyn Fn([f64; 3]) -> bool + Sync + 'a>;
 
 /// What programs need from measured data without knowing their representation.
 ///
@@ -31,7 +37,13 @@ pub trait Representation: Debug + Send + Sync {
         Err(PrepareError::LeftOut(self.kind()))
     }
 
-    /// `true` if the data distinguish light on the front from light on the back.
+    /// The same nodes with other channels: `map` turns values `[...][channel]` into those of the new channels. `None` if
+    /// the channels of this representation cannot be mapped one value at a time.
+    fn map_channels(&self, _channels: Channels, _map: &ValueMap<'_>) -> Option<Result<Data, Invalid>> {
+        None
+    }
+
+    /// `true` if the data tell light on the front from light on the back.
     fn is_two_sided(&self) -> bool {
         false
     }
@@ -48,6 +60,23 @@ pub trait Representation: Debug + Send + Sync {
     /// representation has no list of them.
     fn incidences(&self, _aspect: Aspect) -> Vec<[f64; 2]> {
         Vec::new()
+    }
+
+    /// The azimuth of the light to begin with, in radians, when only its polar angle is varied.
+    fn azimuth(&self) -> f64 {
+        0.0
+    }
+
+    /// The outgoing directions that were measured for light at a polar angle and an azimuth, as if light and view were both
+    /// above the surface. Empty if the representation has no directions of its own.
+    fn outgoing(&self, _light: [f64; 2]) -> Vec<[f64; 3]> {
+        Vec::new()
+    }
+
+    /// A test of outgoing directions for light at a polar angle and an azimuth, as if both were above the surface: is the
+    /// value there one of the measurement, and not only its continuation?
+    fn coverage(&self, _light: [f64; 2]) -> Coverage<'_> {
+        Box::new(|_| true)
     }
 
     /// Where values have kinks for light at a polar angle and an azimuth, under these edges; `None` if they have none

@@ -2,7 +2,7 @@
 
 use super::Data;
 use crate::bsdf::Bsdf;
-use crate::data::{Gaps, Options, PrepareError, Section};
+use crate::data::{Coverage, Gaps, Options, PrepareError, Section, direction};
 use crate::{Aspect, Channels, Kind, Representation};
 
 /// The name of the representation.
@@ -41,6 +41,11 @@ impl Representation for Data {
     fn gaps(&self) -> Option<Gaps> {
         let missing = self.each_bin().filter(|&bin| !self.is_measured(bin)).count();
         Some(Gaps { missing, all: self.bins.iter().product(), of: "bins", is_used: true })
+    }
+
+    fn coverage(&self, [theta, phi]: [f64; 2]) -> Coverage<'_> {
+        let wi = direction(theta, phi);
+        Box::new(move |wo| self.is_measured(self.bin(wi, wo)))
     }
 
     #[cfg(feature = "half-diff")]

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 
 use super::Data;
 use crate::bsdf::Bsdf;
-use crate::data::{Options, PrepareError, Section};
-use crate::{Aspect, Channels, Kind, Representation};
+use crate::data::{Coverage, Near, Options, PrepareError, SAME, Section, ValueMap, direction, reach, spans};
+use crate::{Aspect, Channels, Invalid, Kind, Representation};
 
 /// The name of the representation.
 pub const KIND: Kind = Kind::new("scattered samples");
@@ -48,7 +48,67 @@ impl Representation for Data {
         Data::incidences(self).collect()
     }
 
+    fn map_channels(&self, channels: Channels, map: &ValueMap<'_>) -> Option<Result<crate::Data, Invalid>> {
+        let (angles, values): (Vec<_>, Vec<_>) = self.samples().unzip();
+        let mapped = Data::new(self.scatter, channels, &angles, &map(&values.concat()));
+        Some(
+            mapped
+                .map(Into::into)
+                .map_err(|error| Invalid::new("channels", error.to_string(), "values that f32 can hold")),
+        )
+    }
+
+    fn azimuth(&self) -> f64 {
+        match Data::incidences(self).last() {
+            Some([_, phi]) if !self.is_isotropic => phi,
+            Some(_) | None => 0.0,
+        }
+    }
+
+    fn outgoing(&self, light: [f64; 2]) -> Vec<[f64; 3]> {
+        let (measured, offsets) = self.around(light);
+        let turn = if self.is_isotropic { light[1] } else { measured[1] };
+        let mut found: Vec<_> = offsets.iter().map(|&[theta, phi]| direction(theta, turn + phi)).collect();
+        found.retain(|direction| direction[2] > 1e-3);
+        found
+    }
+
+    fn coverage(&self, light: [f64; 2]) -> Coverage<'_> {
+        let mut thetas: Vec<f64> = Data::incidences(self).map(|[theta, _]| theta).collect();
+        thetas.dedup_by(|a, b| (*a - *b).abs() < SAME);
+        if !spans(&thetas, light[0]) {
+            return Box::new(|_| false);
+        }
+        let near = Near::new(self.outgoing(light), reach(&self.around(light).1));
+        Box::new(move |wo| near.has_neighbour(wo))
+    }
+
     fn prepare(&self, _: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
         Ok(Box::new(self.clone()))
+    }
+}
+
+impl Data {
+    /// The measured light nearest to a polar angle and an azimuth, and the outgoing directions for it: polar angles, and
+    /// azimuths from that of the light.
+    fn around(&self, light: [f64; 2]) -> ([f64; 2], Vec<[f64; 2]>) {
+        let wi = direction(light[0], light[1]);
+        let distance = |[theta, phi]: [f64; 2]| match self.is_isotropic {
+            true => (theta - light[0]).abs(),
+            false => {
+                let other = direction(theta, phi);
+                -(wi[0] * other[0] + wi[1] * other[1] + wi[2] * other[2])
+            }
+        };
+        let nearest = Data::incidences(self).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+        let measured = nearest.unwrap_or([0.0; 2]);
+        let of_light = self.samples().filter(|(angles, _)| angles[..2] == measured);
+        let mut outgoing: Vec<[f64; 2]> = of_light.map(|(angles, _)| [angles[2], angles[3] - angles[1]]).collect();
+        // One half of an isotropic material stands for both.
+        if self.is_isotropic && self.measured_side != 0.0 {
+            let mirrored: Vec<_> = outgoing.iter().map(|&[theta, phi]| [theta, -phi]).collect();
+            outgoing.extend(mirrored);
+        }
+        (measured, outgoing)
     }
 }

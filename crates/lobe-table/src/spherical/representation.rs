@@ -1,11 +1,13 @@
 //! What programs need from grids in spherical coordinates.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::{AXIS_NAMES, Data};
 use crate::bsdf::Bsdf;
-use crate::data::{ANGLE_ROUNDING, Grid, Kinks, Options, PrepareError, Section, pairs};
-use crate::{Aspect, Channels, Edges, Kind, Representation};
+use crate::data::{
+    ANGLE_ROUNDING, Coverage, Grid, Kinks, Options, PrepareError, SAME, Section, ValueMap, direction, pairs, spans,
+};
+use crate::{Aspect, Channels, Edges, Invalid, Kind, Representation};
 
 /// The name of the representation.
 pub const KIND: Kind = Kind::new("spherical grid");
@@ -67,6 +69,44 @@ impl Representation for Data {
             is_mirrored: self.is_mirrored(),
             is_specular: false,
         })
+    }
+
+    fn map_channels(&self, channels: Channels, map: &ValueMap<'_>) -> Option<Result<crate::Data, Invalid>> {
+        let mapped = Data::new(self.scatter(), self.knots().clone(), channels, map(self.values()));
+        let mapped = mapped.and_then(|mapped| if self.is_mirrored() { mapped.mirrored() } else { Ok(mapped) });
+        Some(
+            mapped
+                .map(Into::into)
+                .map_err(|error| Invalid::new("channels", error.to_string(), "values that f32 can hold")),
+        )
+    }
+
+    fn azimuth(&self) -> f64 {
+        if Data::is_isotropic(self) { 0.0 } else { self.knots()[1][0] }
+    }
+
+    fn outgoing(&self, [_, psi]: [f64; 2]) -> Vec<[f64; 3]> {
+        let [_, phi_i, thetas, phis] = self.knots();
+        // The azimuths of an isotropic grid count from its only phi_i.
+        let (turn, from) = if Data::is_isotropic(self) { (psi, phi_i[0]) } else { (0.0, 0.0) };
+        let halves: &[f64] = if self.is_mirrored() { &[1.0, -1.0] } else { &[1.0] };
+        let mut found = Vec::new();
+        for &theta in thetas {
+            for &phi in phis {
+                found.extend(halves.iter().map(|half| direction(theta, turn + half * (phi - from))));
+            }
+        }
+        found.retain(|direction| direction[2] > 1e-3);
+        found
+    }
+
+    fn coverage(&self, [theta, _]: [f64; 2]) -> Coverage<'_> {
+        let [thetas, _, theta_o, _] = self.knots();
+        if !spans(thetas, theta) {
+            return Box::new(|_| false);
+        }
+        let last = theta_o.last().copied().unwrap_or(FRAC_PI_2) + SAME;
+        Box::new(move |wo| wo[0].hypot(wo[1]).atan2(wo[2]) <= last)
     }
 
     #[cfg(feature = "spherical")]

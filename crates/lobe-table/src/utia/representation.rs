@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::{Data, PHIS, STEPS, THETAS};
 use crate::bsdf::Bsdf;
-use crate::data::{Options, PrepareError, Section, pairs};
+use crate::data::{Coverage, Options, PrepareError, SAME, Section, direction, pairs};
 use crate::{Aspect, Channels, Kind, Representation};
 
 /// The name of the representation.
@@ -52,6 +52,16 @@ impl Representation for Data {
 
     fn extent(&self) -> Option<&'static str> {
         Some("both directions from 0 to 75 degrees; beyond, values are extrapolated")
+    }
+
+    fn outgoing(&self, _: [f64; 2]) -> Vec<[f64; 3]> {
+        self.incidences(Aspect::REFLECTION).into_iter().map(|[theta, phi]| direction(theta, phi)).collect()
+    }
+
+    fn coverage(&self, [theta, _]: [f64; 2]) -> Coverage<'_> {
+        let last = (STEPS[0] * (THETAS - 1) as f64).to_radians() + SAME;
+        let is_between = theta <= last;
+        Box::new(move |wo| is_between && wo[0].hypot(wo[1]).atan2(wo[2]) <= last)
     }
 
     #[cfg(feature = "utia")]

@@ -6,7 +6,6 @@ mod sheet;
 
 use std::sync::Arc;
 
-use lobe_formats::Format;
 use lobe_table::bsdf::OnBackend;
 use lobe_table::mueller::Matrix;
 use lobe_table::{Aspect, Bsdf, Channels, Directions, Kind, Scatter, Side, specular};
@@ -21,7 +20,7 @@ pub(crate) use sheet::flipped;
 /// Where a material comes from.
 #[derive(Debug)]
 struct Origin {
-    format: Option<Format>,
+    format: Option<&'static str>,
     source: Vec<(String, String)>,
     kind: Kind,
 }
@@ -63,8 +62,8 @@ impl Material {
         self.backend
     }
 
-    /// The format of the file, if it was read from one.
-    pub fn format(&self) -> Option<Format> {
+    /// The name of the format of the file, if it was read from one.
+    pub fn format(&self) -> Option<&'static str> {
         self.origin.format
     }
 

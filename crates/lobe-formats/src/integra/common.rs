@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::path::Path;
 
-use lobe_table::Channels;
+use lobe_table::{Channels, Scatter};
 
 use crate::text::{Text, Token, nine_digits};
 use crate::{FormatError, Place};
@@ -148,3 +148,34 @@ pub(crate) fn keep_comments(text: &mut Text<'_>, source: &mut Vec<(String, Strin
     let worded = |comment: &String| comment.chars().any(char::is_alphanumeric);
     source.extend(text.take_comments().into_iter().filter(worded).map(|comment| ("comment".to_string(), comment)));
 }
+
+/// Integra's extensions: a `t` at the end is transmission.
+pub(super) fn scatter_of_extension(path: &Path) -> Scatter {
+    let is = |extension: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
+    if is("ddt") || is("sdt") { Scatter::Transmission } else { Scatter::Reflection }
+}
+
+/// The extension is all that tells reflection from transmission in this family: refuse the misleading ones.
+pub(super) fn check_extension(path: &Path, scatter: Scatter, names: [&str; 2]) -> Result<(), FormatError> {
+    if scatter_of_extension(path) == scatter {
+        return Ok(());
+    }
+    let (what, name) = match scatter {
+        Scatter::Reflection => ("reflection", names[0]),
+        Scatter::Transmission => ("transmission", names[1]),
+    };
+    Err(FormatError::new(
+        path,
+        Place::File,
+        format!("{what} data for this extension"),
+        format!("the extension .{name}"),
+    ))
+}
+
+/// What the channels of these files may be.
+pub(super) fn holds_channels(channels: &Channels) -> bool {
+    matches!(channels, Channels::Mono | Channels::Rgb | Channels::Spectral(_))
+}
+
+/// The channels for people.
+pub(super) const CHANNELS: &str = "one channel, R G B or wavelengths";

@@ -8,15 +8,40 @@ use std::f64::consts::PI;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use lobe_table::{Scatter, specular};
+use lobe_table::{Data, Scatter, specular};
 
-use crate::grid::{Axes, Grid, LIMITS, from_samples, read_angle};
-use crate::integra::{Blocks, COMMENT, ColorModel, block_names, keep_comments, starts_block};
-use crate::sdr::{check_extension, push_row};
-use crate::text::{Text, Token};
-use crate::units::{divide_by_cosine, scale_slices};
+use super::common::{
+    Blocks, CHANNELS, COMMENT, ColorModel, block_names, check_extension, holds_channels, keep_comments,
+    scatter_of_extension, starts_block,
+};
+use super::grid::{Axes, Grid, LIMITS, from_samples, read_angle};
+use super::units::{divide_by_cosine, scale_slices};
+use crate::spec::{FormatSpec, Writer, unfit};
+use crate::text::{Text, Token, has_words, push_row};
 use crate::write::write_whole;
 use crate::{FormatError, Measured, Place};
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "Integra DDR/DDT",
+    word: "ddr",
+    extensions: &["ddr", "ddt"],
+    matches,
+    read: Some(|bytes, path| Ok(read(bytes, path, scatter_of_extension(path))?.into())),
+    writer: Some(Writer {
+        extensions: &["ddr", "ddt"],
+        holds_channels,
+        channels: CHANNELS,
+        holds: |document| matches!(document.only(), Some(Data::Specular(_))),
+        holds_sheets: false,
+        scatter: |path| Some(scatter_of_extension(path)),
+        resampled_as: Some(specular::KIND),
+        write: |document, path| match document.only() {
+            Some(Data::Specular(data)) => write(data, path),
+            _ => Err(unfit(document, path, "a table of specular coordinates")),
+        },
+    }),
+};
 
 /// What the header says besides its angles.
 struct Header {
@@ -214,4 +239,9 @@ pub fn text(samples: &specular::Data, path: &Path) -> Result<String, FormatError
         out.push_str(" enddef\n");
     }
     Ok(out)
+}
+
+fn matches(bytes: &[u8]) -> bool {
+    let has = |words: &[&str]| has_words(bytes, COMMENT, words);
+    has(&["TypeSym"]) || has(&["kbdf"]) || has(&["TypeData"]) || has(&["sigma", "theta", "phi"])
 }

@@ -6,14 +6,39 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use lobe_table::{Scatter, mirror};
+use lobe_table::{Data, Scatter, mirror};
 
-use crate::document::scatter_of_extension;
-use crate::grid::{LIMITS, radians, read_angles};
-use crate::integra::{Blocks, COMMENT, ColorModel, block_names, keep_comments, starts_block};
-use crate::text::{Text, Token, nine_digits};
+use super::common::{
+    Blocks, CHANNELS, COMMENT, ColorModel, block_names, check_extension, holds_channels, keep_comments,
+    scatter_of_extension, starts_block,
+};
+use super::grid::{LIMITS, radians, read_angles};
+use crate::spec::{FormatSpec, Writer, unfit};
+use crate::text::{Text, Token, has_words, push_row};
 use crate::write::write_whole;
 use crate::{FormatError, Measured, Place};
+
+/// This format in the registry.
+pub(crate) static FORMAT: FormatSpec = FormatSpec {
+    name: "Integra SDR/SDT",
+    word: "sdr",
+    extensions: &["sdr", "sdt"],
+    matches,
+    read: Some(|bytes, path| Ok(read(bytes, path, scatter_of_extension(path))?.into())),
+    writer: Some(Writer {
+        extensions: &["sdr", "sdt"],
+        holds_channels,
+        channels: CHANNELS,
+        holds: |document| matches!(document.only(), Some(Data::Mirror(_))),
+        holds_sheets: false,
+        scatter: |path| Some(scatter_of_extension(path)),
+        resampled_as: None,
+        write: |document, path| match document.only() {
+            Some(Data::Mirror(data)) => write(data, path),
+            _ => Err(unfit(document, path, "mirror reflectances")),
+        },
+    }),
+};
 
 /// Reads a file from its content. Nothing in it says whether it is reflection or transmission.
 ///
@@ -79,28 +104,7 @@ pub fn write(specular: &mirror::Data, path: &Path) -> Result<(), FormatError> {
     write_whole(path, out.as_bytes())
 }
 
-/// Adds a line of numbers.
-pub(crate) fn push_row(out: &mut String, numbers: impl Iterator<Item = f64>) {
-    for number in numbers {
-        out.push(' ');
-        out.push_str(&nine_digits(number));
-    }
-    out.push('\n');
-}
-
-/// Only the extension distinguishes reflection from transmission in this family: refuse the misleading ones.
-pub(crate) fn check_extension(path: &Path, scatter: Scatter, names: [&str; 2]) -> Result<(), FormatError> {
-    if scatter_of_extension(path) == scatter {
-        return Ok(());
-    }
-    let (what, name) = match scatter {
-        Scatter::Reflection => ("reflection", names[0]),
-        Scatter::Transmission => ("transmission", names[1]),
-    };
-    Err(FormatError::new(
-        path,
-        Place::File,
-        format!("{what} data for this extension"),
-        format!("the extension .{name}"),
-    ))
+fn matches(bytes: &[u8]) -> bool {
+    let has = |words: &[&str]| has_words(bytes, COMMENT, words);
+    has(&["sigma", "def"]) || has(&["sigma", "TypeColorModel"])
 }

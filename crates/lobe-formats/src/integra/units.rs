@@ -7,7 +7,7 @@ use lobe_table::specular::coords::angles_to_directions;
 use lobe_table::specular::reference::zenith;
 use lobe_table::{Edges, specular};
 
-use crate::grid::{Grid, from_samples};
+use super::grid::{Grid, from_samples};
 use crate::{FormatError, Place};
 
 /// The smallest cosine an intensity is divided by: that of 89.9 degrees. Closer to the horizon a measurement is noise,
@@ -21,8 +21,8 @@ const HORIZON: f64 = 1.745e-3;
 /// interpolation across the horizon sane, and 0 if the whole row is below.
 pub(crate) fn divide_by_cosine(grid: &Grid, zeniths: &[f64], block: &mut [f64]) {
     let [sigmas, psis, thetas, phis] = grid.degrees.each_ref().map(Vec::len);
-    let theta = crate::grid::radians(&grid.degrees[2]);
-    let phi = crate::grid::radians(&grid.degrees[3]);
+    let theta = super::grid::radians(&grid.degrees[2]);
+    let phi = super::grid::radians(&grid.degrees[3]);
     let rows = block.chunks_exact_mut(thetas);
     for (row, values) in rows.enumerate().take(psis * sigmas * phis) {
         let (s, h) = (row / phis % sigmas, row % phis);

@@ -1,0 +1,188 @@
+//! Writing a document in another format: as it is, or with its channels mapped. Nothing is resampled.
+
+use std::path::Path;
+
+use lobe_colour::{RGB_TO_XYZ, WHITE, XYZ_TO_RGB};
+use lobe_table::window::klems;
+use lobe_table::{Channels, Data};
+use thiserror::Error;
+
+use crate::{Document, Format, FormatError, Place};
+
+/// Why a document was not written.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ConvertError {
+    /// The format has no channels like these.
+    #[error("{0}")]
+    Channels(String),
+    /// The file cannot be written, or the document does not fit.
+    #[error(transparent)]
+    Write(#[from] FormatError),
+}
+
+/// A linear map of channels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChannelMap {
+    /// What it leads to.
+    pub channels: Channels,
+    /// What to tell the user about it; `None` if it changes nothing.
+    pub note: Option<String>,
+    /// A row for each channel it leads to: how much of each of the old ones.
+    pub rows: Vec<Vec<f64>>,
+}
+
+impl ChannelMap {
+    /// The way from these channels, or from the one of them that was chosen, to a format.
+    ///
+    /// # Errors
+    /// [`ConvertError::Channels`] if there is no such channel, or the format has nothing like them.
+    pub fn new(from: &Channels, chosen: Option<&str>, format: Format) -> Result<Self, ConvertError> {
+        let writer = format.writer().ok_or_else(|| ConvertError::Channels(format!("{format}: it is only read")))?;
+        let (holds, count) = (writer.holds_channels, from.count());
+        let unit = |index: usize| (0..count).map(|i| if i == index { 1.0 } else { 0.0 }).collect::<Vec<f64>>();
+        let mut map = ChannelMap { channels: from.clone(), note: None, rows: (0..count).map(unit).collect() };
+        let names = from.names();
+        if let Some(name) = chosen {
+            let index = names.iter().position(|known| known.eq_ignore_ascii_case(name)).ok_or_else(|| {
+                ConvertError::Channels(format!("found no channel {name}; expected one of {}", names.join(", ")))
+            })?;
+            map = ChannelMap {
+                channels: Channels::Mono,
+                note: Some(format!("{} only", names[index])),
+                rows: vec![unit(index)],
+            };
+        }
+        if let Channels::Named(names) = &map.channels
+            && names.len() == 1
+            && !holds(&map.channels)
+        {
+            map.channels = Channels::Mono;
+        }
+        if holds(&map.channels) {
+            return Ok(map.with_white_of(format));
+        }
+        let (channels, matrix, note): (_, Vec<&[f64]>, _) = match map.channels {
+            Channels::Mono if holds(&Channels::Rgb) => {
+                (Channels::Rgb, vec![&[1.0][..]; 3], "one channel as equal R, G and B")
+            }
+            Channels::Rgb if holds(&Channels::Xyz) => (
+                Channels::Xyz,
+                RGB_TO_XYZ.iter().map(|row| &row[..]).collect(),
+                "R G B, taken to be linear sRGB, as X Y Z",
+            ),
+            Channels::Xyz if holds(&Channels::Rgb) => {
+                (Channels::Rgb, XYZ_TO_RGB.iter().map(|row| &row[..]).collect(), "X Y Z as linear sRGB")
+            }
+            other => {
+                let (found, expected) = (other.names().join(" "), writer.channels);
+                let message = format!("{format}: found the channels {found}; expected {expected} (or --channel NAME)");
+                return Err(ConvertError::Channels(message));
+            }
+        };
+        let product = |row: &&[f64]| {
+            (0..count)
+                .map(|i| row.iter().zip(&map.rows).map(|(weight, from)| weight * from[i]).sum::<f64>())
+                .collect::<Vec<f64>>()
+        };
+        let note = map.note.iter().map(String::as_str).chain([note]).collect::<Vec<_>>().join(", ");
+        let map = ChannelMap { channels, rows: matrix.iter().map(product).collect(), note: Some(note) };
+        Ok(map.with_white_of(format))
+    }
+
+    /// XYZ relative to the white that a format has: in window sheets that of equal energy, X = Y = Z.
+    fn with_white_of(mut self, format: Format) -> Self {
+        let is_window = format.writer().is_some_and(|writer| writer.resampled_as == Some(klems::KIND));
+        if is_window && self.channels == Channels::Xyz {
+            for (row, white) in self.rows.iter_mut().zip(WHITE) {
+                row.iter_mut().for_each(|weight| *weight /= white);
+            }
+            let white = "relative to a white of X = Y = Z";
+            self.note = Some(self.note.map_or_else(|| format!("X Y Z {white}"), |note| format!("{note} {white}")));
+        }
+        self
+    }
+
+    /// Whether nothing changes.
+    pub fn is_identity(&self) -> bool {
+        self.note.is_none()
+    }
+
+    /// Maps texels of the old channels to texels of the new.
+    pub fn apply(&self, texels: &[f32]) -> Vec<f32> {
+        if self.is_identity() {
+            return texels.to_vec();
+        }
+        let mut mapped = Vec::new();
+        for texel in texels.chunks_exact(self.rows[0].len()) {
+            let dot = |row: &Vec<f64>| row.iter().zip(texel).map(|(weight, f)| weight * f64::from(*f)).sum::<f64>();
+            mapped.extend(self.rows.iter().map(|row| dot(row) as f32));
+        }
+        mapped
+    }
+}
+
+/// What was written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Written {
+    /// What happened to the channels, in words; `None` if they are what they were.
+    pub note: Option<String>,
+}
+
+/// Writes the document if the format has its representation, whole or not at all: all of its channels, or the one that is
+/// named. `None` if the values would have to be computed anew, in which case nothing is written.
+///
+/// # Errors
+/// [`ConvertError`] if the format has no such channels, or the file cannot be written.
+pub fn convert(
+    document: &Document,
+    format: Format,
+    channel: Option<&str>,
+    path: &Path,
+) -> Result<Option<Written>, ConvertError> {
+    let Some(writer) = format.writer().filter(|writer| (writer.holds)(document)) else { return Ok(None) };
+    let Some(data) = document.only() else {
+        if channel.is_some() {
+            return Ok(None);
+        }
+        (writer.write)(document, path)?;
+        return Ok(Some(Written { note: None }));
+    };
+    let channels = data.representation().channels();
+    if channel.is_none() && (writer.holds_channels)(&channels) {
+        (writer.write)(document, path)?;
+        return Ok(Some(Written { note: None }));
+    }
+    let map = ChannelMap::new(&channels, channel, format)?;
+    let Some(mapped) = mapped(data, &map, path)? else { return Ok(None) };
+    (writer.write)(&Document { parts: Document::new(mapped).parts, ..document.clone() }, path)?;
+    Ok(Some(Written { note: map.note }))
+}
+
+/// The same nodes with other channels; `None` if the representation cannot have them.
+fn mapped(data: &Data, map: &ChannelMap, path: &Path) -> Result<Option<Data>, FormatError> {
+    let mapped = data.representation().map_channels(map.channels.clone(), &|values| map.apply(values));
+    mapped.transpose().map_err(|error| FormatError::new(path, Place::File, error.found, error.expected))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neutral_stays_neutral_in_every_format() {
+        for from in [Channels::Rgb, Channels::Xyz] {
+            for format in [Format::WindowXml, Format::Zemax, Format::Ddr] {
+                let map = ChannelMap::new(&from, None, format).expect("colours");
+                let grey = if from == Channels::Xyz { WHITE.map(|c| 0.5 * c as f32) } else { [0.5; 3] };
+                let white = match (&map.channels, format) {
+                    (Channels::Rgb, _) | (_, Format::WindowXml) => [1.0; 3],
+                    _ => WHITE,
+                };
+                for (found, white) in map.apply(&grey).iter().zip(white) {
+                    assert!((f64::from(*found) - 0.5 * white).abs() < 1e-6, "{found} in {format}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! The list of formats, and reading and writing whatever format a file has.
+
+use std::fmt;
+use std::path::Path;
+
+use crate::integra::{ddr, sdr};
+use crate::spec::{FormatSpec, Writer};
+use crate::{
+    Document, FormatError, Place, alta, astm, cornell, fred, goniometer, light_tools, lumos, mbsdf, merl, nist, npz,
+    openmaterial, pbsdf, rgl, speos, ssdd, utia, window_xml, zemax,
+};
+
+/// A line per format: its variant, and what stands beside it.
+macro_rules! formats {
+    ($($variant:ident = $module:ident :: $spec:ident),* $(,)?) => {
+        /// A file format.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        #[non_exhaustive]
+        pub enum Format {
+            $(#[doc = concat!("The format of the module `", stringify!($module), "`.")] $variant),*
+        }
+
+        impl Format {
+            /// All formats, in the order in which [`sniff`] tries them: first those with a signature, then those
+            /// recognised by their size, then texts, those with the commonest words last.
+            pub const ALL: &[Format] = &[$(Format::$variant),*];
+
+            /// What the registry knows of the format.
+            pub fn spec(self) -> &'static FormatSpec {
+                match self {
+                    $(Format::$variant => &$module::$spec),*
+                }
+            }
+        }
+    };
+}
+
+formats! {
+    Pbsdf = pbsdf::FORMAT,
+    Rgl = rgl::FORMAT,
+    Mbsdf = mbsdf::FORMAT,
+    WindowXml = window_xml::FORMAT,
+    Speos = speos::FORMAT,
+    Merl = merl::FORMAT,
+    Utia = utia::FORMAT,
+    Zemax = zemax::FORMAT,
+    LightTools = light_tools::FORMAT,
+    Ssdd = ssdd::FORMAT,
+    Astm = astm::FORMAT,
+    OpenMaterial = openmaterial::FORMAT,
+    Fred = fred::FORMAT,
+    Rpc = fred::RPC,
+    Cornell = cornell::FORMAT,
+    Alta = alta::FORMAT,
+    Nist = nist::FORMAT,
+    Lumos = lumos::FORMAT,
+    Goniometer = goniometer::FORMAT,
+    Ddr = ddr::FORMAT,
+    Sdr = sdr::FORMAT,
+    Npz = npz::FORMAT,
+}
+
+impl Format {
+    /// The name for people.
+    pub fn name(&self) -> &'static str {
+        self.spec().name
+    }
+
+    /// How the format is written; `None` if it is only read.
+    pub fn writer(self) -> Option<&'static Writer> {
+        self.spec().writer.as_ref()
+    }
+
+    /// The formats that can be written.
+    pub fn writable() -> impl Iterator<Item = Format> {
+        Format::ALL.iter().copied().filter(|format| format.writer().is_some())
+    }
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// The format of a file from its content: `.bsdf` alone is the extension of four different ones. `None` if it is none that
+/// is known.
+pub fn sniff(bytes: &[u8]) -> Option<Format> {
+    Format::ALL.iter().copied().find(|format| (format.spec().matches)(bytes))
+}
+
+/// Reads a file of any supported format, which is told from the content. Formats that do not say whether they hold
+/// reflection or transmission are taken for reflection; only those of Integra are asked for their extension: `.ddt` and
+/// `.sdt` are transmission.
+///
+/// A folder is read as the RPC Photonics files in it, which are one material.
+///
+/// # Errors
+/// [`FormatError`] where the file cannot be read, is of no known format, or is damaged.
+pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
+    if path.is_dir() {
+        let document = Document::new(fred::read_rpc_folder(path)?);
+        return Ok((Format::Rpc, Document { format: Some(Format::Rpc.name()), ..document }));
+    }
+    let bytes = std::fs::read(path)
+        .map_err(|error| FormatError::new(path, Place::File, error.to_string(), "a file that can be read"))?;
+    let format = recognised(&bytes, path)?;
+    Ok((format, read(format, &bytes, path)?))
+}
+
+/// Reads the content of a file in memory, whatever its format. `path` names it in errors, and its extension counts as in
+/// [`open`].
+///
+/// # Errors
+/// As [`open`].
+pub fn from_bytes(bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
+    read(recognised(bytes, path)?, bytes, path)
+}
+
+fn recognised(bytes: &[u8], path: &Path) -> Result<Format, FormatError> {
+    sniff(bytes).ok_or_else(|| {
+        let readable = Format::ALL.iter().filter(|format| format.spec().read.is_some());
+        let known: Vec<&str> = readable.map(Format::name).collect();
+        FormatError::new(path, Place::File, "content of no known format", format!("one of {}", known.join(", ")))
+    })
+}
+
+/// Reads `bytes` as a file of this format, whatever they look like. `path` names it in errors, and its extension counts
+/// as in [`open`].
+///
+/// # Errors
+/// [`FormatError`] where the bytes are no sound file of the format.
+pub fn read(format: Format, bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
+    let spec = format.spec();
+    let Some(read) = spec.read else {
+        return Err(FormatError::new(
+            path,
+            Place::File,
+            format!("{format}, which is only written"),
+            "a format to read",
+        ));
+    };
+    Ok(Document { format: Some(spec.name), ..read(bytes, path)? })
+}

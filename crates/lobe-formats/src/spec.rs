@@ -1,0 +1,64 @@
+//! What the registry knows of a format, which stands beside the format.
+
+use std::path::Path;
+
+use lobe_table::{Channels, Kind, Scatter};
+
+use crate::{Document, FormatError, Place};
+
+/// A file format: how it is recognised, read and written.
+#[derive(Debug)]
+pub struct FormatSpec {
+    /// The name for people.
+    pub name: &'static str,
+    /// The word for it on the command line.
+    pub word: &'static str,
+    /// Extensions that files of the format have, in lower case. They are never trusted; see [`sniff`](crate::sniff).
+    pub extensions: &'static [&'static str],
+    /// Whether the content looks like this format. Formats later in the registry may look alike.
+    pub matches: fn(&[u8]) -> bool,
+    /// Reads the content of a file, which the path names in errors; `None` if the format is only written.
+    pub read: Option<fn(&[u8], &Path) -> Result<Document, FormatError>>,
+    /// How it is written; `None` if it is only read.
+    pub writer: Option<Writer>,
+}
+
+/// How a format is written.
+#[derive(Debug)]
+pub struct Writer {
+    /// Extensions of the files, in lower case.
+    pub extensions: &'static [&'static str],
+    /// Whether it has channels like these.
+    pub holds_channels: fn(&Channels) -> bool,
+    /// The channels that it has, for people.
+    pub channels: &'static str,
+    /// Whether it has the representation of a document, so that nothing has to be computed anew.
+    pub holds: fn(&Document) -> bool,
+    /// Whether one file has room for several measurements of a sheet.
+    pub holds_sheets: bool,
+    /// The only kind of scatter that a file of this name can hold, if there is one.
+    pub scatter: fn(&Path) -> Option<Scatter>,
+    /// The representation into which other data have to be resampled; `None` if nothing can be.
+    pub resampled_as: Option<Kind>,
+    /// Writes the file whole or not at all.
+    pub write: fn(&Document, &Path) -> Result<(), FormatError>,
+}
+
+/// For formats whose files may hold either kind of scatter.
+pub(crate) fn either(_: &Path) -> Option<Scatter> {
+    None
+}
+
+/// For formats whose files hold reflection only.
+pub(crate) fn reflection(_: &Path) -> Option<Scatter> {
+    Some(Scatter::Reflection)
+}
+
+/// An error for a document that the format has no room for.
+pub(crate) fn unfit(document: &Document, path: &Path, expected: &'static str) -> FormatError {
+    let found = match document.only() {
+        Some(data) => data.representation().kind().name(),
+        None => "several measurements of a sheet",
+    };
+    FormatError::new(path, Place::File, found, expected)
+}
