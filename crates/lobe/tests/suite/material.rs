@@ -69,7 +69,8 @@ fn sheets_without_one_answer_are_refused() {
     };
     let mirror = mirror::Data::new(Scatter::Reflection, [vec![0.0], vec![0.0]], Channels::Mono, vec![0.5]);
     let mirror = Part::new("", Data::Mirror(mirror.expect("a mirror")));
-    assert_eq!(refused(vec![mirror]), "found mirror reflectances; expected a BRDF or BTDF");
+    assert_eq!(refused(vec![mirror.clone()]), "found mirror reflectance; expected a BRDF or BTDF");
+    assert_eq!(refused(vec![mirror.clone(), mirror]), "found mirror reflectances; expected a BRDF or BTDF");
     let knots = [vec![0.0], vec![0.0], vec![0.0], vec![0.0]];
     let rgb = specular::Data::new(Scatter::Transmission, knots, Channels::Rgb, vec![1.0; 3]).expect("a table");
     let parts = vec![flat(Scatter::Reflection, 1.0, None), Part::new("", Data::Specular(rgb))];
