@@ -1,6 +1,6 @@
 //! Reading binary files from front to back, never past their end.
 
-use crate::error::{FormatError, Place};
+use lobe_files::{FormatError, Place};
 use std::path::Path;
 
 /// A place in the bytes of a file.

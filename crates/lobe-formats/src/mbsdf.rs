@@ -12,9 +12,9 @@
 use crate::Document;
 use crate::Sides;
 use crate::bytes::Cursor;
-use crate::error::FormatError;
 use crate::spec::{FormatSpec, Writer, either, unfit};
-use crate::write::{unwritable, write_whole};
+use lobe_files::FormatError;
+use lobe_files::{unwritable, write_whole};
 use lobe_table::{Channels, Data, Scatter, spherical};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::io;

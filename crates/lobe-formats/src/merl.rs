@@ -6,9 +6,9 @@
 
 use crate::Document;
 use crate::bytes::Cursor;
-use crate::error::FormatError;
 use crate::spec::{FormatSpec, Writer, reflection, unfit};
-use crate::write::{unwritable, write_whole};
+use lobe_files::FormatError;
+use lobe_files::{unwritable, write_whole};
 use lobe_table::{Channels, Data, half_diff};
 use std::io;
 use std::path::Path;

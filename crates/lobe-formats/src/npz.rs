@@ -16,9 +16,9 @@ use lobe_table::window::{self, Block, Component};
 use lobe_table::{Channels, Data, Scatter, Side};
 
 use crate::spec::{FormatSpec, Writer, either};
-use crate::write::{unwritable, write_whole};
 use crate::zip::Archive;
 use crate::{Document, FormatError};
+use lobe_files::{unwritable, write_whole};
 
 /// This format in the registry.
 pub(crate) static FORMAT: FormatSpec = FormatSpec {

@@ -5,10 +5,10 @@
 //! they are then taken to lie uniformly over a quarter turn, and `phi_d` over the whole turn from `-pi`.
 
 use crate::Document;
-use crate::error::FormatError;
 use crate::spec::{FormatSpec, Writer, reflection, unfit};
 use crate::tensor::{self, DType, Field, TensorFile};
-use crate::write::{unwritable, write_whole};
+use lobe_files::FormatError;
+use lobe_files::{unwritable, write_whole};
 use lobe_table::mueller::{self, AXES};
 use lobe_table::{Channels, Data};
 use std::f32::consts::{FRAC_PI_2, PI};

@@ -6,10 +6,10 @@
 //! bytes. Their order is free. Other fields are passed over: [`tensor::read`] has them.
 
 use crate::Document;
-use crate::error::FormatError;
 use crate::spec::{FormatSpec, Writer, reflection, unfit};
 use crate::tensor::{self, DType, Field, TensorFile};
-use crate::write::{unwritable, write_whole};
+use lobe_files::FormatError;
+use lobe_files::{unwritable, write_whole};
 use lobe_table::rgl::{self, Images, Parts};
 use lobe_table::{Channels, Data};
 use std::io;

@@ -5,8 +5,8 @@
 //! position of the data from the start of the file as `u64`, and the dimensions as `u64`. Data are in row-major order.
 
 use crate::bytes::Cursor;
-use crate::error::{FormatError, Place};
-use crate::write::{unwritable, write_whole};
+use lobe_files::{FormatError, Place};
+use lobe_files::{unwritable, write_whole};
 use std::borrow::Cow;
 use std::collections::HashSet;
 use std::io;

@@ -4,9 +4,9 @@
 
 use crate::Document;
 use crate::bytes::Cursor;
-use crate::error::FormatError;
 use crate::spec::{FormatSpec, Writer, reflection, unfit};
-use crate::write::write_whole;
+use lobe_files::FormatError;
+use lobe_files::write_whole;
 use lobe_table::utia::{self, PLANE};
 use lobe_table::{Channels, Data};
 use std::path::Path;

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-use lobe_formats::{FormatError, Place};
+use lobe_files::{FormatError, Place};
 
 use crate::geometry::{narrow, wide};
 use crate::{Geometry, Parts, normals};

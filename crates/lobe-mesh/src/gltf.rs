@@ -17,7 +17,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::rc::Rc;
 
-use lobe_formats::{FormatError, Place};
+use lobe_files::{FormatError, Place};
 
 use crate::Geometry;
 use crate::file::{self, wrong};

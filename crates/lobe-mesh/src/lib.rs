@@ -32,6 +32,6 @@ pub mod shapes;
 mod tangents;
 
 pub use geometry::{Geometry, GeometryError, Group, Parts};
-pub use lobe_formats::{FormatError, Place};
+pub use lobe_files::{FormatError, Place};
 pub use normals::Shading;
 pub use read::read;

@@ -10,7 +10,7 @@ mod mtl;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use lobe_formats::FormatError;
+use lobe_files::FormatError;
 
 use crate::file;
 use crate::{Geometry, Group, Parts};

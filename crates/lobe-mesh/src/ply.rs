@@ -13,7 +13,7 @@ mod write;
 use std::collections::HashMap;
 use std::path::Path;
 
-use lobe_formats::{FormatError, Place};
+use lobe_files::{FormatError, Place};
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{ElementDef, Encoding, Header, PropertyAccess, PropertyType, ScalarType};
 

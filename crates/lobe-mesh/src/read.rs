@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lobe_formats::FormatError;
+use lobe_files::FormatError;
 
 use crate::{Geometry, file, gltf, obj, ply};
 

@@ -6,8 +6,8 @@ use std::path::Path;
 use lobe_table::{Channels, Data, Scatter};
 
 use super::{SPECULAR, SPHERICAL, TRANSMISSION};
-use crate::write::write_whole;
 use crate::{FormatError, Place};
+use lobe_files::write_whole;
 
 /// Writes `path` whole or not at all: a line a node or sample, angles in degrees, then the channels. Angles have nine
 /// digits after the point; values come back the same when the file is read again.

@@ -18,8 +18,8 @@ use super::grid::{Axes, Grid, LIMITS, from_samples, read_angle};
 use super::units::{divide_by_cosine, scale_slices};
 use crate::spec::{FormatSpec, Writer, unfit};
 use crate::text::{Text, Token, has_words, push_row};
-use crate::write::write_whole;
 use crate::{FormatError, Measured, Place};
+use lobe_files::write_whole;
 
 /// This format in the registry.
 pub(crate) static FORMAT: FormatSpec = FormatSpec {

@@ -15,8 +15,8 @@ use super::common::{
 use super::grid::{LIMITS, radians, read_angles};
 use crate::spec::{FormatSpec, Writer, unfit};
 use crate::text::{Text, Token, has_words, push_row};
-use crate::write::write_whole;
 use crate::{FormatError, Measured, Place};
+use lobe_files::write_whole;
 
 /// This format in the registry.
 pub(crate) static FORMAT: FormatSpec = FormatSpec {

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use lobe_table::{Channels, Data, Scatter};
 
-use crate::write::{unwritable, write_whole};
 use crate::{FormatError, Part};
+use lobe_files::{unwritable, write_whole};
 
 /// How values are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

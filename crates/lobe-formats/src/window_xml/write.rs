@@ -9,7 +9,7 @@ use lobe_table::window::{Block, Component, Data};
 use quick_xml::escape::escape;
 
 use crate::FormatError;
-use crate::write::{unwritable, write_whole};
+use lobe_files::{unwritable, write_whole};
 
 /// Writes a file that [`read`](super::read) gives back exactly: every basis is spelled out, and values have as many
 /// digits as they need. The facts `name` and `manufacturer` of `source` become those of the layer. The file appears whole or not at all.

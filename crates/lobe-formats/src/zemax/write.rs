@@ -8,8 +8,8 @@ use lobe_table::{Channels, Scatter, specular};
 use super::{AXES, XYZ};
 use crate::integra::units::reflectances;
 use crate::text::push_row;
-use crate::write::write_whole;
 use crate::{FormatError, Place};
+use lobe_files::write_whole;
 
 /// Writes `path` whole or not at all, over the whole circle of phi. The total integrated scatter of each block is that of
 /// its interpolated values over the hemisphere.

@@ -1,6 +1,6 @@
 //! Numbers out of buffers (sections 3.6.1 and 3.6.2). Nothing here trusts an offset or a count.
 
-use lobe_formats::FormatError;
+use lobe_files::FormatError;
 
 use super::document::{Accessor, Region};
 use super::{Budget, Source};

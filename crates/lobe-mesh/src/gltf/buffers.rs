@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use lobe_formats::FormatError;
+use lobe_files::FormatError;
 
 use super::document::Document;
 use crate::file::{self, wrong};

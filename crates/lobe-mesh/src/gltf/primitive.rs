@@ -1,6 +1,6 @@
 //! One primitive of a mesh (section 3.7.2).
 
-use lobe_formats::FormatError;
+use lobe_files::FormatError;
 
 use super::document::Primitive;
 use super::{Budget, Source};

@@ -1,7 +1,7 @@
 //! The tree of nodes, and all its meshes as one (section 3.5).
 
 use glam::{DMat3, DMat4, DQuat, DVec3};
-use lobe_formats::FormatError;
+use lobe_files::FormatError;
 
 use super::document::{Mesh, Node};
 use super::{Budget, Source};

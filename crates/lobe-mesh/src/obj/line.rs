@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::str::SplitAsciiWhitespace;
 
-use lobe_formats::{FormatError, Place};
+use lobe_files::{FormatError, Place};
 
 /// Bytes of the longest name.
 const LONGEST_NAME: usize = 1024;

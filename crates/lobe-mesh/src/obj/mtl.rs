@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lobe_formats::FormatError;
+use lobe_files::FormatError;
 
 use super::line::Line;
 use crate::file;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lobe_formats::{FormatError, write_whole};
+use lobe_files::{FormatError, write_whole};
 
 use crate::Geometry;
 

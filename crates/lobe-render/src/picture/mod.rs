@@ -5,7 +5,6 @@ mod exr_file;
 mod meta;
 mod png_file;
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 pub use environment_file::read_environment;
@@ -37,19 +36,7 @@ pub enum PictureError {
     },
 }
 
-/// Writes next to the file and renames, so that there is never half a file.
+/// Writes a file completely or leaves the old one alone.
 fn replace(path: &Path, bytes: &[u8]) -> Result<(), PictureError> {
-    let failed = |error| PictureError::Io { file: path.into(), error };
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = tempfile::Builder::new().prefix(".lobe-").tempfile_in(folder).map_err(failed)?;
-    file.write_all(bytes).map_err(failed)?;
-    // A temporary file is private; a picture is as readable as what the folder's owner makes otherwise.
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        let mode = std::fs::metadata(path).map_or(0o644, |old| old.permissions().mode() & 0o777);
-        file.as_file().set_permissions(std::fs::Permissions::from_mode(mode)).map_err(failed)?;
-    }
-    file.persist(path).map_err(|error| failed(error.error))?;
-    Ok(())
+    lobe_files::replace(path, bytes).map_err(|error| PictureError::Io { file: path.into(), error })
 }
