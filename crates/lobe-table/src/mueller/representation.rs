@@ -8,7 +8,7 @@ use crate::data::{Gaps, Options, PrepareError, Section};
 use crate::{Aspect, Channels, Kind, Representation};
 
 /// The name of the representation.
-pub const KIND: Kind = Kind::new("Data matrices");
+pub const KIND: Kind = Kind::new("Mueller matrices");
 
 impl Representation for Data {
     fn kind(&self) -> Kind {
@@ -36,7 +36,7 @@ impl Representation for Data {
         let (all, gaps) = (self.values.len() / ELEMENTS, (self.values.len() - values.len()).div_ceil(ELEMENTS));
         let section = Section::new(KIND, Aspect::REFLECTION, self.channels(), &[]);
         let section = Section {
-            quantity: "elements of Data matrices in 1/sr",
+            quantity: "elements of Mueller matrices in 1/sr",
             bytes: size_of_val(values.as_slice()),
             values: Cow::Owned(values),
             measured: Some(measured),
