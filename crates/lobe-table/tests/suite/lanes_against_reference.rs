@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use lobe_backend::Backend;
 use lobe_lane::{Kernel, Lanes};
+use lobe_scalar::Scalar;
 use lobe_table::{
     Channels, Directions, Edge, Edges, Precision, Scatter, specular, specular::coords, specular::reference,
 };
@@ -55,6 +56,57 @@ fn directions(count: usize) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
     (wi, wo)
 }
 
+/// Where a table is evaluated.
+trait Machine: Copy {
+    fn name(self) -> String;
+
+    fn run<K: Kernel>(self, kernel: K) -> K::Out;
+
+    fn eval(self, table: &specular::Table, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]);
+
+    fn eval_batch(self, table: &specular::Table, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]);
+}
+
+impl Machine for Backend {
+    fn name(self) -> String {
+        Backend::name(&self).to_string()
+    }
+
+    fn run<K: Kernel>(self, kernel: K) -> K::Out {
+        Backend::run(&self, kernel)
+    }
+
+    fn eval(self, table: &specular::Table, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
+        table.eval(self, wi, wo, out);
+    }
+
+    fn eval_batch(self, table: &specular::Table, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        table.eval_batch(self, wi, wo, out);
+    }
+}
+
+/// Lanes that are no backend, which take the kernels themselves.
+#[derive(Clone, Copy)]
+struct Emulated<L>(L);
+
+impl<L: Lanes> Machine for Emulated<L> {
+    fn name(self) -> String {
+        L::NAME.to_string()
+    }
+
+    fn run<K: Kernel>(self, kernel: K) -> K::Out {
+        self.0.vectorize(kernel)
+    }
+
+    fn eval(self, table: &specular::Table, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
+        self.run(table.single(wi, wo, out));
+    }
+
+    fn eval_batch(self, table: &specular::Table, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        self.run(table.batch(wi, wo, out));
+    }
+}
+
 struct OneLane<'a>(&'a specular::Table, [f32; 3], [f32; 3], &'a mut [f32]);
 
 impl Kernel for OneLane<'_> {
@@ -75,12 +127,12 @@ impl Kernel for OneLane<'_> {
     }
 }
 
-fn check(backend: Backend, samples: &specular::Data, edges: &Edges, name: &str) {
-    check_stored(backend, samples, edges, Precision::Single, 2e-5, name);
+fn check(machine: impl Machine, samples: &specular::Data, edges: &Edges, name: &str) {
+    check_stored(machine, samples, edges, Precision::Single, 2e-5, name);
 }
 
 fn check_stored(
-    backend: Backend,
+    machine: impl Machine,
     samples: &specular::Data,
     edges: &Edges,
     precision: Precision,
@@ -92,14 +144,14 @@ fn check_stored(
     // Not a multiple of any number of lanes, and more than one block.
     let (wi, wo) = directions(515);
     let mut batch = vec![f32::NAN; wi.len() * channels];
-    table.eval_batch(backend, (&wi).into(), (&wo).into(), &mut batch);
+    machine.eval_batch(&table, (&wi).into(), (&wo).into(), &mut batch);
 
     let component = |w: &[[f32; 3]], k: usize| w.iter().map(|v| v[k]).collect::<Vec<f32>>();
     let [ix, iy, iz] = [0, 1, 2].map(|k| component(&wi, k));
     let [ox, oy, oz] = [0, 1, 2].map(|k| component(&wo, k));
     let mut separate = vec![f32::NAN; batch.len()];
     let columns = [Directions::columns(&ix, &iy, &iz), Directions::columns(&ox, &oy, &oz)];
-    table.eval_batch(backend, columns[0], columns[1], &mut separate);
+    machine.eval_batch(&table, columns[0], columns[1], &mut separate);
     let bits = |values: &[f32]| values.iter().map(|x| x.to_bits()).collect::<Vec<u32>>();
     assert_eq!(bits(&batch), bits(&separate), "{name}: vectors and components differ");
 
@@ -108,9 +160,9 @@ fn check_stored(
     for query in 0..wi.len() {
         let got = &batch[query * channels..][..channels];
         let (mut single, mut lane) = (vec![f32::NAN; channels], vec![f32::NAN; channels]);
-        table.eval(backend, wi[query], wo[query], &mut single);
+        machine.eval(&table, wi[query], wo[query], &mut single);
         assert_eq!(bits(got), bits(&single), "{name}: one pair, query {query}: {:?} {:?}", wi[query], wo[query]);
-        backend.run(OneLane(&table, wi[query], wo[query], &mut lane));
+        machine.run(OneLane(&table, wi[query], wo[query], &mut lane));
         assert_eq!(bits(got), bits(&lane), "{name}: lanes, query {query}");
 
         let mut expected = vec![0.0; channels];
@@ -132,10 +184,10 @@ fn check_stored(
             largest = largest.max(error);
         }
     }
-    println!("{:>10} {name}: largest error {largest:.1e} of the largest value", backend.name());
+    println!("{:>10} {name}: largest error {largest:.1e} of the largest value", machine.name());
 }
 
-fn check_all(backend: Backend) {
+fn check_all(machine: impl Machine) {
     let gap = Edges { axes: [Edge::Clamp, Edge::Periodic, Edge::Clamp, Edge::Periodic], non_negative: false };
     let policies =
         [("default", Edges::default()), ("extrapolate", Edges::extrapolate()), ("zero", Edges::zero()), ("gap", gap)];
@@ -149,7 +201,7 @@ fn check_all(backend: Backend) {
             // Small axes, which are searched in registers; the last angle of phi leaves a gap in the circle.
             let small = [knots(7, 0.0, 1.4, 1.2), vec![0.0], knots(9, 0.0, 3.0, 2.0), knots(13, 0.0, 6.0, 1.1)];
             let samples = smooth(small, colour.clone(), Scatter::Reflection);
-            check(backend, &samples, &edges, &format!("{policy} {channels} isotropic"));
+            check(machine, &samples, &edges, &format!("{policy} {channels} isotropic"));
             let turning = [
                 knots(17, 0.1, FRAC_PI_2, 1.2),
                 knots(5, 0.3, 5.9, 1.3),
@@ -157,25 +209,25 @@ fn check_all(backend: Backend) {
                 knots(4, 0.0, TAU, 1.5),
             ];
             let samples = smooth(turning, colour, Scatter::Reflection);
-            check(backend, &samples, &edges, &format!("{policy} {channels} anisotropic"));
+            check(machine, &samples, &edges, &format!("{policy} {channels} anisotropic"));
             // Weights add up to 1, so an interpolated value errs no more than a stored one: by 2^-11 of it.
             let half = 2e-5 + 1.0 / 2048.0;
-            check_stored(backend, &samples, &edges, Precision::Half, half, &format!("{policy} {channels} half"));
+            check_stored(machine, &samples, &edges, Precision::Half, half, &format!("{policy} {channels} half"));
         }
         // Equal cells, one knot only, and so many knots that a guide table is needed.
         let large = [knots(90, 0.0, FRAC_PI_2, 2.0), vec![0.0], knots(50, 0.0, PI, 1.0), knots(200, 0.0, TAU, 1.3)];
-        check(backend, &smooth(large, Channels::Rgb, Scatter::Reflection), &edges, &format!("{policy} large"));
+        check(machine, &smooth(large, Channels::Rgb, Scatter::Reflection), &edges, &format!("{policy} large"));
         let flat = [knots(3, 0.0, FRAC_PI_2, 1.0), vec![0.0], knots(30, 0.0, PI, 1.7), vec![0.0]];
-        check(backend, &smooth(flat, Channels::Mono, Scatter::Reflection), &edges, &format!("{policy} one phi"));
+        check(machine, &smooth(flat, Channels::Mono, Scatter::Reflection), &edges, &format!("{policy} one phi"));
 
         let through = || {
             [knots(6, 0.0, FRAC_PI_2, 1.0), knots(3, 0.0, TAU, 1.0), knots(12, 0.0, PI, 1.5), knots(9, 0.0, TAU, 1.0)]
         };
         let samples = smooth(through(), Channels::Rgb, Scatter::Transmission);
-        check(backend, &samples, &edges, &format!("{policy} transmission"));
+        check(machine, &samples, &edges, &format!("{policy} transmission"));
         let bent = |sigma: &f64| (sigma.sin() / 1.5).asin() - sigma;
         let refracted = samples.clone().with_refraction(through()[0].iter().map(bent).collect()).unwrap();
-        check(backend, &refracted, &edges, &format!("{policy} refraction"));
+        check(machine, &refracted, &edges, &format!("{policy} refraction"));
     }
 }
 
@@ -191,4 +243,19 @@ fn fused() {
         println!("SKIP: this CPU has no backend that fuses");
     }
     fusing.into_iter().map(Backend::fused).for_each(check_all);
+}
+
+#[test]
+fn emulated4() {
+    check_all(Emulated(Scalar::<4>));
+}
+
+#[test]
+fn emulated8() {
+    check_all(Emulated(Scalar::<8>));
+}
+
+#[test]
+fn emulated16() {
+    check_all(Emulated(Scalar::<16>));
 }
