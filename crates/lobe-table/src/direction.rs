@@ -63,7 +63,7 @@ pub(crate) fn wrap(phi: f64) -> f64 {
 /// The coordinates of Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", 1998: the zenith
 /// angle of the half vector, and zenith angle and azimuth in `(-pi, pi]` of `wi` in the frame of the half vector.
 ///
-/// If the half vector is the normal its azimuth is taken as 0; if `wi` is the half vector `phi_d` is 0.
+/// If the half vector is the normal, its azimuth is 0; if `wi` is the half vector, `phi_d` is 0.
 pub(crate) fn half_difference(wi: Vector, wo: Vector) -> (f64, f64, f64) {
     let h = normalize(add(wi, wo));
     let (sin, cos) = ((h[0] * h[0] + h[1] * h[1]).sqrt(), h[2]);

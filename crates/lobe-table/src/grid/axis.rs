@@ -74,7 +74,7 @@ pub enum AxisError {
     },
 }
 
-/// In the place of a knot that there is not: no query is at or above it, not even an infinite one.
+/// In the place of a knot that does not exist: no query is at or above it, not even an infinite one.
 const BEYOND: f32 = f32::NAN;
 
 /// How the cell of a query is found.
@@ -179,7 +179,7 @@ impl Axis {
     }
 }
 
-/// `1 / width`, at most the largest float: a cell may be so narrow that the inverse is infinite.
+/// `1 / width`, at most the largest float: a cell may be so narrow that its inverse overflows.
 fn inverse(width: f64) -> f32 {
     (1.0 / width).min(f64::from(f32::MAX)) as f32
 }
@@ -214,7 +214,7 @@ impl Registers {
     }
 }
 
-/// The coarsest of a row of bucket counts with at most one inner knot a bucket, or the finest tried.
+/// The coarsest of a row of bucket counts with at most one inner knot per bucket, or the finest tried.
 fn guide(knots: &[f32]) -> Search {
     let inner = &knots[1..knots.len() - 1];
     let (first, last) = (knots[0], knots[knots.len() - 1]);

@@ -221,8 +221,8 @@ fn first<const N: usize>(offsets: &[usize; 16]) -> [usize; N] {
     *offsets.first_chunk().expect("at most 16 corners")
 }
 
-/// The offsets of the corners over the axes given, the last fastest; an axis of one knot has no upper corner, except the last
-/// one, which has that knot twice.
+/// The offsets of the corners over the axes given, the last fastest; an axis of one knot has no upper corner, except
+/// the last one, which has that knot twice.
 fn offsets(axes: &[Axis; 4], strides: [usize; 4], over: &[usize]) -> [usize; 16] {
     let mut offsets = [0; 16];
     for (corner, offset) in offsets.iter_mut().enumerate().take(1 << over.len()) {

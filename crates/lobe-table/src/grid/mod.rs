@@ -1,5 +1,14 @@
-//! Grids apart from what their axes mean: knots and how cells are found among them, what holds outside, and how texels lie
-//! in memory.
+//! Grids apart from what their axes mean.
+//!
+//! An [`Axis`] has knots, a way to find the cell of an angle among them (`search`), and an [`Edge`] rule for what is
+//! outside. `layout` and `texel` say how values lie in memory. The passes of a block go from angles to values:
+//!
+//! 1. `cells`: for each axis the cell and the fraction, summed up to the index of a texel;
+//! 2. `weights`: fractions to the weights of the corners;
+//! 3. `texels`: the corners of each query, weighted and summed.
+//!
+//! `interpolation` is all of it for four axes, and `single` the same for one query. `neighbours` finds cells in `f64`,
+//! for the references.
 
 pub(crate) mod axis;
 pub(crate) mod cells;

@@ -15,7 +15,8 @@ impl Neighbours {
     /// On an axis of one knot.
     pub(crate) const ONLY: Self = Neighbours { nodes: [0, 0], weights: [1.0, 0.0] };
 
-    /// Where `x` lies among ascending knots, of which there is at least one. `None` if the value is 0 because `x` is outside.
+    /// Where `x` lies among ascending knots, of which there is at least one. `None` if the value is 0 because `x` is
+    /// outside.
     pub(crate) fn find<K: Copy + Into<f64>>(knots: &[K], edge: Edge, x: f64) -> Option<Self> {
         let (first, last) = (knots[0].into(), knots[knots.len() - 1].into());
         if knots.len() == 1 {

@@ -48,7 +48,7 @@ impl Axis {
         self.visit(lanes, One(lanes, x))
     }
 
-    /// The cell of each lane of `x`, in radians, and the weights of its two knots. They add up to 1, or are both 0 where
+    /// The cell of each lane of `x`, in radians, and the weights of its two knots. They add up to 1, or are both 0 if
     /// `x` is outside an axis of [`Edge::Zero`](crate::Edge::Zero).
     #[inline(always)]
     pub fn weights<L: Lanes>(&self, lanes: L, x: L::F) -> (L::I, [L::F; 2]) {
@@ -57,7 +57,7 @@ impl Axis {
         (index, [(lanes.splat(1.0) - fraction).masked(inside), fraction.masked(inside)])
     }
 
-    /// `true` in the lanes where the table has a value, which is everywhere but outside an axis of
+    /// `true` in the lanes where the table has a value: everywhere except outside an axis of
     /// [`Edge::Zero`](crate::Edge::Zero).
     #[inline(always)]
     pub(crate) fn contains<L: Lanes>(&self, lanes: L, x: L::F) -> L::M {

@@ -1,8 +1,8 @@
 //! One query at a time, with SIMD inside the query.
 //!
 //! The arithmetic is that of the passes, operation by operation, so the results are the same bits; only its arrangement
-//! differs. There is no other query to hide latency behind: a cell is found by comparing with eight knots at once, and texels
-//! are loaded whole.
+//! differs. There is no other query to hide latency behind: a cell is found by comparing with eight knots at once, and
+//! texels are loaded whole.
 
 use std::f32::consts::TAU;
 

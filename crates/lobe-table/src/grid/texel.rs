@@ -9,7 +9,7 @@ pub enum Precision {
     #[default]
     Single,
     /// 16-bit floats, half the memory, scaled by a power of two so that the largest value fits. Each value is rounded to
-    /// 11 significant bits, an error of at most 2^-11 of the value, or of 2^-39 of the largest value of the table where
+    /// 11 significant bits, an error of at most 2^-11 of the value, or of 2^-39 of the largest value of the table if
     /// that is more. Faster for tables that do not fit the caches.
     Half,
 }

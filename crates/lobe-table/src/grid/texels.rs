@@ -19,8 +19,8 @@ pub(crate) struct Located<'a> {
     pub(crate) weights: &'a [Column; MAX_CORNERS],
 }
 
-/// Two or three channels: `CORNERS` pairs of neighbours in phi. Writes three floats per query, from the first, none less
-/// than `floor`. `n` is a multiple of the lanes.
+/// Two or three channels: `CORNERS` pairs of neighbours along the last axis. Writes three floats per query, from the
+/// first, none less than `floor`. `n` is a multiple of the lanes.
 #[inline(always)]
 pub(crate) fn rgb<L: Lanes, T: Stored, const CORNERS: usize>(
     lanes: L,
@@ -109,8 +109,8 @@ pub(crate) fn nearest<L: Lanes, T: Stored>(
     }
 }
 
-/// One channel: `CORNERS` cells of four corners in theta and phi. Writes one float per query, none less than `floor`. `n`
-/// is a multiple of the lanes.
+/// One channel: `CORNERS` cells of four corners along the last two axes. Writes one float per query, none less than
+/// `floor`. `n` is a multiple of the lanes.
 #[inline(always)]
 pub(crate) fn mono<L: Lanes, T: Stored, const CORNERS: usize>(
     lanes: L,
@@ -135,8 +135,8 @@ pub(crate) fn mono<L: Lanes, T: Stored, const CORNERS: usize>(
     }
 }
 
-/// Many channels: `CORNERS` nodes of all channels, padded to eights; lanes run along the channels. Writes those of `channels`,
-/// which begin at a multiple of eight, one query after the other, none less than `floor`.
+/// Many channels: `CORNERS` nodes of all channels, padded to eights; lanes run along the channels. Writes those of
+/// `channels`, which begin at a multiple of eight, one query after the other, none less than `floor`.
 #[inline(always)]
 pub(crate) fn wide<L: Lanes, T: Stored, const CORNERS: usize>(
     lanes: L,

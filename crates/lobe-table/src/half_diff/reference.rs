@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 use std::ops::RangeInclusive;
 
-use super::Data;
+use super::data::Data;
 use crate::direction::half_difference;
 use crate::grid::weights::SUM;
 use crate::passes::half_vector;
@@ -56,8 +56,8 @@ impl Data {
         if total > 0.0 { sum.map(|value| value / total) } else { sum }
     }
 
-    /// All values that [`eval_nearest`](Self::eval_nearest) may have in the lanes of a [`Table`](crate::half_diff::Table): the one of the bin,
-    /// and if the directions are within rounding of another bin, that bin's as well.
+    /// All values that [`eval_nearest`](Self::eval_nearest) may have in the lanes of a [`Table`](super::Table): the one
+    /// of the bin, and where the directions are within rounding of another bin, the one of that too.
     pub fn candidates(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<[f64; 3]> {
         if wi[2] <= 0.0 || wo[2] <= 0.0 {
             return vec![[0.0; 3]];
@@ -89,7 +89,8 @@ impl Data {
         })
     }
 
-    /// How far, in bins along each axis, the place of a pair in the lanes of a [`Table`](crate::half_diff::Table) may be from the true one.
+    /// How far, in bins along each axis, the place of a pair in the lanes of a [`Table`](super::Table) may be from the
+    /// true one.
     ///
     /// The bins of `theta_h` are narrowest at the peak, and near it and near `theta_d = 0` an azimuth is hardly known.
     pub fn rounding(&self, wi: [f64; 3], wo: [f64; 3]) -> [f64; 3] {

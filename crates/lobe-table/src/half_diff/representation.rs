@@ -1,6 +1,6 @@
 //! What programs need from grids of half and difference angles.
 
-use super::Data;
+use super::data::Data;
 use crate::bsdf::Bsdf;
 use crate::data::{Coverage, Gaps, Options, PrepareError, Section, direction};
 use crate::{Aspect, Channels, Kind, Representation};

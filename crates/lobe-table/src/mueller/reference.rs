@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Data, ELEMENTS, Matrix};
+use super::data::{Data, ELEMENTS, Matrix};
 use crate::direction::{Vector, cross, dot, half_difference, normalize, phi, rotate_z};
 use crate::grid::neighbours::{Neighbours, corners};
 use crate::grid::weights::SUM;
@@ -22,8 +22,8 @@ impl Data {
         multiply(multiply(rotate_out, matrix), transpose(rotate_in))
     }
 
-    /// The stored matrix, linear in all four axes and constant beyond them, for Stokes vectors with the x axis [`plane_normal`].
-    /// `None` if a direction is not above the surface or nothing was measured.
+    /// The stored matrix, linear in all four axes and constant beyond them, for Stokes vectors with the x axis
+    /// [`plane_normal`]. `None` if a direction is not above the surface or nothing was measured.
     pub fn in_plane(&self, wi: [f64; 3], wo: [f64; 3], nm: f64) -> Option<Matrix> {
         if wi[2] <= 0.0 || wo[2] <= 0.0 {
             return None;
@@ -65,7 +65,7 @@ impl Data {
 }
 
 /// `phi_d` in `(-pi, pi]`, `theta_d` and `theta_h`, with the viewer turned to azimuth 0 as in figure 3 of Baek et al.:
-/// if the half vector is the normal, and its azimuth undefined, the result still follows a rotation of both.
+/// if the half vector is the normal, and its azimuth open, the result still follows a rotation of both.
 pub fn coordinates(wi: [f64; 3], wo: [f64; 3]) -> [f64; 3] {
     let turn = phi(wo);
     let (theta_h, theta_d, phi_d) = half_difference(rotate_z(wi, -turn), rotate_z(wo, -turn));
@@ -79,7 +79,7 @@ pub fn rounding([_, theta_d, theta_h]: [f64; 3]) -> [f64; 3] {
 }
 
 /// The x axis of the Stokes frames that the table uses, the same before and after the reflection: the normal of the
-/// plane of the two directions. If they span no plane it is [`stokes_basis`]`(-wi)`.
+/// plane of the two directions. If they span no plane, it is [`stokes_basis`]`(-wi)`.
 pub fn plane_normal(wi: [f64; 3], wo: [f64; 3]) -> [f64; 3] {
     let normal = cross(wi, wo);
     if dot(normal, normal) < 1e-24 {

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::{AXES, Data, ELEMENTS};
+use super::data::{AXES, Data, ELEMENTS};
 use crate::bsdf::Bsdf;
 use crate::data::{Gaps, Options, PrepareError, Section};
 use crate::{Aspect, Channels, Kind, Representation};

@@ -5,8 +5,8 @@
 //! ([`search`]), texels loaded once for the lanes that share them, and indices kept as floats ([`PaperTable`]). One
 //! packet goes from directions to colours before the next begins.
 //!
-//! [`Table`](crate::specular::Table) gives the same values more accurately, and faster for all but the most coherent packets.
-//! Nothing but the report and its tests use what is here.
+//! [`Table`](crate::specular::Table) gives the same values more accurately, and faster for all but the most coherent
+//! packets. Nothing but the report and its tests use what is here.
 
 mod angles;
 pub mod search;

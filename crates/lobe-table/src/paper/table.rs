@@ -1,12 +1,15 @@
 //! A whole evaluation (paper, section 3).
 
+use std::ops::Range;
+
 use lobe_lane::{Floats, Kernel, Lanes, Mask};
 use thiserror::Error;
 
 use super::{angles, search, texels};
-use crate::directions::{Directions, PADDING};
+use crate::directions::Directions;
 use crate::grid::axis::Axis;
-use crate::passes::block::BLOCK;
+use crate::passes::blocks::{Blocks, Blockwise};
+use crate::passes::pairs::PairPadding;
 use crate::{AxisError, Edge, Edges, Scatter, specular, specular::AXIS_NAMES};
 
 /// Floats hold every integer up to this one, so no more texels can be distinguished.
@@ -156,7 +159,7 @@ impl PaperTable {
     ) -> impl Kernel<Out = ()> + 'a {
         assert_eq!(wi.count(), wo.count(), "as many wi as wo");
         assert!(out.iter().all(|channel| channel.len() == wi.count()), "one output per query and channel");
-        Batch { table: self, wi, wo, out }
+        Blocks(Batch { table: self, wi, wo, out })
     }
 }
 
@@ -168,29 +171,28 @@ struct Batch<'a> {
     out: [&'a mut [f32]; 3],
 }
 
-impl Kernel for Batch<'_> {
-    type Out = ();
+impl Blockwise for Batch<'_> {
+    type Scratch = PairPadding;
+    const SCRATCH: PairPadding = PairPadding::ZERO;
+
+    fn count(&self) -> usize {
+        self.wi.count()
+    }
 
     #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) {
+    fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, padding: &mut PairPadding) {
         let Batch { table, wi, wo, out: [red, green, blue] } = self;
-        let count = wi.count();
-        let mut padding = (PADDING, PADDING);
-        let mut block = 0;
-        while block < count {
-            let (from_light, to_viewer) = (wi.block(block, &mut padding.0), wo.block(block, &mut padding.1));
-            let mut query = 0;
-            while query < BLOCK && block + query < count {
-                let at = block + query;
-                let mask = lanes.first_n(count - at);
-                let (wi, wo) = (from_light.load(lanes, query), to_viewer.load(lanes, query));
-                let [r, g, b] = table.eval_lanes(lanes, wi, wo, mask);
-                lanes.store_partial(&mut red[at..], r);
-                lanes.store_partial(&mut green[at..], g);
-                lanes.store_partial(&mut blue[at..], b);
-                query += L::LANES;
-            }
-            block += BLOCK;
+        let pairs = padding.block(wi, wo, queries.start);
+        let mut query = 0;
+        while query < queries.len() {
+            let at = queries.start + query;
+            let mask = lanes.first_n(queries.end - at);
+            let (wi, wo) = (pairs.wi.load(lanes, query), pairs.wo.load(lanes, query));
+            let [r, g, b] = table.eval_lanes(lanes, wi, wo, mask);
+            lanes.store_partial(&mut red[at..], r);
+            lanes.store_partial(&mut green[at..], g);
+            lanes.store_partial(&mut blue[at..], b);
+            query += L::LANES;
         }
     }
 }

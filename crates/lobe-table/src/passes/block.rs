@@ -2,7 +2,7 @@
 
 use lobe_lane::Lanes;
 
-/// Queries a block: enough to keep the core busy within a pass, few enough that all columns stay in the first cache.
+/// Queries per block: enough to keep the core busy within a pass, few enough that all columns stay in the first cache.
 pub(crate) const BLOCK: usize = 64;
 
 /// One float for each query of a block.

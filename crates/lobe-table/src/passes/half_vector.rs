@@ -1,15 +1,15 @@
 //! Directions to half and difference angles: the coordinates of Rusinkiewicz, "A New Change of Variables for Efficient BRDF
 //! Representation", 1998.
 //!
-//! With unit vectors, the half vector lies along the sum `h = wi + wo`, and the difference `d = wi - wo` lies across it. Both
-//! are exact to the rounding of the directions near the peak, where products lose their digits; and as
-//! `|h| = 2 cos(theta_d)` and `|d| = 2 sin(theta_d)`, no rotation into the frame of the half vector has to be computed.
+//! With unit vectors, the half vector lies along the sum `h = wi + wo`, and the difference `d = wi - wo` lies across
+//! it. Both are exact to the rounding of the directions near the peak, where products lose their digits; and as `|h| =
+//! 2 cos(theta_d)` and `|d| = 2 sin(theta_d)`, no rotation into the frame of the half vector has to be computed.
 
 use lobe_lane::{Floats, Lanes};
 
 use super::block::Column;
+use super::pairs::Pairs;
 use super::unit::unit;
-use crate::directions::DirectionBlock;
 
 /// The angles of a block of queries.
 #[derive(Clone, Copy)]
@@ -35,15 +35,10 @@ impl HalfVector {
 
     /// Fills the angles of queries `0..n`. `n` is a multiple of the lanes.
     ///
-    /// If the half vector is the normal, its azimuth is that of `wo` if `VIEWED`, or else 0.
+    /// If the half vector is the normal, its azimuth is that of `wo` if it is `VIEWED`, and 0 otherwise.
     #[inline(always)]
-    pub(crate) fn run<L: Lanes, const VIEWED: bool>(
-        &mut self,
-        lanes: L,
-        n: usize,
-        directions: (DirectionBlock<'_>, DirectionBlock<'_>),
-    ) {
-        self.frame::<L, VIEWED>(lanes, n, directions);
+    pub(crate) fn run<L: Lanes, const VIEWED: bool>(&mut self, lanes: L, n: usize, pairs: Pairs<'_>) {
+        self.frame::<L, VIEWED>(lanes, n, pairs);
         let mut query = 0;
         while query < n {
             self.theta_h.store(lanes, query, lobe_math::double_atan(lanes, self.theta_h.load(lanes, query)));
@@ -60,12 +55,7 @@ impl HalfVector {
 
     /// What the angles are computed from.
     #[inline(always)]
-    fn frame<L: Lanes, const VIEWED: bool>(
-        &mut self,
-        lanes: L,
-        n: usize,
-        (wi, wo): (DirectionBlock<'_>, DirectionBlock<'_>),
-    ) {
+    fn frame<L: Lanes, const VIEWED: bool>(&mut self, lanes: L, n: usize, Pairs { wi, wo }: Pairs<'_>) {
         let (zero, one, two) = (lanes.splat(0.0), lanes.splat(1.0), lanes.splat(2.0));
         let pole = lanes.splat(POLE2);
         let mut query = 0;

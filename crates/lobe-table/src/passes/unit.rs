@@ -14,8 +14,8 @@ pub(crate) const POLE: f32 = 1e-15;
 /// means that a component is not finite. The length of `wi` counts because a zenith that is computed may hide it.
 pub(crate) const FARTHEST: f32 = 16.0;
 
-/// What the angles of [`spherical`] may be off, in radians, from those of the direction in exact arithmetic: what is left of
-/// the roundings of a unit vector, and [`lobe_math::bounds`].
+/// What the angles of [`spherical`] may be off, in radians, from those of the direction in exact arithmetic: what is
+/// left of the roundings of a unit vector, and [`lobe_math::bounds`].
 pub(crate) const SPHERICAL: f64 = 1.2e-6;
 
 /// The unit vectors along `x`, `y`, `z`, and the lanes that have one: not those that are not finite or have no length.

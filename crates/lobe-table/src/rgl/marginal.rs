@@ -3,7 +3,7 @@
 //! The density of a query is a blend of stored slices, each normalised to integrate to one. Rows are drawn by their
 //! marginal distribution and columns by the conditional one; within a cell both are quadratic and are inverted exactly.
 
-use super::Images;
+use super::images::{Images, bilinear, lerp, place};
 use crate::grid::neighbours::Neighbours;
 
 /// Which slices of a table to blend, and with which weights. The weights add up to one.
@@ -39,25 +39,6 @@ impl Blend {
         }
         sum
     }
-}
-
-/// The bilinear value at `u` of the blended images. Positions are clamped to the unit square.
-pub(super) fn bilinear(images: &Images, u: [f64; 2], value: impl Fn(usize) -> f64) -> f64 {
-    let [height, width] = images.size();
-    let ((col, fx), (row, fy)) = (place(u[0], width), place(u[1], height));
-    let at = |r: usize, c: usize| value((row + r) * width + col + c);
-    lerp(lerp(at(0, 0), at(0, 1), fx), lerp(at(1, 0), at(1, 1), fx), fy)
-}
-
-/// A coordinate in `[0, 1]` as cell and fraction of `n` texels.
-fn place(u: f64, n: usize) -> (usize, f64) {
-    let x = u.clamp(0.0, 1.0) * (n - 1) as f64;
-    let cell = (x as usize).min(n - 2);
-    (cell, x - cell as f64)
-}
-
-fn lerp(a: f64, b: f64, t: f64) -> f64 {
-    (1.0 - t) * a + t * b
 }
 
 /// Normalised slices with their cumulative distributions.
@@ -116,7 +97,7 @@ impl Warp {
 
     /// The uniform position that [`sample`](Self::sample) turns into `u`, and the density at `u`.
     ///
-    /// If a whole row has no density, the position in it is undefined, and is 0.
+    /// If a whole row has no density, the position in it is not defined, and 0.
     pub fn invert(&self, u: [f64; 2], blend: &Blend) -> ([f64; 2], f64) {
         let [height, width] = self.images.size();
         let ((col, fx), (row, fy)) = (place(u[0], width), place(u[1], height));

@@ -1,7 +1,8 @@
 //! Evaluation of [`Data`] one query at a time in `f64`: what the lanes are compared with.
 
-use super::marginal::{Blend, Warp, bilinear};
-use super::{Data, LEAST_AREA};
+use super::data::{Data, LEAST_AREA};
+use super::images::bilinear;
+use super::marginal::{Blend, Warp};
 use crate::Channels;
 use crate::direction::{Vector, add, dot, normalize, phi, scale, spherical, sub, theta};
 use crate::grid::neighbours::Neighbours;
@@ -51,7 +52,7 @@ struct Footprint {
 }
 
 impl Reference {
-    /// Prepares the cumulative distributions. They take 16 bytes a texel of `vndf` and `luminance`.
+    /// Prepares the cumulative distributions. They take 16 bytes per texel of `vndf` and `luminance`.
     pub fn new(rgl: &Data) -> Self {
         let parts = rgl.parts();
         let (vndf, luminance) = (Warp::new(&parts.vndf), Warp::new(&parts.luminance));

@@ -1,6 +1,6 @@
 //! What programs need from materials of the EPFL database.
 
-use super::Data;
+use super::data::Data;
 use crate::bsdf::Bsdf;
 use crate::data::{Gaps, Options, PrepareError, Section, pairs};
 use crate::{Aspect, Channels, Kind, Representation};
@@ -37,8 +37,8 @@ impl Representation for Data {
         let section = section
             .with_axes(["phi_i", "theta_i"], &[wide(&parts.phi_i), wide(&parts.theta_i)])
             .with_fact("symmetry", symmetry)
-            .with_fact("spectra", format!("{} texels a channel and incident direction", size(parts.spectra.size())))
-            .with_fact("vndf", format!("{} texels an incident direction", size(parts.vndf.size())))
+            .with_fact("spectra", format!("{} texels per channel and incident direction", size(parts.spectra.size())))
+            .with_fact("vndf", format!("{} texels per incident direction", size(parts.vndf.size())))
             .with_fact("ndf", format!("{} texels", size(parts.ndf.size())));
         let quantity = match parts.jacobian {
             true => "f cos(theta_o) without the microfacet factor",

@@ -1,6 +1,7 @@
 //! What the parts of a material must be, and the symmetries that a reduced one has.
 
 use super::*;
+use crate::Channels;
 
 fn ramp(part: &'static str, shape: [usize; 3], seed: usize) -> Images {
     let texels = (0..shape.iter().product()).map(|i| 0.1 + ((i * 13 + seed) % 17) as f32 / 17.0).collect();

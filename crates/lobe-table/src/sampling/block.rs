@@ -5,14 +5,15 @@
 
 use lobe_lane::{Lanes, MAX_LANES};
 
-use super::distribution::{Distribution, Places, leave};
+use super::distribution::{Distribution, leave};
 use super::incident::Incident;
+use super::places::Places;
 use super::slices::{Row, Search, Sums, View};
 use crate::directions::DirectionBlock;
 use crate::passes::block::Column;
 
 /// The columns that the passes hand on.
-struct Scratch {
+pub(super) struct Scratch {
     first: Column<i32>,
     cell: Column<i32>,
     target: Column,
@@ -25,7 +26,7 @@ struct Scratch {
 }
 
 impl Scratch {
-    const ZERO: Self = Scratch {
+    pub(super) const ZERO: Self = Scratch {
         first: Column::<i32>::ZERO,
         cell: Column::<i32>::ZERO,
         target: Column::<f32>::ZERO,
@@ -61,6 +62,15 @@ impl Scratch {
     }
 }
 
+/// What a block of samples is drawn for.
+pub(super) struct Input<'a> {
+    pub(super) known: DirectionBlock<'a>,
+    /// Two numbers in `[0, 1)` for each direction.
+    pub(super) u: &'a [[f32; 2]],
+    /// The slices about each direction.
+    pub(super) places: &'a Places,
+}
+
 /// Where the samples of a block go.
 pub(super) struct Out<'a> {
     pub(super) directions: &'a mut [[f32; 3]],
@@ -73,12 +83,11 @@ pub(super) fn draw<L: Lanes, S: Sums>(
     lanes: L,
     distribution: &Distribution,
     view: &View<'_, S>,
-    (known, u, places): (DirectionBlock<'_>, &[[f32; 2]], &Places),
+    Input { known, u, places }: Input<'_>,
+    scratch: &mut Scratch,
     out: Out<'_>,
 ) {
     let n = u.len();
-    let mut scratch = Scratch::ZERO;
-
     let mut at = 0;
     while at < n {
         // Beyond the last pair of numbers that pair is read again.

@@ -2,10 +2,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::DistributionError;
 use super::grid::{Grid, candidate_columns, candidate_rows, spread};
 use super::histogram::{Bin, Histogram, Light};
 use super::incident::Surface;
+use super::options::DistributionError;
 use super::slices::Slices;
 use crate::grid::axis::Axis;
 use lobe_memory::Storage;
@@ -29,7 +29,7 @@ pub(crate) struct Builder<'a, 'l> {
     pub(crate) run: &'a dyn Fn(Histogram<'_>) -> Vec<Bin>,
     pub(crate) light: &'a mut Light<'l>,
     pub(crate) surface: &'a Surface,
-    /// Incident directions: the knots of sigma and, where it counts, of psi.
+    /// Incident directions: the knots of sigma and, if it counts, of psi.
     pub(crate) sigma: &'a Axis,
     pub(crate) psi: Option<&'a Axis>,
     /// Where scattered light is likely to vary: knots of theta, and how many of phi.
@@ -133,7 +133,7 @@ impl Builder<'_, '_> {
                 for psi in 0..blocks[1] {
                     let block = target.next().expect("a chunk a block");
                     for corner in 0..width {
-                        // Where psi counts it is the fast one of the two.
+                        // If psi counts, it is the fast one of the two.
                         let (up_sigma, up_psi) = if width == 2 { (corner, 0) } else { (corner / 2, corner % 2) };
                         let slice = source(Some(self.sigma), sigma + up_sigma) * psis + source(self.psi, psi + up_psi);
                         for (entry, sum) in sums[slice][which].iter().enumerate() {

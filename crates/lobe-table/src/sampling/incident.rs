@@ -1,8 +1,8 @@
 //! The geometry of scattering about one incident direction a lane: the hemisphere as a rectangle.
 //!
-//! About the zenith of the scattered light (see [`coords`](crate::specular::coords)), the horizon lies at a theta that depends on
-//! phi: with the zenith at polar angle `z`, `wo` is above it where `cos z cos theta + sin z cos phi sin theta > 0`, that
-//! is up to `tan(theta_max - pi/2) = tan z cos phi`. With `height = 1 - cos theta_max`, the coordinate
+//! About the zenith of the scattered light (see [`coords`](crate::specular::coords)), the horizon lies at a theta that
+//! depends on phi: with the zenith at polar angle `z`, `wo` is above it where `cos z cos theta + sin z cos phi sin
+//! theta > 0`, that is up to `tan(theta_max - pi/2) = tan z cos phi`. With `height = 1 - cos theta_max`, the coordinate
 //!
 //! `v = (1 - cos theta) / height(phi)` in `[0, 1)`
 //!

@@ -2,7 +2,7 @@
 
 use lobe_lane::{Floats, Lanes};
 
-use super::{Given, Values};
+use super::given::{Given, pair};
 use crate::passes::block::BLOCK;
 
 /// Where the samples of a batch go.
@@ -20,39 +20,40 @@ impl Sampled<'_> {
     /// Turns values of `f` in place of the weights into weights: times cosine over density. There must be a whole
     /// number of weights per direction.
     pub fn times_cosine_over_density(&mut self) {
-        let channels = self.weights.len().checked_div(self.directions.len()).unwrap_or(0).max(1);
-        let texels = self.weights.chunks_exact_mut(channels);
-        for ((texel, direction), &pdf) in texels.zip(&*self.directions).zip(&*self.pdfs) {
-            let factor = if pdf > 0.0 { direction[2].abs() / pdf } else { 0.0 };
-            texel.iter_mut().for_each(|value| *value *= factor);
+        let channels = self.weights.len().checked_div(self.directions.len()).unwrap_or(0);
+        weigh(self.weights, channels.max(1), self.directions, self.pdfs);
+    }
+}
+
+/// Values to weights: times cosine over density, or 0 if the density is 0.
+fn weigh(values: &mut [f32], channels: usize, directions: &[[f32; 3]], pdfs: &[f32]) {
+    for ((texel, direction), &pdf) in values.chunks_exact_mut(channels).zip(directions).zip(pdfs) {
+        let factor = if 0.0 < pdf { direction[2].abs() / pdf } else { 0.0 };
+        for value in texel {
+            *value *= factor;
         }
     }
 }
 
-/// What `f` times becomes a weight: cosine over density, 0 if the density is.
+/// What `f` times becomes a weight: cosine over density, or 0 if the density is 0.
 #[inline(always)]
 pub(super) fn factor<L: Lanes>(lanes: L, z: L::F, pdf: L::F) -> L::F {
     (z.abs() / pdf).masked(lanes.splat(0.0).lt(pdf))
 }
 
-/// `(wi, wo)` from the known and the other direction, and the other way round.
-#[inline(always)]
-pub(super) fn pair<T>(given: Given, known: T, other: T) -> (T, T) {
-    match given {
-        Given::Light => (known, other),
-        Given::Viewer => (other, known),
-    }
-}
-
 /// Draws directions and densities: from the known directions and numbers to both.
 pub(super) type Draw<'a> = dyn Fn(&[[f32; 3]], &[[f32; 2]], &mut [[f32; 3]], &mut [f32]) + 'a;
+
+/// Evaluates a table: `[pair][channel]`.
+pub(super) type Values<'a> = dyn Fn(&[[f32; 3]], &[[f32; 3]], &mut [f32]) + 'a;
 
 /// Queries between the two halves of the work: few enough that their directions stay in the first cache.
 const CHUNK: usize = 8 * BLOCK;
 
 /// All samples of a batch whose directions `draw` finds and whose `f` `values` finds, each of which enters the backend.
 pub(super) fn sample(
-    (draw, values): (&Draw<'_>, &Values<'_>),
+    draw: &Draw<'_>,
+    values: &Values<'_>,
     given: Given,
     known: &[[f32; 3]],
     u: &[[f32; 2]],
@@ -69,15 +70,5 @@ pub(super) fn sample(
         values(wi, wo, weights);
         weigh(weights, channels, sampled, pdfs);
         at = end;
-    }
-}
-
-/// Values to weights: times cosine over density, 0 if the density is.
-fn weigh(values: &mut [f32], channels: usize, directions: &[[f32; 3]], pdfs: &[f32]) {
-    for ((texel, direction), &pdf) in values.chunks_exact_mut(channels).zip(directions).zip(pdfs) {
-        let factor = if 0.0 < pdf { direction[2].abs() / pdf } else { 0.0 };
-        for value in texel {
-            *value *= factor;
-        }
     }
 }

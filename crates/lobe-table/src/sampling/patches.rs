@@ -95,7 +95,7 @@ impl PatchSampler {
         (direction, (mass / self.exit.projected_solid_angle(patch) * z) as f32)
     }
 
-    /// The density of [`draw`](Self::draw), 1/sr, if it finds `wo` for light from `wi`.
+    /// The density of [`draw`](Self::draw), 1/sr, with which it finds `wo` for light from `wi`.
     pub fn pdf(&self, wi: [f32; 3], wo: [f32; 3]) -> f32 {
         let sides = f64::from(wi[2]) * f64::from(wo[2]);
         if (self.scatter == Scatter::Reflection && sides <= 0.0)
@@ -134,7 +134,7 @@ fn ring_of(basis: &AngleBasis, patch: usize) -> (crate::window::klems::Ring, usi
     unreachable!("patch {patch} of a basis with {}", basis.patches())
 }
 
-/// A direction of length 1; `None` if it is zero or not finite.
+/// A direction of length 1; `None` if it points nowhere.
 fn unit(direction: [f32; 3]) -> Option<[f64; 3]> {
     let v = direction.map(f64::from);
     let length = v.iter().map(|c| c * c).sum::<f64>().sqrt();

@@ -10,8 +10,8 @@ use crate::grid::neighbours::Neighbours;
 use crate::specular::coords;
 
 impl Distribution {
-    /// As [`draw_lanes`](Distribution::draw_lanes), in `f64`; `None` if `known` is not a direction above the surface.
-    /// Sums are those of the lanes, rounded to `f32`, and so are the knots; all else is exact.
+    /// As [`draw_lanes`](Distribution::draw_lanes), in `f64`; `None` if `known` is not above the surface. Sums
+    /// are those of the lanes, rounded to `f32`, and so are the knots; all else is exact.
     pub fn draw_reference(&self, known: [f64; 3], u: [f64; 2]) -> Option<([f64; 3], f64)> {
         let [x, y, z] = known;
         let (side, up) = match self.surface.scatter {

@@ -27,7 +27,7 @@ pub(crate) struct Slices {
 #[derive(Clone, Copy)]
 pub(crate) struct Place<L: Lanes> {
     pub(crate) block: L::I,
-    /// Sigma slow, psi fast; the first two alone if psi does not matter.
+    /// Sigma slow, psi fast; the first two alone if psi does not count.
     pub(crate) weights: [L::F; 4],
 }
 

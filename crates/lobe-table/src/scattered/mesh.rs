@@ -230,7 +230,7 @@ mod tests {
 
     #[test]
     fn points_on_a_straight_rim_answer_for_themselves() {
-        // A fan of rays whose outermost ones are straight but for rounding.
+        // A fan of rays whose outermost ones are straight except for rounding.
         let mut points = vec![[0.0, 0.0]];
         for ray in 0..4 {
             let (sin, cos) = (0.3 + 0.2 * f64::from(ray)).sin_cos();

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::Data;
+use super::data::Data;
 use crate::bsdf::Bsdf;
 use crate::data::{Coverage, Near, Options, PrepareError, SAME, Section, ValueMap, direction, reach, spans};
 use crate::{Aspect, Channels, Invalid, Kind, Representation};

@@ -5,9 +5,9 @@ use std::f32::consts::FRAC_PI_2;
 use lobe_lane::{Floats, Lanes};
 
 use crate::Scatter;
-use crate::directions::DirectionBlock;
 use crate::grid::function::Function;
 use crate::passes::block::Column;
+use crate::passes::pairs::Pairs;
 use crate::passes::unit::{FARTHEST, POLE};
 
 /// What the angles of a block are computed from.
@@ -34,22 +34,22 @@ impl Frame {
     };
 }
 
-/// Fills the frame of queries `0..n` of a block, and sets all bits of `valid` for those whose directions are finite and above
-/// the horizon. `n` is a multiple of the lanes.
+/// Fills the frame of queries `0..n` of a block, and sets all bits of `valid` for those whose directions are finite and
+/// above the horizon. `n` is a multiple of the lanes.
 #[inline(always)]
 pub(crate) fn run<L: Lanes>(
     lanes: L,
     n: usize,
-    (wi, wo): (DirectionBlock<'_>, DirectionBlock<'_>),
+    pairs: Pairs<'_>,
     scatter: Scatter,
     refraction: Option<&Function>,
     frame: &mut Frame,
     valid: &mut Column<i32>,
 ) {
     match (scatter, refraction) {
-        (Scatter::Reflection, _) => pass(lanes, n, (wi, wo), Mirror::<false>, frame, valid),
-        (Scatter::Transmission, None) => pass(lanes, n, (wi, wo), Mirror::<true>, frame, valid),
-        (Scatter::Transmission, Some(offset)) => pass(lanes, n, (wi, wo), Refracted(offset), frame, valid),
+        (Scatter::Reflection, _) => pass(lanes, n, pairs, Mirror::<false>, frame, valid),
+        (Scatter::Transmission, None) => pass(lanes, n, pairs, Mirror::<true>, frame, valid),
+        (Scatter::Transmission, Some(offset)) => pass(lanes, n, pairs, Refracted(offset), frame, valid),
     }
 }
 
@@ -63,7 +63,7 @@ pub(crate) trait Zenith: Copy {
     fn opposite<L: Lanes>(self, lanes: L, wi: [L::F; 3], sin: L::F, psi: [L::F; 2]) -> ([L::F; 3], L::F);
 }
 
-/// The mirror direction, or if `FOLD`, straight through the surface and folded up.
+/// The mirror direction or, if `FOLD`, straight through the surface and folded up.
 #[derive(Clone, Copy)]
 struct Mirror<const FOLD: bool>;
 
@@ -97,7 +97,7 @@ impl Zenith for Refracted<'_> {
 fn pass<L: Lanes, Z: Zenith>(
     lanes: L,
     n: usize,
-    (wi, wo): (DirectionBlock<'_>, DirectionBlock<'_>),
+    Pairs { wi, wo }: Pairs<'_>,
     zenith: Z,
     frame: &mut Frame,
     valid: &mut Column<i32>,

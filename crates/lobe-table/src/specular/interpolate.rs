@@ -1,17 +1,19 @@
 //! A [`Table`] at known angles: the evaluation without its directions.
 
+use std::ops::Range;
+
 use lobe_backend::Backend;
 use lobe_lane::{Floats, Kernel, Lanes};
 
 use super::{PSI, Table};
 use crate::grid::interpolation::Scratch;
-use crate::passes::block::BLOCK;
+use crate::passes::blocks::{Blocks, Blockwise};
 
 impl Table {
     /// Interpolates at many points on a backend: `out[query * channels + channel]`, in 1/sr.
     ///
-    /// `angles` are sigma, psi, theta and phi in radians, see [`coords`](crate::specular::coords); psi and phi are in `[0, 2 pi]`.
-    /// An isotropic table does not read psi, which may be empty. Results are 0 if an angle is not finite.
+    /// `angles` are sigma, psi, theta and phi in radians, see [`coords`](crate::specular::coords); psi and phi are in
+    /// `[0, 2 pi]`. An isotropic table does not read psi, which may be empty. Results are 0 if an angle is not finite.
     ///
     /// # Panics
     /// If the angles differ in number, or `out` is not that many times the channels long.
@@ -31,43 +33,43 @@ impl Table {
             assert!(unread || angles.len() == count, "as many angles of each kind");
         }
         assert_eq!(out.len(), count * self.channel_count(), "one output per query and channel");
-        Interpolation { table: self, angles, out }
+        Blocks(Interpolation { table: self, angles, out })
     }
 }
 
-/// All queries of a batch, block by block.
+/// Interpolation at all points of a batch.
 struct Interpolation<'a> {
     table: &'a Table,
     angles: [&'a [f32]; 4],
     out: &'a mut [f32],
 }
 
-impl Kernel for Interpolation<'_> {
-    type Out = ();
+impl Blockwise for Interpolation<'_> {
+    type Scratch = Scratch;
+    const SCRATCH: Scratch = Scratch::ZERO;
+
+    fn count(&self) -> usize {
+        self.angles[0].len()
+    }
 
     #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) {
+    fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut Scratch) {
         let Interpolation { table, angles, out } = self;
-        let channels = table.channel_count();
-        let count = angles[0].len();
-        let mut scratch = Scratch::ZERO;
-        let mut at = 0;
-        while at < count {
-            let left = (count - at).min(BLOCK);
-            let n = left.next_multiple_of(L::LANES);
-            for (axis, (column, angles)) in scratch.angles.iter_mut().zip(angles).enumerate() {
-                if axis != PSI || table.is_anisotropic() {
-                    column.0[..left].copy_from_slice(&angles[at..][..left]);
-                }
+        let (at, left, channels) = (queries.start, queries.len(), table.channel_count());
+        let n = left.next_multiple_of(L::LANES);
+        let mut axis = 0;
+        while axis < 4 {
+            if axis != PSI || table.is_anisotropic() {
+                scratch.angles[axis].0[..left].copy_from_slice(&angles[axis][at..][..left]);
             }
-            leave_out(lanes, n, table.is_anisotropic(), &mut scratch);
-            table.grid.values(lanes, &mut scratch, &mut out[at * channels..][..left * channels]);
-            at += left;
+            axis += 1;
         }
+        leave_out(lanes, n, table.is_anisotropic(), scratch);
+        table.grid.values(lanes, scratch, &mut out[at * channels..][..left * channels]);
     }
 }
 
-/// Queries `0..n` are valid if all their angles are finite; angles that are not become 0.
+/// Queries `0..n` are valid if all angles are finite; those that are not become 0.
 #[inline(always)]
 fn leave_out<L: Lanes>(lanes: L, n: usize, anisotropic: bool, scratch: &mut Scratch) {
     let mut query = 0;

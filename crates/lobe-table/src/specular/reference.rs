@@ -4,8 +4,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use super::data::Data;
 use crate::grid::neighbours::{Neighbours, corners};
-use crate::specular::Data;
 use crate::specular::coords::directions_to_angles;
 use crate::{Edge, Edges, Scatter};
 
@@ -13,8 +13,8 @@ use crate::{Edge, Edges, Scatter};
 ///
 /// `wi` points to the light and `wo` to the viewer, unit vectors that point away from the surface, normal on +z. A
 /// reflection table answers 0 unless both have `z > 0`. A transmission table takes `|z|` of both, since its values are
-/// stored mirrored up at the surface, and answers 0 if one of them is 0: which side the light is on is the business of
-/// the material that owns the table. A direction with a NaN or infinite component gives 0.
+/// stored mirrored up at the surface, and answers 0 if one of them is 0: which side the light is on is the business
+/// of the material that owns the table. A direction with a NaN or infinite component gives 0.
 ///
 /// # Panics
 /// If `out` is not as long as there are channels.

@@ -4,9 +4,10 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use super::coords::{angles_to_directions, directions_to_angles};
+use super::data::{AXIS_NAMES, Data};
 use super::prepared::Prepared;
 use super::reference::zenith;
-use super::{AXIS_NAMES, Data, Table};
+use super::table::Table;
 use crate::bsdf::Bsdf;
 use crate::data::{Coverage, Grid, Kinks, Options, PrepareError, SAME, Section, ValueMap, direction, pairs, spans};
 use crate::{Aspect, Channels, Edges, Invalid, Kind, Representation};

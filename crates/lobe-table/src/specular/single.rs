@@ -1,5 +1,6 @@
-//! The coordinates of one query at a time, with SIMD inside the query: the arithmetic of the passes in another arrangement, in
-//! which the four angles share a register. [`Interpolator::single`](crate::grid::interpolation::Interpolator::single) goes on.
+//! The coordinates of one query at a time, with SIMD inside the query: the arithmetic of the passes in another
+//! arrangement, in which the four angles share a register.
+//! [`Interpolator::single`](crate::grid::interpolation::Interpolator::single) goes on.
 
 use lobe_lane::{Kernel, Lanes, MAX_LANES};
 

@@ -1,6 +1,6 @@
 //! A measured BRDF or BTDF made ready for evaluation.
 
-use super::{AXIS_NAMES, Data};
+use super::data::{AXIS_NAMES, Data};
 use crate::grid::interpolation::{Interpolator, Source};
 use crate::{Axis, Channels, Edge, Edges, Function, Precision, Scatter, TableError};
 
@@ -13,7 +13,7 @@ use crate::{Axis, Channels, Edge, Edges, Function, Precision, Scatter, TableErro
 ///
 /// `wi` points to the light and `wo` to the viewer, unit vectors that point away from the surface, normal on +z.
 /// Results are `f` in 1/sr without the cosine. A reflection table gives 0 unless both directions have `z > 0`; a
-/// transmission table takes `|z|` of both, as its values are stored mirrored up at the surface, and gives 0 where one is
+/// transmission table takes `|z|` of both, as its values are stored mirrored up at the surface, and gives 0 if one is
 /// 0. Directions with a component that is not finite give 0. With `wi` at the normal psi is 0 and phi counts from +x;
 /// with `wo` at the zenith phi is 0.
 #[derive(Clone, Debug)]

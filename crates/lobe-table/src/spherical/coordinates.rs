@@ -2,8 +2,8 @@
 
 use lobe_lane::{Floats, Lanes};
 
-use crate::directions::DirectionBlock;
 use crate::passes::block::Column;
+use crate::passes::pairs::Pairs;
 use crate::passes::unit::{POLE, across, azimuth, polar, unit};
 
 /// Which pairs of directions have a value.
@@ -28,22 +28,22 @@ pub(crate) enum Azimuths {
     Unsigned,
 }
 
-/// Fills `theta_i`, `phi_i` (only for [`Azimuths::Both`]), `theta_o` and `phi_o`, in radians, of queries `0..n`, and sets all
-/// bits of `valid` for those that have a value. `n` is a multiple of the lanes.
+/// Fills `theta_i`, `phi_i` (only for [`Azimuths::Both`]), `theta_o` and `phi_o`, in radians, of queries `0..n`, and
+/// sets all bits of `valid` for those that have a value. `n` is a multiple of the lanes.
 #[inline(always)]
 pub(crate) fn run<L: Lanes>(
     lanes: L,
     n: usize,
-    directions: (DirectionBlock<'_>, DirectionBlock<'_>),
+    pairs: Pairs<'_>,
     sides: Sides,
     azimuths: Azimuths,
     angles: &mut [Column; 4],
     valid: &mut Column<i32>,
 ) {
     match azimuths {
-        Azimuths::Both => pass(lanes, n, directions, sides, Both, angles, valid),
-        Azimuths::Between(turn) => pass(lanes, n, directions, sides, Between { turn }, angles, valid),
-        Azimuths::Unsigned => pass(lanes, n, directions, sides, Unsigned, angles, valid),
+        Azimuths::Both => pass(lanes, n, pairs, sides, Both, angles, valid),
+        Azimuths::Between(turn) => pass(lanes, n, pairs, sides, Between { turn }, angles, valid),
+        Azimuths::Unsigned => pass(lanes, n, pairs, sides, Unsigned, angles, valid),
     }
 }
 
@@ -134,7 +134,7 @@ impl LookUp for Unsigned {
 fn pass<L: Lanes, K: LookUp>(
     lanes: L,
     n: usize,
-    (wi, wo): (DirectionBlock<'_>, DirectionBlock<'_>),
+    Pairs { wi, wo }: Pairs<'_>,
     sides: Sides,
     look_up: K,
     angles: &mut [Column; 4],

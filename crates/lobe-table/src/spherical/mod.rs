@@ -1,7 +1,7 @@
 //! BRDFs and BTDFs on a grid of spherical coordinates of both directions.
 //!
-//! [`Data`] are the values as they were measured, with their evaluation in `f64`; a [`Table`] is made ready for evaluation in
-//! SIMD lanes.
+//! [`Data`] are the values as they were measured, with their evaluation in `f64`; a [`Table`] is made ready for
+//! evaluation in SIMD lanes.
 
 pub(crate) mod coordinates;
 mod data;

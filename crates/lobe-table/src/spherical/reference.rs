@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::Data;
+use super::data::Data;
 use crate::direction::phi;
 use crate::grid::edges::ROUNDING;
 use crate::grid::neighbours::{Neighbours, corners};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::{AXIS_NAMES, Data};
+use super::data::{AXIS_NAMES, Data};
 use crate::bsdf::Bsdf;
 use crate::data::{
     ANGLE_ROUNDING, Coverage, Grid, Kinks, Options, PrepareError, SAME, Section, ValueMap, direction, pairs, spans,

@@ -1,21 +1,20 @@
 //! [`Data`] made ready to be evaluated in SIMD lanes.
 
 use lobe_backend::Backend;
-use lobe_lane::{Floats, Kernel, Lanes};
+use lobe_lane::{Kernel, Lanes};
 
 use super::coordinates::{self, Azimuths, Sides};
-use super::{AXIS_NAMES, Data};
-use crate::directions::{DirectionBlock, Directions};
+use super::data::{AXIS_NAMES, Data};
+use crate::directions::Directions;
 use crate::grid::interpolation::{Interpolator, Scratch, Source};
-use crate::passes::batch::{Batch, Blockwise};
-use crate::passes::block::BLOCK;
+use crate::passes::pairs::{Evaluate, LanePairs, Pairs, evaluation};
 use crate::{Channels, Edge, Edges, Precision, Scatter, TableError};
 
 /// [`Data`] laid out for evaluation in SIMD lanes.
 ///
-/// The values are those of [`Data::eval`], in `f32`: `f` in 1/sr, without the cosine. They are 0 for pairs that the data do not
-/// answer, that is for two sides of a BRDF, for one side of a BTDF, and for directions that graze the surface. The directions
-/// need not be unit vectors, but their lengths have to be between 1e-15 and 1e15.
+/// The values are those of [`Data::eval`], in `f32`: `f` in 1/sr, without the cosine. They are 0 for pairs that the
+/// data do not answer, that is for two sides of a BRDF, for one side of a BTDF, and for directions that graze the
+/// surface. The directions need not be unit vectors, but their lengths have to be between 1e-15 and 1e15.
 ///
 /// In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
@@ -95,7 +94,7 @@ impl Table {
         wo: Directions<'a>,
         out: &'a mut [f32],
     ) -> impl Kernel<Out = ()> + 'a {
-        Batch::new(self, wi, wo, out)
+        evaluation(self, wi, wo, out)
     }
 
     /// Evaluates one pair per lane inside a caller's own kernel: `out[channel]` holds that channel in all lanes, 0 in the
@@ -106,38 +105,25 @@ impl Table {
     #[inline(always)]
     pub fn eval_lanes<L: Lanes>(&self, lanes: L, wi: [L::F; 3], wo: [L::F; 3], mask: L::M, out: &mut [L::F]) {
         assert_eq!(out.len(), self.channel_count(), "one output per channel");
-        let mut directions = [[[0.0f32; BLOCK]; 3]; 2];
-        for (side, w) in [wi, wo].into_iter().enumerate() {
-            for (k, component) in w.into_iter().enumerate() {
-                // A lane left out gets directions of no length, which point nowhere.
-                lanes.store(&mut directions[side][k], component.masked(mask));
-            }
-        }
-        let [wi, wo] = directions.each_ref().map(|[x, y, z]| DirectionBlock::Columns([x, y, z]));
+        let pairs = LanePairs::new(lanes, wi, wo, mask);
         let mut scratch = Scratch::ZERO;
-        self.angles(lanes, L::LANES, (wi, wo), &mut scratch);
+        self.angles(lanes, L::LANES, pairs.block(), &mut scratch);
         self.grid.find(lanes, L::LANES, &mut scratch);
         self.grid.blend_lanes(lanes, &mut scratch, out);
     }
 
     /// From the directions of queries `0..n` to their angles.
     #[inline(always)]
-    fn angles<L: Lanes>(
-        &self,
-        lanes: L,
-        n: usize,
-        directions: (DirectionBlock<'_>, DirectionBlock<'_>),
-        scratch: &mut Scratch,
-    ) {
+    fn angles<L: Lanes>(&self, lanes: L, n: usize, pairs: Pairs<'_>, scratch: &mut Scratch) {
         let sides = match self.scatter {
             Scatter::Reflection => Sides::Same,
             Scatter::Transmission => Sides::Opposite,
         };
-        coordinates::run(lanes, n, directions, sides, self.azimuths, &mut scratch.angles, &mut scratch.valid);
+        coordinates::run(lanes, n, pairs, sides, self.azimuths, &mut scratch.angles, &mut scratch.valid);
     }
 }
 
-impl Blockwise for &Table {
+impl Evaluate for &Table {
     type Scratch = Scratch;
     const SCRATCH: Scratch = Scratch::ZERO;
 
@@ -146,15 +132,8 @@ impl Blockwise for &Table {
     }
 
     #[inline(always)]
-    fn block<L: Lanes>(
-        self,
-        lanes: L,
-        count: usize,
-        directions: (DirectionBlock<'_>, DirectionBlock<'_>),
-        scratch: &mut Scratch,
-        out: &mut [f32],
-    ) {
-        self.angles(lanes, count.next_multiple_of(L::LANES), directions, scratch);
+    fn evaluate<L: Lanes>(self, lanes: L, n: usize, pairs: Pairs<'_>, scratch: &mut Scratch, out: &mut [f32]) {
+        self.angles(lanes, n, pairs, scratch);
         self.grid.values(lanes, scratch, out);
     }
 }

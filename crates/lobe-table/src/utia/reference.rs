@@ -1,6 +1,6 @@
 //! The evaluation of [`Data`] one query at a time in `f64`: what the lanes are compared with.
 
-use super::{Data, Decode, PHIS, PLANE, SCALE, STEPS, THETAS};
+use super::data::{Data, Decode, PHIS, PLANE, SCALE, STEPS, THETAS};
 use crate::direction::{phi, theta, wrap};
 use crate::grid::neighbours::{Neighbours, corners};
 use crate::grid::weights::SUM;
@@ -41,8 +41,8 @@ impl Data {
         }
     }
 
-    /// How far a [raw](Decode::Raw) value may be off in the lanes of a [`Table`](crate::utia::Table), in parts of the largest
-    /// one.
+    /// How far a [raw](Decode::Raw) value may be off in the lanes of a [`Table`](crate::utia::Table), in parts of the
+    /// largest one.
     pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
         // Beyond the last zenith angle the sizes of the two weights of the continued line add up to more than 1.
         let stretch = |w: [f64; 3]| 1.0 + 2.0 * (zenith(theta(w)).weights[1] - 1.0).max(0.0);

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::{Data, PHIS, STEPS, THETAS};
+use super::data::{Data, PHIS, STEPS, THETAS};
 use crate::bsdf::Bsdf;
 use crate::data::{Coverage, Options, PrepareError, SAME, Section, direction, pairs};
 use crate::{Aspect, Channels, Kind, Representation};

@@ -1,3 +1,4 @@
+use super::klems::KlemsMatrix;
 use super::*;
 use crate::window::klems::AngleBasis;
 

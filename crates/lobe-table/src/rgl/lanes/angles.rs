@@ -5,17 +5,30 @@ use std::f32::consts::{FRAC_1_PI, FRAC_2_PI, PI};
 
 use lobe_lane::{Floats, Lanes};
 
-use super::batch::Incident;
 use super::frame::Frame;
 use crate::passes::block::Column;
-use crate::rgl::LEAST_AREA;
+use crate::rgl::data::LEAST_AREA;
 
 /// `1 / (2 pi)`.
 const TURNS_PER_RADIAN: f32 = 0.5 * FRAC_1_PI;
 
+/// What is known of `wi`.
+pub(super) struct Incident {
+    /// Zenith angle and azimuth in radians.
+    pub(super) theta: Column,
+    pub(super) phi: Column,
+    /// The position on the unit square.
+    pub(super) u: [Column; 2],
+}
+
+impl Incident {
+    pub(super) const ZERO: Self =
+        Incident { theta: Column::<f32>::ZERO, phi: Column::<f32>::ZERO, u: [Column::<f32>::ZERO; 2] };
+}
+
 /// Zenith angle and azimuth of `wi` in radians, and its position on the unit square, from the frame of queries `0..n`.
 ///
-/// Unless `azimuthal`, the azimuth is not computed; nothing may then depend on it.
+/// Unless `azimuthal`, the azimuth is not computed, and nothing may depend on it.
 #[inline(always)]
 pub(super) fn incident<L: Lanes>(lanes: L, n: usize, azimuthal: bool, frame: &Frame, incident: &mut Incident) {
     let mut query = 0;

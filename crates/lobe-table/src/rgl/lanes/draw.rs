@@ -47,7 +47,7 @@ pub(super) fn run<L: Lanes, const SLICES: usize>(
         query += L::LANES;
     }
     search.run::<L, SLICES, 2>(lanes, n, &ends, ends.count, &blend.weights, &u[1]);
-    turn::<L, SLICES>(lanes, n, warp, blend, (&mut search, corners), u);
+    turn::<L, SLICES>(lanes, n, warp, blend, &mut search, corners, u);
     search.run::<L, SLICES, 4>(lanes, n, &coarse, coarse.count, corners, &u[0]);
     refine(lanes, n, warp, blend, &mut search, &u[1]);
     search.run::<L, SLICES, 4>(lanes, n, &fine, fine.count.min(STRIDE as i32), corners, &u[0]);
@@ -61,8 +61,8 @@ impl Search {
         self.end.store(lanes, query, first + lanes.splat_int(entries.count * entries.stride));
     }
 
-    /// Moves queries `0..n` to the last of `count` entries whose first `TERMS` floats, weighted and summed over the slices, are less
-    /// than `target`.
+    /// Moves queries `0..n` to the last of `count` entries whose first `TERMS` floats, weighted and summed over the
+    /// slices, are less than `target`.
     #[inline(always)]
     fn run<L: Lanes, const SLICES: usize, const TERMS: usize>(
         &mut self,
@@ -111,7 +111,8 @@ fn turn<L: Lanes, const SLICES: usize>(
     n: usize,
     warp: &Warp,
     blend: &Blend,
-    (search, corners): (&mut Search, &mut [Column; MAX_CORNERS]),
+    search: &mut Search,
+    corners: &mut [Column; MAX_CORNERS],
     u: &mut [Column; 2],
 ) {
     let block = warp.rows();
@@ -199,8 +200,8 @@ fn split<L: Lanes>(lanes: L, warp: &Warp, place: L::F) -> (L::I, L::F) {
     (row, place - row.to_float())
 }
 
-/// The `t` in `[0, 1]` at which the integral from 0 to `t` of a function that goes linearly from `a` at 0 to `b` at 1 is `q`;
-/// 0 if there is nothing to integrate. The root is guarded: rounding may make its argument negative.
+/// The `t` in `[0, 1]` at which the integral from 0 to `t` of a function that goes linearly from `a` at 0 to `b` at 1
+/// is `q`; 0 where there is nothing to integrate. The root is guarded: rounding may make its argument negative.
 #[inline(always)]
 fn solve<L: Lanes>(lanes: L, a: L::F, b: L::F, q: L::F) -> L::F {
     let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));

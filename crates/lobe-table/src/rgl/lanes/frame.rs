@@ -2,8 +2,8 @@
 
 use lobe_lane::{Floats, Lanes};
 
-use crate::directions::DirectionBlock;
 use crate::passes::block::Column;
+use crate::passes::pairs::Pairs;
 use crate::passes::unit::{FARTHEST, POLE};
 
 /// The columns that the first pass fills.
@@ -54,7 +54,7 @@ pub(super) struct Symmetry {
 /// A `wi` in each lane, moved to the azimuths that are stored.
 #[derive(Clone, Copy)]
 pub(super) struct Oriented<L: Lanes> {
-    /// -0.0 where x and where y of all directions must change sign to get there, and back; +0.0 elsewhere.
+    /// -0.0 if x, or y, of all directions must change sign to get there, and back; +0.0 elsewhere.
     pub(super) signs: [L::F; 2],
     /// x, y and z.
     pub(super) wi: [L::F; 3],
@@ -95,7 +95,7 @@ fn every<L: Lanes>(lanes: L, wanted: bool) -> L::M {
 pub(super) fn run<L: Lanes>(
     lanes: L,
     n: usize,
-    (wi, wo): (DirectionBlock<'_>, DirectionBlock<'_>),
+    Pairs { wi, wo }: Pairs<'_>,
     symmetry: Symmetry,
     cosine: bool,
     frame: &mut Frame,

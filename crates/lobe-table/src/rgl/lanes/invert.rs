@@ -97,16 +97,24 @@ fn integral<L: Lanes>(lanes: L, a: L::F, b: L::F, t: L::F) -> L::F {
     t * lanes.mul_add(lanes.splat(0.5) * t, b - a, a)
 }
 
-/// Fills `s`, the uniform positions of queries `0..n`, and the density over the unit square at `places`.
+/// What is found by an inversion.
+pub(super) struct Inverse<'a> {
+    /// The uniform positions.
+    pub(super) s: &'a mut [Column; 2],
+    /// The density over the unit square.
+    pub(super) density: &'a mut Column,
+}
+
+/// The uniform positions that `u`, at `places`, come from, of queries `0..n`, and the density there.
 #[inline(always)]
 pub(super) fn run<L: Lanes, const SLICES: usize>(
     lanes: L,
     n: usize,
     warp: &Warp,
-    (u, blend): (&[Column; 2], &Blend),
+    u: &[Column; 2],
+    blend: &Blend,
     places: &Places,
-    s: &mut [Column; 2],
-    density: &mut Column,
+    Inverse { s, density }: Inverse<'_>,
 ) {
     let (cells, row_block) = (warp.cells(), warp.rows());
     let placer = warp.grid.placer(lanes);

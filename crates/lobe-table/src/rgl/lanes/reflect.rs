@@ -27,16 +27,23 @@ pub(super) fn incident<L: Lanes>(lanes: L, n: usize, wi: DirectionBlock<'_>, sym
     }
 }
 
+/// The directions of a block, and their densities.
+pub(super) struct Reflected<'a> {
+    pub(super) wo: &'a mut [Column; 3],
+    pub(super) density: &'a mut Column,
+}
+
 /// Directions and densities from the half vectors at `u_m`, in place of the density on the unit square; 0 if a direction
 /// is not above the surface. The factor becomes the inverse of the density.
 #[inline(always)]
 pub(super) fn run<L: Lanes>(
     lanes: L,
     n: usize,
-    (wi, symmetry): (DirectionBlock<'_>, Symmetry),
-    (u_m, frame): (&[Column; 2], &mut Frame),
-    wo: &mut [Column; 3],
-    density: &mut Column,
+    wi: DirectionBlock<'_>,
+    symmetry: Symmetry,
+    u_m: &[Column; 2],
+    frame: &mut Frame,
+    Reflected { wo, density }: Reflected<'_>,
 ) {
     let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
     let mut query = 0;

@@ -1,12 +1,17 @@
-//! Drawing many directions, block by block.
+//! Drawing many directions.
+
+use std::ops::Range;
 
 use lobe_backend::Backend;
 use lobe_lane::{Kernel, Lanes, call};
 
-use super::batch::{Scratch, Slices, Values};
-use super::{Table, angles, draw, reflect};
-use crate::directions::{Directions, PADDING};
+use super::passes::{Scratch, Slices, Values};
+use super::reflect::{self, Reflected};
+use super::table::Table;
+use super::{angles, draw};
+use crate::directions::{Directions, PADDING, Padding};
 use crate::passes::block::{BLOCK, Column};
+use crate::passes::blocks::{Blocks, Blockwise};
 use crate::rgl::UniformOrder;
 
 /// Where drawn directions go. All is 0 for a sample that is not above the surface.
@@ -56,6 +61,70 @@ impl Table {
     }
 }
 
+/// All draws of a batch, with blends of `SLICES`: `PAIRS` corners of a cell in one dimension, and `FOURS` in two.
+struct Draws<'a, const SLICES: usize, const PAIRS: usize, const FOURS: usize> {
+    table: &'a Table,
+    wi: Directions<'a>,
+    uniforms: &'a [[f32; 2]],
+    order: UniformOrder,
+    drawn: Drawn<'a>,
+}
+
+/// What the passes of draws hand on.
+struct DrawScratch {
+    passes: Scratch,
+    wo: [Column; 3],
+    padding: Padding,
+}
+
+impl<const SLICES: usize, const PAIRS: usize, const FOURS: usize> Blockwise for Draws<'_, SLICES, PAIRS, FOURS> {
+    type Scratch = DrawScratch;
+    const SCRATCH: DrawScratch = DrawScratch { passes: Scratch::ZERO, wo: [Column::<f32>::ZERO; 3], padding: PADDING };
+
+    fn count(&self) -> usize {
+        self.wi.count()
+    }
+
+    #[inline(always)]
+    fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut DrawScratch) {
+        let Draws { table, wi, uniforms, order, drawn } = self;
+        let DrawScratch { passes: scratch, wo, padding } = scratch;
+        let (at, left, channels) = (queries.start, queries.len(), table.channel_count());
+        let n = left.next_multiple_of(L::LANES);
+        let wi = wi.block(at, padding);
+        let Scratch { frame, incident, blend, u_m, s, density, weights, .. } = &mut *scratch;
+        reflect::incident(lanes, n, wi, table.symmetry, frame);
+        angles::incident(lanes, n, table.azimuthal, frame, incident);
+        call(lanes, Slices::<SLICES> { table, n, valid: &mut frame.valid, incident, blend: &mut *blend });
+        let [first, second] = match order {
+            UniformOrder::Powitacq => [1, 0],
+            UniformOrder::Pbrt => [0, 1],
+        };
+        for (query, uniform) in uniforms[at..][..left].iter().enumerate() {
+            s[0].0[query] = uniform[first];
+            s[1].0[query] = uniform[second];
+        }
+        *density = Column([1.0; BLOCK]);
+        // By luminance first, then by the visible normals from there.
+        *u_m = *s;
+        let mut step = 0;
+        while step < 2 {
+            *s = *u_m;
+            let warp = if step == 0 { &table.luminance } else { &table.vndf };
+            draw::run::<L, SLICES>(lanes, n, warp, blend, weights, u_m, density);
+            step += 1;
+        }
+        reflect::run(lanes, n, wi, table.symmetry, u_m, frame, Reflected { wo, density });
+        let out = &mut drawn.weights[at * channels..][..left * channels];
+        call(lanes, Values::<SLICES, PAIRS, FOURS> { table, n, scratch: &mut *scratch, out });
+        drawn.pdf[at..][..left].copy_from_slice(&scratch.density.0[..left]);
+        for (query, target) in drawn.wo[at..][..left].iter_mut().enumerate() {
+            *target = [wo[0].one(query), wo[1].one(query), wo[2].one(query)];
+        }
+    }
+}
+
+/// The kernel for the slices that a table blends.
 struct Sampling<'a> {
     table: &'a Table,
     wi: Directions<'a>,
@@ -69,55 +138,11 @@ impl Kernel for Sampling<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        if self.table.blends_azimuths() { self.blocks::<L, 4, 8, 16>(lanes) } else { self.blocks::<L, 2, 4, 8>(lanes) }
-    }
-}
-
-impl Sampling<'_> {
-    /// As in the evaluation of a batch.
-    #[inline(always)]
-    fn blocks<L: Lanes, const SLICES: usize, const PAIRS: usize, const FOURS: usize>(self, lanes: L) {
         let Sampling { table, wi, uniforms, order, drawn } = self;
-        let channels = table.channel_count();
-        let count = wi.count();
-        let mut scratch = Scratch::ZERO;
-        let mut wo = [Column::<f32>::ZERO; 3];
-        let mut padding = PADDING;
-        let mut at = 0;
-        while at < count {
-            let left = (count - at).min(BLOCK);
-            let n = left.next_multiple_of(L::LANES);
-            let block = wi.block(at, &mut padding);
-            let Scratch { frame, incident, blend, u_m, s, density, weights, .. } = &mut scratch;
-            reflect::incident(lanes, n, block, table.symmetry, frame);
-            angles::incident(lanes, n, table.azimuthal, frame, incident);
-            call(lanes, Slices::<SLICES> { table, n, valid: &mut frame.valid, incident, blend: &mut *blend });
-            let [first, second] = match order {
-                UniformOrder::Powitacq => [1, 0],
-                UniformOrder::Pbrt => [0, 1],
-            };
-            for (query, uniform) in uniforms[at..][..left].iter().enumerate() {
-                s[0].0[query] = uniform[first];
-                s[1].0[query] = uniform[second];
-            }
-            *density = Column([1.0; BLOCK]);
-            // By luminance first, then by the visible normals from there.
-            *u_m = *s;
-            let mut step = 0;
-            while step < 2 {
-                *s = *u_m;
-                let warp = if step == 0 { &table.luminance } else { &table.vndf };
-                draw::run::<L, SLICES>(lanes, n, warp, blend, weights, u_m, density);
-                step += 1;
-            }
-            reflect::run(lanes, n, (block, table.symmetry), (u_m, frame), &mut wo, density);
-            let weights = &mut drawn.weights[at * channels..][..left * channels];
-            call(lanes, Values::<SLICES, PAIRS, FOURS> { table, n, scratch: &mut scratch, out: weights });
-            drawn.pdf[at..][..left].copy_from_slice(&scratch.density.0[..left]);
-            for (query, target) in drawn.wo[at..][..left].iter_mut().enumerate() {
-                *target = [wo[0].one(query), wo[1].one(query), wo[2].one(query)];
-            }
-            at += left;
+        if table.blends_azimuths() {
+            Blocks(Draws::<4, 8, 16> { table, wi, uniforms, order, drawn }).run(lanes);
+        } else {
+            Blocks(Draws::<2, 4, 8> { table, wi, uniforms, order, drawn }).run(lanes);
         }
     }
 }

@@ -27,6 +27,14 @@ pub(super) struct Spectra {
     floor: f32,
 }
 
+/// Where the queries of a block are in the spectra.
+pub(super) struct At<'a> {
+    pub(super) places: &'a Places,
+    pub(super) blend: &'a Blend,
+    /// What each value is multiplied by.
+    pub(super) factor: &'a Column,
+}
+
 impl Spectra {
     /// Lays out `slices` (azimuths, zenith angles) times `channels` images.
     pub(super) fn new(images: &Images, slices: [usize; 2], channels: usize, floor: f32) -> Result<Self, Invalid> {
@@ -54,19 +62,18 @@ impl Spectra {
         Ok(Spectra { grid, channels, texels, offsets, floor })
     }
 
-    /// The values of queries `0..count`, one value per channel, at `places`. `n` is `count` rounded up to the lanes.
+    /// The values of as many queries as there is room for, `[query][channel]`. `n` is their number rounded up to the lanes.
     /// `FEW_CORNERS` is twice, and `MANY_CORNERS` four times the `SLICES`.
     #[inline(always)]
     pub(super) fn run<L: Lanes, const SLICES: usize, const FEW_CORNERS: usize, const MANY_CORNERS: usize>(
         &self,
         lanes: L,
         n: usize,
-        places: &Places,
-        (blend, factor): (&Blend, &Column),
-        (weights, tile): (&mut [Column; MAX_CORNERS], &mut Tile),
+        At { places: Places { base, fractions: [x, y] }, blend, factor }: At<'_>,
+        weights: &mut [Column; MAX_CORNERS],
+        tile: &mut Tile,
         out: &mut [f32],
     ) {
-        let Places { base, fractions: [x, y] } = places;
         if self.channels > FEW {
             corners::<L, SLICES, 2>(lanes, n, blend, factor, [y, x], weights);
             let block = Block::new(self.texels.as_slice(), first::<MANY_CORNERS, MAX_CORNERS>(&self.offsets));

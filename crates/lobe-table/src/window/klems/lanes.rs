@@ -4,7 +4,7 @@ use std::f32::consts::{FRAC_1_PI, TAU};
 
 use lobe_lane::{Floats, Ints, Lanes};
 
-use super::{AngleBasis, SAME_BOUND};
+use super::matrix::{AngleBasis, SAME_BOUND};
 use crate::grid::axis::Axis;
 use crate::grid::cells;
 use crate::grid::edges::Edge;
@@ -16,6 +16,8 @@ use crate::passes::unit::spherical;
 #[derive(Clone, Debug)]
 pub(crate) struct Patches {
     basis: AngleBasis,
+    /// -1 if the reverse of a direction in the plane of the surface is looked up, else 1.
+    sign: f32,
     rings: Axis,
     /// The first patch of each ring, and how many it has.
     sectors: Vec<[f32; 2]>,
@@ -37,9 +39,23 @@ impl PatchScratch {
 }
 
 impl Patches {
+    /// The patches through which light arrives, those that it travels toward.
+    ///
     /// # Errors
-    /// [`Invalid`] if no ring is wide enough for `f32` to distinguish its bounds.
-    pub(crate) fn new(basis: &AngleBasis) -> Result<Self, Invalid> {
+    /// [`Invalid`] if no ring is wide enough for its bounds to differ in `f32`.
+    pub(crate) fn arriving(basis: &AngleBasis) -> Result<Self, Invalid> {
+        Patches::new(basis, -1.0)
+    }
+
+    /// The patches through which light leaves.
+    ///
+    /// # Errors
+    /// As [`arriving`](Self::arriving).
+    pub(crate) fn leaving(basis: &AngleBasis) -> Result<Self, Invalid> {
+        Patches::new(basis, 1.0)
+    }
+
+    fn new(basis: &AngleBasis, sign: f32) -> Result<Self, Invalid> {
         let (mut bounds, mut sectors, mut first) = (vec![0.0], Vec::new(), 0);
         for ring in basis.rings() {
             let upper = ring.upper.to_radians();
@@ -58,7 +74,7 @@ impl Patches {
         let last = basis.rings().last().map_or(0.0, |ring| ring.upper);
         // The horizon belongs to the last ring.
         let end = if last >= 90.0 - SAME_BOUND { TAU } else { last.to_radians() as f32 };
-        Ok(Patches { basis: basis.clone(), rings, sectors, end })
+        Ok(Patches { basis: basis.clone(), sign, rings, sectors, end })
     }
 
     /// The basis that this was made of.
@@ -66,19 +82,20 @@ impl Patches {
         &self.basis
     }
 
-    /// The patches of queries `0..n`. `toward` are unit vectors on any side, `sign` is -1 where their reverse in the plane
-    /// counts. Directions without a patch lose their `valid` bits.
+    /// The patches of queries `0..n`. `toward` are unit vectors on any side. Directions without a patch lose their
+    /// `valid` bits.
     #[inline(always)]
     pub(crate) fn find<L: Lanes>(
         &self,
         lanes: L,
         n: usize,
-        (toward, sign): (&[Column; 3], f32),
+        toward: &[Column; 3],
         PatchScratch { theta, phi, ring }: &mut PatchScratch,
-        (patch, valid): (&mut Column<i32>, &mut Column<i32>),
+        patch: &mut Column<i32>,
+        valid: &mut Column<i32>,
     ) {
         let (zero, half) = (lanes.splat(0.0), lanes.splat(0.5));
-        let (sign, end) = (lanes.splat(sign), lanes.splat(self.end));
+        let (sign, end) = (lanes.splat(self.sign), lanes.splat(self.end));
         let none = lanes.splat_int(0);
         let [x, y, z] = toward;
         let mut query = 0;

@@ -1,6 +1,6 @@
 //! The evaluation of a [`KlemsMatrix`] one query at a time in `f64`: what the lanes are compared with.
 
-use super::{AngleBasis, KlemsMatrix, SAME_BOUND};
+use super::matrix::{AngleBasis, KlemsMatrix, SAME_BOUND};
 use crate::direction::phi;
 use crate::passes::unit::SPHERICAL;
 

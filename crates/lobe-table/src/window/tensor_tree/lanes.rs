@@ -4,7 +4,7 @@ use std::f32::consts::FRAC_1_PI;
 
 use lobe_lane::{Floats, Ints, Lanes, Mask};
 
-use super::{INSET, Node, Rank, TensorTree};
+use super::tree::{INSET, Node, Rank, TensorTree};
 use crate::invalid::Invalid;
 use crate::passes::block::Column;
 use crate::passes::unit::POLE;
@@ -107,7 +107,8 @@ pub(crate) fn positions<L: Lanes>(
     lanes: L,
     n: usize,
     rank: Rank,
-    (wi, wo): (&[Column; 3], &[Column; 3]),
+    wi: &[Column; 3],
+    wo: &[Column; 3],
     out: &mut [Column; 4],
 ) {
     let [a, b, c, d] = out;
@@ -143,8 +144,8 @@ pub(crate) fn positions<L: Lanes>(
 
 /// Shirley and Chiu's concentric map of the unit disk onto the unit square, as [`super::square`].
 ///
-/// All four wedges are one: along the axis that is nearer lies the radius, and along the other one that times the angle from
-/// the axis, in parts of an eighth of a turn.
+/// All four wedges are one: along the axis that is nearer lies the radius, and along the other one that times the angle
+/// from the axis, in parts of an eighth of a turn.
 #[inline(always)]
 fn square<L: Lanes>(lanes: L, x: L::F, y: L::F) -> [L::F; 2] {
     let (half, one) = (lanes.splat(0.5), lanes.splat(1.0));

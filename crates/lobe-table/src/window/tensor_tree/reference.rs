@@ -1,6 +1,6 @@
 //! The evaluation of a [`TensorTree`] one query at a time in `f64`: what the lanes are compared with.
 
-use super::{INSET, Node, Rank, TensorTree};
+use super::tree::{INSET, Node, Rank, TensorTree};
 
 /// What a coordinate in the unit cube may be off in the lanes.
 const ROUNDING: f64 = 6e-7;

@@ -3,11 +3,11 @@
 use lobe_backend::Backend;
 use lobe_lane::{Floats, Kernel, Lanes};
 
-use super::{Data, Decode, PHIS, PLANE, SCALE, STEPS, THETAS};
-use crate::directions::{DirectionBlock, Directions};
+use super::data::{Data, Decode, PHIS, PLANE, SCALE, STEPS, THETAS};
+use crate::directions::Directions;
 use crate::grid::interpolation::{Interpolator, Scratch, Source};
 use crate::invalid::Invalid;
-use crate::passes::batch::{Batch, Blockwise};
+use crate::passes::pairs::{Evaluate, Pairs, evaluation};
 use crate::spherical::AXIS_NAMES;
 use crate::spherical::coordinates::{self, Azimuths, Sides};
 use crate::{Edge, Edges, Precision};
@@ -70,11 +70,11 @@ impl Table {
         wo: Directions<'a>,
         out: &'a mut [f32],
     ) -> impl Kernel<Out = ()> + 'a {
-        Batch::new(self, wi, wo, out)
+        evaluation(self, wi, wo, out)
     }
 }
 
-impl Blockwise for &Table {
+impl Evaluate for &Table {
     type Scratch = Scratch;
     const SCRATCH: Scratch = Scratch::ZERO;
 
@@ -83,17 +83,9 @@ impl Blockwise for &Table {
     }
 
     #[inline(always)]
-    fn block<L: Lanes>(
-        self,
-        lanes: L,
-        count: usize,
-        directions: (DirectionBlock<'_>, DirectionBlock<'_>),
-        scratch: &mut Scratch,
-        out: &mut [f32],
-    ) {
-        let n = count.next_multiple_of(L::LANES);
+    fn evaluate<L: Lanes>(self, lanes: L, n: usize, pairs: Pairs<'_>, scratch: &mut Scratch, out: &mut [f32]) {
         let Scratch { angles, valid, .. } = scratch;
-        coordinates::run(lanes, n, directions, Sides::Above, Azimuths::Both, angles, valid);
+        coordinates::run(lanes, n, pairs, Sides::Above, Azimuths::Both, angles, valid);
         self.grid.values(lanes, scratch, out);
         if self.decode == Decode::Srgb {
             undo_curve(lanes, out);

@@ -3,17 +3,17 @@
 use lobe_backend::Backend;
 use lobe_lane::{Block, Floats, Kernel, Lanes};
 
-use super::{AXES, Data, ELEMENTS};
-use crate::directions::{DirectionBlock, Directions};
+use super::data::{AXES, Data, ELEMENTS};
+use crate::directions::Directions;
 use crate::grid::axis::Axis;
 use crate::grid::cells;
 use crate::grid::edges::Edge;
 use crate::grid::texels::{self, Located};
 use crate::grid::weights::{self, MAX_CORNERS};
 use crate::invalid::Invalid;
-use crate::passes::batch::{Batch, Blockwise};
 use crate::passes::block::Column;
 use crate::passes::half_vector::HalfVector;
+use crate::passes::pairs::{Evaluate, Pairs, evaluation};
 use lobe_memory::Storage;
 
 /// Stored where nothing was measured. However small its part in a blend, the result is far below 0 and becomes 0.
@@ -94,7 +94,8 @@ impl Table {
         backend.run(self.batch(wi, wo, out));
     }
 
-    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[query * channels + channel]`, in 1/sr.
+    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[query * channels + channel]`,
+    /// in 1/sr.
     ///
     /// # Panics
     /// If there are not as many `wi` as `wo`, or `out` is not that many times the wavelengths long.
@@ -104,7 +105,7 @@ impl Table {
         wo: Directions<'a>,
         out: &'a mut [f32],
     ) -> impl Kernel<Out = ()> + 'a {
-        Batch::new(self, wi, wo, out)
+        evaluation(self, wi, wo, out)
     }
 }
 
@@ -115,7 +116,7 @@ pub(crate) struct Scratch {
     weights: [Column; MAX_CORNERS],
 }
 
-impl Blockwise for &Table {
+impl Evaluate for &Table {
     type Scratch = Scratch;
     const SCRATCH: Scratch =
         Scratch { angles: HalfVector::ZERO, base: Column::<i32>::ZERO, weights: [Column::<f32>::ZERO; MAX_CORNERS] };
@@ -125,16 +126,9 @@ impl Blockwise for &Table {
     }
 
     #[inline(always)]
-    fn block<L: Lanes>(
-        self,
-        lanes: L,
-        count: usize,
-        directions: (DirectionBlock<'_>, DirectionBlock<'_>),
-        Scratch { angles, base, weights }: &mut Scratch,
-        out: &mut [f32],
-    ) {
-        let n = count.next_multiple_of(L::LANES);
-        angles.run::<L, true>(lanes, n, directions);
+    fn evaluate<L: Lanes>(self, lanes: L, n: usize, pairs: Pairs<'_>, scratch: &mut Scratch, out: &mut [f32]) {
+        let Scratch { angles, base, weights } = scratch;
+        angles.run::<L, true>(lanes, n, pairs);
         let HalfVector { theta_h, theta_d, phi_d, valid, .. } = angles;
         *base = Column::<i32>::ZERO;
         for (index, angle) in [&mut *phi_d, &mut *theta_d, &mut *theta_h].into_iter().enumerate() {

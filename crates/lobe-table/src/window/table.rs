@@ -3,22 +3,22 @@
 use lobe_backend::Backend;
 use lobe_lane::{Floats, Ints, Kernel, Lanes, Mask};
 
+use super::blocks::{Block, Blocks, Component};
 use super::klems::KlemsMatrix;
 use super::klems::lanes::{PatchScratch, Patches};
 use super::tensor_tree::lanes::{Walk, positions};
 use super::tensor_tree::{Rank, TensorTree};
-use super::{Block, Blocks, Component};
-use crate::directions::{DirectionBlock, Directions};
+use crate::directions::Directions;
 use crate::invalid::Invalid;
-use crate::passes::batch::{Batch, Blockwise};
 use crate::passes::block::Column;
+use crate::passes::pairs::{Evaluate, Pairs, evaluation};
 use crate::passes::unit::unit;
 
 /// The bands of wavelengths of a sheet, made ready for evaluation in SIMD lanes.
 ///
-/// The values are those of [`Blocks::eval`], `f` in 1/sr, one channel per band. The directions need not be unit vectors, but
-/// their lengths have to be between 1e-15 and 1e15. A query that is within rounding of the border of two patches or cells may
-/// be given to either, see [`Blocks::candidates`].
+/// The values are those of [`Blocks::eval`], `f` in 1/sr, one channel per band. The directions need not be unit
+/// vectors, but their lengths have to be between 1e-15 and 1e15. A query that is within rounding of the border of two
+/// patches or cells may be given to either, see [`Blocks::candidates`].
 ///
 /// In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
@@ -31,10 +31,17 @@ pub struct Table {
 /// Bands whose values are found in the same place, for light from one side to one side.
 #[derive(Clone, Debug)]
 struct Group {
-    /// The block that holds the values: the reverse one, with the directions exchanged, or the own.
-    source: Block,
-    exchanged: bool,
+    source: Source,
     members: Members,
+}
+
+/// Where the values of a block are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Source {
+    /// Its own block, or the reverse one.
+    block: Block,
+    /// Whether it is the reverse one, with the directions exchanged.
+    exchanged: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -54,12 +61,12 @@ impl Table {
         let mut groups: [Vec<Group>; 4] = Default::default();
         for (groups, block) in groups.iter_mut().zip(Block::ALL) {
             for (band, window) in bands.iter().enumerate() {
-                let sources = [Some((block, false)), block.reverse().map(|reverse| (reverse, true))];
-                let answer = sources.into_iter().flatten().find_map(|(source, exchanged)| {
-                    window.block(source).map(|component| (component, source, exchanged))
-                });
-                if let Some((component, source, exchanged)) = answer {
-                    add(groups, band, component, (source, exchanged))?;
+                let own = Source { block, exchanged: false };
+                let reverse = block.reverse().map(|block| Source { block, exchanged: true });
+                let mut sources = [Some(own), reverse].into_iter().flatten();
+                let answer = sources.find_map(|source| window.block(source.block).map(|component| (component, source)));
+                if let Some((component, source)) = answer {
+                    add(groups, band, component, source)?;
                 }
             }
         }
@@ -103,18 +110,13 @@ impl Table {
         wo: Directions<'a>,
         out: &'a mut [f32],
     ) -> impl Kernel<Out = ()> + 'a {
-        Batch::new(self, wi, wo, out)
+        evaluation(self, wi, wo, out)
     }
 }
 
 /// Adds a band to the group that it fits, or to a new one.
-fn add(
-    groups: &mut Vec<Group>,
-    band: usize,
-    component: &Component,
-    (source, exchanged): (Block, bool),
-) -> Result<(), Invalid> {
-    let alike = groups.iter_mut().filter(|group| group.exchanged == exchanged);
+fn add(groups: &mut Vec<Group>, band: usize, component: &Component, source: Source) -> Result<(), Invalid> {
+    let alike = groups.iter_mut().filter(|group| group.source.exchanged == source.exchanged);
     match component {
         Component::Klems(matrix) => {
             if i32::try_from(matrix.values().len()).is_err() {
@@ -132,8 +134,8 @@ fn add(
             match fitting.into_iter().next() {
                 Some(bands) => bands.push(band),
                 None => {
-                    let bases = Box::new([Patches::new(matrix.incident())?, Patches::new(matrix.exit())?]);
-                    groups.push(Group { source, exchanged, members: Members::Klems(bases, vec![band]) });
+                    let bases = Box::new([Patches::arriving(matrix.incident())?, Patches::leaving(matrix.exit())?]);
+                    groups.push(Group { source, members: Members::Klems(bases, vec![band]) });
                 }
             }
         }
@@ -145,9 +147,7 @@ fn add(
             });
             match fitting.into_iter().next() {
                 Some(trees) => trees.push((band, walk)),
-                None => {
-                    groups.push(Group { source, exchanged, members: Members::Trees(tree.rank(), vec![(band, walk)]) })
-                }
+                None => groups.push(Group { source, members: Members::Trees(tree.rank(), vec![(band, walk)]) }),
             }
         }
     }
@@ -158,7 +158,7 @@ fn add(
 pub(crate) struct Scratch {
     wi: [Column; 3],
     wo: [Column; 3],
-    /// Which [`Block`] a query is for; -1 if for none.
+    /// Which [`Block`] a query is for; -1 if it is for none.
     side: Column<i32>,
     valid: Column<i32>,
     patches: PatchScratch,
@@ -168,7 +168,7 @@ pub(crate) struct Scratch {
     value: Column,
 }
 
-impl Blockwise for &Table {
+impl Evaluate for &Table {
     type Scratch = Scratch;
     const SCRATCH: Scratch = Scratch {
         wi: [Column::<f32>::ZERO; 3],
@@ -186,16 +186,8 @@ impl Blockwise for &Table {
     }
 
     #[inline(always)]
-    fn block<L: Lanes>(
-        self,
-        lanes: L,
-        count: usize,
-        directions: (DirectionBlock<'_>, DirectionBlock<'_>),
-        scratch: &mut Scratch,
-        out: &mut [f32],
-    ) {
-        let n = count.next_multiple_of(L::LANES);
-        let seen = scratch.sides(lanes, n, directions);
+    fn evaluate<L: Lanes>(self, lanes: L, n: usize, pairs: Pairs<'_>, scratch: &mut Scratch, out: &mut [f32]) {
+        let seen = scratch.sides(lanes, n, pairs);
         out.fill(0.0);
         // Queries of one block are usually for one side, so that the passes for the others have nothing to do.
         let mut block = 0;
@@ -203,7 +195,7 @@ impl Blockwise for &Table {
             if seen[block] {
                 for group in &self.groups[block] {
                     scratch.begin(lanes, n, block);
-                    group.run(lanes, (count, n), &self.bands, scratch, out);
+                    group.run(lanes, n, &self.bands, scratch, out);
                 }
             }
             block += 1;
@@ -214,7 +206,7 @@ impl Blockwise for &Table {
 impl Scratch {
     /// Unit vectors and sides of queries `0..n`, and for which blocks there are any.
     #[inline(always)]
-    fn sides<L: Lanes>(&mut self, lanes: L, n: usize, (wi, wo): (DirectionBlock<'_>, DirectionBlock<'_>)) -> [bool; 4] {
+    fn sides<L: Lanes>(&mut self, lanes: L, n: usize, Pairs { wi, wo }: Pairs<'_>) -> [bool; 4] {
         let (zero, none) = (lanes.splat(0.0), lanes.splat_int(0));
         let mut seen = [false; 4];
         let mut query = 0;
@@ -257,26 +249,18 @@ impl Scratch {
 }
 
 impl Group {
-    /// Adds the values of the valid ones of queries `0..count` to `out`, which is 0 for them.
+    /// Adds the values of the valid ones of queries `0..n` to `out`, which is 0 for them.
     #[inline(always)]
-    fn run<L: Lanes>(
-        &self,
-        lanes: L,
-        (count, n): (usize, usize),
-        bands: &[Blocks],
-        scratch: &mut Scratch,
-        out: &mut [f32],
-    ) {
+    fn run<L: Lanes>(&self, lanes: L, n: usize, bands: &[Blocks], scratch: &mut Scratch, out: &mut [f32]) {
         let Scratch { wi, wo, valid, patches, pair: [arriving, leaving], positions: at, value, .. } = scratch;
-        let (from, to) = if self.exchanged { (&*wo, &*wi) } else { (&*wi, &*wo) };
+        let (from, to) = if self.source.exchanged { (&*wo, &*wi) } else { (&*wi, &*wo) };
         match &self.members {
             Members::Klems(bases, members) => {
                 let mut side = 0;
                 while side < 2 {
                     // Light arrives through the patch that it travels toward.
-                    let (toward, patch) =
-                        if side == 0 { ((from, -1.0), &mut *arriving) } else { ((to, 1.0), &mut *leaving) };
-                    bases[side].find(lanes, n, toward, patches, (patch, valid));
+                    let (toward, patch) = if side == 0 { (from, &mut *arriving) } else { (to, &mut *leaving) };
+                    bases[side].find(lanes, n, toward, patches, patch, valid);
                     side += 1;
                 }
                 let stride = lanes.splat_int(bases[1].basis().patches() as i32);
@@ -287,25 +271,25 @@ impl Group {
                     query += L::LANES;
                 }
                 for &band in members {
-                    if let Some(matrix) = matrix(bands[band].block(self.source)) {
+                    if let Some(matrix) = matrix(bands[band].block(self.source.block)) {
                         let mut query = 0;
                         while query < n {
                             value.store(lanes, query, lanes.gather(matrix.values(), arriving.load(lanes, query)));
                             query += L::LANES;
                         }
-                        scatter(lanes, (count, n), (value, valid), (band, bands.len()), out);
+                        scatter(lanes, n, value, valid, band, bands.len(), out);
                     }
                 }
             }
             Members::Trees(rank, members) => {
-                positions(lanes, n, *rank, (from, to), at);
+                positions(lanes, n, *rank, from, to, at);
                 for (band, walk) in members {
-                    if let Some(tree) = tree(bands[*band].block(self.source)) {
+                    if let Some(tree) = tree(bands[*band].block(self.source.block)) {
                         match rank {
                             Rank::Three => walk.run::<L, 3>(lanes, n, tree, at, value),
                             Rank::Four => walk.run::<L, 4>(lanes, n, tree, at, value),
                         }
-                        scatter(lanes, (count, n), (value, valid), (*band, bands.len()), out);
+                        scatter(lanes, n, value, valid, *band, bands.len(), out);
                     }
                 }
             }
@@ -327,13 +311,15 @@ fn tree(component: Option<&Component>) -> Option<&TensorTree> {
     }
 }
 
-/// Adds the values of the valid queries to the channel of a band.
+/// Adds the values of the valid ones of queries `0..n` to a band of `out`, `[query][channel]`, which may be shorter.
 #[inline(always)]
 fn scatter<L: Lanes>(
     lanes: L,
-    (count, n): (usize, usize),
-    (value, valid): (&mut Column, &Column<i32>),
-    (band, channels): (usize, usize),
+    n: usize,
+    value: &mut Column,
+    valid: &Column<i32>,
+    band: usize,
+    channels: usize,
     out: &mut [f32],
 ) {
     let zero = lanes.splat_int(0);
@@ -344,7 +330,7 @@ fn scatter<L: Lanes>(
         query += L::LANES;
     }
     let mut query = 0;
-    while query < count {
+    while query < out.len() / channels {
         out[query * channels + band] += value.one(query);
         query += 1;
     }

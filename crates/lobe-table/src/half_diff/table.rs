@@ -5,14 +5,14 @@ use std::f32::consts::FRAC_2_PI;
 use lobe_backend::Backend;
 use lobe_lane::{Block, Floats, Ints, Kernel, Lanes};
 
-use super::{Data, Lookup};
-use crate::directions::{DirectionBlock, Directions};
+use super::data::{Data, Lookup};
+use crate::directions::Directions;
 use crate::grid::texels::{self, Located, Tile};
 use crate::grid::weights::{self, MAX_CORNERS};
 use crate::invalid::Invalid;
-use crate::passes::batch::{Batch, Blockwise};
 use crate::passes::block::{BLOCK, Column};
 use crate::passes::half_vector::HalfVector;
+use crate::passes::pairs::{Evaluate, Pairs, evaluation};
 use lobe_memory::Storage;
 
 /// Floats of a bin: three channels, and 1 if the bin was measured. All four are 0 if it was not.
@@ -21,8 +21,8 @@ const TEXEL: usize = 4;
 /// [`Data`] laid out for evaluation in SIMD lanes.
 ///
 /// The values are those of [`Data::eval_nearest`] and [`Data::eval_linear`], in `f32`: `f` in 1/sr, linear RGB. The
-/// directions need not be unit vectors, but their lengths have to be between 1e-15 and 1e15. A query that is within rounding
-/// of the border of two bins may be given to either, see [`Data::candidates`].
+/// directions need not be unit vectors, but their lengths have to be between 1e-15 and 1e15. A query that is within
+/// rounding of the border of two bins may be given to either, see [`Data::candidates`].
 ///
 /// In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
@@ -97,7 +97,7 @@ impl Table {
         wo: Directions<'a>,
         out: &'a mut [f32],
     ) -> impl Kernel<Out = ()> + 'a {
-        Batch::new(Evaluator { table: self, lookup }, wi, wo, out)
+        evaluation(Evaluator { table: self, lookup }, wi, wo, out)
     }
 }
 
@@ -117,7 +117,7 @@ struct Scratch {
     tile: Tile,
 }
 
-impl Blockwise for Evaluator<'_> {
+impl Evaluate for Evaluator<'_> {
     type Scratch = Scratch;
     const SCRATCH: Scratch = Scratch {
         angles: HalfVector::ZERO,
@@ -132,17 +132,9 @@ impl Blockwise for Evaluator<'_> {
     }
 
     #[inline(always)]
-    fn block<L: Lanes>(
-        self,
-        lanes: L,
-        count: usize,
-        directions: (DirectionBlock<'_>, DirectionBlock<'_>),
-        scratch: &mut Scratch,
-        out: &mut [f32],
-    ) {
+    fn evaluate<L: Lanes>(self, lanes: L, n: usize, pairs: Pairs<'_>, scratch: &mut Scratch, out: &mut [f32]) {
         let table = self.table;
-        let n = count.next_multiple_of(L::LANES);
-        scratch.angles.run::<L, false>(lanes, n, directions);
+        scratch.angles.run::<L, false>(lanes, n, pairs);
         table.places(lanes, n, scratch);
         match self.lookup {
             Lookup::Nearest => {
@@ -189,7 +181,7 @@ impl Table {
         }
     }
 
-    /// Turns positions into the bins that they lie in; the dark one if a query is not valid.
+    /// Places to the bins that they lie in; the dark one if a query is not valid.
     #[inline(always)]
     fn bins<L: Lanes>(&self, lanes: L, n: usize, scratch: &mut Scratch) {
         let Scratch { angles, base, places: [h, d, p], .. } = scratch;
@@ -205,7 +197,7 @@ impl Table {
             let d = d.load(lanes, query).to_int().min(d_last);
             let p = p.load(lanes, query).to_int().min(p_last);
             let bin = h * h_stride + d * d_stride + p * p_stride;
-            // An index outside the table reads its last entry, the dark bin.
+            // An index outside the table becomes its last, the dark bin.
             let valid = angles.valid.load(lanes, query).lt(zero);
             base.store(lanes, query, lanes.select_int(valid, bin, dark));
             query += L::LANES;

@@ -1,0 +1,121 @@
+//! Pairs of directions, and the values of many of them.
+
+use std::ops::Range;
+
+use lobe_lane::{Floats, Kernel, Lanes};
+
+use super::block::BLOCK;
+use super::blocks::{Blocks, Blockwise};
+use crate::directions::{DirectionBlock, Directions, PADDING, Padding};
+
+/// A block of pairs of directions.
+#[derive(Clone, Copy)]
+pub(crate) struct Pairs<'a> {
+    pub(crate) wi: DirectionBlock<'a>,
+    pub(crate) wo: DirectionBlock<'a>,
+}
+
+/// Room for the pairs of a block that is not whole.
+pub(crate) struct PairPadding {
+    wi: Padding,
+    wo: Padding,
+}
+
+impl PairPadding {
+    pub(crate) const ZERO: Self = PairPadding { wi: PADDING, wo: PADDING };
+
+    /// The block of pairs from `at` on.
+    #[inline(always)]
+    pub(crate) fn block<'a>(&'a mut self, wi: &'a Directions<'_>, wo: &'a Directions<'_>, at: usize) -> Pairs<'a> {
+        Pairs { wi: wi.block(at, &mut self.wi), wo: wo.block(at, &mut self.wo) }
+    }
+}
+
+/// As many pairs as there are lanes, which a caller's kernel has in registers.
+pub(crate) struct LanePairs {
+    wi: [[f32; BLOCK]; 3],
+    wo: [[f32; BLOCK]; 3],
+}
+
+impl LanePairs {
+    /// Lanes that `mask` leaves out get directions of no length, which have no value.
+    #[inline(always)]
+    pub(crate) fn new<L: Lanes>(lanes: L, wi: [L::F; 3], wo: [L::F; 3], mask: L::M) -> Self {
+        let mut pairs = LanePairs { wi: [[0.0; BLOCK]; 3], wo: [[0.0; BLOCK]; 3] };
+        let mut k = 0;
+        while k < 3 {
+            lanes.store(&mut pairs.wi[k], wi[k].masked(mask));
+            lanes.store(&mut pairs.wo[k], wo[k].masked(mask));
+            k += 1;
+        }
+        pairs
+    }
+
+    #[inline(always)]
+    pub(crate) fn block(&self) -> Pairs<'_> {
+        let ([ix, iy, iz], [ox, oy, oz]) = (&self.wi, &self.wo);
+        Pairs { wi: DirectionBlock::Columns([ix, iy, iz]), wo: DirectionBlock::Columns([ox, oy, oz]) }
+    }
+}
+
+/// What has values for pairs of directions.
+pub(crate) trait Evaluate: Copy {
+    /// What its passes hand on.
+    type Scratch;
+    /// The scratch before the first block.
+    const SCRATCH: Self::Scratch;
+
+    /// How many values there are per pair.
+    fn channel_count(self) -> usize;
+
+    /// Evaluates the first pairs of a block, as many as there is room for in `out`: `[query][channel]`. `n` is their number
+    /// rounded up to the lanes. Must be `#[inline(always)]`.
+    fn evaluate<L: Lanes>(self, lanes: L, n: usize, pairs: Pairs<'_>, scratch: &mut Self::Scratch, out: &mut [f32]);
+}
+
+/// The evaluation of a batch.
+pub(crate) struct Evaluation<'a, E> {
+    evaluator: E,
+    wi: Directions<'a>,
+    wo: Directions<'a>,
+    out: &'a mut [f32],
+}
+
+/// The evaluation of many pairs: `out[query * channels + channel]`.
+///
+/// # Panics
+/// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+pub(crate) fn evaluation<'a, E: Evaluate + 'a>(
+    evaluator: E,
+    wi: Directions<'a>,
+    wo: Directions<'a>,
+    out: &'a mut [f32],
+) -> impl Kernel<Out = ()> + 'a {
+    assert_eq!(wi.count(), wo.count(), "as many wi as wo");
+    assert_eq!(out.len(), wi.count() * evaluator.channel_count(), "one output per query and channel");
+    Blocks(Evaluation { evaluator, wi, wo, out })
+}
+
+/// What passes over pairs hand on, and room for the last pairs.
+pub(crate) struct PairScratch<S> {
+    pub(crate) passes: S,
+    pub(crate) padding: PairPadding,
+}
+
+impl<E: Evaluate> Blockwise for Evaluation<'_, E> {
+    type Scratch = PairScratch<E::Scratch>;
+    const SCRATCH: Self::Scratch = PairScratch { passes: E::SCRATCH, padding: PairPadding::ZERO };
+
+    fn count(&self) -> usize {
+        self.wi.count()
+    }
+
+    #[inline(always)]
+    fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut Self::Scratch) {
+        let channels = self.evaluator.channel_count();
+        let pairs = scratch.padding.block(&self.wi, &self.wo, queries.start);
+        let n = queries.len().next_multiple_of(L::LANES);
+        let out = &mut self.out[queries.start * channels..][..queries.len() * channels];
+        self.evaluator.evaluate(lanes, n, pairs, &mut scratch.passes, out);
+    }
+}

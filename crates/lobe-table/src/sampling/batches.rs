@@ -1,0 +1,224 @@
+//! Draws, densities and brightnesses of many directions.
+
+use std::ops::Range;
+
+use lobe_backend::Backend;
+use lobe_lane::{Kernel, Lanes, call};
+
+use super::block;
+use super::distribution::Distribution;
+use super::incident::Incident;
+use super::places::{Places, place};
+use crate::directions::{DirectionBlock, Directions, PADDING, Padding};
+use crate::passes::blocks::{Blocks, Blockwise};
+use crate::passes::pairs::{PairPadding, PairScratch, Pairs};
+
+impl Distribution {
+    /// Draws a scattered direction, and its density, for each known direction and two numbers in `[0, 1)`; zeros if
+    /// the known direction is not above the surface.
+    ///
+    /// # Panics
+    /// If the slices do not have the same length.
+    pub fn draw_batch(
+        &self,
+        backend: Backend,
+        known: &[[f32; 3]],
+        u: &[[f32; 2]],
+        directions: &mut [[f32; 3]],
+        pdfs: &mut [f32],
+    ) {
+        backend.run(self.drawing(known, u, directions, pdfs));
+    }
+
+    /// The drawing of many directions as a kernel, for lanes that are not a [`Backend`] (see
+    /// [`draw_batch`](Self::draw_batch)).
+    ///
+    /// # Panics
+    /// If the slices do not have the same length.
+    pub fn drawing<'a>(
+        &'a self,
+        known: &'a [[f32; 3]],
+        u: &'a [[f32; 2]],
+        directions: &'a mut [[f32; 3]],
+        pdfs: &'a mut [f32],
+    ) -> impl Kernel<Out = ()> + 'a {
+        let count = known.len();
+        assert_eq!((u.len(), directions.len(), pdfs.len()), (count, count, count), "one of each per direction");
+        Blocks(Draws { distribution: self, known: known.into(), u, directions, pdfs })
+    }
+
+    /// The density of each of the `other` directions given the known one; 0 if one of them is not above the surface.
+    ///
+    /// # Panics
+    /// If the slices do not have the same length.
+    pub fn pdf_batch(&self, backend: Backend, known: &[[f32; 3]], other: &[[f32; 3]], pdfs: &mut [f32]) {
+        backend.run(self.densities(known, other, pdfs));
+    }
+
+    /// The densities of many pairs as a kernel, for lanes that are not a [`Backend`] (see [`pdf_batch`](Self::pdf_batch)).
+    ///
+    /// # Panics
+    /// If the slices do not have the same length.
+    pub fn densities<'a>(
+        &'a self,
+        known: &'a [[f32; 3]],
+        other: &'a [[f32; 3]],
+        pdfs: &'a mut [f32],
+    ) -> impl Kernel<Out = ()> + 'a {
+        assert_eq!((known.len(), other.len()), (pdfs.len(), pdfs.len()), "as many known as other and densities");
+        Blocks(Densities { distribution: self, known: known.into(), other: other.into(), pdfs })
+    }
+
+    /// How bright the surface is for light from each known direction: the integral of luminance times `f` times cosine,
+    /// interpolated between the slices; 0 if it is not above the surface.
+    ///
+    /// # Panics
+    /// If the slices do not have the same length.
+    pub fn brightness_batch(&self, backend: Backend, known: &[[f32; 3]], out: &mut [f32]) {
+        backend.run(self.brightnesses(known, out));
+    }
+
+    /// The brightness for many directions as a kernel, for lanes that are not a [`Backend`] (see
+    /// [`brightness_batch`](Self::brightness_batch)).
+    ///
+    /// # Panics
+    /// If the slices do not have the same length.
+    pub fn brightnesses<'a>(&'a self, known: &'a [[f32; 3]], out: &'a mut [f32]) -> impl Kernel<Out = ()> + 'a {
+        assert_eq!(known.len(), out.len(), "a result per direction");
+        Blocks(Brightnesses { distribution: self, known: known.into(), out })
+    }
+}
+
+/// All samples of a batch.
+struct Draws<'a> {
+    distribution: &'a Distribution,
+    known: Directions<'a>,
+    u: &'a [[f32; 2]],
+    directions: &'a mut [[f32; 3]],
+    pdfs: &'a mut [f32],
+}
+
+/// What the passes of draws hand on.
+struct DrawScratch {
+    passes: block::Scratch,
+    places: Places,
+    padding: Padding,
+}
+
+impl Blockwise for Draws<'_> {
+    type Scratch = DrawScratch;
+    const SCRATCH: DrawScratch = DrawScratch { passes: block::Scratch::ZERO, places: Places::ZERO, padding: PADDING };
+
+    fn count(&self) -> usize {
+        self.u.len()
+    }
+
+    #[inline(always)]
+    fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut DrawScratch) {
+        let Draws { distribution, known, u, directions, pdfs } = self;
+        let DrawScratch { passes, places, padding } = scratch;
+        let known = known.block(queries.start, padding);
+        call(lanes, Locate { distribution, known, count: queries.len(), places: &mut *places });
+        let input = block::Input { known, u: &u[queries.clone()], places };
+        let out = block::Out { directions: &mut directions[queries.clone()], pdfs: &mut pdfs[queries] };
+        match distribution.slices.width {
+            2 => block::draw(lanes, distribution, &distribution.slices.pairs(), input, passes, out),
+            _ => block::draw(lanes, distribution, &distribution.slices.quads(), input, passes, out),
+        }
+    }
+}
+
+/// All densities of a batch.
+struct Densities<'a> {
+    distribution: &'a Distribution,
+    known: Directions<'a>,
+    other: Directions<'a>,
+    pdfs: &'a mut [f32],
+}
+
+impl Blockwise for Densities<'_> {
+    type Scratch = PairScratch<Places>;
+    const SCRATCH: Self::Scratch = PairScratch { passes: Places::ZERO, padding: PairPadding::ZERO };
+
+    fn count(&self) -> usize {
+        self.pdfs.len()
+    }
+
+    #[inline(always)]
+    fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut Self::Scratch) {
+        let Densities { distribution, known, other, pdfs } = self;
+        let PairScratch { passes: places, padding } = scratch;
+        let Pairs { wi: known, wo: other } = padding.block(known, other, queries.start);
+        call(lanes, Locate { distribution, known, count: queries.len(), places: &mut *places });
+        let (at, count) = (queries.start, queries.len());
+        let mut query = 0;
+        while query < count {
+            let incident = Incident::new(lanes, &distribution.surface, known.load(lanes, query));
+            let local = incident.locate(lanes, other.load(lanes, query));
+            let density = distribution.density(lanes, &places.load(lanes, query), local);
+            lanes.store_partial(&mut pdfs[at + query..at + count], density);
+            query += L::LANES;
+        }
+    }
+}
+
+/// How bright the surface is for many directions.
+struct Brightnesses<'a> {
+    distribution: &'a Distribution,
+    known: Directions<'a>,
+    out: &'a mut [f32],
+}
+
+/// What the passes of brightnesses hand on.
+struct BrightnessScratch {
+    places: Places,
+    padding: Padding,
+}
+
+impl Blockwise for Brightnesses<'_> {
+    type Scratch = BrightnessScratch;
+    const SCRATCH: BrightnessScratch = BrightnessScratch { places: Places::ZERO, padding: PADDING };
+
+    fn count(&self) -> usize {
+        self.out.len()
+    }
+
+    #[inline(always)]
+    fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut BrightnessScratch) {
+        let Brightnesses { distribution, known, out } = self;
+        let BrightnessScratch { places, padding } = scratch;
+        let known = known.block(queries.start, padding);
+        call(lanes, Locate { distribution, known, count: queries.len(), places: &mut *places });
+        let (at, count) = (queries.start, queries.len());
+        let mut query = 0;
+        while query < count {
+            let incident = Incident::new(lanes, &distribution.surface, known.load(lanes, query));
+            let brightness = distribution.brightness(lanes, &places.load(lanes, query), incident.valid);
+            lanes.store_partial(&mut out[at + query..at + count], brightness);
+            query += L::LANES;
+        }
+    }
+}
+
+/// Finds the slices of a block. Draws, densities and brightnesses call it, so that it is compiled once.
+struct Locate<'a> {
+    distribution: &'a Distribution,
+    known: DirectionBlock<'a>,
+    count: usize,
+    places: &'a mut Places,
+}
+
+impl Kernel for Locate<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Locate { distribution: Distribution { surface, sigma, psi, .. }, known, count, places } = self;
+        let mut query = 0;
+        while query < count {
+            let incident = Incident::new(lanes, surface, known.load(lanes, query));
+            places.store(lanes, query, place(lanes, sigma, psi.as_ref(), &incident));
+            query += L::LANES;
+        }
+    }
+}
