@@ -3,14 +3,10 @@
 use std::fmt;
 use std::path::Path;
 
-use crate::integra::{ddr, sdr};
 use crate::spec::{FormatSpec, Writer};
-use crate::{
-    Document, FormatError, Place, alta, astm, cornell, fred, goniometer, light_tools, lumos, mbsdf, merl, nist, npz,
-    openmaterial, pbsdf, rgl, speos, ssdd, utia, window_xml, zemax,
-};
+use crate::{Document, FormatError, Place, fred};
 
-/// A line per format: its variant, and what stands beside it.
+/// One line per format: its variant, and its static description.
 macro_rules! formats {
     ($($variant:ident = $module:ident :: $spec:ident),* $(,)?) => {
         /// A file format.
@@ -28,7 +24,7 @@ macro_rules! formats {
             /// What the registry knows of the format.
             pub fn spec(self) -> &'static FormatSpec {
                 match self {
-                    $(Format::$variant => &$module::$spec),*
+                    $(Format::$variant => &crate::$module::$spec),*
                 }
             }
         }
