@@ -93,63 +93,95 @@ impl<'a> Directions<'a> {
         }
     }
 
-    /// The block from direction `at` on. If fewer are left than a block has, they are copied to `padding`, zero vectors
-    /// behind them.
+    /// The block from direction `at` on. If fewer are left than a block has, zero vectors follow.
+    ///
+    /// A block that is not whole is copied to `padding`, and so are vectors for a single lane, which reads columns only.
     #[inline(always)]
-    pub(crate) fn block<'b>(&'b self, at: usize, padding: &'b mut Padding) -> DirectionBlock<'b> {
+    pub(crate) fn block<'b, L: Lanes>(&'b self, _lanes: L, at: usize, padding: &'b mut Padding) -> DirectionBlock<'b> {
         match self {
             Directions::Vectors(vectors) => {
                 let rest = &vectors[at..];
                 match rest.first_chunk() {
-                    Some(whole) => DirectionBlock::Vectors(whole),
-                    None => {
-                        padding[..rest.len()].copy_from_slice(rest);
-                        padding[rest.len()..].fill([0.0; 3]);
-                        DirectionBlock::Vectors(padding)
-                    }
+                    Some(whole) if L::LANES > 1 => return DirectionBlock::of_vectors(whole),
+                    Some(whole) => padding.fill(whole),
+                    None => padding.fill_partly(rest.len(), |query| rest[query]),
                 }
             }
             Directions::Columns([x, y, z]) => {
                 let (x, y, z) = (&x[at..], &y[at..], &z[at..]);
-                match (x.first_chunk(), y.first_chunk(), z.first_chunk()) {
-                    (Some(x), Some(y), Some(z)) => DirectionBlock::Columns([x, y, z]),
-                    _ => {
-                        let mut query = 0;
-                        while query < BLOCK {
-                            let is_there = query < x.len();
-                            padding[query] = if is_there { [x[query], y[query], z[query]] } else { [0.0; 3] };
-                            query += 1;
-                        }
-                        DirectionBlock::Vectors(padding)
-                    }
+                if let (Some(x), Some(y), Some(z)) = (x.first_chunk(), y.first_chunk(), z.first_chunk()) {
+                    return DirectionBlock::of_columns([x, y, z]);
                 }
+                padding.fill_partly(x.len(), |query| [x[query], y[query], z[query]]);
             }
+        }
+        let [x, y, z] = &padding.0;
+        DirectionBlock::of_columns([x, y, z])
+    }
+}
+
+/// Room for a block that is copied.
+pub(crate) struct Padding([[f32; BLOCK]; 3]);
+
+pub(crate) const PADDING: Padding = Padding([[0.0; BLOCK]; 3]);
+
+impl Padding {
+    #[inline(always)]
+    fn fill(&mut self, whole: &[[f32; 3]; BLOCK]) {
+        let mut query = 0;
+        while query < BLOCK {
+            let mut axis = 0;
+            while axis < 3 {
+                self.0[axis][query] = whole[query][axis];
+                axis += 1;
+            }
+            query += 1;
+        }
+    }
+
+    /// The last block of a batch, once per batch: not worth its code in every kernel.
+    #[inline(never)]
+    fn fill_partly(&mut self, count: usize, vector: impl Fn(usize) -> [f32; 3]) {
+        for query in 0..BLOCK {
+            let [x, y, z] = if query < count { vector(query) } else { [0.0; 3] };
+            self.0[0][query] = x;
+            self.0[1][query] = y;
+            self.0[2][query] = z;
         }
     }
 }
 
-/// Room for a block that is not whole.
-pub(crate) type Padding = [[f32; 3]; BLOCK];
-
-pub(crate) const PADDING: Padding = [[0.0; 3]; BLOCK];
-
 /// A whole block of directions, which needs no bounds checks.
 #[derive(Clone, Copy)]
-pub(crate) enum DirectionBlock<'a> {
-    Vectors(&'a [[f32; 3]; BLOCK]),
-    Columns([&'a [f32; BLOCK]; 3]),
+pub(crate) struct DirectionBlock<'a> {
+    /// The directions, unless they are in `columns`.
+    vectors: Option<&'a [[f32; 3]; BLOCK]>,
+    columns: [&'a [f32; BLOCK]; 3],
 }
 
-impl DirectionBlock<'_> {
+impl<'a> DirectionBlock<'a> {
+    #[inline(always)]
+    pub(crate) fn of_columns(columns: [&'a [f32; BLOCK]; 3]) -> Self {
+        DirectionBlock { vectors: None, columns }
+    }
+
+    /// For more lanes than one.
+    #[inline(always)]
+    fn of_vectors(vectors: &'a [[f32; 3]; BLOCK]) -> Self {
+        DirectionBlock { vectors: Some(vectors), columns: [&[0.0; BLOCK]; 3] }
+    }
+
     /// Directions `at .. at + LANES` of the block as x, y and z; `at` is a multiple of the lanes.
     ///
-    /// The branch goes the same way for all of a batch.
+    /// The branch goes the same way for all of a batch. A single lane has none: it would be taken once per query, and would
+    /// keep the compiler from computing a few queries at once.
     #[inline(always)]
     pub(crate) fn load<L: Lanes>(self, lanes: L, at: usize) -> [L::F; 3] {
         let at = at & (BLOCK - L::LANES);
-        match self {
-            DirectionBlock::Vectors(vectors) => lanes.load_xyz(&vectors[at..][..L::LANES]),
-            DirectionBlock::Columns([x, y, z]) => {
+        match self.vectors {
+            Some(vectors) if L::LANES > 1 => lanes.load_xyz(&vectors[at..][..L::LANES]),
+            _ => {
+                let [x, y, z] = self.columns;
                 [lanes.load(&x[at..][..L::LANES]), lanes.load(&y[at..][..L::LANES]), lanes.load(&z[at..][..L::LANES])]
             }
         }
@@ -162,18 +194,22 @@ mod tests {
 
     #[test]
     fn both_layouts_give_the_same_blocks() {
+        check_blocks(lobe_scalar::Scalar::<1>);
+        check_blocks(lobe_scalar::Scalar::<4>);
+    }
+
+    fn check_blocks<L: Lanes>(lanes: L) {
         let count = 2 * BLOCK + 5;
         let vectors: Vec<[f32; 3]> = (0..count).map(|i| [0.0, 0.25, 0.5].map(|part| i as f32 + part)).collect();
         let [x, y, z] = [0, 1, 2].map(|k| vectors.iter().map(|v| v[k]).collect::<Vec<f32>>());
         let layouts = [Directions::from(&vectors), Directions::columns(&x, &y, &z)];
-        let lanes = lobe_scalar::Scalar::<1>;
         for at in [0, BLOCK, 2 * BLOCK] {
             for directions in layouts {
                 assert_eq!(directions.count(), count);
-                let mut padding = [[f32::NAN; 3]; BLOCK];
-                let block = directions.block(at, &mut padding);
+                let mut padding = Padding([[f32::NAN; BLOCK]; 3]);
+                let block = directions.block(lanes, at, &mut padding);
                 for query in 0..BLOCK {
-                    let found = lanes.extract_xyz(block.load(lanes, query), 0);
+                    let found = lanes.extract_xyz(block.load(lanes, query), query % L::LANES);
                     assert_eq!(found, vectors.get(at + query).copied().unwrap_or_default());
                 }
                 assert_eq!(directions.part(at..count).count(), count - at);

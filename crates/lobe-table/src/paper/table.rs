@@ -182,7 +182,7 @@ impl Blockwise for Batch<'_> {
     #[inline(always)]
     fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, padding: &mut PairPadding) {
         let Batch { table, wi, wo, out: [red, green, blue] } = self;
-        let pairs = padding.block(wi, wo, queries.start);
+        let pairs = padding.block(lanes, wi, wo, queries.start);
         let mut query = 0;
         while query < queries.len() {
             let at = queries.start + query;

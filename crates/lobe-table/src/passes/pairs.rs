@@ -15,7 +15,7 @@ pub(crate) struct Pairs<'a> {
     pub(crate) wo: DirectionBlock<'a>,
 }
 
-/// Room for the pairs of a block that is not whole.
+/// Room for the pairs of a block that is copied.
 pub(crate) struct PairPadding {
     wi: Padding,
     wo: Padding,
@@ -26,8 +26,14 @@ impl PairPadding {
 
     /// The block of pairs from `at` on.
     #[inline(always)]
-    pub(crate) fn block<'a>(&'a mut self, wi: &'a Directions<'_>, wo: &'a Directions<'_>, at: usize) -> Pairs<'a> {
-        Pairs { wi: wi.block(at, &mut self.wi), wo: wo.block(at, &mut self.wo) }
+    pub(crate) fn block<'a, L: Lanes>(
+        &'a mut self,
+        lanes: L,
+        wi: &'a Directions<'_>,
+        wo: &'a Directions<'_>,
+        at: usize,
+    ) -> Pairs<'a> {
+        Pairs { wi: wi.block(lanes, at, &mut self.wi), wo: wo.block(lanes, at, &mut self.wo) }
     }
 }
 
@@ -54,7 +60,7 @@ impl LanePairs {
     #[inline(always)]
     pub(crate) fn block(&self) -> Pairs<'_> {
         let ([ix, iy, iz], [ox, oy, oz]) = (&self.wi, &self.wo);
-        Pairs { wi: DirectionBlock::Columns([ix, iy, iz]), wo: DirectionBlock::Columns([ox, oy, oz]) }
+        Pairs { wi: DirectionBlock::of_columns([ix, iy, iz]), wo: DirectionBlock::of_columns([ox, oy, oz]) }
     }
 }
 
@@ -113,7 +119,7 @@ impl<E: Evaluate> Blockwise for Evaluation<'_, E> {
     #[inline(always)]
     fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut Self::Scratch) {
         let channels = self.evaluator.channel_count();
-        let pairs = scratch.padding.block(&self.wi, &self.wo, queries.start);
+        let pairs = scratch.padding.block(lanes, &self.wi, &self.wo, queries.start);
         let n = queries.len().next_multiple_of(L::LANES);
         let out = &mut self.out[queries.start * channels..][..queries.len() * channels];
         self.evaluator.evaluate(lanes, n, pairs, &mut scratch.passes, out);

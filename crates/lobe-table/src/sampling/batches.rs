@@ -117,7 +117,7 @@ impl Blockwise for Draws<'_> {
     fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut DrawScratch) {
         let Draws { distribution, known, u, directions, pdfs } = self;
         let DrawScratch { passes, places, padding } = scratch;
-        let known = known.block(queries.start, padding);
+        let known = known.block(lanes, queries.start, padding);
         call(lanes, Locate { distribution, known, count: queries.len(), places: &mut *places });
         let input = block::Input { known, u: &u[queries.clone()], places };
         let out = block::Out { directions: &mut directions[queries.clone()], pdfs: &mut pdfs[queries] };
@@ -148,7 +148,7 @@ impl Blockwise for Densities<'_> {
     fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut Self::Scratch) {
         let Densities { distribution, known, other, pdfs } = self;
         let PairScratch { passes: places, padding } = scratch;
-        let Pairs { wi: known, wo: other } = padding.block(known, other, queries.start);
+        let Pairs { wi: known, wo: other } = padding.block(lanes, known, other, queries.start);
         call(lanes, Locate { distribution, known, count: queries.len(), places: &mut *places });
         let (at, count) = (queries.start, queries.len());
         let mut query = 0;
@@ -187,7 +187,7 @@ impl Blockwise for Brightnesses<'_> {
     fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut BrightnessScratch) {
         let Brightnesses { distribution, known, out } = self;
         let BrightnessScratch { places, padding } = scratch;
-        let known = known.block(queries.start, padding);
+        let known = known.block(lanes, queries.start, padding);
         call(lanes, Locate { distribution, known, count: queries.len(), places: &mut *places });
         let (at, count) = (queries.start, queries.len());
         let mut query = 0;

@@ -124,7 +124,7 @@ impl<const SLICES: usize, const PAIRS: usize, const FOURS: usize> Blockwise for 
         let Batch { table, wi, wo, wanted: Parts { values, cosine, pdf } } = self;
         let (at, left, channels) = (queries.start, queries.len(), table.channel_count());
         let n = left.next_multiple_of(L::LANES);
-        table.locate::<L, SLICES>(lanes, n, padding.block(wi, wo, at), *cosine, scratch);
+        table.locate::<L, SLICES>(lanes, n, padding.block(lanes, wi, wo, at), *cosine, scratch);
         if let Some(values) = values {
             let out = &mut values[at * channels..][..left * channels];
             call(lanes, Values::<SLICES, PAIRS, FOURS> { table, n, scratch: &mut *scratch, out });

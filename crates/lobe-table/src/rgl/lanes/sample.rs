@@ -91,7 +91,7 @@ impl<const SLICES: usize, const PAIRS: usize, const FOURS: usize> Blockwise for 
         let DrawScratch { passes: scratch, wo, padding } = scratch;
         let (at, left, channels) = (queries.start, queries.len(), table.channel_count());
         let n = left.next_multiple_of(L::LANES);
-        let wi = wi.block(at, padding);
+        let wi = wi.block(lanes, at, padding);
         let Scratch { frame, incident, blend, u_m, s, density, weights, .. } = &mut *scratch;
         reflect::incident(lanes, n, wi, table.symmetry, frame);
         angles::incident(lanes, n, table.azimuthal, frame, incident);
