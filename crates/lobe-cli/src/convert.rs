@@ -87,7 +87,7 @@ fn loss(document: &Document, target: Target) -> Option<&'static str> {
         return Some("the unit of the values is not documented; they are written as they are stored");
     }
     let is_sheet = document.is_sheet() || data().any(|data| data.is_two_sided());
-    (is_sheet && target.writer.resampled_as != Some(klems::KIND))
+    (is_sheet && target.writer.resampled_as != Ok(klems::KIND))
         .then_some("a sheet with two sides; one kind of scatter of light from z > 0 is written")
 }
 

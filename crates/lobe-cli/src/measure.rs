@@ -45,15 +45,15 @@ pub fn write(surface: &dyn Surface, sides: Sides, output: &Output) -> Result<(),
     };
     let isotropic = is_isotropic(surface);
     let nodes = match writer.resampled_as {
-        None => return refuse("values for pairs of directions", "the format's own representation"),
-        Some(half_diff::KIND) if !isotropic => return refuse("an anisotropic material", "an isotropic one"),
-        Some(half_diff::KIND) => {
+        Err(expected) => return refuse("values for pairs of directions", expected),
+        Ok(half_diff::KIND) if !isotropic => return refuse("an anisotropic material", "an isotropic one"),
+        Ok(half_diff::KIND) => {
             let progress = Progress::new(bins::MERL[0], "bins");
             let table = bins::measure(surface, bins::MERL, || progress.step()).map_err(|e| file(out, &e))?;
             (writer.write)(&Document::new(table), out)?;
             "90 x 90 x 180 bins of half and difference angles".into()
         }
-        Some(rgl::KIND) => {
+        Ok(rgl::KIND) => {
             let resolution = output.rgl(isotropic);
             let progress = Progress::new(resolution.steps(), "directions of the light");
             let material =
@@ -62,14 +62,14 @@ pub fn write(surface: &dyn Surface, sides: Sides, output: &Output) -> Result<(),
             let parameterised::Resolution { theta_i, phi_i, spectra, .. } = resolution;
             format!("{theta_i} theta_i x {phi_i} phi_i, {spectra} x {spectra} texels")
         }
-        Some(klems::KIND) => {
+        Ok(klems::KIND) => {
             let basis = output.basis();
             let sheet = sheet(surface, output, sides)?;
             let name = output.out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             (writer.write)(&Document { source: vec![("name".into(), name)], ..Document::new(sheet) }, out)?;
             format!("means over {n} x {n} patches", n = basis.patches())
         }
-        Some(_) => {
+        Ok(_) => {
             let knots = output.knots(isotropic);
             let [sigma, psi, theta, phi] = knots.each_ref().map(Vec::len);
             let progress = Progress::new(sigma * psi, "directions of the light");
@@ -91,7 +91,7 @@ pub fn write(surface: &dyn Surface, sides: Sides, output: &Output) -> Result<(),
 }
 
 fn side_of(target: Target, sides: Sides, scatter: Scatter) -> &'static str {
-    if target.writer.resampled_as == Some(klems::KIND) && sides == Sides::Both {
+    if target.writer.resampled_as == Ok(klems::KIND) && sides == Sides::Both {
         "reflection and transmission"
     } else {
         side(scatter)
@@ -145,7 +145,7 @@ fn errors(
         return Ok(None);
     }
     let options = Options { lookup: Lookup::Linear, ..Options::default() };
-    let is_klems = target.writer.resampled_as == Some(klems::KIND);
+    let is_klems = target.writer.resampled_as == Ok(klems::KIND);
     let found = MaterialSurface {
         material: Material::open_with(out, &options)?,
         scatter: if is_klems { None } else { Some(scatter) },

@@ -37,7 +37,8 @@ pub fn target(path: &Path, to: Option<Format>) -> Result<Target, Failure> {
         [] if extension.is_empty() => Err(unknown("found no extension".into())),
         [] => Err(unknown(format!("found the extension .{extension}, of no format that lobe writes"))),
         several => {
-            let names: Vec<&str> = several.iter().map(|target| target.format.name()).collect();
+            let name = |target: &Target| target.format.name().trim_end_matches(" BSDF");
+            let names: Vec<&str> = several.iter().map(name).collect();
             Err(unknown(format!("found the extension .{extension}, which {} files share", names.join(" and "))))
         }
     }

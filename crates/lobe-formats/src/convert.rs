@@ -92,7 +92,7 @@ impl ChannelMap {
 
     /// XYZ relative to the white that a format has: in window sheets that of equal energy, X = Y = Z.
     fn with_white_of(mut self, format: Format) -> Self {
-        let is_window = format.writer().is_some_and(|writer| writer.resampled_as == Some(klems::KIND));
+        let is_window = format.writer().is_some_and(|writer| writer.resampled_as == Ok(klems::KIND));
         if is_window && self.channels == Channels::Xyz {
             for (row, white) in self.rows.iter_mut().zip(WHITE) {
                 row.iter_mut().for_each(|weight| *weight /= white);

@@ -40,7 +40,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         holds: |document| matches!(document.only(), Some(Data::Specular(_) | Data::Spherical(_) | Data::Scattered(_))),
         holds_sheets: false,
         scatter: either,
-        resampled_as: Some(specular::KIND),
+        resampled_as: Ok(specular::KIND),
         write: |document, path| match document.only() {
             Some(data) => write(data, path),
             None => Err(unfit(document, path, "one measurement")),

@@ -34,7 +34,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         holds: |document| sides(document).is_some_and(|sides| to_bytes(&sides).is_ok()),
         holds_sheets: true,
         scatter: either,
-        resampled_as: None,
+        resampled_as: Err("grids of spherical coordinates"),
         write: |document, path| match sides(document) {
             Some(sides) => write(&sides, path),
             None => Err(unfit(document, path, "one grid of spherical coordinates for each kind of scatter")),

@@ -27,7 +27,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         holds: |document| matches!(document.only(), Some(Data::HalfDiff(_))),
         holds_sheets: false,
         scatter: reflection,
-        resampled_as: Some(half_diff::KIND),
+        resampled_as: Ok(half_diff::KIND),
         write: |document, path| match document.only() {
             Some(Data::HalfDiff(data)) => write(data, path),
             _ => Err(unfit(document, path, "a grid of half and difference angles")),

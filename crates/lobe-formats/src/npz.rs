@@ -34,7 +34,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         holds: |_| true,
         holds_sheets: true,
         scatter: either,
-        resampled_as: Some(specular::KIND),
+        resampled_as: Ok(specular::KIND),
         write,
     }),
 };

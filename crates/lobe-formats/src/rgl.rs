@@ -33,7 +33,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         holds: |document| matches!(document.only(), Some(Data::Rgl(_))),
         holds_sheets: false,
         scatter: reflection,
-        resampled_as: Some(rgl::KIND),
+        resampled_as: Ok(rgl::KIND),
         write: |document, path| match document.only() {
             Some(Data::Rgl(data)) => write(data, path),
             _ => Err(unfit(document, path, "the parameterisation of the EPFL database")),

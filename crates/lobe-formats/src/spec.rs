@@ -38,8 +38,8 @@ pub struct Writer {
     pub holds_sheets: bool,
     /// The only kind of scatter that a file of this name can hold, if there is one.
     pub scatter: fn(&Path) -> Option<Scatter>,
-    /// The representation into which other data have to be resampled; `None` if nothing can be.
-    pub resampled_as: Option<Kind>,
+    /// The representation into which other data have to be resampled; if they cannot be, what a file holds, in words.
+    pub resampled_as: Result<Kind, &'static str>,
     /// Writes the file whole or not at all.
     pub write: fn(&Document, &Path) -> Result<(), FormatError>,
 }

@@ -33,7 +33,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         holds: |document| matches!(document.only(), Some(Data::Specular(samples)) if samples.refraction().is_none()),
         holds_sheets: false,
         scatter: either,
-        resampled_as: Some(specular::KIND),
+        resampled_as: Ok(specular::KIND),
         write: |document, path| match document.only() {
             Some(Data::Specular(data)) => write(data, path),
             _ => Err(unfit(document, path, "a table of specular coordinates")),

@@ -35,7 +35,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         holds: |document| matches!(document.only(), Some(Data::Specular(_))),
         holds_sheets: false,
         scatter: |path| Some(scatter_of_extension(path)),
-        resampled_as: Some(specular::KIND),
+        resampled_as: Ok(specular::KIND),
         write: |document, path| match document.only() {
             Some(Data::Specular(data)) => write(data, path),
             _ => Err(unfit(document, path, "a table of specular coordinates")),

@@ -32,7 +32,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         holds: |document| matches!(document.only(), Some(Data::Mirror(_))),
         holds_sheets: false,
         scatter: |path| Some(scatter_of_extension(path)),
-        resampled_as: None,
+        resampled_as: Err("mirror reflectances"),
         write: |document, path| match document.only() {
             Some(Data::Mirror(data)) => write(data, path),
             _ => Err(unfit(document, path, "mirror reflectances")),

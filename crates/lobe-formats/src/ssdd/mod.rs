@@ -36,7 +36,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         },
         holds_sheets: true,
         scatter: either,
-        resampled_as: Some(specular::KIND),
+        resampled_as: Ok(specular::KIND),
         write: |document, path| write(&document.parts, Encoding::Ascii, path),
     }),
 };

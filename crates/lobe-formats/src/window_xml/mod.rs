@@ -34,7 +34,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         holds: |document| matches!(document.only(), Some(Data::Window(_))),
         holds_sheets: true,
         scatter: either,
-        resampled_as: Some(klems::KIND),
+        resampled_as: Ok(klems::KIND),
         write: |document, path| match document.only() {
             Some(Data::Window(data)) => write(data, &document.source, path),
             _ => Err(unfit(document, path, "Klems matrices or tensor trees")),
