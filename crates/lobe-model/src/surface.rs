@@ -45,9 +45,12 @@ impl<M: Model + Debug + Send + Sync> Bsdf for Rgb<M> {
     fn eval_batch(&self, _: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
         assert_eq!(wi.count(), wo.count(), "as many wi as wo");
         assert_eq!(out.len(), 3 * wi.count(), "three values per query");
-        for (query, texel) in out.chunks_exact_mut(3).enumerate() {
-            let value = self.0.f(wi.get(query).map(f64::from), wo.get(query).map(f64::from));
-            texel.iter_mut().zip(value).for_each(|(out, value)| *out = value as f32);
+        let (texels, _) = out.as_chunks_mut();
+        let value = |wi: [f32; 3], wo: [f32; 3]| self.0.f(wi.map(f64::from), wo.map(f64::from)).map(|x| x as f32);
+        if let (Directions::Vectors(wi), Directions::Vectors(wo)) = (wi, wo) {
+            texels.iter_mut().zip(wi).zip(wo).for_each(|((out, &wi), &wo)| *out = value(wi, wo));
+        } else {
+            texels.iter_mut().enumerate().for_each(|(query, out)| *out = value(wi.get(query), wo.get(query)));
         }
     }
 }

@@ -75,6 +75,7 @@ impl<'a> Directions<'a> {
     ///
     /// # Panics
     /// If there are not so many.
+    #[inline]
     pub fn get(&self, index: usize) -> [f32; 3] {
         match self {
             Directions::Vectors(vectors) => vectors[index],
