@@ -9,16 +9,26 @@ use super::cargo;
 
 pub const ABOUT: &str = "Run what a change must pass: format, lints, documentation, checks, and the tests, last";
 
-/// The steps before the tests: their arguments to cargo, and an environment variable.
-///
+/// A step before the tests.
+struct Step {
+    /// The arguments to cargo.
+    arguments: &'static [&'static str],
+    /// Flags of rustdoc.
+    doc_flags: &'static str,
+}
+
+const fn step(arguments: &'static [&'static str]) -> Step {
+    Step { arguments, doc_flags: "" }
+}
+
 /// The quick report comes before `asm`, which checks the same programs.
-const STEPS: [(&[&str], Option<(&str, &str)>); 6] = [
-    (&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], None),
-    (&["doc", "--workspace", "--no-deps", "--quiet"], Some(("RUSTDOCFLAGS", "-D warnings"))),
-    (&["xtask", "fixtures", "--check"], None),
-    (&["xtask", "report", "--quick"], None),
-    (&["xtask", "equivalence"], None),
-    (&["xtask", "asm", "--package", "xtask-report"], None),
+const STEPS: [Step; 6] = [
+    step(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]),
+    Step { arguments: &["doc", "--workspace", "--no-deps", "--quiet"], doc_flags: "-D warnings" },
+    step(&["xtask", "fixtures", "--check"]),
+    step(&["xtask", "report", "--quick"]),
+    step(&["xtask", "equivalence"]),
+    step(&["xtask", "asm", "--package", "xtask-report"]),
 ];
 
 pub fn run(arguments: &[String]) -> ExitCode {
@@ -32,10 +42,13 @@ pub fn run(arguments: &[String]) -> ExitCode {
         eprintln!("not every file is formatted, or git or rustfmt cannot be run");
         return ExitCode::FAILURE;
     }
-    for (arguments, variable) in STEPS {
+    for Step { arguments, doc_flags } in STEPS {
         println!("\n== cargo {} ({:.0} s)", arguments.join(" "), begun.elapsed().as_secs_f64());
         let mut cargo = quiet();
-        cargo.args(arguments).envs(variable);
+        cargo.args(arguments);
+        if !doc_flags.is_empty() {
+            cargo.env("RUSTDOCFLAGS", doc_flags);
+        }
         match cargo.status() {
             Ok(status) if status.success() => {}
             Ok(_) => return ExitCode::FAILURE,

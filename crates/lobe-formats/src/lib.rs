@@ -43,5 +43,5 @@ pub use integra::{ddr, sdr};
 pub use lobe_files::{FormatError, Place, write_whole};
 pub use registry::{Format, from_bytes, open, read, sniff};
 pub use sheet::Sides;
-pub use spec::{FormatSpec, Writer};
+pub use spec::{FormatSpec, Read, Writer};
 pub use text::nine_digits;

@@ -18,10 +18,13 @@ pub struct FormatSpec {
     /// Whether the content looks like this format. Formats later in the registry may look alike.
     pub matches: fn(&[u8]) -> bool,
     /// Reads the content of a file, which the path names in errors; `None` if the format is only written.
-    pub read: Option<fn(&[u8], &Path) -> Result<Document, FormatError>>,
+    pub read: Option<Read>,
     /// How it is written; `None` if it is only read.
     pub writer: Option<Writer>,
 }
+
+/// Makes a document of the content of a file, which the path names in errors.
+pub type Read = fn(&[u8], &Path) -> Result<Document, FormatError>;
 
 /// How a format is written.
 #[derive(Debug)]

@@ -30,13 +30,11 @@ pub(crate) fn fill<T: Send>(width: usize, out: &mut [T], run: &(dyn Fn(Range<usi
     run(0..count, out);
 }
 
+/// What makes two outputs of a range of queries.
+type BothTask<'a, T, U> = dyn Fn(Range<usize>, &mut [T], &mut [U]) + Sync + 'a;
+
 /// As [`fill`], with two outputs, the first of which has `width` elements per query and the second one.
-pub(crate) fn fill_both<T: Send, U: Send>(
-    width: usize,
-    first: &mut [T],
-    second: &mut [U],
-    run: &(dyn Fn(Range<usize>, &mut [T], &mut [U]) + Sync),
-) {
+pub(crate) fn fill_both<T: Send, U: Send>(width: usize, first: &mut [T], second: &mut [U], run: &BothTask<'_, T, U>) {
     #[cfg(feature = "rayon")]
     if second.len() >= PARALLEL_FROM {
         use rayon::prelude::*;

@@ -33,7 +33,7 @@ impl Conversion<Rgb> for Reduction {
     }
 
     fn in_place<'a>(&self, out: &'a mut [[f32; 3]]) -> Option<&'a mut [f32]> {
-        self.is_identity().then(|| out.as_flattened_mut())
+        self.is_identity().then_some(out.as_flattened_mut())
     }
 
     fn convert(&self, values: &[f32], out: &mut [[f32; 3]]) {

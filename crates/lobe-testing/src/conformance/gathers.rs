@@ -70,9 +70,9 @@ fn quads<L: Lanes, const N: usize>(lanes: L, indices: &[i32], block: Block<'_, N
     let mut at = 0;
     while at < indices.len() {
         let found = lanes.gather_quads(&block, lanes.load_int(&indices[at..]));
-        for corner in 0..N {
-            for k in 0..4 {
-                let column = floats(lanes, found[corner][k]);
+        for (corner, found) in found.into_iter().enumerate() {
+            for (k, found) in found.into_iter().enumerate() {
+                let column = floats(lanes, found);
                 for lane in 0..L::LANES {
                     let base = clamped(indices[at + lane], block.last_base());
                     let expected = block.data()[base + block.offsets()[corner] + k];
@@ -89,9 +89,9 @@ fn half_quads<L: Lanes, const N: usize>(lanes: L, indices: &[i32], block: Block<
     let mut at = 0;
     while at < indices.len() {
         let found = lanes.gather_quads_half(&block, lanes.load_int(&indices[at..]));
-        for corner in 0..N {
-            for k in 0..4 {
-                let column = floats(lanes, found[corner][k]);
+        for (corner, found) in found.into_iter().enumerate() {
+            for (k, found) in found.into_iter().enumerate() {
+                let column = floats(lanes, found);
                 for lane in 0..L::LANES {
                     let base = clamped(indices[at + lane], block.last_base());
                     let expected = f16::from_bits(block.data()[base + block.offsets()[corner] + k]).to_f32();
