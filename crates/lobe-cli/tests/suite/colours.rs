@@ -1,5 +1,6 @@
 //! `lobe plot` and `lobe preview` show the same colours.
 
+use std::f32::consts::TAU;
 use std::path::{Path, PathBuf};
 
 use lobe::{Backend, Options};
@@ -18,7 +19,7 @@ fn pairs() -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
     let direction = |theta: f32, phi: f32| [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()];
     let pair = |at: usize| {
         let [a, b, c] = [0.618_034, 0.754_878, 0.569_84].map(|step: f32| (step * at as f32).fract());
-        let (wi, wo) = (direction(1.3 * a, 6.28 * c), direction(1.3 * b, 6.28 * c + 2.2 + 2.0 * a));
+        let (wi, wo) = (direction(1.3 * a, TAU * c), direction(1.3 * b, TAU * c + 2.2 + 2.0 * a));
         let below = |[x, y, z]: [f32; 3], is_below| [x, y, if is_below { -z } else { z }];
         (below(wi, at % 4 == 3), below(wo, at % 4 >= 2))
     };
