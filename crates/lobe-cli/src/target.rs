@@ -35,7 +35,7 @@ pub fn target(path: &Path, to: Option<Format>) -> Result<Target, Failure> {
     match found.as_slice() {
         [target] => Ok(*target),
         [] if extension.is_empty() => Err(unknown("found no extension".into())),
-        [] => Err(unknown(format!("found the extension .{extension}, of no format that lobe writes"))),
+        [] => Err(unknown(format!("found the extension .{extension}, which no format that lobe writes has"))),
         several => {
             let name = |target: &Target| target.format.name().trim_end_matches(" BSDF");
             let names: Vec<&str> = several.iter().map(name).collect();
