@@ -17,7 +17,7 @@ macro_rules! count_memory {
 /// count, so a program that measures must have a single test.
 ///
 /// # Panics
-/// If the program does not count allocations; see [`count_memory`](crate::count_memory).
+/// If the program does not count allocations; see [`count_memory`].
 pub fn peak<T>(work: impl FnOnce() -> T) -> (T, usize) {
     let before = PeakAlloc.current_usage();
     let counted = black_box(vec![0u8; 1 << 12]);

@@ -1,4 +1,4 @@
-//! The ways to make a picture: each composes the stages of a [wavefront](crate::wavefront) in a file of its own.
+//! The ways to make a picture: each composes the stages of a wavefront in a file of its own.
 //!
 //! One line below makes an integrator known: to scene files, to the program and its help, and to programs that render.
 
