@@ -79,14 +79,14 @@ impl fmt::Display for Format {
     }
 }
 
-/// The format of a file from its content: `.bsdf` alone is the extension of four different ones. `None` if it is none that
-/// is known.
+/// The format of a file from its content: `.bsdf` alone is the extension of four different ones. `None` if it is of no known
+/// format.
 pub fn sniff(bytes: &[u8]) -> Option<Format> {
     Format::ALL.iter().copied().find(|format| (format.spec().matches)(bytes))
 }
 
-/// Reads a file of any supported format, which is told from the content. Formats that do not say whether they hold
-/// reflection or transmission are taken for reflection; only those of Integra are asked for their extension: `.ddt` and
+/// Reads a file of any supported format, which is recognised by the content. Formats that do not say whether they hold
+/// reflection or transmission are assumed to hold reflection; only for those of Integra does the extension decide: `.ddt` and
 /// `.sdt` are transmission.
 ///
 /// A folder is read as the RPC Photonics files in it, which are one material.
