@@ -92,7 +92,7 @@ pub fn sniff(bytes: &[u8]) -> Option<Format> {
 /// A folder is read as the RPC Photonics files in it, which are one material.
 ///
 /// # Errors
-/// [`FormatError`] where the file cannot be read, is of no known format, or is damaged.
+/// [`FormatError`] if the file cannot be read, is of no known format, or is damaged.
 pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
     if path.is_dir() {
         let document = Document::new(fred::read_rpc_folder(path)?);
@@ -125,7 +125,7 @@ fn recognised(bytes: &[u8], path: &Path) -> Result<Format, FormatError> {
 /// as in [`open`].
 ///
 /// # Errors
-/// [`FormatError`] where the bytes are no sound file of the format.
+/// [`FormatError`] if the bytes are no sound file of the format.
 pub fn read(format: Format, bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
     let spec = format.spec();
     let Some(read) = spec.read else {
