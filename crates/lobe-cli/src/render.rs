@@ -304,7 +304,7 @@ impl Output<'_> {
         Ok(())
     }
 
-    /// The film that an earlier rendering has left; an empty one if there is none.
+    /// The film of an earlier rendering, or an empty film.
     fn resume(&self) -> Result<Film, Failure> {
         let part = self.part();
         if !part.exists() {

@@ -1,7 +1,7 @@
 //! Readers and writers for the file formats of measured BRDFs and BSDFs.
 //!
 //! [`open`] reads any of them; each format has a module with its own reader, and a writer if one makes sense. What the
-//! formats look like, and what is done if a file leaves a question open, is described in `docs/formats.md`.
+//! formats look like, and how their open questions are settled, is described in `docs/formats.md`.
 #![forbid(unsafe_code)]
 
 pub mod alta;

@@ -38,7 +38,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 /// Reads a file. `file` only names it in errors.
 ///
 /// # Errors
-/// [`FormatError`] with the line that does not have five finite numbers, or if there is none.
+/// [`FormatError`] with the line that does not have five finite numbers, or without a line if the file has no data.
 pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
     let text = String::from_utf8_lossy(bytes);
     let mut records = Records::default();

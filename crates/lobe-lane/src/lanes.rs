@@ -14,9 +14,8 @@ pub trait Kernel {
     fn run<L: Lanes>(self, lanes: L) -> Self::Out;
 }
 
-/// Runs a kernel from inside another one as a call, so that its code exists once per backend and not at every place
-/// that runs it. The call costs a few nanoseconds: it is for a block of work, and nothing may be in registers across it
-/// that the loops around it need.
+/// Calls a kernel from another one instead of inlining it, so that its code exists once per backend. The call costs a few
+/// nanoseconds, so it is meant for a block of work; loops around it cannot keep values in registers across it.
 #[inline(never)]
 pub fn call<L: Lanes, K: Kernel>(lanes: L, kernel: K) -> K::Out {
     lanes.vectorize(kernel)

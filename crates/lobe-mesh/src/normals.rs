@@ -64,7 +64,7 @@ fn separate(parts: &mut Parts) {
     parts.triangles = (0..corners.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
 }
 
-/// Unit vector along `v`, or zero if there is none.
+/// The unit vector along `v`; zero if `v` has no direction.
 fn direction(v: DVec3) -> DVec3 {
     v.try_normalize().unwrap_or(DVec3::ZERO)
 }

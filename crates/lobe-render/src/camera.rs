@@ -75,7 +75,7 @@ pub struct CameraSample<L: Lanes> {
     pub importance: L::F,
     /// Density over solid angle at the point, 1/sr; of a pinhole, the squared distance over the cosine.
     pub pdf: L::F,
-    /// Where in the picture the point is seen: columns from the left and rows from the top, in pixels.
+    /// The position in the picture at which the point is seen: columns from the left and rows from the top, in pixels.
     pub raster: [L::F; 2],
     /// Whether the point is seen; if not, the other numbers are unspecified.
     pub valid: L::M,
@@ -163,7 +163,7 @@ impl View {
         CameraPdf { position: 1.0 / self.lens_area(), direction }
     }
 
-    /// Where in the picture a ray from a point of the lens goes through, in pixels from its upper left corner, and the
+    /// The position in the picture of a ray from a point of the lens, in pixels from its upper left corner, and the
     /// cosine to the axis. `aside` leads to the point from the middle of the lens. Unspecified for a ray that goes
     /// backward.
     #[inline(always)]
