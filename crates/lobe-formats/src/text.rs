@@ -117,6 +117,14 @@ impl<'a> Text<'a> {
         words.join(" ")
     }
 
+    /// What is left of the line of the last token, as it stands there: marks of comments are ordinary characters.
+    pub fn raw_rest_of_line(&mut self) -> String {
+        let rest = &self.bytes[self.at..];
+        let line = &rest[..rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len())];
+        self.at += line.len();
+        String::from_utf8_lossy(line).trim_end().into()
+    }
+
     /// The next token, or an error that `what` is missing.
     pub fn expect(&mut self, what: &str) -> Result<Token<'a>, FormatError> {
         self.next().ok_or_else(|| self.error(self.line, "the end of the file", what))

@@ -4,6 +4,7 @@ mod golden_libbsdf;
 mod hostile_binary;
 mod hostile_text;
 mod integra;
+mod light_tools;
 mod native;
 mod rgl;
 mod rgl_lanes;

@@ -111,7 +111,7 @@ fn ssdd_refuses_what_it_cannot_keep() {
 #[test]
 fn light_tools_has_the_light_at_azimuth_90() {
     assert!(light_tools::matches(LIGHT_TOOLS.as_bytes()));
-    let parts = light_tools::read(LIGHT_TOOLS.as_bytes(), file()).unwrap_or_else(|error| panic!("{error}"));
+    let parts = light_tools::read(LIGHT_TOOLS.as_bytes(), file()).unwrap_or_else(|error| panic!("{error}")).parts;
     assert_eq!((parts.len(), parts[0].side), (1, Some(Side::Front)));
     let Data::Spherical(grid) = &parts[0].data else { panic!("a grid") };
     let at = |phi: f64| grid.eval(degrees(30.0, 0.0), degrees(60.0, phi));
@@ -122,7 +122,7 @@ fn light_tools_has_the_light_at_azimuth_90() {
     refused(change("AOI 0", "AOI 91"), Place::Line(11), "AOI 91");
     refused(change("AOI 0 ", ""), Place::Line(11), "a second table of AOI 30");
     refused(change("3 90 180 270", "2000000000 90"), Place::Line(4), "2000000000");
-    refused(change("TrisZ TIS 1 9 9 9 9 9 9", "TrisZ"), Place::Line(14), "AOI 0 without them");
+    refused(change("TrisZ TIS 1 9 9 9 9 9 9", "TrisZ"), Place::Line(14), "AOI 0, POI 0 without them");
     refused(change("3 90 180 270", "3 0 90 180"), Place::Line(14), "azimuths");
     lobe_testing::damage::truncations(LIGHT_TOOLS.as_bytes(), |bytes| light_tools::read(bytes, file()).is_ok());
 }
