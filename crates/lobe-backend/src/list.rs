@@ -8,15 +8,25 @@ use std::arch::is_aarch64_feature_detected as has;
 use std::arch::is_x86_feature_detected as has;
 
 macro_rules! backends {
-    ($($(#[$target:meta])* $name:literal, $variant:ident($token:ty), $detect:expr, [$($feature:tt),*];)*) => {
+    ($dollar:tt $($(#[$target:meta])* $name:literal, $variant:ident($token:ty), $detect:expr, [$($feature:tt),*];)*) => {
         /// One token per backend: having one proves that the CPU can run it.
         #[derive(Clone, Copy, Debug)]
         pub(crate) enum Isa {
             $($(#[$target])* $variant($token),)*
         }
 
-        /// The names of all backends of this target, slowest first.
+        /// The names of all backends, slowest first on each target.
         pub(crate) const NAMES: &[&str] = &[$($name),*];
+
+        /// Hands the variant and the name of every backend, whatever the target, to a macro: `macro! { Sse2 "sse2"; ... }`,
+        /// for tests that are named by backend.
+        #[doc(hidden)]
+        #[macro_export]
+        macro_rules! each_backend {
+            ($dollar callback:ident) => {
+                $dollar callback! { $($variant $name;)* }
+            };
+        }
 
         impl Isa {
             /// All that this CPU can run, slowest first.
@@ -64,7 +74,7 @@ macro_rules! backends {
 }
 
 // One line per backend, slowest first: its name, its token, how the token is found, and the CPU features that it needs.
-backends! {
+backends! { $
     "scalar", Scalar(lobe_scalar::Scalar<1>), Some(lobe_scalar::Scalar), [];
     #[cfg(target_arch = "x86_64")]
     "sse2", Sse2(lobe_sse::Sse2), Some(lobe_sse::Sse2::new()), ["sse2"];
@@ -72,6 +82,10 @@ backends! {
     "sse4.1", Sse41(lobe_sse::Sse41), lobe_sse::Sse41::detect(), ["sse4.1"];
     #[cfg(target_arch = "x86_64")]
     "avx2", Avx2(lobe_avx::Avx2), lobe_avx::Avx2::detect(), ["avx2", "fma", "f16c", "bmi1", "bmi2", "lzcnt", "popcnt"];
+    #[cfg(all(target_arch = "aarch64", target_feature = "neon", target_endian = "little"))]
+    "neon", Neon(lobe_neon::Neon), lobe_neon::Neon::detect(), ["neon"];
+    #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+    "simd128", Simd128(lobe_wasm::Simd128), Some(lobe_wasm::Simd128::new()), [];
 }
 
 /// Backends that never fuse have one form, which is compiled once.

@@ -60,7 +60,7 @@ fn logic<L: Lanes>(lanes: L) {
 
 #[inline(always)]
 fn first_lanes<L: Lanes>(lanes: L) {
-    for n in (0..=MAX_LANES + 1).chain([i32::MAX as usize, i32::MAX as usize + 1, 1 << 32, usize::MAX]) {
+    for n in (0..=MAX_LANES + 1).chain([i32::MAX as usize, i32::MAX as usize + 1, (1u64 << 32) as usize, usize::MAX]) {
         assert_eq!(lanes.first_n(n).bits(), ((1u64 << n.min(L::LANES)) - 1) as u32, "first {n}");
     }
     let four = [3.0, -0.0, f32::INFINITY, 0.5];

@@ -78,6 +78,10 @@ impl Kernel for Touch {
 /// # Panics
 /// If a slice that is too short is not refused, or one that is long enough is.
 pub fn refuses_short_slices<L: Lanes>(lanes: L) {
+    if cfg!(not(panic = "unwind")) {
+        eprintln!("SKIPPED: a panic ends the program on this target, so it cannot be expected");
+        return;
+    }
     for access in Access::ALL {
         let needs = access.needs(L::LANES);
         for len in 0..=MAX_LANES {
