@@ -186,22 +186,28 @@ impl<T: Transport> Kernel for FindInteractions<'_, T> {
         let (all, corners) = (world.triangles.as_slice(), world.corners.as_slice());
         let mut known = HitBlock { corners: [[0; RAYS]; 3], direction: [ZEROS; 3], uv: [ZEROS; 2], transmits: ZEROS };
         let mut back = [ZEROS; 3];
-        for (which, places) in which.chunks(RAYS).zip(blocks) {
-            for (lane, ray) in which.iter().enumerate() {
-                let ray = *ray as usize;
+        let mut block = 0;
+        while block * RAYS < which.len() {
+            let places = &mut blocks[block];
+            let which = &which[block * RAYS..which.len().min((block + 1) * RAYS)];
+            let mut lane = 0;
+            while lane < which.len() {
+                let ray = which[lane] as usize;
                 let [a, b, c, group] = all[found.primitive[ray] as usize];
-                for (column, corner) in known.corners.iter_mut().zip([a, b, c]) {
+                let mut k = 0;
+                while k < 3 {
                     // Vertices are anywhere in memory: all are prefetched before the first is needed.
+                    let corner = [a, b, c][k];
                     lanes.prefetch::<1, _>(corners, corner as usize);
-                    column[lane] = corner as i32 * NUMBERS as i32;
-                }
-                for k in 0..3 {
+                    known.corners[k][lane] = corner as i32 * NUMBERS as i32;
                     known.direction[k][lane] = rays.direction[k][ray];
+                    k += 1;
                 }
                 known.uv[0][lane] = found.u[ray];
                 known.uv[1][lane] = found.v[ray];
                 known.transmits[lane] = world.groups[group as usize].transmits;
                 groups.push(group);
+                lane += 1;
             }
             let corners = Block::new(corners.as_flattened(), [0, 4, 8]);
             let mut at = 0;
@@ -212,6 +218,7 @@ impl<T: Transport> Kernel for FindInteractions<'_, T> {
             for lane in 0..which.len() {
                 wo.push(vector(&back, lane));
             }
+            block += 1;
         }
     }
 }

@@ -30,8 +30,11 @@ impl<L: Lanes, S: Channels> LightSample<L, S> {
     /// The radiance multiplied.
     #[inline(always)]
     pub(crate) fn scaled(mut self, factor: L::F) -> Self {
-        for radiance in self.radiance.as_mut() {
-            *radiance = *radiance * factor;
+        let radiance = self.radiance.as_mut();
+        let mut k = 0;
+        while k < radiance.len() {
+            radiance[k] = radiance[k] * factor;
+            k += 1;
         }
         self
     }
@@ -41,8 +44,11 @@ impl<L: Lanes, S: Channels> LightSample<L, S> {
     pub(crate) fn or(mut self, lanes: L, mask: L::M, other: Self) -> Self {
         self.wi = select(lanes, mask, other.wi, self.wi);
         self.distance = lanes.select(mask, other.distance, self.distance);
-        for (radiance, other) in self.radiance.as_mut().iter_mut().zip(other.radiance.as_ref()) {
-            *radiance = lanes.select(mask, *other, *radiance);
+        let (radiance, others) = (self.radiance.as_mut(), other.radiance.as_ref());
+        let mut k = 0;
+        while k < radiance.len() {
+            radiance[k] = lanes.select(mask, others[k], radiance[k]);
+            k += 1;
         }
         self.pdf = lanes.select(mask, other.pdf, self.pdf);
         self.valid = (mask & other.valid) | (!mask & self.valid);

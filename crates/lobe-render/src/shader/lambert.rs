@@ -128,8 +128,10 @@ impl Kernel for SampleCosine<'_> {
                 lanes.store(&mut columns[k], sampled[k]);
                 k += 1;
             }
-            for (lane, wi) in wi[at..].iter_mut().take(L::LANES).enumerate() {
-                *wi = [columns[0][lane], columns[1][lane], columns[2][lane]];
+            let mut lane = 0;
+            while lane < L::LANES && at + lane < wi.len() {
+                wi[at + lane] = [columns[0][lane], columns[1][lane], columns[2][lane]];
+                lane += 1;
             }
             at += L::LANES;
         }

@@ -169,8 +169,10 @@ impl Interpolator {
         }
         match width {
             2 => {
-                for (texel, three) in out.chunks_exact_mut(2).zip(tile.chunks_exact(3)) {
-                    texel.copy_from_slice(&three[..2]);
+                let mut query = 0;
+                while query < out.len() / 2 {
+                    out[2 * query..][..2].copy_from_slice(&tile[3 * query..][..2]);
+                    query += 1;
                 }
             }
             _ => out.copy_from_slice(&tile[..out.len()]),
@@ -189,19 +191,23 @@ impl Interpolator {
         // Texels come query by query; the lanes want them channel by channel.
         let texels = self.layout.texels();
         let mut tile = [0.0f32; MAX_LANES * CHUNK];
-        for (chunk, channels) in out.chunks_mut(CHUNK).enumerate() {
-            let (from, width) = (chunk * CHUNK, channels.len());
+        let mut from = 0;
+        while from < out.len() {
+            let width = CHUNK.min(out.len() - from);
             let tile = &mut tile[..L::LANES * width];
             self.blend(lanes, &texels, scratch, from..from + width, tile);
-            for (k, channel) in channels.iter_mut().enumerate() {
+            let mut k = 0;
+            while k < width {
                 let mut column = [0.0f32; MAX_LANES];
                 let mut lane = 0;
                 while lane < L::LANES {
                     column[lane] = tile[lane * width + k];
                     lane += 1;
                 }
-                *channel = lanes.load(&column);
+                out[from + k] = lanes.load(&column);
+                k += 1;
             }
+            from += CHUNK;
         }
     }
 }

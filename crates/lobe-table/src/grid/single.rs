@@ -115,7 +115,7 @@ impl Axis {
                 let inner = &self.knots()[1..self.knots().len() - 1];
                 let mut cell = start as usize + (knot <= x) as usize;
                 for _ in 1..*steps {
-                    cell += inner.get(cell).is_some_and(|&knot| knot <= x) as usize;
+                    cell += (cell < inner.len() && inner[cell] <= x) as usize;
                 }
                 cell as u32
             }
@@ -170,11 +170,14 @@ fn wide<L: Lanes, T: Stored, const CORNERS: usize>(
     floor: f32,
     out: &mut [f32],
 ) {
-    for (chunk, target) in out.chunks_mut(8).enumerate() {
-        let sum = lanes.oct_max(blend(lanes, block, base + 8 * chunk, weights), lanes.oct_splat(floor));
+    let mut from = 0;
+    while from < out.len() {
+        let sum = lanes.oct_max(blend(lanes, block, base + from, weights), lanes.oct_splat(floor));
         let mut whole = [0.0; 8];
         lanes.oct_store(&mut whole, sum);
-        target.copy_from_slice(&whole[..target.len()]);
+        let width = (out.len() - from).min(8);
+        out[from..][..width].copy_from_slice(&whole[..width]);
+        from += 8;
     }
 }
 

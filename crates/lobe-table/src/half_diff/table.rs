@@ -210,7 +210,9 @@ impl Table {
         let Scratch { base, places, .. } = scratch;
         *base = Column::<i32>::ZERO;
         let (half, zero) = (lanes.splat(0.5), lanes.splat(0.0));
-        for (axis, place) in places.iter_mut().enumerate() {
+        let mut axis = 0;
+        while axis < places.len() {
+            let place = &mut places[axis];
             let bins = self.bins[axis];
             let is_circle = axis == 2;
             // Beyond the first and last middle the value is constant; on a circle the first bin comes again.
@@ -227,6 +229,7 @@ impl Table {
                 base.store(lanes, query, base.load(lanes, query) + low * stride);
                 query += L::LANES;
             }
+            axis += 1;
         }
     }
 }

@@ -131,9 +131,12 @@ impl Evaluate for &Table {
         angles.run::<L, true>(lanes, n, pairs);
         let HalfVector { theta_h, theta_d, phi_d, valid, .. } = angles;
         *base = Column::<i32>::ZERO;
-        for (index, angle) in [&mut *phi_d, &mut *theta_d, &mut *theta_h].into_iter().enumerate() {
-            cells::run(lanes, n, &self.axes[index], self.strides[index], angle, base, valid);
-            within(lanes, n, angle);
+        let by_axis = [&mut *phi_d, &mut *theta_d, &mut *theta_h];
+        let mut axis = 0;
+        while axis < by_axis.len() {
+            cells::run(lanes, n, &self.axes[axis], self.strides[axis], by_axis[axis], base, valid);
+            within(lanes, n, by_axis[axis]);
+            axis += 1;
         }
         weights::run(lanes, n, [phi_d, theta_d, theta_h], valid, 1.0, weights);
         let block = Block::new(self.texels.as_slice(), self.corners);

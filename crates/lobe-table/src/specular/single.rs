@@ -33,12 +33,11 @@ impl Kernel for Single<'_> {
 /// passes for one query.
 #[inline(always)]
 fn angles<L: Lanes>(lanes: L, table: &Table, wi: [f32; 3], wo: [f32; 3]) -> ([f32; 4], bool) {
-    let fma = |a, b, c| lanes.scalar_mul_add(a, b, c);
     let ([ix, iy, mut iz], [ox, oy, mut oz]) = (wi, wo);
     if table.scatter() == Scatter::Transmission {
         (iz, oz) = (iz.abs(), oz.abs());
     }
-    let sin2 = fma(ix, ix, iy * iy);
+    let sin2 = lanes.scalar_mul_add(ix, ix, iy * iy);
     let sin = sin2.sqrt();
     let (tilted, reach) = (POLE < sin, 1.0 + iz);
     let shared = 1.0 / (if tilted { sin } else { POLE } * reach);
@@ -54,14 +53,14 @@ fn angles<L: Lanes>(lanes: L, table: &Table, wi: [f32; 3], wo: [f32; 3]) -> ([f3
         }
     };
     let (dx, dy, dz) = (ox + ax, oy + ay, oz - cos_zenith);
-    let toward = fma(cos_psi, dx, sin_psi * dy);
-    let y = fma(cos_psi, dy, -(sin_psi * dx));
-    let x = fma(cos_zenith, toward, sin_zenith * dz);
-    let distance2 = fma(dx, dx, fma(dy, dy, dz * dz));
-    let valid = 0.0 < iz && 0.0 < oz && distance2 + fma(iz, iz, sin2) < FARTHEST;
+    let toward = lanes.scalar_mul_add(cos_psi, dx, sin_psi * dy);
+    let y = lanes.scalar_mul_add(cos_psi, dy, -(sin_psi * dx));
+    let x = lanes.scalar_mul_add(cos_zenith, toward, sin_zenith * dz);
+    let distance2 = lanes.scalar_mul_add(dx, dx, lanes.scalar_mul_add(dy, dy, dz * dz));
+    let valid = 0.0 < iz && 0.0 < oz && distance2 + lanes.scalar_mul_add(iz, iz, sin2) < FARTHEST;
 
     let along = 1.0 - 0.5 * distance2;
-    let across = fma(x, x, y * y).sqrt();
+    let across = lanes.scalar_mul_add(x, x, y * y).sqrt();
     let (reach, span) = (1.0 + along.abs(), across + x.abs());
     let span = if TINY > span { TINY } else { span };
     let shared = 1.0 / (reach * span);

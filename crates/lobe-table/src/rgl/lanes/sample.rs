@@ -100,9 +100,12 @@ impl<const SLICES: usize, const PAIRS: usize, const FOURS: usize> Blockwise for 
             UniformOrder::Powitacq => [1, 0],
             UniformOrder::Pbrt => [0, 1],
         };
-        for (query, uniform) in uniforms[at..][..left].iter().enumerate() {
-            s[0].0[query] = uniform[first];
-            s[1].0[query] = uniform[second];
+        let numbers = &uniforms[at..][..left];
+        let mut query = 0;
+        while query < left {
+            s[0].0[query] = numbers[query][first];
+            s[1].0[query] = numbers[query][second];
+            query += 1;
         }
         *density = Column([1.0; BLOCK]);
         // By luminance first, then by the visible normals from there.
@@ -118,8 +121,11 @@ impl<const SLICES: usize, const PAIRS: usize, const FOURS: usize> Blockwise for 
         let out = &mut drawn.weights[at * channels..][..left * channels];
         call(lanes, Values::<SLICES, PAIRS, FOURS> { table, n, scratch: &mut *scratch, out });
         drawn.pdf[at..][..left].copy_from_slice(&scratch.density.0[..left]);
-        for (query, target) in drawn.wo[at..][..left].iter_mut().enumerate() {
-            *target = [wo[0].one(query), wo[1].one(query), wo[2].one(query)];
+        let directions = &mut drawn.wo[at..][..left];
+        let mut query = 0;
+        while query < left {
+            directions[query] = [wo[0].one(query), wo[1].one(query), wo[2].one(query)];
+            query += 1;
         }
     }
 }
