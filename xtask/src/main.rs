@@ -15,7 +15,7 @@ struct Task {
     packages: &'static [&'static str],
 }
 
-const TASKS: [Task; 7] = [
+const TASKS: [Task; 8] = [
     Task {
         name: "report",
         about: "Measure this machine: the paper's tables first, then everything beyond them",
@@ -26,6 +26,11 @@ const TASKS: [Task; 7] = [
         name: "equivalence",
         about: "Check every backend of this CPU against the scalar reference, bit by bit",
         packages: &["xtask-equivalence"],
+    },
+    Task {
+        name: "cross",
+        about: "Test the backends of other processors, on emulators of these",
+        packages: &["xtask-cross"],
     },
     Task {
         name: "sweep",

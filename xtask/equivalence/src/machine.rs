@@ -3,7 +3,10 @@
 use std::sync::Arc;
 
 use lobe::Backend;
-use lobe_lane::{Kernel, Lanes};
+use lobe_lane::Kernel;
+#[cfg(feature = "emulated")]
+use lobe_lane::Lanes as _;
+#[cfg(feature = "emulated")]
 use lobe_scalar::Scalar;
 use lobe_table::half_diff::{self, Lookup};
 use lobe_table::rgl::{self, Drawn, UniformOrder, Wanted};
@@ -91,9 +94,11 @@ impl Machine for Backend {
 }
 
 /// `N` lanes in plain Rust.
+#[cfg(feature = "emulated")]
 #[derive(Clone, Copy)]
 pub(crate) struct Emulated<const N: usize>;
 
+#[cfg(feature = "emulated")]
 impl<const N: usize> Machine for Emulated<N> {
     fn run<K: Kernel>(self, kernel: K) -> K::Out {
         Scalar::<N>.vectorize(kernel)

@@ -62,10 +62,12 @@ struct Row {
 }
 
 impl Outcome {
-    pub(super) fn measure() -> Self {
+    /// Of the backends with these names, or of all if there are none.
+    pub(super) fn measure(names: &[String]) -> Self {
         let mut outcome =
             Outcome { backends: Vec::new(), checks: Vec::new(), ok: true, rows: Vec::new(), faults: Vec::new() };
-        let subjects = Subject::all();
+        let wanted = |name: &str| names.is_empty() || names.iter().any(|wanted| wanted == name);
+        let subjects: Vec<Subject> = Subject::all().into_iter().filter(|subject| wanted(subject.name())).collect();
         let mut ran = vec![false; subjects.len()];
         for property in Property::ALL {
             let expected = reference(property);
@@ -89,6 +91,10 @@ impl Outcome {
                 outcome.faults.push(format!("{} {did} this CPU {has} its features", subject.name()));
             }
         }
+        let ran = |name: &String| outcome.backends.iter().any(|row| row.name == *name && row.available);
+        let missing: Vec<String> =
+            names.iter().filter(|name| !ran(name)).map(|name| format!("{name} did not run")).collect();
+        outcome.faults.extend(missing);
         if let Err(error) = facade_agrees() {
             outcome.faults.push(error.to_string());
         }

@@ -3,6 +3,7 @@
 use lobe::Backend;
 use serde::Serialize;
 
+#[cfg(feature = "emulated")]
 use super::machine::Emulated;
 use super::{Property, Record};
 
@@ -32,8 +33,9 @@ pub enum Subject {
 impl Subject {
     /// All of them, on any machine.
     pub fn all() -> Vec<Subject> {
-        let emulated = [Self::Emulated4, Self::Emulated8, Self::Emulated16];
-        emulated.into_iter().chain(Backend::ALL[1..].iter().map(|name| Self::Native(name))).collect()
+        let emulated: &[Subject] =
+            if cfg!(feature = "emulated") { &[Self::Emulated4, Self::Emulated8, Self::Emulated16] } else { &[] };
+        emulated.iter().copied().chain(Backend::ALL[1..].iter().map(|name| Self::Native(name))).collect()
     }
 
     /// The name, which for backends is the one that `LOBE_BACKEND` takes.
@@ -77,16 +79,21 @@ impl Subject {
     pub fn expected(self) -> bool {
         match self {
             Subject::Native(name) => Backend::reported().contains(&name),
-            _ => true,
+            _ => cfg!(feature = "emulated"),
         }
     }
 
     /// What `property` records in this form; `None` if the backend says that this CPU cannot run it.
     pub fn record(self, form: Form, property: Property) -> Option<Vec<Record>> {
         match self {
+            #[cfg(feature = "emulated")]
             Subject::Emulated4 => Some(property.record(Emulated::<4>)),
+            #[cfg(feature = "emulated")]
             Subject::Emulated8 => Some(property.record(Emulated::<8>)),
+            #[cfg(feature = "emulated")]
             Subject::Emulated16 => Some(property.record(Emulated::<16>)),
+            #[cfg(not(feature = "emulated"))]
+            Subject::Emulated4 | Subject::Emulated8 | Subject::Emulated16 => None,
             Subject::Native(_) => self
                 .backend()
                 .map(|backend| property.record(if form == Form::Strict { backend.strict() } else { backend.fused() })),

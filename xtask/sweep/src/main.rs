@@ -45,7 +45,7 @@ fn main() -> anyhow::Result<()> {
     let args = Args::parse();
     let forms: Vec<Backend> = Backend::available()
         .into_iter()
-        .flat_map(|b| if b.name() == "avx2" { vec![b.strict(), b.fused()] } else { vec![b.strict()] })
+        .flat_map(|b| if b.has_fused_form() { vec![b.strict(), b.fused()] } else { vec![b.strict()] })
         .collect();
     let found = sweep(&forms, args.step);
 

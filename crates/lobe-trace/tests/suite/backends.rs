@@ -247,7 +247,7 @@ macro_rules! on {
             fn check(form: Form) {
                 match $lanes {
                     Some(lanes) => check_form(lanes, form),
-                    None => println!("SKIP: this CPU has no {}", stringify!($name)),
+                    None => println!("SKIP: {} is not on this CPU", module_path!()),
                 }
             }
 
@@ -271,7 +271,7 @@ macro_rules! on {
             fn packet_call() {
                 match $lanes {
                     Some(lanes) => check_packet_call(lanes),
-                    None => println!("SKIP: this CPU has no {}", stringify!($name)),
+                    None => println!("SKIP: {} is not on this CPU", module_path!()),
                 }
             }
         }
@@ -279,13 +279,27 @@ macro_rules! on {
 }
 
 on! {
-    scalar: Some(Backend::scalar());
     emulated4: Some(On(Scalar::<4>));
     emulated8: Some(On(Scalar::<8>));
-    sse2: Backend::named("sse2").ok();
-    sse41: Backend::named("sse4.1").ok();
-    avx2: Backend::named("avx2").ok().map(Backend::fused);
-    avx2_strict: Backend::named("avx2").ok().map(Backend::strict);
+}
+
+/// Both forms of every backend.
+mod on {
+    macro_rules! on_backends {
+        ($($backend:ident $name:literal;)*) => {$(
+            #[allow(non_snake_case, reason = "the names of the backends")]
+            mod $backend {
+                use super::super::*;
+
+                on! {
+                    strict: Backend::named($name).ok().map(Backend::strict);
+                    fused: Backend::named($name).ok().filter(Backend::has_fused_form).map(Backend::fused);
+                }
+            }
+        )*};
+    }
+
+    lobe_backend::each_backend! { on_backends }
 }
 
 #[test]

@@ -1,0 +1,142 @@
+//! What is tested, and how it runs here.
+
+use std::ffi::OsString;
+use std::path::Path;
+
+use anyhow::{bail, ensure};
+use clap::ValueEnum;
+
+use super::install;
+
+/// A set of instructions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Target {
+    /// NEON
+    Aarch64,
+    /// simd128 of WebAssembly
+    Wasm,
+    /// x86-64 without anything newer
+    Sse2,
+    /// AVX-512
+    Avx512,
+}
+
+/// How cargo builds and runs programs of a target.
+#[derive(Debug, Default)]
+pub struct Setup {
+    /// Environment variables of cargo.
+    pub environment: Vec<(String, OsString)>,
+    /// Arguments to test programs.
+    pub harness: &'static [&'static str],
+}
+
+impl Setup {
+    fn set(&mut self, name: impl Into<String>, value: impl Into<OsString>) {
+        self.environment.push((name.into(), value.into()));
+    }
+
+    /// Sets what cargo has a variable for on each target of rustc.
+    fn set_of(&mut self, triple: &str, key: &str, value: impl Into<OsString>) {
+        self.set(format!("CARGO_TARGET_{}_{key}", triple.to_uppercase().replace('-', "_")), value);
+    }
+}
+
+const HOST: &str = std::env::consts::ARCH;
+
+impl Target {
+    pub const ALL: [Target; 4] = [Target::Aarch64, Target::Wasm, Target::Sse2, Target::Avx512];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Target::Aarch64 => "aarch64",
+            Target::Wasm => "wasm",
+            Target::Sse2 => "sse2",
+            Target::Avx512 => "avx512",
+        }
+    }
+
+    /// The name of its backend.
+    pub fn backend(self) -> &'static str {
+        match self {
+            Target::Aarch64 => "neon",
+            Target::Wasm => "simd128",
+            Target::Sse2 => "sse2",
+            Target::Avx512 => "avx512",
+        }
+    }
+
+    /// The crate of its backend.
+    pub fn backend_crate(self) -> &'static str {
+        match self {
+            Target::Aarch64 => "lobe-neon",
+            Target::Wasm => "lobe-wasm",
+            Target::Sse2 => "lobe-sse",
+            Target::Avx512 => "lobe-avx512",
+        }
+    }
+
+    /// What runs its programs here, with all that is needed.
+    ///
+    /// # Errors
+    /// The reason why they cannot be run.
+    pub fn setup(self) -> anyhow::Result<Setup> {
+        let mut setup = Setup::default();
+        match self {
+            Target::Aarch64 if HOST == "aarch64" => {}
+            Target::Aarch64 => {
+                // Without a library of the system: rustc brings all that it is linked with, and qemu needs no files of it.
+                let triple = "aarch64-unknown-linux-musl";
+                install::rust_target(triple)?;
+                setup.set("CARGO_BUILD_TARGET", triple);
+                setup.set_of(triple, "LINKER", "rust-lld");
+                setup.set_of(triple, "RUNNER", install::qemu("aarch64")?);
+            }
+            Target::Wasm => {
+                let triple = "wasm32-wasip1";
+                let node = install::node()?;
+                install::rust_target(triple)?;
+                setup.set("CARGO_BUILD_TARGET", triple);
+                // As much stack as a main thread has elsewhere.
+                setup.set_of(triple, "RUSTFLAGS", "-C target-feature=+simd128 -C link-arg=-zstack-size=8388608");
+                let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/wasi.mjs");
+                let mut runner = node.into_os_string();
+                runner.push(" --no-warnings ");
+                runner.push(script);
+                setup.set_of(triple, "RUNNER", runner);
+                // A panic ends the program, and with it what was captured.
+                setup.harness = &["--nocapture"];
+            }
+            Target::Sse2 => {
+                ensure!(HOST == "x86_64" && cfg!(target_os = "linux"), "qemu runs programs of Linux on x86-64 here");
+                let mut runner = install::qemu("x86_64")?.into_os_string();
+                runner.push(" -cpu core2duo");
+                setup.set_of("x86_64-unknown-linux-gnu", "RUNNER", runner);
+            }
+            Target::Avx512 => has_avx512()?,
+        }
+        Ok(setup)
+    }
+
+    /// Arguments that leave out the tests of a package that cannot be run on this target.
+    pub fn left_out(self, _package: &str) -> &'static [&'static str] {
+        &[]
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+fn has_avx512() -> anyhow::Result<()> {
+    let has = std::is_x86_feature_detected!("avx512f")
+        && std::is_x86_feature_detected!("avx512vl")
+        && std::is_x86_feature_detected!("avx512dq")
+        && std::is_x86_feature_detected!("avx512bw")
+        && std::is_x86_feature_detected!("avx512vbmi2");
+    if !has {
+        bail!("this processor has no AVX-512 (F, VL, DQ, BW, VBMI2), and qemu does not emulate it");
+    }
+    Ok(())
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+fn has_avx512() -> anyhow::Result<()> {
+    bail!("this is no x86-64 processor");
+}
