@@ -19,7 +19,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "cornell",
     extensions: &["brdf"],
     matches,
-    read: Some(|bytes, path| Ok(Document::new(read(bytes, path)?))),
+    read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?))),
     writer: None,
 };
 

@@ -16,6 +16,9 @@ pub struct Document {
     /// Total integrated scatter, the hemispherical integral of `f cos`, as the file states it for each block of its
     /// data, in the order of the file. Empty if it states none. Nothing is computed from it.
     pub tis: Vec<f32>,
+    /// What the reader made of a file that leaves something open, in sentences for people: which column it took for
+    /// what, what it left out.
+    pub notes: Vec<String>,
 }
 
 /// One measurement of a document.
@@ -43,9 +46,13 @@ impl Part {
 }
 
 impl Document {
+    fn empty() -> Self {
+        Document { format: None, parts: Vec::new(), source: Vec::new(), tis: Vec::new(), notes: Vec::new() }
+    }
+
     /// One measurement about which there is nothing else to say.
     pub fn new(data: impl Into<Data>) -> Self {
-        Document { format: None, parts: vec![Part::new("", data)], source: Vec::new(), tis: Vec::new() }
+        Document { format: None, parts: vec![Part::new("", data)], ..Document::empty() }
     }
 
     /// The measurements of a sheet. The name of a single one that is of no particular side becomes a fact of the header.
@@ -56,7 +63,7 @@ impl Document {
         {
             source.push(("name".into(), std::mem::take(name)));
         }
-        Document { format: None, parts, source, tis: Vec::new() }
+        Document { parts, source, ..Document::empty() }
     }
 
     /// The data, if they are one measurement of no particular side.

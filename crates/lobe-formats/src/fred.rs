@@ -22,7 +22,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "fred",
     extensions: &["txt"],
     matches,
-    read: Some(|bytes, path| Ok(Document::new(read(bytes, path)?))),
+    read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?))),
     writer: None,
 };
 
@@ -32,7 +32,7 @@ pub(crate) static RPC: FormatSpec = FormatSpec {
     word: "rpc",
     extensions: &["txt"],
     matches: matches_rpc,
-    read: Some(|bytes, path| Ok(Document::new(read_rpc(bytes, path)?))),
+    read: Some(|bytes, path, _| Ok(Document::new(read_rpc(bytes, path)?))),
     writer: None,
 };
 

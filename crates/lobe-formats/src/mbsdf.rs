@@ -26,7 +26,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "mbsdf",
     extensions: &["mbsdf"],
     matches,
-    read: Some(|bytes, path| Ok(Document::of_parts(read(bytes, path)?.into_parts()))),
+    read: Some(|bytes, path, _| Ok(Document::of_parts(read(bytes, path)?.into_parts()))),
     writer: Some(Writer {
         extensions: &["mbsdf"],
         holds_channels: |channels| matches!(channels, Channels::Mono | Channels::Rgb),

@@ -19,7 +19,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "merl",
     extensions: &["binary"],
     matches,
-    read: Some(|bytes, path| Ok(Document::new(read(bytes, path)?))),
+    read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?))),
     writer: Some(Writer {
         extensions: &["binary"],
         holds_channels: |channels| matches!(channels, Channels::Rgb),

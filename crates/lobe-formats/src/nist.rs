@@ -20,7 +20,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "nist",
     extensions: &["csv"],
     matches,
-    read: Some(|bytes, path| Ok(Document::new(read(bytes, path)?))),
+    read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?))),
     writer: None,
 };
 

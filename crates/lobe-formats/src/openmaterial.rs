@@ -16,7 +16,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "openmaterial",
     extensions: &["xompt"],
     matches,
-    read: Some(|bytes, path| Ok(Document::new(read(bytes, path)?))),
+    read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?))),
     writer: None,
 };
 

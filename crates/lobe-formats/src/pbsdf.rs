@@ -21,7 +21,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "pbsdf",
     extensions: &["pbsdf"],
     matches,
-    read: Some(|bytes, path| Ok(Document::new(read(bytes, path)?))),
+    read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?))),
     writer: Some(Writer {
         extensions: &["pbsdf"],
         holds_channels: |channels| matches!(channels, Channels::Spectral(_)),

@@ -3,8 +3,9 @@
 use std::fmt;
 use std::path::Path;
 
+use crate::adjust::adjust;
 use crate::spec::{FormatSpec, Writer};
-use crate::{Document, FormatError, Place, fred};
+use crate::{Document, FormatError, Place, ReadOptions, fred, goniometer, plain, sidecar};
 
 /// One line per format: its variant, and its static description.
 macro_rules! formats {
@@ -82,26 +83,37 @@ impl fmt::Display for Format {
 /// The format of a file from its content: `.bsdf` alone is the extension of four different ones. `None` if it is of no known
 /// format.
 pub fn sniff(bytes: &[u8]) -> Option<Format> {
+    let bytes = &*plain::text(bytes);
     Format::ALL.iter().copied().find(|format| (format.spec().matches)(bytes))
 }
 
 /// Reads a file of any supported format, which is recognised by the content. Formats that do not say whether they hold
 /// reflection or transmission are assumed to hold reflection; only for those of Integra does the extension decide: `.ddt` and
-/// `.sdt` are transmission.
+/// `.sdt` are transmission. If there is a [sidecar], it says what the file leaves open.
 ///
 /// A folder is read as the RPC Photonics files in it, which are one material.
 ///
 /// # Errors
-/// [`FormatError`] if the file cannot be read, is of no known format, or is damaged.
+/// [`FormatError`] if the file or its sidecar cannot be read, is of no known format, or is damaged.
 pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
+    open_with(path, &ReadOptions::default())
+}
+
+/// As [`open`], with options, which come before those of a [sidecar].
+///
+/// # Errors
+/// As [`open`], and if the options do not fit the file.
+pub fn open_with(path: &Path, options: &ReadOptions) -> Result<(Format, Document), FormatError> {
+    let options = options.clone().or(sidecar::find(path)?);
     if path.is_dir() {
         let document = Document::new(fred::read_rpc_folder(path)?);
+        let document = adjusted(document, Format::Rpc, path, &options)?;
         return Ok((Format::Rpc, Document { format: Some(Format::Rpc.name()), ..document }));
     }
     let bytes = std::fs::read(path)
         .map_err(|error| FormatError::new(path, Place::File, error.to_string(), "a file that can be read"))?;
-    let format = recognised(&bytes, path)?;
-    Ok((format, read(format, &bytes, path)?))
+    let format = recognised(&bytes, path, &options)?;
+    Ok((format, read_with(format, &bytes, path, &options)?))
 }
 
 /// Reads the content of a file in memory, whatever its format. `path` names it in errors, and its extension counts as in
@@ -110,11 +122,20 @@ pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
 /// # Errors
 /// As [`open`].
 pub fn from_bytes(bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
-    read(recognised(bytes, path)?, bytes, path)
+    from_bytes_with(bytes, path, &ReadOptions::default())
 }
 
-fn recognised(bytes: &[u8], path: &Path) -> Result<Format, FormatError> {
-    sniff(bytes).ok_or_else(|| {
+/// As [`from_bytes`], with options; no sidecar is looked for.
+///
+/// # Errors
+/// As [`open_with`].
+pub fn from_bytes_with(bytes: &[u8], path: &Path, options: &ReadOptions) -> Result<Document, FormatError> {
+    read_with(recognised(bytes, path, options)?, bytes, path, options)
+}
+
+fn recognised(bytes: &[u8], path: &Path, options: &ReadOptions) -> Result<Format, FormatError> {
+    let is_table = || !options.of_tables().is_empty() || goniometer::may_be(bytes);
+    sniff(bytes).or_else(|| is_table().then_some(Format::Goniometer)).ok_or_else(|| {
         let readable = Format::ALL.iter().filter(|format| format.spec().read.is_some());
         let known: Vec<&str> = readable.map(Format::name).collect();
         FormatError::new(path, Place::File, "content of no known format", format!("one of {}", known.join(", ")))
@@ -127,6 +148,14 @@ fn recognised(bytes: &[u8], path: &Path) -> Result<Format, FormatError> {
 /// # Errors
 /// [`FormatError`] if the bytes are no sound file of the format.
 pub fn read(format: Format, bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
+    read_with(format, bytes, path, &ReadOptions::default())
+}
+
+/// As [`read`], with options.
+///
+/// # Errors
+/// As [`read`], and if the options do not fit the file.
+pub fn read_with(format: Format, bytes: &[u8], path: &Path, options: &ReadOptions) -> Result<Document, FormatError> {
     let spec = format.spec();
     let Some(read) = spec.read else {
         return Err(FormatError::new(
@@ -136,5 +165,15 @@ pub fn read(format: Format, bytes: &[u8], path: &Path) -> Result<Document, Forma
             "a format to read",
         ));
     };
-    Ok(Document { format: Some(spec.name), ..read(bytes, path)? })
+    let document = read(&plain::text(bytes), path, options)?;
+    Ok(Document { format: Some(spec.name), ..adjusted(document, format, path, options)? })
+}
+
+/// The values as the options say that they are.
+fn adjusted(document: Document, format: Format, path: &Path, options: &ReadOptions) -> Result<Document, FormatError> {
+    let is_table = format == Format::Goniometer;
+    if !is_table {
+        options.check_no_table(path, format.name())?;
+    }
+    adjust(document, options, is_table, path)
 }

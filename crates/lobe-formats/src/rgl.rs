@@ -21,7 +21,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "rgl",
     extensions: &["bsdf"],
     matches: tensor::matches,
-    read: Some(|bytes, path| {
+    read: Some(|bytes, path, _| {
         let data = read(bytes, path)?;
         let description = data.parts().description.clone();
         Ok(Document::new(data).with_source(&[("description", &description)]))

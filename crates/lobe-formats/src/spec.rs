@@ -4,7 +4,7 @@ use std::path::Path;
 
 use lobe_table::{Channels, Kind, Scatter};
 
-use crate::{Document, FormatError, Place};
+use crate::{Document, FormatError, Place, ReadOptions};
 
 /// A file format: how it is recognised, read and written.
 #[derive(Debug)]
@@ -23,8 +23,9 @@ pub struct FormatSpec {
     pub writer: Option<Writer>,
 }
 
-/// Makes a document of the content of a file, which the path names in errors.
-pub type Read = fn(&[u8], &Path) -> Result<Document, FormatError>;
+/// Makes a document of the content of a file, which the path names in errors. Of the options, readers look only at what
+/// their format leaves open: quantities and scales are applied to what they return, but for tables with named columns.
+pub type Read = fn(&[u8], &Path, &ReadOptions) -> Result<Document, FormatError>;
 
 /// How a format is written.
 #[derive(Debug)]

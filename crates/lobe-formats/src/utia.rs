@@ -17,7 +17,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "utia",
     extensions: &["bin"],
     matches,
-    read: Some(|bytes, path| {
+    read: Some(|bytes, path, _| {
         let unit = ("unit", "not documented; values are as they are stored");
         Ok(Document::new(read(bytes, path)?).with_source(&[unit]))
     }),

@@ -25,7 +25,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "zemax",
     extensions: &["bsdf"],
     matches: |bytes| has_words(bytes, "#", &["ScatterRadial", "AngleOfIncidence"]),
-    read: Some(|bytes, path| Ok(read(bytes, path)?.into())),
+    read: Some(|bytes, path, _| Ok(read(bytes, path)?.into())),
     writer: Some(Writer {
         extensions: &["bsdf"],
         holds_channels: |channels| matches!(channels, Channels::Mono | Channels::Xyz),

@@ -27,7 +27,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "ddr",
     extensions: &["ddr", "ddt"],
     matches,
-    read: Some(|bytes, path| Ok(read(bytes, path, scatter_of_extension(path))?.into())),
+    read: Some(|bytes, path, _| Ok(read(bytes, path, scatter_of_extension(path))?.into())),
     writer: Some(Writer {
         extensions: &["ddr", "ddt"],
         holds_channels,
@@ -96,7 +96,7 @@ pub fn read(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Measured<spec
         data = data.with_refraction(offsets).map_err(|error| from_samples(file, &error))?;
     }
     if header.relative {
-        data = scale_slices(file, &data, &targets)?;
+        data = scale_slices(file, &data, &targets, "kbdf")?;
     }
     Ok(Measured { data, source: header.source, tis: Vec::new() })
 }

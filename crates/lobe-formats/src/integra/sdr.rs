@@ -24,7 +24,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "sdr",
     extensions: &["sdr", "sdt"],
     matches,
-    read: Some(|bytes, path| Ok(read(bytes, path, scatter_of_extension(path))?.into())),
+    read: Some(|bytes, path, _| Ok(read(bytes, path, scatter_of_extension(path))?.into())),
     writer: Some(Writer {
         extensions: &["sdr", "sdt"],
         holds_channels,

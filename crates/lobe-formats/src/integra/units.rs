@@ -28,28 +28,61 @@ pub(crate) fn divide_by_cosine(grid: &Grid, zeniths: &[f64], block: &mut [f64]) 
         let (s, h) = (row / phis % sigmas, row % phis);
         let cosines: Vec<f64> =
             theta.iter().map(|&t| angles_to_directions([zeniths[s], 0.0, t, phi[h]], |z| z).1[2]).collect();
-        let above = |&t: &usize| cosines[t] > HORIZON;
-        // Along a row the direction leaves the upper side once for good, so the nodes above the horizon are neighbours.
-        let (Some(first), Some(last)) = ((0..thetas).find(above), (0..thetas).rfind(above)) else {
-            values.fill(0.0);
-            continue;
-        };
-        for t in first..=last {
-            values[t] /= cosines[t];
+        divide_row(&cosines, values);
+    }
+}
+
+/// The values of one row of theta.
+fn divide_row(cosines: &[f64], values: &mut [f64]) {
+    let above = |cosine: &f64| *cosine > HORIZON;
+    // Along a row the direction leaves the upper side once for good, so the nodes above the horizon are neighbours.
+    let (Some(first), Some(last)) = (cosines.iter().position(above), cosines.iter().rposition(above)) else {
+        return values.fill(0.0);
+    };
+    for (value, cosine) in values[first..=last].iter_mut().zip(&cosines[first..=last]) {
+        *value /= cosine;
+    }
+    let (lowest, highest) = (values[first], values[last]);
+    values[..first].fill(lowest);
+    values[last + 1..].fill(highest);
+}
+
+/// The same for a table that was read as if it held `f`.
+pub(crate) fn divide_nodes_by_cosine(file: &Path, samples: &specular::Data) -> Result<specular::Data, FormatError> {
+    let knots = samples.knots();
+    let [sigmas, psis, thetas, phis] = knots.each_ref().map(Vec::len);
+    let channels = samples.channels().count();
+    let mut values = samples.values().to_vec();
+    let mut row = vec![0.0; thetas];
+    for (incidence, slice) in values.chunks_exact_mut(thetas * phis * channels).enumerate().take(sigmas * psis) {
+        let zenith = zenith(samples, &Edges::default(), knots[0][incidence / psis]);
+        for h in 0..phis {
+            let cosine = |theta: &f64| angles_to_directions([zenith, 0.0, *theta, knots[3][h]], |zenith| zenith).1[2];
+            let cosines: Vec<f64> = knots[2].iter().map(cosine).collect();
+            for c in 0..channels {
+                let node = |t: usize| (t * phis + h) * channels + c;
+                row.iter_mut().enumerate().for_each(|(t, value)| *value = f64::from(slice[node(t)]));
+                divide_row(&cosines, &mut row);
+                row.iter().enumerate().for_each(|(t, value)| slice[node(t)] = *value as f32);
+            }
         }
-        let (lowest, highest) = (values[first], values[last]);
-        values[..first].fill(lowest);
-        values[last + 1..].fill(highest);
+    }
+    let divided = specular::Data::new(samples.scatter(), knots.clone(), samples.channels().clone(), values);
+    let divided = divided.map_err(|error| from_samples(file, &error))?;
+    match samples.refraction() {
+        Some(offsets) => divided.with_refraction(offsets.to_vec()).map_err(|error| from_samples(file, &error)),
+        None => Ok(divided),
     }
 }
 
 /// Scales each slice, a pair of sigma and psi knots in one channel, to a given directional-hemispherical reflectance.
 ///
-/// `targets` holds for each channel one number per pair, `[psi][sigma]`.
+/// `targets` holds for each channel one number per pair, `[psi][sigma]`, which errors call by their name in the file.
 pub(crate) fn scale_slices(
     file: &Path,
     samples: &specular::Data,
     targets: &[Vec<f64>],
+    name: &str,
 ) -> Result<specular::Data, FormatError> {
     let [sigmas, psis, thetas, phis] = samples.knots().each_ref().map(Vec::len);
     let channels = samples.channels().count();
@@ -71,7 +104,7 @@ pub(crate) fn scale_slices(
                     let found = format!(
                         "relative values with a reflectance of {reflectance} at sigma {degrees:.6} in channel {c}"
                     );
-                    let expected = format!("one that can be scaled to kbdf {target}");
+                    let expected = format!("one that can be scaled to {name} {target}");
                     return Err(FormatError::new(file, Place::File, found, expected));
                 }
                 for value in slice.iter_mut().skip(c).step_by(channels).filter(|_| !blank) {

@@ -27,7 +27,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "lighttools",
     extensions: &["bsdf"],
     matches,
-    read: Some(read),
+    read: Some(|bytes, path, _| read(bytes, path)),
     writer: None,
 };
 

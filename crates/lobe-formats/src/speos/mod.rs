@@ -26,7 +26,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "speos",
     extensions: &["brdf", "anisotropicbsdf"],
     matches,
-    read: Some(|bytes, path| Ok(Document::of_parts(read(bytes, path)?.into_parts()))),
+    read: Some(|bytes, path, _| Ok(Document::of_parts(read(bytes, path)?.into_parts()))),
     writer: None,
 };
 

@@ -21,7 +21,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "ssdd",
     extensions: &["ssdd"],
     matches,
-    read: Some(|bytes, path| Ok(Document::of_parts(read(bytes, path)?))),
+    read: Some(|bytes, path, _| Ok(Document::of_parts(read(bytes, path)?))),
     writer: Some(Writer {
         extensions: &["ssdd"],
         holds_channels: |channels| {

@@ -26,7 +26,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "klems",
     extensions: &["xml"],
     matches,
-    read: Some(|bytes, path| Ok(read(bytes, path)?.into())),
+    read: Some(|bytes, path, _| Ok(read(bytes, path)?.into())),
     writer: Some(Writer {
         extensions: &["xml"],
         holds_channels: |channels| matches!(channels, Channels::Mono | Channels::Xyz | Channels::Named(_)),

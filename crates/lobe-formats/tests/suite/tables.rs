@@ -3,7 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
 
-use lobe_formats::goniometer::Options;
+use lobe_formats::goniometer::Unit;
+use lobe_formats::reading::{Holds, ReadOptions};
 use lobe_formats::ssdd::Encoding;
 use lobe_formats::{FormatError, Part, Place, astm, goniometer, light_tools, speos, ssdd};
 use lobe_table::{Channels, Data, Scatter, Side, mirror, specular, spherical};
@@ -230,10 +231,10 @@ fn tables_of_goniometers_find_their_shape_and_unit() {
     );
     let toward_light = data.eval(degrees(40.0, 0.0), degrees(10.0, 180.0))[0];
     assert!((toward_light - 8.0).abs() < 1e-4, "phi 0 leads from the mirror direction to the normal: {toward_light}");
-    let options = Options { scatter: Scatter::Transmission, is_in_degrees: false };
+    let options = ReadOptions { holds: Some(Holds::Transmission), unit: Some(Unit::Rad), ..ReadOptions::default() };
     let text = csv("phi_o,theta_i,theta_o,f", radian);
-    let found = goniometer::read_with(text.as_bytes(), file(), options);
-    assert!(matches!(found, Ok(Data::Spherical(grid)) if grid.scatter() == Scatter::Transmission));
+    let found = goniometer::read_with(text.as_bytes(), file(), &options).unwrap_or_else(|error| panic!("{error}"));
+    assert!(matches!(found.only(), Some(Data::Spherical(grid)) if grid.scatter() == Scatter::Transmission));
 }
 
 #[test]
@@ -252,11 +253,14 @@ fn json_tables_have_a_list_a_column() {
 fn bad_tables_of_goniometers_are_refused() {
     let text = csv("phi_o,theta_i,theta_o,f", 1.0);
     let change = |from: &str, to: &str| goniometer::read(text.replace(from, to).as_bytes(), file());
-    refused(change("theta_o", "theta_x"), Place::Line(1), "no column of theta_o");
-    refused(change("phi_o", "theta_i_rad"), Place::Line(1), "a second column of theta_i");
-    refused(change("90,10,30,13", "90,10,30,nan"), Place::Line(11), "nan");
+    refused(change("theta_o", "theta_x"), Place::Line(2), "no column of theta_o");
+    refused(change("phi_o", "theta_i_rad"), Place::Line(2), "a second column of theta_i");
+    for word in ["x", "inf", "1e999", "1.5.2", "0x10"] {
+        refused(change("90,10,30,13", &format!("90,10,30,{word}")), Place::Line(11), word);
+    }
+    refused(change("90,10,30,13", "nan,10,30,13"), Place::Line(11), "no phi_o");
     refused(change("90,10,30,13", "90,10,30"), Place::Line(11), "3 fields");
-    refused(change("90,10,30,13", "90,10,95,13"), Place::File, "theta_o");
+    refused(change("90,10,30,13", "90,10,95,13"), Place::Line(11), "theta_o");
     (0..text.len()).for_each(|end| {
         let _ = goniometer::read(&text.as_bytes()[..end], file());
     });

@@ -1,0 +1,127 @@
+//! Values of a file that are not `f` yet: other quantities, a factor, stated totals.
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use lobe_table::{Data, scattered, specular, spherical};
+
+use crate::integra::units::{divide_nodes_by_cosine, scale_slices};
+use crate::reading::{Quantity, ReadOptions, Scale};
+use crate::{Document, FormatError, Place};
+
+/// The smallest cosine that a value is divided by: that of 89.9 degrees.
+const HORIZON: f64 = 1.745e-3;
+
+/// Makes `f` of the values, as the options say they are. `is_table`: the reader has dealt with the quantity.
+pub(crate) fn adjust(
+    mut document: Document,
+    options: &ReadOptions,
+    is_table: bool,
+    file: &Path,
+) -> Result<Document, FormatError> {
+    match options.values.filter(|_| !is_table) {
+        None | Some(Quantity::F) => {}
+        Some(Quantity::LuminanceFactor) => each(&mut document, |data| multiply(data, 1.0 / PI, file))?,
+        Some(Quantity::FCos) => each(&mut document, |data| divide(data, file))?,
+    }
+    match options.scale {
+        None => {}
+        Some(Scale::By(factor)) => each(&mut document, |data| multiply(data, factor, file))?,
+        Some(Scale::Tis) => to_totals(&mut document, file)?,
+    }
+    let note = |what: String| format!("{what}, as was said");
+    if let Some(quantity) = options.values.filter(|_| !is_table) {
+        document.notes.push(note(format!("values are {quantity}")));
+    }
+    if let Some(scale) = options.scale {
+        document.notes.push(match scale {
+            Scale::By(factor) => note(format!("values multiplied by {factor}")),
+            Scale::Tis => note("each block scaled to its total integrated scatter".into()),
+        });
+    }
+    Ok(document)
+}
+
+fn each(document: &mut Document, change: impl Fn(&Data) -> Result<Data, FormatError>) -> Result<(), FormatError> {
+    for part in &mut document.parts {
+        part.data = change(&part.data)?;
+    }
+    Ok(())
+}
+
+fn multiply(data: &Data, factor: f64, file: &Path) -> Result<Data, FormatError> {
+    let data = data.representation();
+    let scaled = |values: &[f32]| values.iter().map(|value| (f64::from(*value) * factor) as f32).collect();
+    match data.map_channels(data.channels(), &scaled) {
+        Some(scaled) => scaled.map_err(|error| FormatError::new(file, Place::File, error.found, error.expected)),
+        None => Err(FormatError::new(
+            file,
+            Place::File,
+            format!("{} data", data.kind().name()),
+            "data whose values can be scaled",
+        )),
+    }
+}
+
+fn divide(data: &Data, file: &Path) -> Result<Data, FormatError> {
+    let invalid =
+        |error: String| FormatError::new(file, Place::File, error, "values that can be divided by the cosine");
+    match data {
+        Data::Specular(samples) => divide_nodes_by_cosine(file, samples).map(Data::Specular),
+        Data::Spherical(grid) => {
+            let (knots, count) = (grid.knots(), grid.channels().count());
+            let [_, _, thetas, phis] = knots.each_ref().map(Vec::len);
+            let mut values = grid.values().to_vec();
+            for slice in values.chunks_exact_mut(thetas * phis * count) {
+                for (row, theta) in slice.chunks_exact_mut(phis * count).zip(&knots[2]) {
+                    let cosine = theta.cos().max(HORIZON);
+                    row.iter_mut().for_each(|value| *value = (f64::from(*value) / cosine) as f32);
+                }
+            }
+            let divided = spherical::Data::new(grid.scatter(), knots.clone(), grid.channels().clone(), values);
+            let divided = divided.and_then(|divided| if grid.is_mirrored() { divided.mirrored() } else { Ok(divided) });
+            divided.map(Data::Spherical).map_err(|error| invalid(error.to_string()))
+        }
+        Data::Scattered(samples) => {
+            let count = samples.channels().count();
+            let above = samples.samples().filter(|(angles, _)| angles[2].cos() > HORIZON);
+            let (angles, values): (Vec<[f64; 4]>, Vec<&[f32]>) = above.unzip();
+            let mut values = values.concat();
+            for (texel, angles) in values.chunks_exact_mut(count).zip(&angles) {
+                texel.iter_mut().for_each(|value| *value = (f64::from(*value) / angles[2].cos()) as f32);
+            }
+            let divided = scattered::Data::new(samples.scatter(), samples.channels().clone(), &angles, &values);
+            divided.map(Data::Scattered).map_err(|error| invalid(error.to_string()))
+        }
+        other => Err(invalid(format!("{} data", other.representation().kind().name()))),
+    }
+}
+
+/// Scales each block so that its integral is the total that the file states for it.
+fn to_totals(document: &mut Document, file: &Path) -> Result<(), FormatError> {
+    let refused = |found: String| {
+        FormatError::new(
+            file,
+            Place::File,
+            found,
+            "scale = tis for a file that states the total integrated scatter of each of its blocks",
+        )
+    };
+    let [part] = document.parts.as_mut_slice() else { return Err(refused("several measurements".into())) };
+    let Data::Specular(samples) = &part.data else {
+        return Err(refused(format!("{} data", part.data.representation().kind().name())));
+    };
+    let [sigmas, psis, ..] = samples.knots().each_ref().map(Vec::len);
+    let blocks = sigmas * psis;
+    if document.tis.len() != blocks * samples.channels().count() {
+        return Err(refused(format!("{} stated totals for {blocks} incident directions", document.tis.len())));
+    }
+    let totals: Vec<Vec<f64>> =
+        document.tis.chunks_exact(blocks).map(|of| of.iter().map(|&tis| f64::from(tis)).collect()).collect();
+    part.data = Data::Specular(scaled(file, samples, &totals)?);
+    Ok(())
+}
+
+fn scaled(file: &Path, samples: &specular::Data, totals: &[Vec<f64>]) -> Result<specular::Data, FormatError> {
+    scale_slices(file, samples, totals, "the stated total integrated scatter")
+}

@@ -1,0 +1,84 @@
+//! What stands above the rows of a table: facts for people, and angles, units and kinds of scatter that hold for all rows.
+
+use super::names::{Angle, Meaning, Unit, meaning};
+use super::sheet::{Dialect, Line};
+use crate::reading::Holds;
+
+/// What the lines above the rows, or between them, say.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Facts {
+    /// Names and values, for people.
+    pub source: Vec<(String, String)>,
+    /// Angles that are the same in all rows from there on, with the unit if it is stated.
+    pub angles: Vec<Fixed>,
+    /// The unit of angles.
+    pub unit: Option<Unit>,
+    pub holds: Option<Holds>,
+}
+
+/// An angle in a line of its own: `Angle of incidence: 30 deg`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Fixed {
+    pub angle: Angle,
+    pub value: f64,
+    pub unit: Option<Unit>,
+}
+
+/// The longest value that is kept.
+const LONGEST: usize = 400;
+
+impl Facts {
+    /// Takes in a line.
+    pub fn add(&mut self, dialect: Dialect, line: &Line<'_>) {
+        let text = line.comment().unwrap_or(line.text).trim();
+        if text.chars().all(|c| !c.is_alphanumeric()) {
+            return;
+        }
+        if let Some(fixed) = fixed(dialect, line) {
+            self.angles.retain(|other| other.angle != fixed.angle);
+            self.angles.push(fixed);
+        }
+        let (name, value) = parted(dialect, text).unwrap_or(("comment", text.into()));
+        let words = (name.to_lowercase(), value.to_lowercase());
+        if words.0.contains("unit") && (words.0.contains("angle") || words.0.trim_end_matches('s') == "unit") {
+            self.unit = words.1.trim().parse().ok().or(self.unit);
+        }
+        let is_kind =
+            ["scatter", "scattertype", "scatter type", "scatter_type", "type", "measurement type", "data type", "mode"];
+        if is_kind.contains(&words.0.as_str()) {
+            self.holds = words.1.trim().parse().ok().or(self.holds);
+        }
+        let short = |text: &str| text.chars().take(LONGEST).collect::<String>();
+        self.source.push((short(name), short(&value)));
+    }
+}
+
+/// The angle that a line states, if it is such a line.
+pub(super) fn fixed(dialect: Dialect, line: &Line<'_>) -> Option<Fixed> {
+    let text = line.comment().unwrap_or(line.text).trim();
+    let (name, value) = parted(dialect, text)?;
+    let Meaning::Angle(angle, unit) = meaning(name) else { return None };
+    let digits = value.trim_end_matches(|c: char| c.is_alphabetic() || c == '°');
+    let suffix = value[digits.len()..].parse().ok();
+    let comma = Dialect { has_decimal_comma: digits.contains(',') && !digits.contains('.'), ..dialect };
+    Some(Fixed { angle, value: comma.number(digits.trim())?, unit: suffix.or(unit) })
+}
+
+/// The name and the value of a line such as `Operator,nobody`, `Operator: nobody` or `theta_i = 30`.
+fn parted<'a>(dialect: Dialect, text: &'a str) -> Option<(&'a str, String)> {
+    if let Some(delimiter) = dialect.delimiter
+        && let Some((name, rest)) = text.split_once(delimiter)
+    {
+        let trim = |text: &'a str| text.trim().trim_matches('"').trim_end_matches([':', '=']).trim();
+        let values: Vec<&str> = rest
+            .split(delimiter)
+            .map(|value| value.trim().trim_matches('"'))
+            .filter(|value| !value.is_empty())
+            .collect();
+        let name = trim(name);
+        return (!name.is_empty() && !values.is_empty()).then(|| (name, values.join(" ")));
+    }
+    let (name, value) = text.split_once([':', '=', '\t'])?;
+    let (name, value) = (name.trim().trim_matches('"'), value.trim().trim_matches([';', ',', '"']).trim());
+    (!name.is_empty() && !value.is_empty()).then(|| (name, value.into()))
+}

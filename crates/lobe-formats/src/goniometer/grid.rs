@@ -1,0 +1,74 @@
+//! Whether samples are a grid, and which representation they become.
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::path::Path;
+
+use lobe_table::{Channels, Data, Scatter, specular, spherical};
+
+use crate::records::Records;
+use crate::{FormatError, Place};
+
+/// A grid if all nodes of one are present, else scattered samples, of which those in specular coordinates that are below
+/// the horizon are left out.
+pub(super) fn data(
+    records: Records,
+    scatter: Scatter,
+    channels: Channels,
+    is_specular: bool,
+    file: &Path,
+) -> Result<Data, FormatError> {
+    if let Some((knots, values)) = grid(&records, channels.count()) {
+        let refused = |e: lobe_table::GridError| FormatError::new(file, Place::File, e.to_string(), "a grid");
+        return match is_specular {
+            true => specular::Data::new(scatter, knots, channels, values).map(Data::Specular).map_err(refused),
+            false => spherical::Data::new(scatter, knots, channels, values).map(Data::Spherical).map_err(refused),
+        };
+    }
+    let records = if is_specular { from_specular(&records, &channels) } else { records };
+    records.scattered(file, scatter, channels).map(Data::Scattered)
+}
+
+/// Knots and values, if the samples are each node of a grid once. A line of directions is not a grid.
+fn grid(records: &Records, channels: usize) -> Option<([Vec<f64>; 4], Vec<f32>)> {
+    // Angles that were written with six digits of radians are the same knot.
+    let key = |angle: f64| (angle * 1e6).round() as i64;
+    let mut knots: [BTreeMap<i64, f64>; 4] = Default::default();
+    for angles in &records.angles {
+        for (knots, &angle) in knots.iter_mut().zip(angles) {
+            knots.insert(key(angle), angle);
+        }
+    }
+    let nodes = knots.iter().try_fold(1_usize, |nodes, knots| nodes.checked_mul(knots.len()))?;
+    let (first, last) = (knots[3].values().next()?, knots[3].values().next_back()?);
+    // Half a turn is for the scattered samples too, which know that the other half is its mirror image.
+    let is_whole_turn = last - first > PI + 1e-6;
+    if nodes != records.angles.len() || knots[2].len() < 2 || !is_whole_turn {
+        return None;
+    }
+    let positions: [BTreeMap<i64, usize>; 4] =
+        std::array::from_fn(|axis| knots[axis].keys().enumerate().map(|(position, &key)| (key, position)).collect());
+    let mut values = vec![None; nodes];
+    for (angles, colour) in records.angles.iter().zip(records.values.chunks_exact(channels)) {
+        let node = (0..4).fold(0, |at, axis| at * knots[axis].len() + positions[axis][&key(angles[axis])]);
+        if values[node].replace(colour).is_some() {
+            return None;
+        }
+    }
+    let values = values.into_iter().flatten().flatten().copied().collect();
+    Some((knots.map(|knots| knots.into_values().collect()), values))
+}
+
+/// The directions of samples in specular coordinates, without those below the horizon.
+fn from_specular(records: &Records, channels: &Channels) -> Records {
+    let mut out = Records::default();
+    for (&[sigma, psi, theta, phi], colour) in records.angles.iter().zip(records.values.chunks_exact(channels.count()))
+    {
+        let ((sin, cos), (sin_t, cos_t), (sin_p, cos_p)) = (sigma.sin_cos(), theta.sin_cos(), phi.sin_cos());
+        let (x, y, z) = (cos * sin_t * cos_p - sin * cos_t, sin_t * sin_p, sin * sin_t * cos_p + cos * cos_t);
+        if z > 0.0 {
+            out.push([sigma, psi, x.hypot(y).atan2(z), y.atan2(x) + psi], colour.iter().map(|value| f64::from(*value)));
+        }
+    }
+    out
+}
