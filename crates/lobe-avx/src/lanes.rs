@@ -10,6 +10,7 @@ impl Lanes for Avx2 {
     type F = Floats;
     type I = Ints;
     type M = Mask;
+    type Narrow = Self;
 
     const LANES: usize = 8;
     const NAME: &'static str = "avx2";
@@ -24,6 +25,11 @@ impl Lanes for Avx2 {
         }
         // SAFETY: the token proves these features.
         unsafe { inner(self, kernel) }
+    }
+
+    #[inline(always)]
+    fn narrow(self) -> Self {
+        self
     }
 
     #[inline(always)]

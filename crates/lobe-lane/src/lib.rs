@@ -46,3 +46,5 @@ pub use lanes::{Kernel, Lanes, MAX_LANES, call};
 pub use strict::Strict;
 pub use texels::Texels;
 pub use values::{Floats, Ints, Mask};
+#[doc(hidden)]
+pub use {lanes::LANES_HANDED_ON, texels::TEXELS_HANDED_ON};

@@ -11,6 +11,7 @@ impl Lanes for Neon {
     type F = Floats;
     type I = Ints;
     type M = Mask;
+    type Narrow = Self;
 
     const LANES: usize = 4;
     const NAME: &'static str = "neon";
@@ -24,6 +25,7 @@ impl Lanes for Neon {
     }
 
     methods! {
+        fn narrow(self) -> Self = self;
         fn splat(self, x: f32) -> Floats = Floats(op!(vdupq_n_f32(x)));
         fn first_four(self, x: [f32; 4]) -> Floats = Floats(memory::load(&x));
         fn splat_int(self, x: i32) -> Ints = Ints(op!(vdupq_n_s32(x)));

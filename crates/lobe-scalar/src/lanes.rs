@@ -10,6 +10,7 @@ impl<const N: usize> Lanes for Scalar<N> {
     type F = Floats<N>;
     type I = Ints<N>;
     type M = Mask<N>;
+    type Narrow = Self;
 
     const LANES: usize = N;
     const NAME: &'static str = match N {
@@ -26,6 +27,11 @@ impl<const N: usize> Lanes for Scalar<N> {
     #[inline(always)]
     fn vectorize<K: Kernel>(self, kernel: K) -> K::Out {
         kernel.run(self)
+    }
+
+    #[inline(always)]
+    fn narrow(self) -> Self {
+        self
     }
 
     #[inline(always)]

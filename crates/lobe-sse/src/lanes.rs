@@ -11,6 +11,7 @@ impl<V: Level> Lanes for Sse<V> {
     type F = Floats<V>;
     type I = Ints<V>;
     type M = Mask<V>;
+    type Narrow = Self;
 
     const LANES: usize = 4;
     const NAME: &'static str = V::NAME;
@@ -20,6 +21,11 @@ impl<V: Level> Lanes for Sse<V> {
     #[inline(always)]
     fn vectorize<K: Kernel>(self, kernel: K) -> K::Out {
         V::enter(self, kernel)
+    }
+
+    #[inline(always)]
+    fn narrow(self) -> Self {
+        self
     }
 
     #[inline(always)]

@@ -11,6 +11,7 @@ impl Lanes for Simd128 {
     type F = Floats;
     type I = Ints;
     type M = Mask;
+    type Narrow = Self;
 
     const LANES: usize = 4;
     const NAME: &'static str = "simd128";
@@ -23,6 +24,7 @@ impl Lanes for Simd128 {
     }
 
     methods! {
+        fn narrow(self) -> Self = self;
         fn splat(self, x: f32) -> Floats = Floats(f32x4_splat(x));
         fn first_four(self, x: [f32; 4]) -> Floats = Floats(memory::load(&x));
         fn splat_int(self, x: i32) -> Ints = Ints(i32x4_splat(x));

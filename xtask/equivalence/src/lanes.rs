@@ -73,6 +73,7 @@ impl Kernel for FloatLanes {
             ints "to_int" |a, _| a.to_int();
             ints "bits" |a, _| a.bits();
             floats "select" |a, b| lanes.select(a.lt(b), a, b);
+            ints "descend" |a, b| lanes.descend(a.bits(), b);
         }
 
         // Three operands, by the definition of the current form.

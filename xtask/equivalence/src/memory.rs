@@ -124,6 +124,29 @@ fn gathers<L: Lanes>(lanes: L, records: &mut Vec<Record>) {
         at += L::LANES;
     }
     records.push(Record::exact("oct_lookup", looked_up));
+    records.push(Record::exact("look_up 1", look_up::<L, 1>(lanes, &indices)));
+    records.push(Record::exact("look_up 2", look_up::<L, 2>(lanes, &indices)));
+    records.push(Record::exact("look_up 4", look_up::<L, 4>(lanes, &indices)));
+}
+
+/// Whether each look-up finds its entry of a table as long as the lanes make it.
+#[inline(always)]
+fn look_up<L: Lanes, const N: usize>(lanes: L, indices: &[i32]) -> Vec<bool> {
+    let entries: [f32; 4 * MAX_LANES] = std::array::from_fn(|i| i as f32 + 0.5);
+    let mut table = [lanes.splat(0.0); N];
+    let mut register = 0;
+    while register < N {
+        table[register] = lanes.load(&entries[register * L::LANES..]);
+        register += 1;
+    }
+    let mut found = Vec::new();
+    let mut at = 0;
+    while at < indices.len() {
+        floats(lanes, lanes.look_up(table, lanes.load_int(&indices[at..])), &mut found);
+        at += L::LANES;
+    }
+    let last = (N * L::LANES - 1) as i32;
+    found.iter().zip(indices).map(|(&entry, index)| entry == entries[(index & last) as usize]).collect()
 }
 
 /// Appends corner after corner and float after float, for all bases, so that the order does not depend on the lanes.

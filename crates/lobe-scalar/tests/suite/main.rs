@@ -1,5 +1,7 @@
 //! Every method of the scalar backends against plain arithmetic.
 
+mod strict;
+
 use lobe_scalar::Scalar;
 
 lobe_testing::conformance! {

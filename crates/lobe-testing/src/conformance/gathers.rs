@@ -1,12 +1,12 @@
 //! Gathers, with indices inside, outside and far outside tables of every small length.
 
 use half::f16;
-use lobe_lane::{Block, Kernel, Lanes};
+use lobe_lane::{Block, Kernel, Lanes, MAX_LANES};
 
-use super::floats;
+use super::{floats, ints};
 use crate::patterns;
 
-/// Every gather of `Lanes`.
+/// Every gather and look-up of `Lanes`.
 #[derive(Clone, Copy)]
 pub struct Gathers;
 
@@ -35,6 +35,49 @@ impl Kernel for Gathers {
             for lane in 0..L::LANES {
                 let index = indices[at + lane];
                 assert_eq!(found[lane], eight[(index & 7) as usize], "oct_lookup at {index}");
+            }
+            at += L::LANES;
+        }
+        look_ups::<L, 1>(lanes, &indices);
+        look_ups::<L, 2>(lanes, &indices);
+        look_ups::<L, 4>(lanes, &indices);
+        descents(lanes, &indices);
+    }
+}
+
+/// Tables in registers: of an index only the bits that count so far matter.
+#[inline(always)]
+fn look_ups<L: Lanes, const N: usize>(lanes: L, indices: &[i32]) {
+    let entries: [f32; 4 * MAX_LANES] = std::array::from_fn(|i| i as f32 + 0.5);
+    let mut table = [lanes.splat(0.0); N];
+    for (register, of) in table.iter_mut().enumerate() {
+        *of = lanes.load(&entries[register * L::LANES..]);
+    }
+    let last = (N * L::LANES - 1) as i32;
+    let all = (0..=last).chain(indices.iter().copied());
+    let all = patterns::padded(all.collect::<Vec<_>>());
+    let mut at = 0;
+    while at < all.len() {
+        let found = floats(lanes, lanes.look_up(table, lanes.load_int(&all[at..])));
+        for lane in 0..L::LANES {
+            let index = all[at + lane];
+            assert_eq!(found[lane], entries[(index & last) as usize], "look_up at {index} of {N} registers");
+        }
+        at += L::LANES;
+    }
+}
+
+/// Steps down a tree: the sign bit alone decides, also that of zeros and NaN.
+#[inline(always)]
+fn descents<L: Lanes>(lanes: L, indices: &[i32]) {
+    for &bits in &patterns::FLOATS {
+        let difference = lanes.splat(f32::from_bits(bits));
+        let mut at = 0;
+        while at < indices.len() {
+            let found = ints(lanes, lanes.descend(lanes.load_int(&indices[at..]), difference));
+            for lane in 0..L::LANES {
+                let node = indices[at + lane];
+                assert_eq!(found[lane], node << 1 | (bits >> 31) as i32, "a step from {node} by {bits:#x}");
             }
             at += L::LANES;
         }

@@ -15,6 +15,8 @@ impl Kernel for Masks {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         assert!(L::LANES.is_power_of_two() && L::LANES <= MAX_LANES, "{} lanes", L::LANES);
+        assert!(L::Narrow::LANES <= L::LANES, "{} of {} lanes", L::Narrow::LANES, L::LANES);
+        assert_eq!(L::Narrow::FUSED, L::FUSED, "one query rounds as many do");
         logic(lanes);
         first_lanes(lanes);
         splats(lanes);
