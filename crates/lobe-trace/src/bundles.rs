@@ -222,7 +222,12 @@ fn end_points<L: Lanes>(lanes: L, rays: &Block, axis: usize, ends: &Line) -> Row
     let mut points = [0.0; RAYS];
     let mut at = 0;
     while at < RAYS {
-        let end = lanes.splat(ends[at / RAYS_EACH]);
+        // Many lanes hold rays of several bundles.
+        let end = if L::LANES <= RAYS_EACH {
+            lanes.splat(ends[at / RAYS_EACH])
+        } else {
+            lanes.gather(ends, (lanes.iota() + lanes.splat_int(at as i32)).shr::<{ RAYS_EACH.ilog2() as i32 }>())
+        };
         let [origin, direction] = [lanes.load(&rays.origin[axis][at..]), lanes.load(&rays.direction[axis][at..])];
         lanes.store(&mut points[at..], lanes.mul_add(direction, end, origin));
         at += L::LANES;
