@@ -1,6 +1,6 @@
 //! The backends of this machine under the names of the report.
 
-use lobe::{Backend, Kernel, Lanes};
+use lobe::Backend;
 
 /// A backend in one of its forms.
 #[derive(Clone, Copy, Debug)]
@@ -17,22 +17,11 @@ pub fn backends() -> Vec<Named> {
     for backend in Backend::available() {
         let backend = backend.fused();
         found.push(Named { name: backend.name(), backend });
-        if backend.run(Fuses) {
+        if backend.has_fused_form() {
             // Names last as long as the program, and are few.
             let name = format!("{}-strict", backend.name()).leak();
             found.push(Named { name, backend: backend.strict() });
         }
     }
     found
-}
-
-struct Fuses;
-
-impl Kernel for Fuses {
-    type Out = bool;
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, _lanes: L) -> bool {
-        L::FUSED
-    }
 }

@@ -7,6 +7,14 @@ use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 #[derive(Clone, Copy, Debug)]
 pub struct Floats(pub(crate) __m256);
 
+/// For backends that build on this one.
+impl From<Floats> for __m256 {
+    #[inline(always)]
+    fn from(x: Floats) -> Self {
+        x.0
+    }
+}
+
 /// Eight integers.
 #[derive(Clone, Copy, Debug)]
 pub struct Ints(pub(crate) __m256i);

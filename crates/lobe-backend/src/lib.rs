@@ -12,6 +12,8 @@ use std::fmt;
 use std::sync::OnceLock;
 
 use lobe_lane::Kernel;
+#[cfg(doc)]
+use lobe_lane::Lanes;
 use thiserror::Error;
 
 use list::{Isa, NAMES};
@@ -149,6 +151,14 @@ impl Backend {
     #[inline]
     pub fn run<K: Kernel>(&self, kernel: K) -> K::Out {
         self.isa.run(self.strict, kernel)
+    }
+
+    /// Runs a kernel that has too little to do for many lanes, such as a single query, on the
+    /// [narrow](Lanes::narrow) backend that belongs to this one. Usually that is this one; if it is not, the kernel is
+    /// not compiled for the wide lanes.
+    #[inline]
+    pub fn run_narrow<K: Kernel>(&self, kernel: K) -> K::Out {
+        self.isa.run_narrow(self.strict, kernel)
     }
 }
 

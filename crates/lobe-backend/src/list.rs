@@ -64,6 +64,13 @@ macro_rules! backends {
             }
 
             #[inline]
+            pub(crate) fn run_narrow<K: Kernel>(self, strict: bool, kernel: K) -> K::Out {
+                match self {
+                    $($(#[$target])* Isa::$variant(lanes) => run(lanes.narrow(), strict, kernel),)*
+                }
+            }
+
+            #[inline]
             pub(crate) fn run<K: Kernel>(self, strict: bool, kernel: K) -> K::Out {
                 match self {
                     $($(#[$target])* Isa::$variant(lanes) => run(lanes, strict, kernel),)*
@@ -82,6 +89,11 @@ backends! { $
     "sse4.1", Sse41(lobe_sse::Sse41), lobe_sse::Sse41::detect(), ["sse4.1"];
     #[cfg(target_arch = "x86_64")]
     "avx2", Avx2(lobe_avx::Avx2), lobe_avx::Avx2::detect(), ["avx2", "fma", "f16c", "bmi1", "bmi2", "lzcnt", "popcnt"];
+    #[cfg(target_arch = "x86_64")]
+    "avx512", Avx512(lobe_avx512::Avx512), lobe_avx512::Avx512::detect(), [
+        "avx512f", "avx512vl", "avx512dq", "avx512bw", "avx512vbmi2",
+        "avx2", "fma", "f16c", "bmi1", "bmi2", "lzcnt", "popcnt"
+    ];
     #[cfg(all(target_arch = "aarch64", target_feature = "neon", target_endian = "little"))]
     "neon", Neon(lobe_neon::Neon), lobe_neon::Neon::detect(), ["neon"];
     #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]

@@ -26,7 +26,7 @@ Examples:
   generate | lobe eval paint.ddr --edge zero --pairs -
   lobe eval blinds.xml --wi 0,0.5,0.8 --wo 0,-0.5,-0.8 --channel Visible --cosine
 
-LOBE_BACKEND=scalar|sse2|sse4.1|avx2 chooses the instructions; by default the best of this machine."
+LOBE_BACKEND=scalar|sse2|sse4.1|avx2|avx512 chooses the instructions; by default the best of this machine."
 )]
 pub struct Args {
     /// The file of a measured BRDF or BTDF.

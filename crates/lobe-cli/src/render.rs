@@ -76,7 +76,7 @@ pub struct Machine {
     /// Number of threads; by default as many as the machine has.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..1025))]
     threads: Option<u16>,
-    /// The instructions: scalar, sse2, sse4.1 or avx2; by default the best of this machine.
+    /// The instructions: scalar, sse2, sse4.1, avx2 or avx512; by default the best of this machine.
     #[arg(long, value_name = "NAME")]
     backend: Option<String>,
     /// Round the same way on all machines and instructions, which is a little slower.

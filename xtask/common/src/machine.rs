@@ -56,7 +56,7 @@ fn features() -> Vec<String> {
     macro_rules! detect {
         ($($name:tt)*) => { $(if std::is_x86_feature_detected!($name) { found.push($name.to_owned()); })* };
     }
-    detect!("sse2" "sse4.1" "popcnt" "avx" "f16c" "fma" "avx2" "bmi1" "bmi2" "lzcnt" "avx512f");
+    detect!("sse2" "sse4.1" "popcnt" "avx" "f16c" "fma" "avx2" "bmi1" "bmi2" "lzcnt" "avx512f" "avx512vbmi2");
     found
 }
 

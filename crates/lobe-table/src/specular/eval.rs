@@ -26,7 +26,7 @@ impl Table {
     /// # Panics
     /// If `out` is not as long as there are channels.
     pub fn eval(&self, backend: Backend, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
-        backend.run(self.single(wi, wo, out));
+        backend.run_narrow(self.single(wi, wo, out));
     }
 
     /// Evaluates many pairs on a backend: `out[query * channels + channel]`.

@@ -41,7 +41,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
     loop {
         if bits.count_ones() <= few {
             let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
-            call(lanes, Single { walk, from: child, live: (bits as u64) << at });
+            call(lanes.narrow(), Single { walk, from: child, live: (bits as u64) << at });
         } else if child.is_leaf() {
             let around = match &hull {
                 Some(hull) => Around::Hull(hull),

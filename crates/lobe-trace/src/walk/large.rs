@@ -119,7 +119,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
             if !child.is_leaf() {
                 if live.count_ones() <= ALONE && L::LANES >= 8 {
                     let walk = Walk { bvh, leaves: &mut *leaves, rays, found: &mut *found, stacks: &mut *stacks };
-                    call(lanes, Single { walk, from: child, live });
+                    call(lanes.narrow(), Single { walk, from: child, live });
                     bundles.shorten(lanes, found, live);
                     continue;
                 }

@@ -84,7 +84,7 @@ impl<V: Leaves, const W: usize> Walk<'_, V, W> {
         }
         if alone != 0 {
             let walk = Walk { bvh, leaves, rays, found, stacks };
-            call(lanes, Single { walk, from: Child::node(0), live: alone });
+            call(lanes.narrow(), Single { walk, from: Child::node(0), live: alone });
         }
     }
 }

@@ -281,6 +281,7 @@ macro_rules! on {
 on! {
     emulated4: Some(On(Scalar::<4>));
     emulated8: Some(On(Scalar::<8>));
+    emulated16: Some(On(Scalar::<16>));
 }
 
 /// Both forms of every backend.
