@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use thiserror::Error;
 
 use super::edges::ROUNDING;
+use super::tree::{self, Tree};
 use crate::Edge;
 
 /// An axis with at most this many cells is searched inside registers, or by counting knots.
@@ -86,8 +87,9 @@ pub(crate) enum Search {
     Uniform { cells_per_radian: f32 },
     /// Few cells: a search tree of the inner knots and the cells, both in registers.
     Registers(Box<Registers>),
-    /// Many cells: a table over equal buckets gives the cell at the start of each.
-    Guide { buckets_per_radian: f32, buckets: Vec<[f32; 2]>, steps: usize },
+    /// Many cells: a table over equal buckets gives the cell at the start of each. Where registers are wide, they may hold a
+    /// tree of the cells.
+    Guide { buckets_per_radian: f32, buckets: Vec<[f32; 2]>, steps: usize, tree: Option<Box<Tree>> },
 }
 
 /// Up to 31 inner knots, sorted and in the order of a breadth-first search tree with node 1 the root, missing ones
@@ -99,6 +101,8 @@ pub(crate) struct Registers {
     pub(crate) tree: [f32; 32],
     pub(crate) first: [f32; 32],
     pub(crate) inverse: [f32; 32],
+    /// The same for wide registers.
+    pub(crate) wide: Tree,
 }
 
 impl Axis {
@@ -132,7 +136,7 @@ impl Axis {
         } else if cells.len() <= MAX_REGISTER_CELLS {
             Search::Registers(Box::new(Registers::new(&knots, &cells)))
         } else {
-            guide(&knots)
+            guide(&knots, &cells)
         };
         let bounds = Bounds::new(edge, knots[0], knots[knots.len() - 1]);
         Ok(Axis { knots, cells, source, edge, bounds, search })
@@ -170,7 +174,9 @@ impl Axis {
         let search = match &self.search {
             Search::Constant | Search::Uniform { .. } => 0,
             Search::Registers(_) => size_of::<Registers>(),
-            Search::Guide { buckets, .. } => size_of_val(buckets.as_slice()),
+            Search::Guide { buckets, tree, .. } => {
+                size_of_val(buckets.as_slice()) + tree.as_deref().map_or(0, size_of_val)
+            }
         };
         size_of_val(self.knots.as_slice())
             + size_of_val(self.cells.as_slice())
@@ -210,12 +216,13 @@ impl Registers {
         // Look-ups beyond the last cell cannot happen; the padding keeps its values so that none of them is special.
         let padded = |column: usize| std::array::from_fn(|i| cells[i.min(cells.len() - 1)][column]);
         let sorted = std::array::from_fn(|i| inner.get(i).copied().unwrap_or(BEYOND));
-        Registers { levels, sorted, tree, first: padded(0), inverse: padded(1) }
+        let wide = Tree::new(knots, cells);
+        Registers { levels, sorted, tree, first: padded(0), inverse: padded(1), wide }
     }
 }
 
 /// The coarsest of a row of bucket counts with at most one inner knot per bucket, or the finest tried.
-fn guide(knots: &[f32]) -> Search {
+fn guide(knots: &[f32], cells: &[[f32; 2]]) -> Search {
     let inner = &knots[1..knots.len() - 1];
     let (first, last) = (knots[0], knots[knots.len() - 1]);
     let mut count = 2 * knots.len();
@@ -233,7 +240,8 @@ fn guide(knots: &[f32]) -> Search {
             steps = steps.max(inside);
         }
         if steps == 1 || count >= 64 * knots.len() {
-            return Search::Guide { buckets_per_radian, buckets, steps };
+            let tree = (cells.len() <= tree::MAX_CELLS).then(|| Box::new(Tree::new(knots, cells)));
+            return Search::Guide { buckets_per_radian, buckets, steps, tree };
         }
         count += count / 2;
     }

@@ -23,6 +23,7 @@ pub(crate) mod search;
 mod single;
 pub(crate) mod texel;
 pub(crate) mod texels;
+pub(crate) mod tree;
 pub(crate) mod weights;
 
 pub use axis::{Axis, AxisError};

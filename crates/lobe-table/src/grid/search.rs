@@ -8,6 +8,7 @@ use std::f32::consts::TAU;
 use lobe_lane::{Floats, Ints, Lanes};
 
 use crate::grid::axis::{Axis, Registers, Search};
+use crate::grid::tree::Descend;
 
 /// A cell in each lane.
 #[derive(Clone, Copy, Debug)]
@@ -84,6 +85,14 @@ impl Axis {
                 cells_per_radian: lanes.splat(*cells_per_radian),
                 last_cell: lanes.splat((self.cells().len() - 1) as f32),
             }),
+            Search::Registers(registers) if L::PERMUTES && L::LANES == 16 => match registers.wide.levels {
+                3 => visitor.visit(Descend::<L, 3, 1>::new(lanes, &registers.wide)),
+                4 => visitor.visit(Descend::<L, 4, 1>::new(lanes, &registers.wide)),
+                _ => visitor.visit(Descend::<L, 5, 2>::new(lanes, &registers.wide)),
+            },
+            Search::Guide { tree: Some(tree), .. } if L::PERMUTES && L::LANES == 16 => {
+                visitor.visit(Descend::<L, 6, 4>::new(lanes, tree))
+            }
             Search::Registers(registers) if L::PERMUTES => match self.knots().len() {
                 0..=5 => visitor.visit(Compare::<L, 3, 1>::new(lanes, registers)),
                 6..=7 => visitor.visit(Compare::<L, 5, 1>::new(lanes, registers)),
@@ -96,7 +105,7 @@ impl Axis {
             Search::Registers(_) => {
                 visitor.visit(Count { inner: &self.knots()[1..self.knots().len() - 1], cells: self.cells() })
             }
-            Search::Guide { buckets_per_radian, buckets, steps } => visitor.visit(Guide::<L> {
+            Search::Guide { buckets_per_radian, buckets, steps, .. } => visitor.visit(Guide::<L> {
                 first: lanes.splat(self.first()),
                 buckets_per_radian: lanes.splat(*buckets_per_radian),
                 last_bucket: lanes.splat((buckets.len() - 1) as f32),

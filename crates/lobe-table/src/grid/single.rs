@@ -109,7 +109,7 @@ impl Axis {
                 let cell = (position as i32).min(self.cells().len() as i32 - 1).max(0);
                 return (cell as u32, position - cell as f32);
             }
-            Search::Guide { buckets_per_radian, buckets, steps } => {
+            Search::Guide { buckets_per_radian, buckets, steps, .. } => {
                 let bucket = ((x - self.first()) * buckets_per_radian) as i32;
                 let [start, knot] = buckets[bucket.min(buckets.len() as i32 - 1).max(0) as usize];
                 let inner = &self.knots()[1..self.knots().len() - 1];

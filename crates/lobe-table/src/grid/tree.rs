@@ -1,0 +1,135 @@
+//! A search tree that lies in registers of sixteen floats.
+
+use lobe_lane::{Floats, Lanes};
+
+use super::search::{Cell, Find};
+
+/// The largest number of cells.
+pub(crate) const MAX_CELLS: usize = 64;
+
+/// In the place of a knot that does not exist: every query is below it.
+const BEYOND: f32 = f32::INFINITY;
+
+/// Up to 63 inner knots in the order of a breadth-first search, and the cells that they lead to.
+///
+/// The tree is mirrored: below the knot of node `n`, a query goes on to node `2 n + 1`, otherwise to `2 n`. So the sign bit of
+/// the difference of query and knot is all that a step needs, and after the last one the node says how many cells are
+/// *above* that of the query.
+#[derive(Clone, Debug)]
+pub(crate) struct Tree {
+    pub(crate) levels: usize,
+    /// The knot of node `n` at `n`, from the root 1 on.
+    pub(crate) knots: [f32; 64],
+    /// The first knot and the inverse width of the cell of last node `n`, at as many of the low bits of `n` as a table in
+    /// registers goes by: four, or one per level if that is more.
+    pub(crate) first: [f32; 64],
+    pub(crate) inverse: [f32; 64],
+}
+
+impl Tree {
+    /// The tree of all but the outermost knots, and of the first knots and inverse widths of the cells.
+    pub(crate) fn new(knots: &[f32], cells: &[[f32; 2]]) -> Self {
+        let inner = &knots[1..knots.len() - 1];
+        let levels = (cells.len().next_power_of_two().ilog2() as usize).max(3);
+        let mut tree = Tree { levels, knots: [BEYOND; 64], first: [0.0; 64], inverse: [0.0; 64] };
+        for (node, knot) in tree.knots.iter_mut().enumerate().take(1 << levels).skip(1) {
+            let level = node.ilog2() as usize;
+            // The last node of a level is the middle of the first of the parts that the level divides the knots into.
+            let part = 1 << (levels - level);
+            let rank = ((2 << level) - 1 - node) * part + part / 2 - 1;
+            // Zero without a sign minus zero with one would have a sign.
+            *knot = inner.get(rank).map_or(BEYOND, |&knot| if knot == 0.0 { -0.0 } else { knot });
+        }
+        let last_nodes = 1 << levels;
+        for above in 0..last_nodes {
+            let cell = cells[(last_nodes - 1 - above).min(cells.len() - 1)];
+            let at = (last_nodes + above) % last_nodes.max(16);
+            [tree.first[at], tree.inverse[at]] = cell;
+        }
+        tree
+    }
+}
+
+/// A tree of `LEVELS` levels, and cells in `N` registers of sixteen floats.
+#[derive(Clone, Copy)]
+pub(crate) struct Descend<L: Lanes, const LEVELS: usize, const N: usize> {
+    root: L::F,
+    /// Levels two to four, five, and the two halves of six.
+    knots: [L::F; 4],
+    first: [L::F; N],
+    inverse: [L::F; N],
+    lowest: L::F,
+}
+
+impl<L: Lanes, const LEVELS: usize, const N: usize> Descend<L, LEVELS, N> {
+    #[inline(always)]
+    pub(crate) fn new(lanes: L, tree: &Tree) -> Self {
+        let mut knots = [lanes.splat(0.0); 4];
+        let mut register = 0;
+        while register < 4 {
+            knots[register] = lanes.load(&tree.knots[16 * register..]);
+            register += 1;
+        }
+        let (mut first, mut inverse) = ([lanes.splat(0.0); N], [lanes.splat(0.0); N]);
+        let mut register = 0;
+        while register < N {
+            first[register] = lanes.load(&tree.first[16 * register..]);
+            inverse[register] = lanes.load(&tree.inverse[16 * register..]);
+            register += 1;
+        }
+        Descend { root: lanes.splat(tree.knots[1]), knots, first, inverse, lowest: lanes.splat(f32::MIN) }
+    }
+}
+
+impl<L: Lanes, const LEVELS: usize, const N: usize> Find<L> for Descend<L, LEVELS, N> {
+    #[inline(always)]
+    fn find(self, lanes: L, x: L::F) -> Cell<L> {
+        // Of NaN the sign says nothing; it is below all knots, as it is where knots are compared with.
+        let within = x.max(self.lowest);
+        let mut node = lanes.descend(lanes.splat_int(1), within - self.root);
+        let mut level = 1;
+        while level < LEVELS {
+            let knot = if level < 4 {
+                lanes.look_up([self.knots[0]], node)
+            } else if level == 4 {
+                lanes.look_up([self.knots[1]], node)
+            } else {
+                lanes.look_up([self.knots[2], self.knots[3]], node)
+            };
+            node = lanes.descend(node, within - knot);
+            level += 1;
+        }
+        let (first, inverse) = (lanes.look_up(self.first, node), lanes.look_up(self.inverse, node));
+        Cell { index: node ^ lanes.splat_int((2 << LEVELS) - 1), fraction: (x - first) * inverse }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The walk in plain numbers.
+    fn cell(tree: &Tree, x: f32) -> (usize, [f32; 2]) {
+        let mut node = 1;
+        for _ in 0..tree.levels {
+            node = 2 * node + usize::from((x - tree.knots[node]).is_sign_negative());
+        }
+        let at = node % (1 << tree.levels.max(4));
+        ((2 << tree.levels) - 1 - node, [tree.first[at], tree.inverse[at]])
+    }
+
+    #[test]
+    fn queries_arrive_at_their_cells() {
+        for count in 1..=MAX_CELLS {
+            // Zero is a knot of every other axis.
+            let knots: Vec<f32> = (0..=count).map(|i| (i * i) as f32 - (count % 2 * 9) as f32).collect();
+            let cells: Vec<[f32; 2]> = knots.windows(2).map(|ends| [ends[0], 1.0 / (ends[1] - ends[0])]).collect();
+            let tree = Tree::new(&knots, &cells);
+            let around = knots.iter().flat_map(|&knot| [knot.next_down(), knot, knot.next_up()]);
+            for x in around.chain([-0.0, 0.0, f32::MIN, f32::MAX, f32::NEG_INFINITY]) {
+                let expected = knots[1..count].partition_point(|&knot| knot <= x);
+                assert_eq!(cell(&tree, x), (expected, cells[expected]), "{x} among {count} cells");
+            }
+        }
+    }
+}
