@@ -107,7 +107,7 @@ fn choose(document: Document, target: Target, args: &Args) -> Result<Document, F
     let is_delta = target.format == Format::Sdr;
     let fits = |data: &&Data| {
         let data = data.representation();
-        data.mirror().is_some() == is_delta && wanted.is_none_or(|wanted| data.scatter() == wanted)
+        data.is_delta() == is_delta && wanted.is_none_or(|wanted| data.scatter() == wanted)
     };
     let front = document.parts.iter().filter(|part| part.side != Some(Side::Back));
     let candidates: Vec<&Data> = front.map(|part| &part.data).filter(fits).collect();

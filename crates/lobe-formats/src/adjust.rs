@@ -50,16 +50,16 @@ fn each(document: &mut Document, change: impl Fn(&Data) -> Result<Data, FormatEr
 }
 
 fn multiply(data: &Data, factor: f64, file: &Path) -> Result<Data, FormatError> {
-    let data = data.representation();
     let scaled = |values: &[f32]| values.iter().map(|value| (f64::from(*value) * factor) as f32).collect();
-    match data.map_channels(data.channels(), &scaled) {
-        Some(scaled) => scaled.map_err(|error| FormatError::new(file, Place::File, error.found, error.expected)),
-        None => Err(FormatError::new(
-            file,
-            Place::File,
-            format!("{} data", data.kind().name()),
-            "data whose values can be scaled",
-        )),
+    let (channels, kind) = (data.representation().channels(), data.representation().kind());
+    let mut data = data.clone();
+    match data.representation_mut().map_channels(channels, &scaled) {
+        Ok(true) => Ok(data),
+        Ok(false) => {
+            let found = format!("{} data", kind.name());
+            Err(FormatError::new(file, Place::File, found, "data whose values can be scaled"))
+        }
+        Err(error) => Err(FormatError::new(file, Place::File, error.found, error.expected)),
     }
 }
 

@@ -161,8 +161,12 @@ pub fn convert(
 
 /// The same nodes with other channels; `None` if the representation cannot have them.
 fn mapped(data: &Data, map: &ChannelMap, path: &Path) -> Result<Option<Data>, FormatError> {
-    let mapped = data.representation().map_channels(map.channels.clone(), &|values| map.apply(values));
-    mapped.transpose().map_err(|error| FormatError::new(path, Place::File, error.found, error.expected))
+    let mut mapped = data.clone();
+    let changed = mapped.representation_mut().map_channels(map.channels.clone(), &|values| map.apply(values));
+    match changed {
+        Ok(changed) => Ok(changed.then_some(mapped)),
+        Err(error) => Err(FormatError::new(path, Place::File, error.found, error.expected)),
+    }
 }
 
 #[cfg(test)]

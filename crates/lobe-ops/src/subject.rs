@@ -92,7 +92,7 @@ impl Subject {
 
     /// The measurements that have a value for a pair of directions.
     fn parts(&self) -> impl Iterator<Item = &Part> {
-        self.document.parts.iter().filter(|part| part.data.representation().mirror().is_none())
+        self.document.parts.iter().filter(|part| !part.data.representation().is_delta())
     }
 }
 

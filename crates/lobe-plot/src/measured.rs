@@ -21,7 +21,7 @@ pub(crate) fn parts(document: &Document) -> Vec<Part<'_>> {
     let mut parts = Vec::new();
     for part in &document.parts {
         let data = part.data.representation();
-        if data.mirror().is_some() {
+        if data.is_delta() {
             continue;
         }
         let mut aspects = data.aspects();

@@ -55,6 +55,7 @@ pub mod mirror;
 pub mod mueller;
 pub mod paper;
 mod passes;
+mod representations;
 pub mod rgl;
 mod sampling;
 mod scatter;
@@ -65,11 +66,12 @@ pub mod utia;
 pub mod window;
 
 pub use bsdf::{Bsdf, BsdfLanes};
-pub use data::{Aspect, Data, Kind, Options, PrepareError, Representation, Side};
+pub use data::{Aspect, Kind, Options, PrepareError, Representation, Side};
 pub use directions::Directions;
 pub use grid::{Axis, AxisError, Cell, Edge, Edges, Function, GridError, Precision, TableError};
 pub use invalid::Invalid;
 pub use lobe_colour::{Channels, luminance};
+pub use representations::Data;
 pub use sampling::{
     Distribution, DistributionError, DistributionOptions, Given, PatchSampler, Sampled, Sampler, SamplerError,
     SamplerOptions,

@@ -94,18 +94,18 @@ impl Representation for Data {
         vec![Section { quantity: "mirror reflectance by angle of incidence", ..section }]
     }
 
-    fn map_channels(&self, channels: Channels, map: &ValueMap<'_>) -> Option<Result<crate::Data, Invalid>> {
-        let mapped = Data::new(self.scatter, self.knots.clone(), channels, map(&self.values));
+    fn map_channels(&mut self, channels: Channels, map: &ValueMap<'_>) -> Result<bool, Invalid> {
         let failed = || Invalid::new("channels", "values that are not finite", "values that f32 can hold");
-        Some(mapped.map(Into::into).ok_or_else(failed))
+        *self = Data::new(self.scatter, self.knots.clone(), channels, map(&self.values)).ok_or_else(failed)?;
+        Ok(true)
     }
 
     fn prepare(&self, _: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
         Err(PrepareError::NoValues(KIND))
     }
 
-    fn mirror(&self) -> Option<&Data> {
-        Some(self)
+    fn is_delta(&self) -> bool {
+        true
     }
 }
 

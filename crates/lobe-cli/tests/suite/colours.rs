@@ -7,6 +7,7 @@ use lobe::{Backend, Options};
 use lobe_plot::{Subject, View};
 use lobe_render::TransportMode;
 use lobe_render::shader::{Evaluated, Scratch, open};
+use rayon::prelude::*;
 
 /// The files of a folder, and of the folders in it.
 fn files(folder: &Path) -> Vec<PathBuf> {
@@ -30,35 +31,37 @@ fn pairs() -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
 fn plot_and_preview_agree_on_the_colour_of_every_file() {
     let Some(folder) = lobe_testing::files::shared_file("data") else { return };
     let (wi, wo) = pairs();
-    let backend = Backend::detect().expect("a backend");
-    let (mut compared, mut coloured) = (0, 0);
-    for path in files(&folder) {
-        let Ok(subject) = Subject::open(&path) else { continue };
-        let shader = open(&path, &Options::default(), backend).expect("what can be drawn can be rendered");
-        if shader.delta().is_some() {
-            continue;
-        }
-        let (mut rendered, mut pdf) = (vec![[0.0; 3]; wi.len()], vec![0.0; wi.len()]);
-        let out = Evaluated { f: &mut rendered, pdf: &mut pdf };
-        shader.eval(TransportMode::Radiance, &wi, &wo, out, &mut Scratch::default());
-
-        let view = View::new(&subject);
-        let channels = subject.material().channel_count();
-        let mut values = vec![0.0; wi.len() * channels];
-        subject.material().eval_batch(&wi, &wo, &mut values);
-        let mut drawn = vec![[0.0; 3]; wi.len()];
-        view.colour.apply_batch(&values, &mut drawn);
-        let largest = drawn.as_flattened().iter().fold(0.0, |largest: f32, value| largest.max(value.abs()));
-        for (at, (drawn, rendered)) in drawn.iter().zip(&rendered).enumerate() {
-            for (drawn, rendered) in drawn.iter().zip(rendered) {
-                let expected = drawn * wi[at][2].abs();
-                let error = (rendered - expected).abs();
-                assert!(error <= 1e-5 * largest, "{}: {rendered} instead of {expected}", path.display());
-            }
-        }
-        compared += 1;
-        coloured += usize::from(!view.colour.is_grey());
-    }
+    let coloured: Vec<bool> = files(&folder).par_iter().filter_map(|path| is_coloured(path, &wi, &wo)).collect();
+    let (compared, coloured) = (coloured.len(), coloured.iter().filter(|coloured| **coloured).count());
     println!("compared {compared} files, {coloured} of them in colour");
     assert!(compared > 30 && coloured > 10, "{compared} files, {coloured} in colour");
+}
+
+/// Compares the colours of a file; `None` if it has no value for a pair of directions. `true` if they are no greys.
+fn is_coloured(path: &Path, wi: &[[f32; 3]], wo: &[[f32; 3]]) -> Option<bool> {
+    let subject = Subject::open(path).ok()?;
+    let shader = open(path, &Options::default(), Backend::detect().expect("a backend"))
+        .expect("what can be drawn can be rendered");
+    if shader.delta().is_some() {
+        return None;
+    }
+    let (mut rendered, mut pdf) = (vec![[0.0; 3]; wi.len()], vec![0.0; wi.len()]);
+    let out = Evaluated { f: &mut rendered, pdf: &mut pdf };
+    shader.eval(TransportMode::Radiance, wi, wo, out, &mut Scratch::default());
+
+    let view = View::new(&subject);
+    let channels = subject.material().channel_count();
+    let mut values = vec![0.0; wi.len() * channels];
+    subject.material().eval_batch(wi, wo, &mut values);
+    let mut drawn = vec![[0.0; 3]; wi.len()];
+    view.colour.apply_batch(&values, &mut drawn);
+    let largest = drawn.as_flattened().iter().fold(0.0, |largest: f32, value| largest.max(value.abs()));
+    for (at, (drawn, rendered)) in drawn.iter().zip(&rendered).enumerate() {
+        for (drawn, rendered) in drawn.iter().zip(rendered) {
+            let expected = drawn * wi[at][2].abs();
+            let error = (rendered - expected).abs();
+            assert!(error <= 1e-5 * largest, "{}: {rendered} instead of {expected}", path.display());
+        }
+    }
+    Some(!view.colour.is_grey())
 }

@@ -84,7 +84,7 @@ pub(super) fn part_name(document: &Document, part: &Part) -> String {
     }
     let data = part.data.representation();
     let aspect = Aspect { scatter: data.scatter(), light: part.side.unwrap_or(Side::Front) };
-    let kind = if data.mirror().is_some() { "mirror " } else { "" };
+    let kind = if data.is_delta() { "mirror " } else { "" };
     format!("{} {kind}{aspect}", part.name).trim().into()
 }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use lobe::formats::FormatError;
-use lobe::table::mirror;
+use lobe::table::{Data, mirror};
 use lobe::{Material, OpenError, Options, SamplerError, Scatter};
 use lobe_colour::Reduction;
 
@@ -36,7 +36,7 @@ pub enum MaterialError {
 /// [`MaterialError`] names the file.
 pub fn open(path: &Path, options: &Options, backend: Backend) -> Result<Arc<dyn Shader<Rgb>>, MaterialError> {
     let (_, document) = lobe::formats::open(path)?;
-    if let Some(data) = document.only().and_then(|data| data.representation().mirror())
+    if let Some(data) = document.only().and_then(Data::mirror)
         && data.scatter() == Scatter::Reflection
     {
         return Ok(Arc::new(DeltaShader(mirror(data))));

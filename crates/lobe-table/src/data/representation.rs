@@ -2,9 +2,9 @@
 
 use std::fmt::Debug;
 
-use super::{Aspect, Data, Gaps, Grid, Kind, Kinks, Options, PrepareError, Section};
+use super::{Aspect, Gaps, Grid, Kind, Kinks, Options, PrepareError, Section};
 use crate::bsdf::Bsdf;
-use crate::{Channels, Edges, Invalid, Scatter, mirror};
+use crate::{Channels, Edges, Invalid, Scatter};
 
 /// Turns values of one set of channels into those of another one.
 pub type ValueMap<'a> = dyn Fn(&[f32]) -> Vec<f32> + 'a;
@@ -37,10 +37,13 @@ pub trait Representation: Debug + Send + Sync {
         Err(PrepareError::LeftOut(self.kind()))
     }
 
-    /// The same nodes with other channels: `map` turns values `[...][channel]` into those of the new channels. `None` if
-    /// the channels of this representation cannot be mapped one value at a time.
-    fn map_channels(&self, _channels: Channels, _map: &ValueMap<'_>) -> Option<Result<Data, Invalid>> {
-        None
+    /// Gives the same nodes other channels: `map` turns values `[...][channel]` into those of the new channels. `false` if
+    /// the channels of this representation cannot be mapped one value at a time, which leaves it as it is.
+    ///
+    /// # Errors
+    /// If a new value is not finite, which leaves the data as they are.
+    fn map_channels(&mut self, _channels: Channels, _map: &ValueMap<'_>) -> Result<bool, Invalid> {
+        Ok(false)
     }
 
     /// `true` if the data tell light on the front from light on the back.
@@ -48,9 +51,9 @@ pub trait Representation: Debug + Send + Sync {
         false
     }
 
-    /// The data themselves, if they are a delta function in direction, which has no value for a pair of directions.
-    fn mirror(&self) -> Option<&mirror::Data> {
-        None
+    /// `true` if the data are a delta function in direction, which has no value for a pair of directions.
+    fn is_delta(&self) -> bool {
+        false
     }
 
     /// The values, and what there is to say about them.

@@ -11,7 +11,7 @@ use super::incident::Incident;
 use super::places::{Places, place};
 use crate::directions::{DirectionBlock, Directions, PADDING, Padding};
 use crate::passes::blocks::{Blocks, Blockwise};
-use crate::passes::pairs::{PairPadding, PairScratch, Pairs};
+use crate::passes::pairs::{PairPadding, Pairs};
 
 impl Distribution {
     /// Draws a scattered direction, and its density, for each known direction and two numbers in `[0, 1)`; zeros if
@@ -137,25 +137,25 @@ struct Densities<'a> {
 }
 
 impl Blockwise for Densities<'_> {
-    type Scratch = PairScratch<Places>;
-    const SCRATCH: Self::Scratch = PairScratch { passes: Places::ZERO, padding: PairPadding::ZERO };
+    type Scratch = PairPadding;
+    const SCRATCH: PairPadding = PairPadding::ZERO;
 
     fn count(&self) -> usize {
         self.pdfs.len()
     }
 
     #[inline(always)]
-    fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut Self::Scratch) {
+    fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, padding: &mut PairPadding) {
         let Densities { distribution, known, other, pdfs } = self;
-        let PairScratch { passes: places, padding } = scratch;
+        let Distribution { surface, sigma, psi, .. } = distribution;
         let Pairs { wi: known, wo: other } = padding.block(lanes, known, other, queries.start);
-        call(lanes, Locate { distribution, known, count: queries.len(), places: &mut *places });
         let (at, count) = (queries.start, queries.len());
         let mut query = 0;
         while query < count {
-            let incident = Incident::new(lanes, &distribution.surface, known.load(lanes, query));
+            let incident = Incident::new(lanes, surface, known.load(lanes, query));
+            let place = place(lanes, sigma, psi.as_ref(), &incident);
             let local = incident.locate(lanes, other.load(lanes, query));
-            let density = distribution.density(lanes, &places.load(lanes, query), local);
+            let density = distribution.density(lanes, &place, local);
             lanes.store_partial(&mut pdfs[at + query..at + count], density);
             query += L::LANES;
         }
@@ -200,7 +200,8 @@ impl Blockwise for Brightnesses<'_> {
     }
 }
 
-/// Finds the slices of a block. Draws, densities and brightnesses call it, so that it is compiled once.
+/// Finds the slices of a block. Draws and brightnesses call it, so that it is compiled once; densities need what it finds
+/// on the way, and do it themselves.
 struct Locate<'a> {
     distribution: &'a Distribution,
     known: DirectionBlock<'a>,

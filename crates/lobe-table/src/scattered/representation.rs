@@ -48,14 +48,11 @@ impl Representation for Data {
         Data::incidences(self).collect()
     }
 
-    fn map_channels(&self, channels: Channels, map: &ValueMap<'_>) -> Option<Result<crate::Data, Invalid>> {
+    fn map_channels(&mut self, channels: Channels, map: &ValueMap<'_>) -> Result<bool, Invalid> {
         let (angles, values): (Vec<_>, Vec<_>) = self.samples().unzip();
         let mapped = Data::new(self.scatter, channels, &angles, &map(&values.concat()));
-        Some(
-            mapped
-                .map(Into::into)
-                .map_err(|error| Invalid::new("channels", error.to_string(), "values that f32 can hold")),
-        )
+        *self = mapped.map_err(|error| Invalid::new("channels", error.to_string(), "values that f32 can hold"))?;
+        Ok(true)
     }
 
     fn azimuth(&self) -> f64 {

@@ -66,17 +66,14 @@ impl Representation for Data {
         })
     }
 
-    fn map_channels(&self, channels: Channels, map: &ValueMap<'_>) -> Option<Result<crate::Data, Invalid>> {
+    fn map_channels(&mut self, channels: Channels, map: &ValueMap<'_>) -> Result<bool, Invalid> {
         let mapped = Data::new(self.scatter(), self.knots().clone(), channels, map(self.values()));
         let mapped = mapped.and_then(|mapped| match self.refraction() {
             Some(offsets) => mapped.with_refraction(offsets.to_vec()),
             None => Ok(mapped),
         });
-        Some(
-            mapped
-                .map(Into::into)
-                .map_err(|error| Invalid::new("channels", error.to_string(), "values that f32 can hold")),
-        )
+        *self = mapped.map_err(|error| Invalid::new("channels", error.to_string(), "values that f32 can hold"))?;
+        Ok(true)
     }
 
     fn azimuth(&self) -> f64 {

@@ -19,10 +19,12 @@ struct Parts {
 
 impl Parts {
     fn add(&mut self, side: Option<Side>, data: &Data, options: &Options) -> Result<(), OpenError> {
-        let data = data.representation();
         match data.mirror() {
             Some(mirror) => self.mirrors.push(Mirror { side, data: mirror.clone() }),
-            None => self.parts.push(sheet::Part { scatter: data.scatter(), side, bsdf: data.prepare(options)? }),
+            None => {
+                let data = data.representation();
+                self.parts.push(sheet::Part { scatter: data.scatter(), side, bsdf: data.prepare(options)? });
+            }
         }
         Ok(())
     }

@@ -103,10 +103,24 @@ impl Sampler {
     /// # Panics
     /// If `weight` is not as long as there are channels.
     pub fn sample(&self, given: Given, direction: [f32; 3], u: [f32; 2], weight: &mut [f32]) -> ([f32; 3], f32) {
+        fitting(self.try_sample(given, direction, u, weight))
+    }
+
+    /// As [`sample`](Sampler::sample), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// If `weight` is not as long as there are channels.
+    pub fn try_sample(
+        &self,
+        given: Given,
+        direction: [f32; 3],
+        u: [f32; 2],
+        weight: &mut [f32],
+    ) -> Result<([f32; 3], f32), ShapeError> {
         let (mut sampled, mut pdf) = ([[0.0; 3]], [0.0]);
         let out = Sampled { directions: &mut sampled, weights: weight, pdfs: &mut pdf };
-        self.sample_batch(given, &[direction], &[u], out);
-        (sampled[0], pdf[0])
+        self.try_sample_batch(given, &[direction], &[u], out)?;
+        Ok((sampled[0], pdf[0]))
     }
 
     /// The density with which [`sample`](Sampler::sample) finds the direction of the pair that is not given, without
@@ -161,7 +175,25 @@ impl Sampler {
     /// # Panics
     /// If the slices do not have the same length.
     pub fn draw_batch(&self, known: &[[f32; 3]], u: &[[f32; 2]], directions: &mut [[f32; 3]], pdfs: &mut [f32]) {
+        fitting(self.try_draw_batch(known, u, directions, pdfs));
+    }
+
+    /// As [`draw_batch`](Sampler::draw_batch), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// If the slices do not have the same length.
+    pub fn try_draw_batch(
+        &self,
+        known: &[[f32; 3]],
+        u: &[[f32; 2]],
+        directions: &mut [[f32; 3]],
+        pdfs: &mut [f32],
+    ) -> Result<(), ShapeError> {
+        expect("pairs of numbers", u.len(), known.len())?;
+        expect("sampled directions", directions.len(), known.len())?;
+        expect("densities", pdfs.len(), known.len())?;
         self.draw_on(self.material.backend(), known, u, directions, pdfs);
+        Ok(())
     }
 
     fn draw_on(
@@ -172,8 +204,6 @@ impl Sampler {
         directions: &mut [[f32; 3]],
         pdfs: &mut [f32],
     ) {
-        let count = known.len();
-        assert_eq!((u.len(), directions.len(), pdfs.len()), (count, count, count), "one of each per direction");
         parallel::fill_both(1, directions, pdfs, &|range, directions, pdfs| {
             let (known, u) = (&known[range.clone()], &u[range]);
             match &self.distribution {
@@ -230,7 +260,26 @@ impl Sampler {
     /// # Panics
     /// If there are not as many `wi` as `wo` and `pdfs`, and that many values per channel.
     pub fn eval_pdf_batch(&self, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], values: &mut [f32], pdfs: &mut [f32]) {
+        fitting(self.try_eval_pdf_batch(given, wi, wo, values, pdfs));
+    }
+
+    /// As [`eval_pdf_batch`](Sampler::eval_pdf_batch), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// If there are not as many `wi` as `wo` and `pdfs`, and that many values per channel.
+    pub fn try_eval_pdf_batch(
+        &self,
+        given: Given,
+        wi: &[[f32; 3]],
+        wo: &[[f32; 3]],
+        values: &mut [f32],
+        pdfs: &mut [f32],
+    ) -> Result<(), ShapeError> {
+        expect("directions wo", wo.len(), wi.len())?;
+        expect("densities", pdfs.len(), wi.len())?;
+        expect("values", values.len(), wi.len() * self.material.channel_count())?;
         self.eval_pdf_on(self.material.backend(), given, wi, wo, values, pdfs);
+        Ok(())
     }
 
     fn eval_pdf_on(
@@ -243,9 +292,6 @@ impl Sampler {
         pdfs: &mut [f32],
     ) {
         let channels = self.material.channel_count();
-        fitting(expect("directions wo", wo.len(), wi.len()));
-        fitting(expect("densities", pdfs.len(), wi.len()));
-        fitting(expect("values", values.len(), wi.len() * channels));
         match &self.distribution {
             Distribution::Own(scheme) => parallel::fill_both(channels, values, pdfs, &|range, values, pdfs| {
                 let (wi, wo) = (&wi[range.clone()], &wo[range]);

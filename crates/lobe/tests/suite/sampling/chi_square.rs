@@ -4,11 +4,11 @@ use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 
 use lobe::table::specular::coords;
-use lobe::{Aspect, Given, Material, Sampler, Scatter, Side};
+use lobe::{Aspect, Given, Sampler, Scatter, Side};
 use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::materials::{made, sampler, shared};
+use super::materials::{Named, samplers};
 use super::{below, incidents, numbers};
 
 /// Bins in theta and phi about the mirror direction, which are not the coordinates sampled in.
@@ -29,16 +29,15 @@ fn sample_count() -> usize {
 }
 
 /// What is tested.
-fn materials() -> Vec<(String, Material)> {
+fn tested() -> Vec<&'static Named> {
     let mut kinds = HashMap::new();
-    let is_asked = |(_, material): &(String, Material)| {
-        let seen = kinds.entry(material.kind()).or_insert(0);
-        *seen += 1;
+    let mut is_asked = |named: &Named| {
+        let seen = kinds.entry(named.sampler.material().kind()).or_insert(0);
+        *seen += usize::from(named.is_shared);
         asked().is_some() || *seen <= 2
     };
     let part = std::env::var("LOBE_FILES").unwrap_or_default();
-    let is_named = |(name, _): &(String, Material)| name.contains(&part);
-    made().into_iter().filter(is_named).chain(shared().into_iter().filter(is_named).filter(is_asked)).collect()
+    samplers().iter().filter(|named| named.name.contains(&part) && is_asked(named)).collect()
 }
 
 /// The theta at a part of the way: bins are finer near the peak.
@@ -180,9 +179,9 @@ fn p_value(expected: &[f64], observed: &[f64]) -> f64 {
 
 #[test]
 fn samples_follow_the_density() {
-    let samplers: Vec<_> = materials().into_par_iter().map(|(name, m)| (name, sampler(m))).collect();
+    let tested = tested();
     let mut cases = Vec::new();
-    for (name, sampler) in &samplers {
+    for Named { name, sampler, .. } in &tested {
         let reaches = |light| {
             let aspects = Aspect::ALL.into_iter().filter(|aspect| aspect.light == light);
             aspects.into_iter().any(|aspect| sampler.material().holds(aspect))
@@ -194,7 +193,7 @@ fn samples_follow_the_density() {
     // Sidak: all tests together pass with probability 0.99 if all hypotheses hold.
     let significance = 1.0 - 0.99f64.powf(1.0 / cases.len() as f64);
     assert!(!cases.is_empty(), "nothing to test");
-    println!("{} materials, {} tests, p at least {significance:.1e}", samplers.len(), cases.len());
+    println!("{} materials, {} tests, p at least {significance:.1e}", tested.len(), cases.len());
     let failures: Vec<String> = cases
         .par_iter()
         .enumerate()

@@ -3,8 +3,9 @@
 use std::f64::consts::PI;
 
 use lobe::{Aspect, Given, Sampled, Sampler, Scatter, Side, luminance};
+use rayon::prelude::*;
 
-use super::materials::{fixture, made, sampler, shared};
+use super::materials::{Named, fixture, sampler, samplers};
 use super::{cosine, direction, incidents, numbers};
 
 /// The mean, and the variance of one value over the mean's square.
@@ -50,18 +51,17 @@ fn albedo(sampler: &Sampler, given: Given, known: [f32; 3], count: usize) -> [(f
 
 #[test]
 fn estimates_agree_with_those_of_the_cosine() {
-    for (name, material) in made().into_iter().chain(shared()) {
+    samplers().par_iter().for_each(|Named { name, sampler, .. }| {
         // The published scheme of the EPFL database loses what falls below the horizon, and its measurements have values
         // where the scheme has no density.
-        let tolerance = if material.kind() == lobe::table::rgl::KIND { 0.02 } else { 0.0 };
-        let sampler = sampler(material);
+        let tolerance = if sampler.material().kind() == lobe::table::rgl::KIND { 0.02 } else { 0.0 };
         let front = [Aspect::REFLECTION, Aspect::TRANSMISSION].iter().any(|&aspect| sampler.material().holds(aspect));
         for given in [Given::Light, Given::Viewer] {
             for (sigma, psi) in [(3.0, 20.0), (41.0, 130.0), (70.0, 250.0)] {
                 let [x, y, z] = direction(sigma, psi);
                 let known = [x, y, if front { z } else { -z }];
                 let count = 20_000;
-                let [(found, variance), (reference, by_cosine)] = albedo(&sampler, given, known, count);
+                let [(found, variance), (reference, by_cosine)] = albedo(sampler, given, known, count);
                 if reference == 0.0 && found == 0.0 {
                     continue;
                 }
@@ -72,7 +72,7 @@ fn estimates_agree_with_those_of_the_cosine() {
                 );
             }
         }
-    }
+    });
 }
 
 #[test]
@@ -88,8 +88,7 @@ fn samples_are_less_noisy_than_the_cosine() {
 
 #[test]
 fn memory_is_at_most_one_and_a_half_materials() {
-    for (name, material) in made().into_iter().chain(shared()) {
-        let sampler = sampler(material);
+    for Named { name, sampler, .. } in samplers() {
         let (bytes, material) = (sampler.bytes(), sampler.material().bytes());
         // The coarsest grid of the tiniest material has no room to shrink.
         assert!(2 * bytes <= 3 * material || bytes < 120_000, "{name}: {bytes} bytes for a material of {material}");
@@ -99,10 +98,11 @@ fn memory_is_at_most_one_and_a_half_materials() {
 #[test]
 fn values_and_densities_at_once_are_those_of_one_after_the_other() {
     // Those with a way of their own, and some without.
-    let shared = shared().into_iter().filter(|(_, material)| material.kind() == lobe::table::rgl::KIND);
-    for (name, material) in made().into_iter().chain(shared) {
-        let sampler = sampler(material);
+    for Named { name, sampler, is_shared } in samplers() {
         let material = sampler.material();
+        if *is_shared && material.kind() != lobe::table::rgl::KIND {
+            continue;
+        }
         let wi: Vec<[f32; 3]> = numbers(5, 300).into_iter().map(|u| cosine(u, 1.0)).collect();
         let wo: Vec<[f32; 3]> = numbers(6, 300).into_iter().map(|u| cosine(u, 1.0)).collect();
         for given in [Given::Light, Given::Viewer] {

@@ -2,11 +2,12 @@
 
 use std::f64::consts::{PI, TAU};
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use lobe::{Channels, Material, Options, Sampler, SamplerOptions, Scatter, specular};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
+use rayon::prelude::*;
 
 pub fn fixture(name: &str) -> Material {
     Material::open(lobe_testing::files::fixture(name)).unwrap()
@@ -38,8 +39,27 @@ fn noise(seed: u64, [sigma, psi, theta, phi]: [usize; 4], channels: Channels, sc
     specular::Data::new(scatter, knots, channels, values).unwrap()
 }
 
+/// A sampler under the name of its material.
+pub struct Named {
+    pub name: String,
+    pub sampler: Sampler,
+    /// `true` for a measured file outside the project.
+    pub is_shared: bool,
+}
+
+/// Samplers of [every kind of table](made) and of the [shared] files, made once for all tests: it takes longer than most.
+pub fn samplers() -> &'static [Named] {
+    static SAMPLERS: LazyLock<Vec<Named>> = LazyLock::new(|| {
+        let made = made().into_iter().map(|(name, material)| (name, material, false));
+        let all: Vec<_> = made.chain(shared().into_iter().map(|(name, material)| (name, material, true))).collect();
+        let named = |(name, material, is_shared)| Named { name, sampler: sampler(material), is_shared };
+        all.into_par_iter().map(named).collect()
+    });
+    &SAMPLERS
+}
+
 /// Every kind of table.
-pub fn made() -> Vec<(String, Material)> {
+fn made() -> Vec<(String, Material)> {
     let spectral = Channels::Spectral(vec![450.0, 500.0, 550.0, 600.0]);
     let bent = noise(5, [5, 1, 8, 7], Channels::Mono, Scatter::Transmission);
     let offsets = bent.knots()[0].iter().map(|sigma| (sigma.sin() / 1.5).asin() - sigma).collect();
@@ -57,7 +77,7 @@ pub fn made() -> Vec<(String, Material)> {
 }
 
 /// The measured files and golden inputs outside the project that make a material.
-pub fn shared() -> Vec<(String, Material)> {
+fn shared() -> Vec<(String, Material)> {
     let Some(root) = lobe_testing::files::shared() else { return Vec::new() };
     let folders = lobe_testing::files::files(&root.join("data")).into_iter().filter(|path| path.is_dir());
     let open = |path: PathBuf| {
