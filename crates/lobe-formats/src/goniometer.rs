@@ -12,6 +12,10 @@
 mod build;
 mod facts;
 mod grid;
+#[cfg(feature = "json")]
+mod json;
+#[cfg(not(feature = "json"))]
+#[path = "goniometer/json_left_out.rs"]
 mod json;
 mod layout;
 pub(crate) mod names;

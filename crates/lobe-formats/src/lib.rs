@@ -3,7 +3,34 @@
 //! [`open`] reads any of them, and [`open_with`] those that leave something open, which a [`sidecar`] may say too; each
 //! format has a module with its own reader, and a writer if one makes sense. What the
 //! formats look like, and how their open questions are settled, is described in `docs/formats.md`.
+//!
+//! # Features
+//!
+//! | feature | formats |
+//! |---|---|
+//! | `half-diff` | MERL |
+//! | `json` | OpenMaterial, and one's own tables in JSON |
+//! | `mueller` | `pbsdf` |
+//! | `rgl` | the EPFL database |
+//! | `spherical` | MDL |
+//! | `utia` | the UTIA database |
+//! | `window` | WINDOW XML |
+//!
+//! All of them are on by default. The other formats are always there.
 #![forbid(unsafe_code)]
+// Without some of the formats, some of what they share is left over.
+#![cfg_attr(
+    not(all(
+        feature = "half-diff",
+        feature = "json",
+        feature = "mueller",
+        feature = "rgl",
+        feature = "spherical",
+        feature = "utia",
+        feature = "window"
+    )),
+    allow(dead_code, unused_imports)
+)]
 
 mod adjust;
 pub mod alta;
@@ -19,25 +46,33 @@ pub mod integra;
 pub mod light_tools;
 mod lines;
 pub mod lumos;
+#[cfg(feature = "spherical")]
 pub mod mbsdf;
+#[cfg(feature = "half-diff")]
 pub mod merl;
 pub mod nist;
 pub mod npz;
+#[cfg(feature = "json")]
 pub mod openmaterial;
+#[cfg(feature = "mueller")]
 pub mod pbsdf;
 mod plain;
 pub mod reading;
 mod records;
 mod registry;
+#[cfg(feature = "rgl")]
 pub mod rgl;
 mod sheet;
 pub mod sidecar;
 mod spec;
 pub mod speos;
 pub mod ssdd;
+#[cfg(any(feature = "mueller", feature = "rgl"))]
 pub mod tensor;
 mod text;
+#[cfg(feature = "utia")]
 pub mod utia;
+#[cfg(feature = "window")]
 pub mod window_xml;
 pub mod zemax;
 mod zip;

@@ -7,25 +7,29 @@ use crate::adjust::adjust;
 use crate::spec::{FormatSpec, Writer};
 use crate::{Document, FormatError, Place, ReadOptions, fred, goniometer, plain, sidecar};
 
-/// One line per format: its variant, and its static description.
+/// One entry per format: its variant, its static description, and the feature that it needs.
 macro_rules! formats {
-    ($($variant:ident = $module:ident :: $spec:ident),* $(,)?) => {
+    ($($(#[$left_out:meta])? $variant:ident = $module:ident :: $spec:ident),* $(,)?) => {
         /// A file format.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         #[non_exhaustive]
         pub enum Format {
-            $(#[doc = concat!("The format of the module `", stringify!($module), "`.")] $variant),*
+            $(
+                $(#[$left_out])?
+                #[doc = concat!("The format of the module `", stringify!($module), "`.")]
+                $variant
+            ),*
         }
 
         impl Format {
             /// All formats, in the order in which [`sniff`] tries them: first those with a signature, then those
             /// recognised by their size, then texts, those with the commonest words last.
-            pub const ALL: &[Format] = &[$(Format::$variant),*];
+            pub const ALL: &[Format] = &[$($(#[$left_out])? Format::$variant),*];
 
             /// What the registry knows of the format.
             pub fn spec(self) -> &'static FormatSpec {
                 match self {
-                    $(Format::$variant => &crate::$module::$spec),*
+                    $($(#[$left_out])? Format::$variant => &crate::$module::$spec),*
                 }
             }
         }
@@ -33,17 +37,24 @@ macro_rules! formats {
 }
 
 formats! {
+    #[cfg(feature = "mueller")]
     Pbsdf = pbsdf::FORMAT,
+    #[cfg(feature = "rgl")]
     Rgl = rgl::FORMAT,
+    #[cfg(feature = "spherical")]
     Mbsdf = mbsdf::FORMAT,
+    #[cfg(feature = "window")]
     WindowXml = window_xml::FORMAT,
     Speos = speos::FORMAT,
+    #[cfg(feature = "half-diff")]
     Merl = merl::FORMAT,
+    #[cfg(feature = "utia")]
     Utia = utia::FORMAT,
     Zemax = zemax::FORMAT,
     LightTools = light_tools::FORMAT,
     Ssdd = ssdd::FORMAT,
     Astm = astm::FORMAT,
+    #[cfg(feature = "json")]
     OpenMaterial = openmaterial::FORMAT,
     Fred = fred::FORMAT,
     Rpc = fred::RPC,
@@ -138,8 +149,27 @@ fn recognised(bytes: &[u8], path: &Path, options: &ReadOptions) -> Result<Format
     sniff(bytes).or_else(|| is_table().then_some(Format::Goniometer)).ok_or_else(|| {
         let readable = Format::ALL.iter().filter(|format| format.spec().read.is_some());
         let known: Vec<&str> = readable.map(Format::name).collect();
-        FormatError::new(path, Place::File, "content of no known format", format!("one of {}", known.join(", ")))
+        let expected = format!("one of {}{}", known.join(", "), left_out());
+        FormatError::new(path, Place::File, "content of no known format", expected)
     })
+}
+
+/// What a program that was built without some formats says when it recognises none.
+fn left_out() -> String {
+    let features = [
+        ("half-diff", cfg!(feature = "half-diff")),
+        ("json", cfg!(feature = "json")),
+        ("mueller", cfg!(feature = "mueller")),
+        ("rgl", cfg!(feature = "rgl")),
+        ("spherical", cfg!(feature = "spherical")),
+        ("utia", cfg!(feature = "utia")),
+        ("window", cfg!(feature = "window")),
+    ];
+    let left_out: Vec<&str> = features.into_iter().filter(|(_, is_built)| !is_built).map(|(name, _)| name).collect();
+    match left_out.is_empty() {
+        true => String::new(),
+        false => format!(" (built without the features {})", left_out.join(", ")),
+    }
 }
 
 /// Reads `bytes` as a file of this format, whatever they look like. `path` names it in errors, and its extension counts

@@ -71,13 +71,14 @@
 //!
 //! # Features
 //!
-//! All are on by default; `default-features = false` builds specular tables only. A file of a representation that was left
-//! out opens with an error that says so.
+//! All are on by default; `default-features = false` builds specular tables and scattered samples only. A file of what was
+//! left out opens with an error that says so.
 //!
 //! | feature | what it adds |
 //! |---|---|
 //! | `rayon` | large batches are shared among the threads of the current rayon pool |
 //! | `half-diff` | grids of half and difference angles, as in the MERL database |
+//! | `json` | files in JSON: OpenMaterial, and one's own tables |
 //! | `mueller` | Mueller matrices |
 //! | `rgl` | materials of the EPFL database |
 //! | `spherical` | grids of spherical coordinates |
