@@ -153,9 +153,14 @@ impl Backend {
         self.isa.run(self.strict, kernel)
     }
 
+    /// The [narrow](Lanes::narrow) backend that belongs to this one, in the same form: usually this one. It is faster for a
+    /// few queries, and gives the same bits if this is strict.
+    pub fn narrow(self) -> Self {
+        Backend { isa: self.isa.narrow(), ..self }
+    }
+
     /// Runs a kernel that has too little to do for many lanes, such as a single query, on the
-    /// [narrow](Lanes::narrow) backend that belongs to this one. Usually that is this one; if it is not, the kernel is
-    /// not compiled for the wide lanes.
+    /// [narrow](Self::narrow) backend. If that is another one, the kernel is not compiled for the wide lanes.
     #[inline]
     pub fn run_narrow<K: Kernel>(&self, kernel: K) -> K::Out {
         self.isa.run_narrow(self.strict, kernel)
@@ -188,6 +193,17 @@ mod tests {
             assert!(Backend::ALL.contains(&backend.name()));
             let found = Backend::named(backend.name()).unwrap();
             assert_eq!((found.name(), found.lanes()), (backend.name(), backend.lanes()));
+        }
+    }
+
+    #[test]
+    fn narrow_backends_are_no_wider_and_round_alike() {
+        for backend in Backend::forms() {
+            let narrow = backend.narrow();
+            assert!(narrow.lanes() <= backend.lanes(), "{narrow} of {backend}");
+            assert_eq!(narrow.is_strict(), backend.is_strict());
+            assert_eq!(narrow.has_fused_form(), backend.has_fused_form(), "{narrow} of {backend}");
+            assert_eq!(narrow.narrow().name(), narrow.name());
         }
     }
 

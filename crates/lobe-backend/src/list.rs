@@ -28,6 +28,12 @@ macro_rules! backends {
             };
         }
 
+        $($(#[$target])* impl From<$token> for Isa {
+            fn from(token: $token) -> Self {
+                Isa::$variant(token)
+            }
+        })*
+
         impl Isa {
             /// All that this CPU can run, slowest first.
             pub(crate) fn detect() -> Vec<Self> {
@@ -60,6 +66,13 @@ macro_rules! backends {
             pub(crate) fn fuses(self) -> bool {
                 match self {
                     $($(#[$target])* Isa::$variant(_) => <$token>::FUSED,)*
+                }
+            }
+
+            /// The narrow backend that belongs to this one.
+            pub(crate) fn narrow(self) -> Self {
+                match self {
+                    $($(#[$target])* Isa::$variant(lanes) => lanes.narrow().into(),)*
                 }
             }
 

@@ -63,7 +63,7 @@ pub trait Bsdf: Debug + Send + Sync {
     /// # Panics
     /// If `out` is not as long as there are channels.
     fn eval(&self, backend: Backend, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
-        self.eval_batch(backend, (&[wi]).into(), (&[wo]).into(), out);
+        self.eval_batch(backend.narrow(), (&[wi]).into(), (&[wo]).into(), out);
     }
 
     /// Samples one direction for each of the `known` ones, which are those to the light or to the viewer as `given`

@@ -68,7 +68,7 @@ impl Table {
     /// # Panics
     /// If `out` is not as long as there are channels.
     pub fn eval(&self, backend: Backend, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
-        self.eval_batch(backend, (&[wi]).into(), (&[wo]).into(), out);
+        self.eval_batch(backend.narrow(), (&[wi]).into(), (&[wo]).into(), out);
     }
 
     /// Evaluates whatever is wanted of many pairs on a backend. Values and densities together take less time than one after
