@@ -37,7 +37,7 @@ fn contest(exchange: &mut Exchange, input: Input) -> anyhow::Result<Contest> {
         inside: Vec::new(),
         outside: vec![
             Outside::new("Mitsuba principled", "mitsuba", &task),
-            Outside::wider("Mitsuba principled, AVX-512", "mitsuba-wide", task),
+            Outside::of_sixteen("Mitsuba principled, AVX-512", "mitsuba-wide", task),
         ],
         agreement: None,
         judge: None,

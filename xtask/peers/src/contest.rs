@@ -1,5 +1,6 @@
 //! One question: this library and its peers on the same input.
 
+use lobe::Backend;
 use lobe_benches::contest::Contender;
 
 use super::comparison::{Agreement, Difference, Judge, compare};
@@ -29,9 +30,9 @@ impl Outside {
         Outside { name, program, task: task.into(), wider: false }
     }
 
-    /// One that uses wider vectors.
-    pub fn wider(name: &'static str, program: &'static str, task: impl Into<String>) -> Self {
-        Outside { wider: true, ..Self::new(name, program, task) }
+    /// One that uses vectors of sixteen floats, which this library has on some processors.
+    pub fn of_sixteen(name: &'static str, program: &'static str, task: impl Into<String>) -> Self {
+        Outside { wider: Backend::best().lanes() < 16, ..Self::new(name, program, task) }
     }
 }
 

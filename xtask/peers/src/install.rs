@@ -21,7 +21,7 @@ const FRAMES: Script = ("frames.py", include_str!("frames.py"));
 pub fn all(out: &Path, tasks: &Path, exchange: &Exchange) -> Vec<(&'static str, anyhow::Result<Command>)> {
     let environment = environment(out).map_err(|error| format!("{error:#}"));
     let python = || environment.clone().map_err(anyhow::Error::msg);
-    // `wide` asks for vectors wider than this library's, if the processor has them.
+    // `wide` asks for vectors of sixteen floats, if the processor has them.
     let run = |script: Script, what: &str, wide: bool| -> anyhow::Result<Command> {
         let mut command = command(out, &python()?, script)?;
         command.arg(what).arg(tasks).args(wide.then_some("wide"));

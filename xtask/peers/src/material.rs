@@ -160,7 +160,7 @@ impl<'a> Subject<'a> {
             inside: Vec::new(),
             outside: vec![
                 Outside::new("Mitsuba measured", "mitsuba", &name),
-                Outside::wider("Mitsuba measured, AVX-512", "mitsuba-wide", name),
+                Outside::of_sixteen("Mitsuba measured, AVX-512", "mitsuba-wide", name),
             ],
             // Both draw in single precision, whose rounding moves a direction far within a dark cell.
             agreement: Some(Agreement {

@@ -137,7 +137,7 @@ Written by `cargo xtask peers --record`; [benchmarking](benchmarking.md) explain
 
 const READING: &str = "Times are nanoseconds of processor time per lookup, evaluation, density, sample or value on one thread, the shortest
 of all turns. `speed` is the peer's time divided by lobe's. The goal is set against the fastest peer of each question
-whose vectors are no wider than lobe's, which are those of AVX2. `difference` is the largest relative difference
+whose vectors are no wider than lobe's on this processor. `difference` is the largest relative difference
 between lobe's values and the peer's. If lobe and the peer disagree about a ray, all triangles are tested in double
 precision: lobe must then be right, and rays that the peer gets wrong are counted next to the difference.
 

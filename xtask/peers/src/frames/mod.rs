@@ -26,7 +26,7 @@ const SIZE: [u32; 2] = [256, 256];
 const SAMPLES: u32 = 8;
 /// Programs that render with the other renderer, one per variant of it, and their displayed names.
 const VARIANTS: [(&str, &str); 2] = [("mitsuba-llvm", "Mitsuba llvm_ad_rgb"), ("mitsuba-scalar", "Mitsuba scalar_rgb")];
-/// The first of these with vectors wider than this renderer's, if the processor has them.
+/// The first of these with vectors of sixteen floats, if the processor has them.
 const WIDER: (&str, &str) = ("mitsuba-llvm-wide", "Mitsuba llvm_ad_rgb, AVX-512");
 
 /// What a room is made of, and the goal against each variant: how many times as fast.
@@ -63,7 +63,7 @@ pub fn all(data: &Path, exchange: &mut Exchange) -> anyhow::Result<Vec<Contest>>
         for ((program, shown), goal) in VARIANTS.into_iter().zip(goals) {
             let mut outside = vec![Outside::new(shown, program, &task)];
             if (program, shown) == VARIANTS[0] {
-                outside.push(Outside::wider(WIDER.1, WIDER.0, &task));
+                outside.push(Outside::of_sixteen(WIDER.1, WIDER.0, &task));
             }
             contests.push(Contest {
                 id: PREFIX,
