@@ -106,7 +106,7 @@ impl Lanes for Avx2 {
         })
     }
 
-    // Eight scalar loads: `vgatherdps` takes 1.8 times as long on the processors measured.
+    // Eight scalar loads: `vgatherdps` takes 1.8 times as long on some processors.
     #[inline(always)]
     fn gather(self, table: &[f32], index: Ints) -> Floats {
         let last = table.len().checked_sub(1).expect("a gather from an empty table");
@@ -142,22 +142,11 @@ impl Lanes for Avx2 {
     }
     #[inline(always)]
     fn gather_quads<const N: usize>(self, block: &Block<'_, N, 4>, base: Ints) -> [[Floats; 4]; N] {
-        let bases = memory::indices(self, base.0);
-        let mut corners = [[self.splat(0.0); 4]; N];
-        let mut corner = 0;
-        while corner < N {
-            let mut rows = [self.splat(0.0); 4];
-            let mut row = 0;
-            while row < 4 {
-                let low = memory::load_quad(self, block, bases[row], corner);
-                let high = memory::load_quad(self, block, bases[row + 4], corner);
-                rows[row] = Floats(op!(_mm256_insertf128_ps::<1>(_mm256_castps128_ps256(low), high)));
-                row += 1;
-            }
-            corners[corner] = transpose(rows);
-            corner += 1;
-        }
-        corners
+        quads(self, block, memory::indices(self, base.0))
+    }
+    #[inline(always)]
+    fn gather_quads_at<const N: usize>(self, block: &Block<'_, N, 4>, bases: &[i32]) -> [[Floats; 4]; N] {
+        quads(self, block, memory::indices_in(bases))
     }
     #[inline(always)]
     fn gather_quads_half<const N: usize>(self, block: &Block<'_, N, 4, u16>, base: Ints) -> [[Floats; 4]; N] {
@@ -182,6 +171,26 @@ impl Lanes for Avx2 {
     fn oct_lookup(self, table: Floats, index: Ints) -> Floats {
         Floats(op!(_mm256_permutevar8x32_ps(table.0, index.0)))
     }
+}
+
+/// The quads at eight bases, as columns.
+#[inline(always)]
+fn quads<const N: usize>(token: Avx2, block: &Block<'_, N, 4>, bases: [usize; 8]) -> [[Floats; 4]; N] {
+    let mut corners = [[token.splat(0.0); 4]; N];
+    let mut corner = 0;
+    while corner < N {
+        let mut rows = [token.splat(0.0); 4];
+        let mut row = 0;
+        while row < 4 {
+            let low = memory::load_quad(token, block, bases[row], corner);
+            let high = memory::load_quad(token, block, bases[row + 4], corner);
+            rows[row] = Floats(op!(_mm256_insertf128_ps::<1>(_mm256_castps128_ps256(low), high)));
+            row += 1;
+        }
+        corners[corner] = transpose(rows);
+        corner += 1;
+    }
+    corners
 }
 
 /// Rows to columns, in each half of the registers.

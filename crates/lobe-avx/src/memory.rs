@@ -74,6 +74,13 @@ pub(crate) fn load_halves(proof: Avx2, low: &[f32], high: &[f32]) -> __m256 {
 pub(crate) fn indices(proof: Avx2, x: __m256i) -> [usize; 8] {
     let mut lanes = [0; 8];
     store_int(proof, &mut lanes, x);
+    indices_in(&lanes)
+}
+
+/// The same of the first eight integers in memory.
+#[inline(always)]
+pub(crate) fn indices_in(lanes: &[i32]) -> [usize; 8] {
+    let lanes = &lanes[..8];
     let mut indices = [0; 8];
     let mut lane = 0;
     while lane < 8 {

@@ -7,7 +7,7 @@ use core::arch::x86_64::*;
 
 use lobe_lane::Block;
 
-use crate::memory::{load, store_int};
+use crate::memory::{load, load_int, store_int};
 use crate::{Avx512, Floats};
 
 /// The indices, none beyond `last`; `None` if the hardware does not reach that far.
@@ -103,6 +103,61 @@ pub(crate) fn quads<const N: usize>(proof: Avx512, block: &Block<'_, N, 4>, base
         corner += 1;
     }
     corners
+}
+
+/// As [`quads`], from bases in memory. If each leads to several quads, these are loaded whole and turned into columns.
+#[inline(always)]
+pub(crate) fn quads_at<const N: usize>(proof: Avx512, block: &Block<'_, N, 4>, bases: &[i32]) -> [[Floats; 4]; N] {
+    if N < 3 {
+        return quads(proof, block, load_int(proof, bases));
+    }
+    let bases = &bases[..16];
+    let mut rows = [[op!(_mm512_setzero_ps()); 4]; N];
+    let mut row = 0;
+    while row < 4 {
+        let at = [base(bases, row), base(bases, row + 4), base(bases, row + 8), base(bases, row + 12)];
+        let mut corner = 0;
+        while corner < N {
+            let a = load_quad(proof, block, at[0], corner);
+            let b = load_quad(proof, block, at[1], corner);
+            let c = load_quad(proof, block, at[2], corner);
+            let d = load_quad(proof, block, at[3], corner);
+            rows[corner][row] = op!({
+                let row = _mm512_castps128_ps512(a);
+                let row = _mm512_mask_broadcast_f32x4(row, 0x00f0, b);
+                let row = _mm512_mask_broadcast_f32x4(row, 0x0f00, c);
+                _mm512_mask_broadcast_f32x4(row, 0xf000, d)
+            });
+            corner += 1;
+        }
+        row += 1;
+    }
+    let mut corners = [[Floats(op!(_mm512_setzero_ps())); 4]; N];
+    let mut corner = 0;
+    while corner < N {
+        corners[corner] = transpose(proof, rows[corner]);
+        corner += 1;
+    }
+    corners
+}
+
+/// A base of sixteen. Volatile, since compilers otherwise load all of them into a vector, from which they
+/// then take them one by one.
+#[inline(always)]
+fn base(bases: &[i32], lane: usize) -> usize {
+    let base: *const i32 = &bases[lane];
+    // SAFETY: it is an element of a slice.
+    let base = unsafe { base.read_volatile() };
+    base as u32 as usize
+}
+
+/// The quad at `base + offsets[corner]`, of a base that may be too large.
+#[inline(always)]
+fn load_quad<const N: usize>(_proof: Avx512, block: &Block<'_, N, 4>, base: usize, corner: usize) -> __m128 {
+    let at = base.min(block.last_base()) + block.offsets()[corner];
+    // SAFETY: the block promises `last_base + offset + 4 <= data.len()` for each of its offsets; the token proves AVX-512;
+    // the load needs no alignment.
+    unsafe { _mm_loadu_ps(block.data().as_ptr().add(at)) }
 }
 
 /// As [`quads`], from half-precision floats.

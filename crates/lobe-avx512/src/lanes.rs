@@ -138,6 +138,10 @@ impl Lanes for Avx512 {
         gathers::quads(self, block, base.0)
     }
     #[inline(always)]
+    fn gather_quads_at<const N: usize>(self, block: &Block<'_, N, 4>, bases: &[i32]) -> [[Floats; 4]; N] {
+        gathers::quads_at(self, block, bases)
+    }
+    #[inline(always)]
     fn gather_quads_half<const N: usize>(self, block: &Block<'_, N, 4, u16>, base: Ints) -> [[Floats; 4]; N] {
         gathers::half_quads(self, block, base.0)
     }

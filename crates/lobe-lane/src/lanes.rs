@@ -166,6 +166,15 @@ backend_trait! {
         /// large is clamped to the block's last. The result is transposed: `[corner][k]` holds float `k` of that corner
         /// in all lanes.
         fn gather_quads<const N: usize>(self, block: &Block<'_, N, 4>, base: Self::I) -> [[Self::F; 4]; N];
+        /// As [`gather_quads`](Lanes::gather_quads), from the first `LANES` bases of a slice. It is faster if they were
+        /// stored long before: they need not leave a vector on their way to addresses.
+        ///
+        /// # Panics
+        /// If `bases` is shorter.
+        #[inline(always)]
+        fn gather_quads_at<const N: usize>(self, block: &Block<'_, N, 4>, bases: &[i32]) -> [[Self::F; 4]; N] {
+            self.gather_quads(block, self.load_int(bases))
+        }
         /// As [`gather_quads`](Lanes::gather_quads), from half-precision floats.
         fn gather_quads_half<const N: usize>(self, block: &Block<'_, N, 4, u16>, base: Self::I) -> [[Self::F; 4]; N];
         /// In each lane, float `index & 7` of the eight in `table`.

@@ -229,7 +229,7 @@ const NUMBERS: usize = size_of::<Corner>() / size_of::<f32>();
 /// A corner in each lane: its position, normal and tangent, and the handedness of the frame.
 #[inline(always)]
 fn corner<L: Lanes>(lanes: L, corners: &Block<'_, 3, 4>, at: &[i32]) -> ([[L::F; 3]; 3], L::F) {
-    let [a, b, c] = lanes.gather_quads(corners, lanes.load_int(at));
+    let [a, b, c] = lanes.gather_quads_at(corners, at);
     ([[a[0], a[1], a[2]], [a[3], b[0], b[1]], [b[2], b[3], c[0]]], c[1])
 }
 

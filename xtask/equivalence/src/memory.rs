@@ -152,13 +152,15 @@ fn look_up<L: Lanes, const N: usize>(lanes: L, indices: &[i32]) -> Vec<bool> {
 /// Appends corner after corner and float after float, for all bases, so that the order does not depend on the lanes.
 #[inline(always)]
 fn gather_quads<L: Lanes, const N: usize>(lanes: L, block: &Block<'_, N, 4>, bases: &[i32], out: &mut Vec<f32>) {
-    let mut columns = vec![Vec::new(); 4 * N];
+    let mut columns = vec![Vec::new(); 8 * N];
     let mut at = 0;
     while at < bases.len() {
         let corners = lanes.gather_quads(block, lanes.load_int(&bases[at..]));
+        let again = lanes.gather_quads_at(block, &bases[at..]);
         let mut k = 0;
         while k < 4 * N {
             floats(lanes, corners[k / 4][k % 4], &mut columns[k]);
+            floats(lanes, again[k / 4][k % 4], &mut columns[4 * N + k]);
             k += 1;
         }
         at += L::LANES;

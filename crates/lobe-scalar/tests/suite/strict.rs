@@ -116,6 +116,7 @@ spied! { Lanes {
     fn gather(table: &[f32] = &[1.0], index: I = Scalar::<4>.iota()) -> F;
     fn gather_pair(table: &[[f32; 2]] = &[[1.0; 2]], index: I = Scalar::<4>.iota()) -> [F; 2];
     fn gather_quads<const N: usize = 1>(block: &Block<'_, N, 4> = &Block::new(&[0.0; 8], [0]), base: I = Scalar::<4>.iota()) -> [[F; 4]; N];
+    fn gather_quads_at<const N: usize = 1>(block: &Block<'_, N, 4> = &Block::new(&[0.0; 8], [0]), bases: &[i32] = &[0; 4]) -> [[F; 4]; N];
     fn gather_quads_half<const N: usize = 1>(block: &Block<'_, N, 4, u16> = &Block::new(&[0; 8], [0]), base: I = Scalar::<4>.iota()) -> [[F; 4]; N];
     fn oct_lookup(table: Oct = Scalar::<4>.oct_splat(1.0), index: I = Scalar::<4>.iota()) -> F;
     fn look_up<const N: usize = 1>(table: [F; N] = [Scalar::<4>.splat(1.0)], index: I = Scalar::<4>.iota()) -> F;

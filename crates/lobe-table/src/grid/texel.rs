@@ -21,7 +21,7 @@ pub(crate) trait Stored: Copy + Default + bytemuck::Pod + Send + Sync {
 
     fn octs<L: Lanes, const N: usize>(lanes: L, block: &Block<'_, N, 8, Self>, base: usize) -> [L::Oct; N];
     fn quads<L: Lanes, const N: usize>(lanes: L, block: &Block<'_, N, 4, Self>, base: usize) -> [L::Quad; N];
-    fn gather<L: Lanes, const N: usize>(lanes: L, block: &Block<'_, N, 4, Self>, base: L::I) -> [[L::F; 4]; N];
+    fn gather<L: Lanes, const N: usize>(lanes: L, block: &Block<'_, N, 4, Self>, bases: &[i32]) -> [[L::F; 4]; N];
 }
 
 impl Stored for f32 {
@@ -37,8 +37,8 @@ impl Stored for f32 {
         lanes.quad_corners(block, base)
     }
     #[inline(always)]
-    fn gather<L: Lanes, const N: usize>(lanes: L, block: &Block<'_, N, 4>, base: L::I) -> [[L::F; 4]; N] {
-        lanes.gather_quads(block, base)
+    fn gather<L: Lanes, const N: usize>(lanes: L, block: &Block<'_, N, 4>, bases: &[i32]) -> [[L::F; 4]; N] {
+        lanes.gather_quads_at(block, bases)
     }
 }
 
@@ -56,8 +56,8 @@ impl Stored for u16 {
         lanes.quad_corners_half(block, base)
     }
     #[inline(always)]
-    fn gather<L: Lanes, const N: usize>(lanes: L, block: &Block<'_, N, 4, u16>, base: L::I) -> [[L::F; 4]; N] {
-        lanes.gather_quads_half(block, base)
+    fn gather<L: Lanes, const N: usize>(lanes: L, block: &Block<'_, N, 4, u16>, bases: &[i32]) -> [[L::F; 4]; N] {
+        lanes.gather_quads_half(block, lanes.load_int(bases))
     }
 }
 

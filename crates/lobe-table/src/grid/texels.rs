@@ -11,6 +11,9 @@ use crate::passes::block::{BLOCK, Column};
 /// Room for up to three channels of each query of a block, and for the fourth float that the last store writes.
 pub(crate) type Tile = [f32; 3 * BLOCK + 1];
 
+/// Queries per iteration of the loop over texels, if there are as many lanes.
+const TURN: usize = 8;
+
 /// Where queries lie in a table.
 #[derive(Clone, Copy)]
 pub(crate) struct Located<'a> {
@@ -32,18 +35,19 @@ pub(crate) fn rgb<L: Lanes, T: Stored, const CORNERS: usize>(
     tile: &mut Tile,
 ) {
     let floor = lanes.quad_splat(floor);
+    let turn = if L::LANES < TURN { L::LANES } else { TURN };
     let mut first = 0;
     while first < n {
         // A few queries per iteration, which the compiler writes out: the loop itself would be a tenth of the work.
         let mut query = first;
-        while query < first + L::LANES {
+        while query < first + turn {
             let [low, high] = pair(lanes, query, corners, located);
             let texel = lanes.quad_mul_add(lanes.quad_splat(phi.one(query)), high - low, low);
             // Each store writes a float too many, which the next one overwrites.
             lanes.quad_store(&mut tile[3 * (query & (BLOCK - 1))..][..4], lanes.quad_max(texel, floor));
             query += 1;
         }
-        first += L::LANES;
+        first += turn;
     }
 }
 
@@ -123,7 +127,7 @@ pub(crate) fn mono<L: Lanes, T: Stored, const CORNERS: usize>(
     let floor = lanes.splat(floor);
     let mut query = 0;
     while query < n {
-        let cells = T::gather(lanes, corners, base.load(lanes, query));
+        let cells = T::gather(lanes, corners, base.slice(lanes, query));
         let mut sum = lanes.splat(0.0);
         let mut corner = 0;
         while corner < 4 * CORNERS {

@@ -39,6 +39,11 @@ impl Column<i32> {
     pub(crate) fn store<L: Lanes>(&mut self, lanes: L, at: usize, x: L::I) {
         lanes.store_int(&mut self.0[at & (BLOCK - L::LANES)..][..L::LANES], x);
     }
+    /// As many as there are lanes, in memory.
+    #[inline(always)]
+    pub(crate) fn slice<L: Lanes>(&self, _lanes: L, at: usize) -> &[i32] {
+        &self.0[at & (BLOCK - L::LANES)..][..L::LANES]
+    }
     #[inline(always)]
     pub(crate) fn one(&self, query: usize) -> i32 {
         self.0[query & (BLOCK - 1)]

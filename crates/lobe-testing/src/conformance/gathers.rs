@@ -113,9 +113,11 @@ fn quads<L: Lanes, const N: usize>(lanes: L, indices: &[i32], block: Block<'_, N
     let mut at = 0;
     while at < indices.len() {
         let found = lanes.gather_quads(&block, lanes.load_int(&indices[at..]));
+        let other = lanes.gather_quads_at(&block, &indices[at..]);
         for (corner, found) in found.into_iter().enumerate() {
             for (k, found) in found.into_iter().enumerate() {
                 let column = floats(lanes, found);
+                assert_eq!(column, floats(lanes, other[corner][k]), "bases in registers and in memory");
                 for lane in 0..L::LANES {
                     let base = clamped(indices[at + lane], block.last_base());
                     let expected = block.data()[base + block.offsets()[corner] + k];

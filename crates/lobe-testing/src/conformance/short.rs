@@ -2,7 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use lobe_lane::{Kernel, Lanes, MAX_LANES};
+use lobe_lane::{Block, Kernel, Lanes, MAX_LANES};
 
 /// An operation that takes a slice.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,10 +18,11 @@ enum Access {
     OctStore,
     Gather,
     GatherPair,
+    GatherQuadsAt,
 }
 
 impl Access {
-    const ALL: [Access; 11] = [
+    const ALL: [Access; 12] = [
         Access::Load,
         Access::Store,
         Access::LoadInt,
@@ -33,12 +34,14 @@ impl Access {
         Access::OctStore,
         Access::Gather,
         Access::GatherPair,
+        Access::GatherQuadsAt,
     ];
 
     /// The length that it needs.
     fn needs(self, lanes: usize) -> usize {
         match self {
             Access::Load | Access::Store | Access::LoadInt | Access::StoreInt | Access::LoadXyz => lanes,
+            Access::GatherQuadsAt => lanes,
             Access::QuadLoad | Access::QuadStore => 4,
             Access::OctLoad | Access::OctStore => 8,
             Access::Gather | Access::GatherPair => 1,
@@ -71,6 +74,7 @@ impl Kernel for Touch {
             Access::OctStore => lanes.oct_store(&mut floats, lanes.oct_splat(1.0)),
             Access::Gather => _ = lanes.gather(&floats, lanes.iota()),
             Access::GatherPair => _ = lanes.gather_pair(&vec![[0.0; 2]; len], lanes.iota()),
+            Access::GatherQuadsAt => _ = lanes.gather_quads_at(&Block::new(&[0.0; 4], [0]), &ints),
         }
     }
 }

@@ -73,25 +73,24 @@ impl Search {
         weights: &[Column; MAX_CORNERS],
         target: &Column,
     ) {
-        let azimuth = lanes.splat_int(entries.azimuth);
         let mut step = (count as u32).next_power_of_two() as i32 / 2;
         while step > 0 {
-            let stride = lanes.splat_int(step * entries.stride);
+            let (stride, block) = (lanes.splat_int(step * entries.stride), entries.further(step));
             let mut query = 0;
             while query < n {
                 let here = self.here.load(lanes, query);
                 let next = here + stride;
-                let (mut at, mut sum) = (next, lanes.splat(0.0));
+                let found = lanes.gather_quads_at(&block, self.here.slice(lanes, query));
+                let mut sum = lanes.splat(0.0);
                 let mut slice = 0;
                 while slice < SLICES {
-                    let [entry] = lanes.gather_quads(&entries.block, at);
+                    let entry = found[slice / 2];
                     let mut term = 0;
                     while term < TERMS {
                         let weight = weights[slice / 2 * TERMS + term].load(lanes, query);
                         sum = lanes.mul_add(entry[term], weight, sum);
                         term += 1;
                     }
-                    at = at + azimuth;
                     slice += 2;
                 }
                 let below = next.lt(self.end.load(lanes, query)) & sum.lt(target.load(lanes, query));
@@ -115,7 +114,7 @@ fn turn<L: Lanes, const SLICES: usize>(
     corners: &mut [Column; MAX_CORNERS],
     u: &mut [Column; 2],
 ) {
-    let block = warp.rows();
+    let blocks = warp.rows();
     let (ends, coarse) = (warp.ends(), warp.coarse());
     let rows_per_float = lanes.splat(1.0 / ends.stride as f32);
     let mut query = 0;
@@ -124,7 +123,7 @@ fn turn<L: Lanes, const SLICES: usize>(
         let slice = blend.slice.load(lanes, query);
         let here = search.here.load(lanes, query);
         let found = (here - ends.of_slice(lanes, slice)).to_float() * rows_per_float;
-        let [this, next, below] = invert::rows(lanes, warp, &block, here, weights);
+        let [this, next, below] = invert::rows(lanes, &blocks, search.here.slice(lanes, query), weights);
         let y = solve(lanes, this, next, u[1].load(lanes, query) - below);
         u[0].store(lanes, query, u[0].load(lanes, query) * lanes.mul_add(y, next - this, this));
         u[1].store(lanes, query, found + y);
@@ -170,7 +169,7 @@ fn end<L: Lanes, const SLICES: usize>(
     u: &mut [Column; 2],
     density: &mut Column,
 ) {
-    let (block, fine) = (warp.cells(), warp.fine());
+    let (blocks, fine) = (warp.cells(), warp.fine());
     let placer = warp.grid.placer(lanes);
     let columns_per_float = lanes.splat(1.0 / fine.stride as f32);
     let scale = lanes.splat(warp.scale);
@@ -182,7 +181,7 @@ fn end<L: Lanes, const SLICES: usize>(
         let here = search.here.load(lanes, query);
         let first = fine.of_row(lanes, blend.slice.load(lanes, query), row);
         let found = (here - first).to_float() * columns_per_float;
-        let [left, right, before] = invert::columns(lanes, warp, &block, here, weights, y);
+        let [left, right, before] = invert::columns(lanes, &blocks, search.here.slice(lanes, query), weights, y);
         let x = solve(lanes, left, right, u[0].load(lanes, query) - before);
         let value = lanes.mul_add(x, right - left, left) * scale;
         density.store(lanes, query, density.load(lanes, query) * value);

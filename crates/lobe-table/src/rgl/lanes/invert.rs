@@ -25,18 +25,16 @@ impl Blend {
 #[inline(always)]
 pub(super) fn columns<L: Lanes, const SLICES: usize>(
     lanes: L,
-    warp: &Warp,
-    cells: &Block<'_, 3, 4>,
-    mut base: L::I,
+    cells: &[Block<'_, 3, 4>; 2],
+    bases: &[i32],
     weights: [L::F; SLICES],
     y: L::F,
 ) -> [L::F; 3] {
-    let azimuth = lanes.splat_int(warp.fine().azimuth);
     let ends = [lanes.splat(1.0) - y, y];
     let mut sums = [lanes.splat(0.0); 3];
     let mut slice = 0;
     while slice < SLICES {
-        let [integral, left, right] = lanes.gather_quads(cells, base);
+        let [integral, left, right] = lanes.gather_quads_at(&cells[slice / 2], bases);
         let mut corner = 0;
         while corner < 4 {
             let weight = weights[slice + corner / 2] * ends[corner % 2];
@@ -45,7 +43,6 @@ pub(super) fn columns<L: Lanes, const SLICES: usize>(
             sums[2] = lanes.mul_add(integral[corner], weight, sums[2]);
             corner += 1;
         }
-        base = base + azimuth;
         slice += 2;
     }
     sums
@@ -55,16 +52,14 @@ pub(super) fn columns<L: Lanes, const SLICES: usize>(
 #[inline(always)]
 pub(super) fn rows<L: Lanes, const SLICES: usize>(
     lanes: L,
-    warp: &Warp,
-    rows: &Block<'_, 2, 4>,
-    mut base: L::I,
+    rows: &[Block<'_, 2, 4>; 2],
+    bases: &[i32],
     weights: [L::F; SLICES],
 ) -> [L::F; 3] {
-    let azimuth = lanes.splat_int(warp.ends().azimuth);
     let mut sums = [lanes.splat(0.0); 3];
     let mut slice = 0;
     while slice < SLICES {
-        let [here, next] = lanes.gather_quads(rows, base);
+        let [here, next] = lanes.gather_quads_at(&rows[slice / 2], bases);
         let mut k = 0;
         while k < 2 {
             let weight = weights[slice + k];
@@ -73,7 +68,6 @@ pub(super) fn rows<L: Lanes, const SLICES: usize>(
             sums[2] = lanes.mul_add(here[k], weight, sums[2]);
             k += 1;
         }
-        base = base + azimuth;
         slice += 2;
     }
     sums
@@ -116,7 +110,8 @@ pub(super) fn run<L: Lanes, const SLICES: usize>(
     places: &Places,
     Inverse { s, density }: Inverse<'_>,
 ) {
-    let (cells, row_block) = (warp.cells(), warp.rows());
+    let (cells, row_blocks) = (warp.cells(), warp.rows());
+    let mut row_bases = Column::<i32>::ZERO;
     let placer = warp.grid.placer(lanes);
     let ends = warp.ends();
     let scale = lanes.splat(warp.scale);
@@ -126,10 +121,12 @@ pub(super) fn run<L: Lanes, const SLICES: usize>(
     while query < n {
         let weights = slices::<L, SLICES>(lanes, query, blend);
         let [x, y] = [places.fractions[0].load(lanes, query), places.fractions[1].load(lanes, query)];
-        let base = places.base.load(lanes, query);
-        let [left, right, before] = columns(lanes, warp, &cells, base, weights, y);
+        let [left, right, before] = columns(lanes, &cells, places.base.slice(lanes, query), weights, y);
         s[0].store(lanes, query, before + integral(lanes, left, right, x));
         density.store(lanes, query, lanes.mul_add(x, right - left, left) * scale);
+        let ([_, row], _) = placer.cells(lanes, [u[0].load(lanes, query), u[1].load(lanes, query)]);
+        let row = row * lanes.splat_int(ends.stride) + ends.of_slice(lanes, blend.slice.load(lanes, query));
+        row_bases.store(lanes, query, row);
         query += L::LANES;
     }
 
@@ -137,9 +134,7 @@ pub(super) fn run<L: Lanes, const SLICES: usize>(
     while query < n {
         let weights = slices::<L, SLICES>(lanes, query, blend);
         let y = places.fractions[1].load(lanes, query);
-        let (cells, _) = placer.cells(lanes, [u[0].load(lanes, query), u[1].load(lanes, query)]);
-        let base = cells[1] * lanes.splat_int(ends.stride) + ends.of_slice(lanes, blend.slice.load(lanes, query));
-        let [here, next, below] = rows(lanes, warp, &row_block, base, weights);
+        let [here, next, below] = rows(lanes, &row_blocks, row_bases.slice(lanes, query), weights);
         let total = lanes.mul_add(y, next - here, here);
         let x = (s[0].load(lanes, query) / total).masked(lanes.splat(0.0).lt(total));
         s[0].store(lanes, query, x);
@@ -164,8 +159,7 @@ pub(super) fn multiply_density<L: Lanes, const SLICES: usize>(
     while query < n {
         let weights = slices::<L, SLICES>(lanes, query, blend);
         let [x, y] = [places.fractions[0].load(lanes, query), places.fractions[1].load(lanes, query)];
-        let base = places.base.load(lanes, query);
-        let [left, right, _] = columns(lanes, warp, &cells, base, weights, y);
+        let [left, right, _] = columns(lanes, &cells, places.base.slice(lanes, query), weights, y);
         let here = lanes.mul_add(x, right - left, left) * scale;
         density.store(lanes, query, density.load(lanes, query) * here);
         query += L::LANES;

@@ -81,16 +81,19 @@ impl Warp {
         })
     }
 
-    /// For a base at a cell: the integrals at its left, and the densities at its left and right.
+    /// For a base at a cell: the integrals at its left, and the densities at its left and right; in its slice, and in that of
+    /// the next azimuth.
     #[inline(always)]
-    pub(super) fn cells(&self) -> Block<'_, 3, 4> {
-        Block::new(self.texels.as_slice(), [0, 4, TEXEL + 4])
+    pub(super) fn cells(&self) -> [Block<'_, 3, 4>; 2] {
+        let (texels, next) = (self.texels.as_slice(), self.zeniths * self.grid.strides[2]);
+        [Block::new(texels, [0, 4, TEXEL + 4]), Block::new(texels, [next, next + 4, next + TEXEL + 4])]
     }
 
-    /// For a base at a row: that row and the next.
+    /// For a base at a row: that row and the next; in its slice, and in that of the next azimuth.
     #[inline(always)]
-    pub(super) fn rows(&self) -> Block<'_, 2, 4> {
-        Block::new(self.rows.as_slice(), [0, ROW])
+    pub(super) fn rows(&self) -> [Block<'_, 2, 4>; 2] {
+        let (rows, next) = (self.rows.as_slice(), self.zeniths * (self.grid.cells[1] + 1) * ROW);
+        [Block::new(rows, [0, ROW]), Block::new(rows, [next, next + ROW])]
     }
 
     /// The integrals up to the rows, without columns.
@@ -118,7 +121,7 @@ impl Warp {
     fn entries<'a>(&self, floats: &'a Storage<f32>, count: usize, strides: [usize; 3]) -> Entries<'a> {
         let [stride, row, slice] = strides.map(|stride| stride as i32);
         let azimuth = self.zeniths as i32 * slice;
-        Entries { block: Block::new(floats.as_slice(), [0]), count: count as i32, stride, row, slice, azimuth }
+        Entries { floats: floats.as_slice(), count: count as i32, stride, row, slice, azimuth }
     }
 
     pub(super) fn bytes(&self) -> usize {
@@ -135,7 +138,7 @@ fn coarse_columns(columns: usize) -> usize {
 /// A table to search: ascending entries of four floats, one behind the other, for each row of each slice.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entries<'a> {
-    pub(super) block: Block<'a, 1, 4>,
+    floats: &'a [f32],
     /// Entries that a search chooses from.
     pub(super) count: i32,
     /// Floats from an entry to the next, from a row to the next, from a slice to the next, and to the slice of the next
@@ -146,7 +149,17 @@ pub(super) struct Entries<'a> {
     pub(super) azimuth: i32,
 }
 
-impl Entries<'_> {
+impl<'a> Entries<'a> {
+    /// For a base at an entry: the one so many further; in its slice, and in that of the next azimuth.
+    ///
+    /// # Panics
+    /// If no slice has so many.
+    #[inline(always)]
+    pub(super) fn further(&self, by: i32) -> Block<'a, 2, 4> {
+        let further = (by * self.stride) as usize;
+        Block::new(self.floats, [further, further + self.azimuth as usize])
+    }
+
     /// Where a slice begins.
     #[inline(always)]
     pub(super) fn of_slice<L: Lanes>(&self, lanes: L, slice: L::I) -> L::I {
