@@ -5,7 +5,7 @@ mod common;
 use criterion::{Criterion, criterion_group, criterion_main};
 
 fn search(criterion: &mut Criterion) {
-    common::bench(criterion, &["search", "search-paper"]);
+    common::bench(criterion, &["search", "search-paper", "search-33", "search-65"]);
 }
 
 criterion_group!(benches, search);

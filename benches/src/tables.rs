@@ -24,15 +24,16 @@ pub fn random(nodes: [usize; 4], channels: Channels) -> specular::Data {
 
 /// Knots over all of each axis, closer together near 0.
 fn knots(nodes: [usize; 4]) -> [Vec<f64>; 4] {
-    let graded = |n: usize, end: f64, power: f64| -> Vec<f64> {
-        (0..n).map(|i| if n == 1 { 0.0 } else { end * (i as f64 / (n - 1) as f64).powf(power) }).collect()
-    };
-    [
-        graded(nodes[0], FRAC_PI_2, 1.2),
-        graded(nodes[1], TAU, 1.1),
-        graded(nodes[2], PI, 2.0),
-        graded(nodes[3], TAU, 1.1),
-    ]
+    [graded(nodes[0], FRAC_PI_2, 1.2), graded(nodes[1], TAU, 1.1), theta_knots(nodes[2]), graded(nodes[3], TAU, 1.1)]
+}
+
+/// So many knots of the angle from the mirror direction, in radians.
+pub fn theta_knots(count: usize) -> Vec<f64> {
+    graded(count, PI, 2.0)
+}
+
+fn graded(count: usize, end: f64, power: f64) -> Vec<f64> {
+    (0..count).map(|i| if count == 1 { 0.0 } else { end * (i as f64 / (count - 1) as f64).powf(power) }).collect()
 }
 
 /// An RGB table of smooth values, so that a small error in an angle remains a small error in the value even if cells

@@ -37,7 +37,7 @@ pub struct Question {
 }
 
 /// All questions, in the order of the report.
-pub const QUESTIONS: [Question; 28] = [
+pub const QUESTIONS: [Question; 30] = [
     Question { id: "acos", title: "Arc cosine, eight terms", unit: "value", least: 1, build: acos::eight_terms },
     Question {
         id: "acos-paper",
@@ -89,6 +89,20 @@ pub const QUESTIONS: [Question; 28] = [
         unit: "evaluation",
         least: 1,
         build: evaluation::aniso_paper,
+    },
+    Question {
+        id: "search-33",
+        title: "Interval search among 33 knots",
+        unit: "search",
+        least: 1,
+        build: search::among_33,
+    },
+    Question {
+        id: "search-65",
+        title: "Interval search among 65 knots",
+        unit: "search",
+        least: 1,
+        build: search::among_65,
     },
     Question {
         id: "iso-interpolation",

@@ -1,4 +1,4 @@
-//! The cell of an angle on the theta axis of the anisotropic table, and how far into it.
+//! The cell of an angle on the theta axis of the anisotropic table, and on longer ones, and how far into it.
 
 use std::rc::Rc;
 
@@ -9,7 +9,7 @@ use super::{Contender, Contest, Tolerance, backends};
 use crate::workload::Input;
 use crate::{baseline, tables};
 
-/// Relative to the 16 cells: positions up to 16 are rounded to 1e-6, and as much again for knots and widths.
+/// Relative to the number of cells: positions up to 16 are rounded to 1e-6, and as much again for knots and widths.
 const TOLERANCE: Tolerance = Tolerance { max: 3e-7, rms: 1e-7 };
 
 /// Cells, and fractions into them.
@@ -39,7 +39,21 @@ struct Setup {
 
 /// The library's search.
 pub fn library(input: Input, count: usize) -> Contest {
-    contest(input, count, |name, backend, setup| {
+    among(&tables::anisotropic().knots()[2], input, count)
+}
+
+/// The same among 33 knots, the most that AVX2 searches inside registers.
+pub fn among_33(input: Input, count: usize) -> Contest {
+    among(&tables::theta_knots(33), input, count)
+}
+
+/// The same among 65 knots, the most that AVX-512 searches inside registers.
+pub fn among_65(input: Input, count: usize) -> Contest {
+    among(&tables::theta_knots(65), input, count)
+}
+
+fn among(knots: &[f64], input: Input, count: usize) -> Contest {
+    contest(knots, input, count, |name, backend, setup| {
         let run = move |out: &mut Cells<i32>| backend.run(Find { setup: &setup, out });
         Contender::new(name, TOLERANCE, Cells::new(count), run, |out| out.positions(|cell| cell as f32))
     })
@@ -47,22 +61,22 @@ pub fn library(input: Input, count: usize) -> Contest {
 
 /// The paper's search, in the version that returns weights.
 pub fn paper(input: Input, count: usize) -> Contest {
-    contest(input, count, |name, backend, setup| {
+    contest(&tables::anisotropic().knots()[2], input, count, |name, backend, setup| {
         let run = move |out: &mut Cells<f32>| backend.run(StackSearch { setup: &setup, out });
         Contender::new(name, TOLERANCE, Cells::new(count), run, |out| out.positions(|cell| cell))
     })
 }
 
 fn contest(
+    knots: &[f64],
     input: Input,
     count: usize,
     contender: impl Fn(&'static str, lobe::Backend, Rc<Setup>) -> Contender,
 ) -> Contest {
-    let knots = tables::anisotropic().knots()[2].clone();
-    let axis = Axis::new(&knots, Edge::Clamp).expect("the knots of a valid table");
+    let axis = Axis::new(knots, Edge::Clamp).expect("the knots of a valid table");
     let cells = knots.windows(2).map(|ends| [ends[0] as f32, (1.0 / (ends[1] - ends[0])) as f32]).collect();
     let angles: Vec<f32> = input.thetas(count).iter().map(|&theta| theta as f32).collect();
-    let expected = angles.iter().map(|&angle| position(&knots, f64::from(angle))).collect();
+    let expected = angles.iter().map(|&angle| position(knots, f64::from(angle))).collect();
     let setup = Rc::new(Setup { angles, axis, cells });
 
     let scalar = |name, locate: fn(&[f32], f32) -> (usize, f32)| {
