@@ -36,6 +36,23 @@ impl FormatError {
     }
 }
 
+/// Text of a file as an error shows it: control characters escaped, and what is longer than `most` characters cut, with
+/// dots that say so.
+pub fn excerpt(text: &str, most: usize) -> String {
+    let mut shown: String = text.chars().take(most).flat_map(char::escape_debug).collect();
+    if text.chars().nth(most).is_some() {
+        shown.push_str("...");
+    }
+    shown
+}
+
+/// What was found and what was expected. An error of a part, which says itself what it expected, is not followed by what the
+/// whole was to be.
+pub fn sentence(found: &str, expected: &str) -> String {
+    let found = found.strip_prefix("found ").unwrap_or(found);
+    if found.contains("; expected ") { format!("found {found}") } else { format!("found {found}; expected {expected}") }
+}
+
 impl fmt::Display for FormatError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let FormatError { file, place, found, expected } = self;
@@ -45,6 +62,24 @@ impl fmt::Display for FormatError {
             Place::Line(line) => write!(f, ":{line}: ")?,
             Place::Byte(byte) => write!(f, ": byte {byte}: ")?,
         }
-        write!(f, "found {found}; expected {expected}")
+        f.write_str(&sentence(found, expected))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_text_is_cut_and_says_so() {
+        assert_eq!(excerpt("a word", 6), "a word");
+        assert_eq!(excerpt("a \u{1b}[31mword", 4), "a \\u{1b}[...");
+    }
+
+    #[test]
+    fn what_was_expected_is_said_once() {
+        let error = |found: &str| FormatError::new(Path::new("a"), Place::Line(2), found, "a table").to_string();
+        assert_eq!(error("a word"), "a:2: found a word; expected a table");
+        assert_eq!(error("found 3 knots; expected 4"), "a:2: found 3 knots; expected 4");
     }
 }

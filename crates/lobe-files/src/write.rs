@@ -1,8 +1,12 @@
 //! Writing a file so that it is whole or not there.
 
+use std::fs::File;
 use std::io::{self, ErrorKind, Write as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use tempfile::NamedTempFile;
+
+use crate::read::{is_standard_input, not_a_file};
 use crate::{FormatError, Place};
 
 /// Writes `content` to a temporary file next to `path` and renames it, so that no half-written file is ever visible.
@@ -14,25 +18,124 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), FormatError> {
 }
 
 /// As [`write_whole`], with the error of the system. A file that is replaced keeps its permissions; a new one has those of
-/// the user's umask.
+/// the user's umask. A link is followed: what it points to is replaced.
 ///
 /// # Errors
-/// If the folder or the file cannot be written.
+/// If the folder or the file cannot be written, or there is something other than a file that may be written.
 pub fn replace(path: &Path, content: &[u8]) -> io::Result<()> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".lobe-");
-    // Temporary files are private by default; this one becomes an ordinary file.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(folder)?;
+    let target = target(path)?;
+    let folder = folder(&target);
+    let mut file = temporary(folder)?;
     file.write_all(content)?;
-    if let Ok(old) = std::fs::metadata(path) {
+    if let Ok(old) = std::fs::metadata(&target) {
         file.as_file().set_permissions(old.permissions())?;
     }
     file.as_file().sync_all()?;
-    file.persist(path)?;
+    file.persist(&target)?;
+    // The new name lasts only if the folder reaches the disk too. Not every system can do that.
+    #[cfg(unix)]
+    let _ = File::open(folder).and_then(|folder| folder.sync_all());
     Ok(())
+}
+
+/// Whether `path` could be written now: for programs that would work for hours before they write. Fails as well if it is
+/// one of `inputs`, or a file in one of them that is a folder: what was read must not be replaced by accident.
+///
+/// # Errors
+/// [`FormatError`] names `path`, what is there, and what should be.
+pub fn check_output<P: AsRef<Path>>(path: &Path, inputs: &[P]) -> Result<(), FormatError> {
+    let refuse = |error: io::Error| unwritable(path, &error);
+    if is_standard_input(path) {
+        return Err(FormatError::new(path, Place::File, "the standard input", "the name of a file to write"));
+    }
+    let read = |input: &Path| {
+        let found = format!("the file {}, which is used otherwise", input.display());
+        FormatError::new(path, Place::File, found, "another file to write")
+    };
+    if let Some(input) = inputs.iter().find(|input| input.as_ref() == path) {
+        return Err(read(input.as_ref()));
+    }
+    let target = target(path).map_err(refuse)?;
+    if let Ok(output) = target.canonicalize() {
+        let same = |input: &&P| {
+            let input = input.as_ref().canonicalize().ok();
+            input.is_some_and(|input| input == output || output.parent() == Some(&*input))
+        };
+        if let Some(input) = inputs.iter().find(same) {
+            return Err(read(input.as_ref()));
+        }
+    }
+    temporary(folder(&target)).map_err(refuse).map(drop)
+}
+
+/// Where links lead, and that there is nothing or a file that may be written.
+fn target(path: &Path) -> io::Result<PathBuf> {
+    /// As many links as Linux follows.
+    const LINKS: usize = 40;
+    let mut target = path.to_path_buf();
+    for _ in 0..LINKS {
+        match target.read_link() {
+            Ok(link) => target = folder(&target).join(link),
+            Err(_) => {
+                if let Ok(metadata) = target.metadata() {
+                    if let Some(kind) = not_a_file(&metadata) {
+                        return Err(io::Error::other(kind));
+                    }
+                    if metadata.permissions().readonly() {
+                        return Err(io::Error::other("a file that is read-only"));
+                    }
+                }
+                return Ok(target);
+            }
+        }
+    }
+    Err(io::Error::other("links that lead in a circle"))
+}
+
+fn folder(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+const PREFIX: &str = ".lobe-";
+const SUFFIX: &str = ".tmp";
+
+/// A temporary file, which is locked as long as it is in use.
+fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
+    // Without the folder, the error would name a temporary file in it.
+    folder.metadata()?;
+    #[cfg(unix)]
+    clean(folder);
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX).suffix(SUFFIX);
+    // Temporary files are private by default; this one becomes an ordinary file.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    loop {
+        let file = builder.tempfile_in(folder)?;
+        // Between its making and its locking another program may have taken it for one that was left behind.
+        #[cfg(unix)]
+        if matches!(file.as_file().try_lock(), Err(std::fs::TryLockError::WouldBlock)) || !file.path().exists() {
+            continue;
+        }
+        return Ok(file);
+    }
+}
+
+/// Removes the temporary files of programs that were killed: those that nobody has locked.
+#[cfg(unix)]
+fn clean(folder: &Path) {
+    let Ok(entries) = folder.read_dir() else { return };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let random = name.to_str().and_then(|name| name.strip_prefix(PREFIX)?.strip_suffix(SUFFIX));
+        let is_ours = random.is_some_and(|r| r.len() == 6 && r.bytes().all(|byte| byte.is_ascii_alphanumeric()));
+        if is_ours && entry.file_type().is_ok_and(|kind| kind.is_file()) {
+            let locked = File::open(entry.path()).map(|file| file.try_lock().is_ok().then_some(file));
+            if let Ok(Some(_file)) = locked {
+                let _ = std::fs::remove_file(entry.path());
+            }
+        }
+    }
 }
 
 /// Why `path` was not written: the file system refused, or the material does not fit the format.
@@ -75,5 +178,78 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let error = write_whole(&folder.path().join("none/a"), b"").unwrap_err();
         assert!(error.file.ends_with("none/a") && error.expected == "a file that can be written", "{error}");
+        assert_eq!(check_output::<PathBuf>(&folder.path().join("none/a"), &[]).unwrap_err(), error);
+    }
+
+    #[test]
+    fn what_is_read_is_not_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let (a, b) = (folder.path().join("a"), folder.path().join("b"));
+        std::fs::write(&a, "a").unwrap();
+        check_output(&b, &[&a]).unwrap();
+        let other_name = folder.path().join("..").join(folder.path().file_name().unwrap()).join("a");
+        for output in [&a, &other_name] {
+            let error = check_output(output, &[&b, &a]).unwrap_err();
+            assert!(error.expected == "another file to write" && error.found.ends_with("used otherwise"), "{error}");
+        }
+        // A file of a folder that is read as a whole; a new one does no harm.
+        assert!(check_output(&a, &[folder.path()]).is_err());
+        check_output(&b, &[folder.path()]).unwrap();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn what_is_no_file_or_read_only_is_not_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        std::fs::create_dir(&path).unwrap();
+        assert_eq!(write_whole(&path, b"new").unwrap_err().found, "a folder");
+        let path = folder.path().join("b");
+        std::fs::write(&path, "old").unwrap();
+        let mut permissions = path.metadata().unwrap().permissions();
+        permissions.set_readonly(true);
+        std::fs::set_permissions(&path, permissions).unwrap();
+        assert_eq!(check_output::<PathBuf>(&path, &[]).unwrap_err().found, "a file that is read-only");
+        assert_eq!(write_whole(&path, b"new").unwrap_err().found, "a file that is read-only");
+        assert_eq!(std::fs::read(&path).unwrap(), b"old");
+        #[cfg(unix)]
+        assert!(write_whole(Path::new("/dev/null"), b"new").unwrap_err().found.contains("device"));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_followed() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        std::fs::create_dir(path("below")).unwrap();
+        std::fs::write(path("below/file"), "old").unwrap();
+        symlink("below/file", path("link")).unwrap();
+        symlink("link", path("chain")).unwrap();
+        symlink("new", path("dangling")).unwrap();
+        symlink("circle", path("circle")).unwrap();
+        for (link, file) in [("chain", "below/file"), ("dangling", "new")] {
+            write_whole(&path(link), b"new").unwrap();
+            assert!(path(link).symlink_metadata().unwrap().is_symlink());
+            assert_eq!(std::fs::read(path(file)).unwrap(), b"new");
+        }
+        assert!(write_whole(&path("circle"), b"").is_err());
+        // A link to what is read is what is read.
+        assert!(check_output(&path("chain"), &[path("below/file")]).is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_a_killed_program_left_is_removed_and_what_is_in_use_is_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let used = temporary(folder.path()).unwrap();
+        for name in [".lobe-abc123.tmp", ".lobe-notes.tmp", ".lobe-abc123"] {
+            std::fs::write(path(name), "").unwrap();
+        }
+        write_whole(&path("a"), b"").unwrap();
+        let exists = [".lobe-abc123.tmp", ".lobe-notes.tmp", ".lobe-abc123"].map(|name| path(name).exists());
+        assert_eq!(exists, [false, true, true]);
+        assert!(used.path().exists());
     }
 }

@@ -137,7 +137,7 @@ pub fn read_rpc_folder(folder: &Path) -> Result<scattered::Data, FormatError> {
     for entry in folder.read_dir().map_err(|error| failed(folder, error))? {
         let path = entry.map_err(|error| failed(folder, error))?.path();
         if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("txt")) {
-            let bytes = std::fs::read(&path).map_err(|error| failed(&path, error))?;
+            let bytes = lobe_files::read(&path)?;
             if matches_rpc(&bytes) {
                 files.push((path, bytes));
             }
@@ -162,7 +162,7 @@ fn blocks<'a>(lines: impl Iterator<Item = Line<'a>>, units: &Units, records: &mu
             (&[theta, phi], _) => incident = Some([theta * units.to_radians, phi * units.to_radians + PI]),
             (&[theta, phi, value], Some([theta_i, phi_i])) => {
                 let angles = [theta_i, phi_i, theta * units.to_radians, phi * units.to_radians];
-                records.push(angles, [value * units.scale]);
+                records.push_line(line.number, angles, [value * units.scale]);
             }
             (&[_, _, _], None) => return Err(line.error("a value", "the two angles of an incident direction first")),
             (numbers, _) => {

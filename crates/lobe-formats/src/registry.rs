@@ -121,8 +121,7 @@ pub fn open_with(path: &Path, options: &ReadOptions) -> Result<(Format, Document
         let document = adjusted(document, Format::Rpc, path, &options)?;
         return Ok((Format::Rpc, Document { format: Some(Format::Rpc.name()), ..document }));
     }
-    let bytes = std::fs::read(path)
-        .map_err(|error| FormatError::new(path, Place::File, error.to_string(), "a file that can be read"))?;
+    let bytes = lobe_files::read(path)?;
     let format = recognised(&bytes, path, &options)?;
     Ok((format, read_with(format, &bytes, path, &options)?))
 }

@@ -12,7 +12,6 @@
 
 use std::ffi::OsString;
 use std::fmt::Write as _;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use toml::Spanned;
@@ -39,13 +38,13 @@ pub fn path_of(file: &Path) -> PathBuf {
 /// [`FormatError`] with the line if the sidecar cannot be read or understood.
 pub fn find(file: &Path) -> Result<ReadOptions, FormatError> {
     let path = path_of(file);
-    match std::fs::read_to_string(&path) {
-        Ok(text) => parse(&text, &path),
-        Err(error) if error.kind() == ErrorKind::NotFound || error.kind() == ErrorKind::NotADirectory => {
-            Ok(ReadOptions::default())
-        }
-        Err(error) => Err(FormatError::new(&path, Place::File, error.to_string(), "a sidecar that can be read")),
+    if !path.exists() {
+        return Ok(ReadOptions::default());
     }
+    let text = String::from_utf8(lobe_files::read(&path)?);
+    let text =
+        text.map_err(|_| FormatError::new(&path, Place::File, "bytes that are not UTF-8", "a sidecar of text"))?;
+    parse(&text, &path)
 }
 
 /// The options in the text of a sidecar, which the path names in errors.

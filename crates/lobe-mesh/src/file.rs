@@ -1,25 +1,12 @@
 //! What all readers share: getting a file whole, and saying what is wrong with it.
 
-use std::fs::File;
-use std::io::Read as _;
 use std::path::Path;
 
+pub(crate) use lobe_files::read as bytes;
 use lobe_files::{FormatError, Place};
 
 use crate::geometry::{narrow, wide};
 use crate::{Geometry, Parts, normals};
-
-/// Reads a whole file. Devices and pipes, which may have no end, are refused.
-pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, FormatError> {
-    let unreadable = |error: std::io::Error| wrong(path, error.to_string(), "a file that can be read");
-    let mut file = File::open(path).map_err(unreadable)?;
-    if !file.metadata().map_err(unreadable)?.is_file() {
-        return Err(wrong(path, "a folder or a device", "a file"));
-    }
-    let mut bytes = Vec::new();
-    file.read_to_end(&mut bytes).map_err(unreadable)?;
-    Ok(bytes)
-}
 
 /// An error about the file as a whole.
 pub(crate) fn wrong(path: &Path, found: impl Into<String>, expected: impl Into<String>) -> FormatError {

@@ -70,5 +70,5 @@ fn beside(path: &Path, uri: &str) -> Result<PathBuf, FormatError> {
 
 /// A uri short enough for a message.
 fn shown(uri: &str) -> String {
-    uri.chars().take(60).collect()
+    lobe_files::excerpt(uri, 60)
 }

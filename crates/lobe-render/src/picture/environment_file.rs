@@ -18,7 +18,7 @@ const EXR: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 /// # Errors
 /// If the file cannot be read, is damaged, or has radiances that are not finite numbers.
 pub fn read_environment(path: &Path, turn: f32, scale: f32) -> Result<Environment, PictureError> {
-    let bytes = std::fs::read(path).map_err(|error| PictureError::Io { file: path.into(), error })?;
+    let bytes = lobe_files::bytes(path).map_err(|error| PictureError::Io { file: path.into(), error })?;
     let (width, height, texels) = if bytes.starts_with(&EXR) { exr(path, &bytes)? } else { hdr(path, &bytes)? };
     let texels = texels.into_iter().map(|texel| texel.map(|x| (x * scale).max(if x.is_nan() { x } else { 0.0 })));
     Environment::image(width, height, texels.collect(), turn)
