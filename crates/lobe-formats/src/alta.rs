@@ -89,7 +89,8 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
         };
         let cosine = if has_cosine { theta_o.cos() } else { 1.0 };
         if cosine >= LEAST_COSINE {
-            records.push([theta_i, 0.0, theta_o, dphi], numbers[3..].iter().map(|value| value / cosine));
+            let values = numbers[3..].iter().map(|value| value / cosine);
+            records.push_line(line.number, [theta_i, 0.0, theta_o, dphi], values);
         }
     }
     let channels = match outputs {

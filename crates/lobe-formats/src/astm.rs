@@ -74,7 +74,7 @@ pub fn read_as(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<scattered:
             4 => [numbers[0], numbers[1], numbers[2], numbers[3]],
             _ => [numbers[0], 0.0, numbers[1], numbers[2]],
         };
-        records.push(of_record, numbers[angles..].iter().copied());
+        records.push_line(line.number, of_record, numbers[angles..].iter().copied());
     }
     match announced {
         Some(count) if count != records.angles.len() => {

@@ -8,7 +8,8 @@ use crate::{FormatError, Place};
 #[derive(Clone, Copy)]
 pub(crate) struct Line<'a> {
     file: &'a Path,
-    number: usize,
+    /// Counted from 1.
+    pub number: usize,
     /// The text without white space at its ends.
     pub text: &'a str,
 }
@@ -52,5 +53,5 @@ impl<'a> Line<'a> {
 
 /// Words of a file as an error shows them: quoted and cut short.
 pub(crate) fn shown(words: &str) -> String {
-    format!("{:?}", words.chars().take(40).collect::<String>())
+    format!("\"{}\"", lobe_files::excerpt(words, 40))
 }

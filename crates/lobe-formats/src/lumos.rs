@@ -44,7 +44,8 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
     let mut records = Records::default();
     for line in lines(file, &text).filter(|line| !line.text.starts_with('#')) {
         let [zenith_i, azimuth_i, zenith_o, azimuth_o, f] = line.exactly("two angles, two angles and a value")?;
-        records.push([zenith_i, azimuth_i, zenith_o, azimuth_o].map(f64::to_radians), [f]);
+        let angles = [zenith_i, azimuth_i, zenith_o, azimuth_o].map(f64::to_radians);
+        records.push_line(line.number, angles, [f]);
     }
     records.scattered(file, Scatter::Reflection, Channels::Mono)
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::path::Path;
 
+use lobe_table::scattered::ScatteredError;
 use lobe_table::{Channels, Scatter, scattered};
 
 use crate::{FormatError, Place};
@@ -13,9 +14,17 @@ use crate::{FormatError, Place};
 pub(crate) struct Records {
     pub angles: Vec<[f64; 4]>,
     pub values: Vec<f32>,
+    /// The line that each sample is from, if its reader says so.
+    lines: Vec<usize>,
 }
 
 impl Records {
+    /// As [`push`](Self::push), of a line of a text.
+    pub(crate) fn push_line(&mut self, line: usize, angles: [f64; 4], values: impl IntoIterator<Item = f64>) {
+        self.lines.push(line);
+        self.push(angles, values);
+    }
+
     /// Adds a sample. Polar angles may be negative, as goniometers count them within a plane: the azimuth is then the
     /// opposite one.
     pub(crate) fn push(&mut self, [theta_i, phi_i, theta_o, phi_o]: [f64; 4], values: impl IntoIterator<Item = f64>) {
@@ -31,8 +40,16 @@ impl Records {
         scatter: Scatter,
         channels: Channels,
     ) -> Result<scattered::Data, FormatError> {
-        scattered::Data::new(scatter, channels, &self.angles, &self.values)
-            .map_err(|error| FormatError::new(file, Place::File, error.to_string(), "a measurement"))
+        scattered::Data::new(scatter, channels, &self.angles, &self.values).map_err(|error| {
+            let line = match &error {
+                ScatteredError::ValueNotFinite { sample, .. } | ScatteredError::Angle { sample, .. } => {
+                    self.lines.get(*sample)
+                }
+                ScatteredError::Empty | ScatteredError::ValueCount { .. } => None,
+            };
+            let place = line.map_or(Place::File, |line| Place::Line(*line));
+            FormatError::new(file, place, error.to_string(), "a measurement")
+        })
     }
 }
 

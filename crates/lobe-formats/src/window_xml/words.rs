@@ -16,5 +16,5 @@ pub(super) fn number(token: &str) -> Option<f32> {
 
 /// A token as an error shows it, cut short.
 pub(super) fn quoted(token: &str) -> String {
-    format!("{:?}", token.chars().take(32).collect::<String>())
+    format!("\"{}\"", lobe_files::excerpt(token, 32))
 }
