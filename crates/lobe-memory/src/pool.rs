@@ -1,53 +1,146 @@
 //! Huge pages that storages share: a storage smaller than a huge page would waste one of its own.
 //!
-//! Freed memory is kept for the next storage of about that size and is never returned to the system.
+//! What is given back is joined with what is free next to it, so that storages of any size can take it again. A mapping
+//! that nothing is left in goes back to the system, except for one that is kept as long as there are others in use.
 
 use std::collections::BTreeMap;
 use std::ops::{Deref, DerefMut};
+use std::ptr::NonNull;
+use std::slice;
 use std::sync::{Mutex, PoisonError};
+
+use memmap2::MmapMut;
 
 use crate::{Line, map};
 
 /// Bytes mapped at once. Pages that have not been written to take no memory.
-const CHUNK: usize = 32 << 20;
+const CHUNK: usize = if cfg!(miri) { 1 << 20 } else { 32 << 20 };
+const CHUNK_LINES: usize = CHUNK / size_of::<Line>();
+/// Shares are of whole small pages: that leaves few pieces which are too small to be of use.
+const PIECE: usize = 4096 / size_of::<Line>();
 
 /// Lines of a shared mapping, for one storage.
-pub(crate) struct Share(&'static mut [Line]);
-
-struct Pool {
-    /// Freed lines, by their number.
-    free: BTreeMap<usize, Vec<&'static mut [Line]>>,
-    /// What is left of the last mapping.
-    rest: &'static mut [Line],
+pub(crate) struct Share {
+    lines: NonNull<Line>,
+    len: usize,
 }
 
-static POOL: Mutex<Pool> = Mutex::new(Pool { free: BTreeMap::new(), rest: &mut [] });
+// SAFETY: a share is the only one that has its lines, from when they are taken out of the free ranges of their mapping until
+// it is dropped, so that it may go to another thread as a `Box<[Line]>` may.
+unsafe impl Send for Share {}
+// SAFETY: as above; a shared reference to it only reads them.
+unsafe impl Sync for Share {}
+
+/// What lines lie in. It is kept for its memory only: after `first` has been found, nothing goes through it any more.
+enum Memory {
+    Map(MmapMut),
+    /// For Miri, which knows no mappings.
+    Heap(Vec<Line>),
+}
+
+/// A mapping that shares are cut from.
+struct Chunk {
+    first: NonNull<Line>,
+    /// Free ranges of lines: the length of each by its start. No two of them touch.
+    free: BTreeMap<usize, usize>,
+    /// From this line on, nothing has been written: there are zeros.
+    fresh: usize,
+    _memory: Memory,
+}
+
+// SAFETY: the lines that `first` leads to belong to the chunk and to the shares cut from it, whatever thread they are on.
+unsafe impl Send for Chunk {}
+
+/// The oldest first.
+static POOL: Mutex<Vec<Chunk>> = Mutex::new(Vec::new());
+
+impl Chunk {
+    /// `None` if the system has no memory.
+    fn new() -> Option<Self> {
+        let mut memory =
+            if cfg!(miri) { Memory::Heap(bytemuck::zeroed_vec(CHUNK_LINES)) } else { Memory::Map(map(CHUNK)?) };
+        let first = match &mut memory {
+            Memory::Map(map) => NonNull::from(bytemuck::cast_slice_mut::<u8, Line>(&mut map[..])).cast(),
+            Memory::Heap(lines) => NonNull::new(lines.as_mut_ptr())?,
+        };
+        Some(Chunk { first, free: BTreeMap::from([(0, CHUNK_LINES)]), fresh: 0, _memory: memory })
+    }
+
+    /// Takes the first free range of so many lines.
+    fn take(&mut self, len: usize) -> Option<Share> {
+        let (start, room) = self.free.iter().map(|(start, room)| (*start, *room)).find(|(_, room)| *room >= len)?;
+        self.free.remove(&start);
+        if room > len {
+            self.free.insert(start + len, room - len);
+        }
+        // SAFETY: free ranges lie inside the lines of the chunk, whose memory does not move.
+        let lines = unsafe { self.first.add(start) };
+        let mut share = Share { lines, len };
+        let used = self.fresh.saturating_sub(start).min(len);
+        share[..used].fill(Line::ZERO);
+        self.fresh = self.fresh.max(start + len);
+        Some(share)
+    }
+
+    /// The number of a line that is one of the chunk's.
+    fn line(&self, at: NonNull<Line>) -> Option<usize> {
+        let offset = (at.as_ptr() as usize).checked_sub(self.first.as_ptr() as usize)? / size_of::<Line>();
+        (offset < CHUNK_LINES).then_some(offset)
+    }
+
+    /// Takes a range back, and joins it with its neighbours.
+    fn give_back(&mut self, mut start: usize, mut len: usize) {
+        if let Some(after) = self.free.remove(&(start + len)) {
+            len += after;
+        }
+        if let Some((&before, &room)) = self.free.range(..start).next_back()
+            && before + room == start
+        {
+            (start, len) = (before, len + room);
+        }
+        self.free.insert(start, len);
+    }
+
+    fn is_empty(&self) -> bool {
+        self.free.get(&0) == Some(&CHUNK_LINES)
+    }
+}
 
 impl Share {
-    /// At least `lines` zeroed lines, which must be far fewer than a mapping has; `None` if the system has no memory.
+    /// At least `lines` zeroed lines, which must be fewer than a mapping has; `None` if the system has no memory.
     pub fn zeros(lines: usize) -> Option<Self> {
         let len = rounded(lines);
+        if len > CHUNK_LINES {
+            return None;
+        }
         let mut pool = POOL.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(used) = pool.free.get_mut(&len).and_then(Vec::pop) {
-            drop(pool);
-            used.fill(Line::ZERO);
-            return Some(Share(used));
+        if let Some(share) = pool.iter_mut().find_map(|chunk| chunk.take(len)) {
+            return Some(share);
         }
-        if pool.rest.len() < len {
-            // Leaked for good: safe code can hand out parts of a mapping only if it is never unmapped.
-            pool.rest = bytemuck::cast_slice_mut(&mut Box::leak(Box::new(map(CHUNK)?))[..]);
-        }
-        let (share, rest) = std::mem::take(&mut pool.rest).split_at_mut_checked(len)?;
-        pool.rest = rest;
-        Some(Share(share))
+        pool.push(Chunk::new()?);
+        pool.last_mut()?.take(len)
     }
 }
 
 impl Drop for Share {
     fn drop(&mut self) {
-        let lines = std::mem::take(&mut self.0);
         let mut pool = POOL.lock().unwrap_or_else(PoisonError::into_inner);
-        pool.free.entry(lines.len()).or_default().push(lines);
+        let found = pool.iter().enumerate().find_map(|(at, chunk)| Some((at, chunk.line(self.lines)?)));
+        let Some((at, line)) = found else { return };
+        pool[at].give_back(line, self.len);
+        if pool[at].is_empty() {
+            let empty = pool.iter().filter(|chunk| chunk.is_empty()).count();
+            let gone = if empty == pool.len() {
+                std::mem::take(&mut *pool)
+            } else if empty > 1 {
+                vec![pool.remove(at)]
+            } else {
+                Vec::new()
+            };
+            // Pages are given back without the others waiting for it.
+            drop(pool);
+            drop(gone);
+        }
     }
 }
 
@@ -56,38 +149,61 @@ impl Deref for Share {
 
     #[inline(always)]
     fn deref(&self) -> &[Line] {
-        self.0
+        // SAFETY: the lines lie in a mapping that lives at least as long as the share, are initialised, and are written only
+        // through this share.
+        unsafe { slice::from_raw_parts(self.lines.as_ptr(), self.len) }
     }
 }
 
 impl DerefMut for Share {
     fn deref_mut(&mut self) -> &mut [Line] {
-        self.0
+        // SAFETY: as above, and the share is borrowed exclusively.
+        unsafe { slice::from_raw_parts_mut(self.lines.as_ptr(), self.len) }
     }
 }
 
-/// Rounded up to one of eight lengths between powers of two, so that there are few different lengths.
+/// Rounded up to whole pieces.
 pub(crate) fn rounded(lines: usize) -> usize {
-    lines.next_multiple_of((lines.next_power_of_two() / 16).max(1))
+    lines.next_multiple_of(PIECE)
+}
+
+/// Bytes that are mapped.
+#[cfg(test)]
+fn mapped() -> usize {
+    POOL.lock().unwrap_or_else(PoisonError::into_inner).len() * CHUNK
+}
+
+/// Tests of one process share the pool: those that take from it run one at a time.
+#[cfg(test)]
+pub(crate) fn alone() -> std::sync::MutexGuard<'static, ()> {
+    static ALONE: Mutex<()> = Mutex::new(());
+    ALONE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// A part of a mapping, of whatever size that is.
+    fn part(of: usize) -> usize {
+        CHUNK_LINES / 512 * of
+    }
+
+    fn take(lines: usize, mark: u8) -> Share {
+        let mut share = Share::zeros(lines).expect("memory");
+        assert!(share.len() >= lines && share.len() < lines + PIECE);
+        assert!(share.iter().all(|line| *line == Line::ZERO));
+        share.fill(Line([mark; 64]));
+        share
+    }
+
     #[test]
     fn shares_never_overlap_and_begin_with_zeros() {
-        let take = |lines: usize, mark: u8| {
-            let mut share = Share::zeros(lines).expect("memory");
-            assert!(share.len() >= lines && share.len() <= lines + lines / 8);
-            assert!(share.iter().all(|line| *line == Line::ZERO));
-            share.fill(Line([mark; 64]));
-            share
-        };
+        let _alone = alone();
         let mut held: Vec<(u8, Share)> = Vec::new();
         // More than a mapping in all, about half of it given back again and again.
         for mark in 1..=200 {
-            held.push((mark, take(1000 + 977 * (mark as usize % 13), mark)));
+            held.push((mark, take(part(1) + 7 + part(1) * (mark as usize % 13), mark)));
             if mark % 2 == 0 {
                 held.swap_remove(held.len() / 2);
             }
@@ -98,10 +214,25 @@ mod tests {
     }
 
     #[test]
-    fn what_is_given_back_is_taken_again() {
-        // No other test asks for this many.
-        let lines = 50_000;
-        let first = Share::zeros(lines).expect("memory").as_ptr();
-        assert_eq!(Share::zeros(lines - 1).expect("memory").as_ptr(), first);
+    fn what_is_given_back_is_taken_again_in_other_sizes() {
+        let _alone = alone();
+        let kept = take(part(1), 1);
+        let before = mapped();
+        // Growing ones, as many as would fill forty mappings.
+        for size in 1..200 {
+            let shares: Vec<Share> = (0..2).map(|_| take(part(size), 2)).collect();
+            drop(shares);
+        }
+        assert!(mapped() <= before + CHUNK, "{} bytes, {before} before", mapped());
+        assert!(kept.iter().all(|line| *line == Line([1; 64])));
+    }
+
+    #[test]
+    fn what_nobody_holds_goes_back_to_the_system() {
+        let _alone = alone();
+        let shares: Vec<Share> = (0..40).map(|mark| take(part(100), mark)).collect();
+        assert!(mapped() >= 8 * CHUNK);
+        drop(shares);
+        assert_eq!(mapped(), 0);
     }
 }
