@@ -23,6 +23,9 @@ pub struct Reciprocity {
     pub worst: [[f64; 3]; 2],
 }
 
+/// Values that are compared at once, at most: with a thousand channels and more, fewer pairs say as much.
+const VALUES: usize = 1 << 24;
+
 /// Exchanges up to `count` pairs of directions, with polar angles up to `limit` in radians: the same pairs at every
 /// call, every other one near the mirror direction. Differences are over all channels.
 ///
@@ -30,7 +33,7 @@ pub struct Reciprocity {
 /// same data, and the result says nothing.
 pub fn reciprocity<'a>(scattering: impl Into<OnBackend<'a>>, aspect: Aspect, limit: f64, count: usize) -> Reciprocity {
     let scattering = scattering.into();
-    let pairs = pairs(count, limit);
+    let pairs = pairs(count.min((VALUES / scattering.channels().count()).max(100)), limit);
     let there: Vec<_> = pairs.iter().map(|&(wi, wo)| aspect.place(wi, wo)).collect();
     let back: Vec<_> = there.iter().map(|&(wi, wo)| (wo, wi)).collect();
     let channels = scattering.channels().count();

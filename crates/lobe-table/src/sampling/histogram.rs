@@ -82,7 +82,9 @@ impl Kernel for Histogram<'_> {
                     let [low, high] = [root_v[column], root_v[column + 1]];
                     let cosine = f64::from(scattered[at][2].abs()) * solid_angle * (high * high - low * low);
                     bins[column].cosine += cosine;
-                    bins[column].light += cosine * f64::from(values[at].max(0.0));
+                    // What is no number counts as dark, and what is beyond all numbers as the largest.
+                    let light = if values[at] > 0.0 { values[at].min(f32::MAX) } else { 0.0 };
+                    bins[column].light += cosine * f64::from(light);
                     at += 1;
                 }
                 point += 1;

@@ -24,12 +24,15 @@ pub struct SamplerOptions {
     /// How much each channel counts in luminance; as the function [`luminance`] says if it is `None`. If a path is
     /// traced at a few wavelengths, those count.
     pub luminance: Option<Vec<f32>>,
+    /// At most this much memory for histograms, except for the coarsest grid, if it is less than one and a half times that of
+    /// the material. Building them takes up to two evaluations per byte.
+    pub bytes: Option<usize>,
 }
 
 impl Default for SamplerOptions {
     /// A twentieth of cosine; luminance by the kind of the channels.
     fn default() -> Self {
-        SamplerOptions { defensive: 0.05, luminance: None }
+        SamplerOptions { defensive: 0.05, luminance: None, bytes: None }
     }
 }
 

@@ -49,11 +49,11 @@ const SAME: f64 = 1e-6;
 /// What was measured for one incident direction.
 #[derive(Clone, Debug)]
 pub(super) struct Incidence {
-    theta: f64,
+    pub(super) theta: f64,
     /// The azimuth that outgoing azimuths are relative to.
-    phi: f64,
+    pub(super) phi: f64,
     /// Polar angle and relative azimuth of each outgoing direction.
-    outgoing: Vec<[f64; 2]>,
+    pub(super) outgoing: Vec<[f64; 2]>,
     /// `[outgoing][channel]`.
     values: Vec<f32>,
     mesh: Mesh,

@@ -6,6 +6,7 @@ use spade::{
 };
 
 use super::line::Line;
+use super::rim::{Edge, Rim};
 
 type Delaunay = DelaunayTriangulation<Vertex, (), (), (), HierarchyHintGenerator<f64>>;
 
@@ -40,8 +41,8 @@ impl HasPosition for Vertex {
 #[derive(Clone, Debug)]
 pub(crate) struct Triangles {
     triangles: Delaunay,
-    /// The edges around all triangles that are not [`FLAT`].
-    rim: Vec<[FixedVertexHandle; 2]>,
+    /// The edges around all triangles that are not [`FLAT`], by the indices of their ends.
+    rim: Rim,
     /// By the index of a triangle, whether it lies outside the rim.
     is_outside: Vec<bool>,
 }
@@ -104,9 +105,10 @@ impl Triangles {
                     is_outside[face] = true;
                     pending.extend([inner.next().fix(), inner.prev().fix()]);
                 }
-                _ => rim.push([inner.from().fix(), inner.to().fix()]),
+                _ => rim.push([inner.from(), inner.to()].map(|end| *end.data())),
             }
         }
+        let rim = Rim::new(rim.into_iter().map(|ends| ends.map(|end| (end.index, [end.at.x, end.at.y]))));
         Some(Triangles { triangles, rim, is_outside })
     }
 
@@ -125,13 +127,10 @@ impl Triangles {
             }
             PositionInTriangulation::OnEdge(edge) if self.is_inside(edge) => {
                 let edge = self.triangles.directed_edge(edge);
-                self.along([edge.from().fix(), edge.to().fix()], at).0
+                let ends = [edge.from(), edge.to()].map(|end| *end.data());
+                weights_along(Edge::new(ends.map(|end| (end.index, [end.at.x, end.at.y]))).nearest(point).0)
             }
-            _ => {
-                let edges = self.rim.iter().map(|&edge| self.along(edge, at));
-                let nearest = edges.min_by(|(_, a), (_, b)| a.total_cmp(b));
-                nearest.map_or([(0, 1.0), (0, 0.0), (0, 0.0)], |(weights, _)| weights)
-            }
+            _ => self.rim.nearest(point).map_or([(0, 1.0), (0, 0.0), (0, 0.0)], weights_along),
         }
     }
 
@@ -144,17 +143,10 @@ impl Triangles {
         let edge = self.triangles.directed_edge(edge);
         [edge, edge.rev()].iter().any(|side| side.face().as_inner().is_some_and(|f| !self.is_outside[f.fix().index()]))
     }
+}
 
-    /// The weights of the point of an edge that is nearest to `at`, and its squared distance.
-    fn along(&self, ends: [FixedVertexHandle; 2], at: Point2<f64>) -> (Weights, f64) {
-        let [Vertex { at: a, index: i }, Vertex { at: b, index: j }] =
-            ends.map(|end| *self.triangles.vertex(end).data());
-        let (dx, dy) = (b.x - a.x, b.y - a.y);
-        let length2 = dx * dx + dy * dy;
-        let t = if length2 > 0.0 { (((at.x - a.x) * dx + (at.y - a.y) * dy) / length2).clamp(0.0, 1.0) } else { 0.0 };
-        let distance2 = (a.x + t * dx - at.x).powi(2) + (a.y + t * dy - at.y).powi(2);
-        ([(i, 1.0 - t), (j, t), (0, 0.0)], distance2)
-    }
+fn weights_along([from, to]: [(usize, f64); 2]) -> Weights {
+    [from, to, (0, 0.0)]
 }
 
 /// Three points that are far from being on a line.
@@ -243,6 +235,21 @@ mod tests {
                 let found = value(&mesh, &values, [x + dx, y + dy]);
                 assert!((found - values[index]).abs() < 1e-6, "point {index}: {found}, not {}", values[index]);
             }
+        }
+    }
+
+    /// A circle, whose rim has as many edges as it has points, asked from outside: the rim must not be searched whole.
+    #[test]
+    fn a_long_rim_is_asked_quickly() {
+        let count = 100_000;
+        let angle = |index: usize| index as f64 / count as f64 * std::f64::consts::TAU;
+        let points: Vec<_> = (0..count).map(|index| [angle(index).cos(), angle(index).sin()]).collect();
+        let mesh = Mesh::new(&points).expect("points");
+        let values: Vec<f64> = points.iter().map(|[x, _]| *x).collect();
+        for index in 0..100_000 {
+            let angle = f64::from(index) * 0.618;
+            let found = value(&mesh, &values, [1.5 * angle.cos(), 1.5 * angle.sin()]);
+            assert!((found - angle.cos()).abs() < 1e-4, "{found}, not {}", angle.cos());
         }
     }
 

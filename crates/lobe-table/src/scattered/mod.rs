@@ -12,6 +12,7 @@ mod line;
 mod mesh;
 mod prepared;
 mod representation;
+mod rim;
 
 pub use data::{Data, ScatteredError};
 pub use representation::KIND;

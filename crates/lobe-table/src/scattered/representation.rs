@@ -97,10 +97,12 @@ impl Data {
                 -(wi[0] * other[0] + wi[1] * other[1] + wi[2] * other[2])
             }
         };
-        let nearest = Data::incidences(self).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
-        let measured = nearest.unwrap_or([0.0; 2]);
-        let of_light = self.samples().filter(|(angles, _)| angles[..2] == measured);
-        let mut outgoing: Vec<[f64; 2]> = of_light.map(|(angles, _)| [angles[2], angles[3] - angles[1]]).collect();
+        let distances = Data::incidences(self).map(distance).enumerate();
+        let nearest =
+            distances.min_by(|(_, a), (_, b)| a.total_cmp(b)).and_then(|(index, _)| self.incidences.get(index));
+        let Some(nearest) = nearest else { return ([0.0; 2], Vec::new()) };
+        let measured = [nearest.theta, nearest.phi];
+        let mut outgoing = nearest.outgoing.clone();
         // One half of an isotropic material stands for both.
         if self.is_isotropic && self.measured_side != 0.0 {
             let mirrored: Vec<_> = outgoing.iter().map(|&[theta, phi]| [theta, -phi]).collect();

@@ -1,7 +1,8 @@
 //! A mixture of lobes: for each side a lobe of reflection and one of transmission, and mirrors.
 
 use lobe_table::{
-    Aspect, Distribution, DistributionOptions, Given, PatchSampler, Sampled, SamplerError, Scatter, Side,
+    Aspect, Distribution, DistributionOptions, Given, PatchSampler, Sampled, SamplerError, SamplerOptions, Scatter,
+    Side,
 };
 
 use crate::material::{flipped, mirrored};
@@ -27,7 +28,7 @@ enum Lobe {
 impl Lobes {
     pub(super) fn new(
         material: &Material,
-        defensive: f32,
+        SamplerOptions { defensive, bytes: most, .. }: &SamplerOptions,
         luminance: Vec<f32>,
         progress: &mut dyn FnMut(usize, usize),
     ) -> Result<Self, SamplerError> {
@@ -40,12 +41,12 @@ impl Lobes {
             }
             let aspect = Aspect { scatter: SCATTERS[way], light: SIDES[front] };
             let is_front = aspect.light == Side::Front;
-            if let Some(patches) = material.bsdf().patches(aspect, &luminance, defensive)? {
+            if let Some(patches) = material.bsdf().patches(aspect, &luminance, *defensive)? {
                 return Ok(Some(Lobe::Patches(patches)));
             }
-            let bytes = (material.bytes() + material.bytes() / 2) / count;
+            let bytes = (material.bytes() + material.bytes() / 2).min(most.unwrap_or(usize::MAX)) / count;
             let mut options = DistributionOptions::unknown(aspect.scatter, material.is_isotropic(), bytes);
-            options.defensive = defensive;
+            options.defensive = *defensive;
             let mut side = LitSide { material, is_front, luminance: &luminance, values: Vec::new() };
             let mut light = |wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]| side.fill(wi, wo, out);
             let mut progress = |slice: usize, all: usize| progress(done * all + slice, count * all);
@@ -89,8 +90,9 @@ impl Lobes {
                     brightness.iter_mut().zip(&queries).for_each(|(out, query)| *out = of(query));
                 }
             }
-            // A lobe is never left out: what is dark between two slices may be bright in one place.
-            let share = |b: f32| b.max(1e-6);
+            // A lobe is never left out: what is dark between two slices may be bright in one place. Nor does one exceed all
+            // numbers, as the brightness of values near the largest does.
+            let share = |b: f32| if b > 1e-6 { b.min(1e30) } else { 1e-6 };
             queries.iter().zip(&brightness).for_each(|(&query, &b)| shares[query][way] = share(b));
         }
         if material.has_mirrors() {

@@ -77,7 +77,7 @@ impl Sampler {
         if weights.len() != channels || !weights.iter().all(|&y| y.is_finite() && y >= 0.0) {
             return Err(SamplerError::Luminance { found: weights, channels });
         }
-        let lobes = Arc::new(Lobes::new(&material, options.defensive, weights, progress)?);
+        let lobes = Arc::new(Lobes::new(&material, options, weights, progress)?);
         Ok(Sampler { material, distribution: Distribution::Lobes(lobes) })
     }
 

@@ -2,6 +2,7 @@
 
 mod chi_square;
 mod estimates;
+mod extremes;
 mod materials;
 mod sheets;
 
