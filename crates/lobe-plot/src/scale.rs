@@ -64,6 +64,11 @@ impl Scale {
         }
     }
 
+    /// A linear axis from 0 to a round number that no value is above; to 1 if none is positive.
+    pub(crate) fn from_zero(values: impl Iterator<Item = f64>) -> Self {
+        Scale { low: 0.0, ..Scale::around(values.filter(|value| *value > 0.0), Scaling::Linear) }
+    }
+
     /// The position of a value: 0 at the low end, 1 at the high end. Values without a logarithm are far below.
     pub(crate) fn place(&self, value: f64) -> f64 {
         match self.scaling {
@@ -200,6 +205,35 @@ mod tests {
         // Zeros and noise do not stretch a logarithmic axis without end.
         assert_eq!(Scale::around([0.0, 1e-30, 1.0].into_iter(), Scaling::Log).low, 1e-6);
         assert_eq!(Scale::around([0.0].into_iter(), Scaling::Log).high, 1.0);
+    }
+
+    /// Whatever there is to show, an axis has an extent.
+    #[test]
+    fn no_axis_is_a_point() {
+        let sets: [&[f64]; 9] = [
+            &[],
+            &[0.0],
+            &[-1.0],
+            &[-1.0, -2.0],
+            &[1e-40],
+            &[3e38, -3e38],
+            &[f64::NAN, f64::INFINITY],
+            &[-0.01, 0.0],
+            &[5.0],
+        ];
+        for values in sets {
+            let values = || values.iter().copied();
+            let axes = [
+                Scale::around(values(), Scaling::Log),
+                Scale::around(values(), Scaling::Linear),
+                Scale::from_zero(values()),
+            ];
+            for scale in axes {
+                assert!(scale.low < scale.high && scale.high.is_finite(), "{scale:?}");
+                assert!((1..60).contains(&scale.ticks().len()), "{scale:?}");
+                assert!(scale.place(1.0).is_finite());
+            }
+        }
     }
 
     #[test]

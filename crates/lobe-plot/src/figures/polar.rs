@@ -83,11 +83,8 @@ fn scale(curves: &[Curve], asked: Option<Scaling>) -> Scale {
     let quartile = sorted.get(sorted.len() / 4).copied().unwrap_or(most);
     let is_wide = most > WIDE * least || most > 4.0 * WIDE * quartile;
     match asked.unwrap_or(if is_wide { Scaling::Log } else { Scaling::Linear }) {
-        Scaling::Linear => {
-            let scale = Scale::around(all.iter().flatten().copied(), Scaling::Linear);
-            // A radius cannot be negative.
-            Scale { low: 0.0, ..scale }
-        }
+        // A radius cannot be negative.
+        Scaling::Linear => Scale::from_zero(all.iter().flatten().copied()),
         // The centre lies below most values, so that noise does not inflate the lobes.
         Scaling::Log => Scale::around([most, (0.3 * quartile).max(1e-5 * most)].into_iter(), Scaling::Log),
     }

@@ -78,7 +78,7 @@ fn scale(slices: &[Slice], scaling: Scaling) -> Scale {
     values.sort_by(f64::total_cmp);
     let Some(&most) = values.last() else { return Scale::around([].into_iter(), scaling) };
     match scaling {
-        Scaling::Linear => Scale { low: 0.0, ..Scale::around([most].into_iter(), scaling) },
+        Scaling::Linear => Scale::from_zero([most].into_iter()),
         Scaling::Log => Scale { scaling, low: values[values.len() / 100].clamp(1e-6 * most, 0.5 * most), high: most },
     }
 }
