@@ -42,7 +42,7 @@ pub use camera::{Camera, CameraError, CameraPdf, CameraSample, Filter, View};
 pub use channels::Channels;
 pub use film::{Film, FirstHit, Pixel, RADIANCE_UNIT, Rect, SURFACE_UNIT, Sample};
 pub use integrator::Integrator;
-pub use merge::{MergeError, merge};
+pub use merge::{Gap, MergeError, merge};
 pub use render::{Progress, RenderError, Settings, render};
 pub use stats::{DEPTHS, Shading, Stats};
 pub use transport::{RadianceSums, Rgb, Transport, TransportMode};

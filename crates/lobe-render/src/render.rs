@@ -155,7 +155,7 @@ pub fn render<T: Transport>(
     let total = window.area() as u64 * u64::from(samples.end.saturating_sub(samples.start));
     let left: u64 = tiles.iter().map(|t| t.rect.area() as u64 * u64::from(samples.end.saturating_sub(t.next))).sum();
     let done = AtomicU64::new(total - left);
-    let threads = settings.threads.max(1);
+    let threads = settings.threads.clamp(1, jobs.count().max(1)).min(affordable());
     let shared = Shared { state: Mutex::new(State { film, tiles, running: threads }), finished: Condvar::new() };
     let ended = AtomicBool::new(false);
     let worker = || {
@@ -174,7 +174,22 @@ pub fn render<T: Transport>(
         renderer.stats()
     };
     let stats = std::thread::scope(|scope| {
-        let handles: Vec<_> = (0..threads).map(|_| scope.spawn(worker)).collect();
+        let mut handles = Vec::new();
+        for started in 0..threads {
+            match std::thread::Builder::new().spawn_scoped(scope, worker) {
+                Ok(handle) => handles.push(handle),
+                // The system makes no more: those that there are do the work, or this one if there are none.
+                Err(_) => {
+                    shared.lock().running -= threads - started;
+                    break;
+                }
+            }
+        }
+        let mut stats = Stats::default();
+        if handles.is_empty() {
+            shared.lock().running += 1;
+            stats += worker();
+        }
         let mut state = shared.lock();
         while state.running > 0 {
             drop(state);
@@ -190,7 +205,6 @@ pub fn render<T: Transport>(
             }
         }
         drop(state);
-        let mut stats = Stats::default();
         for handle in handles {
             stats += handle.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         }
@@ -198,6 +212,13 @@ pub fn render<T: Transport>(
     });
     let state = shared.state.into_inner().unwrap_or_else(PoisonError::into_inner);
     Ok((state.film, stats))
+}
+
+/// As many threads as there is memory for.
+fn affordable() -> usize {
+    /// Bytes of a thread: its stack, what the allocator keeps for it, and its waves.
+    const THREAD: u64 = 100 << 20;
+    lobe_memory::available().map_or(usize::MAX, |bytes| (bytes / THREAD).max(1) as usize)
 }
 
 /// Says that a thread has ended, also by a panic.
@@ -258,6 +279,11 @@ impl Jobs {
         }
         let tiles = tiles.iter().map(|tile| (tile.rect, tile.next)).collect();
         Jobs { tiles, passes, start: samples.start, next: AtomicUsize::new(0) }
+    }
+
+    /// At most how many there are.
+    fn count(&self) -> usize {
+        self.passes.len().saturating_mul(self.tiles.len())
     }
 
     /// The next job that has not been done before.

@@ -11,6 +11,8 @@ pub use pixel::{FirstHit, Pixel, RADIANCE_UNIT, SURFACE_UNIT, Sample};
 pub use rect::Rect;
 pub(crate) use splats::Splat;
 
+use lobe_memory::{NoRoom, available};
+
 use crate::camera::Filter;
 use crate::channels::Channels;
 use crate::transport::{Rgb, Transport};
@@ -30,6 +32,20 @@ impl<T: Transport> Film<T> {
     /// An empty film for these pixels of a picture.
     pub fn new(window: Rect) -> Self {
         Film { window, pixels: vec![Pixel::EMPTY; window.area()], splats: Vec::new() }
+    }
+
+    /// As [`new`](Film::new), if there is the memory for it and for `more` bytes per pixel, which will be wanted with it.
+    ///
+    /// # Errors
+    /// [`NoRoom`] says how much it would take.
+    pub fn try_new(window: Rect, more: usize) -> Result<Self, NoRoom> {
+        let bytes = |each: usize| (window.area() as u64).saturating_mul(each as u64);
+        lobe_memory::require(bytes(size_of::<Pixel<T>>() + more))?;
+        let mut pixels = Vec::new();
+        let refused = |_| NoRoom { needed: bytes(size_of::<Pixel<T>>()), available: available().unwrap_or(0) };
+        pixels.try_reserve_exact(window.area()).map_err(refused)?;
+        pixels.resize(window.area(), Pixel::EMPTY);
+        Ok(Film { window, pixels, splats: Vec::new() })
     }
 
     /// Which pixels of the picture it has.

@@ -85,9 +85,10 @@ impl<T: Transport> Pixel<T> {
     /// Adds the sums of another part of the samples of the same pixel.
     pub fn merge(&mut self, other: &Self) {
         merge_sums::<T>(&mut self.radiance, &other.radiance);
-        self.albedo.iter_mut().zip(other.albedo).for_each(|(sum, more)| *sum += more);
-        self.normal.iter_mut().zip(other.normal).for_each(|(sum, more)| *sum += more);
-        self.samples += other.samples;
+        // What was rendered does not overflow; the sums of a damaged file may.
+        self.albedo.iter_mut().zip(other.albedo).for_each(|(sum, more)| *sum = sum.wrapping_add(more));
+        self.normal.iter_mut().zip(other.normal).for_each(|(sum, more)| *sum = sum.wrapping_add(more));
+        self.samples = self.samples.saturating_add(other.samples);
         self.nearest(other.depth, other.material);
     }
 
@@ -131,7 +132,7 @@ pub(super) fn add_radiance<T: Transport>(sums: &mut RadianceSums<T>, radiance: &
 }
 
 pub(super) fn merge_sums<T: Transport>(sums: &mut RadianceSums<T>, other: &RadianceSums<T>) {
-    sums.as_mut().iter_mut().zip(other.as_ref()).for_each(|(sum, more)| *sum += more);
+    sums.as_mut().iter_mut().zip(other.as_ref()).for_each(|(sum, more)| *sum = sum.wrapping_add(*more));
 }
 
 pub(super) fn mean_radiance<T: Transport>(sums: &RadianceSums<T>, count: u64) -> T::Radiance {

@@ -83,7 +83,7 @@ impl<T: Transport> Film<T> {
             for x in shared.columns() {
                 let (at, from) = (self.index(x, y), other.index(x, y));
                 merge_sums::<T>(&mut self.splats[at].sums, &other.splats[from].sums);
-                self.splats[at].paths += other.splats[from].paths;
+                self.splats[at].paths = self.splats[at].paths.saturating_add(other.splats[from].paths);
             }
         }
     }

@@ -120,7 +120,7 @@ fn splat_words() -> Vec<SplatWord> {
 pub fn read_partial(path: &Path) -> Result<(Film, Meta), PictureError> {
     const EXPECTED: &str = "a part of a picture that lobe has written";
     let wrong = |found: String| content(path, found, EXPECTED);
-    let bytes = std::fs::read(path).map_err(|error| PictureError::Io { file: path.into(), error })?;
+    let bytes = lobe_files::bytes(path).map_err(|error| PictureError::Io { file: path.into(), error })?;
     check_size(path, &bytes)?;
     let image = exr::prelude::read()
         .no_deep_data()
@@ -148,7 +148,7 @@ pub fn read_partial(path: &Path) -> Result<(Film, Meta), PictureError> {
         FlatSamples::U32(values) => Ok(values),
         _ => Err(wrong(format!("floats in the channel `{name}`"))),
     };
-    let mut film: Film = Film::new(meta.window);
+    let mut film: Film = Film::try_new(meta.window, 0).map_err(|no_room| wrong(format!("pixels of {no_room}")))?;
     let FlatSamples::F32(depth) = column("depth.Z")? else { return Err(wrong("integers in `depth.Z`".into())) };
     for (at, pixel) in film.pixels_mut().iter_mut().enumerate() {
         pixel.depth = depth[at].to_bits();
@@ -215,8 +215,42 @@ pub(crate) fn check_size(path: &Path, bytes: &[u8]) -> Result<(), PictureError> 
             let found = format!("{} x {} pixels in {} bytes", header.layer_size.0, header.layer_size.1, bytes.len());
             return Err(content(path, found, expected));
         }
+        // As they are stored, and as they are used.
+        if let Err(no_room) = lobe_memory::require(promised.saturating_mul(2)) {
+            let found = format!("{} x {} pixels, which take {no_room}", header.layer_size.0, header.layer_size.1);
+            return Err(content(path, found, "a picture that fits into memory"));
+        }
     }
     Ok(())
+}
+
+/// What an EXR file that lobe has written says about itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inspected {
+    /// What was rendered.
+    pub meta: Meta,
+    /// Whether it has the exact sums, so that samples can be added.
+    pub has_sums: bool,
+}
+
+/// Reads the header of an EXR file.
+///
+/// # Errors
+/// If the file cannot be read, is damaged, or is not a picture that lobe has written.
+pub fn inspect(path: &Path) -> Result<Inspected, PictureError> {
+    const EXPECTED: &str = "a picture that lobe has written";
+    let bytes = lobe_files::bytes(path).map_err(|error| PictureError::Io { file: path.into(), error })?;
+    let headers = exr::meta::MetaData::read_from_buffered(Cursor::new(&bytes), false)
+        .map_err(|error| content(path, error, EXPECTED))?
+        .headers;
+    let text = headers.iter().find_map(|header| match header.own_attributes.other.get(&Text::from(ATTRIBUTE)) {
+        Some(AttributeValue::Text(text)) => Some(text.to_string()),
+        _ => None,
+    });
+    let text = text.ok_or_else(|| content(path, format!("no attribute `{ATTRIBUTE}`"), EXPECTED))?;
+    let meta = Meta::parse(&text).ok_or_else(|| content(path, format!("`{text}`"), EXPECTED))?;
+    let mut channels = headers.iter().flat_map(|header| &header.channels.list);
+    Ok(Inspected { meta, has_sums: channels.any(|channel| channel.name.eq("sum.R.0")) })
 }
 
 pub(crate) fn content(path: &Path, found: impl ToString, expected: &'static str) -> PictureError {
@@ -234,7 +268,17 @@ mod tests {
     fn splats_are_written_read_and_merged_exactly_and_only_if_there_are_any() {
         let folder = tempfile::tempdir().unwrap();
         let window = Rect { x: 0, y: 0, width: 5, height: 4 };
-        let meta = |samples| Meta { scene: "ab12".into(), size: [5, 4], window, samples, total: 2 };
+        let meta = |samples| Meta {
+            scene: "ab12".into(),
+            size: [5, 4],
+            window,
+            samples,
+            total: 2,
+            timed: false,
+            exposure: 0.0,
+            version: Meta::VERSION.into(),
+            arithmetic: "strict".into(),
+        };
         let part = |step: f32| {
             let mut film = Film::new(window);
             film.pixels_mut().iter_mut().for_each(|pixel| {
@@ -266,5 +310,8 @@ mod tests {
         let bytes = std::fs::read(path("none.exr")).unwrap();
         assert!(!bytes.windows(6).any(|six| six == b"splat."));
         assert!(read_partial(&path("none.exr")).unwrap().0.splats().is_empty());
+        assert_eq!(inspect(&path("none.exr")).unwrap(), Inspected { meta: meta(0..1), has_sums: true });
+        write_exr(&path("done.exr"), &part(0.3), &meta(0..1), false).unwrap();
+        assert_eq!(inspect(&path("done.exr")).unwrap(), Inspected { meta: meta(0..1), has_sums: false });
     }
 }

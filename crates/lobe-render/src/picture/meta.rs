@@ -4,9 +4,10 @@ use std::fmt;
 use std::ops::Range;
 
 use crate::film::Rect;
+use crate::shader::Backend;
 
 /// What was rendered. Kept in the EXR attribute `lobe` as lines `name = value`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Meta {
     /// Hash of everything that the value of a sample depends on: the scene, its files, the size and the integrator.
     pub scene: String,
@@ -18,24 +19,74 @@ pub struct Meta {
     pub samples: Range<u32>,
     /// How many samples the whole picture has.
     pub total: u32,
+    /// Whether time ended the rendering, so that pixels may have fewer samples than requested.
+    pub timed: bool,
+    /// The exposure of the scene in stops, for files that are tone-mapped.
+    pub exposure: f32,
+    /// The version of the program; empty in files of versions that did not say it.
+    pub version: String,
+    /// How numbers were rounded, [`Meta::arithmetic_of`] the backend; empty as above.
+    pub arithmetic: String,
+}
+
+/// What two pictures do not have in common.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Difference {
+    /// What differs.
+    pub of: &'static str,
+    /// In the first.
+    pub first: String,
+    /// In the second.
+    pub second: String,
 }
 
 impl fmt::Display for Meta {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Meta { scene, size, window, samples, total } = self;
+        let Meta { scene, size, window, samples, total, timed, exposure, version, arithmetic } = self;
         writeln!(f, "scene = \"{scene}\"")?;
         writeln!(f, "size = [{}, {}]", size[0], size[1])?;
         writeln!(f, "window = [{}, {}, {}, {}]", window.x, window.y, window.width, window.height)?;
         writeln!(f, "samples = [{}, {}]", samples.start, samples.end)?;
-        write!(f, "total = {total}")
+        writeln!(f, "total = {total}")?;
+        writeln!(f, "timed = {timed}")?;
+        writeln!(f, "exposure = {exposure:?}")?;
+        writeln!(f, "version = \"{version}\"")?;
+        write!(f, "arithmetic = \"{arithmetic}\"")
     }
 }
 
 impl Meta {
+    /// The version of this program.
+    pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+    /// How a backend rounds: all in strict form alike, each in its own way otherwise.
+    pub fn arithmetic_of(backend: Backend) -> String {
+        match backend.has_fused_form() && !backend.is_strict() {
+            true => format!("fused, {}", backend.name()),
+            false => "strict".into(),
+        }
+    }
+
+    /// Why the samples of two files do not belong to one picture; `None` if they do.
+    pub fn difference(&self, other: &Meta) -> Option<Difference> {
+        let size = |meta: &Meta| format!("{} x {} pixels", meta.size[0], meta.size[1]);
+        let differing = |of, first: &str, second: &str| {
+            let difference = Difference { of, first: first.into(), second: second.into() };
+            (first != second).then_some(difference)
+        };
+        differing("the version", &self.version, &other.version)
+            .or_else(|| differing("the arithmetic", &self.arithmetic, &other.arithmetic))
+            .or_else(|| differing("the scene", &self.scene, &other.scene))
+            .or_else(|| differing("a size", &size(self), &size(other)))
+    }
+
     /// Reads what [`Display`](fmt::Display) has written. `None` if it is something else, or makes no sense.
     pub fn parse(text: &str) -> Option<Self> {
         let table = toml::de::DeTable::parse(text).ok()?;
         let table = table.get_ref();
+        let text =
+            |name: &str| table.get(name).and_then(|value| value.get_ref().as_str()).unwrap_or_default().to_owned();
+        let exposure = table.get("exposure").and_then(|value| value.get_ref().as_float()?.as_str().parse().ok());
         let number = |value: &toml::de::DeValue<'_>| value.as_integer()?.as_str().parse::<u32>().ok();
         let numbers = |name: &str| -> Option<Vec<u32>> {
             table.get(name)?.get_ref().as_array()?.iter().map(|value| number(value.get_ref())).collect()
@@ -53,6 +104,10 @@ impl Meta {
             window,
             samples: start..end,
             total: number(table.get("total")?.get_ref())?,
+            timed: table.get("timed").and_then(|value| value.get_ref().as_bool()).unwrap_or(false),
+            exposure: exposure.filter(|stops: &f32| stops.is_finite()).unwrap_or(0.0),
+            version: text("version"),
+            arithmetic: text("arithmetic"),
         })
     }
 }
@@ -64,10 +119,39 @@ mod tests {
     #[test]
     fn what_is_written_is_read() {
         let window = Rect { x: 3, y: 4, width: 5, height: 6 };
-        let meta = Meta { scene: "ab12".into(), size: [20, 10], window, samples: 8..16, total: 64 };
+        let meta = Meta {
+            scene: "ab12".into(),
+            size: [20, 10],
+            window,
+            samples: 8..16,
+            total: 64,
+            timed: true,
+            exposure: -1.5,
+            version: Meta::VERSION.into(),
+            arithmetic: Meta::arithmetic_of(Backend::best()),
+        };
         assert_eq!(Meta::parse(&meta.to_string()), Some(meta.clone()));
         let outside = Meta { window: Rect { x: 16, ..window }, ..meta };
         assert_eq!(Meta::parse(&outside.to_string()), None);
         assert_eq!(Meta::parse("no = 1"), None);
+    }
+
+    #[test]
+    fn what_makes_pictures_differ_is_named() {
+        let text = "scene = \"ab12\"\nsize = [2, 2]\nwindow = [0, 0, 2, 2]\nsamples = [0, 4]\ntotal = 4";
+        let old = Meta::parse(text).expect("a file of a version that said less");
+        assert_eq!(old.difference(&old), None);
+        for (other, of) in [
+            (Meta { version: "9".into(), ..old.clone() }, "the version"),
+            (Meta { arithmetic: "strict".into(), ..old.clone() }, "the arithmetic"),
+            (Meta { scene: "cd34".into(), ..old.clone() }, "the scene"),
+            (Meta { size: [4, 2], ..old.clone() }, "a size"),
+        ] {
+            assert_eq!(old.difference(&other).map(|difference| difference.of), Some(of));
+        }
+        assert_eq!(old.difference(&Meta { total: 9, exposure: 1.0, timed: true, ..old.clone() }), None);
+        for backend in Backend::available() {
+            assert_eq!(Meta::arithmetic_of(backend.strict()), "strict");
+        }
     }
 }

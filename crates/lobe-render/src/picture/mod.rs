@@ -7,10 +7,12 @@ mod png_file;
 
 use std::path::{Path, PathBuf};
 
+use lobe_files::sentence;
+
 pub use environment_file::read_environment;
-pub use exr_file::{read_partial, write_exr};
+pub use exr_file::{Inspected, inspect, read_partial, write_exr};
 pub use lobe_colour::ToneMap;
-pub use meta::Meta;
+pub use meta::{Difference, Meta};
 pub use png_file::{encode_png, encode_rgb, write_png};
 
 /// Why a picture cannot be read or written.
@@ -25,7 +27,7 @@ pub enum PictureError {
         error: std::io::Error,
     },
     /// The file is damaged or of another kind.
-    #[error("{file}: found {found}; expected {expected}")]
+    #[error("{}: {}", file.display(), sentence(found, expected))]
     Content {
         /// The file.
         file: PathBuf,

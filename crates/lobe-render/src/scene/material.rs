@@ -8,25 +8,35 @@ use lobe_model::{Blinn, Coated, Conductor, Ggx, Model, OrenNayar, Phong, Ward};
 
 use super::Reading;
 use super::node::{Node, SceneError};
-use crate::shader::{Backend, BsdfShader, Delta, DeltaShader, Lambert, Shader, open, open_sheet};
+use crate::shader::{Backend, BsdfShader, Delta, DeltaShader, Lambert, Shader};
+use crate::shader::{open_sheet_with_progress, open_with};
 use crate::transport::Rgb;
 
 const MODELS: &str = "lambert, mirror, glass, oren-nayar, phong, blinn, ward, conductor or plastic";
 
 pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(), SceneError> {
     let Some(all) = root.child("material")? else { return Ok(()) };
-    for name in all.keys() {
+    let names = all.keys();
+    let count = names.len() as f64;
+    for (index, name) in names.into_iter().enumerate() {
+        // Distributions of directions are what takes time.
+        let done = |progress: &mut dyn FnMut(f64), done: usize, all: usize| {
+            progress((index as f64 + done as f64 / all.max(1) as f64) / count);
+        };
         let node = all.child(&name)?.expect("a key of the table");
         let (file, model) = (reading.file(&node, "file")?, node.text("model")?);
         let (front, back) = (reading.files(&node, "front")?, reading.files(&node, "back")?);
         let shader = match (file, model, front.len() + back.len()) {
             (Some(path), None, 0) => {
                 let options = options(&node)?;
-                open(&path, &options, reading.backend).map_err(|error| node.error("file", error.to_string()))?
+                let mut watch = |part: usize, all: usize| done(reading.progress, part, all);
+                open_with(&path, &options, reading.backend, None, &mut watch)
+                    .map_err(|error| node.error("file", error.to_string()))?
             }
             (None, None, 1..) => {
                 let key = if front.is_empty() { "back" } else { "front" };
-                open_sheet(&front, &back, &options(&node)?, reading.backend)
+                let mut watch = |part: usize, all: usize| done(reading.progress, part, all);
+                open_sheet_with_progress(&front, &back, &options(&node)?, reading.backend, &mut watch)
                     .map_err(|error| node.error(key, error.to_string()))?
             }
             (None, Some(name), 0) => model_named(&node, name, reading.backend)?,

@@ -39,8 +39,10 @@ pub struct Scene {
     pub integrator: Arc<dyn Integrator>,
     /// Samples per pixel.
     pub samples: u32,
-    /// A hash of the scene file and of all files that it names, in hexadecimal.
+    /// A hash of the scene file and of all files that were read for it, in hexadecimal.
     pub hash: String,
+    /// Which files those are, the scene itself first.
+    pub files: Vec<PathBuf>,
 }
 
 /// What is collected while a scene is read.
@@ -51,36 +53,19 @@ struct Reading<'p> {
     /// What materials run on.
     backend: Backend,
     materials: BTreeMap<String, usize>,
-    hash: Sha256,
+    /// Receives the share of the materials that are prepared.
+    progress: &'p mut dyn FnMut(f64),
 }
 
 impl Reading<'_> {
-    /// The path of a file that a key names. Its content goes into the hash of the scene.
-    fn file(&mut self, node: &Node<'_, '_>, key: &str) -> Result<Option<PathBuf>, SceneError> {
-        node.text(key)?.map(|name| self.named_file(node, key, name)).transpose()
+    /// The path of a file that a key names.
+    fn file(&self, node: &Node<'_, '_>, key: &str) -> Result<Option<PathBuf>, SceneError> {
+        Ok(node.text(key)?.map(|name| self.folder.join(name)))
     }
 
     /// As [`file`](Self::file), of an array of names; empty if there is no such key.
-    fn files(&mut self, node: &Node<'_, '_>, key: &str) -> Result<Vec<PathBuf>, SceneError> {
-        node.texts(key)?.into_iter().map(|name| self.named_file(node, key, name)).collect()
-    }
-
-    fn named_file(&mut self, node: &Node<'_, '_>, key: &str, name: &str) -> Result<PathBuf, SceneError> {
-        let path = self.folder.join(name);
-        let unreadable = |error: std::io::Error| node.error(key, format!("{}: {error}", path.display()));
-        let mut files = vec![path.clone()];
-        if path.is_dir() {
-            let entries = std::fs::read_dir(&path).and_then(|dir| dir.collect::<Result<Vec<_>, _>>());
-            files = entries.map_err(unreadable)?.into_iter().map(|entry| entry.path()).collect();
-            files.retain(|file| file.is_file());
-            files.sort();
-        }
-        for file in files {
-            let bytes = std::fs::read(file).map_err(unreadable)?;
-            self.hash.update(bytes.len().to_le_bytes());
-            self.hash.update(bytes);
-        }
-        Ok(path)
+    fn files(&self, node: &Node<'_, '_>, key: &str) -> Result<Vec<PathBuf>, SceneError> {
+        Ok(node.texts(key)?.into_iter().map(|name| self.folder.join(name)).collect())
     }
 }
 
@@ -90,14 +75,27 @@ impl Scene {
     /// # Errors
     /// [`SceneError`] names the file, the line and the key.
     pub fn open(path: &Path, backend: Backend) -> Result<Self, SceneError> {
+        Scene::open_with_progress(path, backend, &mut |_| {})
+    }
+
+    /// As [`open`](Scene::open), calling `progress` with the share of the materials that are prepared, which is what takes
+    /// time.
+    ///
+    /// # Errors
+    /// As [`open`](Scene::open).
+    pub fn open_with_progress(
+        path: &Path,
+        backend: Backend,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Self, SceneError> {
         let whole = |message: String| SceneError { file: path.into(), line: 1, key: String::new(), message };
-        let bytes = std::fs::read(path).map_err(|error| whole(error.to_string()))?;
+        let bytes = lobe_files::bytes(path).map_err(|error| whole(error.to_string()))?;
         let text = String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();
             whole(format!("found byte {} that is not UTF-8; expected text", at))
         })?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        Scene::parse(path, folder, &text, backend)
+        Scene::read(path, folder, &text, backend, progress)
     }
 
     /// Reads the text of a scene; paths in it begin at `folder`, and `file` is what errors name.
@@ -105,27 +103,43 @@ impl Scene {
     /// # Errors
     /// As [`open`](Scene::open).
     pub fn parse(file: &Path, folder: &Path, text: &str, backend: Backend) -> Result<Self, SceneError> {
+        Scene::read(file, folder, text, backend, &mut |_| {})
+    }
+
+    fn read(
+        file: &Path,
+        folder: &Path,
+        text: &str,
+        backend: Backend,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Self, SceneError> {
         let source = Source { file, text };
         let table = source.table()?;
         let root = Node::new(&source, "", 0, table.get_ref());
-        let mut hash = Sha256::new();
-        hash.update(text.as_bytes());
-        let mut reading = Reading { folder, world: WorldBuilder::new(), backend, materials: BTreeMap::new(), hash };
+        let mut reading = Reading { folder, world: WorldBuilder::new(), backend, materials: BTreeMap::new(), progress };
 
         let camera = view::camera(&root)?;
         let (size, filter, exposure) = view::film(&root)?;
         let (integrator, samples) = view::integrator(&root)?;
-        material::read(&root, &mut reading)?;
-        object::read(&root, &mut reading)?;
-        light::read(&root, &mut reading)?;
-        root.finish()?;
+        // Files may name further ones: all that is read counts.
+        let (done, reads) = lobe_files::recorded(|| {
+            material::read(&root, &mut reading)?;
+            object::read(&root, &mut reading)?;
+            light::read(&root, &mut reading)?;
+            root.finish()
+        });
+        done?;
 
         let world = reading.world.build().map_err(|error| source.error(0, "", error.to_string()))?;
-        let digest = reading.hash.finalize();
+        let mut hash = Sha256::new();
+        hash.update(text.as_bytes());
+        hash.update(reads.hash);
+        let digest = hash.finalize();
         let hash = digest.iter().take(16).fold(String::new(), |mut hex, byte| {
             write!(hex, "{byte:02x}").expect("writing to memory");
             hex
         });
-        Ok(Scene { world, camera, size, filter, exposure, integrator, samples, hash })
+        let files = [file.to_path_buf()].into_iter().chain(reads.files).collect();
+        Ok(Scene { world, camera, size, filter, exposure, integrator, samples, hash, files })
     }
 }

@@ -94,7 +94,8 @@ impl<'s, 't> Node<'s, 't> {
             None => Ok(()),
             Some(key) => {
                 let known: Vec<&str> = asked.iter().map(String::as_str).collect();
-                let message = format!("no such key; expected one of {}", known.join(", "));
+                let hint = similar(key.get_ref(), &known).map(|known| format!(", did you mean `{known}`?"));
+                let message = format!("no such key{}; expected one of {}", hint.unwrap_or_default(), known.join(", "));
                 Err(self.source.error(key.span().start, self.path(key.get_ref()), message))
             }
         }
@@ -223,6 +224,13 @@ impl<'s, 't> Node<'s, 't> {
     }
 }
 
+/// The word that is most like another, if it is like it at all.
+fn similar<'w>(word: &str, known: &[&'w str]) -> Option<&'w str> {
+    let likeness = |known: &&str| strsim::normalized_damerau_levenshtein(&word.to_lowercase(), known);
+    let found = known.iter().copied().max_by(|a, b| likeness(a).total_cmp(&likeness(b)))?;
+    (likeness(&found) > 0.6).then_some(found)
+}
+
 fn number(value: &DeValue<'_>) -> Option<f64> {
     let parsed = match (value.as_integer(), value.as_float()) {
         (Some(integer), _) if integer.radix() == 10 => integer.as_str().parse().ok(),
@@ -237,7 +245,7 @@ fn shown(value: &DeValue<'_>) -> String {
     let number = value.as_integer().map(|i| i.as_str()).or_else(|| value.as_float().map(|f| f.as_str()));
     match (number, value.as_str(), value.as_bool(), value.as_array()) {
         (Some(number), ..) => number.to_owned(),
-        (_, Some(text), ..) => format!("`{}`", text.chars().take(40).collect::<String>()),
+        (_, Some(text), ..) => format!("`{}`", lobe_files::excerpt(text, 40)),
         (_, _, Some(flag), _) => flag.to_string(),
         (.., Some(array)) if array.len() <= 4 => {
             let parts: Vec<String> = array.iter().map(|value| shown(value.get_ref())).collect();
@@ -245,5 +253,22 @@ fn shown(value: &DeValue<'_>) -> String {
         }
         (.., Some(array)) => format!("an array of {}", array.len()),
         _ => format!("a {}", value.type_str()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::similar;
+
+    #[test]
+    fn a_slip_finds_the_word_that_was_meant() {
+        let known = ["material", "materials", "radius", "rotate", "shading", "two_sided"];
+        for (word, meant) in
+            [("raduis", "radius"), ("Radius", "radius"), ("two-sided", "two_sided"), ("matrial", "material")]
+        {
+            assert_eq!(similar(word, &known), Some(meant), "{word}");
+        }
+        assert_eq!(similar("colour", &known), None);
+        assert_eq!(similar("x", &[]), None);
     }
 }

@@ -51,6 +51,9 @@ fn geometry(node: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<Geometry, 
         (Some(path), None) => lobe_mesh::read(&path).map_err(|error| node.error("file", error.to_string())),
         (None, Some(shape)) => {
             let segments = node.whole("segments", 3..=2048)?;
+            // Triangles for each pair of segments; what is not listed has few.
+            let each = [("sphere", 1), ("plane", 2), ("cuboid", 12)].into_iter().find(|(name, _)| *name == shape);
+            room(node, "segments", each.map_or(0, |(_, each)| each * u64::from(segments.unwrap_or(1)).pow(2)))?;
             Ok(match shape {
                 "sphere" => shapes::sphere(positive("radius", 1.0)?, segments.unwrap_or(128)),
                 "plane" => shapes::plane(positive("size", 1.0)?, segments.unwrap_or(1)),
@@ -81,7 +84,17 @@ fn refined(node: &Node<'_, '_>, geometry: Geometry) -> Result<Geometry, SceneErr
     if triangles > MOST {
         return Err(node.error("refine", format!("found {pieces}, {triangles} triangles; expected at most {MOST}")));
     }
+    room(node, "refine", triangles)?;
     geometry.refined(pieces).map_err(|error| node.error("refine", error.to_string()))
+}
+
+/// Fails if there is no memory for so many triangles more.
+fn room(node: &Node<'_, '_>, key: &str, triangles: u64) -> Result<(), SceneError> {
+    /// Bytes of a triangle: half a vertex, indices and its part of the tree, and copies while those are made.
+    const TRIANGLE: u64 = 400;
+    lobe_memory::require(triangles * TRIANGLE).map_err(|no_room| {
+        node.error(key, format!("found {triangles} triangles, which take {no_room}; expected what fits into memory"))
+    })
 }
 
 /// The number of a material that a key names.

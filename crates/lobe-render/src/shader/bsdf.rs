@@ -41,8 +41,20 @@ impl<T: Transport> BsdfShader<T> {
     /// # Errors
     /// If there is no sampler for the material.
     pub fn measured(material: Material) -> Result<Self, SamplerError> {
+        BsdfShader::measured_with(material, &SamplerOptions::default(), &mut |_, _| {})
+    }
+
+    /// As [`measured`](Self::measured), calling `progress(done, all)` after each slice of a distribution.
+    ///
+    /// # Errors
+    /// As [`measured`](Self::measured).
+    pub fn measured_with(
+        material: Material,
+        options: &SamplerOptions,
+        progress: &mut dyn FnMut(usize, usize),
+    ) -> Result<Self, SamplerError> {
         let backend = material.backend();
-        let sampler = Sampler::new(Arc::new(material), &SamplerOptions::default())?;
+        let sampler = Sampler::with_progress(Arc::new(material), options, progress)?;
         Ok(BsdfShader::new(Arc::new(sampler), backend))
     }
 

@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use lobe::formats::FormatError;
 use lobe::table::{Data, mirror};
-use lobe::{Material, OpenError, Options, SamplerError, Scatter};
+use lobe::{Material, OpenError, Options, SamplerError, SamplerOptions, Scatter};
 use lobe_colour::Reduction;
 
 use super::{Backend, BsdfShader, Delta, DeltaShader, Shader};
@@ -35,6 +36,21 @@ pub enum MaterialError {
 /// # Errors
 /// [`MaterialError`] names the file.
 pub fn open(path: &Path, options: &Options, backend: Backend) -> Result<Arc<dyn Shader<Rgb>>, MaterialError> {
+    open_with(path, options, backend, None, &mut |_, _| {})
+}
+
+/// As [`open`], calling `progress(done, all)` after each slice of the distributions that directions are sampled from. If they
+/// would take much longer than `limit` to build, coarser ones are built, and there is more noise.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_with(
+    path: &Path,
+    options: &Options,
+    backend: Backend,
+    limit: Option<Duration>,
+    progress: &mut dyn FnMut(usize, usize),
+) -> Result<Arc<dyn Shader<Rgb>>, MaterialError> {
     let (_, document) = lobe::formats::open(path)?;
     if let Some(data) = document.only().and_then(Data::mirror)
         && data.scatter() == Scatter::Reflection
@@ -42,7 +58,7 @@ pub fn open(path: &Path, options: &Options, backend: Backend) -> Result<Arc<dyn 
         return Ok(Arc::new(DeltaShader(mirror(data))));
     }
     let material = Material::from_document(&document, options).map_err(|error| error.in_file(path))?;
-    prepare(material, path, backend)
+    prepare(material, path, backend, limit, progress)
 }
 
 /// Opens the files of a sheet, measured with light on its front and on its back, as
@@ -56,13 +72,51 @@ pub fn open_sheet(
     options: &Options,
     backend: Backend,
 ) -> Result<Arc<dyn Shader<Rgb>>, MaterialError> {
-    let first = front.iter().chain(back).next().cloned().unwrap_or_default();
-    prepare(Material::open_sheet(front, back, options)?, &first, backend)
+    open_sheet_with_progress(front, back, options, backend, &mut |_, _| {})
 }
 
-fn prepare(material: Material, path: &Path, backend: Backend) -> Result<Arc<dyn Shader<Rgb>>, MaterialError> {
-    let shader = BsdfShader::measured(material.with_backend(backend));
+/// As [`open_sheet`], with `progress` as in [`open_with`].
+///
+/// # Errors
+/// As [`open_sheet`].
+pub fn open_sheet_with_progress(
+    front: &[PathBuf],
+    back: &[PathBuf],
+    options: &Options,
+    backend: Backend,
+    progress: &mut dyn FnMut(usize, usize),
+) -> Result<Arc<dyn Shader<Rgb>>, MaterialError> {
+    let first = front.iter().chain(back).next().cloned().unwrap_or_default();
+    prepare(Material::open_sheet(front, back, options)?, &first, backend, None, progress)
+}
+
+fn prepare(
+    material: Material,
+    path: &Path,
+    backend: Backend,
+    limit: Option<Duration>,
+    progress: &mut dyn FnMut(usize, usize),
+) -> Result<Arc<dyn Shader<Rgb>>, MaterialError> {
+    let material = material.with_backend(backend);
+    let bytes = limit.map(|limit| affordable(&material, limit));
+    let shader = BsdfShader::measured_with(material, &SamplerOptions { bytes, ..SamplerOptions::default() }, progress);
     Ok(Arc::new(shader.map_err(|why| MaterialError::Sampler { file: path.into(), why })?))
+}
+
+/// Bytes of histograms that are built in about so much time.
+fn affordable(material: &Material, limit: Duration) -> usize {
+    const TRIALS: usize = 512;
+    let direction = |k: usize| {
+        let (z, turn) = ((k as f32 * 0.754_877_7).fract(), k as f32 * 2.4);
+        let radius = (1.0 - z * z).max(0.0).sqrt();
+        [radius * turn.cos(), radius * turn.sin(), z]
+    };
+    let (wi, wo): (Vec<_>, Vec<_>) = (0..TRIALS).map(|k| (direction(k), direction(7 * k + 3))).unzip();
+    let mut values = vec![0.0; TRIALS * material.channel_count()];
+    let begun = Instant::now();
+    material.eval_batch(&wi, &wo, &mut values);
+    let evaluations = limit.as_secs_f64() / begun.elapsed().as_secs_f64().max(1e-9) * TRIALS as f64;
+    (0.5 * evaluations) as usize
 }
 
 /// Reflectance by the angle of the light, averaged over its azimuths.
