@@ -1,6 +1,6 @@
 //! `lobe albedo`: how much of the light comes back.
 
-use std::io::{Write, stdout};
+use std::io::Write;
 use std::path::PathBuf;
 
 use lobe::Options;
@@ -11,6 +11,8 @@ use serde::Serialize;
 
 use crate::angles::{Angles, ScatterRule, SideRule, choose_aspects, parse_angles, progress, table};
 use crate::failure::Failure;
+use crate::measure::fits;
+use crate::message::{self, say};
 
 /// Compute the albedo (directional-hemispherical reflectance, or transmittance) by incident direction and channel.
 #[derive(clap::Args)]
@@ -69,9 +71,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let incidences = match &args.sigma {
             Some(Angles(sigmas)) => {
                 let psis = args.psi.as_ref().map_or(&[0.0][..], |Angles(psis)| psis);
+                fits(&args.file, &[sigmas.len(), psis.len()], subject.material.channel_count())?;
                 sigmas.iter().flat_map(|&sigma| psis.iter().map(move |&psi| [sigma, psi])).collect()
             }
-            None => subject.incidences(aspect),
+            None => some(subject.incidences(aspect)),
         };
         if let Some([bad, _]) = incidences.iter().find(|[sigma, _]| !(0.0..std::f64::consts::FRAC_PI_2).contains(sigma))
         {
@@ -85,7 +88,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         answers.push(Answer { aspect: aspect.to_string(), channels: subject.material.channels().names(), albedos });
     }
     drop(bar);
-    let mut out = stdout().lock();
+    let mut out = message::out(args.json);
     if args.json {
         serde_json::to_writer_pretty(&mut out, &answers)?;
         writeln!(out)?;
@@ -95,6 +98,19 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         }
     }
     Ok(out.flush()?)
+}
+
+/// As many directions as people read, evenly chosen: a file may have been measured at a million.
+fn some(all: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    const MOST: usize = 100;
+    if all.len() <= MOST {
+        return all;
+    }
+    say(format_args!(
+        "note: {MOST} of {} measured directions of the light; --sigma and --psi ask for others",
+        all.len()
+    ));
+    (0..MOST).map(|index| all[index * (all.len() - 1) / (MOST - 1)]).collect()
 }
 
 impl Answer {

@@ -1,10 +1,11 @@
 //! Lists of angles and measurements of a sheet, from the command line.
 
 use std::cell::Cell;
+use std::io::{IsTerminal, stdout};
 use std::path::Path;
 
 use clap::ValueEnum;
-use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
+use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, Width, presets};
 use lobe::Side;
 use lobe::table::Scatter;
 use lobe_ops::{Aspect, Subject};
@@ -83,17 +84,33 @@ pub fn choose_aspects(
     Ok(chosen)
 }
 
-/// A table for the terminal, all columns but the first `words` to the right.
+/// A narrower terminal than this, or one that says it has no columns, gets lines as long as they are.
+const NARROWEST: u16 = 40;
+
+/// A table for the terminal, all columns but the first `words` to the right. Lines are wrapped on a terminal only, and words
+/// are never cut.
 pub fn table(header: Vec<String>, rows: Vec<Vec<String>>, words: usize) -> Table {
     let columns = header.len();
+    let longest = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column)).chain([&header[column]]);
+        cells.flat_map(|cell| cell.split_whitespace()).map(|word| word.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<u16> = (0..columns).map(|column| longest(column).try_into().unwrap_or(u16::MAX)).collect();
     let mut table = Table::new();
     table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic).set_header(header);
     rows.into_iter().for_each(|row| {
         table.add_row(row);
     });
-    for index in words..columns {
+    let narrowest = widths.iter().fold(NARROWEST, |sum, width| sum.saturating_add(*width).saturating_add(2));
+    if !stdout().is_terminal() || table.width().is_none_or(|width| width < narrowest) {
+        table.set_content_arrangement(ContentArrangement::Disabled);
+    }
+    for (index, width) in widths.into_iter().enumerate() {
         if let Some(column) = table.column_mut(index) {
-            column.set_cell_alignment(CellAlignment::Right);
+            column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(width)));
+            if index >= words {
+                column.set_cell_alignment(CellAlignment::Right);
+            }
         }
     }
     table

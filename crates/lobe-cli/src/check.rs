@@ -1,6 +1,6 @@
 //! `lobe check`: is a measurement sound, and what does it cover?
 
-use std::io::{IsTerminal, Write, stdout};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use lobe::Options;
@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use crate::angles::{progress, table};
 use crate::failure::Failure;
+use crate::message;
 
 /// Check measurements: values, knots, poles, seams, coverage, energy, stated totals, units, reciprocity.
 #[derive(clap::Args)]
@@ -20,7 +21,7 @@ Examples:
   lobe check --strict scans/*.bsdf
   lobe check --json paint.ddr | jq '.[0].findings[] | select(.status == \"fail\") | .text'
 
-Exit codes: 0 nothing failed, 1 a file is unreadable or damaged, 3 a check failed (with --strict: or warned).")]
+With --strict, the exit code is 3 if a check warned, too.")]
 pub struct Args {
     /// The files to check.
     #[arg(required = true)]
@@ -49,7 +50,7 @@ struct Report {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let mut reports = Vec::new();
-    let mut out = stdout().lock();
+    let mut out = message::out(args.json);
     for file in &args.files {
         let report = report(file)?;
         if !args.json {
@@ -126,11 +127,7 @@ impl Report {
             cells
         };
         let rows = self.findings.iter().map(row).collect();
-        let mut table = table(header.map(String::from).collect(), rows, 4);
-        // Lines are wrapped on a terminal only.
-        if !stdout().is_terminal() {
-            table.set_content_arrangement(comfy_table::ContentArrangement::Disabled);
-        }
+        let table = table(header.map(String::from).collect(), rows, 4);
         writeln!(out, "{}\n", table.trim_fmt())
     }
 }

@@ -1,6 +1,6 @@
 //! `lobe compare`: how far two materials are apart.
 
-use std::io::{Write, stdout};
+use std::io::Write;
 use std::path::PathBuf;
 
 use lobe::Options;
@@ -10,6 +10,8 @@ use serde::Serialize;
 
 use crate::angles::{ScatterRule, SideRule, choose_aspects, progress, show_direction};
 use crate::failure::Failure;
+use crate::measure::fits;
+use crate::message;
 
 /// Compare two materials: their values over many directions, and the appearance of two spheres.
 #[derive(clap::Args)]
@@ -77,6 +79,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             args.first.display()
         )));
     }
+    let channels = first.material.channels().count().max(second.material.channels().count());
+    fits(&args.first, &[args.pairs as usize], channels + 4)?;
     let bar = progress("comparing");
     let (a, b) = (&first.material, &second.material);
     let mut answers = Vec::new();
@@ -89,7 +93,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         answers.push(Answer { aspect: aspect.to_string(), difference, delta_e });
     }
     drop(bar);
-    let mut out = stdout().lock();
+    let mut out = message::out(args.json);
     if args.json {
         serde_json::to_writer_pretty(&mut out, &answers)?;
         writeln!(out)?;

@@ -4,11 +4,13 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 use lobe::{Data, Lookup, Material, Options, Scatter, Side};
+use lobe_files::check_output;
 use lobe_formats::{Document, Format, convert};
 use lobe_table::window::klems;
 
 use crate::failure::Failure;
 use crate::measure::{self, Sides};
+use crate::message::say;
 use crate::output::Output;
 use crate::surface::MaterialSurface;
 use crate::target::Target;
@@ -49,12 +51,13 @@ enum ScatterKind {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let (target, out) = (args.output.target()?, args.output.out.as_path());
+    check_output(out, &[&args.file])?;
     let (_, document) = lobe_formats::open(&args.file)?;
     let document = choose(document, target, args)?;
     let format = target.format;
     if let Some(written) = convert(&document, format, args.output.channel.as_deref(), out)? {
         let note = written.note.map(|note| format!("; {note}")).unwrap_or_default();
-        eprintln!("{}: {format}, the values and nodes of the file{note}", out.display());
+        say(format_args!("{}: {format}, the values and nodes of the file{note}", out.display()));
         return Ok(());
     }
     let sides = match document.only() {
@@ -70,7 +73,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         Sides::Both => None,
     };
     if let Some(loss) = loss(&document, target) {
-        eprintln!("{}: {loss}", args.file.display());
+        say(format_args!("{}: {loss}", args.file.display()));
     }
     let options = Options { lookup: Lookup::Linear, ..Options::default() };
     let material = Material::from_document(&document, &options).map_err(|error| error.in_file(&args.file))?;
@@ -114,7 +117,8 @@ fn choose(document: Document, target: Target, args: &Args) -> Result<Document, F
     match candidates[..] {
         [data] => {
             if document.parts.len() > 1 {
-                eprintln!("{}: one of {} measurements of a sheet", args.file.display(), document.parts.len());
+                let parts = document.parts.len();
+                say(format_args!("{}: one of {parts} measurements of a sheet", args.file.display()));
             }
             Ok(Document::new(data.clone()))
         }

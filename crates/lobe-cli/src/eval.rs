@@ -1,17 +1,18 @@
 //! `lobe eval`: values of a material at given directions.
 
-use std::io::{BufWriter, Write, stdout};
+use std::io::Write;
 use std::path::PathBuf;
 
 use clap::{ArgGroup, ValueEnum};
-use lobe::Data;
-use lobe::{Edges, Given, Lookup, Material, Options};
+use lobe::formats::Document;
+use lobe::{Data, Edges, Given, Lookup, Material, Options};
 use lobe_table::specular::coords::angles_to_directions;
 use lobe_table::specular::reference::zenith;
 use serde::Serialize;
 
 use crate::failure::Failure;
-use crate::pairs::{Pair, parse_direction, parse_numbers, read_pairs};
+use crate::message::{self, say};
+use crate::pairs::{Pair, Pairs, parse_direction, parse_numbers};
 
 /// Evaluate a material: f in 1/sr, without the cosine, for one pair of directions or for many.
 #[derive(clap::Args)]
@@ -38,20 +39,20 @@ pub struct Args {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "wi", value_parser = parse_direction)]
     wo: Option<[f64; 3]>,
     /// Specular coordinates in degrees instead of two directions.
-    #[arg(long, value_name = "SIGMA,PSI,THETA,PHI", allow_hyphen_values = true, value_parser = parse_numbers::<4>)]
+    #[arg(long, value_name = "SIGMA,PSI,THETA,PHI", allow_hyphen_values = true, value_parser = parse_specular)]
     angles: Option<[f64; 4]>,
-    /// A CSV file with six columns, wi then wo; `-` is the standard input. Prints a line of channels for each pair.
+    /// A CSV file with six columns, wi then wo, or with their names in the first line; `-` is the standard input. Prints a line of channels for each pair.
     #[arg(long, value_name = "FILE")]
     pairs: Option<PathBuf>,
-    /// What happens beyond the outermost angles of a table in specular coordinates.
-    #[arg(long, value_enum, default_value = "clamp")]
-    edge: EdgeRule,
-    /// How grids of half and difference angles (MERL) are looked up.
-    #[arg(long, value_enum, default_value = "nearest")]
-    lookup: LookupRule,
-    /// Which direction the tables of the EPFL database (RGL) are indexed by.
-    #[arg(long, value_enum, default_value = "light")]
-    indexed_by: IndexRule,
+    /// What happens beyond the outermost angles of a table in specular coordinates [default: clamp].
+    #[arg(long, value_enum)]
+    edge: Option<EdgeRule>,
+    /// How grids of half and difference angles (MERL) are looked up [default: nearest].
+    #[arg(long, value_enum)]
+    lookup: Option<LookupRule>,
+    /// Which direction the tables of the EPFL database (RGL) are indexed by [default: light].
+    #[arg(long, value_enum)]
+    indexed_by: Option<IndexRule>,
     /// Print this channel only, by the name that `lobe info` shows: Y, R, 550nm. May be repeated.
     #[arg(long = "channel", value_name = "NAME")]
     channels: Vec<String>,
@@ -110,17 +111,19 @@ struct Answer<'a> {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let lookup = match args.lookup {
-        LookupRule::Nearest => Lookup::Nearest,
-        LookupRule::Linear => Lookup::Linear,
+        None | Some(LookupRule::Nearest) => Lookup::Nearest,
+        Some(LookupRule::Linear) => Lookup::Linear,
     };
     let indexed_by = match args.indexed_by {
-        IndexRule::Light => Given::Light,
-        IndexRule::Viewer => Given::Viewer,
+        None | Some(IndexRule::Light) => Given::Light,
+        Some(IndexRule::Viewer) => Given::Viewer,
     };
-    let options = Options { edges: args.edge.edges(), lookup, indexed_by, ..Options::default() };
+    let options =
+        Options { edges: args.edge.map(EdgeRule::edges).unwrap_or_default(), lookup, indexed_by, ..Options::default() };
     let (_, document) = lobe::formats::open(&args.file)?;
-    let pairs = match (args.wi, args.wo, args.angles, &args.pairs) {
-        (Some(wi), Some(wo), ..) => vec![Pair { wi, wo }],
+    args.check_options(&document)?;
+    let mut source = match (args.wi, args.wo, args.angles, &args.pairs) {
+        (Some(wi), Some(wo), ..) => Source::One(Some(Pair { wi, wo })),
         (_, _, Some(angles), _) => {
             // A table with refraction counts theta from the refracted ray.
             let zenith = |sigma| {
@@ -128,9 +131,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
                 zenith(samples, &options.edges, sigma)
             };
             let (wi, wo) = angles_to_directions(angles.map(f64::to_radians), zenith);
-            vec![Pair { wi, wo }]
+            Source::One(Some(Pair { wi, wo }))
         }
-        (.., Some(file)) => read_pairs(file)?,
+        (.., Some(file)) => Source::Many(Pairs::open(file)?),
         _ => return Err(Failure::Usage("found no directions; expected --wi and --wo, --angles or --pairs".into())),
     };
     let material = Material::from_document(&document, &options).map_err(|error| error.in_file(&args.file))?;
@@ -139,28 +142,104 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let names: Vec<&str> = chosen.iter().map(|&channel| all[channel].as_str()).collect();
 
     let narrow = |direction: [f64; 3]| direction.map(|c| c as f32);
-    let (wi, wo): (Vec<_>, Vec<_>) = pairs.iter().map(|pair| (narrow(pair.wi), narrow(pair.wo))).unzip();
-    let mut values = vec![0.0; pairs.len() * all.len()];
-    material.eval_batch(&wi, &wo, &mut values);
+    let mut out = message::out(args.json);
+    let mut count = 0;
+    loop {
+        let pairs = source.read()?;
+        if pairs.is_empty() {
+            break;
+        }
+        count += pairs.len();
+        let (wi, wo): (Vec<_>, Vec<_>) = pairs.iter().map(|pair| (narrow(pair.wi), narrow(pair.wo))).unzip();
+        // A spectrum may have a million channels: no more at once than fits.
+        let at_once = (AT_ONCE / all.len()).max(1);
+        let mut values = vec![0.0; at_once.min(pairs.len()) * all.len()];
+        for ((pairs, wi), wo) in pairs.chunks(at_once).zip(wi.chunks(at_once)).zip(wo.chunks(at_once)) {
+            let values = &mut values[..pairs.len() * all.len()];
+            material.eval_batch(wi, wo, values);
+            for (pair, texel) in pairs.iter().zip(values.chunks_exact(all.len())) {
+                let factor = if args.cosine { pair.wo[2].abs() } else { 1.0 };
+                let texel: Vec<f32> =
+                    chosen.iter().map(|&channel| (f64::from(texel[channel]) * factor) as f32).collect();
+                args.print(&mut out, pair, &names, &texel)?;
+            }
+        }
+        // Whoever sends pairs one by one waits for the answers.
+        out.flush()?;
+    }
+    if count == 0 {
+        say("warning: found no pairs of directions");
+    }
+    Ok(())
+}
 
-    let mut out = BufWriter::new(stdout().lock());
-    for (pair, texel) in pairs.iter().zip(values.chunks_exact(all.len())) {
-        let factor = if args.cosine { pair.wo[2].abs() } else { 1.0 };
-        let texel: Vec<f32> = chosen.iter().map(|&channel| (f64::from(texel[channel]) * factor) as f32).collect();
-        if args.json {
-            let answer = Answer { wi: pair.wi, wo: pair.wo, channels: &names, values: &texel };
-            serde_json::to_writer(&mut out, &answer)?;
+/// Values that are evaluated before they are printed.
+const AT_ONCE: usize = 1 << 24;
+
+/// Where pairs come from.
+enum Source {
+    One(Option<Pair>),
+    Many(Pairs),
+}
+
+impl Source {
+    /// The next pairs; none at the end.
+    fn read(&mut self) -> Result<Vec<Pair>, Failure> {
+        match self {
+            Source::One(pair) => Ok(pair.take().into_iter().collect()),
+            Source::Many(pairs) => pairs.read(),
+        }
+    }
+}
+
+impl Args {
+    fn print(&self, out: &mut impl Write, pair: &Pair, names: &[&str], texel: &[f32]) -> Result<(), Failure> {
+        if self.json {
+            let answer = Answer { wi: pair.wi, wo: pair.wo, channels: names, values: texel };
+            serde_json::to_writer(&mut *out, &answer)?;
             writeln!(out)?;
-        } else if args.pairs.is_some() {
+        } else if self.pairs.is_some() {
             let digits: Vec<String> = texel.iter().copied().map(shortest).collect();
             writeln!(out, "{}", digits.join(","))?;
         } else {
-            for (name, &value) in names.iter().zip(&texel) {
+            for (name, &value) in names.iter().zip(texel) {
                 writeln!(out, "{name} {}", shortest(value))?;
             }
         }
+        Ok(())
     }
-    Ok(out.flush()?)
+
+    /// Refuses what would make no difference: whoever asks for it expects one.
+    fn check_options(&self, document: &Document) -> Result<(), Failure> {
+        let has = |is: fn(&Data) -> bool| document.parts.iter().any(|part| is(&part.data));
+        let kinds: Vec<&str> = document.parts.iter().map(|part| part.data.representation().kind().name()).collect();
+        let check = |option: &str, is_given: bool, applies: bool, expected: &str| match is_given && !applies {
+            true => Err(Failure::Usage(format!(
+                "{option}: found {} in {}; expected {expected}",
+                kinds.join(", "),
+                self.file.display()
+            ))),
+            false => Ok(()),
+        };
+        let is_specular = has(|data| matches!(data, Data::Specular(_)));
+        let is_half_diff = has(|data| matches!(data, Data::HalfDiff(_)));
+        let is_rgl = has(|data| matches!(data, Data::Rgl(_)));
+        check("--edge", self.edge.is_some(), is_specular, "a table in specular coordinates")?;
+        check("--lookup", self.lookup.is_some(), is_half_diff, "a grid of half and difference angles")?;
+        check("--indexed-by", self.indexed_by.is_some(), is_rgl, "a material of the EPFL database")
+    }
+}
+
+/// Specular coordinates in degrees: polar angles of the light and from the mirror direction, and two azimuths.
+fn parse_specular(text: &str) -> Result<[f64; 4], String> {
+    let angles: [f64; 4] = parse_numbers(text)?;
+    match angles {
+        [sigma, ..] if !(0.0..=90.0).contains(&sigma) => Err(format!("found sigma {sigma}; expected 0 to 90 degrees")),
+        [_, _, theta, _] if !(0.0..=180.0).contains(&theta) => {
+            Err(format!("found theta {theta}; expected 0 to 180 degrees"))
+        }
+        _ => Ok(angles),
+    }
 }
 
 /// The positions of the requested channels, or of all.

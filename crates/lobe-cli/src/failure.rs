@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use lobe::OpenError;
 use lobe_formats::{ConvertError, FormatError};
+use lobe_memory::NoRoom;
 use lobe_render::picture::PictureError;
 
 /// Why a command stopped.
@@ -17,6 +18,8 @@ pub enum Failure {
     Usage(String),
     /// A check failed, or a bound was not met. Exit code 3.
     Check(String),
+    /// The user has asked the program to end. Exit code 130.
+    Interrupted(String),
     /// The reader of the output has closed it, as `head` does. Not a failure.
     OutputClosed,
 }
@@ -28,6 +31,7 @@ impl Failure {
             Failure::File(_) => ExitCode::from(1),
             Failure::Usage(_) => ExitCode::from(2),
             Failure::Check(_) => ExitCode::from(3),
+            Failure::Interrupted(_) => ExitCode::from(INTERRUPTED),
             Failure::OutputClosed => ExitCode::SUCCESS,
         }
     }
@@ -36,11 +40,17 @@ impl Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Failure::File(message) | Failure::Usage(message) | Failure::Check(message) => f.write_str(message),
+            Failure::File(message)
+            | Failure::Usage(message)
+            | Failure::Check(message)
+            | Failure::Interrupted(message) => f.write_str(message),
             Failure::OutputClosed => f.write_str("the output was closed"),
         }
     }
 }
+
+/// The exit code of a program that a signal has ended: 128 and the number of Ctrl-C's.
+pub const INTERRUPTED: u8 = 130;
 
 impl From<FormatError> for Failure {
     fn from(error: FormatError) -> Self {
@@ -63,6 +73,12 @@ impl From<OpenError> for Failure {
             OpenError::Backend(error) => Failure::Usage(format!("LOBE_BACKEND: {error}")),
             error => Failure::File(error.to_string()),
         }
+    }
+}
+
+impl From<NoRoom> for Failure {
+    fn from(no_room: NoRoom) -> Self {
+        Failure::File(format!("found a picture of {no_room}; expected one that fits"))
     }
 }
 

@@ -1,6 +1,6 @@
 //! `lobe info`: what a file holds.
 
-use std::io::{Write, stdout};
+use std::io::Write;
 use std::path::PathBuf;
 
 use lobe_formats::open;
@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use crate::describe::{Part, describe, range};
 use crate::failure::Failure;
+use crate::message;
 
 /// Show what a file holds: format, channels, angles, values, and what its header says.
 #[derive(clap::Args)]
@@ -42,17 +43,17 @@ struct Info {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let (format, document) = open(&args.file)?;
-    let metadata =
-        std::fs::metadata(&args.file).map_err(|error| Failure::File(format!("{}: {error}", args.file.display())))?;
+    // The standard input has none.
+    let metadata = std::fs::metadata(&args.file).ok();
     let info = Info {
         file: args.file.display().to_string(),
         format: format.name(),
-        file_bytes: metadata.is_file().then_some(metadata.len()),
+        file_bytes: metadata.filter(std::fs::Metadata::is_file).map(|metadata| metadata.len()),
         parts: describe(&document),
         tis: document.tis,
         source: document.source,
     };
-    let mut out = stdout().lock();
+    let mut out = message::out(args.json);
     if args.json {
         serde_json::to_writer_pretty(&mut out, &info)?;
         writeln!(out)?;

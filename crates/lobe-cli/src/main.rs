@@ -1,5 +1,7 @@
 //! The `lobe` program: look at measured materials, evaluate, convert and draw them.
 #![forbid(unsafe_code)]
+// The macros panic if nobody reads what they print, or a disk is full: `message` does not.
+#![deny(clippy::print_stdout, clippy::print_stderr)]
 
 mod albedo;
 mod angles;
@@ -12,10 +14,13 @@ mod eval;
 mod failure;
 mod generate;
 mod info;
+mod interrupt;
 mod measure;
 mod merge;
+mod message;
 mod output;
 mod pairs;
+mod picture;
 mod plot;
 mod preview;
 mod probe;
@@ -26,19 +31,26 @@ mod shell;
 mod summary;
 mod surface;
 mod target;
+mod threads;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::failure::Failure;
 
+/// The same for all commands, and at the end of the help of each.
+const EXIT_CODES: &str = "Exit codes: 0 done, 1 a file cannot be read or written or is damaged, or memory is short, \
+2 wrong usage, 3 a check failed or a bound was not met, 130 interrupted.";
+
 /// Inspect, check, evaluate, convert and draw measured BRDFs and BTDFs.
+///
+/// A file to read that is called `-` is the standard input.
 #[derive(Parser)]
 #[command(
     name = "lobe",
     version,
-    after_help = "Exit codes: 0 done, 1 a file is unreadable or damaged, 2 wrong usage, 3 a check failed."
+    after_help = EXIT_CODES
 )]
 struct Cli {
     #[command(subcommand)]
@@ -63,8 +75,26 @@ enum Command {
     Man(shell::Man),
 }
 
+/// The arguments of the program, as they are parsed and as help, completions and manual pages show them.
+fn command() -> clap::Command {
+    Cli::command().mut_subcommands(with_exit_codes)
+}
+
+fn with_exit_codes(command: clap::Command) -> clap::Command {
+    let help = command.get_after_help().map(|help| format!("{help}\n\n")).unwrap_or_default();
+    command.after_help(format!("{help}{EXIT_CODES}")).mut_subcommands(with_exit_codes)
+}
+
 fn main() -> ExitCode {
-    let done = match Cli::parse().command {
+    let cli = match Cli::from_arg_matches(&command().get_matches()) {
+        Ok(cli) => cli,
+        Err(error) => error.exit(),
+    };
+    lobe_files::name_standard_input();
+    if !matches!(cli.command, Command::Info(_) | Command::Completions(_) | Command::Man(_)) {
+        threads::start();
+    }
+    let done = match cli.command {
         Command::Info(args) => info::run(&args),
         Command::Eval(args) => eval::run(&args),
         Command::Check(args) => check::run(&args),
@@ -84,7 +114,7 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::OutputClosed) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("error: {failure}");
+            message::say(format_args!("error: {failure}"));
             failure.exit_code()
         }
     }

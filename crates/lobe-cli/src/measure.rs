@@ -4,6 +4,7 @@ use std::path::Path;
 
 use lobe::{Channels, Material, Scatter};
 use lobe::{Lookup, Options};
+use lobe_files::check_output;
 use lobe_formats::{ChannelMap, Document};
 use lobe_model::goniometer::{half_diff as bins, klems as patches, measure_surface, rgl as parameterised};
 use lobe_model::{Surface, is_isotropic};
@@ -12,6 +13,7 @@ use lobe_table::{half_diff, rgl};
 
 use crate::channels::Mapped;
 use crate::failure::Failure;
+use crate::message::say;
 use crate::output::{Output, side};
 use crate::probe::Errors;
 use crate::progress::Progress;
@@ -30,6 +32,7 @@ pub enum Sides {
 /// Measures a surface and writes it; reports the nodes and the error of the file on standard error.
 pub fn write(surface: &dyn Surface, sides: Sides, output: &Output) -> Result<(), Failure> {
     let (target, out) = (output.target()?, output.out.as_path());
+    check_output::<&Path>(out, &[])?;
     let (format, writer) = (target.format, target.writer);
     let map = ChannelMap::new(surface.channels(), output.channel.as_deref(), format)?;
     let surface: &dyn Surface = &Mapped { surface, map: &map };
@@ -44,26 +47,30 @@ pub fn write(surface: &dyn Surface, sides: Sides, output: &Output) -> Result<(),
         (None, Sides::Both) => Scatter::Reflection,
     };
     let isotropic = is_isotropic(surface);
+    let channels = surface.channels().count();
     let nodes = match writer.resampled_as {
         Err(expected) => return refuse("values for pairs of directions", expected),
         Ok(half_diff::KIND) if !isotropic => return refuse("an anisotropic material", "an isotropic one"),
         Ok(half_diff::KIND) => {
             let progress = Progress::new(bins::MERL[0], "bins");
+            fits(out, &bins::MERL, channels)?;
             let table = bins::measure(surface, bins::MERL, || progress.step()).map_err(|e| file(out, &e))?;
             (writer.write)(&Document::new(table), out)?;
             "90 x 90 x 180 bins of half and difference angles".into()
         }
         Ok(rgl::KIND) => {
             let resolution = output.rgl(isotropic);
+            let parameterised::Resolution { theta_i, phi_i, spectra, .. } = resolution;
+            fits(out, &[theta_i, phi_i, spectra, spectra], channels)?;
             let progress = Progress::new(resolution.steps(), "directions of the light");
             let material =
                 parameterised::measure(surface, resolution, || progress.step()).map_err(|e| file(out, &e))?;
             (writer.write)(&Document::new(material), out)?;
-            let parameterised::Resolution { theta_i, phi_i, spectra, .. } = resolution;
             format!("{theta_i} theta_i x {phi_i} phi_i, {spectra} x {spectra} texels")
         }
         Ok(klems::KIND) => {
             let basis = output.basis();
+            fits(out, &[4, basis.patches(), basis.patches()], channels)?;
             let sheet = sheet(surface, output, sides)?;
             let name = output.out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             (writer.write)(&Document { source: vec![("name".into(), name)], ..Document::new(sheet) }, out)?;
@@ -72,6 +79,7 @@ pub fn write(surface: &dyn Surface, sides: Sides, output: &Output) -> Result<(),
         Ok(_) => {
             let knots = output.knots(isotropic);
             let [sigma, psi, theta, phi] = knots.each_ref().map(Vec::len);
+            fits(out, &[sigma, psi, theta, phi], channels)?;
             let progress = Progress::new(sigma * psi, "directions of the light");
             let samples = measure_surface(surface, scatter, knots, || progress.step()).map_err(|e| file(out, &e))?;
             (writer.write)(&Document::new(samples), out)?;
@@ -79,13 +87,14 @@ pub fn write(surface: &dyn Surface, sides: Sides, output: &Output) -> Result<(),
         }
     };
     let kind = if isotropic { "isotropic" } else { "anisotropic" };
-    eprintln!("{}: {format}, resampled: {kind} {}, {nodes}", out.display(), side_of(target, sides, scatter));
+    let side = side_of(target, sides, scatter);
+    say(format_args!("{}: {format}, resampled: {kind} {side}, {nodes}", out.display()));
     if let Some(note) = &map.note {
-        eprintln!("  {note}");
+        say(format_args!("  {note}"));
     }
     match errors(surface, target, sides, scatter, out)? {
-        Some(errors) => eprintln!("  {errors}"),
-        None => eprintln!("  lobe does not read this format, so the error is not known"),
+        Some(errors) => say(format_args!("  {errors}")),
+        None => say("  lobe does not read this format, so the error is not known"),
     }
     Ok(())
 }
@@ -96,6 +105,18 @@ fn side_of(target: Target, sides: Sides, scatter: Scatter) -> &'static str {
     } else {
         side(scatter)
     }
+}
+
+/// Fails if there is no memory for values of so many nodes.
+pub fn fits(out: &Path, nodes: &[usize], channels: usize) -> Result<(), Failure> {
+    /// Bytes of a value: itself, copies while it is on its way, and its text in a file.
+    const VALUE: u64 = 40;
+    let values = nodes.iter().chain([&channels]).fold(1_u64, |product, &count| product.saturating_mul(count as u64));
+    lobe_memory::require(values.saturating_mul(VALUE)).map_err(|no_room| {
+        let nodes: Vec<String> = nodes.iter().map(ToString::to_string).collect();
+        let message = format!("found {} nodes of {channels} channels, which take {no_room}", nodes.join(" x "));
+        Failure::File(format!("{}: {message}; expected what fits into memory", out.display()))
+    })
 }
 
 fn file(out: &Path, error: &dyn std::fmt::Display) -> Failure {

@@ -2,9 +2,10 @@
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, stdin};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
+use crate::message::say;
 
 /// Unit vectors that point away from the surface, normal on +z.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,42 +52,193 @@ fn normalise(v: [f64; 3]) -> Result<[f64; 3], String> {
     Ok(v.map(|c| c / length))
 }
 
-/// Reads six columns, wi then wo, with commas between, from a file, or from standard input if it is called `-`.
+/// The names of columns, in the order that they have without names.
+const NAMES: [&str; 6] = ["wi.x", "wi.y", "wi.z", "wo.x", "wo.y", "wo.z"];
+/// Pairs that are read before they are evaluated.
+const BATCH: usize = 1 << 16;
+/// Bytes of the longest line: what has no end must not be read to it.
+const LONGEST: u64 = 1 << 16;
+
+/// Pairs in six columns, wi and wo, from a file, or from standard input if it is called `-`.
 ///
-/// A first line without any number is a header; lines that start with `#` are comments.
-pub fn read_pairs(path: &Path) -> Result<Vec<Pair>, Failure> {
-    let unreadable = |error: &dyn std::fmt::Display| Failure::File(format!("{}: {error}", path.display()));
-    let input: Box<dyn Read> = if path == Path::new("-") {
-        Box::new(stdin().lock())
-    } else {
-        Box::new(File::open(path).map_err(|error| unreadable(&error))?)
-    };
-    let mut pairs = Vec::new();
-    let mut first = true;
-    for (index, line) in BufReader::new(input).lines().enumerate() {
-        let line = line.map_err(|error| unreadable(&error))?;
-        if line.trim().is_empty() || line.starts_with('#') {
-            continue;
-        }
-        let fields: Vec<&str> = line.split(',').map(str::trim).collect();
-        let header = first && fields.iter().all(|field| field.parse::<f64>().is_err());
-        first = false;
-        if !header {
-            let failed = |what| Failure::Usage(format!("{}:{}: {what}", path.display(), index + 1));
-            pairs.push(parse_pair(&fields).map_err(failed)?);
-        }
-    }
-    Ok(pairs)
+/// Columns are separated by commas, semicolons, tabs or spaces. A first line without any number names them: `wi.x` or
+/// `wi_x` or `wix`, in any order and with others between. Lines that start with `#` are comments.
+pub struct Pairs {
+    path: PathBuf,
+    input: BufReader<Box<dyn Read>>,
+    /// Whether somebody may wait for an answer before the next pair is sent.
+    is_stream: bool,
+    line: usize,
+    columns: Option<Columns>,
 }
 
-fn parse_pair(fields: &[&str]) -> Result<Pair, String> {
-    if fields.len() != 6 {
-        return Err(format!("found {} columns; expected 6, wi and wo", fields.len()));
+/// Where the numbers of a pair are in a line.
+struct Columns {
+    delimiter: Delimiter,
+    order: [usize; 6],
+    count: usize,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Delimiter {
+    Character(char),
+    Spaces,
+}
+
+impl Pairs {
+    /// Opens a file, or standard input.
+    pub fn open(path: &Path) -> Result<Self, Failure> {
+        let is_stream = path == Path::new("-");
+        let input: Box<dyn Read> = if is_stream {
+            Box::new(stdin().lock())
+        } else {
+            Box::new(File::open(path).map_err(|error| Failure::File(format!("{}: {error}", path.display())))?)
+        };
+        let capacity = if is_stream { 1 << 16 } else { 1 << 20 };
+        let input = BufReader::with_capacity(capacity, input);
+        Ok(Pairs { path: path.into(), input, is_stream, line: 0, columns: None })
+    }
+
+    /// The next pairs: of a file as many as are evaluated at once, of a stream those that have arrived. None at the end.
+    pub fn read(&mut self) -> Result<Vec<Pair>, Failure> {
+        let mut pairs = Vec::new();
+        while pairs.len() < BATCH {
+            let is_waiting = self.is_stream && !self.input.buffer().contains(&b'\n');
+            if is_waiting && !pairs.is_empty() {
+                break;
+            }
+            let Some(line) = self.line()? else { break };
+            let line = line.trim();
+            if !line.is_empty() && !line.starts_with('#') {
+                let failed = |what: String| Failure::File(format!("{}:{}: {what}", self.path.display(), self.line));
+                pairs.extend(pair(&mut self.columns, line).map_err(failed)?);
+            }
+        }
+        Ok(pairs)
+    }
+
+    fn line(&mut self) -> Result<Option<String>, Failure> {
+        self.line += 1;
+        let failed = |what: String| Failure::File(format!("{}:{}: {what}", self.path.display(), self.line));
+        let mut bytes = Vec::new();
+        let read = self.input.by_ref().take(LONGEST).read_until(b'\n', &mut bytes);
+        match read.map_err(|error| failed(error.to_string()))? {
+            0 => return Ok(None),
+            length if length as u64 == LONGEST => {
+                return Err(failed(format!("found a line of {LONGEST} bytes or more; expected six numbers")));
+            }
+            _ => {}
+        }
+        let bytes = if self.line == 1 { bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes) } else { &bytes };
+        let text = String::from_utf8(bytes.to_vec());
+        text.map(Some).map_err(|_| failed("found bytes that are not UTF-8; expected six numbers".into()))
+    }
+}
+
+/// The pair of a line; `None` if it names the columns.
+fn pair(columns: &mut Option<Columns>, line: &str) -> Result<Option<Pair>, String> {
+    let Some(Columns { delimiter, order, count }) = columns else {
+        let delimiter = delimiter(line);
+        let fields = split(line, delimiter);
+        let is_header = fields.iter().all(|field| parse(field, delimiter).is_none());
+        let order = if is_header { order(&fields)? } else { [0, 1, 2, 3, 4, 5] };
+        let count = if is_header { fields.len() } else { 6 };
+        *columns = Some(Columns { delimiter, order, count });
+        return if is_header { Ok(None) } else { pair(columns, line) };
+    };
+    let fields = split(line, *delimiter);
+    if fields.len() != *count {
+        let names = if *count == 6 { ", wi and wo" } else { ", as are named" };
+        return Err(format!("found {} columns; expected {count}{names}", fields.len()));
     }
     let mut numbers = [0.0; 6];
-    for (number, field) in numbers.iter_mut().zip(fields) {
-        *number = parse_number(field)?;
+    for (number, column) in numbers.iter_mut().zip(*order) {
+        let found = parse(fields[column], *delimiter).filter(|number| number.is_finite());
+        *number = found.ok_or_else(|| format!("found `{}`; expected a finite number", fields[column]))?;
     }
     let [a, b, c, d, e, f] = numbers;
-    Ok(Pair { wi: normalise([a, b, c])?, wo: normalise([d, e, f])? })
+    Ok(Some(Pair { wi: normalise([a, b, c])?, wo: normalise([d, e, f])? }))
+}
+
+/// What the fields of a line are separated by. A comma between digits is a decimal one if there are semicolons.
+fn delimiter(line: &str) -> Delimiter {
+    let found = [';', ','].into_iter().find(|&character| line.contains(character));
+    found.map_or(Delimiter::Spaces, Delimiter::Character)
+}
+
+fn split(line: &str, delimiter: Delimiter) -> Vec<&str> {
+    match delimiter {
+        Delimiter::Character(character) => line.split(character).map(|field| field.trim().trim_matches('"')).collect(),
+        Delimiter::Spaces => line.split_whitespace().collect(),
+    }
+}
+
+fn parse(field: &str, delimiter: Delimiter) -> Option<f64> {
+    if delimiter == Delimiter::Character(',') { field.parse().ok() } else { field.replace(',', ".").parse().ok() }
+}
+
+/// Which columns of these names hold wi and wo. Names that say nothing are those of columns in their usual order.
+fn order(names: &[&str]) -> Result<[usize; 6], String> {
+    let plain = |name: &str| -> String { name.chars().filter(char::is_ascii_alphanumeric).collect() };
+    let found = NAMES.map(|wanted| {
+        let is_wanted = |name: &&str| plain(name).eq_ignore_ascii_case(&plain(wanted));
+        let mut places = names.iter().enumerate().filter(|(_, name)| is_wanted(name)).map(|(place, _)| place);
+        (places.next(), places.next())
+    });
+    let wanted = NAMES.join(", ");
+    if found.iter().any(|(_, second)| second.is_some()) {
+        return Err(format!("found the columns {}; expected each of {wanted} once", names.join(", ")));
+    }
+    if found.iter().all(|(first, _)| first.is_none()) && names.len() == 6 {
+        say(format_args!("warning: the columns {} are taken to be {wanted}", names.join(", ")));
+        return Ok([0, 1, 2, 3, 4, 5]);
+    }
+    let mut order = [0; 6];
+    for (place, (first, _)) in order.iter_mut().zip(found) {
+        *place = first.ok_or_else(|| format!("found the columns {}; expected {wanted}", names.join(", ")))?;
+    }
+    Ok(order)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Vec<Pair>, String> {
+        let mut columns = None;
+        let pairs = text.lines().map(|line| pair(&mut columns, line));
+        Ok(pairs.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
+    }
+
+    #[test]
+    fn columns_are_known_by_their_names() {
+        let expected = vec![Pair { wi: [0.6, 0.0, 0.8], wo: [0.0, 0.0, 1.0] }];
+        for text in [
+            "0.6,0,0.8,0,0,1",
+            "0.6;0;0.8;0;0;1",
+            "0,6;0;0,8;0;0;1",
+            "0.6 0\t0.8   0 0 1",
+            "0.6\t0\t0.8\t0\t0\t1",
+            "wo.x,wo.y,wo.z,wi.x,wi.y,wi.z\n0,0,1,0.6,0,0.8",
+            "WIX;WIY;WIZ;WOX;WOY;WOZ\n0,6;0;0,8;0;0;1",
+            "\"n\",\"wi_z\",\"wi_y\",\"wi_x\",\"wo_x\",\"wo_y\",\"wo_z\",f\n7,0.8,0,0.6,0,0,1,x",
+            "a,b,c,d,e,f\n0.6,0,0.8,0,0,1",
+        ] {
+            let found = read(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+            assert_eq!(found.len(), 1, "{text}");
+            let close = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
+            assert!(close(found[0].wi, expected[0].wi) && close(found[0].wo, expected[0].wo), "{text}: {found:?}");
+        }
+        for (text, expected) in [
+            ("wi.x,wi.y,wi.z,wo.x,wo.y\n", "expected wi.x"),
+            ("wi.x,wi.y,wi.z,wo.x,wo.y,wo.y\n", "each of wi.x"),
+            ("theta_i,phi_i,theta_o,phi_o\n0,0,0,0", "found the columns theta_i, phi_i"),
+            ("0,0,1,0,0,1,0\n", "found 7 columns; expected 6"),
+            ("wi.x,wi.y,wi.z,wo.x,wo.y,wo.z,n\n0,0,1,0,0,1\n", "expected 7, as are named"),
+            ("0,0,1,0,0,x\n", "found `x`; expected a finite number"),
+        ] {
+            let error = read(text).expect_err(text);
+            assert!(error.contains(expected), "{text}: {error}");
+        }
+    }
 }

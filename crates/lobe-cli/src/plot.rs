@@ -6,6 +6,7 @@ use std::time::Duration;
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lobe::Side;
+use lobe_files::check_output;
 use lobe_formats::{Document, open, write_whole};
 use lobe_plot::{Facts, Figure, Progress, Scaling, Subject, View, ViewError, draw, page, rasterise};
 
@@ -87,6 +88,7 @@ enum Target {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let target = target(&args.out, args.kind)?;
+    check_output(&args.out, &[&args.file])?;
     let (format, document) = open(&args.file)?;
     let facts = match target {
         Target::Page => facts(&args.file, format.name(), &document)?,
@@ -159,11 +161,10 @@ fn view(args: &Args, subject: &Subject) -> Result<View, Failure> {
 
 /// What `lobe info` says, as tables.
 fn facts(file: &Path, format: &str, document: &Document) -> Result<Vec<Facts>, Failure> {
-    let unreadable = |error| Failure::File(format!("{}: {error}", file.display()));
-    let metadata = std::fs::metadata(file).map_err(unreadable)?;
     let row = |name: &str, value: String| (String::from(name), value);
     let mut rows = vec![row("format", format.into())];
-    if metadata.is_file() {
+    // A folder and the standard input have none.
+    if let Some(metadata) = std::fs::metadata(file).ok().filter(std::fs::Metadata::is_file) {
         rows.push(row("file", format!("{} bytes", metadata.len())));
     }
     rows.extend(document.source.iter().cloned());

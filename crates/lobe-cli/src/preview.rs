@@ -2,18 +2,22 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use clap::ValueEnum;
 use lobe::{Given, Lookup, Options};
+use lobe_files::check_output;
 use lobe_render::integrator::Path;
 use lobe_render::picture::{Meta, ToneMap, write_exr, write_png};
 use lobe_render::preview::{Show, studio};
-use lobe_render::shader::open;
+use lobe_render::shader::open_with;
 use lobe_render::{Film, Filter, Rect, Settings, render};
 
+use crate::angles::progress;
 use crate::failure::Failure;
-use crate::render::{Kind, Machine};
+use crate::interrupt;
+use crate::picture::{FILM, Kind};
+use crate::render::Machine;
 
 /// Show a measured material on a ball and on a draped cloth.
 #[derive(clap::Args)]
@@ -37,7 +41,7 @@ pub struct Args {
     /// Samples per pixel.
     #[arg(long, value_name = "N", default_value_t = 48, value_parser = clap::value_parser!(u32).range(1..65_537))]
     samples: u32,
-    /// Stop after this time at the latest; every pixel has a sample by then.
+    /// Stop after this time, preparing the material included; every pixel gets a sample in any case.
     #[arg(long, value_name = "TIME", default_value = "20s", value_parser = humantime::parse_duration)]
     time: Duration,
     /// For PNG: multiply radiance by two to this power.
@@ -65,11 +69,18 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
+    let begun = Instant::now();
     let kind = Kind::of(&args.output)?;
+    check_output(&args.output, &[&args.material])?;
     let backend = args.machine.backend()?;
     // A grid of half and difference angles that is not interpolated shows its bins; light is looked for from the camera.
     let options = Options { lookup: Lookup::Linear, indexed_by: Given::Viewer, ..Options::default() };
-    let material = open(&args.material, &options, backend).map_err(|error| Failure::File(error.to_string()))?;
+    let bar = (!args.machine.is_quiet()).then(|| progress("preparing the material"));
+    let mut watch = |done: usize, all: usize| bar.iter().for_each(|bar| bar(done as f64 / all.max(1) as f64));
+    // Half of the time for the picture itself.
+    let material = open_with(&args.material, &options, backend, Some(args.time / 2), &mut watch);
+    drop(bar);
+    let material = material.map_err(|error| Failure::File(error.to_string()))?;
     let show = match args.show {
         Shown::Both => Show::Both,
         Shown::Ball => Show::Ball,
@@ -86,12 +97,14 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         samples: 0..args.samples,
         backend,
         threads: args.machine.threads(),
-        time: Some(args.time),
+        time: Some(args.time.saturating_sub(begun.elapsed())),
     };
     let bar = args.machine.bar();
-    let rendered = render(&world, &settings, Film::new(window), |progress| {
-        bar.show(progress.done, progress.total, Some((progress.elapsed, args.time)));
-        true
+    let film = Film::try_new(window, FILM)?;
+    interrupt::listen();
+    let rendered = render(&world, &settings, film, |progress| {
+        bar.show(progress.done, progress.total, Some((begun.elapsed(), args.time)));
+        !interrupt::is_asked()
     });
     bar.finish();
     let (film, _) = rendered.map_err(|error| Failure::Usage(error.to_string()))?;
@@ -99,9 +112,23 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         Kind::Png => write_png(&args.output, &film, ToneMap { exposure: args.exposure })?,
         Kind::Exr => {
             let scene = "preview".into();
-            let meta = Meta { scene, size: args.size, window, samples: 0..args.samples, total: args.samples };
+            let meta = Meta {
+                scene,
+                size: args.size,
+                window,
+                samples: 0..film.samples().1,
+                total: film.samples().1,
+                timed: true,
+                exposure: args.exposure,
+                version: Meta::VERSION.into(),
+                arithmetic: Meta::arithmetic_of(backend),
+            };
             write_exr(&args.output, &film, &meta, false)?;
         }
+    }
+    if interrupt::is_asked() {
+        let message = format!("{}: interrupted; what there is was written", args.output.display());
+        return Err(Failure::Interrupted(message));
     }
     Ok(())
 }

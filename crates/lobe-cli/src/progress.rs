@@ -4,6 +4,8 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use crate::message::say;
+
 /// Work that takes less than this shows no bar.
 const PATIENCE: Duration = Duration::from_secs(1);
 
@@ -57,6 +59,11 @@ impl Bar {
         self.0.set_length(STEPS as u64);
         self.0.set_position((STEPS * share.max(timed).min(1.0)) as u64);
         self.0.set_message(format!("{:.1} M samples", done as f64 / 1e6));
+    }
+
+    /// Says something above the bar.
+    pub fn say(&self, text: &str) {
+        self.0.suspend(|| say(text));
     }
 
     /// Removes the bar.

@@ -1,19 +1,24 @@
 //! `lobe render`: pictures of scenes.
 
+use std::io::Write as _;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use lobe::Backend;
 use lobe_render::integrator::{self, INTEGRATORS};
-use lobe_render::picture::{Meta, ToneMap, read_partial, write_exr, write_png};
+use lobe_render::picture::{Meta, ToneMap};
 use lobe_render::scene::Scene;
 use lobe_render::{Film, Rect, Settings, render};
 
+use crate::angles::progress;
 use crate::failure::Failure;
+use crate::message::say;
+use crate::picture::{Begun, FILM, Kind, Output};
 use crate::progress::Bar;
 use crate::summary::Summary;
+use crate::{interrupt, message};
 
 /// Render a scene file to EXR or PNG.
 #[derive(clap::Args)]
@@ -21,13 +26,15 @@ use crate::summary::Summary;
     after_help = "The picture does not depend on threads, tiles, or the order of work. With --strict it does not depend \
 on the instructions of the machine either.
 
-Every 30 seconds the picture so far is written; an EXR file then also has the exact sums from which \
---resume continues. For a PNG they are next to it, in OUT.part.exr.
+Every 30 seconds, and on Ctrl-C, the picture so far is written; an EXR file then also has the exact sums from which \
+--resume continues. For a PNG they are next to it, in OUT.part.exr. A second Ctrl-C ends at once. A finished picture has \
+no sums, unless --keep-sums is given.
 
 Examples:
   lobe render scene.toml -o picture.exr
   lobe render scene.toml -o look.png --samples 16 --crop 100,50,300,250
   lobe render scene.toml -o picture.exr --time 10m --resume
+  lobe render scene.toml -o picture.exr --keep-sums        and later --resume --samples 256
   lobe render scene.toml -o part2.exr --tile 2/4           on the second of four machines
   lobe render scene.toml -o more.exr --samples-range 64..128
   lobe merge part*.exr -o picture.exr
@@ -45,7 +52,7 @@ pub struct Args {
     /// The integrator, with its default parameters, instead of the one in the scene.
     #[arg(long, value_name = "NAME", value_parser = integrators())]
     integrator: Option<String>,
-    /// Stop after this time, such as 90s or 10m, at the latest; every pixel has a sample by then.
+    /// Stop after this time, such as 90s or 10m, reading the scene included; every pixel gets a sample in any case.
     #[arg(long, value_name = "TIME", value_parser = humantime::parse_duration)]
     time: Option<Duration>,
     /// Render the pixels from column X0 and row Y0 up to, but not including, X1 and Y1, counted from the upper left.
@@ -60,9 +67,15 @@ pub struct Args {
     /// How often the picture so far is written.
     #[arg(long, value_name = "TIME", default_value = "30s", value_parser = humantime::parse_duration)]
     write_every: Duration,
-    /// Continue from the file that a stopped rendering has left.
+    /// Continue from the file that a stopped rendering, or one with --keep-sums, has left.
     #[arg(long)]
     resume: bool,
+    /// Begin anew, even if the sums of an earlier rendering are lost by that.
+    #[arg(long, conflicts_with = "resume")]
+    force: bool,
+    /// Write the exact sums of the finished picture too, so that --resume can add samples.
+    #[arg(long)]
+    keep_sums: bool,
     /// Print what the rendering took as JSON.
     #[arg(long)]
     json: bool,
@@ -102,6 +115,11 @@ impl Machine {
         self.threads.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
     }
 
+    /// Whether no progress is wanted.
+    pub fn is_quiet(&self) -> bool {
+        self.quiet
+    }
+
     /// A progress bar, unless none is wanted.
     pub fn bar(&self) -> Bar {
         Bar::new(self.quiet)
@@ -138,9 +156,22 @@ const UNLIMITED: u32 = 1 << 20;
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
+    let begun = Instant::now();
     let kind = Kind::of(&args.output)?;
+    let partial = args.tile.is_some() || args.samples_range.is_some();
+    if partial && kind == Kind::Png {
+        let message = format!("{}: found a PNG file; expected .exr, which holds exact sums", args.output.display());
+        return Err(Failure::Usage(message));
+    }
+    let mut output = Output::new(&args.output, kind, partial || args.keep_sums);
+    output.check(&[&args.scene])?;
     let backend = args.machine.backend()?;
-    let scene = Scene::open(&args.scene, backend).map_err(|error| Failure::File(error.to_string()))?;
+    let bar = (!args.machine.is_quiet()).then(|| progress("preparing materials"));
+    let mut watch = |share: f64| bar.iter().for_each(|bar| bar(share));
+    let scene = Scene::open_with_progress(&args.scene, backend, &mut watch);
+    drop(bar);
+    let scene = scene.map_err(|error| Failure::File(error.to_string()))?;
+    output.check(&scene.files)?;
     let total = match (args.samples, args.time) {
         (Some(samples), _) => samples,
         (None, Some(_)) => UNLIMITED,
@@ -159,14 +190,35 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         Some(spec) => ((spec.default)(), format!("{}-{}", scene.hash, spec.name)),
         None => (scene.integrator, scene.hash),
     };
-    let meta = Meta { scene: hash, size: scene.size, window, samples: samples.clone(), total };
-    let partial = args.tile.is_some() || args.samples_range.is_some();
-    if partial && kind == Kind::Png {
-        let message = format!("{}: found a PNG file; expected .exr, which holds exact sums", args.output.display());
-        return Err(Failure::Usage(message));
-    }
-    let output = Output { path: &args.output, kind, tone: ToneMap { exposure: scene.exposure }, meta };
-    let film = if args.resume { output.resume()? } else { Film::new(window) };
+    output.tone = ToneMap { exposure: scene.exposure };
+    let meta = Meta {
+        scene: hash,
+        size: scene.size,
+        window,
+        samples: samples.clone(),
+        total,
+        timed: args.time.is_some(),
+        exposure: scene.exposure,
+        version: Meta::VERSION.into(),
+        arithmetic: Meta::arithmetic_of(backend),
+    };
+    let film = match (args.resume, output.earlier()?) {
+        (true, Some(earlier)) => match output.resume(&meta, &earlier)? {
+            Begun::Sums(film) => film,
+            Begun::Finished(samples) => {
+                say(format_args!("{}: finished before, with {samples} samples", args.output.display()));
+                return Ok(());
+            }
+        },
+        (true, None) => {
+            if !args.machine.quiet {
+                say(format_args!("{}: missing, so there is nothing to go on with", output.part().display()));
+            }
+            Film::try_new(window, FILM)?
+        }
+        (false, Some(earlier)) if earlier.has_sums && !args.force => return Err(output.refuse(&earlier)),
+        (false, _) => Film::try_new(window, FILM)?,
+    };
     let settings = Settings {
         camera: scene.camera,
         size: scene.size,
@@ -176,35 +228,46 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         samples,
         backend,
         threads: args.machine.threads(),
-        time: args.time,
+        time: args.time.map(|time| time.saturating_sub(begun.elapsed())),
     };
     let bar = args.machine.bar();
-    let begun = Instant::now();
-    let (mut written, mut failed) = (begun, None);
+    let started = Instant::now();
+    let (mut written, mut warned) = (started, None);
+    interrupt::listen();
     let rendered = render(&scene.world, &settings, film, |progress| {
         bar.show(progress.done, progress.total, settings.time.map(|limit| (progress.elapsed, limit)));
-        if written.elapsed() >= args.write_every {
-            failed = output.write_part(&progress.film()).err();
+        if written.elapsed() >= args.write_every && !interrupt::is_asked() {
+            // The work goes on: there may be room again when it is finished.
+            if let Err(failure) = output.write_so_far(&meta, || progress.film()) {
+                let warning = format!("warning: the picture so far was not written: {failure}");
+                if warned.as_ref() != Some(&warning) {
+                    bar.say(&warning);
+                    warned = Some(warning);
+                }
+            }
             written = Instant::now();
         }
-        failed.is_none()
+        !interrupt::is_asked()
     });
     bar.finish();
-    if let Some(failure) = failed {
-        return Err(failure);
-    }
     let (film, stats) = rendered.map_err(|error| Failure::Usage(error.to_string()))?;
     if stats.invalid > 0 {
-        eprintln!("warning: {} samples were not finite and count as black", stats.invalid);
+        say(format_args!("warning: {} samples were not finite and count as black", stats.invalid));
     }
-    output.write(&film, partial)?;
-    let summary = Summary::new([window.width, window.height], film.samples(), begun.elapsed(), &stats);
+    let (least, most) = film.samples();
+    if interrupt::is_asked() && least < meta.samples.end - meta.samples.start {
+        return Err(output.interrupted(&film, &meta));
+    }
+    output.write(&film, &meta, partial)?;
+    let summary = Summary::new([window.width, window.height], (least, most), started.elapsed(), &stats);
+    let mut out = message::out(args.json);
     if args.json {
-        println!("{}", serde_json::to_string_pretty(&summary)?);
+        serde_json::to_writer_pretty(&mut out, &summary)?;
+        writeln!(out)?;
     } else if !args.machine.quiet {
-        println!("{}: {summary}", args.output.display());
+        writeln!(out, "{}: {summary}", args.output.display())?;
     }
-    Ok(())
+    Ok(out.flush()?)
 }
 
 /// The pixels to render.
@@ -227,100 +290,5 @@ fn window(args: &Args, size: [u32; 2]) -> Result<Rect, Failure> {
             let message = format!("--crop: found pixels outside the picture; expected up to {},{}", size[0], size[1]);
             Err(Failure::Usage(message))
         }
-    }
-}
-
-/// The kinds of files that pictures are written to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// OpenEXR.
-    Exr,
-    /// PNG.
-    Png,
-}
-
-impl Kind {
-    /// The kind given by the name of a file.
-    pub fn of(path: &Path) -> Result<Self, Failure> {
-        let is = |extension: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
-        match (is("exr"), is("png")) {
-            (true, _) => Ok(Kind::Exr),
-            (_, true) => Ok(Kind::Png),
-            _ => Err(Failure::Usage(format!("{}: expected a name that ends in .exr or .png", path.display()))),
-        }
-    }
-}
-
-/// Where the picture goes.
-struct Output<'a> {
-    path: &'a Path,
-    kind: Kind,
-    tone: ToneMap,
-    meta: Meta,
-}
-
-impl Output<'_> {
-    /// The file that a stopped rendering leaves.
-    fn part(&self) -> PathBuf {
-        match self.kind {
-            Kind::Exr => self.path.into(),
-            Kind::Png => {
-                let mut name = self.path.as_os_str().to_owned();
-                name.push(".part.exr");
-                name.into()
-            }
-        }
-    }
-
-    /// The film so far: to look at, and to continue.
-    fn write_part(&self, film: &Film) -> Result<(), Failure> {
-        write_exr(&self.part(), film, &self.meta, true)?;
-        if self.kind == Kind::Png {
-            write_png(self.path, film, self.tone)?;
-        }
-        Ok(())
-    }
-
-    fn write(&self, film: &Film, partial: bool) -> Result<(), Failure> {
-        match self.kind {
-            // What ended before its time says what it has, not what it was to have.
-            Kind::Exr if !partial => {
-                let samples = self.meta.samples.start..self.meta.samples.start + film.samples().1;
-                let total = self.meta.total.min(samples.end);
-                write_exr(self.path, film, &Meta { samples, total, ..self.meta.clone() }, false)?;
-            }
-            Kind::Exr => write_exr(self.path, film, &self.meta, true)?,
-            Kind::Png => {
-                write_png(self.path, film, self.tone)?;
-                // Only a rendering that took long has left one.
-                match std::fs::remove_file(self.part()) {
-                    Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                        return Err(Failure::File(format!("{}: {error}", self.part().display())));
-                    }
-                    _ => {}
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// The film of an earlier rendering, or an empty film.
-    fn resume(&self) -> Result<Film, Failure> {
-        let part = self.part();
-        if !part.exists() {
-            return Ok(Film::new(self.meta.window));
-        }
-        let (film, meta) = read_partial(&part)?;
-        let same = meta.scene == self.meta.scene
-            && (meta.size, meta.window) == (self.meta.size, self.meta.window)
-            && meta.samples.start == self.meta.samples.start;
-        if !same {
-            let message = format!(
-                "{}: found a part of another picture, or of other pixels or samples of it; expected a part of this one",
-                part.display()
-            );
-            return Err(Failure::Usage(message));
-        }
-        Ok(film)
     }
 }

@@ -1,12 +1,13 @@
 //! `lobe resample`: any material into a table of specular coordinates, and repairs of such a table.
 
-use std::io::{Write, stdout};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use lobe::table::{Scatter, specular};
 use lobe::{Data, Options};
 use lobe_colour::Space;
+use lobe_files::check_output;
 use lobe_formats::{Part, ddr, ssdd, write_whole};
 use lobe_ops::colour::convert;
 use lobe_ops::fill::{Beyond, fill, negatives, zeros};
@@ -17,6 +18,8 @@ use serde::Serialize;
 
 use crate::angles::{Angles, ScatterRule, SideRule, choose_aspects, parse_angles, progress, show_direction};
 use crate::failure::Failure;
+use crate::measure::fits;
+use crate::message;
 
 /// Resample any material into a table in specular coordinates, repair it, and report how far it is from the original.
 #[derive(clap::Args)]
@@ -131,9 +134,13 @@ const DEFAULT_ERROR: f64 = 0.01;
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
+    check_output(&args.output, &[&args.input])?;
+    if let Some(mask) = &args.mask {
+        check_output(mask, &[&args.input, &args.output])?;
+    }
     let subject = Subject::open(&args.input, &Options::default())?;
     let aspect = choose_aspects(&args.input, &subject, args.scatter, args.side)?[0];
-    check_output(&args.output, aspect.scatter)?;
+    check_extension(&args.output, aspect.scatter)?;
     let (samples, resampling) = table(args, &subject, aspect)?;
     let mut repairs = Vec::new();
     let samples = repair(args, samples, &mut repairs)?;
@@ -146,7 +153,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         resampling,
         repairs,
     };
-    let mut out = stdout().lock();
+    let mut out = message::out(args.json);
     if args.json {
         serde_json::to_writer_pretty(&mut out, &answer)?;
         writeln!(out)?;
@@ -177,6 +184,10 @@ fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(specular::Da
     for (axis, Angles(knots)) in axes.iter_mut().zip(given).filter_map(|(axis, list)| Some((axis, list.as_ref()?))) {
         *axis = Knots::Keep(knots.clone());
     }
+    let counts = axes.each_ref().map(|axis| match axis {
+        Knots::Keep(knots) | Knots::Choose(knots) => knots.len(),
+    });
+    fits(&args.output, &counts, subject.material.channel_count())?;
     let is_all_given = given.iter().all(|axis| axis.is_some());
     let bar = progress("resampling");
     let chosen = choose(&subject.material, aspect, &axes, bound, &bar)
@@ -266,7 +277,7 @@ fn extension(path: &Path) -> String {
 }
 
 /// Checked before anything takes long.
-fn check_output(path: &Path, scatter: Scatter) -> Result<(), Failure> {
+fn check_extension(path: &Path, scatter: Scatter) -> Result<(), Failure> {
     let (wanted, what) = match scatter {
         Scatter::Reflection => ("ddr", "reflection"),
         Scatter::Transmission => ("ddt", "transmission"),

@@ -3,10 +3,9 @@
 use std::io::{Write, stdout};
 use std::path::PathBuf;
 
-use clap::CommandFactory;
 use clap_complete::Shell;
 
-use crate::Cli;
+use crate::command;
 use crate::failure::Failure;
 
 /// Print the completions for a shell.
@@ -34,8 +33,8 @@ pub struct Man {
 /// Runs `lobe completions`.
 pub fn completions(args: &Completions) -> Result<(), Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut Cli::command(), "lobe", &mut script);
-    Ok(stdout().lock().write_all(&script)?)
+    clap_complete::generate(args.shell, &mut command(), "lobe", &mut script);
+    print(&script)
 }
 
 /// Runs `lobe man`.
@@ -43,11 +42,17 @@ pub fn man(args: &Man) -> Result<(), Failure> {
     match &args.out {
         None => {
             let mut page = Vec::new();
-            clap_mangen::Man::new(Cli::command()).render(&mut page)?;
-            Ok(stdout().lock().write_all(&page)?)
+            clap_mangen::Man::new(command()).render(&mut page)?;
+            print(&page)
         }
         Some(folder) => std::fs::create_dir_all(folder)
-            .and_then(|()| clap_mangen::generate_to(Cli::command(), folder))
+            .and_then(|()| clap_mangen::generate_to(command(), folder))
             .map_err(|error| Failure::File(format!("{}: {error}", folder.display()))),
     }
+}
+
+fn print(bytes: &[u8]) -> Result<(), Failure> {
+    let mut out = stdout().lock();
+    out.write_all(bytes)?;
+    Ok(out.flush()?)
 }

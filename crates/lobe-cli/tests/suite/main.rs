@@ -7,6 +7,8 @@ mod colours;
 mod common;
 mod compare;
 mod convert;
+mod hardening;
 mod plot;
 mod render;
 mod resample;
+mod sums;

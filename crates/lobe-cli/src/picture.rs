@@ -1,0 +1,208 @@
+//! Where a picture goes, what an earlier rendering has left there, and that nothing of it is lost.
+
+use std::path::{Path, PathBuf};
+
+use lobe_files::check_output;
+use lobe_memory::require;
+use lobe_render::picture::{Inspected, Meta, PictureError, ToneMap, inspect, read_partial, write_exr, write_png};
+use lobe_render::{Film, Rect};
+
+use crate::failure::Failure;
+
+/// Bytes that writing a finished picture takes per pixel, in addition to the film: the columns of the file, and the file.
+pub const FILM: usize = 100;
+/// The same of the picture so far: a copy of the film, and the sums in columns and as a file.
+const SO_FAR: usize = 400;
+
+/// The kinds of files that pictures are written to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// OpenEXR.
+    Exr,
+    /// PNG.
+    Png,
+}
+
+impl Kind {
+    /// The kind given by the name of a file.
+    pub fn of(path: &Path) -> Result<Self, Failure> {
+        let is = |extension: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
+        match (is("exr"), is("png")) {
+            (true, _) => Ok(Kind::Exr),
+            (_, true) => Ok(Kind::Png),
+            _ => Err(Failure::Usage(format!("{}: expected a name that ends in .exr or .png", path.display()))),
+        }
+    }
+}
+
+/// Where the picture goes.
+pub struct Output<'a> {
+    path: &'a Path,
+    kind: Kind,
+    /// How a PNG is tone-mapped.
+    pub tone: ToneMap,
+    keep_sums: bool,
+}
+
+/// What there is to go on with.
+pub enum Begun {
+    /// The sums of some samples.
+    Sums(Film),
+    /// Everything that was requested: this many samples.
+    Finished(u32),
+}
+
+impl<'a> Output<'a> {
+    /// A file of this kind, which has the sums in the end if they are kept.
+    pub fn new(path: &'a Path, kind: Kind, keep_sums: bool) -> Self {
+        Output { path, kind, tone: ToneMap { exposure: 0.0 }, keep_sums }
+    }
+
+    /// Whether all can be written that will be, and nothing of it is an input.
+    pub fn check<P: AsRef<Path>>(&self, inputs: &[P]) -> Result<(), Failure> {
+        check_output(self.path, inputs)?;
+        Ok(check_output(&self.part(), inputs)?)
+    }
+
+    /// The file that a stopped rendering leaves.
+    pub fn part(&self) -> PathBuf {
+        match self.kind {
+            Kind::Exr => self.path.into(),
+            Kind::Png => {
+                let mut name = self.path.as_os_str().to_owned();
+                name.push(".part.exr");
+                name.into()
+            }
+        }
+    }
+
+    /// What an earlier rendering has left; `None` if there is no file, or one that lobe has not written.
+    pub fn earlier(&self) -> Result<Option<Inspected>, Failure> {
+        match inspect(&self.part()) {
+            Ok(earlier) => Ok(Some(earlier)),
+            Err(error @ PictureError::Io { .. }) if self.part().exists() => Err(error.into()),
+            Err(PictureError::Io { .. } | PictureError::Content { .. }) => Ok(None),
+        }
+    }
+
+    /// Why the sums that are there are not overwritten.
+    pub fn refuse(&self, earlier: &Inspected) -> Failure {
+        Failure::Usage(format!(
+            "{}: found the sums of an earlier rendering of {} samples; expected --resume to go on with them, or --force \
+             to begin anew",
+            self.part().display(),
+            earlier.meta.samples.end - earlier.meta.samples.start
+        ))
+    }
+
+    /// What an earlier rendering of the same has left.
+    pub fn resume(&self, wanted: &Meta, earlier: &Inspected) -> Result<Begun, Failure> {
+        let part = self.part();
+        let wrong = |message: String| Err(Failure::Usage(format!("{}: {message}", part.display())));
+        let Inspected { meta, has_sums } = earlier;
+        if let Some(difference) = meta.difference(wanted) {
+            let (first, second) = (difference.first, difference.second);
+            return wrong(format!(
+                "found a part of another picture, with {} of `{first}`; expected a part of this one, with `{second}`",
+                difference.of
+            ));
+        }
+        if (meta.window, meta.samples.start) != (wanted.window, wanted.samples.start) {
+            return wrong(format!(
+                "found {} from sample {}; expected a part of this one, {} from sample {}",
+                pixels(meta.window),
+                meta.samples.start,
+                pixels(wanted.window),
+                wanted.samples.start
+            ));
+        }
+        let asked = wanted.samples.end - wanted.samples.start;
+        let fewer = |there: u32| {
+            wrong(format!(
+                "found {there} samples, more than the {asked} that were requested; expected at least as many"
+            ))
+        };
+        if *has_sums {
+            let film = read_partial(&part)?.0;
+            let (_, most) = film.samples();
+            return if most > asked { fewer(most) } else { Ok(Begun::Sums(film)) };
+        }
+        match meta.samples.end - meta.samples.start {
+            there if there > asked && !wanted.timed => fewer(there),
+            there if there == asked || wanted.timed => Ok(Begun::Finished(there)),
+            there => wrong(format!(
+                "found a finished picture of {there} samples without its sums; expected one of --keep-sums to add to"
+            )),
+        }
+    }
+
+    /// The film so far: to look at, and to continue.
+    pub fn write_so_far(&self, meta: &Meta, film: impl FnOnce() -> Film) -> Result<(), Failure> {
+        let bytes = meta.window.area() as u64 * SO_FAR as u64;
+        require(bytes).map_err(|no_room| Failure::File(format!("it takes {no_room}")))?;
+        self.write_sums(&film(), meta)
+    }
+
+    fn write_sums(&self, film: &Film, meta: &Meta) -> Result<(), Failure> {
+        write_exr(&self.part(), film, meta, true)?;
+        if self.kind == Kind::Png {
+            write_png(self.path, film, self.tone)?;
+        }
+        Ok(())
+    }
+
+    /// The picture that is finished. If it cannot be written there, it goes elsewhere: it may have taken hours.
+    pub fn write(&self, film: &Film, meta: &Meta, partial: bool) -> Result<(), Failure> {
+        let Err(failure) = self.write_finished(film, meta, partial) else { return Ok(()) };
+        let rescue = std::env::temp_dir().join(format!("lobe-{}.exr", std::process::id()));
+        Err(match write_exr(&rescue, film, meta, true) {
+            Ok(()) => Failure::File(format!("{failure}; the picture and its sums are in {}", rescue.display())),
+            Err(_) => failure,
+        })
+    }
+
+    fn write_finished(&self, film: &Film, meta: &Meta, partial: bool) -> Result<(), Failure> {
+        // What ended before its time says what it has, not what it was to have.
+        let samples = meta.samples.start..meta.samples.start + film.samples().1;
+        let total = meta.total.min(samples.end);
+        let finished = if partial { meta.clone() } else { Meta { samples, total, ..meta.clone() } };
+        match self.kind {
+            Kind::Exr => write_exr(self.path, film, &finished, self.keep_sums)?,
+            Kind::Png => {
+                write_png(self.path, film, self.tone)?;
+                if self.keep_sums {
+                    return Ok(write_exr(&self.part(), film, &finished, true)?);
+                }
+                // Only a rendering that took long has left one.
+                match std::fs::remove_file(self.part()) {
+                    Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                        return Err(Failure::File(format!("{}: {error}", self.part().display())));
+                    }
+                    _ => {}
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes what there is of a picture that the user has ended, and says how to go on.
+    pub fn interrupted(&self, film: &Film, meta: &Meta) -> Failure {
+        let (least, most) = film.samples();
+        if most == 0 {
+            return Failure::Interrupted("interrupted before the first sample; nothing was written".into());
+        }
+        match self.write_sums(film, meta) {
+            Ok(()) => Failure::Interrupted(format!(
+                "{}: interrupted with {least} to {most} of {} samples, which were written; the same command with --resume goes on",
+                self.path.display(),
+                meta.samples.end - meta.samples.start
+            )),
+            Err(failure) => failure,
+        }
+    }
+}
+
+fn pixels(window: Rect) -> String {
+    let (columns, rows) = (window.columns(), window.rows());
+    format!("columns {}..{} and rows {}..{}", columns.start, columns.end, rows.start, rows.end)
+}

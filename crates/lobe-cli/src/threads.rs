@@ -1,0 +1,35 @@
+//! The threads that work is shared among.
+
+use std::sync::mpsc;
+use std::thread;
+
+use rayon::ThreadPoolBuilder;
+
+/// Makes rayon's pool, of as many threads as the system allows: by itself it would panic if one of them cannot be made.
+pub fn start() {
+    let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|count| count.parse().ok()).filter(|count| *count > 0);
+    let wanted = asked.unwrap_or_else(|| thread::available_parallelism().map_or(1, usize::from));
+    let mut waiting = Vec::new();
+    // Threads that wait for their task are there, whatever happens until they get it.
+    while waiting.len() < wanted {
+        let (sender, receiver) = mpsc::channel::<rayon::ThreadBuilder>();
+        let thread = thread::Builder::new().spawn(move || receiver.recv().map(rayon::ThreadBuilder::run));
+        match thread {
+            Ok(_) => waiting.push(sender),
+            Err(_) => break,
+        }
+    }
+    let pool = ThreadPoolBuilder::new();
+    // It is not an error if somebody else has made the pool.
+    let _ = match waiting.len() {
+        0 => pool.num_threads(1).use_current_thread().build_global(),
+        threads => {
+            let mut waiting = waiting.into_iter();
+            let hand_over = move |thread| {
+                let sent = waiting.next().map(|sender| sender.send(thread).is_ok());
+                if sent == Some(true) { Ok(()) } else { Err(std::io::Error::other("no thread")) }
+            };
+            pool.num_threads(threads).spawn_handler(hand_over).build_global()
+        }
+    };
+}
