@@ -26,6 +26,7 @@ pub mod gltf;
 mod normals;
 pub mod obj;
 pub mod ply;
+mod polygon;
 mod read;
 mod refine;
 pub mod shapes;

@@ -1,8 +1,8 @@
 //! Wavefront OBJ, and the material libraries (MTL) next to it.
 //!
 //! `v`, `vt`, `vn`, `f`, `o`, `g`, `usemtl` and `mtllib` are read; lines, points, curves and smoothing groups are
-//! skipped. Polygons become fans of triangles, so they should be convex. A group of the mesh is a run of faces of one
-//! object or group and one material.
+//! skipped. A line that ends in `\` goes on in the next, and lines may end in a line feed, a carriage return, or both.
+//! Polygons of any shape become triangles. A group of the mesh is a run of faces of one object or group and one material.
 
 mod line;
 mod mtl;
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use lobe_files::FormatError;
 
 use crate::file;
-use crate::{Geometry, Group, Parts};
+use crate::{Geometry, Group, Parts, polygon};
 use line::Line;
 pub use mtl::{Material, materials};
 
@@ -50,8 +50,8 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<Geometry, FormatError> {
 
 fn read_lines(path: &Path, bytes: &[u8]) -> Result<Reader, FormatError> {
     let mut reader = Reader::default();
-    for (number, bytes) in bytes.split(|&byte| byte == b'\n').enumerate() {
-        reader.line(&mut Line::new(path, number + 1, bytes))?;
+    for (number, bytes) in line::whole(bytes) {
+        reader.line(&mut Line::new(path, number, &bytes))?;
     }
     Ok(reader)
 }
@@ -67,6 +67,8 @@ struct Reader {
     normals: Vec<[f32; 3]>,
     /// Vertices of the mesh, one for each different corner, in order of appearance.
     corners: Vec<Corner>,
+    /// Where they are.
+    places: Vec<[f32; 3]>,
     known: HashMap<Corner, u32>,
     triangles: Vec<[u32; 3]>,
     groups: Vec<Group>,
@@ -98,6 +100,7 @@ impl Reader {
             let vertex = *self.known.entry(corner).or_insert(next);
             if vertex == next {
                 self.corners.push(corner);
+                self.places.push(self.positions[corner.0 as usize]);
             }
             polygon.push(vertex);
         }
@@ -105,7 +108,10 @@ impl Reader {
             return Err(line.wrong(format!("a face of {} corners", polygon.len()), "3 corners or more"));
         }
         let start = self.triangles.len() as u32;
-        self.triangles.extend((2..polygon.len()).map(|i| [polygon[0], polygon[i - 1], polygon[i]]));
+        polygon::triangulate(&self.places, &polygon, &mut self.triangles).map_err(|polygon::TooMany| {
+            let expected = format!("at most {} corners of a face that is not convex", polygon::MOST);
+            line.wrong(format!("{} of them", polygon.len()), expected)
+        })?;
         let end = self.triangles.len() as u32;
         match self.groups.last_mut() {
             Some(group) if group.name == self.name && group.material == self.material => group.triangles.end = end,
@@ -128,9 +134,9 @@ impl Reader {
             self.corners.iter().any(|corner| corner.2.is_some()),
         );
         let parts = Parts {
-            positions: self.corners.iter().map(|corner| self.positions[corner.0 as usize]).collect(),
             uvs: textured.then(|| self.corners.iter().map(uv).collect()),
             normals: shaded.then(|| self.corners.iter().map(normal).collect()),
+            positions: self.places,
             tangents: None,
             triangles: self.triangles,
             groups: self.groups,

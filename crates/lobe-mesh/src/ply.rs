@@ -1,8 +1,8 @@
 //! PLY, the Stanford polygon format: text and binary of both byte orders are read, little-endian binary is written.
 //!
 //! Vertices have `x y z`, and may have `nx ny nz`, texture coordinates (`u v`, `s t`, `texture_u texture_v` or
-//! `texture_s texture_t`) and tangents (`tx ty tz tw`); faces have `vertex_indices` or `vertex_index`. Polygons become
-//! fans of triangles, so they should be convex. Everything else is skipped.
+//! `texture_s texture_t`) and tangents (`tx ty tz tw`); faces have `vertex_indices` or `vertex_index`. Polygons of any
+//! shape become triangles. Everything else is skipped.
 //!
 //! PLY has no groups. The writer gives every face a property `group`, and names them in comments: `group 0 NAME`,
 //! `material 0 NAME`. The reader sorts faces by it.
@@ -18,7 +18,7 @@ use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{ElementDef, Encoding, Header, PropertyAccess, PropertyType, ScalarType};
 
 use crate::file::{self, wrong};
-use crate::{Geometry, Group, Parts};
+use crate::{Geometry, Group, Parts, polygon};
 use elements::{Face, Skipped, Vertex};
 pub use write::{to_bytes, write};
 
@@ -146,7 +146,10 @@ fn connect(path: &Path, header: &Header, mut faces: Vec<Face>, parts: &mut Parts
     for same in faces.chunk_by(|a, b| a.group == b.group) {
         let start = parts.triangles.len() as u32;
         for Face { corners, .. } in same {
-            parts.triangles.extend((2..corners.len()).map(|i| [corners[0], corners[i - 1], corners[i]]));
+            polygon::triangulate(&parts.positions, corners, &mut parts.triangles).map_err(|polygon::TooMany| {
+                let expected = format!("at most {} corners of a face that is not convex", polygon::MOST);
+                wrong(path, format!("{} of them", corners.len()), expected)
+            })?;
         }
         parts.groups.push(Group {
             name: names.get(&("group", same[0].group)).copied().unwrap_or_default().into(),

@@ -1,5 +1,6 @@
 //! One line of an OBJ or MTL file, word by word.
 
+use std::borrow::Cow;
 use std::path::Path;
 use std::str::SplitAsciiWhitespace;
 
@@ -8,11 +9,49 @@ use lobe_files::{FormatError, Place};
 /// Bytes of the longest name.
 const LONGEST_NAME: usize = 1024;
 
+/// The lines of a file with their numbers. A line feed, a carriage return or both end a line, unless the last byte is a
+/// backslash that is not in a comment: then the next line belongs to it.
+pub(super) fn whole(bytes: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, [u8]>)> {
+    let (mut rest, mut number) = (Some(bytes), 0);
+    let mut physical = move || {
+        let bytes = rest?;
+        let end = bytes.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
+        let (line, after) = end.map_or((bytes, None), |end| {
+            let length = if bytes[end..].starts_with(b"\r\n") { 2 } else { 1 };
+            (&bytes[..end], Some(&bytes[end + length..]))
+        });
+        rest = after;
+        number += 1;
+        Some((number, line))
+    };
+    let goes_on = |line: &[u8]| line.strip_suffix(b"\\").filter(|start| !start.contains(&b'#')).map(<[u8]>::len);
+    std::iter::from_fn(move || {
+        let (number, line) = physical()?;
+        let Some(length) = goes_on(line) else { return Some((number, Cow::Borrowed(line))) };
+        let mut start = &line[..length];
+        let mut all = Vec::new();
+        loop {
+            all.extend_from_slice(start);
+            // A word ends with its line.
+            all.push(b' ');
+            let Some((_, next)) = physical() else { break };
+            let Some(length) = goes_on(next) else {
+                all.extend_from_slice(next);
+                break;
+            };
+            start = &next[..length];
+        }
+        Some((number, Cow::Owned(all)))
+    })
+}
+
 /// The words of a line that are still to be read.
 pub(super) struct Line<'a> {
     path: &'a Path,
     number: usize,
     words: SplitAsciiWhitespace<'a>,
+    /// Whether bytes that are not text end it.
+    is_cut: bool,
 }
 
 impl<'a> Line<'a> {
@@ -20,7 +59,7 @@ impl<'a> Line<'a> {
     pub fn new(path: &'a Path, number: usize, bytes: &'a [u8]) -> Self {
         let content = bytes.split(|&byte| byte == b'#').next().unwrap_or_default();
         let text = content.utf8_chunks().next().map_or("", |chunk| chunk.valid());
-        Line { path, number, words: text.split_ascii_whitespace() }
+        Line { path, number, words: text.split_ascii_whitespace(), is_cut: text.len() < content.len() }
     }
 
     /// The next word.
@@ -67,7 +106,9 @@ impl<'a> Line<'a> {
     #[expect(clippy::type_complexity, reason = "three indices, two of which may be missing")]
     pub fn corner(&mut self, counts: [usize; 3]) -> Result<Option<(u32, Option<u32>, Option<u32>)>, FormatError> {
         const NAMES: [&str; 3] = ["vertex", "texture coordinates", "normal"];
-        let Some(word) = self.words.next() else { return Ok(None) };
+        let Some(word) = self.words.next() else {
+            return if self.is_cut { Err(self.wrong("bytes that are not text", "corners")) } else { Ok(None) };
+        };
         let mut indices = [None; 3];
         for (place, text) in word.split('/').enumerate() {
             if place > 2 {
@@ -93,10 +134,12 @@ impl<'a> Line<'a> {
         });
         let in_range = from_zero.and_then(|index| u32::try_from(index).ok()).filter(|&index| (index as usize) < count);
         in_range.ok_or_else(|| {
-            self.wrong(
-                format!("{name} `{text}`"),
-                format!("1 to {count} or -1 to -{count}, as many as there are so far"),
-            )
+            let expected = match count {
+                0 => "none, as no such line comes before this one".into(),
+                1 => "1 or -1, as there is one so far".into(),
+                _ => format!("1 to {count} or -1 to -{count}, as many as there are so far"),
+            };
+            self.wrong(format!("{name} `{text}`"), expected)
         })
     }
 

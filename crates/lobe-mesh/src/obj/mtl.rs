@@ -39,8 +39,8 @@ pub fn materials(path: &Path) -> Result<Vec<Material>, FormatError> {
 /// Reads the content of a library; `path` is only for messages.
 pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Vec<Material>, FormatError> {
     let mut materials: Vec<Material> = Vec::new();
-    for (number, bytes) in bytes.split(|&byte| byte == b'\n').enumerate() {
-        let mut line = Line::new(path, number + 1, bytes);
+    for (number, bytes) in super::line::whole(bytes) {
+        let mut line = Line::new(path, number, &bytes);
         let Some(keyword) = line.word() else { continue };
         if keyword == "newmtl" {
             materials.push(Material { name: line.name()?, ..Material::default() });

@@ -31,6 +31,36 @@ fn faces_become_triangles_in_groups() {
 }
 
 #[test]
+fn lines_end_and_go_on_as_the_format_says() {
+    let mesh = parse(TEXT).expect("a mesh");
+    assert_eq!(parse(&TEXT.replace('\n', "\r")).expect("carriage returns only"), mesh);
+    let continued = TEXT.replace("f 1/1/1 2/2/1 3/3/1 4/4/1", "f \\\n1/1/1 2/2/1 \\\n  3/3/1\\\n4/4/1");
+    assert_eq!(parse(&continued).expect("a continued line"), mesh);
+    assert_eq!(parse(&continued.replace('\n', "\r\n")).expect("a continued line"), mesh);
+    // A comment ends with its line, whatever it ends in.
+    let comment = TEXT.replace("# corner", "# from C:\\models\\");
+    assert_eq!(parse(&comment).expect("a comment"), mesh);
+    let error = parse("v 0 0 0\nv 1 0 \\\n0\nv 0 1 \\\nup\n").expect_err("a word that is no number");
+    assert_eq!(error.place, Place::Line(4), "{error}");
+    assert!(parse("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 \\").is_ok(), "nothing to go on with");
+    let bytes = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 \xff 4\n";
+    let error = obj::parse(Path::new("a.obj"), bytes).expect_err("bytes that are not text");
+    assert_eq!(error.place, Place::Line(5), "{error}");
+}
+
+#[test]
+fn faces_that_are_not_convex_are_filled() {
+    let vertices = "v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\n";
+    let mesh = parse(&format!("{vertices}f 1 2 3 4 5 6\n")).expect("a mesh");
+    assert_eq!((mesh.triangles.len(), mesh.area()), (4, 3.0));
+    let mesh = parse(&format!("{vertices}f 6 5 4 3 2 1 6\ng next\nf 1 2 3\n")).expect("a mesh");
+    assert_eq!((mesh.area(), mesh.groups[1].triangles.clone()), (3.5, 4..5));
+    // Corners of one place with other texture coordinates are one corner of the shape.
+    let seam = "vt 0 0\nvt 1 1\nf 1/1 1/2 2/1 3/1 4/1 5/1 6/1\n";
+    assert_eq!(parse(&format!("{vertices}{seam}")).expect("a mesh").area(), 3.0);
+}
+
+#[test]
 fn missing_normals_become_smooth_ones() {
     let text = TEXT.replace("-2//1 -3//1 -1//1", "-2 -3 -1");
     let mesh = parse(&text).expect("a mesh");
@@ -53,7 +83,7 @@ fn errors_say_where_and_what() {
         ("vt 1 1", "vt", 9, "the end of the line", "u and v"),
         ("3/3/1 4", "5/3/1 4", 14, "vertex `5`", "1 to 4"),
         ("3/3/1 4", "3/5/1 4", 14, "texture coordinates `5`", "1 to 4"),
-        ("3/3/1 4", "3/3/2 4", 14, "normal `2`", "1 to 1"),
+        ("3/3/1 4", "3/3/2 4", 14, "normal `2`", "1 or -1"),
         ("3/3/1 4", "0/3/1 4", 14, "vertex `0`", "1 to 4"),
         ("3/3/1 4", "/3/1 4", 14, "`/3/1`", "the index of a vertex"),
         ("3/3/1 4", "3/3/1/1 4", 14, "`3/3/1/1`", "three indices"),
@@ -65,6 +95,14 @@ fn errors_say_where_and_what() {
         let error = parse(&TEXT.replacen(from, to, 1)).expect_err(to);
         assert_eq!(error.place, Place::Line(line), "{error}");
         assert!(error.found.contains(found) && error.expected.contains(expected), "{error}");
+    }
+    for (text, expected) in [
+        ("f 1 2 3\nv 0 0 0\n", "none, as no such line comes before"),
+        ("v 0 0 0\nf 1 2 1\n", "1 or -1"),
+        ("v 0 0 0\nf 1//1 1//1 1//1\n", "none, as no such line"),
+    ] {
+        let error = parse(text).expect_err(text);
+        assert!(error.expected.contains(expected), "{error}");
     }
     assert!(parse("v 0 0 0\n").expect_err("no face").found.contains("no triangles"));
     let long = TEXT.replace("rough steel", &"steel".repeat(1000));

@@ -167,3 +167,14 @@ fn shared_files_have_their_counts() {
         println!("{name}: {} vertices, {} triangles", mesh.positions.len(), mesh.triangles.len());
     }
 }
+
+#[test]
+fn faces_that_are_not_convex_are_filled() {
+    let l = "2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n0 0 0\n";
+    let text = format!(
+        "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n\
+         property list uchar int vertex_indices\nend_header\n{l}6 0 1 2 3 4 5\n3 0 1 2\n"
+    );
+    let mesh = parse(text.as_bytes()).expect("a mesh");
+    assert_eq!((mesh.triangles.len(), mesh.area()), (5, 3.5));
+}
