@@ -31,7 +31,7 @@ pub fn xyz_to_rgb(xyz: [f64; 3]) -> [f64; 3] {
     product(&XYZ_TO_RGB, xyz)
 }
 
-fn product(matrix: &[[f64; 3]; 3], vector: [f64; 3]) -> [f64; 3] {
+pub(crate) fn product(matrix: &[[f64; 3]; 3], vector: [f64; 3]) -> [f64; 3] {
     matrix.map(|row| row.iter().zip(vector).map(|(a, b)| a * b).sum())
 }
 

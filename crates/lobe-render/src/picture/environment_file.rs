@@ -1,12 +1,14 @@
 //! Images of environments: OpenEXR and Radiance HDR.
 
-use std::io::Cursor;
+mod open_exr;
+mod radiance;
+
 use std::path::Path;
 
-use exr::prelude::{ReadChannels, ReadLayers};
+use lobe_colour::Primaries;
 
 use super::PictureError;
-use super::exr_file::{check_size, content};
+use super::exr_file::content;
 use crate::light::Environment;
 
 /// What the first bytes of an OpenEXR file are.
@@ -15,47 +17,53 @@ const EXR: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 /// Reads an image of longitude and latitude, turned about +y by an angle in radians, every radiance multiplied by
 /// `scale`. Negative radiances, which resampling leaves in such files, count as 0.
 ///
+/// What the header of a file says of its radiances is honoured: the exposures and colour corrections of Radiance HDR, the
+/// order of its lines, the windows of OpenEXR, and the primaries of both. An image that the header says is anything but a
+/// view of all directions in longitude and latitude is refused.
+///
 /// # Errors
-/// If the file cannot be read, is damaged, or has radiances that are not finite numbers.
+/// If the file cannot be read, is damaged, has radiances that are not finite numbers, or says what cannot be honoured.
 pub fn read_environment(path: &Path, turn: f32, scale: f32) -> Result<Environment, PictureError> {
     let bytes = lobe_files::bytes(path).map_err(|error| PictureError::Io { file: path.into(), error })?;
-    let (width, height, texels) = if bytes.starts_with(&EXR) { exr(path, &bytes)? } else { hdr(path, &bytes)? };
-    let texels = texels.into_iter().map(|texel| texel.map(|x| (x * scale).max(if x.is_nan() { x } else { 0.0 })));
-    Environment::image(width, height, texels.collect(), turn)
+    let picture = if bytes.starts_with(&EXR) { open_exr::read(path, &bytes)? } else { radiance::read(path, &bytes)? };
+    // What is not a number is left for the environment to refuse, with its place.
+    let scaled = |x: f32| if x.is_finite() { (x * scale).max(0.0) } else { x };
+    let texels = picture.texels.into_iter().map(|texel| texel.map(scaled)).collect();
+    Environment::image(picture.width, picture.height, texels, turn)
         .map_err(|error| content(path, error, "an image of an environment"))
 }
 
-type Texels = (usize, usize, Vec<[f32; 3]>);
-
-fn exr(path: &Path, bytes: &[u8]) -> Result<Texels, PictureError> {
-    check_size(path, bytes)?;
-    let image = exr::prelude::read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .rgba_channels(
-            |size, _| (size.0, vec![[0.0f32; 3]; size.area()]),
-            |(width, texels), at, (r, g, b, _): (f32, f32, f32, f32)| texels[at.1 * *width + at.0] = [r, g, b],
-        )
-        .first_valid_layer()
-        .all_attributes()
-        .non_parallel()
-        .from_buffered(Cursor::new(bytes))
-        .map_err(|error| content(path, error, "an EXR file with the channels R, G and B"))?;
-    let layer = image.layer_data;
-    let (width, texels) = layer.channel_data.pixels;
-    Ok((width, layer.size.1, texels))
+/// Radiances in linear sRGB, in rows from the top, from the left.
+struct Picture {
+    width: usize,
+    height: usize,
+    texels: Vec<[f32; 3]>,
 }
 
-fn hdr(path: &Path, bytes: &[u8]) -> Result<Texels, PictureError> {
-    const EXPECTED: &str = "an OpenEXR or Radiance HDR file";
-    let wrong = |error: zune_hdr::HdrDecodeErrors| content(path, format!("{error:?}"), EXPECTED);
-    let mut decoder = zune_hdr::HdrDecoder::new(zune_core::bytestream::ZCursor::new(bytes));
-    decoder.decode_headers().map_err(wrong)?;
-    let (width, height) = decoder.dimensions().ok_or_else(|| content(path, "no size", EXPECTED))?;
-    // Four runs of one byte take eight bytes for at most 127 texels.
-    if width.saturating_mul(height) / 16 > bytes.len() {
-        return Err(content(path, format!("{width} x {height} texels in {} bytes", bytes.len()), EXPECTED));
+impl Picture {
+    /// The same in linear sRGB, if the colours are of other primaries.
+    fn of_primaries(mut self, path: &Path, primaries: &Primaries) -> Result<Picture, PictureError> {
+        if primaries.is_srgb() {
+            return Ok(self);
+        }
+        let Some(matrix) = primaries.to_srgb() else {
+            let found = format!("the primaries {primaries:?}");
+            return Err(content(path, found, "the chromaticities of red, green, blue and white"));
+        };
+        for texel in &mut self.texels {
+            let rgb = texel.map(f64::from);
+            *texel = matrix.map(|row| row.iter().zip(rgb).map(|(a, b)| a * b).sum::<f64>() as f32);
+        }
+        Ok(self)
     }
-    let values = decoder.decode().map_err(wrong)?;
-    Ok((width, height, values.chunks_exact(3).map(|rgb| [rgb[0], rgb[1], rgb[2]]).collect()))
+}
+
+/// Refuses an image whose texels are not square, unless that makes it twice as wide as high, as all directions are.
+fn check_shape(path: &Path, [width, height]: [usize; 2], width_of_texel: f64) -> Result<(), PictureError> {
+    let shape = width as f64 * width_of_texel / height as f64;
+    if (width_of_texel - 1.0).abs() < 1e-3 || (shape - 2.0).abs() < 0.02 {
+        return Ok(());
+    }
+    let found = format!("{width} x {height} texels, {width_of_texel} times as wide as high, which is {shape:.3} to 1");
+    Err(content(path, found, "square texels, or an image twice as wide as high: longitude and latitude"))
 }

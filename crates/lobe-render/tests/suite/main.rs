@@ -2,6 +2,7 @@
 
 mod common;
 mod direct;
+mod environments;
 mod examples;
 mod files;
 mod furnace;
