@@ -10,6 +10,7 @@ use std::path::Path;
 
 use lobe_table::{Channels, Scatter, scattered};
 
+use crate::facts::{Facts, named};
 use crate::lines::{lines, shown};
 use crate::records::Records;
 use crate::spec::FormatSpec;
@@ -21,7 +22,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "alta",
     extensions: &["dat"],
     matches,
-    read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?))),
+    read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?).with_facts(facts(bytes)))),
     writer: None,
 };
 
@@ -33,6 +34,13 @@ pub fn matches(bytes: &[u8]) -> bool {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
     let has = |key: &str| head.lines().take_while(|line| line.starts_with('#')).any(|line| line.starts_with(key));
     has("#DIM ") && has("#PARAM_IN ")
+}
+
+/// What the lines at the start say about the sample.
+fn facts(bytes: &[u8]) -> Facts {
+    let mut facts = named(bytes, |key| key.strip_prefix('#').map(String::from));
+    facts.retain(|(key, _)| !matches!(key.as_str(), "DIM" | "VS"));
+    facts
 }
 
 enum Input {

@@ -10,6 +10,7 @@ use std::path::Path;
 use lobe_table::{Channels, Scatter, scattered};
 
 use crate::columns::channels;
+use crate::facts::{Facts, named};
 use crate::lines::{Line, lines, shown};
 use crate::records::Records;
 use crate::spec::FormatSpec;
@@ -21,7 +22,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "astm",
     extensions: &[],
     matches,
-    read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?))),
+    read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?).with_facts(facts(bytes)))),
     writer: None,
 };
 
@@ -30,6 +31,13 @@ pub fn matches(bytes: &[u8]) -> bool {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 16)]);
     let has = |key: &str| head.lines().any(|line| line.split_whitespace().next() == Some(key));
     has("NUM_POINTS") && has("VARS")
+}
+
+/// The keywords before the names of the columns.
+fn facts(bytes: &[u8]) -> Facts {
+    let mut facts = named(bytes, |key| (key != "VARS").then(|| key.into()));
+    facts.retain(|(key, _)| key != "NUM_POINTS");
+    facts
 }
 
 /// Reads a file as reflection; see [`read_as`].

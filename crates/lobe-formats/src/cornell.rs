@@ -9,6 +9,7 @@ use lobe_table::{Channels, Scatter, scattered};
 
 use crate::Document;
 use crate::FormatError;
+use crate::facts::{Facts, comments};
 use crate::records::Records;
 use crate::spec::FormatSpec;
 use crate::text::Text;
@@ -19,7 +20,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "cornell",
     extensions: &["brdf"],
     matches,
-    read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?))),
+    read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?).with_facts(facts(bytes)))),
     writer: None,
 };
 
@@ -28,6 +29,14 @@ pub fn matches(bytes: &[u8]) -> bool {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
     let mut comments = head.lines().map(str::trim).take_while(|line| line.is_empty() || line.starts_with('#'));
     comments.any(|comment| comment.trim_start_matches(['#', ' ']).eq_ignore_ascii_case("num wls"))
+}
+
+/// The comments of the header that are not about its structure.
+fn facts(bytes: &[u8]) -> Facts {
+    comments(bytes, "#", |text| {
+        let text = text.to_ascii_lowercase();
+        matches!(text.as_str(), "num wls" | "wls") || text.starts_with("theta i")
+    })
 }
 
 /// Reads a file. `file` only names it in errors.

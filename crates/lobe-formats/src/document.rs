@@ -79,6 +79,12 @@ impl Document {
         self.only().is_none()
     }
 
+    /// The same with facts of the header that were found before.
+    pub(crate) fn with_facts(mut self, facts: Vec<(String, String)>) -> Self {
+        self.source.extend(facts);
+        self
+    }
+
     /// The same with facts of the header; those without a value are left out.
     pub(crate) fn with_source(mut self, source: &[(&str, &str)]) -> Self {
         let stated = source.iter().filter(|(_, value)| !value.is_empty());

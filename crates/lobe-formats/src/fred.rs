@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 use lobe_table::{Channels, Scatter, scattered};
 
+use crate::facts::{Facts, comments, named};
 use crate::lines::{Line, lines, shown};
 use crate::records::Records;
 use crate::spec::FormatSpec;
@@ -22,7 +23,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "fred",
     extensions: &["txt"],
     matches,
-    read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?))),
+    read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?).with_facts(facts(bytes)))),
     writer: None,
 };
 
@@ -32,7 +33,7 @@ pub(crate) static RPC: FormatSpec = FormatSpec {
     word: "rpc",
     extensions: &["txt"],
     matches: matches_rpc,
-    read: Some(|bytes, path, _| Ok(Document::new(read_rpc(bytes, path)?))),
+    read: Some(|bytes, path, _| Ok(Document::new(read_rpc(bytes, path)?).with_facts(rpc_facts(bytes)))),
     writer: None,
 };
 
@@ -47,6 +48,18 @@ pub fn matches(bytes: &[u8]) -> bool {
 pub fn matches_rpc(bytes: &[u8]) -> bool {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
     head.trim_start().starts_with("!!") && head.lines().any(|line| line.trim() == "!!BSDF Data")
+}
+
+/// How a table states its values.
+fn facts(bytes: &[u8]) -> Facts {
+    let mut facts = named(bytes, |key| matches!(key, "type" | "format").then(|| key.into()));
+    facts.retain(|(key, _)| key == "format");
+    facts
+}
+
+/// The comments of an RPC file.
+fn rpc_facts(bytes: &[u8]) -> Facts {
+    comments(bytes, "!!", |text| text == "BSDF Data")
 }
 
 /// How a table states angles and values.
@@ -130,6 +143,18 @@ pub fn read_rpc_set<B: AsRef<[u8]>>(files: &[(PathBuf, B)]) -> Result<scattered:
 /// # Errors
 /// [`FormatError`] if the folder or a file cannot be read or none is an RPC file, and as in [`read_rpc_set`].
 pub fn read_rpc_folder(folder: &Path) -> Result<scattered::Data, FormatError> {
+    read_rpc_set(&folder_files(folder)?)
+}
+
+/// As [`read_rpc_folder`], with the comments of all files.
+pub(crate) fn open_rpc_folder(folder: &Path) -> Result<Document, FormatError> {
+    let files = folder_files(folder)?;
+    let facts = files.iter().flat_map(|(_, bytes)| rpc_facts(bytes)).collect();
+    Ok(Document::new(read_rpc_set(&files)?).with_facts(facts))
+}
+
+/// The RPC files of a folder, by name.
+fn folder_files(folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, FormatError> {
     let failed = |path: &Path, error: std::io::Error| {
         FormatError::new(path, Place::File, error.to_string(), "files that can be read")
     };
@@ -152,7 +177,7 @@ pub fn read_rpc_folder(folder: &Path) -> Result<scattered::Data, FormatError> {
         ));
     }
     files.sort();
-    read_rpc_set(&files)
+    Ok(files)
 }
 
 fn blocks<'a>(lines: impl Iterator<Item = Line<'a>>, units: &Units, records: &mut Records) -> Result<(), FormatError> {

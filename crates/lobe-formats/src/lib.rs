@@ -40,6 +40,7 @@ mod columns;
 mod convert;
 pub mod cornell;
 mod document;
+mod facts;
 pub mod fred;
 pub mod goniometer;
 pub mod integra;

@@ -10,6 +10,7 @@ use lobe_table::{Channels, Scatter, scattered};
 
 use crate::Document;
 use crate::FormatError;
+use crate::facts::{Facts, comments};
 use crate::lines::lines;
 use crate::records::Records;
 use crate::spec::FormatSpec;
@@ -20,19 +21,26 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "lumos",
     extensions: &["csv"],
     matches,
-    read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?))),
+    read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?).with_facts(facts(bytes)))),
     writer: None,
 };
 
 /// `true` if a comment at the start names the columns.
 pub fn matches(bytes: &[u8]) -> bool {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
-    let comments = head.lines().take_while(|line| line.starts_with('#'));
-    let names = |line: &str| line[1..].split_whitespace().map(str::to_ascii_lowercase).collect::<Vec<_>>();
-    comments.map(names).any(|names| {
-        let short: Vec<&str> = names.iter().map(|name| name.split_inclusive('_').next().unwrap_or_default()).collect();
-        short == ["phi_", "theta_", "phi_", "theta_", "brdf"]
-    })
+    let mut comments = head.lines().take_while(|line| line.starts_with('#'));
+    comments.any(|line| names_columns(&line[1..]))
+}
+
+fn names_columns(comment: &str) -> bool {
+    let names: Vec<String> = comment.split_whitespace().map(str::to_ascii_lowercase).collect();
+    let short: Vec<&str> = names.iter().map(|name| name.split_inclusive('_').next().unwrap_or_default()).collect();
+    short == ["phi_", "theta_", "phi_", "theta_", "brdf"]
+}
+
+/// The comments but for that which names the columns.
+fn facts(bytes: &[u8]) -> Facts {
+    comments(bytes, "#", names_columns)
 }
 
 /// Reads a file. `file` only names it in errors.

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use lobe_table::{Scatter, scattered};
 use serde::Deserialize;
+use serde_json::Value;
 
 use crate::records::ByWavelength;
 use crate::spec::FormatSpec;
@@ -16,13 +17,18 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "openmaterial",
     extensions: &["xompt"],
     matches,
-    read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?))),
+    read: Some(|bytes, path, _| {
+        let json = parse(bytes, path)?;
+        Ok(Document::new(table(&json, path)?).with_facts(facts(&json)))
+    }),
     writer: None,
 };
 
 #[derive(Deserialize)]
 struct Json {
     brdf: Brdf,
+    #[serde(default)]
+    metadata: serde_json::Map<String, Value>,
 }
 
 #[derive(Deserialize)]
@@ -48,10 +54,33 @@ pub fn matches(bytes: &[u8]) -> bool {
 /// [`FormatError`] with the line of the JSON that is wrong; wavelengths that are not positive; or if wavelengths have
 /// different directions.
 pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
+    table(&parse(bytes, file)?, file)
+}
+
+fn parse(bytes: &[u8], file: &Path) -> Result<Json, FormatError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let document: Json = serde_json::from_slice(bytes).map_err(|error| {
+    serde_json::from_slice(bytes).map_err(|error| {
         FormatError::new(file, Place::Line(error.line()), error.to_string(), "brdf.lookupTable, rows of 5 numbers")
-    })?;
+    })
+}
+
+/// The metadata that are words or numbers, or lists of them.
+fn facts(document: &Json) -> Vec<(String, String)> {
+    let word = |value: &Value| match value {
+        Value::String(text) => Some(text.clone()),
+        Value::Number(number) => Some(number.to_string()),
+        Value::Bool(flag) => Some(flag.to_string()),
+        _ => None,
+    };
+    let text = |value: &Value| match value {
+        Value::Array(values) => Some(values.iter().filter_map(word).collect::<Vec<_>>().join(", ")),
+        value => word(value),
+    };
+    let fact = |(name, value): (&String, &Value)| Some((name.clone(), text(value)?));
+    document.metadata.iter().filter_map(fact).filter(|(_, text)| !text.is_empty()).collect()
+}
+
+fn table(document: &Json, file: &Path) -> Result<scattered::Data, FormatError> {
     let mut samples = ByWavelength::default();
     for (row, numbers) in document.brdf.lookup_table.iter().enumerate() {
         if let &[Some(metres), Some(theta_i), Some(theta_o), Some(phi), Some(value)] = numbers {

@@ -117,7 +117,7 @@ pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
 pub fn open_with(path: &Path, options: &ReadOptions) -> Result<(Format, Document), FormatError> {
     let options = options.clone().or(sidecar::find(path)?);
     if path.is_dir() {
-        let document = Document::new(fred::read_rpc_folder(path)?);
+        let document = fred::open_rpc_folder(path)?;
         let document = adjusted(document, Format::Rpc, path, &options)?;
         return Ok((Format::Rpc, Document { format: Some(Format::Rpc.name()), ..document }));
     }

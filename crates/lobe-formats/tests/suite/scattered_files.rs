@@ -199,3 +199,28 @@ fn wavelengths_that_overflow_are_refused() {
     let error = read("openmaterial", &OPEN_MATERIAL.replace("[5e-07", "[1e300")).expect_err("a refusal");
     assert!(error.found.ends_with("in row 3"), "{error}");
 }
+
+#[test]
+fn what_people_wrote_into_a_header_is_kept() {
+    let facts = |name: &str, text: &str| {
+        lobe_formats::from_bytes(text.as_bytes(), Path::new(name)).unwrap_or_else(|error| panic!("{error}")).source
+    };
+    let fact = |name: &str, value: &str| (name.to_string(), value.to_string());
+    let alta = format!("#SAMPLE \"My tape\"\n#ORIGIN my bench\n{ALTA}");
+    let found = facts("a.dat", &alta);
+    assert_eq!(found[..2], [fact("SAMPLE", "My tape"), fact("ORIGIN", "my bench")]);
+    assert!(
+        found.contains(&fact("PARAM_IN", "ISOTROPIC_TL_TV_PROJ_DPHI")) && found.iter().all(|(name, _)| name != "DIM")
+    );
+    let cornell = format!("# My paint\n#\n{CORNELL}");
+    assert_eq!(facts("a.brdf", &cornell), [fact("comment", "My paint")]);
+    assert_eq!(facts("a.txt", FRED), [fact("format", "angles=deg bsdf=value scale=1")]);
+    assert_eq!(facts("a.txt", RPC), [fact("comment", "EDS 5-15")]);
+    assert_eq!(facts("a.csv", LUMOS), [fact("comment", "Name")]);
+    let metadata =
+        "\"metadata\": {\"name\": \"asphalt\", \"year\": 2024, \"authors\": [\"A\", \"B\"], \"more\": {\"x\": 1}}";
+    let found = facts("a.xompt", &OPEN_MATERIAL.replace("\"metadata\": {}", metadata));
+    assert_eq!(found, [fact("authors", "A, B"), fact("name", "asphalt"), fact("year", "2024")]);
+    let astm = lobe_testing::examples::ASTM;
+    assert_eq!(facts("a.astm", astm), [fact("BRDF_TYPE", "measured")]);
+}
