@@ -5,7 +5,8 @@
 //! before decimals, lines above the names and below the rows, and cells without a value. `docs/formats.md` lists it all.
 //! What a table does not say itself, [`ReadOptions`] says; what was understood is in [`Document::notes`].
 //!
-//! A comment `# scatter: transmission` before the names says that it is a BTDF. JSON has an object with a list of numbers a
+//! A comment `# scatter: transmission` before the names says that it is a BTDF, and one `# rows: samples`, `# rows: nodes of
+//! a grid` or `# rows: nodes of a mirrored grid` what the rows are. JSON has an object with a list of numbers a
 //! column. Rows may be in any order: if they are all nodes of a grid over more than half a turn they become a grid,
 //! else scattered samples.
 
@@ -67,6 +68,33 @@ const SPECULAR: [&str; 4] = ["sigma", "psi", "theta", "phi"];
 
 /// The comment, before the names, that distinguishes a BTDF from a BRDF.
 const TRANSMISSION: &str = "scatter: transmission";
+
+/// The beginning of the comment, before the names, that says what the rows are.
+const ROWS: &str = "rows";
+
+/// What the rows of a table are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Rows {
+    /// All nodes of a grid, whatever it covers.
+    Grid,
+    /// All nodes of a grid that is one half of an isotropic material.
+    MirroredGrid,
+    /// Samples, even if their directions are those of a grid.
+    Samples,
+}
+
+impl Rows {
+    const ALL: [Rows; 3] = [Rows::Grid, Rows::MirroredGrid, Rows::Samples];
+
+    /// How a comment says it.
+    fn word(self) -> &'static str {
+        match self {
+            Rows::Grid => "nodes of a grid",
+            Rows::MirroredGrid => "nodes of a mirrored grid",
+            Rows::Samples => "samples",
+        }
+    }
+}
 
 /// The beginning of a file, which is enough to recognise it.
 const HEAD: usize = 1 << 16;

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use lobe_table::{Channels, Scatter};
 
-use super::grid::data;
+use super::grid::{Of, data};
 use super::layout::Values;
 use super::table::Raw;
 use super::{plane, unit};
@@ -61,7 +61,8 @@ pub(super) fn document(mut raw: Raw, file: &Path, options: &ReadOptions) -> Resu
     for scatter in [Scatter::Reflection, Scatter::Transmission] {
         let is_of_part = |index: usize| through[index] == (scatter == Scatter::Transmission);
         if let Some(records) = samples.records(is_of_part) {
-            parts.push(Part::new("", data(records, scatter, samples.channels.clone(), samples.is_specular, file)?));
+            let of = Of { scatter, channels: samples.channels.clone(), is_specular: samples.is_specular };
+            parts.push(Part::new("", data(records, of, raw.facts.rows, file)?));
         }
     }
     if !samples.is_specular {

@@ -2,6 +2,7 @@
 
 use super::names::{Angle, Meaning, Unit, meaning};
 use super::sheet::{Dialect, Line};
+use super::{ROWS, Rows};
 use crate::reading::Holds;
 
 /// What the lines above the rows, or between them, say.
@@ -14,6 +15,8 @@ pub(super) struct Facts {
     /// The unit of angles.
     pub unit: Option<Unit>,
     pub holds: Option<Holds>,
+    /// What the rows are, if they do not show it.
+    pub rows: Option<Rows>,
 }
 
 /// An angle in a line of its own: `Angle of incidence: 30 deg`.
@@ -42,6 +45,12 @@ impl Facts {
         let words = (name.to_lowercase(), value.to_lowercase());
         if words.0.contains("unit") && (words.0.contains("angle") || words.0.trim_end_matches('s') == "unit") {
             self.unit = words.1.trim().parse().ok().or(self.unit);
+        }
+        if words.0 == ROWS
+            && let Some(rows) = Rows::ALL.into_iter().find(|rows| rows.word() == words.1.trim())
+        {
+            self.rows = Some(rows);
+            return;
         }
         let is_kind =
             ["scatter", "scattertype", "scatter type", "scatter_type", "type", "measurement type", "data type", "mode"];

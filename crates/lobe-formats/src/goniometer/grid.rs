@@ -6,31 +6,45 @@ use std::path::Path;
 
 use lobe_table::{Channels, Data, Scatter, specular, spherical};
 
+use super::Rows;
 use crate::records::Records;
 use crate::{FormatError, Place};
 
+/// What samples are of.
+pub(super) struct Of {
+    pub scatter: Scatter,
+    pub channels: Channels,
+    pub is_specular: bool,
+}
+
 /// A grid if all nodes of one are present, else scattered samples, of which those in specular coordinates that are below
 /// the horizon are left out.
-pub(super) fn data(
-    records: Records,
-    scatter: Scatter,
-    channels: Channels,
-    is_specular: bool,
-    file: &Path,
-) -> Result<Data, FormatError> {
-    if let Some((knots, values)) = grid(&records, channels.count()) {
+pub(super) fn data(records: Records, of: Of, rows: Option<Rows>, file: &Path) -> Result<Data, FormatError> {
+    let Of { scatter, channels, is_specular } = of;
+    let is_stated = matches!(rows, Some(Rows::Grid | Rows::MirroredGrid));
+    let found = if rows == Some(Rows::Samples) { None } else { grid(&records, channels.count(), is_stated) };
+    if is_stated && found.is_none() {
+        let found = "rows that are not each node of a grid once";
+        return Err(FormatError::new(file, Place::File, found, "what the comment about rows says"));
+    }
+    if let Some((knots, values)) = found {
         let refused = |e: lobe_table::GridError| FormatError::new(file, Place::File, e.to_string(), "a grid");
         return match is_specular {
             true => specular::Data::new(scatter, knots, channels, values).map(Data::Specular).map_err(refused),
-            false => spherical::Data::new(scatter, knots, channels, values).map(Data::Spherical).map_err(refused),
+            false => {
+                let grid = spherical::Data::new(scatter, knots, channels, values);
+                let grid =
+                    if rows == Some(Rows::MirroredGrid) { grid.and_then(spherical::Data::mirrored) } else { grid };
+                grid.map(Data::Spherical).map_err(refused)
+            }
         };
     }
     let records = if is_specular { from_specular(&records, &channels) } else { records };
     records.scattered(file, scatter, channels).map(Data::Scattered)
 }
 
-/// Knots and values, if the samples are each node of a grid once. A line of directions is not a grid.
-fn grid(records: &Records, channels: usize) -> Option<([Vec<f64>; 4], Vec<f32>)> {
+/// Knots and values, if the samples are each node of a grid once. A line of directions is not a grid, unless it is stated.
+fn grid(records: &Records, channels: usize, is_stated: bool) -> Option<([Vec<f64>; 4], Vec<f32>)> {
     // Angles that were written with six digits of radians are the same knot.
     let key = |angle: f64| (angle * 1e6).round() as i64;
     let mut knots: [BTreeMap<i64, f64>; 4] = Default::default();
@@ -43,7 +57,8 @@ fn grid(records: &Records, channels: usize) -> Option<([Vec<f64>; 4], Vec<f32>)>
     let (first, last) = (knots[3].values().next()?, knots[3].values().next_back()?);
     // Half a turn is for the scattered samples too, which know that the other half is its mirror image.
     let is_whole_turn = last - first > PI + 1e-6;
-    if nodes != records.angles.len() || knots[2].len() < 2 || !is_whole_turn {
+    let shows = knots[2].len() > 1 && is_whole_turn;
+    if nodes != records.angles.len() || !(shows || is_stated) {
         return None;
     }
     let positions: [BTreeMap<i64, usize>; 4] =

@@ -1,19 +1,22 @@
 //! Writes tables with named columns as CSV.
 
+use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::path::Path;
 
 use lobe_table::{Channels, Data, Scatter};
 
-use super::{SPECULAR, SPHERICAL, TRANSMISSION};
+use super::{ROWS, Rows, SPECULAR, SPHERICAL, TRANSMISSION};
 use crate::{FormatError, Place};
 use lobe_files::write_whole;
 
-/// Writes `path` whole or not at all: a line a node or sample, angles in degrees, then the channels. Angles have nine
-/// digits after the point; values come back the same when the file is read again.
+/// Writes `path` whole or not at all: a line a node or sample, angles in degrees, then the channels; all values come back
+/// the same when the file is read again.
 ///
-/// A grid comes back as the same grid, with two exceptions: a table in specular coordinates that is constant in phi is
-/// written with phi 0 and 360, and a spherical grid of less than a whole turn comes back as scattered samples.
+/// A grid comes back as the same grid, its angles to a billionth of a degree, except that a table in specular coordinates
+/// that is constant in phi is written with phi 0 and 360. A comment says that rows are the nodes of a grid if they do not
+/// show it, or that they are samples. Samples come back to the bit, so that they are interpolated as before: in radians, if
+/// degrees would not restore one of them.
 ///
 /// # Errors
 /// [`FormatError`] if the file cannot be written, and for what the format cannot say: several bands that have names
@@ -40,23 +43,29 @@ pub fn write(data: &Data, path: &Path) -> Result<(), FormatError> {
             if is_constant {
                 knots[3] = vec![0.0, 360.0];
             }
-            header(&mut out, &SPECULAR, &channels);
+            rows(&mut out, Rows::of_grid(&knots, false));
+            header(&mut out, &SPECULAR, "deg", &channels);
             let texel = |[s, p, t, h]: [usize; 4]| samples.texel([s, p, t, if is_constant { 0 } else { h }]);
             grid(&mut out, &knots, texel);
         }
         Data::Spherical(grid_data) => {
             let knots = grid_data.knots().each_ref().map(|knots| degrees(knots));
             let (sizes, count) = (knots.each_ref().map(Vec::len), channels.count());
-            header(&mut out, &SPHERICAL, &channels);
+            rows(&mut out, Rows::of_grid(&knots, grid_data.is_mirrored()));
+            header(&mut out, &SPHERICAL, "deg", &channels);
             grid(&mut out, &knots, |node| {
                 let at = (0..4).fold(0, |at, axis| at * sizes[axis] + node[axis]);
                 &grid_data.values()[at * count..][..count]
             });
         }
         Data::Scattered(scattered) => {
-            header(&mut out, &SPHERICAL, &channels);
-            for (angles, values) in scattered.samples() {
-                line(&mut out, degrees(&angles).into_iter(), values);
+            rows(&mut out, Some(Rows::Samples));
+            let in_degrees: Option<Vec<[f64; 4]>> =
+                scattered.samples().map(|(angles, _)| exact_degrees(angles)).collect();
+            header(&mut out, &SPHERICAL, if in_degrees.is_some() { "deg" } else { "rad" }, &channels);
+            for (index, (angles, values)) in scattered.samples().enumerate() {
+                let angles = in_degrees.as_ref().map_or_else(|| exact_radians(angles), |degrees| degrees[index]);
+                line(&mut out, angles.into_iter(), values);
             }
         }
         other => {
@@ -67,13 +76,71 @@ pub fn write(data: &Data, path: &Path) -> Result<(), FormatError> {
     write_whole(path, out.as_bytes())
 }
 
+impl Rows {
+    /// What has to be said of the nodes of a grid; `None` if they show it.
+    fn of_grid(knots: &[Vec<f64>; 4], is_mirrored: bool) -> Option<Rows> {
+        let (first, last) = (knots[3].first()?, knots[3].last()?);
+        let shows = last - first > 180.0 + 1e-4 && knots[2].len() > 1;
+        match (is_mirrored, shows) {
+            (true, _) => Some(Rows::MirroredGrid),
+            (false, false) => Some(Rows::Grid),
+            (false, true) => None,
+        }
+    }
+}
+
+fn rows(out: &mut String, rows: Option<Rows>) {
+    if let Some(rows) = rows {
+        let _ = writeln!(out, "# {ROWS}: {}", rows.word());
+    }
+}
+
+/// Two azimuths of a sample that are restored to the bit: the incident one, and the outgoing one relative to it.
+fn is_restored([theta_i, phi_i, theta_o, phi_o]: [f64; 4], read: [f64; 4]) -> bool {
+    let relative = |of: f64, to: f64| (to - of).rem_euclid(TAU).to_bits();
+    let pairs = [(theta_i, read[0]), (phi_i, read[1]), (theta_o, read[2])];
+    pairs.into_iter().all(|(a, b)| a.to_bits() == b.to_bits()) && relative(phi_i, phi_o) == relative(read[1], read[3])
+}
+
+/// The angles in degrees, with the fewest digits that a reader makes the same radians of; `None` if there are none.
+fn exact_degrees(angles: [f64; 4]) -> Option<[f64; 4]> {
+    let unit = 1_f64.to_radians();
+    let degrees = |angle: f64| {
+        let (rounded, near) = ((angle.to_degrees() * 1e9).round() / 1e9, angle.to_degrees());
+        let candidates = [rounded, near, near.next_up(), near.next_down()];
+        candidates.into_iter().find(|degrees| (degrees * unit).to_bits() == angle.to_bits())
+    };
+    let [theta_i, phi_i, theta_o, phi_o] = angles;
+    let (a, b, c) = (degrees(theta_i)?, degrees(phi_i)?, degrees(theta_o)?);
+    let candidates = outgoing([phi_i, phi_o])
+        .map(f64::to_degrees)
+        .flat_map(|near| [(near * 1e9).round() / 1e9, near, near.next_up(), near.next_down()]);
+    let restored = |d: &f64| is_restored(angles, [a, b, c, *d].map(|degrees| degrees * unit));
+    candidates.into_iter().find(restored).map(|d| [a, b, c, d])
+}
+
+/// The angles in radians: as they are, but for the outgoing azimuth, of which the difference counts.
+fn exact_radians(angles: [f64; 4]) -> [f64; 4] {
+    let [theta_i, phi_i, theta_o, phi_o] = angles;
+    let restored = |d: &f64| is_restored(angles, [theta_i, phi_i, theta_o, *d]);
+    let phi_o = outgoing([phi_i, phi_o]).find(restored).unwrap_or(phi_o);
+    [theta_i, phi_i, theta_o, phi_o]
+}
+
+/// Azimuths that may have been the outgoing one of a file, before it became a difference and a sum again.
+fn outgoing([phi_i, phi_o]: [f64; 2]) -> impl Iterator<Item = f64> {
+    let turns = [phi_o, phi_o - TAU, phi_o - 2.0 * TAU];
+    let near = |x: f64| [x, x.next_up(), x.next_down(), x.next_up().next_up(), x.next_down().next_down()];
+    turns.into_iter().flat_map(near).chain([phi_i + (phi_o - phi_i)])
+}
+
 /// 15 degrees are to be written as 15, though they are 14.999999999999998 after a way through radians.
 fn degrees(angles: &[f64]) -> Vec<f64> {
     angles.iter().map(|angle| (angle.to_degrees() * 1e9).round() / 1e9).collect()
 }
 
-fn header(out: &mut String, axes: &[&str; 4], channels: &Channels) {
-    let angles: Vec<String> = axes.iter().map(|axis| format!("{axis}_deg")).collect();
+fn header(out: &mut String, axes: &[&str; 4], unit: &str, channels: &Channels) {
+    let angles: Vec<String> = axes.iter().map(|axis| format!("{axis}_{unit}")).collect();
     let _ = writeln!(out, "{},{}", angles.join(","), channels.names().join(","));
 }
 

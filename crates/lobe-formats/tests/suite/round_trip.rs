@@ -158,6 +158,88 @@ fn columns_of_scattered_samples_are_read_back() {
     assert_eq!(sorted(back), sorted(samples));
 }
 
+/// Values at many pairs of directions, on both sides, as bits.
+fn bits(data: &Data) -> Vec<u32> {
+    use lobe_table::Directions;
+    let prepared = data.representation().prepare(&lobe_table::Options::default()).expect("prepared");
+    let direction = |n: f32| {
+        let (z, phi) = (0.02 + 0.97 * (n * 0.618_034).fract(), n * 2.4);
+        let r = (1.0 - z * z).sqrt();
+        [r * phi.cos(), r * phi.sin(), z]
+    };
+    let wi: Vec<[f32; 3]> = (0..3000).map(|n| direction(n as f32)).collect();
+    let is_transmission = data.representation().scatter() == Scatter::Transmission;
+    let below = |[x, y, z]: [f32; 3]| [x, y, if is_transmission { -z } else { z }];
+    let wo: Vec<[f32; 3]> = (0..3000).map(|n| below(direction(0.37 + 1.7 * n as f32))).collect();
+    let mut out = vec![0.0; wi.len() * data.representation().channels().count()];
+    let backend = lobe_backend::Backend::best().strict();
+    prepared.eval_batch(backend, Directions::from(&wi[..]), Directions::from(&wo[..]), &mut out);
+    out.into_iter().map(f32::to_bits).collect()
+}
+
+/// Written and read again, whatever that is.
+fn through_csv(data: &Data) -> Data {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("a.csv");
+    goniometer::write(data, &path).expect("written");
+    let (_, mut document) = open(&path).expect("a table");
+    document.parts.pop().expect("one part").data
+}
+
+#[test]
+fn samples_on_circles_are_interpolated_as_before() {
+    // Four neighbours of a ring lie on a circle, so that either diagonal is as good, and rounding chooses.
+    for (step, turn, lights) in [(15.0, 180.0, vec![(0.0, 0.0), (15.0, 15.0)]), (7.3, 0.1, vec![(33.3, 12.3)])] {
+        for scatter in [Scatter::Reflection, Scatter::Transmission] {
+            let mut angles = Vec::new();
+            for (theta_i, phi_i) in &lights {
+                for ring in 0..6 {
+                    let around = (360.0_f64 / step) as usize;
+                    let angle = |at: usize| [*theta_i, phi_i + turn, 3.7 * f64::from(ring), step * at as f64];
+                    angles.extend((0..around).map(|at| angle(at).map(f64::to_radians)));
+                }
+            }
+            let values: Vec<f32> = (0..angles.len()).map(|i| (i * 7919 % 1000) as f32 / 999.0).collect();
+            let data = lobe_table::scattered::Data::new(scatter, Channels::Mono, &angles, &values).expect("samples");
+            let data = Data::Scattered(data);
+            let back = through_csv(&data);
+            assert!(matches!(back, Data::Scattered(_)), "{step}");
+            assert!(bits(&back) == bits(&data), "{step}: other values than before");
+        }
+    }
+}
+
+#[test]
+fn samples_in_the_places_of_a_grid_stay_samples_and_half_a_grid_stays_a_grid() {
+    let mut angles = Vec::new();
+    for theta_i in [0.2, 0.7] {
+        for theta_o in [0.3, 0.9] {
+            angles.extend((0..8).map(|step| [theta_i, 0.0, theta_o, f64::from(step) * PI / 4.0]));
+        }
+    }
+    let values: Vec<f32> = (0..angles.len()).map(|i| (i * 37 % 11) as f32).collect();
+    let samples = lobe_table::scattered::Data::new(Scatter::Reflection, Channels::Mono, &angles, &values);
+    let samples = Data::Scattered(samples.expect("samples"));
+    let back = through_csv(&samples);
+    assert!(matches!(back, Data::Scattered(_)) && bits(&back) == bits(&samples));
+
+    for (azimuths, is_mirrored) in [(vec![0.0, 1.0, PI], true), (vec![0.5], true), (vec![0.2, 1.0, 2.0], false)] {
+        let knots = [vec![0.0, 0.5, 1.2], vec![0.0], vec![0.0, 0.6], azimuths];
+        let values: Vec<f32> = (0..6 * knots[3].len()).map(|i| (i * 5 % 7) as f32).collect();
+        let grid = spherical::Data::new(Scatter::Reflection, knots, Channels::Mono, values).expect("a grid");
+        let grid = if is_mirrored { grid.mirrored().expect("half a grid") } else { grid };
+        let Data::Spherical(back) = through_csv(&Data::Spherical(grid.clone())) else { panic!("no grid") };
+        assert_eq!((back.is_mirrored(), back.values()), (is_mirrored, grid.values()));
+        for (knot, expected) in back.knots().concat().iter().zip(grid.knots().concat()) {
+            assert!((knot - expected).abs() < 1e-10);
+        }
+    }
+    // What the comment says has to be so.
+    let wrong = "# rows: nodes of a grid\ntheta_i,theta_o,phi_o,Y\n0,0,0,1\n0,10,0,1\n0,20,90,1\n";
+    let error = lobe_formats::from_bytes(wrong.as_bytes(), Path::new("a.csv")).expect_err("no grid");
+    assert!(error.to_string().contains("each node of a grid once"), "{error}");
+}
+
 /// What NumPy reads: the dictionary of the header and the data after it.
 fn member(archive: &mut zip::ZipArchive<std::fs::File>, name: &str) -> (String, Vec<u8>) {
     let mut bytes = Vec::new();
