@@ -2,7 +2,7 @@
 
 use lobe_formats::{self as formats, Document};
 use lobe_table::data::Section;
-use lobe_table::{Scatter, Side};
+use lobe_table::{Aspect, Scatter};
 use serde::Serialize;
 
 /// A block of values.
@@ -80,12 +80,11 @@ pub fn describe(document: &Document) -> Vec<Part> {
 
 /// The name of a part of a sheet.
 fn name(part: &formats::Part, section: &Section<'_>) -> String {
-    let side = match part.side {
-        Some(Side::Front) => " from the front",
-        Some(Side::Back) => " from the back",
-        None => "",
+    let what = match part.side {
+        Some(light) => Aspect { scatter: section.aspect.scatter, light }.to_string(),
+        None => scatter(section).into(),
     };
-    format!("{} {}{side}", part.name, scatter(section)).trim().into()
+    format!("{} {what}", part.name).trim().into()
 }
 
 fn scatter(section: &Section<'_>) -> &'static str {

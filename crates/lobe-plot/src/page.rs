@@ -41,7 +41,7 @@ pub fn page(subject: &Subject, view: &View, facts: &[Facts], progress: &dyn Prog
     }
     for side in subject.sides().into_iter().filter(|&side| side != view.side) {
         let other = View { side, psi: subject.psi(side), ..view.clone() };
-        views.push(Section { title: format!("The light from {}", side_name(side)), view: other, is_first: false });
+        views.push(Section { title: format!("The light from the {}", side_name(side)), view: other, is_first: false });
     }
     for section in &views {
         sections.push(figures(subject, section, progress));

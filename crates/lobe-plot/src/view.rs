@@ -39,7 +39,7 @@ pub enum ViewError {
         known: Vec<String>,
     },
     /// Nothing was measured for light from this side.
-    #[error("found no values for light from {}", match side { Side::Front => "above", Side::Back => "below" })]
+    #[error("found no values for light from {}", match side { Side::Front => "the front", Side::Back => "the back" })]
     Side {
         /// The requested side.
         side: Side,

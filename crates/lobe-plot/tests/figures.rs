@@ -286,5 +286,5 @@ fn a_view_names_what_it_cannot_find() {
     let message = view.clone().channel(&subject, "green").expect_err("no such channel").to_string();
     assert_eq!(message, "found no channel green; expected one of Y");
     let message = view.lit_from(&subject, Side::Back).expect_err("one side").to_string();
-    assert_eq!(message, "found no values for light from below");
+    assert_eq!(message, "found no values for light from the back");
 }

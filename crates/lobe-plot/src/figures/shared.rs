@@ -38,7 +38,7 @@ pub(super) fn heading(svg: &mut Svg, name: &str, what: &str) {
 pub(super) fn conditions(subject: &Subject, view: &View) -> String {
     let mut words = vec![format!("ψ = {}", degrees(view.psi))];
     if subject.sides().len() > 1 {
-        words.push(format!("light from {}", side_name(view.side)));
+        words.push(format!("light from the {}", side_name(view.side)));
     }
     if !view.quantity.name.is_empty() {
         words.push(view.quantity.name.clone());
@@ -49,8 +49,8 @@ pub(super) fn conditions(subject: &Subject, view: &View) -> String {
 /// The name of a side.
 pub(crate) fn side_name(side: Side) -> &'static str {
     match side {
-        Side::Front => "above",
-        Side::Back => "below",
+        Side::Front => "front",
+        Side::Back => "back",
     }
 }
 

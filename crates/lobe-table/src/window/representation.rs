@@ -46,7 +46,9 @@ impl Representation for Data {
                 };
                 let channels = Channels::Named(vec![band.wavelength.clone()]);
                 let section = Section::new(kind, block.aspect(), channels, values);
-                let section = Section { name: format!("{} {}", band.wavelength, block.name()), ..section };
+                let name = format!("{} {}", band.wavelength, block.aspect());
+                // The sides of WINDOW files have other names.
+                let section = Section { name, ..section }.with_fact("block", format!("{} in the file", block.name()));
                 sections.push(match component {
                     Component::Klems(matrix) => {
                         let [from, to] = [matrix.incident(), matrix.exit()]
@@ -82,13 +84,13 @@ impl Representation for Data {
         }
     }
 
-    /// The sum over the patches of Klems matrices, unless transmission is known the other way only.
+    /// The sum over the patches of Klems matrices or the cells of trees, unless transmission is known the other way only.
     fn albedo(&self, aspect: Aspect, [theta, phi]: [f64; 2]) -> Option<Vec<f64>> {
         // The patch is found by the direction in which light travels.
         let travels = [-theta.sin() * phi.cos(), -theta.sin() * phi.sin(), theta.cos()];
         let of_band = |band: &Band| match band.window.block(Block::of_aspect(aspect))? {
             Component::Klems(matrix) => matrix.incident().patch(travels).map(|patch| matrix.albedo(patch)),
-            Component::Tree(_) => None,
+            Component::Tree(tree) => Some(tree.albedo(travels.map(|c| -c))),
         };
         self.bands.iter().map(of_band).collect()
     }

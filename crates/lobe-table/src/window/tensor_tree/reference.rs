@@ -23,6 +23,38 @@ impl TensorTree {
         std::iter::once(position).chain(corners.map(moved)).map(|position| self.at(position)).collect()
     }
 
+    /// The share of the light from `wi` that is scattered to all directions of the exit side, exactly: the map of the disk
+    /// onto the square keeps areas, so it is pi times the mean over the square.
+    pub fn albedo(&self, wi: [f64; 3]) -> f64 {
+        let position = self.position(wi, [0.0, 0.0, 1.0]);
+        let incident = self.rank.dimensions() - 2;
+        // Nodes with the place of the light in each, and how much of the square each fills.
+        let mut pending = vec![(0_usize, [position[0], position[1]], 1.0_f64)];
+        let mut sum = 0.0;
+        while let Some((node, mut light, share)) = pending.pop() {
+            match self.nodes[node] {
+                Node::Branch(first) => {
+                    let mut child = first as usize;
+                    for (dimension, x) in light[..incident].iter_mut().enumerate() {
+                        let upper = *x >= 0.5;
+                        child += usize::from(upper) << dimension;
+                        *x = 2.0 * *x - f64::from(u8::from(upper));
+                    }
+                    pending.extend((0..4).map(|exit| (child + (exit << incident), light, 0.25 * share)));
+                }
+                Node::Leaf { first, level } => {
+                    let cells = 1_usize << level;
+                    let of_light = light[..incident]
+                        .iter()
+                        .fold(0, |at, x| at * cells + ((x * cells as f64) as usize).min(cells - 1));
+                    let values = &self.values[first as usize + of_light * cells * cells..][..cells * cells];
+                    sum += share * values.iter().map(|&f| f64::from(f)).sum::<f64>() / values.len() as f64;
+                }
+            }
+        }
+        std::f64::consts::PI * sum
+    }
+
     /// The position of a pair in the unit cube.
     fn position(&self, wi: [f64; 3], wo: [f64; 3]) -> [f64; 4] {
         match self.rank {

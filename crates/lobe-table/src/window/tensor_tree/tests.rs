@@ -47,3 +47,42 @@ fn trees_that_are_none_are_refused() {
     assert_eq!(new(vec![Node::Leaf { first: 0, level: 25 }]), Err(TreeError::Depth { node: 0 }));
     assert_eq!(TensorTree::new(Rank::Three, vec![leaf], vec![f32::NAN]), Err(TreeError::ValueNotFinite { index: 0 }));
 }
+
+/// The integral over the hemisphere, by many points of equal projected solid angle.
+fn integral(tree: &TensorTree, wi: [f64; 3]) -> f64 {
+    const N: usize = 512;
+    let mut sum = 0.0;
+    for i in 0..N * N {
+        let (radius, angle) = (
+            ((i / N) as f64 + 0.5).sqrt() / (N as f64).sqrt(),
+            std::f64::consts::TAU * ((i % N) as f64 + 0.5) / N as f64,
+        );
+        let (x, y) = (radius * angle.cos(), radius * angle.sin());
+        sum += tree.eval(wi, [x, y, (1.0 - radius * radius).sqrt()]);
+    }
+    std::f64::consts::PI * sum / (N * N) as f64
+}
+
+#[test]
+fn the_albedo_is_the_integral() {
+    // A coarse tree with one branch that is finer, and a peak.
+    for (rank, children) in [(Rank::Three, 8), (Rank::Four, 16)] {
+        let mut nodes = vec![Node::Branch(1)];
+        let mut values: Vec<f32> = Vec::new();
+        let leaf = |values: &mut Vec<f32>, level: u32| {
+            let first = values.len() as u32;
+            let count = 1_usize << (level as usize * rank.dimensions());
+            values.extend((0..count).map(|i| ((i * 7 + count) % 13) as f32 * if i % 5 == 0 { 3.0 } else { 0.1 }));
+            Node::Leaf { first, level }
+        };
+        nodes.push(Node::Branch(1 + children));
+        nodes.extend((1..children).map(|child| leaf(&mut values, child % 3)));
+        nodes.extend((0..children).map(|child| leaf(&mut values, child % 2)));
+        let tree = TensorTree::new(rank, nodes, values).expect("a tree");
+        for (theta, phi) in [(0.1_f64, 0.3_f64), (0.7, 2.0), (1.2, 4.0), (1.5, 5.5)] {
+            let wi = [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()];
+            let (exact, sum) = (tree.albedo(wi), integral(&tree, wi));
+            assert!((exact - sum).abs() < 5e-3 * sum, "{rank:?} at {theta}, {phi}: {exact}, not {sum}");
+        }
+    }
+}
