@@ -6,11 +6,13 @@ use std::path::PathBuf;
 use lobe::Options;
 use lobe_ops::Subject;
 use lobe_ops::albedo::{Albedo, albedo_of};
+use lobe_ops::check::has_no_albedo;
 use lobe_ops::hemisphere::Effort;
 use serde::Serialize;
 
 use crate::angles::{Angles, ScatterRule, SideRule, choose_aspects, parse_angles, progress, table};
 use crate::failure::Failure;
+use crate::guesses::warn_of_guesses;
 use crate::measure::fits;
 use crate::message::{self, say};
 
@@ -64,6 +66,14 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     let subject = Subject::open(&args.file, &Options::default())?;
     let aspects = choose_aspects(&args.file, &subject, args.scatter, args.side)?;
+    if let Some(aspect) = aspects.iter().find(|&&aspect| has_no_albedo(&subject, aspect)) {
+        let message = format!(
+            "{}: {aspect}: measured in the plane of incidence only, so there is no albedo",
+            args.file.display()
+        );
+        return Err(Failure::Check(message));
+    }
+    warn_of_guesses(&args.file, &subject.document);
     let bar = progress("integrating");
     let effort = Effort { tolerance: args.tolerance, ..Effort::default() };
     let mut answers = Vec::new();

@@ -15,7 +15,7 @@ pub(super) fn check(grid: &Grid<'_>, part: &str) -> Vec<Finding> {
     let mut findings = Vec::new();
     for axis in [1, 3] {
         let knots = &grid.knots[axis];
-        if knots.len() < 2 || axis == 3 && grid.is_mirrored {
+        if knots.len() < 2 || axis == 3 && grid.is_mirrored && !is_in_plane(grid) {
             continue;
         }
         findings.push(if closes_circle(knots) { seam(grid, part, axis) } else { gap(grid, part, axis) });
@@ -46,13 +46,18 @@ fn seam(grid: &Grid<'_>, part: &str, axis: usize) -> Finding {
     Finding::new("azimuth seam", part, status, text).number("difference", difference)
 }
 
+/// Whether the only azimuths of the viewer are those of the plane of incidence.
+pub(super) fn is_in_plane(grid: &Grid<'_>) -> bool {
+    let knots = &grid.knots[3];
+    knots.len() == 2 && (knots[1] - knots[0] - PI).abs() < 0.01
+}
+
 fn gap(grid: &Grid<'_>, part: &str, axis: usize) -> Finding {
     let (knots, name) = (&grid.knots[axis], grid.names[axis]);
     let (first, last) = (knots[0], knots[knots.len() - 1]);
     let gap = TAU - (last - first);
     let step = knots.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
-    let is_plane = axis == 3 && knots.len() == 2 && (gap - PI).abs() < 0.01;
-    let (status, text) = if is_plane {
+    let (status, text) = if axis == 3 && is_in_plane(grid) {
         let text = format!(
             "{name} has {} and {} degrees only: measured in the plane of incidence, guessed everywhere else",
             degrees(first),

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use lobe_formats::Document;
 use lobe_table::specular::AXIS_NAMES;
 use lobe_table::window::{Band, Block};
-use lobe_table::{Data, scattered, specular};
+use lobe_table::{Data, Scatter, scattered, specular};
 
 use super::finding::{Finding, Status, degrees, part_name, percent};
 use crate::directions::spherical;
@@ -32,19 +32,29 @@ fn of_part(data: &Data, name: &str) -> Vec<Finding> {
     findings
 }
 
-/// Which of the four measurements of a sheet a band has.
+/// Which of the four measurements of a sheet a band has, and what an evaluation answers for the others.
 fn of_band(band: &Band) -> Finding {
-    let missing: Vec<String> = Block::ALL
-        .into_iter()
-        .filter(|&block| band.window.block(block).is_none())
-        .map(|block| block.aspect().to_string())
-        .collect();
-    let (status, text) = match missing.as_slice() {
-        [] => (Status::Pass, "transmission and reflection of both sides".into()),
-        [one] if one.starts_with("transmission") => {
-            (Status::Note, format!("no {one}: the transmission of the other side is used for it"))
+    let has = |block: Block| band.window.block(block).is_some();
+    let (mut dark, mut answered) = (Vec::new(), Vec::new());
+    for aspect in Block::ALL.map(Block::aspect) {
+        let is_known_backward = aspect.scatter == Scatter::Transmission && has(Block::of_aspect(aspect.reversed()));
+        match has(Block::of_aspect(aspect)) {
+            true => {}
+            false if is_known_backward => answered.push(aspect.to_string()),
+            false => dark.push(aspect.to_string()),
         }
-        _ => (Status::Warn, format!("no {}: dark there", missing.join(", no "))),
+    }
+    let mut text = Vec::new();
+    if !answered.is_empty() {
+        text.push(format!("no {}: that of the other way is used for it", answered.join(", no ")));
+    }
+    if !dark.is_empty() {
+        text.push(format!("no {}: 0 there", dark.join(", no ")));
+    }
+    let (status, text) = match (dark.is_empty(), text.is_empty()) {
+        (_, true) => (Status::Pass, "transmission and reflection of both sides".into()),
+        (true, _) => (Status::Note, text.join("; ")),
+        (false, _) => (Status::Warn, text.join("; ")),
     };
     Finding::new("coverage", &band.wavelength, status, text)
 }
@@ -110,6 +120,53 @@ fn backward(data: &scattered::Data, part: &str) -> Option<Finding> {
 const RINGS: usize = 6;
 const SECTORS: usize = 12;
 
+/// With samples in a smaller share of the sectors than this, an integral over the hemisphere is a guess.
+const SPARSE: f64 = 0.25;
+
+/// How many sectors of the hemisphere have samples, for each incidence.
+struct Sectors {
+    /// For each incidence, in the order of the data.
+    counts: Vec<([f64; 2], usize)>,
+    /// The sectors of the hemisphere; those of one half, if the other is its mirror image.
+    all: usize,
+}
+
+impl Sectors {
+    fn new(data: &scattered::Data) -> Self {
+        let mut counts = Vec::new();
+        let mut sectors = BTreeSet::new();
+        let mut samples = data.samples().peekable();
+        let (mut is_left, mut is_right) = (true, true);
+        while let Some(([theta_i, phi_i, theta, phi], _)) = samples.next() {
+            let relative = (phi - phi_i).rem_euclid(TAU);
+            is_left &= theta.sin() * relative.sin() > -1e-6;
+            is_right &= theta.sin() * relative.sin() < 1e-6;
+            let ring = ((theta * RINGS as f64 / (PI / 2.0)) as usize).min(RINGS - 1);
+            let sector = ((relative * SECTORS as f64 / TAU) as usize).min(SECTORS - 1);
+            sectors.insert((ring, sector));
+            if samples.peek().is_none_or(|(next, _)| next[..2] != [theta_i, phi_i]) {
+                counts.push(([theta_i, phi_i], sectors.len()));
+                sectors.clear();
+            }
+        }
+        let all = RINGS * SECTORS / if data.is_isotropic() && (is_left || is_right) { 2 } else { 1 };
+        Sectors { counts, all }
+    }
+
+    /// The incidence with the fewest, and their share of all.
+    fn least(&self) -> Option<([f64; 2], usize, f64)> {
+        let least = self.counts.iter().min_by_key(|(_, count)| *count)?;
+        Some((least.0, least.1, least.1 as f64 / self.all as f64))
+    }
+}
+
+/// The incidences with so few outgoing directions that nothing can be said of their integral.
+pub(super) fn sparse(data: &scattered::Data) -> Vec<[f64; 2]> {
+    let Sectors { counts, all } = Sectors::new(data);
+    let is_sparse = |(_, count): &([f64; 2], usize)| (*count as f64) < SPARSE * all as f64;
+    counts.into_iter().filter(is_sparse).map(|(incidence, _)| incidence).collect()
+}
+
 /// The incidences, and the number of sectors of the hemisphere with samples.
 fn of_samples(data: &scattered::Data, part: &str) -> Vec<Finding> {
     let mut findings = Vec::new();
@@ -119,13 +176,10 @@ fn of_samples(data: &scattered::Data, part: &str) -> Vec<Finding> {
     let list: Vec<String> = thetas.iter().map(|tenths| degrees((*tenths as f64 / 10.0).to_radians())).collect();
     let widest = list.len().max(1);
     let shown = if widest > 12 { format!("{} polar angles to {}", widest, list[widest - 1]) } else { list.join(" ") };
-    let text = format!(
-        "light from {}, at {shown} degrees; between and beyond these, the nearest is used",
-        match incidences.len() {
-            1 => "one direction".into(),
-            n => format!("{n} directions"),
-        }
-    );
+    let text = match incidences.len() {
+        1 => format!("light from one direction, at {shown} degrees, which is used for all others"),
+        n => format!("light from {n} directions, at {shown} degrees; linear between them, and beyond them the nearest"),
+    };
     let (status, few) = match thetas.len() {
         1 => (Status::Warn, ". One angle of incidence says nothing about the others"),
         2 | 3 => (Status::Warn, ". So few are too sparse for pictures"),
@@ -134,40 +188,21 @@ fn of_samples(data: &scattered::Data, part: &str) -> Vec<Finding> {
     let finding = Finding::new("coverage", part, status, format!("{text}{few}"));
     findings.push(finding.number("incidences", incidences.len() as f64));
 
-    let (mut least, mut at) = (usize::MAX, 0.0);
-    let mut sectors = BTreeSet::new();
-    let mut samples = data.samples().peekable();
-    let mut is_left = true;
-    let mut is_right = true;
-    while let Some(([theta_i, phi_i, theta, phi], _)) = samples.next() {
-        let relative = (phi - phi_i).rem_euclid(TAU);
-        is_left &= theta.sin() * relative.sin() > -1e-6;
-        is_right &= theta.sin() * relative.sin() < 1e-6;
-        let ring = ((theta * RINGS as f64 / (PI / 2.0)) as usize).min(RINGS - 1);
-        let sector = ((relative * SECTORS as f64 / TAU) as usize).min(SECTORS - 1);
-        sectors.insert((ring, sector));
-        let is_last = samples.peek().is_none_or(|(next, _)| next[..2] != [theta_i, phi_i]);
-        if is_last {
-            if sectors.len() < least {
-                (least, at) = (sectors.len(), theta_i);
-            }
-            sectors.clear();
-        }
-    }
-    // If only one side of the plane was measured, the other is its mirror image.
-    let all = RINGS * SECTORS / if data.is_isotropic() && (is_left || is_right) { 2 } else { 1 };
+    let sectors = Sectors::new(data);
+    let Some(([theta, _], least, share)) = sectors.least() else { return findings };
     let (status, text) = if is_in_plane(data) {
         (Status::Warn, "measured in the plane of incidence only, and guessed everywhere else".to_string())
     } else {
-        let share = least as f64 / all as f64;
         let text = format!(
-            "samples in at least {least} of {all} sectors of 15 by 30 degrees, least for light at {} degrees",
-            degrees(at)
+            "samples in at least {least} of {} sectors of 15 by 30 degrees, least for light at {} degrees",
+            sectors.all,
+            degrees(theta)
         );
         (if share < 0.5 { Status::Warn } else { Status::Note }, text)
     };
-    findings
-        .push(Finding::new("coverage", part, status, text).number("sectors", least as f64).number("of", all as f64));
+    findings.push(
+        Finding::new("coverage", part, status, text).number("sectors", least as f64).number("of", sectors.all as f64),
+    );
     findings.extend(backward(data, part));
     findings
 }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use lobe_table::{Data, scattered};
 
-use super::coverage::is_in_plane;
+use super::coverage::{is_in_plane, sparse};
 use super::finding::{Finding, Status, Thoroughness, degrees, percent};
 use crate::albedo::{Albedo, albedo_of};
 use crate::directions::spherical;
@@ -37,6 +37,16 @@ pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness, progress: im
         }
         let mut incidences = subject.incidences(aspect);
         incidences.retain(|[theta, _]| *theta <= GRAZING);
+        let sparse = scattered(subject, aspect).map(sparse).unwrap_or_default();
+        let all_incidences = incidences.len();
+        incidences.retain(|incidence| !sparse.contains(incidence));
+        if incidences.len() < all_incidences {
+            let text = format!(
+                "too few outgoing directions for an albedo, for {} of {all_incidences} incident directions",
+                all_incidences - incidences.len()
+            );
+            findings.push(Finding::new("energy", &part, Status::Note, text));
+        }
         let step = incidences.len().div_ceil(thoroughness.incidences.max(1)).max(1);
         let chosen: Vec<[f64; 2]> = incidences.into_iter().step_by(step).collect();
         let mut albedos = Vec::new();
@@ -62,7 +72,7 @@ pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness, progress: im
     findings
 }
 
-fn scattered(subject: &Subject, aspect: Aspect) -> Option<&scattered::Data> {
+pub(super) fn scattered(subject: &Subject, aspect: Aspect) -> Option<&scattered::Data> {
     let Data::Scattered(data) = subject.data(aspect)? else { return None };
     Some(data)
 }

@@ -10,6 +10,8 @@ mod energy;
 mod exchange;
 mod finding;
 mod grid;
+mod guesses;
+mod horizon;
 mod values;
 
 use lobe_formats::Document;
@@ -19,6 +21,7 @@ use finding::part_name;
 use grid::Grid;
 
 pub use finding::{Finding, Status, Thoroughness};
+pub use guesses::{guesses, has_no_albedo};
 
 /// Checks a file. `progress` is called from time to time with the share that is done.
 ///
@@ -31,6 +34,7 @@ pub fn check(subject: &Subject, thoroughness: &Thoroughness, progress: impl Fn(f
         findings.extend(grid.check_pole(&part));
         findings.extend(azimuths::check(&grid, &part));
     }
+    findings.extend(horizon::check(&subject.document));
     findings.extend(coverage::check(&subject.document));
     findings.extend(energy::check(subject, thoroughness, |done| progress(0.9 * done)));
     findings.extend(exchange::check(subject, thoroughness));

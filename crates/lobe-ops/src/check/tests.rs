@@ -121,3 +121,90 @@ fn one_way_is_not_the_other() {
     let uneven = table(&CIRCLE, |sigma, _, _| 0.1 + 0.2 * sigma / 85.0);
     assert_found(&found(uneven, Vec::new(), "reciprocity"), Status::Warn, "up to 80 degrees");
 }
+
+fn scattered(angles: &[[f64; 4]], value: impl Fn([f64; 4]) -> f64) -> Document {
+    let radians: Vec<[f64; 4]> = angles.iter().map(|angles| angles.map(f64::to_radians)).collect();
+    let values: Vec<f32> = angles.iter().map(|&angles| value(angles) as f32).collect();
+    let data = lobe_table::scattered::Data::new(Scatter::Reflection, Channels::Mono, &radians, &values);
+    Document::new(data.expect("samples"))
+}
+
+fn all_of(document: Document) -> Vec<Finding> {
+    let material = Material::from_document(&document, &Options::default()).expect("a material");
+    let subject = Subject::new(Format::Goniometer, document, material, &Options::default());
+    super::check(&subject, &Thoroughness::default(), |_| {})
+}
+
+/// Outgoing directions around the hemisphere for light at these polar angles.
+fn around(lights: &[f64]) -> Vec<[f64; 4]> {
+    let mut angles = Vec::new();
+    for &light in lights {
+        for theta in [0.0, 20.0, 40.0, 60.0, 80.0] {
+            angles.extend((0..12).map(|step| [light, 0.0, theta, 30.0 * f64::from(step)]));
+        }
+    }
+    angles
+}
+
+#[test]
+fn what_few_samples_cannot_say_is_no_failure() {
+    // One outgoing direction for each of many incident ones: nothing is known of an albedo.
+    let single: Vec<[f64; 4]> = (0..40)
+        .map(|i| [1.0 + 2.0 * f64::from(i), 37.0 * f64::from(i), 60.0 - f64::from(i), 91.0 * f64::from(i)])
+        .collect();
+    let document = scattered(&single, |_| 0.36);
+    assert!(guesses(&document)[0].contains("for 40 of 40 incident ones"), "{:?}", guesses(&document));
+    let all = all_of(document);
+    assert!(all.iter().all(|finding| finding.status < Status::Fail), "{all:#?}");
+    assert_found(&all, Status::Note, "too few outgoing directions for an albedo, for 40 of 40");
+
+    let in_plane: Vec<[f64; 4]> = (0..60).map(|i| [10.0 + f64::from(i % 4), 0.0, f64::from(i), 180.0]).collect();
+    let document = scattered(&in_plane, |_| 0.36);
+    assert!(guesses(&document)[0].contains("in the plane of incidence"), "{:?}", guesses(&document));
+    let one = scattered(&around(&[30.0]), |_| 0.3);
+    assert!(guesses(&one)[0].contains("one direction only"), "{:?}", guesses(&one));
+    assert_found(&all_of(one), Status::Warn, "light from one direction, at 30 degrees, which is used for all others");
+
+    let whole = scattered(&around(&[0.0, 30.0, 60.0, 75.0]), |_| 0.36);
+    assert_eq!(guesses(&whole), Vec::<String>::new());
+    let all = all_of(whole);
+    assert_found(&all, Status::Note, "linear between them, and beyond them the nearest");
+    assert_found(&all, Status::Fail, "4 of 4 above 1");
+    assert_eq!(guesses(&Document::new(table(&[0.0, 180.0], |_, _, _| 0.1))).len(), 1);
+    assert_eq!(guesses(&Document::new(table(&CIRCLE, |_, _, _| 0.1))).len(), 0);
+}
+
+#[test]
+fn quotients_by_a_cosine_of_nothing_are_named() {
+    let mut angles = around(&[0.0, 30.0, 60.0]);
+    angles.extend((0..12).map(|step| [30.0, 0.0, 89.9, 30.0 * f64::from(step)]));
+    let spike = |[.., theta, _]: [f64; 4]| if theta > 89.0 { 40.0 } else { 0.1 };
+    assert_found(&all_of(scattered(&angles, spike)), Status::Warn, "up to 4.000e1 against 1.000e-1");
+    let smooth = all_of(scattered(&angles, |_| 0.1));
+    assert!(smooth.iter().all(|finding| finding.check != "horizon"), "{smooth:#?}");
+}
+
+#[test]
+fn a_sheet_is_dark_where_it_is_evaluated_as_dark() {
+    use lobe_table::window::klems::{AngleBasis, KlemsMatrix};
+    use lobe_table::window::{Band, Block, Blocks, Component, Data};
+    let with = |blocks: &[Block]| {
+        let basis = AngleBasis::quarter();
+        let matrix = KlemsMatrix::new(basis.clone(), basis.clone(), vec![0.05; basis.patches().pow(2)]);
+        let component = Component::Klems(matrix.expect("a matrix"));
+        let mut window = Blocks::default();
+        blocks.iter().for_each(|&block| _ = window.set(block, component.clone()));
+        let all = all_of(Document::new(Data { bands: vec![Band { wavelength: "Visible".into(), window }] }));
+        let text = all.iter().find(|finding| finding.check == "coverage").expect("coverage");
+        (text.status, text.text.clone())
+    };
+    // WINDOW's back is the front here.
+    let (status, text) = with(&[Block::TransmissionBack, Block::ReflectionBack]);
+    assert_eq!(status, Status::Warn);
+    assert_eq!(text, "no transmission back: that of the other way is used for it; no reflection back: 0 there");
+    let (status, text) = with(&[Block::TransmissionFront, Block::ReflectionBack, Block::ReflectionFront]);
+    assert_eq!((status, text.as_str()), (Status::Note, "no transmission front: that of the other way is used for it"));
+    let (_, text) = with(&[Block::ReflectionBack]);
+    assert_eq!(text, "no transmission back, no transmission front, no reflection back: 0 there");
+    assert_eq!(with(&Block::ALL).0, Status::Pass);
+}

@@ -17,7 +17,7 @@ pub use conversion::Conversion;
 pub use delta::{Delta, DeltaSample, DeltaSamples, DeltaShader};
 pub use lambert::Lambert;
 pub use lobe::Backend;
-pub use open::{MaterialError, open, open_sheet, open_sheet_with_progress, open_with};
+pub use open::{MaterialError, from_document, open, open_sheet, open_sheet_with_progress, open_with};
 
 use crate::channels::Channels;
 use crate::transport::{Rgb, Transport, TransportMode};

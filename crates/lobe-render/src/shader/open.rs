@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use lobe::formats::FormatError;
+use lobe::formats::{Document, FormatError};
 use lobe::table::{Data, mirror};
 use lobe::{Material, OpenError, Options, SamplerError, SamplerOptions, Scatter};
 use lobe_colour::Reduction;
@@ -51,13 +51,27 @@ pub fn open_with(
     limit: Option<Duration>,
     progress: &mut dyn FnMut(usize, usize),
 ) -> Result<Arc<dyn Shader<Rgb>>, MaterialError> {
-    let (_, document) = lobe::formats::open(path)?;
+    from_document(&lobe::formats::open(path)?.1, path, options, backend, limit, progress)
+}
+
+/// As [`open_with`], of a file that was read; `path` only names it in errors.
+///
+/// # Errors
+/// As [`open`].
+pub fn from_document(
+    document: &Document,
+    path: &Path,
+    options: &Options,
+    backend: Backend,
+    limit: Option<Duration>,
+    progress: &mut dyn FnMut(usize, usize),
+) -> Result<Arc<dyn Shader<Rgb>>, MaterialError> {
     if let Some(data) = document.only().and_then(Data::mirror)
         && data.scatter() == Scatter::Reflection
     {
         return Ok(Arc::new(DeltaShader(mirror(data))));
     }
-    let material = Material::from_document(&document, options).map_err(|error| error.in_file(path))?;
+    let material = Material::from_document(document, options).map_err(|error| error.in_file(path))?;
     prepare(material, path, backend, limit, progress)
 }
 
