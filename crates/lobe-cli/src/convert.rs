@@ -3,22 +3,23 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use lobe::{Data, Lookup, Material, Options, Scatter, Side};
+use lobe::{Aspect, Data, Lookup, Material, Options, Scatter, Side};
 use lobe_files::check_output;
-use lobe_formats::{Document, Format, convert};
-use lobe_table::window::klems;
+use lobe_formats::{Document, Format, Part, convert};
+use lobe_table::window::klems::{self, AngleBasis};
+use lobe_table::window::{self, Band, Block, Blocks, Component};
 
 use crate::failure::Failure;
 use crate::measure::{self, Sides};
 use crate::message::say;
-use crate::output::Output;
+use crate::output::{Output, side};
 use crate::surface::MaterialSurface;
 use crate::target::Target;
 
 /// Convert a material to another format.
 #[derive(clap::Args)]
 #[command(
-    after_help = "The format to write follows from the extension of OUT or from --to. If it has the representation of the file, knots and values are written unchanged. Otherwise the material is resampled, which is reported together with the error at sample directions. What the format cannot hold is refused.
+    after_help = "The format to write follows from the extension of OUT or from --to. If it has the representation of the file, knots and values are written unchanged. Otherwise the material is resampled, which is reported together with the error at sample directions. What the format cannot hold is refused, and so is an option that would change nothing. Trees of WINDOW XML are written as trees, unless --to klems or --basis ask for matrices.
 
 Examples:
   lobe convert paint.ddr paint.ssdd                        the same table in another format
@@ -35,7 +36,7 @@ pub struct Args {
     file: PathBuf,
     #[command(flatten)]
     output: Output,
-    /// Which measurement of a sheet to write, if the file has both and the format holds one.
+    /// Which measurement to write, if the file has both and the format holds one, or only one is wanted.
     #[arg(long, value_enum)]
     scatter: Option<ScatterKind>,
 }
@@ -53,55 +54,110 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let (target, out) = (args.output.target()?, args.output.out.as_path());
     check_output(out, &[&args.file])?;
     let (_, document) = lobe_formats::open(&args.file)?;
-    let document = choose(document, target, args)?;
+    let asked = args.scatter.map(|kind| match kind {
+        ScatterKind::Reflection => Scatter::Reflection,
+        ScatterKind::Transmission => Scatter::Transmission,
+    });
+    let document = choose(document, target, asked, args)?;
     let format = target.format;
-    if let Some(written) = convert(&document, format, args.output.channel.as_deref(), out)? {
-        let note = written.note.map(|note| format!("; {note}")).unwrap_or_default();
-        say(format_args!("{}: {format}, the values and nodes of the file{note}", out.display()));
-        return Ok(());
-    }
-    let sides = match document.only() {
-        Some(Data::Mirror(_)) => {
-            let message = format!("{format}: found mirror reflectances; expected values for pairs of directions");
-            return Err(Failure::Usage(message));
+    if (target.writer.holds)(&document) && !asks_for_matrices(&document, args) {
+        args.output.refuse_all()?;
+        if let Some(written) = convert(&document, format, args.output.channel.as_deref(), out)? {
+            let note = written.note.map(|note| format!("; {note}")).unwrap_or_default();
+            say(format_args!("{}: {format}, the values and nodes of the file{note}", out.display()));
+            return Ok(());
         }
+    }
+    if let Some(Data::Mirror(_)) = document.only() {
+        let message = format!("{format}: found mirror reflectances; expected values for pairs of directions");
+        return Err(Failure::Usage(message));
+    }
+    let options = Options { lookup: Lookup::Linear, ..Options::default() };
+    let material = Material::from_document(&document, &options).map_err(|error| error.in_file(&args.file))?;
+    let sides = match document.only() {
         Some(data) if !data.representation().is_two_sided() => Sides::One(data.representation().scatter()),
-        _ => Sides::Both,
+        _ if target.writer.resampled_as == Ok(klems::KIND) => Sides::Both,
+        _ => Sides::One(one_of_both(&material, target, asked, args)?),
     };
     let scatter = match sides {
         Sides::One(scatter) => Some(scatter),
         Sides::Both => None,
     };
-    if let Some(loss) = loss(&document, target) {
+    if let Some(loss) = loss(&document, scatter) {
         say(format_args!("{}: {loss}", args.file.display()));
     }
-    let options = Options { lookup: Lookup::Linear, ..Options::default() };
-    let material = Material::from_document(&document, &options).map_err(|error| error.in_file(&args.file))?;
-    measure::write(&MaterialSurface { material, scatter }, sides, &args.output)
+    measure::write(&MaterialSurface { material, scatter }, sides, true, &args.output)
 }
 
 /// What a table for one side leaves out of a document.
-fn loss(document: &Document, target: Target) -> Option<&'static str> {
+fn loss(document: &Document, written: Option<Scatter>) -> Option<String> {
     let data = || document.parts.iter().map(|part| part.data.representation());
     if data().any(|data| data.is_polarised()) {
-        return Some("polarised; only the intensity of unpolarised light is written");
+        return Some("polarised; only the intensity of unpolarised light is written".into());
     }
     if !data().all(|data| data.has_known_unit()) {
-        return Some("the unit of the values is not documented; they are written as they are stored");
+        return Some("the unit of the values is not documented; they are written as they are stored".into());
     }
     let is_sheet = document.is_sheet() || data().any(|data| data.is_two_sided());
-    (is_sheet && target.writer.resampled_as != Ok(klems::KIND))
-        .then_some("a sheet with two sides; one kind of scatter of light from z > 0 is written")
+    let written = written.filter(|_| is_sheet)?;
+    Some(format!("a sheet with two sides; the {} of light from the front is written", side(written)))
 }
 
-/// The one measurement of a sheet to write, if the target holds one.
-fn choose(document: Document, target: Target, args: &Args) -> Result<Document, Failure> {
-    let asked = args.scatter.map(|kind| match kind {
-        ScatterKind::Reflection => Scatter::Reflection,
-        ScatterKind::Transmission => Scatter::Transmission,
-    });
-    if !document.is_sheet() {
-        return Ok(document);
+/// Whether matrices are wanted of what a WINDOW file has as trees, or on other patches.
+fn asks_for_matrices(document: &Document, args: &Args) -> bool {
+    let Some(Data::Window(window)) = document.only() else { return false };
+    let mut components =
+        window.bands.iter().flat_map(|band| Block::ALL.into_iter().filter_map(|block| band.window.block(block)));
+    let is_asked = args.output.to == Some(Format::WindowXml) || args.output.basis.is_some();
+    let wanted = args.output.basis.map(|_| args.output.basis());
+    let has = |basis: &AngleBasis, wanted: &AngleBasis| basis.rings() == wanted.rings();
+    is_asked
+        && components.any(|component| match component {
+            Component::Tree(_) => true,
+            Component::Klems(matrix) => {
+                wanted.as_ref().is_some_and(|wanted| !has(matrix.incident(), wanted) || !has(matrix.exit(), wanted))
+            }
+        })
+}
+
+/// The kind of scatter that is written of a sheet, for light from the front.
+fn one_of_both(material: &Material, target: Target, asked: Option<Scatter>, args: &Args) -> Result<Scatter, Failure> {
+    let held = [Scatter::Reflection, Scatter::Transmission].map(Aspect::front);
+    let held: Vec<Scatter> =
+        held.into_iter().filter(|&aspect| material.holds(aspect)).map(|aspect| aspect.scatter).collect();
+    let wanted = asked.or((target.writer.scatter)(&args.output.out)).or(held.first().copied());
+    match wanted {
+        Some(wanted) if held.contains(&wanted) => Ok(wanted),
+        wanted => {
+            let found: Vec<&str> = held.iter().map(|&scatter| side(scatter)).collect();
+            let found = if found.is_empty() { "no light from the front".into() } else { found.join(" and ") };
+            let expected = wanted.map_or("reflection or transmission", side);
+            let message =
+                format!("{}: found {found}; expected {expected} of light from the front", args.file.display());
+            Err(Failure::Usage(message))
+        }
+    }
+}
+
+/// The one measurement of a sheet to write, if the target holds one or one is asked for.
+fn choose(document: Document, target: Target, asked: Option<Scatter>, args: &Args) -> Result<Document, Failure> {
+    if let Some(data) = document.only() {
+        return match (data, asked) {
+            (Data::Window(window), Some(asked)) => {
+                let kept = blocks_of(window, asked);
+                if kept.bands.is_empty() {
+                    let message = format!("{}: found no {}; expected some", args.file.display(), side(asked));
+                    return Err(Failure::Usage(message));
+                }
+                Ok(Document { parts: vec![Part::new("", kept)], ..document.clone() })
+            }
+            (data, Some(asked)) if data.representation().scatter() != asked => {
+                let found = side(data.representation().scatter());
+                let message = format!("{}: found {found} only; expected {}", args.file.display(), side(asked));
+                Err(Failure::Usage(message))
+            }
+            _ => Ok(document),
+        };
     }
     if asked.is_none() && target.writer.holds_sheets {
         return Ok(document);
@@ -133,4 +189,23 @@ fn choose(document: Document, target: Target, args: &Args) -> Result<Document, F
             candidates.len()
         ))),
     }
+}
+
+/// The blocks of one kind of scatter, in the bands that have any.
+fn blocks_of(window: &window::Data, scatter: Scatter) -> window::Data {
+    let mut kept = window::Data::default();
+    for band in &window.bands {
+        let mut blocks = Blocks::default();
+        let mut is_empty = true;
+        for block in Block::ALL.into_iter().filter(|block| block.aspect().scatter == scatter) {
+            if let Some(component) = band.window.block(block) {
+                blocks.set(block, component.clone());
+                is_empty = false;
+            }
+        }
+        if !is_empty {
+            kept.bands.push(Band { wavelength: band.wavelength.clone(), window: blocks });
+        }
+    }
+    kept
 }

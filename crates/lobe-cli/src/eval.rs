@@ -11,6 +11,7 @@ use lobe_table::specular::reference::zenith;
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::guesses::warn_of_guesses;
 use crate::message::{self, say};
 use crate::pairs::{Pair, Pairs, parse_direction, parse_numbers};
 
@@ -122,6 +123,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         Options { edges: args.edge.map(EdgeRule::edges).unwrap_or_default(), lookup, indexed_by, ..Options::default() };
     let (_, document) = lobe::formats::open(&args.file)?;
     args.check_options(&document)?;
+    warn_of_guesses(&args.file, &document);
     let mut source = match (args.wi, args.wo, args.angles, &args.pairs) {
         (Some(wi), Some(wo), ..) => Source::One(Some(Pair { wi, wo })),
         (_, _, Some(angles), _) => {

@@ -192,7 +192,7 @@ fn write_over(lobe: impl Model + Sync, diffuse: &Diffuse, output: &Output) -> Re
 }
 
 fn write(model: impl Model + Sync, output: &Output) -> Result<(), Failure> {
-    measure::write(&Rgb(model), Sides::One(Scatter::Reflection), output)
+    measure::write(&Rgb(model), Sides::One(Scatter::Reflection), false, output)
 }
 
 fn numbers(text: &str, low: f64, high: f64) -> Result<Vec<f64>, String> {

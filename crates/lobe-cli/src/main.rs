@@ -13,6 +13,7 @@ mod describe;
 mod eval;
 mod failure;
 mod generate;
+mod guesses;
 mod info;
 mod interrupt;
 mod measure;

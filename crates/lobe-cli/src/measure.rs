@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lobe::{Channels, Material, Scatter};
+use lobe::{Aspect, Channels, Material, Scatter};
 use lobe::{Lookup, Options};
 use lobe_files::check_output;
 use lobe_formats::{ChannelMap, Document};
@@ -14,10 +14,10 @@ use lobe_table::{half_diff, rgl};
 use crate::channels::Mapped;
 use crate::failure::Failure;
 use crate::message::say;
-use crate::output::{Output, side};
+use crate::output::{Output, Purpose, side};
 use crate::probe::Errors;
 use crate::progress::Progress;
-use crate::surface::MaterialSurface;
+use crate::surface::{Lifted, MaterialSurface};
 use crate::target::Target;
 
 /// On which sides a surface has values.
@@ -30,7 +30,10 @@ pub enum Sides {
 }
 
 /// Measures a surface and writes it; reports the nodes and the error of the file on standard error.
-pub fn write(surface: &dyn Surface, sides: Sides, output: &Output) -> Result<(), Failure> {
+///
+/// A material from a file may have any value within a degree of the horizon, where many formats store what has to be divided
+/// by the cosine, so that it is never looked at there. Models are exact.
+pub fn write(surface: &dyn Surface, sides: Sides, is_from_file: bool, output: &Output) -> Result<(), Failure> {
     let (target, out) = (output.target()?, output.out.as_path());
     check_output::<&Path>(out, &[])?;
     let (format, writer) = (target.format, target.writer);
@@ -48,13 +51,24 @@ pub fn write(surface: &dyn Surface, sides: Sides, output: &Output) -> Result<(),
     };
     let isotropic = is_isotropic(surface);
     let channels = surface.channels().count();
+    output.refuse_others(match writer.resampled_as {
+        Ok(rgl::KIND) if isotropic => &[Purpose::Images],
+        Ok(rgl::KIND) => &[Purpose::Images, Purpose::Azimuths],
+        Ok(klems::KIND) => &[Purpose::Patches],
+        Ok(half_diff::KIND) | Err(_) => &[],
+        Ok(_) => &[Purpose::Knots],
+    })?;
+    // In the specular tables, nodes near the horizon are lifted in any case; the images of RGL hold f cos.
+    let lifted = Lifted(surface);
+    let near: &dyn Surface = if is_from_file { &lifted } else { surface };
+    let mut aspects = vec![Aspect::front(scatter)];
     let nodes = match writer.resampled_as {
         Err(expected) => return refuse("values for pairs of directions", expected),
         Ok(half_diff::KIND) if !isotropic => return refuse("an anisotropic material", "an isotropic one"),
         Ok(half_diff::KIND) => {
             let progress = Progress::new(bins::MERL[0], "bins");
             fits(out, &bins::MERL, channels)?;
-            let table = bins::measure(surface, bins::MERL, || progress.step()).map_err(|e| file(out, &e))?;
+            let table = bins::measure(near, bins::MERL, || progress.step()).map_err(|e| file(out, &e))?;
             (writer.write)(&Document::new(table), out)?;
             "90 x 90 x 180 bins of half and difference angles".into()
         }
@@ -71,7 +85,8 @@ pub fn write(surface: &dyn Surface, sides: Sides, output: &Output) -> Result<(),
         Ok(klems::KIND) => {
             let basis = output.basis();
             fits(out, &[4, basis.patches(), basis.patches()], channels)?;
-            let sheet = sheet(surface, output, sides)?;
+            let sheet = sheet(near, output, sides)?;
+            aspects = lobe_table::Representation::aspects(&sheet);
             let name = output.out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             (writer.write)(&Document { source: vec![("name".into(), name)], ..Document::new(sheet) }, out)?;
             format!("means over {n} x {n} patches", n = basis.patches())
@@ -92,7 +107,7 @@ pub fn write(surface: &dyn Surface, sides: Sides, output: &Output) -> Result<(),
     if let Some(note) = &map.note {
         say(format_args!("  {note}"));
     }
-    match errors(surface, target, sides, scatter, out)? {
+    match errors(surface, target, &aspects, out)? {
         Some(errors) => say(format_args!("  {errors}")),
         None => say("  lobe does not read this format, so the error is not known"),
     }
@@ -154,25 +169,12 @@ fn sheet(surface: &dyn Surface, output: &Output, sides: Sides) -> Result<window:
     Ok(window::Data { bands })
 }
 
-/// Reads the file back and compares.
-fn errors(
-    surface: &dyn Surface,
-    target: Target,
-    sides: Sides,
-    scatter: Scatter,
-    out: &Path,
-) -> Result<Option<Errors>, Failure> {
+/// Reads the file back and compares what was written.
+fn errors(surface: &dyn Surface, target: Target, aspects: &[Aspect], out: &Path) -> Result<Option<Errors>, Failure> {
     if target.format.spec().read.is_none() {
         return Ok(None);
     }
     let options = Options { lookup: Lookup::Linear, ..Options::default() };
-    let is_klems = target.writer.resampled_as == Ok(klems::KIND);
-    let found = MaterialSurface {
-        material: Material::open_with(out, &options)?,
-        scatter: if is_klems { None } else { Some(scatter) },
-    };
-    // If only one side was written, the other is not an error.
-    let with_transmission =
-        if is_klems { sides != Sides::One(Scatter::Reflection) } else { scatter == Scatter::Transmission };
-    Ok(Some(Errors::between(surface, &found, with_transmission)))
+    let found = MaterialSurface { material: Material::open_with(out, &options)?, scatter: None };
+    Ok(Some(Errors::between(surface, &found, aspects)))
 }

@@ -30,6 +30,7 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let kind = Kind::of(&args.output)?;
+    kind.refuse_exposure(args.exposure, &args.output)?;
     check_output(&args.output, &args.parts)?;
     let (film, meta) = merge(&args.parts, args.allow_gaps).map_err(|error| Failure::File(error.to_string()))?;
     match kind {

@@ -43,9 +43,33 @@ pub struct Output {
     /// Rows and columns of the images of values in RGL files. By default 64, or 40 if the material is anisotropic.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(2..=1024), help_heading = "Resampling")]
     pub texels: Option<u16>,
-    /// Patches of WINDOW XML files.
-    #[arg(long, value_enum, default_value = "full", help_heading = "Resampling")]
-    pub basis: Basis,
+    /// Patches of WINDOW XML files. By default full.
+    #[arg(long, value_enum, help_heading = "Resampling")]
+    pub basis: Option<Basis>,
+}
+
+/// What an option of resampling is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// The knots of tables in specular coordinates.
+    Knots,
+    /// The images of RGL files.
+    Images,
+    /// The azimuths of the light in RGL files, which those of anisotropic materials have.
+    Azimuths,
+    /// The patches of Klems matrices.
+    Patches,
+}
+
+impl Purpose {
+    fn words(self) -> &'static str {
+        match self {
+            Purpose::Knots => "tables in specular coordinates",
+            Purpose::Images => "RGL files",
+            Purpose::Azimuths => "RGL files of anisotropic materials",
+            Purpose::Patches => "WINDOW XML files",
+        }
+    }
 }
 
 /// The standard bases of Klems matrices.
@@ -104,11 +128,43 @@ impl Output {
 
     /// The patches of Klems matrices.
     pub fn basis(&self) -> AngleBasis {
-        match self.basis {
+        match self.basis.unwrap_or(Basis::Full) {
             Basis::Full => AngleBasis::full(),
             Basis::Half => AngleBasis::half(),
             Basis::Quarter => AngleBasis::quarter(),
         }
+    }
+
+    /// The options of resampling that were given.
+    fn given(&self) -> impl Iterator<Item = (&'static str, Purpose)> {
+        let knots = [("--sigma", &self.sigma), ("--psi", &self.psi), ("--theta", &self.theta), ("--phi", &self.phi)];
+        let knots = knots.map(|(name, knots)| (name, Purpose::Knots, !knots.is_empty()));
+        let others = [
+            ("--zeniths", Purpose::Images, self.zeniths.is_some()),
+            ("--azimuths", Purpose::Azimuths, self.azimuths.is_some()),
+            ("--texels", Purpose::Images, self.texels.is_some()),
+            ("--basis", Purpose::Patches, self.basis.is_some()),
+        ];
+        knots.into_iter().chain(others).filter(|(.., is_given)| *is_given).map(|(name, purpose, _)| (name, purpose))
+    }
+
+    /// Refuses options of resampling that would change nothing in what is written.
+    pub fn refuse_others(&self, used: &[Purpose]) -> Result<(), Failure> {
+        let Some((name, purpose)) = self.given().find(|(_, purpose)| !used.contains(purpose)) else { return Ok(()) };
+        let (out, what) = (self.out.display(), purpose.words());
+        let message = format!("{out}: found {name}, which is for {what}; expected no option that changes nothing");
+        Err(Failure::Usage(message))
+    }
+
+    /// Refuses options of resampling where values and nodes are written as they are.
+    pub fn refuse_all(&self) -> Result<(), Failure> {
+        let Some((name, _)) = self.given().next() else { return Ok(()) };
+        let message = format!(
+            "{}: found {name}, but this format takes the values and nodes of the file; expected no such option (`lobe \
+             resample` chooses other nodes)",
+            self.out.display()
+        );
+        Err(Failure::Usage(message))
     }
 }
 

@@ -33,6 +33,16 @@ impl Kind {
             _ => Err(Failure::Usage(format!("{}: expected a name that ends in .exr or .png", path.display()))),
         }
     }
+
+    /// Refuses an exposure for EXR, which holds radiances.
+    pub fn refuse_exposure(self, exposure: Option<f32>, path: &Path) -> Result<(), Failure> {
+        if self == Kind::Png || exposure.is_none() {
+            return Ok(());
+        }
+        let message =
+            format!("{}: found --exposure, but EXR holds radiances as they are; expected .png", path.display());
+        Err(Failure::Usage(message))
+    }
 }
 
 /// Where the picture goes.

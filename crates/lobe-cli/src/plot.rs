@@ -12,6 +12,7 @@ use lobe_plot::{Facts, Figure, Progress, Scaling, Subject, View, ViewError, draw
 
 use crate::describe::{Part, describe};
 use crate::failure::Failure;
+use crate::guesses::warn_of_guesses;
 
 /// Draw a material: curves in the plane of incidence, slices of the hemisphere, lit spheres, or a page of them all.
 #[derive(clap::Args)]
@@ -19,7 +20,7 @@ use crate::failure::Failure;
   lobe plot cloth.ddr -o cloth.html                         a page with everything, in one file
   lobe plot paint.bsdf -o paint.svg                         curves in the plane of incidence
   lobe plot paint.bsdf -o lobes.png --kind polar --width 1200
-  lobe plot screen.xml -o slices.svg --kind slices --sigma 0,40,60 --channel Visible --side below
+  lobe plot screen.xml -o slices.svg --kind slices --sigma 0,40,60 --channel Visible --side back
   lobe plot cloth.ddr -o warp.png --kind sphere --psi 90
 
 The extension of OUT says what is written: .html a page, .svg or .png a figure. In every figure the light is on the left,
@@ -45,7 +46,7 @@ pub struct Args {
     /// Azimuth of the light in degrees; by default that of the first knot.
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = parse_angle)]
     psi: Option<f64>,
-    /// The side from which the light comes; by default above, if there are values.
+    /// The side from which the light comes; by default the front, if there are values.
     #[arg(long, value_enum)]
     side: Option<LightSide>,
     /// Draw this channel, by the name that `lobe info` shows; by default the luminance, and spheres in colour.
@@ -73,9 +74,11 @@ enum Kind {
 #[derive(Clone, Copy, ValueEnum)]
 enum LightSide {
     /// z > 0
-    Above,
+    #[value(alias = "above")]
+    Front,
     /// z < 0
-    Below,
+    #[value(alias = "below")]
+    Back,
 }
 
 /// What a file will contain.
@@ -89,7 +92,9 @@ enum Target {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let target = target(&args.out, args.kind)?;
     check_output(&args.out, &[&args.file])?;
+    refuse_idle(args)?;
     let (format, document) = open(&args.file)?;
+    warn_of_guesses(&args.file, &document);
     let facts = match target {
         Target::Page => facts(&args.file, format.name(), &document)?,
         _ => Vec::new(),
@@ -132,13 +137,26 @@ fn target(out: &Path, kind: Option<Kind>) -> Result<Target, Failure> {
     }
 }
 
+/// Refuses options that change nothing in spheres, which have lights and a scale of their own.
+fn refuse_idle(args: &Args) -> Result<(), Failure> {
+    let given = [("--log", args.log), ("--linear", args.linear), ("--sigma", !args.sigma.is_empty())];
+    let found = given.into_iter().find(|(_, is_given)| *is_given && args.kind == Some(Kind::Sphere));
+    match found {
+        Some((name, _)) => Err(Failure::Usage(format!(
+            "{}: found {name}, which is for curves, lobes and slices; expected no option that changes nothing in spheres",
+            args.out.display()
+        ))),
+        None => Ok(()),
+    }
+}
+
 fn view(args: &Args, subject: &Subject) -> Result<View, Failure> {
     let wrong = |error: ViewError| Failure::Usage(format!("{}: {error}", args.file.display()));
     let mut view = View { width: args.width, ..View::new(subject) };
     if let Some(side) = args.side {
         let side = match side {
-            LightSide::Above => Side::Front,
-            LightSide::Below => Side::Back,
+            LightSide::Front => Side::Front,
+            LightSide::Back => Side::Back,
         };
         view = view.lit_from(subject, side).map_err(wrong)?;
     }

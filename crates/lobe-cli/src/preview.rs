@@ -10,11 +10,12 @@ use lobe_files::check_output;
 use lobe_render::integrator::Path;
 use lobe_render::picture::{Meta, ToneMap, write_exr, write_png};
 use lobe_render::preview::{Show, studio};
-use lobe_render::shader::open_with;
+use lobe_render::shader::from_document;
 use lobe_render::{Film, Filter, Rect, Settings, render};
 
 use crate::angles::progress;
 use crate::failure::Failure;
+use crate::guesses::warn_of_guesses;
 use crate::interrupt;
 use crate::picture::{FILM, Kind};
 use crate::render::Machine;
@@ -44,9 +45,9 @@ pub struct Args {
     /// Stop after this time, preparing the material included; every pixel gets a sample in any case.
     #[arg(long, value_name = "TIME", default_value = "20s", value_parser = humantime::parse_duration)]
     time: Duration,
-    /// For PNG: multiply radiance by two to this power.
-    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
-    exposure: f32,
+    /// For PNG: multiply radiance by two to this power [default: 0].
+    #[arg(long, allow_hyphen_values = true)]
+    exposure: Option<f32>,
     #[command(flatten)]
     machine: Machine,
 }
@@ -71,14 +72,17 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let begun = Instant::now();
     let kind = Kind::of(&args.output)?;
+    kind.refuse_exposure(args.exposure, &args.output)?;
     check_output(&args.output, &[&args.material])?;
     let backend = args.machine.backend()?;
     // A grid of half and difference angles that is not interpolated shows its bins; light is looked for from the camera.
     let options = Options { lookup: Lookup::Linear, indexed_by: Given::Viewer, ..Options::default() };
+    let (_, document) = lobe_formats::open(&args.material)?;
+    warn_of_guesses(&args.material, &document);
     let bar = (!args.machine.is_quiet()).then(|| progress("preparing the material"));
     let mut watch = |done: usize, all: usize| bar.iter().for_each(|bar| bar(done as f64 / all.max(1) as f64));
     // Half of the time for the picture itself.
-    let material = open_with(&args.material, &options, backend, Some(args.time / 2), &mut watch);
+    let material = from_document(&document, &args.material, &options, backend, Some(args.time / 2), &mut watch);
     drop(bar);
     let material = material.map_err(|error| Failure::File(error.to_string()))?;
     let show = match args.show {
@@ -109,7 +113,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     bar.finish();
     let (film, _) = rendered.map_err(|error| Failure::Usage(error.to_string()))?;
     match kind {
-        Kind::Png => write_png(&args.output, &film, ToneMap { exposure: args.exposure })?,
+        Kind::Png => write_png(&args.output, &film, ToneMap { exposure: args.exposure.unwrap_or(0.0) })?,
         Kind::Exr => {
             let scene = "preview".into();
             let meta = Meta {
@@ -119,7 +123,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
                 samples: 0..film.samples().1,
                 total: film.samples().1,
                 timed: true,
-                exposure: args.exposure,
+                exposure: args.exposure.unwrap_or(0.0),
                 version: Meta::VERSION.into(),
                 arithmetic: Meta::arithmetic_of(backend),
             };

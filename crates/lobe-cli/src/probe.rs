@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::fmt;
 
+use lobe::Aspect;
 use lobe_model::{Surface, halton};
 
 use crate::progress::Progress;
@@ -16,21 +17,22 @@ pub struct Errors {
     median: f64,
     most: f64,
     largest: f64,
+    rms: f64,
 }
 
 impl Errors {
-    /// Compares two surfaces of the same channels. Half of the probes are spread over both hemispheres in proportion to
-    /// their cosines, half are near the mirror direction, and, `with_transmission`, as many mirrored to the other side.
-    /// None is within a degree of the horizon.
-    pub fn between(expected: &dyn Surface, found: &dyn Surface, with_transmission: bool) -> Self {
+    /// Compares two surfaces of the same channels, in turn on the sides of each of the measurements. Half of the probes are
+    /// spread over both hemispheres in proportion to their cosines, half are near the mirror direction or what continues
+    /// the light straight on. None is within a degree of the horizon.
+    pub fn between(expected: &dyn Surface, found: &dyn Surface, aspects: &[Aspect]) -> Self {
         let channels = expected.channels().count();
         let mut values = Vec::new();
         let progress = Progress::new(PROBES as usize, "probes");
         for n in 1..=PROBES {
-            let (wi, mut wo) = pair(n);
-            if with_transmission && n % 4 < 2 {
-                wo[2] = -wo[2];
-            }
+            let (wi, wo) = pair(n);
+            // Two probes that follow each other are of both kinds.
+            let aspect = aspects.get(n as usize / 2 % aspects.len().max(1)).copied().unwrap_or(Aspect::REFLECTION);
+            let (wi, wo) = aspect.place(wi, wo);
             let (mut a, mut b) = (vec![0.0; channels], vec![0.0; channels]);
             expected.f(wi, &[wo], &mut a);
             found.f(wi, &[wo], &mut b);
@@ -41,17 +43,25 @@ impl Errors {
         let error = |(a, b): &(f64, f64)| (a - b).abs() / a.abs().max(0.01 * mean).max(f64::MIN_POSITIVE);
         let mut errors: Vec<f64> = values.iter().map(error).collect();
         errors.sort_by(f64::total_cmp);
+        let squares = values.iter().fold([0.0; 2], |[d, a], (x, y)| [d + (x - y).powi(2), a + x * x]);
         let at = |share: f64| errors[((errors.len() - 1) as f64 * share) as usize];
-        Errors { probes: PROBES as usize, median: at(0.5), most: at(0.95), largest: at(1.0) }
+        Errors {
+            probes: PROBES as usize,
+            median: at(0.5),
+            most: at(0.95),
+            largest: at(1.0),
+            rms: (squares[0] / squares[1].max(f64::MIN_POSITIVE)).sqrt(),
+        }
     }
 }
 
 impl fmt::Display for Errors {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Errors { probes, median, most, largest } = self;
+        let Errors { probes, median, most, largest, rms } = self;
         write!(
             f,
-            "relative error at {probes} probes: median {median:.1e}, 95 % below {most:.1e}, largest {largest:.1e}"
+            "relative error at {probes} probes: median {median:.1e}, 95 % below {most:.1e}, largest {largest:.1e}, rms \
+             {rms:.1e} of the values"
         )
     }
 }

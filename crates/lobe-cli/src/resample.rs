@@ -18,6 +18,7 @@ use serde::Serialize;
 
 use crate::angles::{Angles, ScatterRule, SideRule, choose_aspects, parse_angles, progress, show_direction};
 use crate::failure::Failure;
+use crate::guesses::warn_of_guesses;
 use crate::measure::fits;
 use crate::message;
 
@@ -47,9 +48,10 @@ pub struct Args {
     /// The error is relative to each value, not to the largest.
     #[arg(long)]
     per_value: bool,
-    /// The polar angle of both directions, in degrees, up to which errors count: toward the horizon values grow.
-    #[arg(long, value_name = "DEGREES", default_value_t = 80.0)]
-    limit: f64,
+    /// The polar angle of both directions, in degrees, up to which errors count: toward the horizon values grow
+    /// [default: 80].
+    #[arg(long, value_name = "DEGREES")]
+    limit: Option<f64>,
     /// Knots of the angle of incidence in degrees: 0,30,60 or first:last:step.
     #[arg(long, value_name = "LIST", value_parser = parse_angles)]
     sigma: Option<Angles>,
@@ -131,6 +133,8 @@ struct Answer {
 }
 
 const DEFAULT_ERROR: f64 = 0.01;
+/// In degrees.
+const DEFAULT_LIMIT: f64 = 80.0;
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
@@ -141,6 +145,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let subject = Subject::open(&args.input, &Options::default())?;
     let aspect = choose_aspects(&args.input, &subject, args.scatter, args.side)?[0];
     check_extension(&args.output, aspect.scatter)?;
+    warn_of_guesses(&args.input, &subject.document);
     let (samples, resampling) = table(args, &subject, aspect)?;
     let mut repairs = Vec::new();
     let samples = repair(args, samples, &mut repairs)?;
@@ -167,14 +172,30 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(specular::Data, Option<Resampling>), Failure> {
     let given = [&args.sigma, &args.psi, &args.theta, &args.phi];
     let own = if let Some(Data::Specular(samples)) = subject.data(aspect) { Some(samples) } else { None };
+    let is_all_given = given.iter().all(|axis| axis.is_some());
+    let is_bound = args.error.is_some() || !is_all_given;
+    let idle = |name: &str, why: &str| {
+        let message =
+            format!("{}: found {name}, but {why}; expected no option that changes nothing", args.input.display());
+        Err(Failure::Usage(message))
+    };
     if let Some(samples) = own.filter(|_| args.error.is_none() && given.iter().all(|axis| axis.is_none())) {
-        return Ok((samples.clone(), None));
+        const KEPT: &str = "the table keeps its knots, as neither an axis nor --error is given";
+        return match (args.per_value, args.limit) {
+            (true, _) => idle("--per-value", KEPT),
+            (_, Some(_)) => idle("--limit", KEPT),
+            _ => Ok((samples.clone(), None)),
+        };
     }
+    if args.per_value && !is_bound {
+        return idle("--per-value", "all axes are given, so there is no bound to meet");
+    }
+    let limit = args.limit.unwrap_or(DEFAULT_LIMIT);
     let bound =
-        Bound { error: args.error.unwrap_or(DEFAULT_ERROR), per_value: args.per_value, limit: args.limit.to_radians() };
-    let is_sound = args.limit > 0.0 && args.limit <= 90.0;
+        Bound { error: args.error.unwrap_or(DEFAULT_ERROR), per_value: args.per_value, limit: limit.to_radians() };
+    let is_sound = limit > 0.0 && limit <= 90.0;
     if !is_sound {
-        return Err(Failure::Usage(format!("found a limit of {} degrees; expected one above 0, up to 90", args.limit)));
+        return Err(Failure::Usage(format!("found a limit of {limit} degrees; expected one above 0, up to 90")));
     }
     if bound.error.is_nan() || bound.error <= 0.0 {
         return Err(Failure::Usage(format!("found an error of {}; expected one above 0", bound.error)));
@@ -188,13 +209,12 @@ fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(specular::Da
         Knots::Keep(knots) | Knots::Choose(knots) => knots.len(),
     });
     fits(&args.output, &counts, subject.material.channel_count())?;
-    let is_all_given = given.iter().all(|axis| axis.is_some());
     let bar = progress("resampling");
     let chosen = choose(&subject.material, aspect, &axes, bound, &bar)
         .map_err(|error| Failure::Usage(format!("{}: {error}", args.output.display())))?;
     drop(bar);
     // With all knots given there is no bound to meet, unless one was requested.
-    if chosen.error > bound.error && !(is_all_given && args.error.is_none()) {
+    if chosen.error > bound.error && is_bound {
         return Err(Failure::Check(format!(
             "{}: the smallest error that was reached is {:.4}; expected {} or less",
             args.output.display(),

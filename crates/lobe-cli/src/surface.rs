@@ -3,11 +3,11 @@
 use lobe::{Channels, Material, Scatter};
 use lobe_model::Surface;
 
-/// A material and the sides on which it has values.
+/// A material from a file, or one measurement of it.
 pub struct MaterialSurface {
     /// The material.
     pub material: Material,
-    /// The only kind of scatter that it holds; `None` if it distinguishes the sides itself.
+    /// The scatter of light from the front that is looked at; `None` for all that it has, of either side.
     pub scatter: Option<Scatter>,
 }
 
@@ -31,5 +31,29 @@ impl Surface for MaterialSurface {
             };
             texel.iter_mut().zip(values).for_each(|(out, f)| *out = if is_held { f64::from(*f) } else { 0.0 });
         }
+    }
+}
+
+/// The least height from which [`Lifted`] surfaces are looked at: 3.4 degrees.
+const HEIGHT: f64 = 0.06;
+
+/// A surface that is never looked at along itself: directions near the horizon are moved up, at the same azimuth.
+pub struct Lifted<'a>(pub &'a dyn Surface);
+
+impl Surface for Lifted<'_> {
+    fn channels(&self) -> &Channels {
+        self.0.channels()
+    }
+
+    fn f(&self, wi: [f64; 3], viewers: &[[f64; 3]], out: &mut [f64]) {
+        let away = |[x, y, z]: [f64; 3]| {
+            if z.abs() >= HEIGHT {
+                return [x, y, z];
+            }
+            let stretch = (1.0 - HEIGHT * HEIGHT).sqrt() / x.hypot(y);
+            [x * stretch, y * stretch, HEIGHT.copysign(z)]
+        };
+        let viewers: Vec<_> = viewers.iter().copied().map(away).collect();
+        self.0.f(away(wi), &viewers, out);
     }
 }

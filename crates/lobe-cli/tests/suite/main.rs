@@ -8,6 +8,7 @@ mod common;
 mod compare;
 mod convert;
 mod hardening;
+mod honest;
 mod plot;
 mod render;
 mod resample;

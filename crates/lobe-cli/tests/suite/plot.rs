@@ -83,7 +83,7 @@ fn what_cannot_be_drawn_is_an_error_and_leaves_nothing() {
         ("a.svg", vec!["--kind", "page"], 2, "found a page in a picture"),
         ("a.html", vec!["--kind", "polar"], 2, "found a figure in .html"),
         ("a.svg", vec!["--channel", "Visible"], 2, "found no channel Visible; expected one of R, G, B"),
-        ("a.svg", vec!["--side", "below"], 2, "found no values for light from below"),
+        ("a.svg", vec!["--side", "below"], 2, "found no values for light from the back"),
         ("a.svg", vec!["--sigma", "0,90"], 2, "expected 0 or more and less than 90 degrees"),
         ("a.svg", vec!["--log", "--linear"], 2, "cannot be used with"),
         ("a.png", vec!["--width", "9"], 2, "100..=8000"),
