@@ -66,7 +66,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     let subject = Subject::open(&args.file, &Options::default())?;
     let aspects = choose_aspects(&args.file, &subject, args.scatter, args.side)?;
-    if let Some(aspect) = aspects.iter().find(|&&aspect| has_no_albedo(&subject, aspect)) {
+    if let Some(aspect) = aspects.iter().find(|&&aspect| subject.is_in_plane(aspect)) {
         let message = format!(
             "{}: {aspect}: measured in the plane of incidence only, so there is no albedo",
             args.file.display()

@@ -90,6 +90,12 @@ impl Subject {
         self.document.only().or_else(|| self.parts().find(answers).map(|part| &part.data))
     }
 
+    /// Whether an aspect was measured in the plane of incidence only, so that no integral over the hemisphere is a
+    /// measurement.
+    pub fn is_in_plane(&self, aspect: Aspect) -> bool {
+        self.data(aspect).is_some_and(|data| crate::check::is_in_plane(data.representation()))
+    }
+
     /// The measurements that have a value for a pair of directions.
     fn parts(&self) -> impl Iterator<Item = &Part> {
         self.document.parts.iter().filter(|part| !part.data.representation().is_delta())

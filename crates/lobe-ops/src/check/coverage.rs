@@ -5,40 +5,36 @@ use std::f64::consts::{PI, TAU};
 
 use lobe_formats::Document;
 use lobe_table::specular::AXIS_NAMES;
-use lobe_table::window::{Band, Block};
-use lobe_table::{Data, Scatter, scattered, specular};
+use lobe_table::specular::coords::angles_to_directions;
+use lobe_table::{Aspect, Edges, Representation, Scatter};
 
 use super::finding::{Finding, Status, degrees, part_name, percent};
 use crate::directions::spherical;
-use crate::samples::{directions, nodes};
 
 pub(super) fn check(document: &Document) -> Vec<Finding> {
-    document.parts.iter().flat_map(|part| of_part(&part.data, &part_name(document, part))).collect()
+    document.parts.iter().flat_map(|part| of_data(part.data.representation(), &part_name(document, part))).collect()
 }
 
-fn of_part(data: &Data, name: &str) -> Vec<Finding> {
-    let mut findings = Vec::new();
-    if let Data::Specular(samples) = data {
-        findings.extend(dark_nodes(samples, name));
+fn of_data(data: &dyn Representation, name: &str) -> Vec<Finding> {
+    let mut findings: Vec<Finding> = dark_nodes(data, name).into_iter().collect();
+    findings.extend(of_samples(data, name));
+    if data.is_two_sided() {
+        findings.extend(data.channels().names().iter().map(|band| of_band(data, band)));
     }
-    if let Data::Scattered(scattered) = data {
-        findings.extend(of_samples(scattered, name));
-    }
-    if let Data::Window(window) = data {
-        findings.extend(window.bands.iter().map(of_band));
-    }
-    let extent = data.representation().extent();
+    let extent = data.extent();
     findings.extend(extent.map(|extent| Finding::new("coverage", name, Status::Note, extent.into())));
     findings
 }
 
 /// Which of the four measurements of a sheet a band has, and what an evaluation answers for the others.
-fn of_band(band: &Band) -> Finding {
-    let has = |block: Block| band.window.block(block).is_some();
+fn of_band(data: &dyn Representation, band: &str) -> Finding {
+    let sections = data.sections();
+    let of_band = sections.iter().filter(|section| section.channels.names() == [band]);
+    let measured: Vec<Aspect> = of_band.map(|section| section.aspect).collect();
     let (mut dark, mut answered) = (Vec::new(), Vec::new());
-    for aspect in Block::ALL.map(Block::aspect) {
-        let is_known_backward = aspect.scatter == Scatter::Transmission && has(Block::of_aspect(aspect.reversed()));
-        match has(Block::of_aspect(aspect)) {
+    for aspect in [Aspect::ALL[1], Aspect::ALL[3], Aspect::ALL[0], Aspect::ALL[2]] {
+        let is_known_backward = aspect.scatter == Scatter::Transmission && measured.contains(&aspect.reversed());
+        match measured.contains(&aspect) {
             true => {}
             false if is_known_backward => answered.push(aspect.to_string()),
             false => dark.push(aspect.to_string()),
@@ -56,17 +52,26 @@ fn of_band(band: &Band) -> Finding {
         (true, _) => (Status::Note, text.join("; ")),
         (false, _) => (Status::Warn, text.join("; ")),
     };
-    Finding::new("coverage", &band.wavelength, status, text)
+    Finding::new("coverage", band, status, text)
 }
 
-/// Nodes of a table above the horizon that are exactly 0, and their share of all.
-fn dark_nodes(samples: &specular::Data, part: &str) -> Option<Finding> {
-    let channels = samples.channels().count();
+/// Nodes of a table about the mirror direction that are above the horizon and exactly 0, and their share of all.
+fn dark_nodes(data: &dyn Representation, part: &str) -> Option<Finding> {
+    let grid = data.grid().filter(|grid| grid.is_specular)?;
+    let [sigmas, psis, thetas, phis] = grid.knots;
+    let mut texels = grid.values.chunks_exact(grid.channels);
     let (mut dark, mut above) = (0_usize, 0_usize);
-    for (node, texel) in nodes(samples).zip(samples.values().chunks_exact(channels)) {
-        if directions(samples, node).1[2] > 1e-3 {
-            above += 1;
-            dark += usize::from(texel.iter().all(|&value| value == 0.0));
+    for &sigma in sigmas {
+        let zenith = data.kinks(&Edges::default(), [sigma, psis[0]]).map_or(sigma, |kinks| kinks.zenith);
+        for &psi in psis {
+            for &theta in thetas {
+                for (&phi, texel) in phis.iter().zip(&mut texels) {
+                    if angles_to_directions([sigma, psi, theta, phi], |_| zenith).1[2] > 1e-3 {
+                        above += 1;
+                        dark += usize::from(texel.iter().all(|&value| value == 0.0));
+                    }
+                }
+            }
         }
     }
     if dark == 0 {
@@ -84,14 +89,15 @@ fn dark_nodes(samples: &specular::Data, part: &str) -> Option<Finding> {
 }
 
 /// Whether only the plane of incidence was measured, so that no integral over the hemisphere is a measurement.
-pub(super) fn is_in_plane(data: &scattered::Data) -> bool {
-    data.samples().all(|([_, phi_i, theta, phi], _)| theta < 1e-3 || (phi - phi_i).sin().abs() < 1e-3)
+pub(crate) fn is_in_plane(data: &dyn Representation) -> bool {
+    let is_flat = |([_, phi_i, theta, phi], _): ([f64; 4], &[f32])| theta < 1e-3 || (phi - phi_i).sin().abs() < 1e-3;
+    data.samples().is_some_and(|mut samples| samples.all(is_flat))
 }
 
 /// The incidences at which the brightest sample is toward the light: such data are often read the wrong way round.
-fn backward(data: &scattered::Data, part: &str) -> Option<Finding> {
+fn backward(data: &dyn Representation, part: &str) -> Option<Finding> {
     let mut brightest: Vec<([f64; 4], f64)> = Vec::new();
-    for (angles, texel) in data.samples() {
+    for (angles, texel) in data.samples()? {
         let value: f64 = texel.iter().map(|&value| f64::from(value)).sum();
         match brightest.last_mut() {
             Some((other, most)) if other[..2] == angles[..2] => {
@@ -132,10 +138,10 @@ struct Sectors {
 }
 
 impl Sectors {
-    fn new(data: &scattered::Data) -> Self {
+    fn new(data: &dyn Representation) -> Self {
         let mut counts = Vec::new();
         let mut sectors = BTreeSet::new();
-        let mut samples = data.samples().peekable();
+        let mut samples = data.samples().into_iter().flatten().peekable();
         let (mut is_left, mut is_right) = (true, true);
         while let Some(([theta_i, phi_i, theta, phi], _)) = samples.next() {
             let relative = (phi - phi_i).rem_euclid(TAU);
@@ -161,16 +167,19 @@ impl Sectors {
 }
 
 /// The incidences with so few outgoing directions that nothing can be said of their integral.
-pub(super) fn sparse(data: &scattered::Data) -> Vec<[f64; 2]> {
+pub(super) fn sparse(data: &dyn Representation) -> Vec<[f64; 2]> {
     let Sectors { counts, all } = Sectors::new(data);
     let is_sparse = |(_, count): &([f64; 2], usize)| (*count as f64) < SPARSE * all as f64;
     counts.into_iter().filter(is_sparse).map(|(incidence, _)| incidence).collect()
 }
 
-/// The incidences, and the number of sectors of the hemisphere with samples.
-fn of_samples(data: &scattered::Data, part: &str) -> Vec<Finding> {
+/// The incidences, and the number of sectors of the hemisphere with samples, of what is on no grid.
+fn of_samples(data: &dyn Representation, part: &str) -> Vec<Finding> {
+    if data.samples().is_none() {
+        return Vec::new();
+    }
     let mut findings = Vec::new();
-    let incidences: Vec<[f64; 2]> = data.incidences().collect();
+    let incidences: Vec<[f64; 2]> = data.aspects().first().map_or_else(Vec::new, |aspect| data.incidences(*aspect));
     let thetas: BTreeSet<i64> =
         incidences.iter().map(|[theta, _]| (theta.to_degrees() * 10.0).round() as i64).collect();
     let list: Vec<String> = thetas.iter().map(|tenths| degrees((*tenths as f64 / 10.0).to_radians())).collect();

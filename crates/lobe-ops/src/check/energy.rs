@@ -3,7 +3,8 @@
 
 use std::f64::consts::PI;
 
-use lobe_table::{Data, scattered};
+use lobe_table::{Data, Representation};
+use rayon::prelude::*;
 
 use super::coverage::{is_in_plane, sparse};
 use super::finding::{Finding, Status, Thoroughness, degrees, percent};
@@ -13,6 +14,8 @@ use crate::hemisphere::Effort;
 use crate::pairs::eval_pairs;
 use crate::{Aspect, Subject};
 
+/// Albedos between two reports of progress.
+const AT_ONCE: usize = 16;
 /// Light beyond 85 degrees is extrapolated by most measurements, and not looked at.
 const GRAZING: f64 = 85.5 * PI / 180.0;
 /// How far above 1 an albedo may be before it fails: instruments are calibrated to a per cent or so.
@@ -31,13 +34,14 @@ pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness, progress: im
     let mut all: Vec<(Aspect, Vec<Albedo>)> = Vec::new();
     for (index, &aspect) in aspects.iter().enumerate() {
         let part = if aspects.len() > 1 { aspect.to_string() } else { String::new() };
-        if let Some(data) = scattered(subject, aspect).filter(|data| is_in_plane(data)) {
+        let data = subject.data(aspect).map(Data::representation);
+        if let Some(data) = data.filter(|data| is_in_plane(*data)) {
             findings.extend(in_plane(data, &part));
             continue;
         }
         let mut incidences = subject.incidences(aspect);
         incidences.retain(|[theta, _]| *theta <= GRAZING);
-        let sparse = scattered(subject, aspect).map(sparse).unwrap_or_default();
+        let sparse = subject.data(aspect).map(|data| sparse(data.representation())).unwrap_or_default();
         let all_incidences = incidences.len();
         incidences.retain(|incidence| !sparse.contains(incidence));
         if incidences.len() < all_incidences {
@@ -49,10 +53,11 @@ pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness, progress: im
         }
         let step = incidences.len().div_ceil(thoroughness.incidences.max(1)).max(1);
         let chosen: Vec<[f64; 2]> = incidences.into_iter().step_by(step).collect();
-        let mut albedos = Vec::new();
-        for (done, &incidence) in chosen.iter().enumerate() {
-            albedos.push(albedo_of(subject, aspect, incidence, effort));
-            progress((index as f64 + (done + 1) as f64 / chosen.len() as f64) / aspects.len() as f64);
+        let mut albedos: Vec<Albedo> = Vec::new();
+        for some in chosen.chunks(AT_ONCE) {
+            let of_some = some.par_iter().map(|&incidence| albedo_of(subject, aspect, incidence, effort));
+            albedos.extend(of_some.collect::<Vec<_>>());
+            progress((index as f64 + albedos.len() as f64 / chosen.len() as f64) / aspects.len() as f64);
         }
         all.push((aspect, albedos));
     }
@@ -72,16 +77,12 @@ pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness, progress: im
     findings
 }
 
-pub(super) fn scattered(subject: &Subject, aspect: Aspect) -> Option<&scattered::Data> {
-    let Data::Scattered(data) = subject.data(aspect)? else { return None };
-    Some(data)
-}
-
 /// What can be said without an integral: no albedo is above pi times the largest value.
-fn in_plane(data: &scattered::Data, part: &str) -> Vec<Finding> {
+fn in_plane(data: &dyn Representation, part: &str) -> Vec<Finding> {
     let text = "measured in the plane of incidence only, so there is no albedo".into();
     let mut findings = vec![Finding::new("energy", part, Status::Note, text)];
-    let largest = data.samples().flat_map(|(_, texel)| texel).fold(0.0, |most: f64, &value| most.max(f64::from(value)));
+    let values = data.samples().into_iter().flatten().flat_map(|(_, texel)| texel);
+    let largest = values.fold(0.0, |most: f64, &value| most.max(f64::from(value)));
     if largest * PI < BLACK {
         let text = format!(
             "values are {largest:.1e} at most, so no albedo is above {:.1e}, less than the blackest coatings have: they are \

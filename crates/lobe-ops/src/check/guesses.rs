@@ -1,11 +1,9 @@
 //! What data cannot answer, for those who ask for it.
 
 use lobe_formats::Document;
-use lobe_table::Data;
 
 use super::finding::part_name;
 use super::{azimuths, coverage, grids};
-use crate::{Aspect, Subject};
 
 /// Sentences on what is guessed of a file rather than measured, such as everything outside the plane of incidence, or
 /// what a few directions say of all others. Empty if the data answer for themselves.
@@ -15,9 +13,10 @@ pub fn guesses(document: &Document) -> Vec<String> {
         found.push(if part.is_empty() { text.to_string() } else { format!("{part}: {text}") });
     };
     for part in &document.parts {
-        let Data::Scattered(data) = &part.data else { continue };
+        let data = part.data.representation();
+        let Some(&aspect) = data.aspects().first().filter(|_| data.samples().is_some()) else { continue };
         let name = part_name(document, part);
-        let (incidences, sparse) = (data.incidences().len(), coverage::sparse(data).len());
+        let (incidences, sparse) = (data.incidences(aspect).len(), coverage::sparse(data).len());
         if coverage::is_in_plane(data) {
             push(name.clone(), IN_PLANE);
         } else if sparse > 0 {
@@ -39,8 +38,3 @@ pub fn guesses(document: &Document) -> Vec<String> {
 }
 
 const IN_PLANE: &str = "measured in the plane of incidence only, and guessed everywhere else";
-
-/// Whether an integral over the hemisphere has nothing to do with what was measured: samples in the plane of incidence.
-pub fn has_no_albedo(subject: &Subject, aspect: Aspect) -> bool {
-    matches!(subject.data(aspect), Some(Data::Scattered(data)) if coverage::is_in_plane(data))
-}

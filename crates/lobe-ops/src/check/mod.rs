@@ -17,11 +17,12 @@ mod values;
 use lobe_formats::Document;
 
 use crate::Subject;
+pub(crate) use coverage::is_in_plane;
 use finding::part_name;
 use grid::Grid;
 
 pub use finding::{Finding, Status, Thoroughness};
-pub use guesses::{guesses, has_no_albedo};
+pub use guesses::guesses;
 
 /// Checks a file. `progress` is called from time to time with the share that is done.
 ///

@@ -14,6 +14,6 @@ pub use kind::Kind;
 pub(crate) use near::{Near, SAME, direction, reach, spans};
 pub use options::Options;
 pub use prepare::PrepareError;
-pub use representation::{Coverage, Representation, ValueMap};
+pub use representation::{Coverage, Representation, Samples, ValueMap};
 pub(crate) use section::pairs;
 pub use section::{ANGLE_ROUNDING, Fact, Gaps, Grid, Kinks, Section, SectionAxis, closes_circle};

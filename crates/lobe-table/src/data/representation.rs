@@ -12,6 +12,9 @@ pub type ValueMap<'a> = dyn Fn(&[f32]) -> Vec<f32> + 'a;
 /// A test of outgoing directions.
 pub type Coverage<'a> = Box<dyn Fn([f64; 3]) -> bool + Sync + 'a>;
 
+/// Values one by one: polar angle and azimuth of the light, then of the viewer, in radians; and the channels.
+pub type Samples<'a> = Box<dyn Iterator<Item = ([f64; 4], &'a [f32])> + 'a>;
+
 /// What programs need from measured data without knowing their representation.
 ///
 /// Directions are unit vectors away from the surface, normal on +z; angles are in radians.
@@ -90,6 +93,11 @@ pub trait Representation: Debug + Send + Sync {
 
     /// The values as a grid of four angles, if they are one.
     fn grid(&self) -> Option<Grid<'_>> {
+        None
+    }
+
+    /// The pairs of directions that were measured, by incident direction, if they are on no grid.
+    fn samples(&self) -> Option<Samples<'_>> {
         None
     }
 

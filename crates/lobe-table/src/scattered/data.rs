@@ -5,6 +5,7 @@ use crate::spherical::AXIS_NAMES;
 use crate::{Channels, Scatter};
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
+use std::sync::Arc;
 use thiserror::Error;
 
 /// Why angles and values are not a measurement.
@@ -73,8 +74,9 @@ pub struct Data {
     pub(super) is_isotropic: bool,
     /// 1 or -1 if only outgoing directions with a sine of that sign were measured, 0 else.
     pub(super) measured_side: f64,
-    pub(super) incidences: Vec<Incidence>,
-    mesh: Mesh,
+    /// Shared by clones, as are the triangles: what is prepared to be evaluated is the same data.
+    pub(super) incidences: Arc<[Incidence]>,
+    mesh: Arc<Mesh>,
 }
 
 impl Data {
@@ -128,6 +130,7 @@ impl Data {
         let positions: Vec<_> = incidences.iter().map(|i| project(i.theta, place(i.phi, is_isotropic))).collect();
         let mesh = Mesh::new(&positions).ok_or(ScatteredError::Empty)?;
 
+        let (incidences, mesh): (Arc<[Incidence]>, _) = (incidences.into(), Arc::new(mesh));
         let mut sides = incidences.iter().flat_map(|i| &i.outgoing).map(|[theta, phi]| theta.sin() * phi.sin());
         let (least, most) = sides.by_ref().fold((0.0_f64, 0.0_f64), |(lo, hi), y| (lo.min(y), hi.max(y)));
         let measured_side = match is_isotropic {

@@ -21,7 +21,7 @@ impl Bsdf for Data {
     }
 
     fn bytes(&self) -> usize {
-        self.samples().map(|(angles, values)| size_of_val(&angles) + size_of_val(values)).sum()
+        Data::samples(self).map(|(angles, values)| size_of_val(&angles) + size_of_val(values)).sum()
     }
 
     fn eval_batch(&self, _: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::data::Data;
 use crate::bsdf::Bsdf;
-use crate::data::{Coverage, Near, Options, PrepareError, SAME, Section, ValueMap, direction, reach, spans};
+use crate::data::{Coverage, Near, Options, PrepareError, SAME, Samples, Section, ValueMap, direction, reach, spans};
 use crate::{Aspect, Channels, Invalid, Kind, Representation};
 
 /// The name of the representation.
@@ -28,7 +28,7 @@ impl Representation for Data {
     }
 
     fn sections(&self) -> Vec<Section<'_>> {
-        let values: Vec<f32> = self.samples().flat_map(|(_, texel)| texel.to_vec()).collect();
+        let values: Vec<f32> = Data::samples(self).flat_map(|(_, texel)| texel.to_vec()).collect();
         let section = Section::new(KIND, Aspect::front(self.scatter), self.channels.clone(), &[]);
         let mut thetas: Vec<f32> = Data::incidences(self).map(|[theta, _]| theta.to_degrees() as f32).collect();
         thetas.dedup();
@@ -40,7 +40,7 @@ impl Representation for Data {
         };
         let section = Section { bytes: size_of_val(values.as_slice()), values: Cow::Owned(values), ..section };
         let section =
-            section.with_fact("samples", format!("{} pairs of directions, {symmetry}", self.samples().count()));
+            section.with_fact("samples", format!("{} pairs of directions, {symmetry}", Data::samples(self).count()));
         vec![section.with_fact("light", format!("{incidences}, at {} degrees", thetas.join(" ")))]
     }
 
@@ -48,8 +48,12 @@ impl Representation for Data {
         Data::incidences(self).collect()
     }
 
+    fn samples(&self) -> Option<Samples<'_>> {
+        Some(Box::new(Data::samples(self)))
+    }
+
     fn map_channels(&mut self, channels: Channels, map: &ValueMap<'_>) -> Result<bool, Invalid> {
-        let (angles, values): (Vec<_>, Vec<_>) = self.samples().unzip();
+        let (angles, values): (Vec<_>, Vec<_>) = Data::samples(self).unzip();
         let mapped = Data::new(self.scatter, channels, &angles, &map(&values.concat()));
         *self = mapped.map_err(|error| Invalid::new("channels", error.to_string(), "values that f32 can hold"))?;
         Ok(true)
