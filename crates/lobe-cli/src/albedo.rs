@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use lobe::Options;
 use lobe_ops::Subject;
 use lobe_ops::albedo::{Albedo, albedo_of};
-use lobe_ops::check::has_no_albedo;
 use lobe_ops::hemisphere::Effort;
 use serde::Serialize;
 

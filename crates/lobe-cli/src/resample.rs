@@ -20,12 +20,12 @@ use crate::angles::{Angles, ScatterRule, SideRule, choose_aspects, parse_angles,
 use crate::failure::Failure;
 use crate::guesses::warn_of_guesses;
 use crate::measure::fits;
-use crate::message;
+use crate::message::{self, say};
 
 /// Resample any material into a table in specular coordinates, repair it, and report how far it is from the original.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Axes that are not given get the knots that keep the interpolation error below --error, relative to the largest value (or, with --per-value, to each value above a thousandth of that). A specular table keeps its knots unless an axis or --error is given; then knots are chosen among its own. Errors count up to polar angles of --limit.
+    after_help = "Axes that are not given get the knots that keep the interpolation error below --error, relative to the largest value (or, with --per-value, to each value above a thousandth of that). A specular table keeps its knots unless an axis or --error is given; then knots are chosen among its own. Errors count up to polar angles of --limit. Without --error, 0.01 is aimed at, and a material that cannot be resampled so well gets the knots that bring the error near the smallest possible one, which is reported.
 
 Repairs come after, in the order of this list: colour, fill, mirror, reciprocal, conserve.
 
@@ -35,14 +35,14 @@ Examples:
   lobe resample sensor.bsdf sensor.ddr --fill zeros --beyond linear --mask filled.csv --conserve
   lobe resample paint.brdf paint.ddr --colour rgb
 
-If the bound is not met, the exit code is 3 and no file is written."
+If --error is given and no choice of knots meets it, the exit code is 3, the message names an error that can be met, and no file is written. Tables whose knots are all given are always written."
 )]
 pub struct Args {
     /// The material.
     input: PathBuf,
     /// The file to write: .ddr for reflection, .ddt for transmission, .ssdd for either.
     output: PathBuf,
-    /// The largest interpolation error [default: 0.01].
+    /// The largest interpolation error that is accepted; by default 0.01 is aimed at.
     #[arg(long, value_name = "SHARE")]
     error: Option<f64>,
     /// The error is relative to each value, not to the largest.
@@ -191,8 +191,12 @@ fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(specular::Da
         return idle("--per-value", "all axes are given, so there is no bound to meet");
     }
     let limit = args.limit.unwrap_or(DEFAULT_LIMIT);
-    let bound =
-        Bound { error: args.error.unwrap_or(DEFAULT_ERROR), per_value: args.per_value, limit: limit.to_radians() };
+    let bound = Bound {
+        error: args.error.unwrap_or(DEFAULT_ERROR),
+        per_value: args.per_value,
+        limit: limit.to_radians(),
+        is_aim: args.error.is_none(),
+    };
     let is_sound = limit > 0.0 && limit <= 90.0;
     if !is_sound {
         return Err(Failure::Usage(format!("found a limit of {limit} degrees; expected one above 0, up to 90")));
@@ -215,15 +219,32 @@ fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(specular::Da
     drop(bar);
     // With all knots given there is no bound to meet, unless one was requested.
     if chosen.error > bound.error && is_bound {
-        return Err(Failure::Check(format!(
-            "{}: the smallest error that was reached is {:.4}; expected {} or less",
-            args.output.display(),
-            chosen.error,
-            bound.error
-        )));
+        let (output, least) = (args.output.display(), rounded_up(chosen.least));
+        if args.error.is_some() {
+            return Err(Failure::Check(format!(
+                "{output}: the smallest error that was reached is {:.4}; expected {} or less. --error {least} would succeed{}",
+                chosen.least,
+                bound.error,
+                if limit > 60.0 { ", and a smaller --limit may allow less" } else { "" }
+            )));
+        }
+        say(format_args!(
+            "{output}: the error is {:.1} %, more than the {:.0} % aimed at; an --error below {least} may not be met",
+            100.0 * chosen.error,
+            100.0 * bound.error
+        ));
     }
     let found = error(&subject.material, aspect, &chosen.samples, bound.limit, PROBES)?;
     Ok((chosen.samples, Some(found)))
+}
+
+/// An error with two digits that is not smaller.
+fn rounded_up(error: f64) -> f64 {
+    let unit = 10_f64.powf(error.max(f64::MIN_POSITIVE).log10().floor() - 1.0);
+    let digits = (-unit.log10()).round().clamp(0.0, 17.0) as usize;
+    let rounded = (error / unit - 1e-9).ceil() * unit;
+    // What is printed has no digits of rounding.
+    format!("{rounded:.digits$}").parse().map_or(rounded, |short: f64| if short < error { short + unit } else { short })
 }
 
 fn repair(args: &Args, mut samples: specular::Data, repairs: &mut Vec<String>) -> Result<specular::Data, Failure> {
@@ -345,5 +366,21 @@ impl Answer {
             }
         }
         self.repairs.iter().try_for_each(|repair| writeln!(out, "repair    {repair}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounding_is_upward_and_short() {
+        for (error, expected) in
+            [(0.0230, 0.023), (0.023_01, 0.024), (0.472_6, 0.48), (3.0, 3.0), (12.1, 13.0), (9.99e-5, 1e-4)]
+        {
+            let found = rounded_up(error);
+            assert!(found >= error && (found - expected).abs() < 1e-12, "{error}: {found}");
+            assert!(found.to_string().len() < 8, "{found}");
+        }
     }
 }

@@ -36,6 +36,33 @@ fn the_bound_is_met_and_the_error_is_said() {
     let (code, _, message) = run(&["resample", text(&input), text(&files.path("no.ddr")), "--error", "1e-9"]);
     assert!(code == 3 && message.contains("expected 0.000000001 or less"), "{message}");
     assert!(!files.path("no.ddr").exists());
+    // The message names an error that can be met.
+    let least = message.split("--error ").nth(1).and_then(|rest| rest.split(' ').next()).expect("an error");
+    printed(&["resample", text(&input), text(&files.path("yes.ddr")), "--error", least]);
+}
+
+/// A jump cannot be interpolated to any bound.
+#[test]
+fn without_a_bound_what_is_possible_is_enough() {
+    let files = Files::new();
+    let mut csv = String::from(CSV);
+    for theta_i in [0, 40, 80] {
+        for theta_o in (0..90).step_by(5) {
+            for phi_o in (0..360).step_by(30) {
+                csv.push_str(&format!("{theta_i},{theta_o},{phi_o},{}\n", if theta_o % 2 == 0 { 1.0 } else { 0.1 }));
+            }
+        }
+    }
+    let (input, output) = (files.write("jagged.csv", &csv), files.path("jagged.ddr"));
+    let (code, shown, message) = run(&["resample", text(&input), text(&output)]);
+    assert!(code == 0 && output.exists(), "{message}");
+    assert!(message.contains("more than the 1 % aimed at"), "{message}");
+    assert!(shown.contains("of the largest value"), "{shown}");
+    // Knots that are all given are taken even if a bound is not met.
+    let knots = ["--sigma", "0,80", "--psi", "0", "--theta", "0,90", "--phi", "0,180"];
+    let given = files.path("given.ddr");
+    printed(&[&["resample", text(&input), text(&given), "--error", "0.01"], knots.as_slice()].concat());
+    assert!(given.exists());
 }
 
 #[test]

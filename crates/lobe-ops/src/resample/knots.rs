@@ -19,6 +19,8 @@ pub struct Bound {
     /// The polar angle of both directions up to which it has to hold, in radians. Toward the horizon values grow, and
     /// the largest with them.
     pub limit: f64,
+    /// If no choice of knots meets it, a little more than the smallest error that is possible is allowed instead.
+    pub is_aim: bool,
 }
 
 /// A table with chosen knots.
@@ -28,6 +30,8 @@ pub struct Chosen {
     pub samples: specular::Data,
     /// The error at directions that had no part in the choice, measured as in the bound.
     pub error: f64,
+    /// The error if all knots are kept: with any bound that is not smaller, the choice succeeds.
+    pub least: f64,
 }
 
 /// The knots of one axis, in radians.
@@ -47,6 +51,8 @@ impl Knots {
     }
 }
 
+/// How much larger than the smallest possible error is enough, if the bound is an aim that cannot be met.
+const SLACK: f64 = 1.2;
 /// Values of more channels than this are probed at this many of them.
 const CHANNELS: usize = 4;
 /// Values below this part of the largest count as that part, in a bound on each value.
@@ -62,10 +68,12 @@ pub const PROBES: usize = 100_000;
 ///
 /// On each axis to choose, the knot with the largest error is added until the error there is within its share of the
 /// bound. The multilinear interpolant is no further from the material than the sum of the errors of the axes, so equal
-/// shares are enough; more is tried first, as errors seldom meet. `progress` is called with the share that is done.
+/// shares are enough; more is tried first, as errors seldom meet, and last that all knots are kept. `progress` is called
+/// with the share that is done.
 ///
-/// The result may miss the bound: see [`Chosen::error`]. Between the candidates nothing can be added, and a material
-/// that jumps, as a Klems matrix does, cannot be interpolated to any bound.
+/// The result misses the bound if [`Chosen::least`] does: between the candidates nothing can be added, and a material
+/// that jumps, as a Klems matrix does, cannot be interpolated to any bound. All knots are then kept, unless the bound is
+/// an aim.
 ///
 /// # Errors
 /// As [`measure`].
@@ -78,29 +86,38 @@ pub fn choose<'a>(
 ) -> Result<Chosen, GridError> {
     let scattering = scattering.into();
     let free = axes.iter().filter(|axis| matches!(axis, Knots::Choose(knots) if knots.len() > 1)).count().max(1);
-    let dense = axes.each_ref().map(|axis| axis.all().to_vec());
-    let grid = Grid::new(&measure(scattering, aspect, dense, |done| progress(0.8 * done))?, bound);
-    let mut best: Option<Chosen> = None;
+    let all = axes.each_ref().map(|axis| axis.all().to_vec());
+    let dense = measure(scattering, aspect, all, |done| progress(0.6 * done))?;
+    // A table that is too large to be evaluated is worse than any other.
+    let error_of = |samples: &specular::Data| {
+        error(scattering, aspect, samples, bound.limit, PROBES).map_or(f64::INFINITY, |found| {
+            if bound.per_value { found.relative_to_value } else { found.relative_to_peak }
+        })
+    };
+    let least = error_of(&dense);
+    progress(0.7);
+    let is_possible = least <= bound.error;
+    let is_fixed = axes.iter().all(|axis| matches!(axis, Knots::Keep(_)));
+    if is_fixed || !(is_possible || bound.is_aim) {
+        progress(1.0);
+        return Ok(Chosen { samples: dense, error: least, least });
+    }
+    let allowed = if is_possible { bound.error } else { SLACK * least };
+    let grid = Grid::new(&dense, bound);
     // First as if the errors of the axes did not add up, then as if they did, then with something to spare.
-    for share in [1.0, 0.5, 1.0 / free as f64, 0.5 / free as f64] {
+    for (step, share) in [1.0, 0.5, 1.0 / free as f64, 0.5 / free as f64].into_iter().enumerate() {
         let knots = std::array::from_fn(|axis| match &axes[axis] {
             Knots::Keep(knots) => knots.clone(),
-            Knots::Choose(_) => grid.thin(axis, share * bound.error),
+            Knots::Choose(_) => grid.thin(axis, share * allowed),
         });
         let samples = measure(scattering, aspect, knots, |_| {})?;
-        // A table that is too large to be evaluated is worse than any other.
-        let found = error(scattering, aspect, &samples, bound.limit, PROBES).map_or(f64::INFINITY, |found| {
-            if bound.per_value { found.relative_to_value } else { found.relative_to_peak }
-        });
-        if best.as_ref().is_none_or(|best| found < best.error) {
-            best = Some(Chosen { samples, error: found });
-        }
-        if found <= bound.error {
-            break;
+        let found = error_of(&samples);
+        progress(0.7 + 0.075 * (step + 1) as f64);
+        if found <= allowed {
+            return Ok(Chosen { samples, error: found, least });
         }
     }
-    progress(1.0);
-    Ok(best.expect("at least one share was tried"))
+    Ok(Chosen { samples: dense, error: least, least })
 }
 
 /// Candidates for the knots of a material of which nothing is known, a million nodes: those of sigma lie densest at
@@ -216,7 +233,7 @@ mod tests {
     fn the_bound_holds_and_a_smaller_one_takes_more_knots() {
         let material = Exact(gold(0.4));
         let nodes = [0.05, 0.01].map(|bound| {
-            let bound = Bound { error: bound, per_value: false, limit: LIMIT };
+            let bound = Bound { error: bound, per_value: false, limit: LIMIT, is_aim: false };
             let chosen = choose(&material, Aspect::REFLECTION, &isotropic(), bound, |_| {}).expect("a table");
             assert!(chosen.error <= bound.error, "{} is over {}", chosen.error, bound.error);
             // Directions that had no part in the choice.
@@ -230,7 +247,7 @@ mod tests {
     #[test]
     fn what_is_linear_needs_no_knots() {
         let flat = Mono(|_, _| 0.25);
-        let bound = Bound { error: 1e-4, per_value: true, limit: LIMIT };
+        let bound = Bound { error: 1e-4, per_value: true, limit: LIMIT, is_aim: false };
         let chosen = choose(&flat, Aspect::REFLECTION, &isotropic(), bound, |_| {}).expect("a table");
         assert_eq!(chosen.samples.knots().each_ref().map(Vec::len), [2, 1, 2, 2]);
     }
@@ -240,7 +257,7 @@ mod tests {
         let [.., thetas, _] = isotropic();
         let fixed =
             [Knots::Keep(vec![0.0, 0.5, 1.0]), Knots::Keep(vec![0.0]), thetas, Knots::Keep(vec![0.0, 1.0, 2.0])];
-        let bound = Bound { error: 0.05, per_value: false, limit: LIMIT };
+        let bound = Bound { error: 0.05, per_value: false, limit: LIMIT, is_aim: false };
         let chosen = choose(&Exact(gold(0.4)), Aspect::REFLECTION, &fixed, bound, |_| {}).expect("a table");
         assert_eq!(
             (&chosen.samples.knots()[0], &chosen.samples.knots()[3]),
@@ -253,8 +270,26 @@ mod tests {
     #[test]
     fn a_jump_is_missed_and_said() {
         let jump = Mono(|_: [f64; 3], wo: [f64; 3]| if wo[0] > 0.1 { 1.0 } else { 0.0 });
-        let bound = Bound { error: 0.01, per_value: false, limit: LIMIT };
+        let bound = Bound { error: 0.01, per_value: false, limit: LIMIT, is_aim: false };
         let chosen = choose(&jump, Aspect::REFLECTION, &isotropic(), bound, |_| {}).expect("a table");
-        assert!(chosen.error > 0.3, "{}", chosen.error);
+        assert!(chosen.error > 0.3 && chosen.error == chosen.least, "{} {}", chosen.error, chosen.least);
+        // As an aim it is replaced by what is possible, which fewer knots reach too.
+        let aim = choose(&jump, Aspect::REFLECTION, &isotropic(), Bound { is_aim: true, ..bound }, |_| {});
+        let aim = aim.expect("a table");
+        assert!(aim.error <= SLACK * aim.least && aim.least == chosen.least, "{} {}", aim.error, aim.least);
+        assert!(aim.samples.values().len() <= chosen.samples.values().len());
+    }
+
+    #[test]
+    fn the_smallest_error_is_a_bound_that_succeeds() {
+        let material = Exact(gold(0.1));
+        let tight = Bound { error: 1e-6, per_value: false, limit: LIMIT, is_aim: false };
+        let least = choose(&material, Aspect::REFLECTION, &isotropic(), tight, |_| {}).expect("a table").least;
+        assert!(least > tight.error);
+        for error in [least, 1.5 * least] {
+            let bound = Bound { error, ..tight };
+            let chosen = choose(&material, Aspect::REFLECTION, &isotropic(), bound, |_| {}).expect("a table");
+            assert!(chosen.error <= error, "{} {error}", chosen.error);
+        }
     }
 }
