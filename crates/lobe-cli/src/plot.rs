@@ -1,5 +1,6 @@
-//! `lobe plot`: figures of a material.
+//! `lobe plot`: figures of a material, or of several.
 
+use std::io::{Write, stdout};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -8,26 +9,31 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lobe::Side;
 use lobe_files::check_output;
 use lobe_formats::{Document, open, write_whole};
-use lobe_plot::{Facts, Figure, Progress, Scaling, Subject, View, ViewError, draw, page, rasterise};
+use lobe_plot::{
+    DrawError, Facts, Figure, Page, Progress, Scaling, Shown, Subject, View, ViewError, draw, page, rasterise,
+};
 
 use crate::describe::{Part, describe};
 use crate::failure::Failure;
 use crate::guesses::warn_of_guesses;
 
-/// Draw a material: curves in the plane of incidence, slices of the hemisphere, lit spheres, or a page of them all.
+/// Draw materials: curves in the plane of incidence, channels, spectra, slices of the hemisphere, lit spheres, or a page
+/// of them all.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   lobe plot cloth.ddr -o cloth.html                         a page with everything, in one file
   lobe plot paint.bsdf -o paint.svg                         curves in the plane of incidence
+  lobe plot paint.bsdf paint.ddr -o both.html               two files in the same figures
   lobe plot paint.bsdf -o lobes.png --kind polar --width 1200
+  lobe plot film.csv -o film.svg --kind spectra --sigma 20,60 --theta 20,0,-20
   lobe plot screen.xml -o slices.svg --kind slices --sigma 0,40,60 --channel Visible --side back
   lobe plot cloth.ddr -o warp.png --kind sphere --psi 90
 
-The extension of OUT says what is written: .html a page, .svg or .png a figure. In every figure the light is on the left,
-angles of view are positive on the side of the mirror direction, and f is in 1/sr, without the cosine.")]
+The extension of OUT says what is written: .html a page, .svg or .png a figure. In every figure the light is on the left, viewing angles are positive on the side of the mirror direction, and f is in 1/sr, without the cosine. Dots are measured points; dashed lines were not measured but continued. Browsers show the value at the pointer.")]
 pub struct Args {
-    /// The file of a measured BRDF or BTDF.
-    file: PathBuf,
+    /// The files of measured BRDFs or BTDFs; several are drawn into the same figures.
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
     /// The file to write: .html, .svg or .png. An existing one is replaced.
     #[arg(short, long)]
     out: PathBuf,
@@ -37,12 +43,16 @@ pub struct Args {
     /// Logarithmic values.
     #[arg(long, conflicts_with = "linear")]
     log: bool,
-    /// Linear values. By default curves and slices are logarithmic, and lobes if their peaks differ much.
+    /// Linear values. By default curves and slices are logarithmic, spectra linear, and lobes logarithmic if their peaks
+    /// differ much.
     #[arg(long)]
     linear: bool,
     /// Polar angles of the light in degrees; by default knots of the measurement.
     #[arg(long, value_name = "DEG,DEG", value_delimiter = ',', value_parser = parse_sigma)]
     sigma: Vec<f64>,
+    /// Viewing angles of spectra in degrees; by default some about the mirror direction.
+    #[arg(long, value_name = "DEG,DEG", value_delimiter = ',', allow_hyphen_values = true, value_parser = parse_theta)]
+    theta: Vec<f64>,
     /// Azimuth of the light in degrees; by default that of the first knot.
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = parse_angle)]
     psi: Option<f64>,
@@ -52,18 +62,22 @@ pub struct Args {
     /// Draw this channel, by the name that `lobe info` shows; by default the luminance, and spheres in colour.
     #[arg(long, value_name = "NAME")]
     channel: Option<String>,
-    /// The width of a figure in pixels.
+    /// The width of a figure in pixels. Below 560 it is laid out for narrow paper.
     #[arg(long, default_value_t = 960, value_parser = clap::value_parser!(u32).range(100..=8000))]
     width: u32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Kind {
-    /// All figures, what is known about the file, and the albedo.
+    /// All figures, what is known about the file, what the checks find, and the albedo.
     Page,
-    /// f against the angle of view in the plane of incidence.
+    /// f against the viewing angle in the plane of incidence.
     Curves,
-    /// The same as lobes about the point of incidence.
+    /// The same for each channel of one file.
+    Channels,
+    /// f against the wavelength, at several viewing angles, of one file.
+    Spectra,
+    /// f as lobes about the point of incidence.
     Polar,
     /// All outgoing directions of each incidence, as disks.
     Slices,
@@ -82,6 +96,7 @@ enum LightSide {
 }
 
 /// What a file will contain.
+#[derive(Clone, Copy)]
 enum Target {
     Page,
     Svg(Figure),
@@ -91,26 +106,52 @@ enum Target {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let target = target(&args.out, args.kind)?;
-    check_output(&args.out, &[&args.file])?;
+    check_output(&args.out, &args.files)?;
     refuse_idle(args)?;
-    let (format, document) = open(&args.file)?;
-    warn_of_guesses(&args.file, &document);
-    let facts = match target {
-        Target::Page => facts(&args.file, format.name(), &document)?,
-        _ => Vec::new(),
-    };
-    let subject = Subject::new(&args.file, format, document)?;
-    let view = view(args, &subject)?;
+    let mut subjects = Vec::new();
+    let mut tables = Vec::new();
+    for file in &args.files {
+        let (format, document) = open(file)?;
+        warn_of_guesses(file, &document);
+        if matches!(target, Target::Page) {
+            tables.push(facts(file, format.name(), &document)?);
+        }
+        subjects.push(Subject::new(file, format, document)?.named(&name(file, &args.files)));
+    }
+    let views = views(args, &subjects)?;
+    let shown: Vec<Shown<'_>> = subjects.iter().zip(&views).map(|(subject, view)| Shown { subject, view }).collect();
     let bar = Bar::new();
-    let content = match target {
-        Target::Page => page(&subject, &view, &facts, &bar).into_bytes(),
-        Target::Svg(figure) => draw(&subject, &view, figure, &bar).into_bytes(),
+    let wrong = |error: DrawError| Failure::Usage(format!("{}: {error}", args.files[0].display()));
+    let (content, what, said) = match target {
+        Target::Page => {
+            let Page { html, figures, said } = page(&shown, &tables, &bar);
+            (html.into_bytes(), format!("a page of {figures} figures"), said)
+        }
+        Target::Svg(figure) => {
+            let drawing = draw(&shown, figure, &bar).map_err(wrong)?;
+            (drawing.svg.into_bytes(), format!("{figure}, {} pixels wide", args.width), drawing.said)
+        }
         Target::Png(figure) => {
-            let svg = draw(&subject, &view, figure, &bar);
-            rasterise(&svg, args.width).map_err(|error| Failure::File(format!("{}: {error}", args.out.display())))?
+            let drawing = draw(&shown, figure, &bar).map_err(wrong)?;
+            let png = rasterise(&drawing.svg, args.width)
+                .map_err(|error| Failure::File(format!("{}: {error}", args.out.display())))?;
+            (png, format!("{figure}, {} pixels wide", args.width), drawing.said)
         }
     };
-    Ok(write_whole(&args.out, &content)?)
+    drop(bar);
+    write_whole(&args.out, &content)?;
+    let said: String = said.iter().map(|said| format!("; {said}")).collect();
+    let mut out = stdout().lock();
+    writeln!(out, "{}: {what}, {} bytes{said}", args.out.display(), content.len())?;
+    Ok(out.flush()?)
+}
+
+/// The name of a file, or its path if another one has the same name.
+fn name(file: &Path, all: &[PathBuf]) -> String {
+    let name = |file: &Path| file.file_name().map(|name| name.to_string_lossy().into_owned());
+    let own = name(file);
+    let is_unique = all.iter().filter(|other| name(other) == own).count() < 2;
+    own.filter(|_| is_unique).unwrap_or_else(|| file.display().to_string())
 }
 
 /// The extension and the kind must agree.
@@ -119,6 +160,8 @@ fn target(out: &Path, kind: Option<Kind>) -> Result<Target, Failure> {
     let figure = match kind {
         Some(Kind::Page) => None,
         Some(Kind::Curves) | None => Some(Figure::Curves),
+        Some(Kind::Channels) => Some(Figure::Channels),
+        Some(Kind::Spectra) => Some(Figure::Spectra),
         Some(Kind::Polar) => Some(Figure::Polar),
         Some(Kind::Slices) => Some(Figure::Slices),
         Some(Kind::Sphere) => Some(Figure::Sphere),
@@ -150,31 +193,36 @@ fn refuse_idle(args: &Args) -> Result<(), Failure> {
     }
 }
 
-fn view(args: &Args, subject: &Subject) -> Result<View, Failure> {
-    let wrong = |error: ViewError| Failure::Usage(format!("{}: {error}", args.file.display()));
-    let mut view = View { width: args.width, ..View::new(subject) };
-    if let Some(side) = args.side {
-        let side = match side {
-            LightSide::Front => Side::Front,
-            LightSide::Back => Side::Back,
+/// What to show of each material: the same light for all of them.
+fn views(args: &Args, subjects: &[Subject]) -> Result<Vec<View>, Failure> {
+    let mut views: Vec<View> = Vec::new();
+    for (subject, file) in subjects.iter().zip(&args.files) {
+        let wrong = |error: ViewError| Failure::Usage(format!("{}: {error}", file.display()));
+        let mut view = View { width: args.width, ..View::new(subject) };
+        let side = match args.side {
+            Some(LightSide::Front) => Some(Side::Front),
+            Some(LightSide::Back) => Some(Side::Back),
+            None => views.first().map(|first| first.side),
         };
-        view = view.lit_from(subject, side).map_err(wrong)?;
+        if let Some(side) = side {
+            view = view.lit_from(subject, side).map_err(wrong)?;
+        }
+        if let Some(name) = &args.channel {
+            view = view.channel(subject, name).map_err(wrong)?;
+        }
+        view.psi = args.psi.map(f64::to_radians).or(views.first().map(|first| first.psi)).unwrap_or(view.psi);
+        view.scaling = match (args.log, args.linear) {
+            (true, _) => Some(Scaling::Log),
+            (_, true) => Some(Scaling::Linear),
+            _ => None,
+        };
+        view.sigmas = args.sigma.iter().map(|sigma| sigma.to_radians()).collect();
+        view.sigmas.sort_by(f64::total_cmp);
+        view.sigmas.dedup();
+        view.thetas = args.theta.iter().map(|theta| theta.to_radians()).collect();
+        views.push(view);
     }
-    if let Some(name) = &args.channel {
-        view = view.channel(subject, name).map_err(wrong)?;
-    }
-    if let Some(psi) = args.psi {
-        view.psi = psi.to_radians();
-    }
-    view.scaling = match (args.log, args.linear) {
-        (true, _) => Some(Scaling::Log),
-        (_, true) => Some(Scaling::Linear),
-        _ => None,
-    };
-    view.sigmas = args.sigma.iter().map(|sigma| sigma.to_radians()).collect();
-    view.sigmas.sort_by(f64::total_cmp);
-    view.sigmas.dedup();
-    Ok(view)
+    Ok(views)
 }
 
 /// What `lobe info` says, as tables.
@@ -199,6 +247,14 @@ fn part(part: &Part) -> Facts {
 fn parse_angle(text: &str) -> Result<f64, String> {
     let angle: Option<f64> = text.trim().parse().ok();
     angle.filter(|angle| angle.is_finite()).ok_or_else(|| format!("found `{text}`; expected an angle in degrees"))
+}
+
+fn parse_theta(text: &str) -> Result<f64, String> {
+    let theta = parse_angle(text)?;
+    match theta.abs() < 90.0 {
+        true => Ok(theta),
+        false => Err(format!("found {theta}; expected more than -90 and less than 90 degrees")),
+    }
 }
 
 fn parse_sigma(text: &str) -> Result<f64, String> {

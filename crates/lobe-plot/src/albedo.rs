@@ -25,10 +25,12 @@ pub struct Albedo {
 }
 
 /// The directional albedos of a view, one per incidence and kind of scattering: those of [`albedo_of`] within its
-/// default effort, reduced to the quantity and the colour of the view.
+/// default effort, reduced to the quantity and the colour of the view. There are none of what was measured in the plane of
+/// incidence only.
 pub fn albedos(subject: &Subject, view: &View, progress: &dyn Progress) -> Vec<Albedo> {
     let sigmas = view.incidences(subject, MOST);
-    let scatters = subject.scatters(view.side);
+    let mut scatters = subject.scatters(view.side);
+    scatters.retain(|&scatter| !subject.measured().is_in_plane(Aspect { scatter, light: view.side }));
     let wanted: Vec<(Scatter, f64)> =
         scatters.iter().flat_map(|&scatter| sigmas.iter().map(move |&sigma| (scatter, sigma))).collect();
     progress.begin("albedo", wanted.len() as u64);

@@ -1,6 +1,6 @@
 //! Curves in the plane of incidence.
 
-use lobe::Scatter;
+use lobe::{Scatter, Side};
 
 use crate::evaluate::{Progress, evaluate};
 use crate::geometry::{in_plane, incident};
@@ -20,6 +20,8 @@ pub struct Curve {
     pub f: Vec<f32>,
     /// Whether each value lies within the measurement, rather than in its continuation.
     pub is_measured: Vec<bool>,
+    /// The positions in `theta` of the angles at which the material was measured.
+    pub points: Vec<usize>,
 }
 
 /// Steps of the viewing angle in degrees: everywhere, and within [`NEAR`] of the mirror direction and of the light.
@@ -30,44 +32,86 @@ const NEAR: f64 = 2.0;
 const LAST: f64 = 89.9;
 /// More curves than this cannot be distinguished.
 pub(crate) const MOST: usize = 8;
+/// Angles nearer to each other than this, in degrees, are the same.
+const SAME: f64 = 1e-6;
 
 /// The curves of a view: one per incidence, reflection before transmission.
 pub fn curves(subject: &Subject, view: &View, progress: &dyn Progress) -> Vec<Curve> {
-    let scatters = subject.scatters(view.side);
     let sigmas = view.incidences(subject, MOST);
-    let plan: Vec<(Scatter, f64, Vec<f64>)> =
-        scatters.iter().flat_map(|&scatter| sigmas.iter().map(move |&sigma| (scatter, sigma, angles(sigma)))).collect();
-    progress.begin("curves", plan.iter().map(|(_, _, theta)| theta.len() as u64).sum());
+    let reduce = |texel: &[f32]| [view.quantity.reduce(texel)];
+    let of_each = reduced(subject, view, &sigmas, reduce, progress);
+    of_each.into_iter().map(|[curve]| curve).collect()
+}
+
+/// The curves of up to [`MOST`] channels, one list of curves per incidence, reflection before transmission.
+pub(crate) fn channel_curves(
+    subject: &Subject,
+    view: &View,
+    sigmas: &[f64],
+    channels: &[usize],
+    progress: &dyn Progress,
+) -> Vec<Vec<Curve>> {
+    let reduce = |texel: &[f32]| std::array::from_fn(|at| channels.get(at).map_or(0.0, |&channel| texel[channel]));
+    let of_each = reduced::<MOST>(subject, view, sigmas, reduce, progress);
+    of_each.into_iter().map(|curves| curves.into_iter().take(channels.len()).collect()).collect()
+}
+
+/// The curves of `N` numbers that values are reduced to.
+fn reduced<const N: usize>(
+    subject: &Subject,
+    view: &View,
+    sigmas: &[f64],
+    reduce: impl Fn(&[f32]) -> [f32; N] + Sync,
+    progress: &dyn Progress,
+) -> Vec<[Curve; N]> {
+    let scatters = subject.scatters(view.side);
+    let plan: Vec<(Scatter, f64, Angles)> = scatters
+        .iter()
+        .flat_map(|&scatter| sigmas.iter().map(move |&sigma| (scatter, sigma)))
+        .map(|(scatter, sigma)| (scatter, sigma, angles(subject, view, scatter, sigma)))
+        .collect();
+    progress.begin("curves", plan.iter().map(|(.., angles)| angles.theta.len() as u64).sum());
     plan.into_iter()
-        .map(|(scatter, sigma, theta)| {
+        .map(|(scatter, sigma, Angles { theta, points })| {
             let wi = incident(view.side, sigma, view.psi);
             let pair = |at: usize| (wi, in_plane(view.side, scatter, theta[at], view.psi));
-            let reduce = |texel: &[f32]| [view.quantity.reduce(texel)];
-            let f =
-                evaluate(subject.material(), theta.len(), pair, reduce, progress).into_iter().map(|[f]| f).collect();
+            let values = evaluate(subject.material(), theta.len(), pair, &reduce, progress);
             let is_measured = match subject.part(view.side, scatter) {
                 Some(part) => {
                     let is_covered = part.coverage(sigma, view.psi);
-                    let above = |theta: f64| in_plane(lobe::Side::Front, Scatter::Reflection, theta, view.psi);
+                    let above = |theta: f64| in_plane(Side::Front, Scatter::Reflection, theta, view.psi);
                     theta.iter().map(|&theta| is_covered(above(theta))).collect()
                 }
                 None => vec![false; theta.len()],
             };
-            Curve { sigma, scatter, theta, f, is_measured }
+            let curve = Curve { sigma, scatter, theta, f: Vec::new(), is_measured, points };
+            std::array::from_fn(|n| Curve { f: values.iter().map(|value| value[n]).collect(), ..curve.clone() })
         })
         .collect()
 }
 
-/// The viewing angles for light at `sigma`, ascending, in radians.
-fn angles(sigma: f64) -> Vec<f64> {
+/// Viewing angles in radians, ascending, and the positions of those that were measured.
+struct Angles {
+    theta: Vec<f64>,
+    points: Vec<usize>,
+}
+
+fn angles(subject: &Subject, view: &View, scatter: Scatter, sigma: f64) -> Angles {
+    let part = subject.part(view.side, scatter);
+    let mut measured = part.map(|part| part.in_plane(sigma, view.psi)).unwrap_or_default();
+    measured.iter_mut().for_each(|theta| *theta = theta.to_degrees());
+    measured.retain(|theta| theta.abs() <= LAST);
     let sigma = sigma.to_degrees();
-    let mut angles: Vec<f64> = (0..=(2.0 * LAST / STEP).round() as usize).map(|i| STEP * i as f64 - LAST).collect();
+    let mut all: Vec<f64> = (0..=(2.0 * LAST / STEP).round() as usize).map(|i| STEP * i as f64 - LAST).collect();
     for centre in [-sigma, sigma] {
         let steps = (NEAR / FINE).round() as i32;
-        angles.extend((-steps..=steps).map(|i| centre + FINE * f64::from(i)));
+        all.extend((-steps..=steps).map(|i| centre + FINE * f64::from(i)));
     }
-    angles.retain(|angle| angle.abs() <= LAST);
-    angles.sort_by(f64::total_cmp);
-    angles.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
-    angles.into_iter().map(f64::to_radians).collect()
+    all.extend(&measured);
+    all.retain(|angle| angle.abs() <= LAST);
+    all.sort_by(f64::total_cmp);
+    all.dedup_by(|a, b| (*a - *b).abs() < SAME);
+    let place = |angle: &f64| all.partition_point(|other| *other < angle - 2.0 * SAME).min(all.len() - 1);
+    let points = measured.iter().map(place).collect();
+    Angles { theta: all.into_iter().map(f64::to_radians).collect(), points }
 }

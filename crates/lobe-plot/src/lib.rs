@@ -1,8 +1,9 @@
 //! Figures of measured materials: what a goniometer engineer or a shading artist looks at first.
 //!
-//! [`Subject`] is an opened file together with the directions at which it was measured; a [`View`] says what to show;
-//! [`draw`] makes one figure as SVG, [`rasterise`] turns that into a PNG, and [`page()`] is a self-contained HTML page
-//! of all figures. A figure is a pure function of file and view: no clock, no random numbers.
+//! [`Subject`] is an opened file together with the directions at which it was measured; a [`View`] says what to show,
+//! and [`Shown`] is both. [`draw`] makes one figure of one or more of these as SVG, [`rasterise`] turns that into a PNG,
+//! and [`page()`] is a self-contained HTML page of all figures. A figure is a pure function of files and views: no clock,
+//! no random numbers.
 //!
 //! Conventions of every figure: the light comes from the left; viewing angles are positive on the side of the mirror
 //! direction (for transmission: of the straight-through ray); `f` is in 1/sr, without the cosine.
@@ -14,29 +15,36 @@ mod figures;
 mod geometry;
 mod image;
 mod in_plane;
+mod ink;
+mod layout;
 mod measured;
 mod page;
 mod quantity;
 mod raster;
 mod scale;
 mod shade;
+mod shown;
 mod simplify;
 mod slice;
+mod spectra;
 mod subject;
 mod svg;
+mod tables;
 mod view;
 
 pub use albedo::{Albedo, albedos};
 pub use evaluate::{Progress, Silent};
-pub use figures::{Figure, draw};
+pub use figures::{DrawError, Drawing, Figure, draw};
 pub use geometry::{in_plane, incident};
 pub use image::Image;
 pub use in_plane::{Curve, curves};
-pub use page::{Facts, page};
+pub use page::{Facts, Page, page};
 pub use quantity::Quantity;
 pub use raster::{RasterError, rasterise};
 pub use scale::Scaling;
 pub use shade::{Sphere, Studio, shade};
+pub use shown::Shown;
 pub use slice::{Slice, slice};
+pub use spectra::{Spectrum, spectra};
 pub use subject::Subject;
 pub use view::{View, ViewError};

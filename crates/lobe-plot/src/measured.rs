@@ -1,6 +1,8 @@
 //! The directions at which a material was measured: the incidences to draw, the directions to mark, and the parts of
 //! the hemisphere that are only continued.
 
+use std::f64::consts::PI;
+
 use lobe::formats::Document;
 use lobe::table::Representation;
 use lobe::table::data::Coverage;
@@ -8,6 +10,9 @@ use lobe::{Aspect, Scatter};
 
 /// Angles nearer than this, in radians, are the same.
 const SAME: f64 = 1e-4;
+
+/// Directions whose component across the plane of incidence is smaller than this, 0.06 degrees, are in it.
+const FLAT: f64 = 1e-3;
 
 /// The measurement of light that comes from one side and leaves on one side.
 #[derive(Clone, Copy, Debug)]
@@ -59,5 +64,30 @@ impl<'a> Part<'a> {
     /// there one of the measurement, and not only its continuation?
     pub(crate) fn coverage(&self, sigma: f64, psi: f64) -> Coverage<'a> {
         self.data.coverage([sigma, psi])
+    }
+
+    /// Whether light at `sigma` and `psi` is one of the measured directions.
+    fn is_incidence(&self, sigma: f64, psi: f64) -> bool {
+        let is_turned = |phi: f64| ((phi - psi + PI).rem_euclid(2.0 * PI) - PI).abs() > SAME;
+        let is_free = self.data.is_isotropic() || sigma < SAME;
+        let is_it = |[theta, phi]: [f64; 2]| (theta - sigma).abs() < SAME && (is_free || !is_turned(phi));
+        self.data.incidences(self.aspect).into_iter().any(is_it)
+    }
+
+    /// The viewing angles in the plane of incidence at which light at `sigma` and `psi` was measured, ascending, as in
+    /// [`in_plane`](crate::in_plane()); none if that light was not.
+    pub(crate) fn in_plane(&self, sigma: f64, psi: f64) -> Vec<f64> {
+        if !self.is_incidence(sigma, psi) {
+            return Vec::new();
+        }
+        let (sin, cos) = psi.sin_cos();
+        let angle = |[x, y, z]: [f64; 3]| {
+            let (along, across) = (-(x * cos + y * sin), x * sin - y * cos);
+            (across.abs() < FLAT).then(|| along.atan2(z))
+        };
+        let mut thetas: Vec<f64> = self.directions(sigma, psi).into_iter().filter_map(angle).collect();
+        thetas.sort_by(f64::total_cmp);
+        thetas.dedup_by(|a, b| (*a - *b).abs() < SAME);
+        thetas
     }
 }

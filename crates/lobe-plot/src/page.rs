@@ -1,18 +1,22 @@
-//! One page with everything about a file.
+//! One page with everything about a file, or about several next to each other.
 
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write as _;
 
-use lobe::Scatter;
-use lobe_colour::encode;
+use lobe_ops::check::{Finding, Status};
 use quick_xml::escape::escape;
 
-use crate::albedo::{Albedo, albedos};
+use crate::albedo::albedos;
 use crate::evaluate::Progress;
-use crate::figures::{Figure, Series, degrees, draw, side_name};
-use crate::in_plane::MOST;
-use crate::scale::{Scaling, short};
+use crate::figures::{
+    Plate, all_curves, channels_plate, curves_plate, degrees, polar_plate, side_name, slices_plate, spectra_plate,
+    sphere_plate,
+};
+use crate::layout::{Layout, Paper, Sprites};
+use crate::scale::Scaling;
+use crate::shown::Shown;
 use crate::subject::Subject;
+use crate::tables::{albedo_table, facts_table, findings_table};
 use crate::view::View;
 
 /// The style of the page, for light and dark screens and for paper.
@@ -27,38 +31,55 @@ pub struct Facts {
     pub rows: Vec<(String, String)>,
 }
 
-/// A self-contained HTML page: what is known about the file, the albedo at each incidence, and all
-/// figures. An anisotropic material is shown from two azimuths, a sheet from both sides.
-pub fn page(subject: &Subject, view: &View, facts: &[Facts], progress: &dyn Progress) -> String {
-    let mut sections = vec![overview(subject, view, facts, progress)];
-    let title = String::from("In the plane of incidence and over the hemisphere");
-    let mut views = vec![Section { title, view: view.clone(), is_first: true }];
-    if subject.is_anisotropic(view.side) {
-        let turned = View { psi: view.psi + FRAC_PI_2, ..view.clone() };
-        views[0].title = format!("The light at ψ = {}", degrees(view.psi));
-        let title = format!("The light at ψ = {}", degrees(turned.psi));
-        views.push(Section { title, view: turned, is_first: false });
+/// A page, and what there is to say about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Page {
+    /// Self-contained HTML without scripts.
+    pub html: String,
+    /// The number of figures.
+    pub figures: usize,
+    /// What is shown, in a few words each: the incidences, the exposures, what the checks found.
+    pub said: Vec<String>,
+}
+
+/// A self-contained HTML page: what is known about the files, what the checks of `lobe-ops` find, the albedo at each
+/// incidence, and all figures. An anisotropic material is shown from two azimuths, a sheet from both sides. Several
+/// materials are drawn into the same figures.
+///
+/// `facts` are those of each file.
+pub fn page(shown: &[Shown<'_>], facts: &[Vec<Facts>], progress: &dyn Progress) -> Page {
+    let sprites = Sprites::default();
+    let mut out = Out { html: String::new(), sprites: &sprites, pixels: 0, figures: 0, said: Vec::new() };
+    out.pixels = shown.first().map_or(0, |first| first.view.width);
+    out.overview(shown, facts, progress);
+    out.findings(shown, progress);
+    match shown {
+        [one] => out.sections(*one, progress),
+        several => out.section("In the plane of incidence and over the hemisphere", several, true, progress),
     }
-    for side in subject.sides().into_iter().filter(|&side| side != view.side) {
-        let other = View { side, psi: subject.psi(side), ..view.clone() };
-        views.push(Section { title: format!("The light from the {}", side_name(side)), view: other, is_first: false });
-    }
-    for section in &views {
-        sections.push(figures(subject, section, progress));
-    }
-    let name = escape(subject.name());
-    format!(
+    let names: Vec<&str> = shown.iter().map(|shown| shown.subject.name()).collect();
+    let name = escape(names.join(", ")).into_owned();
+    let summaries: String = shown
+        .iter()
+        .map(|shown| format!("<p>{}</p>\n", escape(summary(shown.subject, shown_name(shown, &names)))))
+        .collect();
+    let html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{name}</title>\n\
-         <style>\n{STYLE}{}</style>\n</head>\n<body>\n<main>\n<header>\n<h1>{name}</h1>\n<p>{}</p>\n</header>\n{}</main>\n</body>\n</html>\n",
-        dark_series(view.incidences(subject, MOST).len()),
-        escape(summary(subject)),
-        sections.concat()
-    )
+         <style>\n{STYLE}</style>\n</head>\n<body>\n{}<main>\n<header>\n<h1>{name}</h1>\n{summaries}</header>\n{}</main>\n</body>\n</html>\n",
+        sprites.svg(),
+        out.html
+    );
+    Page { html, figures: out.figures, said: out.said }
+}
+
+/// The name of a file if there are several.
+fn shown_name<'a>(shown: &Shown<'a>, names: &[&str]) -> &'a str {
+    if names.len() > 1 { shown.subject.name() } else { "" }
 }
 
 /// A one-line description of the material.
-fn summary(subject: &Subject) -> String {
+fn summary(subject: &Subject, name: &str) -> String {
     let material = subject.material();
     let said = |name: &str| material.source().iter().find(|(key, _)| key.eq_ignore_ascii_case(name));
     let named = said("description").or_else(|| said("name")).map(|(_, value)| format!("{value}. "));
@@ -66,111 +87,125 @@ fn summary(subject: &Subject) -> String {
         1 => "1 channel".into(),
         n => format!("{n} channels"),
     };
-    format!("{}{}, {}, {channels}.", named.unwrap_or_default(), material.format().unwrap_or("made"), material.kind())
+    let prefix = if name.is_empty() { String::new() } else { format!("{name}: ") };
+    format!(
+        "{prefix}{}{}, {}, {channels}.",
+        named.unwrap_or_default(),
+        material.format().unwrap_or("made"),
+        material.kind()
+    )
 }
 
-/// The colours of the curves on a dark page.
-fn dark_series(count: usize) -> String {
-    let mut rules = String::new();
-    for index in 0..count {
-        let colour = Series { index, count }.colour_on_dark();
-        let _ = write!(rules, ".figure .s{index} {{ stroke: {colour}; }} .figure .m{index} {{ fill: {colour}; }} ");
-    }
-    format!("@media screen and (prefers-color-scheme: dark) {{ {rules}}}\n")
+/// A page that is being written.
+struct Out<'a> {
+    html: String,
+    sprites: &'a Sprites,
+    pixels: u32,
+    figures: usize,
+    said: Vec<String>,
 }
 
-/// The sphere and the albedo, and the facts next to them.
-fn overview(subject: &Subject, view: &View, facts: &[Facts], progress: &dyn Progress) -> String {
-    let mut out = String::from("<section class=\"cards\">\n<div class=\"stack\">\n");
-    let _ =
-        writeln!(out, "<figure class=\"card\">\n{}</figure>\n</div>", draw(subject, view, Figure::Sphere, progress));
-    out.push_str("<div class=\"stack\">\n");
-    let table = |rows: &[(String, String)]| {
-        let row = |(name, value): &(String, String)| {
-            format!("<tr><th>{}</th><td>{}</td></tr>\n", escape(name), escape(value))
-        };
-        format!("<table><tbody>\n{}</tbody></table>", rows.iter().map(row).collect::<String>())
-    };
-    if let Some((first, rest)) = facts.split_first() {
-        // The first table is always shown; the others unfold.
-        let _ = writeln!(out, "<div class=\"card\"><h3>{}</h3>{}", escape(&first.title), table(&first.rows));
-        for Facts { title, rows } in rest {
-            let _ = writeln!(out, "<details><summary>{}</summary>{}</details>", escape(title), table(rows));
-        }
-        out.push_str("</div>\n");
+impl Out<'_> {
+    fn put(&mut self, html: &str) {
+        self.html.push_str(html);
+        self.html.push('\n');
     }
-    out.push_str(&albedo_table(view, &albedos(subject, view, progress)));
-    out.push_str("</div>\n</section>\n");
-    out
-}
 
-fn albedo_table(view: &View, albedos: &[Albedo]) -> String {
-    let mut sigmas: Vec<f64> = Vec::new();
-    let mut scatters: Vec<Scatter> = Vec::new();
-    for albedo in albedos {
-        if !sigmas.contains(&albedo.sigma) {
-            sigmas.push(albedo.sigma);
-        }
-        if !scatters.contains(&albedo.scatter) {
-            scatters.push(albedo.scatter);
-        }
-    }
-    let mut out =
-        String::from("<div class=\"card\"><h3>Directional albedo</h3><table class=\"numbers\"><thead><tr><th>σ</th>");
-    for scatter in &scatters {
-        out.push_str(match scatter {
-            Scatter::Reflection => "<th>reflected</th>",
-            Scatter::Transmission => "<th>transmitted</th>",
-        });
-    }
-    out.push_str("</tr></thead><tbody>\n");
-    for sigma in sigmas {
-        let _ = write!(out, "<tr><th>{}</th>", degrees(sigma));
-        for scatter in &scatters {
-            let found = albedos.iter().find(|albedo| albedo.sigma == sigma && albedo.scatter == *scatter);
-            if let Some(Albedo { value, rgb, .. }) = found {
-                let [r, g, b] = rgb.map(|c| encode(c as f32));
-                let _ = write!(
-                    out,
-                    "<td>{} <span class=\"swatch\" style=\"background:#{r:02x}{g:02x}{b:02x}\"></span></td>",
-                    short(*value)
-                );
+    /// A figure in a card, for wide screens and for narrow ones.
+    fn figure(&mut self, plate: &Plate<'_>) {
+        let paper = |layout, pixels| Paper { layout, pixels, sprites: Some(self.sprites) };
+        let wide = (plate.draw)(paper(Layout::WIDE, self.pixels));
+        let narrow = (plate.draw)(paper(Layout::NARROW, self.pixels.min(400)));
+        let _ = writeln!(
+            self.html,
+            "<figure class=\"card\">\n<div class=\"wide\">\n{wide}</div>\n<div class=\"narrow\">\n{narrow}</div>\n</figure>"
+        );
+        self.figures += 1;
+        for said in &plate.said {
+            // Figures of few incidences show some of those of the first.
+            let kind = |said: &str| said.split(" at ").next().map(String::from);
+            if !self.said.iter().any(|other| kind(other) == kind(said)) {
+                self.said.push(said.clone());
             }
         }
-        out.push_str("</tr>\n");
     }
-    let of =
-        if view.quantity.name.is_empty() { String::new() } else { format!(" of the {}", escape(&view.quantity.name)) };
-    let _ = writeln!(
-        out,
-        "</tbody></table><p>The integral of f cos θ over the hemisphere{of}, at ψ = {}; its colour under white light.</p></div>",
-        degrees(view.psi)
-    );
-    out
+
+    /// The spheres, and the facts and the albedos next to them.
+    fn overview(&mut self, shown: &[Shown<'_>], facts: &[Vec<Facts>], progress: &dyn Progress) {
+        self.put("<section class=\"cards\">\n<div class=\"stack\">");
+        self.figure(&sphere_plate(shown, progress));
+        self.put("</div>\n<div class=\"stack\">");
+        for (shown_one, facts) in shown.iter().zip(facts) {
+            let name = if shown.len() > 1 { shown_one.subject.name() } else { "" };
+            self.put(&facts_table(name, facts));
+            self.put(&albedo_table(name, shown_one.view, &albedos(shown_one.subject, shown_one.view, progress)));
+        }
+        self.put("</div>\n</section>");
+    }
+
+    /// What the checks of each file found.
+    fn findings(&mut self, shown: &[Shown<'_>], progress: &dyn Progress) {
+        self.put("<section>\n<h2>What the checks found</h2>\n<div class=\"cards\">");
+        for Shown { subject, .. } in shown {
+            let findings = subject.findings(progress);
+            let name = if shown.len() > 1 { subject.name() } else { "" };
+            self.put(&findings_table(name, &findings));
+            let prefix = if name.is_empty() { String::new() } else { format!("{name}: ") };
+            self.said.push(format!("{prefix}checks: {}", counts(&findings)));
+        }
+        self.put("</div>\n</section>");
+    }
+
+    /// The views of one material.
+    fn sections(&mut self, shown: Shown<'_>, progress: &dyn Progress) {
+        let Shown { subject, view } = shown;
+        if subject.is_anisotropic(view.side) {
+            let turned = View { psi: view.psi + FRAC_PI_2, ..view.clone() };
+            self.section(&format!("The light at ψ = {}", degrees(view.psi)), &[shown], true, progress);
+            let title = format!("The light at ψ = {}", degrees(turned.psi));
+            self.section(&title, &[Shown { subject, view: &turned }], false, progress);
+        } else {
+            self.section("In the plane of incidence and over the hemisphere", &[shown], true, progress);
+        }
+        for side in subject.sides().into_iter().filter(|&side| side != view.side) {
+            let other = View { side, psi: subject.psi(side), ..view.clone() };
+            let title = format!("The light from the {}", side_name(side));
+            self.section(&title, &[Shown { subject, view: &other }], false, progress);
+        }
+    }
+
+    /// The figures of one view. The first has the linear curves too, and the channels and spectra of one material.
+    fn section(&mut self, title: &str, shown: &[Shown<'_>], is_first: bool, progress: &dyn Progress) {
+        self.put(&format!("<section>\n<h2>{}</h2>\n<div class=\"cards\">", escape(title)));
+        let curves = all_curves(shown, progress);
+        self.figure(&curves_plate(shown, &curves, Some(Scaling::Log)));
+        if is_first {
+            self.figure(&curves_plate(shown, &curves, Some(Scaling::Linear)));
+        }
+        if let ([one], true) = (shown, is_first) {
+            if one.subject.material().channel_count() > 1 {
+                self.figure(&channels_plate(*one, progress));
+            }
+            if let Some(spectra) = spectra_plate(*one, progress) {
+                self.figure(&spectra);
+            }
+        }
+        self.figure(&polar_plate(shown, curves));
+        self.figure(&slices_plate(shown, progress));
+        self.put("</div>\n</section>");
+    }
 }
 
-/// One view of the material on the page.
-struct Section {
-    title: String,
-    view: View,
-    /// The first view has the linear curves too.
-    is_first: bool,
-}
-
-/// The figures of one view.
-fn figures(subject: &Subject, section: &Section, progress: &dyn Progress) -> String {
-    let Section { title, view, is_first } = section;
-    let mut out = format!("<section>\n<h2>{}</h2>\n<div class=\"cards\">\n", escape(title));
-    let log = View { scaling: Some(Scaling::Log), ..view.clone() };
-    let linear = View { scaling: Some(Scaling::Linear), ..view.clone() };
-    let mut wanted = vec![(Figure::Curves, log)];
-    if *is_first {
-        wanted.push((Figure::Curves, linear));
-    }
-    wanted.extend([(Figure::Polar, view.clone()), (Figure::Slices, view.clone())]);
-    for (figure, view) in wanted {
-        let _ = writeln!(out, "<figure class=\"card\">\n{}</figure>", draw(subject, &view, figure, progress));
-    }
-    out.push_str("</div>\n</section>\n");
-    out
+/// How many findings there are of each kind that is not as it should be.
+fn counts(findings: &[Finding]) -> String {
+    let count = |wanted: Status| findings.iter().filter(|finding| finding.status == wanted).count();
+    let words =
+        [(Status::Fail, "failed", "failed"), (Status::Warn, "warning", "warnings"), (Status::Note, "note", "notes")];
+    let said: Vec<String> = words
+        .into_iter()
+        .map(|(status, one, many)| (count(status), one, many))
+        .filter(|(count, ..)| *count > 0)
+        .map(|(count, one, many)| format!("{count} {}", if count == 1 { one } else { many }))
+        .collect();
+    if said.is_empty() { "nothing to note".into() } else { said.join(", ") }
 }

@@ -12,6 +12,9 @@ pub enum Scaling {
 /// A logarithmic axis spans at most this factor: what is below it is noise.
 const DEEPEST: f64 = 1e-6;
 
+/// A linear axis begins at 0 if the values below are smaller than this part of the largest.
+const NOISE: f64 = 0.02;
+
 /// A mark on an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tick {
@@ -50,6 +53,8 @@ impl Scale {
                 Scale { scaling, low, high }
             }
             Scaling::Linear => {
+                // Noise below 0 is not worth a step.
+                let least = if -least < NOISE * most { 0.0 } else { least };
                 let mut step = step(most - least);
                 // Rounding may lengthen the axis so much that it gets longer steps.
                 loop {
@@ -64,9 +69,9 @@ impl Scale {
         }
     }
 
-    /// A linear axis from 0 to a round number that no value is above; to 1 if none is positive.
-    pub(crate) fn from_zero(values: impl Iterator<Item = f64>) -> Self {
-        Scale { low: 0.0, ..Scale::around(values.filter(|value| *value > 0.0), Scaling::Linear) }
+    /// A logarithmic axis from one positive value to a larger one.
+    pub(crate) fn between(low: f64, high: f64) -> Self {
+        Scale { scaling: Scaling::Log, low, high }
     }
 
     /// The position of a value: 0 at the low end, 1 at the high end. Values without a logarithm are far below.
@@ -87,21 +92,39 @@ impl Scale {
         }
     }
 
-    /// The marks, ascending.
+    /// The marks, ascending: at least two with labels. None on an axis without extent.
     pub(crate) fn ticks(&self) -> Vec<Tick> {
+        let has_extent = self.high > self.low;
         match self.scaling {
-            Scaling::Linear => {
-                let step = step(self.high - self.low);
-                let digits = (-step.log10().floor()).max(0.0) as usize;
-                let (first, last) = ((self.low / step - 1e-6).ceil() as i64, (self.high / step + 1e-6).floor() as i64);
-                let tick = |n: i64| {
-                    let value = n as f64 * step;
-                    Tick { value, label: Some(minus(&format!("{value:.digits$}"))) }
-                };
-                (first..=last).map(tick).collect()
+            _ if !has_extent => Vec::new(),
+            Scaling::Linear => self.linear_ticks(),
+            Scaling::Log => {
+                let ticks = self.log_ticks();
+                // In a part of a decade there may be hardly a round number.
+                let labels = ticks.iter().filter(|tick| tick.label.is_some()).count();
+                if labels < 3 { self.linear_ticks() } else { ticks }
             }
-            Scaling::Log => self.log_ticks(),
         }
+    }
+
+    fn linear_ticks(&self) -> Vec<Tick> {
+        let step = step(self.high - self.low);
+        let (first, last) = ((self.low / step - 1e-6).ceil() as i64, (self.high / step + 1e-6).floor() as i64);
+        let power = exponent(self.high.abs().max(self.low.abs()));
+        let tick = |n: i64| {
+            let value = n as f64 * step;
+            let label = match power {
+                _ if n == 0 => "0".into(),
+                // Plain numbers as long as they are short.
+                -3..=4 => format!("{value:.*}", (-exponent(step)).max(0) as usize),
+                _ => {
+                    let digits = (power - exponent(step)).max(0) as usize;
+                    format!("{:.digits$}·10^{{{power}}}", value / 10_f64.powi(power))
+                }
+            };
+            Tick { value, label: Some(minus(&label)) }
+        };
+        (first..=last).map(tick).collect()
     }
 
     fn log_ticks(&self) -> Vec<Tick> {
@@ -199,7 +222,7 @@ mod tests {
         let scale = Scale::around([0.013, 3.2].into_iter(), Scaling::Log);
         assert!((scale.low - 0.01).abs() < 1e-12 && (scale.high - 5.0).abs() < 1e-12, "{scale:?}");
         let scale = Scale::around([0.0, 0.31].into_iter(), Scaling::Linear);
-        assert_eq!(labels(scale), ["0.00", "0.05", "0.10", "0.15", "0.20", "0.25", "0.30", "0.35"]);
+        assert_eq!(labels(scale), ["0", "0.05", "0.10", "0.15", "0.20", "0.25", "0.30", "0.35"]);
         let scale = Scale::around([-0.02, 0.9].into_iter(), Scaling::Linear);
         assert_eq!(labels(scale)[0], "\u{2212}0.2");
         // Zeros and noise do not stretch a logarithmic axis without end.
@@ -207,33 +230,31 @@ mod tests {
         assert_eq!(Scale::around([0.0].into_iter(), Scaling::Log).high, 1.0);
     }
 
-    /// Whatever there is to show, an axis has an extent.
+    /// Whatever the values are, as far as they are numbers of single precision, of either sign.
     #[test]
-    fn no_axis_is_a_point() {
-        let sets: [&[f64]; 9] = [
-            &[],
-            &[0.0],
-            &[-1.0],
-            &[-1.0, -2.0],
-            &[1e-40],
-            &[3e38, -3e38],
-            &[f64::NAN, f64::INFINITY],
-            &[-0.01, 0.0],
-            &[5.0],
-        ];
-        for values in sets {
-            let values = || values.iter().copied();
-            let axes = [
-                Scale::around(values(), Scaling::Log),
-                Scale::around(values(), Scaling::Linear),
-                Scale::from_zero(values()),
-            ];
-            for scale in axes {
-                assert!(scale.low < scale.high && scale.high.is_finite(), "{scale:?}");
-                assert!((1..60).contains(&scale.ticks().len()), "{scale:?}");
-                assert!(scale.place(1.0).is_finite());
+    fn every_axis_has_an_extent_and_labels() {
+        let magnitudes = [0.0, 1e-45, 1e-38, 3e-7, 0.999, 1.0, 7.0, 4095.0, 1e15, 3.4e38];
+        let numbers: Vec<f64> = magnitudes.into_iter().flat_map(|value| [value, -value]).collect();
+        for &a in &numbers {
+            for &b in &numbers {
+                for scaling in [Scaling::Log, Scaling::Linear] {
+                    let scale = Scale::around([a, b].into_iter(), scaling);
+                    assert!(scale.high > scale.low && scale.high.is_finite(), "{a} {b}: {scale:?}");
+                    let labels = labels(scale);
+                    assert!((2..20).contains(&labels.len()), "{a} {b}: {labels:?}");
+                    assert!(labels.iter().all(|label| label.chars().count() < 16), "{a} {b}: {labels:?}");
+                    for value in [a, b] {
+                        let place = scale.place(value);
+                        assert!(place.is_finite() && place <= 1.0 + 1e-6, "{a} {b}: {place}");
+                    }
+                }
             }
         }
+        for (low, high) in [(0.31, 0.44), (1.01, 1.02), (0.05, 0.1), (3e-9, 3.1e-9), (9e20, 9.5e20)] {
+            let labels = labels(Scale::between(low, high));
+            assert!(labels.len() >= 2, "{low} {high}: {labels:?}");
+        }
+        assert!(Scale { scaling: Scaling::Linear, low: 0.0, high: 0.0 }.ticks().is_empty());
     }
 
     #[test]

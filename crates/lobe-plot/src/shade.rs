@@ -72,15 +72,18 @@ pub struct Sphere {
     pub cover: Vec<f32>,
 }
 
-/// Pairs of directions per pixel and light.
+/// Pairs of directions per pixel and light, and if each takes long.
 const SAMPLES: usize = 8;
+const FEW_SAMPLES: usize = 4;
 
 /// A sphere of the material of a view. The sample lies on it with its x axis along the circles of latitude.
 ///
-/// Every pixel is the mean of eight points in it, each lit by a different point of the light.
+/// Every pixel is the mean of eight points in it, each lit by a different point of the light; of four, if the material is
+/// on no grid and evaluated pair by pair.
 pub fn shade(subject: &Subject, view: &View, studio: Studio, size: usize, progress: &dyn Progress) -> Sphere {
     let lights = studio.lights();
-    let places = places(size);
+    let samples = if subject.is_slow() { FEW_SAMPLES } else { SAMPLES };
+    let places = places(size, samples);
     progress.begin("sphere", (places.len() * lights.len()) as u64);
     let flip = sign(view.side);
     let turn = if studio == Studio::Turned { 0.5 * PI } else { 0.0 } + view.psi;
@@ -99,7 +102,7 @@ pub fn shade(subject: &Subject, view: &View, studio: Studio, size: usize, progre
 
     let mut sphere = Sphere { size, linear: vec![[0.0; 3]; size * size], cover: vec![0.0; size * size] };
     for (place, values) in places.iter().zip(values.chunks_exact(lights.len())) {
-        sphere.cover[place.pixel] += 1.0 / SAMPLES as f32;
+        sphere.cover[place.pixel] += 1.0 / samples as f32;
         for (light, rgb) in lights.iter().zip(values) {
             let cos = dot(place.normal, light.point(place.uniform));
             let is_lit = match studio.scatter() {
@@ -115,7 +118,7 @@ pub fn shade(subject: &Subject, view: &View, studio: Studio, size: usize, progre
         }
     }
     for (linear, cover) in sphere.linear.iter_mut().zip(&sphere.cover) {
-        let count = cover * SAMPLES as f32;
+        let count = cover * samples as f32;
         linear.iter_mut().for_each(|c| *c /= count.max(1.0));
     }
     sphere
@@ -159,13 +162,13 @@ struct Place {
 /// The points of all pixels, without those off the sphere. The points in each pixel are those of the R2 sequence (M.
 /// Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018), which go on from pixel to pixel for the
 /// light, so that neighbours differ and no pattern shows.
-fn places(size: usize) -> Vec<Place> {
+fn places(size: usize, samples: usize) -> Vec<Place> {
     // The plastic number, the root of x^3 = x + 1.
     const PLASTIC: f64 = 1.324_717_957_244_746;
     let (a, b) = (1.0 / PLASTIC, 1.0 / (PLASTIC * PLASTIC));
     let mut places = Vec::new();
     for pixel in 0..size * size {
-        for sample in 0..SAMPLES {
+        for sample in 0..samples {
             let within = [a, b].map(|step| (0.5 + step * sample as f64).fract());
             let ndc = |pixel: usize, within: f64| 2.0 * (pixel as f64 + within) / size as f64 - 1.0;
             let (x, y) = (ndc(pixel % size, within[0]), -ndc(pixel / size, within[1]));

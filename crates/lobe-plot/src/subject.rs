@@ -1,13 +1,15 @@
 //! A file to draw.
 
+use std::cell::Cell;
 use std::f64::consts::FRAC_PI_4;
 use std::path::Path;
 
 use lobe::formats::{Document, Format};
 use lobe::{Aspect, Material, OpenError, Options, Scatter, Side};
 use lobe_colour::Reduction;
+use lobe_ops::check::{Finding, Thoroughness, check};
 
-use crate::evaluate::{Silent, evaluate};
+use crate::evaluate::{Progress, Silent, evaluate};
 use crate::geometry::{in_plane, incident};
 use crate::measured::{Part, parts};
 
@@ -39,6 +41,11 @@ impl Subject {
         Ok(Subject { name, measured: lobe_ops::Subject::new(format, document, material, &options) })
     }
 
+    /// The same under another name than that of the file.
+    pub fn named(self, name: &str) -> Self {
+        Subject { name: name.into(), ..self }
+    }
+
     /// The name of the file.
     pub fn name(&self) -> &str {
         &self.name
@@ -52,6 +59,24 @@ impl Subject {
     /// The file as a subject of `lobe-ops`.
     pub(crate) fn measured(&self) -> &lobe_ops::Subject {
         &self.measured
+    }
+
+    /// What the checks of `lobe-ops` find.
+    pub fn findings(&self, progress: &dyn Progress) -> Vec<Finding> {
+        const STEPS: f64 = 1000.0;
+        progress.begin("checks", STEPS as u64);
+        let done = Cell::new(0);
+        let advance = |share: f64| {
+            let now = (STEPS * share.clamp(0.0, 1.0)) as u64;
+            progress.advance(now.saturating_sub(done.get()));
+            done.set(done.get().max(now));
+        };
+        check(&self.measured, &Thoroughness::default(), advance)
+    }
+
+    /// Whether the material is evaluated pair by pair, in microseconds each: pictures of it have fewer pixels.
+    pub(crate) fn is_slow(&self) -> bool {
+        self.measured.document.parts.iter().any(|part| part.data.representation().samples().is_some())
     }
 
     /// What happens to light from `side`: reflection, transmission, both or nothing.

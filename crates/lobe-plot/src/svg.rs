@@ -7,6 +7,10 @@ use std::fmt::Write as _;
 
 use quick_xml::escape::escape;
 
+use crate::image::Image;
+use crate::ink::Ink;
+use crate::layout::{Layout, Paper};
+
 /// What an element is, which decides its colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
@@ -79,20 +83,26 @@ pub(crate) struct Area {
 }
 
 /// A figure that is being drawn.
-pub(crate) struct Svg {
+pub(crate) struct Svg<'a> {
     /// Distinguishes the ids of this figure from those of others on the same page.
     name: String,
+    paper: Paper<'a>,
     body: String,
     clips: usize,
 }
 
-impl Svg {
-    pub(crate) fn new(name: impl Into<String>) -> Self {
-        Svg { name: name.into(), body: String::new(), clips: 0 }
+impl<'a> Svg<'a> {
+    pub(crate) fn new(name: impl Into<String>, paper: Paper<'a>) -> Self {
+        Svg { name: name.into(), paper, body: String::new(), clips: 0 }
     }
 
-    /// The figure, `width` units wide, shown with `pixels`. `title` describes it to screen readers.
-    pub(crate) fn finish(self, [width, height]: [f64; 2], pixels: u32, title: &str) -> String {
+    pub(crate) fn layout(&self) -> Layout {
+        self.paper.layout
+    }
+
+    /// The figure, `height` units high. `title` describes it to screen readers.
+    pub(crate) fn finish(self, height: f64, title: &str) -> String {
+        let (width, pixels) = (self.paper.layout.width, self.paper.pixels);
         let rows = (f64::from(pixels) * height / width).round();
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"figure\" viewBox=\"0 0 {} {}\" width=\"{pixels}\" \
@@ -189,26 +199,66 @@ impl Svg {
         );
     }
 
-    /// Lines of one series: `runs` of points, each with whether it is solid. Series have the classes `s0`, `s1`...
-    pub(crate) fn series(&mut self, index: usize, colour: &str, runs: &[(bool, Vec<[f64; 2]>)]) {
+    /// Lines of one series: `runs` of points, each with whether it is solid.
+    pub(crate) fn series(&mut self, ink: &Ink, runs: &[(bool, Vec<[f64; 2]>)]) {
         for (is_solid, points) in runs {
             let mut path = String::new();
             for (at, [x, y]) in points.iter().enumerate() {
                 let _ = write!(path, "{}{} {}", if at == 0 { 'M' } else { 'L' }, number(*x), number(*y));
             }
             let dashes = if *is_solid { "" } else { " stroke-dasharray=\"2.5 4\" stroke-opacity=\"0.75\"" };
+            let Ink { class, light, .. } = ink;
             let _ = writeln!(
                 self.body,
-                "<path d=\"{path}\" class=\"s{index}\" stroke=\"{colour}\" stroke-width=\"2.2\" fill=\"none\" \
-                 stroke-linejoin=\"round\" stroke-linecap=\"round\"{dashes}/>"
+                "<path d=\"{path}\" class=\"{class}\" style=\"{}\" stroke=\"{light}\" stroke-width=\"2.2\" fill=\"none\" \
+                 stroke-linejoin=\"round\" stroke-linecap=\"round\"{dashes}/>",
+                ink.style()
             );
         }
     }
 
     /// A filled shape in the colour of a series.
-    pub(crate) fn mark(&mut self, index: usize, colour: &str, corners: &[[f64; 2]]) {
+    pub(crate) fn mark(&mut self, ink: &Ink, corners: &[[f64; 2]]) {
         let points: Vec<String> = corners.iter().map(|[x, y]| format!("{},{}", number(*x), number(*y))).collect();
-        let _ = writeln!(self.body, "<polygon points=\"{}\" class=\"m{index}\" fill=\"{colour}\"/>", points.join(" "));
+        let _ = writeln!(
+            self.body,
+            "<polygon points=\"{}\" style=\"{}\" fill=\"{}\"/>",
+            points.join(" "),
+            ink.style(),
+            ink.light
+        );
+    }
+
+    /// A filled shape in the colour of secondary text.
+    pub(crate) fn muted_mark(&mut self, corners: &[[f64; 2]]) {
+        let points: Vec<String> = corners.iter().map(|[x, y]| format!("{},{}", number(*x), number(*y))).collect();
+        let colour = Role::Muted.colour();
+        let _ = writeln!(self.body, "<polygon points=\"{}\" class=\"muted\" fill=\"{colour}\"/>", points.join(" "));
+    }
+
+    /// Dots in the colour of a series, as one path of lines without length.
+    pub(crate) fn dots(&mut self, ink: &Ink, places: &[[f64; 2]]) {
+        let path: String = places.iter().map(|[x, y]| format!("M{} {}h.01", number(*x), number(*y))).collect();
+        if !path.is_empty() {
+            let _ = writeln!(
+                self.body,
+                "<path d=\"{path}\" class=\"dots\" style=\"{}\" stroke=\"{}\" stroke-width=\"6\" \
+                 stroke-linecap=\"round\" fill=\"none\"/>",
+                ink.style(),
+                ink.light
+            );
+        }
+    }
+
+    /// An invisible place that shows a text when the pointer is on it.
+    pub(crate) fn hint(&mut self, [x, y]: [f64; 2], radius: f64, text: &str) {
+        let _ = writeln!(
+            self.body,
+            "<circle cx=\"{}\" cy=\"{}\" r=\"{radius}\" class=\"hint\" fill=\"#808080\" fill-opacity=\"0\"><title>{}</title></circle>",
+            number(x),
+            number(y),
+            escape(text)
+        );
     }
 
     /// Raw markup, whose colours are the same on every page.
@@ -217,21 +267,28 @@ impl Svg {
         self.body.push('\n');
     }
 
-    /// A picture.
-    pub(crate) fn image(&mut self, area: Area, url: &str) {
-        let _ = writeln!(
-            self.body,
-            "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" href=\"{url}\"/>",
-            number(area.x),
-            number(area.y),
-            number(area.width),
-            number(area.height)
-        );
+    /// A picture that fills an area.
+    pub(crate) fn image(&mut self, area: Area, image: &Image) {
+        let [x, y, width, height] = [area.x, area.y, area.width, area.height].map(number);
+        let url = image.data_url();
+        let _ = match self.paper.sprites {
+            Some(sprites) => writeln!(
+                self.body,
+                "<use href=\"#{}\" transform=\"translate({x} {y}) scale({width} {height})\"/>",
+                sprites.id(url)
+            ),
+            None => writeln!(
+                self.body,
+                "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" \
+                 href=\"{url}\"/>"
+            ),
+        };
     }
 
     /// What `draw` draws, clipped to the area.
-    pub(crate) fn clipped(&mut self, area: Area, draw: impl FnOnce(&mut Svg)) {
-        let id = format!("{}-clip-{}", self.name, self.clips);
+    pub(crate) fn clipped(&mut self, area: Area, draw: impl FnOnce(&mut Svg<'a>)) {
+        let layout = if self.paper.layout.is_narrow { "narrow-" } else { "" };
+        let id = format!("{}-{layout}clip-{}", self.name, self.clips);
         self.clips += 1;
         let _ = writeln!(
             self.body,
@@ -259,16 +316,16 @@ mod tests {
 
     #[test]
     fn names_of_files_cannot_break_out() {
-        let mut svg = Svg::new("test");
+        let mut svg = Svg::new("test", Paper::alone(720));
         svg.text([0.0, 0.0], LABEL, "a<b>&\"_{c}");
-        let figure = svg.finish([10.0, 10.0], 10, "</title><script>");
+        let figure = svg.finish(10.0, "</title><script>");
         assert!(figure.contains("a&lt;b&gt;&amp;&quot;_{c}"), "{figure}");
         assert!(!figure.contains("<script>"), "{figure}");
     }
 
     #[test]
     fn shifts_are_taken_back() {
-        let mut svg = Svg::new("test");
+        let mut svg = Svg::new("test", Paper::alone(720));
         svg.rich([0.0, 0.0], Text { size: 10.0, ..LABEL }, "f_{r} = 10^{2}/sr");
         assert!(
             svg.body.contains(

@@ -4,9 +4,13 @@ use lobe::Side;
 use lobe_colour::Reduction;
 use thiserror::Error;
 
+use crate::figures::degrees;
 use crate::quantity::Quantity;
 use crate::scale::Scaling;
 use crate::subject::Subject;
+
+/// How far from the mirror direction spectra are shown, toward the light, in degrees.
+const OFFSETS: [f64; 4] = [0.0, 5.0, 20.0, 45.0];
 
 /// What a figure shows of a material.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,6 +21,9 @@ pub struct View {
     pub sigmas: Vec<f64>,
     /// The azimuth of the light, in radians.
     pub psi: f64,
+    /// The viewing angles of spectra, in radians, as in [`in_plane`](crate::in_plane()); if there are none, some about the
+    /// mirror direction.
+    pub thetas: Vec<f64>,
     /// The scaling of value axes; `None` lets each figure choose.
     pub scaling: Option<Scaling>,
     /// The number that curves and maps show.
@@ -56,6 +63,7 @@ impl View {
             side,
             sigmas: Vec::new(),
             psi: subject.psi(side),
+            thetas: Vec::new(),
             scaling: None,
             quantity: Quantity::of(channels),
             colour: Reduction::for_display(channels),
@@ -95,6 +103,25 @@ impl View {
         match self.sigmas.is_empty() {
             true => subject.incidences(self.side, most),
             false => self.sigmas.clone(),
+        }
+    }
+
+    /// The viewing angles of spectra for light at `sigma`, in radians.
+    pub(crate) fn viewing_angles(&self, sigma: f64) -> Vec<f64> {
+        match self.thetas.is_empty() {
+            true => OFFSETS.iter().map(|offset| sigma - offset.to_radians()).collect(),
+            false => self.thetas.clone(),
+        }
+    }
+
+    /// What each of the [viewing angles](Self::viewing_angles) is called.
+    pub(crate) fn angle_names(&self) -> Vec<String> {
+        match self.thetas.is_empty() {
+            true => OFFSETS
+                .iter()
+                .map(|offset| if *offset == 0.0 { "mirror".into() } else { format!("mirror \u{2212} {offset}°") })
+                .collect(),
+            false => self.thetas.iter().map(|theta| degrees(*theta)).collect(),
         }
     }
 }

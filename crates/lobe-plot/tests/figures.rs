@@ -9,12 +9,17 @@ use lobe::formats::{Document, Format};
 use lobe::{Channels, Scatter, specular};
 use lobe_colour::encode;
 use lobe_plot::{
-    Figure, Scaling, Silent, Studio, Subject, View, albedos, curves, draw, in_plane, incident, page, rasterise, shade,
+    Figure, Scaling, Shown, Silent, Studio, Subject, View, albedos, curves, in_plane, incident, page, rasterise, shade,
 };
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
-const FIGURES: [Figure; 4] = [Figure::Curves, Figure::Polar, Figure::Slices, Figure::Sphere];
+const FIGURES: [Figure; 5] = [Figure::Curves, Figure::Channels, Figure::Polar, Figure::Slices, Figure::Sphere];
+
+/// A figure of one material.
+fn draw(subject: &Subject, view: &View, figure: Figure) -> String {
+    lobe_plot::draw(&[Shown { subject, view }], figure, &Silent).expect("a figure").svg
+}
 
 fn subject(samples: specular::Data, name: &str) -> Subject {
     let document = Document::new(samples);
@@ -75,7 +80,7 @@ fn every_figure_is_an_svg_with_the_name_of_the_file() {
     for subject in [glossy(), lambert([0.6, 0.3, 0.1], Scatter::Transmission)] {
         let view = View { width: 300, ..View::new(&subject) };
         for figure in FIGURES {
-            let svg = draw(&subject, &view, figure, &Silent);
+            let svg = draw(&subject, &view, figure);
             let elements = elements(&svg);
             assert_eq!(elements[0].0, "svg", "{figure}");
             assert_eq!(attribute(&elements[0].1, "width").as_deref(), Some("300"), "{figure}");
@@ -133,7 +138,7 @@ fn the_drawn_line_goes_through_the_values() {
     let subject = glossy();
     for scaling in [Scaling::Linear, Scaling::Log] {
         let view = View { scaling: Some(scaling), sigmas: vec![40_f64.to_radians()], ..View::new(&subject) };
-        let svg = draw(&subject, &view, Figure::Curves, &Silent);
+        let svg = draw(&subject, &view, Figure::Curves);
         let elements = elements(&svg);
         let clip = elements.iter().position(|(name, _)| name == "clipPath").expect("a frame");
         let side =
@@ -242,7 +247,7 @@ fn a_lambert_sphere_has_the_right_pixels() {
 #[test]
 fn a_png_has_the_size_asked_for_and_is_not_blank() {
     let subject = glossy();
-    let svg = draw(&subject, &View::new(&subject), Figure::Curves, &Silent);
+    let svg = draw(&subject, &View::new(&subject), Figure::Curves);
     let png = rasterise(&svg, 360).expect("a picture");
     let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().expect("a PNG");
     let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
@@ -263,17 +268,18 @@ fn the_page_holds_every_figure_and_nothing_from_outside() {
     let subject = glossy();
     let view = View { width: 200, ..View::new(&subject) };
     let facts = [lobe_plot::Facts { title: "The file".into(), rows: vec![("bytes".into(), "12 < 13".into())] }];
-    let html = page(&subject, &view, &facts, &Silent);
+    let html = page(&[Shown { subject: &subject, view: &view }], &[facts.to_vec()], &Silent).html;
     let found = elements(html.trim_start_matches("<!DOCTYPE html>\n"));
     let count = |name: &str| found.iter().filter(|(element, _)| element == name).count();
-    // Spheres, logarithmic and linear curves, lobes, slices.
-    assert_eq!(count("svg"), 5);
+    // Spheres, logarithmic and linear curves, lobes, slices, each for wide and for narrow screens; and their pictures.
+    assert_eq!(count("svg"), 11);
+    assert_eq!(count("figure"), 5);
     let titles =
         ["spheres of the material", "f against the viewing angle", "lobes in the plane", "f over the outgoing"];
     assert!(titles.iter().all(|title| html.contains(title)));
     assert!(html.contains("12 &lt; 13"));
     assert_eq!((count("script"), count("link")), (0, 0));
-    let inside = |address: &String| address.starts_with("data:");
+    let inside = |address: &String| address.starts_with("data:") || address.starts_with("#picture-");
     assert!(found.iter().filter_map(|(_, e)| attribute(e, "href").or(attribute(e, "src"))).all(|a| inside(&a)));
     let ids: Vec<String> = found.iter().filter_map(|(_, element)| attribute(element, "id")).collect();
     assert_eq!(ids.len(), ids.iter().collect::<BTreeSet<_>>().len(), "ids are unique on the page");

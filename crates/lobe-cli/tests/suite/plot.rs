@@ -50,7 +50,13 @@ fn the_extension_chooses_what_is_written() {
         args.extend(more);
         let output = lobe(&args);
         assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
-        assert!(output.stdout.is_empty() && output.stderr.is_empty(), "{args:?}");
+        // It says what it wrote: how large, for which light, and at which exposure.
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        let bytes = std::fs::metadata(&out).unwrap().len();
+        assert!(said.starts_with(&format!("{}: ", out.display())), "{args:?}: {said}");
+        assert!(said.contains(&format!(" {bytes} bytes")) && said.ends_with('\n'), "{args:?}: {said}");
+        let expected = if name == "sphere.svg" { "spheres exposed at " } else { "light at 0° " };
+        assert!(said.contains(expected) && output.stderr.is_empty(), "{args:?}: {said}");
     }
     let read = |name: &str| std::fs::read_to_string(out(name)).unwrap();
     // A disk for each of the two requested incidences, and the colour bar.
@@ -60,7 +66,8 @@ fn the_extension_chooses_what_is_written() {
     // Three incidences, each with a sample in the legend and a line in the plot that stops to be measured.
     assert!(read("curves.svg").contains("class=\"s2\"") && !read("curves.svg").contains("class=\"s3\""));
     assert!(read("polar.svg").contains("linear radius"));
-    assert_eq!(count(read("page.html").trim_start_matches("<!DOCTYPE html>"), "svg"), 5);
+    // Spheres, logarithmic and linear curves, channels, lobes and slices.
+    assert_eq!(count(read("page.html").trim_start_matches("<!DOCTYPE html>"), "figure"), 6);
     assert!(
         read("page.html").contains("Integra DDR/DDT")
             && read("page.html").contains("3 knots, 0 to 60 degrees: 0 30 60")
@@ -87,6 +94,8 @@ fn what_cannot_be_drawn_is_an_error_and_leaves_nothing() {
         ("a.svg", vec!["--sigma", "0,90"], 2, "expected 0 or more and less than 90 degrees"),
         ("a.svg", vec!["--log", "--linear"], 2, "cannot be used with"),
         ("a.png", vec!["--width", "9"], 2, "100..=8000"),
+        ("a.svg", vec!["--kind", "spectra"], 2, "found the channels R, G, B; expected at least two wavelengths"),
+        ("a.svg", vec!["--kind", "spectra", "--theta", "0,-90"], 2, "more than -90 and less than 90 degrees"),
     ] {
         let out = out(name);
         let mut args = vec!["plot", text(&file), "-o", &out];
@@ -102,4 +111,28 @@ fn what_cannot_be_drawn_is_an_error_and_leaves_nothing() {
     // Only the material is there: no half figure, no temporary file.
     let left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left, ["lacquer.ddr"]);
+}
+
+#[test]
+fn several_files_are_drawn_together() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("new")).unwrap();
+    let (old, new) = (folder.path().join("lacquer.ddr"), folder.path().join("new/lacquer.ddr"));
+    std::fs::write(&old, LACQUER).unwrap();
+    std::fs::write(&new, LACQUER.replace("9 2 1", "6 2 1")).unwrap();
+    let out = folder.path().join("both.svg");
+    let output = lobe(&["plot", text(&old), text(&new), "-o", text(&out), "--sigma", "0,30"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let svg = std::fs::read_to_string(&out).unwrap();
+    assert_eq!(count(&svg, "clipPath"), 2);
+    // Files of one name are distinguished by their paths.
+    assert!(svg.contains("/new/lacquer.ddr: σ = 30°"), "the path of the second file");
+    for (more, code, expected) in [
+        (vec!["--kind", "channels"], 2, "found 2 files; expected one for the figure channels"),
+        (vec!["--channel", "Visible"], 2, "found no channel Visible"),
+    ] {
+        let output = lobe(&[&["plot", text(&old), text(&new), "-o", text(&out)], more.as_slice()].concat());
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(code) && message.contains(expected), "{message}");
+    }
 }

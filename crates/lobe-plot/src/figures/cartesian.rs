@@ -2,127 +2,134 @@
 
 use lobe::Scatter;
 
-use super::legend::{has_continued, incidences, legend, runs};
-use super::shared::{MARGIN, MIDDLE, Series, TOP, WIDTH, conditions, heading, id, scatter_name};
-use crate::evaluate::Progress;
-use crate::in_plane::{Curve, curves};
-use crate::scale::{Scale, Scaling, minus};
-use crate::subject::Subject;
-use crate::svg::{Anchor, Area, LABEL, Role, Svg, Text};
-use crate::view::View;
+use super::chart::{Axis, Chart, Hint, Line, Mirror, Panel};
+use super::legend::Entry;
+use super::shared::{conditions, degrees, id, scatter_name};
+use crate::in_plane::Curve;
+use crate::ink::Ink;
+use crate::scale::{Scaling, short};
+use crate::shown::Shown;
 
-/// How far a drawn line may deviate from the values, in units of the figure.
-const TOLERANCE: f64 = 0.05;
-const LEFT: f64 = 92.0;
-const RIGHT: f64 = 138.0;
+/// Between measured points, something is said about a curve every so many degrees.
+const EVERY: f64 = 5.0;
 
-/// Reflection above transmission, each with its own axis of values.
-pub(super) fn draw(subject: &Subject, view: &View, progress: &dyn Progress) -> String {
-    let curves = curves(subject, view, progress);
-    let scatters = subject.scatters(view.side);
-    let scaling = view.scaling.unwrap_or(Scaling::Log);
-    let sigmas = incidences(&curves);
-    let height = if scatters.len() > 1 { 300.0 } else { 380.0 };
-    let mut svg = Svg::new(id(if scaling == Scaling::Log { "curves-log" } else { "curves-linear" }, view));
-    heading(&mut svg, subject.name(), &format!("In the plane of incidence, {}", conditions(subject, view)));
-    for (panel, &scatter) in scatters.iter().enumerate() {
-        let y = TOP + 6.0 + panel as f64 * (height + 30.0);
-        let area = Area { x: LEFT, y, width: WIDTH - LEFT - RIGHT, height };
-        let scale = Scale::around(shown(&curves, scatter), scaling);
-        axes(&mut svg, area, &scale, panel + 1 == scatters.len());
-        svg.clipped(area, |svg| {
-            for (index, &sigma) in sigmas.iter().enumerate() {
-                let of = |curve: &&Curve| curve.sigma == sigma && curve.scatter == scatter;
-                if let Some(curve) = curves.iter().find(of) {
-                    plot(svg, area, &scale, curve, Series { index, count: sigmas.len() });
-                }
-            }
-        });
-        for (index, &sigma) in sigmas.iter().enumerate() {
-            let x = place(area, sigma);
-            let corners = [[x - 5.5, y - 10.0], [x + 5.5, y - 10.0], [x, y - 0.8]];
-            svg.mark(index, &Series { index, count: sigmas.len() }.colour(), &corners);
+/// Reflection above transmission, a curve per incidence; for several files, a panel per incidence, a curve per file.
+/// `curves` are those of each file.
+pub(super) fn chart<'a>(shown: &[Shown<'a>], curves: &[Vec<Curve>], scaling: Option<Scaling>) -> Chart<'a> {
+    let scaling = scaling.unwrap_or(Scaling::Log);
+    let (panels, legend) = match curves {
+        [of_one] => of_incidences(of_one),
+        _ => of_files(shown, curves, scaling),
+    };
+    let transmits = panels.iter().all(|panel| panel.name.starts_with("transmission")) && !panels.is_empty();
+    let name = if scaling == Scaling::Log { "curves-log" } else { "curves-linear" };
+    Chart {
+        id: shown.first().map_or_else(String::new, |first| id(name, first.view)),
+        shown: shown.to_vec(),
+        what: format!("In the plane of incidence, {}", conditions(shown)),
+        title: title(shown, "f against the viewing angle in the plane of incidence"),
+        axis: Axis::Angle,
+        scaling,
+        panels,
+        legend,
+        ends: ["light side", if transmits { "straight side" } else { "mirror side" }],
+        notes: Vec::new(),
+    }
+}
+
+pub(super) fn title(shown: &[Shown<'_>], what: &str) -> String {
+    let names: Vec<&str> = shown.iter().map(|shown| shown.subject.name()).collect();
+    format!("{}: {what}", names.join(", "))
+}
+
+/// The incidences of some curves, each once.
+pub(super) fn incidences<'a>(curves: impl IntoIterator<Item = &'a Curve>) -> Vec<f64> {
+    let mut sigmas: Vec<f64> = Vec::new();
+    for curve in curves {
+        if !sigmas.contains(&curve.sigma) {
+            sigmas.push(curve.sigma);
         }
-        frame(&mut svg, area);
+    }
+    sigmas
+}
+
+/// What happens to the light, each once.
+fn scatters<'a>(curves: impl IntoIterator<Item = &'a Curve>) -> Vec<Scatter> {
+    let mut found: Vec<Scatter> = curves.into_iter().map(|curve| curve.scatter).collect();
+    found.sort_by_key(|scatter| *scatter == Scatter::Transmission);
+    found.dedup();
+    found
+}
+
+type Legend = (&'static str, Vec<Entry>);
+
+fn of_incidences(curves: &[Curve]) -> (Vec<Panel>, Legend) {
+    let (sigmas, scatters) = (incidences(curves), scatters(curves));
+    let ink = |index: usize| Ink::of_order(index, sigmas.len());
+    let mut panels = Vec::new();
+    for (group, &scatter) in scatters.iter().enumerate() {
+        let of = |sigma: f64| curves.iter().find(|curve| curve.sigma == sigma && curve.scatter == scatter);
+        let of_incidence = |(index, &sigma): (usize, &f64)| Some(line(of(sigma)?, ink(index), ""));
+        let lines = sigmas.iter().enumerate().filter_map(of_incidence).collect();
+        let mirrors = sigmas.iter().enumerate().map(|(index, &x)| Mirror { ink: Some(ink(index)), x }).collect();
         let name = match scatters.len() {
             1 if scatter == Scatter::Reflection => "",
             _ => scatter_name(scatter),
         };
-        svg.text([area.x + 10.0, y + 22.0], Text { is_heavy: true, size: 16.0, has_halo: true, ..LABEL }, name);
+        panels.push(Panel { name: name.into(), group, lines, mirrors });
     }
-    legend(&mut svg, [WIDTH - RIGHT + 20.0, TOP + 20.0], &sigmas, has_continued(&curves));
-    let bottom = TOP + 6.0 + scatters.len() as f64 * (height + 30.0) - 30.0;
-    let middle = 0.5 * (LEFT + WIDTH - RIGHT);
-    svg.rich([middle, bottom + 52.0], MIDDLE, "viewing angle θ_{o} (degrees)");
-    let note = Text { role: Role::Muted, size: 15.0, ..LABEL };
-    svg.text([LEFT, bottom + 52.0], note, "light side");
-    let end = [WIDTH - RIGHT, bottom + 52.0];
-    let away = if scatters == [Scatter::Transmission] { "straight side" } else { "mirror side" };
-    svg.text(end, Text { anchor: Anchor::End, ..note }, away);
-    let upward = Text { is_upward: true, ..MIDDLE };
-    svg.rich([MARGIN + 4.0, 0.5 * (TOP + bottom)], upward, "f (1/sr)");
-    let title = format!("{}: f against the viewing angle in the plane of incidence", subject.name());
-    svg.finish([WIDTH, bottom + 72.0], view.width, &title)
+    let entry = |(index, sigma): (usize, &f64)| Entry { ink: ink(index), label: degrees(*sigma) };
+    (panels, ("incidence σ", sigmas.iter().enumerate().map(entry).collect()))
 }
 
-/// The values that the axis has to cover. Values near the horizon are left out, and those that were not measured too
-/// unless nothing was.
-fn shown(curves: &[Curve], scatter: Scatter) -> impl Iterator<Item = f64> {
-    let of = move |curve: &&Curve| curve.scatter == scatter;
-    let any = curves.iter().filter(of).any(|curve| curve.is_measured.contains(&true));
-    curves.iter().filter(of).flat_map(move |curve| {
-        let of = curve.theta.iter().zip(&curve.f).zip(&curve.is_measured);
-        let fits = move |((theta, _), measured): &((&f64, &f32), &bool)| theta.abs() < 1.5 && (**measured || !any);
-        of.filter(fits).map(|((_, f), _)| f64::from(*f))
-    })
-}
-
-fn place(area: Area, theta: f64) -> f64 {
-    area.x + area.width * (0.5 + theta.to_degrees() / 180.0)
-}
-
-fn plot(svg: &mut Svg, area: Area, scale: &Scale, curve: &Curve, series: Series) {
-    let y = |f: f32| area.y + area.height * (1.0 - scale.place(f64::from(f)).clamp(-0.2, 1.2));
-    let points: Vec<[f64; 2]> =
-        curve.theta.iter().zip(&curve.f).map(|(&theta, &f)| [place(area, theta), y(f)]).collect();
-    svg.series(series.index, &series.colour(), &runs(&points, &curve.is_measured, TOLERANCE));
-}
-
-/// The grid lines and their numbers.
-fn axes(svg: &mut Svg, area: Area, scale: &Scale, is_last: bool) {
-    let number = Text { size: 16.0, ..LABEL };
-    for angle in (-90..=90).step_by(10) {
-        let x = place(area, f64::from(angle).to_radians());
-        let is_major = angle % 30 == 0;
-        if is_major {
-            svg.line([x, area.y], [x, area.y + area.height], if angle == 0 { Role::Grid } else { Role::Faint }, 1.0);
-        }
-        let length = if is_major { 6.0 } else { 3.5 };
-        svg.line([x, area.y + area.height], [x, area.y + area.height + length], Role::Frame, 1.0);
-        if is_major && is_last {
-            let text = Text { anchor: Anchor::Middle, ..number };
-            svg.text([x, area.y + area.height + 25.0], text, &minus(&angle.to_string()));
+fn of_files(shown: &[Shown<'_>], curves: &[Vec<Curve>], scaling: Scaling) -> (Vec<Panel>, Legend) {
+    let (sigmas, scatters) = (incidences(curves.iter().flatten()), scatters(curves.iter().flatten()));
+    let mut panels = Vec::new();
+    for (group, &scatter) in scatters.iter().enumerate() {
+        for &sigma in &sigmas {
+            let of_file = |(index, curves): (usize, &Vec<Curve>)| {
+                let curve = curves.iter().find(|curve| curve.sigma == sigma && curve.scatter == scatter)?;
+                Some(line(curve, Ink::of_set(index), &format!("{}: ", shown[index].subject.name())))
+            };
+            let lines = curves.iter().enumerate().filter_map(of_file).collect();
+            let name = match scatters.len() {
+                1 if scatter == Scatter::Reflection => format!("σ = {}", degrees(sigma)),
+                _ => format!("{}, σ = {}", scatter_name(scatter), degrees(sigma)),
+            };
+            // On one linear axis, peaks at low light would leave nothing to see of the others.
+            let group = if scaling == Scaling::Linear { panels.len() } else { group };
+            panels.push(Panel { name, group, lines, mirrors: vec![Mirror { ink: None, x: sigma }] });
         }
     }
-    for tick in scale.ticks() {
-        let y = area.y + area.height * (1.0 - scale.place(tick.value));
-        let role = if tick.label.is_some() { Role::Grid } else { Role::Faint };
-        svg.line([area.x, y], [area.x + area.width, y], role, 1.0);
-        let length = if tick.label.is_some() { 6.0 } else { 3.5 };
-        svg.line([area.x - length, y], [area.x, y], Role::Frame, 1.0);
-        if let Some(label) = tick.label {
-            svg.rich([area.x - 11.0, y + 5.5], Text { anchor: Anchor::End, ..number }, &label);
-        }
-    }
+    let entry =
+        |(index, shown): (usize, &Shown<'_>)| Entry { ink: Ink::of_set(index), label: shown.subject.name().into() };
+    (panels, ("file", shown.iter().enumerate().map(entry).collect()))
 }
 
-fn frame(svg: &mut Svg, Area { x, y, width, height }: Area) {
-    for (from, to) in [
-        ([x, y], [x, y + height]),
-        ([x, y + height], [x + width, y + height]),
-        ([x + width, y + height], [x + width, y]),
-        ([x + width, y], [x, y]),
-    ] {
-        svg.line(from, to, Role::Frame, 1.2);
+/// A curve with something to say about the measured points, if they are few, or else every few degrees; and about the
+/// largest value.
+pub(super) fn line(curve: &Curve, ink: Ink, name: &str) -> Line {
+    let text = |at: usize| {
+        let kind = if curve.is_measured[at] { "" } else { ", not measured" };
+        format!(
+            "{name}σ = {}, θ = {}: {} 1/sr{kind}",
+            degrees(curve.sigma),
+            degrees(curve.theta[at]),
+            short(f64::from(curve.f[at]))
+        )
+    };
+    let hint = |at: usize, is_point: bool| Hint { at, is_point, text: text(at) };
+    let mut hints: Vec<Hint> = curve.points.iter().map(|&at| hint(at, true)).collect();
+    let mut last = f64::NEG_INFINITY;
+    for (at, theta) in curve.theta.iter().enumerate() {
+        let theta = theta.to_degrees();
+        let is_near = |point: &&usize| (curve.theta[**point].to_degrees() - theta).abs() < EVERY;
+        if theta >= last + EVERY - 1e-6 && !curve.points.iter().any(|point| is_near(&point)) {
+            hints.push(hint(at, false));
+            last = theta;
+        }
     }
+    let peak = (0..curve.f.len()).max_by(|&a, &b| curve.f[a].total_cmp(&curve.f[b]));
+    hints.extend(peak.filter(|at| !curve.points.contains(at)).map(|at| hint(at, false)));
+    Line { ink, x: curve.theta.clone(), f: curve.f.clone(), is_measured: curve.is_measured.clone(), hints }
 }

@@ -1,91 +1,114 @@
-//! Legends of curves.
+//! Legends of lines.
 
-use super::shared::{Series, degrees};
-use crate::in_plane::Curve;
+use super::shared::{MARGIN, shortened};
+use crate::ink::Ink;
 use crate::svg::{LABEL, Role, Svg, Text};
 
 /// The distance between two entries.
 const STEP: f64 = 25.0;
 
-/// The incidences of curves, one per entry, from `top` down; and what the lines of a curve mean.
-pub(super) fn legend(svg: &mut Svg, [x, top]: [f64; 2], sigmas: &[f64], has_continued: bool) {
-    svg.rich([x, top], Text { role: Role::Muted, size: 16.0, ..LABEL }, "incidence σ");
-    for (index, &sigma) in sigmas.iter().enumerate() {
-        let y = top + STEP * (index + 1) as f64;
-        let colour = Series { index, count: sigmas.len() }.colour();
-        svg.series(index, &colour, &[(true, vec![[x, y - 5.5], [x + 26.0, y - 5.5]])]);
-        svg.text([x + 36.0, y], LABEL, &degrees(sigma));
-    }
-    let mut y = top + STEP * (sigmas.len() + 1) as f64 + 10.0;
-    let note = Text { role: Role::Muted, size: 15.0, ..LABEL };
-    svg.raw(&triangle(x + 13.0, y - 9.5));
-    svg.text([x + 36.0, y], note, "mirror");
-    if has_continued {
-        y += STEP - 3.0;
-        let dashes = format!(
-            "<path d=\"M{} {}h26\" class=\"muted-line\" stroke=\"#5f656d\" stroke-width=\"2.2\" stroke-dasharray=\"2.5 4\" \
-             stroke-linecap=\"round\" fill=\"none\"/>",
-            x,
-            y - 5.0
-        );
-        svg.raw(&dashes);
-        svg.text([x + 36.0, y], note, "not meas.");
-    }
+/// A series in a legend.
+#[derive(Clone, Debug)]
+pub(super) struct Entry {
+    pub(super) ink: Ink,
+    pub(super) label: String,
 }
 
-/// The sign of the mirror direction in the legend.
-fn triangle(x: f64, y: f64) -> String {
-    format!(
-        "<polygon points=\"{},{} {},{} {},{}\" class=\"muted\" fill=\"#5f656d\"/>",
-        x - 5.0,
-        y,
-        x + 5.0,
-        y,
-        x,
-        y + 8.5
-    )
+/// The series of a figure, and what its lines and signs mean.
+#[derive(Debug)]
+pub(super) struct Legend<'a> {
+    /// What the series are.
+    pub(super) title: &'a str,
+    pub(super) entries: &'a [Entry],
+    pub(super) has_mirror: bool,
+    pub(super) has_points: bool,
+    pub(super) has_continued: bool,
 }
 
-/// The incidences of some curves, each once.
-pub(super) fn incidences(curves: &[Curve]) -> Vec<f64> {
-    let mut sigmas: Vec<f64> = Vec::new();
-    for curve in curves {
-        if !sigmas.contains(&curve.sigma) {
-            sigmas.push(curve.sigma);
+/// A sign and what it means.
+enum Sign<'a> {
+    Series(&'a Entry),
+    Mirror,
+    Point,
+    Continued,
+}
+
+const NOTE: Text = Text { role: Role::Muted, size: 15.0, ..LABEL };
+
+impl Legend<'_> {
+    /// One entry per line, from `top` down.
+    pub(super) fn beside(&self, svg: &mut Svg<'_>, [x, top]: [f64; 2]) {
+        svg.rich([x, top], Text { size: 16.0, ..NOTE }, self.title);
+        let mut y = top;
+        for sign in self.series() {
+            y += STEP;
+            draw(svg, [x, y], &sign, usize::MAX);
+        }
+        y += 10.0;
+        for sign in self.signs() {
+            y += STEP - 3.0;
+            draw(svg, [x, y], &sign, usize::MAX);
         }
     }
-    sigmas
-}
 
-/// Whether any value of the curves was not measured.
-pub(super) fn has_continued(curves: &[Curve]) -> bool {
-    curves.iter().any(|curve| curve.is_measured.contains(&false))
-}
-
-/// Splits a line into runs that were measured and runs that were not. Neighbouring runs share a point, so no gap shows.
-pub(super) fn runs(points: &[[f64; 2]], is_measured: &[bool], tolerance: f64) -> Vec<(bool, Vec<[f64; 2]>)> {
-    let mut runs: Vec<(bool, Vec<[f64; 2]>)> = Vec::new();
-    for (&point, &measured) in points.iter().zip(is_measured) {
-        match runs.last_mut() {
-            Some((is_solid, run)) if *is_solid == measured => run.push(point),
-            Some((_, run)) => {
-                let joint = run[run.len() - 1];
-                runs.push((measured, vec![joint, point]));
-            }
-            None => runs.push((measured, vec![point])),
-        }
+    /// In rows over the width of the figure, from `top` down; returns the height below them.
+    pub(super) fn below(&self, svg: &mut Svg<'_>, top: f64) -> f64 {
+        svg.rich([MARGIN, top], Text { size: 16.0, ..NOTE }, self.title);
+        let mut y = self.rows(svg, top + STEP - 3.0, &self.series().collect::<Vec<_>>());
+        y = self.rows(svg, y, &self.signs());
+        y + 2.0
     }
-    runs.into_iter().map(|(solid, run)| (solid, crate::simplify::simplify(&run, tolerance))).collect()
+
+    fn rows(&self, svg: &mut Svg<'_>, top: f64, signs: &[Sign<'_>]) -> f64 {
+        // A sign, its label, and the distance to the next one.
+        let width = |sign: &Sign<'_>| match sign {
+            Sign::Series(entry) => 52.0 + 9.0 * entry.label.chars().count() as f64,
+            Sign::Mirror | Sign::Point | Sign::Continued => 114.0,
+        };
+        let room = svg.layout().width - 2.0 * MARGIN;
+        let widest = signs.iter().map(width).fold(1.0, f64::max);
+        let columns = (room / widest).floor().clamp(1.0, 8.0) as usize;
+        let width = room / columns as f64;
+        for (at, sign) in signs.iter().enumerate() {
+            let place = [MARGIN + width * (at % columns) as f64, top + (STEP - 3.0) * (at / columns) as f64];
+            draw(svg, place, sign, ((width - 40.0) / 8.5) as usize);
+        }
+        top + (STEP - 3.0) * signs.len().div_ceil(columns) as f64
+    }
+
+    fn series(&self) -> impl Iterator<Item = Sign<'_>> {
+        self.entries.iter().map(Sign::Series)
+    }
+
+    fn signs(&self) -> Vec<Sign<'_>> {
+        let all =
+            [(Sign::Mirror, self.has_mirror), (Sign::Point, self.has_points), (Sign::Continued, self.has_continued)];
+        all.into_iter().filter_map(|(sign, is_there)| is_there.then_some(sign)).collect()
+    }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn runs_meet() {
-        let points = [[0.0, 0.0], [1.0, 0.0], [2.0, 5.0], [3.0, 0.0]];
-        let found = runs(&points, &[false, false, true, true], 0.0);
-        assert_eq!(found, [(false, points[..2].to_vec()), (true, points[1..].to_vec())]);
+fn draw(svg: &mut Svg<'_>, [x, y]: [f64; 2], sign: &Sign<'_>, letters: usize) {
+    match sign {
+        Sign::Series(Entry { ink, label }) => {
+            svg.series(ink, &[(true, vec![[x, y - 5.5], [x + 26.0, y - 5.5]])]);
+            svg.text([x + 36.0, y], LABEL, &shortened(label, letters));
+        }
+        Sign::Mirror => {
+            svg.muted_mark(&[[x + 8.0, y - 9.5], [x + 18.0, y - 9.5], [x + 13.0, y - 1.0]]);
+            svg.text([x + 36.0, y], NOTE, "mirror");
+        }
+        Sign::Point => {
+            let (cx, cy) = (x + 13.0, y - 5.0);
+            svg.raw(&format!("<circle cx=\"{cx}\" cy=\"{cy}\" r=\"3\" class=\"muted\" fill=\"#5f656d\"/>"));
+            svg.text([x + 36.0, y], NOTE, "measured");
+        }
+        Sign::Continued => {
+            svg.raw(&format!(
+                "<path d=\"M{x} {}h26\" class=\"muted-line\" stroke=\"#5f656d\" stroke-width=\"2.2\" \
+                 stroke-dasharray=\"2.5 4\" stroke-linecap=\"round\" fill=\"none\"/>",
+                y - 5.0
+            ));
+            svg.text([x + 36.0, y], NOTE, "not meas.");
+        }
     }
 }

@@ -1,26 +1,39 @@
 //! The figures.
 
 mod cartesian;
+mod channels;
+mod chart;
 mod legend;
+mod lines;
 mod polar;
 mod shared;
 mod slices;
+mod spectral;
 mod sphere;
 
 use std::fmt;
 
+use thiserror::Error;
+
 use crate::evaluate::Progress;
-use crate::subject::Subject;
+use crate::in_plane::{Curve, MOST, curves};
+use crate::layout::Paper;
+use crate::scale::Scaling;
+use crate::shown::{Shown, incidences};
 use crate::view::View;
 
-pub(crate) use shared::{Series, degrees, side_name};
+pub(crate) use shared::{degrees, side_name};
 
 /// A kind of figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Figure {
     /// Values in the plane of incidence against the viewing angle.
     Curves,
-    /// The same in polar coordinates, as lobes.
+    /// The same for each channel.
+    Channels,
+    /// Values against the wavelength.
+    Spectra,
+    /// Values in the plane of incidence in polar coordinates, as lobes.
     Polar,
     /// All outgoing directions, a disk for each incidence.
     Slices,
@@ -32,6 +45,8 @@ impl fmt::Display for Figure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Figure::Curves => "curves",
+            Figure::Channels => "channels",
+            Figure::Spectra => "spectra",
             Figure::Polar => "polar",
             Figure::Slices => "slices",
             Figure::Sphere => "sphere",
@@ -39,12 +54,125 @@ impl fmt::Display for Figure {
     }
 }
 
-/// One figure as a self-contained SVG: on white, `view.width` pixels wide, readable at any size.
-pub fn draw(subject: &Subject, view: &View, figure: Figure, progress: &dyn Progress) -> String {
-    match figure {
-        Figure::Curves => cartesian::draw(subject, view, progress),
-        Figure::Polar => polar::draw(subject, view, progress),
-        Figure::Slices => slices::draw(subject, view, progress),
-        Figure::Sphere => sphere::draw(subject, view, progress),
+/// Why a figure cannot be drawn of some materials.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum DrawError {
+    /// Figures that show one material only.
+    #[error("found {found} files; expected one for the figure {figure}")]
+    Several {
+        /// The figure.
+        figure: Figure,
+        /// How many materials were given.
+        found: usize,
+    },
+    /// Spectra of a material without them.
+    #[error("found the channels {found}; expected at least two wavelengths")]
+    NoSpectra {
+        /// The channels that there are.
+        found: String,
+    },
+}
+
+/// A figure, and what there is to say about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Drawing {
+    /// A self-contained SVG on white, readable at any size.
+    pub svg: String,
+    /// What is shown, in a few words each: the incidences, the exposure.
+    pub said: Vec<String>,
+}
+
+/// One figure, as wide as the first view says. If that is less than 560 pixels, it is laid out for narrow paper.
+///
+/// # Errors
+/// If the figure shows one material only and there are several, or if there are no spectra to draw.
+pub fn draw(shown: &[Shown<'_>], figure: Figure, progress: &dyn Progress) -> Result<Drawing, DrawError> {
+    let pixels = shown.first().map_or(0, |first| first.view.width);
+    let Plate { draw, said } = compose(shown, figure, progress)?;
+    Ok(Drawing { svg: draw(Paper::alone(pixels)), said })
+}
+
+/// A figure whose values are known, to be drawn on any paper.
+pub(crate) struct Plate<'a> {
+    pub(crate) draw: Box<dyn Fn(Paper<'_>) -> String + 'a>,
+    pub(crate) said: Vec<String>,
+}
+
+fn compose<'a>(shown: &[Shown<'a>], figure: Figure, progress: &dyn Progress) -> Result<Plate<'a>, DrawError> {
+    let scaling = shown.first().and_then(|first| first.view.scaling);
+    let only = || match shown {
+        [one] => Ok(*one),
+        several => Err(DrawError::Several { figure, found: several.len() }),
+    };
+    Ok(match figure {
+        Figure::Curves => curves_plate(shown, &all_curves(shown, progress), scaling),
+        Figure::Polar => polar_plate(shown, all_curves(shown, progress)),
+        Figure::Channels => channels_plate(only()?, progress),
+        Figure::Spectra => {
+            let one = only()?;
+            let found = || one.subject.material().channels().names().join(", ");
+            spectra_plate(one, progress).ok_or_else(|| DrawError::NoSpectra { found: found() })?
+        }
+        Figure::Slices => slices_plate(shown, progress),
+        Figure::Sphere => sphere_plate(shown, progress),
+    })
+}
+
+/// The curves of each material at the same incidences.
+pub(crate) fn all_curves(shown: &[Shown<'_>], progress: &dyn Progress) -> Vec<Vec<Curve>> {
+    let sigmas = incidences(shown, MOST);
+    let of = |shown: &Shown<'_>| {
+        let view = View { sigmas: sigmas.clone(), ..shown.view.clone() };
+        curves(shown.subject, &view, progress)
+    };
+    shown.iter().map(of).collect()
+}
+
+pub(crate) fn curves_plate<'a>(shown: &[Shown<'a>], curves: &[Vec<Curve>], scaling: Option<Scaling>) -> Plate<'a> {
+    let chart = cartesian::chart(shown, curves, scaling);
+    Plate { draw: Box::new(move |paper| chart.draw(paper)), said: vec![lights(&incidences(shown, MOST))] }
+}
+
+pub(crate) fn polar_plate<'a>(shown: &[Shown<'a>], curves: Vec<Vec<Curve>>) -> Plate<'a> {
+    let said = vec![lights(&incidences(shown, MOST))];
+    let (shown, scaling) = (shown.to_vec(), shown.first().and_then(|first| first.view.scaling));
+    Plate { draw: Box::new(move |paper| polar::draw(&shown, &curves, scaling, paper)), said }
+}
+
+pub(crate) fn channels_plate<'a>(shown: Shown<'a>, progress: &dyn Progress) -> Plate<'a> {
+    let chart = channels::chart(shown, progress);
+    Plate { draw: Box::new(move |paper| chart.draw(paper)), said: vec![lights(&channels::sigmas(shown))] }
+}
+
+/// `None` if there are no spectra.
+pub(crate) fn spectra_plate<'a>(shown: Shown<'a>, progress: &dyn Progress) -> Option<Plate<'a>> {
+    let chart = spectral::chart(shown, progress)?;
+    let said = vec![lights(&channels::sigmas(shown))];
+    Some(Plate { draw: Box::new(move |paper| chart.draw(paper)), said })
+}
+
+pub(crate) fn slices_plate<'a>(shown: &[Shown<'a>], progress: &dyn Progress) -> Plate<'a> {
+    let slices = slices::slices(shown, progress);
+    let mut sigmas: Vec<f64> = slices.iter().flatten().map(|slice| slice.sigma).collect();
+    sigmas.sort_by(f64::total_cmp);
+    sigmas.dedup();
+    let shown = shown.to_vec();
+    Plate { draw: Box::new(move |paper| slices::draw(&shown, &slices, paper)), said: vec![lights(&sigmas)] }
+}
+
+pub(crate) fn sphere_plate<'a>(shown: &[Shown<'a>], progress: &dyn Progress) -> Plate<'a> {
+    let balls = sphere::spheres(shown, progress);
+    let mut stops: Vec<String> = balls.iter().map(|ball| sphere::ev(ball.exposure)).collect();
+    if shown.len() > 1 {
+        stops.truncate(1);
     }
+    let shown = shown.to_vec();
+    let said = if stops.is_empty() { Vec::new() } else { vec![format!("spheres exposed at {}", stops.join(", "))] };
+    Plate { draw: Box::new(move |paper| sphere::draw(&shown, &balls, paper)), said }
+}
+
+/// The incidences in words.
+fn lights(sigmas: &[f64]) -> String {
+    let list: Vec<String> = sigmas.iter().map(|sigma| degrees(*sigma)).collect();
+    format!("light at {}", list.join(" "))
 }

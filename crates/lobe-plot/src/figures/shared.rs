@@ -1,48 +1,84 @@
-//! What all figures share: margins, headings, names and the colours of series.
+//! What all figures share: margins, headings and names.
 
 use lobe::{Scatter, Side};
 
 use crate::scale::minus;
-use crate::subject::Subject;
+use crate::shown::Shown;
 use crate::svg::{Anchor, LABEL, Role, Svg, Text};
 use crate::view::View;
 
-/// The width of every figure in its own units. Labels are a 42nd of it, as in a column of a printed paper.
-pub(super) const WIDTH: f64 = 720.0;
 /// The left and right margin of every figure.
 pub(super) const MARGIN: f64 = 22.0;
-/// The top of the plots, below the heading.
-pub(super) const TOP: f64 = 76.0;
 
 /// An id for the parts of a figure, unique on a page.
 pub(super) fn id(figure: &str, view: &View) -> String {
     format!("{figure}-{}-{:.0}", side_name(view.side), view.psi.to_degrees())
 }
 
-/// The name of the file, and what is shown of it.
-pub(super) fn heading(svg: &mut Svg, name: &str, what: &str) {
-    // About as many characters as fit; a longer name loses its middle.
-    const FITS: usize = 58;
-    let shown = match name.chars().count() {
-        count if count > FITS => {
-            let part = |from: usize, to: usize| name.chars().skip(from).take(to - from).collect::<String>();
-            format!("{}…{}", part(0, FITS / 2), part(count - FITS / 2 + 1, count))
-        }
-        _ => name.to_string(),
+/// The names of the files, and what is shown of them; returns the height at which plots begin.
+pub(super) fn heading(svg: &mut Svg<'_>, shown: &[Shown<'_>], what: &str) -> f64 {
+    let room = svg.layout().width - 2.0 * MARGIN;
+    let name = match shown {
+        [one] => one.subject.name().to_string(),
+        several => several.iter().map(|shown| shown.subject.name()).collect::<Vec<_>>().join(", "),
     };
-    svg.text([MARGIN, 32.0], Text { size: 20.0, is_heavy: true, ..LABEL }, &shown);
-    svg.rich([MARGIN, 56.0], Text { size: 16.0, role: Role::Muted, ..LABEL }, what);
+    // A letter of the heading is about half as wide as it is high.
+    svg.text([MARGIN, 32.0], Text { size: 20.0, is_heavy: true, ..LABEL }, &shortened(&name, (room / 11.6) as usize));
+    let style = Text { size: 16.0, role: Role::Muted, ..LABEL };
+    let lines = wrapped(what, (room / 8.0) as usize);
+    for (at, line) in lines.iter().enumerate() {
+        svg.text([MARGIN, 56.0 + 20.0 * at as f64], style, line);
+    }
+    56.0 + 20.0 * lines.len() as f64
+}
+
+/// Muted lines from `y` down; returns the height below them.
+pub(super) fn notes(svg: &mut Svg<'_>, y: f64, lines: &[String]) -> f64 {
+    let letters = ((svg.layout().width - 2.0 * MARGIN) / 7.4) as usize;
+    let mut y = y;
+    for line in lines.iter().flat_map(|line| wrapped(line, letters)) {
+        svg.text([MARGIN, y], Text { size: 15.0, role: Role::Muted, ..LABEL }, &line);
+        y += 22.0;
+    }
+    y
+}
+
+/// A name that has at most so many letters; a longer one loses its middle.
+pub(super) fn shortened(name: &str, fits: usize) -> String {
+    let count = name.chars().count();
+    if count <= fits {
+        return name.into();
+    }
+    let part = |from: usize, to: usize| name.chars().skip(from).take(to - from).collect::<String>();
+    format!("{}…{}", part(0, fits / 2), part(count - (fits - fits / 2 - 1), count))
+}
+
+/// Lines of at most so many letters, unless a word is longer.
+fn wrapped(text: &str, letters: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split(' ') {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= letters => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.into()),
+        }
+    }
+    lines
 }
 
 /// What a figure shows: the position of the light and the quantity.
-pub(super) fn conditions(subject: &Subject, view: &View) -> String {
-    let mut words = vec![format!("ψ = {}", degrees(view.psi))];
+pub(super) fn conditions(shown: &[Shown<'_>]) -> String {
+    let Some(Shown { subject, view }) = shown.first() else { return String::new() };
+    let mut words = vec![format!("ψ\u{a0}=\u{a0}{}", degrees(view.psi))];
     if subject.sides().len() > 1 {
         words.push(format!("light from the {}", side_name(view.side)));
     }
-    if !view.quantity.name.is_empty() {
-        words.push(view.quantity.name.clone());
-    }
+    let mut quantities: Vec<&str> = shown.iter().map(|shown| shown.view.quantity.name.as_str()).collect();
+    quantities.dedup();
+    quantities.retain(|name| !name.is_empty());
+    words.extend(quantities.into_iter().map(String::from));
     words.join(", ")
 }
 
@@ -67,31 +103,23 @@ pub(crate) fn degrees(radians: f64) -> String {
     minus(&format!("{}°", if rounded == 0.0 { 0.0 } else { rounded }))
 }
 
-/// One of several curves in a figure.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Series {
-    /// Its position among them.
-    pub(crate) index: usize,
-    /// How many there are.
-    pub(crate) count: usize,
-}
-
-impl Series {
-    /// The colour on white: evenly spaced in a perceptually uniform ramp, without its palest end.
-    pub(crate) fn colour(self) -> String {
-        self.of_ramp(0.02, 0.80)
-    }
-
-    /// The colour on a dark page: without the darkest end.
-    pub(crate) fn colour_on_dark(self) -> String {
-        self.of_ramp(0.30, 0.98)
-    }
-
-    fn of_ramp(self, from: f64, to: f64) -> String {
-        let share = if self.count > 1 { self.index as f64 / (self.count - 1) as f64 } else { 0.25 };
-        format!("#{:x}", colorous::PLASMA.eval_continuous(from + share * (to - from)))
-    }
-}
-
 /// Text centred on its position.
 pub(super) const MIDDLE: Text = Text { anchor: Anchor::Middle, ..LABEL };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_names_lose_their_middle() {
+        assert_eq!(shortened("short.ddr", 9), "short.ddr");
+        assert_eq!(shortened("a-long-name.ddr", 9), "a-lo….ddr");
+        assert_eq!(shortened("a-long-name.ddr", 9).chars().count(), 9);
+    }
+
+    #[test]
+    fn lines_are_as_long_as_they_may_be() {
+        assert_eq!(wrapped("one two three", 7), ["one two", "three"]);
+        assert_eq!(wrapped("unbreakable word", 4), ["unbreakable", "word"]);
+    }
+}

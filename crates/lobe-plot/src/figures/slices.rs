@@ -1,76 +1,108 @@
 //! All outgoing directions of each incidence, as disks.
 
+use std::f64::consts::{FRAC_PI_4, SQRT_2};
 use std::fmt::Write as _;
 
 use lobe::Scatter;
 
-use super::shared::{MARGIN, MIDDLE, TOP, WIDTH, conditions, degrees, heading, id, scatter_name};
+use super::cartesian::title;
+use super::shared::{MARGIN, MIDDLE, conditions, degrees, heading, id, notes, scatter_name, shortened};
 use crate::evaluate::Progress;
 use crate::geometry::{incident, to_disk};
 use crate::image::Image;
-use crate::scale::{Scale, Scaling};
+use crate::layout::{Layout, Paper};
+use crate::scale::{Scale, Scaling, short};
+use crate::shown::{Shown, incidences};
 use crate::slice::{Slice, slice};
-use crate::subject::Subject;
 use crate::svg::{Area, LABEL, Role, Svg, Text, number};
 use crate::view::View;
 
 /// More disks than this are too small to see.
 const MOST: usize = 6;
-const COLUMNS: usize = 3;
-const CELL: f64 = (WIDTH - 2.0 * MARGIN) / COLUMNS as f64;
+/// The radius of a disk on wide paper.
 const RADIUS: f64 = 100.0;
-/// From one row of disks to the next.
-const ROW: f64 = 2.0 * RADIUS + 40.0;
+/// Above a disk, its incidence; below it, room.
+const ABOVE: f64 = 24.0;
+const BELOW: f64 = 16.0;
 /// More marks than this would hide the values.
 const MARKS: usize = 1500;
 /// The colour, and its share, that values that were not measured are mixed with.
 const GREY: ([f32; 3], f32) = ([206.0, 209.0, 214.0], 0.74);
 
-/// Reflection above transmission, with the same colours.
-pub(super) fn draw(subject: &Subject, view: &View, progress: &dyn Progress) -> String {
-    let sigmas = view.incidences(subject, MOST);
-    let scatters = subject.scatters(view.side);
-    // One and a half image pixels per pixel of the figure, as disks are looked at closely.
-    let size = (1.5 * 2.0 * RADIUS * f64::from(view.width) / WIDTH).round().clamp(96.0, 480.0) as usize;
-    let pixels = std::f64::consts::FRAC_PI_4 * (size * size) as f64;
-    progress.begin("slices", (pixels * (scatters.len() * sigmas.len()) as f64) as u64);
-    let of = |scatter, sigma| slice(subject, view, sigma, scatter, size, progress);
-    let slices: Vec<Slice> =
-        scatters.iter().flat_map(|&scatter| sigmas.iter().map(move |&sigma| of(scatter, sigma))).collect();
-    let scale = scale(&slices, view.scaling.unwrap_or(Scaling::Log));
+/// The slices of one file, reflection before transmission, one per incidence.
+pub(super) type OfFile = Vec<Slice>;
 
-    let mut svg = Svg::new(id("slices", view));
-    let what = format!("Outgoing hemisphere at each incidence σ, {}", conditions(subject, view));
-    heading(&mut svg, subject.name(), &what);
-    let mut top = TOP;
-    for scatter in &scatters {
-        if scatters.len() > 1 || *scatter == Scatter::Transmission {
-            svg.text([MARGIN, top + 14.0], Text { is_heavy: true, size: 16.0, ..LABEL }, scatter_name(*scatter));
-            top += 26.0;
+/// The slices of each file.
+pub(super) fn slices(shown: &[Shown<'_>], progress: &dyn Progress) -> Vec<OfFile> {
+    let sigmas = incidences(shown, MOST);
+    // More image pixels than pixels of the figure, as disks are looked at closely, unless each takes long.
+    let density = if shown.iter().any(|shown| shown.subject.is_slow()) { 0.9 } else { 1.5 };
+    let pixels = shown.first().map_or(0, |first| first.view.width);
+    let size = (density * 2.0 * RADIUS * f64::from(pixels) / Layout::WIDE.width).round().clamp(96.0, 480.0) as usize;
+    let disks: usize = shown.iter().map(|shown| shown.subject.scatters(shown.view.side).len() * sigmas.len()).sum();
+    progress.begin("slices", (FRAC_PI_4 * (size * size * disks) as f64) as u64);
+    let of_file = |&Shown { subject, view }: &Shown<'_>| {
+        let of = |scatter| sigmas.iter().map(move |&sigma| slice(subject, view, sigma, scatter, size, progress));
+        subject.scatters(view.side).into_iter().flat_map(of).collect()
+    };
+    shown.iter().map(of_file).collect()
+}
+
+/// Reflection above transmission, one file above the other, all with the same colours.
+pub(super) fn draw(shown: &[Shown<'_>], of_files: &[OfFile], paper: Paper<'_>) -> String {
+    let Some(first) = shown.first() else { return String::new() };
+    let all: Vec<&Slice> = of_files.iter().flatten().collect();
+    let scale = scale(&all, first.view.scaling.unwrap_or(Scaling::Log));
+    let layout = paper.layout;
+    let columns = if layout.is_narrow { 2 } else { 3 };
+    let cell = (layout.width - 2.0 * MARGIN) / columns as f64;
+    let radius = RADIUS.min(0.5 * cell - 8.0);
+    let row = 2.0 * radius + ABOVE + BELOW;
+    let mut svg = Svg::new(id("slices", first.view), paper);
+    let what = format!("Outgoing hemisphere at each incidence σ, {}", conditions(shown));
+    let mut top = heading(&mut svg, shown, &what);
+    for (shown_one, slices) in shown.iter().zip(of_files) {
+        let has_both = slices.iter().any(|slice| slice.scatter == Scatter::Reflection)
+            && slices.iter().any(|slice| slice.scatter == Scatter::Transmission);
+        for scatter in [Scatter::Reflection, Scatter::Transmission] {
+            let of: Vec<&Slice> = slices.iter().filter(|slice| slice.scatter == scatter).collect();
+            if of.is_empty() {
+                continue;
+            }
+            let mut words = Vec::new();
+            if shown.len() > 1 {
+                words.push(shortened(shown_one.subject.name(), (layout.width / 14.0) as usize));
+            }
+            if has_both || scatter == Scatter::Transmission {
+                words.push(scatter_name(scatter).into());
+            }
+            if !words.is_empty() {
+                let name = Text { is_heavy: true, size: 16.0, ..LABEL };
+                svg.text([MARGIN, top + 14.0], name, &words.join(", "));
+                top += 26.0;
+            }
+            for (at, slice) in of.iter().enumerate() {
+                let in_row = (of.len() - at / columns * columns).min(columns);
+                let left = 0.5 * (layout.width - cell * in_row as f64);
+                let x = left + cell * ((at % columns) as f64 + 0.5);
+                let y = top + row * (at / columns) as f64 + ABOVE + radius;
+                disk(&mut svg, Place { x, y, radius }, slice, shown_one.view, &scale);
+            }
+            top += row * of.len().div_ceil(columns) as f64;
         }
-        let of: Vec<&Slice> = slices.iter().filter(|slice| slice.scatter == *scatter).collect();
-        for (at, slice) in of.iter().enumerate() {
-            let in_row = (of.len() - at / COLUMNS * COLUMNS).min(COLUMNS);
-            let left = 0.5 * (WIDTH - CELL * in_row as f64);
-            let x = left + CELL * ((at % COLUMNS) as f64 + 0.5);
-            let y = top + ROW * (at / COLUMNS) as f64 + 24.0 + RADIUS;
-            disk(&mut svg, [x, y], slice, view, &scale);
-        }
-        top += ROW * of.len().div_ceil(COLUMNS) as f64;
     }
     bar(&mut svg, top + 14.0, &scale);
-    let bottom = notes(&mut svg, top + 92.0, &slices);
-    let title = format!("{}: f over the outgoing hemisphere for each incidence", subject.name());
-    svg.finish([WIDTH, bottom + 6.0], view.width, &title)
+    let bottom = signs_and_notes(&mut svg, top + 92.0, &all);
+    svg.finish(bottom, &title(shown, "f over the outgoing hemisphere for each incidence"))
 }
 
 /// The colour scale: the range of the measured values, without the lowest hundredth.
-fn scale(slices: &[Slice], scaling: Scaling) -> Scale {
+fn scale(slices: &[&Slice], scaling: Scaling) -> Scale {
     let measured = |slice: &Slice| {
         let of = slice.f.iter().zip(&slice.is_measured).filter(|(_, measured)| **measured);
         of.filter_map(|(f, _)| *f).map(f64::from).filter(|f| f.is_finite()).collect::<Vec<_>>()
     };
-    let mut values: Vec<f64> = slices.iter().flat_map(measured).collect();
+    let mut values: Vec<f64> = slices.iter().flat_map(|slice| measured(slice)).collect();
     if values.is_empty() {
         values = slices.iter().flat_map(|slice| slice.f.iter().flatten()).map(|f| f64::from(*f)).collect();
     }
@@ -78,8 +110,8 @@ fn scale(slices: &[Slice], scaling: Scaling) -> Scale {
     values.sort_by(f64::total_cmp);
     let Some(&most) = values.last() else { return Scale::around([].into_iter(), scaling) };
     match scaling {
-        Scaling::Linear => Scale::from_zero([most].into_iter()),
-        Scaling::Log => Scale { scaling, low: values[values.len() / 100].clamp(1e-6 * most, 0.5 * most), high: most },
+        Scaling::Linear => Scale::around([most].into_iter(), scaling),
+        Scaling::Log => Scale::between(values[values.len() / 100].clamp(1e-6 * most, 0.5 * most), most),
     }
 }
 
@@ -104,13 +136,29 @@ fn picture(slice: &Slice, scale: &Scale) -> Image {
     Image { width: slice.size as u32, height: slice.size as u32, rgba }
 }
 
-fn disk(svg: &mut Svg, [x, y]: [f64; 2], slice: &Slice, view: &View, scale: &Scale) {
-    let area = Area { x: x - RADIUS, y: y - RADIUS, width: 2.0 * RADIUS, height: 2.0 * RADIUS };
-    svg.image(area, &picture(slice, scale).data_url());
+/// Where a disk is.
+#[derive(Clone, Copy)]
+struct Place {
+    x: f64,
+    y: f64,
+    radius: f64,
+}
+
+impl Place {
+    /// The place of a point of the unit disk.
+    fn at(self, [u, v]: [f64; 2]) -> [f64; 2] {
+        [self.x + self.radius * u, self.y - self.radius * v]
+    }
+}
+
+fn disk(svg: &mut Svg<'_>, place: Place, slice: &Slice, view: &View, scale: &Scale) {
+    let Place { x, y, radius } = place;
+    svg.image(Area { x: x - radius, y: y - radius, width: 2.0 * radius, height: 2.0 * radius }, &picture(slice, scale));
     if slice.measured.len() <= MARKS {
         let mut path = String::new();
-        for [u, v] in &slice.measured {
-            let _ = write!(path, "M{} {}h.01", number(x + RADIUS * u), number(y - RADIUS * v));
+        for &point in &slice.measured {
+            let [x, y] = place.at(point);
+            let _ = write!(path, "M{} {}h.01", number(x), number(y));
         }
         svg.raw(&format!(
             "<path d=\"{path}\" stroke=\"#ffffff\" stroke-opacity=\"0.5\" stroke-width=\"1.7\" stroke-linecap=\"round\" \
@@ -118,22 +166,45 @@ fn disk(svg: &mut Svg, [x, y]: [f64; 2], slice: &Slice, view: &View, scale: &Sca
         ));
     }
     for angle in [30.0_f64, 60.0] {
-        let radius = RADIUS * std::f64::consts::SQRT_2 * (0.5 * angle.to_radians()).sin();
         svg.raw(&format!(
             "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"none\" stroke=\"#ffffff\" stroke-opacity=\"0.28\" stroke-width=\"0.9\"/>",
             number(x),
             number(y),
-            number(radius)
+            number(radius * ring(angle))
         ));
     }
-    svg.circle([x, y], RADIUS, Role::Frame, 1.4);
+    svg.circle([x, y], radius, Role::Frame, 1.4);
     // The light, where it comes from, and the mirror direction or the straight-through ray.
     let [u, v] = to_disk(view.side, view.psi, incident(view.side, slice.sigma, view.psi));
-    let (light, mirror) = ([x + RADIUS * u, y - RADIUS * v], [x - RADIUS * u, y + RADIUS * v]);
-    svg.raw(&sun(light));
-    svg.raw(&cross_mark(mirror));
+    svg.raw(&sun(place.at([u, v])));
+    svg.raw(&cross_mark(place.at([-u, -v])));
+    hints(svg, place, slice);
     let label = Text { is_heavy: true, size: 16.0, ..MIDDLE };
-    svg.text([x, y - RADIUS - 9.0], label, &format!("σ = {}", degrees(slice.sigma)));
+    svg.text([x, y - radius - 9.0], label, &format!("σ = {}", degrees(slice.sigma)));
+}
+
+/// The radius on the unit disk of a polar angle in degrees.
+fn ring(angle: f64) -> f64 {
+    SQRT_2 * (0.5 * angle.to_radians()).sin()
+}
+
+/// The values at the normal and at polar angles and azimuths in steps, shown when the pointer is there.
+fn hints(svg: &mut Svg<'_>, place: Place, slice: &Slice) {
+    let mut say = |theta: f64, turn: f64| {
+        let (sin, cos) = turn.to_radians().sin_cos();
+        let point = [ring(theta) * cos, ring(theta) * sin];
+        let pixel = |c: f64| (((1.0 + c) * 0.5 * slice.size as f64) as usize).min(slice.size - 1);
+        let at = pixel(-point[1]) * slice.size + pixel(point[0]);
+        let Some(f) = slice.f[at] else { return };
+        let kind = if slice.is_measured[at] { "" } else { ", not measured" };
+        let turn = if theta > 0.0 { format!(", {turn}° from the mirror side") } else { String::new() };
+        let text = format!("σ = {}, θ = {theta}°{turn}: {} 1/sr{kind}", degrees(slice.sigma), short(f64::from(f)));
+        svg.hint(place.at(point), 0.07 * place.radius, &text);
+    };
+    say(0.0, 0.0);
+    for theta in [15.0, 30.0, 45.0, 60.0, 75.0] {
+        (-5..=6).for_each(|step| say(theta, 30.0 * f64::from(step)));
+    }
 }
 
 /// Marks are white with a dark rim, so that they show on every colour.
@@ -154,46 +225,54 @@ fn cross_mark([x, y]: [f64; 2]) -> String {
     )
 }
 
-/// The colour bar.
-fn bar(svg: &mut Svg, y: f64, scale: &Scale) {
-    const LEFT: f64 = 150.0;
-    const LENGTH: f64 = WIDTH - 2.0 * LEFT;
+/// The colour bar: what it measures at its right end, or above it if there is no room.
+fn bar(svg: &mut Svg<'_>, y: f64, scale: &Scale) {
     const STEPS: usize = 256;
+    let width = svg.layout().width;
+    let is_narrow = svg.layout().is_narrow;
+    let left = if is_narrow { 40.0 } else { 150.0 };
+    let length = width - 2.0 * left;
     let rgba = (0..STEPS).flat_map(|step| {
         let colorous::Color { r, g, b } = colorous::VIRIDIS.eval_rational(step, STEPS);
         [r, g, b, 255]
     });
     let ramp = Image { width: STEPS as u32, height: 1, rgba: rgba.collect() };
-    svg.raw(&format!(
-        "<image x=\"{LEFT}\" y=\"{}\" width=\"{LENGTH}\" height=\"16\" preserveAspectRatio=\"none\" href=\"{}\"/>",
-        number(y),
-        ramp.data_url()
-    ));
+    svg.image(Area { x: left, y, width: length, height: 16.0 }, &ramp);
     for (from, to) in [
-        ([LEFT, y], [LEFT + LENGTH, y]),
-        ([LEFT, y + 16.0], [LEFT + LENGTH, y + 16.0]),
-        ([LEFT, y], [LEFT, y + 16.0]),
-        ([LEFT + LENGTH, y], [LEFT + LENGTH, y + 16.0]),
+        ([left, y], [left + length, y]),
+        ([left, y + 16.0], [left + length, y + 16.0]),
+        ([left, y], [left, y + 16.0]),
+        ([left + length, y], [left + length, y + 16.0]),
     ] {
         svg.line(from, to, Role::Frame, 1.0);
     }
+    let mut end = f64::NEG_INFINITY;
     for tick in scale.ticks() {
-        let x = LEFT + LENGTH * scale.place(tick.value);
-        if !(LEFT - 0.5..=LEFT + LENGTH + 0.5).contains(&x) {
+        let x = left + length * scale.place(tick.value);
+        if !(left - 0.5..=left + length + 0.5).contains(&x) {
             continue;
         }
-        svg.line([x, y + 16.0], [x, y + if tick.label.is_some() { 22.0 } else { 19.5 }], Role::Frame, 1.0);
-        if let Some(label) = tick.label {
-            svg.rich([x, y + 40.0], Text { size: 16.0, ..MIDDLE }, &label);
+        // Labels that would overlap are left out. A letter is about half as wide as it is high.
+        let half = 4.0 * tick.label.as_ref().map_or(0, |label| label.chars().count()) as f64;
+        let label = tick.label.as_ref().filter(|_| x - half > end);
+        svg.line([x, y + 16.0], [x, y + if label.is_some() { 22.0 } else { 19.5 }], Role::Frame, 1.0);
+        if let Some(label) = label {
+            svg.rich([x, y + 40.0], Text { size: 16.0, ..MIDDLE }, label);
+            end = x + half + 6.0;
         }
     }
-    svg.rich([LEFT + LENGTH + 14.0, y + 14.0], LABEL, "f (1/sr)");
     let scaling = if scale.scaling == Scaling::Log { "log scale" } else { "linear scale" };
-    svg.text([LEFT - 86.0, y + 14.0], Text { size: 16.0, role: Role::Muted, ..LABEL }, scaling);
+    let muted = Text { size: 16.0, role: Role::Muted, ..LABEL };
+    if is_narrow {
+        svg.rich([0.5 * width, y - 8.0], Text { size: 16.0, ..MIDDLE }, &format!("f (1/sr), {scaling}"));
+    } else {
+        svg.rich([left + length + 14.0, y + 14.0], LABEL, "f (1/sr)");
+        svg.text([left - 100.0, y + 14.0], muted, scaling);
+    }
 }
 
-/// How to read the disks; returns the y at which the figure ends.
-fn notes(svg: &mut Svg, y: f64, slices: &[Slice]) -> f64 {
+/// How to read the disks; returns the height at which the figure ends.
+fn signs_and_notes(svg: &mut Svg<'_>, y: f64, slices: &[&Slice]) -> f64 {
     let style = Text { size: 15.0, role: Role::Muted, ..LABEL };
     let direction = match slices.iter().any(|slice| slice.scatter == Scatter::Transmission) {
         true => "mirror direction or straight ray",
@@ -201,8 +280,9 @@ fn notes(svg: &mut Svg, y: f64, slices: &[Slice]) -> f64 {
     };
     svg.raw(&sun([MARGIN + 7.0, y - 5.0]));
     svg.text([MARGIN + 20.0, y], style, "light, on the left");
-    svg.raw(&cross_mark([MARGIN + 163.0, y - 5.0]));
-    svg.text([MARGIN + 176.0, y], style, direction);
+    let (x, next) = if svg.layout().is_narrow { (MARGIN, y + 22.0) } else { (MARGIN + 156.0, y) };
+    svg.raw(&cross_mark([x + 7.0, next - 5.0]));
+    svg.text([x + 20.0, next], style, direction);
     let mut lines = vec!["Lambert equal-area disks, rings at 30° and 60°.".to_string()];
     let marks = slices.iter().map(|slice| slice.measured.len()).max().unwrap_or(0);
     let is_continued =
@@ -215,8 +295,8 @@ fn notes(svg: &mut Svg, y: f64, slices: &[Slice]) -> f64 {
     if is_continued {
         lines.push("Grey: not measured; extrapolated from the nearest measured values.".into());
     }
-    for (at, line) in lines.iter().enumerate() {
-        svg.text([MARGIN, y + 22.0 * (at + 1) as f64], style, line);
+    if !slices.iter().any(|slice| slice.f.iter().flatten().any(|f| *f > 0.0)) {
+        lines.push("No value is above 0.".into());
     }
-    y + 22.0 * lines.len() as f64 + 12.0
+    notes(svg, next + 22.0, &lines)
 }
