@@ -63,7 +63,7 @@ impl fmt::Display for Summary {
         let samples = if least == most { most.to_string() } else { format!("{least} to {most}") };
         let millions = self.rays as f64 * 1e-6;
         write!(f, "{width} x {height} pixels of {samples} samples in {:.1} s: ", self.seconds)?;
-        write!(f, "{millions:.1} million rays, {:.1} million a second; ", millions / self.seconds.max(1e-9))?;
+        write!(f, "{millions:.1} million rays, {:.1} million per second; ", millions / self.seconds.max(1e-9))?;
         let Shares { trace, materials, .. } = self.shares;
         write!(f, "{:.0} % of the time tracing, {:.0} % in materials", 100.0 * trace, 100.0 * materials)?;
         if self.lanes > 0.0 {

@@ -1,4 +1,4 @@
-//! Writing a file so that it is whole or not there.
+//! Writing a file so that it is either whole or missing.
 
 use std::fs::File;
 use std::io::{self, ErrorKind, Write as _};

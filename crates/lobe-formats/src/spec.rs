@@ -1,4 +1,4 @@
-//! What the registry knows of a format, which stands beside the format.
+//! What the registry knows of a format; each is in the module of its format.
 
 use std::path::Path;
 

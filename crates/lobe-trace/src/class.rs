@@ -36,7 +36,7 @@ impl RayClass {
         }
     }
 
-    /// The walk that measured best for the class.
+    /// The form of walk that was the fastest for this class when measured.
     pub fn form(self) -> Form {
         match self {
             RayClass::Camera | RayClass::Mirror | RayClass::Shadow | RayClass::SoftShadow => Form::Large,

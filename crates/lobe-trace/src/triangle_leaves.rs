@@ -22,7 +22,7 @@ pub(crate) struct Triangles<'a> {
     boxes: [[f32; MAX_LANES]; 6],
 }
 
-/// Up to how many rays of a large packet are tested one by one, each against all triangles at once.
+/// If a large packet has no more rays than this, they are tested one by one, each against all triangles at once.
 const FEW: u32 = 10;
 
 impl<'a> Triangles<'a> {

@@ -23,7 +23,7 @@ pub use lanes::BsdfLanes;
 /// `wi` points to the light and `wo` to the viewer: unit vectors away from the surface, normal on +z. Values are `f` in
 /// 1/sr, without the cosine, one per channel; densities are over solid angle, in 1/sr. A delta function in direction has no
 /// value here; if [`sample_batch`](Self::sample_batch) finds such a direction, its density is infinite, and
-/// [`samples_mirrors`](Self::samples_mirrors) tells so.
+/// [`samples_mirrors`](Self::samples_mirrors) says so.
 ///
 /// Only [`channels`](Self::channels) and [`eval_batch`](Self::eval_batch) have to be written: directions are then sampled in
 /// proportion to the cosine, on the sides that [`holds`](Self::holds) names.

@@ -11,7 +11,7 @@ pub(crate) fn direction(theta: f64, phi: f64) -> [f64; 3] {
 }
 
 /// Whether light at this polar angle is between the measured ones, or at one of them. One incidence is all that there is:
-/// what is beside it is no measurement.
+/// everything next to it is extrapolated.
 pub(crate) fn spans(thetas: &[f64], theta: f64) -> bool {
     let first = thetas.first().copied().unwrap_or(0.0);
     let last = thetas.last().copied().unwrap_or(0.0);

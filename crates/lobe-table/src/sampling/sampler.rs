@@ -121,7 +121,7 @@ impl Sampler {
         &self.distribution
     }
 
-    /// Bytes of memory that the distributions take beside the table: at most one and a half times what the table takes,
+    /// Bytes of memory that the distributions take in addition to the table: at most one and a half times what the table takes,
     /// except for the tiniest tables.
     pub fn bytes(&self) -> usize {
         self.distribution.bytes()

@@ -124,16 +124,16 @@ impl Binary {
     }
 }
 
-/// How far along the curve a box searches for its nearest neighbour: two boxes each way. After reinsertion, trees are
-/// about as cheap as with the medium preset's fourteen (from 1.3 per cent dearer to 3.5 per cent cheaper, over twelve
-/// meshes), and they are built in two thirds of the time.
+/// How far along the curve a box searches for its nearest neighbour: two boxes in each direction. After reinsertion, trees
+/// cost about as much as with the medium preset's fourteen (1.3 per cent more to 3.5 per cent less, over twelve meshes),
+/// and they are built in two thirds of the time.
 const SEARCH: PlocSearchDistance = PlocSearchDistance::VeryLow;
 
-/// The share of nodes that a round of reinsertion moves: the presets' 0.05 takes a third longer for trees that are half a
-/// per cent cheaper.
+/// The share of nodes that a round of reinsertion moves: the 0.05 of the presets takes a third longer, for trees that cost
+/// half a per cent less.
 const REINSERTED: f32 = 0.005;
 
-/// That would hardly change small trees: in them a round moves twice this many nodes, if there are as many.
+/// Such a share would hardly change small trees, so a round moves at least twice this many nodes, if there are that many.
 const FEWEST: f32 = 500.0;
 
 /// The builder's own sequence for its medium preset, without the check that it adds in debug builds: that recurses as

@@ -9,7 +9,7 @@ use crate::hull::Hull;
 use crate::leaves::{Around, Leaves};
 use crate::slab::{Sides, SlabRay};
 
-/// Up to how many live rays a hybrid traces one by one.
+/// A hybrid traces rays one by one if no more than this are live.
 pub(super) const FEW: u32 = 2;
 
 #[inline(always)]

@@ -15,13 +15,13 @@ use crate::bvh::Node;
 use crate::leaves::{Around, Leaves};
 use crate::slab::{Sides, SlabRay, child_bits};
 
-/// The width of a bundle, as a fraction of a box, up to which it is trusted that one of its rays hits the box.
+/// The width of a bundle, as a fraction of a box, up to which one of its rays is assumed to hit the box.
 const WIDE: f32 = 0.5;
 
-/// Up to how many rays that hit a child continue one by one.
+/// If no more rays than this hit a child, they continue one by one.
 const ALONE: u32 = 5;
 
-/// Up to how many rays of an octant are traced one by one.
+/// If an octant has no more rays than this, they are traced one by one.
 pub(super) const FEW: u32 = 6;
 
 #[inline(always)]

@@ -89,7 +89,7 @@ impl<V: Leaves, const W: usize> Walk<'_, V, W> {
     }
 }
 
-/// Rays one by one, from a child on.
+/// Traces rays one by one, starting at a child.
 struct Single<'a, V, const W: usize> {
     walk: Walk<'a, V, W>,
     from: Child,

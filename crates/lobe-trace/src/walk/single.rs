@@ -1,7 +1,7 @@
-//! One ray against all boxes of a node, one child per lane; all rays of a block under way at once.
+//! One ray against all boxes of a node, one child per lane; all rays of a block are in flight at once.
 //!
-//! A single ray waits at every step, for boxes to arrive and then for the comparison of eight of them, and its next
-//! step is unpredictable. So all rays take one step each, in turn, and no ray's wait holds up the others.
+//! A single ray waits at every step, first for boxes to arrive and then for eight of them to be compared, and its next
+//! step is unpredictable. So the rays take turns, one step each, and none is held up while another waits.
 
 use core::hint::select_unpredictable;
 
@@ -14,7 +14,7 @@ use crate::bvh::{Child, Node};
 use crate::leaves::Leaves;
 use crate::slab::{Sides, SlabRay, child_bits};
 
-/// The rays of `live`, from a child on.
+/// Traces the rays of `live`, starting at a child.
 #[inline(always)]
 pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_, V, W>, from: Child, live: u64) {
     let Walk { bvh, leaves, rays, found, stacks } = walk;

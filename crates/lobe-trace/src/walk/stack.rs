@@ -8,7 +8,7 @@ use crate::bvh::Child;
 pub(crate) struct Entry(i64);
 
 impl Entry {
-    /// After all others.
+    /// Comes after all other entries.
     pub const LAST: Self = Entry(i64::MAX);
 
     /// For a child that is entered at `key`, which must not be negative: the bits of such floats are in the same order.
@@ -17,7 +17,7 @@ impl Entry {
         Entry((key.to_bits() as i64) << 32 | child.bits() as i64)
     }
 
-    /// Not below the entry of any child that is entered at `t` or before; if `t` is negative, of any entered at zero.
+    /// At or above the entry of every child that is entered at `t` or earlier; if `t` is negative, at zero.
     #[inline(always)]
     pub fn until(t: f32) -> Self {
         let t = if t > 0.0 { t } else { 0.0 };
