@@ -20,7 +20,7 @@ use crate::message;
 
 Examples:
   lobe compare paint.ddr paint-resampled.ddr
-  lobe compare --within 0.01 old.bsdf new.bsdf      exit code 3 where they are further apart
+  lobe compare --within 0.01 old.bsdf new.bsdf      exit code 3 if they are further apart
   lobe compare --json a.ddr b.brdf | jq '.[0].difference.rms'"
 )]
 pub struct Args {

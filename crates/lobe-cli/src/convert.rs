@@ -22,12 +22,12 @@ use crate::target::Target;
     after_help = "The format to write follows from the extension of OUT or from --to. If it has the representation of the file, knots and values are written unchanged. Otherwise the material is resampled, which is reported together with the error at sample directions. What the format cannot hold is refused, and so is an option that would change nothing. Trees of WINDOW XML are written as trees, unless --to klems or --basis ask for matrices.
 
 Examples:
-  lobe convert paint.ddr paint.ssdd                        the same table in another format
-  lobe convert paint.ddr paint.bsdf --to rgl               for Mitsuba and pbrt, parameterisation included
-  lobe convert cloth.ddr cloth.bsdf --to rgl --azimuths 49 finer
-  lobe convert gold.binary gold.xml --basis half           Klems matrices for Radiance
-  lobe convert paint.bsdf paint.npz                        for numpy.load
-  lobe convert film.ssdd film.bsdf --to zemax --channel Y --scatter transmission
+  lobe convert paint.ddr paint.ssdd                           the same table in another format
+  lobe convert paint.ddr paint.bsdf --to rgl                  for Mitsuba and pbrt
+  lobe convert cloth.ddr cloth.bsdf --to rgl --azimuths 49    finer
+  lobe convert gold.binary gold.xml --basis half              Klems matrices for Radiance
+  lobe convert paint.bsdf paint.npz                           for numpy.load
+  lobe convert film.ssdd film.bsdf --to zemax --channel G --scatter transmission
 
 Grids of half and difference angles (MERL) are interpolated between the centres of their bins."
 )]

@@ -24,11 +24,11 @@ use crate::pairs::{Pair, Pairs, parse_direction, parse_numbers};
 Examples:
   lobe eval paint.ddr --wi -0.5,0,0.8 --wo 0.4,0.1,0.9
   lobe eval paint.ddr --angles 30,0,5,180          sigma, psi, theta, phi in degrees
-  lobe eval paint.ddr --pairs pairs.csv > f.csv    a line `wi.x,wi.y,wi.z,wo.x,wo.y,wo.z` a pair
-  generate | lobe eval paint.ddr --edge zero --pairs -
+  lobe eval paint.ddr --pairs pairs.csv > f.csv    one line wi.x,wi.y,wi.z,wo.x,wo.y,wo.z per pair
+  echo 0,0,1,0.6,0,0.8 | lobe eval paint.ddr --edge zero --pairs -
   lobe eval blinds.xml --wi 0,0.5,0.8 --wo 0,-0.5,-0.8 --channel Visible --cosine
 
-LOBE_BACKEND=scalar|sse2|sse4.1|avx2|avx512 chooses the instructions; by default the best of this machine."
+LOBE_BACKEND=scalar|sse2|sse4.1|avx2|avx512 chooses the instructions; the default is the best that this machine has."
 )]
 pub struct Args {
     /// The file of a measured BRDF or BTDF.

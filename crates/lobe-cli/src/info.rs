@@ -16,7 +16,7 @@ use crate::message;
   lobe info paint.ddr
   lobe info --json sensor.bsdf | jq '.parts[0].axes'
 
-The format is told from the content. Only .ddt and .sdt files are known by their extension to be transmission.
+The format is recognised by its content. Only whether Integra files are of reflection or transmission is decided by their extension: .ddt and .sdt are transmission.
 A folder is read as the RPC Photonics files in it, which are one material.")]
 pub struct Args {
     /// The file to show.

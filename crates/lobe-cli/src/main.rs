@@ -10,6 +10,7 @@ mod check;
 mod compare;
 mod convert;
 mod describe;
+mod draft;
 mod eval;
 mod failure;
 mod generate;

@@ -8,6 +8,7 @@ use lobe_files::check_output;
 use lobe_formats::{ChannelMap, Document};
 use lobe_model::goniometer::{half_diff as bins, klems as patches, measure_surface, rgl as parameterised};
 use lobe_model::{Surface, is_isotropic};
+use lobe_table::Kind;
 use lobe_table::window::{self, Band, Block, Component, klems};
 use lobe_table::{half_diff, rgl};
 
@@ -108,10 +109,27 @@ pub fn write(surface: &dyn Surface, sides: Sides, is_from_file: bool, output: &O
         say(format_args!("  {note}"));
     }
     match errors(surface, target, &aspects, out)? {
-        Some(errors) => say(format_args!("  {errors}")),
+        Some(errors) => {
+            say(format_args!("  {errors}"));
+            if errors.is_large() {
+                say(format_args!("  {}", advice(writer.resampled_as)));
+            }
+        }
         None => say("  lobe does not read this format, so the error is not known"),
     }
     Ok(())
+}
+
+/// How to make a large error smaller.
+fn advice(kind: Result<Kind, &str>) -> &'static str {
+    match kind {
+        Ok(rgl::KIND) => "for a smaller error: more --zeniths, --azimuths or --texels",
+        Ok(klems::KIND) => "these are means over patches, which are the smallest with --basis full",
+        Ok(half_diff::KIND) => "the grid of this format cannot be refined; --to rgl and specular tables can",
+        Ok(_) | Err(_) => {
+            "for a smaller error: denser --sigma, --psi, --theta or --phi, or --to rgl, whose nodes follow the peak"
+        }
+    }
 }
 
 fn side_of(target: Target, sides: Sides, scatter: Scatter) -> &'static str {

@@ -12,6 +12,9 @@ use crate::picture::Kind;
 /// Add the parts of a picture that `lobe render --tile` and `--samples-range` have written. The result is the same bits
 /// as the picture rendered at once.
 #[derive(clap::Args)]
+#[command(after_help = "Examples:
+  lobe merge part*.exr -o picture.exr
+  lobe merge part1.exr part2.exr -o look.png --allow-gaps --exposure 1")]
 pub struct Args {
     /// The parts.
     #[arg(required = true)]

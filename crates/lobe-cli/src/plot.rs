@@ -1,6 +1,6 @@
 //! `lobe plot`: figures of a material, or of several.
 
-use std::io::{Write, stdout};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -16,6 +16,7 @@ use lobe_plot::{
 use crate::describe::{Part, describe};
 use crate::failure::Failure;
 use crate::guesses::warn_of_guesses;
+use crate::message;
 
 /// Draw materials: curves in the plane of incidence, channels, spectra, slices of the hemisphere, lit spheres, or a page
 /// of them all.
@@ -141,7 +142,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     drop(bar);
     write_whole(&args.out, &content)?;
     let said: String = said.iter().map(|said| format!("; {said}")).collect();
-    let mut out = stdout().lock();
+    let mut out = message::out(false);
     writeln!(out, "{}: {what}, {} bytes{said}", args.out.display(), content.len())?;
     Ok(out.flush()?)
 }

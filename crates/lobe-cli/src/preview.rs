@@ -1,5 +1,6 @@
 //! `lobe preview`: a material on a ball and on a cloth, without a scene.
 
+use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -14,11 +15,12 @@ use lobe_render::shader::from_document;
 use lobe_render::{Film, Filter, Rect, Settings, render};
 
 use crate::angles::progress;
+use crate::draft::Draft;
 use crate::failure::Failure;
 use crate::guesses::warn_of_guesses;
-use crate::interrupt;
 use crate::picture::{FILM, Kind};
 use crate::render::Machine;
+use crate::{interrupt, message};
 
 /// Show a measured material on a ball and on a draped cloth.
 #[derive(clap::Args)]
@@ -79,10 +81,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let options = Options { lookup: Lookup::Linear, indexed_by: Given::Viewer, ..Options::default() };
     let (_, document) = lobe_formats::open(&args.material)?;
     warn_of_guesses(&args.material, &document);
+    let draft = Draft::from_environment()?;
+    let (wanted, time) = (draft.samples(args.samples), draft.time(args.time));
     let bar = (!args.machine.is_quiet()).then(|| progress("preparing the material"));
     let mut watch = |done: usize, all: usize| bar.iter().for_each(|bar| bar(done as f64 / all.max(1) as f64));
     // Half of the time for the picture itself.
-    let material = from_document(&document, &args.material, &options, backend, Some(args.time / 2), &mut watch);
+    let material = from_document(&document, &args.material, &options, backend, Some(time / 2), &mut watch);
     drop(bar);
     let material = material.map_err(|error| Failure::File(error.to_string()))?;
     let show = match args.show {
@@ -98,20 +102,21 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         window,
         filter: Filter::Tent,
         integrator: Arc::new(Path { depth: 4, limit: 4.0 }),
-        samples: 0..args.samples,
+        samples: 0..wanted,
         backend,
         threads: args.machine.threads(),
-        time: Some(args.time.saturating_sub(begun.elapsed())),
+        time: Some(time.saturating_sub(begun.elapsed())),
     };
     let bar = args.machine.bar();
     let film = Film::try_new(window, FILM)?;
     interrupt::listen();
     let rendered = render(&world, &settings, film, |progress| {
-        bar.show(progress.done, progress.total, Some((begun.elapsed(), args.time)));
+        bar.show(progress.done, progress.total, Some((begun.elapsed(), time)));
         !interrupt::is_asked()
     });
     bar.finish();
     let (film, _) = rendered.map_err(|error| Failure::Usage(error.to_string()))?;
+    let elapsed = begun.elapsed();
     match kind {
         Kind::Png => write_png(&args.output, &film, ToneMap { exposure: args.exposure.unwrap_or(0.0) })?,
         Kind::Exr => {
@@ -134,5 +139,25 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let message = format!("{}: interrupted; what there is was written", args.output.display());
         return Err(Failure::Interrupted(message));
     }
+    if !args.machine.is_quiet() {
+        let mut out = message::out(false);
+        writeln!(out, "{}: {}", args.output.display(), summary(args, kind, wanted, film.samples(), elapsed))?;
+        out.flush()?;
+    }
     Ok(())
+}
+
+/// What was written: the pixels, how many of their samples were reached, and the exposure.
+fn summary(args: &Args, kind: Kind, wanted: u32, (least, most): (u32, u32), elapsed: Duration) -> String {
+    let [width, height] = args.size;
+    let samples = if least == most { least.to_string() } else { format!("{least} to {most}") };
+    let mut words = format!("{width} x {height} pixels of {samples} samples in {:.1} s", elapsed.as_secs_f64());
+    if least < wanted {
+        words.push_str(&format!(", not {wanted}, as the time of --time was up"));
+    }
+    match kind {
+        Kind::Png => words + &format!("; exposure {:+} EV", args.exposure.unwrap_or(0.0)),
+        // Values are as they are.
+        Kind::Exr => words,
+    }
 }

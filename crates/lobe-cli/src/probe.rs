@@ -55,6 +55,13 @@ impl Errors {
     }
 }
 
+impl Errors {
+    /// Whether one value in twenty is wrong by more than a twentieth.
+    pub fn is_large(&self) -> bool {
+        self.most > 0.05
+    }
+}
+
 impl fmt::Display for Errors {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Errors { probes, median, most, largest, rms } = self;

@@ -13,6 +13,7 @@ use lobe_render::scene::Scene;
 use lobe_render::{Film, Rect, Settings, render};
 
 use crate::angles::progress;
+use crate::draft::Draft;
 use crate::failure::Failure;
 use crate::message::say;
 use crate::picture::{Begun, FILM, Kind, Output};
@@ -29,6 +30,8 @@ on the instructions of the machine either.
 Every 30 seconds, and on Ctrl-C, the picture so far is written; an EXR file then also has the exact sums from which \
 --resume continues. For a PNG they are next to it, in OUT.part.exr. A second Ctrl-C ends at once. A finished picture has \
 no sums, unless --keep-sums is given.
+
+LOBE_DRAFT=N divides numbers of samples and time limits by N, for a first look.
 
 Examples:
   lobe render scene.toml -o picture.exr
@@ -89,13 +92,13 @@ pub struct Machine {
     /// Number of threads; by default as many as the machine has.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..1025))]
     threads: Option<u16>,
-    /// The instructions: scalar, sse2, sse4.1, avx2 or avx512; by default the best of this machine.
+    /// The instructions: scalar, sse2, sse4.1, avx2 or avx512; the default is the best that this machine has.
     #[arg(long, value_name = "NAME")]
     backend: Option<String>,
     /// Round the same way on all machines and instructions, which is a little slower.
     #[arg(long)]
     strict: bool,
-    /// Show no progress.
+    /// Show no progress and no summary.
     #[arg(long)]
     quiet: bool,
 }
@@ -172,12 +175,14 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     drop(bar);
     let scene = scene.map_err(|error| Failure::File(error.to_string()))?;
     output.check(&scene.files)?;
+    let draft = Draft::from_environment()?;
+    let range = args.samples_range.as_ref().map(|range| draft.range(range));
     let total = match (args.samples, args.time) {
-        (Some(samples), _) => samples,
+        (Some(samples), _) => draft.samples(samples),
         (None, Some(_)) => UNLIMITED,
-        (None, None) => scene.samples.max(args.samples_range.as_ref().map_or(0, |range| range.end)),
+        (None, None) => draft.samples(scene.samples).max(range.as_ref().map_or(0, |range| range.end)),
     };
-    let samples = args.samples_range.clone().unwrap_or(0..total);
+    let samples = range.unwrap_or(0..total);
     if samples.end > total {
         return Err(Failure::Usage(format!(
             "--samples-range: found samples up to {}; expected {total} at most",
@@ -228,7 +233,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         samples,
         backend,
         threads: args.machine.threads(),
-        time: args.time.map(|time| time.saturating_sub(begun.elapsed())),
+        time: args.time.map(|time| draft.time(time).saturating_sub(begun.elapsed())),
     };
     let bar = args.machine.bar();
     let started = Instant::now();

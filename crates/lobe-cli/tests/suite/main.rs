@@ -7,6 +7,8 @@ mod colours;
 mod common;
 mod compare;
 mod convert;
+#[cfg(unix)]
+mod documentation;
 mod hardening;
 mod honest;
 mod plot;

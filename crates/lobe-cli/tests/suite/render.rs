@@ -186,7 +186,20 @@ fn pictures_say_what_they_have_and_what_they_took() {
 fn a_preview_of_a_file() {
     let folder = Folder::new();
     let fixture = fixture("conductor-7x8x13.ddr").display().to_string();
-    folder.good(&format!("preview {fixture} -o ball.png --size 64x48 --samples 4"));
+    let said = |arguments: &str| {
+        let output = folder.run(arguments);
+        assert!(output.status.success(), "{arguments}");
+        String::from_utf8(output.stdout).expect("UTF-8")
+    };
+    // It says how many samples were reached, and at which exposure the picture is.
+    let line = said(&format!("preview {fixture} -o ball.png --size 64x48 --samples 4 --exposure -1"));
+    assert!(
+        line.starts_with("ball.png: 64 x 48 pixels of 4 samples in ") && line.ends_with("; exposure -1 EV\n"),
+        "{line}"
+    );
+    let line = said(&format!("preview {fixture} -o short.png --size 320x240 --samples 60000 --time 1ms"));
+    assert!(line.contains(", not 60000, as the time of --time was up; exposure +0 EV\n"), "{line}");
+    assert!(said(&format!("preview {fixture} -o ball.png --size 64x48 --samples 1 --quiet")).is_empty());
     assert_eq!(folder.bytes("ball.png")[16..24], [0, 0, 0, 64, 0, 0, 0, 48]);
     folder.good(&format!("preview {fixture} -o ball.exr --size 64x48 --samples 2 --show cloth"));
     folder.bad("preview scene.toml -o ball.png", 1, "content of no known format");
