@@ -130,7 +130,8 @@ fn waves(part: &'static str, [slices, height, width]: [usize; 3], low: f32) -> I
 
 /// A number in `(0, 1]` for each index, different for neighbouring indices.
 fn value(index: usize) -> f32 {
-    (1 + index * 7919 % 10_007) as f32 / 10_007.0
+    // In this order, products fit 32 bits.
+    (1 + index % 10_007 * 7919 % 10_007) as f32 / 10_007.0
 }
 
 /// A grid with that many bins; those of the MERL database have `[90, 90, 180]`.

@@ -168,7 +168,7 @@ impl Kernel for Masks {
         records.push(Record::exact("bits, any, all", reductions));
 
         let mut first = Vec::new();
-        for n in (0..=MAX_LANES + 1).chain([usize::MAX, 1 << 32, i32::MAX as usize]) {
+        for n in (0..=MAX_LANES + 1).chain([usize::MAX, (1u64 << 32) as usize, i32::MAX as usize]) {
             first.push(lanes.first_n(n).bits() == ((1u64 << n.min(L::LANES)) - 1) as u32);
         }
         records.push(Record::exact("first_n", first));

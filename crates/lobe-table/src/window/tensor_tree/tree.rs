@@ -115,7 +115,7 @@ impl TensorTree {
             match *kind {
                 Node::Branch(first) => {
                     let start = first as usize;
-                    if start <= node || start + children > nodes.len() {
+                    if start <= node || start.checked_add(children).is_none_or(|end| end > nodes.len()) {
                         return Err(TreeError::Children { node, first });
                     }
                     if depth[node] >= MAX_DEPTH {
