@@ -130,12 +130,16 @@ impl Axis {
 #[inline(always)]
 fn weights<const AXES: usize, const CORNERS: usize>(fractions: [f32; AXES], valid: bool, scale: f32) -> [f32; CORNERS] {
     let mut products = [scale; CORNERS];
-    for (axis, upper) in fractions.into_iter().enumerate() {
-        for corner in (0..1 << axis).rev() {
+    let mut axis = 0;
+    while axis < AXES {
+        let (upper, mut corner) = (fractions[axis], 1 << axis);
+        while corner > 0 {
+            corner -= 1;
             let product = products[corner];
             products[2 * corner] = product * (1.0 - upper);
             products[2 * corner + 1] = product * upper;
         }
+        axis += 1;
     }
     if valid { products } else { [0.0; CORNERS] }
 }

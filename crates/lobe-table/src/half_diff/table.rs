@@ -158,7 +158,8 @@ impl Table {
     /// Where the next bins of `theta_h` and `theta_d` are; those of `phi_d` come along.
     #[inline(always)]
     fn corners(&self) -> [usize; 4] {
-        let [h, d] = [0, 1].map(|axis: usize| if self.bins[axis] > 1 { self.strides[axis] } else { 0 });
+        let h = if self.bins[0] > 1 { self.strides[0] } else { 0 };
+        let d = if self.bins[1] > 1 { self.strides[1] } else { 0 };
         [0, d, h, h + d]
     }
 

@@ -82,15 +82,15 @@ impl Slices {
     /// The slices of an isotropic table.
     #[inline(always)]
     pub(crate) fn pairs(&self) -> View<'_, Pairs<'_>> {
-        let [rows, columns] = [&self.rows, &self.columns].map(|sums| Pairs(sums.as_slice().as_chunks().0));
-        View { grid: &self.grid, rows, columns }
+        let (rows, columns) = (self.rows.as_slice().as_chunks().0, self.columns.as_slice().as_chunks().0);
+        View { grid: &self.grid, rows: Pairs(rows), columns: Pairs(columns) }
     }
 
     /// The slices of an anisotropic table.
     #[inline(always)]
     pub(crate) fn quads(&self) -> View<'_, Quads<'_>> {
-        let [rows, columns] = [&self.rows, &self.columns].map(|sums| Quads(Block::new(sums.as_slice(), [0])));
-        View { grid: &self.grid, rows, columns }
+        let (rows, columns) = (Block::new(self.rows.as_slice(), [0]), Block::new(self.columns.as_slice(), [0]));
+        View { grid: &self.grid, rows: Quads(rows), columns: Quads(columns) }
     }
 
     /// Bytes of memory that this holds.

@@ -41,6 +41,8 @@ impl Table {
     ///
     /// # Panics
     /// If `out` is not as long as there are channels.
+    // A kernel that is made elsewhere is copied before it is run, which costs as much as the evaluation.
+    #[inline(always)]
     pub fn single<'a>(&'a self, wi: [f32; 3], wo: [f32; 3], out: &'a mut [f32]) -> impl Kernel<Out = ()> + 'a {
         assert_eq!(out.len(), self.channel_count(), "one output per channel");
         Single { table: self, wi, wo, out }

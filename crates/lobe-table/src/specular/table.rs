@@ -66,6 +66,7 @@ impl Table {
     }
 
     /// How many channels there are.
+    #[inline]
     pub fn channel_count(&self) -> usize {
         self.grid.channels()
     }

@@ -119,7 +119,7 @@ impl Warp {
 
     #[inline(always)]
     fn entries<'a>(&self, floats: &'a Storage<f32>, count: usize, strides: [usize; 3]) -> Entries<'a> {
-        let [stride, row, slice] = strides.map(|stride| stride as i32);
+        let [stride, row, slice] = [strides[0] as i32, strides[1] as i32, strides[2] as i32];
         let azimuth = self.zeniths as i32 * slice;
         Entries { floats: floats.as_slice(), count: count as i32, stride, row, slice, azimuth }
     }
