@@ -80,23 +80,61 @@ fn main() -> anyhow::Result<()> {
 /// did not run.
 fn test(target: Target, setup: &Setup, packages: &[String]) -> anyhow::Result<()> {
     let [backend_crate, backend] = [target.backend_crate(), target.backend()];
+    let mut failed = Vec::new();
     let mut tested: Vec<&str> = packages.iter().map(String::as_str).collect();
     tested.insert(0, backend_crate);
     for package in tested {
         let mut arguments = vec!["test", "--package", package, "--lib", "--tests", "--"];
         arguments.extend(setup.harness);
         arguments.extend(target.left_out(package));
-        cargo(setup, &arguments)?;
+        if !cargo(setup, &arguments)? {
+            failed.push(package);
+        }
+    }
+    if setup.panics_end && !refuses_short_slices(target, setup)? {
+        failed.push("slices that are too short");
     }
     let equivalence = ["run", "--package", "xtask-equivalence", "--no-default-features", "--", "--backend", backend];
-    cargo(setup, &equivalence)
+    if !cargo(setup, &equivalence)? {
+        failed.push("the equivalence with the reference");
+    }
+    ensure!(failed.is_empty(), "{}", failed.join(", "));
+    Ok(())
 }
 
-fn cargo(setup: &Setup, arguments: &[&str]) -> anyhow::Result<()> {
+/// Whether every access of the backend refuses a slice that is too short, and no other, where a panic ends the program: the
+/// tests of the backend then try one access in each process.
+fn refuses_short_slices(target: Target, setup: &Setup) -> anyhow::Result<bool> {
+    /// The accesses that `lobe_testing::conformance` numbers.
+    const ACCESSES: usize = 11;
+    println!("\n== {ACCESSES} accesses of slices that are too short, and of others");
+    let name = format!("{}::short_slices_are_refused", target.backend());
+    for access in 0..ACCESSES {
+        for more in [-1, 0] {
+            let mut cargo = command(setup);
+            cargo.args(["test", "--quiet", "--package", target.backend_crate(), "--test", "suite", "--"]);
+            cargo.args(["--exact", &name, "--nocapture"]).env("LOBE_SHORT", format!("{access}:{more}"));
+            let output = cargo.output().context("cargo cannot be run")?;
+            let said = String::from_utf8_lossy(&output.stderr);
+            let refused = said.contains("panicked at");
+            let as_it_should = if more < 0 { refused } else { output.status.success() && said.contains("is accepted") };
+            if !as_it_should {
+                println!("{said}\naccess {access} of {more} elements more than it needs: refused = {refused}");
+                return Ok(false);
+            }
+        }
+    }
+    Ok(true)
+}
+
+/// Whether cargo succeeds.
+fn cargo(setup: &Setup, arguments: &[&str]) -> anyhow::Result<bool> {
     println!("\n== cargo {}", arguments.join(" "));
+    Ok(command(setup).args(arguments).status().context("cargo cannot be run")?.success())
+}
+
+fn command(setup: &Setup) -> Command {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.args(arguments).envs(setup.environment.iter().map(|(name, value)| (name, value)));
-    let status = cargo.status().context("cargo cannot be run")?;
-    ensure!(status.success(), "cargo {} failed", arguments.join(" "));
-    Ok(())
+    cargo.envs(setup.environment.iter().map(|(name, value)| (name, value)));
+    cargo
 }
