@@ -15,7 +15,7 @@ struct Task {
     packages: &'static [&'static str],
 }
 
-const TASKS: [Task; 8] = [
+const TASKS: [Task; 9] = [
     Task {
         name: "report",
         about: "Measure this machine: the paper's tables first, then everything beyond them",
@@ -41,6 +41,11 @@ const TASKS: [Task; 8] = [
         name: "asm",
         about: "Check that no SIMD intrinsic is called out of line in the release binaries",
         packages: &["xtask-asm"],
+    },
+    Task {
+        name: "outside",
+        about: "Compare kernels that a crate outside of the workspace instantiates with those of the workspace",
+        packages: &["xtask-outside"],
     },
     Task {
         name: "fixtures",

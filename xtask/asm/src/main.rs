@@ -2,7 +2,7 @@
 //!
 //! A helper that is generic over the lanes but not `#[inline(always)]` is compiled without the backend's features, so
 //! each intrinsic in it becomes a call to a function of one instruction. That costs up to a factor of 75. No compiler
-//! warns about it, but the function leaves a symbol.
+//! warns about it, but the function leaves a symbol. A multiply-add of single floats becomes a call of the C library.
 #![forbid(unsafe_code)]
 
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use std::process::Command;
 
 use anyhow::{Context, bail, ensure};
 use clap::Parser;
-use object::{Object, ObjectSymbol, SymbolKind};
+use object::{Architecture, Object, ObjectSymbol, SymbolKind};
 
 /// The package that calls kernels in every way, and the one that users run.
 const PACKAGES: [&str; 2] = ["xtask-report", "lobe-cli"];
@@ -98,6 +98,11 @@ impl Symbols {
         let bytes = std::fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))?;
         let file = object::File::parse(&*bytes).with_context(|| format!("{}: not an object file", path.display()))?;
         let mut symbols = Symbols::default();
+        // Functions of other libraries are symbols without a kind.
+        if file.architecture() == Architecture::X86_64 {
+            let names = file.symbols().chain(file.dynamic_symbols()).filter_map(|symbol| symbol.name().ok());
+            symbols.out_of_line.extend(names.filter(|name| is_slow_multiply_add(name)).map(String::from));
+        }
         for symbol in file.symbols().filter(|symbol| symbol.kind() == SymbolKind::Text) {
             symbols.functions += 1;
             symbols.sort_in(symbol.name().unwrap_or_default());
@@ -108,6 +113,7 @@ impl Symbols {
         Ok(symbols)
     }
 
+    /// Sorts in the name of a function.
     fn sort_in(&mut self, mangled: &str) {
         let name = format!("{:#}", rustc_demangle::demangle(mangled));
         if !name.contains("core_arch::") {
@@ -122,6 +128,12 @@ impl Symbols {
             self.detection.push(name);
         }
     }
+}
+
+/// What a multiply-add of floats becomes where the processor is not known to have one: a function that computes it bit by bit.
+fn is_slow_multiply_add(name: &str) -> bool {
+    // Linkers add the version of the library.
+    name.split('@').next() == Some("fmaf")
 }
 
 #[cfg(test)]
@@ -139,6 +151,13 @@ mod tests {
         symbols.sort_in("_ZN4core9core_arch3x865xsave7_xgetbv17h0123456789abcdefE");
         symbols.sort_in("_ZN8lobe_avx5lanes6_mm_no17h0123456789abcdefE");
         assert_eq!((symbols.out_of_line.len(), symbols.detection.len()), (3, 1), "{symbols:?}");
+    }
+
+    #[test]
+    fn multiply_adds_by_a_function_are_found() {
+        for (name, found) in [("fmaf", true), ("fmaf@GLIBC_2.2.5", true), ("fma", false), ("xfmaf", false)] {
+            assert_eq!(is_slow_multiply_add(name), found, "{name}");
+        }
     }
 
     #[test]
