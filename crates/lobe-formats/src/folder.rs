@@ -1,0 +1,45 @@
+//! Folders of files that are one material: formats with one incident direction a file.
+
+use std::path::{Path, PathBuf};
+
+use lobe_files::unpacked;
+
+use crate::{Document, Format, FormatError, Place, sniff};
+
+/// Reads the files of a folder that are of a format with one incident direction a file, as one material. Other files are let
+/// be, and so are folders in it.
+///
+/// # Errors
+/// [`FormatError`] if the folder or a file cannot be read, if there is no such file, or if there are files of several such
+/// formats.
+pub(crate) fn open(folder: &Path) -> Result<(Format, Document), FormatError> {
+    let failed = |path: &Path, error: std::io::Error| {
+        FormatError::new(path, Place::File, error.to_string(), "files that can be read")
+    };
+    let mut paths = Vec::new();
+    for entry in folder.read_dir().map_err(|error| failed(folder, error))? {
+        paths.push(entry.map_err(|error| failed(folder, error))?.path());
+    }
+    paths.sort();
+    let mut found: Option<(Format, Vec<(PathBuf, Vec<u8>)>)> = None;
+    for path in paths.into_iter().filter(|path| path.is_file()) {
+        let bytes = std::fs::read(&path).map_err(|error| failed(&path, error))?;
+        let bytes = unpacked(&bytes, &path)?.bytes.into_owned();
+        let Some(format) = sniff(&bytes).filter(|format| format.spec().read_set.is_some()) else { continue };
+        let (first, files) = found.get_or_insert_with(|| (format, Vec::new()));
+        if *first != format {
+            let found = format!("files of {first} and of {format}");
+            return Err(FormatError::new(folder, Place::File, found, "those of one material"));
+        }
+        files.push((path, bytes));
+    }
+    let sets = || Format::ALL.iter().filter_map(|format| Some((format, format.spec().read_set?)));
+    let found = found.and_then(|(format, files)| Some((format, files, format.spec().read_set?)));
+    let Some((format, files, read_set)) = found else {
+        let names: Vec<&str> = sets().map(|(format, _)| format.name()).collect();
+        let expected = format!("files of a format with one incident direction a file: {}", names.join(" or "));
+        return Err(FormatError::new(folder, Place::File, "a folder without such files", expected));
+    };
+    let document = Document { format: Some(format.name()), ..read_set(&files)? };
+    Ok((format, document.printable()))
+}
