@@ -27,6 +27,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     extensions: &["npz"],
     matches: |_| false,
     read: None,
+    read_set: None,
     writer: Some(Writer {
         extensions: &["npz"],
         holds_channels: |_| true,
@@ -204,6 +205,17 @@ impl Arrays {
                 }
                 let shape: Vec<usize> = knots.iter().map(Vec::len).chain([4, 4]).collect();
                 self.floats("M", &shape, mueller.values())
+            }
+            Data::Fourier(fourier) => {
+                let parts = fourier.parts();
+                let knots = parts.mu.len();
+                self.text("kind", "fourier")?;
+                self.channels(&parts.channels)?;
+                self.doubles("eta", &[1], &[f64::from(parts.eta)])?;
+                self.floats("mu", &[knots], &parts.mu)?;
+                let series = parts.series.iter().flat_map(|series| [f64::from(series.start), f64::from(series.count)]);
+                self.doubles("series", &[knots, knots, 2], &series.collect::<Vec<f64>>())?;
+                self.floats("coefficients", &[parts.coefficients.len()], &parts.coefficients)
             }
             Data::Window(window) => self.window(window),
             other => Err(io::Error::new(io::ErrorKind::InvalidInput, other.representation().kind().name())),

@@ -7,6 +7,7 @@
 //! - [`spherical`]: a grid of spherical coordinates of both directions;
 //! - [`scattered`]: any number of directions, on no grid;
 //! - [`rgl`]: the adaptive parameterisation of the EPFL database;
+//! - [`fourier`]: cosine series of the azimuth, between knots of both polar angles;
 //! - [`half_diff`]: a grid of half and difference angles, as in the MERL database;
 //! - [`mueller`]: matrices of polarised reflection over half and difference angles;
 //! - [`utia`]: the grid of the UTIA database;
@@ -21,6 +22,7 @@
 //!
 //! | feature | the `Table` of |
 //! |---|---|
+//! | `fourier` | [`fourier`] |
 //! | `half-diff` | [`half_diff`] |
 //! | `mueller` | [`mueller`] |
 //! | `rgl` | [`rgl`] |
@@ -34,6 +36,7 @@
 // Without some of the kernels, some of what they share is left over.
 #![cfg_attr(
     not(all(
+        feature = "fourier",
         feature = "half-diff",
         feature = "mueller",
         feature = "rgl",
@@ -48,6 +51,7 @@ pub mod bsdf;
 pub mod data;
 mod direction;
 mod directions;
+pub mod fourier;
 mod grid;
 pub mod half_diff;
 mod invalid;

@@ -54,6 +54,8 @@ representations! {
     Mueller(crate::mueller::Data),
     /// The grid of the UTIA database.
     Utia(crate::utia::Data),
+    /// Cosine series of the azimuth.
+    Fourier(crate::fourier::Data),
     /// Klems matrices or tensor trees of the two sides of a sheet.
     Window(crate::window::Data),
     /// The mirror reflectance, or the transmittance straight through, of a smooth surface.

@@ -77,6 +77,7 @@
 //! | feature | what it adds |
 //! |---|---|
 //! | `rayon` | large batches are shared among the threads of the current rayon pool |
+//! | `fourier` | cosine series of the azimuth |
 //! | `half-diff` | grids of half and difference angles, as in the MERL database |
 //! | `json` | files in JSON: OpenMaterial, and one's own tables |
 //! | `mueller` | Mueller matrices |
