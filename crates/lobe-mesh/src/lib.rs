@@ -1,6 +1,6 @@
 //! Triangle meshes to show measured materials on.
 //!
-//! [`read`] opens PLY, OBJ and glTF files; [`shapes`] makes a sphere, a plane, a disk, a cuboid and tubes; [`generate`]
+//! [`read`] opens PLY, OBJ, glTF and Mitsuba's serialized files; [`shapes`] makes a sphere, a plane, a disk, a cuboid and tubes; [`generate`]
 //! makes the scenes of the previews: a draped cloth, a material ball, a knot. All of them give a [`Geometry`], whose
 //! [`complete`](Geometry::complete) adds the normals and tangents that are missing, and whose
 //! [`refined`](Geometry::refined) cuts coarse triangles into finer ones.
@@ -29,6 +29,7 @@ pub mod ply;
 mod polygon;
 mod read;
 mod refine;
+pub mod serialized;
 pub mod shapes;
 mod tangents;
 

@@ -2,26 +2,35 @@
 
 use std::path::Path;
 
-use lobe_files::FormatError;
+use lobe_files::{FormatError, Unpacked, beginning, content, is_web_page, unpacked};
 
-use crate::{Geometry, file, gltf, obj, ply};
+use crate::{Geometry, file, gltf, obj, ply, serialized};
 
-/// Reads a mesh: PLY and binary glTF by their first bytes, glTF and OBJ by the name of the file (`.gltf`, `.obj`).
+/// Reads a mesh: PLY, binary glTF and meshes of Mitsuba (`.serialized`) by their first bytes, glTF and OBJ by the name of the
+/// file (`.gltf`, `.obj`). All of them may be packed with gzip.
 ///
 /// Normals and tangents that the file has not are not added; [`Geometry::complete`] does.
 ///
 /// # Errors
 /// The file cannot be read, is of another format, or is wrong; the error says where and what was expected.
 pub fn read(path: &Path) -> Result<Geometry, FormatError> {
-    let bytes = file::bytes(path)?;
-    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+    let packed = file::bytes(path)?;
+    let Unpacked { bytes, name } = unpacked(&packed, path)?;
+    let extension = name.extension().unwrap_or_default().to_ascii_lowercase();
+    let is_page = is_web_page(&bytes);
     if bytes.starts_with(b"ply") {
         ply::parse(path, &bytes)
+    } else if bytes.starts_with(&serialized::MAGIC) {
+        serialized::parse(path, &bytes)
     } else if bytes.starts_with(b"glTF") || extension == "gltf" {
         gltf::parse(path, &bytes)
-    } else if extension == "obj" {
+    } else if extension == "obj" && !is_page && !bytes.starts_with(b"version https://git-lfs") {
         obj::parse(path, &bytes)
     } else {
-        Err(file::wrong(path, "a file of another kind", "PLY, OBJ (.obj) or glTF (.gltf, .glb)"))
+        const EXPECTED: &str = "a mesh: PLY, OBJ (.obj), glTF (.gltf, .glb) or of Mitsuba (.serialized)";
+        Err(match content(&bytes, &name) {
+            Some(content) => file::wrong(path, content.what.as_str(), content.expected(EXPECTED)),
+            None => file::wrong(path, format!("a file of another kind, {}", beginning(&bytes)), EXPECTED),
+        })
     }
 }

@@ -5,4 +5,5 @@ mod drape;
 mod gltf;
 mod obj;
 mod ply;
+mod serialized;
 mod shapes;
