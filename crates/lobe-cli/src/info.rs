@@ -17,7 +17,7 @@ use crate::message;
   lobe info --json sensor.bsdf | jq '.parts[0].axes'
 
 The format is recognised by its content. Only whether Integra files are of reflection or transmission is decided by their extension: .ddt and .sdt are transmission.
-A folder is read as the RPC Photonics files in it, which are one material.")]
+Files packed with gzip are read as what is in them. A folder is read as the files in it that have one incident direction each (RPC Photonics, pab), which are one material.")]
 pub struct Args {
     /// The file to show.
     file: PathBuf,

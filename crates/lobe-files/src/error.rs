@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use crate::printable;
+
 /// Where in a file something is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
@@ -16,7 +18,7 @@ pub enum Place {
 
 /// Why a file could not be read.
 ///
-/// Prints as `FILE:LINE: found X; expected Y` (`FILE: byte N: ...` in binary files).
+/// Prints as `FILE:LINE: found X; expected Y` (`FILE: byte N: ...` in binary files), with control characters escaped.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct FormatError {
     /// The file, as the caller named it.
@@ -56,13 +58,13 @@ pub fn sentence(found: &str, expected: &str) -> String {
 impl fmt::Display for FormatError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let FormatError { file, place, found, expected } = self;
-        write!(f, "{}", file.display())?;
+        write!(f, "{}", printable(&file.display().to_string()))?;
         match place {
             Place::File => write!(f, ": ")?,
             Place::Line(line) => write!(f, ":{line}: ")?,
             Place::Byte(byte) => write!(f, ": byte {byte}: ")?,
         }
-        f.write_str(&sentence(found, expected))
+        f.write_str(&printable(&sentence(found, expected)))
     }
 }
 

@@ -23,6 +23,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     extensions: &["dat"],
     matches,
     read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?).with_facts(facts(bytes)))),
+    read_set: None,
     writer: None,
 };
 

@@ -1,5 +1,8 @@
 //! What a file holds: the data, and what the file says about them.
 
+use std::borrow::Cow;
+
+use lobe_files::printable;
 use lobe_table::{Data, Side};
 
 /// What was found in a file, in the form in which it was measured.
@@ -82,6 +85,17 @@ impl Document {
     /// The same with facts of the header that were found before.
     pub(crate) fn with_facts(mut self, facts: Vec<(String, String)>) -> Self {
         self.source.extend(facts);
+        self
+    }
+
+    /// The same with names and facts that can be shown to people: see [`printable`](lobe_files::printable).
+    pub(crate) fn printable(mut self) -> Self {
+        let facts = self.source.iter_mut().flat_map(|(name, value)| [name, value]);
+        for text in facts.chain(self.parts.iter_mut().map(|part| &mut part.name)).chain(&mut self.notes) {
+            if let Cow::Owned(shown) = printable(text) {
+                *text = shown;
+            }
+        }
         self
     }
 

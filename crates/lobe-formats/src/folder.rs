@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use lobe_files::unpacked;
 
-use crate::{Document, Format, FormatError, Place, sniff};
+use crate::{Document, Format, FormatError, Place, plain, sniff};
 
 /// Reads the files of a folder that are of a format with one incident direction a file, as one material. Other files are let
 /// be, and so are folders in it.
@@ -23,8 +23,8 @@ pub(crate) fn open(folder: &Path) -> Result<(Format, Document), FormatError> {
     paths.sort();
     let mut found: Option<(Format, Vec<(PathBuf, Vec<u8>)>)> = None;
     for path in paths.into_iter().filter(|path| path.is_file()) {
-        let bytes = std::fs::read(&path).map_err(|error| failed(&path, error))?;
-        let bytes = unpacked(&bytes, &path)?.bytes.into_owned();
+        let bytes = lobe_files::read(&path)?;
+        let bytes = plain::text(&unpacked(&bytes, &path)?.bytes).into_owned();
         let Some(format) = sniff(&bytes).filter(|format| format.spec().read_set.is_some()) else { continue };
         let (first, files) = found.get_or_insert_with(|| (format, Vec::new()));
         if *first != format {
@@ -40,6 +40,5 @@ pub(crate) fn open(folder: &Path) -> Result<(Format, Document), FormatError> {
         let expected = format!("files of a format with one incident direction a file: {}", names.join(" or "));
         return Err(FormatError::new(folder, Place::File, "a folder without such files", expected));
     };
-    let document = Document { format: Some(format.name()), ..read_set(&files)? };
-    Ok((format, document.printable()))
+    Ok((format, read_set(&files)?))
 }

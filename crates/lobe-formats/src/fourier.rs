@@ -20,7 +20,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "fourier",
     extensions: &["bsdf"],
     matches,
-    read: Some(read),
+    read: Some(|bytes, path, _| read(bytes, path)),
     read_set: None,
     writer: None,
 };

@@ -24,6 +24,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     extensions: &["txt"],
     matches,
     read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?).with_facts(facts(bytes)))),
+    read_set: None,
     writer: None,
 };
 
@@ -34,6 +35,10 @@ pub(crate) static RPC: FormatSpec = FormatSpec {
     extensions: &["txt"],
     matches: matches_rpc,
     read: Some(|bytes, path, _| Ok(Document::new(read_rpc(bytes, path)?).with_facts(rpc_facts(bytes)))),
+    read_set: Some(|files| {
+        let facts = files.iter().flat_map(|(_, bytes)| rpc_facts(bytes)).collect();
+        Ok(Document::new(read_rpc_set(files)?).with_facts(facts))
+    }),
     writer: None,
 };
 
@@ -144,13 +149,6 @@ pub fn read_rpc_set<B: AsRef<[u8]>>(files: &[(PathBuf, B)]) -> Result<scattered:
 /// [`FormatError`] if the folder or a file cannot be read or none is an RPC file, and as in [`read_rpc_set`].
 pub fn read_rpc_folder(folder: &Path) -> Result<scattered::Data, FormatError> {
     read_rpc_set(&folder_files(folder)?)
-}
-
-/// As [`read_rpc_folder`], with the comments of all files.
-pub(crate) fn open_rpc_folder(folder: &Path) -> Result<Document, FormatError> {
-    let files = folder_files(folder)?;
-    let facts = files.iter().flat_map(|(_, bytes)| rpc_facts(bytes)).collect();
-    Ok(Document::new(read_rpc_set(&files)?).with_facts(facts))
 }
 
 /// The RPC files of a folder, by name.

@@ -47,6 +47,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     extensions: &["csv", "json", "txt", "tsv", "dat"],
     matches,
     read: Some(|bytes, path, options| read_with(bytes, path, options)),
+    read_set: None,
     writer: Some(Writer {
         extensions: &["csv"],
         holds_channels: |channels| !matches!(channels, Channels::Named(_)),

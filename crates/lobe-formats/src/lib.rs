@@ -8,12 +8,10 @@
 //!
 //! | feature | formats |
 //! |---|---|
-//! | `half-diff` | MERL |
 //! | `json` | OpenMaterial, and one's own tables in JSON |
 //! | `mueller` | `pbsdf` |
 //! | `rgl` | the EPFL database |
 //! | `spherical` | MDL |
-//! | `utia` | the UTIA database |
 //! | `window` | WINDOW XML |
 //!
 //! All of them are on by default. The other formats are always there.
@@ -21,12 +19,10 @@
 // Without some of the formats, some of what they share is left over.
 #![cfg_attr(
     not(all(
-        feature = "half-diff",
         feature = "json",
         feature = "mueller",
         feature = "rgl",
         feature = "spherical",
-        feature = "utia",
         feature = "window"
     )),
     allow(dead_code, unused_imports)
@@ -41,6 +37,8 @@ mod convert;
 pub mod cornell;
 mod document;
 mod facts;
+mod folder;
+pub mod fourier;
 pub mod fred;
 pub mod goniometer;
 pub mod integra;
@@ -49,12 +47,12 @@ mod lines;
 pub mod lumos;
 #[cfg(feature = "spherical")]
 pub mod mbsdf;
-#[cfg(feature = "half-diff")]
 pub mod merl;
 pub mod nist;
 pub mod npz;
 #[cfg(feature = "json")]
 pub mod openmaterial;
+pub mod pab;
 #[cfg(feature = "mueller")]
 pub mod pbsdf;
 mod plain;
@@ -71,7 +69,8 @@ pub mod ssdd;
 #[cfg(any(feature = "mueller", feature = "rgl"))]
 pub mod tensor;
 mod text;
-#[cfg(feature = "utia")]
+pub mod tracepro;
+mod unknown;
 pub mod utia;
 #[cfg(feature = "window")]
 pub mod window_xml;
@@ -85,5 +84,5 @@ pub use lobe_files::{FormatError, Place, write_whole};
 pub use reading::ReadOptions;
 pub use registry::{Format, from_bytes, from_bytes_with, open, open_with, read, read_with, sniff};
 pub use sheet::Sides;
-pub use spec::{FormatSpec, Read, Writer};
+pub use spec::{FormatSpec, Read, ReadSet, Writer};
 pub use text::nine_digits;

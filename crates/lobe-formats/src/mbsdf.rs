@@ -27,6 +27,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     extensions: &["mbsdf"],
     matches,
     read: Some(|bytes, path, _| Ok(Document::of_parts(read(bytes, path)?.into_parts()))),
+    read_set: None,
     writer: Some(Writer {
         extensions: &["mbsdf"],
         holds_channels: |channels| matches!(channels, Channels::Mono | Channels::Rgb),

@@ -7,7 +7,7 @@
 use crate::Document;
 use crate::bytes::Cursor;
 use crate::spec::{FormatSpec, Writer, reflection, unfit};
-use lobe_files::FormatError;
+use lobe_files::{Content, FormatError};
 use lobe_files::{unwritable, write_whole};
 use lobe_table::{Channels, Data, half_diff};
 use std::io;
@@ -20,6 +20,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     extensions: &["binary"],
     matches,
     read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?))),
+    read_set: None,
     writer: Some(Writer {
         extensions: &["binary"],
         holds_channels: |channels| matches!(channels, Channels::Rgb),
@@ -55,6 +56,62 @@ fn header(bytes: &[u8]) -> Option<([usize; 3], usize)> {
 /// Whether the size of the file is the one that its header implies. There is no signature.
 pub fn matches(bytes: &[u8]) -> bool {
     header(bytes).is_some_and(|(_, size)| size == bytes.len())
+}
+
+/// What a file is that looks like one of this format, but has another size than its header implies or another order of
+/// bytes.
+pub(crate) fn damaged(bytes: &[u8], name: &Path) -> Option<Content> {
+    const DATABASE: [[usize; 3]; 2] = [[90, 90, 180], [90, 90, 360]];
+    /// No material has more bins along an axis.
+    const MOST: usize = 4096;
+    let (found, len) = (grouped(bytes.len()), bytes.len());
+    let again = "The copy or download failed: fetch the file again";
+    if (4..HEADER).contains(&len) && DATABASE[0].map(|dim| (dim as i32).to_le_bytes()).concat().starts_with(bytes) {
+        let size = grouped(34_992_012);
+        return Some(Content {
+            what: format!("a MERL file cut short ({found} of {size} bytes)"),
+            advice: again.into(),
+        });
+    }
+    let is_named = name.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("binary"));
+    let is_likely = |bins: &[usize; 3]| bins.iter().all(|bins| *bins <= MOST) && (is_named || DATABASE.contains(bins));
+    if let Some((bins, size)) = header(bytes).filter(|(bins, _)| bins.iter().all(|bins| *bins <= MOST)) {
+        let values = (size - HEADER) / size_of::<f64>();
+        if len == HEADER + values * size_of::<f32>() {
+            let what = format!("a MERL file with values of 32 bits ({found} bytes instead of {})", grouped(size));
+            let advice =
+                "The database has values of 64 bits, and the scale of others is not known: write the values as f64";
+            return Some(Content { what, advice: advice.into() });
+        }
+        if is_likely(&bins) {
+            let how = if len < size { "cut short" } else { "with more bytes than its header says" };
+            let what = format!("a MERL file {how} ({found} of {} bytes)", grouped(size));
+            return Some(Content { what, advice: again.into() });
+        }
+    }
+    let swapped: Vec<u8> = bytes.get(..HEADER)?.chunks_exact(4).flat_map(|word| word.iter().rev().copied()).collect();
+    let (bins, size) = header(&swapped)?;
+    if bins.iter().any(|bins| *bins > MOST) || !(size == len || is_likely(&bins)) {
+        return None;
+    }
+    let cut = if size == len { String::new() } else { format!(", {found} of {} bytes", grouped(size)) };
+    let what = format!("a MERL file in big-endian order{cut}");
+    let advice =
+        "Reverse the bytes of its 32-bit header and of its 64-bit values; files of the database are little-endian";
+    Some(Content { what, advice: advice.into() })
+}
+
+/// A number with commas between thousands.
+pub(crate) fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut out = String::new();
+    for (at, digit) in digits.char_indices() {
+        if at > 0 && (digits.len() - at).is_multiple_of(3) {
+            out.push(',');
+        }
+        out.push(digit);
+    }
+    out
 }
 
 /// Reads a MERL material.

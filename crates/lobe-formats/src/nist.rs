@@ -21,6 +21,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     extensions: &["csv"],
     matches,
     read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?))),
+    read_set: None,
     writer: None,
 };
 

@@ -21,6 +21,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         let json = parse(bytes, path)?;
         Ok(Document::new(table(&json, path)?).with_facts(facts(&json)))
     }),
+    read_set: None,
     writer: None,
 };
 

@@ -25,7 +25,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "pab",
     extensions: &["txt", "dat"],
     matches,
-    read: Some(read),
+    read: Some(|bytes, path, _| read(bytes, path)),
     read_set: Some(read_set),
     writer: None,
 };

@@ -22,6 +22,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     extensions: &["pbsdf"],
     matches,
     read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?))),
+    read_set: None,
     writer: Some(Writer {
         extensions: &["pbsdf"],
         holds_channels: |channels| matches!(channels, Channels::Spectral(_)),

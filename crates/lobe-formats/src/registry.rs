@@ -3,20 +3,23 @@
 use std::fmt;
 use std::path::Path;
 
+use lobe_files::{Unpacked, is_web_page, unpacked};
+
 use crate::adjust::adjust;
 use crate::spec::{FormatSpec, Writer};
-use crate::{Document, FormatError, Place, ReadOptions, fred, goniometer, plain, sidecar};
+use crate::unknown::{is_other, unknown};
+use crate::{Document, FormatError, Place, ReadOptions, folder, goniometer, plain, sidecar};
 
 /// One entry per format: its variant, its static description, and the feature that it needs.
 macro_rules! formats {
-    ($($(#[$left_out:meta])? $variant:ident = $module:ident :: $spec:ident),* $(,)?) => {
+    ($($(#[$left_out:meta])? $variant:ident = $($path:ident)::+),* $(,)?) => {
         /// A file format.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         #[non_exhaustive]
         pub enum Format {
             $(
                 $(#[$left_out])?
-                #[doc = concat!("The format of the module `", stringify!($module), "`.")]
+                #[doc = concat!("The format of `", stringify!($($path)::+), "`.")]
                 $variant
             ),*
         }
@@ -29,7 +32,7 @@ macro_rules! formats {
             /// What the registry knows of the format.
             pub fn spec(self) -> &'static FormatSpec {
                 match self {
-                    $($(#[$left_out])? Format::$variant => &crate::$module::$spec),*
+                    $($(#[$left_out])? Format::$variant => &crate::$($path)::+),*
                 }
             }
         }
@@ -43,12 +46,12 @@ formats! {
     Rgl = rgl::FORMAT,
     #[cfg(feature = "spherical")]
     Mbsdf = mbsdf::FORMAT,
+    Fourier = fourier::FORMAT,
     #[cfg(feature = "window")]
     WindowXml = window_xml::FORMAT,
     Speos = speos::FORMAT,
-    #[cfg(feature = "half-diff")]
+    SpeosSurface = speos::surface::FORMAT,
     Merl = merl::FORMAT,
-    #[cfg(feature = "utia")]
     Utia = utia::FORMAT,
     Zemax = zemax::FORMAT,
     LightTools = light_tools::FORMAT,
@@ -58,6 +61,8 @@ formats! {
     OpenMaterial = openmaterial::FORMAT,
     Fred = fred::FORMAT,
     Rpc = fred::RPC,
+    Pab = pab::FORMAT,
+    TracePro = tracepro::FORMAT,
     Cornell = cornell::FORMAT,
     Alta = alta::FORMAT,
     Nist = nist::FORMAT,
@@ -102,10 +107,12 @@ pub fn sniff(bytes: &[u8]) -> Option<Format> {
 /// reflection or transmission are assumed to hold reflection; only for those of Integra does the extension decide: `.ddt` and
 /// `.sdt` are transmission. If there is a [sidecar], it says what the file leaves open.
 ///
-/// A folder is read as the RPC Photonics files in it, which are one material.
+/// A file that is packed with gzip is read as what is in it. A folder is read as the files in it that have one incident
+/// direction each (RPC Photonics, pab), which are one material.
 ///
 /// # Errors
-/// [`FormatError`] if the file or its sidecar cannot be read, is of no known format, or is damaged.
+/// [`FormatError`] if the file or its sidecar cannot be read, is of no known format, or is damaged. For files that are
+/// something else, it says what they are.
 pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
     open_with(path, &ReadOptions::default())
 }
@@ -117,13 +124,12 @@ pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
 pub fn open_with(path: &Path, options: &ReadOptions) -> Result<(Format, Document), FormatError> {
     let options = options.clone().or(sidecar::find(path)?);
     if path.is_dir() {
-        let document = fred::open_rpc_folder(path)?;
-        let document = adjusted(document, Format::Rpc, path, &options)?;
-        return Ok((Format::Rpc, Document { format: Some(Format::Rpc.name()), ..document }));
+        let (format, document) = folder::open(path)?;
+        let document = adjusted(document, format, path, &options)?;
+        return Ok((format, Document { format: Some(format.name()), ..document }.printable()));
     }
     let bytes = lobe_files::read(path)?;
-    let format = recognised(&bytes, path, &options)?;
-    Ok((format, read_with(format, &bytes, path, &options)?))
+    read_any(&bytes, path, &options)
 }
 
 /// Reads the content of a file in memory, whatever its format. `path` names it in errors, and its extension counts as in
@@ -140,28 +146,38 @@ pub fn from_bytes(bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
 /// # Errors
 /// As [`open_with`].
 pub fn from_bytes_with(bytes: &[u8], path: &Path, options: &ReadOptions) -> Result<Document, FormatError> {
-    read_with(recognised(bytes, path, options)?, bytes, path, options)
+    Ok(read_any(bytes, path, options)?.1)
 }
 
-fn recognised(bytes: &[u8], path: &Path, options: &ReadOptions) -> Result<Format, FormatError> {
-    let is_table = || !options.of_tables().is_empty() || goniometer::may_be(bytes);
-    sniff(bytes).or_else(|| is_table().then_some(Format::Goniometer)).ok_or_else(|| {
-        let readable = Format::ALL.iter().filter(|format| format.spec().read.is_some());
-        let known: Vec<&str> = readable.map(Format::name).collect();
-        let expected = format!("one of {}{}", known.join(", "), left_out());
-        FormatError::new(path, Place::File, "content of no known format", expected)
-    })
+fn read_any(bytes: &[u8], path: &Path, options: &ReadOptions) -> Result<(Format, Document), FormatError> {
+    let Unpacked { bytes: content, name } = unpacked(bytes, path)?;
+    let found = match recognised(&content, options) {
+        Some(format) => read_with(format, &content, &name, options).map(|document| (format, document)),
+        None => {
+            let error = unknown(&content, &name, name != path);
+            Err(FormatError { expected: error.expected + &left_out(), ..error })
+        }
+    };
+    found.map_err(|error| FormatError { file: path.into(), ..error })
+}
+
+/// The format of content that may be a table, if the options say so or it looks like one.
+fn recognised(content: &[u8], options: &ReadOptions) -> Option<Format> {
+    // The page that shows a file has the words of the file in it.
+    if is_web_page(content) {
+        return None;
+    }
+    let is_table = || !options.of_tables().is_empty() || (goniometer::may_be(content) && !is_other(content));
+    sniff(content).or_else(|| is_table().then_some(Format::Goniometer))
 }
 
 /// What a program that was built without some formats says when it recognises none.
 fn left_out() -> String {
     let features = [
-        ("half-diff", cfg!(feature = "half-diff")),
         ("json", cfg!(feature = "json")),
         ("mueller", cfg!(feature = "mueller")),
         ("rgl", cfg!(feature = "rgl")),
         ("spherical", cfg!(feature = "spherical")),
-        ("utia", cfg!(feature = "utia")),
         ("window", cfg!(feature = "window")),
     ];
     let left_out: Vec<&str> = features.into_iter().filter(|(_, is_built)| !is_built).map(|(name, _)| name).collect();
@@ -195,7 +211,7 @@ pub fn read_with(format: Format, bytes: &[u8], path: &Path, options: &ReadOption
         ));
     };
     let document = read(&plain::text(bytes), path, options)?;
-    Ok(Document { format: Some(spec.name), ..adjusted(document, format, path, options)? })
+    Ok(Document { format: Some(spec.name), ..adjusted(document, format, path, options)? }.printable())
 }
 
 /// The values as the options say that they are.

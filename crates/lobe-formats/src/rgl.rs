@@ -26,6 +26,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         let description = data.parts().description.clone();
         Ok(Document::new(data).with_source(&[("description", &description)]))
     }),
+    read_set: None,
     writer: Some(Writer {
         extensions: &["bsdf"],
         holds_channels: |channels| matches!(channels, Channels::Rgb | Channels::Spectral(_)),

@@ -1,6 +1,6 @@
 //! What the registry knows of a format; each is in the module of its format.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use lobe_table::{Channels, Kind, Scatter};
 
@@ -19,6 +19,8 @@ pub struct FormatSpec {
     pub matches: fn(&[u8]) -> bool,
     /// Reads the content of a file, which the path names in errors; `None` if the format is only written.
     pub read: Option<Read>,
+    /// Reads the files of a folder as one material, for formats with one incident direction a file.
+    pub read_set: Option<ReadSet>,
     /// How it is written; `None` if it is only read.
     pub writer: Option<Writer>,
 }
@@ -26,6 +28,9 @@ pub struct FormatSpec {
 /// Makes a document of the content of a file, which the path names in errors. Of the options, readers look only at what
 /// their format leaves open: quantities and scales are applied to what they return, but for tables with named columns.
 pub type Read = fn(&[u8], &Path, &ReadOptions) -> Result<Document, FormatError>;
+
+/// Makes a document of files, each with the path that names it in errors.
+pub type ReadSet = fn(&[(PathBuf, Vec<u8>)]) -> Result<Document, FormatError>;
 
 /// How a format is written.
 #[derive(Debug)]

@@ -4,9 +4,9 @@
 
 use crate::Document;
 use crate::bytes::Cursor;
+use crate::merl::grouped;
 use crate::spec::{FormatSpec, Writer, reflection, unfit};
-use lobe_files::FormatError;
-use lobe_files::write_whole;
+use lobe_files::{Content, FormatError, write_whole};
 use lobe_table::utia::{self, PLANE};
 use lobe_table::{Channels, Data};
 use std::path::Path;
@@ -21,6 +21,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         let unit = ("unit", "not documented; values are as they are stored");
         Ok(Document::new(read(bytes, path)?).with_source(&[unit]))
     }),
+    read_set: None,
     writer: Some(Writer {
         extensions: &["bin"],
         holds_channels: |channels| matches!(channels, Channels::Rgb),
@@ -41,6 +42,27 @@ const SIZE: usize = 3 * PLANE * size_of::<f64>();
 /// Whether the file has the size of a UTIA file, which is the only way to recognise it.
 pub fn matches(bytes: &[u8]) -> bool {
     bytes.len() == SIZE
+}
+
+/// What a file is that may be one of this format of another size: the format has no signature, but an extension, and 64-bit
+/// numbers of a size that values have.
+pub(crate) fn damaged(bytes: &[u8], name: &Path) -> Option<Content> {
+    const LOOKED_AT: usize = 4096;
+    let is_named = name.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("bin"));
+    let (numbers, _) = bytes.as_chunks();
+    let is_value = |bytes: &[u8; 8]| {
+        let value = f64::from_le_bytes(*bytes).abs();
+        value == 0.0 || (1e-9..1e6).contains(&value)
+    };
+    let values = numbers.iter().take(LOOKED_AT).filter(|bytes| is_value(bytes)).count();
+    if !is_named || values < 2 || values * 10 < numbers.len().min(LOOKED_AT) * 9 {
+        return None;
+    }
+    let how = if bytes.len() < SIZE { "cut short" } else { "with more bytes" };
+    Some(Content {
+        what: format!("what may be a UTIA file {how} ({} of {} bytes)", grouped(bytes.len()), grouped(SIZE)),
+        advice: "If it is, fetch the file again; other files of numbers need names of columns (CSV)".into(),
+    })
 }
 
 /// Reads a UTIA material.

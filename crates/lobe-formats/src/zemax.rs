@@ -26,6 +26,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     extensions: &["bsdf"],
     matches: |bytes| has_words(bytes, "#", &["ScatterRadial", "AngleOfIncidence"]),
     read: Some(|bytes, path, _| Ok(read(bytes, path)?.into())),
+    read_set: None,
     writer: Some(Writer {
         extensions: &["bsdf"],
         holds_channels: |channels| matches!(channels, Channels::Mono | Channels::Xyz),

@@ -37,6 +37,21 @@ pub const FRED: &str = "type bsdf_data\nformat angles=deg bsdf=value scale=1\n10
         20 10 1\n20 350 1\n";
 /// An RPC Photonics file with its first lines.
 pub const RPC: &str = "!!EDS 5-15\n!!BSDF Data\n5.000\t15.000\n0 0 18\n0 90 18\n5 15 20\n10 0 3\n7 0\n0 0 18\n1 0 17\n";
+/// A file of a gonio-photometer of pab, with both sides, as f times the cosine.
+pub const PAB: &str = "#pgII\n#sample_name \"made here\"\n#incident_angle 30 0\n#upphi 90\n#datapoints_in_file: 6\n\
+        #format: theta phi DSF\n0 0 0.3\n30 180 0.8\n60 90 0.1\n180 0 0.05\n150 180 0.2\n120 90 0.01\n";
+/// A surface property of TracePro with a table.
+pub const TRACE_PRO: &str = "TracePro Surface Property Data\nName\tmade\nScatter 5\n\n\
+        Temperature\tWavelength\tIncAngle\tAziAngle\tAbso_S\tAbso_P\tRefl_S\tRefl_P\n300 0.55 0 0 0.1 0.1 0.2 0.4\n\
+        300 0.55 30 0 0.1 0.1 0.3 0.5\nTable_BSDF_Data\n\
+        Temperature Wavelength IncAngle AziAngle ScatterBeta ScatterAzimuth BRDF BTDF\n300 0.55 0 0 0 0 0.3 0\n\
+        300 0.55 0 0 0.5 0 0.2 0\n300 0.55 0 0 1 0 0.1 0\n300 0.55 30 0 0 0 0.3 0\n300 0.55 30 0 0.4 0 0.2 0\n\
+        300 0.55 30 0 0.4 180 0.2 0\nSAVE-DATA\n";
+/// A simple scattering surface of Speos.
+pub const SPEOS_SIMPLE: &str = "OPTIS - Simple scattering surface file v2.0\r\nmade here\r\nReflection\r\n30 60 0 15\r\n";
+/// A coating of Speos.
+pub const SPEOS_COATED: &str = "OPTIS - Coated surface file v1.0\nExample\n2 2\n\t480\t\t580\t\t\n0\t32\t68\t2\t98\t\n\
+        \t28\t72\t6\t94\t\n90\t100\t0\t100\t0\t\n\t100\t0\t100\t0\t\n";
 /// A lumos-sat file.
 pub const LUMOS: &str = "# Name\n#\n# phi_in theta_in phi_out theta_out brdf\n45 180 -20 0 0.1\n45 180 45 0 9\n45 180 60 0 1\n\
         60 180 60 0 9\n60 180 70 0 2\n";
@@ -153,6 +168,33 @@ pub fn tiny_merl() -> Vec<u8> {
     merl::to_bytes(&half_diff::Data::new([2, 1, 3], vec![0.5; 18]).expect("a valid material")).expect("bytes")
 }
 
+/// A small Fourier BSDF: three channels, two series of several coefficients, and metadata.
+pub fn tiny_fourier() -> Vec<u8> {
+    let mu = [-1.0_f32, -0.5, 0.0, 0.0, 0.5, 1.0];
+    let (knots, metadata) = (mu.len(), b"{ \"made\": \"here\" }");
+    let coefficients: Vec<f32> = (0..15).map(|at| 0.5 / (1 + at % 3) as f32).collect();
+    let mut bytes = b"SCATFUN\x01".to_vec();
+    for number in [1, knots as i32, coefficients.len() as i32, 3, 3, 1, metadata.len() as i32, 0, 0] {
+        bytes.extend(number.to_le_bytes());
+    }
+    let floats = |bytes: &mut Vec<u8>, floats: &[f32]| floats.iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+    floats(&mut bytes, &[1.5, 0.0, 0.0, 0.0, 0.0]);
+    floats(&mut bytes, &mu);
+    floats(&mut bytes, &vec![0.0; knots * knots]);
+    for at in 0..knots * knots {
+        // Light that travels down and is reflected, and some that passes.
+        let series = match (mu[at / knots] > 0.0, mu[at % knots] < 0.0) {
+            (true, true) => [0_i32, 3],
+            (false, true) => [9, 2],
+            _ => [0, 0],
+        };
+        series.iter().for_each(|number| bytes.extend(number.to_le_bytes()));
+    }
+    floats(&mut bytes, &coefficients);
+    bytes.extend(metadata);
+    bytes
+}
+
 /// A small MDL file with two sides.
 pub fn tiny_mbsdf() -> Vec<u8> {
     let side = |scatter, phis: &[f64]| {
@@ -177,6 +219,10 @@ pub fn all() -> Vec<(Format, Vec<u8>)> {
         (Format::Cornell, CORNELL.into()),
         (Format::Fred, FRED.into()),
         (Format::Rpc, RPC.into()),
+        (Format::Pab, PAB.into()),
+        (Format::SpeosSurface, SPEOS_SIMPLE.into()),
+        (Format::SpeosSurface, SPEOS_COATED.into()),
+        (Format::TracePro, TRACE_PRO.into()),
         (Format::Lumos, LUMOS.into()),
         (Format::Alta, ALTA.into()),
         (Format::OpenMaterial, OPEN_MATERIAL.into()),
@@ -194,6 +240,7 @@ pub fn all() -> Vec<(Format, Vec<u8>)> {
         (Format::Pbsdf, tiny_pbsdf()),
         (Format::Merl, tiny_merl()),
         (Format::Mbsdf, tiny_mbsdf()),
+        (Format::Fourier, tiny_fourier()),
     ];
     texts.into_iter().map(|(format, text): (_, String)| (format, text.into_bytes())).chain(binaries).collect()
 }

@@ -28,11 +28,11 @@ const BASE: usize = 1 << 16;
 fn bytes_per_byte(format: Format) -> usize {
     match format {
         // Bytes of a file are bytes of values, and are copied once or twice.
-        Format::Pbsdf | Format::Rgl | Format::Mbsdf | Format::Merl | Format::Utia => 16,
+        Format::Pbsdf | Format::Rgl | Format::Mbsdf | Format::Merl | Format::Utia | Format::Fourier => 16,
         // Two characters of text become a number, of which there are a few copies.
         Format::WindowXml | Format::Zemax | Format::LightTools | Format::Ssdd | Format::Ddr | Format::Sdr => 64,
-        // A sample is kept once per wavelength, at most 64 times per byte; see the reader.
-        Format::Speos => 2048,
+        // A sample is kept once per wavelength, at most 64 times per byte; see the reader. A row becomes two rings of samples.
+        Format::Speos | Format::TracePro => 2048,
         // A line becomes a vertex of a triangulation with its edges and triangles.
         _ => 256,
     }
@@ -92,6 +92,7 @@ fn evaluate_data(data: &Data) {
         Data::Mueller(data) => each(|wi, wo| {
             data.eval(wi, wo, 550.0);
         }),
+        Data::Fourier(data) => each(|wi, wo| drop(data.eval(wi, wo))),
         Data::Window(data) => each(|wi, wo| {
             for band in &data.bands {
                 band.window.eval(wi, wo);

@@ -28,6 +28,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     extensions: &["ddr", "ddt"],
     matches,
     read: Some(|bytes, path, _| Ok(read(bytes, path, scatter_of_extension(path))?.into())),
+    read_set: None,
     writer: Some(Writer {
         extensions: &["ddr", "ddt"],
         holds_channels,

@@ -25,6 +25,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     extensions: &["sdr", "sdt"],
     matches,
     read: Some(|bytes, path, _| Ok(read(bytes, path, scatter_of_extension(path))?.into())),
+    read_set: None,
     writer: Some(Writer {
         extensions: &["sdr", "sdt"],
         holds_channels,

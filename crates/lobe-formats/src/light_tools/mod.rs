@@ -28,6 +28,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     extensions: &["bsdf"],
     matches,
     read: Some(|bytes, path, _| read(bytes, path)),
+    read_set: None,
     writer: None,
 };
 

@@ -9,6 +9,7 @@
 
 mod anisotropic;
 mod brdf;
+pub mod surface;
 mod table;
 
 use std::path::Path;
@@ -27,6 +28,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     extensions: &["brdf", "anisotropicbsdf"],
     matches,
     read: Some(|bytes, path, _| Ok(Document::of_parts(read(bytes, path)?.into_parts()))),
+    read_set: None,
     writer: None,
 };
 
@@ -53,7 +55,12 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Sides<scattered::Data>, FormatE
     };
     match source.line("0, text")?.trim() {
         "0" => {}
-        "1" => return Err(source.error("mode 1, binary", "mode 0, text: the binary form is not public")),
+        // Binary data follow the line, or stand in it.
+        mode if mode.starts_with('1') && !mode[1..].starts_with(|c: char| c.is_ascii_digit()) => {
+            let expected =
+                "mode 0, text. The binary form is not public: save the file as text, in the BSDF viewer of Speos";
+            return Err(source.error("mode 1, the binary form", expected));
+        }
         other => return Err(source.error(shown(other), "mode 0, text")),
     }
     source.line("a comment")?;

@@ -24,7 +24,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "speos-surface",
     extensions: &["simplescattering", "coated"],
     matches,
-    read: Some(read),
+    read: Some(|bytes, path, _| read(bytes, path)),
     read_set: None,
     writer: None,
 };

@@ -22,6 +22,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     extensions: &["ssdd"],
     matches,
     read: Some(|bytes, path, _| Ok(Document::of_parts(read(bytes, path)?))),
+    read_set: None,
     writer: Some(Writer {
         extensions: &["ssdd"],
         holds_channels: |channels| {

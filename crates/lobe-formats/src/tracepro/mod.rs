@@ -28,7 +28,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "tracepro",
     extensions: &["txt"],
     matches,
-    read: Some(read),
+    read: Some(|bytes, path, _| read(bytes, path)),
     read_set: None,
     writer: None,
 };

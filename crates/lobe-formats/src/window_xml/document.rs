@@ -8,6 +8,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::rc::Rc;
 
+use lobe_files::printable;
 use lobe_table::window::klems::{AngleBasis, KlemsMatrix};
 use lobe_table::window::tensor_tree::{Rank, TensorTree};
 use lobe_table::window::{Band, Block, Blocks, Component, Data};
@@ -255,7 +256,7 @@ impl<'a> Document<'a> {
         let component = self.component(block, values)?;
         let bands = &mut self.data.bands;
         let band = *self.bands.entry(wavelength.to_ascii_lowercase()).or_insert_with(|| {
-            bands.push(Band { wavelength: wavelength.to_string(), window: Blocks::default() });
+            bands.push(Band { wavelength: printable(wavelength).into_owned(), window: Blocks::default() });
             bands.len() - 1
         });
         if bands[band].window.set(direction, component).is_some() {

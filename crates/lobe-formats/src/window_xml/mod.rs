@@ -27,6 +27,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     extensions: &["xml"],
     matches,
     read: Some(|bytes, path, _| Ok(read(bytes, path)?.into())),
+    read_set: None,
     writer: Some(Writer {
         extensions: &["xml"],
         holds_channels: |channels| matches!(channels, Channels::Mono | Channels::Xyz | Channels::Named(_)),

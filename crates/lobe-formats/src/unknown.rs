@@ -1,0 +1,65 @@
+//! Files that are none of those that are read: what they are, and what to do.
+
+use std::path::Path;
+
+use lobe_files::{Content, beginning, content};
+
+use crate::{Format, FormatError, Place, merl, utia};
+
+/// The error for a file of no known format. `bytes` are its content, which was packed if `is_packed`; `name` is that of the
+/// content.
+pub(crate) fn unknown(bytes: &[u8], name: &Path, is_packed: bool) -> FormatError {
+    let known = merl::damaged(bytes, name)
+        .or_else(|| speos(bytes))
+        .or_else(|| zernike(bytes))
+        .or_else(|| content(bytes, name))
+        .or_else(|| utia::damaged(bytes, name));
+    let (found, expected) = match known {
+        Some(content) => {
+            let expected = content.expected("a measured material");
+            (content.what, expected)
+        }
+        None => {
+            let readable = Format::ALL.iter().filter(|format| format.spec().read.is_some());
+            let known: Vec<&str> = readable.map(Format::name).collect();
+            (format!("content of no known format, {}", beginning(bytes)), format!("one of {}", known.join(", ")))
+        }
+    };
+    let found = if is_packed { format!("gzip, and in it {found}") } else { found };
+    FormatError::new(name, Place::File, found, expected)
+}
+
+/// `true` for content that is known to be something else, whatever rows of numbers are in it.
+pub(crate) fn is_other(bytes: &[u8]) -> bool {
+    zernike(bytes).or_else(|| content(bytes, Path::new(""))).is_some()
+}
+
+/// The coefficients of NIST's expansion of PTFE in Zernike polynomials: lines of seven whole numbers and a coefficient, the
+/// first two of which count the elements of a Mueller matrix.
+fn zernike(bytes: &[u8]) -> Option<Content> {
+    const LINES: usize = 4;
+    let head = std::str::from_utf8(&bytes[..bytes.len().min(1 << 10)]).unwrap_or_default();
+    let is_row = |line: &str| {
+        let words: Vec<&str> = line.split(',').map(str::trim).collect();
+        let [indices @ .., coefficient] = words.as_slice() else { return false };
+        let numbers: Option<Vec<i32>> = indices.iter().map(|word| word.parse().ok()).collect();
+        let is_element = |index: &i32| (1..=4).contains(index);
+        coefficient.parse::<f64>().is_ok()
+            && numbers.is_some_and(|numbers| numbers.len() == 7 && numbers[..2].iter().all(is_element))
+    };
+    let lines: Vec<&str> = head.lines().take(LINES).collect();
+    (lines.len() == LINES && lines.iter().all(|line| is_row(line))).then(|| Content {
+        what: "the coefficients of an expansion in Zernike polynomials (NIST, sintered PTFE)".into(),
+        advice: "They are a fit: read the measured values, which are published beside it (PTFE.data.csv)".into(),
+    })
+}
+
+/// The other files of Speos.
+fn speos(bytes: &[u8]) -> Option<Content> {
+    let line = bytes.strip_prefix(b"OPTIS - ").map(|_| bytes.split(|byte| *byte < b' ').next().unwrap_or_default())?;
+    let line = String::from_utf8_lossy(&line[..line.len().min(80)]).into_owned();
+    Some(Content {
+        what: format!("another file of Speos, `{line}`"),
+        advice: "Of Speos, surfaces with measured values are read: export a .brdf or .anisotropicbsdf as text".into(),
+    })
+}

@@ -1,0 +1,149 @@
+//! Files that are packed, damaged or something else, and what is said about them.
+
+use std::io::Write as _;
+use std::path::Path;
+
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use lobe_formats::{Document, Format, FormatError, Place, from_bytes, open};
+use lobe_table::Scatter;
+use lobe_testing::examples::{self, LIGHT_TOOLS, tiny_merl};
+
+fn gzip(bytes: &[u8]) -> Vec<u8> {
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::default());
+    encoder.write_all(bytes).expect("memory");
+    encoder.finish().expect("memory")
+}
+
+#[track_caller]
+fn refusal(bytes: &[u8], name: &str) -> FormatError {
+    let error = from_bytes(bytes, Path::new(name)).map(|_| ()).expect_err("a refusal");
+    assert_eq!(error.file, Path::new(name));
+    error
+}
+
+#[track_caller]
+fn refused(bytes: &[u8], name: &str, found: &str, expected: &str) {
+    let error = refusal(bytes, name);
+    assert!(error.found.contains(found) && error.expected.contains(expected), "{error}");
+}
+
+/// Comparable, and with all that was read.
+fn shown(document: &Document) -> String {
+    format!("{document:?}")
+}
+
+#[test]
+fn every_format_may_be_packed() {
+    for (format, bytes) in examples::all() {
+        let plain = from_bytes(&bytes, Path::new("a")).unwrap_or_else(|error| panic!("{format}: {error}"));
+        let packed = from_bytes(&gzip(&bytes), Path::new("a.gz")).unwrap_or_else(|error| panic!("{format}: {error}"));
+        assert_eq!(shown(&plain), shown(&packed), "{format}");
+    }
+    // The name of what is packed counts, and errors name the file.
+    let document = from_bytes(&gzip(examples::DDR.as_bytes()), Path::new("film.ddt.gz")).expect("a table");
+    assert_eq!(document.parts[0].data.representation().aspects()[0].scatter, Scatter::Transmission);
+    let error = refusal(&gzip(examples::DDR.replace("gre", "grx").as_bytes()), "film.ddt.gz");
+    assert!(matches!(error.place, Place::Line(line) if line > 5), "{error}");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("film.bsdf");
+    std::fs::write(&path, gzip(LIGHT_TOOLS.as_bytes())).expect("a file");
+    assert_eq!(open(&path).expect("a table").0, Format::LightTools);
+    refused(&gzip(LIGHT_TOOLS.as_bytes())[..100], "a.gz", "gzip that is cut short: 100 bytes", "again");
+    refused(&gzip(b"%PDF-1.4"), "a.gz", "gzip, and in it a PDF document", "a measured material");
+    refused(&gzip(b"hello"), "a.gz", "gzip, and in it content of no known format", "one of ");
+}
+
+#[test]
+fn merl_files_that_are_damaged_are_recognised() {
+    let database = [[90_i32, 90, 180], [90, 90, 360]];
+    for dims in database {
+        let head = dims.map(i32::to_le_bytes).concat();
+        let size = 12 + 24 * dims.iter().map(|dim| *dim as usize).product::<usize>();
+        let of = if dims[2] == 180 { "34,992,012" } else { "69,984,012" };
+        assert_eq!(size.to_string(), of.replace(',', ""));
+        for (len, found) in [(1012, "1,012"), (12, "12"), (size - 1, ""), (size + 1, "")] {
+            let mut bytes = head.clone();
+            bytes.resize(len, 1);
+            let how = if len < size { "cut short" } else { "with more bytes than its header says" };
+            refused(&bytes, "any.name", how, "fetch the file again");
+            refused(&bytes, "any.name", found, "");
+            refused(&bytes, "any.name", &format!(" of {of} bytes)"), "");
+        }
+        let mut swapped = dims.map(i32::to_be_bytes).concat();
+        swapped.resize(5000, 1);
+        refused(&swapped, "a", &format!("a MERL file in big-endian order, 5,000 of {of} bytes"), "Reverse");
+    }
+    refused(&[90, 0, 0, 0, 90], "a.binary", "a MERL file cut short (5 of 34,992,012 bytes)", "again");
+    let small = tiny_merl();
+    assert!(from_bytes(&small, Path::new("small.binary")).is_ok());
+    // As many bytes as values of 32 bits would take are described as those.
+    for end in (13..small.len()).filter(|end| *end != 84) {
+        refused(&small[..end], "small.binary", "cut short", "again");
+    }
+    let (header, values) = small.split_at(12);
+    let swap = |bytes: &[u8], word: usize| bytes.chunks(word).flat_map(|w| w.iter().rev().copied()).collect::<Vec<u8>>();
+    let swapped = [swap(header, 4), swap(values, 8)].concat();
+    refused(&swapped, "any", "a MERL file in big-endian order", "little-endian");
+    let halves = [header, &vec![0x3d; values.len() / 2]].concat();
+    refused(&halves, "any", "values of 32 bits (84 bytes instead of 156)", "f64");
+}
+
+#[test]
+fn utia_files_of_another_size_are_guessed_at() {
+    let values: Vec<u8> = (0..3000).flat_map(|at| (20.0 + f64::from(at % 7)).to_le_bytes()).collect();
+    refused(&values[..23_999], "m001.bin", "what may be a UTIA file cut short (23,999 of 1,990,656 bytes)", "again");
+    refused(&values.repeat(100), "m001.BIN", "with more bytes", "again");
+    refused(&values, "m001.dat", "content of no known format, binary data that begin 00 00", "one of");
+    refused(&[0xfe; 4000], "m001.bin", "content of no known format", "one of");
+}
+
+#[test]
+fn what_a_file_is_instead_is_said() {
+    let page = format!("<!DOCTYPE html>\n<html><body><pre>{LIGHT_TOOLS}</pre></body></html>");
+    refused(page.as_bytes(), "a.bsdf", "a web page (HTML)", "Raw");
+    refused(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 5\n", "a", "Git LFS", "git lfs pull");
+    refused(b"", "a.bsdf", "an empty file", "fetch the file again");
+    refused(b"\x89HDF\r\n\x1a\n\0\0", "a.axf", "an AxF file of X-Rite", "CSV, ASTM E1392");
+    refused(b"OPTIS - something else v8.0\n0\nComment\n", "a.brdf", "another file of Speos, `OPTIS - something else v8.0`", ".brdf");
+    let binary = b"OPTIS - Anisotropic BSDF surface file v9.0\n1\x03\0\0\0";
+    refused(binary, "a.anisotropicbsdf", "mode 1, the binary form", "save the file as text");
+    refused(b"OPTIS - brdf surface file v8.0\r\n1\r\n\x07", "a.brdf", "mode 1, the binary form", "not public");
+    let zernike = b"1, 1, 0, 0, 0, 0, 0, 2.1\n1, 1, 1, 1, 1, 1, 0, -0.3\n1, 1, 2, 0, 0, 0, 0, 0.2\n1, 1, 2, 2, 0, 0, 0, 0.3\n";
+    refused(zernike, "PTFE.coeff.csv", "Zernike", "PTFE.data.csv");
+    refused(b"P2\n2 2\n255\n1 2\n3 4\n", "a.csv", "a picture (PGM)", "textures");
+    refused(b"just words\n", "a.txt", "content of no known format, text that begins `just words`", "one of ");
+}
+
+#[test]
+fn nothing_that_a_terminal_obeys_comes_out_of_a_file() {
+    let harmless = |text: &str| !text.chars().any(char::is_control);
+    let evil = "\u{1b}[31mred\u{7}\u{9b}1m\u{202e}";
+    for name in ["a", "a\u{1b}[2J.ddr"] {
+        for bytes in [evil.to_string(), format!("OPTIS - {evil} v1\n"), format!("<{evil}>"), format!("{{\"{evil}\": 1}}")] {
+            let message = refusal(bytes.as_bytes(), name).to_string();
+            assert!(harmless(&message), "{message:?}");
+        }
+    }
+    let damaged = LIGHT_TOOLS.replace("DataEnd", &format!("{evil} 7\nTIS {evil}"));
+    assert!(harmless(&refusal(damaged.as_bytes(), "a").to_string()));
+    let files = [
+        LIGHT_TOOLS.replace("# made by hand", &format!("# {evil}\nModel {evil}: {evil}")),
+        examples::DDR.replace("Source Measured", &format!("Source {evil}\n{evil} {evil}")),
+        examples::sheet("Columns", examples::NINE).replace("Visible", evil).replace("a &amp; b", "a&#27;[31m"),
+        examples::SSDD.replace("thin film", evil),
+        examples::PAB.replace("made here", evil),
+        examples::TRACE_PRO.replace("made", evil),
+    ];
+    for text in files {
+        let document = from_bytes(text.as_bytes(), Path::new("a")).unwrap_or_else(|error| panic!("{error}"));
+        let facts = document.source.iter().flat_map(|(name, value)| [name.clone(), value.clone()]);
+        let names = document.parts.iter().flat_map(|part| {
+            let sections = part.data.representation().sections();
+            let of_section = |s: &lobe_table::data::Section<'_>| [vec![s.name.clone()], s.channels.names()].concat();
+            sections.iter().flat_map(of_section).chain([part.name.clone()]).collect::<Vec<_>>()
+        });
+        let all: Vec<String> = facts.chain(names).collect();
+        assert!(all.iter().all(|text| harmless(text)) && all.iter().any(|text| text.contains("\\u{1b}[31m")), "{all:?}");
+    }
+}
