@@ -5,6 +5,7 @@ use std::io;
 use std::process::ExitCode;
 
 use lobe::OpenError;
+use lobe_files::printable;
 use lobe_formats::{ConvertError, FormatError};
 use lobe_memory::NoRoom;
 use lobe_render::picture::PictureError;
@@ -40,10 +41,14 @@ impl Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            // Messages quote files, which a terminal must not obey; some have several lines.
             Failure::File(message)
             | Failure::Usage(message)
             | Failure::Check(message)
-            | Failure::Interrupted(message) => f.write_str(message),
+            | Failure::Interrupted(message) => {
+                let lines: Vec<_> = message.split('\n').map(printable).collect();
+                f.write_str(&lines.join("\n"))
+            }
             Failure::OutputClosed => f.write_str("the output was closed"),
         }
     }

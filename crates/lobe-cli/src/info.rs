@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 
+use lobe_files::printable;
 use lobe_formats::open;
 use serde::Serialize;
 
@@ -65,7 +66,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 
 impl Info {
     fn print(&self, out: &mut impl Write) -> std::io::Result<()> {
-        writeln!(out, "{}", self.file)?;
+        writeln!(out, "{}", printable(&self.file))?;
         writeln!(out, "format    {}", self.format)?;
         if let Some(bytes) = self.file_bytes {
             writeln!(out, "file      {bytes} bytes")?;

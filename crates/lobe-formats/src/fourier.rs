@@ -85,13 +85,16 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Document, FormatError> {
     let size = |bytes: usize| pairs.and_then(|pairs| pairs.checked_mul(bytes)).unwrap_or(usize::MAX);
     cursor.take(size(4), "numbers for sampling, one per pair of cosines")?;
     let start = cursor.at;
-    let (indices, _) = cursor.take(size(8), "indices and numbers of coefficients, one pair per pair of cosines")?.as_chunks::<8>();
+    let (indices, _) =
+        cursor.take(size(8), "indices and numbers of coefficients, one pair per pair of cosines")?.as_chunks::<8>();
     let mut series = Vec::with_capacity(indices.len());
     for &[a, b, c, d, e, f, g, h] in indices {
         let numbers = [i32::from_le_bytes([a, b, c, d]), i32::from_le_bytes([e, f, g, h])];
         let [Ok(start), Ok(count)] = numbers.map(u32::try_from) else {
             cursor.at = start + 8 * series.len();
-            return Err(cursor.error(format!("{} coefficients from {} on", numbers[1], numbers[0]), "no negative numbers"));
+            return Err(
+                cursor.error(format!("{} coefficients from {} on", numbers[1], numbers[0]), "no negative numbers")
+            );
         };
         series.push(Series { start, count });
     }
@@ -102,7 +105,8 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Document, FormatError> {
     }
     let data = Data::new(Parts { mu, series, coefficients, channels, eta });
     cursor.at = 0;
-    let data = data.map_err(|invalid| cursor.error(format!("{}: {}", invalid.part, invalid.found), invalid.expected))?;
+    let data =
+        data.map_err(|invalid| cursor.error(format!("{}: {}", invalid.part, invalid.found), invalid.expected))?;
     let words = String::from_utf8_lossy(metadata);
     let words = words.trim_matches('\0').split_whitespace().collect::<Vec<&str>>().join(" ");
     Ok(Document::new(data).with_source(&[("metadata", words.as_str())]))

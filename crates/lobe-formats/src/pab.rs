@@ -118,11 +118,7 @@ pub fn read_set(files: &[(PathBuf, Vec<u8>)]) -> Result<Document, FormatError> {
 }
 
 /// Reads the samples of a file into those of its sides.
-fn samples(
-    file: &Path,
-    text: &str,
-    records: &mut BTreeMap<(Side, bool), Records>,
-) -> Result<Head, FormatError> {
+fn samples(file: &Path, text: &str, records: &mut BTreeMap<(Side, bool), Records>) -> Result<Head, FormatError> {
     let all: Vec<Line<'_>> = lines(file, text).collect();
     let end = all.iter().position(|line| !line.text.starts_with('#')).unwrap_or(all.len());
     let (head_lines, value_lines) = all.split_at(end);
@@ -163,11 +159,7 @@ fn samples(
 
 /// A polar angle from the normal of its side, in degrees, and the side. Negative ones are the other half of the plane.
 fn folded(theta: f64) -> (f64, Side) {
-    if theta.abs() <= 90.0 {
-        (theta, Side::Front)
-    } else {
-        ((180.0 - theta.abs()).copysign(theta), Side::Back)
-    }
+    if theta.abs() <= 90.0 { (theta, Side::Front) } else { ((180.0 - theta.abs()).copysign(theta), Side::Back) }
 }
 
 fn head(file: &Path, lines: &[Line<'_>]) -> Result<Head, FormatError> {

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::Path;
 
-use lobe_files::{Unpacked, is_web_page, unpacked};
+use lobe_files::{Unpacked, is_gzip, is_web_page, unpacked};
 
 use crate::adjust::adjust;
 use crate::spec::{FormatSpec, Writer};
@@ -154,7 +154,7 @@ fn read_any(bytes: &[u8], path: &Path, options: &ReadOptions) -> Result<(Format,
     let found = match recognised(&content, options) {
         Some(format) => read_with(format, &content, &name, options).map(|document| (format, document)),
         None => {
-            let error = unknown(&content, &name, name != path);
+            let error = unknown(&content, &name, is_gzip(bytes));
             Err(FormatError { expected: error.expected + &left_out(), ..error })
         }
     };

@@ -132,7 +132,9 @@ impl Shape {
         let is_double = match flags & (IS_SINGLE | IS_DOUBLE) {
             IS_SINGLE => false,
             IS_DOUBLE => true,
-            other => return Err(stream.error(format!("flags {other:#x}"), "single (0x1000) or double (0x2000) precision")),
+            other => {
+                return Err(stream.error(format!("flags {other:#x}"), "single (0x1000) or double (0x2000) precision"));
+            }
         };
         let name = if version == 4 { stream.name()? } else { String::new() };
         let vertices = u64::from_le_bytes(stream.array("the number of vertices")?);
@@ -158,7 +160,8 @@ impl Shape {
         let corner = |triangle: &[u8; 12], at: usize| {
             u32::from_le_bytes([triangle[at], triangle[at + 1], triangle[at + 2], triangle[at + 3]])
         };
-        let triangles: Vec<[u32; 3]> = indices.iter().map(|triangle| [0, 4, 8].map(|at| corner(triangle, at))).collect();
+        let triangles: Vec<[u32; 3]> =
+            indices.iter().map(|triangle| [0, 4, 8].map(|at| corner(triangle, at))).collect();
         if let Some(corner) = triangles.iter().flatten().find(|corner| **corner as usize >= vertices) {
             return Err(stream.error(format!("vertex {corner} of {vertices}"), "indices of vertices"));
         }
@@ -171,7 +174,12 @@ impl Shape {
             self.flatten();
         }
         let too_many = |_| {
-            FormatError::new(path, Place::Byte(start as u64), "more than 2^32 vertices or triangles", "fewer in all shapes")
+            FormatError::new(
+                path,
+                Place::Byte(start as u64),
+                "more than 2^32 vertices or triangles",
+                "fewer in all shapes",
+            )
         };
         let first = u32::try_from(mesh.positions.len()).map_err(too_many)?;
         u32::try_from(mesh.positions.len() + self.positions.len()).map_err(too_many)?;

@@ -48,7 +48,8 @@ pub const TRACE_PRO: &str = "TracePro Surface Property Data\nName\tmade\nScatter
         300 0.55 0 0 0.5 0 0.2 0\n300 0.55 0 0 1 0 0.1 0\n300 0.55 30 0 0 0 0.3 0\n300 0.55 30 0 0.4 0 0.2 0\n\
         300 0.55 30 0 0.4 180 0.2 0\nSAVE-DATA\n";
 /// A simple scattering surface of Speos.
-pub const SPEOS_SIMPLE: &str = "OPTIS - Simple scattering surface file v2.0\r\nmade here\r\nReflection\r\n30 60 0 15\r\n";
+pub const SPEOS_SIMPLE: &str =
+    "OPTIS - Simple scattering surface file v2.0\r\nmade here\r\nReflection\r\n30 60 0 15\r\n";
 /// A coating of Speos.
 pub const SPEOS_COATED: &str = "OPTIS - Coated surface file v1.0\nExample\n2 2\n\t480\t\t580\t\t\n0\t32\t68\t2\t98\t\n\
         \t28\t72\t6\t94\t\n90\t100\t0\t100\t0\t\n\t100\t0\t100\t0\t\n";

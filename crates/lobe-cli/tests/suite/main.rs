@@ -13,5 +13,6 @@ mod hardening;
 mod honest;
 mod plot;
 mod render;
+mod strangers;
 mod resample;
 mod sums;

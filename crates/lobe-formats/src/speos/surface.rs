@@ -151,9 +151,13 @@ fn coated(source: &mut Source<'_>) -> Result<Vec<Part>, FormatError> {
     let channels = if wavelengths.len() == 1 { Channels::Mono } else { Channels::Spectral(wavelengths) };
     let of_scatter = |scatter: Scatter, values: &[f64]| {
         let values = values.iter().map(|value| *value as f32).collect();
-        mirror::Data::new(scatter, [thetas.clone(), vec![0.0]], channels.clone(), values).map(|data| Part::new("", data))
+        mirror::Data::new(scatter, [thetas.clone(), vec![0.0]], channels.clone(), values)
+            .map(|data| Part::new("", data))
     };
     let parts = [(Scatter::Reflection, &reflectance), (Scatter::Transmission, &transmittance)];
     let parts = parts.map(|(scatter, values)| of_scatter(scatter, values));
-    parts.into_iter().collect::<Option<Vec<Part>>>().ok_or_else(|| source.error("numbers that are not finite", "a coating"))
+    parts
+        .into_iter()
+        .collect::<Option<Vec<Part>>>()
+        .ok_or_else(|| source.error("numbers that are not finite", "a coating"))
 }

@@ -77,7 +77,10 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Document, FormatError> {
                 Specular::None => {}
                 Specular::Mirror(data) => parts.push(Part { name: String::new(), side, data: data.into() }),
                 Specular::Unlike => source.push((
-                    format!("specular {}", if scatter == Scatter::Reflection { "reflectance" } else { "transmittance" }),
+                    format!(
+                        "specular {}",
+                        if scatter == Scatter::Reflection { "reflectance" } else { "transmittance" }
+                    ),
                     "not read: its wavelengths are not those of the table".into(),
                 )),
             }

@@ -119,7 +119,9 @@ pub(super) fn read(file: &Path, text: &str) -> Result<Property, FormatError> {
                 let row = table(line, &mut temperature)?;
                 sheet(&mut property).table.push(row);
             }
-            (_, Section::End) => return Err(line.error(shown(line.text), "one property a file: nothing after SAVE-DATA")),
+            (_, Section::End) => {
+                return Err(line.error(shown(line.text), "one property a file: nothing after SAVE-DATA"));
+            }
         }
     }
     property.sheets.retain(|(_, sheet)| !sheet.table.is_empty());

@@ -22,7 +22,8 @@ fn f(theta_i: f64, theta: f64, phi: f64) -> f64 {
 
 /// A file with light at `theta_i`, over the polar angles `thetas`.
 fn made(theta_i: f64, quantity: &str, thetas: std::ops::RangeInclusive<i32>) -> String {
-    let mut text = format!("#pgII\n#sample_name\t\"made\"\n#incident_angle\t{theta_i}\t0\n#format: theta\tphi\t{quantity}\n");
+    let mut text =
+        format!("#pgII\n#sample_name\t\"made\"\n#incident_angle\t{theta_i}\t0\n#format: theta\tphi\t{quantity}\n");
     for theta in thetas.step_by(5).map(f64::from) {
         for phi in (0..360).step_by(10).map(f64::from) {
             let scale = if quantity == "DSF" { theta.to_radians().cos().abs() } else { 1.0 };
@@ -68,11 +69,15 @@ fn folders_are_one_material_whatever_the_quantity() {
         for (part, scatter) in [Scatter::Reflection, Scatter::Transmission].into_iter().enumerate() {
             let data = scattered_of(&document, part);
             assert_eq!((document.parts[part].side, data.scatter()), (None, scatter));
-            for (theta_i, theta, phi) in [(20.0, 20.0, 180.0), (40.0, 60.0, 90.0), (0.0, 0.0, 0.0), (20.0, 70.0, 200.0)] {
+            for (theta_i, theta, phi) in [(20.0, 20.0, 180.0), (40.0, 60.0, 90.0), (0.0, 0.0, 0.0), (20.0, 70.0, 200.0)]
+            {
                 let theta = if scatter == Scatter::Reflection { theta } else { 180.0 - theta };
                 let found = f64::from(data.eval(direction(theta_i, 0.0), direction(theta, phi))[0]);
                 let wanted = f(theta_i, theta, phi);
-                assert!((found - wanted).abs() < 2e-6, "{quantity} {scatter:?} {theta_i} {theta} {phi}: {found}, {wanted}");
+                assert!(
+                    (found - wanted).abs() < 2e-6,
+                    "{quantity} {scatter:?} {theta_i} {theta} {phi}: {found}, {wanted}"
+                );
             }
         }
         write("diffuser.txt", RPC);

@@ -25,7 +25,8 @@ fn table(nm: f64, base: f64) -> String {
 }
 
 fn file(specular: &str, table: &str) -> String {
-    let specular = format!("Temperature Wavelength IncAngle AziAngle Abso_S Abso_P Refl_S Refl_P Tran_S Tran_P\n{specular}");
+    let specular =
+        format!("Temperature Wavelength IncAngle AziAngle Abso_S Abso_P Refl_S Refl_P Tran_S Tran_P\n{specular}");
     format!("{HEAD}{specular}Table_BSDF_Data\n{NAMES}{table}")
 }
 
@@ -49,10 +50,14 @@ fn values_depend_on_the_distance_of_the_projections() {
     let document = read(&file("", &table(550.0, 0.4))).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(document.parts.len(), 2);
     assert!(document.parts.iter().all(|part| part.side.is_none()));
-    for (name, value) in [("Name", "made here"), ("TracePro Release", "7 0 0"), ("Scatter", "5"), ("Wavelength", "550 nm")] {
+    for (name, value) in
+        [("Name", "made here"), ("TracePro Release", "7 0 0"), ("Scatter", "5"), ("Wavelength", "550 nm")]
+    {
         assert!(document.source.contains(&(name.into(), value.into())), "{name}: {:?}", document.source);
     }
-    let [Data::Scattered(reflection), Data::Scattered(transmission)] = [&document.parts[0].data, &document.parts[1].data] else {
+    let [Data::Scattered(reflection), Data::Scattered(transmission)] =
+        [&document.parts[0].data, &document.parts[1].data]
+    else {
         panic!("two sets of samples")
     };
     assert_eq!((reflection.scatter(), transmission.scatter()), (Scatter::Reflection, Scatter::Transmission));
@@ -63,7 +68,9 @@ fn values_depend_on_the_distance_of_the_projections() {
             // The light on any azimuth: the table does not depend on it.
             let (c, s) = (turn.to_radians().cos(), turn.to_radians().sin());
             let wi = projected(sin * c, sin * s);
-            for (beta, angle) in [(0.0, 0.0), (0.3, 0.0), (0.3, 90.0), (0.1, 45.0), (0.05, 120.0), (0.45, 60.0), (0.6, 10.0)] {
+            for (beta, angle) in
+                [(0.0, 0.0), (0.3, 0.0), (0.3, 90.0), (0.1, 45.0), (0.05, 120.0), (0.45, 60.0), (0.6, 10.0)]
+            {
                 let angle = f64::to_radians(angle);
                 let (x, y) = (-sin + beta * angle.cos(), beta * angle.sin());
                 let wo = projected(x * c - y * s, x * s + y * c);
@@ -93,7 +100,9 @@ fn wavelengths_sides_and_mirrors_are_kept() {
     let document = read(&file(specular, &table(600.0, 0.4))).expect("a property");
     assert!(document.source.iter().any(|(name, value)| name == "specular reflectance" && value.contains("not read")));
 
-    let side = |number: i32| format!("Side{number}_Data\nTemperature Wavelength\nTable_BSDF_Data\n{NAMES}{}", table(550.0, 0.4));
+    let side = |number: i32| {
+        format!("Side{number}_Data\nTemperature Wavelength\nTable_BSDF_Data\n{NAMES}{}", table(550.0, 0.4))
+    };
     let parts = read(&format!("{HEAD}{}{}SAVE-DATA\n", side(1), side(2))).expect("two sides").parts;
     let sides: Vec<_> = parts.iter().map(|part| part.side).collect();
     assert_eq!(sides, [Side::Front, Side::Front, Side::Back, Side::Back].map(Some));
@@ -110,7 +119,10 @@ fn what_a_file_leaves_open_is_refused() {
     refused(&format!("{whole}{}", table(600.0, 0.4).lines().next().expect("a row")), "without");
     refused(&format!("{whole}SAVE-DATA\n{whole}"), "one property a file");
     refused(&whole.replace("Table_BSDF_Data", "GratingData"), "a grating");
-    refused(&format!("{HEAD}Temperature Wavelength IncAngle BRDF_A\n300 0.55 0 0.1\nSAVE-DATA"), "without a table of scatter");
+    refused(
+        &format!("{HEAD}Temperature Wavelength IncAngle BRDF_A\n300 0.55 0 0.1\nSAVE-DATA"),
+        "without a table of scatter",
+    );
     refused(&whole.replacen("300\t0.55\t0\t0\t0\t0\t", "300\t0.55\tx\t0\t0\t0\t", 1), "found \"x\"");
     lobe_testing::damage::truncations(TRACE_PRO.as_bytes(), |bytes| read(&String::from_utf8_lossy(bytes)).is_ok());
 }

@@ -82,7 +82,8 @@ fn merl_files_that_are_damaged_are_recognised() {
         refused(&small[..end], "small.binary", "cut short", "again");
     }
     let (header, values) = small.split_at(12);
-    let swap = |bytes: &[u8], word: usize| bytes.chunks(word).flat_map(|w| w.iter().rev().copied()).collect::<Vec<u8>>();
+    let swap =
+        |bytes: &[u8], word: usize| bytes.chunks(word).flat_map(|w| w.iter().rev().copied()).collect::<Vec<u8>>();
     let swapped = [swap(header, 4), swap(values, 8)].concat();
     refused(&swapped, "any", "a MERL file in big-endian order", "little-endian");
     let halves = [header, &vec![0x3d; values.len() / 2]].concat();
@@ -105,11 +106,17 @@ fn what_a_file_is_instead_is_said() {
     refused(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 5\n", "a", "Git LFS", "git lfs pull");
     refused(b"", "a.bsdf", "an empty file", "fetch the file again");
     refused(b"\x89HDF\r\n\x1a\n\0\0", "a.axf", "an AxF file of X-Rite", "CSV, ASTM E1392");
-    refused(b"OPTIS - something else v8.0\n0\nComment\n", "a.brdf", "another file of Speos, `OPTIS - something else v8.0`", ".brdf");
+    refused(
+        b"OPTIS - something else v8.0\n0\nComment\n",
+        "a.brdf",
+        "another file of Speos, `OPTIS - something else v8.0`",
+        ".brdf",
+    );
     let binary = b"OPTIS - Anisotropic BSDF surface file v9.0\n1\x03\0\0\0";
     refused(binary, "a.anisotropicbsdf", "mode 1, the binary form", "save the file as text");
     refused(b"OPTIS - brdf surface file v8.0\r\n1\r\n\x07", "a.brdf", "mode 1, the binary form", "not public");
-    let zernike = b"1, 1, 0, 0, 0, 0, 0, 2.1\n1, 1, 1, 1, 1, 1, 0, -0.3\n1, 1, 2, 0, 0, 0, 0, 0.2\n1, 1, 2, 2, 0, 0, 0, 0.3\n";
+    let zernike =
+        b"1, 1, 0, 0, 0, 0, 0, 2.1\n1, 1, 1, 1, 1, 1, 0, -0.3\n1, 1, 2, 0, 0, 0, 0, 0.2\n1, 1, 2, 2, 0, 0, 0, 0.3\n";
     refused(zernike, "PTFE.coeff.csv", "Zernike", "PTFE.data.csv");
     refused(b"P2\n2 2\n255\n1 2\n3 4\n", "a.csv", "a picture (PGM)", "textures");
     refused(b"just words\n", "a.txt", "content of no known format, text that begins `just words`", "one of ");
@@ -120,7 +127,9 @@ fn nothing_that_a_terminal_obeys_comes_out_of_a_file() {
     let harmless = |text: &str| !text.chars().any(char::is_control);
     let evil = "\u{1b}[31mred\u{7}\u{9b}1m\u{202e}";
     for name in ["a", "a\u{1b}[2J.ddr"] {
-        for bytes in [evil.to_string(), format!("OPTIS - {evil} v1\n"), format!("<{evil}>"), format!("{{\"{evil}\": 1}}")] {
+        for bytes in
+            [evil.to_string(), format!("OPTIS - {evil} v1\n"), format!("<{evil}>"), format!("{{\"{evil}\": 1}}")]
+        {
             let message = refusal(bytes.as_bytes(), name).to_string();
             assert!(harmless(&message), "{message:?}");
         }
@@ -144,6 +153,9 @@ fn nothing_that_a_terminal_obeys_comes_out_of_a_file() {
             sections.iter().flat_map(of_section).chain([part.name.clone()]).collect::<Vec<_>>()
         });
         let all: Vec<String> = facts.chain(names).collect();
-        assert!(all.iter().all(|text| harmless(text)) && all.iter().any(|text| text.contains("\\u{1b}[31m")), "{all:?}");
+        assert!(
+            all.iter().all(|text| harmless(text)) && all.iter().any(|text| text.contains("\\u{1b}[31m")),
+            "{all:?}"
+        );
     }
 }

@@ -109,7 +109,11 @@ fn shapes_are_groups_and_flat_ones_keep_their_edges() {
     let normals = mesh.normals.as_ref().expect("normals");
     assert_eq!(normals[4], [0.0, 0.0, 1.0]);
     let third = (1.0_f32 / 3.0).sqrt();
-    assert!(normals[7].iter().zip([third, -third, third]).all(|(a, b): (&f32, f32)| (a - b).abs() < 1e-6), "{:?}", normals[7]);
+    assert!(
+        normals[7].iter().zip([third, -third, third]).all(|(a, b): (&f32, f32)| (a - b).abs() < 1e-6),
+        "{:?}",
+        normals[7]
+    );
     // The first shape had none; its normals are smooth.
     assert!(normals[..4].iter().all(|normal| normal.iter().any(|c| *c != 0.0)));
 }

@@ -28,9 +28,8 @@ impl Data {
         let Some(place) = Place::find(self, wi, wo) else { return 0.0 };
         let magnitudes = (0..16).filter_map(|corner| place.corner(corner)).map(|([viewer, light], weight)| {
             let series = self.series(viewer, light);
-            let of_channel = |channel: usize| {
-                self.coefficients(series, channel).iter().map(|a| f64::from(a.abs())).sum::<f64>()
-            };
+            let of_channel =
+                |channel: usize| self.coefficients(series, channel).iter().map(|a| f64::from(a.abs())).sum::<f64>();
             weight.abs() * (0..self.parts().channels.count()).map(of_channel).sum::<f64>()
         });
         // Green has the luminance half again.

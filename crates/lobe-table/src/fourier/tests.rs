@@ -32,7 +32,8 @@ fn values_at_knots_are_those_of_their_series() {
                 let at_pole = mu[light].abs() == 1.0 || mu[viewer].abs() == 1.0;
                 let cos = if at_pole { 1.0 } else { phi.cos() };
                 let scale = data.aspect(viewer, light).map_or(0.0, |aspect| data.radiance(aspect));
-                let wanted = (f64::from(series[0]) + f64::from(series[1]) * cos).max(0.0) * scale / f64::from(mu[light].abs());
+                let wanted =
+                    (f64::from(series[0]) + f64::from(series[1]) * cos).max(0.0) * scale / f64::from(mu[light].abs());
                 assert!((found - wanted).abs() < 3e-7 * wanted.max(1.0), "{light} {viewer} {phi}: {found}, {wanted}");
             }
         }

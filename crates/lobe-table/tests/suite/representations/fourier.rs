@@ -44,7 +44,10 @@ fn values_are_those_of_the_reference() {
                 for channel in 0..width {
                     let found = f64::from(values[query * width + channel]);
                     let error = (found - expected[channel]).abs();
-                    assert!(error <= bound + f64::from(f32::EPSILON) * found.abs(), "{form} {query}: {error:e} > {bound:e}: {wi:?} {wo:?}");
+                    assert!(
+                        error <= bound + f64::from(f32::EPSILON) * found.abs(),
+                        "{form} {query}: {error:e} > {bound:e}: {wi:?} {wo:?}"
+                    );
                     worst = worst.max(if bound > 0.0 { error / bound } else { 0.0 });
                     lit += usize::from(found > 0.0);
                 }
