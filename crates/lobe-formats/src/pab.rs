@@ -9,7 +9,6 @@
 //! A material is the set of such files in a folder.
 
 use std::collections::BTreeMap;
-use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 use lobe_table::{Channels, Scatter, Side};

@@ -13,6 +13,6 @@ mod hardening;
 mod honest;
 mod plot;
 mod render;
-mod strangers;
 mod resample;
+mod strangers;
 mod sums;

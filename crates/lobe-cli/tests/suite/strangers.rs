@@ -62,7 +62,10 @@ fn fourier_bsdfs_open_in_every_command() {
     let path = write(&files, "tiny.bsdf", &examples::tiny_fourier());
     let (file, out) = (text(&path), files.path("out"));
     let info = json(&["info", file]);
-    assert_eq!((info["format"].as_str(), info["parts"][0]["kind"].as_str()), (Some("Fourier BSDF"), Some("cosine series")));
+    assert_eq!(
+        (info["format"].as_str(), info["parts"][0]["kind"].as_str()),
+        (Some("Fourier BSDF"), Some("cosine series"))
+    );
     assert!(printed(&["info", file]).contains("metadata: { \"made\": \"here\" }"));
     printed(&["albedo", file]);
     printed(&["eval", file, "--wi", "0.6,0,0.8", "--wo=-0.6,0,0.8"]);
@@ -82,7 +85,8 @@ fn nothing_that_a_terminal_obeys_is_printed() {
     let files = Files::new();
     let evil = "\u{1b}[31mred\u{7}";
     let harmless = |text: &str| !text.chars().any(|c| c.is_control() && c != '\n');
-    let facts = write(&files, "facts.bsdf", LIGHT_TOOLS.replace("# made", &format!("# {evil}\nModel {evil}: ")).as_bytes());
+    let facts =
+        write(&files, "facts.bsdf", LIGHT_TOOLS.replace("# made", &format!("# {evil}\nModel {evil}: ")).as_bytes());
     let found = printed(&["info", text(&facts)]);
     assert!(harmless(&found) && found.contains("\\u{1b}[31mred"), "{found:?}");
     let damaged = write(&files, "damaged.ddr", DDR.replace("sigma 2", &format!("sigma {evil}")).as_bytes());

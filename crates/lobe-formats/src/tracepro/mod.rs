@@ -14,13 +14,13 @@ mod sections;
 
 use std::path::Path;
 
-use lobe_table::{Channels, Scatter, Side, mirror};
+use lobe_table::{Channels, Scatter, mirror};
 
 use crate::records::Records;
 use crate::spec::FormatSpec;
-use crate::{Document, FormatError, Part, Place};
+use crate::{Document, FormatError, Part};
 use rings::Curve;
-use sections::{Property, Sheet};
+use sections::Sheet;
 
 /// This format in the registry.
 pub(crate) static FORMAT: FormatSpec = FormatSpec {
@@ -64,15 +64,15 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Document, FormatError> {
             source.push(("Wavelength".into(), format!("{nm} nm")));
         }
         let side = if is_one_sided { None } else { *side };
+        let is_dark = sheet.table.iter().all(|row| row.brdf == 0.0 && row.btdf == 0.0);
         for scatter in [Scatter::Reflection, Scatter::Transmission] {
             let curves = rings::curves(file, sheet, &wavelengths, scatter)?;
-            if scatter == Scatter::Transmission && curves.iter().all(Curve::is_dark) {
-                continue;
+            if !curves.iter().all(Curve::is_dark) || (is_dark && scatter == Scatter::Reflection) {
+                let mut records = Records::default();
+                curves.iter().for_each(|curve| curve.samples(&mut records));
+                let data = records.scattered(file, scatter, channels.clone())?;
+                parts.push(Part { name: String::new(), side, data: data.into() });
             }
-            let mut records = Records::default();
-            curves.iter().for_each(|curve| curve.samples(&mut records));
-            let data = records.scattered(file, scatter, channels.clone())?;
-            parts.push(Part { name: String::new(), side, data: data.into() });
             match specular(sheet, &wavelengths, scatter, &channels) {
                 Specular::None => {}
                 Specular::Mirror(data) => parts.push(Part { name: String::new(), side, data: data.into() }),
@@ -85,9 +85,6 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Document, FormatError> {
                 )),
             }
         }
-    }
-    if parts.is_empty() {
-        return Err(FormatError::new(file, Place::File, "a table that is dark", "values above 0"));
     }
     let mut document = Document::of_parts(parts);
     document.source.extend(source);

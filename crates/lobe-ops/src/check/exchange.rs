@@ -16,15 +16,21 @@ const APART: f64 = 0.15;
 pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness) -> Vec<Finding> {
     let aspects = subject.aspects();
     let mut findings = Vec::new();
-    for (index, &aspect) in aspects.iter().enumerate() {
+    for (at, &aspect) in aspects.iter().enumerate() {
         let part = if aspects.len() > 1 { aspect.to_string() } else { String::new() };
         let way_back = aspects.iter().position(|&other| other == aspect.reversed());
         // A measurement and its reverse are compared once.
-        if way_back.is_some_and(|back| back < index) {
+        if way_back.is_some_and(|back| back < at) {
             continue;
         }
         if way_back.is_none() && aspect.scatter == Scatter::Transmission {
             let text = "only one way was measured: nothing to exchange it with".into();
+            findings.push(Finding::new("reciprocity", &part, Status::Note, text));
+            continue;
+        }
+        let index = subject.data(aspect).map_or(1.0, |data| data.representation().refractive_index());
+        if aspect.scatter == Scatter::Transmission && index != 1.0 {
+            let text = format!("light passes into a medium of index {index}: both ways differ by the square of it");
             findings.push(Finding::new("reciprocity", &part, Status::Note, text));
             continue;
         }

@@ -116,6 +116,12 @@ pub trait Representation: Debug + Send + Sync {
         true
     }
 
+    /// The refractive index of what is behind the surface, relative to what is in front of it. Radiance changes with its
+    /// square, so that transmission is reciprocal only up to that.
+    fn refractive_index(&self) -> f64 {
+        1.0
+    }
+
     /// `true` if the data know more of polarised light than a value for a pair of directions can express.
     fn is_polarised(&self) -> bool {
         false

@@ -73,6 +73,10 @@ impl Representation for Data {
         thetas.into_iter().map(|theta| [theta, 0.0]).collect()
     }
 
+    fn refractive_index(&self) -> f64 {
+        f64::from(self.parts().eta)
+    }
+
     #[cfg(feature = "fourier")]
     fn prepare(&self, _: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
         super::prepared::prepare(self)
