@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use lobe::table::fourier::KIND as FOURIER;
 use lobe::table::mueller::KIND as MUELLER;
 use lobe::table::rgl::KIND as RGL;
 use lobe::table::scattered::KIND as SCATTERED;
@@ -28,8 +29,9 @@ const UNKNOWN: Outcome = Refused("content of no known format");
 const OUTCOMES: &[(&str, &str, Outcome)] = &[
     ("alta_dat", "retro", Opens(SCATTERED, 1)),
     ("cornell_brdf", "", Opens(SCATTERED, 31)),
-    // Fourier series, compressed.
-    ("fourier_bsdf", "", UNKNOWN),
+    // Packed with gzip.
+    ("fourier_bsdf", "roughglass", Opens(FOURIER, 1)),
+    ("fourier_bsdf", "", Opens(FOURIER, 3)),
     ("fred_txt", "", Opens(SCATTERED, 1)),
     ("kaist_pbsdf", "", Opens(MUELLER, 5)),
     ("klems_xml", "me", Opens(KLEMS, 1)),
@@ -42,13 +44,15 @@ const OUTCOMES: &[(&str, &str, Outcome)] = &[
     ("mdl_mbsdf", "test_reflection_scalar_theta_2_phi_3_transmission", Opens(SHEET, 1)),
     ("mdl_mbsdf", "test", Opens(SPHERICAL, 1)),
     ("mdl_mbsdf", "", Opens(SPHERICAL, 3)),
-    // Weights of networks, and a table without a header.
-    ("merl_derived", "", UNKNOWN),
+    // A table without a header, and weights of networks.
+    ("merl_derived", "npf", UNKNOWN),
+    ("merl_derived", "", Refused("a zip archive with")),
     ("nist_mueller_csv", "PTFE.data", Opens(SCATTERED, 4)),
-    // Coefficients of a fit, and a description.
-    ("nist_mueller_csv", "", UNKNOWN),
+    // A description, and coefficients of a fit.
+    ("nist_mueller_csv", "PTFE.README", UNKNOWN),
+    ("nist_mueller_csv", "", Refused("an expansion in Zernike polynomials")),
     ("openmaterial3d_json", "asphalt", Opens(SCATTERED, 32)),
-    ("openmaterial3d_json", "material_brdf_schema", UNKNOWN),
+    ("openmaterial3d_json", "material_brdf_schema", Refused("a JSON file of another kind")),
     ("rgl_bsdf", "", Opens(RGL, 3)),
     ("rpc_txt", "EDS10", Opens(SCATTERED, 1)),
     // A script.
