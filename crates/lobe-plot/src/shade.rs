@@ -134,7 +134,7 @@ impl Sphere {
         bright.sort_by(f32::total_cmp);
         let at = bright.len() * 9 / 10;
         match bright.get(at) {
-            Some(&value) if value > 1e-7 => (2.0 * (0.6 / f64::from(value)).log2()).floor() / 2.0,
+            Some(&value) if value > 1e-7 && value.is_finite() => (2.0 * (0.6 / f64::from(value)).log2()).floor() / 2.0,
             _ => 0.0,
         }
     }

@@ -50,7 +50,7 @@ pub(super) fn draw(shown: &[Shown<'_>], curves: &[Vec<Curve>], asked: Option<Sca
         Scaling::Log => "log radius",
         Scaling::Linear => "linear radius",
     };
-    let what = format!("Lobes in the plane of incidence, {spacing}, {}", conditions(shown));
+    let what = format!("Lobes, {spacing}, in the plane of incidence, {}", conditions(shown));
     let top = heading(&mut svg, shown, &what);
     let disk = Disk { centre: [across, top + up], radius };
     grid(&mut svg, disk, &scale, &scatters);
