@@ -96,8 +96,9 @@ impl Scratch {
         self.write("film.ssdd", examples::SSDD);
         self.write("gold.binary", examples::tiny_merl());
         let sheet = examples::sheet("Columns", "0.1 0.1 0.1 0.1 0.1 0.1 0.1 0.1 0.1");
-        self.write("blinds.xml", sheet.replace("Reflection Back", "Transmission Front"));
-        self.write("screen.xml", sheet);
+        // Light through the sheet from its front, and light reflected by its back, in the words of this format.
+        self.write("blinds.xml", sheet.replace("Reflection Back", "Transmission Back"));
+        self.write("screen.xml", sheet.replace("Reflection Back", "Reflection Front"));
         self.write("pairs.csv", "0,0,1,0,0,1\n0.6,0,0.8,-0.6,0,0.8\n");
         self.write("scene.toml", SCENE);
         for tile in 1..=4 {
