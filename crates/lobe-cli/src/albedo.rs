@@ -4,7 +4,6 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use lobe::Options;
-use lobe_ops::Subject;
 use lobe_ops::albedo::{Albedo, albedo_of};
 use lobe_ops::hemisphere::Effort;
 use serde::Serialize;
@@ -14,6 +13,7 @@ use crate::failure::Failure;
 use crate::guesses::warn_of_guesses;
 use crate::measure::fits;
 use crate::message::{self, say};
+use crate::reading::Reading;
 
 /// Compute the albedo (directional-hemispherical reflectance, or transmittance) by incident direction and channel.
 #[derive(clap::Args)]
@@ -28,6 +28,8 @@ Examples:
 pub struct Args {
     /// The file of a measured BRDF or BTDF.
     file: PathBuf,
+    #[command(flatten)]
+    reading: Reading,
     /// Polar angles of the light in degrees: 0,30,60 or first:last:step.
     #[arg(long, value_name = "LIST", value_parser = parse_angles)]
     sigma: Option<Angles>,
@@ -63,7 +65,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if args.tolerance.is_nan() || args.tolerance <= 0.0 {
         return Err(Failure::Usage(format!("found a tolerance of {}; expected one above 0", args.tolerance)));
     }
-    let subject = Subject::open(&args.file, &Options::default())?;
+    let subject = args.reading.subject(&args.file, &Options::default())?;
     let aspects = choose_aspects(&args.file, &subject, args.scatter, args.side)?;
     if let Some(aspect) = aspects.iter().find(|&&aspect| subject.is_in_plane(aspect)) {
         let message = format!(

@@ -4,13 +4,13 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use lobe::Options;
-use lobe_ops::Subject;
 use lobe_ops::check::{Finding, Status, Thoroughness, check, worst};
 use serde::Serialize;
 
 use crate::angles::{progress, table};
 use crate::failure::Failure;
 use crate::message;
+use crate::reading::Reading;
 
 /// Check measurements: values, knots, poles, seams, coverage, energy, stated totals, units, reciprocity.
 #[derive(clap::Args)]
@@ -26,6 +26,8 @@ pub struct Args {
     /// The files to check.
     #[arg(required = true)]
     files: Vec<PathBuf>,
+    #[command(flatten)]
+    reading: Reading,
     /// Warnings count as failures.
     #[arg(long)]
     strict: bool,
@@ -52,7 +54,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let mut reports = Vec::new();
     let mut out = message::out(args.json);
     for file in &args.files {
-        let report = report(file)?;
+        let report = report(file, &args.reading)?;
         if !args.json {
             report.print(&mut out)?;
         }
@@ -74,9 +76,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// Checks one file. A file that cannot be read is reported, not fatal; a wrong backend is.
-fn report(file: &Path) -> Result<Report, Failure> {
+fn report(file: &Path, reading: &Reading) -> Result<Report, Failure> {
     let name = file.display().to_string();
-    let subject = match Subject::open(file, &Options::default()).map_err(Failure::from) {
+    let subject = match reading.subject(file, &Options::default()) {
         Ok(subject) => subject,
         Err(Failure::File(why)) => {
             let (channels, findings) = (Vec::new(), Vec::new());

@@ -1,6 +1,6 @@
 //! `lobe convert`: a measured material in another format.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use lobe::{Aspect, Data, Lookup, Material, Options, Scatter, Side};
@@ -13,6 +13,7 @@ use crate::failure::Failure;
 use crate::measure::{self, Sides};
 use crate::message::say;
 use crate::output::{Output, side};
+use crate::reading::Reading;
 use crate::surface::MaterialSurface;
 use crate::target::Target;
 
@@ -35,6 +36,8 @@ pub struct Args {
     /// The file of a measured material.
     file: PathBuf,
     #[command(flatten)]
+    reading: Reading,
+    #[command(flatten)]
     output: Output,
     /// Which measurement to write, if the file has both and the format holds one, or only one is wanted.
     #[arg(long, value_enum)]
@@ -51,9 +54,19 @@ enum ScatterKind {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
+    check_output(&args.output.out, &[&args.file])?;
+    let (_, document) = args.reading.open(&args.file)?;
+    written(document, args)
+}
+
+/// Writes a document that was read from a file as `lobe convert` does without further options.
+pub fn write(file: &Path, document: Document, out: &Path, to: Option<Format>) -> Result<(), Failure> {
+    let (output, reading) = (Output::new(out, to), Reading::default());
+    written(document, &Args { file: file.into(), reading, output, scatter: None })
+}
+
+fn written(document: Document, args: &Args) -> Result<(), Failure> {
     let (target, out) = (args.output.target()?, args.output.out.as_path());
-    check_output(out, &[&args.file])?;
-    let (_, document) = lobe_formats::open(&args.file)?;
     let asked = args.scatter.map(|kind| match kind {
         ScatterKind::Reflection => Scatter::Reflection,
         ScatterKind::Transmission => Scatter::Transmission,

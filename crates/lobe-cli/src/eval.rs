@@ -14,6 +14,7 @@ use crate::failure::Failure;
 use crate::guesses::warn_of_guesses;
 use crate::message::{self, say};
 use crate::pairs::{Pair, Pairs, parse_direction, parse_numbers};
+use crate::reading::Reading;
 
 /// Evaluate a material: f in 1/sr, without the cosine, for one pair of directions or for many.
 #[derive(clap::Args)]
@@ -33,6 +34,8 @@ LOBE_BACKEND=scalar|sse2|sse4.1|avx2|avx512 chooses the instructions; the defaul
 pub struct Args {
     /// The file of a measured BRDF or BTDF.
     file: PathBuf,
+    #[command(flatten)]
+    reading: Reading,
     /// The direction to the light.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "wo", value_parser = parse_direction)]
     wi: Option<[f64; 3]>,
@@ -121,7 +124,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     };
     let options =
         Options { edges: args.edge.map(EdgeRule::edges).unwrap_or_default(), lookup, indexed_by, ..Options::default() };
-    let (_, document) = lobe::formats::open(&args.file)?;
+    let (_, document) = args.reading.open(&args.file)?;
     args.check_options(&document)?;
     warn_of_guesses(&args.file, &document);
     let mut source = match (args.wi, args.wo, args.angles, &args.pairs) {

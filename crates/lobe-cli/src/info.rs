@@ -4,12 +4,12 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use lobe_files::printable;
-use lobe_formats::open;
 use serde::Serialize;
 
 use crate::describe::{Part, describe, range};
 use crate::failure::Failure;
 use crate::message;
+use crate::reading::Reading;
 
 /// Show what a file holds: format, channels, angles, values, and what its header says.
 #[derive(clap::Args)]
@@ -22,6 +22,8 @@ Files packed with gzip are read as what is in them. A folder is read as the file
 pub struct Args {
     /// The file to show.
     file: PathBuf,
+    #[command(flatten)]
+    reading: Reading,
     /// Print JSON, for programs.
     #[arg(long)]
     json: bool,
@@ -39,11 +41,15 @@ struct Info {
     /// Total integrated scatter, as stated in the file.
     tis: Vec<f32>,
     source: Vec<(String, String)>,
+    /// What a table without a format of its own was taken for.
+    notes: Vec<String>,
+    /// What may be wrong with that.
+    doubts: Vec<String>,
 }
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let (format, document) = open(&args.file)?;
+    let (format, document) = args.reading.open(&args.file)?;
     // The standard input has none.
     let metadata = std::fs::metadata(&args.file).ok();
     let info = Info {
@@ -53,6 +59,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         parts: describe(&document),
         tis: document.tis,
         source: document.source,
+        notes: document.notes,
+        doubts: document.doubts,
     };
     let mut out = message::out(args.json);
     if args.json {
@@ -82,6 +90,12 @@ impl Info {
         if !self.tis.is_empty() {
             let (low, high) = range(self.tis.iter().copied());
             writeln!(out, "TIS       stated for {} blocks, {low} to {high}", self.tis.len())?;
+        }
+        for note in &self.notes {
+            writeln!(out, "read as   {note}")?;
+        }
+        for doubt in &self.doubts {
+            writeln!(out, "doubtful  {doubt}")?;
         }
         for (name, value) in &self.source {
             writeln!(out, "  {name}: {value}")?;

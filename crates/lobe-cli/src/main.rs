@@ -15,6 +15,7 @@ mod eval;
 mod failure;
 mod generate;
 mod guesses;
+mod import;
 mod info;
 mod interrupt;
 mod measure;
@@ -27,6 +28,7 @@ mod plot;
 mod preview;
 mod probe;
 mod progress;
+mod reading;
 mod render;
 mod resample;
 mod shell;
@@ -61,12 +63,13 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Import(Box<import::Args>),
     Info(info::Args),
-    Eval(eval::Args),
+    Eval(Box<eval::Args>),
     Check(check::Args),
     Albedo(albedo::Args),
     Compare(compare::Args),
-    Plot(plot::Args),
+    Plot(Box<plot::Args>),
     Preview(preview::Args),
     Render(render::Args),
     Merge(merge::Args),
@@ -97,6 +100,7 @@ fn main() -> ExitCode {
         threads::start();
     }
     let done = match cli.command {
+        Command::Import(args) => import::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Eval(args) => eval::run(&args),
         Command::Check(args) => check::run(&args),

@@ -1,6 +1,6 @@
 //! The options for writing a table: where, and how finely.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use lobe::Scatter;
@@ -92,8 +92,33 @@ const THETA: &[f64] = &[
 ];
 
 impl Output {
-    /// The format to write.
+    /// A file to write without further options.
+    pub fn new(out: &Path, to: Option<Format>) -> Self {
+        Output {
+            out: out.into(),
+            to,
+            channel: None,
+            sigma: Vec::new(),
+            psi: Vec::new(),
+            theta: Vec::new(),
+            phi: Vec::new(),
+            zeniths: None,
+            azimuths: None,
+            texels: None,
+            basis: Basis::Full,
+        }
+    }
+
+    /// The format to write. A sidecar of an older file of this name would be taken for that of the new one.
     pub fn target(&self) -> Result<Target, Failure> {
+        let sidecar = lobe_formats::sidecar::path_of(&self.out);
+        if sidecar.exists() {
+            return Err(Failure::File(format!(
+                "{}: found a file that says how another {} is read; expected none: remove it, or write to another name",
+                sidecar.display(),
+                self.out.display()
+            )));
+        }
         target(&self.out, self.to)
     }
 

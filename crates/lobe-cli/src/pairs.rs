@@ -162,8 +162,12 @@ fn pair(columns: &mut Option<Columns>, line: &str) -> Result<Option<Pair>, Strin
 
 /// What the fields of a line are separated by. A comma between digits is a decimal one if there are semicolons.
 fn delimiter(line: &str) -> Delimiter {
-    let found = [';', ','].into_iter().find(|&character| line.contains(character));
-    found.map_or(Delimiter::Spaces, Delimiter::Character)
+    match [';', ','].map(|character| line.contains(character)) {
+        [true, _] => Delimiter::Character(';'),
+        _ if line.matches('\t').count() >= 5 => Delimiter::Character('\t'),
+        [_, true] => Delimiter::Character(','),
+        _ => Delimiter::Spaces,
+    }
 }
 
 fn split(line: &str, delimiter: Delimiter) -> Vec<&str> {

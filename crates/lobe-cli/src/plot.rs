@@ -8,7 +8,7 @@ use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lobe::Side;
 use lobe_files::check_output;
-use lobe_formats::{Document, open, write_whole};
+use lobe_formats::{Document, Format, write_whole};
 use lobe_plot::{
     DrawError, Facts, Figure, Page, Progress, Scaling, Shown, Subject, View, ViewError, draw, page, rasterise,
 };
@@ -17,6 +17,7 @@ use crate::describe::{Part, describe};
 use crate::failure::Failure;
 use crate::guesses::warn_of_guesses;
 use crate::message;
+use crate::reading::Reading;
 
 /// Draw materials: curves in the plane of incidence, channels, spectra, slices of the hemisphere, lit spheres, or a page
 /// of them all.
@@ -35,6 +36,8 @@ pub struct Args {
     /// The files of measured BRDFs or BTDFs; several are drawn into the same figures.
     #[arg(required = true)]
     files: Vec<PathBuf>,
+    #[command(flatten)]
+    reading: Reading,
     /// The file to write: .html, .svg or .png. An existing one is replaced.
     #[arg(short, long)]
     out: PathBuf,
@@ -112,7 +115,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let mut subjects = Vec::new();
     let mut tables = Vec::new();
     for file in &args.files {
-        let (format, document) = open(file)?;
+        let (format, document) = args.reading.open(file)?;
         warn_of_guesses(file, &document);
         if matches!(target, Target::Page) {
             tables.push(facts(file, format.name(), &document)?);
@@ -121,29 +124,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     let views = views(args, &subjects)?;
     let shown: Vec<Shown<'_>> = subjects.iter().zip(&views).map(|(subject, view)| Shown { subject, view }).collect();
-    let bar = Bar::new();
     let wrong = |error: DrawError| Failure::Usage(format!("{}: {error}", args.files[0].display()));
-    let (content, what, said) = match target {
-        Target::Page => {
-            let Page { html, figures, said } = page(&shown, &tables, &bar);
-            (html.into_bytes(), format!("a page of {figures} figures"), said)
-        }
-        Target::Svg(figure) => {
-            let drawing = draw(&shown, figure, &bar).map_err(wrong)?;
-            (drawing.svg.into_bytes(), format!("{figure}, {} pixels wide", args.width), drawing.said)
-        }
-        Target::Png(figure) => {
-            let drawing = draw(&shown, figure, &bar).map_err(wrong)?;
-            let png = rasterise(&drawing.svg, args.width)
-                .map_err(|error| Failure::File(format!("{}: {error}", args.out.display())))?;
-            (png, format!("{figure}, {} pixels wide", args.width), drawing.said)
-        }
-    };
-    drop(bar);
-    write_whole(&args.out, &content)?;
+    let Content { bytes, what, said } = content(target, &shown, &tables, &args.out)?.map_err(wrong)?;
+    write_whole(&args.out, &bytes)?;
     let said: String = said.iter().map(|said| format!("; {said}")).collect();
     let mut out = message::out(false);
-    writeln!(out, "{}: {what}, {} bytes{said}", args.out.display(), content.len())?;
+    writeln!(out, "{}: {what}, {} bytes{said}", args.out.display(), bytes.len())?;
     Ok(out.flush()?)
 }
 
@@ -153,6 +139,52 @@ fn name(file: &Path, all: &[PathBuf]) -> String {
     let own = name(file);
     let is_unique = all.iter().filter(|other| name(other) == own).count() < 2;
     own.filter(|_| is_unique).unwrap_or_else(|| file.display().to_string())
+}
+
+/// Draws a document that was read from a file as `lobe plot` does without further options.
+pub fn write(file: &Path, format: Format, document: &Document, out: &Path) -> Result<(), Failure> {
+    let target = target(out, None)?;
+    let tables = [facts(file, format.name(), document)?];
+    let subject = Subject::new(file, format, document.clone())?;
+    let shown = [Shown { subject: &subject, view: &View::new(&subject) }];
+    let wrong = |error: DrawError| Failure::Usage(format!("{}: {error}", file.display()));
+    let Content { bytes, .. } = content(target, &shown, &tables, out)?.map_err(wrong)?;
+    Ok(write_whole(out, &bytes)?)
+}
+
+/// What a file will hold, and what there is to say about it.
+struct Content {
+    bytes: Vec<u8>,
+    what: String,
+    said: Vec<String>,
+}
+
+/// The inner error is one of what is to be drawn, the outer one of writing it.
+fn content(
+    target: Target,
+    shown: &[Shown<'_>],
+    tables: &[Vec<Facts>],
+    out: &Path,
+) -> Result<Result<Content, DrawError>, Failure> {
+    let bar = Bar::new();
+    let figure = match target {
+        Target::Page => {
+            let Page { html, figures, said } = page(shown, tables, &bar);
+            return Ok(Ok(Content { bytes: html.into_bytes(), what: format!("a page of {figures} figures"), said }));
+        }
+        Target::Svg(figure) | Target::Png(figure) => figure,
+    };
+    let drawing = match draw(shown, figure, &bar) {
+        Ok(drawing) => drawing,
+        Err(error) => return Ok(Err(error)),
+    };
+    let width = shown.first().map_or(0, |first| first.view.width);
+    let bytes = match target {
+        Target::Png(_) => rasterise(&drawing.svg, width)
+            .map_err(|error| Failure::File(format!("{}: {error}", out.display())))?,
+        _ => drawing.svg.into_bytes(),
+    };
+    Ok(Ok(Content { bytes, what: format!("{figure}, {width} pixels wide"), said: drawing.said }))
 }
 
 /// The extension and the kind must agree.
@@ -234,6 +266,8 @@ fn facts(file: &Path, format: &str, document: &Document) -> Result<Vec<Facts>, F
     if let Some(metadata) = std::fs::metadata(file).ok().filter(std::fs::Metadata::is_file) {
         rows.push(row("file", format!("{} bytes", metadata.len())));
     }
+    rows.extend(document.notes.iter().map(|note| row("read as", note.clone())));
+    rows.extend(document.doubts.iter().map(|doubt| row("doubtful", doubt.clone())));
     rows.extend(document.source.iter().cloned());
     let mut tables = vec![Facts { title: "The file".into(), rows }];
     tables.extend(describe(document).iter().map(part));

@@ -22,6 +22,8 @@ pub struct Document {
     /// What the reader made of a file that leaves something open, in sentences for people: which column it took for
     /// what, what it left out.
     pub notes: Vec<String>,
+    /// What may be wrong with that.
+    pub doubts: Vec<String>,
 }
 
 /// One measurement of a document.
@@ -50,7 +52,7 @@ impl Part {
 
 impl Document {
     fn empty() -> Self {
-        Document { format: None, parts: Vec::new(), source: Vec::new(), tis: Vec::new(), notes: Vec::new() }
+        Document { format: None, parts: Vec::new(), source: Vec::new(), tis: Vec::new(), notes: Vec::new(), doubts: Vec::new() }
     }
 
     /// One measurement about which there is nothing else to say.

@@ -10,7 +10,10 @@
 //! column. Rows may be in any order: if they are all nodes of a grid over more than half a turn they become a grid,
 //! else scattered samples.
 
+mod angles;
 mod build;
+mod chosen;
+mod directions;
 mod facts;
 mod grid;
 #[cfg(feature = "json")]
@@ -21,6 +24,8 @@ mod json;
 mod layout;
 pub(crate) mod names;
 mod plane;
+mod quantities;
+mod rows;
 mod sheet;
 mod table;
 mod unit;
@@ -46,7 +51,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "csv",
     extensions: &["csv", "json", "txt", "tsv", "dat"],
     matches,
-    read: Some(|bytes, path, options| read_with(bytes, path, options)),
+    read: Some(read_with),
     read_set: None,
     writer: Some(Writer {
         extensions: &["csv"],

@@ -81,6 +81,7 @@ pub use convert::{ChannelMap, ConvertError, Written, convert};
 pub use document::{Document, Measured, Part};
 pub use integra::{ddr, sdr};
 pub use lobe_files::{FormatError, Place, write_whole};
+pub use plain::text as plain_text;
 pub use reading::ReadOptions;
 pub use registry::{Format, from_bytes, from_bytes_with, open, open_with, read, read_with, sniff};
 pub use sheet::Sides;

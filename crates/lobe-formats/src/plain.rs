@@ -6,7 +6,7 @@ use std::borrow::Cow;
 ///
 /// UTF-16 is recognised by its mark, or by every other byte being 0 at the start. Carriage returns become line feeds
 /// if there are no line feeds.
-pub(crate) fn text(bytes: &[u8]) -> Cow<'_, [u8]> {
+pub fn text(bytes: &[u8]) -> Cow<'_, [u8]> {
     if let Some(order) = utf_16(bytes) {
         let units = bytes.chunks_exact(2).map(|pair| match order {
             Order::Little => u16::from_le_bytes([pair[0], pair[1]]),

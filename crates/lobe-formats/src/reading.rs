@@ -192,7 +192,7 @@ impl FromStr for Column {
         let at = match place.parse::<usize>() {
             Ok(0) => return Err(format!("found column 0 in {text:?}; expected columns counted from 1")),
             Ok(number) => Position::Number(number),
-            Err(_) => fixed().unwrap_or_else(|| Position::Named(place.trim_matches('"').into())),
+            Err(_) => fixed().unwrap_or_else(|| Position::Named(place.trim_matches(|c: char| c == '"' || c.is_whitespace()).into())),
         };
         Ok(Column { content, at })
     }
@@ -207,7 +207,8 @@ impl fmt::Display for Column {
         }
         match &self.at {
             Position::Number(number) => write!(f, "={number}"),
-            Position::Named(name) => write!(f, "={name}"),
+            // In quotes, so that a name such as 5 is no number of a column.
+            Position::Named(name) => write!(f, "=\"{name}\""),
             Position::Fixed(angle, unit) => write!(f, "={angle}{unit}"),
         }
     }

@@ -18,7 +18,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::reading::{ReadOptions, parse_columns};
-use crate::{FormatError, Place};
+use crate::{FormatError, Place, plain};
 
 /// What a sidecar is called after the name of the file.
 const EXTENSION: &str = ".lobe.toml";
@@ -41,10 +41,11 @@ pub fn find(file: &Path) -> Result<ReadOptions, FormatError> {
     if !path.exists() {
         return Ok(ReadOptions::default());
     }
-    let text = String::from_utf8(lobe_files::read(&path)?);
-    let text =
-        text.map_err(|_| FormatError::new(&path, Place::File, "bytes that are not UTF-8", "a sidecar of text"))?;
-    parse(&text, &path)
+    let bytes = lobe_files::read(&path)?;
+    let bytes = plain::text(&bytes);
+    let text = std::str::from_utf8(&bytes)
+        .map_err(|error| FormatError::new(&path, Place::File, error.to_string(), "text in UTF-8"))?;
+    parse(text, &path)
 }
 
 /// The options in the text of a sidecar, which the path names in errors.
@@ -61,17 +62,15 @@ pub fn parse(text: &str, path: &Path) -> Result<ReadOptions, FormatError> {
     let mut options = ReadOptions::default();
     for (key, value) in table.get_ref() {
         let place = line(key.span().start);
-        let refused = |found: String| FormatError::new(path, place, found, format!("one of {KEYS}"));
         let word = word(value).ok_or_else(|| {
             FormatError::new(path, place, format!("{} of another kind", key.get_ref()), "a word or a number")
         })?;
-        set(&mut options, key.get_ref(), &word)
-            .ok_or_else(|| refused(format!("the key {:?}", key.get_ref())))?
-            .map_err(|message| {
-                let (found, expected) = message.split_once("; expected ").unwrap_or((&message, "another value"));
-                let found = found.strip_prefix("found ").unwrap_or(found);
-                FormatError::new(path, place, format!("{} = {found}", key.get_ref()), expected)
-            })?;
+        set(&mut options, key.get_ref(), &word).map_err(|message| {
+            let (found, expected) = message.split_once("; expected ").unwrap_or((&message, "another value"));
+            let found = found.strip_prefix("found ").unwrap_or(found);
+            let found = if found.starts_with("the key") { found.into() } else { format!("{found} for {}", key.get_ref()) };
+            FormatError::new(path, place, found, expected)
+        })?;
     }
     Ok(options)
 }
@@ -93,8 +92,11 @@ fn scalar(value: &DeValue<'_>) -> Option<String> {
     }
 }
 
-/// Sets one option; `None` if there is none of this name.
-fn set(options: &mut ReadOptions, key: &str, word: &str) -> Option<Result<(), String>> {
+/// Sets the option of this name to what a word says.
+///
+/// # Errors
+/// What was found and what was expected, if there is no such option or the word does not fit it.
+pub fn set(options: &mut ReadOptions, key: &str, word: &str) -> Result<(), String> {
     fn keep<T>(field: &mut T, value: Result<T, String>) -> Result<(), String> {
         *field = value?;
         Ok(())
@@ -104,7 +106,7 @@ fn set(options: &mut ReadOptions, key: &str, word: &str) -> Option<Result<(), St
         "false" => Ok(false),
         _ => Err(format!("found {word:?}; expected true or false")),
     };
-    Some(match key.replace('_', "-").as_str() {
+    match key.replace('_', "-").as_str() {
         "columns" => keep(&mut options.columns, parse_columns(word)),
         "unit" => keep(&mut options.unit, word.parse().map(Some)),
         "values" => keep(&mut options.values, word.parse().map(Some)),
@@ -113,8 +115,8 @@ fn set(options: &mut ReadOptions, key: &str, word: &str) -> Option<Result<(), St
         "in-plane" => keep(&mut options.in_plane, word.parse().map(Some)),
         "azimuth-from" => keep(&mut options.azimuth_from, word.parse().map(Some)),
         "decimal-comma" => keep(&mut options.decimal_comma, is_true(word).map(Some)),
-        _ => return None,
-    })
+        _ => Err(format!("found the key {key:?}; expected one of {KEYS}")),
+    }
 }
 
 /// The text of a sidecar that says this.
@@ -125,7 +127,19 @@ pub fn to_text(options: &ReadOptions, name: &str) -> String {
             let _ = writeln!(out, "{key} = {value}");
         }
     };
-    let quoted = |text: String| format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""));
+    let quoted = |text: String| {
+        let mut quoted = String::from("\"");
+        for c in text.chars() {
+            match c {
+                '\\' | '"' => quoted.extend(['\\', c]),
+                _ if c.is_control() => {
+                    let _ = write!(quoted, "\\u{:04x}", u32::from(c));
+                }
+                _ => quoted.push(c),
+            }
+        }
+        quoted + "\""
+    };
     let columns: Vec<String> = options.columns.iter().map(ToString::to_string).collect();
     line("columns", (!columns.is_empty()).then(|| quoted(columns.join(","))));
     line("unit", options.unit.map(|word| quoted(word.to_string())));

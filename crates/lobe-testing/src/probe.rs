@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use lobe_backend::Backend;
-use lobe_formats::{Document, Format, FormatError};
+use lobe_formats::{Document, Format, FormatError, ReadOptions};
 use lobe_table::rgl::{Reference, UniformOrder};
 use lobe_table::utia::Decode;
 use lobe_table::{Data, Edges, specular, specular::reference};
@@ -43,7 +43,20 @@ fn bytes_per_byte(format: Format) -> usize {
 /// # Panics
 /// If the reader used more memory than the size of the file justifies, or an error does not name the file.
 pub fn probe(format: Format, bytes: &[u8], path: &Path) -> (Result<(), FormatError>, usize) {
-    let (document, peak) = peak(|| lobe_formats::read(format, bytes, path));
+    probe_with(format, bytes, path, &ReadOptions::default())
+}
+
+/// As [`probe`], with options for the reader.
+///
+/// # Panics
+/// As [`probe`].
+pub fn probe_with(
+    format: Format,
+    bytes: &[u8],
+    path: &Path,
+    options: &ReadOptions,
+) -> (Result<(), FormatError>, usize) {
+    let (document, peak) = peak(|| lobe_formats::read_with(format, bytes, path, options));
     let most = BASE + bytes_per_byte(format) * bytes.len();
     assert!(peak <= most, "{peak} bytes of memory for a {format} file of {}; at most {most} are allowed", bytes.len());
     let result = match document {

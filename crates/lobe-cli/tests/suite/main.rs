@@ -11,6 +11,7 @@ mod convert;
 mod documentation;
 mod hardening;
 mod honest;
+mod import;
 mod plot;
 mod render;
 mod resample;

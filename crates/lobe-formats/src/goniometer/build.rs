@@ -8,7 +8,7 @@ use lobe_table::{Channels, Scatter};
 
 use super::grid::{Of, data};
 use super::layout::Values;
-use super::table::Raw;
+use super::rows::Raw;
 use super::{plane, unit};
 use crate::reading::{Holds, Quantity, ReadOptions};
 use crate::records::Records;
@@ -57,7 +57,7 @@ pub(super) fn document(mut raw: Raw, file: &Path, options: &ReadOptions) -> Resu
     }
     samples.quantify(&raw, options, file, &mut notes)?;
     let through = samples.through(holds, file)?;
-    let mut parts = Vec::new();
+    let (mut parts, mut doubts) = (Vec::new(), Vec::new());
     for scatter in [Scatter::Reflection, Scatter::Transmission] {
         let is_of_part = |index: usize| through[index] == (scatter == Scatter::Transmission);
         if let Some(records) = samples.records(is_of_part) {
@@ -66,11 +66,12 @@ pub(super) fn document(mut raw: Raw, file: &Path, options: &ReadOptions) -> Resu
         }
     }
     if !samples.is_specular {
-        plane::doubt(&samples, &raw.layout, options, &mut notes);
+        doubts.extend(plane::doubt(&samples, &raw.layout, options));
     }
     let mut document = Document::of_parts(parts);
     document.source = raw.facts.source;
     document.notes = notes;
+    document.doubts = doubts;
     Ok(document)
 }
 

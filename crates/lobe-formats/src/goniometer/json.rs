@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::facts::Facts;
-use super::layout::{Layout, Source, Trouble, Values, meanings};
+use super::chosen::meanings;
+use super::layout::{Layout, Source, Trouble, Values};
 use super::names::{Angle, Meaning, meaning};
-use super::table::Raw;
+use super::rows::Raw;
 use crate::reading::ReadOptions;
 use crate::{FormatError, Place};
 

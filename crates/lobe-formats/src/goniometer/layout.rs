@@ -3,7 +3,9 @@
 use lobe_table::Channels;
 
 use super::facts::Facts;
-use super::names::{Angle, Meaning, Unit, meaning};
+use super::chosen::{list, list_of};
+use super::directions::{settle, wide};
+use super::names::{Angle, Meaning, Unit};
 use crate::columns::channels;
 use crate::lines::shown;
 use crate::reading::{Content, Holds, Position, Quantity, ReadOptions};
@@ -68,86 +70,10 @@ pub(super) const SPECULAR: [Angle; 4] = [Angle::Sigma, Angle::Psi, Angle::Theta,
 
 const WANTED: &str =
     "theta_i and theta_o, with phi_o unless the viewer stays in the plane of incidence, or sigma, theta and phi";
+/// A number below this, in nm, is not taken for a wavelength without its unit.
+const SHORTEST: f64 = 100.0;
+
 const CHANNELS: &str = "R, G, B or X, Y, Z or wavelengths such as 550nm or one column such as BRDF";
-
-/// What the names of columns say, with what the user says instead.
-pub(super) fn meanings(names: &[String], width: usize, options: &ReadOptions) -> Result<Vec<Meaning>, Trouble> {
-    let mut meanings: Vec<Meaning> = names.iter().map(|name| meaning(corner(name))).collect();
-    meanings.resize(width.max(names.len()), Meaning::Unknown);
-    let mut chosen = vec![None; meanings.len()];
-    for column in &options.columns {
-        let index = match &column.at {
-            Position::Fixed(..) => continue,
-            Position::Number(number) if *number <= meanings.len() => number - 1,
-            Position::Named(name) => names
-                .iter()
-                .position(|other| other.trim().eq_ignore_ascii_case(name))
-                .ok_or_else(|| Trouble::new(format!("no column {name:?} as in {column}"), named(names)))?,
-            Position::Number(_) => {
-                return Err(Trouble::new(
-                    format!("{column} in rows of {} columns", meanings.len()),
-                    "a column that is there",
-                ));
-            }
-        };
-        let stated = meanings[index].clone();
-        let meaning = match &column.content {
-            Content::Angle(angle) => Meaning::Angle(*angle, stated.unit()),
-            Content::Wavelength => match stated {
-                Meaning::Wavelength(nm) => Meaning::Wavelength(nm),
-                _ => Meaning::Wavelength(1.0),
-            },
-            Content::Values(name) => match (meaning(name), stated) {
-                (Meaning::Values { channel, quantity, is_transmission, .. }, Meaning::Values { unit, .. }) => {
-                    Meaning::Values { channel, quantity, is_transmission, unit }
-                }
-                (Meaning::Values { channel, quantity, is_transmission, unit }, _) => {
-                    Meaning::Values { channel, quantity, is_transmission, unit }
-                }
-                _ => Meaning::Values {
-                    channel: name.clone(),
-                    quantity: None,
-                    unit: String::new(),
-                    is_transmission: false,
-                },
-            },
-        };
-        if chosen[index].replace(meaning).is_some() {
-            return Err(Trouble::new(format!("column {} twice, again as {column}", index + 1), "each column once"));
-        }
-    }
-    let has_values = options.columns.iter().any(|column| matches!(column.content, Content::Values(_)));
-    let is_chosen = |angle: Angle| options.columns.iter().any(|column| column.content == Content::Angle(angle));
-    for (meaning, chosen) in meanings.iter_mut().zip(chosen) {
-        match (chosen, &*meaning) {
-            (Some(chosen), _) => *meaning = chosen,
-            (None, Meaning::Angle(angle, _)) if !is_chosen(*angle) => {}
-            (None, Meaning::EitherTheta(_) | Meaning::EitherPhi(_) | Meaning::AnyAngle(_)) => {}
-            // A column that the user passes over when naming others.
-            (None, Meaning::Angle(..)) => *meaning = Meaning::NoValue,
-            (None, Meaning::Wavelength(_)) => {}
-            (None, _) if has_values => *meaning = Meaning::NoValue,
-            (None, _) => {}
-        }
-    }
-    Ok(meanings)
-}
-
-/// The corner of a table with a column per angle names both: `theta_o \\ theta_i`. Its own column holds the first.
-fn corner(name: &str) -> &str {
-    match name.split_once(['\\', '/']) {
-        Some((rows, columns)) if [rows, columns].iter().all(|part| matches!(meaning(part), Meaning::Angle(..))) => rows,
-        _ => name,
-    }
-}
-
-/// The names of a table for an error.
-fn named(names: &[String]) -> String {
-    let shown: Vec<String> =
-        names.iter().take(12).enumerate().map(|(i, name)| format!("{}: {}", i + 1, shown(name))).collect();
-    let more = if names.len() > 12 { format!(" and {} more", names.len() - 12) } else { String::new() };
-    format!("one of the columns {}{more}", shown.join(", "))
-}
 
 impl Layout {
     /// The layout of a table whose columns have these meanings. `is_text` says which of them hold words.
@@ -303,13 +229,18 @@ impl Layout {
                     channel_names.push(if channel.is_empty() { "f".to_string() } else { channel.clone() });
                     quantities.push(*quantity);
                     percents.push(unit == "%");
-                    if super::names::is_signal_unit(unit) && options.scale.is_none() {
+                    if super::quantities::is_signal_unit(unit) && options.scale.is_none() {
                         let found = format!("values in {unit}, in column {}", shown(name));
                         return Err(Trouble::new(found, "f in 1/sr, or the scale that makes it of them"));
                     }
                     if *is_transmission {
                         self.holds = Some(Holds::Transmission);
                     }
+                }
+                // In nm it would be an X-ray, and in micrometres it is not said.
+                Meaning::Number(number, ..) if *number < SHORTEST => {
+                    let found = format!("the name {}, which may be a wavelength or something else", shown(name));
+                    return Err(Trouble::new(found, "wavelengths with their unit, such as 550nm or 0.55um, in the names or with columns"));
                 }
                 Meaning::Number(number, ..) => {
                     channel_names.push(number.to_string());
@@ -357,88 +288,4 @@ impl Layout {
         self.values = Values::Channels(columns, channels);
         Ok(())
     }
-}
-
-/// Whether columns with these meanings say where the light and the viewer are.
-pub(super) fn has_directions(mut meanings: Vec<Meaning>, facts: &Facts) -> bool {
-    let is_fixed = |angle: Angle| facts.angles.iter().any(|fixed| fixed.angle == angle);
-    settle(&mut meanings, is_fixed);
-    let is_column = |angle: Angle| meanings.iter().any(|m| matches!(m, Meaning::Angle(other, _) if *other == angle));
-    let has = |angle: Angle| is_fixed(angle) || is_column(angle);
-    let numbers = meanings.iter().filter(|meaning| matches!(meaning, Meaning::Number(..))).count();
-    let is_wide = numbers >= 2 && (is_column(Angle::ThetaI) || is_column(Angle::ThetaO));
-    let has_viewer = is_column(Angle::ThetaO) || is_column(Angle::ThetaI) || is_column(Angle::Theta);
-    let is_known =
-        (has(Angle::ThetaI) && has(Angle::ThetaO)) || [Angle::Sigma, Angle::Theta, Angle::Phi].into_iter().all(has);
-    is_wide || (has_viewer && is_known)
-}
-
-/// Gives names that may mean either direction, or none, the one that the others leave.
-fn settle(meanings: &mut [Meaning], is_fixed: impl Fn(Angle) -> bool) {
-    let has = |meanings: &[Meaning], angle: Angle| {
-        is_fixed(angle) || meanings.iter().any(|m| matches!(m, Meaning::Angle(other, _) if *other == angle))
-    };
-    let light_is_known = has(meanings, Angle::ThetaI);
-    let viewer_is_known = has(meanings, Angle::ThetaO);
-    let [theta, phi] = match (light_is_known, viewer_is_known) {
-        (true, false) => [Angle::ThetaO, Angle::PhiO],
-        (false, true) => [Angle::ThetaI, Angle::PhiI],
-        _ => return,
-    };
-    // `theta` and `phi` next to `theta_i`.
-    let is_specular = has(meanings, Angle::Sigma);
-    for meaning in meanings.iter_mut() {
-        *meaning = match meaning {
-            Meaning::EitherTheta(unit) => Meaning::Angle(theta, *unit),
-            Meaning::EitherPhi(unit) => Meaning::Angle(phi, *unit),
-            Meaning::AnyAngle(unit) if light_is_known => Meaning::Angle(theta, *unit),
-            Meaning::Angle(Angle::Theta, unit) if light_is_known && !is_specular => Meaning::Angle(theta, *unit),
-            Meaning::Angle(Angle::Phi, unit) if light_is_known && !is_specular => Meaning::Angle(phi, *unit),
-            _ => continue,
-        };
-    }
-}
-
-/// The columns of a table with one per incident or outgoing polar angle, if it is one: all that have numbers as names.
-type Wide = (Vec<(usize, f64)>, Option<Unit>);
-
-fn wide(meanings: &[Meaning], angles: &mut [Source; 4]) -> Option<Wide> {
-    let numbers = meanings.iter().enumerate().filter_map(|(column, meaning)| match meaning {
-        Meaning::Number(number, unit, angle) => Some((column, *number, *unit, *angle)),
-        _ => None,
-    });
-    let numbers: Vec<_> = numbers.collect();
-    let &(_, _, unit, angle) = numbers.first()?;
-    let missing = match (angles[0] == Source::Missing, angles[2] == Source::Missing) {
-        (true, false) => 0,
-        (false, true) => 2,
-        _ => return None,
-    };
-    let fits = |&(_, number, of, which): &(usize, f64, Option<Unit>, Option<Angle>)| {
-        of == unit && which == angle && which.is_none_or(|angle| angle == SPHERICAL[missing]) && number.abs() <= 90.0
-    };
-    let has_values = meanings.iter().any(|meaning| matches!(meaning, Meaning::Values { .. }));
-    if has_values
-        || !numbers.iter().all(fits)
-        || (1..numbers.len()).any(|i| numbers[..i].iter().any(|other| other.1 == numbers[i].1))
-    {
-        return None;
-    }
-    angles[missing] = Source::Wide;
-    Some((numbers.into_iter().map(|(column, number, ..)| (column, number)).collect(), unit))
-}
-
-/// Names for an error.
-fn list(names: &[String], width: usize) -> String {
-    match names.is_empty() {
-        true => format!("{width} columns without names"),
-        false => list_of(names, &(0..names.len()).collect::<Vec<_>>()),
-    }
-}
-
-fn list_of(names: &[String], columns: &[usize]) -> String {
-    let name = |column: &usize| names.get(*column).map_or_else(|| format!("column {}", column + 1), |name| shown(name));
-    let shown: Vec<String> = columns.iter().take(12).map(name).collect();
-    let more = if columns.len() > 12 { format!(" and {} more", columns.len() - 12) } else { String::new() };
-    format!("{}{more}", shown.join(", "))
 }

@@ -64,16 +64,16 @@ pub(super) fn place(
 /// How far from the plane of incidence and from the polar angle of the light samples are compared, in radians.
 const NEAR: [f64; 2] = [0.36, 0.14];
 /// How much brighter the side of the light has to be.
-const BRIGHTER: f32 = 1.5;
+const BRIGHTER: f32 = 1.25;
 
 /// Says if a table looks as if the mirror direction were on the other side.
-pub(super) fn doubt(samples: &Samples, layout: &Layout, options: &ReadOptions, notes: &mut Vec<String>) {
+pub(super) fn doubt(samples: &Samples, layout: &Layout, options: &ReadOptions) -> Option<String> {
     let is_open = match layout.angles[3] {
         Source::Missing => options.in_plane.is_none(),
         _ => layout.angles[1] == Source::Missing && options.azimuth_from.is_none(),
     };
     if !is_open {
-        return;
+        return None;
     }
     // By incidence: the brightest near the mirror direction, and near the light.
     let mut brightest: BTreeMap<i64, [f32; 2]> = BTreeMap::new();
@@ -93,11 +93,12 @@ pub(super) fn doubt(samples: &Samples, layout: &Layout, options: &ReadOptions, n
     let both: Vec<[f32; 2]> =
         brightest.into_values().filter(|sides| sides.iter().all(|value| *value > f32::MIN)).collect();
     let doubtful = both.iter().filter(|[mirror, light]| *light > BRIGHTER * mirror.max(0.0)).count();
-    if 2 * doubtful > both.len() {
-        let how = if layout.angles[3] == Source::Missing { "in-plane opposite-sign" } else { "azimuth-from mirror" };
-        notes.push(format!(
-            "DOUBT: at {doubtful} of {} incidences it is brighter toward the light than in the mirror direction; if that is wrong, say {how}",
+    let how = if layout.angles[3] == Source::Missing { "in-plane opposite-sign" } else { "azimuth-from mirror" };
+    let doubt = || {
+        format!(
+            "at {doubtful} of {} incidences it is brighter toward the light than in the mirror direction; if that is wrong, say {how}",
             both.len()
-        ));
-    }
+        )
+    };
+    (2 * doubtful > both.len()).then(doubt)
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::layout::{SPECULAR, SPHERICAL, Source, Values};
 use super::names::Unit;
-use super::table::Raw;
+use super::rows::Raw;
 use crate::reading::ReadOptions;
 use crate::{FormatError, Place};
 

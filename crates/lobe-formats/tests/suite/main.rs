@@ -6,6 +6,7 @@ mod hostile_text;
 mod integra;
 mod light_tools;
 mod native;
+mod own_tables;
 mod pab;
 mod rgl;
 mod rgl_lanes;

@@ -19,6 +19,7 @@ pub(super) fn check(document: &Document) -> Vec<Finding> {
         findings.extend(repeated(&part, &values));
     }
     findings.extend(document.parts.iter().filter_map(|part| gaps(document, part)));
+    findings.extend(document.doubts.iter().map(|doubt| Finding::new("reading", "", Status::Warn, doubt.clone())));
     findings
 }
 

@@ -1,0 +1,245 @@
+//! `lobe import`: one's own measurement, from what an instrument or a spreadsheet wrote to a file that every program reads.
+
+use std::io::{IsTerminal, Write, stderr, stdin, stdout};
+use std::path::{Path, PathBuf};
+
+use lobe::{Material, Options};
+use lobe_formats::{Document, Format, FormatError, Place, ReadOptions, open_with, sidecar, write_whole};
+use lobe_ops::Subject;
+use lobe_ops::check::{Finding, Status, Thoroughness, check};
+use serde::Serialize;
+
+use crate::angles::progress;
+use crate::describe::{Part, describe};
+use crate::failure::Failure;
+use crate::reading::Reading;
+use crate::target::parser;
+use crate::{convert, plot};
+
+/// Bring in your own measurement: see what a file is taken for, say what it does not say itself, and pass it on.
+#[derive(clap::Args)]
+#[command(
+    after_help = "What is said with options is kept in FILE.lobe.toml next to the file, and from then on every command and the library read the file like this. On a terminal, what is not understood is asked for.
+
+Examples:
+  lobe import scan.csv                                      what it is taken for, and whether that is sound
+  lobe import scan.txt --columns theta_i=30deg,theta_o=1,f=2
+  lobe import scan.csv --unit rad --values luminance-factor --plot scan.html
+  lobe import scan.csv -o scan.bsdf --to rgl                for Mitsuba and pbrt
+  lobe import lens.bsdf --scale tis                         values relative to the stated total
+
+Exit codes: 0 done, 1 not understood or not written, 2 wrong usage, 3 read and written, but a check failed."
+)]
+pub struct Args {
+    /// The file: a table as CSV, text or JSON, or a file of any format that lobe reads.
+    file: PathBuf,
+    #[command(flatten)]
+    reading: Reading,
+    /// Write the material to this file, for other programs, as lobe convert does.
+    #[arg(short, long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// The format to write, if the extension does not determine it.
+    #[arg(long, value_name = "FORMAT", value_parser = parser(), requires = "out")]
+    to: Option<Format>,
+    /// Draw what was read: .html is a page, .svg and .png are curves in the plane of incidence.
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// Do not write FILE.lobe.toml.
+    #[arg(long)]
+    no_sidecar: bool,
+    /// Print JSON, and ask nothing.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Report {
+    file: String,
+    format: &'static str,
+    /// What was understood.
+    notes: Vec<String>,
+    /// What may be wrong.
+    doubts: Vec<String>,
+    parts: Vec<Part>,
+    source: Vec<(String, String)>,
+    findings: Vec<Finding>,
+    /// The sidecar that says how the file is read, if there is one.
+    sidecar: Option<String>,
+    /// What it says.
+    options: Option<String>,
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let file = args.file.as_path();
+    let given = args.reading.options();
+    let mut options = given.clone().or(sidecar::find(file)?);
+    let may_ask = !args.json && stdin().is_terminal() && stderr().is_terminal();
+    let (format, document) = loop {
+        match open_with(file, &options) {
+            Ok(found) => {
+                if !may_ask {
+                    break found;
+                }
+                show(&mut stderr(), &found.1)?;
+                match ask("Right? Enter, or what to say differently, such as `values luminance-factor`: ", &mut options)? {
+                    true => {}
+                    false => break found,
+                }
+            }
+            Err(error) if may_ask => {
+                eprintln!("{error}");
+                first_lines(file);
+                if !ask("Enter to give up, or say it, such as `columns theta_i=1,theta_o=2,f=3` or `unit rad`: ", &mut options)? {
+                    return Err(error.into());
+                }
+            }
+            Err(error) => return Err(explained(error, file)),
+        }
+    };
+    let material = Material::from_document(&document, &Options::default()).map_err(|error| error.in_file(file))?;
+    let subject = Subject::new(format, document, material, &Options::default());
+    let bar = progress("checking");
+    let findings = check(&subject, &Thoroughness::default(), &bar);
+    drop(bar);
+    let has_failed = findings.iter().any(|finding| finding.status == Status::Fail);
+    let kept = keep(args, &given, &options)?;
+    let document = &subject.document;
+    let report = Report {
+        file: file.display().to_string(),
+        format: format.name(),
+        notes: document.notes.clone(),
+        doubts: document.doubts.clone(),
+        parts: describe(document),
+        source: document.source.clone(),
+        findings,
+        sidecar: kept.then(|| sidecar::path_of(file).display().to_string()),
+        options: kept.then(|| sidecar::to_text(&options, &name(file))),
+    };
+    let mut out = stdout().lock();
+    if args.json {
+        serde_json::to_writer_pretty(&mut out, &report)?;
+        writeln!(out)?;
+    } else {
+        report.print(&mut out, document)?;
+    }
+    out.flush()?;
+    drop(out);
+    if let Some(page) = &args.plot {
+        plot::write(file, format, document, page)?;
+        eprintln!("{}: written", page.display());
+    }
+    if let Some(out) = &args.out {
+        convert::write(file, document.clone(), out, args.to)?;
+    }
+    match has_failed {
+        true => Err(Failure::Check(format!("{}: a check failed: see FAIL above", file.display()))),
+        false => Ok(()),
+    }
+}
+
+/// Writes the sidecar if there is something new to say; whether there is one then.
+fn keep(args: &Args, given: &ReadOptions, options: &ReadOptions) -> Result<bool, Failure> {
+    let path = sidecar::path_of(&args.file);
+    let before = sidecar::find(&args.file)?;
+    if options.is_empty() || *options == before {
+        return Ok(!before.is_empty());
+    }
+    if args.no_sidecar {
+        return Ok(false);
+    }
+    write_whole(&path, sidecar::to_text(options, &name(&args.file)).as_bytes())?;
+    let how = if given.is_empty() { "what was said" } else { "these options" };
+    eprintln!("{}: {how}, which every command and the library take from there", path.display());
+    Ok(true)
+}
+
+fn name(file: &Path) -> String {
+    file.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+impl Report {
+    fn print(&self, out: &mut impl Write, document: &Document) -> Result<(), Failure> {
+        writeln!(out, "{}: {}", self.file, self.format)?;
+        show(out, document)?;
+        for finding in self.findings.iter().filter(|finding| finding.status >= Status::Warn) {
+            let part = if finding.part.is_empty() { String::new() } else { format!("{}: ", finding.part) };
+            writeln!(out, "  {}: {}: {part}{}", finding.status, finding.check, finding.text)?;
+        }
+        let passed = self.findings.iter().filter(|finding| finding.status < Status::Warn).count();
+        writeln!(out, "  {passed} of {} checks passed; lobe check has them all", self.findings.len())?;
+        Ok(())
+    }
+}
+
+/// What was understood, and what it makes.
+fn show(out: &mut impl Write, document: &Document) -> Result<(), Failure> {
+    for note in &document.notes {
+        writeln!(out, "  {note}")?;
+    }
+    for doubt in &document.doubts {
+        writeln!(out, "  doubtful: {doubt}")?;
+    }
+    for part in describe(document) {
+        for (name, value) in part.rows() {
+            let value: String = value.chars().take(160).collect();
+            writeln!(out, "  {name:<9} {value}")?;
+        }
+    }
+    Ok(())
+}
+
+/// Lines that an error shows of a text.
+const SHOWN: usize = 6;
+
+fn first_lines(file: &Path) {
+    eprint!("{}", head(file).unwrap_or_default());
+}
+
+/// The first lines of a text, with their numbers.
+fn head(file: &Path) -> Option<String> {
+    let bytes = std::fs::read(file).ok()?;
+    let bytes = lobe_formats::plain_text(&bytes);
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 16)]).into_owned();
+    let is_text = !text.contains('\0');
+    let shown = |line: &str| {
+        let mut shown = String::new();
+        for c in line.chars().take(120) {
+            match c.is_control() && c != '\t' {
+                true => shown.extend(c.escape_default()),
+                false => shown.push(c),
+            }
+        }
+        shown
+    };
+    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()).take(SHOWN);
+    let lines: String = lines.map(|(index, line)| format!("{:>6} | {}\n", index + 1, shown(line))).collect();
+    is_text.then_some(lines)
+}
+
+/// An error with the first lines of the file.
+fn explained(error: FormatError, file: &Path) -> Failure {
+    let is_about_a_line = matches!(error.place, Place::Line(_) | Place::File);
+    match head(file).filter(|_| is_about_a_line && error.file == file) {
+        Some(lines) => Failure::File(format!("{error}\n{}", lines.trim_end())),
+        None => error.into(),
+    }
+}
+
+/// Asks for an option and sets it, until the answer can be understood; `false` if the answer is empty.
+fn ask(question: &str, options: &mut ReadOptions) -> Result<bool, Failure> {
+    loop {
+        eprint!("{question}");
+        let mut answer = String::new();
+        let count = stdin().read_line(&mut answer)?;
+        let answer = answer.trim().trim_start_matches('-');
+        if count == 0 || answer.is_empty() {
+            return Ok(false);
+        }
+        let (key, word) = answer.split_once([' ', '=']).unwrap_or((answer, ""));
+        match sidecar::set(options, key.trim(), word.trim().trim_matches('"')) {
+            Ok(()) => return Ok(true),
+            Err(message) => eprintln!("{message}"),
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! `lobe import`, and the options that say what a file leaves open, in every command.
+
+use std::f64::consts::PI;
+
+use crate::common::{Files, json, printed, run, text};
+
+/// Luminance factors of a Lambertian surface with an albedo of 0.9, without names.
+fn lambert(value: f64) -> String {
+    let rows = |theta_i: i32| {
+        (0..=8).flat_map(move |theta| {
+            (0..8).map(move |turn| format!("{theta_i};{};{};{}\n", 10 * theta, 45 * turn, value.to_string().replace('.', ",")))
+        })
+    };
+    [0, 30, 60].into_iter().flat_map(rows).collect()
+}
+
+const COLUMNS: &str = "theta_i=1,theta_o=2,phi_o=3,f=4";
+
+#[test]
+fn what_is_not_understood_is_shown_with_a_way_to_say_it() {
+    let files = Files::new();
+    let file = files.write("scan.txt", &lambert(0.9));
+    let (code, _, message) = run(&["import", text(&file)]);
+    assert_eq!(code, 1, "{message}");
+    for part in ["without names", "--columns theta_i=1,theta_o=2", "scan.txt.lobe.toml", "     1 | 0;0;0;0,9"] {
+        assert!(message.contains(part), "{part}: {message}");
+    }
+    // Every other command says the same in one line.
+    let (code, _, message) = run(&["info", text(&file)]);
+    assert!(code == 1 && message.contains("--columns theta_i=1") && message.lines().count() == 1, "{message}");
+    assert!(!files.path("scan.txt.lobe.toml").exists());
+}
+
+#[test]
+fn what_was_said_is_kept_for_every_command() {
+    let files = Files::new();
+    let file = files.write("scan.txt", &lambert(0.9));
+    let said = ["import", text(&file), "--columns", COLUMNS, "--values", "luminance-factor"];
+    let (code, shown, message) = run(&[&said[..], &["--no-sidecar"]].concat());
+    assert!(code == 0 && !files.path("scan.txt.lobe.toml").exists(), "{message}");
+    for part in ["semicolons between cells, a comma before decimals", "luminance factors, pi f, as was said", "column 1 is theta_i"] {
+        assert!(shown.contains(part), "{part}: {shown}");
+    }
+    let (code, _, message) = run(&said);
+    assert!(code == 0 && message.contains("scan.txt.lobe.toml"), "{message}");
+    let albedos = json(&["albedo", text(&file), "--sigma", "0,30"]);
+    for albedo in albedos[0]["albedos"].as_array().expect("albedos") {
+        let value = albedo["values"][0].as_f64().expect("a number");
+        assert!((value - 0.9).abs() < 1e-3, "{albedo}");
+    }
+    let value = |args: &[&str]| -> f64 {
+        let line = printed(&[&["eval", text(&file), "--wi", "0,0,1", "--wo", "0.5,0,0.8"], args].concat());
+        line.split_whitespace().next_back().and_then(|number| number.parse().ok()).expect("a number")
+    };
+    assert!((value(&[]) - 0.9 / PI).abs() < 1e-6);
+    assert!((value(&["--values", "f"]) - 0.9).abs() < 1e-6, "the command line comes first");
+    assert!((value(&["--scale", "0.5"]) - 0.45 / PI).abs() < 1e-6);
+    let info = json(&["info", text(&file)]);
+    assert!(info["notes"].to_string().contains("column 3 is phi_o"), "{info}");
+    printed(&["check", text(&file)]);
+    let converted = files.path("scan.csv");
+    let (code, _, message) = run(&["convert", text(&file), text(&converted)]);
+    assert_eq!(code, 0, "{message}");
+    let (code, _, message) = run(&["compare", text(&file), text(&converted), "--within", "1e-6"]);
+    assert_eq!(code, 0, "{message}");
+    // A file must not be written where the sidecar of another would be taken for its own.
+    files.write("other.csv.lobe.toml", "scale = 2\n");
+    let (code, _, message) = run(&["convert", text(&file), text(&files.path("other.csv"))]);
+    assert!(code == 1 && message.contains("other.csv.lobe.toml"), "{message}");
+    assert!(!files.path("other.csv").exists());
+}
+
+#[test]
+fn import_writes_pictures_and_files() {
+    let files = Files::new();
+    let file = files.write("scan.csv", &format!("AOI;view angle;azimuth;BRDF\n{}", lambert(0.2)));
+    let (page, out) = (files.path("scan.html"), files.path("scan.ssdd"));
+    let (code, shown, message) = run(&["import", text(&file), "--plot", text(&page), "-o", text(&out)]);
+    assert_eq!(code, 0, "{message}");
+    assert!(shown.contains("\"AOI\" is theta_i"), "{shown}");
+    assert!(std::fs::read_to_string(&page).expect("a page").contains("view angle"));
+    assert!(std::fs::metadata(&out).expect("a file").len() > 0);
+    assert!(!files.path("scan.csv.lobe.toml").exists(), "nothing was left open");
+    let report = json(&["import", text(&file), "--scale", "0.5"]);
+    assert_eq!(report["sidecar"].as_str().map(|path| path.ends_with("scan.csv.lobe.toml")), Some(true), "{report}");
+    assert!(report["options"].as_str().expect("options").contains("scale = \"0.5\""));
+}
+
+#[test]
+fn impossible_values_and_bad_options_are_reported() {
+    let files = Files::new();
+    let file = files.write("scan.csv", &format!("AOI;view angle;azimuth;BRDF\n{}", lambert(0.9)));
+    let (code, shown, _) = run(&["import", text(&file)]);
+    assert!(code == 3 && shown.contains("FAIL"), "{shown}");
+    for (option, word) in [("--values", "g"), ("--unit", "gon"), ("--scale", "0"), ("--columns", "theta_i"), ("--in-plane", "x")] {
+        let (code, _, message) = run(&["info", text(&file), option, word]);
+        assert!(code == 2 && message.contains("expected"), "{message}");
+    }
+    files.write("scan.csv.lobe.toml", "values = \"f\"\nsize = 3\n");
+    let (code, _, message) = run(&["eval", text(&file), "--wi", "0,0,1", "--wo", "0,0,1"]);
+    assert!(code == 1 && message.contains("scan.csv.lobe.toml:2:") && message.contains("size"), "{message}");
+}
+
+#[test]
+fn pairs_of_any_spelling() {
+    let files = Files::new();
+    let file = files.write("scan.csv", &format!("theta_i;theta_o;phi_o;BRDF\n{}", lambert(0.2)));
+    let of = |name: &str, bytes: &[u8]| {
+        let path = files.path(name);
+        std::fs::write(&path, bytes).expect("a file");
+        printed(&["eval", text(&file), "--json", "--pairs", text(&path)])
+    };
+    let wanted = of("plain.csv", b"wix,wiy,wiz,wox,woy,woz\n0.5,0,0.5,0,0,1\n");
+    let utf_16: Vec<u8> = "0,5;0;0,5;0;0;1\r\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    for (name, bytes) in [
+        ("mark", b"\xef\xbb\xbf0.5,0,0.5,0,0,1\n".to_vec()),
+        ("mark and names", b"\xef\xbb\xbfwi.x,wi.y,wi.z,wo.x,wo.y,wo.z\n0.5,0,0.5,0,0,1\n".to_vec()),
+        ("swapped", b"wo.x,wo.y,wo.z,wi.x,wi.y,wi.z\n0,0,1,0.5,0,0.5\n".to_vec()),
+        ("semicolons", b"0.5;0;0.5;0;0;1\n".to_vec()),
+        ("decimal commas", b"0,5;0;0,5;0;0;1\n".to_vec()),
+        ("tabs", b"0.5\t0\t0.5\t0\t0\t1\n".to_vec()),
+        ("blanks", b"0.5 0 0.5  0 0 1\n".to_vec()),
+        ("returns", b"# c\r0.5,0,0.5,0,0,1\r".to_vec()),
+        ("UTF-16", [b"\xff\xfe", &utf_16[..]].concat()),
+    ] {
+        assert_eq!(of(name, &bytes), wanted, "{name}");
+    }
+    for (bad, message) in [("wix,wiy,wiz,a,b,c\n", "no column wox"), ("0,0,1,0,0\n", "5 columns"), ("0,0,1;0,0,1\n", "2 columns")] {
+        let path = files.write("bad.csv", bad);
+        let (code, _, found) = run(&["eval", text(&file), "--pairs", text(&path)]);
+        assert!(code == 2 && found.contains(message) && found.contains("bad.csv:1:"), "{found}");
+    }
+}

@@ -1,0 +1,138 @@
+//! Names of values, of wavelengths, and names that are numbers.
+
+use super::names::{Meaning, Name, meaning};
+use crate::reading::Quantity;
+
+/// Names of what is measured on the way to `f`.
+pub(super) const SIGNALS: &[&str] = &[
+    "intensity",
+    "radiance",
+    "luminance",
+    "irradiance",
+    "illuminance",
+    "signal",
+    "counts",
+    "power",
+    "current",
+    "voltage",
+    "flux",
+    "adc",
+    "adu",
+    "reflectance",
+    "reflectivity",
+    "transmittance",
+    "reflexionsgrad",
+    "leuchtdichte",
+    "intensität",
+    "signal",
+    "spannung",
+    "strom",
+];
+
+/// Units that values of `f` cannot have.
+pub(super) fn is_signal_unit(unit: &str) -> bool {
+    let unit = unit.replace(['µ', 'μ'], "u");
+    [
+        "ua", "na", "ma", "a", "v", "mv", "uv", "w", "mw", "uw", "cd", "cd/m2", "cd/m^2", "lx", "lm", "counts", "cts",
+        "w/sr", "w/m2/sr", "db",
+    ]
+    .contains(&unit.as_str())
+}
+
+impl Name {
+    /// The wavelength of rows.
+    pub fn wavelength(&self) -> Option<Meaning> {
+        let is = ["lambda", "wavelength", "wl", "wellenlänge", "wellenlaenge"].contains(&self.words.first()?.as_str());
+        let last = self.words.get(1).map_or(self.unit.as_str(), String::as_str);
+        let nm = match last {
+            "" | "nm" => 1.0,
+            "um" | "µm" | "μm" | "micron" | "microns" | "micrometer" | "micrometre" => 1e3,
+            "m" => 1e9,
+            _ => return None,
+        };
+        (is && self.words.len() <= 2).then_some(Meaning::Wavelength(nm))
+    }
+
+    /// A name that is a number, perhaps after the name of an angle: `30`, `-30°`, `theta_i=30`, `AOI 10`.
+    pub fn number(&self) -> Option<Meaning> {
+        if LENGTHS.contains(&self.unit.as_str()) {
+            return None;
+        }
+        let number = |word: &str| {
+            let word = word.trim().trim_end_matches('°').replace(',', ".");
+            word.parse().ok().filter(|number: &f64| number.is_finite())
+        };
+        if let Some(found) = number(&self.text) {
+            return Some(Meaning::Number(found, self.angle_unit, None));
+        }
+        let (head, tail) = self.text.rsplit_once(['=', ':', ' ', '_'])?;
+        match meaning(head) {
+            Meaning::Angle(angle, unit) => Some(Meaning::Number(number(tail)?, self.angle_unit.or(unit), Some(angle))),
+            _ => None,
+        }
+    }
+
+    /// Values: `BRDF`, `R`, `550nm`, `BRDF_550nm`, `f(450 nm)`.
+    pub fn values(&self) -> Option<Meaning> {
+        let mut quantity = None;
+        let mut is_transmission = false;
+        let mut rest = Vec::new();
+        let mut is_named = false;
+        for word in &self.words {
+            match word.as_str() {
+                "brdf" | "bsdf" | "f" | "fr" | "fs" => (is_named, quantity) = (true, quantity.or(Some(Quantity::F))),
+                "btdf" | "ft" => {
+                    (is_named, is_transmission, quantity) = (true, true, quantity.or(Some(Quantity::F)));
+                }
+                "ccbrdf" | "ccbtdf" | "ccbsdf" | "brdfcos" | "fcos" | "arb" => {
+                    (is_named, quantity) = (true, Some(Quantity::FCos));
+                    is_transmission |= word == "ccbtdf";
+                }
+                // `ccBRDF` is two words.
+                "cc" => quantity = Some(Quantity::FCos),
+                "cos" | "cosine" if is_named => quantity = Some(Quantity::FCos),
+                "corrected" if quantity == Some(Quantity::FCos) => {}
+                "brf" | "leuchtdichtefaktor" | "leuchtdichtekoeffizient" => {
+                    (is_named, quantity) = (true, Some(Quantity::LuminanceFactor));
+                }
+                "value" | "values" | "channel" | "mean" | "avg" | "average" => is_named = true,
+                word => rest.push(word),
+            }
+        }
+        if let ["luminance" | "radiance" | "reflectance" | "brightness", "factor"] = rest[..] {
+            (is_named, quantity) = (true, Some(Quantity::LuminanceFactor));
+            rest.clear();
+        }
+        let channel = match rest[..] {
+            [] => String::new(),
+            [colour] if COLOURS.iter().any(|names| names.contains(&colour)) => {
+                let names = COLOURS.iter().find(|names| names.contains(&colour))?;
+                names[0].to_uppercase()
+            }
+            _ => format!("{}nm", nanometres(&rest.concat(), &self.unit)?),
+        };
+        let is_values = is_named || !channel.is_empty();
+        // A wavelength in brackets is a unit that was used up.
+        let unit = if channel.ends_with("nm") && LENGTHS.contains(&self.unit.as_str()) { "" } else { &self.unit };
+        let unit = unit.to_string();
+        is_values.then_some(Meaning::Values { channel, quantity, unit, is_transmission })
+    }
+}
+
+pub(super) const COLOURS: [&[&str]; 6] =
+    [&["r", "red", "rot"], &["g", "green", "grün"], &["b", "blue", "blau"], &["x"], &["y"], &["z"]];
+const LENGTHS: [&str; 4] = ["nm", "um", "µm", "μm"];
+
+/// A wavelength in nm: `550nm`, `0.55um`, `wl550nm`, or 550 with its unit in brackets.
+pub(super) fn nanometres(word: &str, unit: &str) -> Option<f64> {
+    let word = ["lambda", "wavelength", "wl"].iter().find_map(|prefix| word.strip_prefix(prefix)).unwrap_or(word);
+    let digits = word.trim_end_matches(|c: char| c.is_alphabetic());
+    let suffix = if digits.len() < word.len() { &word[digits.len()..] } else { unit };
+    let scale = match suffix {
+        "nm" => 1.0,
+        "um" | "µm" | "μm" => 1e3,
+        _ => return None,
+    };
+    let nm = digits.parse().ok().map(|number: f64| (number * scale * 1e6).round() / 1e6)?;
+    (nm.is_finite() && nm > 0.0).then_some(nm)
+}
