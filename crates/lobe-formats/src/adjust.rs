@@ -7,7 +7,7 @@ use lobe_table::{Data, scattered, specular, spherical};
 
 use crate::integra::units::{divide_nodes_by_cosine, scale_slices};
 use crate::reading::{Quantity, ReadOptions, Scale};
-use crate::{Document, FormatError, Place};
+use crate::{Document, FormatError, Place, totals};
 
 /// The smallest cosine that a value is divided by: that of 89.9 degrees.
 const HORIZON: f64 = 1.745e-3;
@@ -100,26 +100,47 @@ fn divide(data: &Data, file: &Path) -> Result<Data, FormatError> {
 /// Scales each block so that its integral is the total that the file states for it.
 fn to_totals(document: &mut Document, file: &Path) -> Result<(), FormatError> {
     let refused = |found: String| {
-        FormatError::new(
-            file,
-            Place::File,
-            found,
-            "scale = tis for a file that states the total integrated scatter of each of its blocks",
-        )
+        let expected = "scale = tis for a file that states the total integrated scatter of each of its blocks";
+        FormatError::new(file, Place::File, found, expected)
     };
-    let [part] = document.parts.as_mut_slice() else { return Err(refused("several measurements".into())) };
-    let Data::Specular(samples) = &part.data else {
-        return Err(refused(format!("{} data", part.data.representation().kind().name())));
-    };
-    let [sigmas, psis, ..] = samples.knots().each_ref().map(Vec::len);
-    let blocks = sigmas * psis;
-    if document.tis.len() != blocks * samples.channels().count() {
-        return Err(refused(format!("{} stated totals for {blocks} incident directions", document.tis.len())));
+    let mut blocks = Vec::new();
+    for part in &document.parts {
+        let (Data::Specular(_) | Data::Spherical(_)) = &part.data else {
+            return Err(refused(format!("{} data", part.data.representation().kind().name())));
+        };
+        blocks.push(part.data.representation().channels().count() * incidences(&part.data));
     }
-    let totals: Vec<Vec<f64>> =
-        document.tis.chunks_exact(blocks).map(|of| of.iter().map(|&tis| f64::from(tis)).collect()).collect();
-    part.data = Data::Specular(scaled(file, samples, &totals)?);
+    if document.tis.is_empty() || document.tis.len() != blocks.iter().sum::<usize>() {
+        let found =
+            format!("{} stated totals for {} blocks of values", document.tis.len(), blocks.iter().sum::<usize>());
+        return Err(refused(found));
+    }
+    let mut left = document.tis.as_slice();
+    for (part, blocks) in document.parts.iter_mut().zip(blocks) {
+        let (of_part, rest) = left.split_at(blocks);
+        left = rest;
+        part.data = match &part.data {
+            Data::Specular(samples) => {
+                let of_channels = of_part.chunks_exact(incidences(&part.data));
+                let of_channels =
+                    of_channels.map(|of| of.iter().map(|&tis| f64::from(tis)).collect()).collect::<Vec<_>>();
+                Data::Specular(scaled(file, samples, &of_channels)?)
+            }
+            Data::Spherical(grid) => Data::Spherical(totals::scale(file, grid, of_part)?),
+            other => other.clone(),
+        };
+    }
     Ok(())
+}
+
+/// How many incident directions a grid has.
+fn incidences(data: &Data) -> usize {
+    let count = |knots: &[Vec<f64>; 4]| knots[0].len() * knots[1].len();
+    match data {
+        Data::Specular(samples) => count(samples.knots()),
+        Data::Spherical(grid) => count(grid.knots()),
+        _ => 0,
+    }
 }
 
 fn scaled(file: &Path, samples: &specular::Data, totals: &[Vec<f64>]) -> Result<specular::Data, FormatError> {

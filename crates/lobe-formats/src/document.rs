@@ -16,8 +16,11 @@ pub struct Document {
     /// Names and values of the header in the order of the file, for people to read. Comments have the name `comment`.
     /// What became part of the data (knots, channels) is left out.
     pub source: Vec<(String, String)>,
-    /// Total integrated scatter, the hemispherical integral of `f cos`, as the file states it for each block of its
-    /// data, in the order of the file. Empty if it states none. Nothing is computed from it.
+    /// Total integrated scatter, the hemispherical integral of `f cos`, as the file states it for each block of its data.
+    /// Empty if it states none. Values are scaled to it only if [`ReadOptions::scale`](crate::ReadOptions::scale) says so.
+    ///
+    /// For data in specular coordinates `[channel][psi][sigma]`; for those in spherical coordinates
+    /// `[theta_i][phi_i][channel]`, part by part.
     pub tis: Vec<f32>,
     /// What the reader made of a file that leaves something open, in sentences for people: which column it took for
     /// what, what it left out.
@@ -52,7 +55,14 @@ impl Part {
 
 impl Document {
     fn empty() -> Self {
-        Document { format: None, parts: Vec::new(), source: Vec::new(), tis: Vec::new(), notes: Vec::new(), doubts: Vec::new() }
+        Document {
+            format: None,
+            parts: Vec::new(),
+            source: Vec::new(),
+            tis: Vec::new(),
+            notes: Vec::new(),
+            doubts: Vec::new(),
+        }
     }
 
     /// One measurement about which there is nothing else to say.

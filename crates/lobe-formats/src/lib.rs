@@ -69,6 +69,7 @@ pub mod ssdd;
 #[cfg(any(feature = "mueller", feature = "rgl"))]
 pub mod tensor;
 mod text;
+mod totals;
 pub mod tracepro;
 mod unknown;
 pub mod utia;

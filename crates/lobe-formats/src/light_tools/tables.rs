@@ -25,7 +25,7 @@ pub(super) type ByIncidence = BTreeMap<Incidence, Vec<f32>>;
 pub(super) struct Tables {
     /// By the side of the light, and whether they are of a BTDF.
     pub tables: BTreeMap<(Side, bool), ByIncidence>,
-    /// Total integrated scatter of each table, in the order of the file.
+    /// Total integrated scatter of each table, in the order of the tables.
     pub tis: Vec<f32>,
     /// Lines and comments for people, each once.
     pub source: Vec<(String, String)>,
@@ -49,6 +49,7 @@ struct State {
 pub(super) fn read(text: &mut Text<'_>, head: &Head) -> Result<Tables, FormatError> {
     let size = head.azimuths.len().saturating_mul(head.radials.len());
     let mut found = Tables { tables: BTreeMap::new(), tis: Vec::new(), source: Vec::new(), has_end: false };
+    let mut totals = BTreeMap::new();
     let mut facts = HashSet::new();
     let (side, is_btdf) = (Side::Front, false);
     let mut state = State { aoi: None, poi: 0.0, side, is_btdf, tristimulus: None, wavelength: None, is_open: true };
@@ -67,8 +68,9 @@ pub(super) fn read(text: &mut Text<'_>, head: &Head) -> Result<Tables, FormatErr
         if is_stated {
             state.is_open = true;
         } else if key.is("TIS") {
-            found.tis.push(text.value("a total integrated scatter")?);
+            let total = text.value("a total integrated scatter")?;
             let incidence = state.incidence(text, key, &head.channels)?;
+            totals.insert((state.side, state.is_btdf, incidence), total);
             text.room(Some(size), "values", key.line)?;
             let mut values = Vec::with_capacity(size);
             for _ in 0..size {
@@ -90,6 +92,7 @@ pub(super) fn read(text: &mut Text<'_>, head: &Head) -> Result<Tables, FormatErr
     if let Some(next) = text.peek() {
         return Err(text.unexpected(next, "nothing after `DataEnd`"));
     }
+    found.tis = totals.into_values().collect();
     keep_comments(text, &mut found.source);
     if let (Channels::Mono, Some(wavelength)) = (&head.channels, state.wavelength) {
         found.state_wavelength(wavelength);

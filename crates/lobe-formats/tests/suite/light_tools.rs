@@ -1,8 +1,10 @@
 //! LightTools tables as instruments write them.
 
+use std::f64::consts::PI;
 use std::path::Path;
 
-use lobe_formats::{Document, FormatError, light_tools};
+use lobe_formats::reading::Scale;
+use lobe_formats::{Document, FormatError, ReadOptions, from_bytes_with, light_tools};
 use lobe_table::{Channels, Data, Scatter, Side};
 
 /// Three radial angles and four azimuths: the values are 1 more for each column, and 0.1 more for each row.
@@ -161,4 +163,23 @@ fn sides_and_kinds_of_scatter_are_parts() {
     let wanted =
         [Side::Front, Side::Back].map(|side| [Scatter::Reflection, Scatter::Transmission].map(|s| (Some(side), s)));
     assert_eq!(found, wanted.concat());
+}
+
+#[test]
+fn stated_totals_scale_what_is_relative() {
+    let slice = "5 5 5 5 5 5";
+    let text = format!(
+        "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\nScatterAzimuth 3 90 180 270\nScatterRadial 2 0 90\nDataBegin\n\
+         AOI 30 POI 0 Side Front Wavelength 550 ScatterType BRDF TIS 0.5\n{slice}\nAOI 0 TIS 0.25\n{slice}\nDataEnd\n"
+    );
+    let options = ReadOptions { scale: Some(Scale::Tis), ..ReadOptions::default() };
+    let document = from_bytes_with(text.as_bytes(), Path::new("relative.bsdf"), &options);
+    let document = document.unwrap_or_else(|error| panic!("{error}"));
+    let Data::Spherical(grid) = &document.parts[0].data else { panic!("a grid") };
+    // The light at 0 comes first in the grid, whatever the order of the file.
+    for (theta, total) in [(0.0_f64, 0.25), (30.0, 0.5)] {
+        let (sin, cos) = theta.to_radians().sin_cos();
+        let found = f64::from(grid.eval([sin, 0.0, cos], [0.6, 0.0, 0.8])[0]);
+        assert!((found * PI - total).abs() < 1e-3, "{found} at {theta}");
+    }
 }

@@ -11,7 +11,6 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use lobe::formats::sidecar;
 use sha2::{Digest, Sha256};
 
 use crate::camera::{Camera, Filter};
