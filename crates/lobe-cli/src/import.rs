@@ -82,7 +82,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
                     break found;
                 }
                 show(&mut stderr(), &found.1)?;
-                match ask("Right? Enter, or what to say differently, such as `values luminance-factor`: ", &mut options)? {
+                match ask(
+                    "Right? Enter, or what to say differently, such as `values luminance-factor`: ",
+                    &mut options,
+                )? {
                     true => {}
                     false => break found,
                 }
@@ -90,7 +93,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             Err(error) if may_ask => {
                 eprintln!("{error}");
                 first_lines(file);
-                if !ask("Enter to give up, or say it, such as `columns theta_i=1,theta_o=2,f=3` or `unit rad`: ", &mut options)? {
+                if !ask(
+                    "Enter to give up, or say it, such as `columns theta_i=1,theta_o=2,f=3` or `unit rad`: ",
+                    &mut options,
+                )? {
                     return Err(error.into());
                 }
             }

@@ -112,7 +112,7 @@ pub fn matches(bytes: &[u8]) -> bool {
     match head.trim_start().starts_with('{') {
         true => json::matches(&head),
         // `def` opens the values in files of Integra, whose lists of angles look like columns.
-        false => !head.contains('\0') && !has_words(&bytes, ";;", &["def"]) && table::is_named_table(&head),
+        false => !head.contains('\0') && !has_words(head.as_bytes(), ";;", &["def"]) && table::is_named_table(&head),
     }
 }
 

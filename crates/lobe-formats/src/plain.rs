@@ -68,9 +68,9 @@ mod tests {
         let little = of(wanted.encode_utf16().map(u16::to_le_bytes).collect());
         let big = of(wanted.encode_utf16().map(u16::to_be_bytes).collect());
         let texts = [
-            [b"\xef\xbb\xbf", wanted.as_bytes()].concat(),
-            [b"\xff\xfe", &little[..]].concat(),
-            [b"\xfe\xff", &big[..]].concat(),
+            [&b"\xef\xbb\xbf"[..], wanted.as_bytes()].concat(),
+            [&b"\xff\xfe"[..], &little[..]].concat(),
+            [&b"\xfe\xff"[..], &big[..]].concat(),
             little,
             big,
             wanted.replace('\n', "\r").into_bytes(),

@@ -192,7 +192,8 @@ impl FromStr for Column {
         let at = match place.parse::<usize>() {
             Ok(0) => return Err(format!("found column 0 in {text:?}; expected columns counted from 1")),
             Ok(number) => Position::Number(number),
-            Err(_) => fixed().unwrap_or_else(|| Position::Named(place.trim_matches(|c: char| c == '"' || c.is_whitespace()).into())),
+            Err(_) => fixed()
+                .unwrap_or_else(|| Position::Named(place.trim_matches(|c: char| c == '"' || c.is_whitespace()).into())),
         };
         Ok(Column { content, at })
     }

@@ -68,7 +68,8 @@ pub fn parse(text: &str, path: &Path) -> Result<ReadOptions, FormatError> {
         set(&mut options, key.get_ref(), &word).map_err(|message| {
             let (found, expected) = message.split_once("; expected ").unwrap_or((&message, "another value"));
             let found = found.strip_prefix("found ").unwrap_or(found);
-            let found = if found.starts_with("the key") { found.into() } else { format!("{found} for {}", key.get_ref()) };
+            let found =
+                if found.starts_with("the key") { found.into() } else { format!("{found} for {}", key.get_ref()) };
             FormatError::new(path, place, found, expected)
         })?;
     }

@@ -100,6 +100,14 @@ pub fn sheet(structure: &str, data: &str) -> String {
 /// A table with named columns in JSON.
 pub const JSON: &str = "{\"theta_i_deg\": [10, 10, 10], \"theta_o\": [0, 20, 20], \"phi_o\": [0, 0, 90],\n\
     \"R\": [1, 2, 3], \"G\": [4, 5, 6], \"B\": [7, 8, 9]}";
+/// A table as a spreadsheet in German writes it, with an angle of incidence in a line of its own.
+pub const OWN: &str = "Sample;blue\r\nAngle of incidence: 30 deg\r\n\r\ntheta_o;phi_o [deg];BRDF [1/sr];std\r\n0;0;0,5;0,1\r\n\
+    20;0;0,25;-\r\n20;90;0,25;0\r\n40;180;;0\r\nAOI: 50\r\n0;0;0,5;0\r\n20;10;0,75;0\r\nend\r\n";
+/// A table with a wavelength per row, names in a comment, and blanks between columns.
+pub const LONG: &str =
+    "# theta_i  theta_o  lambda [nm]  f\n10  -20  450  1\n10  -20  550  2\n10   30  450  3\n10   30  550  nan\n";
+/// A table with a column per angle of incidence.
+pub const WIDE: &str = "theta_o \\ theta_i\t10\t20\n-10\t1\t2\n0\t3\t4\n10\t5\t6\n";
 /// A tensor tree of rank 3.
 pub const TREE: &str = "{{1}{2}{3}{4}{5}{6}{7}{8 8 8 8 8 8 8 8}}";
 /// The values of a matrix of three patches.
@@ -235,6 +243,9 @@ pub fn all() -> Vec<(Format, Vec<u8>)> {
         (Format::Goniometer, csv("phi_o,theta_i,theta_o,f", 1.0)),
         (Format::Goniometer, csv("phi_deg,sigma,theta,Y", 1.0)),
         (Format::Goniometer, JSON.into()),
+        (Format::Goniometer, OWN.into()),
+        (Format::Goniometer, LONG.into()),
+        (Format::Goniometer, WIDE.into()),
     ];
     let binaries = [
         (Format::Rgl, tiny_rgl()),

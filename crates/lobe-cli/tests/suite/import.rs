@@ -8,7 +8,9 @@ use crate::common::{Files, json, printed, run, text};
 fn lambert(value: f64) -> String {
     let rows = |theta_i: i32| {
         (0..=8).flat_map(move |theta| {
-            (0..8).map(move |turn| format!("{theta_i};{};{};{}\n", 10 * theta, 45 * turn, value.to_string().replace('.', ",")))
+            (0..8).map(move |turn| {
+                format!("{theta_i};{};{};{}\n", 10 * theta, 45 * turn, value.to_string().replace('.', ","))
+            })
         })
     };
     [0, 30, 60].into_iter().flat_map(rows).collect()
@@ -38,7 +40,11 @@ fn what_was_said_is_kept_for_every_command() {
     let said = ["import", text(&file), "--columns", COLUMNS, "--values", "luminance-factor"];
     let (code, shown, message) = run(&[&said[..], &["--no-sidecar"]].concat());
     assert!(code == 0 && !files.path("scan.txt.lobe.toml").exists(), "{message}");
-    for part in ["semicolons between cells, a comma before decimals", "luminance factors, pi f, as was said", "column 1 is theta_i"] {
+    for part in [
+        "semicolons between cells, a comma before decimals",
+        "luminance factors, pi f, as was said",
+        "column 1 is theta_i",
+    ] {
         assert!(shown.contains(part), "{part}: {shown}");
     }
     let (code, _, message) = run(&said);
@@ -92,7 +98,9 @@ fn impossible_values_and_bad_options_are_reported() {
     let file = files.write("scan.csv", &format!("AOI;view angle;azimuth;BRDF\n{}", lambert(0.9)));
     let (code, shown, _) = run(&["import", text(&file)]);
     assert!(code == 3 && shown.contains("FAIL"), "{shown}");
-    for (option, word) in [("--values", "g"), ("--unit", "gon"), ("--scale", "0"), ("--columns", "theta_i"), ("--in-plane", "x")] {
+    for (option, word) in
+        [("--values", "g"), ("--unit", "gon"), ("--scale", "0"), ("--columns", "theta_i"), ("--in-plane", "x")]
+    {
         let (code, _, message) = run(&["info", text(&file), option, word]);
         assert!(code == 2 && message.contains("expected"), "{message}");
     }
@@ -121,11 +129,13 @@ fn pairs_of_any_spelling() {
         ("tabs", b"0.5\t0\t0.5\t0\t0\t1\n".to_vec()),
         ("blanks", b"0.5 0 0.5  0 0 1\n".to_vec()),
         ("returns", b"# c\r0.5,0,0.5,0,0,1\r".to_vec()),
-        ("UTF-16", [b"\xff\xfe", &utf_16[..]].concat()),
+        ("UTF-16", [&b"\xff\xfe"[..], &utf_16[..]].concat()),
     ] {
         assert_eq!(of(name, &bytes), wanted, "{name}");
     }
-    for (bad, message) in [("wix,wiy,wiz,a,b,c\n", "no column wox"), ("0,0,1,0,0\n", "5 columns"), ("0,0,1;0,0,1\n", "2 columns")] {
+    for (bad, message) in
+        [("wix,wiy,wiz,a,b,c\n", "no column wox"), ("0,0,1,0,0\n", "5 columns"), ("0,0,1;0,0,1\n", "2 columns")]
+    {
         let path = files.write("bad.csv", bad);
         let (code, _, found) = run(&["eval", text(&file), "--pairs", text(&path)]);
         assert!(code == 2 && found.contains(message) && found.contains("bad.csv:1:"), "{found}");

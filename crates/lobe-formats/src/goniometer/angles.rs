@@ -1,6 +1,6 @@
 //! Names of angles.
 
-use super::names::{Angle, Meaning, Name, Unit};
+use super::names::{Angle, Meaning, Name};
 use super::words::{AZIMUTHS, INCOMING, OUTGOING, POLARS, RELATIVE};
 
 impl Name {

@@ -57,9 +57,20 @@ impl Facts {
         if is_kind.contains(&words.0.as_str()) {
             self.holds = words.1.trim().parse().ok().or(self.holds);
         }
-        let short = |text: &str| text.chars().take(LONGEST).collect::<String>();
-        self.source.push((short(name), short(&value)));
+        self.source.push((shown(name), shown(&value)));
     }
+}
+
+/// A text of the file for people: not too long, and without control characters.
+fn shown(text: &str) -> String {
+    let mut out = String::new();
+    for c in text.chars().take(LONGEST) {
+        match c.is_control() {
+            true => out.extend(c.escape_default()),
+            false => out.push(c),
+        }
+    }
+    out
 }
 
 /// The angle that a line states, if it is such a line.

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::facts::Facts;
 use super::chosen::meanings;
+use super::facts::Facts;
 use super::layout::{Layout, Source, Trouble, Values};
 use super::names::{Angle, Meaning, meaning};
 use super::rows::Raw;

@@ -2,9 +2,9 @@
 
 use lobe_table::Channels;
 
-use super::facts::Facts;
 use super::chosen::{list, list_of};
 use super::directions::{settle, wide};
+use super::facts::Facts;
 use super::names::{Angle, Meaning, Unit};
 use crate::columns::channels;
 use crate::lines::shown;
@@ -240,7 +240,10 @@ impl Layout {
                 // In nm it would be an X-ray, and in micrometres it is not said.
                 Meaning::Number(number, ..) if *number < SHORTEST => {
                     let found = format!("the name {}, which may be a wavelength or something else", shown(name));
-                    return Err(Trouble::new(found, "wavelengths with their unit, such as 550nm or 0.55um, in the names or with columns"));
+                    return Err(Trouble::new(
+                        found,
+                        "wavelengths with their unit, such as 550nm or 0.55um, in the names or with columns",
+                    ));
                 }
                 Meaning::Number(number, ..) => {
                     channel_names.push(number.to_string());

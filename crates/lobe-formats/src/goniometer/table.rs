@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use super::facts::{Facts, fixed};
 use super::chosen::{meanings, of_name};
 use super::directions::has_directions;
+use super::facts::{Facts, fixed};
 use super::layout::{Layout, Trouble};
 use super::names::{Meaning, Unit};
 use super::rows::{Raw, describe};

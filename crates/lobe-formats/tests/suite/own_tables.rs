@@ -83,7 +83,10 @@ fn is_the_measurement(document: &Document, channels: usize, name: &str) {
             assert_eq!(found.len(), channels, "{name}");
             for (channel, found) in found.iter().enumerate() {
                 let wanted = f(theta_i, theta_o, channel);
-                assert!((f64::from(*found) - wanted).abs() < 1e-5, "{name}: {found}, not {wanted} at {theta_i}, {theta_o}");
+                assert!(
+                    (f64::from(*found) - wanted).abs() < 1e-5,
+                    "{name}: {found}, not {wanted} at {theta_i}, {theta_o}"
+                );
             }
         }
     }
@@ -108,8 +111,14 @@ fn delimiters_and_decimals() {
         ("one blank", table(HEAD, " ")),
         ("two blanks", table(HEAD, "  ")),
         ("aligned", format!(" theta_i theta_o   phi_o     450nm     550nm     650nm\n{aligned}")),
-        ("aligned, units apart", format!("theta_i [deg]  theta_o [deg]  phi_o [deg]  450 nm  550 nm  650 nm\n{aligned}")),
-        ("aligned, one blank before units", format!("theta_i (deg) theta_o (deg) phi_o (deg) 450nm 550nm 650nm\n{aligned}")),
+        (
+            "aligned, units apart",
+            format!("theta_i [deg]  theta_o [deg]  phi_o [deg]  450 nm  550 nm  650 nm\n{aligned}"),
+        ),
+        (
+            "aligned, one blank before units",
+            format!("theta_i (deg) theta_o (deg) phi_o (deg) 450nm 550nm 650nm\n{aligned}"),
+        ),
         ("semicolons, decimal comma", comma(table(HEAD, ";"))),
         ("tabs, decimal comma", comma(table(HEAD, "\t"))),
         ("blanks, decimal comma", comma(table(&HEAD.replace(',', "  "), "  "))),
@@ -143,16 +152,17 @@ fn encodings_and_ends_of_lines() {
         ("UTF-16 BE without a mark", of(u16::to_be_bytes)),
         ("CRLF", text.replace('\n', "\r\n").into_bytes()),
         ("CR", text.replace('\n', "\r").into_bytes()),
-        ("Latin-1", [b"Gr\xf6\xdfe\t45\xb0\n", text.as_bytes()].concat()),
+        ("Latin-1", [&b"Gr\xf6\xdfe\t45\xb0\n"[..], text.as_bytes()].concat()),
     ];
     for (name, bytes) in texts {
         assert_eq!(sniff(&bytes), Some(Format::Goniometer), "{name}");
         is_the_measurement(&read(&bytes, &[]), 3, name);
     }
     // A spreadsheet in German.
-    let german = table("Einfallswinkel [Grad],Streuwinkel [Grad],Azimut [Grad],450 nm,550 nm,650 nm", ";").replace('.', ",");
+    let german =
+        table("Einfallswinkel [Grad],Streuwinkel [Grad],Azimut [Grad],450 nm,550 nm,650 nm", ";").replace('.', ",");
     let units: Vec<u8> = german.replace('\n', "\r\n").encode_utf16().flat_map(u16::to_le_bytes).collect();
-    is_the_measurement(&read(&[b"\xff\xfe", &units[..]].concat(), &[]), 3, "German");
+    is_the_measurement(&read(&[&b"\xff\xfe"[..], &units[..]].concat(), &[]), 3, "German");
 }
 
 #[test]
@@ -205,11 +215,18 @@ fn names_of_angles_and_values() {
         is_the_measurement(&document, 3, values);
     }
     let many: Vec<String> = (0..9).map(|step| (400 + 50 * step).to_string()).collect();
-    let spectrum = format!("theta_i,theta_o,{}\n{}", many.join(","), rows(|i, o, [a, ..]| format!("{i},{o}{}", format!(",{a}").repeat(9))));
+    let spectrum = format!(
+        "theta_i,theta_o,{}\n{}",
+        many.join(","),
+        rows(|i, o, [a, ..]| format!("{i},{o}{}", format!(",{a}").repeat(9)))
+    );
     assert_eq!(read(spectrum.as_bytes(), &[]).only().expect("data").representation().channels().count(), 9);
     refused(&in_plane("theta_i,theta_o,0.45,0.55,0.65"), &[], "0.45", "550nm");
     for value in ["f", "f_r", "BRDF", "BRDF [1/sr]", "BRDF (sr^-1)", "fr", "Y", "measured", "rho"] {
-        let text = format!("theta_i,theta_o,{value},std,comment\n{}", rows(|i, o, [a, ..]| format!("{i},{o},{a},{},x", a / 10.0)));
+        let text = format!(
+            "theta_i,theta_o,{value},std,comment\n{}",
+            rows(|i, o, [a, ..]| format!("{i},{o},{a},{},x", a / 10.0))
+        );
         let document = read(text.as_bytes(), &[]);
         assert_eq!(document.only().expect("data").representation().channels(), Channels::Mono, "{value}");
         is_the_measurement(&document, 1, value);
@@ -251,7 +268,11 @@ fn lines_around_the_rows() {
 
 #[test]
 fn the_plane_of_incidence() {
-    is_the_measurement(&read(in_plane("Incident_angle,Measure_angle, 450nm , 550nm , 650nm ").as_bytes(), &[]), 3, "in plane");
+    is_the_measurement(
+        &read(in_plane("Incident_angle,Measure_angle, 450nm , 550nm , 650nm ").as_bytes(), &[]),
+        3,
+        "in plane",
+    );
     let mirrored = format!("theta_i,theta_o,f\n{}", rows(|i, o, [a, ..]| format!("{i},{},{a}", -o)));
     is_the_measurement(&read(mirrored.as_bytes(), &[("in-plane", "opposite-sign")]), 1, "opposite sign");
     let doubts = read(mirrored.as_bytes(), &[]).doubts;
@@ -279,10 +300,16 @@ fn is_the_measurement_turned(document: &Document, name: &str) {
 
 #[test]
 fn degrees_and_radians() {
-    let radians = |digits: usize| rows(|i, o, [a, b, c]| {
-        format!("{:.digits$},{:.digits$},3.14159265,{a},{b},{c}", i.to_radians(), o.to_radians())
-    });
-    for head in ["theta_i_rad,theta_o_rad,phi_o_rad", "theta_i [rad],theta_o [rad],phi_o [rad]", "theta_i (radians),theta_o,phi_o"] {
+    let radians = |digits: usize| {
+        rows(|i, o, [a, b, c]| {
+            format!("{:.digits$},{:.digits$},3.14159265,{a},{b},{c}", i.to_radians(), o.to_radians())
+        })
+    };
+    for head in [
+        "theta_i_rad,theta_o_rad,phi_o_rad",
+        "theta_i [rad],theta_o [rad],phi_o [rad]",
+        "theta_i (radians),theta_o,phi_o",
+    ] {
         let text = format!("{head},R,G,B\n{}", radians(9));
         is_the_measurement(&read(text.as_bytes(), &[]), 3, head);
     }
@@ -317,9 +344,8 @@ fn cells_without_a_value() {
 fn wide_and_long_tables() {
     let wide = |corner: &str, name: &dyn Fn(f64) -> String| {
         let head: Vec<String> = THETA_I.iter().map(|i| name(*i)).collect();
-        let rows: String = thetas()
-            .map(|o| format!("{o};{}\n", THETA_I.map(|i| f(i, o, 0).to_string()).join(";")))
-            .collect();
+        let rows: String =
+            thetas().map(|o| format!("{o};{}\n", THETA_I.map(|i| f(i, o, 0).to_string()).join(";"))).collect();
         format!("{corner};{}\n{rows}", head.join(";"))
     };
     for (name, text) in [
@@ -346,7 +372,11 @@ fn wide_and_long_tables() {
         ("theta_i,theta_o,λ (µm),f", 1e-3),
     ] {
         let document = read(long(head, scale).as_bytes(), &[]);
-        assert_eq!(document.only().expect("data").representation().channels(), Channels::Spectral(nm.to_vec()), "{head}");
+        assert_eq!(
+            document.only().expect("data").representation().channels(),
+            Channels::Spectral(nm.to_vec()),
+            "{head}"
+        );
         is_the_measurement(&document, 3, head);
     }
 }
@@ -382,7 +412,10 @@ fn what_passes_through() {
     let through = format!("theta_i,theta_o,BTDF\n{}", rows(|i, o, [a, ..]| format!("{i},{o},{a}")));
     let document = read(through.as_bytes(), &[]);
     assert_eq!(document.only().expect("data").representation().scatter(), Scatter::Transmission);
-    let beyond = format!("theta_i,theta_o,f\n{}", rows(|i, o, [a, ..]| format!("{i},{},{a}", (180.0 - f64::abs(o)).copysign(o))));
+    let beyond = format!(
+        "theta_i,theta_o,f\n{}",
+        rows(|i, o, [a, ..]| format!("{i},{},{a}", (180.0 - f64::abs(o)).copysign(o)))
+    );
     refused(&beyond, &[], "theta_o", "--holds transmission");
     let wi = direction(30.0, 0.0);
     let [x, y, z] = direction(30.0, 180.0);
@@ -390,7 +423,9 @@ fn what_passes_through() {
     assert!((eval(down.only().expect("data"), wi, [x, y, -z])[0] - 0.35).abs() < 1e-5);
     let body = |text: &str| text.split_once('\n').expect("lines").1.to_string();
     let reflection = in_plane("theta_i,theta_o,R,G,B");
-    let values = |text: String| text.lines().map(|line| line.split(',').take(3).collect::<Vec<_>>().join(",") + "\n").collect::<String>();
+    let values = |text: String| {
+        text.lines().map(|line| line.split(',').take(3).collect::<Vec<_>>().join(",") + "\n").collect::<String>()
+    };
     let both = format!("theta_i,theta_o,f\n{}{}", values(body(&reflection)), body(&beyond));
     refused(&both, &[("holds", "transmission")], "theta_o", "both");
     let sheet = read(both.as_bytes(), &[("holds", "both")]);
@@ -438,13 +473,14 @@ fn columns_are_said() {
 
 #[test]
 fn rows_that_contradict_each_other_are_refused() {
-    let text = format!(
-        "theta_i,theta_o,polarisation,BRDF\n{}",
-        rows(|i, o, [a, ..]| format!("{i},{o},s,{a}\n{i},{o},p,{a}"))
-    );
+    let text =
+        format!("theta_i,theta_o,polarisation,BRDF\n{}", rows(|i, o, [a, ..]| format!("{i},{o},s,{a}\n{i},{o},p,{a}")));
     refused(&text, &[], "\"p\" in column \"polarisation\", and \"s\" in line 2", "averaged");
     is_the_measurement(&read(text.as_bytes(), &[("columns", "f=4")]), 1, "averaged");
-    let repeated = format!("theta_i,theta_o,run,BRDF\n{}", rows(|i, o, [a, ..]| format!("{i},{o},1,{}\n{i},{o},2,{}", a - 0.1, a + 0.1)));
+    let repeated = format!(
+        "theta_i,theta_o,run,BRDF\n{}",
+        rows(|i, o, [a, ..]| format!("{i},{o},1,{}\n{i},{o},2,{}", a - 0.1, a + 0.1))
+    );
     is_the_measurement(&read(repeated.as_bytes(), &[]), 1, "runs");
     refused(&table(HEAD, ",").replace("450nm", "550nm"), &[], "twice", "once");
     refused(&table(HEAD, ",").replace("450nm", "R"), &[], "channels", "wavelengths");
@@ -465,9 +501,15 @@ fn rows_that_contradict_each_other_are_refused() {
 fn a_sidecar_is_read_with_its_file() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("scan.txt");
-    std::fs::write(&file, rows(|i, o, [a, ..]| format!("{i};{o};{}", (PI * a).to_string().replace('.', ",")))).expect("a file");
+    std::fs::write(&file, rows(|i, o, [a, ..]| format!("{i};{o};{}", (PI * a).to_string().replace('.', ","))))
+        .expect("a file");
     assert!(open(&file).is_err());
-    let said = options(&[("columns", "theta_i=1,theta_o=2,f=3"), ("values", "luminance-factor"), ("scale", "1"), ("unit", "deg")]);
+    let said = options(&[
+        ("columns", "theta_i=1,theta_o=2,f=3"),
+        ("values", "luminance-factor"),
+        ("scale", "1"),
+        ("unit", "deg"),
+    ]);
     let text = sidecar::to_text(&said, "scan.txt");
     assert_eq!(sidecar::parse(&text, path()), Ok(said));
     std::fs::write(folder.path().join("scan.txt.lobe.toml"), &text).expect("a sidecar");
@@ -475,11 +517,15 @@ fn a_sidecar_is_read_with_its_file() {
     // What is said comes before it.
     let other = ReadOptions { values: Some(Quantity::F), ..ReadOptions::default() };
     let found = open_with(&file, &other).unwrap_or_else(|error| panic!("{error}")).1;
-    assert!((eval(found.only().expect("data"), direction(30.0, 0.0), direction(30.0, 180.0))[0] - 0.35 * 3.141_592_7).abs() < 1e-5);
+    assert!(
+        (eval(found.only().expect("data"), direction(30.0, 0.0), direction(30.0, 180.0))[0] - 0.35 * 3.141_592_7).abs()
+            < 1e-5
+    );
     let odd = r#"columns = "f=\"5\",theta_i=\"a\u0001b=c\",theta_o=-1.5e-3rad""#;
     let odd = sidecar::parse(odd, path()).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(sidecar::parse(&sidecar::to_text(&odd, "a\nb"), path()), Ok(odd));
-    let by_table = "columns = { theta_i = 1, theta_o = 2, f = 3 }\nin_plane = 'same-sign'\nscale = 2\ndecimal-comma = true\n";
+    let by_table =
+        "columns = { theta_i = 1, theta_o = 2, f = 3 }\nin_plane = 'same-sign'\nscale = 2\ndecimal-comma = true\n";
     let parsed = sidecar::parse(by_table, path()).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(parsed.columns.len(), 3);
     assert_eq!((parsed.decimal_comma, parsed.scale.map(|scale| scale.to_string())), (Some(true), Some("2".into())));
@@ -499,7 +545,13 @@ fn a_sidecar_is_read_with_its_file() {
 #[test]
 fn options_that_do_not_fit_are_refused() {
     let zemax = lobe_testing::examples::ZEMAX;
-    for words in [("columns", "theta_i=1"), ("unit", "deg"), ("holds", "reflection"), ("in-plane", "same-sign"), ("decimal-comma", "true")] {
+    for words in [
+        ("columns", "theta_i=1"),
+        ("unit", "deg"),
+        ("holds", "reflection"),
+        ("in-plane", "same-sign"),
+        ("decimal-comma", "true"),
+    ] {
         refused(zemax, &[words], "Zemax", "values and scale");
     }
 }
