@@ -63,7 +63,7 @@ mod tests {
 
     #[test]
     fn texts_of_all_encodings_are_the_same() {
-        let wanted = "theta,f\n1,2 \u{b0}\n";
+        let wanted = "theta_i,theta_o,phi_o,f and a comment\n1,2 \u{b0}\n";
         let of = |units: Vec<[u8; 2]>| units.concat();
         let little = of(wanted.encode_utf16().map(u16::to_le_bytes).collect());
         let big = of(wanted.encode_utf16().map(u16::to_be_bytes).collect());
