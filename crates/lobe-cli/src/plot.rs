@@ -180,8 +180,9 @@ fn content(
     };
     let width = shown.first().map_or(0, |first| first.view.width);
     let bytes = match target {
-        Target::Png(_) => rasterise(&drawing.svg, width)
-            .map_err(|error| Failure::File(format!("{}: {error}", out.display())))?,
+        Target::Png(_) => {
+            rasterise(&drawing.svg, width).map_err(|error| Failure::File(format!("{}: {error}", out.display())))?
+        }
         _ => drawing.svg.into_bytes(),
     };
     Ok(Ok(Content { bytes, what: format!("{figure}, {width} pixels wide"), said: drawing.said }))

@@ -18,13 +18,7 @@
 #![forbid(unsafe_code)]
 // Without some of the formats, some of what they share is left over.
 #![cfg_attr(
-    not(all(
-        feature = "json",
-        feature = "mueller",
-        feature = "rgl",
-        feature = "spherical",
-        feature = "window"
-    )),
+    not(all(feature = "json", feature = "mueller", feature = "rgl", feature = "spherical", feature = "window")),
     allow(dead_code, unused_imports)
 )]
 
