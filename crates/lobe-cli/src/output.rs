@@ -105,7 +105,7 @@ impl Output {
             zeniths: None,
             azimuths: None,
             texels: None,
-            basis: Basis::Full,
+            basis: None,
         }
     }
 

@@ -67,7 +67,7 @@ fn direction(theta: f64, phi: f64) -> [f64; 3] {
 fn eval(data: &Data, wi: [f64; 3], wo: [f64; 3]) -> Vec<f32> {
     match data {
         Data::Scattered(data) => data.eval(wi, wo),
-        Data::Spherical(data) => data.eval(wi, wo),
+        Data::Spherical(data) => data.eval(wi, wo).into_iter().map(|value| value as f32).collect(),
         other => panic!("{other:?}"),
     }
 }

@@ -95,7 +95,7 @@ fn wavelengths_sides_and_mirrors_are_kept() {
 
     let specular = "300 0.55 0 0 0 0 0.1 0.3 0 0\n300 0.55 60 0 0 0 0.5 0.7 0 0\n";
     let document = read(&file(specular, &table(550.0, 0.4))).expect("a property");
-    let mirror = document.parts.iter().find_map(|part| part.data.representation().mirror()).expect("a mirror");
+    let mirror = document.parts.iter().find_map(|part| part.data.mirror()).expect("a mirror");
     assert_eq!((mirror.values(), mirror.scatter()), ([0.2, 0.6].as_slice(), Scatter::Reflection));
     let document = read(&file(specular, &table(600.0, 0.4))).expect("a property");
     assert!(document.source.iter().any(|(name, value)| name == "specular reflectance" && value.contains("not read")));

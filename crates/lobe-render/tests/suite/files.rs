@@ -12,7 +12,17 @@ use super::common::*;
 const SIZE: [u32; 2] = [70, 40];
 
 fn meta(window: Rect, samples: std::ops::Range<u32>) -> Meta {
-    Meta { scene: "00ff".into(), size: SIZE, window, samples, total: 6 }
+    Meta {
+        scene: "00ff".into(),
+        size: SIZE,
+        window,
+        samples,
+        total: 6,
+        timed: false,
+        exposure: 0.0,
+        version: Meta::VERSION.into(),
+        arithmetic: "strict".into(),
+    }
 }
 
 #[test]
@@ -34,7 +44,7 @@ fn parts_merge_to_the_same_bytes_as_the_whole() {
         assert!(read == film && said == meta(window, samples));
         parts.push(path);
     }
-    assert!(matches!(merge(&parts[..2], false), Err(MergeError::Gaps { found, expected })
+    assert!(matches!(merge(&parts[..2], false), Err(MergeError::Gaps { found, expected, .. })
         if found == 70 * (13 * 6 + 27 * 2) && expected == 70 * 40 * 6));
     let twice = [&parts[0], &parts[1], &parts[1]];
     assert!(merge(&twice, false).unwrap_err().to_string().contains("4..6"));
