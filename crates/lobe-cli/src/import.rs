@@ -22,11 +22,11 @@ use crate::{convert, plot};
     after_help = "What is said with options is kept in FILE.lobe.toml next to the file, and from then on every command and the library read the file like this. On a terminal, what is not understood is asked for.
 
 Examples:
-  lobe import scan.csv                                      what it is taken for, and whether that is sound
+  lobe import scan.csv                       what it is taken for
   lobe import scan.txt --columns theta_i=30deg,theta_o=1,f=2
-  lobe import scan.csv --unit rad --values luminance-factor --plot scan.html
-  lobe import scan.csv -o scan.bsdf --to rgl                for Mitsuba and pbrt
-  lobe import lens.bsdf --scale tis                         values relative to the stated total
+  lobe import scan-rad.csv --unit rad --values luminance-factor --plot scan.html
+  lobe import scan.csv -o scan.bsdf --to rgl   for Mitsuba and pbrt
+  lobe import lens.bsdf --scale tis            values relative to a total
 
 Exit codes: 0 done, 1 not understood or not written, 2 wrong usage, 3 read and written, but a check failed."
 )]

@@ -1,7 +1,6 @@
 //! Pairs of directions, from the command line or from a CSV file.
 
-use std::fs::File;
-use std::io::{BufRead, BufReader, Read, stdin};
+use std::io::{BufRead, BufReader, Cursor, Read, stdin};
 use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
@@ -92,7 +91,8 @@ impl Pairs {
         let input: Box<dyn Read> = if is_stream {
             Box::new(stdin().lock())
         } else {
-            Box::new(File::open(path).map_err(|error| Failure::File(format!("{}: {error}", path.display())))?)
+            // Spreadsheets write UTF-16, byte-order marks, and carriage returns alone.
+            Box::new(Cursor::new(lobe_formats::plain_text(&lobe_files::read(path)?).into_owned()))
         };
         let capacity = if is_stream { 1 << 16 } else { 1 << 20 };
         let input = BufReader::with_capacity(capacity, input);

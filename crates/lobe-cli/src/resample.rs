@@ -173,7 +173,6 @@ fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(specular::Da
     let given = [&args.sigma, &args.psi, &args.theta, &args.phi];
     let own = if let Some(Data::Specular(samples)) = subject.data(aspect) { Some(samples) } else { None };
     let is_all_given = given.iter().all(|axis| axis.is_some());
-    let is_bound = args.error.is_some() || !is_all_given;
     let idle = |name: &str, why: &str| {
         let message =
             format!("{}: found {name}, but {why}; expected no option that changes nothing", args.input.display());
@@ -187,7 +186,7 @@ fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(specular::Da
             _ => Ok((samples.clone(), None)),
         };
     }
-    if args.per_value && !is_bound {
+    if args.per_value && args.error.is_none() && is_all_given {
         return idle("--per-value", "all axes are given, so there is no bound to meet");
     }
     let limit = args.limit.unwrap_or(DEFAULT_LIMIT);
@@ -217,8 +216,16 @@ fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(specular::Da
     let chosen = choose(&subject.material, aspect, &axes, bound, &bar)
         .map_err(|error| Failure::Usage(format!("{}: {error}", args.output.display())))?;
     drop(bar);
-    // With all knots given there is no bound to meet, unless one was requested.
-    if chosen.error > bound.error && is_bound {
+    if chosen.error > bound.error && is_all_given && args.error.is_some() {
+        say(format_args!(
+            "{}: the error of these knots is {:.4}, more than {}",
+            args.output.display(),
+            chosen.error,
+            bound.error
+        ));
+    }
+    // Knots that are all given are what was wanted, whatever the error.
+    if chosen.error > bound.error && !is_all_given {
         let (output, least) = (args.output.display(), rounded_up(chosen.least));
         if args.error.is_some() {
             return Err(Failure::Check(format!(

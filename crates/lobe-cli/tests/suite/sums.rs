@@ -30,7 +30,7 @@ fn parts_of_two_versions_of_a_buffer_are_not_merged() {
     let out = files.path("out.png");
     printed(&["merge", text(&one), text(&two), "-o", text(&out)]);
     let (code, _, message) = run(&["merge", text(&one), text(&other), "-o", text(&out)]);
-    assert!(code == 1 && message.contains("of the scene"), "{message}");
+    assert!(code == 1 && message.contains("found the scene of"), "{message}");
     let (code, _, message) = run(&["merge", text(&one), "-o", text(&out)]);
     assert!(code == 1 && message.contains("samples 0..4 of rows 8..16"), "{message}");
 }

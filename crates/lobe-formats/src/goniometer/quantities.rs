@@ -31,7 +31,8 @@ pub(super) const SIGNALS: &[&str] = &[
 
 /// Units that values of `f` cannot have.
 pub(super) fn is_signal_unit(unit: &str) -> bool {
-    let unit = unit.replace(['µ', 'μ'], "u");
+    // The words of names are apart, `uA` as well.
+    let unit = unit.replace(['µ', 'μ'], "u").replace(' ', "");
     [
         "ua", "na", "ma", "a", "v", "mv", "uv", "w", "mw", "uw", "cd", "cd/m2", "cd/m^2", "lx", "lm", "counts", "cts",
         "w/sr", "w/m2/sr", "db",

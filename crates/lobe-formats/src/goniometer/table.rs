@@ -48,9 +48,12 @@ pub(super) fn has_rows(text: &str) -> bool {
     let Some(dialect) = Dialect::of(&lines, None) else { return false };
     let is_row = |line: &&Line<'_>| {
         let cells = dialect.cells_to_the_last(line.text);
-        cells.len() >= 3 && cells.iter().all(|cell| !matches!(dialect.cell(cell), Cell::Text))
+        let numbers = cells.iter().filter(|cell| matches!(dialect.cell(cell), Cell::Number(_))).count();
+        numbers >= 2 && cells.len() >= 3 && cells.iter().all(|cell| !matches!(dialect.cell(cell), Cell::Text))
     };
-    lines.iter().filter(is_row).take(4).count() == 4 || start(&lines, dialect, &ReadOptions::default()).is_ok()
+    let rows = lines.iter().filter(is_row).count();
+    // Prose has numbers in it as well.
+    rows >= 4 && 2 * rows > lines.len() || start(&lines, dialect, &ReadOptions::default()).is_ok()
 }
 
 /// Reads the table of a text.

@@ -40,8 +40,9 @@ pub(super) fn of(
     if open.is_empty() {
         return Ok(stated.map(|unit| unit.unwrap_or(Unit::Deg)));
     }
-    // If some names state a unit and others do not, it is the same.
-    let some = stated.iter().flatten().next().copied();
+    // If some names state a unit and others do not, it is the same. An angle that is the same in all rows has its own.
+    let is_fixed = |axis: &usize| matches!(raw.layout.angles[*axis], Source::Fixed(..));
+    let some = (0..4).filter(|axis| !is_fixed(axis)).find_map(|axis| stated[axis]);
     let unit = match options.unit.or(raw.facts.unit).or(some) {
         Some(unit) => unit,
         None => {

@@ -61,9 +61,9 @@ pub fn write(data: &Data, path: &Path) -> Result<(), FormatError> {
         Data::Scattered(scattered) => {
             rows(&mut out, Some(Rows::Samples));
             let in_degrees: Option<Vec<[f64; 4]>> =
-                scattered.samples().map(|(angles, _)| exact_degrees(angles)).collect();
+                scattered.relative_samples().map(|(angles, _)| exact_degrees(angles)).collect();
             header(&mut out, &SPHERICAL, if in_degrees.is_some() { "deg" } else { "rad" }, &channels);
-            for (index, (angles, values)) in scattered.samples().enumerate() {
+            for (index, (angles, values)) in scattered.relative_samples().enumerate() {
                 let angles = in_degrees.as_ref().map_or_else(|| exact_radians(angles), |degrees| degrees[index]);
                 line(&mut out, angles.into_iter(), values);
             }
@@ -95,14 +95,14 @@ fn rows(out: &mut String, rows: Option<Rows>) {
     }
 }
 
-/// Two azimuths of a sample that are restored to the bit: the incident one, and the outgoing one relative to it.
-fn is_restored([theta_i, phi_i, theta_o, phi_o]: [f64; 4], read: [f64; 4]) -> bool {
-    let relative = |of: f64, to: f64| (to - of).rem_euclid(TAU).to_bits();
-    let pairs = [(theta_i, read[0]), (phi_i, read[1]), (theta_o, read[2])];
-    pairs.into_iter().all(|(a, b)| a.to_bits() == b.to_bits()) && relative(phi_i, phi_o) == relative(read[1], read[3])
+/// Whether a reader makes a sample of these angles, whose last azimuth counts from the incident one.
+fn is_restored([theta_i, phi_i, theta_o, relative]: [f64; 4], read: [f64; 4]) -> bool {
+    let pairs =
+        [(theta_i, read[0]), (phi_i, read[1]), (theta_o, read[2]), (relative, (read[3] - read[1]).rem_euclid(TAU))];
+    pairs.into_iter().all(|(a, b)| a.to_bits() == b.to_bits())
 }
 
-/// The angles in degrees, with the fewest digits that a reader makes the same radians of; `None` if there are none.
+/// The angles of a file in degrees, with the fewest digits that a reader makes the same radians of; `None` if there are none.
 fn exact_degrees(angles: [f64; 4]) -> Option<[f64; 4]> {
     let unit = 1_f64.to_radians();
     let degrees = |angle: f64| {
@@ -110,28 +110,34 @@ fn exact_degrees(angles: [f64; 4]) -> Option<[f64; 4]> {
         let candidates = [rounded, near, near.next_up(), near.next_down()];
         candidates.into_iter().find(|degrees| (degrees * unit).to_bits() == angle.to_bits())
     };
-    let [theta_i, phi_i, theta_o, phi_o] = angles;
+    let [theta_i, phi_i, theta_o, relative] = angles;
     let (a, b, c) = (degrees(theta_i)?, degrees(phi_i)?, degrees(theta_o)?);
-    let candidates = outgoing([phi_i, phi_o])
+    let candidates = outgoing(phi_i, relative)
         .map(f64::to_degrees)
         .flat_map(|near| [(near * 1e9).round() / 1e9, near, near.next_up(), near.next_down()]);
     let restored = |d: &f64| is_restored(angles, [a, b, c, *d].map(|degrees| degrees * unit));
     candidates.into_iter().find(restored).map(|d| [a, b, c, d])
 }
 
-/// The angles in radians: as they are, but for the outgoing azimuth, of which the difference counts.
+/// The angles of a file in radians.
 fn exact_radians(angles: [f64; 4]) -> [f64; 4] {
-    let [theta_i, phi_i, theta_o, phi_o] = angles;
+    let [theta_i, phi_i, theta_o, relative] = angles;
     let restored = |d: &f64| is_restored(angles, [theta_i, phi_i, theta_o, *d]);
-    let phi_o = outgoing([phi_i, phi_o]).find(restored).unwrap_or(phi_o);
+    let phi_o = outgoing(phi_i, relative).find(restored).unwrap_or(phi_i + relative);
     [theta_i, phi_i, theta_o, phi_o]
 }
 
-/// Azimuths that may have been the outgoing one of a file, before it became a difference and a sum again.
-fn outgoing([phi_i, phi_o]: [f64; 2]) -> impl Iterator<Item = f64> {
+/// How many neighbours of an azimuth are tried.
+const ULPS: usize = 40;
+
+/// Azimuths that may have been the outgoing one of a file, before it became a difference.
+fn outgoing(phi_i: f64, relative: f64) -> impl Iterator<Item = f64> {
+    let phi_o = phi_i + relative;
     let turns = [phi_o, phi_o - TAU, phi_o - 2.0 * TAU];
-    let near = |x: f64| [x, x.next_up(), x.next_down(), x.next_up().next_up(), x.next_down().next_down()];
-    turns.into_iter().flat_map(near).chain([phi_i + (phi_o - phi_i)])
+    // A turn that was taken off has left the rounding of a larger number.
+    let up = |x: f64| std::iter::successors(Some(x), |x| Some(x.next_up())).take(ULPS);
+    let down = |x: f64| std::iter::successors(Some(x.next_down()), |x| Some(x.next_down())).take(ULPS);
+    turns.into_iter().flat_map(move |x| up(x).chain(down(x))).chain([0.0])
 }
 
 /// 15 degrees are to be written as 15, though they are 14.999999999999998 after a way through radians.

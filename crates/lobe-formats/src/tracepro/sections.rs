@@ -102,7 +102,9 @@ pub(super) fn read(file: &Path, text: &str) -> Result<Property, FormatError> {
                 if names.len() != COLUMNS.len()
                     || names.iter().zip(COLUMNS).any(|(name, wanted)| !name.eq_ignore_ascii_case(wanted))
                 {
-                    return Err(line.error(shown(line.text), format!("the columns {}", COLUMNS.join(", "))));
+                    let other = names.iter().zip(COLUMNS).find(|(name, wanted)| !name.eq_ignore_ascii_case(wanted));
+                    let found = other.map_or_else(|| shown(line.text), |(name, _)| format!("a column {}", shown(name)));
+                    return Err(line.error(found, format!("the columns {}", COLUMNS.join(", "))));
                 }
                 section = Section::Table;
             }

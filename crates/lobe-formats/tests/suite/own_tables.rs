@@ -402,7 +402,7 @@ fn quantities_of_values() {
     for name in ["intensity", "signal [uA]", "Reflectance", "radiance (W/sr)", "counts"] {
         refused(&named(name), &[], "", "luminance-factor");
     }
-    refused(&named("BRDF [uA]"), &[], "in ua", "scale");
+    refused(&named("BRDF [uA]"), &[], "BRDF [uA]", "scale");
     refused(&named("BRDF [%]"), &[], "%", "luminance-factor");
     refused(&in_plane("theta_i,theta_o,R,G,B"), &[("scale", "tis")], "", "total integrated scatter");
 }

@@ -2,7 +2,7 @@
 
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
-use lobe_lane::{Kernel, Lanes};
+use lobe_lane::{Kernel, Lanes, MAX_LANES};
 use lobe_math::bounds::{self, Bound};
 use lobe_scalar::Scalar;
 use lobe_testing::backends::each;
@@ -168,8 +168,12 @@ fn fifth_roots() {
 
 #[test]
 fn special_values() {
-    let arguments = [0.0, -0.0, 1.0, -1.0, 1.5, -1.5, f32::NAN, 0.5];
-    let (x, y) = ([0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0]);
+    // As many as the widest backend has lanes.
+    let mut arguments = [0.5; MAX_LANES];
+    arguments[..7].copy_from_slice(&[0.0, -0.0, 1.0, -1.0, 1.5, -1.5, f32::NAN]);
+    let (mut x, mut y) = ([0.0; MAX_LANES], [0.0; MAX_LANES]);
+    x[..4].copy_from_slice(&[0.0, 1.0, 0.0, -1.0]);
+    y[..5].copy_from_slice(&[0.0, 0.0, 1.0, 0.0, -1.0]);
     everywhere(|on| {
         let out = on.apply(Function::Acos, &arguments, &arguments);
         approx::assert_abs_diff_eq!(out[0], FRAC_PI_2, epsilon = 1e-7);

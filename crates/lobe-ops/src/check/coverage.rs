@@ -32,7 +32,7 @@ fn of_band(data: &dyn Representation, band: &str) -> Finding {
     let of_band = sections.iter().filter(|section| section.channels.names() == [band]);
     let measured: Vec<Aspect> = of_band.map(|section| section.aspect).collect();
     let (mut dark, mut answered) = (Vec::new(), Vec::new());
-    for aspect in [Aspect::ALL[1], Aspect::ALL[3], Aspect::ALL[0], Aspect::ALL[2]] {
+    for aspect in [Aspect::ALL[3], Aspect::ALL[1], Aspect::ALL[0], Aspect::ALL[2]] {
         let is_known_backward = aspect.scatter == Scatter::Transmission && measured.contains(&aspect.reversed());
         match measured.contains(&aspect) {
             true => {}

@@ -163,11 +163,17 @@ impl Data {
 
     /// The samples: the [`AXIS_NAMES`] in radians, and the channels.
     pub fn samples(&self) -> impl Iterator<Item = ([f64; 4], &[f32])> {
+        self.relative_samples()
+            .map(|([theta, phi, theta_o, relative], values)| ([theta, phi, theta_o, phi + relative], values))
+    }
+
+    /// The samples as they are stored: as [`samples`](Self::samples), but the outgoing azimuth counts from the incident one.
+    pub fn relative_samples(&self) -> impl Iterator<Item = ([f64; 4], &[f32])> {
         let count = self.channels.count();
         self.incidences.iter().flat_map(move |incidence| {
             let Incidence { theta, phi, .. } = *incidence;
             let outgoing = incidence.outgoing.iter().zip(incidence.values.chunks_exact(count));
-            outgoing.map(move |(&[theta_o, relative], values)| ([theta, phi, theta_o, phi + relative], values))
+            outgoing.map(move |(&[theta_o, relative], values)| ([theta, phi, theta_o, relative], values))
         })
     }
 

@@ -22,7 +22,7 @@ use commands::{Block, blocks, examples, spans, subcommands};
 use scratch::Scratch;
 
 /// The documents with commands.
-const DOCUMENTS: [&str; 11] = [
+const DOCUMENTS: [&str; 12] = [
     "README.md",
     "CONTRIBUTING.md",
     "docs/accuracy.md",
@@ -34,6 +34,7 @@ const DOCUMENTS: [&str; 11] = [
     "docs/gallery.md",
     "docs/operations.md",
     "docs/scenes.md",
+    "docs/your-own-measurement.md",
 ];
 
 fn root() -> &'static Path {
@@ -81,7 +82,9 @@ fn run(scratch: &Scratch, line: &str) -> Result<(), String> {
     let output = scratch.shell(line).output().expect("a shell");
     // The status of a pipe is that of its last program.
     let has_failed = text(&output.stderr).lines().any(|line| line.starts_with("error: "));
-    match output.status.success() && !has_failed {
+    // What is imported is checked, and need not be sound as long as its values are not said.
+    let is_unsound = line.starts_with("lobe import") && output.status.code() == Some(3);
+    match is_unsound || output.status.success() && !has_failed {
         true => Ok(()),
         false => Err(format!("{line}\n{}{}", text(&output.stdout), text(&output.stderr))),
     }
@@ -145,6 +148,7 @@ fn every_example_of_a_help_text_runs() {
             count += 1;
             // What one example writes is no input of another.
             let own = scratch.copy();
+            own.without_output(&example);
             failures.extend(run(&own, &example).err().map(|error| format!("{command} --help: {error}")));
         }
     }

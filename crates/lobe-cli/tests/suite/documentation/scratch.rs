@@ -57,6 +57,7 @@ impl Scratch {
     /// The fixtures, and what cargo needs to look at the workspace.
     pub fn fixtures(&self) {
         copy(&root().join("fixtures"), &self.path("fixtures"));
+        copy(&root().join("docs/data"), &self.path("docs/data"));
     }
 
     /// The scene in a document, as `scene.toml`, with the files that it names.
@@ -93,6 +94,10 @@ impl Scratch {
         self.write("paint.brdf", glossy_cornell());
         self.write("b.brdf", glossy_cornell());
         self.write("film.csv", glossy_csv());
+        self.write("scan.csv", glossy_csv());
+        self.write("scan-rad.csv", "theta_i,theta_o,BRF\n0.5,-0.5,0.3\n0.5,0,0.4\n0.5,0.5,0.9\n0.5,1,0.4\n");
+        self.write("scan.txt", "-60 0.2\n-30 0.3\n0 0.3\n30 0.9\n60 0.4\n");
+        self.write("lens.bsdf", examples::ZEMAX);
         self.write("film.ssdd", examples::SSDD);
         self.write("gold.binary", examples::tiny_merl());
         let sheet = examples::sheet("Columns", "0.1 0.1 0.1 0.1 0.1 0.1 0.1 0.1 0.1");
@@ -113,6 +118,14 @@ impl Scratch {
             let name = self.path("home").join(program);
             fs::write(&name, "#!/bin/sh\ncat > /dev/null\n").expect("a program");
             self.run(&format!("chmod +x '{}'", name.display()));
+        }
+    }
+
+    /// Removes what a command that renders is to write: a finished part is not overwritten, unless it is to go on.
+    pub fn without_output(&self, line: &str) {
+        let output = line.split_once(" -o ").and_then(|(_, rest)| rest.split_whitespace().next());
+        if let Some(output) = output.filter(|_| line.starts_with("lobe render") && !line.contains("--resume")) {
+            drop(fs::remove_file(self.path(output)));
         }
     }
 
