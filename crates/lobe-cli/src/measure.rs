@@ -59,7 +59,7 @@ pub fn write(surface: &dyn Surface, sides: Sides, is_from_file: bool, output: &O
         Ok(half_diff::KIND) | Err(_) => &[],
         Ok(_) => &[Purpose::Knots],
     })?;
-    // In the specular tables, nodes near the horizon are lifted in any case; the images of RGL hold f cos.
+    // The images of RGL hold f cos.
     let lifted = Lifted(surface);
     let near: &dyn Surface = if is_from_file { &lifted } else { surface };
     let mut aspects = vec![Aspect::front(scatter)];
@@ -97,7 +97,7 @@ pub fn write(surface: &dyn Surface, sides: Sides, is_from_file: bool, output: &O
             let [sigma, psi, theta, phi] = knots.each_ref().map(Vec::len);
             fits(out, &[sigma, psi, theta, phi], channels)?;
             let progress = Progress::new(sigma * psi, "directions of the light");
-            let samples = measure_surface(surface, scatter, knots, || progress.step()).map_err(|e| file(out, &e))?;
+            let samples = measure_surface(near, scatter, knots, || progress.step()).map_err(|e| file(out, &e))?;
             (writer.write)(&Document::new(samples), out)?;
             format!("{sigma} sigma x {psi} psi x {theta} theta x {phi} phi")
         }

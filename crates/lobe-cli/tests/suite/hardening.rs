@@ -210,6 +210,8 @@ fn devices_and_pipes_are_not_read() {
         }
     }
     let (code, _, message) = shell(&files, "timeout 20 \"$LOBE\" eval a.ddr --pairs /dev/zero");
+    assert!(code == 1 && message.contains("a device, a pipe or a socket"), "{message}");
+    let (code, _, message) = shell(&files, "timeout 20 \"$LOBE\" eval a.ddr --pairs - < /dev/zero");
     assert!(code == 1 && message.contains("a line of 65536 bytes or more"), "{message}");
     for command in ["convert a.ddr pipe.csv --to csv", "render m.toml -o pipe.exr", "convert a.ddr /dev/null --to csv"]
     {
@@ -236,7 +238,7 @@ fn what_does_not_fit_into_memory_says_how_much_it_would_take() {
         "preview a.ddr -o a.exr --size 8192x8192".into(),
         format!("resample a.ddr b.ddr --sigma {range} --psi {range} --theta {range} --phi {range}"),
         format!("generate lambert b.ddr --sigma 0,1,2 --psi 0 --theta {} --phi {}", list(5_000), list(5_000)),
-        "generate lambert b.bsdf --to rgl --zeniths 4096 --texels 1024 --channel R".into(),
+        "generate ggx b.bsdf --to rgl --alpha 0.1,0.4 --zeniths 512 --azimuths 512 --texels 1024 --channel R".into(),
         "compare a.ddr a.ddr --pairs 10000000".into(),
         "albedo a.ddr --sigma 0:80:0.001 --psi 0:90:0.001".into(),
     ] {

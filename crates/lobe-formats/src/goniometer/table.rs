@@ -46,14 +46,20 @@ pub(super) fn is_named_table(text: &str) -> bool {
 pub(super) fn has_rows(text: &str) -> bool {
     let lines: Vec<Line<'_>> = lines(text).take(HEAD).collect();
     let Some(dialect) = Dialect::of(&lines, None) else { return false };
-    let is_row = |line: &&Line<'_>| {
+    let is_row = |line: &Line<'_>, width: usize| {
         let cells = dialect.cells_to_the_last(line.text);
         let numbers = cells.iter().filter(|cell| matches!(dialect.cell(cell), Cell::Number(_))).count();
-        numbers >= 2 && cells.len() >= 3 && cells.iter().all(|cell| !matches!(dialect.cell(cell), Cell::Text))
+        numbers + 1 >= width
+            && cells.len() >= width
+            && cells.iter().all(|cell| !matches!(dialect.cell(cell), Cell::Text))
     };
-    let rows = lines.iter().filter(is_row).count();
-    // Prose has numbers in it as well.
-    rows >= 4 && 2 * rows > lines.len() || start(&lines, dialect, &ReadOptions::default()).is_ok()
+    // Prose has numbers in it as well: half of the lines are rows, or half of those below the names.
+    let are_rows = |lines: &[Line<'_>], least: usize, width: usize| {
+        let rows = lines.iter().filter(|line| is_row(line, width)).count();
+        rows >= least && 2 * rows > lines.len()
+    };
+    are_rows(&lines, 4, 3)
+        || start(&lines, dialect, &ReadOptions::default()).is_ok_and(|start| are_rows(&lines[start.first..], 1, 2))
 }
 
 /// Reads the table of a text.
