@@ -12,6 +12,7 @@ use serde::Serialize;
 use crate::angles::progress;
 use crate::describe::{Part, describe};
 use crate::failure::Failure;
+use crate::message::say;
 use crate::reading::Reading;
 use crate::target::parser;
 use crate::{convert, plot};
@@ -91,7 +92,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
                 }
             }
             Err(error) if may_ask => {
-                eprintln!("{error}");
+                say(&error);
                 first_lines(file);
                 if !ask(
                     "Enter to give up, or say it, such as `columns theta_i=1,theta_o=2,f=3` or `unit rad`: ",
@@ -133,7 +134,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     drop(out);
     if let Some(page) = &args.plot {
         plot::write(file, format, document, page)?;
-        eprintln!("{}: written", page.display());
+        say(format_args!("{}: written", page.display()));
     }
     if let Some(out) = &args.out {
         convert::write(file, document.clone(), out, args.to)?;
@@ -156,7 +157,7 @@ fn keep(args: &Args, given: &ReadOptions, options: &ReadOptions) -> Result<bool,
     }
     write_whole(&path, sidecar::to_text(options, &name(&args.file)).as_bytes())?;
     let how = if given.is_empty() { "what was said" } else { "these options" };
-    eprintln!("{}: {how}, which every command and the library take from there", path.display());
+    say(format_args!("{}: {how}, which every command and the library take from there", path.display()));
     Ok(true)
 }
 
@@ -199,7 +200,9 @@ fn show(out: &mut impl Write, document: &Document) -> Result<(), Failure> {
 const SHOWN: usize = 6;
 
 fn first_lines(file: &Path) {
-    eprint!("{}", head(file).unwrap_or_default());
+    if let Some(lines) = head(file) {
+        say(lines.trim_end());
+    }
 }
 
 /// The first lines of a text, with their numbers.
@@ -235,7 +238,8 @@ fn explained(error: FormatError, file: &Path) -> Failure {
 /// Asks for an option and sets it, until the answer can be understood; `false` if the answer is empty.
 fn ask(question: &str, options: &mut ReadOptions) -> Result<bool, Failure> {
     loop {
-        eprint!("{question}");
+        write!(stderr(), "{question}")?;
+        stderr().flush()?;
         let mut answer = String::new();
         let count = stdin().read_line(&mut answer)?;
         let answer = answer.trim().trim_start_matches('-');
@@ -245,7 +249,7 @@ fn ask(question: &str, options: &mut ReadOptions) -> Result<bool, Failure> {
         let (key, word) = answer.split_once([' ', '=']).unwrap_or((answer, ""));
         match sidecar::set(options, key.trim(), word.trim().trim_matches('"')) {
             Ok(()) => return Ok(true),
-            Err(message) => eprintln!("{message}"),
+            Err(message) => say(message),
         }
     }
 }

@@ -216,7 +216,7 @@ mod tests {
 
     #[test]
     fn columns_are_known_by_their_names() {
-        let expected = vec![Pair { wi: [0.6, 0.0, 0.8], wo: [0.0, 0.0, 1.0] }];
+        let expected = [Pair { wi: [0.6, 0.0, 0.8], wo: [0.0, 0.0, 1.0] }];
         for text in [
             "0.6,0,0.8,0,0,1",
             "0.6;0;0.8;0;0;1",

@@ -6,6 +6,9 @@ use lobe_files::unpacked;
 
 use crate::{Document, Format, FormatError, Place, plain, sniff};
 
+/// The names and the contents of files.
+type Files = Vec<(PathBuf, Vec<u8>)>;
+
 /// Reads the files of a folder that are of a format with one incident direction a file, as one material. Other files are let
 /// be, and so are folders in it.
 ///
@@ -21,7 +24,7 @@ pub(crate) fn open(folder: &Path) -> Result<(Format, Document), FormatError> {
         paths.push(entry.map_err(|error| failed(folder, error))?.path());
     }
     paths.sort();
-    let mut found: Option<(Format, Vec<(PathBuf, Vec<u8>)>)> = None;
+    let mut found: Option<(Format, Files)> = None;
     for path in paths.into_iter().filter(|path| path.is_file()) {
         let bytes = lobe_files::read(&path)?;
         let bytes = plain::text(&unpacked(&bytes, &path)?.bytes).into_owned();

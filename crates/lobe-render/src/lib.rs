@@ -5,7 +5,7 @@
 //! traced, and the paths that continue are the next wave.
 //!
 //! - [`World`] has triangles, materials ([`shader`]) and lights ([`light`]); [`scene`] reads it from a file.
-//! - [`render`] makes a [`Film`] of it by an [integrator]; [`picture`] writes films as EXR and PNG.
+//! - [`render()`] makes a [`Film`] of it by an [integrator]; [`picture`] writes films as EXR and PNG.
 //! - Random numbers depend on pixel, sample and dimension only, and a film sums in integers. So the picture does not
 //!   depend on threads, tiles, machines or the order of work; on backends in strict form not on the backend either.
 //!

@@ -175,7 +175,9 @@ fn missing(parts: &[Part], [width, height]: [u32; 2], wanted: u32) -> Vec<Gap> {
             let mut there: Vec<Range<u32>> = parts.iter().map(|part| part.samples_of(&pixels)).collect();
             there.sort_by_key(|samples| samples.start);
             let mut next = 0;
-            for samples in there.into_iter().chain([wanted..wanted]).filter(|s| s.start == wanted || !s.is_empty()) {
+            for samples in
+                there.into_iter().chain(std::iter::once(wanted..wanted)).filter(|s| s.start == wanted || !s.is_empty())
+            {
                 if next < samples.start.min(wanted) {
                     add(&mut gaps, pixels, next..samples.start.min(wanted), width);
                 }

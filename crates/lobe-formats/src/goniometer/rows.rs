@@ -30,6 +30,9 @@ pub(super) struct Raw {
     pub names_line: usize,
 }
 
+/// By the bits of angles and wavelength: the first line with them, and its words in the columns that are watched.
+type Seen = BTreeMap<([u64; 4], u64), (usize, Vec<String>)>;
+
 impl Raw {
     pub fn read_rows(
         &mut self,
@@ -181,7 +184,7 @@ impl Raw {
         &self,
         cells: &[Cow<'_, str>],
         line: &Line<'_>,
-        seen: &mut BTreeMap<([u64; 4], u64), (usize, Vec<String>)>,
+        seen: &mut Seen,
         names: &[String],
         file: &Path,
     ) -> Result<(), FormatError> {

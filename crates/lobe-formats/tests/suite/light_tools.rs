@@ -179,7 +179,7 @@ fn stated_totals_scale_what_is_relative() {
     // The light at 0 comes first in the grid, whatever the order of the file.
     for (theta, total) in [(0.0_f64, 0.25), (30.0, 0.5)] {
         let (sin, cos) = theta.to_radians().sin_cos();
-        let found = f64::from(grid.eval([sin, 0.0, cos], [0.6, 0.0, 0.8])[0]);
+        let found = grid.eval([sin, 0.0, cos], [0.6, 0.0, 0.8])[0];
         assert!((found * PI - total).abs() < 1e-3, "{found} at {theta}");
     }
 }

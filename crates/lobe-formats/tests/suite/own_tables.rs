@@ -518,7 +518,9 @@ fn a_sidecar_is_read_with_its_file() {
     let other = ReadOptions { values: Some(Quantity::F), ..ReadOptions::default() };
     let found = open_with(&file, &other).unwrap_or_else(|error| panic!("{error}")).1;
     assert!(
-        (eval(found.only().expect("data"), direction(30.0, 0.0), direction(30.0, 180.0))[0] - 0.35 * 3.141_592_7).abs()
+        (eval(found.only().expect("data"), direction(30.0, 0.0), direction(30.0, 180.0))[0]
+            - 0.35 * std::f32::consts::PI)
+            .abs()
             < 1e-5
     );
     let odd = r#"columns = "f=\"5\",theta_i=\"a\u0001b=c\",theta_o=-1.5e-3rad""#;

@@ -6,8 +6,8 @@ use std::path::Path;
 pub fn look_up(root: &Path, help: &[(String, String)], command: &str) -> Result<(), String> {
     for line in command.lines() {
         let line = line.split(" # ").next().unwrap_or_default().split("  #").next().unwrap_or_default();
-        for part in line.split([';', '|']).map(|part| part.split("&&")).flatten() {
-            let words: Vec<&str> = part.split_whitespace().skip_while(|word| is_prefix(word)).collect();
+        for part in line.split([';', '|']).flat_map(|part| part.split("&&")) {
+            let words: Vec<&str> = part.split_whitespace().skip_while(is_prefix).collect();
             let found = match words.as_slice() {
                 ["lobe", rest @ ..] => of_program(help, rest),
                 ["cargo", rest @ ..] => of_cargo(root, rest),
