@@ -1,4 +1,4 @@
-//! The 4-lane backend of 64-bit Arm: [`Neon`], with fused multiply-add and half-precision loads. Octs are two registers.
+//! The 4-lane backend of 64-bit Arm: `Neon`, with fused multiply-add and half-precision loads. Octs are two registers.
 //!
 //! `unsafe` occurs in two places: in the `op!` macro (register-only intrinsics, safe because the target has NEON), and in
 //! `memory.rs` (loads and stores, each checked where it is used). The crate is empty unless the target has NEON for all of

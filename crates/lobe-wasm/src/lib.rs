@@ -1,4 +1,4 @@
-//! The 4-lane backend of WebAssembly: [`Simd128`]. Octs are two registers.
+//! The 4-lane backend of WebAssembly: `Simd128`. Octs are two registers.
 //!
 //! A module says before it runs which instructions it uses, and an engine that lacks them refuses it. So the crate is empty
 //! unless it is compiled with `-C target-feature=+simd128`, and where it is not, the token needs no detection. Intrinsics that
