@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::table::Raw;
+use super::rows::Raw;
 use crate::reading::ReadOptions;
 use crate::{FormatError, Place};
 
