@@ -53,7 +53,10 @@ const SAID: [(&str, &str); 7] = [
     ("unit = \"rad\"\nscale = 2\nin-plane = \"opposite-sign\"\n", "AOI\tview angle\tR\tG\tB\n-0.5\t1\t1\t2\t3\n"),
     ("holds = \"both\"\nazimuth-from = \"mirror\"\n", "theta_i,theta_o,phi_o,f\n10,20,0,1\n10,120,0,2\n"),
     ("decimal-comma = true\n", "theta_o \\ theta_i;10;20,5;30\n-10;1;2;3\n0;1,5;2,5;nan\n"),
-    ("", "Sample: x\n# theta_i = 30\ntheta_o,wavelength [um],BRDF,std\n10,0.5,1,0\n10,0.6,2,0\ntheta_i: 40\n10,0.5,1,0\n10,0.6,2,0\n"),
+    (
+        "",
+        "Sample: x\n# theta_i = 30\ntheta_o,wavelength [um],BRDF,std\n10,0.5,1,0\n10,0.6,2,0\ntheta_i: 40\n10,0.5,1,0\n10,0.6,2,0\n",
+    ),
     ("values = \"luminance-factor\"\n", "theta_i,theta_o,phi_o,note,450nm,550nm\n10,20,0,a,1,2\n10,20,90,b,3,\n"),
 ];
 
