@@ -14,13 +14,9 @@ pub const SCENE: &str = "[camera]\nposition = [0, 1.2, 4]\ntarget = [0, 0.5, 0]\
 /// The program under a shell, which sets limits or redirects.
 #[cfg(unix)]
 fn shell(files: &Files, script: &str) -> (i32, String, String) {
-    let output = Command::new("sh")
-        .args(["-c", script])
-        .env("LOBE", env!("CARGO_BIN_EXE_lobe"))
-        .current_dir(files.path(""))
-        .stdin(Stdio::null())
-        .output()
-        .expect("a shell");
+    let mut shell = Command::new("sh");
+    shell.args(["-c", script]).env("LOBE", env!("CARGO_BIN_EXE_lobe")).current_dir(files.path(""));
+    let output = shell.stdin(Stdio::null()).output().expect("a shell");
     let utf8 = |bytes| String::from_utf8(bytes).expect("UTF-8");
     (output.status.code().expect("an exit code"), utf8(output.stdout), utf8(output.stderr))
 }
