@@ -1,7 +1,7 @@
 //! How text becomes cells, and names become angles.
 
 use lobe_formats::{Document, Format, sniff};
-use lobe_table::{Channels, Scatter};
+use lobe_table::Channels;
 
 use super::*;
 
