@@ -1,14 +1,9 @@
-//! The list of formats, and reading and writing whatever format a file has.
+//! The list of formats, and which of them a file has.
 
 use std::fmt;
-use std::path::Path;
 
-use lobe_files::{Unpacked, is_gzip, is_web_page, unpacked};
-
-use crate::adjust::adjust;
+use crate::plain;
 use crate::spec::{FormatSpec, Writer};
-use crate::unknown::{is_other, unknown};
-use crate::{Document, FormatError, Place, ReadOptions, folder, goniometer, plain, sidecar};
 
 /// One entry per format: its variant, its static description, and the feature that it needs.
 macro_rules! formats {
@@ -101,124 +96,4 @@ impl fmt::Display for Format {
 pub fn sniff(bytes: &[u8]) -> Option<Format> {
     let bytes = &*plain::text(bytes);
     Format::ALL.iter().copied().find(|format| (format.spec().matches)(bytes))
-}
-
-/// Reads a file of any supported format, which is recognised by the content. Formats that do not say whether they hold
-/// reflection or transmission are assumed to hold reflection; only for those of Integra does the extension decide: `.ddt` and
-/// `.sdt` are transmission. If there is a [sidecar], it says what the file leaves open.
-///
-/// A file that is packed with gzip is read as what is in it. A folder is read as the files in it that have one incident
-/// direction each (RPC Photonics, pab), which are one material.
-///
-/// # Errors
-/// [`FormatError`] if the file or its sidecar cannot be read, is of no known format, or is damaged. For files that are
-/// something else, it says what they are.
-pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
-    open_with(path, &ReadOptions::default())
-}
-
-/// As [`open`], with options, which come before those of a [sidecar].
-///
-/// # Errors
-/// As [`open`], and if the options do not fit the file.
-pub fn open_with(path: &Path, options: &ReadOptions) -> Result<(Format, Document), FormatError> {
-    let options = options.clone().or(sidecar::find(path)?);
-    if path.is_dir() {
-        let (format, document) = folder::open(path)?;
-        let document = adjusted(document, format, path, &options)?;
-        return Ok((format, Document { format: Some(format.name()), ..document }.printable()));
-    }
-    let bytes = lobe_files::read(path)?;
-    read_any(&bytes, path, &options)
-}
-
-/// Reads the content of a file in memory, whatever its format. `path` names it in errors, and its extension counts as in
-/// [`open`].
-///
-/// # Errors
-/// As [`open`].
-pub fn from_bytes(bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
-    from_bytes_with(bytes, path, &ReadOptions::default())
-}
-
-/// As [`from_bytes`], with options; no sidecar is looked for.
-///
-/// # Errors
-/// As [`open_with`].
-pub fn from_bytes_with(bytes: &[u8], path: &Path, options: &ReadOptions) -> Result<Document, FormatError> {
-    Ok(read_any(bytes, path, options)?.1)
-}
-
-fn read_any(bytes: &[u8], path: &Path, options: &ReadOptions) -> Result<(Format, Document), FormatError> {
-    let Unpacked { bytes: content, name } = unpacked(bytes, path)?;
-    let found = match recognised(&content, options) {
-        Some(format) => read_with(format, &content, &name, options).map(|document| (format, document)),
-        None => {
-            let error = unknown(&content, &name, is_gzip(bytes));
-            Err(FormatError { expected: error.expected + &left_out(), ..error })
-        }
-    };
-    found.map_err(|error| FormatError { file: path.into(), ..error })
-}
-
-/// The format of content that may be a table, if the options say so or it looks like one.
-fn recognised(content: &[u8], options: &ReadOptions) -> Option<Format> {
-    // The page that shows a file has the words of the file in it.
-    if is_web_page(content) {
-        return None;
-    }
-    let is_table = || !options.of_tables().is_empty() || (goniometer::may_be(content) && !is_other(content));
-    sniff(content).or_else(|| is_table().then_some(Format::Goniometer))
-}
-
-/// What a program that was built without some formats says when it recognises none.
-fn left_out() -> String {
-    let features = [
-        ("json", cfg!(feature = "json")),
-        ("mueller", cfg!(feature = "mueller")),
-        ("rgl", cfg!(feature = "rgl")),
-        ("spherical", cfg!(feature = "spherical")),
-        ("window", cfg!(feature = "window")),
-    ];
-    let left_out: Vec<&str> = features.into_iter().filter(|(_, is_built)| !is_built).map(|(name, _)| name).collect();
-    match left_out.is_empty() {
-        true => String::new(),
-        false => format!(" (built without the features {})", left_out.join(", ")),
-    }
-}
-
-/// Reads `bytes` as a file of this format, whatever they look like. `path` names it in errors, and its extension counts
-/// as in [`open`].
-///
-/// # Errors
-/// [`FormatError`] if the bytes are no sound file of the format.
-pub fn read(format: Format, bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
-    read_with(format, bytes, path, &ReadOptions::default())
-}
-
-/// As [`read`], with options.
-///
-/// # Errors
-/// As [`read`], and if the options do not fit the file.
-pub fn read_with(format: Format, bytes: &[u8], path: &Path, options: &ReadOptions) -> Result<Document, FormatError> {
-    let spec = format.spec();
-    let Some(read) = spec.read else {
-        return Err(FormatError::new(
-            path,
-            Place::File,
-            format!("{format}, which is only written"),
-            "a format to read",
-        ));
-    };
-    let document = read(&plain::text(bytes), path, options)?;
-    Ok(Document { format: Some(spec.name), ..adjusted(document, format, path, options)? }.printable())
-}
-
-/// The values as the options say that they are.
-fn adjusted(document: Document, format: Format, path: &Path, options: &ReadOptions) -> Result<Document, FormatError> {
-    let is_table = format == Format::Goniometer;
-    if !is_table {
-        options.check_no_table(path, format.name())?;
-    }
-    adjust(document, options, is_table, path)
 }
