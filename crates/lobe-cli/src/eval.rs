@@ -181,7 +181,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 /// Values that are evaluated before they are printed.
 const AT_ONCE: usize = 1 << 24;
 
-/// Where pairs come from.
+/// The source of pairs.
 enum Source {
     One(Option<Pair>),
     Many(Pairs),

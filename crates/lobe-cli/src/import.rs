@@ -17,13 +17,13 @@ use crate::reading::Reading;
 use crate::target::parser;
 use crate::{convert, plot};
 
-/// Bring in your own measurement: see what a file is taken for, say what it does not say itself, and pass it on.
+/// Import your own measurement: see how a file is understood, add what it does not say, and write it for other programs.
 #[derive(clap::Args)]
 #[command(
     after_help = "What is said with options is kept in FILE.lobe.toml next to the file, and from then on every command and the library read the file like this. On a terminal, what is not understood is asked for.
 
 Examples:
-  lobe import scan.csv                       what it is taken for
+  lobe import scan.csv                       how it is understood
   lobe import scan.txt --columns theta_i=30deg,theta_o=1,f=2
   lobe import scan-rad.csv --unit rad --values luminance-factor --plot scan.html
   lobe import scan.csv -o scan.bsdf --to rgl   for Mitsuba and pbrt

@@ -41,7 +41,7 @@ struct Info {
     /// Total integrated scatter, as stated in the file.
     tis: Vec<f32>,
     source: Vec<(String, String)>,
-    /// What a table without a format of its own was taken for.
+    /// How a table without a format of its own was understood.
     notes: Vec<String>,
     /// What may be wrong with that.
     doubts: Vec<String>,

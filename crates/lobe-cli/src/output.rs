@@ -109,7 +109,7 @@ impl Output {
         }
     }
 
-    /// The format to write. A sidecar of an older file of this name would be taken for that of the new one.
+    /// The format to write. The sidecar of an older file with this name would be read with the new one.
     pub fn target(&self) -> Result<Target, Failure> {
         let sidecar = lobe_formats::sidecar::path_of(&self.out);
         if sidecar.exists() {

@@ -71,7 +71,7 @@ pub struct Pairs {
     columns: Option<Columns>,
 }
 
-/// Where the numbers of a pair are in a line.
+/// The position of each number of a pair in a line.
 struct Columns {
     delimiter: Delimiter,
     order: [usize; 6],

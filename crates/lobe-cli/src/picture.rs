@@ -45,7 +45,7 @@ impl Kind {
     }
 }
 
-/// Where the picture goes.
+/// The file that a picture is written to.
 pub struct Output<'a> {
     path: &'a Path,
     kind: Kind,

@@ -1,6 +1,6 @@
 //! What all readers and writers of files share, whatever the files hold: [`FormatError`] says which file, where in it, what
 //! was found and what was expected; [`read()`] reads files and nothing else, and [`recorded`] says which; [`unpacked`] opens
-//! files that are packed with gzip; [`content()`] says what a file is that is none of those that are read; [`printable`] makes
+//! files that are packed with gzip; [`content()`] says what an unsupported file is; [`printable`] makes
 //! text of files safe to show; [`write_whole`] and [`replace`] write a file completely or leave the old one alone, and
 //! [`check_output`] says beforehand whether they will.
 #![forbid(unsafe_code)]

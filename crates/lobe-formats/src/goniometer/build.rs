@@ -175,7 +175,9 @@ impl Samples {
         }
         let said = if options.values.is_some() { "as was said" } else { "by their name" };
         match quantity {
-            Quantity::F if stated.is_none() => notes.push("values taken for f in 1/sr, without the cosine".into()),
+            Quantity::F if stated.is_none() => {
+                notes.push("values are assumed to be f in 1/sr, without the cosine".into())
+            }
             Quantity::F => notes.push(format!("values are f in 1/sr, without the cosine, {said}")),
             Quantity::LuminanceFactor => {
                 notes.push(format!("values are luminance factors, pi f, {said}"));

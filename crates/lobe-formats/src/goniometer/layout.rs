@@ -70,7 +70,7 @@ pub(super) const SPECULAR: [Angle; 4] = [Angle::Sigma, Angle::Psi, Angle::Theta,
 
 const WANTED: &str =
     "theta_i and theta_o, with phi_o unless the viewer stays in the plane of incidence, or sigma, theta and phi";
-/// A number below this, in nm, is not taken for a wavelength without its unit.
+/// A number below this, in nm, counts as a wavelength only with its unit.
 const SHORTEST: f64 = 100.0;
 
 const CHANNELS: &str = "R, G, B or X, Y, Z or wavelengths such as 550nm or one column such as BRDF";

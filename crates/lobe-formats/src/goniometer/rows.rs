@@ -214,7 +214,7 @@ impl Raw {
     }
 }
 
-/// What each column that is read was taken for.
+/// How each column was understood.
 pub(super) fn describe(layout: &Layout, names: &[String]) -> Vec<String> {
     let axes = if layout.is_specular { SPECULAR } else { SPHERICAL };
     let name = |column: usize| names.get(column).map_or_else(|| format!("column {}", column + 1), |name| shown(name));
