@@ -22,12 +22,17 @@ mod json;
 #[path = "goniometer/json_left_out.rs"]
 mod json;
 mod layout;
-pub(crate) mod names;
+mod meaning;
+mod names;
 mod plane;
 mod quantities;
 mod rows;
+mod samples;
 mod sheet;
+mod source;
+mod start;
 mod table;
+mod trouble;
 mod unit;
 mod words;
 mod write;
@@ -37,7 +42,7 @@ use std::path::Path;
 
 use lobe_table::{Channels, Data, specular};
 
-pub use names::{Angle, Unit};
+pub use crate::angle::{Angle, Unit};
 pub use write::write;
 
 use crate::reading::ReadOptions;

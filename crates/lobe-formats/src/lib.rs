@@ -24,6 +24,7 @@
 
 mod adjust;
 pub mod alta;
+mod angle;
 pub mod astm;
 mod bytes;
 mod columns;
@@ -70,6 +71,7 @@ mod unknown;
 pub mod utia;
 #[cfg(feature = "window")]
 pub mod window_xml;
+mod words;
 pub mod zemax;
 mod zip;
 

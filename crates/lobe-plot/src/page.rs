@@ -9,27 +9,17 @@ use quick_xml::escape::escape;
 use crate::albedo::albedos;
 use crate::evaluate::Progress;
 use crate::figures::{
-    Plate, all_curves, channels_plate, curves_plate, degrees, polar_plate, side_name, slices_plate, spectra_plate,
-    sphere_plate,
+    Plate, all_curves, channels_plate, curves_plate, polar_plate, side_name, slices_plate, spectra_plate, sphere_plate,
 };
 use crate::layout::{Layout, Paper, Sprites};
-use crate::scale::Scaling;
+use crate::scale::{Scaling, degrees};
 use crate::shown::Shown;
 use crate::subject::Subject;
-use crate::tables::{albedo_table, facts_table, findings_table};
+use crate::tables::{Facts, albedo_table, facts_table, findings_table};
 use crate::view::View;
 
 /// The style of the page, for light and dark screens and for paper.
 const STYLE: &str = include_str!("page.css");
-
-/// A table of names and values on a page.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Facts {
-    /// Its heading.
-    pub title: String,
-    /// Names and values.
-    pub rows: Vec<(String, String)>,
-}
 
 /// A page, and what there is to say about it.
 #[derive(Clone, Debug, PartialEq, Eq)]

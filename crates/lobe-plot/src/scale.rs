@@ -167,6 +167,12 @@ pub(crate) fn minus(number: &str) -> String {
     number.replace('-', "\u{2212}")
 }
 
+/// An angle in degrees with at most one decimal.
+pub(crate) fn degrees(radians: f64) -> String {
+    let rounded = (10.0 * radians.to_degrees()).round() / 10.0;
+    minus(&format!("{}°", if rounded == 0.0 { 0.0 } else { rounded }))
+}
+
 /// A number with three significant digits.
 pub(crate) fn short(value: f64) -> String {
     let magnitude = value.abs();

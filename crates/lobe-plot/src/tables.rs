@@ -8,10 +8,17 @@ use lobe_ops::check::{Finding, Status};
 use quick_xml::escape::escape;
 
 use crate::albedo::Albedo;
-use crate::figures::degrees;
-use crate::page::Facts;
-use crate::scale::short;
+use crate::scale::{degrees, short};
 use crate::view::View;
+
+/// A table of names and values on a page.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Facts {
+    /// Its heading.
+    pub title: String,
+    /// Names and values.
+    pub rows: Vec<(String, String)>,
+}
 
 /// What a table is about, after the name of its file if there are several.
 fn heading(name: &str, title: &str) -> String {

@@ -4,9 +4,8 @@ use lobe::Side;
 use lobe_colour::Reduction;
 use thiserror::Error;
 
-use crate::figures::degrees;
 use crate::quantity::Quantity;
-use crate::scale::Scaling;
+use crate::scale::{Scaling, degrees};
 use crate::subject::Subject;
 
 /// How far from the mirror direction spectra are shown, toward the light, in degrees.

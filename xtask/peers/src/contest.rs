@@ -7,7 +7,7 @@ use super::comparison::{Agreement, Difference, Judge, compare};
 use super::exchange::Exchange;
 use super::processor;
 use super::program::Programs;
-use super::record::Row;
+use super::row::Row;
 
 /// Runs of each contestant per turn: the first finds the caches as the previous contestant left them.
 const TIMES: usize = 3;

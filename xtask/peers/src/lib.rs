@@ -19,6 +19,7 @@ mod processor;
 mod program;
 mod record;
 mod referee;
+mod row;
 mod tracing;
 mod trigonometry;
 mod variance;

@@ -1,7 +1,8 @@
 //! Names of angles.
 
-use super::names::{Angle, Meaning, Name};
+use super::meaning::{Meaning, Name};
 use super::words::{AZIMUTHS, INCOMING, OUTGOING, POLARS, RELATIVE};
+use crate::angle::Angle;
 
 impl Name {
     /// An angle, if each word has to do with one.

@@ -9,6 +9,7 @@ use lobe_table::{Channels, Scatter};
 use super::grid::{Of, data};
 use super::layout::Values;
 use super::rows::Raw;
+use super::samples::Samples;
 use super::{plane, unit};
 use crate::reading::{Holds, Quantity, ReadOptions};
 use crate::records::Records;
@@ -18,17 +19,6 @@ use crate::{Document, FormatError, Part, Place};
 const ROUNDING: f64 = 1e-3;
 /// The smallest cosine that a value is divided by: that of 89.9 degrees.
 const HORIZON: f64 = 1.745e-3;
-
-/// Rows in radians.
-pub(super) struct Samples {
-    pub angles: Vec<[f64; 4]>,
-    /// The line of each.
-    pub lines: Vec<u32>,
-    /// `[row][channel]`
-    pub values: Vec<f32>,
-    pub channels: Channels,
-    pub is_specular: bool,
-}
 
 /// Makes a document of what was read.
 pub(super) fn document(mut raw: Raw, file: &Path, options: &ReadOptions) -> Result<Document, FormatError> {

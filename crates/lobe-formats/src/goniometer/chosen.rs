@@ -1,7 +1,9 @@
 //! What columns hold by their names, and what the user says instead.
 
-use super::layout::Trouble;
-use super::names::{Angle, Meaning, meaning};
+use super::meaning::Meaning;
+use super::names::meaning;
+use super::trouble::Trouble;
+use crate::angle::Angle;
 use crate::lines::shown;
 use crate::reading::{Content, Position, ReadOptions};
 

@@ -1,8 +1,9 @@
 //! Which of the names are the angles of which direction.
 
 use super::facts::Facts;
-use super::layout::{SPHERICAL, Source};
-use super::names::{Angle, Meaning, Unit};
+use super::meaning::Meaning;
+use super::source::{SPHERICAL, Source};
+use crate::angle::{Angle, Unit};
 
 /// Whether columns with these meanings say where the light and the viewer are.
 pub(super) fn has_directions(mut meanings: Vec<Meaning>, facts: &Facts) -> bool {

@@ -1,8 +1,10 @@
 //! What stands above the rows of a table: facts for people, and angles, units and kinds of scatter that hold for all rows.
 
-use super::names::{Angle, Meaning, Unit, meaning};
+use super::meaning::Meaning;
+use super::names::meaning;
 use super::sheet::{Dialect, Line};
 use super::{ROWS, Rows};
+use crate::angle::{Angle, Unit};
 use crate::reading::Holds;
 
 /// What the lines above the rows, or between them, say.

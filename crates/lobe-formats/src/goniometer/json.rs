@@ -5,9 +5,13 @@ use std::path::Path;
 
 use super::chosen::meanings;
 use super::facts::Facts;
-use super::layout::{Layout, Source, Trouble, Values};
-use super::names::{Angle, Meaning, meaning};
+use super::layout::{Layout, Values};
+use super::meaning::Meaning;
+use super::names::meaning;
 use super::rows::Raw;
+use super::source::Source;
+use super::trouble::Trouble;
+use crate::angle::Angle;
 use crate::reading::ReadOptions;
 use crate::{FormatError, Place};
 

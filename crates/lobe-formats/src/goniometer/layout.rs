@@ -5,22 +5,13 @@ use lobe_table::Channels;
 use super::chosen::{list, list_of};
 use super::directions::{settle, wide};
 use super::facts::Facts;
-use super::names::{Angle, Meaning, Unit};
+use super::meaning::Meaning;
+use super::source::{SPECULAR, SPHERICAL, Source};
+use super::trouble::Trouble;
+use crate::angle::{Angle, Unit};
 use crate::columns::channels;
 use crate::lines::shown;
 use crate::reading::{Content, Holds, Position, Quantity, ReadOptions};
-
-/// Where an angle of a row is found.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Source {
-    /// In a column, in the unit that its name states.
-    Column(usize, Option<Unit>),
-    /// In a line above the rows, or in what the user says.
-    Fixed(f64, Option<Unit>),
-    /// Each column of values has one of its own.
-    Wide,
-    Missing,
-}
 
 /// Where values are found.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,22 +42,6 @@ pub(super) struct Layout {
     pub watched: Vec<usize>,
     pub notes: Vec<String>,
 }
-
-/// What a table lacks: what was found, and what was expected.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Trouble {
-    pub found: String,
-    pub expected: String,
-}
-
-impl Trouble {
-    pub fn new(found: impl Into<String>, expected: impl Into<String>) -> Self {
-        Trouble { found: found.into(), expected: expected.into() }
-    }
-}
-
-pub(super) const SPHERICAL: [Angle; 4] = [Angle::ThetaI, Angle::PhiI, Angle::ThetaO, Angle::PhiO];
-pub(super) const SPECULAR: [Angle; 4] = [Angle::Sigma, Angle::Psi, Angle::Theta, Angle::Phi];
 
 const WANTED: &str =
     "theta_i and theta_o, with phi_o unless the viewer stays in the plane of incidence, or sigma, theta and phi";

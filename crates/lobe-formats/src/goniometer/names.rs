@@ -1,94 +1,10 @@
 //! What the names of columns say: which angle, in which unit, or which values.
 
-use std::f64::consts::PI;
-
 use super::angles::side;
-use super::quantities::{COLOURS, SIGNALS, is_signal_unit, nanometres};
+use super::meaning::{Meaning, Name};
+use super::quantities::{COLOURS, LENGTHS, SIGNALS, is_signal_unit, nanometres};
 use super::words::{FILLERS, OF_NO_VALUE, WHOLE};
-use crate::reading::{Quantity, words};
-
-words! {
-    /// An angle of a table.
-    Angle:
-    /// The polar angle of the light.
-    ThetaI = "theta_i",
-    /// Its azimuth.
-    PhiI = "phi_i",
-    /// The polar angle of the viewer.
-    ThetaO = "theta_o",
-    /// Its azimuth.
-    PhiO = "phi_o",
-    /// The polar angle of the light, in specular coordinates.
-    Sigma = "sigma",
-    /// Its azimuth.
-    Psi = "psi",
-    /// The angle between the viewer and the mirror direction.
-    Theta = "theta",
-    /// The azimuth about the mirror direction.
-    Phi = "phi",
-}
-
-words! {
-    /// A unit of angles.
-    Unit:
-    /// Degrees.
-    Deg = "deg" or "degree" or "degrees" or "°" or "grad",
-    /// Radians.
-    Rad = "rad" or "radian" or "radians",
-    /// Thousandths of a radian.
-    Mrad = "mrad",
-}
-
-impl Unit {
-    /// What makes radians of it.
-    pub fn radians(self) -> f64 {
-        match self {
-            Unit::Deg => PI / 180.0,
-            Unit::Rad => 1.0,
-            Unit::Mrad => 1e-3,
-        }
-    }
-}
-
-/// What a column holds, as far as its name says.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Meaning {
-    Angle(Angle, Option<Unit>),
-    /// A polar angle of either direction: `theta_s` is the sun's or the scattered light's.
-    EitherTheta(Option<Unit>),
-    /// An azimuth of either direction.
-    EitherPhi(Option<Unit>),
-    /// An angle of which the name says no more.
-    AnyAngle(Option<Unit>),
-    /// The wavelength of a row: what makes nm of it.
-    Wavelength(f64),
-    /// `f` or something like it, for the channel of this name, which is empty for the only one.
-    Values {
-        channel: String,
-        quantity: Option<Quantity>,
-        unit: String,
-        is_transmission: bool,
-    },
-    /// A number, which may be a wavelength or an angle; of which angle, if the name says so, as in `theta_i=30`.
-    Number(f64, Option<Unit>, Option<Angle>),
-    /// What may be measured but is not `f`: intensities, currents, counts.
-    Signal,
-    /// Nothing that counts: uncertainties, comments, numbers of rows.
-    NoValue,
-    Unknown,
-}
-
-/// A name in its words, with its unit.
-pub(super) struct Name {
-    pub words: Vec<String>,
-    /// All letters, digits and points in one word.
-    pub compact: String,
-    /// The name in lower case without its unit.
-    pub text: String,
-    /// What stands in brackets at the end, in lower case, if it is no word of a name.
-    pub unit: String,
-    pub angle_unit: Option<Unit>,
-}
+use crate::angle::Unit;
 
 /// What the name of a column says.
 pub(crate) fn meaning(name: &str) -> Meaning {
@@ -164,6 +80,25 @@ impl Name {
         let compact = words.concat();
         Name { words, compact, text: spelled, unit, angle_unit }
     }
+
+    /// A name that is a number, perhaps after the name of an angle: `30`, `-30°`, `theta_i=30`, `AOI 10`.
+    fn number(&self) -> Option<Meaning> {
+        if LENGTHS.contains(&self.unit.as_str()) {
+            return None;
+        }
+        let number = |word: &str| {
+            let word = word.trim().trim_end_matches('°').replace(',', ".");
+            word.parse().ok().filter(|number: &f64| number.is_finite())
+        };
+        if let Some(found) = number(&self.text) {
+            return Some(Meaning::Number(found, self.angle_unit, None));
+        }
+        let (head, tail) = self.text.rsplit_once(['=', ':', ' ', '_'])?;
+        match meaning(head) {
+            Meaning::Angle(angle, unit) => Some(Meaning::Number(number(tail)?, self.angle_unit.or(unit), Some(angle))),
+            _ => None,
+        }
+    }
 }
 
 /// Whether what stands in brackets belongs to the name: `theta (in)`, `f(450 nm)`, `BRDF (R)`.
@@ -173,18 +108,4 @@ fn is_part_of_a_name(inner: &str) -> bool {
         || COLOURS.iter().any(|names| names.contains(&word))
         || nanometres(&word.replace(' ', ""), "").is_some()
         || ["incident", "scattered", "reflected"].contains(&word)
-}
-
-impl Meaning {
-    /// The unit that the name of an angle states.
-    pub fn unit(&self) -> Option<Unit> {
-        match self {
-            Meaning::Angle(_, unit)
-            | Meaning::EitherTheta(unit)
-            | Meaning::EitherPhi(unit)
-            | Meaning::AnyAngle(unit)
-            | Meaning::Number(_, unit, _) => *unit,
-            _ => None,
-        }
-    }
 }

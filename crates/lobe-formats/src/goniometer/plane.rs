@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
 
-use super::build::Samples;
-use super::layout::{Layout, Source};
+use super::layout::Layout;
+use super::samples::Samples;
+use super::source::Source;
 use crate::reading::{AzimuthFrom, InPlane, ReadOptions};
 use crate::{FormatError, Place};
 

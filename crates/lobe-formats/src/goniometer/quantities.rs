@@ -1,6 +1,6 @@
-//! Names of values, of wavelengths, and names that are numbers.
+//! Names of values and of wavelengths.
 
-use super::names::{Meaning, Name, meaning};
+use super::meaning::{Meaning, Name};
 use crate::reading::Quantity;
 
 /// Names of what is measured on the way to `f`.
@@ -54,25 +54,6 @@ impl Name {
         (is && self.words.len() <= 2).then_some(Meaning::Wavelength(nm))
     }
 
-    /// A name that is a number, perhaps after the name of an angle: `30`, `-30°`, `theta_i=30`, `AOI 10`.
-    pub fn number(&self) -> Option<Meaning> {
-        if LENGTHS.contains(&self.unit.as_str()) {
-            return None;
-        }
-        let number = |word: &str| {
-            let word = word.trim().trim_end_matches('°').replace(',', ".");
-            word.parse().ok().filter(|number: &f64| number.is_finite())
-        };
-        if let Some(found) = number(&self.text) {
-            return Some(Meaning::Number(found, self.angle_unit, None));
-        }
-        let (head, tail) = self.text.rsplit_once(['=', ':', ' ', '_'])?;
-        match meaning(head) {
-            Meaning::Angle(angle, unit) => Some(Meaning::Number(number(tail)?, self.angle_unit.or(unit), Some(angle))),
-            _ => None,
-        }
-    }
-
     /// Values: `BRDF`, `R`, `550nm`, `BRDF_550nm`, `f(450 nm)`.
     pub fn values(&self) -> Option<Meaning> {
         let mut quantity = None;
@@ -122,7 +103,7 @@ impl Name {
 
 pub(super) const COLOURS: [&[&str]; 6] =
     [&["r", "red", "rot"], &["g", "green", "grün"], &["b", "blue", "blau"], &["x"], &["y"], &["z"]];
-const LENGTHS: [&str; 4] = ["nm", "um", "µm", "μm"];
+pub(super) const LENGTHS: [&str; 4] = ["nm", "um", "µm", "μm"];
 
 /// A wavelength in nm: `550nm`, `0.55um`, `wl550nm`, or 550 with its unit in brackets.
 pub(super) fn nanometres(word: &str, unit: &str) -> Option<f64> {

@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::facts::{Facts, fixed};
-use super::layout::{Layout, SPECULAR, SPHERICAL, Source, Values};
-use super::names::{Angle, Unit};
+use super::layout::{Layout, Values};
 use super::sheet::{Cell, Dialect, Line};
-use super::table::Start;
+use super::source::{SPECULAR, SPHERICAL, Source};
+use super::start::Start;
+use crate::angle::{Angle, Unit};
 use crate::lines::shown;
 use crate::{FormatError, Place};
 

@@ -3,9 +3,10 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::Path;
 
-use super::layout::{SPECULAR, SPHERICAL, Source, Values};
-use super::names::Unit;
+use super::layout::Values;
 use super::rows::Raw;
+use super::source::{SPECULAR, SPHERICAL, Source};
+use crate::angle::Unit;
 use crate::reading::ReadOptions;
 use crate::{FormatError, Place};
 

@@ -1,6 +1,6 @@
 //! The vocabulary of people's tables.
 
-use super::names::Angle;
+use crate::angle::Angle;
 
 pub(super) const POLARS: &[&str] = &["theta", "th", "polar", "zenith", "zen"];
 

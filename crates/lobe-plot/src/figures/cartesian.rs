@@ -4,10 +4,10 @@ use lobe::Scatter;
 
 use super::chart::{Axis, Chart, Hint, Line, Mirror, Panel};
 use super::legend::Entry;
-use super::shared::{conditions, degrees, id, scatter_name};
+use super::shared::{conditions, id, scatter_name};
 use crate::in_plane::Curve;
 use crate::ink::Ink;
-use crate::scale::{Scaling, short};
+use crate::scale::{Scaling, degrees, short};
 use crate::shown::Shown;
 
 /// Between measured points, something is said about a curve every so many degrees.

@@ -5,11 +5,11 @@ use lobe::{Channels, Scatter};
 use super::cartesian::{line, title};
 use super::chart::{Axis, Chart, Mirror, Panel};
 use super::legend::Entry;
-use super::shared::{degrees, id, scatter_name, side_name};
+use super::shared::{id, scatter_name, side_name};
 use crate::evaluate::Progress;
 use crate::in_plane::{Curve, MOST, channel_curves};
 use crate::ink::Ink;
-use crate::scale::Scaling;
+use crate::scale::{Scaling, degrees};
 use crate::shown::Shown;
 
 /// More panels than this, one per incidence and kind of scattering, make the figure too long.

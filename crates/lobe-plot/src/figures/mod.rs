@@ -18,11 +18,11 @@ use thiserror::Error;
 use crate::evaluate::Progress;
 use crate::in_plane::{Curve, MOST, curves};
 use crate::layout::Paper;
-use crate::scale::Scaling;
+use crate::scale::{Scaling, degrees};
 use crate::shown::{Shown, incidences};
 use crate::view::View;
 
-pub(crate) use shared::{degrees, side_name};
+pub(crate) use shared::side_name;
 
 /// A kind of figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -6,11 +6,11 @@ use super::cartesian::{incidences, line, title};
 use super::chart::{DOTS, Line};
 use super::legend::{Entry, Legend};
 use super::lines::runs;
-use super::shared::{MARGIN, MIDDLE, conditions, degrees, heading, id, scatter_name};
+use super::shared::{MARGIN, MIDDLE, conditions, heading, id, scatter_name};
 use crate::in_plane::Curve;
 use crate::ink::Ink;
 use crate::layout::Paper;
-use crate::scale::{Scale, Scaling};
+use crate::scale::{Scale, Scaling, degrees};
 use crate::shown::Shown;
 use crate::svg::{Anchor, Area, LABEL, Role, Svg, Text};
 

@@ -2,7 +2,7 @@
 
 use lobe::{Scatter, Side};
 
-use crate::scale::minus;
+use crate::scale::degrees;
 use crate::shown::Shown;
 use crate::svg::{Anchor, LABEL, Role, Svg, Text};
 use crate::view::View;
@@ -95,12 +95,6 @@ pub(super) fn scatter_name(scatter: Scatter) -> &'static str {
         Scatter::Reflection => "reflection",
         Scatter::Transmission => "transmission",
     }
-}
-
-/// An angle in degrees with at most one decimal.
-pub(crate) fn degrees(radians: f64) -> String {
-    let rounded = (10.0 * radians.to_degrees()).round() / 10.0;
-    minus(&format!("{}°", if rounded == 0.0 { 0.0 } else { rounded }))
 }
 
 /// Text centred on its position.

@@ -6,12 +6,12 @@ use std::fmt::Write as _;
 use lobe::Scatter;
 
 use super::cartesian::title;
-use super::shared::{MARGIN, MIDDLE, conditions, degrees, heading, id, notes, scatter_name, shortened};
+use super::shared::{MARGIN, MIDDLE, conditions, heading, id, notes, scatter_name, shortened};
 use crate::evaluate::Progress;
 use crate::geometry::{incident, to_disk};
 use crate::image::Image;
 use crate::layout::{Layout, Paper};
-use crate::scale::{Scale, Scaling, short};
+use crate::scale::{Scale, Scaling, degrees, short};
 use crate::shown::{Shown, incidences};
 use crate::slice::{Slice, slice};
 use crate::svg::{Area, LABEL, Role, Svg, Text, number};

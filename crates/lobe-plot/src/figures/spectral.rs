@@ -6,10 +6,10 @@ use super::cartesian::title;
 use super::channels;
 use super::chart::{Axis, Chart, Hint, Line, Panel};
 use super::legend::Entry;
-use super::shared::{degrees, id, scatter_name, side_name};
+use super::shared::{id, scatter_name, side_name};
 use crate::evaluate::Progress;
 use crate::ink::Ink;
-use crate::scale::{Scaling, short};
+use crate::scale::{Scaling, degrees, short};
 use crate::shown::Shown;
 use crate::spectra::{Spectrum, spectra};
 

@@ -7,7 +7,7 @@ use lobe_trace::RayClass;
 use super::Stages;
 use crate::columns::RAYS;
 use crate::random::Dimensions;
-use crate::scene::{Node, SceneError};
+use crate::scene::node::{Node, SceneError};
 use crate::transport::Transport;
 use crate::vec3::Vec3;
 use crate::vectors::cosine_hemisphere;

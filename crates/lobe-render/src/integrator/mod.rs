@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use crate::camera::View;
 use crate::film::{Film, Rect};
-use crate::scene::{Node, SceneError};
+use crate::scene::node::{Node, SceneError};
 use crate::shader::Backend;
 use crate::stats::Stats;
 use crate::transport::{Rgb, Transport};

@@ -3,7 +3,7 @@
 use lobe_trace::RayClass;
 
 use super::Stages;
-use crate::scene::{Node, SceneError};
+use crate::scene::node::{Node, SceneError};
 use crate::transport::Transport;
 use crate::wavefront::{Keep, Wavefront};
 

@@ -2,7 +2,7 @@
 
 mod light;
 mod material;
-mod node;
+pub(crate) mod node;
 mod object;
 mod view;
 
@@ -17,9 +17,8 @@ use crate::camera::{Camera, Filter};
 use crate::integrator::Integrator;
 use crate::shader::Backend;
 use crate::world::{World, WorldBuilder};
-use node::Source;
+use node::{Node, Source};
 
-pub(crate) use node::Node;
 pub use node::SceneError;
 
 /// What a scene file says.

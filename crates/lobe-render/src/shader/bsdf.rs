@@ -8,8 +8,8 @@ use lobe_model::{Model, is_isotropic};
 use lobe_table::bsdf::ByHistograms;
 use lobe_table::{DistributionError, DistributionOptions};
 
-use super::{Backend, Conversion, Evaluated, Lobes, Sampled, Scratch, Shader, albedo_of, times_cosine};
-use crate::transport::{Rgb, Transport, TransportMode};
+use super::{Backend, Evaluated, Lobes, Sampled, Scratch, Shader, albedo_of, times_cosine};
+use crate::transport::{Conversion, Rgb, Transport, TransportMode};
 use crate::vec3::Vec3;
 
 /// A function of pairs of directions, in what the transport applies.

@@ -5,7 +5,6 @@
 //! on the backend that they were made with.
 
 mod bsdf;
-mod conversion;
 mod delta;
 mod lambert;
 mod open;
@@ -13,7 +12,6 @@ mod open;
 use std::fmt::Debug;
 
 pub use bsdf::BsdfShader;
-pub use conversion::Conversion;
 pub use delta::{Delta, DeltaSample, DeltaSamples, DeltaShader};
 pub use lambert::Lambert;
 pub use lobe::Backend;

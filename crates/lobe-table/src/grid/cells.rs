@@ -4,7 +4,7 @@ use lobe_lane::{Floats, Ints, Lanes};
 
 use super::axis::Axis;
 use super::edges::Edge;
-use super::search::{Cell, Find, Visitor};
+use super::find::{Cell, Find, Visitor};
 use crate::passes::block::Column;
 
 /// Replaces the angles of queries `0..n` by the fraction into their cell, and adds the cell's offset to `base`.

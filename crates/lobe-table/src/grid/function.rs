@@ -7,7 +7,7 @@ use lobe_lane::{Floats, Lanes};
 
 use super::neighbours::Neighbours;
 use crate::grid::axis::Axis;
-use crate::grid::search::Cell;
+use crate::grid::find::Cell;
 use crate::{AxisError, Edge};
 
 /// A piecewise linear function of an angle, evaluated in lanes.

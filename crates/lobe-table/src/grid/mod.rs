@@ -13,8 +13,10 @@
 pub(crate) mod axis;
 pub(crate) mod cells;
 pub(crate) mod check;
+mod descend;
 pub(crate) mod edges;
 mod error;
+pub(crate) mod find;
 pub(crate) mod function;
 pub(crate) mod interpolation;
 pub(crate) mod layout;
@@ -29,6 +31,6 @@ pub(crate) mod weights;
 pub use axis::{Axis, AxisError};
 pub use edges::{Edge, Edges};
 pub use error::{GridError, TableError};
+pub use find::Cell;
 pub use function::Function;
-pub use search::Cell;
 pub use texel::Precision;

@@ -1,11 +1,12 @@
 //! What travels along a path, and in which direction.
 
+mod rgb;
+
 use std::fmt::Debug;
 
-use lobe_colour::Reduction;
+pub use rgb::Rgb;
 
 use crate::channels::Channels;
-use crate::shader::Conversion;
 
 /// Which of two adjoint quantities a path carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,71 +72,21 @@ pub trait Transport: Copy + Debug + Default + PartialEq + Eq + Send + Sync + 'st
     fn colour(radiance: Self::Radiance) -> [f32; 3];
 }
 
+/// How the channels of a measurement become what a transport applies.
+pub trait Conversion<T: Transport>: Debug + Send + Sync + Sized {
+    /// The conversion from these channels.
+    fn of(channels: &lobe::Channels) -> Self;
+
+    /// How many channels the material has.
+    fn count(&self) -> usize;
+
+    /// The floats of `out`, if the values of the material can be written there as they are.
+    fn in_place<'a>(&self, out: &'a mut [T::Scattering]) -> Option<&'a mut [f32]>;
+
+    /// Converts `values`, `[query][channel]`.
+    fn convert(&self, values: &[f32], out: &mut [T::Scattering]);
+}
+
 /// The exact sums of radiance.
 #[doc(hidden)]
 pub type RadianceSums<T> = <<T as Transport>::Radiance as Channels>::Sums;
-
-/// Linear sRGB: three independent channels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Rgb;
-
-impl Transport for Rgb {
-    type Spectrum = [f32; 3];
-    type Radiance = [f32; 3];
-    type Throughput = [f32; 3];
-    type Scattering = [f32; 3];
-    type Conversion = Reduction;
-
-    const START: [f32; 3] = [1.0; 3];
-    const ABSORBED: [f32; 3] = [0.0; 3];
-
-    #[inline]
-    fn scattering(spectrum: [f32; 3]) -> [f32; 3] {
-        spectrum
-    }
-
-    #[inline]
-    fn scale(scattering: [f32; 3], factor: f32) -> [f32; 3] {
-        scattering.map(|x| x * factor)
-    }
-
-    #[inline]
-    fn over(scattering: [f32; 3], pdf: f32) -> [f32; 3] {
-        scattering.map(|x| x / pdf)
-    }
-
-    #[inline]
-    fn apply(throughput: [f32; 3], scattering: [f32; 3]) -> [f32; 3] {
-        std::array::from_fn(|k| throughput[k] * scattering[k])
-    }
-
-    #[inline]
-    fn weigh(throughput: [f32; 3], factor: f32) -> [f32; 3] {
-        throughput.map(|t| t * factor)
-    }
-
-    #[inline]
-    fn survive(throughput: [f32; 3], chance: f32) -> [f32; 3] {
-        throughput.map(|t| t / chance)
-    }
-
-    #[inline]
-    fn magnitude(throughput: &[f32; 3]) -> f32 {
-        throughput.iter().fold(0.0f32, |most, t| most.max(t.abs()))
-    }
-
-    #[inline]
-    fn radiance(throughput: [f32; 3], emitted: [f32; 3]) -> [f32; 3] {
-        std::array::from_fn(|k| throughput[k] * emitted[k])
-    }
-
-    #[inline]
-    fn from_colour(colour: [f32; 3]) -> [f32; 3] {
-        colour
-    }
-
-    #[inline]
-    fn colour(radiance: [f32; 3]) -> [f32; 3] {
-        radiance
-    }
-}

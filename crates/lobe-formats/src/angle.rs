@@ -1,0 +1,48 @@
+//! The angles of tables, and their units.
+
+use std::f64::consts::PI;
+
+use crate::words::words;
+
+words! {
+    /// An angle of a table.
+    Angle:
+    /// The polar angle of the light.
+    ThetaI = "theta_i",
+    /// Its azimuth.
+    PhiI = "phi_i",
+    /// The polar angle of the viewer.
+    ThetaO = "theta_o",
+    /// Its azimuth.
+    PhiO = "phi_o",
+    /// The polar angle of the light, in specular coordinates.
+    Sigma = "sigma",
+    /// Its azimuth.
+    Psi = "psi",
+    /// The angle between the viewer and the mirror direction.
+    Theta = "theta",
+    /// The azimuth about the mirror direction.
+    Phi = "phi",
+}
+
+words! {
+    /// A unit of angles.
+    Unit:
+    /// Degrees.
+    Deg = "deg" or "degree" or "degrees" or "°" or "grad",
+    /// Radians.
+    Rad = "rad" or "radian" or "radians",
+    /// Thousandths of a radian.
+    Mrad = "mrad",
+}
+
+impl Unit {
+    /// What makes radians of it.
+    pub fn radians(self) -> f64 {
+        match self {
+            Unit::Deg => PI / 180.0,
+            Unit::Rad => 1.0,
+            Unit::Mrad => 1e-3,
+        }
+    }
+}
