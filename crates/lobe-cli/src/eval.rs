@@ -216,22 +216,18 @@ impl Args {
 
     /// Refuses what would make no difference: whoever asks for it expects one.
     fn check_options(&self, document: &Document) -> Result<(), Failure> {
-        let has = |is: fn(&Data) -> bool| document.parts.iter().any(|part| is(&part.data));
-        let kinds: Vec<&str> = document.parts.iter().map(|part| part.data.representation().kind().name()).collect();
+        let uses = document.uses();
         let check = |option: &str, is_given: bool, applies: bool, expected: &str| match is_given && !applies {
             true => Err(Failure::Usage(format!(
                 "{option}: found {} in {}; expected {expected}",
-                kinds.join(", "),
+                document.kinds(),
                 self.file.display()
             ))),
             false => Ok(()),
         };
-        let is_specular = has(|data| matches!(data, Data::Specular(_)));
-        let is_half_diff = has(|data| matches!(data, Data::HalfDiff(_)));
-        let is_rgl = has(|data| matches!(data, Data::Rgl(_)));
-        check("--edge", self.edge.is_some(), is_specular, "a table in specular coordinates")?;
-        check("--lookup", self.lookup.is_some(), is_half_diff, "a grid of half and difference angles")?;
-        check("--indexed-by", self.indexed_by.is_some(), is_rgl, "a material of the EPFL database")
+        check("--edge", self.edge.is_some(), uses.edges, "a table in specular coordinates")?;
+        check("--lookup", self.lookup.is_some(), uses.lookup, "a grid of half and difference angles")?;
+        check("--indexed-by", self.indexed_by.is_some(), uses.indexed_by, "a material of the EPFL database")
     }
 }
 

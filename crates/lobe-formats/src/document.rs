@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use lobe_files::printable;
-use lobe_table::{Data, Side};
+use lobe_table::{Data, Side, Uses};
 
 /// What was found in a file, in the form in which it was measured.
 #[derive(Clone, Debug)]
@@ -87,6 +87,17 @@ impl Document {
             [Part { side: None, data, .. }] => Some(data),
             _ => None,
         }
+    }
+
+    /// Which options make a difference to any of the measurements.
+    pub fn uses(&self) -> Uses {
+        self.parts.iter().fold(Uses::default(), |uses, part| uses.or(part.data.representation().uses()))
+    }
+
+    /// The names of the representations, for people.
+    pub fn kinds(&self) -> String {
+        let kinds: Vec<&str> = self.parts.iter().map(|part| part.data.representation().kind().name()).collect();
+        kinds.join(", ")
     }
 
     /// `true` if there are several measurements, or one of a particular side.

@@ -70,7 +70,7 @@ pub mod utia;
 pub mod window;
 
 pub use bsdf::{Bsdf, BsdfLanes};
-pub use data::{Aspect, Kind, Options, PrepareError, Representation, Side};
+pub use data::{Aspect, Kind, Options, PrepareError, Representation, Side, Uses};
 pub use directions::Directions;
 pub use grid::{Axis, AxisError, Cell, Edge, Edges, Function, GridError, Precision, TableError};
 pub use invalid::Invalid;

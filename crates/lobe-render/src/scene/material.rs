@@ -3,13 +3,15 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
+use lobe::formats::{Document, FormatError};
+use lobe::table::Uses;
 use lobe::{Edges, Given, Lookup, Options};
 use lobe_model::{Blinn, Coated, Conductor, Ggx, Model, OrenNayar, Phong, Ward};
 
 use super::Reading;
 use super::node::{Node, SceneError};
 use crate::shader::{Backend, BsdfShader, Delta, DeltaShader, Lambert, Shader};
-use crate::shader::{open_sheet_with_progress, open_with};
+use crate::shader::{MaterialError, from_document, open_sheet_with_progress};
 use crate::transport::Rgb;
 
 const MODELS: &str = "lambert, mirror, glass, oren-nayar, phong, blinn, ward, conductor or plastic";
@@ -28,13 +30,20 @@ pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(),
         let (front, back) = (reading.files(&node, "front")?, reading.files(&node, "back")?);
         let shader = match (file, model, front.len() + back.len()) {
             (Some(path), None, 0) => {
-                let options = options(&node)?;
+                let refused = |error: MaterialError| node.error("file", error.to_string());
+                let (_, document) = lobe::formats::open(&path).map_err(|error| refused(error.into()))?;
+                check_options(&node, &[&document])?;
                 let mut watch = |part: usize, all: usize| done(reading.progress, part, all);
-                open_with(&path, &options, reading.backend, None, &mut watch)
-                    .map_err(|error| node.error("file", error.to_string()))?
+                from_document(&document, &path, &options(&node)?, reading.backend, None, &mut watch).map_err(refused)?
             }
             (None, None, 1..) => {
                 let key = if front.is_empty() { "back" } else { "front" };
+                if OPTIONS.iter().any(|option| node.has(option.key)) {
+                    let documents = front.iter().chain(&back).map(|path| Ok(lobe::formats::open(path)?.1));
+                    let documents = documents.collect::<Result<Vec<Document>, FormatError>>();
+                    let documents = documents.map_err(|error| node.error(key, error.to_string()))?;
+                    check_options(&node, &documents.iter().collect::<Vec<_>>())?;
+                }
                 let mut watch = |part: usize, all: usize| done(reading.progress, part, all);
                 open_sheet_with_progress(&front, &back, &options(&node)?, reading.backend, &mut watch)
                     .map_err(|error| node.error(key, error.to_string()))?
@@ -48,6 +57,30 @@ pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(),
         node.finish()?;
         let number = reading.world.material(shader);
         reading.materials.insert(name, number);
+    }
+    Ok(())
+}
+
+/// A key that only some representations look at.
+struct MaterialOption {
+    key: &'static str,
+    applies: fn(Uses) -> bool,
+    expected: &'static str,
+}
+
+const OPTIONS: [MaterialOption; 3] = [
+    MaterialOption { key: "edge", applies: |uses| uses.edges, expected: "a table in specular coordinates" },
+    MaterialOption { key: "lookup", applies: |uses| uses.lookup, expected: "a grid of half and difference angles" },
+    MaterialOption { key: "indexed_by", applies: |uses| uses.indexed_by, expected: "a material of the EPFL database" },
+];
+
+/// Refuses what would make no difference: whoever asks for it expects one.
+fn check_options(node: &Node<'_, '_>, documents: &[&Document]) -> Result<(), SceneError> {
+    let uses = documents.iter().fold(Uses::default(), |uses, document| uses.or(document.uses()));
+    for option in OPTIONS.iter().filter(|option| node.has(option.key) && !(option.applies)(uses)) {
+        let kinds: Vec<String> = documents.iter().map(|document| document.kinds()).collect();
+        let message = format!("found {}; expected {}", kinds.join(", "), option.expected);
+        return Err(node.error(option.key, message));
     }
     Ok(())
 }

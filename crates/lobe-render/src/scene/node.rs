@@ -70,6 +70,11 @@ impl<'s, 't> Node<'s, 't> {
         self.table.get(key)
     }
 
+    /// Whether there is such a key.
+    pub fn has(&self, key: &str) -> bool {
+        self.table.get(key).is_some()
+    }
+
     /// An error about the value of a key, or about the table if the key is missing.
     pub fn error(&self, key: &str, message: impl Into<String>) -> SceneError {
         match self.table.get(key) {

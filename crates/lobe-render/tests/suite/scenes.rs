@@ -128,6 +128,26 @@ fn mistakes_are_named_with_their_line_and_key() {
 }
 
 #[test]
+fn options_that_make_no_difference_are_errors() {
+    let with = |line: &str| parse(&GOOD.replace("17x13.ddr\"\n", &format!("17x13.ddr\"\n{line}\n")));
+    for (line, expected) in [
+        ("lookup = \"linear\"", "expected a grid of half and difference angles"),
+        ("indexed_by = \"light\"", "expected a material of the EPFL database"),
+    ] {
+        let error = with(line).expect_err(line);
+        assert!(
+            error.contains("scene.toml:15:") && error.contains("specular table") && error.ends_with(expected),
+            "{error}"
+        );
+    }
+    assert!(with("edge = \"zero\"").is_ok());
+    let sheet =
+        GOOD.replace("file = \"cloth-17x7x17x13.ddr\"", "front = [\"cloth-17x7x17x13.ddr\"]\nlookup = \"nearest\"");
+    let error = parse(&sheet).expect_err("a sheet");
+    assert!(error.contains("scene.toml:15:") && error.ends_with("half and difference angles"), "{error}");
+}
+
+#[test]
 fn meshes_with_bad_numbers_are_errors() {
     let folder = tempfile::tempdir().unwrap();
     let scene = |mesh: &str| {

@@ -12,7 +12,7 @@ mod section;
 pub use aspect::{Aspect, Side};
 pub use kind::Kind;
 pub(crate) use near::{Near, SAME, direction, reach, spans};
-pub use options::Options;
+pub use options::{Options, Uses};
 pub use prepare::PrepareError;
 pub use representation::{Coverage, Representation, Samples, ValueMap};
 pub(crate) use section::pairs;

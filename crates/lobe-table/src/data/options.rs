@@ -19,3 +19,25 @@ pub struct Options {
     /// direction given is the one that is best sampled by.
     pub indexed_by: Given,
 }
+
+/// Which of the [`Options`] a representation looks at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Uses {
+    /// Whether [`Options::edges`] makes a difference.
+    pub edges: bool,
+    /// Whether [`Options::lookup`] does.
+    pub lookup: bool,
+    /// Whether [`Options::indexed_by`] does.
+    pub indexed_by: bool,
+}
+
+impl Uses {
+    /// What makes a difference to one or the other.
+    pub fn or(self, other: Self) -> Self {
+        Uses {
+            edges: self.edges || other.edges,
+            lookup: self.lookup || other.lookup,
+            indexed_by: self.indexed_by || other.indexed_by,
+        }
+    }
+}

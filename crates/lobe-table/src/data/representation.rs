@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use super::{Aspect, Gaps, Grid, Kind, Kinks, Options, PrepareError, Section};
+use super::{Aspect, Gaps, Grid, Kind, Kinks, Options, PrepareError, Section, Uses};
 use crate::bsdf::Bsdf;
 use crate::{Channels, Edges, Invalid, Scatter};
 
@@ -38,6 +38,11 @@ pub trait Representation: Debug + Send + Sync {
     /// of the representation.
     fn prepare(&self, _options: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
         Err(PrepareError::LeftOut(self.kind()))
+    }
+
+    /// Which options make a difference to what [`prepare`](Self::prepare) gives.
+    fn uses(&self) -> Uses {
+        Uses::default()
     }
 
     /// Gives the same nodes other channels: `map` turns values `[...][channel]` into those of the new channels. `false` if

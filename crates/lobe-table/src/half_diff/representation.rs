@@ -2,7 +2,7 @@
 
 use super::data::Data;
 use crate::bsdf::Bsdf;
-use crate::data::{Coverage, Gaps, Options, PrepareError, Section, direction};
+use crate::data::{Coverage, Gaps, Options, PrepareError, Section, Uses, direction};
 use crate::{Aspect, Channels, Kind, Representation};
 
 /// The name of the representation.
@@ -23,6 +23,10 @@ impl Representation for Data {
 
     fn is_isotropic(&self) -> bool {
         true
+    }
+
+    fn uses(&self) -> Uses {
+        Uses { lookup: true, ..Uses::default() }
     }
 
     fn sections(&self) -> Vec<Section<'_>> {

@@ -2,7 +2,7 @@
 
 use super::data::Data;
 use crate::bsdf::Bsdf;
-use crate::data::{Gaps, Options, PrepareError, Section, pairs};
+use crate::data::{Gaps, Options, PrepareError, Section, Uses, pairs};
 use crate::{Aspect, Channels, Kind, Representation};
 
 /// The name of the representation.
@@ -23,6 +23,10 @@ impl Representation for Data {
 
     fn is_isotropic(&self) -> bool {
         Data::is_isotropic(self)
+    }
+
+    fn uses(&self) -> Uses {
+        Uses { indexed_by: true, ..Uses::default() }
     }
 
     fn sections(&self) -> Vec<Section<'_>> {

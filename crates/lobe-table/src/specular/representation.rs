@@ -9,7 +9,9 @@ use super::prepared::Prepared;
 use super::reference::zenith;
 use super::table::Table;
 use crate::bsdf::Bsdf;
-use crate::data::{Coverage, Grid, Kinks, Options, PrepareError, SAME, Section, ValueMap, direction, pairs, spans};
+use crate::data::{
+    Coverage, Grid, Kinks, Options, PrepareError, SAME, Section, Uses, ValueMap, direction, pairs, spans,
+};
 use crate::{Aspect, Channels, Edges, Invalid, Kind, Representation};
 
 /// The name of the representation.
@@ -30,6 +32,10 @@ impl Representation for Data {
 
     fn is_isotropic(&self) -> bool {
         Data::is_isotropic(self)
+    }
+
+    fn uses(&self) -> Uses {
+        Uses { edges: true, ..Uses::default() }
     }
 
     fn sections(&self) -> Vec<Section<'_>> {
