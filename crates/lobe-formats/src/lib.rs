@@ -73,6 +73,7 @@ pub mod utia;
 pub mod window_xml;
 mod words;
 pub mod zemax;
+pub mod zernike;
 mod zip;
 
 pub use convert::{ChannelMap, ConvertError, Written, convert};

@@ -61,6 +61,7 @@ formats! {
     Cornell = cornell::FORMAT,
     Alta = alta::FORMAT,
     Nist = nist::FORMAT,
+    Zernike = zernike::FORMAT,
     Lumos = lumos::FORMAT,
     Goniometer = goniometer::FORMAT,
     Ddr = ddr::FORMAT,

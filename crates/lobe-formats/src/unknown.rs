@@ -11,7 +11,6 @@ use crate::{Format, FormatError, Place, merl, utia};
 pub(crate) fn unknown(bytes: &[u8], name: &Path, is_packed: bool) -> FormatError {
     let known = merl::damaged(bytes, name)
         .or_else(|| speos(bytes))
-        .or_else(|| zernike(bytes))
         .or_else(|| content(bytes, name))
         .or_else(|| utia::damaged(bytes, name));
     let (found, expected) = match known {
@@ -31,27 +30,7 @@ pub(crate) fn unknown(bytes: &[u8], name: &Path, is_packed: bool) -> FormatError
 
 /// `true` for content that is known to be something else, whatever rows of numbers are in it.
 pub(crate) fn is_other(bytes: &[u8]) -> bool {
-    zernike(bytes).or_else(|| content(bytes, Path::new(""))).is_some()
-}
-
-/// The coefficients of NIST's expansion of PTFE in Zernike polynomials: lines of seven whole numbers and a coefficient, the
-/// first two of which count the elements of a Mueller matrix.
-fn zernike(bytes: &[u8]) -> Option<Content> {
-    const LINES: usize = 4;
-    let head = std::str::from_utf8(&bytes[..bytes.len().min(1 << 10)]).unwrap_or_default();
-    let is_row = |line: &str| {
-        let words: Vec<&str> = line.split(',').map(str::trim).collect();
-        let [indices @ .., coefficient] = words.as_slice() else { return false };
-        let numbers: Option<Vec<i32>> = indices.iter().map(|word| word.parse().ok()).collect();
-        let is_element = |index: &i32| (1..=4).contains(index);
-        coefficient.parse::<f64>().is_ok()
-            && numbers.is_some_and(|numbers| numbers.len() == 7 && numbers[..2].iter().all(is_element))
-    };
-    let lines: Vec<&str> = head.lines().take(LINES).collect();
-    (lines.len() == LINES && lines.iter().all(|line| is_row(line))).then(|| Content {
-        what: "the coefficients of an expansion in Zernike polynomials (NIST, sintered PTFE)".into(),
-        advice: "They are a fit: read the measured values, which are published beside it (PTFE.data.csv)".into(),
-    })
+    content(bytes, Path::new("")).is_some()
 }
 
 /// The other files of Speos.

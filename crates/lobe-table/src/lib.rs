@@ -8,6 +8,7 @@
 //! - [`scattered`]: any number of directions, on no grid;
 //! - [`rgl`]: the adaptive parameterisation of the EPFL database;
 //! - [`fourier`]: cosine series of the azimuth, between knots of both polar angles;
+//! - [`zernike`]: expansions in Zernike polynomials of both directions;
 //! - [`half_diff`]: a grid of half and difference angles, as in the MERL database;
 //! - [`mueller`]: matrices of polarised reflection over half and difference angles;
 //! - [`utia`]: the grid of the UTIA database;
@@ -29,6 +30,7 @@
 //! | `spherical` | [`spherical`] |
 //! | `utia` | [`utia`] |
 //! | `window` | [`window`] |
+//! | `zernike` | [`zernike`] |
 //!
 //! All of them are on by default. [`specular`] is always there, and so are the data of every representation with their
 //! evaluation in `f64`: what takes the compiler long are the kernels.
@@ -42,7 +44,8 @@
         feature = "rgl",
         feature = "spherical",
         feature = "utia",
-        feature = "window"
+        feature = "window",
+        feature = "zernike"
     )),
     allow(dead_code, unused_imports)
 )]
@@ -68,6 +71,7 @@ pub mod specular;
 pub mod spherical;
 pub mod utia;
 pub mod window;
+pub mod zernike;
 
 pub use bsdf::{Bsdf, BsdfLanes};
 pub use data::{Aspect, Kind, Options, PrepareError, Representation, Side, Uses};

@@ -56,6 +56,8 @@ representations! {
     Utia(crate::utia::Data),
     /// Cosine series of the azimuth.
     Fourier(crate::fourier::Data),
+    /// An expansion in Zernike polynomials.
+    Zernike(crate::zernike::Data),
     /// Klems matrices or tensor trees of the two sides of a sheet.
     Window(crate::window::Data),
     /// The mirror reflectance, or the transmittance straight through, of a smooth surface.

@@ -67,6 +67,10 @@ pub const NIST: &str = "lambda,thetai,phi,thetar,phir,f_r11,a,b,c,d,e,f,g,h,i,j,
         0.532,-30,0,30,0,0.4,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\r\n0.532,-30,0,10,90,0.3,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\r\n\
         0.633,-30,0,30,0,0.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\r\n0.633,-30,0,10,90,0.3,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\r\n";
 
+/// Coefficients of an expansion in Zernike polynomials, with the wavelength and without.
+pub const ZERNIKE: &str = "1, 1, 0, 0, 0, 0, 0, 2.1\n1, 1, 1, 1, 1, 1, 0, -0.3\n1, 1, 2, 0, 0, 0, 1, 0.2\n\
+        1, 1, 4, 2, 2, 2, 0, 0.05\n2, 2, 1, 1, -1, 1, 0, 0.3\n";
+
 /// A grid in either kind of coordinates, with its rows in no particular order.
 pub fn csv(head: &str, unit: f64) -> String {
     let mut rows = Vec::new();
@@ -236,6 +240,7 @@ pub fn all() -> Vec<(Format, Vec<u8>)> {
         (Format::Alta, ALTA.into()),
         (Format::OpenMaterial, OPEN_MATERIAL.into()),
         (Format::Nist, NIST.into()),
+        (Format::Zernike, ZERNIKE.into()),
         (Format::Speos, speos_file("anisotropic", 30)),
         (Format::Speos, speos_file("brdf", 30)),
         (Format::WindowXml, sheet("Columns", NINE)),

@@ -85,6 +85,7 @@
 //! | `spherical` | grids of spherical coordinates |
 //! | `utia` | materials of the UTIA database |
 //! | `window` | Klems matrices and tensor trees |
+//! | `zernike` | expansions in Zernike polynomials |
 //!
 //! # Crates below
 //!

@@ -115,9 +115,6 @@ fn what_a_file_is_instead_is_said() {
     let binary = b"OPTIS - Anisotropic BSDF surface file v9.0\n1\x03\0\0\0";
     refused(binary, "a.anisotropicbsdf", "mode 1, the binary form", "save the file as text");
     refused(b"OPTIS - brdf surface file v8.0\r\n1\r\n\x07", "a.brdf", "mode 1, the binary form", "not public");
-    let zernike =
-        b"1, 1, 0, 0, 0, 0, 0, 2.1\n1, 1, 1, 1, 1, 1, 0, -0.3\n1, 1, 2, 0, 0, 0, 0, 0.2\n1, 1, 2, 2, 0, 0, 0, 0.3\n";
-    refused(zernike, "PTFE.coeff.csv", "Zernike", "PTFE.data.csv");
     refused(b"P2\n2 2\n255\n1 2\n3 4\n", "a.csv", "a picture (PGM)", "textures");
     refused(b"just words\n", "a.txt", "content of no known format, text that begins `just words`", "one of ");
 }

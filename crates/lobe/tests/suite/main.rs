@@ -8,3 +8,4 @@ mod paper;
 mod real_files;
 mod sampling;
 mod threads;
+mod zernike;

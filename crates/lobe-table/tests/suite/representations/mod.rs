@@ -7,3 +7,4 @@ mod mueller;
 mod spherical;
 mod utia;
 mod window;
+mod zernike;

@@ -1,0 +1,69 @@
+//! The evaluation of [`Data`] one query at a time in `f64`, by the sums that define the polynomials.
+
+use super::data::{Data, MAX_ORDER, Term};
+
+impl Data {
+    /// `f` in 1/sr of each channel for light from `wi` to `wo`, unit vectors that point away from the surface. Zero unless
+    /// both are above it. Where the expansion is negative, so is the value.
+    pub fn eval(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f64> {
+        self.sum(wi, wo, |factor, products, cosine| factor * (products[0] + products[1]) * cosine)
+    }
+
+    /// How far each channel may be off in the lanes of a [`Table`](super::Table): they add terms, in `f32`, that may cancel
+    /// each other.
+    pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f64> {
+        // Near the rim of the disk polynomials are as steep as the square of their order.
+        let steepness = (1 + self.order() * self.order()) as f64;
+        let term = |factor: f64, products: [f64; 2], _: f64| {
+            let [a, b] = products.map(f64::abs);
+            factor.abs() * (3e-7 * (a + b) + 6e-8 * steepness)
+        };
+        self.sum(wi, wo, term)
+    }
+
+    fn sum(&self, wi: [f64; 3], wo: [f64; 3], of_term: impl Fn(f64, [f64; 2], f64) -> f64) -> Vec<f64> {
+        let micrometres = self.micrometres();
+        let mut out = vec![0.0; micrometres.len()];
+        if !(wi[2] > 0.0 && wo[2] > 0.0) {
+            return out;
+        }
+        let rho = |w: [f64; 3]| (1.0 - w[2].min(1.0)).sqrt();
+        let phi = wo[1].atan2(wo[0]) - wi[1].atan2(wi[0]);
+        let [of_wi, of_wo] = [polynomials(self.order(), rho(wi)), polynomials(self.order(), rho(wo))];
+        for term in self.terms() {
+            let Term { radial: [n, m], azimuthal: l, .. } = *term;
+            let of = |values: &Polynomials, n: u8| values[usize::from(n)][usize::from(l)];
+            let ([ni, no], [mi, mo]) = ([of(&of_wi, n), of(&of_wo, n)], [of(&of_wi, m), of(&of_wo, m)]);
+            let cosine = (f64::from(l) * phi).cos();
+            for (out, micrometres) in out.iter_mut().zip(&micrometres) {
+                *out += of_term(term.factor(*micrometres), [ni * mo, mi * no], cosine);
+            }
+        }
+        out
+    }
+}
+
+/// The radial polynomials at a radius, `[n][l]`.
+type Polynomials = [[f64; MAX_ORDER as usize + 1]; MAX_ORDER as usize + 1];
+
+fn polynomials(order: usize, rho: f64) -> Polynomials {
+    let mut out = Polynomials::default();
+    for n in 0..=order {
+        for l in (n % 2..=n).step_by(2) {
+            out[n][l] = radial(n as u8, l as u8, rho);
+        }
+    }
+    out
+}
+
+/// The radial polynomial `R_n^l`.
+pub(super) fn radial(n: u8, l: u8, rho: f64) -> f64 {
+    let factorial = |k: u8| (1..=k).map(f64::from).product::<f64>();
+    let [half_sum, half_difference] = [(n + l) / 2, (n - l) / 2];
+    let term = |s: u8| {
+        let sign = if s % 2 == 0 { 1.0 } else { -1.0 };
+        let below = factorial(s) * factorial(half_sum - s) * factorial(half_difference - s);
+        sign * factorial(n - s) / below * rho.powi((n - 2 * s).into())
+    };
+    (0..=half_difference).map(term).sum()
+}
