@@ -146,7 +146,7 @@ pub(super) fn draw<L: Lanes, S: Sums>(
 
 /// Writes as many vectors as there is room for.
 #[inline(always)]
-fn store<L: Lanes>(lanes: L, target: &mut [[f32; 3]], [x, y, z]: [L::F; 3]) {
+pub(super) fn store<L: Lanes>(lanes: L, target: &mut [[f32; 3]], [x, y, z]: [L::F; 3]) {
     let mut columns = [[0.0f32; MAX_LANES]; 3];
     lanes.store(&mut columns[0], x);
     lanes.store(&mut columns[1], y);
