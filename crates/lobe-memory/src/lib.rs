@@ -1,8 +1,9 @@
-//! Memory for random look-ups: aligned to cache lines, and on huge pages, which small tables share.
+//! Memory for random look-ups and for large batches: aligned to cache lines, and on huge pages, which small tables share.
 //!
 //! `unsafe` occurs in `pool.rs` only: parts of one mapping belong to different storages, which no safe type can say.
 #![deny(unsafe_code)]
 
+mod buffer;
 #[allow(unsafe_code, reason = "parts of a mapping for different owners")]
 mod pool;
 mod room;
@@ -13,6 +14,7 @@ use std::marker::PhantomData;
 use bytemuck::{Pod, Zeroable};
 use memmap2::MmapMut;
 
+pub use buffer::Buffer;
 use pool::Share;
 pub use room::{NoRoom, available, require};
 
