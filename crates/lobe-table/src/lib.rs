@@ -1,7 +1,7 @@
 //! Measured BRDFs and BTDFs, in the representations that they are measured in, evaluated in SIMD lanes.
 //!
 //! Each representation has a module with its `Data`, as they were measured, their evaluation in `f64`, written for the
-//! reader, and, unless it has no form in lanes, a `Table`, made ready to be evaluated on any [`lobe_lane`] backend:
+//! reader, and, except for mirrors, a `Table`, made ready to be evaluated on any [`lobe_lane`] backend:
 //!
 //! - [`specular`]: a grid of specular coordinates, whose axes follow the peak;
 //! - [`spherical`]: a grid of spherical coordinates of both directions;
@@ -27,6 +27,7 @@
 //! | `half-diff` | [`half_diff`] |
 //! | `mueller` | [`mueller`] |
 //! | `rgl` | [`rgl`] |
+//! | `scattered` | [`scattered`] |
 //! | `spherical` | [`spherical`] |
 //! | `utia` | [`utia`] |
 //! | `window` | [`window`] |
@@ -42,6 +43,7 @@
         feature = "half-diff",
         feature = "mueller",
         feature = "rgl",
+        feature = "scattered",
         feature = "spherical",
         feature = "utia",
         feature = "window",

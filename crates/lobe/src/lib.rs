@@ -16,7 +16,8 @@
 //! # Ok::<(), lobe::OpenError>(())
 //! ```
 //!
-//! A batch, of vectors or of [columns](Directions::columns): many times as fast per pair. Large ones are shared among threads.
+//! A batch, of vectors or of [columns](Directions::columns): many times as fast per pair. Large ones are shared among threads;
+//! beyond the caches they are fastest in [`Buffer`]s, which lie on huge pages.
 //!
 //! ```no_run
 //! # use lobe::Material;
@@ -71,8 +72,8 @@
 //!
 //! # Features
 //!
-//! All are on by default; `default-features = false` builds specular tables and scattered samples only. A file of what was
-//! left out opens with an error that says so.
+//! All are on by default; `default-features = false` builds specular tables only, and scattered samples without lanes. A file
+//! of what was left out opens with an error that says so.
 //!
 //! | feature | what it adds |
 //! |---|---|
@@ -82,6 +83,7 @@
 //! | `json` | files in JSON: OpenMaterial, and one's own tables |
 //! | `mueller` | Mueller matrices |
 //! | `rgl` | materials of the EPFL database |
+//! | `scattered` | scattered samples in lanes, rather than pair by pair |
 //! | `spherical` | grids of spherical coordinates |
 //! | `utia` | materials of the UTIA database |
 //! | `window` | Klems matrices and tensor trees |
@@ -103,6 +105,7 @@ pub use lobe_backend::{BACKEND_VARIABLE, Backend, BackendError};
 pub use lobe_formats as formats;
 pub use lobe_lane::{Floats, Ints, Kernel, Lanes, Mask};
 pub use lobe_math as math;
+pub use lobe_memory::Buffer;
 pub use lobe_table as table;
 pub use lobe_table::half_diff::Lookup;
 pub use lobe_table::utia::Decode;

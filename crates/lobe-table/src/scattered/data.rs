@@ -45,7 +45,7 @@ pub enum ScatteredError {
 /// How far beyond the horizon a polar angle may be that was rounded in its file, in radians.
 const ROUNDING: f64 = 1e-4;
 /// Directions nearer to each other than this, in radians, are the same.
-const SAME: f64 = 1e-6;
+pub(super) const SAME: f64 = 1e-6;
 
 /// What was measured for one incident direction.
 #[derive(Clone, Debug)]
@@ -56,8 +56,8 @@ pub(super) struct Incidence {
     /// Polar angle and relative azimuth of each outgoing direction.
     pub(super) outgoing: Vec<[f64; 2]>,
     /// `[outgoing][channel]`.
-    values: Vec<f32>,
-    mesh: Mesh,
+    pub(super) values: Vec<f32>,
+    pub(super) mesh: Mesh,
 }
 
 /// Scattered measurements of a BRDF or BTDF. Values are `f` in 1/sr, without the cosine; negative ones are kept.
@@ -65,8 +65,7 @@ pub(super) struct Incidence {
 /// If all incident directions have one azimuth, the material is isotropic. If the outgoing directions of
 /// an isotropic material are all on one side of the plane of incidence, the other side is their mirror image.
 ///
-/// They are evaluated in `f64`, a pair at a time, and have no form in lanes: finding the triangle of a point is a walk from
-/// neighbour to neighbour that takes another way for every pair, so that lanes would wait for each other.
+/// [`eval`](Self::eval) is their evaluation in `f64`, a pair at a time; a `Table` has the same values in lanes.
 #[derive(Clone, Debug)]
 pub struct Data {
     pub(super) scatter: Scatter,
@@ -76,7 +75,7 @@ pub struct Data {
     pub(super) measured_side: f64,
     /// Shared by clones, as are the triangles: what is prepared to be evaluated is the same data.
     pub(super) incidences: Arc<[Incidence]>,
-    mesh: Arc<Mesh>,
+    pub(super) mesh: Arc<Mesh>,
 }
 
 impl Data {

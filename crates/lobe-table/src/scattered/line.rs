@@ -38,6 +38,24 @@ impl Line {
         self.direction[0] * (x - self.start[0]) + self.direction[1] * (y - self.start[1])
     }
 
+    /// Where [`points`](Self::points) count from.
+    #[cfg(feature = "scattered")]
+    pub(super) fn start(&self) -> [f64; 2] {
+        self.start
+    }
+
+    /// The direction of the line, of length 1; 0 if there is only one point.
+    #[cfg(feature = "scattered")]
+    pub(super) fn direction(&self) -> [f64; 2] {
+        self.direction
+    }
+
+    /// How far along the line each point is, ascending, and which it is.
+    #[cfg(feature = "scattered")]
+    pub(super) fn points(&self) -> &[(f64, usize)] {
+        &self.points
+    }
+
     /// The two points around the one of the line that is nearest to `point`, and what each counts for.
     pub(crate) fn weights(&self, point: [f64; 2]) -> [(usize, f64); 2] {
         let at = self.along(point);

@@ -47,6 +47,14 @@ pub(crate) struct Triangles {
     is_outside: Vec<bool>,
 }
 
+/// A triangle within the rim: its corners, which turn to the left, by their index, and where they are.
+#[cfg(feature = "scattered")]
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Triangle {
+    pub(super) corners: [usize; 3],
+    pub(super) at: [[f64; 2]; 3],
+}
+
 /// Up to three points and what each counts for; the weights are not negative and add up to 1.
 pub(crate) type Weights = [(usize, f64); 3];
 
@@ -132,6 +140,17 @@ impl Triangles {
             }
             _ => self.rim.nearest(point).map_or([(0, 1.0), (0, 0.0), (0, 0.0)], weights_along),
         }
+    }
+
+    /// All triangles within the rim.
+    #[cfg(feature = "scattered")]
+    pub(super) fn triangles(&self) -> Vec<Triangle> {
+        let inside = self.triangles.inner_faces().filter(|face| !self.is_outside[face.fix().index()]);
+        let triangle = |corners: [Vertex; 3]| Triangle {
+            corners: corners.map(|corner| corner.index),
+            at: corners.map(|corner| [corner.at.x, corner.at.y]),
+        };
+        inside.map(|face| triangle(face.vertices().map(|corner| *corner.data()))).collect()
     }
 
     fn index(&self, vertex: FixedVertexHandle) -> usize {

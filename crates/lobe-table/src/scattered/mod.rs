@@ -7,12 +7,23 @@
 //! from one measurement to the next and does not fade out here while it fades in there. Outside of what was measured
 //! the nearest point of the convex hull answers.
 
+mod bound;
+#[cfg(feature = "scattered")]
+mod cells;
 mod data;
 mod line;
+#[cfg(feature = "scattered")]
+mod locate;
 mod mesh;
 mod prepared;
+#[cfg(feature = "scattered")]
+mod regions;
 mod representation;
 mod rim;
+#[cfg(feature = "scattered")]
+mod table;
 
 pub use data::{Data, ScatteredError};
 pub use representation::KIND;
+#[cfg(feature = "scattered")]
+pub use table::Table;

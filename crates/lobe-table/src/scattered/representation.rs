@@ -85,7 +85,7 @@ impl Representation for Data {
     }
 
     fn prepare(&self, _: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
-        Ok(Box::new(self.clone()))
+        super::prepared::prepare(self)
     }
 }
 

@@ -28,8 +28,7 @@ struct Origin {
 /// A measured material in the form in which it was measured: nothing is resampled.
 ///
 /// `wi` points to the light and `wo` to the viewer: unit vectors away from the surface, normal on +z. Values are `f` in
-/// 1/sr, without the cosine, one per channel. All representations are evaluated in the SIMD lanes of the backend, except
-/// for those that have no form in lanes, which are evaluated in `f64`, pair by pair.
+/// 1/sr, without the cosine, one per channel. All representations are evaluated in the SIMD lanes of the backend.
 ///
 /// Batches of [`PARALLEL_FROM`](crate::PARALLEL_FROM) queries or more are shared among the threads of the current rayon
 /// pool (feature `rayon`); results are the same bits for any number of threads.

@@ -4,6 +4,7 @@ mod common;
 mod fourier;
 mod half_diff;
 mod mueller;
+mod scattered;
 mod spherical;
 mod utia;
 mod window;

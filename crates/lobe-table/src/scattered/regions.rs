@@ -1,0 +1,180 @@
+//! A mesh as regions of the plane, each with the line behind which another one begins: what lanes walk through.
+//!
+//! A triangle is a region, and so is what lies outside the rim and nearest to one of its edges, up to where the next one
+//! begins. Points on a line have a strip across it for each two of them. In each region weights are linear.
+
+use std::collections::HashMap;
+
+use super::mesh::{Mesh, Triangle};
+
+/// Narrower than this, in radians, a region is not left to single precision, in which a place is off by some 5e-7.
+const NARROW: f64 = 2e-5;
+
+/// A region of the plane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Region {
+    /// Coefficients of `x`, of `y` and of 1, which add up to how far inside of each side a point lies.
+    pub(super) inside: [[f64; 3]; 3],
+    /// The region on the other side, or itself if there is none.
+    pub(super) next: [usize; 3],
+    /// The points that count in it.
+    pub(super) corners: [usize; 3],
+    /// What makes weights of the second and the third corner of how far a point is inside of the first and the second side.
+    pub(super) scale: [f64; 2],
+    /// Whether double precision has to answer.
+    pub(super) is_narrow: bool,
+}
+
+/// A side that all points are inside of.
+const NO_SIDE: [f64; 3] = [0.0, 0.0, 1.0];
+
+impl Region {
+    /// How far inside a point lies.
+    pub(super) fn depth(&self, [x, y]: [f64; 2]) -> f64 {
+        self.inside.iter().map(|[a, b, c]| a * x + b * y + c).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether a part of a square may lie in it.
+    pub(super) fn may_reach(&self, [x, y]: [f64; 2], half: f64) -> bool {
+        self.inside.iter().all(|[a, b, c]| a * x + b * y + c + half * (a.abs() + b.abs()) >= 0.0)
+    }
+}
+
+/// The regions of a mesh; `None` if its rim is no simple curve, as rounding may make it.
+pub(super) fn regions(mesh: &Mesh) -> Option<Vec<Region>> {
+    match mesh {
+        Mesh::Line(line) => Some(of_line(line.start(), line.direction(), line.points())),
+        Mesh::Triangles(triangles) => of_triangles(&triangles.triangles()),
+    }
+}
+
+/// What is left of a line through `from`, taken in the direction `along`, a unit vector.
+fn left_of(from: [f64; 2], along: [f64; 2]) -> [f64; 3] {
+    ahead_of(from, [-along[1], along[0]])
+}
+
+/// What is ahead of a point in a direction, a unit vector.
+fn ahead_of(from: [f64; 2], along: [f64; 2]) -> [f64; 3] {
+    [along[0], along[1], -(along[0] * from[0] + along[1] * from[1])]
+}
+
+fn reversed(side: [f64; 3]) -> [f64; 3] {
+    side.map(|x| -x)
+}
+
+/// From one point to another: the unit vector and the distance.
+fn way(from: [f64; 2], to: [f64; 2]) -> ([f64; 2], f64) {
+    let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+    let length = dx.hypot(dy);
+    ([dx / length, dy / length], length)
+}
+
+fn of_line(start: [f64; 2], direction: [f64; 2], points: &[(f64, usize)]) -> Vec<Region> {
+    let at = |along: f64| [start[0] + along * direction[0], start[1] + along * direction[1]];
+    let mut regions: Vec<Region> = Vec::new();
+    let apart = points.windows(2).filter(|ends| ends[1].0 - ends[0].0 > 1e-12);
+    for ends in apart {
+        let ((from, lower), (to, upper)) = (ends[0], ends[1]);
+        regions.push(Region {
+            inside: [ahead_of(at(from), direction), reversed(ahead_of(at(to), direction)), NO_SIDE],
+            next: [0; 3],
+            corners: [lower, upper, lower],
+            scale: [1.0 / (to - from), 0.0],
+            is_narrow: to - from < NARROW,
+        });
+    }
+    let last = regions.len().saturating_sub(1);
+    for (index, region) in regions.iter_mut().enumerate() {
+        region.next = [index.saturating_sub(1), (index + 1).min(last), index];
+    }
+    if regions.is_empty() {
+        let only = points.first().map_or(0, |(_, index)| *index);
+        let inside = [NO_SIDE; 3];
+        regions.push(Region { inside, next: [0; 3], corners: [only; 3], scale: [0.0; 2], is_narrow: false });
+    }
+    regions
+}
+
+fn of_triangles(triangles: &[Triangle]) -> Option<Vec<Region>> {
+    // Each edge by its ends, taken with the triangle on the left.
+    let mut owner = HashMap::new();
+    for (index, triangle) in triangles.iter().enumerate() {
+        for k in 0..3 {
+            owner.insert([triangle.corners[(k + 1) % 3], triangle.corners[(k + 2) % 3]], index);
+        }
+    }
+    let mut regions = Vec::with_capacity(triangles.len());
+    let mut rim = Vec::new();
+    for (index, Triangle { corners, at }) in triangles.iter().enumerate() {
+        let mut region =
+            Region { inside: [NO_SIDE; 3], next: [0; 3], corners: *corners, scale: [0.0; 2], is_narrow: false };
+        // The sides opposite to the second, the third and the first corner.
+        for (side, corner) in [1, 2, 0].into_iter().enumerate() {
+            let [from, to] = [(corner + 1) % 3, (corner + 2) % 3];
+            let (along, length) = way(at[from], at[to]);
+            let inside = left_of(at[from], along);
+            let height = inside[0] * at[corner][0] + inside[1] * at[corner][1] + inside[2];
+            if !(height > 0.0 && length > 0.0) {
+                return None;
+            }
+            region.inside[side] = inside;
+            region.is_narrow |= height < NARROW;
+            if side < 2 {
+                region.scale[side] = 1.0 / height;
+            }
+            match owner.get(&[corners[to], corners[from]]) {
+                Some(&other) => region.next[side] = other,
+                None => {
+                    region.next[side] = triangles.len() + rim.len();
+                    rim.push(Edge { ends: [corners[from], corners[to]], at: [at[from], at[to]], triangle: index });
+                }
+            }
+        }
+        regions.push(region);
+    }
+    strips(&rim, &mut regions)?;
+    Some(regions)
+}
+
+/// An edge of the rim, with its triangle on the left.
+struct Edge {
+    ends: [usize; 2],
+    at: [[f64; 2]; 2],
+    triangle: usize,
+}
+
+/// Adds what lies outside of each edge; `None` if the edges are not one closed curve.
+fn strips(rim: &[Edge], regions: &mut Vec<Region>) -> Option<()> {
+    let first = regions.len();
+    let starts: HashMap<usize, usize> = rim.iter().enumerate().map(|(index, edge)| (edge.ends[0], index)).collect();
+    let stops: HashMap<usize, usize> = rim.iter().enumerate().map(|(index, edge)| (edge.ends[1], index)).collect();
+    if rim.is_empty() || starts.len() != rim.len() || stops.len() != rim.len() {
+        return None;
+    }
+    let (mut around, mut edge) = (0, 0);
+    loop {
+        edge = *starts.get(&rim[edge].ends[1])?;
+        around += 1;
+        if edge == 0 {
+            break;
+        }
+    }
+    if around != rim.len() {
+        return None;
+    }
+    for (index, Edge { ends: [from, to], at: [start, stop], triangle }) in rim.iter().enumerate() {
+        let (before, after) = (*stops.get(from)?, *starts.get(to)?);
+        let (along, length) = way(*start, *stop);
+        let (onward, _) = way(rim[after].at[0], rim[after].at[1]);
+        regions.push(Region {
+            // What is nearest to the end of an edge belongs to it, and not to the next one.
+            inside: [ahead_of(*start, along), reversed(ahead_of(*stop, onward)), reversed(left_of(*start, along))],
+            next: [first + before, first + after, *triangle],
+            corners: [*from, *to, *from],
+            scale: [1.0 / length, 0.0],
+            is_narrow: length < NARROW,
+        });
+        debug_assert_eq!(regions.len(), first + index + 1);
+    }
+    Some(())
+}
