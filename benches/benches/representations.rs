@@ -7,7 +7,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 fn representations(criterion: &mut Criterion) {
     common::bench(
         criterion,
-        &["half-diff", "half-diff-linear", "spherical", "utia", "klems", "tensor-tree", "mueller"],
+        &["half-diff", "half-diff-linear", "spherical", "utia", "klems", "tensor-tree", "mueller", "mueller-matrices"],
     );
 }
 

@@ -165,6 +165,15 @@ pub fn utia() -> utia::Data {
 
 /// Mueller matrices of the sizes of the small files of the KAIST database, over five wavelengths.
 pub fn mueller() -> mueller::Data {
+    mueller_over(5)
+}
+
+/// The same over four wavelengths, as many as a path of Mitsuba has.
+pub fn matrices() -> mueller::Data {
+    mueller_over(4)
+}
+
+fn mueller_over(wavelengths: usize) -> mueller::Data {
     let graded =
         |n: usize, from: f32, to: f32| (0..n).map(|i| from + (to - from) * i as f32 / (n - 1) as f32).collect();
     let half_turn = std::f32::consts::PI;
@@ -172,7 +181,7 @@ pub fn mueller() -> mueller::Data {
         graded(22, -half_turn, half_turn),
         graded(9, 0.0, half_turn / 2.0),
         graded(9, 0.0, half_turn / 2.0),
-        graded(5, 450.0, 650.0),
+        graded(wavelengths, 450.0, 650.0),
     ];
     let count = 16 * knots.iter().map(Vec::len).product::<usize>();
     mueller::Data::new(knots, (0..count).map(value).collect()).expect("valid matrices")

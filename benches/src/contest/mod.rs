@@ -37,7 +37,7 @@ pub struct Question {
 }
 
 /// All questions, in the order of the report.
-pub const QUESTIONS: [Question; 30] = [
+pub const QUESTIONS: [Question; 31] = [
     Question { id: "acos", title: "Arc cosine, eight terms", unit: "value", least: 1, build: acos::eight_terms },
     Question {
         id: "acos-paper",
@@ -178,6 +178,13 @@ pub const QUESTIONS: [Question; 30] = [
         unit: "evaluation",
         least: 1,
         build: representations::mueller,
+    },
+    Question {
+        id: "mueller-matrices",
+        title: "Whole Mueller matrices, four wavelengths",
+        unit: "evaluation",
+        least: 1,
+        build: representations::matrices,
     },
     Question {
         id: "iso-sample",

@@ -92,6 +92,24 @@ pub fn mueller(input: Input, count: usize) -> Contest {
     )
 }
 
+/// Four wavelengths of whole Mueller matrices.
+pub fn matrices(input: Input, count: usize) -> Contest {
+    let data = Rc::new(tables::matrices());
+    let table = mueller::Matrices::new(&data).expect("a small table");
+    let (one, width) = (data.clone(), 16 * table.wavelength_count());
+    let in_f64 = move |wi, wo, out: &mut [f64]| {
+        for (out, nm) in out.chunks_exact_mut(16).zip(&one.knots()[3]) {
+            out.copy_from_slice(one.eval(wi, wo, f64::from(*nm)).as_flattened());
+        }
+    };
+    contest(
+        (input, count, width, LINEAR),
+        move |wi, wo| data.bound(wi, wo) + 4.0 * mueller::turned(wi, wo) < SURE,
+        Rc::new(in_f64),
+        Rc::new(move |backend, [wi, wo], out| table.eval_batch(backend, wi, wo, out)),
+    )
+}
+
 /// One band of the full Klems basis.
 pub fn klems(input: Input, count: usize) -> Contest {
     sheet(tables::klems(), input, count)

@@ -25,6 +25,7 @@ pub(crate) trait Machine: Copy {
     fn spherical(self, table: &spherical::Table, pairs: Pairs<'_>, out: &mut [f32]);
     fn utia(self, table: &utia::Table, pairs: Pairs<'_>, out: &mut [f32]);
     fn mueller(self, table: &mueller::Table, pairs: Pairs<'_>, out: &mut [f32]);
+    fn matrices(self, table: &mueller::Matrices, pairs: Pairs<'_>, out: &mut [f32]);
     fn window(self, table: &window::Table, pairs: Pairs<'_>, out: &mut [f32]);
     fn rgl(self, table: &rgl::Table, pairs: Pairs<'_>, wanted: Wanted<'_>);
     fn rgl_sample(self, table: &rgl::Table, wi: Directions<'_>, u: &[[f32; 2]], drawn: Drawn<'_>);
@@ -65,6 +66,10 @@ impl Machine for Backend {
     }
 
     fn mueller(self, table: &mueller::Table, [wi, wo]: Pairs<'_>, out: &mut [f32]) {
+        table.eval_batch(self, wi, wo, out);
+    }
+
+    fn matrices(self, table: &mueller::Matrices, [wi, wo]: Pairs<'_>, out: &mut [f32]) {
         table.eval_batch(self, wi, wo, out);
     }
 
@@ -129,6 +134,10 @@ impl<const N: usize> Machine for Emulated<N> {
     }
 
     fn mueller(self, table: &mueller::Table, [wi, wo]: Pairs<'_>, out: &mut [f32]) {
+        self.run(table.batch(wi, wo, out));
+    }
+
+    fn matrices(self, table: &mueller::Matrices, [wi, wo]: Pairs<'_>, out: &mut [f32]) {
         self.run(table.batch(wi, wo, out));
     }
 

@@ -27,6 +27,7 @@ enum Representation {
     Spherical(Box<spherical::Table>),
     Utia(Box<utia::Table>),
     Mueller(Box<mueller::Table>),
+    Matrices(Box<mueller::Matrices>),
     Window(window::Table),
 }
 
@@ -37,6 +38,7 @@ impl Representation {
             Representation::Spherical(table) => machine.spherical(table, pairs, out),
             Representation::Utia(table) => machine.utia(table, pairs, out),
             Representation::Mueller(table) => machine.mueller(table, pairs, out),
+            Representation::Matrices(table) => machine.matrices(table, pairs, out),
             Representation::Window(table) => machine.window(table, pairs, out),
         }
     }
@@ -157,6 +159,14 @@ fn cases() -> &'static [Case] {
             width: table.channel_count(),
             representation: Representation::Mueller(Box::new(table)),
             reference: Box::new(move |wi, wo| matrices.bound(wi, wo)),
+        });
+        let matrices = lobe_benches::tables::matrices();
+        let table = mueller::Matrices::new(&matrices).expect("a small table");
+        cases.push(Case {
+            name: "Mueller matrices",
+            width: 16 * table.wavelength_count(),
+            representation: Representation::Matrices(Box::new(table)),
+            reference: Box::new(move |wi, wo| matrices.bound(wi, wo) + 4.0 * mueller::turned(wi, wo)),
         });
         let sheets = [
             ("Klems", klems()),

@@ -97,6 +97,14 @@ impl<B: Bsdf> Bsdf for ByHistograms<B> {
         self.bsdf.mueller(wi, wo, nm)
     }
 
+    fn is_polarised(&self) -> bool {
+        self.bsdf.is_polarised()
+    }
+
+    fn mueller_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) -> bool {
+        self.bsdf.mueller_batch(backend, wi, wo, out)
+    }
+
     fn specular_table(&self) -> Option<&Arc<specular::Table>> {
         self.bsdf.specular_table()
     }

@@ -147,6 +147,22 @@ pub trait Bsdf: Debug + Send + Sync {
         None
     }
 
+    /// Whether there are Mueller matrices for pairs of directions.
+    fn is_polarised(&self) -> bool {
+        false
+    }
+
+    /// The Mueller matrices of many pairs at every wavelength of the channels: `out[query][channel][row][column]`, in 1/sr,
+    /// without the cosine, in the Stokes frames of [`stokes_basis`](crate::mueller::stokes_basis). Returns whether there are
+    /// any; `out` is left alone if not.
+    ///
+    /// # Panics
+    /// If there are not as many `wi` as `wo`, or `out` is not that many times 16 times the channels long.
+    fn mueller_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) -> bool {
+        let _ = (backend, wi, wo, out);
+        false
+    }
+
     /// The table, if this is one in specular coordinates, for evaluation inside a kernel of the caller's own.
     fn specular_table(&self) -> Option<&Arc<specular::Table>> {
         None

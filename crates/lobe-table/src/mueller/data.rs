@@ -6,7 +6,7 @@ use crate::invalid::{Invalid, ascending, count};
 pub type Matrix = [[f64; 4]; 4];
 
 /// The elements of a matrix.
-pub(super) const ELEMENTS: usize = 16;
+pub(crate) const ELEMENTS: usize = 16;
 
 /// Tabulated Mueller matrices.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,9 +5,13 @@
 //! the two directions.
 //!
 //! [`Data`] are the matrices as they were measured, with their evaluation in `f64`; a [`Table`] has what
-//! unpolarised light sees of them, made ready for evaluation in SIMD lanes.
+//! unpolarised light sees of them, and [`Matrices`] have all of their elements, made ready for evaluation in SIMD lanes.
 
 mod data;
+#[cfg(feature = "mueller")]
+mod matrices;
+#[cfg(feature = "mueller")]
+mod places;
 #[cfg(feature = "mueller")]
 mod prepared;
 mod reference;
@@ -17,8 +21,12 @@ mod table;
 #[cfg(all(test, feature = "mueller"))]
 mod tests;
 
+pub(crate) use data::ELEMENTS;
 pub use data::{AXES, Data, Matrix};
-pub use reference::{coordinates, plane_normal, rounding, stokes_basis};
+#[cfg(feature = "mueller")]
+pub use matrices::Matrices;
+pub(crate) use reference::in_frames;
+pub use reference::{coordinates, plane_normal, rounding, stokes_basis, turned};
 pub use representation::KIND;
 #[cfg(feature = "mueller")]
 pub use table::Table;

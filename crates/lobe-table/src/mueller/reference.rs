@@ -14,12 +14,7 @@ impl Data {
     /// It maps Stokes vectors with the x axis [`stokes_basis`]`(-wi)` to such with the x axis [`stokes_basis`]`(wo)`.
     /// Zero if a direction is not above the surface or nothing was measured.
     pub fn eval(&self, wi: [f64; 3], wo: [f64; 3], nm: f64) -> Matrix {
-        let Some(matrix) = self.in_plane(wi, wo, nm) else { return [[0.0; 4]; 4] };
-        let propagation = wi.map(|x| -x);
-        let (target_in, target_out) = (stokes_basis(propagation), stokes_basis(wo));
-        let normal = plane_normal(wi, wo);
-        let (rotate_in, rotate_out) = (rotator(propagation, normal, target_in), rotator(wo, normal, target_out));
-        multiply(multiply(rotate_out, matrix), transpose(rotate_in))
+        self.in_plane(wi, wo, nm).map_or([[0.0; 4]; 4], |matrix| in_frames(matrix, wi, wo))
     }
 
     /// The stored matrix, linear in all four axes and constant beyond them, for Stokes vectors with the x axis
@@ -62,6 +57,23 @@ impl Data {
         };
         (0..3).map(|axis| errors[axis] * steepest(axis)).sum::<f64>() + SUM
     }
+}
+
+/// How far, in radians, the Stokes frames of [`Matrices`](crate::mueller::Matrices) may be turned from those of the
+/// reference. The normal of a plane says little where it is hardly spanned.
+pub fn turned(wi: [f64; 3], wo: [f64; 3]) -> f64 {
+    let normal = cross(wi, wo);
+    1e-6 + 2.5e-7 / dot(normal, normal).sqrt()
+}
+
+/// A matrix for Stokes vectors with the x axis [`plane_normal`] as one for the x axes [`stokes_basis`]`(-wi)` and
+/// [`stokes_basis`]`(wo)`.
+pub(crate) fn in_frames(matrix: Matrix, wi: Vector, wo: Vector) -> Matrix {
+    let propagation = wi.map(|x| -x);
+    let (target_in, target_out) = (stokes_basis(propagation), stokes_basis(wo));
+    let normal = plane_normal(wi, wo);
+    let (rotate_in, rotate_out) = (rotator(propagation, normal, target_in), rotator(wo, normal, target_out));
+    multiply(multiply(rotate_out, matrix), transpose(rotate_in))
 }
 
 /// `phi_d` in `(-pi, pi]`, `theta_d` and `theta_h`, with the viewer turned to azimuth 0 as in figure 3 of Baek et al.:

@@ -12,4 +12,5 @@ pub(crate) mod block;
 pub(crate) mod blocks;
 pub(crate) mod half_vector;
 pub(crate) mod pairs;
+pub(crate) mod stokes;
 pub(crate) mod unit;

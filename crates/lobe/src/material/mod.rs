@@ -209,8 +209,62 @@ impl Material {
 
     /// The Mueller matrix in 1/sr for light from `wi` to `wo` at a wavelength in nm, in the Stokes frames of
     /// [`stokes_basis`](lobe_table::mueller::stokes_basis). `None` if the representation has no polarisation.
+    ///
+    /// In `f64`; for many pairs use [`mueller_batch`](Material::mueller_batch).
     pub fn mueller(&self, wi: [f32; 3], wo: [f32; 3], nm: f64) -> Option<Matrix> {
         self.bsdf.mueller(wi, wo, nm)
+    }
+
+    /// Whether there are Mueller matrices for pairs of directions.
+    pub fn is_polarised(&self) -> bool {
+        self.bsdf.is_polarised()
+    }
+
+    /// The Mueller matrices of many pairs in 1/sr, without the cosine, at every wavelength of the channels, in the SIMD lanes
+    /// of the backend: `out[query][channel][row][column]`, 16 floats per matrix in C order, with the Stokes frames of
+    /// [`mueller`](Material::mueller). `false` if the representation has no polarisation, which leaves `out` alone.
+    ///
+    /// # Panics
+    /// If there are not as many `wi` as `wo`, or `out` is not that many times 16 times the channels long.
+    pub fn mueller_batch<'a>(
+        &self,
+        wi: impl Into<Directions<'a>>,
+        wo: impl Into<Directions<'a>>,
+        out: &mut [f32],
+    ) -> bool {
+        fitting(self.try_mueller_on(self.backend, wi.into(), wo.into(), out))
+    }
+
+    /// As [`mueller_batch`](Material::mueller_batch), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// If there are not as many `wi` as `wo`, or `out` is not that many times 16 times the channels long.
+    pub fn try_mueller_batch<'a>(
+        &self,
+        wi: impl Into<Directions<'a>>,
+        wo: impl Into<Directions<'a>>,
+        out: &mut [f32],
+    ) -> Result<bool, ShapeError> {
+        self.try_mueller_on(self.backend, wi.into(), wo.into(), out)
+    }
+
+    fn try_mueller_on(
+        &self,
+        backend: Backend,
+        wi: Directions<'_>,
+        wo: Directions<'_>,
+        out: &mut [f32],
+    ) -> Result<bool, ShapeError> {
+        if !self.is_polarised() {
+            return Ok(false);
+        }
+        let (count, width) = (length(wi)?, 16 * self.channel_count());
+        expect("directions wo", length(wo)?, count)?;
+        expect("elements of matrices", out.len(), count * width)?;
+        parallel::fill(width, out, &|range, out| {
+            self.bsdf.mueller_batch(backend, wi.part(range.clone()), wo.part(range), out);
+        });
+        Ok(true)
     }
 }
 
@@ -251,6 +305,14 @@ impl Bsdf for Material {
 
     fn mueller(&self, wi: [f32; 3], wo: [f32; 3], nm: f64) -> Option<Matrix> {
         self.bsdf.mueller(wi, wo, nm)
+    }
+
+    fn is_polarised(&self) -> bool {
+        self.bsdf.is_polarised()
+    }
+
+    fn mueller_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) -> bool {
+        fitting(self.try_mueller_on(backend, wi, wo, out))
     }
 
     fn specular_table(&self) -> Option<&Arc<specular::Table>> {

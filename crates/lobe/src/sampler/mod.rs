@@ -5,6 +5,7 @@ mod lobes;
 use std::sync::Arc;
 
 use lobe_table::bsdf::Scheme;
+use lobe_table::mueller::Matrix;
 use lobe_table::{Aspect, Bsdf, Channels, Directions, Given, Sampled, SamplerError, SamplerOptions, luminance};
 
 use crate::error::{ShapeError, expect, fitting};
@@ -352,5 +353,17 @@ impl Bsdf for Sampler {
         pdfs: &mut [f32],
     ) {
         self.eval_pdf_on(backend, given, wi, wo, values, pdfs);
+    }
+
+    fn mueller(&self, wi: [f32; 3], wo: [f32; 3], nm: f64) -> Option<Matrix> {
+        self.material.mueller(wi, wo, nm)
+    }
+
+    fn is_polarised(&self) -> bool {
+        self.material.is_polarised()
+    }
+
+    fn mueller_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) -> bool {
+        Bsdf::mueller_batch(&*self.material, backend, wi, wo, out)
     }
 }

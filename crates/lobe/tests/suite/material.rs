@@ -106,6 +106,7 @@ fn directions_that_point_nowhere_are_dark() {
         assert_eq!((value(&material, nowhere, UP), value(&material, UP, nowhere)), (vec![0.0; 3], vec![0.0; 3]));
     }
     assert_eq!(material.mueller(UP, UP, 500.0), None);
+    assert!(!material.mueller_batch(&[UP], &[UP], &mut []));
 }
 
 #[test]
@@ -119,6 +120,15 @@ fn polarised_materials_have_the_value_of_unpolarised_light() {
         let matrix = material.mueller(UP, wo, nm).expect("a matrix");
         assert!((matrix[0][0] - f64::from(found)).abs() < 1e-5 && found > 0.0, "{found} at {nm} nm: {matrix:?}");
     }
+    let (wi, wo) = (vec![UP; 20_000], vec![wo; 20_000]);
+    let mut all = vec![f32::NAN; wi.len() * 32];
+    assert!(material.is_polarised() && material.mueller_batch(&wi, &wo, &mut all));
+    let exact = [500.0, 600.0].map(|nm| material.mueller(UP, wo[0], nm).expect("a matrix"));
+    for (found, expected) in all.iter().zip(exact.as_flattened().as_flattened().iter().cycle()) {
+        assert!((f64::from(*found) - expected).abs() < 37.0 * 2e-5, "{found}, not {expected}");
+    }
+    let error = material.try_mueller_batch(&wi, &wo, &mut all[1..]).expect_err("too short");
+    assert!(error.to_string().contains("elements of matrices"), "{error}");
 }
 
 fn rgl() -> rgl::Data {

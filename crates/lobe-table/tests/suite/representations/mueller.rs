@@ -13,6 +13,12 @@ impl Evaluate for mueller::Table {
     }
 }
 
+impl Evaluate for mueller::Matrices {
+    fn run(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        self.eval_batch(backend, wi, wo, out);
+    }
+}
+
 /// `phi_d`, `theta_d` and `theta_h`, the first two equally spaced.
 fn knots(sizes: [usize; 3], wavelengths: usize) -> [Vec<f32>; 4] {
     let part = |i: usize, n: usize| i as f32 / (n.max(2) - 1) as f32;
@@ -55,6 +61,63 @@ fn values_are_those_of_the_reference() {
             println!("{sizes:?} {form}: at most {worst:.2} of the bound");
         }
     }
+}
+
+#[test]
+fn whole_matrices_are_those_of_the_reference() {
+    let pairs = Pairs::new(false);
+    for (sizes, wavelengths) in [([22, 9, 9], 4), ([5, 40, 7], 1), ([1, 1, 1], 3)] {
+        // Any sixteen numbers will do: the first is an intensity, and the others have signs.
+        let value = |i: usize| {
+            let part = ((i * 37) % 101) as f32 / 101.0;
+            if i.is_multiple_of(16) { part } else { 0.5 - part }
+        };
+        let data = material(sizes, wavelengths, value);
+        let matrices = mueller::Matrices::new(&data).expect("a small table");
+        let width = 16 * wavelengths;
+        for (form, values) in evaluate(&matrices, &pairs, width) {
+            let (mut worst, mut close) = (0.0_f64, 0);
+            for query in 0..COUNT - NOWHERE {
+                let (wi, wo) = pairs.exact(query);
+                // Elements are at most 1 in size, so that a turn by an angle counts twice that for each of two frames.
+                let bound = data.bound(wi, wo) + 4.0 * mueller::turned(wi, wo);
+                for (channel, found) in values[query * width..][..width].chunks_exact(16).enumerate() {
+                    let expected = data.eval(wi, wo, f64::from(data.knots()[3][channel]));
+                    for (at, (found, expected)) in found.iter().zip(expected.as_flattened()).enumerate() {
+                        let error = (f64::from(*found) - expected).abs();
+                        assert!(
+                            error <= bound,
+                            "{sizes:?} {form} {query}, element {at}: {error:e} > {bound:e}: {wi:?} {wo:?}"
+                        );
+                        worst = worst.max(error / bound);
+                        close += usize::from(error < 2e-5);
+                    }
+                }
+            }
+            println!("{sizes:?} {form}: at most {worst:.2} of the bound");
+            // Neighbouring matrices have nothing in common, so that the last digits of an angle count.
+            assert!(close > (COUNT - NOWHERE) * width * 85 / 100, "{sizes:?} {form}: {close} within 2e-5");
+        }
+    }
+}
+
+#[test]
+fn a_matrix_that_was_not_measured_is_dark_in_all_elements() {
+    let pairs = Pairs::new(false);
+    let data = material([6, 5, 4], 3, |i| if i / 48 % 5 == 0 { f32::NAN } else { 0.5 });
+    let matrices = mueller::Matrices::new(&data).expect("a small table");
+    for (form, values) in evaluate(&matrices, &pairs, 48) {
+        let dark = values.chunks_exact(16).filter(|matrix| matrix.iter().all(|element| *element == 0.0)).count();
+        assert!(dark > 3 * COUNT / 4 && dark < 3 * COUNT * 9 / 10, "{form}: {dark} dark");
+        for matrix in values.chunks_exact(16) {
+            assert!(matrix[0] == 0.0 || (matrix[0] - 0.5).abs() < 1e-5, "{form}: {matrix:?}");
+            assert!(matrix[0] > 0.0 || matrix.iter().all(|element| *element == 0.0), "{form}: {matrix:?}");
+        }
+    }
+    // A negative intensity becomes 0, and the other elements stay, as they do in the reference.
+    let negative = mueller::Matrices::new(&material([6, 5, 4], 1, |i| if i.is_multiple_of(16) { -1.0 } else { 0.25 }));
+    let found = &evaluate(&negative.expect("a small table"), &pairs, 16)[0].1;
+    assert!(found[0] == 0.0 && found[15] == 0.25, "{:?}", &found[..16]);
 }
 
 #[test]

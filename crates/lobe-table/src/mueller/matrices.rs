@@ -1,0 +1,108 @@
+//! Whole matrices, made ready to be evaluated in SIMD lanes.
+
+use lobe_backend::Backend;
+use lobe_lane::{Block, Kernel, Lanes};
+
+use super::data::{Data, ELEMENTS};
+use super::places::{Places, Scratch};
+use crate::directions::Directions;
+use crate::grid::texels::{self, Located};
+use crate::invalid::Invalid;
+use crate::passes::pairs::{Evaluate, Pairs, evaluation};
+use crate::passes::stokes::{self, Stokes};
+use lobe_memory::Storage;
+
+/// Whole Mueller matrices at each wavelength of the data, laid out for evaluation in SIMD lanes.
+///
+/// The matrices are those of [`Data::eval`], in `f32`, in 1/sr, without the cosine: they map Stokes vectors with the x axis
+/// [`stokes_basis`](super::stokes_basis)`(-wi)` to such with the x axis `stokes_basis(wo)`. A matrix with an element that
+/// is NaN was not measured, and neither is a blend that it has a part in; those are 0. The directions need not be unit
+/// vectors, but their lengths have to be between 1e-15 and 1e15. In strict form
+/// ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
+#[derive(Clone, Debug)]
+pub struct Matrices {
+    wavelengths: usize,
+    places: Places,
+    /// A first element below this has a part that was not measured.
+    least: f32,
+    /// `[phi_d][theta_d][theta_h][wavelength][element]`, the elements in the order of [`stokes::stored`].
+    texels: Storage<f32>,
+}
+
+impl Matrices {
+    /// Lays out all elements: 4 bytes each.
+    ///
+    /// # Errors
+    /// [`Invalid`] names an axis, or `M` if the elements are more than a 32-bit index reaches.
+    pub fn new(data: &Data) -> Result<Self, Invalid> {
+        let wavelengths = data.knots()[3].len();
+        // An index of a lane wraps, and is taken without its sign.
+        let places = Places::new(data, wavelengths * ELEMENTS, u32::MAX as usize)?;
+        let mut texels = Storage::zeros(places.len);
+        let (matrices, _) = data.values().as_chunks::<ELEMENTS>();
+        let (targets, _) = texels.as_mut_slice().as_chunks_mut::<ELEMENTS>();
+        for (target, matrix) in targets.iter_mut().zip(matrices) {
+            *target = stokes::stored(matrix);
+        }
+        Ok(Matrices { wavelengths, places, least: stokes::least(matrices), texels })
+    }
+
+    /// How many wavelengths there are.
+    pub fn wavelength_count(&self) -> usize {
+        self.wavelengths
+    }
+
+    /// Bytes of memory that the matrices take.
+    pub fn bytes(&self) -> usize {
+        self.texels.bytes() + self.places.bytes()
+    }
+
+    /// The matrices of many pairs on a backend: `out[query][wavelength][row][column]`.
+    ///
+    /// # Panics
+    /// As [`batch`](Self::batch).
+    pub fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        backend.run(self.batch(wi, wo, out));
+    }
+
+    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]:
+    /// `out[query][wavelength][row][column]`.
+    ///
+    /// # Panics
+    /// If there are not as many `wi` as `wo`, or `out` is not that many times 16 times the wavelengths long.
+    pub fn batch<'a>(
+        &'a self,
+        wi: Directions<'a>,
+        wo: Directions<'a>,
+        out: &'a mut [f32],
+    ) -> impl Kernel<Out = ()> + 'a {
+        evaluation(self, wi, wo, out)
+    }
+}
+
+/// What the passes of a block hand on.
+pub(crate) struct MatrixScratch {
+    places: Scratch,
+    stokes: Stokes,
+}
+
+impl Evaluate for &Matrices {
+    type Scratch = MatrixScratch;
+    const SCRATCH: MatrixScratch = MatrixScratch { places: Scratch::ZERO, stokes: Stokes::ZERO };
+
+    fn channel_count(self) -> usize {
+        self.wavelengths * ELEMENTS
+    }
+
+    #[inline(always)]
+    fn evaluate<L: Lanes>(self, lanes: L, n: usize, pairs: Pairs<'_>, scratch: &mut MatrixScratch, out: &mut [f32]) {
+        let MatrixScratch { places, stokes } = scratch;
+        self.places.find(lanes, n, pairs, places);
+        stokes.run(lanes, n, pairs, &places.angles.valid);
+        let Scratch { base, weights, .. } = &*places;
+        let block = Block::new(self.texels.as_slice(), self.places.corners);
+        let width = self.wavelengths * ELEMENTS;
+        texels::wide(lanes, &block, 0..width, Located { base, weights }, f32::MIN, out);
+        stokes.refer(lanes, self.wavelengths, self.least, out);
+    }
+}
