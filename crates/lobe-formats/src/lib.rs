@@ -9,7 +9,7 @@
 //! | feature | formats |
 //! |---|---|
 //! | `json` | OpenMaterial, and one's own tables in JSON |
-//! | `mueller` | `pbsdf` |
+//! | `mueller` | `pbsdf`, Mueller matrices in specular coordinates |
 //! | `rgl` | the EPFL database |
 //! | `spherical` | MDL |
 //! | `window` | WINDOW XML |
@@ -52,6 +52,8 @@ pub mod pab;
 #[cfg(feature = "mueller")]
 pub mod pbsdf;
 mod plain;
+#[cfg(feature = "mueller")]
+pub mod polarised;
 pub mod reading;
 mod records;
 mod registry;

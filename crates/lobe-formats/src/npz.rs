@@ -206,6 +206,16 @@ impl Arrays {
                 let shape: Vec<usize> = knots.iter().map(Vec::len).chain([4, 4]).collect();
                 self.floats("M", &shape, mueller.values())
             }
+            Data::Polarised(polarised) => {
+                let mut shape: Vec<usize> = polarised.knots().iter().map(Vec::len).collect();
+                self.text("kind", "polarised")?;
+                for (name, knots) in AXIS_NAMES.iter().zip(polarised.knots()) {
+                    self.doubles(name, &[knots.len()], knots)?;
+                }
+                self.doubles("wavelengths", &[polarised.wavelengths().len()], polarised.wavelengths())?;
+                shape.extend([polarised.wavelengths().len(), 4, 4]);
+                self.floats("M", &shape, polarised.values())
+            }
             Data::Fourier(fourier) => {
                 let parts = fourier.parts();
                 let knots = parts.mu.len();

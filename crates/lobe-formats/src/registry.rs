@@ -37,6 +37,8 @@ macro_rules! formats {
 formats! {
     #[cfg(feature = "mueller")]
     Pbsdf = pbsdf::FORMAT,
+    #[cfg(feature = "mueller")]
+    Polarised = polarised::FORMAT,
     #[cfg(feature = "rgl")]
     Rgl = rgl::FORMAT,
     #[cfg(feature = "spherical")]

@@ -11,6 +11,7 @@
 //! - [`zernike`]: expansions in Zernike polynomials of both directions;
 //! - [`half_diff`]: a grid of half and difference angles, as in the MERL database;
 //! - [`mueller`]: matrices of polarised reflection over half and difference angles;
+//! - [`polarised`]: matrices of polarised reflection on a grid of specular coordinates;
 //! - [`utia`]: the grid of the UTIA database;
 //! - [`window`]: Klems matrices and tensor trees of the two sides of a sheet;
 //! - [`mirror`]: mirror reflectances, which have no value for a pair of directions.
@@ -25,7 +26,7 @@
 //! |---|---|
 //! | `fourier` | [`fourier`] |
 //! | `half-diff` | [`half_diff`] |
-//! | `mueller` | [`mueller`] |
+//! | `mueller` | [`mueller`], [`polarised`] |
 //! | `rgl` | [`rgl`] |
 //! | `scattered` | [`scattered`] |
 //! | `spherical` | [`spherical`] |
@@ -64,6 +65,7 @@ pub mod mirror;
 pub mod mueller;
 pub mod paper;
 mod passes;
+pub mod polarised;
 mod representations;
 pub mod rgl;
 mod sampling;

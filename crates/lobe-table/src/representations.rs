@@ -52,6 +52,8 @@ representations! {
     HalfDiff(crate::half_diff::Data),
     /// Mueller matrices over half and difference angles.
     Mueller(crate::mueller::Data),
+    /// Mueller matrices on a grid of specular coordinates.
+    Polarised(crate::polarised::Data),
     /// The grid of the UTIA database.
     Utia(crate::utia::Data),
     /// Cosine series of the azimuth.

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use lobe_formats::{Format, Sides, mbsdf, merl, pbsdf, rgl};
+use lobe_formats::{Format, Sides, mbsdf, merl, pbsdf, polarised as polarised_file, rgl};
 use lobe_table::rgl::{Images, Parts};
-use lobe_table::{Channels, Scatter, half_diff, mueller, spherical};
+use lobe_table::{Channels, Scatter, half_diff, mueller, polarised, spherical};
 
 /// A DDR file in R G B, relative intensities and refraction.
 pub const DDR: &str = ";; small\nSource Measured\nTypeSym PlaneSymmetrical\nTypeColorModel RGB\nTypeData Intensity Relative\nsigma 2\n 0 60\n\
@@ -170,6 +170,13 @@ pub fn tiny_rgl() -> Vec<u8> {
     rgl::to_bytes(&material.expect("a valid material")).expect("bytes")
 }
 
+/// Mueller matrices in specular coordinates.
+pub fn tiny_polarised() -> Vec<u8> {
+    let knots = [vec![0.0, 1.0], vec![0.0], vec![0.0, 1.5], vec![0.0, 3.0]];
+    let data = polarised::Data::new(knots, vec![550.0], vec![0.25; 128]).expect("valid matrices");
+    polarised_file::to_bytes(&data).expect("bytes")
+}
+
 /// A small KAIST file.
 pub fn tiny_pbsdf() -> Vec<u8> {
     let knots = [vec![-3.0, 3.0], vec![0.0, 1.5], vec![0.5], vec![500.0, 600.0]];
@@ -255,6 +262,7 @@ pub fn all() -> Vec<(Format, Vec<u8>)> {
     let binaries = [
         (Format::Rgl, tiny_rgl()),
         (Format::Pbsdf, tiny_pbsdf()),
+        (Format::Polarised, tiny_polarised()),
         (Format::Merl, tiny_merl()),
         (Format::Mbsdf, tiny_mbsdf()),
         (Format::Fourier, tiny_fourier()),

@@ -105,6 +105,9 @@ fn evaluate_data(data: &Data) {
         Data::Mueller(data) => each(|wi, wo| {
             data.eval(wi, wo, 550.0);
         }),
+        Data::Polarised(data) => each(|wi, wo| {
+            data.eval(&Edges::default(), wi, wo, 550.0);
+        }),
         Data::Fourier(data) => each(|wi, wo| drop(data.eval(wi, wo))),
         Data::Window(data) => each(|wi, wo| {
             for band in &data.bands {

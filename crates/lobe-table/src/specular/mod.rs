@@ -3,7 +3,7 @@
 //! [`Data`] are a material as it was measured, and a [`Table`] is made ready for evaluation in SIMD lanes.
 //! [`mod@reference`] is the same evaluation in `f64`, written for the reader; [`coords`] explains the four angles.
 
-mod angles;
+pub(crate) mod angles;
 pub mod coords;
 mod data;
 mod eval;

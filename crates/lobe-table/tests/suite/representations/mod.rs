@@ -5,6 +5,7 @@ mod fourier;
 mod half_diff;
 mod mueller;
 mod scattered;
+mod polarised;
 mod spherical;
 mod utia;
 mod window;
