@@ -98,30 +98,25 @@ impl Contest {
         Ok(differences)
     }
 
-    /// Times all contestants in turns, in processor time; the shortest of all runs counts. `progress` is called after
-    /// each turn.
+    /// One turn of all contestants, in processor time: `least` keeps the shortest of all runs.
     ///
     /// # Errors
     /// If a program fails.
-    pub fn time(
-        &mut self,
-        programs: &mut Programs,
-        turns: usize,
-        differences: &[Option<Difference>],
-        mut progress: impl FnMut(),
-    ) -> anyhow::Result<Vec<Row>> {
-        let (mut lobe, mut peers) = (f64::INFINITY, vec![f64::INFINITY; self.inside.len() + self.outside.len()]);
-        for _ in 0..turns {
-            lobe = lobe.min(seconds(&mut self.lobe));
-            let (inside, outside) = peers.split_at_mut(self.inside.len());
-            for (peer, least) in self.inside.iter_mut().zip(inside) {
-                *least = least.min(seconds(peer));
-            }
-            for (peer, least) in self.outside.iter().zip(outside) {
-                *least = least.min(programs.run(peer.program, &peer.task, TIMES)?);
-            }
-            progress();
+    pub fn turn(&mut self, programs: &mut Programs, least: &mut Least) -> anyhow::Result<()> {
+        least.lobe = least.lobe.min(seconds(&mut self.lobe));
+        least.peers.resize(self.inside.len() + self.outside.len(), f64::INFINITY);
+        let (inside, outside) = least.peers.split_at_mut(self.inside.len());
+        for (peer, least) in self.inside.iter_mut().zip(inside) {
+            *least = least.min(seconds(peer));
         }
+        for (peer, least) in self.outside.iter().zip(outside) {
+            *least = least.min(programs.run(peer.program, &peer.task, TIMES)?);
+        }
+        Ok(())
+    }
+
+    /// The figures after the last turn.
+    pub fn rows(&self, Least { lobe, peers }: &Least, differences: &[Option<Difference>]) -> Vec<Row> {
         let wider = self.inside.iter().map(|_| false).chain(self.outside.iter().map(|peer| peer.wider));
         let fastest = peers.iter().zip(wider).filter(|(_, wider)| !wider).map(|(least, _)| *least);
         let fastest = fastest.fold(f64::INFINITY, f64::min);
@@ -138,7 +133,21 @@ impl Contest {
             difference: difference.map(|difference| difference.largest),
             peer_wrong: difference.map_or(0, |difference| difference.wrong),
         };
-        Ok(names.zip(peers.iter().copied()).zip(differences).map(row).collect())
+        names.zip(peers.iter().copied()).zip(differences).map(row).collect()
+    }
+}
+
+/// The shortest runs so far, in seconds.
+#[derive(Clone, Debug)]
+pub struct Least {
+    lobe: f64,
+    /// Those in this process first.
+    peers: Vec<f64>,
+}
+
+impl Default for Least {
+    fn default() -> Self {
+        Least { lobe: f64::INFINITY, peers: Vec::new() }
     }
 }
 

@@ -20,6 +20,7 @@ mod program;
 mod record;
 mod referee;
 mod row;
+mod speed;
 mod tracing;
 mod trigonometry;
 mod variance;
@@ -29,6 +30,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, bail, ensure};
 use clap::Parser;
 
+use contest::Least;
 use exchange::Exchange;
 use program::{Program, Programs};
 use record::Record;
@@ -101,22 +103,35 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
     contests.retain_mut(|contest| contest.keep_present(&programs));
 
     let core = processor::pin();
+    let at_start = speed::measure();
     let steps = Steps::new((contests.len() * (options.turns + 1)) as u64 + 2);
     let (mut rows, mut faults) = (Vec::new(), Vec::new());
+    let mut taking_part = Vec::new();
     for mut contest in contests {
         steps.begin(contest.name());
         // One that differs must not keep the others from being measured.
-        let differences = match contest.check(&mut programs, &exchange) {
-            Ok(differences) => differences,
+        match contest.check(&mut programs, &exchange) {
+            Ok(differences) => taking_part.push((contest, differences, Least::default())),
             Err(error) => {
                 faults.push(format!("{error:#}"));
-                steps.done(options.turns as u64 + 1);
-                continue;
+                steps.done(options.turns as u64);
             }
-        };
+        }
         steps.done(1);
-        rows.extend(contest.time(&mut programs, options.turns, &differences, || steps.done(1))?);
     }
+    // All contests have a turn before any has its next one, so that what else the machine does for a while spoils a turn of
+    // many and not all turns of one.
+    for _ in 0..options.turns {
+        for (contest, _, least) in &mut taking_part {
+            steps.begin(contest.name());
+            contest.turn(&mut programs, least)?;
+            steps.done(1);
+        }
+    }
+    for (contest, differences, least) in &taking_part {
+        rows.extend(contest.rows(least, differences));
+    }
+    let speed = speed::kept(&out.join("speed.json"), &machine.cpu, [at_start, speed::measure()])?;
     let variances = match variance {
         Some(question) => steps.part("variances", || question.answer(&mut programs, &exchange))?,
         None => Vec::new(),
@@ -134,6 +149,7 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
     let record = Record {
         machine,
         core,
+        speed,
         turns: options.turns,
         versions: programs.versions(),
         missing,

@@ -38,7 +38,7 @@ fn is_rgb(path: &Path) -> bool {
 /// If it cannot be written.
 pub fn pairs(exchange: &Exchange, input: Input) -> anyhow::Result<(Rc<Pairs>, PathBuf)> {
     let pairs = input.pairs(COUNT);
-    let rows: Vec<&[f32]> = pairs.wi.iter().chain(&pairs.wo).map(Vec::as_slice).collect();
+    let rows: Vec<&[f32]> = pairs.wi.iter().chain(&pairs.wo).map(|column| &**column).collect();
     let file = exchange.floats(&format!("pairs-{}", input.name()), &rows)?;
     Ok((Rc::new(pairs), file))
 }

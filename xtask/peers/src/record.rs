@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use super::frames::{self, Agreement};
 use super::row::Row;
+use super::speed::Speed;
 use super::variance::{self, Variance};
 use xtask_common::{Grid, Machine};
 
@@ -20,6 +21,8 @@ pub struct Record {
     pub machine: Machine,
     /// The core, if the process was pinned to one.
     pub core: Option<usize>,
+    /// How fast the machine was.
+    pub speed: Speed,
     /// The number of turns.
     pub turns: usize,
     /// The peers that took part.
@@ -47,6 +50,7 @@ impl Record {
             column.set_cell_alignment(CellAlignment::Right);
         }
         println!("{table}");
+        println!("A multiplication that waits for another takes {}", self.speed.text());
         self.grids().iter().for_each(Grid::print);
     }
 
@@ -65,6 +69,7 @@ impl Record {
         line("processor", format!("{cpu}, {cores} cores, {}", features.join(" ")));
         line("pinned to", self.core.map_or_else(|| "no core".into(), |core| format!("core {core}")));
         line("load at the start", load.map_or_else(|| "unknown".into(), |load| format!("{load:.1}")));
+        line("a multiplication that waits for another", self.speed.text());
         line("compiler", compiler.clone());
         line("commit", commit.clone());
         line("peers", versions.join(", "));
