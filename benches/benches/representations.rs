@@ -7,7 +7,17 @@ use criterion::{Criterion, criterion_group, criterion_main};
 fn representations(criterion: &mut Criterion) {
     common::bench(
         criterion,
-        &["half-diff", "half-diff-linear", "spherical", "utia", "klems", "tensor-tree", "mueller", "mueller-matrices"],
+        &[
+            "half-diff",
+            "half-diff-linear",
+            "spherical",
+            "scattered",
+            "utia",
+            "klems",
+            "tensor-tree",
+            "mueller",
+            "mueller-matrices",
+        ],
     );
 }
 

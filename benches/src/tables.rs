@@ -7,7 +7,7 @@ use lobe::table::utia::{self, PLANE};
 use lobe::table::window::klems::{AngleBasis, KlemsMatrix};
 use lobe::table::window::tensor_tree::{Node, Rank, TensorTree};
 use lobe::table::window::{self, Block, Component};
-use lobe::table::{half_diff, mueller, spherical};
+use lobe::table::{half_diff, mueller, scattered, spherical};
 use lobe::{Channels, Scatter, specular};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -156,6 +156,25 @@ pub fn spherical_anisotropic() -> spherical::Data {
     let knots: [Vec<f64>; 4] = [polar.clone(), around(8), polar, around(24)];
     let values = (0..knots.iter().map(Vec::len).product::<usize>()).map(value).collect();
     spherical::Data::new(Scatter::Reflection, knots, Channels::Mono, values).expect("a valid grid")
+}
+
+/// Scattered samples of an isotropic material: rings about the peak that are closer to each other there, for each of nine
+/// directions of light.
+pub fn scattered() -> scattered::Data {
+    let mut angles = Vec::new();
+    for light in 0..9 {
+        let theta = 0.17 * f64::from(light);
+        for (ring, sector) in (0..16).flat_map(|ring| (0..24).map(move |sector| (ring, sector))) {
+            let from_peak = 1.5 * (f64::from(ring) / 16.0).powf(1.5);
+            let (sin, cos) = ((f64::from(sector) + 0.5 * f64::from(ring % 2)) / 24.0 * TAU).sin_cos();
+            let (x, y) = (theta + from_peak * cos, from_peak * sin);
+            if x.hypot(y) < FRAC_PI_2 {
+                angles.push([theta, 0.0, x.hypot(y), PI + y.atan2(x)]);
+            }
+        }
+    }
+    let values: Vec<f32> = (0..3 * angles.len()).map(value).collect();
+    scattered::Data::new(Scatter::Reflection, Channels::Rgb, &angles, &values).expect("valid samples")
 }
 
 /// A grid of the UTIA database.

@@ -2,17 +2,26 @@
 
 use std::f32::consts::TAU;
 
+use lobe::Buffer;
 use lobe::table::specular::coords::directions_to_angles;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
 /// Pairs of directions as separate components, `wi` toward the light and `wo` toward the viewer.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Pairs {
     /// Components of `wi`.
-    pub wi: [Vec<f32>; 3],
+    pub wi: [Buffer<f32>; 3],
     /// Components of `wo`.
-    pub wo: [Vec<f32>; 3],
+    pub wo: [Buffer<f32>; 3],
+}
+
+impl FromIterator<([f32; 3], [f32; 3])> for Pairs {
+    fn from_iter<I: IntoIterator<Item = ([f32; 3], [f32; 3])>>(pairs: I) -> Self {
+        let (wi, wo): (Vec<_>, Vec<_>) = pairs.into_iter().unzip();
+        let columns = |w: &[[f32; 3]]| [0, 1, 2].map(|k| w.iter().map(|w| w[k]).collect());
+        Pairs { wi: columns(&wi), wo: columns(&wo) }
+    }
 }
 
 /// How neighbouring queries relate.
@@ -67,20 +76,13 @@ impl Pairs {
 
     /// Pair `at`.
     pub fn get(&self, at: usize) -> ([f32; 3], [f32; 3]) {
-        let at = |w: &[Vec<f32>; 3]| [w[0][at], w[1][at], w[2][at]];
+        let at = |w: &[Buffer<f32>; 3]| [w[0][at], w[1][at], w[2][at]];
         (at(&self.wi), at(&self.wo))
     }
 
     /// As two lists of vectors.
     pub fn vectors(&self) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
         (0..self.len()).map(|at| self.get(at)).unzip()
-    }
-
-    fn push(&mut self, wi: [f32; 3], wo: [f32; 3]) {
-        for k in 0..3 {
-            self.wi[k].push(wi[k]);
-            self.wo[k].push(wo[k]);
-        }
     }
 
     /// Both directions uniform on the upper hemisphere, independent of each other.
@@ -91,12 +93,7 @@ impl Pairs {
             let across = (1.0 - z * z).sqrt();
             [across * turn.cos(), across * turn.sin(), z]
         };
-        let mut pairs = Pairs::default();
-        for _ in 0..count {
-            let (wi, wo) = (direction(), direction());
-            pairs.push(wi, wo);
-        }
-        pairs
+        (0..count).map(|_| (direction(), direction())).collect()
     }
 
     /// The pixels of a picture of a sphere under a point light, in tiles of 8 x 8 pixels, each in Morton order, so that
@@ -110,7 +107,7 @@ impl Pairs {
         // Odd, and near the golden section of the number of tiles: every tile comes once, far from the previous one.
         const STEP: u32 = (TILES as f64 * 0.618) as u32 | 1;
         let light = [2.0f32, 3.0, 4.0];
-        let mut pairs = Pairs::default();
+        let mut pairs = Vec::new();
         let mut pixel = 0u32;
         while pairs.len() < count {
             // A picture that is used up begins again: it has more visible pixels than any workload requests at once.
@@ -136,10 +133,10 @@ impl Pairs {
             let local = |w: [f32; 3]| [dot(w, tangent), dot(w, bitangent), dot(w, n)];
             let (wi, wo) = (local(to_light), local(view));
             if wi[2] > 0.0 && wo[2] > 0.0 {
-                pairs.push(wi, wo);
+                pairs.push((wi, wo));
             }
         }
-        pairs
+        pairs.into_iter().collect()
     }
 }
 

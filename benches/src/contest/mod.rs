@@ -5,6 +5,7 @@
 
 mod acos;
 mod backends;
+mod drawn;
 mod evaluation;
 mod interpolation;
 mod large;
@@ -37,7 +38,7 @@ pub struct Question {
 }
 
 /// All questions, in the order of the report.
-pub const QUESTIONS: [Question; 31] = [
+pub const QUESTIONS: [Question; 40] = [
     Question { id: "acos", title: "Arc cosine, eight terms", unit: "value", least: 1, build: acos::eight_terms },
     Question {
         id: "acos-paper",
@@ -163,6 +164,13 @@ pub const QUESTIONS: [Question; 31] = [
         least: 1,
         build: representations::spherical,
     },
+    Question {
+        id: "scattered",
+        title: "Samples on no grid",
+        unit: "evaluation",
+        least: 1,
+        build: representations::scattered,
+    },
     Question { id: "utia", title: "UTIA grid", unit: "evaluation", least: 1, build: representations::utia },
     Question { id: "klems", title: "Klems matrices", unit: "evaluation", least: 1, build: representations::klems },
     Question {
@@ -199,6 +207,62 @@ pub const QUESTIONS: [Question; 31] = [
         unit: "sample",
         least: 1,
         build: sampling::aniso,
+    },
+    Question {
+        id: "spherical-sample",
+        title: "Grid of spherical coordinates, samples with their weights",
+        unit: "sample",
+        least: 1,
+        build: drawn::spherical,
+    },
+    Question {
+        id: "scattered-sample",
+        title: "Samples on no grid, directions with their weights",
+        unit: "sample",
+        least: 1,
+        build: drawn::scattered,
+    },
+    Question {
+        id: "klems-sample",
+        title: "Klems matrices, samples with their weights",
+        unit: "sample",
+        least: 1,
+        build: drawn::klems,
+    },
+    Question {
+        id: "tensor-tree-sample",
+        title: "Tensor trees, samples with their weights",
+        unit: "sample",
+        least: 1,
+        build: drawn::tensor_tree,
+    },
+    Question {
+        id: "half-diff-sample",
+        title: "Half-difference grid, samples with their weights",
+        unit: "sample",
+        least: 1,
+        build: drawn::half_difference,
+    },
+    Question {
+        id: "mueller-sample",
+        title: "Mueller matrices, samples with their weights",
+        unit: "sample",
+        least: 1,
+        build: drawn::mueller,
+    },
+    Question {
+        id: "pages",
+        title: "Isotropic table, a batch of a million on huge and on small pages",
+        unit: "evaluation",
+        least: 1 << 20,
+        build: threads::pages,
+    },
+    Question {
+        id: "pages-4m",
+        title: "Isotropic table, a batch of four million on huge and on small pages",
+        unit: "evaluation",
+        least: 1 << 22,
+        build: threads::pages,
     },
     Question {
         id: "threads",

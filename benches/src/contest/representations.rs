@@ -4,8 +4,8 @@ use std::rc::Rc;
 
 use lobe::table::half_diff::{self, Lookup};
 use lobe::table::window::tensor_tree::Rank;
-use lobe::table::{mueller, spherical, utia, window};
-use lobe::{Backend, Decode, Directions};
+use lobe::table::{mueller, scattered, spherical, utia, window};
+use lobe::{Backend, Decode, Directions, Edges, specular};
 
 use super::{Contender, Contest, Tolerance, backends};
 use crate::tables;
@@ -57,6 +57,23 @@ pub fn spherical(input: Input, count: usize) -> Contest {
         (input, count, 3, LINEAR),
         move |wi, wo| data.bound(wi, wo) < SURE,
         Rc::new(move |wi, wo, out| one.eval_into(wi, wo, out)),
+        Rc::new(move |backend, [wi, wo], out| table.eval_batch(backend, wi, wo, out)),
+    )
+}
+
+/// RGB of samples on no grid.
+pub fn scattered(input: Input, count: usize) -> Contest {
+    let data = Rc::new(tables::scattered());
+    let table = scattered::Table::new(&data).expect("few samples");
+    let one = data.clone();
+    contest(
+        (input, count, 3, LINEAR),
+        move |wi, wo| data.bound(wi, wo) < SURE,
+        Rc::new(move |wi, wo, out| {
+            let (mut sum, mut values) = ([0.0; 3], [0.0; 3]);
+            one.eval_into(wi, wo, &mut sum, &mut values);
+            out.copy_from_slice(&values.map(f64::from));
+        }),
         Rc::new(move |backend, [wi, wo], out| table.eval_batch(backend, wi, wo, out)),
     )
 }
@@ -167,7 +184,19 @@ fn contest(
     let baseline = Contender::new("f64", STORED, vec![f64::NAN; width * count], in_f64, |out| {
         out.iter().map(|&value| value as f32).collect()
     });
-    Contest { count, baselines: vec![baseline], contenders, expected }
+    Contest { count, baselines: vec![baseline, table(&pairs, width)], contenders, expected }
+}
+
+/// A specular table of the paper's size on the best backend, for comparison: its values are compared elsewhere.
+fn table(pairs: &Rc<Pairs>, width: usize) -> Contender {
+    let table = specular::Table::new(&tables::isotropic(), &Edges::default()).expect("a small table");
+    let (pairs, backend, count) = (pairs.clone(), Backend::best(), pairs.len());
+    let run = move |out: &mut Vec<f32>| {
+        let [wi, wo] = [&pairs.wi, &pairs.wo].map(|[x, y, z]| Directions::columns(x, y, z));
+        table.eval_batch(backend, wi, wo, out);
+    };
+    let room = vec![f32::NAN; 3 * count];
+    Contender::new("table", Contender::UNCHECKED, room, run, move |_| vec![0.0; width * count])
 }
 
 fn only(mut pairs: Pairs, sure: impl Fn([f64; 3], [f64; 3]) -> bool) -> Pairs {

@@ -1,9 +1,9 @@
-//! A large batch shared among threads.
+//! Large batches: shared among threads, and compared with small ones.
 
 use std::rc::Rc;
 
 use lobe::table::specular::reference;
-use lobe::{Directions, Edges, Material, Options};
+use lobe::{Backend, Buffer, Directions, Edges, Material, Options, specular};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::{Contender, Contest, Tolerance};
@@ -33,17 +33,60 @@ pub fn iso(input: Input, count: usize) -> Contest {
     }
 }
 
+/// Isotropic, on one thread: a batch beyond the caches on huge pages and on those of 4 KB, compared with as many pairs in
+/// batches that stay in the caches, the same ones again and again.
+pub fn pages(input: Input, count: usize) -> Contest {
+    const SMALL: usize = 1 << 13;
+    let samples = tables::isotropic();
+    let small = input.pairs(SMALL);
+    let pairs: Pairs = (0..count).map(|query| small.get(query % SMALL)).collect();
+    let mut expected = vec![0.0; 3 * SMALL];
+    for (query, out) in expected.chunks_exact_mut(3).enumerate() {
+        let (wi, wo) = small.get(query);
+        reference::eval(&samples, &Edges::default(), wi.map(f64::from), wo.map(f64::from), out);
+    }
+    let table = Rc::new(specular::Table::new(&samples, &Edges::default()).expect("a small table"));
+    let backend = Backend::best();
+    let vectors = [&pairs.wi, &pairs.wo].map(|columns| columns.each_ref().map(|column| column.to_vec()));
+    let first = |out: &[f32]| out[..3 * SMALL].to_vec();
+    let again = {
+        let table = table.clone();
+        let run = move |out: &mut Vec<f32>| {
+            let [wi, wo] = [&small.wi, &small.wo].map(|[x, y, z]| Directions::columns(x, y, z));
+            for _ in 0..count / SMALL {
+                table.eval_batch(backend, wi, wo, out);
+            }
+        };
+        Contender::new("8192 pairs", TOLERANCE, vec![f32::NAN; 3 * SMALL], run, move |out| first(out))
+    };
+    let small_pages = {
+        let table = table.clone();
+        let run = move |out: &mut Vec<f32>| {
+            let [wi, wo] = vectors.each_ref().map(|[x, y, z]| Directions::columns(x, y, z));
+            table.eval_batch(backend, wi, wo, out);
+        };
+        Contender::new("small pages", TOLERANCE, vec![f32::NAN; 3 * count], run, move |out| first(out))
+    };
+    let run = move |out: &mut Buffer<f32>| {
+        let [wi, wo] = [&pairs.wi, &pairs.wo].map(|[x, y, z]| Directions::columns(x, y, z));
+        table.eval_batch(backend, wi, wo, out);
+    };
+    let out = Buffer::copied(&vec![f32::NAN; 3 * count]);
+    let huge_pages = Contender::new("huge pages", TOLERANCE, out, run, move |out| first(out));
+    Contest { count, baselines: vec![again], contenders: vec![huge_pages, small_pages], expected }
+}
+
 fn pool(threads: usize) -> ThreadPool {
     ThreadPoolBuilder::new().num_threads(threads).build().expect("threads")
 }
 
 fn contender(name: &'static str, pool: ThreadPool, material: &Rc<Material>, pairs: &Rc<Pairs>) -> Contender {
     let (material, pairs) = (material.clone(), pairs.clone());
-    let out = vec![f32::NAN; 3 * pairs.len()];
-    let run = move |out: &mut Vec<f32>| {
+    let out = Buffer::copied(&vec![f32::NAN; 3 * pairs.len()]);
+    let run = move |out: &mut Buffer<f32>| {
         let [wi, wo] = [&pairs.wi, &pairs.wo].map(|[x, y, z]| Directions::columns(x, y, z));
         let material: &Material = &material;
         pool.install(|| material.eval_batch(wi, wo, out));
     };
-    Contender::new(name, TOLERANCE, out, run, Vec::clone)
+    Contender::new(name, TOLERANCE, out, run, |out| out.to_vec())
 }

@@ -10,7 +10,10 @@ use lobe_lane::Lanes as _;
 use lobe_scalar::Scalar;
 use lobe_table::half_diff::{self, Lookup};
 use lobe_table::rgl::{self, Drawn, UniformOrder, Wanted};
-use lobe_table::{Directions, Given, Sampled, Sampler, SamplerOptions, mueller, specular, spherical, utia, window};
+use lobe_table::{
+    Directions, Given, PatchSampler, Sampled, Sampler, SamplerOptions, mueller, scattered, specular, spherical, utia,
+    window,
+};
 
 /// Pairs of directions.
 pub(crate) type Pairs<'a> = [Directions<'a>; 2];
@@ -23,6 +26,7 @@ pub(crate) trait Machine: Copy {
     fn interpolate(self, table: &specular::Table, angles: [&[f32]; 4], out: &mut [f32]);
     fn half_diff(self, table: &half_diff::Table, lookup: Lookup, pairs: Pairs<'_>, out: &mut [f32]);
     fn spherical(self, table: &spherical::Table, pairs: Pairs<'_>, out: &mut [f32]);
+    fn scattered(self, table: &scattered::Table, pairs: Pairs<'_>, out: &mut [f32]);
     fn utia(self, table: &utia::Table, pairs: Pairs<'_>, out: &mut [f32]);
     fn mueller(self, table: &mueller::Table, pairs: Pairs<'_>, out: &mut [f32]);
     fn matrices(self, table: &mueller::Matrices, pairs: Pairs<'_>, out: &mut [f32]);
@@ -32,6 +36,15 @@ pub(crate) trait Machine: Copy {
     fn sampler(self, table: Arc<specular::Table>) -> Sampler;
     fn sample(self, sampler: &Sampler, given: Given, known: &[[f32; 3]], u: &[[f32; 2]], out: Sampled<'_>);
     fn densities(self, sampler: &Sampler, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]);
+    fn patches(
+        self,
+        sampler: &PatchSampler,
+        known: &[[f32; 3]],
+        u: &[[f32; 2]],
+        out: &mut [[f32; 3]],
+        pdfs: &mut [f32],
+    );
+    fn patch_densities(self, sampler: &PatchSampler, known: &[[f32; 3]], other: &[[f32; 3]], out: &mut [f32]);
 }
 
 const OPTIONS: &str = "options that suit every table";
@@ -58,6 +71,10 @@ impl Machine for Backend {
     }
 
     fn spherical(self, table: &spherical::Table, [wi, wo]: Pairs<'_>, out: &mut [f32]) {
+        table.eval_batch(self, wi, wo, out);
+    }
+
+    fn scattered(self, table: &scattered::Table, [wi, wo]: Pairs<'_>, out: &mut [f32]) {
         table.eval_batch(self, wi, wo, out);
     }
 
@@ -96,6 +113,21 @@ impl Machine for Backend {
     fn densities(self, sampler: &Sampler, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         sampler.pdf_batch(self, given, wi, wo, out);
     }
+
+    fn patches(
+        self,
+        sampler: &PatchSampler,
+        known: &[[f32; 3]],
+        u: &[[f32; 2]],
+        out: &mut [[f32; 3]],
+        pdfs: &mut [f32],
+    ) {
+        sampler.draw_batch(self, known, u, out, pdfs);
+    }
+
+    fn patch_densities(self, sampler: &PatchSampler, known: &[[f32; 3]], other: &[[f32; 3]], out: &mut [f32]) {
+        sampler.pdf_batch(self, known, other, out);
+    }
 }
 
 /// `N` lanes in plain Rust.
@@ -126,6 +158,10 @@ impl<const N: usize> Machine for Emulated<N> {
     }
 
     fn spherical(self, table: &spherical::Table, [wi, wo]: Pairs<'_>, out: &mut [f32]) {
+        self.run(table.batch(wi, wo, out));
+    }
+
+    fn scattered(self, table: &scattered::Table, [wi, wo]: Pairs<'_>, out: &mut [f32]) {
         self.run(table.batch(wi, wo, out));
     }
 
@@ -164,5 +200,20 @@ impl<const N: usize> Machine for Emulated<N> {
     fn densities(self, sampler: &Sampler, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         let (known, other) = if given == Given::Light { (wi, wo) } else { (wo, wi) };
         self.run(sampler.distribution().densities(known, other, out));
+    }
+
+    fn patches(
+        self,
+        sampler: &PatchSampler,
+        known: &[[f32; 3]],
+        u: &[[f32; 2]],
+        out: &mut [[f32; 3]],
+        pdfs: &mut [f32],
+    ) {
+        self.run(sampler.drawing(known, u, out, pdfs));
+    }
+
+    fn patch_densities(self, sampler: &PatchSampler, known: &[[f32; 3]], other: &[[f32; 3]], out: &mut [f32]) {
+        self.run(sampler.densities(known, other, out));
     }
 }

@@ -2,12 +2,14 @@
 
 use std::sync::OnceLock;
 
-use lobe_benches::tables::{half_difference, klems, mueller, spherical, spherical_anisotropic, tensor_tree, utia};
+use lobe_benches::tables::{
+    half_difference, klems, mueller, scattered, spherical, spherical_anisotropic, tensor_tree, utia,
+};
 use lobe_benches::workload::Input;
 use lobe_table::half_diff::{self, Lookup};
 use lobe_table::utia::{self, Decode};
 use lobe_table::window::tensor_tree::Rank;
-use lobe_table::{Directions, mueller, spherical, window};
+use lobe_table::{Directions, mueller, scattered, spherical, window};
 
 use super::machine::{Machine, Pairs};
 use super::record::{Bound, Record};
@@ -25,6 +27,7 @@ struct Case {
 enum Representation {
     HalfDiff(half_diff::Table, Lookup),
     Spherical(Box<spherical::Table>),
+    Scattered(Box<scattered::Table>),
     Utia(Box<utia::Table>),
     Mueller(Box<mueller::Table>),
     Matrices(Box<mueller::Matrices>),
@@ -36,6 +39,7 @@ impl Representation {
         match self {
             Representation::HalfDiff(table, lookup) => machine.half_diff(table, *lookup, pairs, out),
             Representation::Spherical(table) => machine.spherical(table, pairs, out),
+            Representation::Scattered(table) => machine.scattered(table, pairs, out),
             Representation::Utia(table) => machine.utia(table, pairs, out),
             Representation::Mueller(table) => machine.mueller(table, pairs, out),
             Representation::Matrices(table) => machine.matrices(table, pairs, out),
@@ -143,6 +147,14 @@ fn cases() -> &'static [Case] {
                 reference: Box::new(move |wi, wo| grid.bound(wi, wo)),
             });
         }
+        let samples = scattered();
+        let table = scattered::Table::new(&samples).expect("few samples");
+        cases.push(Case {
+            name: "scattered",
+            representation: Representation::Scattered(Box::new(table)),
+            width: 3,
+            reference: Box::new(move |wi, wo| samples.bound(wi, wo)),
+        });
         let grid = utia();
         let largest = grid.values().iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let table = utia::Table::new(&grid, Decode::Raw).expect("a valid grid");

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use lobe_table::{Edges, Given, Sampled};
+use lobe_benches::tables::klems;
+use lobe_table::window::{Block, Component};
+use lobe_table::{Edges, Given, PatchSampler, Sampled, Scatter};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -13,7 +15,32 @@ use super::tables::{Case, Queries, adversarial, cases};
 /// Every table once, with a sampler that this backend built.
 pub(super) fn record(machine: impl Machine) -> Vec<Record> {
     let is_wanted = |case: &&Case| case.name.ends_with("incoherent") && *case.table.edges() == Edges::default();
-    cases().iter().filter(is_wanted).flat_map(|case| sample(machine, case)).collect()
+    let mut records: Vec<Record> = cases().iter().filter(is_wanted).flat_map(|case| sample(machine, case)).collect();
+    records.extend(patches(machine));
+    records
+}
+
+/// Draws from the patches of Klems matrices, and their densities.
+fn patches(machine: impl Machine) -> Vec<Record> {
+    let (window, Queries { wi, wo }) = (klems(), adversarial());
+    let (count, u) = (wi.len(), numbers(wi.len()));
+    let mut records = Vec::new();
+    for block in Block::ALL {
+        let Some(Component::Klems(matrix)) = window.block(block) else { continue };
+        let scatter = block.aspect().scatter;
+        let sampler = PatchSampler::new(scatter, &[(matrix, 1.0)], 0.05).expect("options").expect("a sampler");
+        let mut directions = vec![[f32::NAN; 3]; count];
+        let (mut pdfs, mut densities) = (vec![f32::NAN; count], vec![f32::NAN; count]);
+        machine.patches(&sampler, &wi, &u, &mut directions, &mut pdfs);
+        machine.patch_densities(&sampler, &wi, &wo, &mut densities);
+        let name = if scatter == Scatter::Reflection { "patches" } else { "patches, transmission" };
+        let results =
+            [("directions", directions.into_flattened()), ("densities of samples", pdfs), ("densities", densities)];
+        records.extend(
+            results.map(|(what, values)| Record::bounded(format!("{name}: {what}"), values, Bound::StrictOnly)),
+        );
+    }
+    records
 }
 
 /// A histogram has steps, and a draw next to one may fall on either side, so nothing is promised of the fused form

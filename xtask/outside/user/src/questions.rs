@@ -5,7 +5,10 @@ use std::sync::Arc;
 use lobe::table::paper::PaperTable;
 use lobe::table::rgl::{self, Drawn, UniformOrder, Wanted};
 use lobe::table::window::tensor_tree::Rank;
-use lobe::table::{Sampled, Sampler, SamplerOptions, half_diff, mueller, spherical, utia, window};
+use lobe::table::window::{Block, Component};
+use lobe::table::{
+    PatchSampler, Sampled, Sampler, SamplerOptions, half_diff, mueller, scattered, spherical, utia, window,
+};
 use lobe::{Axis, Backend, Decode, Directions, Edge, Edges, Lookup, specular};
 use lobe_benches::contest::angles;
 use lobe_benches::tables;
@@ -46,9 +49,11 @@ pub const QUESTIONS: &[(&str, fn() -> Run)] = &[
     ("half-diff", || half_difference(Lookup::Nearest)),
     ("half-diff-linear", || half_difference(Lookup::Linear)),
     ("spherical", on_grid),
+    ("scattered", samples),
     ("utia", utia_grid),
     ("klems", || sheet(tables::klems())),
     ("tensor-tree", || sheet(tables::tensor_tree(Rank::Four))),
+    ("klems-sample", patches),
     ("mueller", matrices),
 ];
 
@@ -189,6 +194,15 @@ fn on_grid() -> Run {
     })
 }
 
+fn samples() -> Run {
+    let table = scattered::Table::new(&tables::scattered()).expect("few samples");
+    let (backend, pairs, mut out) = (backend(), pairs(), vec![0.0; 3 * COUNT]);
+    Box::new(move || {
+        let [wi, wo] = columns(&pairs);
+        backend.run(table.batch(wi, wo, &mut out));
+    })
+}
+
 fn utia_grid() -> Run {
     let table = utia::Table::new(&tables::utia(), Decode::Raw).expect("a valid grid");
     let (backend, pairs, mut out) = (backend(), pairs(), vec![0.0; 3 * COUNT]);
@@ -205,6 +219,16 @@ fn sheet(window: window::Blocks) -> Run {
         let [wi, wo] = columns(&pairs);
         backend.run(table.batch(wi, wo, &mut out));
     })
+}
+
+fn patches() -> Run {
+    let window = tables::klems();
+    let Some(Component::Klems(matrix)) = window.block(Block::ReflectionBack) else { panic!("a sheet of matrices") };
+    let sampler = PatchSampler::new(lobe::Scatter::Reflection, &[(matrix, 1.0)], 0.05);
+    let sampler = sampler.expect("a part of a cosine").expect("a matrix");
+    let (backend, known, uniforms) = (backend(), pairs().vectors().0, uniforms());
+    let (mut directions, mut pdfs) = (vec![[0.0; 3]; COUNT], vec![0.0; COUNT]);
+    Box::new(move || backend.run(sampler.drawing(&known, &uniforms, &mut directions, &mut pdfs)))
 }
 
 fn matrices() -> Run {
