@@ -106,6 +106,14 @@ impl<T: Transport> Shader<T> for BsdfShader<T> {
         times_cosine::<T>(f, wi);
     }
 
+    fn pdf(&self, mode: TransportMode, wi: &[Vec3], wo: &[Vec3], pdf: &mut [f32], _: &mut Scratch) {
+        let [light, viewer] = match mode {
+            TransportMode::Radiance => [wi, wo],
+            TransportMode::Importance => [wo, wi],
+        };
+        self.bsdf.pdf_batch(self.backend, given(mode), light, viewer, pdf);
+    }
+
     /// Mirrors that were measured in addition to the values are sampled too: their density is infinite.
     fn sample(&self, mode: TransportMode, wo: &[Vec3], u: &[[f32; 2]], out: Sampled<'_, T>, scratch: &mut Scratch) {
         let Sampled { wi, weight, pdf } = out;

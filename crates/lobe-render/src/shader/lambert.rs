@@ -90,6 +90,12 @@ impl<T: Transport> Shader<T> for Lambert<T::Spectrum> {
         }
     }
 
+    fn pdf(&self, _: TransportMode, wi: &[Vec3], wo: &[Vec3], pdf: &mut [f32], _: &mut Scratch) {
+        for ((pdf, wi), wo) in pdf.iter_mut().zip(wi).zip(wo) {
+            *pdf = density(*wo, *wi);
+        }
+    }
+
     fn sample(&self, _: TransportMode, wo: &[Vec3], u: &[[f32; 2]], out: Sampled<'_, T>, _: &mut Scratch) {
         let Sampled { wi, weight, pdf } = out;
         sample_cosine(self.backend, u, wi);

@@ -94,6 +94,12 @@ pub trait Shader<T: Transport = Rgb>: Debug + Send + Sync {
     /// [values](Lobes::values).
     fn eval(&self, mode: TransportMode, wi: &[[f32; 3]], wo: &[[f32; 3]], out: Evaluated<'_, T>, scratch: &mut Scratch);
 
+    /// The densities alone, 1/sr. All slices are equally long. Not called without [values](Lobes::values).
+    fn pdf(&self, mode: TransportMode, wi: &[[f32; 3]], wo: &[[f32; 3]], pdf: &mut [f32], scratch: &mut Scratch) {
+        let mut f = vec![T::ABSORBED; pdf.len()];
+        self.eval(mode, wi, wo, Evaluated { f: &mut f, pdf }, scratch);
+    }
+
     /// Samples a `wi` for each `wo` from two numbers in `[0, 1)`. All slices are equally long. Not called without
     /// [values](Lobes::values).
     fn sample(&self, mode: TransportMode, wo: &[[f32; 3]], u: &[[f32; 2]], out: Sampled<'_, T>, scratch: &mut Scratch);
