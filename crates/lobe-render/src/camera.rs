@@ -151,6 +151,30 @@ impl View {
         }
     }
 
+    /// As [`sample_we`](View::sample_we), and `valid` also where only the filter reaches into the picture.
+    #[inline(always)]
+    pub(crate) fn sample_we_filtered<L: Lanes>(&self, lanes: L, from: [L::F; 3], u: [L::F; 2]) -> CameraSample<L> {
+        let sample = self.sample_we(lanes, from, u);
+        let margin = if self.filter == Filter::Tent { 0.5 } else { 0.0 };
+        let (zero, least) = (lanes.splat(0.0), lanes.splat(-margin));
+        let [x, y] = sample.raster;
+        let (width, height) = (lanes.splat(self.size[0] + margin), lanes.splat(self.size[1] + margin));
+        let seen = least.le(x) & x.lt(width) & least.le(y) & y.lt(height);
+        // The importance has the sign of the cosine, to the fourth power: that of the density tells.
+        CameraSample { valid: zero.lt(sample.distance) & zero.lt(sample.pdf) & seen, ..sample }
+    }
+
+    /// The density over solid angle, 1/sr, of all rays together, as if the film went on beyond the edges of the picture.
+    pub(crate) fn density(&self, direction: Vec3) -> f32 {
+        let cos = vec3::dot(direction, self.forward);
+        if cos > 0.0 { 1.0 / (self.film_area * cos * cos * cos) } else { 0.0 }
+    }
+
+    /// How contributions are spread over pixels.
+    pub(crate) fn filter(&self) -> Filter {
+        self.filter
+    }
+
     /// The densities with which rays are generated, of a ray that begins on the lens.
     pub fn pdf_we(&self, origin: [f32; 3], direction: [f32; 3]) -> CameraPdf {
         let lanes = Reference::default();

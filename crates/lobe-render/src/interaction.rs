@@ -7,7 +7,7 @@ use lobe_trace::{HitSoA, RaySoA};
 
 use crate::columns::{Column, RAYS, ZEROS, ensure_len, load, store, vector};
 use crate::transport::Transport;
-use crate::vec3::Vec3;
+use crate::vec3::{self, Vec3};
 use crate::vectors::{add, blend, cross, dot, max_component, neg, perpendicular, scale, select, sub, unit_or};
 use crate::world::{Corner, World};
 
@@ -76,9 +76,80 @@ impl<L: Lanes> SurfaceInteraction<L> {
     }
 }
 
+/// A point on one surface, kept for later.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    pub position: Vec3,
+    /// See [`SurfaceInteraction`], as the others.
+    pub lifted: Vec3,
+    pub geometric: Vec3,
+    pub frame: [Vec3; 3],
+    pub step: f32,
+}
+
+impl Place {
+    pub const ZERO: Self =
+        Place { position: [0.0; 3], lifted: [0.0; 3], geometric: [0.0; 3], frame: [[0.0; 3]; 3], step: 0.0 };
+
+    /// A direction of the world in the frame.
+    pub fn local(&self, world: Vec3) -> Vec3 {
+        self.frame.map(|axis| vec3::dot(axis, world))
+    }
+
+    /// A direction of the frame in the world.
+    pub fn world(&self, local: Vec3) -> Vec3 {
+        let [x, y, z] = self.frame;
+        vec3::add(vec3::add(vec3::scale(x, local[0]), vec3::scale(y, local[1])), vec3::scale(z, local[2]))
+    }
+
+    /// Whether the direction is on the same side of the facet and of the smooth surface.
+    pub fn same_side(&self, world: Vec3, local: Vec3) -> bool {
+        (vec3::dot(self.geometric, world) > 0.0) == (local[2] > 0.0)
+    }
+
+    /// The origin of a shadow ray, off the surface on the side that `direction` leads to.
+    pub fn shadow_origin(&self, direction: Vec3) -> Vec3 {
+        let below = vec3::dot(self.geometric, direction) < 0.0;
+        vec3::add(self.lifted, vec3::scale(self.geometric, if below { -self.step } else { self.step }))
+    }
+
+    /// The cosine of a direction to the normal of the triangle.
+    pub fn cos(&self, world: Vec3) -> f32 {
+        vec3::dot(self.geometric, world).abs()
+    }
+
+    /// As [`SurfaceInteraction::adjoint_correction`]: `wo` and `wi` in the frame, and in the world.
+    pub fn adjoint_correction(&self, [wo, wi]: [Vec3; 2], [from, to]: [Vec3; 2]) -> f32 {
+        let divisor = self.cos(from) * wi[2].abs();
+        if divisor > 0.0 { wo[2].abs() * self.cos(to) / divisor } else { 0.0 }
+    }
+}
+
 impl Interactions {
     pub fn len(&self) -> usize {
         self.groups.len()
+    }
+
+    /// One of them.
+    pub fn place(&self, hit: usize) -> Place {
+        let (block, at) = (&self.blocks[hit / RAYS], hit % RAYS);
+        Place {
+            position: vector(&block.position, at),
+            lifted: vector(&block.lifted, at),
+            geometric: vector(&block.geometric, at),
+            frame: block.frame.each_ref().map(|axis| vector(axis, at)),
+            step: block.step[at],
+        }
+    }
+
+    /// The point on the triangle.
+    pub fn position(&self, hit: usize) -> Vec3 {
+        vector(&self.blocks[hit / RAYS].position, hit % RAYS)
+    }
+
+    /// The normal of the triangle.
+    pub fn geometric(&self, hit: usize) -> Vec3 {
+        vector(&self.blocks[hit / RAYS].geometric, hit % RAYS)
     }
 
     /// Which group of triangles each is on.

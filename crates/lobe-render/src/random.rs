@@ -40,6 +40,16 @@ impl Sequence {
     }
 }
 
+impl Sequence {
+    /// The sequence of a light path. Those of one pass are the points of a sequence in order, so that they fill what the
+    /// lights emit evenly.
+    pub fn of_light(path: u32, pass: u32) -> Self {
+        const LIGHT: u32 = 0x4c69_6768;
+        let seed = hash(LIGHT ^ hash(pass ^ hash(path / POINTS)));
+        Sequence { index: path % POINTS, seed }
+    }
+}
+
 /// Numbers in `[0, 1)` of many sequences, four for each.
 #[derive(Debug, Default)]
 pub(crate) struct Numbers {

@@ -59,6 +59,11 @@ impl<S: Channels> AreaLight<S> {
         distance * distance / (cos.abs().max(lanes.splat(1e-9)) * lanes.splat(self.area as f32))
     }
 
+    /// What the density of a direction that [`sample_le`](AreaLight::sample_le) samples is multiplied by to be its cosine.
+    pub(crate) fn cosine_over_pdf(&self) -> f32 {
+        if self.two_sided { std::f32::consts::TAU } else { std::f32::consts::PI }
+    }
+
     /// Samples points uniformly in area. Returns them and the normals of their triangles.
     #[inline(always)]
     fn sample_points<L: Lanes>(&self, lanes: L, [u, v]: [L::F; 2]) -> ([L::F; 3], [L::F; 3]) {

@@ -12,8 +12,8 @@ use crate::channels::Channels;
 pub(crate) struct Lights<S: Channels> {
     pub all: Vec<Light<S>>,
     /// The chance of each.
-    chances: Vec<f32>,
-    cdf: Cdf,
+    pub(super) chances: Vec<f32>,
+    pub(super) cdf: Cdf,
     pub bounds: SceneBounds,
     /// Which one is the environment.
     pub environment: Option<usize>,
@@ -95,7 +95,6 @@ impl<S: Channels> Lights<S> {
     }
 
     /// The chance of a light to be chosen.
-    #[cfg(test)]
     pub fn chance(&self, light: usize) -> f32 {
         self.chances[light]
     }

@@ -3,6 +3,7 @@
 mod area;
 mod cdf;
 mod emission;
+mod emit;
 mod environment;
 mod list;
 mod sample;
@@ -95,6 +96,11 @@ impl<S: Channels> Light<S> {
             Light::Point { .. } | Light::Spot { .. } | Light::Directional { .. } => true,
             Light::Area(_) | Light::Environment(_) => false,
         }
+    }
+
+    /// Whether its rays begin on triangles of the scene.
+    pub(crate) fn has_surface(&self) -> bool {
+        matches!(self, Light::Area(_))
     }
 
     /// Roughly the power that reaches a scene of this radius, by which lights are chosen. Two-sided lights count as one
