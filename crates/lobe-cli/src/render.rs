@@ -31,6 +31,10 @@ Every 30 seconds, and on Ctrl-C, the picture so far is written; an EXR file then
 --resume continues. For a PNG they are next to it, in OUT.part.exr. A second Ctrl-C ends at once. A finished picture has \
 no sums, unless --keep-sums is given.
 
+Integrators: `path` for most scenes; `bdpt` for rooms that are lit indirectly and for caustics; `light` for caustics alone; \
+`sppm` and `vcm` for caustics that mirrors and glass show, `vcm` if the scene has other light as well. The last four follow \
+light paths of the whole picture in every part of it, so divide their work by --samples-range, not by --tile.
+
 LOBE_DRAFT=N divides numbers of samples and time limits by N, for a first look.
 
 Examples:
@@ -258,6 +262,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let (film, stats) = rendered.map_err(|error| Failure::Usage(error.to_string()))?;
     if stats.invalid > 0 {
         say(format_args!("warning: {} samples were not finite and count as black", stats.invalid));
+    }
+    if stats.light_paths > 0 && stats.landed == 0 {
+        say(format_args!("warning: none of {} light paths has met a surface", stats.light_paths));
     }
     let (least, most) = film.samples();
     if interrupt::is_asked() && least < meta.samples.end - meta.samples.start {

@@ -2,89 +2,21 @@
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use crate::camera::{Camera, CameraError, Filter, View};
+use crate::camera::View;
 use crate::film::{Film, Rect};
-use crate::integrator::{Integrator, Task};
-use crate::shader::Backend;
+use crate::integrator::{Renderer, Task};
+use crate::passes;
+use crate::settings::{Progress, RenderError, Settings};
 use crate::stats::Stats;
-use crate::transport::{Rgb, Transport};
+use crate::transport::Transport;
 use crate::wavefront::PATHS;
 use crate::world::World;
 
-/// What to render and how.
-#[derive(Clone, Debug)]
-pub struct Settings<T: Transport = Rgb> {
-    /// What the picture is taken with.
-    pub camera: Camera,
-    /// Columns and rows of the whole picture, each in `1 ..= 65536`.
-    pub size: [u32; 2],
-    /// The pixels to render, inside of the picture.
-    pub window: Rect,
-    /// How samples are spread around a pixel.
-    pub filter: Filter,
-    /// How radiance is found.
-    pub integrator: Arc<dyn Integrator<T>>,
-    /// The numbers of the samples to render.
-    pub samples: Range<u32>,
-    /// The lanes that rays are traced in; materials have theirs. With both in strict form the picture is the same bits
-    /// on every machine.
-    pub backend: Backend,
-    /// How many threads; the picture does not depend on it.
-    pub threads: usize,
-    /// After this time no more samples are begun, but every pixel gets one.
-    pub time: Option<Duration>,
-}
-
-/// Why nothing can be rendered.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum RenderError {
-    /// The camera makes no rays.
-    #[error(transparent)]
-    Camera(#[from] CameraError),
-    /// The window is empty or not inside of the picture.
-    #[error("the window {window:?} of a picture of {} x {}; expected a non-empty window inside it", size[0], size[1])]
-    Window {
-        /// What was requested.
-        window: Rect,
-        /// The picture.
-        size: [u32; 2],
-    },
-    /// The film to continue has another window.
-    #[error("a film of the window {found:?}; expected {expected:?}")]
-    Film {
-        /// Its window.
-        found: Rect,
-        /// That of the settings.
-        expected: Rect,
-    },
-    /// The film to continue was not written by a rendering of this window.
-    #[error("a film whose samples differ within a tile; expected one that a rendering of the same window has begun")]
-    Uneven,
-}
-
 /// Tiles are squares of this many pixels per side; a few samples of one are a wave.
 const TILE: u32 = 64;
-
-/// How far a rendering is.
-pub struct Progress<'a, T: Transport = Rgb> {
-    /// Samples done, including those of an earlier rendering that this one continues.
-    pub done: u64,
-    /// Samples to do, or as many as there would be without a time limit.
-    pub total: u64,
-    /// Time since the beginning.
-    pub elapsed: Duration,
-    shared: &'a Shared<T>,
-}
-
-impl<T: Transport> Progress<'_, T> {
-    /// A copy of the film as it is: whole samples, the first ones of each pixel.
-    pub fn film(&self) -> Film<T> {
-        self.shared.lock().film.clone()
-    }
-}
 
 /// What the threads share.
 struct Shared<T: Transport> {
@@ -147,6 +79,17 @@ pub fn render<T: Transport>(
         return Err(RenderError::Film { found: film.window(), expected: window });
     }
     let view = View::new(&settings.camera, size, settings.filter)?;
+    let task = || Task { world, view: &view, backend: settings.backend };
+    if let Renderer::Passes(first) = settings.integrator.renderer(task()) {
+        let mut workers = vec![first];
+        for _ in 1..settings.threads.max(1).min(affordable()) {
+            workers.extend(match settings.integrator.renderer(task()) {
+                Renderer::Passes(worker) => Some(worker),
+                Renderer::Tiles(_) => None,
+            });
+        }
+        return passes::render(world, settings, &view, film, workers, &mut watch);
+    }
     let tiles = tiles(&film, &samples)?;
     // If time is limited, every pixel gets its first sample soon; else waves are as large as they can be.
     let first = if settings.time.is_some() { 1 } else { (PATHS as u32).div_ceil(TILE * TILE) };
@@ -160,8 +103,9 @@ pub fn render<T: Transport>(
     let ended = AtomicBool::new(false);
     let worker = || {
         let _leaving = Leaving(&shared);
-        let task = Task { world, view: &view, backend: settings.backend };
-        let mut renderer = settings.integrator.tile_renderer(task);
+        let Renderer::Tiles(mut renderer) = settings.integrator.renderer(task()) else {
+            unreachable!("an integrator has one kind of renderer")
+        };
         while let Some(job) = jobs.next() {
             let late = settings.time.is_some_and(|limit| begun.elapsed() >= limit) && !job.first;
             if late || ended.load(Ordering::Relaxed) {
@@ -194,7 +138,7 @@ pub fn render<T: Transport>(
         while state.running > 0 {
             drop(state);
             let done = done.load(Ordering::Relaxed);
-            let progress = Progress { done, total, elapsed: begun.elapsed(), shared: &shared };
+            let progress = Progress { done, total, elapsed: begun.elapsed(), film: &|| shared.lock().film.clone() };
             if !watch(&progress) {
                 ended.store(true, Ordering::Relaxed);
             }

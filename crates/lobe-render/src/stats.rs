@@ -45,6 +45,12 @@ pub struct Stats {
     pub samples: u64,
     /// Rays traced, shadow rays with them.
     pub rays: u64,
+    /// Paths that left a light.
+    pub light_paths: u64,
+    /// Those of them that met a surface.
+    pub landed: u64,
+    /// Photons that were near a surface that the camera sees.
+    pub gathered: u64,
     /// Samples whose radiance was not finite, and which count as black.
     pub invalid: u64,
     /// Materials by the number of surfaces that the ray had hit before: values, densities and sampled directions.
@@ -61,6 +67,8 @@ pub struct Stats {
     pub lights: Duration,
     /// Preparing sampled directions and the next rays.
     pub scatter: Duration,
+    /// Sorting and finding photons.
+    pub gather: Duration,
 }
 
 impl Stats {
@@ -91,6 +99,9 @@ impl AddAssign for Stats {
     fn add_assign(&mut self, other: Stats) {
         self.samples += other.samples;
         self.rays += other.rays;
+        self.light_paths += other.light_paths;
+        self.landed += other.landed;
+        self.gathered += other.gathered;
         self.invalid += other.invalid;
         self.shading.iter_mut().zip(other.shading).for_each(|(sum, shading)| *sum += shading);
         self.total += other.total;
@@ -99,5 +110,6 @@ impl AddAssign for Stats {
         self.sort += other.sort;
         self.lights += other.lights;
         self.scatter += other.scatter;
+        self.gather += other.gather;
     }
 }

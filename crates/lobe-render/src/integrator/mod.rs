@@ -7,7 +7,9 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::camera::View;
+use crate::connect::{LightPart, Pass, Unpolarised};
 use crate::film::{Film, Rect};
+use crate::photon::LightMap;
 use crate::scene::node::{Node, SceneError};
 use crate::shader::Backend;
 use crate::stats::Stats;
@@ -18,19 +20,30 @@ use crate::world::World;
 /// Declares the modules of integrators, lists them, and compiles each for every transport with this crate, so that
 /// programs that render do not compile kernels again. A transport is a line here.
 macro_rules! integrators {
-    ($($module:ident::$Name:ident,)+) => {
+    ($($module:ident::$Name:ident,)+; $($light:ident::$Light:ident,)+) => {
         $(mod $module;)+
         $(pub use $module::$Name;)+
+        $(mod $light;)+
+        $(pub use $light::$Light;)+
 
         /// All integrators.
-        pub static INTEGRATORS: &[IntegratorSpec] = &[$(IntegratorSpec::of::<$Name>()),+];
+        pub static INTEGRATORS: &[IntegratorSpec] =
+            &[$(IntegratorSpec::of::<$Name>(),)+ $(IntegratorSpec::of_light::<$Light>()),+];
 
         $(integrators!(@ $Name: Rgb);)+
+        $(integrators!(@light $Light: Rgb);)+
     };
     (@ $Name:ident: $($T:ty),+) => {
         $(impl Integrator<$T> for $Name {
-            fn tile_renderer<'w>(&'w self, task: Task<'w, $T>) -> Box<dyn TileRenderer<$T> + 'w> {
-                Box::new(Driven::new(self, task))
+            fn renderer<'w>(&'w self, task: Task<'w, $T>) -> Renderer<'w, $T> {
+                Renderer::Tiles(Box::new(Driven::new(self, task)))
+            }
+        })+
+    };
+    (@light $Name:ident: $($T:ty),+) => {
+        $(impl Integrator<$T> for $Name {
+            fn renderer<'w>(&'w self, task: Task<'w, $T>) -> Renderer<'w, $T> {
+                Renderer::Passes(Box::new(Driven::new(self, task)))
             }
         })+
     };
@@ -41,15 +54,30 @@ integrators! {
     whitted::Whitted,
     ao::AmbientOcclusion,
     normals::Normals,
+    ;
+    light::LightTracing,
+    sppm::Sppm,
+    bdpt::Bdpt,
+    vcm::Vcm,
 }
 
 /// A way to find the radiance that arrives at a camera.
 ///
 /// Integrators are made of the stages of this crate, and compiled with it once for each transport.
 pub trait Integrator<T: Transport = Rgb>: Debug + Send + Sync {
-    /// What one thread renders tiles with.
+    /// What one thread renders with.
     #[doc(hidden)]
-    fn tile_renderer<'w>(&'w self, task: Task<'w, T>) -> Box<dyn TileRenderer<T> + 'w>;
+    fn renderer<'w>(&'w self, task: Task<'w, T>) -> Renderer<'w, T>;
+}
+
+/// What one thread renders with.
+#[doc(hidden)]
+#[expect(missing_debug_implementations, reason = "what it does is in the integrator")]
+pub enum Renderer<'w, T: Transport> {
+    /// Tiles, in any order.
+    Tiles(Box<dyn TileRenderer<T> + 'w>),
+    /// Passes, in each of them light paths before tiles.
+    Passes(Box<dyn PassRenderer<T> + Send + 'w>),
 }
 
 /// What to render, and on which lanes.
@@ -67,6 +95,82 @@ pub trait TileRenderer<T: Transport> {
 
     /// What has been done so far.
     fn stats(&self) -> Stats;
+}
+
+/// Renders tiles that need the light paths of all threads.
+#[doc(hidden)]
+pub trait PassRenderer<T: Transport> {
+    /// How many light paths there are, and what is kept of them.
+    fn plan(&self) -> Plan;
+
+    /// Follows light paths.
+    #[allow(private_interfaces)]
+    fn light(&mut self, paths: Range<u32>, pass: &Pass) -> LightPart<T>;
+
+    /// Follows a sample of the pixels of a tile. Returns what they bring.
+    #[allow(private_interfaces)]
+    fn camera(&mut self, tile: Rect, pass: &Pass, map: &LightMap<T>) -> Film<T>;
+
+    /// What has been done so far.
+    fn stats(&self) -> Stats;
+}
+
+/// How a pass uses light paths.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan {
+    /// The most surfaces of a path.
+    pub(crate) depth: u32,
+    /// Light paths per pass; as many as pixels, up to a million, if it is `None`.
+    pub(crate) paths: Option<u32>,
+    /// Whether the camera sees light paths.
+    pub(crate) splats: bool,
+    /// Whether the surfaces of light paths are kept.
+    pub(crate) keeps: bool,
+    /// How photons are gathered, if they are.
+    pub(crate) gathering: Option<Gathering>,
+}
+
+/// How photons are gathered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Gathering {
+    /// The radius of the first pass; three pixels where the camera looks at if it is `None`.
+    pub radius: Option<f32>,
+    /// How it shrinks, from 0 to 1: quickly or not at all.
+    pub shrink: f32,
+    /// How many surfaces a path has met at least that is a photon.
+    pub least: u32,
+}
+
+/// The keys that integrators with light paths share.
+pub(crate) fn read_depth_and_paths(table: &Node<'_, '_>, depth: u32) -> Result<(u32, Option<u32>), SceneError> {
+    Ok((table.whole("depth", 1..=1000)?.unwrap_or(depth), table.whole("paths", 1..=u32::MAX)?))
+}
+
+/// The keys of gathering.
+pub(crate) fn read_gathering(table: &Node<'_, '_>, default: Gathering) -> Result<Gathering, SceneError> {
+    let shrink = table.number("shrink", "a number from 0.1 to 1", |x| (0.1..=1.0).contains(&x))?;
+    Ok(Gathering { radius: table.positive("radius")?, shrink: shrink.map_or(default.shrink, |x| x as f32), ..default })
+}
+
+/// How an integrator with light paths composes the stages of a wavefront.
+pub(crate) trait LightStages: Clone + Debug + Default + Send + Sync + 'static {
+    /// The name in scene files and on the command line.
+    const NAME: &'static str;
+    /// What it does, in a line.
+    const SUMMARY: &'static str;
+
+    /// Reads what its table in a scene file says.
+    fn read(table: &Node<'_, '_>) -> Result<Self, SceneError>;
+
+    /// How a pass uses light paths.
+    fn plan(&self) -> Plan;
+
+    /// Follows the light paths of a wave to their ends.
+    fn follow_light<T: Unpolarised>(&self, wave: &mut Wavefront<'_, T>, pass: &Pass);
+
+    /// Follows the camera rays of a wave to their ends.
+    fn follow_camera<T: Unpolarised>(&self, wave: &mut Wavefront<'_, T>, pass: &Pass, map: &LightMap<T>);
 }
 
 /// How an integrator composes the stages of a wavefront.
@@ -111,6 +215,17 @@ impl IntegratorSpec {
     }
 }
 
+impl IntegratorSpec {
+    const fn of_light<I: LightStages + Integrator>() -> Self {
+        IntegratorSpec {
+            name: I::NAME,
+            summary: I::SUMMARY,
+            default: || Arc::new(I::default()),
+            read: |table| Ok(Arc::new(I::read(table)?)),
+        }
+    }
+}
+
 /// A wavefront and the integrator that drives it.
 struct Driven<'w, T: Transport, I> {
     integrator: &'w I,
@@ -126,6 +241,28 @@ impl<'w, T: Transport, I> Driven<'w, T, I> {
 impl<T: Transport, I: Stages> TileRenderer<T> for Driven<'_, T, I> {
     fn render(&mut self, tile: Rect, samples: Range<u32>) -> Film<T> {
         self.wavefront.render(self.integrator, tile, samples)
+    }
+
+    fn stats(&self) -> Stats {
+        self.wavefront.stats
+    }
+}
+
+impl<T: Unpolarised, I: LightStages> PassRenderer<T> for Driven<'_, T, I> {
+    fn plan(&self) -> Plan {
+        self.integrator.plan()
+    }
+
+    #[allow(private_interfaces)]
+    fn light(&mut self, paths: Range<u32>, pass: &Pass) -> LightPart<T> {
+        let integrator = self.integrator;
+        self.wavefront.light_paths(paths, pass, |wave| integrator.follow_light(wave, pass))
+    }
+
+    #[allow(private_interfaces)]
+    fn camera(&mut self, tile: Rect, pass: &Pass, map: &LightMap<T>) -> Film<T> {
+        let integrator = self.integrator;
+        self.wavefront.camera_paths(tile, pass, |wave| integrator.follow_camera(wave, pass, map))
     }
 
     fn stats(&self) -> Stats {

@@ -25,19 +25,24 @@ impl<T: Transport> Wavefront<'_, T> {
             let until = samples.end.min(from.saturating_add(together as u32));
             self.begin(&pixels, from..until);
             integrator.follow(self);
-            for slot in &self.slots {
-                let at = film.index(slot.pixel[0], slot.pixel[1]);
-                let finite = film.pixels_mut()[at].add(&slot.sample);
-                self.stats.invalid += u64::from(!finite);
-            }
+            self.add_samples(&mut film);
             from = until;
         }
         self.stats.total += begun.elapsed();
         film
     }
 
+    /// Adds what the paths have brought to their pixels.
+    pub(super) fn add_samples(&mut self, film: &mut Film<T>) {
+        for slot in &self.slots {
+            let at = film.index(slot.pixel[0], slot.pixel[1]);
+            let finite = film.pixels_mut()[at].add(&slot.sample);
+            self.stats.invalid += u64::from(!finite);
+        }
+    }
+
     /// Camera rays, packets of neighbours.
-    fn begin(&mut self, pixels: &[[u32; 2]], samples: Range<u32>) {
+    pub(super) fn begin(&mut self, pixels: &[[u32; 2]], samples: Range<u32>) {
         self.slots.clear();
         self.rays.clear();
         for sample in samples {

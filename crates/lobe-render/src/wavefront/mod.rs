@@ -16,6 +16,7 @@ mod rays;
 mod scatter;
 mod shadow;
 mod spawn;
+mod walk;
 
 use lobe_trace::HitSoA;
 
@@ -37,6 +38,8 @@ pub(crate) use scatter::{DeltaChoice, Scatter};
 pub(crate) use shadow::ShadowRay;
 use shadow::ShadowRays;
 pub(crate) use spawn::{Origin, spawn_rays};
+pub(crate) use walk::Merging;
+use walk::Walks;
 
 /// About how many paths are under way at once: a material that covers a hundredth of them still fills its lanes, and
 /// their state, a few hundred bytes each, stays in the cache.
@@ -80,6 +83,8 @@ pub(crate) struct Wavefront<'w, T: Transport> {
     bsdf_samples: BsdfSamples<T>,
     pub numbers: Numbers,
     scratch: Scratch,
+    /// What paths that are met by others, or meet them, have in addition.
+    walks: Walks<T>,
     pub stats: Stats,
 }
 
@@ -101,6 +106,7 @@ impl<'w, T: Transport> Wavefront<'w, T> {
             bsdf_samples: BsdfSamples::default(),
             numbers: Numbers::default(),
             scratch: Scratch::default(),
+            walks: Walks::default(),
             stats: Stats::default(),
         }
     }

@@ -47,15 +47,15 @@ pub(crate) enum LightChoice {
 /// Pairs of directions to be evaluated.
 #[derive(Debug)]
 pub(super) struct NextEventBuffers<T: Transport> {
-    light_samples: Vec<LightSampleBlock<T>>,
+    pub light_samples: Vec<LightSampleBlock<T>>,
     /// The hits that light may reach, and their pairs of directions.
-    reached: Vec<u32>,
-    wi: Vec<Vec3>,
-    wo: Vec<Vec3>,
-    f: Vec<T::Scattering>,
-    pdf: Vec<f32>,
+    pub reached: Vec<u32>,
+    pub wi: Vec<Vec3>,
+    pub wo: Vec<Vec3>,
+    pub f: Vec<T::Scattering>,
+    pub pdf: Vec<f32>,
     /// Where those of each material are.
-    groups: Vec<MaterialHits>,
+    pub groups: Vec<MaterialHits>,
 }
 
 impl<T: Transport> Default for NextEventBuffers<T> {
@@ -74,17 +74,17 @@ impl<T: Transport> Default for NextEventBuffers<T> {
 
 /// Samples of lights for 64 hits, and their shadow rays.
 #[derive(Clone, Debug)]
-struct LightSampleBlock<T: Transport> {
+pub(super) struct LightSampleBlock<T: Transport> {
     /// Toward the light, in the frame of the material.
     wi: [Column; 3],
     /// The shadow ray.
-    origin: [Column; 3],
-    direction: [Column; 3],
-    t_max: Column,
+    pub origin: [Column; 3],
+    pub direction: [Column; 3],
+    pub t_max: Column,
     /// Radiance over the density of the sample.
     radiance: <T::Spectrum as Channels>::Columns,
     /// That density; infinite for lights without extent.
-    pdf: Column,
+    pub pdf: Column,
 }
 
 impl<T: Transport> LightSampleBlock<T> {
@@ -98,7 +98,7 @@ impl<T: Transport> LightSampleBlock<T> {
     };
 
     #[inline(always)]
-    fn emitted(&self, at: usize) -> T::Spectrum {
+    pub fn emitted(&self, at: usize) -> T::Spectrum {
         let mut emitted = T::Spectrum::ZERO;
         for (value, column) in emitted.as_mut().iter_mut().zip(self.radiance.as_ref()) {
             *value = column[at];
@@ -134,7 +134,7 @@ impl<T: Transport> Wavefront<'_, T> {
     }
 
     /// Samples a light for each hit whose material has values for pairs of directions.
-    fn sample_lights(&mut self, depth: u32, light: Option<usize>) {
+    pub(super) fn sample_lights(&mut self, depth: u32, light: Option<usize>) {
         // Each light has numbers of its own.
         self.sample_numbers(Dimensions::Light(depth + 64 * light.unwrap_or(0) as u32));
         let NextEventBuffers { light_samples, reached, wi, wo, groups, .. } = &mut self.next_event;
@@ -170,7 +170,7 @@ impl<T: Transport> Wavefront<'_, T> {
     }
 
     /// Material by material, in full lanes.
-    fn evaluate_bsdfs(&mut self, depth: u32) {
+    pub(super) fn evaluate_bsdfs(&mut self, depth: u32) {
         let begun = Instant::now();
         let NextEventBuffers { reached, wi, wo, f, pdf, groups, .. } = &mut self.next_event;
         f.resize(reached.len(), T::ABSORBED);

@@ -39,6 +39,11 @@ impl<T: Copy> RayQueue<T> {
         self.states.is_empty()
     }
 
+    /// Origin and direction of a ray.
+    pub fn ray(&self, ray: usize) -> Ray {
+        Ray { origin: self.rays.origin.each_ref().map(|component| component[ray]), direction: self.direction(ray) }
+    }
+
     /// The direction of a ray.
     pub fn direction(&self, ray: usize) -> Vec3 {
         self.rays.direction.each_ref().map(|component| component[ray])

@@ -43,7 +43,7 @@ pub(crate) enum DeltaChoice {
 #[derive(Debug)]
 pub(super) struct BsdfSamples<T: Transport> {
     u: Vec<[f32; 2]>,
-    wi: Vec<Vec3>,
+    pub wi: Vec<Vec3>,
     weight: Vec<T::Scattering>,
     pdf: Vec<f32>,
     rays: Vec<SpawnedRays>,

@@ -133,6 +133,6 @@ pub fn picture(world: &World, settings: &Settings) -> Film {
 
 /// The mean over all pixels and channels.
 pub fn mean(film: &Film) -> f64 {
-    let sum: f64 = film.pixels().iter().flat_map(|pixel| pixel.mean_radiance()).map(f64::from).sum();
+    let sum: f64 = film.colours().flatten().map(f64::from).sum();
     sum / (3 * film.pixels().len()) as f64
 }

@@ -7,4 +7,5 @@ mod examples;
 mod files;
 mod furnace;
 mod identical;
+mod lights;
 mod scenes;
