@@ -6,6 +6,8 @@
 mod builder;
 mod knot;
 mod lathe;
+mod ring;
+mod waves;
 
 use std::f64::consts::{PI, TAU};
 
@@ -16,6 +18,8 @@ pub(crate) use builder::{Builder, Vertex};
 pub(crate) use knot::torus;
 pub use knot::torus_knot;
 pub(crate) use lathe::{Piece, lathe};
+pub use ring::ring;
+pub use waves::waves;
 
 /// A sphere, `segments` around and half as many from pole to pole.
 ///

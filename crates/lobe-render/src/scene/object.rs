@@ -9,7 +9,7 @@ use super::node::{Node, SceneError};
 use crate::preview;
 use crate::transform::Transform;
 
-const SHAPES: &str = "sphere, plane, disk, cuboid, cove, knot, ball or drape";
+const SHAPES: &str = "sphere, plane, disk, cuboid, cove, ring, waves, knot, ball or drape";
 
 pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(), SceneError> {
     for node in root.children("object")? {
@@ -52,7 +52,7 @@ fn geometry(node: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<Geometry, 
         (None, Some(shape)) => {
             let segments = node.whole("segments", 3..=2048)?;
             // Triangles for each pair of segments; what is not listed has few.
-            let each = [("sphere", 1), ("plane", 2), ("cuboid", 12)].into_iter().find(|(name, _)| *name == shape);
+            let each = [("sphere", 1), ("plane", 2), ("waves", 2), ("cuboid", 12)].into_iter().find(|(name, _)| *name == shape);
             room(node, "segments", each.map_or(0, |(_, each)| each * u64::from(segments.unwrap_or(1)).pow(2)))?;
             Ok(match shape {
                 "sphere" => shapes::sphere(positive("radius", 1.0)?, segments.unwrap_or(128)),
@@ -64,6 +64,15 @@ fn geometry(node: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<Geometry, 
                     shapes::cuboid(size.map(|x| x as f32), segments.unwrap_or(1))
                 }
                 "cove" => shapes::cove(positive("size", 1.0)?, segments.unwrap_or(32)),
+                "ring" => {
+                    let (radius, thickness) = (positive("radius", 1.0)?, positive("thickness", 0.1)?);
+                    shapes::ring(radius, thickness, positive("height", 0.5)?, segments.unwrap_or(256))
+                }
+                "waves" => {
+                    let segments = segments.unwrap_or(256);
+                    room(node, "segments", 2 * u64::from(segments).pow(2))?;
+                    shapes::waves(positive("size", 1.0)?, segments)
+                }
                 "knot" => generate::knot(),
                 "ball" => generate::ball(),
                 "drape" => preview::cloth(),
