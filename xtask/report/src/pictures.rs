@@ -1,5 +1,6 @@
 //! What the lanes gain in whole pictures: frames of a scene of many measured materials, and the rays alone.
 
+mod light;
 mod packets;
 mod scene;
 mod show;
@@ -10,6 +11,7 @@ use lobe::Backend;
 use lobe_render::{DEPTHS, Film, Settings, Stats, World, render};
 use serde::Serialize;
 
+use light::LightRays;
 use packets::Packets;
 
 /// The name by which it can be selected.
@@ -28,6 +30,8 @@ pub struct Pictures {
     threads: Option<f64>,
     /// Four-ray packets against the scalar instance of the same code; empty on a machine without SSE2.
     packets: Vec<Packets>,
+    /// Rays from the lights on the last backend, by how many surfaces they have met.
+    light: Vec<LightRays>,
 }
 
 /// A frame on one thread.
@@ -78,7 +82,12 @@ pub fn measure(quick: bool) -> anyhow::Result<Pictures> {
     }
     let triangles = worlds.first().map_or(0, World::triangles);
     let threads = (cores > 1).then_some(threads[0] / threads[1]);
-    Ok(Pictures { materials: scene::MATERIALS, triangles, frames, threads, packets: packets::measure(rounds) })
+    let light = match (backends.last(), worlds.last()) {
+        (Some(backend), Some(world)) => light::measure(world, *backend, rounds),
+        _ => Vec::new(),
+    };
+    let packets = packets::measure(rounds);
+    Ok(Pictures { materials: scene::MATERIALS, triangles, frames, threads, packets, light })
 }
 
 /// Samples of the frames that threads share: enough work that the last tile of each is a small part of it.
