@@ -40,7 +40,7 @@ struct Picture {
     caption: &'static str,
 }
 
-const PICTURES: [Picture; 3] = [
+const PICTURES: [Picture; 5] = [
     Picture {
         name: "cloth-metal-paint",
         title: "Cloth, metal and paint",
@@ -61,6 +61,18 @@ const PICTURES: [Picture; 3] = [
         title: "Knot at dusk",
         caption: "The gold table under a sky that is bright at the horizon, next to a glass ball and a silk \
                   ball on a wet floor.",
+    },
+    Picture {
+        name: "caustics",
+        title: "Caustics on cloth",
+        caption: "A glass ball and a ring of gold on the woven cloth, which is measured, by `vcm`: light that the ball \
+                  focuses and the ring mirrors is found from the lamp, and weighed with what is found from the camera.",
+    },
+    Picture {
+        name: "pool",
+        title: "Pool",
+        caption: "The sun shines through waves onto tiles and a ball of the gold table, and is seen through the same \
+                  waves, by `sppm`: paths from the camera alone never find it.",
     },
 ];
 
