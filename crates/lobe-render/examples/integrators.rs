@@ -4,9 +4,9 @@
 //! cargo run --release -p lobe-render --example integrators -- SCENE SECONDS REFERENCE_SECONDS FOLDER path,bdpt,sppm,vcm
 //! ```
 //!
-//! The reference is the last integrator of the list, for REFERENCE_SECONDS, from other samples. Pictures go to FOLDER, if it is not
-//! `-`. One thread. The error is the root of the mean square of differences, of channels relative to the mean of the reference; the
-//! brightest pixels, a thousandth of them, are left out.
+//! The reference is the last integrator of the list, for REFERENCE_SECONDS, from other samples. Pictures go to FOLDER,
+//! if it is not `-`. One thread. The error is the root of the mean square of differences, of channels relative to the
+//! mean of the reference; the brightest pixels, a thousandth of them, are left out.
 
 use std::path::Path;
 use std::sync::Arc;

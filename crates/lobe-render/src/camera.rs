@@ -164,7 +164,8 @@ impl View {
         CameraSample { valid: zero.lt(sample.distance) & zero.lt(sample.pdf) & seen, ..sample }
     }
 
-    /// The density over solid angle, 1/sr, of all rays together, as if the film went on beyond the edges of the picture.
+    /// The density over solid angle, 1/sr, of all rays together, as if the film went on beyond the edges of the
+    /// picture.
     pub(crate) fn density(&self, direction: Vec3) -> f32 {
         let cos = vec3::dot(direction, self.forward);
         if cos > 0.0 { 1.0 / (self.film_area * cos * cos * cos) } else { 0.0 }

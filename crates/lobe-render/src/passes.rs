@@ -152,8 +152,8 @@ fn tiles(window: Rect) -> Vec<Rect> {
     tiles
 }
 
-/// Hands jobs out to workers, each on a thread of its own, until all are done or the work is `ended`. Calls `tick` from this thread every
-/// tenth of a second or so.
+/// Hands jobs out to workers, each on a thread of its own, until all are done or the work is `ended`. Calls `tick` from
+/// this thread every tenth of a second or so.
 fn parallel<W: Send>(
     workers: &mut [W],
     jobs: usize,

@@ -5,18 +5,20 @@ use glam::DVec3;
 use super::{Builder, Vertex, turn};
 use crate::Geometry;
 
-/// A ring around the y axis with flat walls: its outer radius, how thick the wall is, at most the radius, and its height. u runs
-/// eastward once around on each of the four sides, v across them.
+/// A ring around the y axis with flat walls: its outer radius, how thick the wall is, at most the radius, and its
+/// height. u runs eastward once around on each of the four sides, v across them.
 pub fn ring(radius: f32, thickness: f32, height: f32, segments: u32) -> Geometry {
     let columns = segments.max(3) as usize;
     let (outer, half) = (f64::from(radius), f64::from(height) / 2.0);
     let inner = outer - f64::from(thickness.min(radius));
     let mut builder = Builder::default();
     // Outside, top, inside, bottom: radius and height where v is 0 and where it is 1.
-    let sides = [[(outer, -half), (outer, half)], [(outer, half), (inner, half)], [(inner, half), (inner, -half)], [
-        (inner, -half),
-        (outer, -half),
-    ]];
+    let sides = [
+        [(outer, -half), (outer, half)],
+        [(outer, half), (inner, half)],
+        [(inner, half), (inner, -half)],
+        [(inner, -half), (outer, -half)],
+    ];
     for [from, to] in sides {
         builder.patch(columns, 1, |i, j| {
             let [sine, cosine] = turn(i, columns);

@@ -16,8 +16,8 @@ const WAVES: [[f64; 5]; 7] = [
     [0.99, -0.14, 0.061, 0.0004, 0.29],
 ];
 
-/// A square of side `size` about the plane y = 0 facing +y, its height that of a few waves, `segments` by `segments` cells. u runs along
-/// +x, v along -z.
+/// A square of side `size` about the plane y = 0 facing +y, its height that of a few waves, `segments` by `segments`
+/// cells. u runs along +x, v along -z.
 pub fn waves(size: f32, segments: u32) -> Geometry {
     let (cells, size) = (segments.max(1) as usize, f64::from(size));
     let mut builder = Builder::default();

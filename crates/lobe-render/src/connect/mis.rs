@@ -1,15 +1,15 @@
 //! Weights of the techniques that could have made the same path (multiple importance sampling).
 //!
-//! A path of `k` surfaces is made by following it from the camera over `t` of them and from a light over `s`: the two ends
-//! are connected (`s + t = k`; `t = 0` is a light path that the camera sees, `s = 0` a camera path for which a light is
-//! sampled, or which hits one), or merged where both are at the same surface (`s + t = k + 1`). The weight of a technique
-//! is its density over the sum of those of all techniques (the balance heuristic). Both ends carry three sums of ratios of
-//! densities, from which that weight follows where they meet, whatever their lengths: Georgiev, Krivanek, Davidovic and
-//! Slusallek 2012 ("Light Transport Simulation with Vertex Connection and Merging") and Georgiev's report on its
-//! implementation, whose names `vcm`, `vc` and `vm` are kept.
+//! A path of `k` surfaces is made by following it from the camera over `t` of them and from a light over `s`: the two
+//! ends are connected (`s + t = k`; `t = 0` is a light path that the camera sees, `s = 0` a camera path for which a
+//! light is sampled, or which hits one), or merged where both are at the same surface (`s + t = k + 1`). The weight of
+//! a technique is its density over the sum of those of all techniques (the balance heuristic). Both ends carry three
+//! sums of ratios of densities, from which that weight follows where they meet, whatever their lengths: Georgiev,
+//! Krivanek, Davidovic and Slusallek 2012 ("Light Transport Simulation with Vertex Connection and Merging") and
+//! Georgiev's report on its implementation, whose names `vcm`, `vc` and `vm` are kept.
 //!
-//! Chances that do not depend on the pair of directions (Russian roulette, the choice among the lobes of smooth surfaces)
-//! are left out of all densities. Weights are then those of slightly other densities, and still sum to 1.
+//! Chances that do not depend on the pair of directions (Russian roulette, the choice among the lobes of smooth
+//! surfaces) are left out of all densities. Weights are then those of slightly other densities, and still sum to 1.
 
 use std::f32::consts::PI;
 
@@ -74,14 +74,14 @@ impl Mis {
         Mis { vcm: bounded(vcm), vc: bounded(vc), vm: bounded(vc * factors.connecting) }
     }
 
-    /// At the beginning of a camera path, whose directions have that density, summed over all pixels; 0 if the camera does
-    /// not see light paths.
+    /// At the beginning of a camera path, whose directions have that density, summed over all pixels; 0 if the camera
+    /// does not see light paths.
     pub fn of_camera(density: f32, factors: Factors) -> Self {
         Mis { vcm: bounded(factors.paths / density), vc: 0.0, vm: 0.0 }
     }
 
-    /// At a surface that meets the ray at that cosine. The distance is squared; it is 1 for the first ray of a light that
-    /// has no place.
+    /// At a surface that meets the ray at that cosine. The distance is squared; it is 1 for the first ray of a light
+    /// that has no place.
     pub fn arrive(&mut self, distance: f32, cos: f32) {
         let cos = cos.max(1e-6);
         *self = Mis { vcm: bounded(self.vcm * distance / cos), vc: bounded(self.vc / cos), vm: bounded(self.vm / cos) };
@@ -110,9 +110,9 @@ impl Mis {
         1.0 / (1.0 + direct * self.vcm + emission * self.vc)
     }
 
-    /// Of a light sampled for the surface at the end of a camera path. `hit` is the density with which the material samples the
-    /// direction of the light over that of sampling the light; `back` the density over the surface with which the
-    /// light sends rays there; `reverse` that of the material for the direction that the path has come from.
+    /// Of a light sampled for the surface at the end of a camera path. `hit` is the density with which the material
+    /// samples the direction of the light over that of sampling the light; `back` the density over the surface with
+    /// which the light sends rays there; `reverse` that of the material for the direction that the path has come from.
     pub fn next_event(&self, hit: f32, back: f32, reverse: f32, factors: Factors) -> f32 {
         1.0 / (1.0 + hit + back * (factors.merging + self.vcm + self.vc * reverse))
     }

@@ -11,8 +11,8 @@ pub(crate) use vertex::{LightPart, LightVertex, SplatAt};
 use crate::channels::Channels;
 use crate::transport::Transport;
 
-/// A transport whose light, throughput and scattering are all one value per channel, so that a path may be followed from
-/// either end.
+/// A transport whose light, throughput and scattering are all one value per channel, so that a path may be followed
+/// from either end.
 pub(crate) trait Unpolarised:
     Transport<
         Radiance = <Self as Transport>::Spectrum,

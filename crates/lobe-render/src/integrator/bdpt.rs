@@ -6,8 +6,8 @@ use crate::photon::LightMap;
 use crate::scene::node::{Node, SceneError};
 use crate::wavefront::Wavefront;
 
-/// Paths from the camera and from the lights, connected in all ways, each weighted by its density among all (Veach and Guibas
-/// 1995; Lafortune and Willems 1993). Without bias.
+/// Paths from the camera and from the lights, connected in all ways, each weighted by its density among all (Veach and
+/// Guibas 1995; Lafortune and Willems 1993). Without bias.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bdpt {
     /// The most surfaces of a path.

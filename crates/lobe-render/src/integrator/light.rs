@@ -9,9 +9,9 @@ use crate::scene::node::{Node, SceneError};
 use crate::transport::TransportMode;
 use crate::wavefront::{DeltaChoice, Keep, Scatter, Wavefront};
 
-/// Paths from the lights, of which the camera sees every surface (Dutre and Willems 1994; Arvo 1986, "Backward Ray Tracing").
-/// What the camera sees of lights in mirrors and through glass comes from paths of its own, and is all that there is to be seen there: no
-/// light path finds the camera over a mirror.
+/// Paths from the lights, of which the camera sees every surface (Dutre and Willems 1994; Arvo 1986, "Backward Ray
+/// Tracing"). What the camera sees of lights in mirrors and through glass comes from paths of its own, and is all that
+/// there is to be seen there: no light path finds the camera over a mirror.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightTracing {
     /// The most surfaces that a path may hit.

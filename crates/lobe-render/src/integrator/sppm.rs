@@ -10,8 +10,9 @@ use crate::scene::node::{Node, SceneError};
 use crate::transport::TransportMode;
 use crate::wavefront::{DeltaChoice, Keep, LightChoice, Merging, NextEvent, Scatter, Wavefront};
 
-/// Photons gathered at the first surface that is not a mirror or glass, in passes whose radius shrinks (Hachisuka and Jensen 2009;
-/// Knaus and Zwicker 2011). Light straight from lights is sampled. What is gathered is blurred, less with each pass.
+/// Photons gathered at the first surface that is not a mirror or glass, in passes whose radius shrinks (Hachisuka and
+/// Jensen 2009; Knaus and Zwicker 2011). Light straight from lights is sampled. What is gathered is blurred, less with
+/// each pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sppm {
     /// The most surfaces of a path.

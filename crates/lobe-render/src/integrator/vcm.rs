@@ -10,9 +10,9 @@ use crate::scene::node::{Node, SceneError};
 use crate::transport::TransportMode;
 use crate::wavefront::{DeltaChoice, Keep, Merging, Scatter, Wavefront};
 
-/// Bidirectional path tracing and photon mapping as one method, each technique weighted by its density (Georgiev, Krivanek,
-/// Davidovic and Slusallek 2012). Light that a mirror shows of a caustic is found by merging only, which blurs it a little, less with
-/// each pass.
+/// Bidirectional path tracing and photon mapping as one method, each technique weighted by its density (Georgiev,
+/// Krivanek, Davidovic and Slusallek 2012). Light that a mirror shows of a caustic is found by merging only, which
+/// blurs it a little, less with each pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vcm {
     /// The most surfaces of a path.

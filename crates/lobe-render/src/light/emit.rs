@@ -51,9 +51,9 @@ impl<S: Channels> Lights<S> {
         Emitting { light: chosen, sample }
     }
 
-    /// The density over a surface with which a light that was sampled for it sends rays there, over the density with which
-    /// light paths begin at the same point of the light. `pdf` is that of the sample, 1/sr; the surface is at that distance, in the unit
-    /// direction `wi` from it, at the cosine `cos`.
+    /// The density over a surface with which a light that was sampled for it sends rays there, over the density with
+    /// which light paths begin at the same point of the light. `pdf` is that of the sample, 1/sr; the surface is at
+    /// that distance, in the unit direction `wi` from it, at the cosine `cos`.
     pub fn back(&self, light: usize, wi: Vec3, distance: f32, pdf: f32, cos: f32) -> f32 {
         let direction = wi.map(|x| -x);
         match &self.all[light] {

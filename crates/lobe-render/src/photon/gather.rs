@@ -16,8 +16,8 @@ pub(crate) struct Near {
     pub photon: u32,
 }
 
-/// Lists the photons within a radius of places, from place `from` on, until there are at least `most` or all places have
-/// been looked at. Returns the first place that has not. Within a place they are in the order of the map.
+/// Lists the photons within a radius of places, from place `from` on, until there are at least `most` or all places
+/// have been looked at. Returns the first place that has not. Within a place they are in the order of the map.
 pub(crate) fn gather<T: Transport>(
     backend: Backend,
     photons: &Photons<T>,

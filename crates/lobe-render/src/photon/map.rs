@@ -81,7 +81,8 @@ pub(super) struct Candidates {
     pub row: i32,
 }
 
-/// The candidates of a place, at most: two rows each in y and z, either of them in two parts if it reaches around the table.
+/// The candidates of a place, at most: two rows each in y and z, either of them in two parts if it reaches around the
+/// table.
 pub(super) const PARTS: usize = 8;
 
 impl<T: Transport> Photons<T> {

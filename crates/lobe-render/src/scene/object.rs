@@ -52,7 +52,9 @@ fn geometry(node: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<Geometry, 
         (None, Some(shape)) => {
             let segments = node.whole("segments", 3..=2048)?;
             // Triangles for each pair of segments; what is not listed has few.
-            let each = [("sphere", 1), ("plane", 2), ("waves", 2), ("cuboid", 12)].into_iter().find(|(name, _)| *name == shape);
+            let each = [("sphere", 1), ("plane", 2), ("waves", 2), ("cuboid", 12)]
+                .into_iter()
+                .find(|(name, _)| *name == shape);
             room(node, "segments", each.map_or(0, |(_, each)| each * u64::from(segments.unwrap_or(1)).pow(2)))?;
             Ok(match shape {
                 "sphere" => shapes::sphere(positive("radius", 1.0)?, segments.unwrap_or(128)),

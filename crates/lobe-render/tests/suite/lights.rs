@@ -291,7 +291,8 @@ fn a_mirror_in_a_closed_box() {
     world.shape(&sphere([0.9, 0.9, -0.6], 0.3), black, Some([4.0; 3]), false).unwrap();
     let world = world.build().unwrap();
     let camera = |settings: Settings| {
-        let camera = Camera { position: [0.5, 0.3, 1.4], target: [0.0, -0.2, -0.5], field_of_view: 1.3, ..settings.camera };
+        let camera =
+            Camera { position: [0.5, 0.3, 1.4], target: [0.0, -0.2, -0.5], field_of_view: 1.3, ..settings.camera };
         Settings { camera, ..settings }
     };
     let of = |integrator, samples| regions(&world, &camera(settings([32, 24], samples, integrator)), 6);

@@ -15,8 +15,8 @@ struct Surface {
     /// Cosines toward the light and toward the camera.
     to_light: f32,
     to_camera: f32,
-    /// Densities over solid angle of sampling the direction of the camera, of a light path, and of the light, of a camera
-    /// path.
+    /// Densities over solid angle of sampling the direction of the camera, of a light path, and of the light, of a
+    /// camera path.
     onward: f32,
     back: f32,
     smooth: bool,
@@ -60,8 +60,8 @@ fn path(k: usize, seed: u32, smooth: bool) -> Known {
     Known { light, camera, surfaces: surfaces.collect(), lengths }
 }
 
-/// The density of a technique over that of all of its surfaces' areas, times the number of its samples: `s` surfaces from the
-/// light, the rest from the camera, of which the light itself is the last if `hit`.
+/// The density of a technique over that of all of its surfaces' areas, times the number of its samples: `s` surfaces
+/// from the light, the rest from the camera, of which the light itself is the last if `hit`.
 impl Known {
     /// Over the area of surface `i`, of a light path.
     fn onward(&self, i: usize) -> f64 {
