@@ -109,6 +109,7 @@ fn evaluate_data(data: &Data) {
             data.eval(&Edges::default(), wi, wo, 550.0);
         }),
         Data::Fourier(data) => each(|wi, wo| drop(data.eval(wi, wo))),
+        Data::Zernike(data) => each(|wi, wo| drop(data.eval(wi, wo))),
         Data::Window(data) => each(|wi, wo| {
             for band in &data.bands {
                 band.window.eval(wi, wo);
