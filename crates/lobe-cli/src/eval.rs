@@ -63,6 +63,9 @@ pub struct Args {
     /// Print f times the cosine between wo and the normal.
     #[arg(long)]
     cosine: bool,
+    /// Round the same way on all machines and instructions, which is a little slower.
+    #[arg(long)]
+    strict: bool,
     /// Print JSON: an object, or with --pairs one object per line.
     #[arg(long)]
     json: bool,
@@ -141,7 +144,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         (.., Some(file)) => Source::Many(Pairs::open(file)?),
         _ => return Err(Failure::Usage("found no directions; expected --wi and --wo, --angles or --pairs".into())),
     };
-    let material = Material::from_document(&document, &options).map_err(|error| error.in_file(&args.file))?;
+    let mut material = Material::from_document(&document, &options).map_err(|error| error.in_file(&args.file))?;
+    if args.strict {
+        let backend = material.backend().strict();
+        material = material.with_backend(backend);
+    }
     let all = material.channels().names();
     let chosen = choose(&all, &args.channels)?;
     let names: Vec<&str> = chosen.iter().map(|&channel| all[channel].as_str()).collect();

@@ -286,14 +286,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 fn window(args: &Args, size: [u32; 2]) -> Result<Rect, Failure> {
     let whole = Rect { x: 0, y: 0, width: size[0], height: size[1] };
     if let Some((tile, tiles)) = args.tile {
-        // Strips of rows, as equal as can be.
-        let row = |tile: u32| (u64::from(size[1]) * u64::from(tile) / u64::from(tiles)) as u32;
-        let (y, end) = (row(tile - 1), row(tile));
-        if y == end {
-            let message = format!("--tile: found {tiles} parts of {} rows; expected at most as many", size[1]);
-            return Err(Failure::Usage(message));
-        }
-        return Ok(Rect { x: 0, y, width: size[0], height: end - y });
+        return whole.strip(tile, tiles).ok_or_else(|| {
+            Failure::Usage(format!("--tile: found {tiles} parts of {} rows; expected at most as many", size[1]))
+        });
     }
     let crop = args.crop.unwrap_or(whole);
     match whole.intersection(&crop) {

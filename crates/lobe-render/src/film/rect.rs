@@ -38,4 +38,37 @@ impl Rect {
         let bottom = self.rows().end.min(other.rows().end);
         (x < right && y < bottom).then(|| Rect { x, y, width: right - x, height: bottom - y })
     }
+
+    /// Part `part` of `parts`, counted from 1: strips of whole rows, as equal as can be. `None` if there is no such part, or
+    /// there are not as many rows.
+    pub fn strip(&self, part: u32, parts: u32) -> Option<Rect> {
+        if !(1..=parts).contains(&part) || parts > self.height {
+            return None;
+        }
+        let row = |strip: u32| (u64::from(self.height) * u64::from(strip) / u64::from(parts)) as u32;
+        let (first, end) = (row(part - 1), row(part));
+        Some(Rect { y: self.y + first, height: end - first, ..*self })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strips_follow_each_other_and_none_is_empty() {
+        let whole = Rect { x: 2, y: 3, width: 5, height: 7 };
+        for parts in 1..=7 {
+            let mut next = whole.y;
+            for part in 1..=parts {
+                let strip = whole.strip(part, parts).expect("a part");
+                assert_eq!((strip.x, strip.y, strip.width), (2, next, 5), "{part} of {parts}");
+                assert!(strip.height >= 7 / parts);
+                next += strip.height;
+            }
+            assert_eq!(next, 10);
+            assert_eq!((whole.strip(0, parts), whole.strip(parts + 1, parts)), (None, None));
+        }
+        assert_eq!(whole.strip(1, 8), None);
+    }
 }

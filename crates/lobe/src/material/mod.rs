@@ -18,7 +18,7 @@ pub use sheet::SHEET;
 pub(crate) use sheet::flipped;
 
 /// Where a material comes from.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Origin {
     format: Option<&'static str>,
     source: Vec<(String, String)>,
@@ -42,10 +42,12 @@ struct Origin {
 /// material.eval_batch(&wi, &wo, &mut f);
 /// # Ok::<(), lobe::OpenError>(())
 /// ```
-#[derive(Debug)]
+///
+/// Clones share what was prepared.
+#[derive(Clone, Debug)]
 pub struct Material {
     origin: Origin,
-    bsdf: Box<dyn Bsdf>,
+    bsdf: Arc<dyn Bsdf>,
     mirrors: Vec<Mirror>,
     backend: Backend,
 }

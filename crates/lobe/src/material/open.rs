@@ -1,6 +1,7 @@
 //! Materials from files, from bytes, from documents and from data.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use lobe_formats::{Document, FormatError, Part};
 use lobe_table::{Data, Options, Side};
@@ -39,7 +40,7 @@ impl Parts {
             return Err(OpenError::not_a_material("parts with different channels"));
         }
         let origin = Origin { kind: SHEET, ..origin };
-        Ok(Material { origin, bsdf: Box::new(Sheet { channels, parts }), mirrors, backend: Backend::detect()? })
+        Ok(Material { origin, bsdf: Arc::new(Sheet { channels, parts }), mirrors, backend: Backend::detect()? })
     }
 }
 
@@ -83,7 +84,7 @@ impl Material {
         if let Some(data) = document.only() {
             let bsdf = data.representation().prepare(options)?;
             let origin = Origin { kind: data.representation().kind(), ..origin };
-            return Ok(Material { origin, bsdf, mirrors: Vec::new(), backend: Backend::detect()? });
+            return Ok(Material { origin, bsdf: bsdf.into(), mirrors: Vec::new(), backend: Backend::detect()? });
         }
         let mut parts = Parts::default();
         for part in &document.parts {
