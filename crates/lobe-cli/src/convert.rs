@@ -6,15 +6,15 @@ use clap::ValueEnum;
 use lobe::{Aspect, Data, Lookup, Material, Options, Scatter, Side};
 use lobe_files::check_output;
 use lobe_formats::{Document, Format, Part, convert};
+use lobe_ops::remeasure::{MaterialSurface, Sides};
 use lobe_table::window::klems::{self, AngleBasis};
 use lobe_table::window::{self, Band, Block, Blocks, Component};
 
 use crate::failure::Failure;
-use crate::measure::{self, Sides};
+use crate::measure;
 use crate::message::say;
 use crate::output::{Output, side};
 use crate::reading::Reading;
-use crate::surface::MaterialSurface;
 use crate::target::Target;
 
 /// Convert a material to another format.

@@ -4,9 +4,10 @@ use clap::Subcommand;
 use lobe::Scatter;
 use lobe_model::cloth::{Cloth, Ply, Weave, Yarn};
 use lobe_model::{Blinn, Conductor, Ggx, Lambert, Mix, Model, OrenNayar, Phong, Rgb, Ward};
+use lobe_ops::remeasure::Sides;
 
 use crate::failure::Failure;
-use crate::measure::{self, Sides};
+use crate::measure;
 use crate::output::Output;
 
 /// Sample an analytic model into a table of any format.

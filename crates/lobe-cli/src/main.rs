@@ -5,7 +5,6 @@
 
 mod albedo;
 mod angles;
-mod channels;
 mod check;
 mod compare;
 mod convert;
@@ -33,7 +32,6 @@ mod render;
 mod resample;
 mod shell;
 mod summary;
-mod surface;
 mod target;
 mod threads;
 

@@ -2,33 +2,22 @@
 
 use std::path::Path;
 
-use lobe::{Aspect, Channels, Material, Scatter};
-use lobe::{Lookup, Options};
+use lobe::{Aspect, Lookup, Material, Options, Scatter};
 use lobe_files::check_output;
 use lobe_formats::{ChannelMap, Document};
-use lobe_model::goniometer::{half_diff as bins, klems as patches, measure_surface, rgl as parameterised};
+use lobe_model::goniometer::half_diff as bins;
+use lobe_model::goniometer::rgl::Resolution;
 use lobe_model::{Surface, is_isotropic};
-use lobe_table::Kind;
-use lobe_table::window::{self, Band, Block, Component, klems};
-use lobe_table::{half_diff, rgl};
+use lobe_ops::remeasure::{Mapped, MaterialSurface, Nodes, Sides, remeasure};
+use lobe_table::window::klems;
+use lobe_table::{Kind, half_diff, rgl};
 
-use crate::channels::Mapped;
 use crate::failure::Failure;
 use crate::message::say;
 use crate::output::{Output, Purpose, side};
 use crate::probe::Errors;
 use crate::progress::Progress;
-use crate::surface::{Lifted, MaterialSurface};
 use crate::target::Target;
-
-/// On which sides a surface has values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sides {
-    /// One kind of scatter.
-    One(Scatter),
-    /// The surface distinguishes the sides.
-    Both,
-}
 
 /// Measures a surface and writes it; reports the nodes and the error of the file on standard error.
 ///
@@ -59,49 +48,29 @@ pub fn write(surface: &dyn Surface, sides: Sides, is_from_file: bool, output: &O
         Ok(half_diff::KIND) | Err(_) => &[],
         Ok(_) => &[Purpose::Knots],
     })?;
-    // The images of RGL hold f cos.
-    let lifted = Lifted(surface);
-    let near: &dyn Surface = if is_from_file { &lifted } else { surface };
-    let mut aspects = vec![Aspect::front(scatter)];
-    let nodes = match writer.resampled_as {
+    let (nodes, counted) = match writer.resampled_as {
         Err(expected) => return refuse("values for pairs of directions", expected),
         Ok(half_diff::KIND) if !isotropic => return refuse("an anisotropic material", "an isotropic one"),
-        Ok(half_diff::KIND) => {
-            let progress = Progress::new(bins::MERL[0], "bins");
-            fits(out, &bins::MERL, channels)?;
-            let table = bins::measure(near, bins::MERL, || progress.step()).map_err(|e| file(out, &e))?;
-            (writer.write)(&Document::new(table), out)?;
-            "90 x 90 x 180 bins of half and difference angles".into()
-        }
-        Ok(rgl::KIND) => {
-            let resolution = output.rgl(isotropic);
-            let parameterised::Resolution { theta_i, phi_i, spectra, .. } = resolution;
-            fits(out, &[theta_i, phi_i, spectra, spectra], channels)?;
-            let progress = Progress::new(resolution.steps(), "directions of the light");
-            let material =
-                parameterised::measure(surface, resolution, || progress.step()).map_err(|e| file(out, &e))?;
-            (writer.write)(&Document::new(material), out)?;
-            format!("{theta_i} theta_i x {phi_i} phi_i, {spectra} x {spectra} texels")
-        }
-        Ok(klems::KIND) => {
-            let basis = output.basis();
-            fits(out, &[4, basis.patches(), basis.patches()], channels)?;
-            let sheet = sheet(near, output, sides)?;
-            aspects = lobe_table::Representation::aspects(&sheet);
-            let name = output.out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            (writer.write)(&Document { source: vec![("name".into(), name)], ..Document::new(sheet) }, out)?;
-            format!("means over {n} x {n} patches", n = basis.patches())
-        }
-        Ok(_) => {
-            let knots = output.knots(isotropic);
-            let [sigma, psi, theta, phi] = knots.each_ref().map(Vec::len);
-            fits(out, &[sigma, psi, theta, phi], channels)?;
-            let progress = Progress::new(sigma * psi, "directions of the light");
-            let samples = measure_surface(near, scatter, knots, || progress.step()).map_err(|e| file(out, &e))?;
-            (writer.write)(&Document::new(samples), out)?;
-            format!("{sigma} sigma x {psi} psi x {theta} theta x {phi} phi")
-        }
+        Ok(half_diff::KIND) => (Nodes::HalfDiff(bins::MERL), "bins"),
+        Ok(rgl::KIND) => (Nodes::Rgl(output.rgl(isotropic)), "directions of the light"),
+        Ok(klems::KIND) => (Nodes::Klems(output.basis()), "patches"),
+        Ok(_) => (Nodes::Specular(output.knots(isotropic)), "directions of the light"),
     };
+    fits(out, &nodes.counts(), channels)?;
+    // Of a format that has both sides, all is measured.
+    let measured = if let Nodes::Klems(_) = nodes { sides } else { Sides::One(scatter) };
+    let progress = Progress::new(nodes.steps(measured), counted);
+    let document =
+        remeasure(surface, is_from_file, measured, &nodes, || progress.step()).map_err(|error| file(out, &error))?;
+    drop(progress);
+    let aspects = match &nodes {
+        Nodes::Klems(_) => document.parts.iter().flat_map(|part| part.data.representation().aspects()).collect(),
+        _ => vec![Aspect::front(scatter)],
+    };
+    let name = out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let source = if let Nodes::Klems(_) = nodes { vec![("name".into(), name)] } else { Vec::new() };
+    (writer.write)(&Document { source, ..document }, out)?;
+    let nodes = described(&nodes);
     let kind = if isotropic { "isotropic" } else { "anisotropic" };
     let side = side_of(target, sides, scatter);
     say(format_args!("{}: {format}, resampled: {kind} {side}, {nodes}", out.display()));
@@ -156,35 +125,21 @@ fn file(out: &Path, error: &dyn std::fmt::Display) -> Failure {
     Failure::File(format!("{}: {error}", out.display()))
 }
 
-/// The blocks of a sheet that are not dark.
-fn sheet(surface: &dyn Surface, output: &Output, sides: Sides) -> Result<window::Data, Failure> {
-    let names: Vec<String> = match surface.channels() {
-        // Radiance uses X and Z in addition to Visible for colour.
-        Channels::Xyz => ["CIE-X", "Visible", "CIE-Z"].map(String::from).into(),
-        Channels::Mono => vec!["Visible".into()],
-        other => other.names(),
-    };
-    let mut bands: Vec<Band> =
-        names.into_iter().map(|wavelength| Band { wavelength, window: window::Blocks::default() }).collect();
-    let basis = output.basis();
-    let wanted = |block: &Block| match sides {
-        Sides::Both => true,
-        Sides::One(Scatter::Reflection) => matches!(block, Block::ReflectionFront | Block::ReflectionBack),
-        Sides::One(Scatter::Transmission) => matches!(block, Block::TransmissionFront | Block::TransmissionBack),
-    };
-    let blocks: Vec<Block> = Block::ALL.into_iter().filter(wanted).collect();
-    let progress = Progress::new(blocks.len() * basis.patches(), "patches");
-    for block in blocks {
-        let matrices = patches::measure(surface, [&basis, &basis], block, || progress.step())
-            .map_err(|e| file(&output.out, &e))?;
-        if matrices.iter().all(|matrix| matrix.values().iter().all(|f| *f == 0.0)) {
-            continue;
+/// Nodes in words.
+fn described(nodes: &Nodes) -> String {
+    match nodes {
+        Nodes::Specular(knots) => {
+            let [sigma, psi, theta, phi] = knots.each_ref().map(Vec::len);
+            format!("{sigma} sigma x {psi} psi x {theta} theta x {phi} phi")
         }
-        for (band, matrix) in bands.iter_mut().zip(matrices) {
-            band.window.set(block, Component::Klems(matrix));
+        Nodes::HalfDiff([halves, differences, turns]) => {
+            format!("{halves} x {differences} x {turns} bins of half and difference angles")
         }
+        Nodes::Rgl(Resolution { theta_i, phi_i, spectra, .. }) => {
+            format!("{theta_i} theta_i x {phi_i} phi_i, {spectra} x {spectra} texels")
+        }
+        Nodes::Klems(basis) => format!("means over {n} x {n} patches", n = basis.patches()),
     }
-    Ok(window::Data { bands })
 }
 
 /// Reads the file back and compares what was written.

@@ -6,6 +6,7 @@ use clap::ValueEnum;
 use lobe::Scatter;
 use lobe_formats::Format;
 use lobe_model::goniometer::rgl;
+use lobe_ops::remeasure::knots;
 use lobe_table::window::klems::AngleBasis;
 
 use crate::failure::Failure;
@@ -83,14 +84,6 @@ pub enum Basis {
     Quarter,
 }
 
-const SIGMA: &[f64] =
-    &[0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 55.0, 60.0, 65.0, 70.0, 75.0, 80.0, 84.0, 88.0];
-const SIGMA_COARSE: &[f64] = &[0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 68.0, 75.0, 82.0, 88.0];
-const THETA: &[f64] = &[
-    0.0, 0.5, 1.0, 2.0, 3.0, 4.5, 6.0, 8.0, 10.0, 12.5, 15.0, 18.0, 21.0, 25.0, 30.0, 35.0, 40.0, 46.0, 52.0, 60.0,
-    68.0, 76.0, 85.0, 95.0, 105.0, 120.0, 135.0, 150.0, 165.0, 180.0,
-];
-
 impl Output {
     /// A file to write without further options.
     pub fn new(out: &Path, to: Option<Format>) -> Self {
@@ -124,17 +117,10 @@ impl Output {
 
     /// The knots of a specular table in radians: the requested ones, or else some that suit most materials.
     pub fn knots(&self, is_isotropic: bool) -> [Vec<f64>; 4] {
-        let every_15: Vec<f64> = (0..=24).map(|step| 15.0 * f64::from(step)).collect();
-        let defaults = [
-            if is_isotropic { SIGMA } else { SIGMA_COARSE }.to_vec(),
-            if is_isotropic { vec![0.0] } else { every_15.clone() },
-            THETA.to_vec(),
-            every_15,
-        ];
         let asked = [&self.sigma, &self.psi, &self.theta, &self.phi];
-        let mut chosen = asked.into_iter().zip(defaults).map(|(asked, default)| {
-            let degrees = if asked.is_empty() { &default } else { asked };
-            degrees.iter().map(|angle| angle.to_radians()).collect()
+        let mut chosen = asked.into_iter().zip(knots(is_isotropic)).map(|(asked, default)| match asked.as_slice() {
+            [] => default,
+            degrees => degrees.iter().map(|angle| angle.to_radians()).collect(),
         });
         std::array::from_fn(|_| chosen.next().unwrap_or_default())
     }

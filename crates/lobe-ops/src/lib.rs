@@ -6,6 +6,7 @@
 //! - [`resample`]: any material into a table of specular coordinates, with given knots or with as many as an error
 //!   bound
 //!   asks for, and the error that was made;
+//! - [`remeasure`]: any material at the nodes that another representation has;
 //! - [`colour`]: spectra to CIE XYZ and to RGB;
 //! - [`compare`]: how far two materials are apart, in numbers and to the eye.
 //!
@@ -24,6 +25,7 @@ pub mod fill;
 pub mod hemisphere;
 mod pairs;
 pub mod reciprocity;
+pub mod remeasure;
 pub mod resample;
 mod samples;
 mod subject;

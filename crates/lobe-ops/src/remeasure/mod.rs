@@ -1,0 +1,104 @@
+//! Any material or model measured at the nodes of a format that has another representation: what is written if its values
+//! cannot be kept as they are.
+
+mod nodes;
+mod sheet;
+mod surface;
+
+use lobe_formats::Document;
+use lobe_model::Surface;
+use lobe_model::goniometer::{half_diff, measure_surface, rgl};
+use lobe_table::window::klems::KlemsError;
+use lobe_table::{GridError, Invalid, Scatter};
+use thiserror::Error;
+
+pub use nodes::{Nodes, Sides, knots};
+pub use surface::{Lifted, Mapped, MaterialSurface};
+
+/// Why a surface was not measured.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum RemeasureError {
+    /// The knots make no table.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+    /// The channels or the values are not those of the representation.
+    #[error(transparent)]
+    Invalid(#[from] Invalid),
+    /// A mean over patches that is not finite.
+    #[error(transparent)]
+    Klems(#[from] KlemsError),
+}
+
+/// Measures a surface at nodes, as a document that a format with such nodes can hold. `progress` is called
+/// [`Nodes::steps`] times.
+///
+/// A material from a file (`is_from_file`) may have any value within a degree of the horizon, where many formats store what
+/// has to be divided by the cosine, so that it is never looked at there. Models are exact.
+///
+/// # Errors
+/// [`RemeasureError`] if the surface has no values for such nodes.
+pub fn remeasure(
+    surface: &dyn Surface,
+    is_from_file: bool,
+    sides: Sides,
+    nodes: &Nodes,
+    progress: impl Fn() + Sync,
+) -> Result<Document, RemeasureError> {
+    // The images of RGL hold f cos.
+    let lifted = Lifted(surface);
+    let near: &dyn Surface = if is_from_file { &lifted } else { surface };
+    let scatter = match sides {
+        Sides::One(scatter) => scatter,
+        Sides::Both => Scatter::Reflection,
+    };
+    Ok(match nodes {
+        Nodes::Specular(knots) => Document::new(measure_surface(near, scatter, knots.clone(), progress)?),
+        Nodes::HalfDiff(bins) => Document::new(half_diff::measure(near, *bins, progress)?),
+        Nodes::Rgl(resolution) => Document::new(rgl::measure(surface, *resolution, progress)?),
+        Nodes::Klems(basis) => Document::new(sheet::measure(near, basis, sides, progress)?),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use lobe::{Material, Options};
+    use lobe_model::{Lambert, Rgb};
+    use lobe_table::window::klems::{self, AngleBasis};
+    use lobe_table::{half_diff, rgl, specular};
+
+    use super::*;
+
+    #[test]
+    fn a_lambertian_surface_is_one_at_all_nodes() {
+        let surface = Rgb(Lambert { albedo: [0.2, 0.4, 0.6] });
+        for kind in [specular::KIND, half_diff::KIND, rgl::KIND, klems::KIND] {
+            let nodes = match Nodes::of(kind, true).expect("a kind with nodes") {
+                Nodes::Rgl(resolution) => Nodes::Rgl(lobe_model::goniometer::rgl::Resolution {
+                    theta_i: 5,
+                    ndf: 32,
+                    microfacets: 16,
+                    spectra: 12,
+                    ..resolution
+                }),
+                Nodes::Klems(_) => Nodes::Klems(AngleBasis::quarter()),
+                Nodes::HalfDiff(_) => Nodes::HalfDiff([9, 9, 18]),
+                nodes @ Nodes::Specular(_) => nodes,
+            };
+            let steps = AtomicUsize::new(0);
+            let sides = Sides::One(Scatter::Reflection);
+            let document = remeasure(&surface, false, sides, &nodes, || drop(steps.fetch_add(1, Ordering::Relaxed)));
+            assert_eq!(steps.into_inner(), nodes.steps(sides), "{kind}");
+            let material = Material::from_document(&document.expect("finite values"), &Options::default());
+            let material = material.unwrap_or_else(|error| panic!("{kind}: {error}"));
+            let mut f = [0.0; 3];
+            material.eval([0.6, 0.0, 0.8], [0.0, 0.6, 0.8], &mut f);
+            for (found, albedo) in f.into_iter().zip([0.2, 0.4, 0.6]) {
+                let expected = albedo / std::f32::consts::PI;
+                assert!((found / expected - 1.0).abs() < 2e-3, "{kind}: {found}, not {expected}");
+            }
+        }
+    }
+}

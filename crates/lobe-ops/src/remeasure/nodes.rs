@@ -1,0 +1,94 @@
+//! Where a surface is measured.
+
+use lobe_model::goniometer::half_diff as bins;
+use lobe_model::goniometer::rgl::Resolution;
+use lobe_table::window::Block;
+use lobe_table::window::klems::{self, AngleBasis};
+use lobe_table::{Kind, Scatter, half_diff, rgl, specular};
+
+/// On which sides a surface has values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sides {
+    /// One kind of scatter.
+    One(Scatter),
+    /// The surface distinguishes the sides.
+    Both,
+}
+
+impl Sides {
+    /// The blocks of a sheet that have values.
+    pub fn blocks(self) -> Vec<Block> {
+        let is_there = |block: &Block| match self {
+            Sides::Both => true,
+            Sides::One(scatter) => block.aspect().scatter == scatter,
+        };
+        Block::ALL.into_iter().filter(is_there).collect()
+    }
+}
+
+/// The nodes of a representation.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Nodes {
+    /// Knots of sigma, psi, theta and phi, in radians.
+    Specular([Vec<f64>; 4]),
+    /// Bins of theta_h, theta_d and phi_d.
+    HalfDiff([usize; 3]),
+    /// Directions of the light and texels.
+    Rgl(Resolution),
+    /// Patches of both directions.
+    Klems(AngleBasis),
+}
+
+impl Nodes {
+    /// Nodes of a representation that suit most materials; `None` if it cannot be measured.
+    pub fn of(kind: Kind, is_isotropic: bool) -> Option<Self> {
+        match kind {
+            specular::KIND => Some(Nodes::Specular(knots(is_isotropic))),
+            half_diff::KIND => Some(Nodes::HalfDiff(bins::MERL)),
+            rgl::KIND if is_isotropic => Some(Nodes::Rgl(Resolution::ISOTROPIC)),
+            rgl::KIND => Some(Nodes::Rgl(Resolution::ANISOTROPIC)),
+            klems::KIND => Some(Nodes::Klems(AngleBasis::full())),
+            _ => None,
+        }
+    }
+
+    /// How often progress is reported.
+    pub fn steps(&self, sides: Sides) -> usize {
+        match self {
+            Nodes::Specular([sigma, psi, ..]) => sigma.len() * psi.len(),
+            Nodes::HalfDiff([halves, ..]) => *halves,
+            Nodes::Rgl(resolution) => resolution.steps(),
+            Nodes::Klems(basis) => sides.blocks().len() * basis.patches(),
+        }
+    }
+
+    /// How many values there are of each channel, as factors.
+    pub fn counts(&self) -> Vec<usize> {
+        match self {
+            Nodes::Specular(knots) => knots.iter().map(Vec::len).collect(),
+            Nodes::HalfDiff(bins) => bins.to_vec(),
+            Nodes::Rgl(Resolution { theta_i, phi_i, spectra, .. }) => vec![*theta_i, *phi_i, *spectra, *spectra],
+            Nodes::Klems(basis) => vec![Block::ALL.len(), basis.patches(), basis.patches()],
+        }
+    }
+}
+
+const SIGMA: &[f64] =
+    &[0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 55.0, 60.0, 65.0, 70.0, 75.0, 80.0, 84.0, 88.0];
+const SIGMA_COARSE: &[f64] = &[0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 68.0, 75.0, 82.0, 88.0];
+const THETA: &[f64] = &[
+    0.0, 0.5, 1.0, 2.0, 3.0, 4.5, 6.0, 8.0, 10.0, 12.5, 15.0, 18.0, 21.0, 25.0, 30.0, 35.0, 40.0, 46.0, 52.0, 60.0,
+    68.0, 76.0, 85.0, 95.0, 105.0, 120.0, 135.0, 150.0, 165.0, 180.0,
+];
+
+/// Knots of a table in specular coordinates that suit most materials, in radians.
+pub fn knots(is_isotropic: bool) -> [Vec<f64>; 4] {
+    let every_15: Vec<f64> = (0..=24).map(|step| 15.0 * f64::from(step)).collect();
+    let degrees = [
+        if is_isotropic { SIGMA } else { SIGMA_COARSE }.to_vec(),
+        if is_isotropic { vec![0.0] } else { every_15.clone() },
+        THETA.to_vec(),
+        every_15,
+    ];
+    degrees.map(|axis| axis.into_iter().map(f64::to_radians).collect())
+}
