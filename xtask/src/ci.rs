@@ -22,13 +22,14 @@ const fn step(arguments: &'static [&'static str]) -> Step {
 }
 
 /// The quick report comes before `asm`, which checks the same programs.
-const STEPS: [Step; 6] = [
+const STEPS: [Step; 7] = [
     step(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]),
     Step { arguments: &["doc", "--workspace", "--no-deps", "--quiet"], doc_flags: "-D warnings" },
     step(&["xtask", "fixtures", "--check"]),
     step(&["xtask", "report", "--quick"]),
     step(&["xtask", "equivalence"]),
     step(&["xtask", "asm", "--package", "xtask-report"]),
+    step(&["xtask", "python"]),
 ];
 
 pub fn run(arguments: &[String]) -> ExitCode {

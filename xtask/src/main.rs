@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 
 mod ci;
+mod python;
 
 use std::process::{Command, ExitCode};
 
@@ -66,6 +67,9 @@ fn main() -> ExitCode {
     if name == "ci" {
         return ci::run(&arguments);
     }
+    if name == "python" {
+        return python::run(&arguments);
+    }
     let Some(task) = TASKS.iter().find(|task| task.name == name) else {
         help();
         return if ["", "-h", "--help"].contains(&name.as_str()) { ExitCode::SUCCESS } else { ExitCode::from(2) };
@@ -98,6 +102,7 @@ fn help() {
     for Task { name, about, .. } in &TASKS {
         println!("  {name:12} {about}");
     }
+    println!("  {:12} {}", "python", python::ABOUT);
     println!("  {:12} {}", "ci", ci::ABOUT);
     println!("\n`cargo xtask COMMAND --help` explains the options of a command.");
 }

@@ -1,0 +1,6 @@
+//! Lets the linker of macOS leave the functions of the interpreter open, which Linux does anyway.
+
+fn main() {
+    println!("cargo:rerun-if-changed=build.rs");
+    pyo3_build_config::add_extension_module_link_args();
+}

@@ -1,0 +1,243 @@
+//! What a file leaves open, and the backend, from keyword arguments.
+
+use lobe::{Backend, Data, Decode, Edges, Given, Lookup, Options};
+use lobe_formats::reading::parse_columns;
+use lobe_formats::{Document, ReadOptions};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::errors::Failure;
+
+/// The words for each of some choices.
+type Words<T> = &'static [(&'static str, T)];
+
+const EDGES: Words<fn() -> Edges> =
+    &[("clamp", Edges::default), ("extrapolate", Edges::extrapolate), ("zero", Edges::zero)];
+const LOOKUPS: Words<Lookup> = &[("nearest", Lookup::Nearest), ("linear", Lookup::Linear)];
+const DECODES: Words<Decode> = &[("raw", Decode::Raw), ("srgb", Decode::Srgb)];
+const GIVEN: Words<Given> = &[("light", Given::Light), ("viewer", Given::Viewer)];
+
+/// The choice that a word stands for.
+///
+/// # Errors
+/// `ValueError` with the words that there are.
+pub fn word<T: Copy>(argument: &str, found: &str, words: &[(&'static str, T)]) -> PyResult<T> {
+    let known = words.iter().find(|(word, _)| *word == found).map(|(_, choice)| *choice);
+    known.ok_or_else(|| {
+        let expected: Vec<String> = words.iter().map(|(word, _)| format!("{word:?}")).collect();
+        PyValueError::new_err(format!("{argument}: found {found:?}; expected {}", expected.join(" or ")))
+    })
+}
+
+/// The direction that is given.
+///
+/// # Errors
+/// `ValueError` if it is neither.
+pub fn given(found: &str) -> PyResult<Given> {
+    word("given", found, GIVEN)
+}
+
+/// The backend of this name, or the detected one.
+///
+/// # Errors
+/// `ValueError` if this machine has none of that name.
+pub fn backend(name: Option<&str>, strict: bool) -> PyResult<Backend> {
+    let found = match name {
+        Some(name) => Backend::named(name),
+        None => Backend::detect(),
+    };
+    let found = found.map_err(|error| PyValueError::new_err(error.to_string()))?;
+    Ok(if strict { found.strict() } else { found })
+}
+
+/// How a material is evaluated: as it was asked for, so that a copy of it can be.
+#[derive(Clone, Debug)]
+pub struct Choices {
+    backend: Option<String>,
+    strict: bool,
+    edges: String,
+    lookup: String,
+    indexed_by: String,
+    decode: String,
+}
+
+/// The same, understood.
+#[derive(Clone, Debug)]
+pub struct Chosen {
+    /// How data are prepared.
+    pub options: Options,
+    /// What evaluates.
+    pub backend: Backend,
+}
+
+impl Choices {
+    /// The words of keyword arguments.
+    pub fn new(
+        backend: Option<String>,
+        strict: bool,
+        edges: &str,
+        lookup: &str,
+        indexed_by: &str,
+        decode: &str,
+    ) -> Self {
+        let [edges, lookup, indexed_by, decode] = [edges, lookup, indexed_by, decode].map(String::from);
+        Choices { backend, strict, edges, lookup, indexed_by, decode }
+    }
+
+    /// The same for a table in specular coordinates.
+    pub fn of_table(&self) -> Self {
+        let edges = self.edges.clone();
+        Choices { edges, ..Choices::new(self.backend.clone(), self.strict, "clamp", "nearest", "light", "raw") }
+    }
+
+    /// What the words mean.
+    ///
+    /// # Errors
+    /// `ValueError` for a word that is none of those expected.
+    pub fn chosen(&self) -> PyResult<Chosen> {
+        let options = Options {
+            edges: word("edges", &self.edges, EDGES)?(),
+            lookup: word("lookup", &self.lookup, LOOKUPS)?,
+            decode: word("decode", &self.decode, DECODES)?,
+            indexed_by: word("indexed_by", &self.indexed_by, GIVEN)?,
+        };
+        Ok(Chosen { options, backend: backend(self.backend.as_deref(), self.strict)? })
+    }
+
+    /// Refuses what would make no difference: whoever asks for it expects one.
+    ///
+    /// # Errors
+    /// If no part of the document looks at an option that is not the default.
+    pub fn check(&self, document: &Document) -> Result<(), Failure> {
+        let has = |is: fn(&Data) -> bool| document.parts.iter().any(|part| is(&part.data));
+        let kinds: Vec<&str> = document.parts.iter().map(|part| part.data.representation().kind().name()).collect();
+        let options: [(&str, bool, fn(&Data) -> bool, &str); 4] = [
+            (
+                "edges",
+                self.edges != "clamp",
+                |data| matches!(data, Data::Specular(_)),
+                "a table in specular coordinates",
+            ),
+            (
+                "lookup",
+                self.lookup != "nearest",
+                |data| matches!(data, Data::HalfDiff(_)),
+                "a grid of half and difference angles",
+            ),
+            (
+                "indexed_by",
+                self.indexed_by != "light",
+                |data| matches!(data, Data::Rgl(_)),
+                "a material of the EPFL database",
+            ),
+            ("decode", self.decode != "raw", |data| matches!(data, Data::Utia(_)), "a material of the UTIA database"),
+        ];
+        match options.into_iter().find(|(_, is_given, is_for, _)| *is_given && !has(*is_for)) {
+            None => Ok(()),
+            Some((option, _, _, expected)) => {
+                Err(Failure::value(format!("{option}: found {}; expected {expected}", kinds.join(", "))))
+            }
+        }
+    }
+
+    /// The keyword arguments again, those that are not the default.
+    ///
+    /// # Errors
+    /// If memory is short.
+    pub fn keywords<'py>(&self, keywords: &Bound<'py, pyo3::types::PyDict>) -> PyResult<()> {
+        if let Some(backend) = &self.backend {
+            keywords.set_item("backend", backend)?;
+        }
+        if self.strict {
+            keywords.set_item("strict", true)?;
+        }
+        let words = [
+            ("edges", &self.edges),
+            ("lookup", &self.lookup),
+            ("indexed_by", &self.indexed_by),
+            ("decode", &self.decode),
+        ];
+        for (name, word) in words {
+            keywords.set_item(name, word)?;
+        }
+        Ok(())
+    }
+}
+
+/// What a file leaves open, as on the command line.
+#[derive(FromPyObject)]
+pub enum Factor {
+    /// A number.
+    Number(f64),
+    /// `tis`.
+    Word(String),
+}
+
+/// The keyword arguments that say what a file leaves open.
+#[derive(Default)]
+pub struct Reading {
+    pub columns: Option<String>,
+    pub unit: Option<String>,
+    pub values: Option<String>,
+    pub scale: Option<Factor>,
+    pub holds: Option<String>,
+    pub in_plane: Option<String>,
+    pub azimuth_from: Option<String>,
+    pub decimal_comma: Option<bool>,
+}
+
+impl Reading {
+    /// What they mean.
+    ///
+    /// # Errors
+    /// `ValueError` with what was expected.
+    pub fn understood(self) -> PyResult<ReadOptions> {
+        fn parsed<T: std::str::FromStr<Err = String>>(argument: &str, text: Option<String>) -> PyResult<Option<T>> {
+            let parsed = text.map(|text| text.parse()).transpose();
+            parsed.map_err(|error| PyValueError::new_err(format!("{argument}: {error}")))
+        }
+        let scale = self.scale.map(|factor| match factor {
+            Factor::Number(number) => number.to_string(),
+            Factor::Word(word) => word,
+        });
+        let columns = self.columns.as_deref().map(parse_columns).transpose();
+        Ok(ReadOptions {
+            columns: columns.map_err(|error| PyValueError::new_err(format!("columns: {error}")))?.unwrap_or_default(),
+            unit: parsed("unit", self.unit)?,
+            values: parsed("values", self.values)?,
+            scale: parsed("scale", scale)?,
+            holds: parsed("holds", self.holds)?,
+            in_plane: parsed("in_plane", self.in_plane)?,
+            azimuth_from: parsed("azimuth_from", self.azimuth_from)?,
+            decimal_comma: self.decimal_comma,
+        })
+    }
+}
+
+/// The keyword arguments for options of reading.
+///
+/// # Errors
+/// If memory is short.
+pub fn reading_keywords(options: &ReadOptions, keywords: &Bound<'_, pyo3::types::PyDict>) -> PyResult<()> {
+    if !options.columns.is_empty() {
+        let columns: Vec<String> = options.columns.iter().map(ToString::to_string).collect();
+        keywords.set_item("columns", columns.join(","))?;
+    }
+    let words = [
+        ("unit", options.unit.map(|word| word.to_string())),
+        ("values", options.values.map(|word| word.to_string())),
+        ("scale", options.scale.map(|word| word.to_string())),
+        ("holds", options.holds.map(|word| word.to_string())),
+        ("in_plane", options.in_plane.map(|word| word.to_string())),
+        ("azimuth_from", options.azimuth_from.map(|word| word.to_string())),
+    ];
+    for (name, word) in words {
+        if let Some(word) = word {
+            keywords.set_item(name, word)?;
+        }
+    }
+    if let Some(comma) = options.decimal_comma {
+        keywords.set_item("decimal_comma", comma)?;
+    }
+    Ok(())
+}

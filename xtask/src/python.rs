@@ -1,0 +1,75 @@
+//! `cargo xtask python`: the package for Python, installed as a user does and tested.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+pub const ABOUT: &str = "Install the package for Python into an environment of its own, and run its tests";
+
+/// Prints `True` if this interpreter can make environments, and is new enough.
+const PROBE: &str = "import sys, venv, ensurepip; print(sys.version_info >= (3, 10))";
+
+pub fn run(arguments: &[String]) -> ExitCode {
+    if arguments.iter().any(|argument| ["-h", "--help"].contains(&argument.as_str())) {
+        println!("{ABOUT}\n\nUsage: cargo xtask python [ARGUMENTS OF PYTEST]");
+        return ExitCode::SUCCESS;
+    }
+    match check(arguments) {
+        Ok(Outcome::Passed) => ExitCode::SUCCESS,
+        Ok(Outcome::Skipped(why)) => {
+            println!("SKIP the package for Python: {why}");
+            ExitCode::SUCCESS
+        }
+        Err(failed) => {
+            eprintln!("{failed}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+enum Outcome {
+    Passed,
+    Skipped(&'static str),
+}
+
+fn check(arguments: &[String]) -> Result<Outcome, String> {
+    let Some(python) = ["python3", "python"].into_iter().find(|python| is_usable(python)) else {
+        return Ok(Outcome::Skipped("there is no Python 3.10 or newer that can make virtual environments"));
+    };
+    // Environments that were made by another Python do not work.
+    let environment = Path::new("target").join("python");
+    done(Command::new(python).args(["-m", "venv", "--clear"]).arg(&environment))?;
+    let python = interpreter(&environment);
+    let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
+    let tools = ["maturin>=1.9.4,<2", "numpy", "pytest", "scipy", "matplotlib"];
+    if done(Command::new(&python).args(pip).args(tools)).is_err() {
+        return Ok(Outcome::Skipped("pip cannot install maturin, numpy and pytest"));
+    }
+    let install = ["--no-build-isolation", "--no-deps", "--force-reinstall", "./crates/lobe-python"];
+    done(Command::new(&python).args(pip).args(install))?;
+    // What is compared with the program needs it as it is now.
+    done(super::cargo().args(["build", "--release", "--quiet", "--package", "lobe-cli"]))?;
+    done(
+        Command::new(&python)
+            .args(["-m", "pytest", "-q", "-p", "no:cacheprovider", "crates/lobe-python"])
+            .args(arguments),
+    )?;
+    Ok(Outcome::Passed)
+}
+
+fn is_usable(python: &str) -> bool {
+    let answer = Command::new(python).args(["-c", PROBE]).output();
+    answer.is_ok_and(|answer| answer.status.success() && answer.stdout.starts_with(b"True"))
+}
+
+fn interpreter(environment: &Path) -> PathBuf {
+    let (folder, name) = if cfg!(windows) { ("Scripts", "python.exe") } else { ("bin", "python") };
+    environment.join(folder).join(name)
+}
+
+fn done(command: &mut Command) -> Result<(), String> {
+    match command.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(format!("{command:?}: {status}")),
+        Err(error) => Err(format!("{command:?}: {error}")),
+    }
+}
