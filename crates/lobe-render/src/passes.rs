@@ -48,7 +48,7 @@ pub(crate) fn render<'w, T: Transport>(
         return Err(RenderError::Uneven);
     }
     room::<T>(&plan, paths, &window)?;
-    let radius = plan.gathering.map(|gathering| gathering.radius.unwrap_or_else(|| three_pixels(settings)));
+    let radius = plan.gathering.map(|gathering| gathering.radius.unwrap_or_else(|| two_pixels(settings)));
     let tiles = tiles(window);
     let begun = Instant::now();
     let total = window.area() as u64 * u64::from(samples.end.saturating_sub(samples.start));
@@ -134,11 +134,11 @@ fn room<T: Transport>(plan: &Plan, paths: u32, window: &Rect) -> Result<(), Rend
     lobe_memory::require(film + vertices + photons).map_err(RenderError::Memory)
 }
 
-/// The size of three pixels at the point that the camera looks at.
-fn three_pixels<T: Transport>(settings: &Settings<T>) -> f32 {
+/// The size of two pixels at the point that the camera looks at.
+fn two_pixels<T: Transport>(settings: &Settings<T>) -> f32 {
     let camera = &settings.camera;
     let distance = vec3::length(vec3::sub(camera.target, camera.position));
-    3.0 * 2.0 * libm::tanf(0.5 * camera.field_of_view) * distance / settings.size[1] as f32
+    2.0 * 2.0 * libm::tanf(0.5 * camera.field_of_view) * distance / settings.size[1] as f32
 }
 
 fn tiles(window: Rect) -> Vec<Rect> {

@@ -134,7 +134,7 @@ pub struct Plan {
 /// How photons are gathered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Gathering {
-    /// The radius of the first pass; three pixels where the camera looks at if it is `None`.
+    /// The radius of the first pass; two pixels where the camera looks at if it is `None`.
     pub radius: Option<f32>,
     /// How it shrinks, from 0 to 1: quickly or not at all.
     pub shrink: f32,

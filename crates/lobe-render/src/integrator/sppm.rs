@@ -19,7 +19,7 @@ pub struct Sppm {
     pub depth: u32,
     /// Light paths per pass; as many as there are pixels, up to 2^20, if it is `None`.
     pub paths: Option<u32>,
-    /// Within which photons are gathered in the first pass; three pixels where the camera looks at if it is `None`.
+    /// Within which photons are gathered in the first pass; two pixels where the camera looks at if it is `None`.
     pub radius: Option<f32>,
     /// How the radius shrinks from pass to pass, from 0.1 (fast) to 1 (not at all).
     pub shrink: f32,

@@ -325,3 +325,27 @@ fn passes_that_were_stopped_go_on() {
         assert!(pauses > 1 && whole == film, "{integrator:?}: {pauses}");
     }
 }
+
+#[test]
+fn scenes_say_how_light_is_followed() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("scene.toml");
+    let open = |keys: &str| {
+        let text = format!("[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n[integrator]\n{keys}\n");
+        std::fs::write(&file, text).unwrap();
+        lobe_render::scene::Scene::open(&file, Backend::best()).map(|scene| format!("{:?}", scene.integrator))
+    };
+    let vcm = open("kind = \"vcm\"\ndepth = 5\npaths = 70\nradius = 0.5\nshrink = 0.8").unwrap();
+    assert_eq!(vcm, "Vcm { depth: 5, paths: Some(70), radius: Some(0.5), shrink: 0.8 }");
+    assert_eq!(open("kind = \"light\"").unwrap(), "LightTracing { depth: 8, paths: None }");
+    for (keys, wrong) in [
+        ("kind = \"sppm\"\nradius = 0", "radius"),
+        ("kind = \"sppm\"\nshrink = 1.5", "shrink"),
+        ("kind = \"vcm\"\npaths = 0", "paths"),
+        ("kind = \"bdpt\"\nradius = 0.1", "radius"),
+        ("kind = \"light\"\ndepth = 0", "depth"),
+    ] {
+        let error = open(keys).unwrap_err().to_string();
+        assert!(error.contains(wrong), "{keys}: {error}");
+    }
+}
