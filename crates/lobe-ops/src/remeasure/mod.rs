@@ -89,7 +89,9 @@ mod tests {
             };
             let steps = AtomicUsize::new(0);
             let sides = Sides::One(Scatter::Reflection);
-            let document = remeasure(&surface, false, sides, &nodes, || drop(steps.fetch_add(1, Ordering::Relaxed)));
+            let document = remeasure(&surface, false, sides, &nodes, || {
+                steps.fetch_add(1, Ordering::Relaxed);
+            });
             assert_eq!(steps.into_inner(), nodes.steps(sides), "{kind}");
             let material = Material::from_document(&document.expect("finite values"), &Options::default());
             let material = material.unwrap_or_else(|error| panic!("{kind}: {error}"));
