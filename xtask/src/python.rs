@@ -46,8 +46,8 @@ fn check(arguments: &[String]) -> Result<Outcome, String> {
     }
     let install = ["--no-build-isolation", "--no-deps", "--force-reinstall", "./crates/lobe-python"];
     done(Command::new(&python).args(pip).args(install))?;
-    // What is compared with the program needs it as it is now.
-    done(super::cargo().args(["build", "--release", "--quiet", "--package", "lobe-cli"]))?;
+    // What is compared with the program needs it as it is now. The tests of the workspace use the same build.
+    done(super::cargo().args(["build", "--quiet", "--workspace", "--bin", "lobe"]))?;
     done(
         Command::new(&python)
             .args(["-m", "pytest", "-q", "-p", "no:cacheprovider", "crates/lobe-python"])
