@@ -22,7 +22,7 @@ use commands::{Block, blocks, examples, spans, subcommands};
 use scratch::Scratch;
 
 /// The documents with commands.
-const DOCUMENTS: [&str; 12] = [
+const DOCUMENTS: [&str; 14] = [
     "README.md",
     "CONTRIBUTING.md",
     "docs/accuracy.md",
@@ -30,9 +30,11 @@ const DOCUMENTS: [&str; 12] = [
     "docs/backends.md",
     "docs/benchmarking.md",
     "docs/building.md",
+    "docs/c.md",
     "docs/fuzzing.md",
     "docs/gallery.md",
     "docs/operations.md",
+    "docs/python.md",
     "docs/scenes.md",
     "docs/your-own-measurement.md",
 ];
