@@ -46,11 +46,11 @@ pub(super) fn run<L: Lanes, const SLICES: usize>(
         }
         query += L::LANES;
     }
-    search.run::<L, SLICES, 2, 2>(lanes, n, &ends, ends.count, &blend.weights, &u[1]);
+    search.run::<L, SLICES, 2>(lanes, n, &ends, ends.count, &blend.weights, &u[1]);
     turn::<L, SLICES>(lanes, n, warp, blend, &mut search, corners, u);
-    search.run::<L, SLICES, 4, 2>(lanes, n, &coarse, coarse.count, corners, &u[0]);
+    search.run::<L, SLICES, 4>(lanes, n, &coarse, coarse.count, corners, &u[0]);
     refine(lanes, n, warp, blend, &mut search, &u[1]);
-    search.run::<L, SLICES, 4, 4>(lanes, n, &fine, fine.count.min(STRIDE as i32), corners, &u[0]);
+    search.run::<L, SLICES, 4>(lanes, n, &fine, fine.count.min(STRIDE as i32), corners, &u[0]);
     end::<L, SLICES>(lanes, n, warp, blend, &search, u, density);
 }
 
@@ -62,10 +62,9 @@ impl Search {
     }
 
     /// Moves queries `0..n` to the last of `count` entries whose first `TERMS` floats, weighted and summed over the
-    /// slices, are less than `target`. With `LOADS` of 4, the first two floats of an entry and of the one in the next row
-    /// are the four terms, else those of an entry.
+    /// slices, are less than `target`.
     #[inline(always)]
-    fn run<L: Lanes, const SLICES: usize, const TERMS: usize, const LOADS: usize>(
+    fn run<L: Lanes, const SLICES: usize, const TERMS: usize>(
         &mut self,
         lanes: L,
         n: usize,
@@ -76,7 +75,7 @@ impl Search {
     ) {
         let mut step = (count as u32).next_power_of_two() as i32 / 2;
         while step > 0 {
-            let (stride, block) = (lanes.splat_int(step * entries.stride), entries.further::<LOADS>(step));
+            let (stride, block) = (lanes.splat_int(step * entries.stride), entries.further(step));
             let mut query = 0;
             while query < n {
                 let here = self.here.load(lanes, query);
@@ -85,11 +84,11 @@ impl Search {
                 let mut sum = lanes.splat(0.0);
                 let mut slice = 0;
                 while slice < SLICES {
+                    let entry = found[slice / 2];
                     let mut term = 0;
                     while term < TERMS {
                         let weight = weights[slice / 2 * TERMS + term].load(lanes, query);
-                        let entry = if LOADS == 4 { found[slice + term % 2][term / 2] } else { found[slice / 2][term] };
-                        sum = lanes.mul_add(entry, weight, sum);
+                        sum = lanes.mul_add(entry[term], weight, sum);
                         term += 1;
                     }
                     slice += 2;

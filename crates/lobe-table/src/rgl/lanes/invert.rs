@@ -25,7 +25,7 @@ impl Blend {
 #[inline(always)]
 pub(super) fn columns<L: Lanes, const SLICES: usize>(
     lanes: L,
-    cells: &[Block<'_, 4, 4>; 2],
+    cells: &[Block<'_, 3, 4>; 2],
     bases: &[i32],
     weights: [L::F; SLICES],
     y: L::F,
@@ -34,15 +34,13 @@ pub(super) fn columns<L: Lanes, const SLICES: usize>(
     let mut sums = [lanes.splat(0.0); 3];
     let mut slice = 0;
     while slice < SLICES {
-        let texels = lanes.gather_quads_at(&cells[slice / 2], bases);
+        let [integral, left, right] = lanes.gather_quads_at(&cells[slice / 2], bases);
         let mut corner = 0;
         while corner < 4 {
-            let (which, row) = (corner / 2, corner % 2);
-            let (left, right) = (texels[2 * row], texels[2 * row + 1]);
-            let weight = weights[slice + which] * ends[row];
-            sums[0] = lanes.mul_add(left[2 + which], weight, sums[0]);
-            sums[1] = lanes.mul_add(right[2 + which], weight, sums[1]);
-            sums[2] = lanes.mul_add(left[which], weight, sums[2]);
+            let weight = weights[slice + corner / 2] * ends[corner % 2];
+            sums[0] = lanes.mul_add(left[corner], weight, sums[0]);
+            sums[1] = lanes.mul_add(right[corner], weight, sums[1]);
+            sums[2] = lanes.mul_add(integral[corner], weight, sums[2]);
             corner += 1;
         }
         slice += 2;

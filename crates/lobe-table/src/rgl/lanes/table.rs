@@ -41,7 +41,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// Normalises the distributions and lays everything out: about 18 bytes per texel of the distributions, and 16 bytes per
+    /// Normalises the distributions and lays everything out: about 34 bytes per texel of the distributions, and 16 bytes per
     /// texel of RGB.
     ///
     /// # Errors

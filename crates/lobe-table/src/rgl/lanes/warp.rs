@@ -9,16 +9,17 @@ use lobe_memory::Storage;
 
 /// Normalised slices: what [`rgl::Warp`](crate::rgl::Warp) is in `f64`.
 ///
-/// A blend reads the same texel of two neighbouring zenith angles, which lie side by side with their densities: four floats.
-/// The price is that every texel is kept twice. If its two rows lay side by side too, a step of a search would be one load
-/// instead of two, but a table of the size of the database would not fit the second cache, which costs more.
+/// A blend reads the same texel of two neighbouring zenith angles, and a cell two neighbouring rows. All four lie side by
+/// side, so that a step of a search takes one load of four floats, and what a density needs shares one or two lines of
+/// the cache. The price is that every texel is kept four times.
 #[derive(Clone, Debug)]
 pub(super) struct Warp {
     pub(super) grid: Grid,
-    /// For a texel, its slice and row first: the integrals up to it in this slice and the next, then the densities in both.
+    /// For a texel, its slice and row first: the integrals up to it of (this slice, this row), (this slice, next row),
+    /// (next slice, this row), (next slice, next row); then their densities.
     texels: Storage<f32>,
-    /// The integrals of every [`STRIDE`]th texel by themselves, of (this slice, this row), (this slice, next row), (next slice,
-    /// this row), (next slice, next row): the first steps of a search stay in a table that the first cache may hold.
+    /// The integrals of every [`STRIDE`]th texel by themselves, four floats each: the first steps of a search stay in a
+    /// table that the second cache holds.
     coarse: Storage<f32>,
     /// For a row: the integral of what lies below it in this slice and the next, then its own integral in both.
     rows: Storage<f32>,
@@ -29,7 +30,7 @@ pub(super) struct Warp {
 }
 
 /// Floats of a texel of [`Warp::texels`], and of a row of [`Warp::rows`].
-const TEXEL: usize = 4;
+const TEXEL: usize = 8;
 const ROW: usize = 4;
 /// Texels of [`Warp::texels`] for one of [`Warp::coarse`], and the floats of that one.
 pub(super) const STRIDE: usize = 8;
@@ -40,7 +41,7 @@ impl Warp {
     pub(super) fn new(part: &'static str, images: &Images, slices: [usize; 2]) -> Result<Self, Invalid> {
         let [height, width] = images.size();
         let [azimuths, zeniths] = slices;
-        let (grid, len) = Grid::new(part, images, [images.slices(), height, width], TEXEL)?;
+        let (grid, len) = Grid::new(part, images, [images.slices(), height - 1, width], TEXEL)?;
         let exact = marginal::Warp::new(images);
         let (mut texels, mut rows) = (Storage::zeros(len), Storage::zeros(images.slices() * height * ROW));
         let coarse_len = images.slices() * (height - 1) * coarse_columns(width - 1) * COARSE;
@@ -51,20 +52,17 @@ impl Warp {
         for slice in 0..images.slices() {
             // The last zenith angle has no next.
             let next = if (slice + 1) % zeniths == 0 { slice } else { slice + 1 };
-            for row in 0..height {
-                for col in 0..width {
-                    let node = nodes.next().expect("a node a texel");
-                    for (which, slice) in [slice, next].into_iter().enumerate() {
-                        let [density, integral] = exact.node(slice, row, col);
-                        (node[which], node[2 + which]) = (integral as f32, density as f32);
-                    }
-                }
-            }
             for row in 0..height - 1 {
-                for col in (0..width - 1).step_by(STRIDE) {
+                for col in 0..width {
                     let corners = [(slice, row), (slice, row + 1), (next, row), (next, row + 1)];
-                    let integrals = corners.map(|(slice, row)| exact.node(slice, row, col)[1] as f32);
-                    skips.next().expect("a place for some").copy_from_slice(&integrals);
+                    let node = nodes.next().expect("a node a texel");
+                    for (corner, (slice, row)) in corners.into_iter().enumerate() {
+                        let [density, integral] = exact.node(slice, row, col);
+                        (node[corner], node[4 + corner]) = (integral as f32, density as f32);
+                    }
+                    if col % STRIDE == 0 && col < width - 1 {
+                        skips.next().expect("a place for some").copy_from_slice(&node[..4]);
+                    }
                 }
             }
             for row in 0..height {
@@ -83,13 +81,12 @@ impl Warp {
         })
     }
 
-    /// For a base at a cell: the texels at its left and right, and those in the next row; in its slice, and in that of the next
-    /// azimuth.
+    /// For a base at a cell: the integrals at its left, and the densities at its left and right; in its slice, and in that of
+    /// the next azimuth.
     #[inline(always)]
-    pub(super) fn cells(&self) -> [Block<'_, 4, 4>; 2] {
-        let [_, row, slice] = self.grid.strides;
-        let corners = [0, TEXEL, row, row + TEXEL];
-        [0, self.zeniths * slice].map(|next| Block::new(self.texels.as_slice(), corners.map(|corner| next + corner)))
+    pub(super) fn cells(&self) -> [Block<'_, 3, 4>; 2] {
+        let (texels, next) = (self.texels.as_slice(), self.zeniths * self.grid.strides[2]);
+        [Block::new(texels, [0, 4, TEXEL + 4]), Block::new(texels, [next, next + 4, next + TEXEL + 4])]
     }
 
     /// For a base at a row: that row and the next; in its slice, and in that of the next azimuth.
@@ -106,7 +103,7 @@ impl Warp {
         self.entries(&self.rows, rows, [ROW, 0, (rows + 1) * ROW])
     }
 
-    /// The integrals up to the columns, of two slices; those of the next row are a row further.
+    /// The integrals up to the columns.
     #[inline(always)]
     pub(super) fn fine(&self) -> Entries<'_> {
         self.entries(&self.texels, self.grid.cells[0], self.grid.strides)
@@ -153,22 +150,14 @@ pub(super) struct Entries<'a> {
 }
 
 impl<'a> Entries<'a> {
-    /// For a base at an entry: the one so many further; in its slice, and in that of the next azimuth. If there are four, each
-    /// is followed by that of the next row.
+    /// For a base at an entry: the one so many further; in its slice, and in that of the next azimuth.
     ///
     /// # Panics
     /// If no slice has so many.
     #[inline(always)]
-    pub(super) fn further<const N: usize>(&self, by: i32) -> Block<'a, N, 4> {
-        const { assert!(N == 2 || N == 4, "one row or two, in two slices") };
-        let mut offsets = [(by * self.stride) as usize; N];
-        let mut k = 0;
-        while k < N {
-            let (azimuth, row) = if N == 2 { (k, 0) } else { (k / 2, k % 2) };
-            offsets[k] += azimuth * self.azimuth as usize + row * self.row as usize;
-            k += 1;
-        }
-        Block::new(self.floats, offsets)
+    pub(super) fn further(&self, by: i32) -> Block<'a, 2, 4> {
+        let further = (by * self.stride) as usize;
+        Block::new(self.floats, [further, further + self.azimuth as usize])
     }
 
     /// Where a slice begins.
