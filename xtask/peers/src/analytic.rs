@@ -1,6 +1,6 @@
 //! A measured table against an analytic model: what measured materials cost.
 
-use lobe::{Backend, Directions, Edges, specular};
+use lobe::{Backend, Buffer, Directions, Edges, specular};
 use lobe_benches::contest::Contender;
 use lobe_benches::tables;
 use lobe_benches::workload::Input;
@@ -24,7 +24,7 @@ fn contest(exchange: &mut Exchange, input: Input) -> anyhow::Result<Contest> {
     exchange.task(&task, json!({ "bsdf": { "type": "principled" }, "what": "eval", "pairs": file }));
     let table = specular::Table::new(&tables::isotropic(), &Edges::default())?;
     let backend = Backend::best().fused();
-    let run = move |out: &mut Vec<f32>| {
+    let run = move |out: &mut Buffer<f32>| {
         let [wi, wo] = [&pairs.wi, &pairs.wo].map(|[x, y, z]| Directions::columns(x, y, z));
         table.eval_batch(backend, wi, wo, out);
     };
@@ -33,7 +33,7 @@ fn contest(exchange: &mut Exchange, input: Input) -> anyhow::Result<Contest> {
         on: format!("7 × 8 × 13, {}", input.name()),
         unit: "evaluation",
         count: COUNT,
-        lobe: Contender::new("lobe", Contender::UNCHECKED, vec![f32::NAN; 3 * COUNT], run, Vec::clone),
+        lobe: Contender::new("lobe", Contender::UNCHECKED, Buffer::zeros(3 * COUNT), run, |out| out.to_vec()),
         inside: Vec::new(),
         outside: vec![
             Outside::new("Mitsuba principled", "mitsuba", &task),

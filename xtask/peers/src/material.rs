@@ -6,7 +6,7 @@ use std::rc::Rc;
 use anyhow::bail;
 use lobe::formats;
 use lobe::table::rgl::{self, Drawn, UniformOrder, Wanted};
-use lobe::{Backend, Channels, Data, Directions};
+use lobe::{Backend, Buffer, Channels, Data, Directions};
 use lobe_benches::contest::Contender;
 use lobe_benches::workload::{Input, Pairs};
 use rand::{RngExt, SeedableRng};
@@ -98,22 +98,22 @@ impl<'a> Subject<'a> {
     /// `f cos(theta_o)`, which is what Mitsuba returns.
     fn eval(&self, exchange: &mut Exchange, input: Input, (pairs, file): &(Rc<Pairs>, PathBuf)) -> Contest {
         let (table, backend, pairs) = (self.table.clone(), self.backend, pairs.clone());
-        let run = move |out: &mut Vec<f32>| {
+        let run = move |out: &mut Buffer<f32>| {
             let [wi, wo] = columns(&pairs);
             table.evaluate(backend, wi, wo, Wanted::ValuesCos(out));
         };
-        let lobe = Contender::new("lobe", Contender::UNCHECKED, vec![f32::NAN; 3 * COUNT], run, Vec::clone);
+        let lobe = Contender::new("lobe", Contender::UNCHECKED, Buffer::zeros(3 * COUNT), run, |out| out.to_vec());
         let task = json!({ "what": "eval", "pairs": file });
         self.contest(exchange, ("rgl-eval", "evaluation"), input, task, lobe, Some(7.0))
     }
 
     fn pdf(&self, exchange: &mut Exchange, (pairs, file): &(Rc<Pairs>, PathBuf)) -> Contest {
         let (table, backend, pairs) = (self.table.clone(), self.backend, pairs.clone());
-        let run = move |out: &mut Vec<f32>| {
+        let run = move |out: &mut Buffer<f32>| {
             let [wi, wo] = columns(&pairs);
             table.pdf_batch(backend, wi, wo, out);
         };
-        let lobe = Contender::new("lobe", Contender::UNCHECKED, vec![f32::NAN; COUNT], run, Vec::clone);
+        let lobe = Contender::new("lobe", Contender::UNCHECKED, Buffer::zeros(COUNT), run, |out| out.to_vec());
         let task = json!({ "what": "pdf", "pairs": file });
         self.contest(exchange, ("rgl-pdf", "density"), Input::Incoherent, task, lobe, None)
     }
@@ -126,13 +126,13 @@ impl<'a> Subject<'a> {
         (uniforms, uniforms_file): &(Rc<[[f32; 2]]>, PathBuf),
     ) -> Contest {
         let (table, backend, pairs, uniforms) = (self.table.clone(), self.backend, pairs.clone(), uniforms.clone());
-        let out = (vec![[f32::NAN; 3]; COUNT], vec![f32::NAN; COUNT], vec![f32::NAN; 3 * COUNT]);
-        let run = move |(wo, pdf, weights): &mut (Vec<[f32; 3]>, Vec<f32>, Vec<f32>)| {
+        let out = (Buffer::zeros(COUNT), Buffer::zeros(COUNT), Buffer::zeros(3 * COUNT));
+        let run = move |(wo, pdf, weights): &mut (Buffer<[f32; 3]>, Buffer<f32>, Buffer<f32>)| {
             let [wi, _] = columns(&pairs);
             table.sample_batch(backend, wi, &uniforms, UniformOrder::Powitacq, Drawn { wo, pdf, weights });
         };
         let lobe = Contender::new("lobe", Contender::UNCHECKED, out, run, |(wo, pdf, weights)| {
-            [wo.as_flattened(), pdf, weights].concat()
+            [wo.as_flattened(), &**pdf, &**weights].concat()
         });
         let task = json!({ "what": "sample", "pairs": file, "uniforms": uniforms_file });
         self.contest(exchange, ("rgl-sample", "sample"), Input::Incoherent, task, lobe, Some(10.0))
