@@ -6,8 +6,9 @@ use lobe_lane::{Block, Mask};
 use lobe_trace::{HitSoA, RaySoA};
 
 use crate::columns::{Column, RAYS, ZEROS, ensure_len, load, store, vector};
+use crate::place::Place;
 use crate::transport::Transport;
-use crate::vec3::{self, Vec3};
+use crate::vec3::Vec3;
 use crate::vectors::{add, blend, cross, dot, max_component, neg, perpendicular, scale, select, sub, unit_or};
 use crate::world::{Corner, World};
 
@@ -73,55 +74,6 @@ impl<L: Lanes> SurfaceInteraction<L> {
         let divisor = from * wi[2].abs();
         let usable = zero.lt(divisor);
         lanes.select(usable, wo[2].abs() * to / lanes.select(usable, divisor, one), zero)
-    }
-}
-
-/// A point on one surface, kept for later.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Place {
-    pub position: Vec3,
-    /// See [`SurfaceInteraction`], as the others.
-    pub lifted: Vec3,
-    pub geometric: Vec3,
-    pub frame: [Vec3; 3],
-    pub step: f32,
-}
-
-impl Place {
-    pub const ZERO: Self =
-        Place { position: [0.0; 3], lifted: [0.0; 3], geometric: [0.0; 3], frame: [[0.0; 3]; 3], step: 0.0 };
-
-    /// A direction of the world in the frame.
-    pub fn local(&self, world: Vec3) -> Vec3 {
-        self.frame.map(|axis| vec3::dot(axis, world))
-    }
-
-    /// A direction of the frame in the world.
-    pub fn world(&self, local: Vec3) -> Vec3 {
-        let [x, y, z] = self.frame;
-        vec3::add(vec3::add(vec3::scale(x, local[0]), vec3::scale(y, local[1])), vec3::scale(z, local[2]))
-    }
-
-    /// Whether the direction is on the same side of the facet and of the smooth surface.
-    pub fn same_side(&self, world: Vec3, local: Vec3) -> bool {
-        (vec3::dot(self.geometric, world) > 0.0) == (local[2] > 0.0)
-    }
-
-    /// The origin of a shadow ray, off the surface on the side that `direction` leads to.
-    pub fn shadow_origin(&self, direction: Vec3) -> Vec3 {
-        let below = vec3::dot(self.geometric, direction) < 0.0;
-        vec3::add(self.lifted, vec3::scale(self.geometric, if below { -self.step } else { self.step }))
-    }
-
-    /// The cosine of a direction to the normal of the triangle.
-    pub fn cos(&self, world: Vec3) -> f32 {
-        vec3::dot(self.geometric, world).abs()
-    }
-
-    /// As [`SurfaceInteraction::adjoint_correction`]: `wo` and `wi` in the frame, and in the world.
-    pub fn adjoint_correction(&self, [wo, wi]: [Vec3; 2], [from, to]: [Vec3; 2]) -> f32 {
-        let divisor = self.cos(from) * wi[2].abs();
-        if divisor > 0.0 { wo[2].abs() * self.cos(to) / divisor } else { 0.0 }
     }
 }
 

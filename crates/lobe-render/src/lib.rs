@@ -28,6 +28,7 @@ mod merge;
 mod passes;
 mod photon;
 pub mod picture;
+mod place;
 pub mod preview;
 mod random;
 mod render;

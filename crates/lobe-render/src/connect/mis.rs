@@ -118,7 +118,7 @@ impl Mis {
     }
 
     /// Of the end of a light path as the camera sees it. `seen` is the density over the surface of all camera rays.
-    pub fn to_camera(&self, seen: f32, reverse: f32, factors: Factors) -> f32 {
+    pub fn splatted(&self, seen: f32, reverse: f32, factors: Factors) -> f32 {
         1.0 / (1.0 + seen / factors.paths * (factors.merging + self.vcm + self.vc * reverse))
     }
 

@@ -1,7 +1,7 @@
 //! What is kept of light paths.
 
 use super::Mis;
-use crate::interaction::Place;
+use crate::place::Place;
 use crate::transport::Transport;
 use crate::vec3::Vec3;
 

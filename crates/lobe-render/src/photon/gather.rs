@@ -119,8 +119,8 @@ impl Kernel for Compare<'_> {
 mod tests {
     use super::*;
     use crate::connect::{LightPart, LightVertex, Mis};
-    use crate::interaction::Place;
     use crate::light::SceneBounds;
+    use crate::place::Place;
     use crate::transport::Rgb;
 
     fn parts(n: usize) -> Vec<LightPart<Rgb>> {

@@ -125,8 +125,8 @@ impl<T: Transport> Photons<T> {
         let mut photons = vec![nothing; count];
         for (at, vertex) in counts().enumerate() {
             let to = order[at] as usize;
-            for axis in 0..3 {
-                position[axis][to] = vertex.place.position[axis];
+            for (column, x) in position.iter_mut().zip(vertex.place.position) {
+                column[to] = x;
             }
             rows[to] = cells[at][1];
             photons[to] = Photon {

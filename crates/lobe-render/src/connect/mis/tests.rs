@@ -160,14 +160,14 @@ impl Known {
         densities.extend((0..k).map(|i| self.merged(i, factors)));
         let sum: f64 = densities.iter().sum();
         let mut found = Vec::new();
-        for s in 0..=k {
+        for (s, density) in densities.iter().enumerate().take(k + 1) {
             let shares = |weight: f32| f64::from(weight);
-            found.push(if densities[s] == 0.0 {
+            found.push(if *density == 0.0 {
                 0.0
             } else if s == k {
                 let last = &self.surfaces[k - 1];
                 let seen = self.camera * last.to_camera / self.lengths[k];
-                shares(light[k - 1].to_camera(seen, last.back, factors))
+                shares(light[k - 1].splatted(seen, last.back, factors))
             } else if s == 0 {
                 let first = &self.surfaces[0];
                 let hit = if self.light.delta { 0.0 } else { (self.found() / self.direct()) as f32 };
@@ -197,8 +197,7 @@ impl Known {
             let Emission { position, direction, chance, .. } = self.light;
             f64::from(mis.found(self.direct() as f32, chance * position * direction))
         });
-        for i in 0..k {
-            let surface = &self.surfaces[i];
+        for (i, surface) in self.surfaces.iter().enumerate() {
             let weight = Mis::merge(&light[i], &camera[i], [surface.back, surface.onward], factors);
             found.push(if densities[k + 2 + i] == 0.0 { 0.0 } else { f64::from(weight) });
         }

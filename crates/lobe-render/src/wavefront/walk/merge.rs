@@ -48,7 +48,7 @@ impl<T: Unpolarised> Wavefront<'_, T> {
                 pairs.clear();
                 kept.clear();
                 let mut at = usize::MAX;
-                let mut place = crate::interaction::Place::ZERO;
+                let mut place = crate::place::Place::ZERO;
                 for near in &*near {
                     let hit = first + near.place as usize;
                     if at != hit {

@@ -94,7 +94,7 @@ impl<T: Unpolarised> Wavefront<'_, T> {
                 let distance = block.distance[at];
                 let density = pass.pixels * self.view.density(neg(toward));
                 let over = density * dot(place.geometric, toward).abs() / (distance * distance);
-                walk.mis.to_camera(over, pairs.reverse[pair], pass.factors)
+                walk.mis.splatted(over, pairs.reverse[pair], pass.factors)
             } else {
                 1.0
             };
