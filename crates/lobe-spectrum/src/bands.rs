@@ -17,7 +17,7 @@ pub struct Bands {
     /// Linear sRGB of the radiance 1 in each band.
     weights: Vec<[f64; 3]>,
     /// Linear sRGB of the reflectance 1 in each band, under D65.
-    reduction: Vec<[f64; 3]>,
+    pub(crate) reduction: Vec<[f64; 3]>,
     /// D65 in bands, of the luminance 1.
     d65: Vec<f64>,
     /// The reflectances of colours whose largest component is 1/2, by which of them it is and by the two others.
@@ -152,7 +152,7 @@ impl Bands {
         self.fit(rgb.map(f64::from)).into_iter().map(|x| x as f32).collect()
     }
 
-    fn fit(&self, rgb: [f64; 3]) -> Vec<f64> {
+    pub(crate) fn fit(&self, rgb: [f64; 3]) -> Vec<f64> {
         let place = |nm: f64| (nm - 550.0) / 200.0;
         let inside = self.wavelengths.iter().filter(|nm| (430.0..=670.0).contains(*nm)).count();
         if inside >= 6 {
@@ -214,80 +214,11 @@ impl Bands {
             *x = factor * *d65 as f32 * (low + u * (high - low));
         }
     }
-
-    /// How the values of channels become bands: wavelengths are interpolated; all other channels are colours, which become
-    /// spectra by three smooth parts. `None` if the channels are the bands already.
-    pub fn resampling(&self, channels: &Channels) -> Option<Resampling> {
-        if let Channels::Spectral(wavelengths) = channels {
-            if *wavelengths == self.wavelengths {
-                return None;
-            }
-            let mut order: Vec<usize> = (0..wavelengths.len()).collect();
-            order.sort_by(|&a, &b| wavelengths[a].total_cmp(&wavelengths[b]));
-            let parts = self.wavelengths.iter().map(|nm| {
-                let upper = order.partition_point(|&index| wavelengths[index] < *nm);
-                let (a, b) = (order[upper.saturating_sub(1)], order[upper.min(order.len() - 1)]);
-                let width = wavelengths[b] - wavelengths[a];
-                let share = if width > 0.0 { ((nm - wavelengths[a]) / width).clamp(0.0, 1.0) } else { 0.0 };
-                vec![(a, (1.0 - share) as f32), (b, share as f32)]
-            });
-            return Some(Resampling { channels: wavelengths.len(), parts: parts.collect() });
-        }
-        let reduction = Reduction::for_display(channels);
-        let primaries = self.primaries();
-        let parts = (0..self.count()).map(|band| {
-            let weight = |colour: &[f64; 3]| (0..3).map(|k| colour[k] * primaries[k][band]).sum::<f64>() as f32;
-            reduction.weights().iter().map(weight).enumerate().collect()
-        });
-        Some(Resampling { channels: channels.count(), parts: parts.collect() })
-    }
-
-    /// Three spectra whose sum is 1 everywhere, with the colours of red, green and blue under D65, as far as they can be.
-    fn primaries(&self) -> [Vec<f64>; 3] {
-        let [red, green, blue] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|rgb| self.fit(rgb));
-        // What the three lack to be white goes to each by its share, which keeps them smooth.
-        let mut parts = [red, green, blue];
-        for band in 0..self.count() {
-            let sum: f64 = parts.iter().map(|part| part[band]).sum();
-            parts.iter_mut().for_each(|part| part[band] /= sum.max(1e-9));
-        }
-        parts
-    }
 }
 
 /// The luminance of linear sRGB.
 fn luminance_of(rgb: [f64; 3]) -> f64 {
     lobe_colour::rgb_to_xyz(rgb)[1]
-}
-
-/// A linear map from channels to bands.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Resampling {
-    channels: usize,
-    /// For each band the channels that count, and how much.
-    parts: Vec<Vec<(usize, f32)>>,
-}
-
-impl Resampling {
-    /// How many channels there are.
-    pub fn channels(&self) -> usize {
-        self.channels
-    }
-
-    /// For each band the channels that count, and how much: two for wavelengths.
-    pub fn parts(&self) -> &[Vec<(usize, f32)>] {
-        &self.parts
-    }
-
-    /// The bands of a value, into the first numbers of `out`.
-    pub fn apply(&self, texel: &[f32], out: &mut [f32]) {
-        for (out, parts) in out.iter_mut().zip(&self.parts) {
-            *out = 0.0;
-            for &(channel, weight) in parts {
-                *out += weight * texel[channel];
-            }
-        }
-    }
 }
 
 #[cfg(test)]
@@ -367,6 +298,13 @@ mod tests {
         let mut out = [0.0; 16];
         rgb.apply(&[0.7; 3], &mut out);
         assert!(out.iter().all(|x| (x - 0.7).abs() < 1e-5), "{out:?}");
+        let white = bands.emission([1.0; 3]);
+        for colour in [[0.7, 0.2, 0.1], [0.0, 0.5, 0.05], [0.1, 0.1, 0.9]] {
+            rgb.apply(&colour, &mut out);
+            let seen: Vec<f32> = out.iter().zip(&white).map(|(share, light)| share * light).collect();
+            assert!(near(bands.colour(&seen), colour, 1e-4), "{colour:?}: {:?}", bands.colour(&seen));
+            assert!(out.iter().all(|share| *share > -0.05 && *share < 1.1), "{out:?}");
+        }
         let mono = bands.resampling(&Channels::Mono).expect("grey");
         mono.apply(&[0.25], &mut out);
         assert!(out.iter().all(|x| (x - 0.25).abs() < 1e-5), "{out:?}");

@@ -13,10 +13,12 @@ mod glass;
 mod illuminants;
 mod metal;
 mod metals;
+mod resampling;
 mod spectrum;
 mod upsample;
 
-pub use bands::{Bands, Resampling};
+pub use bands::Bands;
 pub use glass::Glass;
 pub use metal::Metal;
+pub use resampling::Resampling;
 pub use spectrum::{Illuminant, Spectrum, SpectrumError};

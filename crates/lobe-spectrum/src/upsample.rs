@@ -63,7 +63,7 @@ fn solve(places: &[f64], weights: &[[f64; 3]], target: [f64; 3], start: [f64; 3]
         let mut jacobian = [[0.0; 3]; 3];
         for (x, weight) in places.iter().zip(weights) {
             let p = polynomial(at, *x);
-            let slope = 0.5 / (1.0 + p * p).powf(1.5);
+            let slope = 0.5 / ((1.0 + p * p) * (1.0 + p * p).sqrt());
             for (row, weight) in jacobian.iter_mut().zip(weight) {
                 for (entry, power) in row.iter_mut().zip([x * x, *x, 1.0]) {
                     *entry += weight * slope * power;
