@@ -11,6 +11,7 @@ use lobe_table::window::klems::{self, AngleBasis};
 use lobe_table::window::{self, Band, Block, Blocks, Component};
 
 use crate::failure::Failure;
+use crate::matrices;
 use crate::measure;
 use crate::message::say;
 use crate::output::{Output, side};
@@ -80,6 +81,9 @@ fn written(document: Document, args: &Args) -> Result<(), Failure> {
             say(format_args!("{}: {format}, the values and nodes of the file{note}", out.display()));
             return Ok(());
         }
+    }
+    if matrices::converted(&document, target, &args.output)?.is_some() {
+        return Ok(());
     }
     if let Some(Data::Mirror(_)) = document.only() {
         let message = format!("{format}: found mirror reflectances; expected values for pairs of directions");

@@ -7,6 +7,7 @@ use lobe_model::{Blinn, Conductor, Ggx, Lambert, Mix, Model, OrenNayar, Phong, R
 use lobe_ops::remeasure::Sides;
 
 use crate::failure::Failure;
+use crate::matrices;
 use crate::measure;
 use crate::output::Output;
 
@@ -18,6 +19,7 @@ use crate::output::Output;
   lobe generate ggx brushed.bsdf --to rgl --alpha 0.1,0.4
   lobe generate ward paint.binary --alpha 0.15 --specular 0.3 --diffuse 0.5,0.1,0.1
   lobe generate cloth silk.ddr --paths 500
+  lobe generate mueller gold.mueller --metal gold
 
 A colour is one number, or three for red, green and blue. `lobe generate MODEL --help` lists the parameters of a model.")]
 pub struct Args {
@@ -111,6 +113,8 @@ enum ModelArgs {
         #[command(flatten)]
         output: Output,
     },
+    /// Mueller matrices of GGX microfacets, by Fresnel's equations.
+    Mueller(matrices::Args),
     /// Woven cloth, by tracing light through its threads: Volevich et al. 1997.
     #[command(
         after_help = "Example:\n  lobe generate cloth silk.ddr --warp 0.02,0.08,0.45 --weft 0.6,0.18,0.02 --paths 500\n\nThe values are simulated with --paths paths of light for each direction of the light: their noise falls with the square root of that number."
@@ -172,6 +176,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         ModelArgs::Blinn { exponent, specular, diffuse, output } => {
             write_over(Blinn { specular: *specular, exponent: *exponent }, diffuse, output)
         }
+        ModelArgs::Mueller(args) => matrices::generate(args),
         ModelArgs::Cloth { warp, weft, shine, alpha, weave, paths, seed, output } => {
             let plies = [Ply { along: 1, across: 3.0, depth: 0.03 }; 2];
             let weave = Weave { over: weave[0], under: weave[1], crimp: 0.05, roundness: 0.3, plies };

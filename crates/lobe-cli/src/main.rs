@@ -17,6 +17,7 @@ mod guesses;
 mod import;
 mod info;
 mod interrupt;
+mod matrices;
 mod measure;
 mod merge;
 mod message;

@@ -23,6 +23,7 @@ mod directions;
 pub mod energy;
 pub mod fill;
 pub mod hemisphere;
+pub mod matrices;
 mod pairs;
 pub mod reciprocity;
 pub mod remeasure;

@@ -12,6 +12,7 @@ mod finding;
 mod grid;
 mod guesses;
 mod horizon;
+mod realisable;
 mod values;
 
 use lobe_formats::Document;
@@ -36,6 +37,7 @@ pub fn check(subject: &Subject, thoroughness: &Thoroughness, progress: impl Fn(f
         findings.extend(azimuths::check(&grid, &part));
     }
     findings.extend(horizon::check(&subject.document));
+    findings.extend(realisable::check(&subject.document));
     findings.extend(coverage::check(&subject.document));
     findings.extend(energy::check(subject, thoroughness, |done| progress(0.9 * done)));
     findings.extend(exchange::check(subject, thoroughness));

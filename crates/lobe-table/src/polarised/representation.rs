@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::data::Data;
 use crate::bsdf::Bsdf;
-use crate::data::{Coverage, Kinks, Options, PrepareError, Section};
+use crate::data::{Coverage, Kinks, Options, PrepareError, Section, Uses};
 use crate::specular::AXIS_NAMES;
 use crate::{Aspect, Channels, Edges, Kind, Representation};
 
@@ -26,6 +26,10 @@ impl Representation for Data {
 
     fn is_isotropic(&self) -> bool {
         self.first.is_isotropic()
+    }
+
+    fn uses(&self) -> Uses {
+        Uses { edges: true, ..Uses::default() }
     }
 
     fn sections(&self) -> Vec<Section<'_>> {
