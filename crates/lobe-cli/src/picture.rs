@@ -4,8 +4,10 @@ use std::path::{Path, PathBuf};
 
 use lobe_files::check_output;
 use lobe_memory::require;
-use lobe_render::picture::{Inspected, Meta, PictureError, ToneMap, inspect, read_partial, write_exr, write_png};
-use lobe_render::{Film, Rect};
+use lobe_render::picture::{
+    Inspected, Meta, PictureError, Shown, ToneMap, inspect, read_partial_in, write_exr_in, write_png_in,
+};
+use lobe_render::{Channels, Film, Rect, Transport};
 
 use crate::failure::Failure;
 
@@ -13,6 +15,8 @@ use crate::failure::Failure;
 pub const FILM: usize = 100;
 /// The same of the picture so far: a copy of the film, and the sums in columns and as a file.
 const SO_FAR: usize = 400;
+/// The same for each channel, of which there are three at least.
+const SUMS: usize = 40;
 
 /// The kinds of files that pictures are written to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,13 +55,15 @@ pub struct Output<'a> {
     kind: Kind,
     /// How a PNG is tone-mapped.
     pub tone: ToneMap,
+    /// What a PNG shows.
+    pub shown: Shown,
     keep_sums: bool,
 }
 
 /// What there is to go on with.
-pub enum Begun {
+pub enum Begun<T: Transport> {
     /// The sums of some samples.
-    Sums(Film),
+    Sums(Film<T>),
     /// Everything that was requested: this many samples.
     Finished(u32),
 }
@@ -65,7 +71,7 @@ pub enum Begun {
 impl<'a> Output<'a> {
     /// A file of this kind, which has the sums in the end if they are kept.
     pub fn new(path: &'a Path, kind: Kind, keep_sums: bool) -> Self {
-        Output { path, kind, tone: ToneMap { exposure: 0.0 }, keep_sums }
+        Output { path, kind, tone: ToneMap { exposure: 0.0 }, shown: Shown::Colour, keep_sums }
     }
 
     /// Whether all can be written that will be, and nothing of it is an input.
@@ -106,10 +112,15 @@ impl<'a> Output<'a> {
     }
 
     /// What an earlier rendering of the same has left.
-    pub fn resume(&self, wanted: &Meta, earlier: &Inspected) -> Result<Begun, Failure> {
+    pub fn resume<T: Transport>(
+        &self,
+        basis: &T::Basis,
+        wanted: &Meta,
+        earlier: &Inspected,
+    ) -> Result<Begun<T>, Failure> {
         let part = self.part();
         let wrong = |message: String| Err(Failure::Usage(format!("{}: {message}", part.display())));
-        let Inspected { meta, has_sums } = earlier;
+        let Inspected { meta, has_sums, .. } = earlier;
         if let Some(difference) = meta.difference(wanted) {
             let (first, second) = (difference.first, difference.second);
             return wrong(format!(
@@ -133,7 +144,7 @@ impl<'a> Output<'a> {
             ))
         };
         if *has_sums {
-            let film = read_partial(&part)?.0;
+            let film = read_partial_in::<T>(&part, basis)?.0;
             let (_, most) = film.samples();
             return if most > asked { fewer(most) } else { Ok(Begun::Sums(film)) };
         }
@@ -147,41 +158,58 @@ impl<'a> Output<'a> {
     }
 
     /// The film so far: to look at, and to continue.
-    pub fn write_so_far(&self, meta: &Meta, film: impl FnOnce() -> Film) -> Result<(), Failure> {
-        let bytes = meta.window.area() as u64 * SO_FAR as u64;
+    pub fn write_so_far<T: Transport>(
+        &self,
+        basis: &T::Basis,
+        meta: &Meta,
+        film: impl FnOnce() -> Film<T>,
+    ) -> Result<(), Failure> {
+        let bytes = meta.window.area() as u64 * (SO_FAR as u64 + SUMS as u64 * <T::Radiance as Channels>::COUNT as u64);
         require(bytes).map_err(|no_room| Failure::File(format!("it takes {no_room}")))?;
-        self.write_sums(&film(), meta)
+        self.write_sums(&film(), basis, meta)
     }
 
-    fn write_sums(&self, film: &Film, meta: &Meta) -> Result<(), Failure> {
-        write_exr(&self.part(), film, meta, true)?;
+    fn write_sums<T: Transport>(&self, film: &Film<T>, basis: &T::Basis, meta: &Meta) -> Result<(), Failure> {
+        write_exr_in(&self.part(), film, basis, meta, true)?;
         if self.kind == Kind::Png {
-            write_png(self.path, film, self.tone)?;
+            write_png_in(self.path, film, basis, self.tone, self.shown)?;
         }
         Ok(())
     }
 
     /// The picture that is finished. If it cannot be written there, it goes elsewhere: it may have taken hours.
-    pub fn write(&self, film: &Film, meta: &Meta, partial: bool) -> Result<(), Failure> {
-        let Err(failure) = self.write_finished(film, meta, partial) else { return Ok(()) };
+    pub fn write<T: Transport>(
+        &self,
+        film: &Film<T>,
+        basis: &T::Basis,
+        meta: &Meta,
+        partial: bool,
+    ) -> Result<(), Failure> {
+        let Err(failure) = self.write_finished(film, basis, meta, partial) else { return Ok(()) };
         let rescue = std::env::temp_dir().join(format!("lobe-{}.exr", std::process::id()));
-        Err(match write_exr(&rescue, film, meta, true) {
+        Err(match write_exr_in(&rescue, film, basis, meta, true) {
             Ok(()) => Failure::File(format!("{failure}; the picture and its sums are in {}", rescue.display())),
             Err(_) => failure,
         })
     }
 
-    fn write_finished(&self, film: &Film, meta: &Meta, partial: bool) -> Result<(), Failure> {
+    fn write_finished<T: Transport>(
+        &self,
+        film: &Film<T>,
+        basis: &T::Basis,
+        meta: &Meta,
+        partial: bool,
+    ) -> Result<(), Failure> {
         // What ended before its time says what it has, not what it was to have.
         let samples = meta.samples.start..meta.samples.start + film.samples().1;
         let total = meta.total.min(samples.end);
         let finished = if partial { meta.clone() } else { Meta { samples, total, ..meta.clone() } };
         match self.kind {
-            Kind::Exr => write_exr(self.path, film, &finished, self.keep_sums)?,
+            Kind::Exr => write_exr_in(self.path, film, basis, &finished, self.keep_sums)?,
             Kind::Png => {
-                write_png(self.path, film, self.tone)?;
+                write_png_in(self.path, film, basis, self.tone, self.shown)?;
                 if self.keep_sums {
-                    return Ok(write_exr(&self.part(), film, &finished, true)?);
+                    return Ok(write_exr_in(&self.part(), film, basis, &finished, true)?);
                 }
                 // Only a rendering that took long has left one.
                 match std::fs::remove_file(self.part()) {
@@ -196,12 +224,12 @@ impl<'a> Output<'a> {
     }
 
     /// Writes what there is of a picture that the user has ended, and says how to go on.
-    pub fn interrupted(&self, film: &Film, meta: &Meta) -> Failure {
+    pub fn interrupted<T: Transport>(&self, film: &Film<T>, basis: &T::Basis, meta: &Meta) -> Failure {
         let (least, most) = film.samples();
         if most == 0 {
             return Failure::Interrupted("interrupted before the first sample; nothing was written".into());
         }
-        match self.write_sums(film, meta) {
+        match self.write_sums(film, basis, meta) {
             Ok(()) => Failure::Interrupted(format!(
                 "{}: interrupted with {least} to {most} of {} samples, which were written; the same command with --resume goes on",
                 self.path.display(),

@@ -2,15 +2,16 @@
 
 use std::io::Write as _;
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use clap::ValueEnum;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use lobe::Backend;
-use lobe_render::integrator::{self, INTEGRATORS};
-use lobe_render::picture::{Meta, ToneMap};
-use lobe_render::scene::Scene;
-use lobe_render::{Film, Rect, Settings, render};
+use lobe_render::integrator::INTEGRATORS;
+use lobe_render::picture::{Meta, Shown, ToneMap};
+use lobe_render::scene::{AnyScene, Scene};
+use lobe_render::{Film, Rect, Settings, Transport, render};
 
 use crate::angles::progress;
 use crate::draft::Draft;
@@ -44,6 +45,7 @@ Examples:
   lobe render scene.toml -o picture.exr --keep-sums        and later --resume --samples 256
   lobe render scene.toml -o part2.exr --tile 2/4           on the second of four machines
   lobe render scene.toml -o more.exr --samples-range 64..128
+  lobe render glass.toml -o polarised.png --show dolp      of a scene with polarised light
   lobe merge part*.exr -o picture.exr
   lobe render scene.toml -o picture.png --json | jq .shares.materials"
 )]
@@ -83,6 +85,9 @@ pub struct Args {
     /// Write the exact sums of the finished picture too, so that --resume can add samples.
     #[arg(long)]
     keep_sums: bool,
+    /// What a PNG shows.
+    #[arg(long, value_enum, default_value = "colour")]
+    show: Show,
     /// Print what the rendering took as JSON.
     #[arg(long)]
     json: bool,
@@ -170,14 +175,40 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let message = format!("{}: found a PNG file; expected .exr, which holds exact sums", args.output.display());
         return Err(Failure::Usage(message));
     }
-    let mut output = Output::new(&args.output, kind, partial || args.keep_sums);
+    let output = Output::new(&args.output, kind, partial || args.keep_sums);
     output.check(&[&args.scene])?;
     let backend = args.machine.backend()?;
     let bar = (!args.machine.is_quiet()).then(|| progress("preparing materials"));
     let mut watch = |share: f64| bar.iter().for_each(|bar| bar(share));
-    let scene = Scene::open_with_progress(&args.scene, backend, &mut watch);
+    let scene = AnyScene::open_with_progress(&args.scene, backend, args.integrator.as_deref(), &mut watch);
     drop(bar);
-    let scene = scene.map_err(|error| Failure::File(error.to_string()))?;
+    let begun = Beginning { begun, backend, partial };
+    match scene.map_err(|error| Failure::File(error.to_string()))? {
+        AnyScene::Rgb(scene) => run_scene(args, begun, output, scene),
+        AnyScene::Bands8(scene) => run_scene(args, begun, output, scene),
+        AnyScene::Bands16(scene) => run_scene(args, begun, output, scene),
+        AnyScene::Bands32(scene) => run_scene(args, begun, output, scene),
+        AnyScene::StokesRgb(scene) => run_scene(args, begun, output, scene),
+        AnyScene::Stokes16(scene) => run_scene(args, begun, output, scene),
+    }
+}
+
+/// What is known before the scene.
+struct Beginning {
+    begun: Instant,
+    backend: Backend,
+    /// Whether other machines have other parts.
+    partial: bool,
+}
+
+/// Renders a scene in its channels.
+fn run_scene<T: Transport>(
+    args: &Args,
+    Beginning { begun, backend, partial }: Beginning,
+    mut output: Output<'_>,
+    scene: Scene<T>,
+) -> Result<(), Failure> {
+    output.shown = args.show.shown(&args.output, Kind::of(&args.output)?, T::POLARISED)?;
     output.check(&scene.files)?;
     let draft = Draft::from_environment()?;
     let range = args.samples_range.as_ref().map(|range| draft.range(range));
@@ -194,10 +225,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         )));
     }
     let window = window(args, scene.size)?;
-    let (integrator, hash) = match args.integrator.as_deref().and_then(integrator::named) {
-        // Parts of pictures by different integrators must not be merged.
-        Some(spec) => ((spec.default)(), format!("{}-{}", scene.hash, spec.name)),
-        None => (scene.integrator, scene.hash),
+    let Scene { integrator, hash, .. } = scene;
+    // Parts of pictures by different integrators must not be merged.
+    let hash = match &args.integrator {
+        Some(name) => format!("{hash}-{name}"),
+        None => hash,
     };
     output.tone = ToneMap { exposure: scene.exposure };
     let meta = Meta {
@@ -211,8 +243,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         version: Meta::VERSION.into(),
         arithmetic: Meta::arithmetic_of(backend),
     };
+    let basis = scene.world.basis();
     let film = match (args.resume, output.earlier()?) {
-        (true, Some(earlier)) => match output.resume(&meta, &earlier)? {
+        (true, Some(earlier)) => match output.resume(basis, &meta, &earlier)? {
             Begun::Sums(film) => film,
             Begun::Finished(samples) => {
                 say(format_args!("{}: finished before, with {samples} samples", args.output.display()));
@@ -247,7 +280,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         bar.show(progress.done, progress.total, settings.time.map(|limit| (progress.elapsed, limit)));
         if written.elapsed() >= args.write_every && !interrupt::is_asked() {
             // The work goes on: there may be room again when it is finished.
-            if let Err(failure) = output.write_so_far(&meta, || progress.film()) {
+            if let Err(failure) = output.write_so_far(basis, &meta, || progress.film()) {
                 let warning = format!("warning: the picture so far was not written: {failure}");
                 if warned.as_ref() != Some(&warning) {
                     bar.say(&warning);
@@ -268,9 +301,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     let (least, most) = film.samples();
     if interrupt::is_asked() && least < meta.samples.end - meta.samples.start {
-        return Err(output.interrupted(&film, &meta));
+        return Err(output.interrupted(&film, basis, &meta));
     }
-    output.write(&film, &meta, partial)?;
+    output.write(&film, basis, &meta, partial)?;
     let summary = Summary::new([window.width, window.height], (least, most), started.elapsed(), &stats);
     let mut out = message::out(args.json);
     if args.json {
@@ -280,6 +313,34 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         writeln!(out, "{}: {summary}", args.output.display())?;
     }
     Ok(out.flush()?)
+}
+
+/// What a PNG shows.
+#[derive(Clone, Copy, Default, PartialEq, ValueEnum)]
+pub enum Show {
+    /// The colour of light.
+    #[default]
+    Colour,
+    /// The degree of linear polarisation.
+    Dolp,
+    /// The angle of linear polarisation as a hue, as bright as the degree.
+    Aolp,
+}
+
+impl Show {
+    /// Refuses what the picture does not have.
+    pub fn shown(self, path: &Path, kind: Kind, is_polarised: bool) -> Result<Shown, Failure> {
+        let refuse = |found: &str, expected: &str| {
+            Err(Failure::Usage(format!("{}: found --show with {found}; expected {expected}", path.display())))
+        };
+        match self {
+            Show::Colour => Ok(Shown::Colour),
+            _ if kind == Kind::Exr => refuse("an EXR file, which has all of it as channels", ".png"),
+            _ if !is_polarised => refuse("light that is not polarised", "a scene with `stokes = true` in [spectrum]"),
+            Show::Dolp => Ok(Shown::Degree),
+            Show::Aolp => Ok(Shown::Angle),
+        }
+    }
 }
 
 /// The pixels to render.

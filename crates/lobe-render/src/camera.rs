@@ -91,6 +91,11 @@ pub struct CameraPdf {
 }
 
 impl View {
+    /// To the right of the picture, of any length.
+    pub(crate) fn right(&self) -> Vec3 {
+        self.right
+    }
+
     /// The view of a camera on a film of that many columns and rows.
     ///
     /// # Errors

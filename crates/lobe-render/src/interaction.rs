@@ -10,7 +10,7 @@ use crate::place::Place;
 use crate::transport::Transport;
 use crate::vec3::Vec3;
 use crate::vectors::{add, blend, cross, dot, max_component, neg, perpendicular, scale, select, sub, unit_or};
-use crate::world::{Corner, World};
+use crate::world::{Corner, MaterialGroup, World};
 
 /// The surface interactions of a wave, in the order of the sort by material.
 #[derive(Debug, Default)]
@@ -119,6 +119,11 @@ impl Interactions {
         vector(&self.blocks[hit / RAYS].frame[2], hit % RAYS)
     }
 
+    /// The frame of the material: x along the tangent, z along the shading normal.
+    pub fn frame(&self, hit: usize) -> [Vec3; 3] {
+        self.blocks[hit / RAYS].frame.each_ref().map(|axis| vector(axis, hit % RAYS))
+    }
+
     /// The cosine between the ray and the normal of the triangle, positive if the ray hit the side from which the
     /// corners are counterclockwise.
     pub fn front(&self, hit: usize) -> f32 {
@@ -154,13 +159,28 @@ impl Interactions {
         self.groups.clear();
         self.wo.clear();
         ensure_len(&mut self.blocks, which.len().div_ceil(RAYS), InteractionBlock::ZEROS);
-        backend.run(FindInteractions { world, which, rays, found, hits: self });
+        let World { corners, triangles, groups: materials, .. } = world;
+        let (corners, triangles) = (corners.as_slice(), triangles.as_slice());
+        self.find_on(backend, FoundOn { corners, triangles, materials }, which, rays, found);
+    }
+
+    /// Not generic, so that the kernel is compiled once for all transports.
+    fn find_on(&mut self, backend: Backend, on: FoundOn<'_>, which: &[u32], rays: &RaySoA, found: &HitSoA) {
+        backend.run(FindInteractions { on, which, rays, found, hits: self });
     }
 }
 
+/// The triangles of a world.
+#[derive(Clone, Copy)]
+struct FoundOn<'a> {
+    corners: &'a [Corner],
+    triangles: &'a [[u32; 4]],
+    materials: &'a [MaterialGroup],
+}
+
 /// [`Interactions::find`] in lanes.
-struct FindInteractions<'a, T: Transport> {
-    world: &'a World<T>,
+struct FindInteractions<'a> {
+    on: FoundOn<'a>,
     which: &'a [u32],
     rays: &'a RaySoA,
     found: &'a HitSoA,
@@ -199,14 +219,13 @@ impl InteractionBlock {
     };
 }
 
-impl<T: Transport> Kernel for FindInteractions<'_, T> {
+impl Kernel for FindInteractions<'_> {
     type Out = ();
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        let FindInteractions { world, which, rays, found, hits } = self;
+        let FindInteractions { on: FoundOn { corners, triangles: all, materials }, which, rays, found, hits } = self;
         let Interactions { blocks, groups, wo } = hits;
-        let (all, corners) = (world.triangles.as_slice(), world.corners.as_slice());
         let mut known = HitBlock { corners: [[0; RAYS]; 3], direction: [ZEROS; 3], uv: [ZEROS; 2], transmits: ZEROS };
         let mut back = [ZEROS; 3];
         let mut block = 0;
@@ -228,7 +247,7 @@ impl<T: Transport> Kernel for FindInteractions<'_, T> {
                 }
                 known.uv[0][lane] = found.u[ray];
                 known.uv[1][lane] = found.v[ray];
-                known.transmits[lane] = world.groups[group as usize].transmits;
+                known.transmits[lane] = materials[group as usize].transmits;
                 groups.push(group);
                 lane += 1;
             }

@@ -9,8 +9,9 @@
 //! - Random numbers depend on pixel, sample and dimension only, and a film sums in integers. So the picture does not
 //!   depend on threads, tiles, machines or the order of work; on backends in strict form not on the backend either.
 //!
-//! What travels along a path is a parameter of nearly everything: a [`Transport`], of which there is [`Rgb`] now. Colours
-//! in scenes and materials of files come in linear sRGB.
+//! What travels along a path is a parameter of nearly everything: a [`Transport`], [`Rgb`], [`Bands`] of wavelengths, or
+//! polarised light over either, [`Stokes`]. Colours in scenes come in linear sRGB, and become smooth spectra where wavelengths
+//! are followed; measured spectra are used as they are.
 //!
 //! Coordinates are right-handed with +y up. Lengths are in any unit, angles in radians; radiance in W/(m^2 sr) or any
 //! multiple of it.
@@ -47,9 +48,12 @@ pub use camera::{Camera, CameraError, CameraPdf, CameraSample, Filter, View};
 pub use channels::Channels;
 pub use film::{Film, FirstHit, Pixel, RADIANCE_UNIT, Rect, SURFACE_UNIT, Sample};
 pub use integrator::Integrator;
-pub use merge::{Gap, MergeError, merge};
+pub use merge::{Gap, MergeError, merge, merge_in};
 pub use render::render;
 pub use settings::{Progress, RenderError, Settings};
 pub use stats::{DEPTHS, Shading, Stats};
-pub use transport::{RadianceSums, Rgb, Transport, TransportMode};
+pub use transport::{
+    BandConversion, Bands, Components, Conversion, Mueller, Polarisation, RadianceSums, Rgb, Stokes, Stokes16,
+    StokesConversion, StokesRgb, Transport, TransportMode,
+};
 pub use world::{Shape, World, WorldBuilder, WorldError};

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use lobe_memory::NoRoom;
 
 use crate::film::{Film, Rect};
-use crate::picture::{Difference, Inspected, Meta, PictureError, inspect, read_partial};
+use crate::picture::{Difference, Inspected, Meta, PictureError, inspect, read_partial_in};
+use crate::transport::Transport;
 
 /// Why parts do not make a picture.
 #[derive(Debug, thiserror::Error)]
@@ -119,6 +120,18 @@ impl Part {
 /// If a part cannot be read, is of another picture, or has samples that another one has too; and if samples are
 /// missing, unless `gaps` are allowed.
 pub fn merge(paths: &[impl AsRef<Path>], gaps: bool) -> Result<(Film, Meta), MergeError> {
+    merge_in(paths, gaps, &())
+}
+
+/// As [`merge`], of parts in these channels.
+///
+/// # Errors
+/// As [`merge`].
+pub fn merge_in<T: Transport>(
+    paths: &[impl AsRef<Path>],
+    gaps: bool,
+    basis: &T::Basis,
+) -> Result<(Film<T>, Meta), MergeError> {
     let mut metas: Vec<(&Path, Meta)> = Vec::new();
     for path in paths.iter().map(AsRef::as_ref) {
         let Inspected { meta, .. } = inspect(path)?;
@@ -133,10 +146,10 @@ pub fn merge(paths: &[impl AsRef<Path>], gaps: bool) -> Result<(Film, Meta), Mer
     if window.area() / 16 > area {
         return Err(MergeError::Sparse(window));
     }
-    let mut whole = Film::try_new(window, 0).map_err(MergeError::Memory)?;
+    let mut whole = Film::<T>::try_new(window, 0).map_err(MergeError::Memory)?;
     let mut parts = Vec::new();
     for (path, _) in &metas {
-        let (film, meta) = read_partial(path)?;
+        let (film, meta) = read_partial_in::<T>(path, basis)?;
         whole.merge(&film);
         parts.push(Part { meta, counts: film.pixels().iter().map(|pixel| pixel.samples).collect() });
     }

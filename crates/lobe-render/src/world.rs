@@ -76,6 +76,7 @@ pub enum WorldError {
 /// Collects what makes a [`World`].
 #[derive(Debug)]
 pub struct WorldBuilder<T: Transport = Rgb> {
+    basis: T::Basis,
     shape: Shape,
     groups: Vec<MaterialGroup>,
     materials: Vec<Arc<dyn Shader<T>>>,
@@ -99,16 +100,28 @@ pub(crate) type Corner = [f32; 12];
 /// The most vertices of a world: lanes find their floats by 31 bits.
 const MOST: usize = i32::MAX as usize / size_of::<Corner>() * size_of::<f32>();
 
-impl<T: Transport> Default for WorldBuilder<T> {
+impl<T: Transport<Basis = ()>> Default for WorldBuilder<T> {
     fn default() -> Self {
         WorldBuilder::new()
     }
 }
 
-impl<T: Transport> WorldBuilder<T> {
+impl<T: Transport<Basis = ()>> WorldBuilder<T> {
     /// Nothing.
     pub fn new() -> Self {
-        WorldBuilder { shape: Shape::default(), groups: Vec::new(), materials: Vec::new(), lights: Vec::new() }
+        WorldBuilder::in_basis(())
+    }
+}
+
+impl<T: Transport> WorldBuilder<T> {
+    /// Nothing, in these channels.
+    pub fn in_basis(basis: T::Basis) -> Self {
+        WorldBuilder { basis, shape: Shape::default(), groups: Vec::new(), materials: Vec::new(), lights: Vec::new() }
+    }
+
+    /// What the channels are.
+    pub fn basis(&self) -> &T::Basis {
+        &self.basis
     }
 
     /// Adds a material and returns its number.
@@ -200,8 +213,8 @@ impl<T: Transport> WorldBuilder<T> {
             SceneBounds { center: [0.0; 3], radius: 1.0 }
         };
         let lights = Lights::new(self.lights, sphere);
-        let (groups, materials) = (self.groups, self.materials);
-        Ok(World { scene, corners, triangles: with_groups, groups, materials, lights })
+        let (groups, materials, basis) = (self.groups, self.materials, self.basis);
+        Ok(World { basis, scene, corners, triangles: with_groups, groups, materials, lights })
     }
 }
 
@@ -213,6 +226,7 @@ fn finite<const N: usize>(attribute: &'static str, values: &[[f32; N]]) -> Resul
 /// Triangles, materials and lights, ready to be rendered with the transport `T`.
 #[derive(Debug)]
 pub struct World<T: Transport = Rgb> {
+    pub(crate) basis: T::Basis,
     pub(crate) scene: Scene,
     /// What is known of each vertex, side by side: the cache brings it together.
     pub(crate) corners: Storage<Corner>,
@@ -224,6 +238,11 @@ pub struct World<T: Transport = Rgb> {
 }
 
 impl<T: Transport> World<T> {
+    /// What the channels are.
+    pub fn basis(&self) -> &T::Basis {
+        &self.basis
+    }
+
     /// The lights.
     pub fn lights(&self) -> &[Light<T::Spectrum>] {
         &self.lights.all

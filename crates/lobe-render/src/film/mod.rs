@@ -100,7 +100,14 @@ impl<T: Transport> Film<T> {
     }
 
     /// The colours of the pixels in linear sRGB, row by row from the top.
+    pub fn colours_in<'a>(&'a self, basis: &'a T::Basis) -> impl Iterator<Item = [f32; 3]> + 'a {
+        (0..self.pixels.len()).map(|index| T::colour(basis, self.radiance(index)))
+    }
+}
+
+impl<T: Transport<Basis = ()>> Film<T> {
+    /// The colours of the pixels in linear sRGB, row by row from the top.
     pub fn colours(&self) -> impl Iterator<Item = [f32; 3]> {
-        (0..self.pixels.len()).map(|index| T::colour(self.radiance(index)))
+        (0..self.pixels.len()).map(|index| T::colour(&(), self.radiance(index)))
     }
 }

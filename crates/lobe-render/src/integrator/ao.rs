@@ -57,7 +57,7 @@ impl Stages for AmbientOcclusion {
         queue.extend(wave.arrived.len(), |out| {
             for (hit, arrived) in wave.arrived.iter().enumerate() {
                 let (spawned, at) = (&spawned[hit / RAYS], hit % RAYS);
-                let open = ShadowRay { slot: arrived.slot, radiance: T::from_colour([1.0; 3]) };
+                let open = ShadowRay { slot: arrived.slot, radiance: T::from_colour(&wave.world.basis, [1.0; 3]) };
                 out.write(spawned.ray(at), self.distance, open, spawned.goes(at));
             }
         });

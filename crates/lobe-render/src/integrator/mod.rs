@@ -13,7 +13,7 @@ use crate::photon::LightMap;
 use crate::scene::node::{Node, SceneError};
 use crate::shader::Backend;
 use crate::stats::Stats;
-use crate::transport::{Rgb, Transport};
+use crate::transport::{Bands, Rgb, Stokes16, StokesRgb, Transport};
 use crate::wavefront::Wavefront;
 use crate::world::World;
 
@@ -47,6 +47,44 @@ macro_rules! integrators {
             }
         })+
     };
+}
+
+/// Compiles integrators for the transports of wavelengths and of polarised light, which few of them are wanted for.
+macro_rules! spectral {
+    ($($Name:ident),+) => {
+        $(integrators!(@ $Name: Bands<8>, Bands<16>, Bands<32>, StokesRgb, Stokes16);)+
+
+        /// The integrators that follow wavelengths and polarised light: their names, and how each is read.
+        pub(crate) static SPECTRAL: &[SpectralSpec] = &[$(SpectralSpec {
+            name: <$Name as Stages>::NAME,
+            read: |table| Ok(Arc::new(<$Name as Stages>::read(table)?)),
+            default: || Arc::new($Name::default()),
+        }),+];
+    };
+}
+
+spectral!(Path);
+
+/// An integrator that is compiled for every transport.
+pub(crate) trait AnyTransport:
+    Integrator<Bands<8>> + Integrator<Bands<16>> + Integrator<Bands<32>> + Integrator<StokesRgb> + Integrator<Stokes16>
+{
+}
+
+impl<I> AnyTransport for I where
+    I: Integrator<Bands<8>>
+        + Integrator<Bands<16>>
+        + Integrator<Bands<32>>
+        + Integrator<StokesRgb>
+        + Integrator<Stokes16>
+{
+}
+
+/// An integrator that a name denotes, for wavelengths and polarised light.
+pub(crate) struct SpectralSpec {
+    pub name: &'static str,
+    pub read: fn(&Node<'_, '_>) -> Result<Arc<dyn AnyTransport>, SceneError>,
+    pub default: fn() -> Arc<dyn AnyTransport>,
 }
 
 integrators! {

@@ -27,7 +27,7 @@ impl Stages for Normals {
         wave.record_first_hits();
         for (hit, arrived) in wave.arrived.iter().enumerate() {
             let colour = wave.hits.normal(hit).map(|n| 0.5 + 0.5 * n);
-            wave.slots[arrived.slot as usize].sample.radiance = T::from_colour(colour);
+            wave.slots[arrived.slot as usize].sample.radiance = T::from_colour(&wave.world.basis, colour);
         }
     }
 }

@@ -9,6 +9,7 @@ use lobe_colour::Primaries;
 
 use super::PictureError;
 use super::exr_file::content;
+use crate::channels::Channels;
 use crate::light::Environment;
 
 /// What the first bytes of an OpenEXR file are.
@@ -24,11 +25,31 @@ const EXR: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 /// # Errors
 /// If the file cannot be read, is damaged, has radiances that are not finite numbers, or says what cannot be honoured.
 pub fn read_environment(path: &Path, turn: f32, scale: f32) -> Result<Environment, PictureError> {
+    read_environment_as(path, turn, scale, |texel| texel)
+}
+
+/// As [`read_environment`], every radiance replaced by what `emission` makes of it.
+///
+/// # Errors
+/// As [`read_environment`].
+pub fn read_environment_as<S: Channels>(
+    path: &Path,
+    turn: f32,
+    scale: f32,
+    emission: impl Fn([f32; 3]) -> S,
+) -> Result<Environment<S>, PictureError> {
     let bytes = lobe_files::bytes(path).map_err(|error| PictureError::Io { file: path.into(), error })?;
     let picture = if bytes.starts_with(&EXR) { open_exr::read(path, &bytes)? } else { radiance::read(path, &bytes)? };
     // What is not a number is left for the environment to refuse, with its place.
     let scaled = |x: f32| if x.is_finite() { (x * scale).max(0.0) } else { x };
-    let texels = picture.texels.into_iter().map(|texel| texel.map(scaled)).collect();
+    let wrong = |texel: &&[f32; 3]| !texel.iter().all(|x| x.is_finite());
+    if let Some(texel) = picture.texels.iter().find(wrong) {
+        // Found again with its place.
+        Environment::image(picture.width, picture.height, picture.texels.clone(), turn)
+            .map_err(|error| content(path, error, "an image of an environment"))?;
+        return Err(content(path, format!("{texel:?}"), "an image of an environment"));
+    }
+    let texels = picture.texels.into_iter().map(|texel| emission(texel.map(scaled))).collect();
     Environment::image(picture.width, picture.height, texels, turn)
         .map_err(|error| content(path, error, "an image of an environment"))
 }

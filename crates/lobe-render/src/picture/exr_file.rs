@@ -2,7 +2,10 @@
 //!
 //! Channels: `R G B` (mean radiance, linear sRGB), `albedo.R G B`, `normal.X Y Z`, `depth.Z` (distance to the nearest
 //! surface in the pixel, infinite if there is none), `material.id` (the material there, counted from 1) and
-//! `samples`. A part of a picture also has `sum.*`, the words of the integers that [`Pixel`] sums in, low word first; and
+//! `samples`. A picture of wavelengths has `S0.<nm>nm` as well, with a comma in the place of a point, and one of polarised light
+//! `S1` to `S3` too, as in A. Fichet, R. Pacanowski, A. Wilkie, "An OpenEXR Layout for Spectral Images", JCGT 10(3), 2021; polarised
+//! light without wavelengths has `S0.R` and so on, and both have `dolp.Y` and `aolp.Y`, the degree and the angle of linear
+//! polarisation. A part of a picture also has `sum.*`, the words of the integers that [`Pixel`] sums in, low word first; and
 //! `splat.*`, those of what light paths have splatted, if there are any.
 
 use std::io::Cursor;
@@ -15,10 +18,10 @@ use exr::prelude::{
 
 use super::{Meta, PictureError, replace};
 use crate::film::{Film, Pixel, Splat};
-use crate::transport::Rgb;
+use crate::transport::Transport;
 
 /// The attribute that holds the [`Meta`].
-const ATTRIBUTE: &str = "lobe";
+pub(super) const ATTRIBUTE: &str = "lobe";
 const RGB: [&str; 3] = ["R", "G", "B"];
 const XYZ: [&str; 3] = ["X", "Y", "Z"];
 
@@ -29,16 +32,61 @@ const XYZ: [&str; 3] = ["X", "Y", "Z"];
 /// # Errors
 /// If the system refuses.
 pub fn write_exr(path: &Path, film: &Film, meta: &Meta, partial: bool) -> Result<(), PictureError> {
-    replace(path, &encode(film, meta, partial).map_err(|error| content(path, error, "a picture that EXR can hold"))?)
+    write_exr_in(path, film, &(), meta, partial)
 }
 
-fn encode(film: &Film, meta: &Meta, partial: bool) -> exr::error::Result<Vec<u8>> {
+/// As [`write_exr`], of a film in these channels.
+///
+/// # Errors
+/// As [`write_exr`].
+pub fn write_exr_in<T: Transport>(
+    path: &Path,
+    film: &Film<T>,
+    basis: &T::Basis,
+    meta: &Meta,
+    partial: bool,
+) -> Result<(), PictureError> {
+    let bytes = encode(film, basis, meta, partial);
+    replace(path, &bytes.map_err(|error| content(path, error, "a picture that EXR can hold"))?)
+}
+
+/// A channel of radiance.
+struct Named {
+    index: usize,
+    name: String,
+}
+
+/// The channels of radiance that are in use, by their names in sums.
+fn named<T: Transport>(basis: &T::Basis) -> Vec<Named> {
+    let mut names = T::names(basis);
+    if names.is_empty() {
+        names = RGB.map(String::from).into();
+    }
+    let named = names.into_iter().enumerate().map(|(index, name)| Named { index, name });
+    named.filter(|channel| !channel.name.is_empty()).collect()
+}
+
+fn encode<T: Transport>(film: &Film<T>, basis: &T::Basis, meta: &Meta, partial: bool) -> exr::error::Result<Vec<u8>> {
     let mut channels = Vec::new();
     let pixels = film.pixels();
     for (k, name) in RGB.into_iter().enumerate() {
-        channels.push(AnyChannel::new(name, FlatSamples::F32(film.colours().map(|colour| colour[k]).collect())));
+        let colours = film.colours_in(basis).map(|colour| colour[k]).collect();
+        channels.push(AnyChannel::new(name, FlatSamples::F32(colours)));
     }
-    let mut float = |name: String, value: &dyn Fn(&Pixel) -> f32| {
+    let is_spectral = !T::names(basis).is_empty();
+    if is_spectral {
+        for Named { index, name } in named::<T>(basis) {
+            let values = (0..pixels.len()).map(|pixel| film.radiance(pixel).as_ref()[index]).collect();
+            channels.push(AnyChannel::new(name.as_str(), FlatSamples::F32(values)));
+        }
+    }
+    if T::POLARISED {
+        for (k, name) in ["dolp.Y", "aolp.Y"].into_iter().enumerate() {
+            let of = |pixel| T::linear_polarisation(basis, film.radiance(pixel)).map_or(0.0, |found| found[k]);
+            channels.push(AnyChannel::new(name, FlatSamples::F32((0..pixels.len()).map(of).collect())));
+        }
+    }
+    let mut float = |name: String, value: &dyn Fn(&Pixel<T>) -> f32| {
         channels.push(AnyChannel::new(name.as_str(), FlatSamples::F32(pixels.iter().map(value).collect())));
     };
     for k in 0..3 {
@@ -46,16 +94,16 @@ fn encode(film: &Film, meta: &Meta, partial: bool) -> exr::error::Result<Vec<u8>
         float(format!("normal.{}", XYZ[k]), &|pixel| pixel.mean_normal()[k]);
     }
     float("depth.Z".into(), &Pixel::depth);
-    let mut whole = |name: String, value: &dyn Fn(&Pixel) -> u32| {
+    let mut whole = |name: String, value: &dyn Fn(&Pixel<T>) -> u32| {
         channels.push(AnyChannel::new(name.as_str(), FlatSamples::U32(pixels.iter().map(value).collect())));
     };
     whole("material.id".into(), &|pixel| pixel.material);
     whole("samples".into(), &|pixel| pixel.samples);
     if partial {
-        for (name, word, value) in words() {
+        for (name, word, value) in words::<T>(basis) {
             whole(name, &|pixel| (value(pixel) >> (32 * word)) as u32);
         }
-        for (name, word, value) in splat_words() {
+        for (name, word, value) in splat_words::<T>(basis) {
             let words: Vec<u32> = film.splats().iter().map(|splat| (value(splat) >> (32 * word)) as u32).collect();
             if !words.is_empty() {
                 channels.push(AnyChannel::new(name.as_str(), FlatSamples::U32(words)));
@@ -72,6 +120,10 @@ fn encode(film: &Film, meta: &Meta, partial: bool) -> exr::error::Result<Vec<u8>
     let size = Vec2(window.width as usize, window.height as usize);
     let layer = Layer::new(size, attributes, encoding, AnyChannels::sort(channels.into()));
     let mut image = Image::from_layer(layer);
+    if is_spectral {
+        let version = AttributeValue::Text(Text::from("1.0"));
+        image.attributes.other.insert(Text::from("spectralLayoutVersion"), version);
+    }
     image.attributes.display_window =
         IntegerBounds::from_dimensions(Vec2(meta.size[0] as usize, meta.size[1] as usize));
     let mut bytes = Cursor::new(Vec::new());
@@ -80,14 +132,16 @@ fn encode(film: &Film, meta: &Meta, partial: bool) -> exr::error::Result<Vec<u8>
 }
 
 /// What the `sum.*` channels hold: a name, which word of 32 bits, and the sum.
-type Word = (String, u32, Box<dyn Fn(&Pixel) -> i128>);
+type Word<T> = (String, u32, Box<dyn Fn(&Pixel<T>) -> i128>);
 
-fn words() -> Vec<Word> {
-    let mut words: Vec<Word> = Vec::new();
-    for k in 0..3 {
+fn words<T: Transport>(basis: &T::Basis) -> Vec<Word<T>> {
+    let mut words: Vec<Word<T>> = Vec::new();
+    for Named { index, name } in named::<T>(basis) {
         for word in 0..4 {
-            words.push((format!("sum.{}.{word}", RGB[k]), word, Box::new(move |pixel| pixel.radiance[k])));
+            words.push((format!("sum.{name}.{word}"), word, Box::new(move |pixel| pixel.radiance.as_ref()[index])));
         }
+    }
+    for k in 0..3 {
         for word in 0..2 {
             let (albedo, normal) = (format!("sum.albedo.{}.{word}", RGB[k]), format!("sum.normal.{}.{word}", XYZ[k]));
             words.push((albedo, word, Box::new(move |pixel| pixel.albedo[k].into())));
@@ -98,13 +152,13 @@ fn words() -> Vec<Word> {
 }
 
 /// What the `splat.*` channels hold, which are written only if light paths were added.
-type SplatWord = (String, u32, Box<dyn Fn(&Splat<Rgb>) -> i128>);
+type SplatWord<T> = (String, u32, Box<dyn Fn(&Splat<T>) -> i128>);
 
-fn splat_words() -> Vec<SplatWord> {
-    let mut words: Vec<SplatWord> = Vec::new();
-    for (k, name) in RGB.into_iter().enumerate() {
+fn splat_words<T: Transport>(basis: &T::Basis) -> Vec<SplatWord<T>> {
+    let mut words: Vec<SplatWord<T>> = Vec::new();
+    for Named { index, name } in named::<T>(basis) {
         for word in 0..4 {
-            words.push((format!("splat.{name}.{word}"), word, Box::new(move |splat| splat.sums[k])));
+            words.push((format!("splat.{name}.{word}"), word, Box::new(move |splat| splat.sums.as_ref()[index])));
         }
     }
     for word in 0..2 {
@@ -118,6 +172,14 @@ fn splat_words() -> Vec<SplatWord> {
 /// # Errors
 /// If the file cannot be read, is damaged, or is not a part of a picture.
 pub fn read_partial(path: &Path) -> Result<(Film, Meta), PictureError> {
+    read_partial_in(path, &())
+}
+
+/// As [`read_partial`], of a film in these channels.
+///
+/// # Errors
+/// As [`read_partial`].
+pub fn read_partial_in<T: Transport>(path: &Path, basis: &T::Basis) -> Result<(Film<T>, Meta), PictureError> {
     const EXPECTED: &str = "a part of a picture that lobe has written";
     let wrong = |found: String| content(path, found, EXPECTED);
     let bytes = lobe_files::bytes(path).map_err(|error| PictureError::Io { file: path.into(), error })?;
@@ -148,7 +210,7 @@ pub fn read_partial(path: &Path) -> Result<(Film, Meta), PictureError> {
         FlatSamples::U32(values) => Ok(values),
         _ => Err(wrong(format!("floats in the channel `{name}`"))),
     };
-    let mut film: Film = Film::try_new(meta.window, 0).map_err(|no_room| wrong(format!("pixels of {no_room}")))?;
+    let mut film: Film<T> = Film::try_new(meta.window, 0).map_err(|no_room| wrong(format!("pixels of {no_room}")))?;
     let FlatSamples::F32(depth) = column("depth.Z")? else { return Err(wrong("integers in `depth.Z`".into())) };
     for (at, pixel) in film.pixels_mut().iter_mut().enumerate() {
         pixel.depth = depth[at].to_bits();
@@ -163,18 +225,20 @@ pub fn read_partial(path: &Path) -> Result<(Film, Meta), PictureError> {
         }
         film.pixels_mut()[at].samples = samples;
     }
-    for k in 0..3 {
-        let word = |name: String| -> Result<&Vec<u32>, PictureError> { whole(&name) };
+    let named = named::<T>(basis);
+    for Named { index, name } in &named {
         for low in 0..4 {
-            let values = word(format!("sum.{}.{low}", RGB[k]))?;
+            let values = whole(&format!("sum.{name}.{low}"))?;
             for (pixel, &value) in film.pixels_mut().iter_mut().zip(values) {
                 // The top word brings the sign, as all bits of an `i128` are written.
-                pixel.radiance[k] |= i128::from(value) << (32 * low);
+                pixel.radiance.as_mut()[*index] |= i128::from(value) << (32 * low);
             }
         }
+    }
+    for k in 0..3 {
         for low in 0..2 {
-            let albedo = word(format!("sum.albedo.{}.{low}", RGB[k]))?;
-            let normal = word(format!("sum.normal.{}.{low}", XYZ[k]))?;
+            let albedo = whole(&format!("sum.albedo.{}.{low}", RGB[k]))?;
+            let normal = whole(&format!("sum.normal.{}.{low}", XYZ[k]))?;
             for (at, pixel) in film.pixels_mut().iter_mut().enumerate() {
                 pixel.albedo[k] |= i64::from(albedo[at]) << (32 * low);
                 pixel.normal[k] |= i64::from(normal[at]) << (32 * low);
@@ -184,11 +248,11 @@ pub fn read_partial(path: &Path) -> Result<(Film, Meta), PictureError> {
     // A part of a picture that no light path was added to has no such channels.
     if column("splat.paths.0").is_ok() {
         let splats = film.splats_mut();
-        for (k, name) in RGB.into_iter().enumerate() {
+        for Named { index, name } in &named {
             for low in 0..4 {
                 let values = whole(&format!("splat.{name}.{low}"))?;
                 for (splat, &value) in splats.iter_mut().zip(values) {
-                    splat.sums[k] |= i128::from(value) << (32 * low);
+                    splat.sums.as_mut()[*index] |= i128::from(value) << (32 * low);
                 }
             }
         }
@@ -224,35 +288,6 @@ pub(crate) fn check_size(path: &Path, bytes: &[u8]) -> Result<(), PictureError> 
     Ok(())
 }
 
-/// What an EXR file that lobe has written says about itself.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Inspected {
-    /// What was rendered.
-    pub meta: Meta,
-    /// Whether it has the exact sums, so that samples can be added.
-    pub has_sums: bool,
-}
-
-/// Reads the header of an EXR file.
-///
-/// # Errors
-/// If the file cannot be read, is damaged, or is not a picture that lobe has written.
-pub fn inspect(path: &Path) -> Result<Inspected, PictureError> {
-    const EXPECTED: &str = "a picture that lobe has written";
-    let bytes = lobe_files::bytes(path).map_err(|error| PictureError::Io { file: path.into(), error })?;
-    let headers = exr::meta::MetaData::read_from_buffered(Cursor::new(&bytes), false)
-        .map_err(|error| content(path, error, EXPECTED))?
-        .headers;
-    let text = headers.iter().find_map(|header| match header.own_attributes.other.get(&Text::from(ATTRIBUTE)) {
-        Some(AttributeValue::Text(text)) => Some(text.to_string()),
-        _ => None,
-    });
-    let text = text.ok_or_else(|| content(path, format!("no attribute `{ATTRIBUTE}`"), EXPECTED))?;
-    let meta = Meta::parse(&text).ok_or_else(|| content(path, format!("`{text}`"), EXPECTED))?;
-    let mut channels = headers.iter().flat_map(|header| &header.channels.list);
-    Ok(Inspected { meta, has_sums: channels.any(|channel| channel.name.eq("sum.R.0")) })
-}
-
 pub(crate) fn content(path: &Path, found: impl ToString, expected: &'static str) -> PictureError {
     PictureError::Content { file: path.into(), found: found.to_string(), expected }
 }
@@ -263,6 +298,7 @@ mod tests {
     use crate::camera::Filter;
     use crate::film::{Rect, Sample};
     use crate::merge;
+    use crate::picture::{Inspected, Light, inspect};
 
     #[test]
     fn splats_are_written_read_and_merged_exactly_and_only_if_there_are_any() {
@@ -310,8 +346,14 @@ mod tests {
         let bytes = std::fs::read(path("none.exr")).unwrap();
         assert!(!bytes.windows(6).any(|six| six == b"splat."));
         assert!(read_partial(&path("none.exr")).unwrap().0.splats().is_empty());
-        assert_eq!(inspect(&path("none.exr")).unwrap(), Inspected { meta: meta(0..1), has_sums: true });
+        assert_eq!(
+            inspect(&path("none.exr")).unwrap(),
+            Inspected { meta: meta(0..1), has_sums: true, light: Light::default() }
+        );
         write_exr(&path("done.exr"), &part(0.3), &meta(0..1), false).unwrap();
-        assert_eq!(inspect(&path("done.exr")).unwrap(), Inspected { meta: meta(0..1), has_sums: false });
+        assert_eq!(
+            inspect(&path("done.exr")).unwrap(),
+            Inspected { meta: meta(0..1), has_sums: false, light: Light::default() }
+        );
     }
 }

@@ -2,6 +2,7 @@
 
 mod environment_file;
 mod exr_file;
+mod inspect;
 mod meta;
 mod png_file;
 
@@ -9,11 +10,12 @@ use std::path::{Path, PathBuf};
 
 use lobe_files::sentence;
 
-pub use environment_file::read_environment;
-pub use exr_file::{Inspected, inspect, read_partial, write_exr};
+pub use environment_file::{read_environment, read_environment_as};
+pub use exr_file::{read_partial, read_partial_in, write_exr, write_exr_in};
+pub use inspect::{Inspected, Light, inspect};
 pub use lobe_colour::ToneMap;
 pub use meta::{Difference, Meta};
-pub use png_file::{encode_png, encode_rgb, write_png};
+pub use png_file::{Shown, encode_png, encode_png_in, encode_rgb, write_png, write_png_in};
 
 /// Why a picture cannot be read or written.
 #[derive(Debug, thiserror::Error)]

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::{PictureError, ToneMap, replace};
 use crate::film::Film;
+use crate::transport::Transport;
 
 /// The PNG file of pixels in sRGB: a byte each for red, green and blue, row by row from the top.
 ///
@@ -23,10 +24,49 @@ pub fn encode_rgb(width: u32, height: u32, bytes: &[u8]) -> Vec<u8> {
     out
 }
 
+/// What a PNG shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shown {
+    /// The colour of light.
+    #[default]
+    Colour,
+    /// The degree of linear polarisation, from black to white.
+    Degree,
+    /// The angle of linear polarisation from the right of the picture as a hue, as bright as the degree.
+    Angle,
+}
+
 /// The PNG file of a film.
 pub fn encode_png(film: &Film, tone: ToneMap) -> Vec<u8> {
-    let bytes: Vec<u8> = film.colours().flat_map(|colour| colour.map(|radiance| tone.byte(radiance))).collect();
+    encode_png_in(film, &(), tone, Shown::Colour)
+}
+
+/// As [`encode_png`], of a film in these channels. Light that is not polarised is black in what shows its polarisation.
+pub fn encode_png_in<T: Transport>(film: &Film<T>, basis: &T::Basis, tone: ToneMap, shown: Shown) -> Vec<u8> {
+    let plain = ToneMap { exposure: 0.0 };
+    let polarisation = |pixel| T::linear_polarisation(basis, film.radiance(pixel)).unwrap_or_default();
+    let bytes: Vec<u8> = match shown {
+        Shown::Colour => film.colours_in(basis).flat_map(|colour| colour.map(|radiance| tone.byte(radiance))).collect(),
+        Shown::Degree => {
+            let byte = |degree: f32| (degree.clamp(0.0, 1.0) * 255.0).round() as u8;
+            (0..film.pixels().len()).flat_map(|pixel| [byte(polarisation(pixel)[0]); 3]).collect()
+        }
+        Shown::Angle => (0..film.pixels().len())
+            .flat_map(|pixel| {
+                let [degree, angle] = polarisation(pixel);
+                hue(angle / std::f32::consts::PI).map(|c| plain.byte(c * degree.clamp(0.0, 1.0)))
+            })
+            .collect(),
+    };
     encode_rgb(film.window().width, film.window().height, &bytes)
+}
+
+/// A colour of the circle, from red over green and blue to red.
+fn hue(turn: f32) -> [f32; 3] {
+    [0.0, 1.0 / 3.0, 2.0 / 3.0].map(|at| {
+        let away = (turn - at).rem_euclid(1.0);
+        (2.0 - 6.0 * away.min(1.0 - away)).clamp(0.0, 1.0)
+    })
 }
 
 /// Writes a film as PNG.
@@ -35,4 +75,18 @@ pub fn encode_png(film: &Film, tone: ToneMap) -> Vec<u8> {
 /// If the system refuses.
 pub fn write_png(path: &Path, film: &Film, tone: ToneMap) -> Result<(), PictureError> {
     replace(path, &encode_png(film, tone))
+}
+
+/// As [`write_png`], of a film in these channels.
+///
+/// # Errors
+/// As [`write_png`].
+pub fn write_png_in<T: Transport>(
+    path: &Path,
+    film: &Film<T>,
+    basis: &T::Basis,
+    tone: ToneMap,
+    shown: Shown,
+) -> Result<(), PictureError> {
+    replace(path, &encode_png_in(film, basis, tone, shown))
 }

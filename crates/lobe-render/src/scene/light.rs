@@ -3,18 +3,19 @@
 use super::Reading;
 use super::node::{Node, SceneError};
 use crate::light::{Environment, Light};
-use crate::picture::read_environment;
+use crate::picture::read_environment_as;
+use crate::transport::Transport;
 use crate::vec3::{neg, sub, unit};
 
-pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(), SceneError> {
+pub(super) fn read<T: Transport>(root: &Node<'_, '_>, reading: &mut Reading<'_, T>) -> Result<(), SceneError> {
     let mut surrounded = false;
     for node in root.children("light")? {
         let light = match node.required_text("kind", "point, spot, directional or environment")? {
             "point" => Light::Point {
                 position: node.required_vector("position")?,
-                intensity: node.required_colour("intensity", f64::MAX)?,
+                intensity: reading.required_light(&node, "intensity")?,
             },
-            "spot" => spot(&node)?,
+            "spot" => spot(&node, reading)?,
             "directional" => {
                 let direction = node.required_vector("direction")?;
                 let toward = unit(neg(direction)).ok_or_else(|| {
@@ -23,7 +24,7 @@ pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(),
                         "found a direction of length 0; expected the direction in which the light travels",
                     )
                 })?;
-                Light::Directional { toward, irradiance: node.required_colour("irradiance", f64::MAX)? }
+                Light::Directional { toward, irradiance: reading.required_light(&node, "irradiance")? }
             }
             "environment" => {
                 if std::mem::replace(&mut surrounded, true) {
@@ -42,7 +43,7 @@ pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(),
     Ok(())
 }
 
-fn spot(node: &Node<'_, '_>) -> Result<Light, SceneError> {
+fn spot<T: Transport>(node: &Node<'_, '_>, reading: &Reading<'_, T>) -> Result<Light<T::Spectrum>, SceneError> {
     let position = node.required_vector("position")?;
     let target = node.required_vector("target")?;
     let direction = unit(sub(target, position))
@@ -52,22 +53,28 @@ fn spot(node: &Node<'_, '_>) -> Result<Light, SceneError> {
     let inner = node.number("inner_angle", "degrees from 0 to `angle`", |x| (0.0..=angle).contains(&x))?;
     let cos = |angle: f64| libm::cos(0.5 * angle.to_radians()) as f32;
     let falloff = [cos(inner.unwrap_or(0.8 * angle)), cos(angle)];
-    Ok(Light::Spot { position, direction, intensity: node.required_colour("intensity", f64::MAX)?, falloff })
+    Ok(Light::Spot { position, direction, intensity: reading.required_light(node, "intensity")?, falloff })
 }
 
 /// An image, one radiance from everywhere, or a gradient from the zenith over the horizon to the ground.
-fn environment(node: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<Environment, SceneError> {
+fn environment<T: Transport>(
+    node: &Node<'_, '_>,
+    reading: &mut Reading<'_, T>,
+) -> Result<Environment<T::Spectrum>, SceneError> {
+    let basis = reading.world.basis();
     if let Some(path) = reading.file(node, "file")? {
         let turn = node.number("turn", "degrees from -360 to 360", |x| x.abs() <= 360.0)?.unwrap_or(0.0);
         let scale = node.number("scale", "a number from 0 to 1e9", |x| (0.0..=1e9).contains(&x))?.unwrap_or(1.0);
-        return read_environment(&path, turn.to_radians() as f32, scale as f32)
+        let emission = |rgb| T::emission(basis, rgb);
+        return read_environment_as(&path, turn.to_radians() as f32, scale as f32, emission)
             .map_err(|error| node.error("file", error.to_string()));
     }
-    if let Some(radiance) = node.colour("radiance", f64::MAX)? {
+    if let Some(radiance) = reading.light(node, "radiance")? {
         return Environment::constant(radiance).map_err(|error| node.error("radiance", error.to_string()));
     }
     let zenith = node.required_colour("zenith", f64::MAX)?;
     let horizon = node.required_colour("horizon", f64::MAX)?;
     let ground = node.colour("ground", f64::MAX)?.unwrap_or(horizon);
+    let [zenith, horizon, ground] = [zenith, horizon, ground].map(|rgb| T::emission(basis, rgb));
     Environment::gradient(zenith, horizon, ground).map_err(|error| node.error("zenith", error.to_string()))
 }

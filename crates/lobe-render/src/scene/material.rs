@@ -6,17 +6,20 @@ use std::sync::Arc;
 use lobe::formats::{Document, FormatError};
 use lobe::table::Uses;
 use lobe::{Edges, Given, Lookup, Options};
-use lobe_model::{Blinn, Coated, Conductor, Ggx, Model, OrenNayar, Phong, Ward};
+use lobe_model::{Blinn, Coated, Conductor, Ggx, Model, OrenNayar, Phong, RoughMirrors, Ward, is_isotropic};
+use lobe_spectrum::{Glass, Metal, Spectrum};
 
 use super::Reading;
 use super::node::{Node, SceneError};
-use crate::shader::{Backend, BsdfShader, Delta, DeltaShader, Lambert, Shader};
-use crate::shader::{MaterialError, from_document, open_sheet_with_progress};
-use crate::transport::Rgb;
+use crate::channels::Channels;
+use crate::shader::{BsdfShader, Delta, DeltaShader, Lambert, RoughMetal, Shader, Together};
+use crate::shader::{MaterialError, from_document_in, open_sheet_in};
+use crate::transport::Transport;
 
-const MODELS: &str = "lambert, mirror, glass, oren-nayar, phong, blinn, ward, conductor or plastic";
+const MODELS: &str =
+    "lambert, mirror, glass, polariser, retarder, oren-nayar, phong, blinn, ward, conductor or plastic";
 
-pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(), SceneError> {
+pub(super) fn read<T: Transport>(root: &Node<'_, '_>, reading: &mut Reading<'_, T>) -> Result<(), SceneError> {
     let Some(all) = root.child("material")? else { return Ok(()) };
     let names = all.keys();
     let count = names.len() as f64;
@@ -34,7 +37,9 @@ pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(),
                 let (_, document) = lobe::formats::open(&path).map_err(|error| refused(error.into()))?;
                 check_options(&node, &[&document])?;
                 let mut watch = |part: usize, all: usize| done(reading.progress, part, all);
-                from_document(&document, &path, &options(&node)?, reading.backend, None, &mut watch).map_err(refused)?
+                let (basis, options) = (reading.world.basis(), options(&node)?);
+                from_document_in(basis, &document, &path, &options, reading.backend, None, &mut watch)
+                    .map_err(refused)?
             }
             (None, None, 1..) => {
                 let key = if front.is_empty() { "back" } else { "front" };
@@ -45,10 +50,10 @@ pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(),
                     check_options(&node, &documents.iter().collect::<Vec<_>>())?;
                 }
                 let mut watch = |part: usize, all: usize| done(reading.progress, part, all);
-                open_sheet_with_progress(&front, &back, &options(&node)?, reading.backend, &mut watch)
+                open_sheet_in(reading.world.basis(), &front, &back, &options(&node)?, reading.backend, &mut watch)
                     .map_err(|error| node.error(key, error.to_string()))?
             }
-            (None, Some(name), 0) => model_named(&node, name, reading.backend)?,
+            (None, Some(name), 0) => model_named(&node, name, reading)?,
             _ => {
                 let message = "found no or too many keys; expected either `file`, `model`, or `front` and `back`";
                 return Err(node.error("", message));
@@ -108,40 +113,165 @@ fn options(node: &Node<'_, '_>) -> Result<Options, SceneError> {
     Ok(Options { edges, lookup, indexed_by, ..Options::default() })
 }
 
-fn model_named(node: &Node<'_, '_>, name: &str, backend: Backend) -> Result<Arc<dyn Shader>, SceneError> {
-    let wide = |colour: [f32; 3]| colour.map(f64::from);
-    let share = |key: &str| Ok::<_, SceneError>(wide(node.required_colour(key, 1.0)?));
+fn model_named<T: Transport>(
+    node: &Node<'_, '_>,
+    name: &str,
+    reading: &Reading<'_, T>,
+) -> Result<Arc<dyn Shader<T>>, SceneError> {
+    let (basis, backend) = (reading.world.basis(), reading.backend);
+    let white = T::reflectance(basis, [1.0; 3]);
+    let share = |key: &str| reading.required_share(node, key);
     let exponent = || {
         let found = node.number("exponent", "a number from 0 to 1e5", |x| (0.0..=1e5).contains(&x))?;
         found.ok_or_else(|| node.error("exponent", "found nothing; expected a number"))
     };
+    let axis = || Ok::<f32, SceneError>(node.number("angle", "degrees", |x| x.abs() <= 3600.0)?.unwrap_or(0.0) as f32);
     match name {
-        "lambert" => Ok(Arc::new(Lambert::new(node.required_colour("albedo", 1.0)?, backend))),
-        "mirror" => Ok(Arc::new(DeltaShader(Delta::Mirror(node.colour("reflectance", 1.0)?.unwrap_or([1.0; 3]))))),
+        "lambert" => {
+            let albedo = share("albedo")?;
+            Ok(Arc::new(Lambert::new(albedo, backend).with_colour(T::colour_of(basis, albedo))))
+        }
+        "mirror" => {
+            if let Some(metal) = metal(node)? {
+                let [eta, k] = [&metal.n, &metal.k].map(|index| T::sampled(basis, index));
+                return Ok(Arc::new(DeltaShader(Delta::Metal { eta, k })));
+            }
+            Ok(Arc::new(DeltaShader(Delta::Mirror(reading.share(node, "reflectance")?.unwrap_or(white)))))
+        }
         "glass" => {
-            let index = node.number("eta", "a refractive index from 1 to 5", |x| (1.0..=5.0).contains(&x))?;
-            let tint = node.colour("tint", 1.0)?.unwrap_or([1.0; 3]);
-            Ok(Arc::new(DeltaShader(Delta::Glass { eta: index.unwrap_or(1.5) as f32, tint })))
+            let tint = reading.share(node, "tint")?.unwrap_or(white);
+            Ok(Arc::new(DeltaShader(match glass(node)? {
+                Index::Constant(eta) => Delta::Glass { eta: eta as f32, tint },
+                Index::Formula(glass) => match T::wavelengths(basis) {
+                    None => Delta::Glass { eta: index_at(node, &glass, YELLOW)? as f32, tint },
+                    Some(wavelengths) => {
+                        let mut eta = T::Spectrum::ZERO;
+                        for (eta, nm) in eta.as_mut().iter_mut().zip(wavelengths) {
+                            *eta = index_at(node, &glass, *nm)? as f32;
+                        }
+                        Delta::Dispersive { eta, tint }
+                    }
+                },
+            })))
+        }
+        "polariser" => {
+            let tint = reading.share(node, "tint")?.unwrap_or(white);
+            Ok(Arc::new(DeltaShader(Delta::Polariser { angle: axis()?.to_radians(), tint })))
+        }
+        "retarder" => {
+            let retardance = node.number("retardance", "degrees from 0 to 360", |x| (0.0..=360.0).contains(&x))?;
+            let retardance = retardance.unwrap_or(90.0).to_radians() as f32;
+            Ok(Arc::new(DeltaShader(Delta::Retarder { angle: axis()?.to_radians(), retardance })))
         }
         "oren-nayar" => {
             let radians = |x: f64| (0.0..=1.5).contains(&x);
             let roughness = node.number("roughness", "radians from 0 to 1.5", radians)?.unwrap_or(0.3);
-            modelled(node, backend, OrenNayar { albedo: share("albedo")?, roughness })
+            let albedo = share("albedo")?;
+            modelled(node, reading, |three| OrenNayar { albedo: of(&albedo, three), roughness })
         }
-        "phong" => modelled(node, backend, Phong { specular: share("specular")?, exponent: exponent()? }),
-        "blinn" => modelled(node, backend, Blinn { specular: share("specular")?, exponent: exponent()? }),
-        "ward" => modelled(node, backend, Ward { specular: share("specular")?, alpha: alpha(node)? }),
+        "phong" => {
+            let (specular, exponent) = (share("specular")?, exponent()?);
+            modelled(node, reading, |three| Phong { specular: of(&specular, three), exponent })
+        }
+        "blinn" => {
+            let (specular, exponent) = (share("specular")?, exponent()?);
+            modelled(node, reading, |three| Blinn { specular: of(&specular, three), exponent })
+        }
+        "ward" => {
+            let (specular, alpha) = (share("specular")?, alpha(node)?);
+            modelled(node, reading, |three| Ward { specular: of(&specular, three), alpha })
+        }
         "conductor" => {
-            let any = |key: &str| Ok::<_, SceneError>(wide(node.required_colour(key, f64::MAX)?));
-            modelled(node, backend, Conductor { ggx: Ggx { alpha: alpha(node)? }, eta: any("eta")?, k: any("k")? })
+            let ggx = Ggx { alpha: alpha(node)? };
+            let metal = match metal(node)? {
+                Some(metal) => metal,
+                None => Metal { n: indices(node, "eta")?, k: indices(node, "k")? },
+            };
+            let [eta, k] = [&metal.n, &metal.k].map(|index| T::sampled(basis, index));
+            if T::POLARISED {
+                return rough_metal(node, reading, ggx, [eta, k]);
+            }
+            modelled(node, reading, |three| Conductor { ggx, eta: of(&eta, three), k: of(&k, three) })
         }
         "plastic" => {
             let index = node.number("eta", "a refractive index from 1 to 5", |x| (1.0..=5.0).contains(&x))?;
-            let base = lobe_model::Lambert { albedo: share("albedo")? };
-            let coat = Coated { base, ggx: Ggx { alpha: alpha(node)? }, eta: index.unwrap_or(1.5) };
-            modelled(node, backend, coat)
+            let (albedo, ggx) = (share("albedo")?, Ggx { alpha: alpha(node)? });
+            let eta = index.unwrap_or(1.5);
+            let base = |three| lobe_model::Lambert { albedo: of(&albedo, three) };
+            modelled(node, reading, |three| Coated { base: base(three), ggx, eta })
         }
         found => Err(node.error("model", format!("found `{found}`; expected {MODELS}"))),
+    }
+}
+
+/// Three channels of a spectrum.
+fn of<S: Channels>(spectrum: &S, three: [usize; 3]) -> [f64; 3] {
+    three.map(|channel| f64::from(spectrum.as_ref()[channel]))
+}
+
+/// The helium line d, at which catalogues have refractive indices, in nm.
+const YELLOW: f64 = 587.561_8;
+
+/// The refractive index of glass.
+enum Index {
+    Constant(f64),
+    Formula(Glass),
+}
+
+/// `eta`, the name of a `glass`, or the terms of `cauchy`.
+fn glass(node: &Node<'_, '_>) -> Result<Index, SceneError> {
+    let eta = node.number("eta", "a refractive index from 1 to 5", |x| (1.0..=5.0).contains(&x))?;
+    let name = node.text("glass")?;
+    let cauchy = node.numbers("cauchy", "up to eight numbers: a + b / x + c / x^2 ..., x in square micrometres")?;
+    let sellmeier = ["sellmeier_b", "sellmeier_c"].map(|key| node.numbers(key, "as many numbers as terms"));
+    let [b, c] = sellmeier;
+    match (eta, name, cauchy, b?, c?) {
+        (eta, None, None, None, None) => Ok(Index::Constant(eta.unwrap_or(1.5))),
+        (None, Some(name), None, None, None) => Glass::named(name).map(Index::Formula).ok_or_else(|| {
+            let known: Vec<&str> = Glass::names().collect();
+            node.error("glass", format!("found `{name}`; expected one of {}", known.join(", ")))
+        }),
+        (None, None, Some(terms), None, None) if (1..=8).contains(&terms.len()) => {
+            Ok(Index::Formula(Glass::Cauchy(terms)))
+        }
+        (None, None, None, Some(b), Some(c)) if !b.is_empty() && b.len() == c.len() => {
+            Ok(Index::Formula(Glass::Sellmeier { b, c }))
+        }
+        _ => {
+            let expected = "one of `eta`, `glass`, `cauchy`, or as many `sellmeier_b` as `sellmeier_c`";
+            Err(node.error("", format!("found several or incomplete refractive indices; expected {expected}")))
+        }
+    }
+}
+
+fn index_at(node: &Node<'_, '_>, glass: &Glass, nm: f64) -> Result<f64, SceneError> {
+    let index = glass.index(nm);
+    if (1.0..=5.0).contains(&index) {
+        return Ok(index);
+    }
+    Err(node.error("", format!("found the refractive index {index} at {nm} nm; expected one from 1 to 5")))
+}
+
+/// A metal by its name.
+fn metal(node: &Node<'_, '_>) -> Result<Option<Metal>, SceneError> {
+    let Some(name) = node.text("metal")? else { return Ok(None) };
+    Metal::named(name).map(Some).ok_or_else(|| {
+        let known: Vec<&str> = Metal::names().collect();
+        node.error("metal", format!("found `{name}`; expected one of {}", known.join(", ")))
+    })
+}
+
+/// Refractive indices of red, green and blue, at 610, 550 and 465 nm, or one for all.
+fn indices(node: &Node<'_, '_>, key: &str) -> Result<Spectrum, SceneError> {
+    let [red, green, blue] = node.required_colour(key, f64::MAX)?.map(f64::from);
+    Spectrum::new(vec![465.0, 550.0, 610.0], vec![blue, green, red]).map_err(|error| node.error(key, error.to_string()))
+}
+
+/// The names of the channels of a picture, for models.
+fn channels<T: Transport>(reading: &Reading<'_, T>) -> lobe::Channels {
+    match T::wavelengths(reading.world.basis()) {
+        Some(wavelengths) => lobe::Channels::Spectral(wavelengths.to_vec()),
+        None => lobe::Channels::Rgb,
     }
 }
 
@@ -152,11 +282,33 @@ fn alpha(node: &Node<'_, '_>) -> Result<[f64; 2], SceneError> {
     Ok([x, read("alpha_y")?.unwrap_or(x)])
 }
 
-fn modelled(
+/// A model whose parameters `make` gets for three channels at a time.
+fn modelled<T: Transport, M: Model + Debug + Send + Sync + 'static>(
     node: &Node<'_, '_>,
-    backend: Backend,
-    model: impl Model + Debug + Send + Sync + 'static,
-) -> Result<Arc<dyn Shader>, SceneError> {
-    let shader = BsdfShader::<Rgb>::model(model, backend).map_err(|error| node.error("model", error.to_string()))?;
-    Ok(Arc::new(shader))
+    reading: &Reading<'_, T>,
+    make: impl Fn([usize; 3]) -> M,
+) -> Result<Arc<dyn Shader<T>>, SceneError> {
+    let (basis, backend) = (reading.world.basis(), reading.backend);
+    let first = lobe_model::Rgb(make([0, 1, 2].map(|channel: usize| channel.min(T::Spectrum::COUNT - 1))));
+    let isotropic = is_isotropic(&first);
+    let shader = match channels(reading) {
+        lobe::Channels::Rgb => BsdfShader::<T>::model_in(basis, first, isotropic, backend),
+        channels => BsdfShader::<T>::model_in(basis, Together::new(channels, make), isotropic, backend),
+    };
+    Ok(Arc::new(shader.map_err(|error| node.error("model", error.to_string()))?))
+}
+
+/// A metal that polarises.
+fn rough_metal<T: Transport>(
+    node: &Node<'_, '_>,
+    reading: &Reading<'_, T>,
+    ggx: Ggx,
+    [eta, k]: [T::Spectrum; 2],
+) -> Result<Arc<dyn Shader<T>>, SceneError> {
+    let channels = channels(reading);
+    let index = eta.as_ref().iter().zip(k.as_ref()).take(channels.count()).map(|(n, k)| [*n, *k].map(f64::from));
+    let metal = RoughMetal { mirrors: RoughMirrors { ggx, index: index.collect() }, channels };
+    let isotropic = ggx.alpha[0] == ggx.alpha[1];
+    let shader = BsdfShader::<T>::model_in(reading.world.basis(), metal, isotropic, reading.backend);
+    Ok(Arc::new(shader.map_err(|error| node.error("model", error.to_string()))?))
 }

@@ -4,6 +4,7 @@ mod light;
 mod material;
 pub(crate) mod node;
 mod object;
+mod spectrum;
 mod view;
 
 use std::collections::BTreeMap;
@@ -14,8 +15,9 @@ use std::sync::Arc;
 use sha2::{Digest, Sha256};
 
 use crate::camera::{Camera, Filter};
-use crate::integrator::Integrator;
+use crate::integrator::{self, Integrator};
 use crate::shader::Backend;
+use crate::transport::{Bands, Rgb, Stokes16, StokesRgb, Transport};
 use crate::world::{World, WorldBuilder};
 use node::{Node, Source};
 
@@ -23,9 +25,9 @@ pub use node::SceneError;
 
 /// What a scene file says.
 #[derive(Debug)]
-pub struct Scene {
+pub struct Scene<T: Transport = Rgb> {
     /// Shapes, materials and lights.
-    pub world: World,
+    pub world: World<T>,
     /// What the picture is taken with.
     pub camera: Camera,
     /// Columns and rows.
@@ -35,7 +37,7 @@ pub struct Scene {
     /// For pictures that are tone-mapped, in stops.
     pub exposure: f32,
     /// How radiance is found.
-    pub integrator: Arc<dyn Integrator>,
+    pub integrator: Arc<dyn Integrator<T>>,
     /// Samples per pixel.
     pub samples: u32,
     /// A hash of the scene file and of all files that were read for it, in hexadecimal.
@@ -45,10 +47,10 @@ pub struct Scene {
 }
 
 /// What is collected while a scene is read.
-struct Reading<'p> {
+struct Reading<'p, T: Transport> {
     /// The folder that relative paths begin at.
     folder: &'p Path,
-    world: WorldBuilder,
+    world: WorldBuilder<T>,
     /// What materials run on.
     backend: Backend,
     materials: BTreeMap<String, usize>,
@@ -56,7 +58,7 @@ struct Reading<'p> {
     progress: &'p mut dyn FnMut(f64),
 }
 
-impl Reading<'_> {
+impl<T: Transport> Reading<'_, T> {
     /// The path of a file that a key names.
     fn file(&self, node: &Node<'_, '_>, key: &str) -> Result<Option<PathBuf>, SceneError> {
         Ok(node.text(key)?.map(|name| self.folder.join(name)))
@@ -87,12 +89,7 @@ impl Scene {
         backend: Backend,
         progress: &mut dyn FnMut(f64),
     ) -> Result<Self, SceneError> {
-        let whole = |message: String| SceneError { file: path.into(), line: 1, key: String::new(), message };
-        let bytes = lobe_files::bytes(path).map_err(|error| whole(error.to_string()))?;
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let at = error.utf8_error().valid_up_to();
-            whole(format!("found byte {} that is not UTF-8; expected text", at))
-        })?;
+        let text = text_of(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         Scene::read(path, folder, &text, backend, progress)
     }
@@ -115,30 +112,141 @@ impl Scene {
         let source = Source { file, text };
         let table = source.table()?;
         let root = Node::new(&source, "", 0, table.get_ref());
-        let mut reading = Reading { folder, world: WorldBuilder::new(), backend, materials: BTreeMap::new(), progress };
-
-        let camera = view::camera(&root)?;
-        let (size, filter, exposure) = view::film(&root)?;
         let (integrator, samples) = view::integrator(&root)?;
-        // Files may name further ones: all that is read counts.
-        let (done, reads) = lobe_files::recorded(|| {
-            material::read(&root, &mut reading)?;
-            object::read(&root, &mut reading)?;
-            light::read(&root, &mut reading)?;
-            root.finish()
-        });
-        done?;
+        read_in((), (integrator, samples), &root, &source, (folder, backend), progress)
+    }
+}
 
-        let world = reading.world.build().map_err(|error| source.error(0, "", error.to_string()))?;
-        let mut hash = Sha256::new();
-        hash.update(text.as_bytes());
-        hash.update(reads.hash);
-        let digest = hash.finalize();
-        let hash = digest.iter().take(16).fold(String::new(), |mut hex, byte| {
-            write!(hex, "{byte:02x}").expect("writing to memory");
-            hex
-        });
-        let files = [file.to_path_buf()].into_iter().chain(reads.files).collect();
-        Ok(Scene { world, camera, size, filter, exposure, integrator, samples, hash, files })
+/// The text of a scene file.
+fn text_of(path: &Path) -> Result<String, SceneError> {
+    let whole = |message: String| SceneError { file: path.into(), line: 1, key: String::new(), message };
+    let bytes = lobe_files::bytes(path).map_err(|error| whole(error.to_string()))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        whole(format!("found byte {} that is not UTF-8; expected text", at))
+    })
+}
+
+/// An integrator and the samples per pixel.
+type Integration<T> = (Arc<dyn Integrator<T>>, u32);
+
+/// Reads a scene in the channels of a picture.
+fn read_in<T: Transport>(
+    basis: T::Basis,
+    (integrator, samples): Integration<T>,
+    root: &Node<'_, '_>,
+    source: &Source<'_>,
+    (folder, backend): (&Path, Backend),
+    progress: &mut dyn FnMut(f64),
+) -> Result<Scene<T>, SceneError> {
+    let world = WorldBuilder::in_basis(basis);
+    let mut reading = Reading { folder, world, backend, materials: BTreeMap::new(), progress };
+    let camera = view::camera(root)?;
+    let (size, filter, exposure) = view::film(root)?;
+    // Files may name further ones: all that is read counts.
+    let (done, reads) = lobe_files::recorded(|| {
+        material::read(root, &mut reading)?;
+        object::read(root, &mut reading)?;
+        light::read(root, &mut reading)?;
+        root.finish()
+    });
+    done?;
+
+    let world = reading.world.build().map_err(|error| source.error(0, "", error.to_string()))?;
+    let mut hash = Sha256::new();
+    hash.update(source.text.as_bytes());
+    hash.update(reads.hash);
+    let digest = hash.finalize();
+    let hash = digest.iter().take(16).fold(String::new(), |mut hex, byte| {
+        write!(hex, "{byte:02x}").expect("writing to memory");
+        hex
+    });
+    let files = [source.file.to_path_buf()].into_iter().chain(reads.files).collect();
+    Ok(Scene { world, camera, size, filter, exposure, integrator, samples, hash, files })
+}
+
+/// A scene in the channels that it asks for.
+#[derive(Debug)]
+pub enum AnyScene {
+    /// Linear sRGB.
+    Rgb(Scene),
+    /// Up to 8 wavelengths.
+    Bands8(Scene<Bands<8>>),
+    /// Up to 16 wavelengths.
+    Bands16(Scene<Bands<16>>),
+    /// Up to 32 wavelengths.
+    Bands32(Scene<Bands<32>>),
+    /// Polarised light in linear sRGB.
+    StokesRgb(Scene<StokesRgb>),
+    /// Polarised light of up to 16 wavelengths.
+    Stokes16(Scene<Stokes16>),
+}
+
+impl AnyScene {
+    /// As [`Scene::open_with_progress`], in the channels that the table `[spectrum]` asks for, and by the integrator of this
+    /// name instead of that in the file, if one is given.
+    ///
+    /// # Errors
+    /// As [`Scene::open`], and if the integrator does not follow such light.
+    pub fn open_with_progress(
+        path: &Path,
+        backend: Backend,
+        integrator: Option<&str>,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Self, SceneError> {
+        let text = text_of(path)?;
+        AnyScene::read(path, path.parent().unwrap_or(Path::new("")), &text, backend, integrator, progress)
+    }
+
+    /// As [`Scene::parse`], in the channels that the table `[spectrum]` asks for.
+    ///
+    /// # Errors
+    /// As [`open_with_progress`](Self::open_with_progress).
+    pub fn parse(file: &Path, folder: &Path, text: &str, backend: Backend) -> Result<Self, SceneError> {
+        AnyScene::read(file, folder, text, backend, None, &mut |_| {})
+    }
+
+    fn read(
+        file: &Path,
+        folder: &Path,
+        text: &str,
+        backend: Backend,
+        named: Option<&str>,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Self, SceneError> {
+        let source = Source { file, text };
+        let table = source.table()?;
+        let root = Node::new(&source, "", 0, table.get_ref());
+        let on = (folder, backend);
+        let Some(wanted) = spectrum::read(&root)? else {
+            let (mut integrator, samples) = view::integrator(&root)?;
+            if let Some(spec) = named.and_then(integrator::named) {
+                integrator = (spec.default)();
+            }
+            return Ok(AnyScene::Rgb(read_in((), (integrator, samples), &root, &source, on, progress)?));
+        };
+        let (any, samples) = spectrum::integrator(&root, named)?;
+        Ok(match (wanted.bands, wanted.stokes) {
+            (None, _) => {
+                let any: Arc<dyn Integrator<StokesRgb>> = any;
+                AnyScene::StokesRgb(read_in((), (any, samples), &root, &source, on, progress)?)
+            }
+            (Some(bands), true) => {
+                let any: Arc<dyn Integrator<Stokes16>> = any;
+                AnyScene::Stokes16(read_in(bands, (any, samples), &root, &source, on, progress)?)
+            }
+            (Some(bands), false) if bands.count() <= 8 => {
+                let any: Arc<dyn Integrator<Bands<8>>> = any;
+                AnyScene::Bands8(read_in(bands, (any, samples), &root, &source, on, progress)?)
+            }
+            (Some(bands), false) if bands.count() <= 16 => {
+                let any: Arc<dyn Integrator<Bands<16>>> = any;
+                AnyScene::Bands16(read_in(bands, (any, samples), &root, &source, on, progress)?)
+            }
+            (Some(bands), false) => {
+                let any: Arc<dyn Integrator<Bands<32>>> = any;
+                AnyScene::Bands32(read_in(bands, (any, samples), &root, &source, on, progress)?)
+            }
+        })
     }
 }

@@ -198,6 +198,19 @@ impl<'s, 't> Node<'s, 't> {
         }
     }
 
+    /// An array of numbers.
+    pub fn numbers(&self, key: &str, expected: &str) -> Result<Option<Vec<f64>>, SceneError> {
+        let Some(value) = self.get(key) else { return Ok(None) };
+        let numbers = value.get_ref().as_array();
+        let numbers = numbers.and_then(|array| array.iter().map(|value| number(value.get_ref())).collect());
+        numbers.map_or_else(|| self.wrong(key, value, expected), |numbers| Ok(Some(numbers)))
+    }
+
+    /// Whether the value of a key is text.
+    pub fn is_text(&self, key: &str) -> bool {
+        self.get(key).is_some_and(|value| value.get_ref().is_str())
+    }
+
     /// A point or a direction.
     pub fn vector(&self, key: &str) -> Result<Option<[f32; 3]>, SceneError> {
         let three = self.three(key, "three numbers of magnitude up to 1e9", |x| x.abs() <= 1e9)?;

@@ -8,10 +8,11 @@ use super::Reading;
 use super::node::{Node, SceneError};
 use crate::preview;
 use crate::transform::Transform;
+use crate::transport::Transport;
 
 const SHAPES: &str = "sphere, plane, disk, cuboid, cove, ring, waves, knot, ball or drape";
 
-pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(), SceneError> {
+pub(super) fn read<T: Transport>(root: &Node<'_, '_>, reading: &mut Reading<'_, T>) -> Result<(), SceneError> {
     for node in root.children("object")? {
         let geometry = geometry(&node, reading)?;
         let shading = match node.text("shading")? {
@@ -22,7 +23,7 @@ pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(),
         let geometry = if shading == Shading::Flat { geometry.with_normals(shading) } else { geometry };
         let geometry = refined(&node, geometry.complete())?;
         let place = self::place(&node)?;
-        let radiance = node.colour("radiance", f64::MAX)?;
+        let radiance = reading.light(&node, "radiance")?;
         let two_sided = node.flag("two_sided")?;
         let material = named(&node, reading, "material")?;
         let by_group = groups(&node, reading, &geometry)?;
@@ -42,7 +43,7 @@ pub(super) fn read(root: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<(),
     Ok(())
 }
 
-fn geometry(node: &Node<'_, '_>, reading: &mut Reading<'_>) -> Result<Geometry, SceneError> {
+fn geometry<T: Transport>(node: &Node<'_, '_>, reading: &mut Reading<'_, T>) -> Result<Geometry, SceneError> {
     let positive = |key: &str, default: f64| {
         let found = node.number(key, "a number above 0 and up to 1e6", |x| x > 1e-6 && x <= 1e6)?;
         Ok::<f32, SceneError>(found.unwrap_or(default) as f32)
@@ -109,7 +110,7 @@ fn room(node: &Node<'_, '_>, key: &str, triangles: u64) -> Result<(), SceneError
 }
 
 /// The number of a material that a key names.
-fn named(node: &Node<'_, '_>, reading: &Reading<'_>, key: &str) -> Result<usize, SceneError> {
+fn named<T: Transport>(node: &Node<'_, '_>, reading: &Reading<'_, T>, key: &str) -> Result<usize, SceneError> {
     let name = node.required_text(key, "the name of a material")?;
     reading.materials.get(name).copied().ok_or_else(|| {
         let known: Vec<&str> = reading.materials.keys().map(String::as_str).collect();
@@ -118,7 +119,11 @@ fn named(node: &Node<'_, '_>, reading: &Reading<'_>, key: &str) -> Result<usize,
 }
 
 /// For each group of triangles the material that `materials` has for the name of its material or its own.
-fn groups(node: &Node<'_, '_>, reading: &Reading<'_>, geometry: &Geometry) -> Result<Vec<Option<usize>>, SceneError> {
+fn groups<T: Transport>(
+    node: &Node<'_, '_>,
+    reading: &Reading<'_, T>,
+    geometry: &Geometry,
+) -> Result<Vec<Option<usize>>, SceneError> {
     let Some(table) = node.child("materials")? else { return Ok(vec![None; geometry.groups.len()]) };
     let mut found = vec![None; geometry.groups.len()];
     for name in table.keys() {

@@ -19,6 +19,8 @@ pub struct BsdfShader<T: Transport = Rgb> {
     backend: Backend,
     conversion: T::Conversion,
     lobes: Lobes,
+    /// Whether there are matrices, and they are wanted.
+    is_polarised: bool,
     albedo: [f32; 3],
 }
 
@@ -26,14 +28,60 @@ pub struct BsdfShader<T: Transport = Rgb> {
 const BYTES: usize = 4 << 20;
 
 impl<T: Transport> BsdfShader<T> {
-    /// A function that is evaluated and sampled on the backend given.
-    pub fn new(bsdf: Arc<dyn Bsdf>, backend: Backend) -> Self {
-        let conversion = T::Conversion::of(bsdf.channels());
+    /// A function that is evaluated and sampled on the backend given, in the channels of a picture.
+    pub fn new_in(basis: &T::Basis, bsdf: Arc<dyn Bsdf>, backend: Backend) -> Self {
+        let conversion = T::Conversion::of(bsdf.channels(), basis);
         let transmits = Aspect::ALL.into_iter().any(|aspect| aspect != Aspect::REFLECTION && bsdf.holds(aspect));
         let lobes = Lobes { values: true, delta: bsdf.samples_mirrors(), transmits };
-        let mut shader = BsdfShader { bsdf, backend, conversion, lobes, albedo: [0.0; 3] };
-        shader.albedo = albedo_of::<T>(&shader);
+        let is_polarised = T::POLARISED && bsdf.is_polarised();
+        let mut shader = BsdfShader { bsdf, backend, conversion, lobes, is_polarised, albedo: [0.0; 3] };
+        shader.albedo = albedo_of::<T>(&shader, basis);
         shader
+    }
+
+    /// As [`measured_with`](Self::measured_with), in the channels of a picture.
+    ///
+    /// # Errors
+    /// As [`measured`](Self::measured).
+    pub fn measured_in(
+        basis: &T::Basis,
+        material: Material,
+        options: &SamplerOptions,
+        progress: &mut dyn FnMut(usize, usize),
+    ) -> Result<Self, SamplerError> {
+        let backend = material.backend();
+        let sampler = Sampler::with_progress(Arc::new(material), options, progress)?;
+        Ok(BsdfShader::new_in(basis, Arc::new(sampler), backend))
+    }
+
+    /// A model that reflects, in as many channels as it has, and histograms of what it answers.
+    ///
+    /// # Errors
+    /// As [`model`](Self::model).
+    pub(crate) fn model_in(
+        basis: &T::Basis,
+        model: impl Bsdf + 'static,
+        isotropic: bool,
+        backend: Backend,
+    ) -> Result<Self, DistributionError> {
+        let options = DistributionOptions::unknown(Scatter::Reflection, isotropic, BYTES);
+        let sampled = ByHistograms::new(model, backend, Given::Viewer, &options)?;
+        Ok(BsdfShader::new_in(basis, Arc::new(sampled), backend))
+    }
+
+    /// The matrices of pairs of directions, each times the cosine of `wi` and a factor.
+    fn matrices(&self, [light, viewer]: [&[Vec3]; 2], factor: impl Fn(usize) -> f32, out: &mut [T::Scattering]) {
+        let mut matrices = vec![0.0; 16 * self.conversion.count() * light.len()];
+        self.bsdf.mueller_batch(self.backend, light.into(), viewer.into(), &mut matrices);
+        self.conversion.convert_matrices(&matrices, out);
+        out.iter_mut().enumerate().for_each(|(at, matrix)| *matrix = T::scale(*matrix, factor(at)));
+    }
+}
+
+impl<T: Transport<Basis = ()>> BsdfShader<T> {
+    /// A function that is evaluated and sampled on the backend given.
+    pub fn new(bsdf: Arc<dyn Bsdf>, backend: Backend) -> Self {
+        BsdfShader::new_in(&(), bsdf, backend)
     }
 
     /// A material and the distributions that its directions are sampled from, on the backend of the material.
@@ -53,9 +101,7 @@ impl<T: Transport> BsdfShader<T> {
         options: &SamplerOptions,
         progress: &mut dyn FnMut(usize, usize),
     ) -> Result<Self, SamplerError> {
-        let backend = material.backend();
-        let sampler = Sampler::with_progress(Arc::new(material), options, progress)?;
-        Ok(BsdfShader::new(Arc::new(sampler), backend))
+        BsdfShader::measured_in(&(), material, options, progress)
     }
 
     /// A model that reflects, and histograms of what it answers, which directions are sampled from.
@@ -96,6 +142,10 @@ impl<T: Transport> Shader<T> for BsdfShader<T> {
             TransportMode::Radiance => [wi, wo],
             TransportMode::Importance => [wo, wi],
         };
+        if self.is_polarised && mode == TransportMode::Radiance {
+            self.bsdf.pdf_batch(self.backend, given(mode), light, viewer, pdf);
+            return self.matrices([light, viewer], |at| wi[at][2].abs(), f);
+        }
         if let Some(values) = self.conversion.in_place(f) {
             self.bsdf.eval_pdf_batch(self.backend, given(mode), light, viewer, values, pdf);
         } else {
@@ -125,6 +175,16 @@ impl<T: Transport> Shader<T> for BsdfShader<T> {
             let sampled = lobe::Sampled { directions: wi, weights: values, pdfs: pdf };
             self.bsdf.sample_batch(self.backend, given(mode), wo, u, sampled);
             self.conversion.convert(values, weight);
+        }
+        if self.is_polarised && mode == TransportMode::Radiance {
+            let mut matrices = vec![T::ABSORBED; wo.len()];
+            self.matrices([wi, wo], |at| wi[at][2].abs() / pdf[at].max(f32::MIN_POSITIVE), &mut matrices);
+            for ((weight, matrix), pdf) in weight.iter_mut().zip(matrices).zip(&*pdf) {
+                // A mirror that was measured in addition has no matrix.
+                if *pdf > 0.0 && pdf.is_finite() {
+                    *weight = matrix;
+                }
+            }
         }
     }
 }

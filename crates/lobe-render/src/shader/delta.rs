@@ -1,9 +1,11 @@
 //! Surfaces that send a ray into one or two exact directions.
 
+use lobe_model::{Elements, fresnel};
+
 use super::{Evaluated, Lobes, Sampled, Scratch, Shader};
 use crate::channels::Channels;
-use crate::transport::{Transport, TransportMode};
-use crate::vec3::Vec3;
+use crate::transport::{Polarisation, Transport, TransportMode};
+use crate::vec3::{Vec3, dot, scale, sub, unit};
 
 /// One of the exact directions that a path may take, and what that does to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,6 +14,18 @@ pub struct DeltaSample<S> {
     pub wi: [f32; 3],
     /// What radiance, or importance, is multiplied by.
     pub weight: S,
+    /// What it does to polarised light; `None` if that is not wanted, or it makes unpolarised light of it.
+    pub polarisation: Option<Polarisation<S>>,
+}
+
+/// What is wanted of a sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Choice {
+    /// Whether it is to say what it does to polarised light.
+    pub is_polarised: bool,
+    /// If channels go different ways: the one that is followed, and what it counts for all of them. Without one, all go the way
+    /// of the middle one.
+    pub lone: Option<(usize, f32)>,
 }
 
 /// The exact directions for a known one.
@@ -38,13 +52,41 @@ pub enum Delta<S: Channels = [f32; 3]> {
         /// What mirrored and refracted light are multiplied by.
         tint: S,
     },
+    /// Glass whose refractive index is another one in each channel.
+    Dispersive {
+        /// As that of glass, by channel.
+        eta: S,
+        /// What mirrored and refracted light are multiplied by.
+        tint: S,
+    },
+    /// A smooth metal, by the equations of Fresnel.
+    Metal {
+        /// The real part of the refractive index.
+        eta: S,
+        /// Its imaginary part.
+        k: S,
+    },
+    /// A thin sheet that light goes straight through, only as much of it as is polarised along an axis.
+    Polariser {
+        /// The angle of the axis from the x axis of the surface, in radians.
+        angle: f32,
+        /// The share of such light that passes.
+        tint: S,
+    },
+    /// A thin sheet that light goes straight through, and that delays it across an axis.
+    Retarder {
+        /// The angle of the fast axis from the x axis of the surface, in radians.
+        angle: f32,
+        /// By how much, in radians.
+        retardance: f32,
+    },
 }
 
 impl<S: Channels> Delta<S> {
     /// The direction in which a path with the known direction `wo` continues.
     pub fn samples(&self, mode: TransportMode, wo: [f32; 3]) -> DeltaSamples<S> {
         let mirrored = [-wo[0], -wo[1], wo[2]];
-        let mirror = |weight| DeltaSamples { reflection: DeltaSample { wi: mirrored, weight }, transmission: None };
+        let mirror = |weight| DeltaSamples { reflection: DeltaSample::new(mirrored, weight), transmission: None };
         match self {
             Delta::Mirror(share) => mirror(*share),
             Delta::Measured(shares) => mirror(share_at(shares, wo)),
@@ -57,12 +99,128 @@ impl<S: Channels> Delta<S> {
                         TransportMode::Radiance => ratio * ratio,
                         TransportMode::Importance => 1.0,
                     };
-                    DeltaSample { wi, weight: tint.map(|t| t * (1.0 - share) * squeezed) }
+                    DeltaSample::new(wi, tint.map(|t| t * (1.0 - share) * squeezed))
                 });
                 DeltaSamples { transmission, ..mirror(tint.map(|t| t * share)) }
             }
+            _ => self.samples_of(mode, wo, Choice::default()),
         }
     }
+
+    /// Whether channels may go different ways.
+    pub fn disperses(&self) -> bool {
+        matches!(self, Delta::Dispersive { .. })
+    }
+
+    /// As [`samples`](Self::samples), with what is wanted of them.
+    pub fn samples_of(&self, mode: TransportMode, wo: [f32; 3], choice: Choice) -> DeltaSamples<S> {
+        let mirrored = [-wo[0], -wo[1], wo[2]];
+        match self {
+            Delta::Mirror(_) | Delta::Measured(_) => self.samples(mode, wo),
+            Delta::Glass { eta, tint } => {
+                let channels = S::ONE.map(|_| *eta);
+                refractive(mode, wo, &channels, tint, Choice { lone: choice.lone.map(|_| (usize::MAX, 1.0)), ..choice })
+            }
+            Delta::Dispersive { eta, tint } => refractive(mode, wo, eta, tint, choice),
+            Delta::Metal { eta, k } => {
+                let (mut weight, mut elements) = (S::ZERO, [S::ZERO; 3]);
+                for channel in 0..S::COUNT {
+                    let (eta, k) = (f64::from(eta.as_ref()[channel]), f64::from(k.as_ref()[channel]));
+                    // Channels that are not in use have no index.
+                    if eta == 0.0 && k == 0.0 {
+                        continue;
+                    }
+                    let (mirror, _) = fresnel(f64::from(wo[2].abs()), eta, k);
+                    weight.as_mut()[channel] = mirror.a as f32;
+                    set(&mut elements, channel, mirror);
+                }
+                let polarisation = choice.is_polarised.then(|| polarisation(wo, elements));
+                let reflection = DeltaSample { wi: mirrored, weight, polarisation };
+                DeltaSamples { reflection, transmission: None }
+            }
+            Delta::Polariser { angle, tint } => {
+                let elements = [S::ONE, S::ZERO, S::ZERO];
+                straight(wo, *angle, tint.map(|t| 0.5 * t), elements, choice)
+            }
+            Delta::Retarder { angle, retardance } => {
+                let (sin, cos) = libm::sincosf(*retardance);
+                let elements = [S::ZERO, S::ONE.map(|_| cos), S::ONE.map(|_| -sin)];
+                straight(wo, *angle, S::ONE, elements, choice)
+            }
+        }
+    }
+}
+
+impl<S> DeltaSample<S> {
+    /// A direction, and a weight of unpolarised light.
+    pub fn new(wi: [f32; 3], weight: S) -> Self {
+        DeltaSample { wi, weight, polarisation: None }
+    }
+}
+
+/// The elements `b`, `c` and `s` of a channel, relative to the first.
+fn set<S: Channels>(elements: &mut [S; 3], channel: usize, Elements { a, b, c, s }: Elements) {
+    if a > 0.0 {
+        for (out, value) in elements.iter_mut().zip([b, c, s]) {
+            out.as_mut()[channel] = (value / a) as f32;
+        }
+    }
+}
+
+/// About the normal of the plane of incidence.
+fn polarisation<S>(wo: Vec3, [b, c, s]: [S; 3]) -> Polarisation<S> {
+    let across = libm::hypotf(wo[0], wo[1]);
+    let axis = if across > 0.0 { [-wo[1] / across, wo[0] / across, 0.0] } else { [0.0, 1.0, 0.0] };
+    Polarisation { axis, b, c, s }
+}
+
+/// What goes straight through a sheet with an axis.
+fn straight<S: Channels>(wo: Vec3, angle: f32, weight: S, [b, c, s]: [S; 3], choice: Choice) -> DeltaSamples<S> {
+    let (sin, cos) = libm::sincosf(angle);
+    let along = [cos, sin, 0.0];
+    let away = dot(along, wo);
+    let axis = unit(sub(along, scale(wo, away)));
+    // Light along the axis itself has no part across it.
+    let polarisation = axis.filter(|_| choice.is_polarised).map(|axis| Polarisation { axis, b, c, s });
+    let wi = wo.map(|x| -x);
+    DeltaSamples {
+        reflection: DeltaSample::new([-wo[0], -wo[1], wo[2]], S::ZERO),
+        transmission: Some(DeltaSample { wi, weight, polarisation }),
+    }
+}
+
+/// Mirrored light of all channels, and refracted light of one.
+fn refractive<S: Channels>(mode: TransportMode, wo: Vec3, eta: &S, tint: &S, choice: Choice) -> DeltaSamples<S> {
+    let (mut mirrored, mut passed) = (S::ZERO, S::ZERO);
+    let (mut of_mirror, mut of_glass) = ([S::ZERO; 3], [S::ZERO; 3]);
+    let (lone, count) = match choice.lone {
+        Some((channel, count)) => (channel, count),
+        None => (S::COUNT / 2, 1.0),
+    };
+    let follows = |channel: usize| choice.lone.is_none() || lone >= S::COUNT || channel == lone;
+    let guide = eta.as_ref()[lone.min(S::COUNT - 1)];
+    for channel in 0..S::COUNT {
+        let (eta, tint) = (eta.as_ref()[channel], tint.as_ref()[channel]);
+        // Channels that are not in use have no index.
+        if eta == 0.0 {
+            continue;
+        }
+        let ratio = if wo[2] > 0.0 { 1.0 / eta } else { eta };
+        let (mirror, glass) = fresnel(f64::from(wo[2].abs()), 1.0 / f64::from(ratio), 0.0);
+        mirrored.as_mut()[channel] = tint * mirror.a as f32;
+        set(&mut of_mirror, channel, mirror);
+        if follows(channel) {
+            let squeezed = if mode == TransportMode::Radiance { ratio * ratio } else { 1.0 };
+            passed.as_mut()[channel] = tint * glass.a as f32 * squeezed * count;
+            set(&mut of_glass, channel, glass);
+        }
+    }
+    let ratio = if wo[2] > 0.0 { 1.0 / guide } else { guide };
+    let (_, refracted) = refract(wo, ratio);
+    let wanted = |elements| choice.is_polarised.then(|| polarisation(wo, elements));
+    let reflection = DeltaSample { wi: [-wo[0], -wo[1], wo[2]], weight: mirrored, polarisation: wanted(of_mirror) };
+    let transmission = refracted.map(|wi| DeltaSample { wi, weight: passed, polarisation: wanted(of_glass) });
+    DeltaSamples { reflection, transmission }
 }
 
 /// The share that is mirrored, and the refracted direction unless all is; `ratio` is the index on the side of `wo` over
@@ -105,7 +263,8 @@ pub struct DeltaShader<S: Channels = [f32; 3]>(pub Delta<S>);
 
 impl<T: Transport> Shader<T> for DeltaShader<T::Spectrum> {
     fn lobes(&self) -> Lobes {
-        Lobes { values: false, delta: true, transmits: matches!(self.0, Delta::Glass { .. }) }
+        let transmits = !matches!(self.0, Delta::Mirror(_) | Delta::Measured(_) | Delta::Metal { .. });
+        Lobes { values: false, delta: true, transmits }
     }
 
     fn delta(&self) -> Option<&Delta<T::Spectrum>> {

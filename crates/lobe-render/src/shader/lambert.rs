@@ -15,13 +15,25 @@ use crate::vectors::cosine_hemisphere;
 #[derive(Clone, Copy, Debug)]
 pub struct Lambert<S: Channels = [f32; 3]> {
     albedo: S,
+    /// In linear sRGB, for the albedo image.
+    colour: [f32; 3],
     backend: Backend,
 }
 
 impl<S: Channels> Lambert<S> {
     /// A surface that reflects this share of the light, per channel, in `[0, 1]`.
     pub fn new(albedo: S, backend: Backend) -> Self {
-        Lambert { albedo, backend }
+        let colour = <[f32; 3]>::try_from(albedo.as_ref()).unwrap_or_else(|_| {
+            let values = albedo.as_ref();
+            [values.iter().sum::<f32>() / values.len().max(1) as f32; 3]
+        });
+        Lambert { albedo, colour, backend }
+    }
+
+    /// The same with a colour for the albedo image.
+    #[must_use]
+    pub fn with_colour(self, colour: [f32; 3]) -> Self {
+        Lambert { colour, ..self }
     }
 }
 
@@ -79,7 +91,7 @@ fn density(known: Vec3, sampled: Vec3) -> f32 {
 /// As the [`Bsdf`], in the channels of any transport.
 impl<T: Transport> Shader<T> for Lambert<T::Spectrum> {
     fn albedo(&self) -> [f32; 3] {
-        T::colour(T::radiance(T::START, self.albedo))
+        self.colour
     }
 
     fn eval(&self, _: TransportMode, wi: &[Vec3], wo: &[Vec3], out: Evaluated<'_, T>, _: &mut Scratch) {

@@ -7,17 +7,21 @@
 mod bsdf;
 mod delta;
 mod lambert;
+mod models;
 mod open;
 
 use std::fmt::Debug;
 
 pub use bsdf::BsdfShader;
-pub use delta::{Delta, DeltaSample, DeltaSamples, DeltaShader};
+pub use delta::{Choice, Delta, DeltaSample, DeltaSamples, DeltaShader};
 pub use lambert::Lambert;
 pub use lobe::Backend;
-pub use open::{MaterialError, from_document, open, open_sheet, open_sheet_with_progress, open_with};
+pub(crate) use models::{RoughMetal, Together};
+pub use open::{
+    MaterialError, from_document, from_document_in, open, open_sheet, open_sheet_in, open_sheet_with_progress,
+    open_with,
+};
 
-use crate::channels::Channels;
 use crate::transport::{Rgb, Transport, TransportMode};
 
 /// Where values go, one entry per pair of directions.
@@ -106,7 +110,7 @@ pub trait Shader<T: Transport = Rgb>: Debug + Send + Sync {
 }
 
 /// The mean weight of directions that a shader samples for a viewer 30 degrees from the normal: its albedo there.
-fn albedo_of<T: Transport>(shader: &impl Shader<T>) -> [f32; 3] {
+fn albedo_of<T: Transport>(shader: &impl Shader<T>, basis: &T::Basis) -> [f32; 3] {
     const SIDE: usize = 24;
     let n = SIDE * SIDE;
     let at = |i: usize| (i as f32 + 0.5) / SIDE as f32;
@@ -115,8 +119,9 @@ fn albedo_of<T: Transport>(shader: &impl Shader<T>) -> [f32; 3] {
     let (mut wi, mut weight, mut pdf) = (vec![[0.0; 3]; n], vec![T::ABSORBED; n], vec![0.0; n]);
     let out = Sampled { wi: &mut wi, weight: &mut weight, pdf: &mut pdf };
     shader.sample(TransportMode::Radiance, &wo, &u, out, &mut Scratch::default());
+    let white = T::emission(basis, [1.0; 3]);
     let colours: Vec<[f32; 3]> =
-        weight.into_iter().map(|weight| T::colour(T::radiance(T::apply(T::START, weight), T::Spectrum::ONE))).collect();
+        weight.into_iter().map(|weight| T::colour(basis, T::radiance(T::apply(T::START, weight), white))).collect();
     std::array::from_fn(|k| (colours.iter().map(|c| f64::from(c[k])).sum::<f64>() / n as f64).clamp(0.0, 1.0) as f32)
 }
 

@@ -7,10 +7,10 @@ use std::time::{Duration, Instant};
 use lobe::formats::{Document, FormatError};
 use lobe::table::{Data, mirror};
 use lobe::{Material, OpenError, Options, SamplerError, SamplerOptions, Scatter};
-use lobe_colour::Reduction;
 
 use super::{Backend, BsdfShader, Delta, DeltaShader, Shader};
-use crate::transport::Rgb;
+use crate::channels::Channels as _;
+use crate::transport::{Rgb, Transport};
 
 /// Why a file makes no material.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -66,13 +66,29 @@ pub fn from_document(
     limit: Option<Duration>,
     progress: &mut dyn FnMut(usize, usize),
 ) -> Result<Arc<dyn Shader<Rgb>>, MaterialError> {
+    from_document_in(&(), document, path, options, backend, limit, progress)
+}
+
+/// As [`from_document`], in the channels of a picture.
+///
+/// # Errors
+/// As [`open`].
+pub fn from_document_in<T: Transport>(
+    basis: &T::Basis,
+    document: &Document,
+    path: &Path,
+    options: &Options,
+    backend: Backend,
+    limit: Option<Duration>,
+    progress: &mut dyn FnMut(usize, usize),
+) -> Result<Arc<dyn Shader<T>>, MaterialError> {
     if let Some(data) = document.only().and_then(Data::mirror)
         && data.scatter() == Scatter::Reflection
     {
-        return Ok(Arc::new(DeltaShader(mirror(data))));
+        return Ok(Arc::new(DeltaShader(mirror::<T>(basis, data))));
     }
     let material = Material::from_document(document, options).map_err(|error| error.in_file(path))?;
-    prepare(material, path, backend, limit, progress)
+    prepare(basis, material, path, backend, limit, progress)
 }
 
 /// Opens the files of a sheet, measured with light on its front and on its back, as
@@ -100,20 +116,37 @@ pub fn open_sheet_with_progress(
     backend: Backend,
     progress: &mut dyn FnMut(usize, usize),
 ) -> Result<Arc<dyn Shader<Rgb>>, MaterialError> {
-    let first = front.iter().chain(back).next().cloned().unwrap_or_default();
-    prepare(Material::open_sheet(front, back, options)?, &first, backend, None, progress)
+    open_sheet_in(&(), front, back, options, backend, progress)
 }
 
-fn prepare(
+/// As [`open_sheet_with_progress`], in the channels of a picture.
+///
+/// # Errors
+/// As [`open_sheet`].
+pub fn open_sheet_in<T: Transport>(
+    basis: &T::Basis,
+    front: &[PathBuf],
+    back: &[PathBuf],
+    options: &Options,
+    backend: Backend,
+    progress: &mut dyn FnMut(usize, usize),
+) -> Result<Arc<dyn Shader<T>>, MaterialError> {
+    let first = front.iter().chain(back).next().cloned().unwrap_or_default();
+    prepare(basis, Material::open_sheet(front, back, options)?, &first, backend, None, progress)
+}
+
+fn prepare<T: Transport>(
+    basis: &T::Basis,
     material: Material,
     path: &Path,
     backend: Backend,
     limit: Option<Duration>,
     progress: &mut dyn FnMut(usize, usize),
-) -> Result<Arc<dyn Shader<Rgb>>, MaterialError> {
+) -> Result<Arc<dyn Shader<T>>, MaterialError> {
     let material = material.with_backend(backend);
     let bytes = limit.map(|limit| affordable(&material, limit));
-    let shader = BsdfShader::measured_with(material, &SamplerOptions { bytes, ..SamplerOptions::default() }, progress);
+    let options = SamplerOptions { bytes, ..SamplerOptions::default() };
+    let shader = BsdfShader::<T>::measured_in(basis, material, &options, progress);
     Ok(Arc::new(shader.map_err(|why| MaterialError::Sampler { file: path.into(), why })?))
 }
 
@@ -134,14 +167,16 @@ fn affordable(material: &Material, limit: Duration) -> usize {
 }
 
 /// Reflectance by the angle of the light, averaged over its azimuths.
-fn mirror(specular: &mirror::Data) -> Delta {
+fn mirror<T: Transport>(basis: &T::Basis, specular: &mirror::Data) -> Delta<T::Spectrum> {
     let [sigma, psi] = specular.knots();
-    let reduction = Reduction::for_display(specular.channels());
-    let mut colours = vec![[0.0; 3]; sigma.len() * psi.len()];
-    reduction.apply_batch(specular.values(), &mut colours);
-    let mean = |row: &[[f32; 3]]| -> [f32; 3] {
-        std::array::from_fn(|k| (row.iter().map(|c| c[k]).sum::<f32>() / row.len() as f32).max(0.0))
+    let spectra = T::measured(basis, specular.channels(), specular.values());
+    let mean = |row: &[T::Spectrum]| -> T::Spectrum {
+        let mut mean = T::Spectrum::ZERO;
+        for (channel, mean) in mean.as_mut().iter_mut().enumerate() {
+            *mean = (row.iter().map(|spectrum| spectrum.as_ref()[channel]).sum::<f32>() / row.len() as f32).max(0.0);
+        }
+        mean
     };
-    let shares = sigma.iter().zip(colours.chunks_exact(psi.len())).map(|(angle, row)| (*angle as f32, mean(row)));
+    let shares = sigma.iter().zip(spectra.chunks_exact(psi.len())).map(|(angle, row)| (*angle as f32, mean(row)));
     Delta::Measured(shares.collect())
 }

@@ -1,14 +1,18 @@
 //! Pictures in linear sRGB.
 
-use lobe_colour::Reduction;
+use std::sync::OnceLock;
 
-use super::{Conversion, Transport};
+use lobe_colour::Reduction;
+use lobe_spectrum::{Bands, Spectrum};
+
+use super::{Conversion, Transport, lone};
 
 /// Linear sRGB: three independent channels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rgb;
 
 impl Transport for Rgb {
+    type Basis = ();
     type Spectrum = [f32; 3];
     type Radiance = [f32; 3];
     type Throughput = [f32; 3];
@@ -58,20 +62,58 @@ impl Transport for Rgb {
         std::array::from_fn(|k| throughput[k] * emitted[k])
     }
 
-    #[inline]
-    fn from_colour(colour: [f32; 3]) -> [f32; 3] {
+    fn from_colour((): &(), colour: [f32; 3]) -> [f32; 3] {
         colour
     }
 
     #[inline]
-    fn colour(radiance: [f32; 3]) -> [f32; 3] {
+    fn colour((): &(), radiance: [f32; 3]) -> [f32; 3] {
         radiance
+    }
+
+    fn names((): &()) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn reflectance((): &(), colour: [f32; 3]) -> [f32; 3] {
+        colour
+    }
+
+    fn emission((): &(), colour: [f32; 3]) -> [f32; 3] {
+        colour
+    }
+
+    fn reflectance_of((): &(), spectrum: &Spectrum) -> [f32; 3] {
+        reflectance(spectrum)
+    }
+
+    fn sampled((): &(), spectrum: &Spectrum) -> [f32; 3] {
+        PLACES.map(|nm| spectrum.at(nm) as f32)
+    }
+
+    fn light((): &(), spectrum: &Spectrum, luminance: Option<f64>) -> [f32; 3] {
+        light(spectrum, luminance)
+    }
+
+    fn measured((): &(), channels: &lobe::Channels, values: &[f32]) -> Vec<[f32; 3]> {
+        let reduction = Reduction::for_display(channels);
+        let mut colours = vec![[0.0; 3]; values.len() / reduction.channels()];
+        reduction.apply_batch(values, &mut colours);
+        colours
+    }
+
+    fn wavelengths((): &()) -> Option<&[f64]> {
+        None
+    }
+
+    fn lone(throughput: &[f32; 3], u: f32) -> (usize, f32) {
+        lone(throughput, u)
     }
 }
 
 /// To linear sRGB, as everything that is displayed.
 impl Conversion<Rgb> for Reduction {
-    fn of(channels: &lobe::Channels) -> Self {
+    fn of(channels: &lobe::Channels, (): &()) -> Self {
         Reduction::for_display(channels)
     }
 
@@ -86,4 +128,28 @@ impl Conversion<Rgb> for Reduction {
     fn convert(&self, values: &[f32], out: &mut [[f32; 3]]) {
         self.apply_batch(values, out);
     }
+}
+
+/// What spectra are integrated over.
+fn fine() -> &'static Bands {
+    static FINE: OnceLock<Bands> = OnceLock::new();
+    FINE.get_or_init(|| Bands::uniform(31).expect("bands that can be seen"))
+}
+
+/// Wavelengths at which an index has the values that red, green and blue get, in nm.
+const PLACES: [f64; 3] = [610.0, 550.0, 465.0];
+
+/// The colour of light.
+fn light(spectrum: &Spectrum, luminance: Option<f64>) -> [f32; 3] {
+    let bands = fine();
+    let light = luminance.map_or_else(|| bands.light(spectrum), |luminance| bands.light_of(spectrum, luminance));
+    bands.colour(&light).map(|c| c.max(0.0))
+}
+
+/// The colour of a reflectance under D65.
+fn reflectance(spectrum: &Spectrum) -> [f32; 3] {
+    let bands = fine();
+    let white = bands.emission([1.0; 3]);
+    let seen: Vec<f32> = bands.at(spectrum).iter().zip(white).map(|(share, light)| *share as f32 * light).collect();
+    bands.colour(&seen).map(|c| c.clamp(0.0, 1.0))
 }

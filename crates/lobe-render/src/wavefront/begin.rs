@@ -60,7 +60,11 @@ impl<T: Transport> Wavefront<'_, T> {
         rays::fill(rays, n.next_multiple_of(MAX_LANES));
         self.view.rays(self.backend, &self.pixels, &self.numbers, rays);
         rays::fill(rays, n);
-        states.extend((0..n).map(|slot| PathState { slot: slot as u32, throughput: T::START, pdf: f32::INFINITY }));
+        let (basis, right) = (&self.world.basis, self.view.right());
+        states.extend((0..n).map(|slot| {
+            let direction = rays.direction.each_ref().map(|column| column[slot]);
+            PathState { slot: slot as u32, throughput: T::at_camera(basis, right, direction), pdf: f32::INFINITY }
+        }));
         self.stats.samples += self.slots.len() as u64;
     }
 }

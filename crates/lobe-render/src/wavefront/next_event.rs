@@ -186,14 +186,19 @@ impl<T: Transport> Wavefront<'_, T> {
 
     /// Shadow rays for the light that the materials send on.
     fn enqueue_shadow_rays(&mut self, event: NextEvent) {
-        let NextEventBuffers { light_samples, reached, f, pdf, .. } = &self.next_event;
+        let NextEventBuffers { light_samples, reached, f, pdf, wi, .. } = &self.next_event;
         let queue = &mut self.shadow.queue;
         queue.clear();
         queue.extend(reached.len(), |out| {
-            for ((&hit, &f), &pdf) in reached.iter().zip(f).zip(pdf) {
+            for (pair, ((&hit, &f), &pdf)) in reached.iter().zip(f).zip(pdf).enumerate() {
                 let (sample, at) = (&light_samples[hit as usize / RAYS], hit as usize % RAYS);
                 let arrived = &self.arrived[hit as usize];
                 let share = if event.weighted { power_heuristic(sample.pdf[at], pdf) } else { 1.0 };
+                let mut f = f;
+                if T::POLARISED {
+                    let hit = hit as usize;
+                    f = T::in_world(f, &self.hits.frame(hit), wi[pair], self.hits.wo()[hit]);
+                }
                 let radiance = T::radiance(T::apply(arrived.throughput, f), sample.emitted(at));
                 let radiance = radiance.map(|value| clamped(value * share, event.limit));
                 // NaN must continue, to be counted.

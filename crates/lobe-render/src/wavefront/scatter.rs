@@ -12,7 +12,7 @@ use crate::channels::Channels;
 use crate::columns::RAYS;
 use crate::interaction::Interactions;
 use crate::random::Dimensions;
-use crate::shader::{Delta, DeltaSample, DeltaSamples, Sampled};
+use crate::shader::{Choice, Delta, DeltaSample, DeltaSamples, Sampled};
 use crate::transport::{Transport, TransportMode};
 use crate::vec3::Vec3;
 use crate::vectors::{dot, scale, sub};
@@ -91,7 +91,7 @@ impl<T: Transport> Wavefront<'_, T> {
     fn scatter_delta(&mut self, group: usize, delta: &Delta<T::Spectrum>, scatter: Scatter) {
         let begun = Instant::now();
         for hit in self.queue.groups[group].hits.clone() {
-            let DeltaSamples { reflection, transmission } = delta.samples(scatter.mode, self.hits.wo()[hit]);
+            let DeltaSamples { reflection, transmission } = self.delta_samples(hit, delta, scatter.mode);
             if let DeltaChoice::Branch(least) = scatter.delta {
                 self.push_delta(hit, reflection, scatter, least);
                 if let Some(transmission) = transmission {
@@ -116,9 +116,22 @@ impl<T: Transport> Wavefront<'_, T> {
         self.stats.scatter += begun.elapsed();
     }
 
+    fn delta_samples(&self, hit: usize, delta: &Delta<T::Spectrum>, mode: TransportMode) -> DeltaSamples<T::Spectrum> {
+        let wo = self.hits.wo()[hit];
+        if !T::POLARISED && !delta.disperses() {
+            return delta.samples(mode, wo);
+        }
+        let lone = delta.disperses().then(|| T::lone(&self.arrived[hit].throughput, self.numbers.of(hit)[0]));
+        delta.samples_of(mode, wo, Choice { is_polarised: T::POLARISED, lone })
+    }
+
     fn push_delta(&mut self, hit: usize, sample: DeltaSample<T::Spectrum>, scatter: Scatter, least: f32) {
         let PathState { slot, throughput, .. } = self.arrived[hit];
-        let mut throughput = T::apply(throughput, T::scattering(sample.weight));
+        let mut scattering = T::delta(sample.weight, sample.polarisation.as_ref(), sample.wi, self.hits.wo()[hit]);
+        if T::POLARISED {
+            scattering = T::in_world(scattering, &self.hits.frame(hit), sample.wi, self.hits.wo()[hit]);
+        }
+        let mut throughput = T::apply(throughput, scattering);
         // NaN is not followed either.
         let carries = T::magnitude(&throughput) > least;
         if !carries {
@@ -168,7 +181,11 @@ impl<T: Transport> Wavefront<'_, T> {
                 }
                 for hit in group.hits.clone() {
                     let (arrived, ray) = (&arrived[hit], &rays[hit / RAYS]);
-                    let mut throughput = T::apply(arrived.throughput, weight[hit]);
+                    let mut scattering = weight[hit];
+                    if T::POLARISED {
+                        scattering = T::in_world(scattering, &hits.frame(hit), wi[hit], hits.wo()[hit]);
+                    }
+                    let mut throughput = T::apply(arrived.throughput, scattering);
                     if mode == TransportMode::Importance {
                         throughput = T::weigh(throughput, adjoint_correction(hits, hit, wi[hit]));
                     }

@@ -9,3 +9,4 @@ mod furnace;
 mod identical;
 mod lights;
 mod scenes;
+mod spectra;

@@ -1,0 +1,121 @@
+//! Analytic models in as many channels as a picture has.
+
+use std::fmt::Debug;
+
+use lobe::{Bsdf, Directions};
+use lobe_model::{Model, RoughMirrors};
+use lobe_table::Channels;
+use lobe_table::mueller::{Matrix, plane_normal, stokes_basis};
+
+use super::Backend;
+
+/// Models of three channels each, one after another: as many channels as are wanted.
+#[derive(Debug)]
+pub(crate) struct Together<M> {
+    models: Vec<M>,
+    channels: Channels,
+}
+
+impl<M> Together<M> {
+    /// Models for these channels: `make` gets three of their numbers, of which the last may be repeated.
+    pub fn new(channels: Channels, make: impl Fn([usize; 3]) -> M) -> Self {
+        let count = channels.count();
+        let last = count - 1;
+        let models = (0..count.div_ceil(3)).map(|k| make([3 * k, 3 * k + 1, 3 * k + 2].map(|k| k.min(last)))).collect();
+        Together { models, channels }
+    }
+}
+
+impl<M: Model + Debug + Send + Sync> Bsdf for Together<M> {
+    fn channels(&self) -> &Channels {
+        &self.channels
+    }
+
+    fn eval_batch(&self, _: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        let count = self.channels.count();
+        assert_eq!(wi.count(), wo.count(), "as many wi as wo");
+        assert_eq!(out.len(), count * wi.count(), "one value per query and channel");
+        for (query, texel) in out.chunks_exact_mut(count).enumerate() {
+            let (wi, wo) = (wi.get(query).map(f64::from), wo.get(query).map(f64::from));
+            for (out, model) in texel.chunks_mut(3).zip(&self.models) {
+                out.iter_mut().zip(model.f(wi, wo)).for_each(|(out, value)| *out = value as f32);
+            }
+        }
+    }
+}
+
+/// A rough metal with its polarisation, at each channel of a picture.
+#[derive(Debug)]
+pub(crate) struct RoughMetal {
+    pub mirrors: RoughMirrors,
+    pub channels: Channels,
+}
+
+impl Bsdf for RoughMetal {
+    fn channels(&self) -> &Channels {
+        &self.channels
+    }
+
+    fn eval_batch(&self, _: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        assert_eq!(wi.count(), wo.count(), "as many wi as wo");
+        assert_eq!(out.len(), self.channels.count() * wi.count(), "one value per query and channel");
+        for (query, texel) in out.chunks_exact_mut(self.channels.count()).enumerate() {
+            let (wi, wo) = (wi.get(query).map(f64::from), wo.get(query).map(f64::from));
+            for (channel, out) in texel.iter_mut().enumerate() {
+                *out = self.mirrors.in_plane(wi, wo, channel)[0][0] as f32;
+            }
+        }
+    }
+
+    fn is_polarised(&self) -> bool {
+        true
+    }
+
+    fn mueller_batch(&self, _: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) -> bool {
+        assert_eq!(wi.count(), wo.count(), "as many wi as wo");
+        assert_eq!(out.len(), 16 * self.channels.count() * wi.count(), "one matrix per query and channel");
+        for (query, matrices) in out.chunks_exact_mut(16 * self.channels.count()).enumerate() {
+            let (wi, wo) = (wi.get(query).map(f64::from), wo.get(query).map(f64::from));
+            let (before, after) = turns(wi, wo);
+            for (channel, out) in matrices.chunks_exact_mut(16).enumerate() {
+                let matrix = turned(self.mirrors.in_plane(wi, wo, channel), before, after);
+                out.iter_mut().zip(matrix.as_flattened()).for_each(|(out, m)| *out = *m as f32);
+            }
+        }
+        true
+    }
+}
+
+/// Cosine and sine of twice the angle from the normal of the plane to the x axis of each direction.
+fn turns(wi: [f64; 3], wo: [f64; 3]) -> ([f64; 2], [f64; 2]) {
+    let normal = plane_normal(wi, wo);
+    let toward = wi.map(|x| -x);
+    let doubled = |forward: [f64; 3], target: [f64; 3]| {
+        let cross = [
+            normal[1] * target[2] - normal[2] * target[1],
+            normal[2] * target[0] - normal[0] * target[2],
+            normal[0] * target[1] - normal[1] * target[0],
+        ];
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let (cos, sin) = (dot(normal, target), dot(forward, cross));
+        let size = cos * cos + sin * sin;
+        [(cos * cos - sin * sin) / size, 2.0 * cos * sin / size]
+    };
+    (doubled(toward, stokes_basis(toward)), doubled(wo, stokes_basis(wo)))
+}
+
+/// A matrix about the normal of the plane, in the frames of the directions.
+fn turned(plane: Matrix, [ci, si]: [f64; 2], [co, so]: [f64; 2]) -> Matrix {
+    // Columns by the transposed turn of the light, then rows by that of what leaves.
+    let mut columns = plane;
+    for row in &mut columns {
+        let (x, y) = (row[1], row[2]);
+        (row[1], row[2]) = (ci * x + si * y, ci * y - si * x);
+    }
+    let mut matrix = columns;
+    for k in 0..4 {
+        let (x, y) = (columns[1][k], columns[2][k]);
+        (matrix[1][k], matrix[2][k]) = (co * x + so * y, co * y - so * x);
+    }
+    matrix
+}
