@@ -22,7 +22,7 @@ pub(crate) fn quasi_random<const N: usize>(index: usize) -> [f64; N] {
 ///
 /// Every other `wo` is near the mirror direction, where measured materials change most. The others, and all `wi`, are
 /// spread evenly over the projected hemisphere.
-pub(crate) fn pairs(count: usize, limit: f64) -> Vec<([f64; 3], [f64; 3])> {
+pub fn pairs(count: usize, limit: f64) -> Vec<([f64; 3], [f64; 3])> {
     let reach = limit.sin();
     let projected = |u: f64, v: f64| spherical((reach * u.sqrt()).clamp(0.0, 1.0).asin(), TAU * v);
     let pair = |index: usize| {

@@ -34,6 +34,7 @@ pub mod symmetrise;
 #[cfg(test)]
 mod testing;
 
+pub use directions::pairs as direction_pairs;
 pub use lobe_table::Aspect;
 pub use lobe_table::bsdf::OnBackend;
 pub use subject::Subject;

@@ -1,0 +1,260 @@
+//! A fit as a problem of least squares.
+
+use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
+use lobe_colour::Channels;
+use nalgebra::storage::Owned;
+use nalgebra::{DMatrix, DVector, Dyn};
+use rayon::prelude::*;
+
+use crate::measurement::Measurement;
+use crate::model::Model;
+use crate::parameter::{Parameter, Scope};
+use crate::real::{Dual, MOST};
+use crate::weights::Weights;
+
+/// How a difference becomes a residual.
+#[derive(Clone, Debug)]
+enum Scale {
+    /// It is multiplied by the weight of its value.
+    Weighted(Vec<f64>),
+    /// Logarithms are subtracted, of values above this floor.
+    Log(f64),
+}
+
+/// What the residuals of a measurement are.
+#[derive(Clone, Debug)]
+pub(crate) struct Problem<'a> {
+    model: Model,
+    measurement: &'a Measurement,
+    wavelengths: Vec<f64>,
+    scale: Scale,
+    /// Residuals larger than this count by their size, not its square.
+    robust: Option<f64>,
+    /// The free numbers: those of the shape, then those of each channel.
+    free: DVector<f64>,
+}
+
+/// More residuals than this are worth several threads.
+const MANY: usize = 4096;
+/// The share of the median value that logarithms and relative differences treat as nothing.
+const FLOOR: f64 = 1e-3;
+
+impl<'a> Problem<'a> {
+    /// The problem at a start: values of the parameters, shape first, then by channel.
+    pub fn new(
+        model: Model,
+        measurement: &'a Measurement,
+        wavelengths: &[f64],
+        weights: Weights,
+        start: &[f64],
+    ) -> Self {
+        let scale = match weights {
+            Weights::Log | Weights::Relative => Scale::Log(floor(measurement)),
+            Weights::Cosine => Scale::Weighted(normalised(measurement, |index| {
+                let pair = &measurement.pairs[index];
+                (pair.cos_i() * pair.cos_o()).sqrt()
+            })),
+            Weights::Value => Scale::Weighted(normalised(measurement, |_| 1.0)),
+        };
+        let mut problem = Problem {
+            model,
+            measurement,
+            wavelengths: wavelengths.to_vec(),
+            scale,
+            robust: None,
+            free: DVector::zeros(start.len()),
+        };
+        problem.place(start);
+        problem
+    }
+
+    /// Moves to other values of the parameters.
+    pub fn place(&mut self, values: &[f64]) {
+        let free: Vec<f64> = self.columns().zip(values).map(|(parameter, value)| parameter.free(*value)).collect();
+        self.free = DVector::from_vec(free);
+    }
+
+    /// Makes residuals relative to the values that the model has now.
+    pub fn make_relative(&mut self) {
+        let floor = floor(self.measurement);
+        self.scale = Scale::Weighted(self.modelled().into_iter().map(|value| (value.abs() + floor).recip()).collect());
+    }
+
+    /// Makes outliers count less: those beyond 1.345 standard deviations, as Huber has it.
+    pub fn make_robust(&mut self) {
+        self.robust = None;
+        let mut sizes: Vec<f64> = self.rows().iter().map(|row| row.abs()).collect();
+        sizes.sort_by(f64::total_cmp);
+        let median = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+        self.robust = Some(1.345 * 1.4826 * median).filter(|width| *width > 0.0);
+    }
+
+    /// The parameters of the columns, those of the channels repeated.
+    pub fn columns(&self) -> impl Iterator<Item = &'static Parameter> {
+        columns(self.model, self.measurement.channels.count())
+    }
+
+    /// The values of the parameters, in the order of the columns.
+    pub fn values(&self) -> Vec<f64> {
+        self.columns().zip(self.free.iter()).map(|(parameter, free)| parameter.value(*free)).collect()
+    }
+
+    /// Half the sum of the squared residuals; infinite if one of them is no number.
+    pub fn cost(&self) -> f64 {
+        let cost = 0.5 * self.rows().iter().map(|row| row * row).sum::<f64>();
+        if cost.is_finite() { cost } else { f64::INFINITY }
+    }
+
+    /// Minimises the cost from where the parameters are; whether that came to an end.
+    pub fn minimise(self, tolerance: f64, patience: usize) -> (Self, bool) {
+        let method = LevenbergMarquardt::new().with_tol(tolerance).with_patience(patience);
+        let (problem, report) = method.minimize(self);
+        (problem, report.termination.was_successful())
+    }
+
+    /// The values of the model, `[pair][channel]`.
+    pub fn modelled(&self) -> Vec<f64> {
+        let (shapes, count, values) = (self.model.shapes(), self.measurement.channels.count(), self.values());
+        let of_pair = |(index, out): (usize, &mut [f64])| {
+            let mut parameters = values[..shapes].to_vec();
+            let own = (values.len() - shapes) / count;
+            for (channel, out) in out.iter_mut().enumerate() {
+                parameters.truncate(shapes);
+                parameters.extend_from_slice(&values[shapes + channel * own..][..own]);
+                *out = self.model.f(&self.measurement.pairs[index], self.wavelengths[channel], &parameters);
+            }
+        };
+        let mut out = vec![0.0; self.measurement.values.len()];
+        if out.len() > MANY {
+            out.par_chunks_exact_mut(count).enumerate().with_min_len(256).for_each(of_pair);
+        } else {
+            out.chunks_exact_mut(count).enumerate().for_each(of_pair);
+        }
+        out
+    }
+
+    /// The residuals, `[pair][channel]`.
+    pub fn rows(&self) -> Vec<f64> {
+        let mut rows = self.modelled();
+        for (index, row) in rows.iter_mut().enumerate() {
+            *row = self.residual(index, *row)[0];
+        }
+        rows
+    }
+
+    /// The residual of a modelled value, and its derivative.
+    fn residual(&self, index: usize, modelled: f64) -> [f64; 2] {
+        let measured = self.measurement.values[index];
+        let [residual, slope] = match &self.scale {
+            Scale::Weighted(weights) => [weights[index] * (modelled - measured), weights[index]],
+            Scale::Log(floor) => {
+                let above = modelled.max(0.0) + floor;
+                [(above / (measured.max(0.0) + floor)).ln(), above.recip()]
+            }
+        };
+        match self.robust {
+            // The root of Huber's smooth loss is a residual whose square is that loss.
+            Some(width) if residual.abs() > 1e-6 * width => {
+                let long = (residual / width).hypot(1.0);
+                let root = (2.0 * (long - 1.0)).sqrt() * width;
+                [root.copysign(residual), slope * (residual / (long * root)).abs()]
+            }
+            _ => [residual, slope],
+        }
+    }
+
+    /// The derivatives of the residuals by the values of the parameters, row by row.
+    pub fn slopes(&self) -> Vec<f64> {
+        let (shapes, count, values) = (self.model.shapes(), self.measurement.channels.count(), self.values());
+        let width = values.len();
+        let own = (width - shapes) / count;
+        let of_pair = |(index, out): (usize, &mut [f64])| {
+            let mut parameters = [Dual { value: 0.0, slopes: [0.0; MOST] }; MOST];
+            for (column, parameter) in parameters[..shapes].iter_mut().enumerate() {
+                *parameter = Dual::parameter(values[column], column);
+            }
+            for (channel, row) in out.chunks_exact_mut(width).enumerate() {
+                let first = shapes + channel * own;
+                for column in 0..own {
+                    parameters[shapes + column] = Dual::parameter(values[first + column], shapes + column);
+                }
+                let pair = &self.measurement.pairs[index];
+                let found = self.model.f(pair, self.wavelengths[channel], &parameters[..shapes + own]);
+                let slope = self.residual(index * count + channel, found.value)[1];
+                for column in 0..shapes {
+                    row[column] = slope * found.slopes[column];
+                }
+                for column in 0..own {
+                    row[first + column] = slope * found.slopes[shapes + column];
+                }
+            }
+        };
+        let mut out = vec![0.0; self.measurement.values.len() * width];
+        if self.measurement.values.len() > MANY {
+            out.par_chunks_exact_mut(count * width).enumerate().with_min_len(256).for_each(of_pair);
+        } else {
+            out.chunks_exact_mut(count * width).enumerate().for_each(of_pair);
+        }
+        out
+    }
+}
+
+/// The parameters of a model for so many channels, in the order of a fit.
+pub(crate) fn columns(model: Model, channels: usize) -> impl Iterator<Item = &'static Parameter> {
+    let (shape, own) = model.parameters().split_at(model.shapes());
+    debug_assert!(shape.iter().all(|parameter| parameter.scope == Scope::Shape));
+    shape.iter().chain((0..channels).flat_map(move |_| own))
+}
+
+/// The wavelength of each channel in nm; `fallback` if it has none.
+pub(crate) fn wavelengths(channels: &Channels, fallback: Option<f64>) -> Vec<f64> {
+    match channels {
+        Channels::Spectral(wavelengths) => wavelengths.clone(),
+        other => vec![fallback.unwrap_or(f64::NAN); other.count()],
+    }
+}
+
+/// Weights of the values, such that the weighted values have a mean square of 1.
+fn normalised(measurement: &Measurement, weight: impl Fn(usize) -> f64) -> Vec<f64> {
+    let count = measurement.channels.count();
+    let mut weights: Vec<f64> = (0..measurement.values.len()).map(|index| weight(index / count)).collect();
+    let squares: f64 = weights.iter().zip(&measurement.values).map(|(weight, value)| (weight * value).powi(2)).sum();
+    let scale = (squares / weights.len().max(1) as f64).sqrt().max(f64::MIN_POSITIVE);
+    weights.iter_mut().for_each(|weight| *weight /= scale);
+    weights
+}
+
+/// What logarithms treat as nothing.
+fn floor(measurement: &Measurement) -> f64 {
+    let mut positive: Vec<f64> = measurement.values.iter().copied().filter(|value| *value > 0.0).collect();
+    positive.sort_by(f64::total_cmp);
+    positive.get(positive.len() / 2).map_or(f64::MIN_POSITIVE, |median| FLOOR * median)
+}
+
+impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
+    type ResidualStorage = Owned<f64, Dyn>;
+    type JacobianStorage = Owned<f64, Dyn, Dyn>;
+    type ParameterStorage = Owned<f64, Dyn>;
+
+    fn set_params(&mut self, free: &DVector<f64>) {
+        self.free.copy_from(free);
+    }
+
+    fn params(&self) -> DVector<f64> {
+        self.free.clone()
+    }
+
+    fn residuals(&self) -> Option<DVector<f64>> {
+        let rows = self.rows();
+        rows.iter().all(|row| row.is_finite()).then(|| DVector::from_vec(rows))
+    }
+
+    fn jacobian(&self) -> Option<DMatrix<f64>> {
+        let slopes = self.slopes();
+        let mut matrix = DMatrix::from_row_slice(self.measurement.values.len(), self.free.len(), &slopes);
+        for (index, parameter) in self.columns().enumerate() {
+            matrix.column_mut(index).scale_mut(parameter.slope(self.free[index]));
+        }
+        matrix.iter().all(|slope| slope.is_finite()).then_some(matrix)
+    }
+}
