@@ -28,7 +28,7 @@ def test_values_are_those_of_the_program(fixtures, shared, program, tmp_path, na
     file = fixtures.parent / name if name.startswith("fixtures") else shared(name)
     v = np.random.default_rng(11).normal(size=(2, 20_000, 3))
     pairs = tmp_path / "pairs.csv"
-    np.savetxt(pairs, np.concatenate(v, axis=1), delimiter=",", fmt="%r")
+    np.savetxt(pairs, np.concatenate(v, axis=1), delimiter=",", fmt="%.17g")
     command = [program, "eval", file, "--pairs", pairs, "--strict"]
     text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     expected = np.array([line.split(",") for line in text.split()], np.float32)
