@@ -11,7 +11,7 @@ use pyo3::types::PyTuple;
 /// How far the square of the length of a unit vector may be from 1: vectors with three digits pass.
 const LENGTH: f32 = 5e-3;
 /// At most as many vectors of a batch are checked, evenly chosen: whoever forgets to normalise forgets it for most.
-const CHECKED: usize = 4096;
+const CHECKED: usize = 1024;
 
 /// An array of real numbers as `float32`.
 ///
