@@ -44,13 +44,19 @@ fn check(arguments: &[String]) -> Result<Outcome, String> {
     if done(Command::new(&python).args(pip).args(tools)).is_err() {
         return Ok(Outcome::Skipped("pip cannot install maturin, numpy and pytest"));
     }
+    // Not every Python has them; the tests that need them say that they are skipped.
+    for engine in [["openjd-cli"].as_slice(), &["ray", "colorama"]] {
+        if done(Command::new(&python).args(pip).args(engine)).is_err() {
+            println!("SKIP what needs {}: pip cannot install it", engine[0]);
+        }
+    }
     let install = ["--no-build-isolation", "--no-deps", "--force-reinstall", "./crates/lobe-python"];
     done(Command::new(&python).args(pip).args(install))?;
     // What is compared with the program needs it as it is now. The tests of the workspace use the same build.
     done(super::cargo().args(["build", "--quiet", "--workspace", "--bin", "lobe"]))?;
     done(
         Command::new(&python)
-            .args(["-m", "pytest", "-q", "-p", "no:cacheprovider", "crates/lobe-python"])
+            .args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "crates/lobe-python"])
             .args(arguments),
     )?;
     Ok(Outcome::Passed)

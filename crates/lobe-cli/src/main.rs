@@ -12,6 +12,7 @@ mod describe;
 mod draft;
 mod eval;
 mod failure;
+mod farm;
 mod generate;
 mod guesses;
 mod import;
@@ -72,6 +73,7 @@ enum Command {
     Preview(preview::Args),
     Render(render::Args),
     Merge(merge::Args),
+    Farm(Box<farm::Args>),
     Convert(Box<convert::Args>),
     Resample(resample::Args),
     Generate(Box<generate::Args>),
@@ -109,6 +111,7 @@ fn main() -> ExitCode {
         Command::Preview(args) => preview::run(&args),
         Command::Render(args) => render::run(&args),
         Command::Merge(args) => merge::run(&args),
+        Command::Farm(args) => farm::run(&args),
         Command::Convert(args) => convert::run(&args),
         Command::Resample(args) => resample::run(&args),
         Command::Generate(args) => generate::run(&args),

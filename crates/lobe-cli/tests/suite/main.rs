@@ -9,6 +9,8 @@ mod compare;
 mod convert;
 #[cfg(unix)]
 mod documentation;
+#[cfg(unix)]
+mod farm;
 mod hardening;
 mod honest;
 mod import;

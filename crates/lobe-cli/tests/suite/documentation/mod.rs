@@ -22,7 +22,7 @@ use commands::{Block, blocks, examples, spans, subcommands};
 use scratch::Scratch;
 
 /// The documents with commands.
-const DOCUMENTS: [&str; 14] = [
+const DOCUMENTS: [&str; 15] = [
     "README.md",
     "CONTRIBUTING.md",
     "docs/accuracy.md",
@@ -31,6 +31,7 @@ const DOCUMENTS: [&str; 14] = [
     "docs/benchmarking.md",
     "docs/building.md",
     "docs/c.md",
+    "docs/farm.md",
     "docs/fuzzing.md",
     "docs/gallery.md",
     "docs/operations.md",

@@ -1,0 +1,92 @@
+//! The folder of a job, and text for shells.
+
+use std::path::{Path, PathBuf};
+
+use lobe_files::write_whole;
+
+use super::plan::Plan;
+use crate::failure::Failure;
+
+/// Where a job says what it is.
+pub const PLAN: &str = "plan.json";
+
+/// The file of a part in the folder of a job.
+pub fn part(folder: &Path, part: u32) -> PathBuf {
+    folder.join(format!("part-{part}.exr"))
+}
+
+/// Makes the folder of a job; parts that are in it stay if they are of the same plan.
+///
+/// # Errors
+/// If the folder cannot be made, or has parts of another plan.
+pub fn begin(folder: &Path, plan: &Plan) -> Result<(), Failure> {
+    let file = folder.join(PLAN);
+    if file.exists() {
+        let earlier = read(folder)?;
+        if earlier != *plan {
+            return Err(Failure::Usage(format!(
+                "{}: found a job of {} parts of {} x {} pixels with {} samples; expected this one, or none: remove the folder, or \
+                 write to another name",
+                folder.display(),
+                earlier.parts,
+                earlier.size[0],
+                earlier.size[1],
+                earlier.samples
+            )));
+        }
+    }
+    std::fs::create_dir_all(folder.join("log"))
+        .map_err(|error| Failure::File(format!("{}: {error}", folder.display())))?;
+    Ok(write_whole(&file, serde_json::to_string_pretty(plan)?.as_bytes())?)
+}
+
+/// The plan of a job.
+///
+/// # Errors
+/// If the folder has none.
+pub fn read(folder: &Path) -> Result<Plan, Failure> {
+    let file = folder.join(PLAN);
+    let wrong = |error: String| Failure::File(format!("{}: {error}; expected the plan of a job", file.display()));
+    let bytes = lobe_files::bytes(&file).map_err(|error| wrong(error.to_string()))?;
+    serde_json::from_slice(&bytes).map_err(|error| wrong(error.to_string()))
+}
+
+/// One word of a shell, whatever it has in it.
+pub fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+%@".contains(c);
+    match !word.is_empty() && word.chars().all(is_plain) {
+        true => word.into(),
+        false => format!("'{}'", word.replace('\'', r"'\''")),
+    }
+}
+
+/// A path as one word of a shell.
+///
+/// # Errors
+/// If it is not Unicode, which scripts are.
+pub fn path(path: &Path) -> Result<String, Failure> {
+    let text = path.to_str().ok_or_else(|| {
+        Failure::Usage(format!(
+            "{}: found a path that is not Unicode; expected one that a script can name",
+            path.display()
+        ))
+    })?;
+    Ok(quoted(text))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shells_read_words_as_they_are() {
+        assert_eq!(quoted("/a/b-1.exr"), "/a/b-1.exr");
+        assert_eq!(quoted("it's $HOME"), r"'it'\''s $HOME'");
+        assert_eq!(quoted(""), "''");
+        let mut said = std::process::Command::new("sh");
+        said.arg("-c").arg(format!("printf %s {}", quoted("a'b \"$x\" `y`\n;")));
+        if let Ok(output) = said.output() {
+            assert_eq!(String::from_utf8_lossy(&output.stdout), "a'b \"$x\" `y`\n;");
+        }
+    }
+}

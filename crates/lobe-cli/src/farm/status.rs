@@ -1,0 +1,100 @@
+//! How far a job is, by its parts.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::{Duration, SystemTime};
+
+use lobe_render::picture::{inspect, read_partial};
+use serde::Serialize;
+
+use super::files::{part, read};
+use crate::failure::Failure;
+use crate::message;
+
+/// Say how far a job is that `lobe farm slurm` or `lobe farm openjd` has begun: its parts, and the time that is left.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  lobe farm status picture.exr.farm
+  lobe farm status --json picture.exr.farm | jq .share
+
+Parts that are being rendered write what they have every 30 seconds.")]
+pub struct Args {
+    /// The folder of the job.
+    folder: PathBuf,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct Status {
+    parts: u32,
+    finished: u32,
+    /// Begun and not finished.
+    running: u32,
+    /// Of the samples of all pixels.
+    share: f64,
+    /// In seconds, if it goes on as from the first part on; `None` if there is nothing to judge by.
+    left: Option<f64>,
+    /// Files that are no parts of one picture.
+    damaged: Vec<String>,
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let plan = read(&args.folder)?;
+    let mut status = Status { parts: plan.parts, finished: 0, running: 0, share: 0.0, left: None, damaged: Vec::new() };
+    let (mut done, mut total) = (0, 0);
+    let mut times: Vec<SystemTime> = Vec::new();
+    for number in 1..=plan.parts {
+        let file = part(&args.folder, number);
+        total += plan.work(number);
+        let Ok(metadata) = file.metadata() else { continue };
+        let samples = match inspect(&file) {
+            Ok(found) if found.has_sums => read_partial(&file)
+                .map(|(film, _)| film.pixels().iter().map(|pixel| u64::from(pixel.samples)).sum::<u64>()),
+            Ok(_) => Ok(0),
+            Err(error) => Err(error),
+        };
+        match samples {
+            Ok(samples) => {
+                done += samples.min(plan.work(number));
+                status.finished += u32::from(samples >= plan.work(number));
+                status.running += u32::from(samples < plan.work(number));
+                times.extend(metadata.modified());
+            }
+            Err(error) => status.damaged.push(error.to_string()),
+        }
+    }
+    status.share = done as f64 / total.max(1) as f64;
+    let begun = args.folder.join(super::files::PLAN).metadata().and_then(|metadata| metadata.modified());
+    if let (Ok(begun), Some(last)) = (begun, times.iter().max())
+        && let Ok(taken) = last.duration_since(begun)
+        && done > 0
+    {
+        status.left = Some(taken.as_secs_f64() * (total - done) as f64 / done as f64);
+    }
+    let mut out = message::out(args.json);
+    if args.json {
+        serde_json::to_writer_pretty(&mut out, &status)?;
+        writeln!(out)?;
+    } else {
+        let Status { parts, finished, running, share, .. } = status;
+        let left = status.left.filter(|_| finished < parts).map(|left| {
+            let left = Duration::from_secs(left.round() as u64);
+            format!(", {} left", humantime::format_duration(left))
+        });
+        let percent = (1000.0 * share).floor() / 10.0;
+        writeln!(
+            out,
+            "{finished} of {parts} parts finished, {running} begun, {percent:.1} %{}",
+            left.unwrap_or_default()
+        )?;
+        status.damaged.iter().try_for_each(|error| writeln!(out, "{error}"))?;
+    }
+    out.flush()?;
+    match status.damaged.is_empty() {
+        true => Ok(()),
+        false => Err(Failure::File(format!("{} of the files are no parts of a picture", status.damaged.len()))),
+    }
+}
