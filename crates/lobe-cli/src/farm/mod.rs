@@ -18,7 +18,7 @@ use crate::failure::Failure;
 #[command(after_help = "Examples:
   lobe farm slurm scene.toml -o picture.exr --parts 8
   lobe farm openjd scene.toml -o job --parts 8
-  lobe farm status picture.exr.farm
+  lobe farm status look.exr.farm
 
 The picture is the same bits as that of `lobe render`, on machines with the same instructions, or on all with --strict.")]
 pub struct Args {

@@ -14,8 +14,8 @@ use crate::message;
 /// Say how far a job is that `lobe farm slurm` or `lobe farm openjd` has begun: its parts, and the time that is left.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
-  lobe farm status picture.exr.farm
-  lobe farm status --json picture.exr.farm | jq .share
+  lobe farm status look.exr.farm
+  lobe farm status --json look.exr.farm | jq .share
 
 Parts that are being rendered write what they have every 30 seconds.")]
 pub struct Args {

@@ -110,6 +110,7 @@ impl Scratch {
         for tile in 1..=4 {
             self.run(&format!("lobe render scene.toml -o part{tile}.exr --tile {tile}/4 --quiet"));
         }
+        self.run("lobe farm slurm scene.toml -o look.exr --parts 4");
     }
 
     /// Programs of others in examples may be missing here; then they are taken to do nothing, so that the commands of
