@@ -33,6 +33,7 @@ pub(crate) static COPPER: [[f64; 3]; 25] = [
 
 /// Chromium: P. B. Johnson and R. W. Christy, Physical Review B 9, 5056, 1974.
 #[rustfmt::skip]
+#[expect(clippy::approx_constant, reason = "3.14 was measured")]
 pub(crate) static CHROMIUM: [[f64; 3]; 25] = [
     [301.0, 1.53, 2.34], [311.0, 1.58, 2.4], [320.0, 1.65, 2.47], [332.0, 1.69, 2.53], [342.0, 1.76, 2.58],
     [354.0, 1.84, 2.64], [368.0, 1.87, 2.69], [381.0, 1.92, 2.74], [397.0, 2.0, 2.83], [413.0, 2.08, 2.93],

@@ -82,12 +82,11 @@ const OPTIONS: [MaterialOption; 3] = [
 /// Refuses what would make no difference: whoever asks for it expects one.
 fn check_options(node: &Node<'_, '_>, documents: &[&Document]) -> Result<(), SceneError> {
     let uses = documents.iter().fold(Uses::default(), |uses, document| uses.or(document.uses()));
-    for option in OPTIONS.iter().filter(|option| node.has(option.key) && !(option.applies)(uses)) {
-        let kinds: Vec<String> = documents.iter().map(|document| document.kinds()).collect();
-        let message = format!("found {}; expected {}", kinds.join(", "), option.expected);
-        return Err(node.error(option.key, message));
-    }
-    Ok(())
+    let Some(option) = OPTIONS.iter().find(|option| node.has(option.key) && !(option.applies)(uses)) else {
+        return Ok(());
+    };
+    let kinds: Vec<String> = documents.iter().map(|document| document.kinds()).collect();
+    Err(node.error(option.key, format!("found {}; expected {}", kinds.join(", "), option.expected)))
 }
 
 /// What a file leaves open.

@@ -1,5 +1,7 @@
 //! The matrices as they were measured or computed.
 
+use std::cmp::Ordering;
+
 use crate::mueller::ELEMENTS;
 use crate::{Channels, GridError, Scatter, specular};
 
@@ -21,7 +23,8 @@ impl Data {
     /// # Errors
     /// [`GridError`] names the axis, the position, what was found and what was expected.
     pub fn new(knots: [Vec<f64>; 4], wavelengths: Vec<f64>, values: Vec<f32>) -> Result<Self, GridError> {
-        if let Some(at) = wavelengths.windows(2).position(|pair| !(pair[0] < pair[1])) {
+        if let Some(at) = wavelengths.windows(2).position(|pair| pair[0].partial_cmp(&pair[1]) != Some(Ordering::Less))
+        {
             let [before, after] = [wavelengths[at], wavelengths[at + 1]];
             return Err(GridError::Channels(format!(
                 "wavelength {after} after {before}; expected ascending ones in nm"

@@ -48,9 +48,9 @@ type Polynomials = [[f64; MAX_ORDER as usize + 1]; MAX_ORDER as usize + 1];
 
 fn polynomials(order: usize, rho: f64) -> Polynomials {
     let mut out = Polynomials::default();
-    for n in 0..=order {
+    for (n, of_order) in out.iter_mut().enumerate().take(order + 1) {
         for l in (n % 2..=n).step_by(2) {
-            out[n][l] = radial(n as u8, l as u8, rho);
+            of_order[l] = radial(n as u8, l as u8, rho);
         }
     }
     out
@@ -61,7 +61,7 @@ pub(super) fn radial(n: u8, l: u8, rho: f64) -> f64 {
     let factorial = |k: u8| (1..=k).map(f64::from).product::<f64>();
     let [half_sum, half_difference] = [(n + l) / 2, (n - l) / 2];
     let term = |s: u8| {
-        let sign = if s % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = if s.is_multiple_of(2) { 1.0 } else { -1.0 };
         let below = factorial(s) * factorial(half_sum - s) * factorial(half_difference - s);
         sign * factorial(n - s) / below * rho.powi((n - 2 * s).into())
     };

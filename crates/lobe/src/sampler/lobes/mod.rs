@@ -25,7 +25,7 @@ pub(super) struct Lobes {
 enum Lobe {
     /// About directions with z > 0: those from the back are flipped.
     Histograms(Box<Distribution>),
-    Patches(PatchSampler),
+    Patches(Box<PatchSampler>),
 }
 
 impl Lobes {
@@ -45,7 +45,7 @@ impl Lobes {
             let aspect = Aspect { scatter: SCATTERS[way], light: SIDES[front] };
             let is_front = aspect.light == Side::Front;
             if let Some(patches) = material.bsdf().patches(aspect, &luminance, *defensive)? {
-                return Ok(Some(Lobe::Patches(patches)));
+                return Ok(Some(Lobe::Patches(Box::new(patches))));
             }
             let bytes = (material.bytes() + material.bytes() / 2).min(most.unwrap_or(usize::MAX)) / count;
             let mut options = DistributionOptions::unknown(aspect.scatter, material.is_isotropic(), bytes);

@@ -113,9 +113,9 @@ pub(super) fn choose(shares: &[f32; 4], [u, w]: [f32; 2]) -> (usize, [f32; 2]) {
 /// As [`choose`], of a reflection and a transmission that are both there: without a branch that nobody can foresee.
 pub(super) fn choose_of_two(shares: &[f32; 4], [u, w]: [f32; 2]) -> (usize, [f32; 2]) {
     let [first, second, ..] = *shares;
-    let is_second = !(u < first);
-    let (below, share) = if is_second { (first, second) } else { (0.0, first) };
-    (usize::from(is_second), [((u - below) / share).clamp(0.0, 1.0), w])
+    let is_first = u < first;
+    let (below, share) = if is_first { (0.0, first) } else { (first, second) };
+    (usize::from(!is_first), [((u - below) / share).clamp(0.0, 1.0), w])
 }
 
 #[cfg(test)]
