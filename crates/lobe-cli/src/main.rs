@@ -13,6 +13,7 @@ mod draft;
 mod eval;
 mod failure;
 mod farm;
+mod fit;
 mod generate;
 mod guesses;
 mod import;
@@ -69,6 +70,7 @@ enum Command {
     Check(check::Args),
     Albedo(albedo::Args),
     Compare(compare::Args),
+    Fit(Box<fit::Args>),
     Plot(Box<plot::Args>),
     Preview(preview::Args),
     Render(render::Args),
@@ -107,6 +109,7 @@ fn main() -> ExitCode {
         Command::Check(args) => check::run(&args),
         Command::Albedo(args) => albedo::run(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Fit(args) => fit::run(&args),
         Command::Plot(args) => plot::run(&args),
         Command::Preview(args) => preview::run(&args),
         Command::Render(args) => render::run(&args),

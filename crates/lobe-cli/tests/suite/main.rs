@@ -11,6 +11,7 @@ mod convert;
 mod documentation;
 #[cfg(unix)]
 mod farm;
+mod fit;
 mod hardening;
 mod honest;
 mod import;
