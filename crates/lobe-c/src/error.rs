@@ -79,7 +79,7 @@ impl From<FormatError> for Error {
         let (line, byte) = match error.place {
             Place::File => (0, u64::MAX),
             Place::Line(line) => (line as u64, u64::MAX),
-            Place::Byte(byte) => (0, byte as u64),
+            Place::Byte(byte) => (0, byte),
         };
         Error { line, byte, ..Error::new(LOBE_ERROR_FORMAT, error.to_string()) }
     }

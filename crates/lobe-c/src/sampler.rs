@@ -62,7 +62,6 @@ pub unsafe extern "C" fn lobe_sampler_free(sampler: *mut lobe_sampler) {
 /// # Safety
 /// `sampler` is not freed; all pointers are those of `count` queries, and what is written overlaps nothing; `error` points to an
 /// error or is NULL.
-#[expect(clippy::too_many_arguments, reason = "C has no slices")]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lobe_sample(
     sampler: *const lobe_sampler,

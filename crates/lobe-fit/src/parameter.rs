@@ -95,7 +95,7 @@ impl Parameter {
     /// Whether a value is at a bound.
     pub(crate) fn is_at_bound(&self, value: f64) -> bool {
         let share = self.share(value);
-        share < AT_BOUND || share > 1.0 - AT_BOUND
+        !(AT_BOUND..=1.0 - AT_BOUND).contains(&share)
     }
 }
 

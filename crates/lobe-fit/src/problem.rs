@@ -181,12 +181,10 @@ impl<'a> Problem<'a> {
                 let pair = &self.measurement.pairs[index];
                 let found = self.model.f(pair, self.wavelengths[channel], &parameters[..shapes + own]);
                 let slope = self.residual(index * count + channel, found.value)[1];
-                for column in 0..shapes {
-                    row[column] = slope * found.slopes[column];
-                }
-                for column in 0..own {
-                    row[first + column] = slope * found.slopes[shapes + column];
-                }
+                let (of_shapes, of_channel) = found.slopes[..shapes + own].split_at(shapes);
+                let scale = |(out, of): (&mut f64, &f64)| *out = slope * of;
+                row[..shapes].iter_mut().zip(of_shapes).for_each(scale);
+                row[first..first + own].iter_mut().zip(of_channel).for_each(scale);
             }
         };
         let mut out = vec![0.0; self.measurement.values.len() * width];

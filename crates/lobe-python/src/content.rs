@@ -60,6 +60,12 @@ impl Version {
     }
 }
 
+/// How to make an object again: the function that does, and what it is called with.
+pub type Reduced<'py> = (Bound<'py, PyAny>, Arguments<'py>);
+
+/// The kind of content, and the rest by keywords.
+pub type Arguments<'py> = (&'static str, Bound<'py, PyDict>);
+
 /// The function of `lobe_bsdf` that makes the material again, and its keyword arguments.
 ///
 /// # Errors
@@ -69,7 +75,7 @@ pub fn remake<'py>(
     content: &Content,
     subject: &Subject,
     choices: &Choices,
-) -> PyResult<(&'static str, Bound<'py, PyDict>)> {
+) -> PyResult<Arguments<'py>> {
     let keywords = PyDict::new(py);
     choices.keywords(&keywords)?;
     match content {

@@ -8,7 +8,7 @@ use pyo3::types::{PyDict, PyTuple};
 
 use crate::arrays::{Vectors, broadcast, output, written};
 use crate::aspects::Asked;
-use crate::content::{arrays, remake};
+use crate::content::{Reduced, arrays, remake};
 use crate::opened::Opened;
 use crate::operations;
 use crate::resampling;
@@ -287,7 +287,6 @@ impl Material {
     /// `channel` is the one to write, if the format has one only, and `scatter`, "reflection" or "transmission", what to write of a
     /// material that has both.
     #[pyo3(signature = (path, format=None, *, channel=None, resample=false, scatter=None))]
-    #[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
     fn save(
         &self,
         py: Python<'_>,
@@ -311,7 +310,7 @@ impl Material {
         slf
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (&'static str, Bound<'py, PyDict>))> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         let remade = py.import("lobe_bsdf._copies")?.getattr("remade")?;
         Ok((remade, remake(py, &self.opened.content, &self.opened.subject, &self.opened.choices)?))
     }

@@ -1,6 +1,6 @@
 //! What a file leaves open, and the backend, from keyword arguments.
 
-use lobe::{Backend, Data, Decode, Edges, Given, Lookup, Options};
+use lobe::{Backend, Decode, Edges, Given, Lookup, Options};
 use lobe_formats::reading::parse_columns;
 use lobe_formats::{Document, ReadOptions};
 use pyo3::exceptions::PyValueError;
@@ -109,35 +109,15 @@ impl Choices {
     /// # Errors
     /// If no part of the document looks at an option that is not the default.
     pub fn check(&self, document: &Document) -> Result<(), Failure> {
-        let has = |is: fn(&Data) -> bool| document.parts.iter().any(|part| is(&part.data));
-        let kinds: Vec<&str> = document.parts.iter().map(|part| part.data.representation().kind().name()).collect();
-        let options: [(&str, bool, fn(&Data) -> bool, &str); 4] = [
-            (
-                "edges",
-                self.edges != "clamp",
-                |data| matches!(data, Data::Specular(_)),
-                "a table in specular coordinates",
-            ),
-            (
-                "lookup",
-                self.lookup != "nearest",
-                |data| matches!(data, Data::HalfDiff(_)),
-                "a grid of half and difference angles",
-            ),
-            (
-                "indexed_by",
-                self.indexed_by != "light",
-                |data| matches!(data, Data::Rgl(_)),
-                "a material of the EPFL database",
-            ),
-            ("decode", self.decode != "raw", |data| matches!(data, Data::Utia(_)), "a material of the UTIA database"),
-        ];
-        match options.into_iter().find(|(_, is_given, is_for, _)| *is_given && !has(*is_for)) {
-            None => Ok(()),
-            Some((option, _, _, expected)) => {
-                Err(Failure::value(format!("{option}: found {}; expected {expected}", kinds.join(", "))))
-            }
-        }
+        let uses = document.uses();
+        let check = |option: &str, is_given: bool, applies: bool, expected: &str| match is_given && !applies {
+            true => Err(Failure::value(format!("{option}: found {}; expected {expected}", document.kinds()))),
+            false => Ok(()),
+        };
+        check("edges", self.edges != "clamp", uses.edges, "a table in specular coordinates")?;
+        check("lookup", self.lookup != "nearest", uses.lookup, "a grid of half and difference angles")?;
+        check("indexed_by", self.indexed_by != "light", uses.indexed_by, "a material of the EPFL database")?;
+        check("decode", self.decode != "raw", uses.decode, "a material of the UTIA database")
     }
 
     /// The keyword arguments again, those that are not the default.

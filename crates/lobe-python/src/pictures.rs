@@ -226,10 +226,10 @@ fn opened(py: Python<'_>, scene: &Path, backend: lobe::Backend) -> PyResult<Scen
 ///
 /// `progress(done, total)` is called about ten times a second; if it returns False, the picture so far is returned. Ctrl-C raises
 /// KeyboardInterrupt.
-#[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
 #[pyfunction]
 #[pyo3(signature = (scene, *, samples=None, crop=None, integrator=None, time=None, tile=None, samples_range=None, threads=None,
     backend=None, strict=false, progress=None))]
+#[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
 pub fn render(
     py: Python<'_>,
     scene: PathBuf,
@@ -315,7 +315,6 @@ pub fn merge(py: Python<'_>, parts: Vec<PathBuf>, allow_gaps: bool) -> PyResult<
 
 /// Which files are finished parts of the picture that render() makes of the scene with these arguments: file i of n, counted from 1,
 /// is to be part `tile` = (i, n), saved with `partial`. A list of as many truth values.
-#[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
 #[pyfunction]
 #[pyo3(signature = (paths, scene, *, samples=None, integrator=None, backend=None, strict=false))]
 pub fn finished_parts(

@@ -122,14 +122,13 @@ fn jacobi<const N: usize>(mut a: [[f64; N]; N]) -> [f64; N] {
                 let t = if theta == 0.0 { 1.0 } else { t };
                 let c = 1.0 / (t * t + 1.0).sqrt();
                 let s = t * c;
-                for k in 0..N {
-                    let (x, y) = (a[k][p], a[k][q]);
-                    (a[k][p], a[k][q]) = (c * x - s * y, s * x + c * y);
+                for row in &mut a {
+                    let (x, y) = (row[p], row[q]);
+                    (row[p], row[q]) = (c * x - s * y, s * x + c * y);
                 }
-                for k in 0..N {
-                    let (x, y) = (a[p][k], a[q][k]);
-                    (a[p][k], a[q][k]) = (c * x - s * y, s * x + c * y);
-                }
+                let (x, y) = (a[p], a[q]);
+                a[p] = std::array::from_fn(|k| c * x[k] - s * y[k]);
+                a[q] = std::array::from_fn(|k| s * x[k] + c * y[k]);
             }
         }
     }

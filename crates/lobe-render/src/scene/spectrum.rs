@@ -90,7 +90,7 @@ impl<T: Transport> Reading<'_, T> {
             },
         };
         let number = "a number that is not negative, by which the spectrum is scaled";
-        let Some(scale) = node.number(key, number, |x| x >= 0.0 && x < 1e30)? else {
+        let Some(scale) = node.number(key, number, |x| (0.0..1e30).contains(&x))? else {
             let message = format!("found a spectrum without `{key}`; expected {number}");
             return Err(node.error(of, message));
         };

@@ -1,5 +1,6 @@
 //! Integrators that begin at the lights: all of them see the same.
 
+use std::slice;
 use std::sync::Arc;
 
 use lobe::{Channels, Options, Scatter, specular};
@@ -158,10 +159,10 @@ fn every_integrator_finds_the_same_light_of_every_light() {
     let [point, spot, directional, sky] = <[Light; 4]>::try_from(all_lights()).unwrap();
     let all = || vec![point.clone(), spot.clone(), directional.clone(), sky.clone()];
     let scenes = [
-        ("point", scene(&[point.clone()], None, false)),
-        ("spot", scene(&[spot.clone()], None, false)),
-        ("directional", scene(&[directional.clone()], None, false)),
-        ("sky", scene(&[sky.clone()], None, false)),
+        ("point", scene(slice::from_ref(&point), None, false)),
+        ("spot", scene(slice::from_ref(&spot), None, false)),
+        ("directional", scene(slice::from_ref(&directional), None, false)),
+        ("sky", scene(slice::from_ref(&sky), None, false)),
         ("lamp", scene(&[], Some(false), false)),
         ("two-sided lamp", scene(&[], Some(true), false)),
         ("all", scene(&all(), Some(false), false)),

@@ -27,6 +27,8 @@ pub struct Uses {
     pub edges: bool,
     /// Whether [`Options::lookup`] does.
     pub lookup: bool,
+    /// Whether [`Options::decode`] does.
+    pub decode: bool,
     /// Whether [`Options::indexed_by`] does.
     pub indexed_by: bool,
 }
@@ -37,6 +39,7 @@ impl Uses {
         Uses {
             edges: self.edges || other.edges,
             lookup: self.lookup || other.lookup,
+            decode: self.decode || other.decode,
             indexed_by: self.indexed_by || other.indexed_by,
         }
     }

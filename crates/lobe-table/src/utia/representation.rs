@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::data::{Data, PHIS, STEPS, THETAS};
 use crate::bsdf::Bsdf;
-use crate::data::{Coverage, Options, PrepareError, SAME, Section, direction, pairs};
+use crate::data::{Coverage, Options, PrepareError, SAME, Section, Uses, direction, pairs};
 use crate::{Aspect, Channels, Kind, Representation};
 
 /// The name of the representation.
@@ -25,6 +25,10 @@ impl Representation for Data {
 
     fn is_isotropic(&self) -> bool {
         false
+    }
+
+    fn uses(&self) -> Uses {
+        Uses { decode: true, ..Uses::default() }
     }
 
     fn sections(&self) -> Vec<Section<'_>> {
