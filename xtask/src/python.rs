@@ -36,7 +36,7 @@ fn check(arguments: &[String]) -> Result<Outcome, String> {
         return Ok(Outcome::Skipped("there is no Python 3.10 or newer that can make virtual environments"));
     };
     // Environments that were made by another Python do not work.
-    let environment = Path::new("target").join("python");
+    let environment = std::path::absolute("target/python").map_err(|error| error.to_string())?;
     done(Command::new(python).args(["-m", "venv", "--clear"]).arg(&environment))?;
     let python = interpreter(&environment);
     let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
@@ -50,8 +50,12 @@ fn check(arguments: &[String]) -> Result<Outcome, String> {
             println!("SKIP what needs {}: pip cannot install it", engine[0]);
         }
     }
+    // Where pip finds maturin.
+    let mut path = vec![environment.join(BIN)];
+    path.extend(std::env::split_paths(&std::env::var_os("PATH").unwrap_or_default()));
+    let path = std::env::join_paths(path).map_err(|error| error.to_string())?;
     let install = ["--no-build-isolation", "--no-deps", "--force-reinstall", "./crates/lobe-python"];
-    done(Command::new(&python).args(pip).args(install))?;
+    done(Command::new(&python).args(pip).args(install).env("PATH", path))?;
     // What is compared with the program needs it as it is now. The tests of the workspace use the same build.
     done(super::cargo().args(["build", "--quiet", "--workspace", "--bin", "lobe"]))?;
     done(
@@ -67,9 +71,11 @@ fn is_usable(python: &str) -> bool {
     answer.is_ok_and(|answer| answer.status.success() && answer.stdout.starts_with(b"True"))
 }
 
+/// The folder of the programs of an environment.
+const BIN: &str = if cfg!(windows) { "Scripts" } else { "bin" };
+
 fn interpreter(environment: &Path) -> PathBuf {
-    let (folder, name) = if cfg!(windows) { ("Scripts", "python.exe") } else { ("bin", "python") };
-    environment.join(folder).join(name)
+    environment.join(BIN).join(if cfg!(windows) { "python.exe" } else { "python" })
 }
 
 fn done(command: &mut Command) -> Result<(), String> {

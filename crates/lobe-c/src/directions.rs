@@ -135,9 +135,9 @@ impl lobe_values {
         let queries_apart = extent(1, 0, channels, channel_stride).is_some_and(|span| query_stride >= span);
         let channels_apart = extent(count, query_stride, 1, 0).is_some_and(|span| channel_stride >= span);
         let is_apart = match (count, channels) {
-            (0 | 1, 0 | 1) => true,
-            (_, 0 | 1) => query_stride > 0,
-            (0 | 1, _) => channel_stride > 0,
+            (0, _) | (_, 0) | (1, 1) => true,
+            (_, 1) => query_stride > 0,
+            (1, _) => channel_stride > 0,
             _ => query_stride > 0 && channel_stride > 0 && (queries_apart || channels_apart),
         };
         if !is_apart {

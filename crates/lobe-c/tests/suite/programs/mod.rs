@@ -105,9 +105,10 @@ fn in_every_way(language: Language, source: &Path, file: &Path) {
             "--quiet",
             "--error-exitcode=9",
             "--leak-check=full",
+            // The threads of a pool live as long as the program.
             "--errors-for-leak-kinds=definite,indirect",
+            "--show-leak-kinds=definite,indirect",
         ]);
-        // The threads of a pool live as long as the program.
         let output = command.arg(&program).arg(file).env("RAYON_NUM_THREADS", "2").output().expect("valgrind");
         assert_eq!(text(&output), printed);
         assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
