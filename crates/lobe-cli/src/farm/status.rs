@@ -95,6 +95,6 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     out.flush()?;
     match status.damaged.is_empty() {
         true => Ok(()),
-        false => Err(Failure::File(format!("{} of the files are no parts of a picture", status.damaged.len()))),
+        false => Err(Failure::File(format!("{} of {} parts cannot be read", status.damaged.len(), plan.parts))),
     }
 }
