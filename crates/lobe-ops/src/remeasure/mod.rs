@@ -87,6 +87,8 @@ mod tests {
                 Nodes::HalfDiff(_) => Nodes::HalfDiff([9, 9, 18]),
                 nodes @ Nodes::Specular(_) => nodes,
             };
+            // As few nodes as here leave 3 % between those of an EPFL file, which blends the quotient of values and a density.
+            let bound = if kind == rgl::KIND { 0.04 } else { 2e-3 };
             let steps = AtomicUsize::new(0);
             let sides = Sides::One(Scatter::Reflection);
             let document = remeasure(&surface, false, sides, &nodes, || {
@@ -99,7 +101,7 @@ mod tests {
             material.eval([0.6, 0.0, 0.8], [0.0, 0.6, 0.8], &mut f);
             for (found, albedo) in f.into_iter().zip([0.2, 0.4, 0.6]) {
                 let expected = albedo / std::f32::consts::PI;
-                assert!((found / expected - 1.0).abs() < 2e-3, "{kind}: {found}, not {expected}");
+                assert!((found / expected - 1.0).abs() < bound, "{kind}: {found}, not {expected}");
             }
         }
     }
