@@ -1,7 +1,7 @@
 //! Measured materials from C and C++: what `include/lobe.h` declares.
 //!
 //! Handles are opaque and shared by counting; functions that can fail return a code and describe the error in a struct of the
-//! caller ([`lobe_error`]); no panic leaves this crate, because every function runs inside of [`border::guarded`]. What is
+//! caller ([`lobe_error`]); no panic leaves this crate, because every function runs inside of `border::guarded`. What is
 //! evaluated is the facade's.
 #![allow(non_camel_case_types, reason = "names of C")]
 
