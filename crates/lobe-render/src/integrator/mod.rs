@@ -142,11 +142,11 @@ pub trait PassRenderer<T: Transport> {
     fn plan(&self) -> Plan;
 
     /// Follows light paths.
-    #[allow(private_interfaces)]
+    #[allow(private_interfaces, reason = "only this crate implements and calls it")]
     fn light(&mut self, paths: Range<u32>, pass: &Pass) -> LightPart<T>;
 
     /// Follows a sample of the pixels of a tile. Returns what they bring.
-    #[allow(private_interfaces)]
+    #[allow(private_interfaces, reason = "only this crate implements and calls it")]
     fn camera(&mut self, tile: Rect, pass: &Pass, map: &LightMap<T>) -> Film<T>;
 
     /// What has been done so far.
@@ -291,13 +291,13 @@ impl<T: Unpolarised, I: LightStages> PassRenderer<T> for Driven<'_, T, I> {
         self.integrator.plan()
     }
 
-    #[allow(private_interfaces)]
+    #[allow(private_interfaces, reason = "only this crate implements and calls it")]
     fn light(&mut self, paths: Range<u32>, pass: &Pass) -> LightPart<T> {
         let integrator = self.integrator;
         self.wavefront.light_paths(paths, pass, |wave| integrator.follow_light(wave, pass))
     }
 
-    #[allow(private_interfaces)]
+    #[allow(private_interfaces, reason = "only this crate implements and calls it")]
     fn camera(&mut self, tile: Rect, pass: &Pass, map: &LightMap<T>) -> Film<T> {
         let integrator = self.integrator;
         self.wavefront.camera_paths(tile, pass, |wave| integrator.follow_camera(wave, pass, map))
