@@ -99,7 +99,7 @@ impl<'a> Problem<'a> {
         self.columns().zip(self.free.iter()).map(|(parameter, free)| parameter.value(*free)).collect()
     }
 
-    /// Half the sum of the squared residuals; infinite if one of them is no number.
+    /// Half the sum of the squared residuals; infinite if one of them is NaN.
     pub fn cost(&self) -> f64 {
         let cost = 0.5 * self.rows().iter().map(|row| row * row).sum::<f64>();
         if cost.is_finite() { cost } else { f64::INFINITY }

@@ -26,8 +26,7 @@ fn published_coefficients_give_the_published_measurement() {
     assert!(wi.len() > 500, "{} pairs of directions", wi.len());
     let errors: Vec<f32> = found.iter().zip(&wanted).map(|(found, wanted)| found / wanted - 1.0).collect();
     let rms = (errors.iter().map(|error| f64::from(error * error)).sum::<f64>() / errors.len() as f64).sqrt();
-    // What the noise of the measurement and the order of the expansion leave. With azimuths counted from the other side, or
-    // without the wavelength, it is several times that.
+    // The fit and the measurement are published apart; 0.023 was found.
     println!("{} values, rms difference {rms:.4}", errors.len());
     assert!(rms < 0.03, "rms difference {rms}");
 }
