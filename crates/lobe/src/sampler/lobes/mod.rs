@@ -1,7 +1,8 @@
 //! A mixture of lobes: for each side a lobe of reflection and one of transmission, and mirrors.
 
 mod draw;
-mod shares;
+mod mirrors;
+mod sides;
 
 use lobe_table::{
     Aspect, Distribution, DistributionOptions, PatchSampler, SamplerError, SamplerOptions, Scatter, Side,
@@ -88,11 +89,6 @@ impl Lobes {
 }
 
 impl Lobe {
-    /// Whether directions from the back have to be flipped.
-    fn flips(&self) -> bool {
-        matches!(self, Lobe::Histograms(_))
-    }
-
     fn brightness(&self, backend: Backend, known: &[[f32; 3]], out: &mut [f32]) {
         match self {
             Lobe::Histograms(distribution) => distribution.brightness_batch(backend, known, out),
