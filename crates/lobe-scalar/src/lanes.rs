@@ -145,18 +145,17 @@ impl<const N: usize> Lanes for Scalar<N> {
     #[inline(always)]
     fn gather_quads<const K: usize>(self, block: &Block<'_, K, 4>, base: Ints<N>) -> [[Floats<N>; 4]; K] {
         let mut corners = [[self.splat(0.0); 4]; K];
-        let mut at = 0;
-        while at < 4 * K {
-            let (corner, k) = (at / 4, at % 4);
-            let offset = block.offsets()[corner] + k;
-            corners[corner][k] = Floats(each(
+        let mut corner = 0;
+        while corner < K {
+            let found: [[f32; 4]; N] = each(
                 #[inline(always)]
                 |lane| {
                     let base = (base.0[lane] as u32 as usize).min(block.last_base());
-                    block.data()[base + offset]
+                    corner_at(block.data(), base + block.offsets()[corner])
                 },
-            ));
-            at += 1;
+            );
+            corners[corner] = transposed(found);
+            corner += 1;
         }
         corners
     }
@@ -185,6 +184,34 @@ impl<const N: usize> Lanes for Scalar<N> {
             |lane| table.0[(index.0[lane] & 7) as usize],
         ))
     }
+}
+
+/// The four floats of a corner. None of a [`Block`] lies outside; zeros instead of a panic let the compiler drop a load that
+/// nothing uses.
+#[inline(always)]
+fn corner_at(table: &[f32], at: usize) -> [f32; 4] {
+    match table.get(at..) {
+        Some(rest) => match rest.first_chunk() {
+            Some(floats) => *floats,
+            None => [0.0; 4],
+        },
+        None => [0.0; 4],
+    }
+}
+
+/// From the four floats of each lane to four times one float per lane.
+#[inline(always)]
+fn transposed<const N: usize>(found: [[f32; 4]; N]) -> [Floats<N>; 4] {
+    let mut out = [Floats([0.0; N]); 4];
+    let mut k = 0;
+    while k < 4 {
+        out[k] = Floats(each(
+            #[inline(always)]
+            |lane| found[lane][k],
+        ));
+        k += 1;
+    }
+    out
 }
 
 /// An index outside the table reads its last entry; a negative one is far outside.

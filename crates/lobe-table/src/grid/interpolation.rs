@@ -12,7 +12,7 @@ use super::layout::{Corners, Kind, LAST, Layout, TURN, Texels, Values};
 use super::texel::{Precision, Stored};
 use super::texels::{self, Located, Tile};
 use super::weights::{self, MAX_CORNERS};
-use crate::passes::block::{BLOCK, Column};
+use crate::passes::block::{BLOCK, Column, registers};
 
 /// Values at the nodes of four axes, laid out for evaluation in SIMD lanes.
 ///
@@ -157,7 +157,7 @@ impl Interpolator {
     ) {
         let Scratch { angles, base, weights, tile, .. } = scratch;
         let (located, floor, width) = (Located { base, weights }, self.floor, channels.len());
-        let n = (out.len() / width).next_multiple_of(L::LANES);
+        let n = registers(lanes, out.len() / width);
         match corners {
             Corners::MonoIso(block) => texels::mono(lanes, n, block, located, floor, tile),
             Corners::MonoAniso(block) => texels::mono(lanes, n, block, located, floor, tile),
@@ -225,7 +225,7 @@ impl Kernel for Interpolate<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         let Interpolate { grid, scratch, out } = self;
-        grid.find(lanes, (out.len() / grid.channels()).next_multiple_of(L::LANES), scratch);
+        grid.find(lanes, registers(lanes, out.len() / grid.channels()), scratch);
         grid.blend(lanes, &grid.layout.texels(), scratch, 0..grid.channels(), out);
     }
 }

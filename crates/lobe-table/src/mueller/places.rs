@@ -8,7 +8,7 @@ use crate::grid::cells;
 use crate::grid::edges::Edge;
 use crate::grid::weights::{self, MAX_CORNERS};
 use crate::invalid::Invalid;
-use crate::passes::block::Column;
+use crate::passes::block::{Column, registers};
 use crate::passes::half_vector::HalfVector;
 use crate::passes::pairs::Pairs;
 
@@ -92,6 +92,7 @@ impl Kernel for Find<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         let Find { places, n, pairs, scratch: Scratch { angles, base, weights } } = self;
+        let n = registers(lanes, n);
         angles.run::<L, true>(lanes, n, pairs);
         let HalfVector { theta_h, theta_d, phi_d, valid, .. } = angles;
         *base = Column::<i32>::ZERO;

@@ -5,6 +5,13 @@ use lobe_lane::Lanes;
 /// Queries per block: enough to keep the core busy within a pass, few enough that all columns stay in the first cache.
 pub(crate) const BLOCK: usize = 64;
 
+/// So many queries of a block in whole registers. There are never more than a block holds; saying so keeps the compiler
+/// from masking positions, and lets it join the single lanes of the scalar backend.
+#[inline(always)]
+pub(crate) fn registers<L: Lanes>(_lanes: L, queries: usize) -> usize {
+    queries.next_multiple_of(L::LANES).min(BLOCK)
+}
+
 /// One float for each query of a block.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]

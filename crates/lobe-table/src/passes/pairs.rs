@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use lobe_lane::{Floats, Kernel, Lanes};
 
-use super::block::BLOCK;
+use super::block::{BLOCK, registers};
 use super::blocks::{Blocks, Blockwise};
 use crate::directions::{DirectionBlock, Directions, PADDING, Padding};
 
@@ -120,7 +120,7 @@ impl<E: Evaluate> Blockwise for Evaluation<'_, E> {
     fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut Self::Scratch) {
         let channels = self.evaluator.channel_count();
         let pairs = scratch.padding.block(lanes, &self.wi, &self.wo, queries.start);
-        let n = queries.len().next_multiple_of(L::LANES);
+        let n = registers(lanes, queries.len());
         let out = &mut self.out[queries.start * channels..][..queries.len() * channels];
         self.evaluator.evaluate(lanes, n, pairs, &mut scratch.passes, out);
     }

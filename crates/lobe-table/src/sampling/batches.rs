@@ -10,6 +10,7 @@ use super::distribution::Distribution;
 use super::incident::Incident;
 use super::places::{Places, place};
 use crate::directions::{DirectionBlock, Directions, PADDING, Padding};
+use crate::passes::block::{BLOCK, registers};
 use crate::passes::blocks::{Blocks, Blockwise};
 use crate::passes::pairs::{PairPadding, Pairs};
 
@@ -149,7 +150,7 @@ impl Blockwise for Densities<'_> {
         let Densities { distribution, known, other, pdfs } = self;
         let Distribution { surface, sigma, psi, .. } = distribution;
         let Pairs { wi: known, wo: other } = padding.block(lanes, known, other, queries.start);
-        let (at, count) = (queries.start, queries.len());
+        let (at, count) = (queries.start, queries.len().min(BLOCK));
         let mut query = 0;
         while query < count {
             let incident = Incident::new(lanes, surface, known.load(lanes, query));
@@ -189,7 +190,7 @@ impl Blockwise for Brightnesses<'_> {
         let BrightnessScratch { places, padding } = scratch;
         let known = known.block(lanes, queries.start, padding);
         call(lanes, Locate { distribution, known, count: queries.len(), places: &mut *places });
-        let (at, count) = (queries.start, queries.len());
+        let (at, count) = (queries.start, queries.len().min(BLOCK));
         let mut query = 0;
         while query < count {
             let incident = Incident::new(lanes, &distribution.surface, known.load(lanes, query));
@@ -215,6 +216,7 @@ impl Kernel for Locate<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         let Locate { distribution: Distribution { surface, sigma, psi, .. }, known, count, places } = self;
+        let count = registers(lanes, count);
         let mut query = 0;
         while query < count {
             let incident = Incident::new(lanes, surface, known.load(lanes, query));

@@ -11,7 +11,7 @@ use lobe_memory::Storage;
 use super::cells::{self, DIVIDED, PARTS, REACH, SQUARES};
 use super::mesh::Mesh;
 use super::regions::{Region, regions};
-use crate::passes::block::Column;
+use crate::passes::block::{Column, registers};
 
 /// Floats of a region: for each side the coefficients of `x`, `y` and 1, and the bits of the next region; then what makes
 /// weights of the first two, and 1 if the region is too narrow for single precision.
@@ -120,6 +120,7 @@ impl Kernel for Locate<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         let Locate { meshes, n, located } = self;
+        let n = registers(lanes, n);
         start(lanes, n, meshes, located);
         walk(lanes, n, meshes, located);
     }

@@ -7,6 +7,7 @@ use lobe_lane::{Floats, Kernel, Lanes};
 
 use super::{PSI, Table};
 use crate::grid::interpolation::Scratch;
+use crate::passes::block::registers;
 use crate::passes::blocks::{Blocks, Blockwise};
 
 impl Table {
@@ -56,7 +57,7 @@ impl Blockwise for Interpolation<'_> {
     fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut Scratch) {
         let Interpolation { table, angles, out } = self;
         let (at, left, channels) = (queries.start, queries.len(), table.channel_count());
-        let n = left.next_multiple_of(L::LANES);
+        let n = registers(lanes, left);
         let mut axis = 0;
         while axis < 4 {
             if axis != PSI || table.is_anisotropic() {

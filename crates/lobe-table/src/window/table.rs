@@ -254,6 +254,7 @@ impl Group {
     fn run<L: Lanes>(&self, lanes: L, n: usize, bands: &[Blocks], scratch: &mut Scratch, out: &mut [f32]) {
         let Scratch { wi, wo, valid, patches, pair: [arriving, leaving], positions: at, value, .. } = scratch;
         let (from, to) = if self.source.exchanged { (&*wo, &*wi) } else { (&*wi, &*wo) };
+        let none = lanes.splat_int(0);
         match &self.members {
             Members::Klems(bases, members) => {
                 let mut side = 0;
@@ -274,10 +275,11 @@ impl Group {
                     if let Some(matrix) = matrix(bands[band].block(self.source.block)) {
                         let mut query = 0;
                         while query < n {
-                            value.store(lanes, query, lanes.gather(matrix.values(), arriving.load(lanes, query)));
+                            let found = lanes.gather(matrix.values(), arriving.load(lanes, query));
+                            value.store(lanes, query, found.masked(valid.load(lanes, query).lt(none)));
                             query += L::LANES;
                         }
-                        scatter(lanes, n, value, valid, band, bands.len(), out);
+                        scatter(value, band, bands.len(), out);
                     }
                 }
             }
@@ -289,7 +291,13 @@ impl Group {
                             Rank::Three => walk.run::<L, 3>(lanes, n, tree, at, value),
                             Rank::Four => walk.run::<L, 4>(lanes, n, tree, at, value),
                         }
-                        scatter(lanes, n, value, valid, *band, bands.len(), out);
+                        let mut query = 0;
+                        while query < n {
+                            let found = value.load(lanes, query);
+                            value.store(lanes, query, found.masked(valid.load(lanes, query).lt(none)));
+                            query += L::LANES;
+                        }
+                        scatter(value, *band, bands.len(), out);
                     }
                 }
             }
@@ -311,24 +319,9 @@ fn tree(component: Option<&Component>) -> Option<&TensorTree> {
     }
 }
 
-/// Adds the values of the valid ones of queries `0..n` to a band of `out`, `[query][channel]`, which may be shorter.
+/// Adds values to a band of `out`, `[query][channel]`.
 #[inline(always)]
-fn scatter<L: Lanes>(
-    lanes: L,
-    n: usize,
-    value: &mut Column,
-    valid: &Column<i32>,
-    band: usize,
-    channels: usize,
-    out: &mut [f32],
-) {
-    let zero = lanes.splat_int(0);
-    let mut query = 0;
-    while query < n {
-        let masked = value.load(lanes, query).masked(valid.load(lanes, query).lt(zero));
-        value.store(lanes, query, masked);
-        query += L::LANES;
-    }
+fn scatter(value: &Column, band: usize, channels: usize, out: &mut [f32]) {
     let mut query = 0;
     while query < out.len() / channels {
         out[query * channels + band] += value.one(query);

@@ -8,6 +8,7 @@ use lobe_lane::{Kernel, Lanes, call};
 use super::passes::{Scratch, Values};
 use super::table::Table;
 use crate::directions::Directions;
+use crate::passes::block::registers;
 use crate::passes::blocks::{Blocks, Blockwise};
 use crate::passes::pairs::{PairPadding, PairScratch};
 
@@ -123,7 +124,7 @@ impl<const SLICES: usize, const PAIRS: usize, const FOURS: usize> Blockwise for 
         let PairScratch { passes: scratch, padding } = scratch;
         let Batch { table, wi, wo, wanted: Parts { values, cosine, pdf } } = self;
         let (at, left, channels) = (queries.start, queries.len(), table.channel_count());
-        let n = left.next_multiple_of(L::LANES);
+        let n = registers(lanes, left);
         table.locate::<L, SLICES>(lanes, n, padding.block(lanes, wi, wo, at), *cosine, scratch);
         if let Some(values) = values {
             let out = &mut values[at * channels..][..left * channels];

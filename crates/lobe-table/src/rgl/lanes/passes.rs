@@ -11,7 +11,7 @@ use super::table::Table;
 use crate::grid::cells;
 use crate::grid::texels::Tile;
 use crate::grid::weights::{self, MAX_CORNERS};
-use crate::passes::block::{BLOCK, Column};
+use crate::passes::block::{BLOCK, Column, registers};
 use crate::passes::pairs::Pairs;
 
 /// What the passes of a block hand on.
@@ -94,6 +94,7 @@ impl<const SLICES: usize> Kernel for Slices<'_, SLICES> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         let Slices { table, n, valid, incident: Incident { theta, phi, .. }, blend } = self;
+        let n = registers(lanes, n);
         blend.slice = Column::<i32>::ZERO;
         let axes = [(&table.theta_i, 1), (&table.phi_i, table.theta_i.knots().len())];
         let mut axis = 0;
@@ -125,6 +126,7 @@ impl<const SLICES: usize, const PAIRS: usize, const FOURS: usize> Kernel for Val
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         let Values { table, n, scratch, out } = self;
+        let n = registers(lanes, n);
         let Scratch { frame, incident, blend, u_m, places, s, weights, tile, .. } = scratch;
         if let Some(factor) = &table.factor {
             factor.run(lanes, n, &incident.u, u_m, &mut frame.factor);

@@ -10,7 +10,7 @@ use super::reflect::{self, Reflected};
 use super::table::Table;
 use super::{angles, draw};
 use crate::directions::{Directions, PADDING, Padding};
-use crate::passes::block::{BLOCK, Column};
+use crate::passes::block::{BLOCK, Column, registers};
 use crate::passes::blocks::{Blocks, Blockwise};
 use crate::rgl::UniformOrder;
 
@@ -90,7 +90,7 @@ impl<const SLICES: usize, const PAIRS: usize, const FOURS: usize> Blockwise for 
         let Draws { table, wi, uniforms, order, drawn } = self;
         let DrawScratch { passes: scratch, wo, padding } = scratch;
         let (at, left, channels) = (queries.start, queries.len(), table.channel_count());
-        let n = left.next_multiple_of(L::LANES);
+        let n = registers(lanes, left);
         let wi = wi.block(lanes, at, padding);
         let Scratch { frame, incident, blend, u_m, s, density, weights, .. } = &mut *scratch;
         reflect::incident(lanes, n, wi, table.symmetry, frame);

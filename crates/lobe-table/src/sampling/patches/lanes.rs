@@ -12,7 +12,7 @@ use lobe_lane::{Block, Floats, Ints, Kernel, Lanes, call};
 use super::PatchSampler;
 use crate::Scatter;
 use crate::directions::{DirectionBlock, Directions, PADDING, Padding};
-use crate::passes::block::Column;
+use crate::passes::block::{Column, registers};
 use crate::passes::blocks::{Blocks, Blockwise};
 use crate::passes::pairs::{PairPadding, Pairs};
 use crate::passes::unit::unit;
@@ -159,6 +159,7 @@ impl Kernel for Find<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         let Find { patches, directions, n, place: Place { toward, found, patch, valid } } = self;
+        let n = registers(lanes, n);
         let (zero, none, all) = (lanes.splat(0.0), lanes.splat_int(0), lanes.splat_int(-1));
         let mut query = 0;
         while query < n {
@@ -216,7 +217,7 @@ impl Blockwise for Draws<'_> {
     fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut DrawScratch) {
         let Draws { sampler: PatchSampler { scatter, exit, sums, lookup, .. }, known, u, directions, pdfs } = self;
         let DrawScratch { light, first, cell, below, numbers: [numbers, others], padding } = scratch;
-        let n = queries.len().next_multiple_of(L::LANES);
+        let n = registers(lanes, queries.len());
         let directions_of_light = known.block(lanes, queries.start, padding);
         call(lanes, Find { patches: &lookup.arriving, directions: directions_of_light, n, place: &mut *light });
         let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
@@ -304,7 +305,7 @@ impl Blockwise for Densities<'_> {
     fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut DensityScratch) {
         let Densities { sampler: PatchSampler { scatter, exit, sums, lookup, .. }, known, other, pdfs } = self;
         let DensityScratch { light, viewer, padding } = scratch;
-        let n = queries.len().next_multiple_of(L::LANES);
+        let n = registers(lanes, queries.len());
         let Pairs { wi: known, wo: other } = padding.block(lanes, known, other, queries.start);
         call(lanes, Find { patches: &lookup.arriving, directions: known, n, place: &mut *light });
         call(lanes, Find { patches: &lookup.leaving, directions: other, n, place: &mut *viewer });
@@ -354,7 +355,7 @@ impl Blockwise for Brightnesses<'_> {
     fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut BrightnessScratch) {
         let Brightnesses { sampler: PatchSampler { brightness, lookup, .. }, known, out } = self;
         let BrightnessScratch { light, padding } = scratch;
-        let n = queries.len().next_multiple_of(L::LANES);
+        let n = registers(lanes, queries.len());
         let known = known.block(lanes, queries.start, padding);
         call(lanes, Find { patches: &lookup.arriving, directions: known, n, place: &mut *light });
         let out = &mut out[queries];
