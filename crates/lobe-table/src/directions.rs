@@ -154,22 +154,22 @@ impl Padding {
 
 /// A whole block of directions, which needs no bounds checks.
 #[derive(Clone, Copy)]
-pub(crate) struct DirectionBlock<'a> {
+pub(crate) struct DirectionBlock<'a, const B: usize = BLOCK> {
     /// The directions, unless they are in `columns`.
-    vectors: Option<&'a [[f32; 3]; BLOCK]>,
-    columns: [&'a [f32; BLOCK]; 3],
+    vectors: Option<&'a [[f32; 3]; B]>,
+    columns: [&'a [f32; B]; 3],
 }
 
-impl<'a> DirectionBlock<'a> {
+impl<'a, const B: usize> DirectionBlock<'a, B> {
     #[inline(always)]
-    pub(crate) fn of_columns(columns: [&'a [f32; BLOCK]; 3]) -> Self {
+    pub(crate) fn of_columns(columns: [&'a [f32; B]; 3]) -> Self {
         DirectionBlock { vectors: None, columns }
     }
 
     /// For more lanes than one.
     #[inline(always)]
-    fn of_vectors(vectors: &'a [[f32; 3]; BLOCK]) -> Self {
-        DirectionBlock { vectors: Some(vectors), columns: [&[0.0; BLOCK]; 3] }
+    fn of_vectors(vectors: &'a [[f32; 3]; B]) -> Self {
+        DirectionBlock { vectors: Some(vectors), columns: [&[0.0; B]; 3] }
     }
 
     /// Directions `at .. at + LANES` of the block as x, y and z; `at` is a multiple of the lanes.
@@ -178,7 +178,7 @@ impl<'a> DirectionBlock<'a> {
     /// keep the compiler from computing a few queries at once.
     #[inline(always)]
     pub(crate) fn load<L: Lanes>(self, lanes: L, at: usize) -> [L::F; 3] {
-        let at = at & (BLOCK - L::LANES);
+        let at = at & (B - L::LANES);
         match self.vectors {
             Some(vectors) if L::LANES > 1 => lanes.load_xyz(&vectors[at..][..L::LANES]),
             _ => {

@@ -11,29 +11,29 @@ use crate::passes::block::Column;
 ///
 /// Queries outside an axis of [`Edge::Zero`] lose their `valid` bits.
 #[inline(always)]
-pub(crate) fn run<L: Lanes>(
+pub(crate) fn run<L: Lanes, const B: usize>(
     lanes: L,
     n: usize,
     axis: &Axis,
     stride: usize,
-    angle: &mut Column,
-    base: &mut Column<i32>,
-    valid: &mut Column<i32>,
+    angle: &mut Column<f32, B>,
+    base: &mut Column<i32, B>,
+    valid: &mut Column<i32, B>,
 ) {
     axis.visit(lanes, Pass { lanes, n, axis, stride, angle, base, valid });
 }
 
-struct Pass<'a, L> {
+struct Pass<'a, L, const B: usize> {
     lanes: L,
     n: usize,
     axis: &'a Axis,
     stride: usize,
-    angle: &'a mut Column,
-    base: &'a mut Column<i32>,
-    valid: &'a mut Column<i32>,
+    angle: &'a mut Column<f32, B>,
+    base: &'a mut Column<i32, B>,
+    valid: &'a mut Column<i32, B>,
 }
 
-impl<L: Lanes> Visitor<L> for Pass<'_, L> {
+impl<L: Lanes, const B: usize> Visitor<L> for Pass<'_, L, B> {
     type Out = ();
 
     #[inline(always)]
@@ -62,7 +62,13 @@ impl<L: Lanes> Visitor<L> for Pass<'_, L> {
 
 /// Queries outside the axis lose their `valid` bits.
 #[inline(always)]
-fn leave_out<L: Lanes>(lanes: L, n: usize, axis: &Axis, angle: &Column, valid: &mut Column<i32>) {
+fn leave_out<L: Lanes, const B: usize>(
+    lanes: L,
+    n: usize,
+    axis: &Axis,
+    angle: &Column<f32, B>,
+    valid: &mut Column<i32, B>,
+) {
     let zero = lanes.splat_int(0);
     let mut query = 0;
     while query < n {
@@ -74,7 +80,7 @@ fn leave_out<L: Lanes>(lanes: L, n: usize, axis: &Axis, angle: &Column, valid: &
 
 /// Angles below the first knot move up a turn.
 #[inline(always)]
-fn turn_up<L: Lanes>(lanes: L, n: usize, axis: &Axis, angle: &mut Column) {
+fn turn_up<L: Lanes, const B: usize>(lanes: L, n: usize, axis: &Axis, angle: &mut Column<f32, B>) {
     let mut query = 0;
     while query < n {
         angle.store(lanes, query, axis.bring_inside(lanes, angle.load(lanes, query)));

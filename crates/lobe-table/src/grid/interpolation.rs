@@ -35,23 +35,23 @@ pub(crate) struct Source<'a> {
 }
 
 /// What the passes of a block hand on.
-pub(crate) struct Scratch {
+pub(crate) struct Scratch<const B: usize = BLOCK> {
     /// Angles in radians, and then the fractions into their cells.
-    pub(crate) angles: [Column; 4],
+    pub(crate) angles: [Column<f32, B>; 4],
     /// All bits set for queries that have a value.
-    pub(crate) valid: Column<i32>,
-    base: Column<i32>,
-    weights: [Column; MAX_CORNERS],
-    tile: Tile,
+    pub(crate) valid: Column<i32, B>,
+    base: Column<i32, B>,
+    weights: [Column<f32, B>; MAX_CORNERS],
+    tile: Tile<B>,
 }
 
-impl Scratch {
+impl<const B: usize> Scratch<B> {
     pub(crate) const ZERO: Self = Scratch {
-        angles: [Column::<f32>::ZERO; 4],
-        valid: Column::<i32>::ZERO,
-        base: Column::<i32>::ZERO,
-        weights: [Column::<f32>::ZERO; MAX_CORNERS],
-        tile: [0.0; 3 * BLOCK + 1],
+        angles: [Column::<f32, B>::ZERO; 4],
+        valid: Column::<i32, B>::ZERO,
+        base: Column::<i32, B>::ZERO,
+        weights: [Column::<f32, B>::ZERO; MAX_CORNERS],
+        tile: [[0.0; B]; 4],
     };
 }
 
@@ -108,9 +108,9 @@ impl Interpolator {
 
     /// From the angles of queries `0..n` to base indices and corner weights. `n` is a multiple of the lanes.
     #[inline(always)]
-    pub(crate) fn find<L: Lanes>(&self, lanes: L, n: usize, scratch: &mut Scratch) {
+    pub(crate) fn find<L: Lanes, const B: usize>(&self, lanes: L, n: usize, scratch: &mut Scratch<B>) {
         let Scratch { angles, valid, base, weights, .. } = scratch;
-        *base = Column::<i32>::ZERO;
+        *base = Column::<i32, B>::ZERO;
         let mut index = 0;
         while index < 4 {
             if index != TURN || self.is_anisotropic() {
@@ -132,11 +132,11 @@ impl Interpolator {
     /// The values of the first queries of a block that were found: `out[query][channel]` of these channels, which are all,
     /// or begin at a multiple of eight.
     #[inline(always)]
-    pub(crate) fn blend<L: Lanes>(
+    pub(crate) fn blend<L: Lanes, const B: usize>(
         &self,
         lanes: L,
         texels: &Texels<'_>,
-        scratch: &mut Scratch,
+        scratch: &mut Scratch<B>,
         channels: Range<usize>,
         out: &mut [f32],
     ) {
@@ -147,11 +147,11 @@ impl Interpolator {
     }
 
     #[inline(always)]
-    fn blend_stored<L: Lanes, T: Stored>(
+    fn blend_stored<L: Lanes, T: Stored, const B: usize>(
         &self,
         lanes: L,
         corners: &Corners<'_, T>,
-        scratch: &mut Scratch,
+        scratch: &mut Scratch<B>,
         channels: Range<usize>,
         out: &mut [f32],
     ) {
@@ -171,11 +171,11 @@ impl Interpolator {
             2 => {
                 let mut query = 0;
                 while query < out.len() / 2 {
-                    out[2 * query..][..2].copy_from_slice(&tile[3 * query..][..2]);
+                    out[2 * query..][..2].copy_from_slice(&tile.as_flattened()[3 * query..][..2]);
                     query += 1;
                 }
             }
-            _ => out.copy_from_slice(&tile[..out.len()]),
+            _ => out.copy_from_slice(&tile.as_flattened()[..out.len()]),
         }
     }
 
@@ -187,7 +187,7 @@ impl Interpolator {
 
     /// The values of as many found queries as there are lanes: `out[channel]` holds that channel in all lanes.
     #[inline(always)]
-    pub(crate) fn blend_lanes<L: Lanes>(&self, lanes: L, scratch: &mut Scratch, out: &mut [L::F]) {
+    pub(crate) fn blend_lanes<L: Lanes, const B: usize>(&self, lanes: L, scratch: &mut Scratch<B>, out: &mut [L::F]) {
         // Texels come query by query; the lanes want them channel by channel.
         let texels = self.layout.texels();
         let mut tile = [0.0f32; MAX_LANES * CHUNK];

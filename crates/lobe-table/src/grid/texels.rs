@@ -8,31 +8,32 @@ use super::texel::Stored;
 use super::weights::MAX_CORNERS;
 use crate::passes::block::{BLOCK, Column};
 
-/// Room for up to three channels of each query of a block, and for the fourth float that the last store writes.
-pub(crate) type Tile = [f32; 3 * BLOCK + 1];
+/// Room for up to three channels of each query of a block, one after the other, and for the fourth float that the last store
+/// writes.
+pub(crate) type Tile<const B: usize = BLOCK> = [[f32; B]; 4];
 
 /// Queries per iteration of the loop over texels, if there are as many lanes.
 const TURN: usize = 8;
 
 /// Where queries lie in a table.
 #[derive(Clone, Copy)]
-pub(crate) struct Located<'a> {
+pub(crate) struct Located<'a, const B: usize = BLOCK> {
     /// The index of the first corner.
-    pub(crate) base: &'a Column<i32>,
-    pub(crate) weights: &'a [Column; MAX_CORNERS],
+    pub(crate) base: &'a Column<i32, B>,
+    pub(crate) weights: &'a [Column<f32, B>; MAX_CORNERS],
 }
 
 /// Two or three channels: `CORNERS` pairs of neighbours along the last axis. Writes three floats per query, from the
 /// first, none less than `floor`. `n` is a multiple of the lanes.
 #[inline(always)]
-pub(crate) fn rgb<L: Lanes, T: Stored, const CORNERS: usize>(
+pub(crate) fn rgb<L: Lanes, T: Stored, const CORNERS: usize, const B: usize>(
     lanes: L,
     n: usize,
     corners: &Block<'_, CORNERS, 8, T>,
-    located: Located<'_>,
-    phi: &Column,
+    located: Located<'_, B>,
+    phi: &Column<f32, B>,
     floor: f32,
-    tile: &mut Tile,
+    tile: &mut Tile<B>,
 ) {
     let floor = lanes.quad_splat(floor);
     let turn = if L::LANES < TURN { L::LANES } else { TURN };
@@ -44,7 +45,7 @@ pub(crate) fn rgb<L: Lanes, T: Stored, const CORNERS: usize>(
             let [low, high] = pair(lanes, query, corners, located);
             let texel = lanes.quad_mul_add(lanes.quad_splat(phi.one(query)), high - low, low);
             // Each store writes a float too many, which the next one overwrites.
-            lanes.quad_store(&mut tile[3 * (query & (BLOCK - 1))..][..4], lanes.quad_max(texel, floor));
+            lanes.quad_store(&mut tile.as_flattened_mut()[3 * (query & (B - 1))..][..4], lanes.quad_max(texel, floor));
             query += 1;
         }
         first += turn;
@@ -54,13 +55,13 @@ pub(crate) fn rgb<L: Lanes, T: Stored, const CORNERS: usize>(
 /// As [`rgb`], with texels that say by their fourth float whether there is a value: those without one are 0 all through and
 /// take no part in the average. 0 if there is none at all.
 #[inline(always)]
-pub(crate) fn measured<L: Lanes, T: Stored, const CORNERS: usize>(
+pub(crate) fn measured<L: Lanes, T: Stored, const CORNERS: usize, const B: usize>(
     lanes: L,
     n: usize,
     corners: &Block<'_, CORNERS, 8, T>,
-    located: Located<'_>,
-    phi: &Column,
-    tile: &mut Tile,
+    located: Located<'_, B>,
+    phi: &Column<f32, B>,
+    tile: &mut Tile<B>,
 ) {
     let mut query = 0;
     while query < n {
@@ -72,18 +73,18 @@ pub(crate) fn measured<L: Lanes, T: Stored, const CORNERS: usize>(
         lanes.quad_store(&mut four, texel);
         let scale = if four[3] > 0.0 { 1.0 / four[3] } else { 0.0 };
         // Each store writes a float too many, which the next one overwrites.
-        lanes.quad_store(&mut tile[3 * (query & (BLOCK - 1))..][..4], texel * lanes.quad_splat(scale));
+        lanes.quad_store(&mut tile.as_flattened_mut()[3 * (query & (B - 1))..][..4], texel * lanes.quad_splat(scale));
         query += 1;
     }
 }
 
 /// The weighted sum of the texel pairs of one query: the lower and the upper neighbour in phi.
 #[inline(always)]
-fn pair<L: Lanes, T: Stored, const CORNERS: usize>(
+fn pair<L: Lanes, T: Stored, const CORNERS: usize, const B: usize>(
     lanes: L,
     query: usize,
     corners: &Block<'_, CORNERS, 8, T>,
-    Located { base, weights }: Located<'_>,
+    Located { base, weights }: Located<'_, B>,
 ) -> [L::Quad; 2] {
     let pairs = T::octs(lanes, corners, base.one(query) as u32 as usize);
     let mut sum = pairs[0] * lanes.oct_splat(weights[0].one(query));
@@ -97,18 +98,18 @@ fn pair<L: Lanes, T: Stored, const CORNERS: usize>(
 
 /// One texel of up to three channels per query, as it is stored.
 #[inline(always)]
-pub(crate) fn nearest<L: Lanes, T: Stored>(
+pub(crate) fn nearest<L: Lanes, T: Stored, const B: usize>(
     lanes: L,
     n: usize,
     texels: &Block<'_, 1, 4, T>,
-    base: &Column<i32>,
-    tile: &mut Tile,
+    base: &Column<i32, B>,
+    tile: &mut Tile<B>,
 ) {
     let mut query = 0;
     while query < n {
         let [texel] = T::quads(lanes, texels, base.one(query) as u32 as usize);
         // Each store writes a float too many, which the next one overwrites.
-        lanes.quad_store(&mut tile[3 * (query & (BLOCK - 1))..][..4], texel);
+        lanes.quad_store(&mut tile.as_flattened_mut()[3 * (query & (B - 1))..][..4], texel);
         query += 1;
     }
 }
@@ -116,13 +117,13 @@ pub(crate) fn nearest<L: Lanes, T: Stored>(
 /// One channel: `CORNERS` cells of four corners along the last two axes. Writes one float per query, none less than
 /// `floor`. `n` is a multiple of the lanes.
 #[inline(always)]
-pub(crate) fn mono<L: Lanes, T: Stored, const CORNERS: usize>(
+pub(crate) fn mono<L: Lanes, T: Stored, const CORNERS: usize, const B: usize>(
     lanes: L,
     n: usize,
     corners: &Block<'_, CORNERS, 4, T>,
-    Located { base, weights }: Located<'_>,
+    Located { base, weights }: Located<'_, B>,
     floor: f32,
-    tile: &mut Tile,
+    tile: &mut Tile<B>,
 ) {
     let floor = lanes.splat(floor);
     let mut query = 0;
@@ -134,7 +135,7 @@ pub(crate) fn mono<L: Lanes, T: Stored, const CORNERS: usize>(
             sum = lanes.mul_add(cells[corner / 4][corner % 4], weights[corner].load(lanes, query), sum);
             corner += 1;
         }
-        lanes.store(&mut tile[query & (BLOCK - L::LANES)..][..L::LANES], sum.max(floor));
+        lanes.store(&mut tile.as_flattened_mut()[query & (B - L::LANES)..][..L::LANES], sum.max(floor));
         query += L::LANES;
     }
 }
@@ -142,11 +143,11 @@ pub(crate) fn mono<L: Lanes, T: Stored, const CORNERS: usize>(
 /// Many channels: `CORNERS` nodes of all channels, padded to eights; lanes run along the channels. Writes those of
 /// `channels`, which begin at a multiple of eight, one query after the other, none less than `floor`.
 #[inline(always)]
-pub(crate) fn wide<L: Lanes, T: Stored, const CORNERS: usize>(
+pub(crate) fn wide<L: Lanes, T: Stored, const CORNERS: usize, const B: usize>(
     lanes: L,
     corners: &Block<'_, CORNERS, 8, T>,
     channels: Range<usize>,
-    Located { base, weights }: Located<'_>,
+    Located { base, weights }: Located<'_, B>,
     floor: f32,
     out: &mut [f32],
 ) {

@@ -13,13 +13,13 @@ pub(crate) const SUM: f64 = 4e-6;
 /// The weight of each corner over the axes whose fractions are given, the last axis fastest, for queries `0..n`: the
 /// first `2^AXES` columns of `weights`. They add up to `scale`, or to 0 for queries that are not valid.
 #[inline(always)]
-pub(crate) fn run<L: Lanes, const AXES: usize>(
+pub(crate) fn run<L: Lanes, const AXES: usize, const B: usize>(
     lanes: L,
     n: usize,
-    fractions: [&Column; AXES],
-    valid: &Column<i32>,
+    fractions: [&Column<f32, B>; AXES],
+    valid: &Column<i32, B>,
     scale: f32,
-    weights: &mut [Column; MAX_CORNERS],
+    weights: &mut [Column<f32, B>; MAX_CORNERS],
 ) {
     let (zero, one, scale) = (lanes.splat_int(0), lanes.splat(1.0), lanes.splat(scale));
     let mut query = 0;

@@ -124,7 +124,7 @@ impl Evaluate for Evaluator<'_> {
         base: Column::<i32>::ZERO,
         places: [Column::<f32>::ZERO; 3],
         weights: [Column::<f32>::ZERO; MAX_CORNERS],
-        tile: [0.0; 3 * BLOCK + 1],
+        tile: [[0.0; BLOCK]; 4],
     };
 
     fn channel_count(self) -> usize {
@@ -150,7 +150,7 @@ impl Evaluate for Evaluator<'_> {
                 texels::measured(lanes, n, &block, Located { base, weights }, p, tile);
             }
         }
-        out.copy_from_slice(&scratch.tile[..out.len()]);
+        out.copy_from_slice(&scratch.tile.as_flattened()[..out.len()]);
     }
 }
 

@@ -3,7 +3,7 @@
 use lobe_lane::Lanes;
 
 /// Queries per block: enough to keep the core busy within a pass, few enough that all columns stay in the first cache.
-pub(crate) const BLOCK: usize = 64;
+pub(crate) const BLOCK: usize = 128;
 
 /// So many queries of a block in whole registers. There are never more than a block holds; saying so keeps the compiler
 /// from masking positions, and lets it join the single lanes of the scalar backend.
@@ -12,47 +12,47 @@ pub(crate) fn registers<L: Lanes>(_lanes: L, queries: usize) -> usize {
     queries.next_multiple_of(L::LANES).min(BLOCK)
 }
 
-/// One float for each query of a block.
+/// One float for each query of a block; or for each lane, if a caller's kernel has no more queries than that.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
-pub(crate) struct Column<T = f32>(pub(crate) [T; BLOCK]);
+pub(crate) struct Column<T = f32, const B: usize = BLOCK>(pub(crate) [T; B]);
 
-impl Column<f32> {
-    pub(crate) const ZERO: Self = Column([0.0; BLOCK]);
+impl<const B: usize> Column<f32, B> {
+    pub(crate) const ZERO: Self = Column([0.0; B]);
 
     // Masking the position costs nothing in a loop and lets the compiler drop the bounds check.
     #[inline(always)]
     pub(crate) fn load<L: Lanes>(&self, lanes: L, at: usize) -> L::F {
-        lanes.load(&self.0[at & (BLOCK - L::LANES)..][..L::LANES])
+        lanes.load(&self.0[at & (B - L::LANES)..][..L::LANES])
     }
     #[inline(always)]
     pub(crate) fn store<L: Lanes>(&mut self, lanes: L, at: usize, x: L::F) {
-        lanes.store(&mut self.0[at & (BLOCK - L::LANES)..][..L::LANES], x);
+        lanes.store(&mut self.0[at & (B - L::LANES)..][..L::LANES], x);
     }
     #[inline(always)]
     pub(crate) fn one(&self, query: usize) -> f32 {
-        self.0[query & (BLOCK - 1)]
+        self.0[query & (B - 1)]
     }
 }
 
-impl Column<i32> {
-    pub(crate) const ZERO: Self = Column([0; BLOCK]);
+impl<const B: usize> Column<i32, B> {
+    pub(crate) const ZERO: Self = Column([0; B]);
 
     #[inline(always)]
     pub(crate) fn load<L: Lanes>(&self, lanes: L, at: usize) -> L::I {
-        lanes.load_int(&self.0[at & (BLOCK - L::LANES)..][..L::LANES])
+        lanes.load_int(&self.0[at & (B - L::LANES)..][..L::LANES])
     }
     #[inline(always)]
     pub(crate) fn store<L: Lanes>(&mut self, lanes: L, at: usize, x: L::I) {
-        lanes.store_int(&mut self.0[at & (BLOCK - L::LANES)..][..L::LANES], x);
+        lanes.store_int(&mut self.0[at & (B - L::LANES)..][..L::LANES], x);
     }
     /// As many as there are lanes, in memory.
     #[inline(always)]
     pub(crate) fn slice<L: Lanes>(&self, _lanes: L, at: usize) -> &[i32] {
-        &self.0[at & (BLOCK - L::LANES)..][..L::LANES]
+        &self.0[at & (B - L::LANES)..][..L::LANES]
     }
     #[inline(always)]
     pub(crate) fn one(&self, query: usize) -> i32 {
-        self.0[query & (BLOCK - 1)]
+        self.0[query & (B - 1)]
     }
 }

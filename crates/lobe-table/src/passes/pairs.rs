@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use lobe_lane::{Floats, Kernel, Lanes};
+use lobe_lane::{Floats, Kernel, Lanes, MAX_LANES};
 
 use super::block::{BLOCK, registers};
 use super::blocks::{Blocks, Blockwise};
@@ -10,9 +10,9 @@ use crate::directions::{DirectionBlock, Directions, PADDING, Padding};
 
 /// A block of pairs of directions.
 #[derive(Clone, Copy)]
-pub(crate) struct Pairs<'a> {
-    pub(crate) wi: DirectionBlock<'a>,
-    pub(crate) wo: DirectionBlock<'a>,
+pub(crate) struct Pairs<'a, const B: usize = BLOCK> {
+    pub(crate) wi: DirectionBlock<'a, B>,
+    pub(crate) wo: DirectionBlock<'a, B>,
 }
 
 /// Room for the pairs of a block that is copied.
@@ -39,15 +39,15 @@ impl PairPadding {
 
 /// As many pairs as there are lanes, which a caller's kernel has in registers.
 pub(crate) struct LanePairs {
-    wi: [[f32; BLOCK]; 3],
-    wo: [[f32; BLOCK]; 3],
+    wi: [[f32; MAX_LANES]; 3],
+    wo: [[f32; MAX_LANES]; 3],
 }
 
 impl LanePairs {
     /// Lanes that `mask` leaves out get directions of no length, which have no value.
     #[inline(always)]
     pub(crate) fn new<L: Lanes>(lanes: L, wi: [L::F; 3], wo: [L::F; 3], mask: L::M) -> Self {
-        let mut pairs = LanePairs { wi: [[0.0; BLOCK]; 3], wo: [[0.0; BLOCK]; 3] };
+        let mut pairs = LanePairs { wi: [[0.0; MAX_LANES]; 3], wo: [[0.0; MAX_LANES]; 3] };
         let mut k = 0;
         while k < 3 {
             lanes.store(&mut pairs.wi[k], wi[k].masked(mask));
@@ -58,7 +58,7 @@ impl LanePairs {
     }
 
     #[inline(always)]
-    pub(crate) fn block(&self) -> Pairs<'_> {
+    pub(crate) fn block(&self) -> Pairs<'_, MAX_LANES> {
         let ([ix, iy, iz], [ox, oy, oz]) = (&self.wi, &self.wo);
         Pairs { wi: DirectionBlock::of_columns([ix, iy, iz]), wo: DirectionBlock::of_columns([ox, oy, oz]) }
     }

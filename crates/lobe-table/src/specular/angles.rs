@@ -10,7 +10,13 @@ pub(crate) const TINY: f32 = 1e-30;
 
 /// Fills sigma, psi (if `anisotropic`), theta and phi, in radians, from the frame of queries `0..n`.
 #[inline(always)]
-pub(crate) fn run<L: Lanes>(lanes: L, n: usize, anisotropic: bool, frame: &Frame, angles: &mut [Column; 4]) {
+pub(crate) fn run<L: Lanes, const B: usize>(
+    lanes: L,
+    n: usize,
+    anisotropic: bool,
+    frame: &Frame<B>,
+    angles: &mut [Column<f32, B>; 4],
+) {
     let [sigma, psi, theta, phi] = angles;
     half_tangents(lanes, n, frame, theta, phi);
 
@@ -40,7 +46,13 @@ pub(crate) fn run<L: Lanes>(lanes: L, n: usize, anisotropic: bool, frame: &Frame
 
 /// The tangents of half of theta and half of phi, by one root and one division.
 #[inline(always)]
-fn half_tangents<L: Lanes>(lanes: L, n: usize, frame: &Frame, theta: &mut Column, phi: &mut Column) {
+fn half_tangents<L: Lanes, const B: usize>(
+    lanes: L,
+    n: usize,
+    frame: &Frame<B>,
+    theta: &mut Column<f32, B>,
+    phi: &mut Column<f32, B>,
+) {
     let (one, tiny) = (lanes.splat(1.0), lanes.splat(TINY));
     let mut query = 0;
     while query < n {

@@ -1,22 +1,23 @@
 //! The ways to evaluate a [`Table`]: batches and lanes through the same passes, single queries separately.
 
 use lobe_backend::Backend;
-use lobe_lane::{Kernel, Lanes};
+use lobe_lane::{Kernel, Lanes, MAX_LANES};
 
 use super::frame::{self, Frame};
 use super::single::Single;
 use super::{Table, angles};
 use crate::directions::Directions;
 use crate::grid::interpolation as grid;
+use crate::passes::block::BLOCK;
 use crate::passes::pairs::{Evaluate, LanePairs, Pairs, evaluation};
 
 /// What the passes of a block hand on.
-pub(crate) struct Scratch {
-    frame: Frame,
-    grid: grid::Scratch,
+pub(crate) struct Scratch<const B: usize = BLOCK> {
+    frame: Frame<B>,
+    grid: grid::Scratch<B>,
 }
 
-impl Scratch {
+impl<const B: usize> Scratch<B> {
     const ZERO: Self = Scratch { frame: Frame::ZERO, grid: grid::Scratch::ZERO };
 }
 
@@ -70,7 +71,7 @@ impl Table {
     pub fn eval_lanes<L: Lanes>(&self, lanes: L, wi: [L::F; 3], wo: [L::F; 3], mask: L::M, out: &mut [L::F]) {
         assert_eq!(out.len(), self.channel_count(), "one output per channel");
         let pairs = LanePairs::new(lanes, wi, wo, mask);
-        let mut scratch = Scratch::ZERO;
+        let mut scratch = Scratch::<MAX_LANES>::ZERO;
         self.angles(lanes, L::LANES, pairs.block(), &mut scratch);
         self.grid.find(lanes, L::LANES, &mut scratch.grid);
         self.grid.blend_lanes(lanes, &mut scratch.grid, out);
@@ -78,7 +79,7 @@ impl Table {
 
     /// The first passes: from the directions of queries `0..n` to their angles. `n` is a multiple of the lanes.
     #[inline(always)]
-    fn angles<L: Lanes>(&self, lanes: L, n: usize, pairs: Pairs<'_>, scratch: &mut Scratch) {
+    fn angles<L: Lanes, const B: usize>(&self, lanes: L, n: usize, pairs: Pairs<'_, B>, scratch: &mut Scratch<B>) {
         let Scratch { frame, grid } = scratch;
         frame::run(lanes, n, pairs, self.scatter(), self.refraction.as_ref(), frame, &mut grid.valid);
         angles::run(lanes, n, self.is_anisotropic(), frame, &mut grid.angles);

@@ -6,7 +6,7 @@ use lobe_lane::{Floats, Lanes};
 
 use crate::Scatter;
 use crate::grid::function::Function;
-use crate::passes::block::Column;
+use crate::passes::block::{BLOCK, Column};
 use crate::passes::pairs::Pairs;
 use crate::passes::unit::{FARTHEST, POLE};
 
@@ -15,36 +15,36 @@ use crate::passes::unit::{FARTHEST, POLE};
 /// Every angle comes from the tangent of its half, `sin / (1 + cos)`. Divisions and roots are what the first passes wait
 /// for, so each root serves two angles, and so does each division.
 #[derive(Clone, Copy)]
-pub(crate) struct Frame {
+pub(crate) struct Frame<const B: usize = BLOCK> {
     /// Tangent of half of sigma.
-    pub(crate) half_sigma: Column,
+    pub(crate) half_sigma: Column<f32, B>,
     /// Cosine and sine of psi.
-    pub(crate) psi: [Column; 2],
+    pub(crate) psi: [Column<f32, B>; 2],
     /// `wo` about the zenith: across it toward phi = 0 and phi = pi/2, and along it.
-    pub(crate) across: [Column; 2],
-    pub(crate) along: Column,
+    pub(crate) across: [Column<f32, B>; 2],
+    pub(crate) along: Column<f32, B>,
 }
 
-impl Frame {
+impl<const B: usize> Frame<B> {
     pub(crate) const ZERO: Self = Frame {
-        half_sigma: Column::<f32>::ZERO,
-        psi: [Column::<f32>::ZERO; 2],
-        across: [Column::<f32>::ZERO; 2],
-        along: Column::<f32>::ZERO,
+        half_sigma: Column::<f32, B>::ZERO,
+        psi: [Column::<f32, B>::ZERO; 2],
+        across: [Column::<f32, B>::ZERO; 2],
+        along: Column::<f32, B>::ZERO,
     };
 }
 
 /// Fills the frame of queries `0..n` of a block, and sets all bits of `valid` for those whose directions are finite and
 /// above the horizon. `n` is a multiple of the lanes.
 #[inline(always)]
-pub(crate) fn run<L: Lanes>(
+pub(crate) fn run<L: Lanes, const B: usize>(
     lanes: L,
     n: usize,
-    pairs: Pairs<'_>,
+    pairs: Pairs<'_, B>,
     scatter: Scatter,
     refraction: Option<&Function>,
-    frame: &mut Frame,
-    valid: &mut Column<i32>,
+    frame: &mut Frame<B>,
+    valid: &mut Column<i32, B>,
 ) {
     match (scatter, refraction) {
         (Scatter::Reflection, _) => pass(lanes, n, pairs, Mirror::<false>, frame, valid),
@@ -94,13 +94,13 @@ impl Zenith for Refracted<'_> {
 }
 
 #[inline(always)]
-fn pass<L: Lanes, Z: Zenith>(
+fn pass<L: Lanes, Z: Zenith, const B: usize>(
     lanes: L,
     n: usize,
-    Pairs { wi, wo }: Pairs<'_>,
+    Pairs { wi, wo }: Pairs<'_, B>,
     zenith: Z,
-    frame: &mut Frame,
-    valid: &mut Column<i32>,
+    frame: &mut Frame<B>,
+    valid: &mut Column<i32, B>,
 ) {
     let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
     let mut query = 0;

@@ -31,14 +31,14 @@ pub(crate) enum Azimuths {
 /// Fills `theta_i`, `phi_i` (only for [`Azimuths::Both`]), `theta_o` and `phi_o`, in radians, of queries `0..n`, and
 /// sets all bits of `valid` for those that have a value. `n` is a multiple of the lanes.
 #[inline(always)]
-pub(crate) fn run<L: Lanes>(
+pub(crate) fn run<L: Lanes, const B: usize>(
     lanes: L,
     n: usize,
-    pairs: Pairs<'_>,
+    pairs: Pairs<'_, B>,
     sides: Sides,
     azimuths: Azimuths,
-    angles: &mut [Column; 4],
-    valid: &mut Column<i32>,
+    angles: &mut [Column<f32, B>; 4],
+    valid: &mut Column<i32, B>,
 ) {
     match azimuths {
         Azimuths::Both => pass(lanes, n, pairs, sides, Both, angles, valid),
@@ -131,14 +131,14 @@ impl LookUp for Unsigned {
 }
 
 #[inline(always)]
-fn pass<L: Lanes, K: LookUp>(
+fn pass<L: Lanes, K: LookUp, const B: usize>(
     lanes: L,
     n: usize,
-    Pairs { wi, wo }: Pairs<'_>,
+    Pairs { wi, wo }: Pairs<'_, B>,
     sides: Sides,
     look_up: K,
-    angles: &mut [Column; 4],
-    valid: &mut Column<i32>,
+    angles: &mut [Column<f32, B>; 4],
+    valid: &mut Column<i32, B>,
 ) {
     let zero = lanes.splat(0.0);
     let [theta_i, phi_i, theta_o, phi_o] = angles;

@@ -1,7 +1,7 @@
 //! [`Data`] made ready to be evaluated in SIMD lanes.
 
 use lobe_backend::Backend;
-use lobe_lane::{Kernel, Lanes};
+use lobe_lane::{Kernel, Lanes, MAX_LANES};
 
 use super::coordinates::{self, Azimuths, Sides};
 use super::data::{AXIS_NAMES, Data};
@@ -106,7 +106,7 @@ impl Table {
     pub fn eval_lanes<L: Lanes>(&self, lanes: L, wi: [L::F; 3], wo: [L::F; 3], mask: L::M, out: &mut [L::F]) {
         assert_eq!(out.len(), self.channel_count(), "one output per channel");
         let pairs = LanePairs::new(lanes, wi, wo, mask);
-        let mut scratch = Scratch::ZERO;
+        let mut scratch = Scratch::<MAX_LANES>::ZERO;
         self.angles(lanes, L::LANES, pairs.block(), &mut scratch);
         self.grid.find(lanes, L::LANES, &mut scratch);
         self.grid.blend_lanes(lanes, &mut scratch, out);
@@ -114,7 +114,7 @@ impl Table {
 
     /// From the directions of queries `0..n` to their angles.
     #[inline(always)]
-    fn angles<L: Lanes>(&self, lanes: L, n: usize, pairs: Pairs<'_>, scratch: &mut Scratch) {
+    fn angles<L: Lanes, const B: usize>(&self, lanes: L, n: usize, pairs: Pairs<'_, B>, scratch: &mut Scratch<B>) {
         let sides = match self.scatter {
             Scatter::Reflection => Sides::Same,
             Scatter::Transmission => Sides::Opposite,

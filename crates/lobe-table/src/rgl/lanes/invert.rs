@@ -111,7 +111,7 @@ pub(super) fn run<L: Lanes, const SLICES: usize>(
     Inverse { s, density }: Inverse<'_>,
 ) {
     let (cells, row_blocks) = (warp.cells(), warp.rows());
-    let mut row_bases = Column::<i32>::ZERO;
+    let mut row_bases: Column<i32> = Column::<i32>::ZERO;
     let placer = warp.grid.placer(lanes);
     let ends = warp.ends();
     let scale = lanes.splat(warp.scale);

@@ -38,7 +38,7 @@ impl Scratch {
         places: Places::ZERO,
         density: Column::<f32>::ZERO,
         weights: [Column::<f32>::ZERO; MAX_CORNERS],
-        tile: [0.0; 3 * BLOCK + 1],
+        tile: [[0.0; BLOCK]; 4],
     };
 }
 

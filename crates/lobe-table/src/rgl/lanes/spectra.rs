@@ -83,9 +83,9 @@ impl Spectra {
         let block = Block::new(self.texels.as_slice(), first::<FEW_CORNERS, MAX_CORNERS>(&self.offsets));
         texels::rgb(lanes, n, &block, Located { base, weights }, x, self.floor, tile);
         if self.channels == FEW {
-            out.copy_from_slice(&tile[..out.len()]);
+            out.copy_from_slice(&tile.as_flattened()[..out.len()]);
         } else {
-            for (texel, three) in out.chunks_exact_mut(self.channels).zip(tile.chunks_exact(FEW)) {
+            for (texel, three) in out.chunks_exact_mut(self.channels).zip(tile.as_flattened().chunks_exact(FEW)) {
                 texel.copy_from_slice(&three[..texel.len()]);
             }
         }
