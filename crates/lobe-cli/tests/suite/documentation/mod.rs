@@ -19,6 +19,7 @@ use std::sync::OnceLock;
 use std::thread;
 
 use commands::{Block, blocks, examples, spans, subcommands};
+use rayon::prelude::*;
 use scratch::Scratch;
 
 /// The documents with commands.
@@ -144,19 +145,19 @@ fn commands_in_sentences_name_what_is_there() {
 fn every_example_of_a_help_text_runs() {
     let scratch = Scratch::new();
     scratch.examples();
-    let mut count = 0;
-    let mut failures = Vec::new();
-    for (command, text) in help_texts() {
-        for example in examples(text) {
-            count += 1;
-            // What one example writes is no input of another.
-            let own = scratch.copy();
-            own.without_output(&example);
-            failures.extend(run(&own, &example).err().map(|error| format!("{command} --help: {error}")));
-        }
-    }
+    let all: Vec<(&String, String)> = help_texts()
+        .iter()
+        .flat_map(|(command, text)| examples(text).into_iter().map(move |example| (command, example)))
+        .collect();
+    let run_example = |(command, example): &(&String, String)| {
+        // One example does not read what another writes.
+        let own = scratch.copy();
+        own.without_output(example);
+        run(&own, example).err().map(|error| format!("{command} --help: {error}"))
+    };
+    let failures: Vec<String> = all.par_iter().filter_map(run_example).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
-    assert!(count > 40, "{count} examples");
+    assert!(all.len() > 40, "{} examples", all.len());
 }
 
 #[test]
