@@ -5,15 +5,18 @@
 //! with the light at azimuth 0, and `f` in 1/sr: `R,G,B`, or `X,Y,Z`, or columns such as `400nm`, or one of any name.
 //! Whether it is reflection or transmission the file does not say.
 
+mod write;
+
 use std::path::Path;
 
-use lobe_table::{Channels, Scatter, scattered};
+use lobe_table::{Channels, Scatter, scattered, specular};
 
 use crate::columns::channels;
 use crate::facts::{Facts, named};
 use crate::lines::{Line, lines, shown};
+use crate::listed::is_listed;
 use crate::records::Records;
-use crate::spec::FormatSpec;
+use crate::spec::{FormatSpec, Writer, reflection};
 use crate::{Document, FormatError, Place};
 
 /// This format in the registry.
@@ -24,7 +27,16 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     matches,
     read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?).with_facts(facts(bytes)))),
     read_set: None,
-    writer: None,
+    writer: Some(Writer {
+        extensions: &[],
+        holds_channels: |channels| !matches!(channels, Channels::Named(_)),
+        channels: "one channel, R G B, X Y Z or wavelengths",
+        holds: is_listed,
+        holds_sheets: false,
+        scatter: reflection,
+        resampled_as: Ok(specular::KIND),
+        write: write::write,
+    }),
 };
 
 /// `true` if the lines at the start have `NUM_POINTS` and `VARS`.

@@ -6,15 +6,18 @@
 //! `type bsdf_data` and a `format` line; an RPC file starts with comments (`!!`) and holds one incident direction of a
 //! transmitting sheet, so that a material is a set of files.
 
+mod write;
+
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
-use lobe_table::{Channels, Scatter, scattered};
+use lobe_table::{Channels, Scatter, scattered, specular};
 
 use crate::facts::{Facts, comments, named};
 use crate::lines::{Line, lines, shown};
+use crate::listed::is_listed;
 use crate::records::Records;
-use crate::spec::FormatSpec;
+use crate::spec::{FormatSpec, Writer, reflection};
 use crate::{Document, FormatError, Place};
 
 /// This format in the registry.
@@ -25,7 +28,16 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     matches,
     read: Some(|bytes, path, _| Ok(Document::new(read(bytes, path)?).with_facts(facts(bytes)))),
     read_set: None,
-    writer: None,
+    writer: Some(Writer {
+        extensions: &[],
+        holds_channels: |channels| matches!(channels, Channels::Mono),
+        channels: "one channel",
+        holds: is_listed,
+        holds_sheets: false,
+        scatter: reflection,
+        resampled_as: Ok(specular::KIND),
+        write: write::write,
+    }),
 };
 
 /// This format in the registry.

@@ -39,6 +39,7 @@ pub mod goniometer;
 pub mod integra;
 pub mod light_tools;
 mod lines;
+mod listed;
 pub mod lumos;
 #[cfg(feature = "spherical")]
 pub mod mbsdf;
@@ -87,5 +88,5 @@ pub use plain::text as plain_text;
 pub use reading::ReadOptions;
 pub use registry::{Format, sniff};
 pub use sheet::Sides;
-pub use spec::{FormatSpec, Read, ReadSet, Writer};
+pub use spec::{FormatSpec, RESAMPLED, Read, ReadSet, Writer};
 pub use text::nine_digits;

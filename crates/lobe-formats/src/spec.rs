@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use lobe_table::{Channels, Kind, Scatter};
 
+use lobe_files::write_whole;
+
 use crate::{Document, FormatError, Place, ReadOptions};
 
 /// A file format: how it is recognised, read and written.
@@ -70,4 +72,27 @@ pub(crate) fn unfit(document: &Document, path: &Path, expected: &'static str) ->
         None => "several measurements of a sheet",
     };
     FormatError::new(path, Place::File, found, expected)
+}
+
+/// The name of the fact that says how a file was resampled, and by how much it is wrong.
+pub const RESAMPLED: &str = "resampled";
+
+/// What a file should say about how it was resampled, on one line.
+pub(crate) fn resampled(document: &Document) -> Option<String> {
+    let (name, value) = document.source.iter().find(|(name, _)| name == RESAMPLED)?;
+    Some(format!("{name} {}", value.split_whitespace().collect::<Vec<_>>().join(" ")))
+}
+
+/// Writes a text, with a first line, after the mark of a comment, that says how it was resampled.
+pub(crate) fn commented(
+    mark: &str,
+    document: &Document,
+    path: &Path,
+    write: impl FnOnce(&Path) -> Result<(), FormatError>,
+) -> Result<(), FormatError> {
+    write(path)?;
+    let Some(resampled) = resampled(document) else { return Ok(()) };
+    let mut bytes = format!("{mark} {resampled}\n").into_bytes();
+    bytes.extend_from_slice(&lobe_files::read(path)?);
+    write_whole(path, &bytes)
 }

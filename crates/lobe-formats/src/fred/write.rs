@@ -1,0 +1,44 @@
+//! Writes FRED tables.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use lobe_files::write_whole;
+use lobe_table::Channels;
+
+use crate::listed::samples;
+use crate::spec::unfit;
+use crate::{Document, FormatError, Place};
+
+/// Writes `path` whole or not at all: for each incident direction, a line per sample or node above the horizon. Angles are in
+/// degrees; values come back to the bit.
+///
+/// # Errors
+/// [`FormatError`] if the file cannot be written, the document is no list of samples of a reflectance, or has several channels.
+pub(super) fn write(document: &Document, path: &Path) -> Result<(), FormatError> {
+    let (Some(samples), Some(data)) = (samples(document), document.only()) else {
+        return Err(unfit(document, path, "samples, or nodes in specular or spherical coordinates, of a reflectance"));
+    };
+    let channels = data.representation().channels();
+    if channels.count() != 1 {
+        let found = format!("the channels {}", channels.names().join(" "));
+        return Err(FormatError::new(path, Place::File, found, "one channel in this format"));
+    }
+    if let Channels::Spectral(_) = channels {
+        let found = format!("the wavelength {}", channels.names().join(" "));
+        return Err(FormatError::new(path, Place::File, found, "one channel without a wavelength in this format"));
+    }
+    let mut out = String::from("type bsdf_data\nformat angles=deg bsdf=value scale=1\n");
+    let mut incident = None;
+    for sample in samples {
+        let [theta_i, phi_i, theta_o, phi_o] = sample.angles;
+        if incident != Some([theta_i, phi_i]) {
+            // Where the light goes on to, not where it comes from.
+            let travels = (phi_i.to_degrees() + 180.0).rem_euclid(360.0);
+            let _ = writeln!(out, "{} {travels}", theta_i.to_degrees());
+            incident = Some([theta_i, phi_i]);
+        }
+        let _ = writeln!(out, "{} {} {}", theta_o.to_degrees(), phi_o.to_degrees(), sample.values[0]);
+    }
+    write_whole(path, out.as_bytes())
+}
