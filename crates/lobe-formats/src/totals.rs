@@ -41,6 +41,23 @@ pub(crate) fn scale(file: &Path, grid: &spherical::Data, totals: &[f32]) -> Resu
     scaled.and_then(|scaled| if grid.is_mirrored() { scaled.mirrored() } else { Ok(scaled) }).map_err(invalid)
 }
 
+/// The integrals of `f cos` over the hemisphere, `[theta_i][phi_i][channel]`.
+pub(crate) fn integrals(grid: &spherical::Data) -> Vec<f64> {
+    let channels = grid.channels().count();
+    let [_, _, thetas, phis] = grid.knots();
+    let (by_theta, by_phi) = (polar(thetas), azimuthal(phis, grid.is_mirrored()));
+    let mut integrals = Vec::new();
+    for slice in grid.values().chunks_exact(by_theta.len() * by_phi.len() * channels) {
+        let mut sums = vec![0.0; channels];
+        let weights = by_theta.iter().flat_map(|theta| by_phi.iter().map(move |phi| theta * phi));
+        for (texel, weight) in slice.chunks_exact(channels).zip(weights) {
+            sums.iter_mut().zip(texel).for_each(|(sum, value)| *sum += weight * f64::from(*value));
+        }
+        integrals.extend(sums);
+    }
+    integrals
+}
+
 /// What each knot of the viewer's polar angle counts for: values are linear between knots and constant beyond them.
 fn polar(knots: &[f64]) -> Vec<f64> {
     let mut weights = vec![0.0; knots.len()];

@@ -11,7 +11,7 @@ use crate::FormatError;
 use crate::text::Text;
 
 /// Wavelengths below this, in nm, are those of a file in other units.
-const SHORTEST: f64 = 50.0;
+pub(super) const SHORTEST: f64 = 50.0;
 
 /// An angle in degrees, and the row or column of the tables that it belongs to.
 #[derive(Clone, Copy)]

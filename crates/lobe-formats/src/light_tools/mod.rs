@@ -12,12 +12,13 @@
 mod grid;
 mod head;
 mod tables;
+mod write;
 
 use std::path::Path;
 
-use lobe_table::{Data, Scatter};
+use lobe_table::{Channels, Data, Scatter, spherical};
 
-use crate::spec::FormatSpec;
+use crate::spec::{FormatSpec, Writer, either};
 use crate::text::{Text, has_words};
 use crate::{Document, FormatError, Part};
 
@@ -29,7 +30,16 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     matches,
     read: Some(|bytes, path, _| read(bytes, path)),
     read_set: None,
-    writer: None,
+    writer: Some(Writer {
+        extensions: &["bsdf"],
+        holds_channels: |channels| matches!(channels, Channels::Mono | Channels::Xyz | Channels::Spectral(_)),
+        channels: "one channel, X Y Z or wavelengths",
+        holds: |document| write::grids(document).is_some(),
+        holds_sheets: true,
+        scatter: either,
+        resampled_as: Ok(spherical::KIND),
+        write: write::write,
+    }),
 };
 
 /// `true` for a text with the words `ScatterRadial` and `AOI`.

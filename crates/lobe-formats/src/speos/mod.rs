@@ -9,15 +9,18 @@
 
 mod anisotropic;
 mod brdf;
+mod incident;
 pub mod surface;
 mod table;
+mod write;
 
 use std::path::Path;
 
-use lobe_table::scattered;
+use lobe_table::{Channels, scattered, spherical};
 
+use crate::facts::Facts;
 use crate::lines::shown;
-use crate::spec::FormatSpec;
+use crate::spec::{FormatSpec, Writer, either};
 use crate::{Document, FormatError, Sides};
 use table::Source;
 
@@ -27,9 +30,18 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "speos",
     extensions: &["brdf", "anisotropicbsdf"],
     matches,
-    read: Some(|bytes, path, _| Ok(Document::of_parts(read(bytes, path)?.into_parts()))),
+    read: Some(|bytes, path, _| Ok(Document::of_parts(read(bytes, path)?.into_parts()).with_facts(facts(bytes)))),
     read_set: None,
-    writer: None,
+    writer: Some(Writer {
+        extensions: &["brdf", "anisotropicbsdf"],
+        holds_channels: |channels| matches!(channels, Channels::Spectral(_)),
+        channels: "wavelengths, or one channel",
+        holds: write::holds,
+        holds_sheets: true,
+        scatter: either,
+        resampled_as: Ok(spherical::KIND),
+        write: write::write,
+    }),
 };
 
 /// `true` if the first line is that of one of these files.
@@ -37,6 +49,13 @@ pub fn matches(bytes: &[u8]) -> bool {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(128)]).to_ascii_lowercase();
     head.starts_with("optis - ")
         && (head.contains("brdf surface file") || head.contains("anisotropic bsdf surface file"))
+}
+
+/// The comment of a file of text.
+fn facts(bytes: &[u8]) -> Facts {
+    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
+    let comment = head.lines().nth(2).map(str::trim).filter(|comment| !comment.is_empty());
+    comment.map(|comment| ("comment".into(), comment.into())).into_iter().collect()
 }
 
 /// Reads a file of either kind. `file` only names it in errors.

@@ -113,6 +113,18 @@ impl Table {
         Ok(Table { thetas, phis, values, is_intensity })
     }
 
+    /// A table of values of the BSDF, with angles in degrees as [`read`](Self::read) finds them.
+    pub(super) fn of_bsdf(thetas: &[f64], phis: &[f64], values: Vec<f64>) -> Self {
+        let thetas = thetas.iter().map(|theta| theta.to_radians()).map(|theta| theta.min(PI - theta)).collect();
+        let phis = phis.iter().map(|phi| phi.to_radians()).collect();
+        Table { thetas, phis, values, is_intensity: false }
+    }
+
+    /// Whether all values are 0.
+    pub(super) fn is_black(&self) -> bool {
+        self.values.iter().all(|value| *value == 0.0)
+    }
+
     /// The integral of the values, with the cosine that makes an albedo of `f`, over the hemisphere: trapezoids in both
     /// angles. A table of half a turn is half of a symmetric one.
     pub(super) fn integral(&self) -> f64 {

@@ -18,4 +18,6 @@ mod tracepro;
 mod unknown;
 mod window_xml;
 mod window_xml_golden;
+mod written_grids;
+mod written_samples;
 mod zemax;

@@ -1,0 +1,162 @@
+//! Writes LightTools tables.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use lobe_files::write_whole;
+use lobe_table::{Channels, Data, Scatter, Side, spherical};
+
+use crate::angle::degrees;
+use crate::spec::{resampled, unfit};
+use crate::text::push_row;
+use crate::totals::integrals;
+use crate::{Document, FormatError, Place};
+
+/// A measurement, and the side that its light comes from.
+type Measured<'a> = (Side, &'a spherical::Data);
+
+/// The parts, if they are grids that a file can hold, each of another side or kind of scatter. What is of no particular side
+/// is of the front.
+pub(super) fn grids(document: &Document) -> Option<Vec<Measured<'_>>> {
+    let mut grids: Vec<Measured<'_>> = Vec::new();
+    for part in &document.parts {
+        let Data::Spherical(grid) = &part.data else { return None };
+        let side = part.side.unwrap_or(Side::Front);
+        if grids.iter().any(|(other, held)| *other == side && held.scatter() == grid.scatter()) {
+            return None;
+        }
+        grids.push((side, grid));
+    }
+    let first = grids.first()?.1;
+    let is_alike = |grid: &spherical::Data| {
+        let [[.., theta, phi], [.., first_theta, first_phi]] = [grid, first].map(spherical::Data::knots);
+        (theta, phi) == (first_theta, first_phi)
+            && grid.is_mirrored() == first.is_mirrored()
+            && grid.channels() == first.channels()
+    };
+    grids.iter().all(|(_, grid)| is_alike(grid)).then_some(grids)
+}
+
+/// A column of the tables: its azimuth in the file, in degrees, and its place in the grid.
+struct Column {
+    azimuth: f64,
+    index: usize,
+}
+
+/// Writes `path` whole or not at all. Values come back to the bit, angles to a billionth of a degree. The total integrated
+/// scatter of each table is the integral of its interpolated values.
+///
+/// # Errors
+/// [`FormatError`] if the file cannot be written; if the parts are no grids of the same outgoing directions and channels, the
+/// channels are neither one, X Y Z nor wavelengths of 50 nm and more, or half a turn is without a value.
+pub(super) fn write(document: &Document, path: &Path) -> Result<(), FormatError> {
+    let refuse = |found: String, expected: &str| Err(FormatError::new(path, Place::File, found, expected));
+    let Some(grids) = grids(document) else {
+        return Err(unfit(document, path, "grids of spherical coordinates, all with the same outgoing directions"));
+    };
+    let first = grids[0].1;
+    let content = match first.channels() {
+        Channels::Mono => "Monochrome",
+        Channels::Spectral(nm) if nm.iter().all(|nm| *nm >= super::grid::SHORTEST) => "Monochrome",
+        Channels::Xyz => "XYZ",
+        other => {
+            let expected = "one channel, X Y Z, or wavelengths of 50 nm and more in this format";
+            return refuse(format!("the channels {}", other.names().join(" ")), expected);
+        }
+    };
+    let columns = columns(&grids, path)?;
+    let mut out = String::new();
+    if let Some(resampled) = resampled(document) {
+        let _ = writeln!(out, "# {resampled}");
+    }
+    let symmetry = if first.is_mirrored() { "PlaneSymmetrical" } else { "Asymmetric" };
+    let _ = writeln!(out, "Symmetry {symmetry}\nSpectralContent {content}");
+    let _ = writeln!(out, "ScatterAzimuth {}", columns.len());
+    push_degrees(&mut out, columns.iter().map(|column| column.azimuth));
+    let radials = &first.knots()[2];
+    let _ = writeln!(out, "ScatterRadial {}", radials.len());
+    push_degrees(&mut out, radials.iter().map(|theta| degrees(*theta)));
+    out.push_str("DataBegin\n");
+    for (side, grid) in grids {
+        tables(&mut out, document, side, grid, &columns);
+    }
+    out.push_str("DataEnd\n");
+    write_whole(path, out.as_bytes())
+}
+
+fn push_degrees(out: &mut String, angles: impl Iterator<Item = f64>) {
+    angles.for_each(|angle| {
+        let _ = write!(out, " {angle}");
+    });
+    out.push('\n');
+}
+
+/// The columns by ascending azimuth in the file, where the light at POI 0 is at 90 degrees.
+fn columns(grids: &[Measured<'_>], path: &Path) -> Result<Vec<Column>, FormatError> {
+    const SAME: f64 = 1e-4;
+    let first = grids[0].1;
+    let knots: Vec<f64> = first.knots()[3].iter().map(|phi| degrees(*phi)).collect();
+    let refuse = |found: String, expected: &str| Err(FormatError::new(path, Place::File, found, expected));
+    let mut kept = knots.len();
+    if !first.is_mirrored() && kept > 1 && knots[kept - 1] - knots[0] > 360.0 - SAME {
+        if !grids.iter().all(|(_, grid)| is_closed(grid)) {
+            return refuse("two values at the ends of a whole turn".into(), "the same value at both in this format");
+        }
+        kept -= 1;
+    }
+    let knots = &knots[..kept];
+    let nexts = knots.iter().skip(1).copied().chain([knots[0] + 360.0]);
+    if !first.is_mirrored() && kept > 1 && knots.iter().zip(nexts).any(|(knot, next)| next - knot >= 180.0 - SAME) {
+        return refuse(format!("azimuths {knots:?}"), "no half turn without a value in this format");
+    }
+    let azimuth = |phi: f64| degrees((phi + 90.0).rem_euclid(360.0).to_radians());
+    let mut columns: Vec<Column> =
+        knots.iter().enumerate().map(|(index, phi)| Column { azimuth: azimuth(*phi), index }).collect();
+    columns.sort_by(|a, b| a.azimuth.total_cmp(&b.azimuth));
+    Ok(columns)
+}
+
+/// Whether the first and the last azimuth have the same values.
+fn is_closed(grid: &spherical::Data) -> bool {
+    let phis = grid.knots()[3].len();
+    let mut rows = grid.values().chunks_exact(phis * grid.channels().count());
+    let count = grid.channels().count();
+    rows.all(|row| row[..count] == row[(phis - 1) * count..])
+}
+
+/// A table for each incident direction and channel.
+fn tables(out: &mut String, document: &Document, side: Side, grid: &spherical::Data, columns: &[Column]) {
+    let [aois, pois, radials, phis] = grid.knots();
+    let side = if side == Side::Front { "Front" } else { "Back" };
+    let scatter = if grid.scatter() == Scatter::Reflection { "BRDF" } else { "BTDF" };
+    let stated = document.source.iter().find(|(name, _)| name == "Wavelength").map(|(_, value)| value.as_str());
+    let states: Vec<String> = match grid.channels() {
+        Channels::Spectral(nm) => nm.iter().map(|nm| format!("Wavelength {nm}")).collect(),
+        Channels::Xyz => ["TrisX", "TrisY", "TrisZ"].map(|name| format!("TristimulusValue {name}")).into(),
+        _ => vec![stated.filter(|nm| is_wavelength(nm)).map_or(String::new(), |nm| format!("Wavelength {nm}"))],
+    };
+    let totals = integrals(grid);
+    let count = states.len();
+    let slices = aois.iter().flat_map(|aoi| pois.iter().map(move |poi| (*aoi, *poi)));
+    for (slice, (aoi, poi)) in slices.enumerate() {
+        let _ = writeln!(out, "AOI {}\nPOI {}\nSide {side}\nScatterType {scatter}", degrees(aoi), degrees(poi));
+        for (channel, state) in states.iter().enumerate() {
+            if !state.is_empty() {
+                let _ = writeln!(out, "{state}");
+            }
+            out.push_str("TIS");
+            push_row(out, std::iter::once(totals[slice * count + channel]));
+            for column in columns {
+                let node = |row: usize| (slice * radials.len() + row) * phis.len() + column.index;
+                let value = |row: usize| f64::from(grid.values()[node(row) * count + channel]);
+                push_row(out, (0..radials.len()).map(value));
+            }
+        }
+    }
+}
+
+/// Whether a fact is a wavelength that the format can state.
+fn is_wavelength(fact: &str) -> bool {
+    let number = fact.strip_suffix("nm").unwrap_or(fact).trim().parse::<f64>();
+    number.is_ok_and(|nm| nm.is_finite() && nm > 0.0)
+}
