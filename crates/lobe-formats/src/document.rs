@@ -27,6 +27,9 @@ pub struct Document {
     pub notes: Vec<String>,
     /// What may be wrong with that.
     pub doubts: Vec<String>,
+    /// What a file says besides its values, as it stands there, for a writer of the same format to put it back: the name of
+    /// each piece, and its text.
+    pub kept: Vec<(&'static str, String)>,
 }
 
 /// One measurement of a document.
@@ -62,6 +65,7 @@ impl Document {
             tis: Vec::new(),
             notes: Vec::new(),
             doubts: Vec::new(),
+            kept: Vec::new(),
         }
     }
 

@@ -18,7 +18,7 @@ use quick_xml::events::Event;
 use super::basis::BasisReader;
 use super::tree;
 use super::words::{number, numbers, quoted};
-use crate::{FormatError, Measured, Place};
+use crate::{FormatError, Measured, Place, RESAMPLED};
 
 /// Text of a file: UTF-8, or UTF-16 with a byte order mark. Bytes that are neither can only be in names.
 pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
@@ -76,10 +76,24 @@ pub(super) struct Document<'a> {
     first_block: usize,
     /// The position of each band, by its name in lower case.
     bands: HashMap<String, usize>,
+    /// The elements of [`KEPT`] as they stand in the file.
+    kept: Vec<(&'static str, String)>,
+    /// How the file was resampled, if a comment says so.
+    resampled: Option<String>,
+}
+
+/// The elements of a layer that are not read, but kept: with the sizes of the sheet, what it is made of, its thermal
+/// properties, and its shape.
+const KEPT: [&str; 2] = ["Material", "Geometry"];
+
+/// What a file says: its values, and the elements that are kept.
+pub(super) struct Parsed {
+    pub measured: Measured<Data>,
+    pub kept: Vec<(&'static str, String)>,
 }
 
 impl<'a> Document<'a> {
-    pub(super) fn parse(text: &'a str, file: &'a Path) -> Result<Measured<Data>, FormatError> {
+    pub(super) fn parse(text: &'a str, file: &'a Path) -> Result<Parsed, FormatError> {
         let mut document = Document {
             text,
             file,
@@ -93,6 +107,8 @@ impl<'a> Document<'a> {
             blocks: Vec::new(),
             first_block: 0,
             bands: HashMap::new(),
+            kept: Vec::new(),
+            resampled: None,
         };
         document.walk()?;
         for block in std::mem::take(&mut document.blocks) {
@@ -101,10 +117,12 @@ impl<'a> Document<'a> {
         if document.data.bands.is_empty() {
             return Err(FormatError::new(file, Place::File, "no WavelengthData with values", "at least one block"));
         }
-        let source = [("name", document.name), ("manufacturer", document.manufacturer)];
+        let resampled = document.resampled.unwrap_or_default();
+        let source = [("name", document.name), ("manufacturer", document.manufacturer), (RESAMPLED, resampled)];
         let stated = source.into_iter().filter(|(_, value)| !value.is_empty());
         let source = stated.map(|(name, value)| (name.into(), value)).collect();
-        Ok(Measured { data: document.data, source, tis: Vec::new() })
+        let measured = Measured { data: document.data, source, tis: Vec::new() };
+        Ok(Parsed { measured, kept: document.kept })
     }
 
     fn error(&self, at: usize, found: impl Into<String>, expected: impl Into<String>) -> FormatError {
@@ -121,6 +139,8 @@ impl<'a> Document<'a> {
         reader.config_mut().expand_empty_elements = true;
         let (mut content, mut start) = (Cow::Borrowed(""), skipped);
         let (mut depth, mut has_root) = (0_usize, false);
+        // The element that is being kept: its name, its depth, and where it starts.
+        let mut kept: Option<(&'static str, usize, usize)> = None;
         loop {
             let at = skipped + reader.buffer_position() as usize;
             let event = reader.read_event().map_err(|error| {
@@ -133,11 +153,18 @@ impl<'a> Document<'a> {
                     }
                     has_root = true;
                     depth += 1;
+                    let name = KEPT.into_iter().find(|name| *name == tag.local_name().as_ref());
+                    if let (Some(name), None, false) = (name, kept, self.is_in_block) {
+                        kept = Some((name, depth, at));
+                    }
                     self.open(tag.local_name().as_ref(), at);
                     (content, start) = (Cow::Borrowed(""), skipped + reader.buffer_position() as usize);
                 }
                 Event::End(tag) => {
                     self.close(tag.local_name().as_ref(), std::mem::take(&mut content), start)?;
+                    if let Some((name, _, from)) = kept.take_if(|(_, of, _)| *of == depth) {
+                        self.keep_element(name, &text[from..skipped + reader.buffer_position() as usize]);
+                    }
                     depth -= 1;
                     if depth == 0 {
                         return Ok(());
@@ -158,8 +185,24 @@ impl<'a> Document<'a> {
                 }
                 Event::Eof => return Err(self.error(self.text.len(), "the end of the file", "</WindowElement>")),
                 // An empty element comes as a start and an end.
-                Event::Empty(_) | Event::Comment(_) | Event::Decl(_) | Event::PI(_) | Event::DocType(_) => {}
+                Event::Comment(comment) => self.comment(comment.into_inner().trim()),
+                Event::Empty(_) | Event::Decl(_) | Event::PI(_) | Event::DocType(_) => {}
             }
+        }
+    }
+
+    /// Keeps the comment that says how the file was resampled.
+    fn comment(&mut self, comment: &str) {
+        if let (Some(said), None) = (comment.strip_prefix(RESAMPLED), &self.resampled) {
+            self.resampled = Some(said.trim().into());
+        }
+    }
+
+    /// Keeps an element, the first of its name. A prefix would lose the declaration of its name space.
+    fn keep_element(&mut self, name: &'static str, element: &str) {
+        let is_first = self.kept.iter().all(|(kept, _)| *kept != name);
+        if is_first && element.starts_with(&format!("<{name}")) {
+            self.kept.push((name, element.into()));
         }
     }
 

@@ -16,7 +16,7 @@ use lobe_table::window::{self, klems};
 use lobe_table::{Channels, Data};
 
 use crate::spec::{FormatSpec, Writer, either, unfit};
-use crate::{FormatError, Measured};
+use crate::{Document, FormatError, Measured};
 
 pub use write::write;
 
@@ -26,7 +26,10 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "klems",
     extensions: &["xml"],
     matches,
-    read: Some(|bytes, path, _| Ok(read(bytes, path)?.into())),
+    read: Some(|bytes, path, _| {
+        let parsed = document::Document::parse(&document::decode(bytes), path)?;
+        Ok(Document { kept: parsed.kept, ..parsed.measured.into() })
+    }),
     read_set: None,
     writer: Some(Writer {
         extensions: &["xml"],
@@ -37,7 +40,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         scatter: either,
         resampled_as: Ok(klems::KIND),
         write: |document, path| match document.only() {
-            Some(Data::Window(data)) => write(data, &document.source, path),
+            Some(Data::Window(data)) => write::write_with(data, &document.source, &document.kept, path),
             _ => Err(unfit(document, path, "Klems matrices or tensor trees")),
         },
     }),
@@ -55,5 +58,5 @@ pub fn matches(bytes: &[u8]) -> bool {
 /// [`FormatError`] with the line: XML that is not well-formed or cut off, an unknown basis or direction, a count of
 /// values that does not fit the basis, braces that do not form a tree, and values that are not finite numbers.
 pub fn read(bytes: &[u8], file: &Path) -> Result<Measured<window::Data>, FormatError> {
-    document::Document::parse(&document::decode(bytes), file)
+    Ok(document::Document::parse(&document::decode(bytes), file)?.measured)
 }

@@ -8,7 +8,7 @@ use lobe_table::window::tensor_tree::{Node, Rank, TensorTree};
 use lobe_table::window::{Block, Component, Data};
 use quick_xml::escape::escape;
 
-use crate::FormatError;
+use crate::{FormatError, RESAMPLED};
 use lobe_files::{unwritable, write_whole};
 
 /// Writes a file that [`read`](super::read) gives back exactly: every basis is spelled out, and values have as many
@@ -18,12 +18,28 @@ use lobe_files::{unwritable, write_whole};
 /// [`FormatError`] if the file system refuses, and if there is no block, or matrices and trees, or trees of both ranks,
 /// are mixed, which a file cannot say.
 pub fn write(sheet: &Data, source: &[(String, String)], path: &Path) -> Result<(), FormatError> {
-    write_whole(path, &to_bytes(sheet, source).map_err(|error| unwritable(path, &error))?)
+    write_with(sheet, source, &[], path)
 }
 
-fn to_bytes(sheet: &Data, source: &[(String, String)]) -> io::Result<Vec<u8>> {
+/// What was kept of a file, by the names of the elements.
+type Kept = [(&'static str, String)];
+
+/// As [`write()`], with the elements that were kept of another file: its material and its geometry.
+///
+/// # Errors
+/// As [`write()`].
+pub(super) fn write_with(
+    sheet: &Data,
+    source: &[(String, String)],
+    kept: &Kept,
+    path: &Path,
+) -> Result<(), FormatError> {
+    write_whole(path, &to_bytes(sheet, source, kept).map_err(|error| unwritable(path, &error))?)
+}
+
+fn to_bytes(sheet: &Data, source: &[(String, String)], kept: &Kept) -> io::Result<Vec<u8>> {
     let mut out = Vec::new();
-    document(&mut out, sheet, source, structure(sheet)?)?;
+    document(&mut out, sheet, source, kept, structure(sheet)?)?;
     Ok(out)
 }
 
@@ -46,8 +62,18 @@ fn structure(sheet: &Data) -> io::Result<&'static str> {
     }
 }
 
-fn document(out: &mut dyn Write, sheet: &Data, source: &[(String, String)], structure: &str) -> io::Result<()> {
+fn document(
+    out: &mut dyn Write,
+    sheet: &Data,
+    source: &[(String, String)],
+    kept: &Kept,
+    structure: &str,
+) -> io::Result<()> {
     writeln!(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>")?;
+    if let Some((name, value)) = source.iter().find(|(name, _)| name == RESAMPLED) {
+        // Two hyphens would end the comment.
+        writeln!(out, "<!-- {name} {} -->", value.replace("--", "- -"))?;
+    }
     writeln!(out, "<WindowElement xmlns=\"http://windows.lbl.gov\">")?;
     writeln!(out, "<WindowElementType>System</WindowElementType>\n<FileType>BSDF</FileType>\n<Optical>\n<Layer>")?;
     let fact = |wanted: &str| {
@@ -55,7 +81,14 @@ fn document(out: &mut dyn Write, sheet: &Data, source: &[(String, String)], stru
         escape(found.map_or("", |(_, value)| value.as_str()))
     };
     let (name, manufacturer) = (fact("name"), fact("manufacturer"));
-    writeln!(out, "<Material><Name>{name}</Name><Manufacturer>{manufacturer}</Manufacturer></Material>")?;
+    let element = |wanted: &str| kept.iter().find(|(name, _)| *name == wanted).map(|(_, element)| element);
+    match element("Material") {
+        Some(element) => writeln!(out, "{element}")?,
+        None => writeln!(out, "<Material><Name>{name}</Name><Manufacturer>{manufacturer}</Manufacturer></Material>")?,
+    }
+    if let Some(element) = element("Geometry") {
+        writeln!(out, "{element}")?;
+    }
     writeln!(out, "<DataDefinition>\n<IncidentDataStructure>{structure}</IncidentDataStructure>")?;
     bases(out, sheet)?;
     writeln!(out, "</DataDefinition>")?;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lobe_formats::{FormatError, Measured, Place, window_xml};
+use lobe_formats::{Format, FormatError, Measured, Place, window_xml};
 use lobe_table::window::klems::{AngleBasis, KlemsMatrix};
 use lobe_table::window::{self, Band, Block, Component, Data};
 use lobe_testing::examples::{NINE, TREE, sheet};
@@ -168,4 +168,30 @@ fn matrices_of_every_basis_survive_a_round_trip() {
     let empty = window_xml::write(&Data::default(), &[], &folder.path().join("empty.xml"));
     assert!(empty.unwrap_err().to_string().contains("no block of values to write; expected a material that fits"));
     assert_eq!(folder.path().read_dir().expect("the folder").count(), 1, "one file and nothing half-written");
+}
+
+/// The material and the geometry of a sheet are put back as they were, to the character.
+#[test]
+fn material_and_geometry_are_kept() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (first, second) = (folder.path().join("first.xml"), folder.path().join("second.xml"));
+    let material = "<Material>\n\t<Name>Awning &amp; Co</Name><Manufacturer>M</Manufacturer>\n\
+                    <Thickness unit=\"Millimeter\">1.25</Thickness><DeviceType>Awning</DeviceType>\n\
+                    <EmissivityFront>0.8</EmissivityFront></Material>";
+    let geometry = "<Geometry format=\"MGF\"><MGFblock unit=\"meter\">\nxf -t 0 0 0\no plane\n</MGFblock></Geometry>";
+    let own = "<Material><Name>a &amp; b</Name></Material>";
+    let text = sheet("Columns", NINE).replacen(own, &format!("{material}{geometry}"), 1);
+    assert!(text.contains(geometry), "{text}");
+    std::fs::write(&first, &text).expect("written");
+    let (_, mut document) = lobe_formats::open(&first).expect("a file");
+    document.source.push((lobe_formats::RESAMPLED.into(), "from a -- file".into()));
+    let writer = Format::WindowXml.writer().expect("a writer");
+    (writer.write)(&document, &second).expect("written");
+    let written = std::fs::read_to_string(&second).expect("the file");
+    assert!(written.contains(material) && written.contains(geometry), "{written}");
+    assert_eq!(written.matches("<Material>").count(), 1);
+    let (_, back) = lobe_formats::open(&second).expect("a file");
+    assert_eq!(back.kept, document.kept);
+    let fact = |name: &str| back.source.iter().find(|(key, _)| key == name).map(|(_, value)| value.as_str());
+    assert_eq!((fact("name"), fact("resampled")), (Some("Awning & Co"), Some("from a - - file")));
 }
