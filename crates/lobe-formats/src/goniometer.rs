@@ -46,7 +46,7 @@ pub use crate::angle::{Angle, Unit};
 pub use write::write;
 
 use crate::reading::ReadOptions;
-use crate::spec::{FormatSpec, Writer, either, unfit};
+use crate::spec::{FormatSpec, Writer, commented, either, unfit};
 use crate::text::has_words;
 use crate::{Document, FormatError, Place, plain};
 
@@ -67,7 +67,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         scatter: either,
         resampled_as: Ok(specular::KIND),
         write: |document, path| match document.only() {
-            Some(data) => write(data, path),
+            Some(data) => commented("#", document, path, |path| write(data, path)),
             None => Err(unfit(document, path, "one measurement")),
         },
     }),

@@ -12,10 +12,10 @@
 use crate::Document;
 use crate::Sides;
 use crate::bytes::Cursor;
-use crate::spec::{FormatSpec, Writer, either, unfit};
+use crate::spec::{FormatSpec, Writer, either, resampled, unfit};
 use lobe_files::FormatError;
 use lobe_files::{unwritable, write_whole};
-use lobe_table::{Channels, Data, Scatter, spherical};
+use lobe_table::{Channels, Data, Kind, Scatter, spherical};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::io;
 use std::path::Path;
@@ -35,13 +35,16 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         holds: |document| sides(document).is_some_and(|sides| to_bytes(&sides).is_ok()),
         holds_sheets: true,
         scatter: either,
-        resampled_as: Err("grids of spherical coordinates"),
+        resampled_as: Ok(UNIFORM_HALF),
         write: |document, path| match sides(document) {
-            Some(sides) => write(&sides, path),
+            Some(sides) => write_with(&sides, resampled(document), path),
             None => Err(unfit(document, path, "one grid of spherical coordinates for each kind of scatter")),
         },
     }),
 };
+
+/// The grids of this format, one half of an isotropic material with equal steps: see [`Nodes`].
+pub const UNIFORM_HALF: Kind = Kind::new("uniform half of a spherical grid");
 
 const MAGIC: &[u8] = b"NVIDIA ARC MBSDF V1\n";
 const DATA: &[u8] = b"MBSDF_DATA=\n";
@@ -214,7 +217,16 @@ pub fn to_bytes(sides: &Sides<spherical::Data>) -> io::Result<Vec<u8>> {
 /// # Errors
 /// [`FormatError`] as [`to_bytes`], and if the file system refuses.
 pub fn write(sides: &Sides<spherical::Data>, path: &Path) -> Result<(), FormatError> {
-    write_whole(path, &to_bytes(sides).map_err(|error| unwritable(path, &error))?)
+    write_with(sides, None, path)
+}
+
+/// As [`write`], with a line of metadata.
+fn write_with(sides: &Sides<spherical::Data>, metadata: Option<String>, path: &Path) -> Result<(), FormatError> {
+    let mut bytes = to_bytes(sides).map_err(|error| unwritable(path, &error))?;
+    if let Some(metadata) = metadata {
+        bytes.splice(MAGIC.len()..MAGIC.len(), format!("{metadata}\n").into_bytes());
+    }
+    write_whole(path, &bytes)
 }
 
 /// The grids of a document, if it has at most one for each kind of scatter and does not tell sides apart.

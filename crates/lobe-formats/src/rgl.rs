@@ -5,9 +5,9 @@
 //! with `spectra [P, T, L, H, W]`, all 32-bit floats, and `description`, `jacobian` and, if there is one, `valid` in
 //! bytes. Their order is free. Other fields are passed over: [`tensor::read`] has them.
 
-use crate::Document;
-use crate::spec::{FormatSpec, Writer, reflection, unfit};
+use crate::spec::{FormatSpec, Writer, reflection, resampled, unfit};
 use crate::tensor::{self, DType, Field, TensorFile};
+use crate::{Document, Place};
 use lobe_files::FormatError;
 use lobe_files::{unwritable, write_whole};
 use lobe_table::rgl::{self, Images, Parts};
@@ -36,7 +36,15 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         scatter: reflection,
         resampled_as: Ok(rgl::KIND),
         write: |document, path| match document.only() {
-            Some(Data::Rgl(data)) => write(data, path),
+            Some(Data::Rgl(data)) => match resampled(document) {
+                Some(description) => {
+                    let described = rgl::Data::new(Parts { description, ..data.clone().into_parts() });
+                    let described =
+                        described.map_err(|error| FormatError::new(path, Place::File, error.found, error.expected))?;
+                    write(&described, path)
+                }
+                None => write(data, path),
+            },
             _ => Err(unfit(document, path, "the parameterisation of the EPFL database")),
         },
     }),

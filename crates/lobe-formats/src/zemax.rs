@@ -15,7 +15,7 @@ pub use write::write;
 
 use crate::integra::grid::{Axes, Grid};
 use crate::integra::keep_comments;
-use crate::spec::{FormatSpec, Writer, either, unfit};
+use crate::spec::{FormatSpec, Writer, commented, either, unfit};
 use crate::text::{Text, Token, has_words};
 use crate::{FormatError, Measured};
 
@@ -36,7 +36,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         scatter: either,
         resampled_as: Ok(specular::KIND),
         write: |document, path| match document.only() {
-            Some(Data::Specular(data)) => write(data, path),
+            Some(Data::Specular(data)) => commented("#", document, path, |path| write(data, path)),
             _ => Err(unfit(document, path, "a table of specular coordinates")),
         },
     }),

@@ -16,7 +16,7 @@ use super::common::{
 };
 use super::grid::{Axes, Grid, LIMITS, from_samples, read_angle};
 use super::units::{divide_by_cosine, scale_slices};
-use crate::spec::{FormatSpec, Writer, unfit};
+use crate::spec::{FormatSpec, Writer, commented, unfit};
 use crate::text::{Text, Token, has_words, push_row};
 use crate::{FormatError, Measured, Place};
 use lobe_files::write_whole;
@@ -38,7 +38,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         scatter: |path| Some(scatter_of_extension(path)),
         resampled_as: Ok(specular::KIND),
         write: |document, path| match document.only() {
-            Some(Data::Specular(data)) => write(data, path),
+            Some(Data::Specular(data)) => commented(COMMENT, document, path, |path| write(data, path)),
             _ => Err(unfit(document, path, "a table of specular coordinates")),
         },
     }),

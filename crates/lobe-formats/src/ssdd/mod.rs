@@ -13,7 +13,7 @@ pub use write::{Encoding, write};
 use lobe_table::{Channels, Data, specular};
 
 use crate::Document;
-use crate::spec::{FormatSpec, Writer, either};
+use crate::spec::{FormatSpec, Writer, commented, either};
 
 /// This format in the registry.
 pub(crate) static FORMAT: FormatSpec = FormatSpec {
@@ -38,6 +38,6 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         holds_sheets: true,
         scatter: either,
         resampled_as: Ok(specular::KIND),
-        write: |document, path| write(&document.parts, Encoding::Ascii, path),
+        write: |document, path| commented("#", document, path, |path| write(&document.parts, Encoding::Ascii, path)),
     }),
 };
