@@ -5,6 +5,8 @@
 pub mod half_diff;
 pub mod klems;
 pub mod rgl;
+pub mod spherical;
+pub mod tensor_tree;
 
 use std::f64::consts::TAU;
 

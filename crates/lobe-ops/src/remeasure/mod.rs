@@ -2,17 +2,21 @@
 //! cannot be kept as they are.
 
 mod nodes;
+mod refine;
 mod sheet;
 mod surface;
 
 use lobe_formats::Document;
 use lobe_model::Surface;
-use lobe_model::goniometer::{half_diff, measure_surface, rgl};
+use lobe_model::goniometer::{half_diff, klems, measure_surface, rgl, spherical, tensor_tree};
+use lobe_table::window::Component;
 use lobe_table::window::klems::KlemsError;
+use lobe_table::window::tensor_tree::TreeError;
 use lobe_table::{GridError, Invalid, Scatter};
 use thiserror::Error;
 
-pub use nodes::{Nodes, Sides, knots};
+pub use nodes::{Nodes, Sides, knots, spherical_knots};
+pub use refine::{Refined, refine};
 pub use surface::{Lifted, Mapped, MaterialSurface};
 
 /// Why a surface was not measured.
@@ -28,6 +32,9 @@ pub enum RemeasureError {
     /// A mean over patches that is not finite.
     #[error(transparent)]
     Klems(#[from] KlemsError),
+    /// A value of a leaf that is not finite.
+    #[error(transparent)]
+    Tree(#[from] TreeError),
 }
 
 /// Measures a surface at nodes, as a document that a format with such nodes can hold. `progress` is called
@@ -56,7 +63,23 @@ pub fn remeasure(
         Nodes::Specular(knots) => Document::new(measure_surface(near, scatter, knots.clone(), progress)?),
         Nodes::HalfDiff(bins) => Document::new(half_diff::measure(near, *bins, progress)?),
         Nodes::Rgl(resolution) => Document::new(rgl::measure(surface, *resolution, progress)?),
-        Nodes::Klems(basis) => Document::new(sheet::measure(near, basis, sides, progress)?),
+        Nodes::Klems(basis) => {
+            let matrices = |block, progress: &(dyn Fn() + Sync)| {
+                let matrices = klems::measure(near, [basis, basis], block, progress)?;
+                Ok::<_, RemeasureError>(matrices.into_iter().map(Component::Klems).collect())
+            };
+            Document::new(sheet::measure(near.channels(), sides, &progress, matrices)?)
+        }
+        Nodes::Tree(refinement) => {
+            let trees = |block, progress: &(dyn Fn() + Sync)| {
+                let trees = tensor_tree::measure(near, *refinement, block, progress)?;
+                Ok::<_, RemeasureError>(trees.into_iter().map(Component::Tree).collect())
+            };
+            Document::new(sheet::measure(near.channels(), sides, &progress, trees)?)
+        }
+        Nodes::Spherical { knots, is_half } => {
+            Document::new(spherical::measure(near, scatter, knots.clone(), *is_half, progress)?)
+        }
     })
 }
 
@@ -65,17 +88,23 @@ mod tests {
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     use lobe::{Material, Options};
+    use lobe_formats::mbsdf::UNIFORM_HALF;
+    use lobe_model::goniometer::tensor_tree::Refinement;
     use lobe_model::{Lambert, Rgb};
     use lobe_table::window::klems::{self, AngleBasis};
-    use lobe_table::{half_diff, rgl, specular};
+    use lobe_table::window::tensor_tree::{self, Rank};
+    use lobe_table::{half_diff, rgl, specular, spherical};
 
     use super::*;
 
     #[test]
     fn a_lambertian_surface_is_one_at_all_nodes() {
         let surface = Rgb(Lambert { albedo: [0.2, 0.4, 0.6] });
-        for kind in [specular::KIND, half_diff::KIND, rgl::KIND, klems::KIND] {
-            let nodes = match Nodes::of(kind, true).expect("a kind with nodes") {
+        let tree = Nodes::Tree(Refinement { rank: Rank::Three, depth: 4, error: 0.05 });
+        let kinds = [specular::KIND, half_diff::KIND, rgl::KIND, klems::KIND, spherical::KIND, UNIFORM_HALF];
+        let nodes = kinds.map(|kind| (kind, Nodes::of(kind, true).expect("a kind with nodes")));
+        for (kind, nodes) in nodes.into_iter().chain([(tensor_tree::KIND, tree)]) {
+            let nodes = match nodes {
                 Nodes::Rgl(resolution) => Nodes::Rgl(lobe_model::goniometer::rgl::Resolution {
                     theta_i: 5,
                     ndf: 32,
@@ -85,7 +114,7 @@ mod tests {
                 }),
                 Nodes::Klems(_) => Nodes::Klems(AngleBasis::quarter()),
                 Nodes::HalfDiff(_) => Nodes::HalfDiff([9, 9, 18]),
-                nodes @ Nodes::Specular(_) => nodes,
+                nodes => nodes,
             };
             // As few nodes as here leave 3 % between those of an EPFL file, which blends the quotient of values and a density.
             let bound = if kind == rgl::KIND { 0.04 } else { 2e-3 };

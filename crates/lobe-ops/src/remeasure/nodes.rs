@@ -1,10 +1,14 @@
 //! Where a surface is measured.
 
+use lobe_formats::mbsdf::UNIFORM_HALF;
 use lobe_model::goniometer::half_diff as bins;
 use lobe_model::goniometer::rgl::Resolution;
+use lobe_model::goniometer::spherical::uniform_half;
+use lobe_model::goniometer::tensor_tree::{self, Refinement};
 use lobe_table::window::Block;
 use lobe_table::window::klems::{self, AngleBasis};
-use lobe_table::{Kind, Scatter, half_diff, rgl, specular};
+use lobe_table::window::tensor_tree::Rank;
+use lobe_table::{Kind, Scatter, half_diff, rgl, specular, spherical};
 
 /// On which sides a surface has values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +41,16 @@ pub enum Nodes {
     Rgl(Resolution),
     /// Patches of both directions.
     Klems(AngleBasis),
+    /// Leaves of trees.
+    Tree(Refinement),
+    /// Knots of `theta_i`, `phi_i`, `theta_o` and `phi_o`, in radians.
+    Spherical {
+        /// The knots.
+        knots: [Vec<f64>; 4],
+        /// Whether the other half, across the plane of incidence, is the mirror image: see
+        /// [`spherical::Data::mirrored`].
+        is_half: bool,
+    },
 }
 
 impl Nodes {
@@ -48,6 +62,10 @@ impl Nodes {
             rgl::KIND if is_isotropic => Some(Nodes::Rgl(Resolution::ISOTROPIC)),
             rgl::KIND => Some(Nodes::Rgl(Resolution::ANISOTROPIC)),
             klems::KIND => Some(Nodes::Klems(AngleBasis::full())),
+            spherical::KIND => Some(Nodes::Spherical { knots: spherical_knots(is_isotropic), is_half: false }),
+            UNIFORM_HALF if is_isotropic => {
+                Some(Nodes::Spherical { knots: uniform_half(UNIFORM[0], UNIFORM[1]), is_half: true })
+            }
             _ => None,
         }
     }
@@ -59,6 +77,8 @@ impl Nodes {
             Nodes::HalfDiff([halves, ..]) => *halves,
             Nodes::Rgl(resolution) => resolution.steps(),
             Nodes::Klems(basis) => sides.blocks().len() * basis.patches(),
+            Nodes::Tree(refinement) => sides.blocks().len() * tensor_tree::steps(*refinement),
+            Nodes::Spherical { knots: [theta, phi, ..], .. } => theta.len() * phi.len(),
         }
     }
 
@@ -69,6 +89,10 @@ impl Nodes {
             Nodes::HalfDiff(bins) => bins.to_vec(),
             Nodes::Rgl(Resolution { theta_i, phi_i, spectra, .. }) => vec![*theta_i, *phi_i, *spectra, *spectra],
             Nodes::Klems(basis) => vec![Block::ALL.len(), basis.patches(), basis.patches()],
+            // Of the radii half are in use.
+            Nodes::Tree(Refinement { rank: Rank::Three, depth, .. }) => vec![Block::ALL.len(), (1 << (3 * depth)) / 2],
+            Nodes::Tree(Refinement { depth, .. }) => vec![Block::ALL.len(), 1 << (4 * depth)],
+            Nodes::Spherical { knots, .. } => knots.iter().map(Vec::len).collect(),
         }
     }
 }
@@ -90,5 +114,19 @@ pub fn knots(is_isotropic: bool) -> [Vec<f64>; 4] {
         THETA.to_vec(),
         every_15,
     ];
+    degrees.map(|axis| axis.into_iter().map(f64::to_radians).collect())
+}
+
+/// Zenith angles and azimuths of uniform half grids that suit most materials: every degree, and every two.
+const UNIFORM: [usize; 2] = [90, 91];
+
+/// Knots of a grid in spherical coordinates that suit most materials, in radians: every 5 degrees of incidence, every 2.5
+/// of exit. Peaks lie across such grids, which need more nodes than specular ones.
+pub fn spherical_knots(is_isotropic: bool) -> [Vec<f64>; 4] {
+    let steps = |count: u32, step: f64| (0..=count).map(|index| step * f64::from(index)).collect::<Vec<f64>>();
+    let degrees = match is_isotropic {
+        true => [SIGMA.to_vec(), vec![0.0], steps(36, 2.5), steps(72, 5.0)],
+        false => [SIGMA_COARSE.to_vec(), steps(24, 15.0), steps(18, 5.0), steps(24, 15.0)],
+    };
     degrees.map(|axis| axis.into_iter().map(f64::to_radians).collect())
 }

@@ -1,21 +1,18 @@
-//! The sides of a sheet, as matrices over patches.
+//! The sides of a sheet, as matrices over patches or as trees.
 
-use lobe_model::Surface;
-use lobe_model::goniometer::klems as patches;
 use lobe_table::Channels;
-use lobe_table::window::klems::{AngleBasis, KlemsError};
-use lobe_table::window::{Band, Blocks, Component, Data};
+use lobe_table::window::{Band, Block, Blocks, Component, Data};
 
 use super::Sides;
 
-/// The blocks of a sheet that are not dark.
-pub(super) fn measure(
-    surface: &dyn Surface,
-    basis: &AngleBasis,
+/// The blocks of a sheet that are not dark, of which `measure` gives those of all channels.
+pub(super) fn measure<E>(
+    channels: &Channels,
     sides: Sides,
-    progress: impl Fn() + Sync,
-) -> Result<Data, KlemsError> {
-    let names: Vec<String> = match surface.channels() {
+    progress: &(dyn Fn() + Sync),
+    measure: impl Fn(Block, &(dyn Fn() + Sync)) -> Result<Vec<Component>, E>,
+) -> Result<Data, E> {
+    let names: Vec<String> = match channels {
         // Radiance uses X and Z in addition to Visible for colour.
         Channels::Xyz => ["CIE-X", "Visible", "CIE-Z"].map(String::from).into(),
         Channels::Mono => vec!["Visible".into()],
@@ -24,13 +21,20 @@ pub(super) fn measure(
     let mut bands: Vec<Band> =
         names.into_iter().map(|wavelength| Band { wavelength, window: Blocks::default() }).collect();
     for block in sides.blocks() {
-        let matrices = patches::measure(surface, [basis, basis], block, &progress)?;
-        if matrices.iter().all(|matrix| matrix.values().iter().all(|f| *f == 0.0)) {
+        let components = measure(block, progress)?;
+        if components.iter().all(|component| values(component).iter().all(|f| *f == 0.0)) {
             continue;
         }
-        for (band, matrix) in bands.iter_mut().zip(matrices) {
-            band.window.set(block, Component::Klems(matrix));
+        for (band, component) in bands.iter_mut().zip(components) {
+            band.window.set(block, component);
         }
     }
     Ok(Data { bands })
+}
+
+fn values(component: &Component) -> &[f32] {
+    match component {
+        Component::Klems(matrix) => matrix.values(),
+        Component::Tree(tree) => tree.values(),
+    }
 }
