@@ -1,11 +1,12 @@
 //! `lobe compare`: how far two materials are apart.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use lobe::Options;
-use lobe_ops::Subject;
+use lobe_ops::certify::{Channel, LIMIT, PAIRS};
 use lobe_ops::compare::{Difference, Visible, difference, visible};
+use lobe_ops::{OnBackend, Subject};
 use serde::Serialize;
 
 use crate::angles::{ScatterRule, SideRule, choose_aspects, progress, show_direction};
@@ -34,11 +35,14 @@ pub struct Args {
     /// Light from one side only, if the files have both.
     #[arg(long, value_enum)]
     side: Option<SideRule>,
+    /// Compare this channel of the first material with that of the same name, or the only one, of the second.
+    #[arg(long, value_name = "NAME")]
+    channel: Option<String>,
     /// The number of pairs of directions.
-    #[arg(long, default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    #[arg(long, default_value_t = PAIRS as u32, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     pairs: u32,
     /// The largest polar angle of both directions, in degrees.
-    #[arg(long, default_value_t = 85.0)]
+    #[arg(long, default_value_t = LIMIT)]
     limit: f64,
     /// The width of the spheres in pixels.
     #[arg(long, default_value_t = 128, value_parser = clap::value_parser!(u16).range(8..=4096))]
@@ -82,7 +86,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let channels = first.material.channels().count().max(second.material.channels().count());
     fits(&args.first, &[args.pairs as usize], channels + 4)?;
     let bar = progress("comparing");
-    let (a, b) = (&first.material, &second.material);
+    let picked = args.channel.as_deref().map(|name| picked(args, name, [&first, &second])).transpose()?;
+    let [a, b] = match &picked {
+        Some(channels) => channels.each_ref().map(OnBackend::from),
+        None => [&first, &second].map(|subject| OnBackend::from(&subject.material)),
+    };
     let mut answers = Vec::new();
     for (index, &aspect) in aspects.iter().enumerate() {
         let difference = difference(a, b, aspect, args.limit.to_radians(), args.pairs as usize)
@@ -110,6 +118,18 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
+}
+
+/// The channel of this name of both files.
+fn picked<'a>(args: &Args, name: &str, subjects: [&'a Subject; 2]) -> Result<[Channel<'a>; 2], Failure> {
+    let pick = |file: &Path, subject: &'a Subject| {
+        Channel::of(&subject.material, name).ok_or_else(|| {
+            let names = subject.material.channels().names().join(", ");
+            Failure::Usage(format!("{}: found no channel {name}; expected one of {names}", file.display()))
+        })
+    };
+    let [first, second] = subjects;
+    Ok([pick(&args.first, first)?, pick(&args.second, second)?])
 }
 
 impl Answer {

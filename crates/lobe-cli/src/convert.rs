@@ -1,5 +1,6 @@
 //! `lobe convert`: a measured material in another format.
 
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
@@ -7,13 +8,15 @@ use lobe::{Aspect, Data, Lookup, Material, Options, Scatter, Side};
 use lobe_files::check_output;
 use lobe_formats::{Document, Format, Part, convert};
 use lobe_ops::remeasure::{MaterialSurface, Sides};
-use lobe_table::window::klems::{self, AngleBasis};
+use lobe_table::window::klems::AngleBasis;
 use lobe_table::window::{self, Band, Block, Blocks, Component};
+use serde::Serialize;
 
+use crate::certificate::{Certificate, Source};
 use crate::failure::Failure;
 use crate::matrices;
-use crate::measure;
-use crate::message::say;
+use crate::measure::{self, Job, Resampled, is_of_sheets};
+use crate::message::{self, say};
 use crate::output::{Output, side};
 use crate::reading::Reading;
 use crate::target::Target;
@@ -21,13 +24,17 @@ use crate::target::Target;
 /// Convert a material to another format.
 #[derive(clap::Args)]
 #[command(
-    after_help = "The format to write follows from the extension of OUT or from --to. If it has the representation of the file, knots and values are written unchanged. Otherwise the material is resampled, which is reported together with the error at sample directions. What the format cannot hold is refused, and so is an option that would change nothing. Trees of WINDOW XML are written as trees, unless --to klems or --basis ask for matrices.
+    after_help = "The format to write follows from the extension of OUT or from --to. If it has the representation of the file, knots and values are written unchanged. Otherwise the material is resampled, which is reported together with the error at sample directions, the last of which is what `lobe compare` finds: files that have comments keep it. --error refines the nodes until the relative error (root mean square) is met; if it cannot be, the exit code is 3 and no file is written. What the format cannot hold is refused, and so is an option that would change nothing. Trees of WINDOW XML are written as trees, unless --to klems or --basis ask for matrices.
 
 Examples:
   lobe convert paint.ddr paint.ssdd                           the same table in another format
   lobe convert paint.ddr paint.bsdf --to rgl                  for Mitsuba and pbrt
   lobe convert cloth.ddr cloth.bsdf --to rgl --azimuths 49    finer
   lobe convert gold.binary gold.xml --basis half              Klems matrices for Radiance
+  lobe convert paint.ddr tree.xml --basis tree3               a tensor tree
+  lobe convert paint.bsdf fine.ddr --error 0.05               as fine as it takes
+  lobe convert paint.ddr green.brdf --channel G               for Ansys Speos
+  lobe convert paint.ddr lens.bsdf --to lighttools            for LightTools
   lobe convert paint.bsdf paint.npz                           for numpy.load
   lobe convert film.ssdd film.bsdf --to zemax --channel G --scatter transmission
 
@@ -43,6 +50,30 @@ pub struct Args {
     /// Which measurement to write, if the file has both and the format holds one, or only one is wanted.
     #[arg(long, value_enum)]
     scatter: Option<ScatterKind>,
+    /// The largest relative error (root mean square) of a file that is resampled: nodes are refined until it holds.
+    #[arg(long, value_name = "SHARE", value_parser = bound)]
+    error: Option<f64>,
+    /// Print JSON: an object that says what was written, and by how much it is off the source.
+    #[arg(long)]
+    json: bool,
+}
+
+fn bound(text: &str) -> Result<f64, String> {
+    let share = text.parse().ok().filter(|share: &f64| *share > 0.0 && share.is_finite());
+    share.ok_or_else(|| format!("found `{text}`; expected a number above 0"))
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Answer {
+    output: String,
+    format: &'static str,
+    /// The nodes in words; `None` if those of the file were written.
+    resampled: Option<String>,
+    /// What happened to the channels.
+    note: Option<String>,
+    /// As `lobe compare` prints it; `None` if nothing was resampled, or there is nothing to compare with.
+    error: Option<Certificate>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -57,16 +88,23 @@ enum ScatterKind {
 pub fn run(args: &Args) -> Result<(), Failure> {
     check_output(&args.output.out, &[&args.file])?;
     let (_, document) = args.reading.open(&args.file)?;
-    written(document, args)
+    let answer = written(document, args)?;
+    if args.json {
+        let mut out = message::out(true);
+        serde_json::to_writer_pretty(&mut out, &answer)?;
+        writeln!(out)?;
+        out.flush()?;
+    }
+    Ok(())
 }
 
 /// Writes a document that was read from a file as `lobe convert` does without further options.
 pub fn write(file: &Path, document: Document, out: &Path, to: Option<Format>) -> Result<(), Failure> {
     let (output, reading) = (Output::new(out, to), Reading::default());
-    written(document, &Args { file: file.into(), reading, output, scatter: None })
+    written(document, &Args { file: file.into(), reading, output, scatter: None, error: None, json: false }).map(|_| ())
 }
 
-fn written(document: Document, args: &Args) -> Result<(), Failure> {
+fn written(document: Document, args: &Args) -> Result<Answer, Failure> {
     let (target, out) = (args.output.target()?, args.output.out.as_path());
     let asked = args.scatter.map(|kind| match kind {
         ScatterKind::Reflection => Scatter::Reflection,
@@ -74,16 +112,29 @@ fn written(document: Document, args: &Args) -> Result<(), Failure> {
     });
     let document = choose(document, target, asked, args)?;
     let format = target.format;
+    let answer = |resampled, note, error| Answer {
+        output: out.display().to_string(),
+        format: format.spec().word,
+        resampled,
+        note,
+        error,
+    };
+    let channel = args.output.channel.as_deref();
     if (target.writer.holds)(&document) && !asks_for_matrices(&document, args) {
         args.output.refuse_all()?;
         if let Some(written) = convert(&document, format, args.output.channel.as_deref(), out)? {
-            let note = written.note.map(|note| format!("; {note}")).unwrap_or_default();
+            let note = written.note.as_ref().map(|note| format!("; {note}")).unwrap_or_default();
             say(format_args!("{}: {format}, the values and nodes of the file{note}", out.display()));
-            return Ok(());
+            let error = interpolated(&document, target, args)?;
+            return Ok(answer(None, written.note, error));
         }
     }
     if matrices::converted(&document, target, &args.output)?.is_some() {
-        return Ok(());
+        if args.error.is_some() {
+            let expected = "no such option: matrices are not compared with their source";
+            return Err(Failure::Usage(format!("{}: found --error; expected {expected}", out.display())));
+        }
+        return Ok(answer(Some("Mueller matrices".into()), None, None));
     }
     if let Some(Data::Mirror(_)) = document.only() {
         let message = format!("{format}: found mirror reflectances; expected values for pairs of directions");
@@ -93,7 +144,7 @@ fn written(document: Document, args: &Args) -> Result<(), Failure> {
     let material = Material::from_document(&document, &options).map_err(|error| error.in_file(&args.file))?;
     let sides = match document.only() {
         Some(data) if !data.representation().is_two_sided() => Sides::One(data.representation().scatter()),
-        _ if target.writer.resampled_as == Ok(klems::KIND) => Sides::Both,
+        _ if is_of_sheets(target.writer.resampled_as) => Sides::Both,
         _ => Sides::One(one_of_both(&material, target, asked, args)?),
     };
     let scatter = match sides {
@@ -103,7 +154,44 @@ fn written(document: Document, args: &Args) -> Result<(), Failure> {
     if let Some(loss) = loss(&document, scatter) {
         say(format_args!("{}: {loss}", args.file.display()));
     }
-    measure::write(&MaterialSurface { material, scatter }, sides, true, &args.output)
+    let source = Source::new(&args.file, &document, target, channel);
+    let surface = MaterialSurface { material, scatter };
+    let job = Job {
+        surface: &surface,
+        sides,
+        is_from_file: true,
+        output: &args.output,
+        source: source.as_ref(),
+        bound: args.error,
+    };
+    let Resampled { nodes, note, certificate } = measure::write(&job)?;
+    Ok(answer(Some(nodes), note, certificate))
+}
+
+/// The values at the nodes are those of the file; if the format makes another representation of them, values between the
+/// nodes are others, and by how much is said.
+fn interpolated(document: &Document, target: Target, args: &Args) -> Result<Option<Certificate>, Failure> {
+    let out = args.output.out.as_path();
+    if target.format.spec().read.is_none() {
+        return Ok(None);
+    }
+    let (_, read) = lobe_formats::open(out)?;
+    let error = match Source::new(&args.file, document, target, args.output.channel.as_deref()) {
+        Some(source) if read.kinds() != document.kinds() => source.certify(out)?,
+        _ => None,
+    };
+    if let Some(error) = &error {
+        say("  between the nodes this format is interpolated in another way");
+        error.lines().for_each(|line| say(format_args!("  {line}")));
+    }
+    match (&error, args.error) {
+        (Some(error), Some(bound)) if error.worst() > bound => Err(Failure::Check(format!(
+            "{}: the error is {:.3e}, more than {bound}; `lobe resample` makes a table with more nodes",
+            out.display(),
+            error.worst()
+        ))),
+        _ => Ok(error),
+    }
 }
 
 /// What a table for one side leaves out of a document.
@@ -126,14 +214,17 @@ fn asks_for_matrices(document: &Document, args: &Args) -> bool {
     let mut components =
         window.bands.iter().flat_map(|band| Block::ALL.into_iter().filter_map(|block| band.window.block(block)));
     let is_asked = args.output.to == Some(Format::WindowXml) || args.output.basis.is_some();
-    let wanted = args.output.basis.map(|_| args.output.basis());
+    let wanted = args.output.basis;
     let has = |basis: &AngleBasis, wanted: &AngleBasis| basis.rings() == wanted.rings();
     is_asked
-        && components.any(|component| match component {
-            Component::Tree(_) => true,
-            Component::Klems(matrix) => {
-                wanted.as_ref().is_some_and(|wanted| !has(matrix.incident(), wanted) || !has(matrix.exit(), wanted))
+        && components.any(|component| match (component, wanted.map(|wanted| (wanted.patches(), wanted.rank()))) {
+            (Component::Tree(tree), Some((None, rank))) => rank != Some(tree.rank()),
+            (Component::Tree(_), _) => true,
+            (Component::Klems(_), None) => false,
+            (Component::Klems(matrix), Some((Some(patches), _))) => {
+                !has(matrix.incident(), &patches) || !has(matrix.exit(), &patches)
             }
+            (Component::Klems(_), Some((None, _))) => true,
         })
 }
 

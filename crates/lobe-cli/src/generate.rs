@@ -8,7 +8,7 @@ use lobe_ops::remeasure::Sides;
 
 use crate::failure::Failure;
 use crate::matrices;
-use crate::measure;
+use crate::measure::{self, Job};
 use crate::output::Output;
 
 /// Sample an analytic model into a table of any format.
@@ -198,7 +198,15 @@ fn write_over(lobe: impl Model + Sync, diffuse: &Diffuse, output: &Output) -> Re
 }
 
 fn write(model: impl Model + Sync, output: &Output) -> Result<(), Failure> {
-    measure::write(&Rgb(model), Sides::One(Scatter::Reflection), false, output)
+    let job = Job {
+        surface: &Rgb(model),
+        sides: Sides::One(Scatter::Reflection),
+        is_from_file: false,
+        output,
+        source: None,
+        bound: None,
+    };
+    measure::write(&job).map(|_| ())
 }
 
 fn numbers(text: &str, low: f64, high: f64) -> Result<Vec<f64>, String> {

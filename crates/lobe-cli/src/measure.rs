@@ -4,14 +4,18 @@ use std::path::Path;
 
 use lobe::{Aspect, Lookup, Material, Options, Scatter};
 use lobe_files::check_output;
-use lobe_formats::{ChannelMap, Document};
+use lobe_formats::mbsdf::UNIFORM_HALF;
+use lobe_formats::{ChannelMap, Document, RESAMPLED};
 use lobe_model::goniometer::half_diff as bins;
 use lobe_model::goniometer::rgl::Resolution;
+use lobe_model::goniometer::tensor_tree::Refinement;
 use lobe_model::{Surface, is_isotropic};
-use lobe_ops::remeasure::{Mapped, MaterialSurface, Nodes, Sides, remeasure};
+use lobe_ops::remeasure::{Mapped, MaterialSurface, Nodes, Sides, refine, remeasure};
 use lobe_table::window::klems;
-use lobe_table::{Kind, half_diff, rgl};
+use lobe_table::window::tensor_tree::Rank;
+use lobe_table::{Kind, half_diff, rgl, spherical};
 
+use crate::certificate::{Certificate, Source};
 use crate::failure::Failure;
 use crate::message::say;
 use crate::output::{Output, Purpose, side};
@@ -19,83 +23,199 @@ use crate::probe::Errors;
 use crate::progress::Progress;
 use crate::target::Target;
 
+/// A surface that is to be written.
+pub struct Job<'a> {
+    pub surface: &'a dyn Surface,
+    pub sides: Sides,
+    /// A material from a file may have any value within a degree of the horizon, where many formats store what has to be
+    /// divided by the cosine, so that it is never looked at there. Models are exact.
+    pub is_from_file: bool,
+    pub output: &'a Output,
+    /// The file that the surface is from, with which the written one is compared.
+    pub source: Option<&'a Source<'a>>,
+    /// The largest relative error (root mean square) that is accepted.
+    pub bound: Option<f64>,
+}
+
+/// What was written.
+pub struct Resampled {
+    /// The nodes, in words.
+    pub nodes: String,
+    /// What happened to the channels.
+    pub note: Option<String>,
+    /// By how much the file is wrong, if that is known.
+    pub certificate: Option<Certificate>,
+}
+
 /// Measures a surface and writes it; reports the nodes and the error of the file on standard error.
-///
-/// A material from a file may have any value within a degree of the horizon, where many formats store what has to be divided
-/// by the cosine, so that it is never looked at there. Models are exact.
-pub fn write(surface: &dyn Surface, sides: Sides, is_from_file: bool, output: &Output) -> Result<(), Failure> {
+pub fn write(job: &Job<'_>) -> Result<Resampled, Failure> {
+    let Job { surface, sides, is_from_file, output, source, bound } = *job;
     let (target, out) = (output.target()?, output.out.as_path());
     check_output::<&Path>(out, &[])?;
     let (format, writer) = (target.format, target.writer);
     let map = ChannelMap::new(surface.channels(), output.channel.as_deref(), format)?;
     let surface: &dyn Surface = &Mapped { surface, map: &map };
-    let refuse = |found: &str, expected: &str| {
-        Err(Failure::Usage(format!("{}: found {found}; expected {expected} in {format}", out.display())))
-    };
-    let scatter = match ((writer.scatter)(out), sides) {
-        (Some(Scatter::Reflection), Sides::One(Scatter::Transmission)) => return refuse("transmission", "reflection"),
-        (Some(Scatter::Transmission), Sides::One(Scatter::Reflection)) => return refuse("reflection", "transmission"),
-        (_, Sides::One(scatter)) => scatter,
-        (Some(scatter), Sides::Both) => scatter,
-        (None, Sides::Both) => Scatter::Reflection,
-    };
+    let scatter = scatter(target, sides, out)?;
     let isotropic = is_isotropic(surface);
     let channels = surface.channels().count();
-    output.refuse_others(match writer.resampled_as {
-        Ok(rgl::KIND) if isotropic => &[Purpose::Images],
-        Ok(rgl::KIND) => &[Purpose::Images, Purpose::Azimuths],
-        Ok(klems::KIND) => &[Purpose::Patches],
-        Ok(half_diff::KIND) | Err(_) => &[],
-        Ok(_) => &[Purpose::Knots],
-    })?;
-    let (nodes, counted) = match writer.resampled_as {
-        Err(expected) => return refuse("values for pairs of directions", expected),
-        Ok(half_diff::KIND) if !isotropic => return refuse("an anisotropic material", "an isotropic one"),
-        Ok(half_diff::KIND) => (Nodes::HalfDiff(bins::MERL), "bins"),
-        Ok(rgl::KIND) => (Nodes::Rgl(output.rgl(isotropic)), "directions of the light"),
-        Ok(klems::KIND) => (Nodes::Klems(output.basis()), "patches"),
-        Ok(_) => (Nodes::Specular(output.knots(isotropic)), "directions of the light"),
-    };
+    let (nodes, counted) = nodes(target, output, isotropic)?;
     fits(out, &nodes.counts(), channels)?;
     // Of a format that has both sides, all is measured.
-    let measured = if let Nodes::Klems(_) = nodes { sides } else { Sides::One(scatter) };
-    let progress = Progress::new(nodes.steps(measured), counted);
-    let document =
-        remeasure(surface, is_from_file, measured, &nodes, || progress.step()).map_err(|error| file(out, &error))?;
-    drop(progress);
-    let aspects = match &nodes {
-        Nodes::Klems(_) => document.parts.iter().flat_map(|part| part.data.representation().aspects()).collect(),
-        _ => vec![Aspect::front(scatter)],
+    let measured = if let Nodes::Klems(_) | Nodes::Tree(_) = nodes { sides } else { Sides::One(scatter) };
+    let at_nodes = |nodes: &Nodes| {
+        let progress = Progress::new(nodes.steps(measured), counted);
+        let document = remeasure(surface, is_from_file, measured, nodes, || progress.step());
+        document.map(|document| Document { source: facts(source, nodes, out), kept: kept(source), ..document })
     };
-    let name = out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let source = if let Nodes::Klems(_) = nodes { vec![("name".into(), name)] } else { Vec::new() };
-    (writer.write)(&Document { source, ..document }, out)?;
-    let nodes = described(&nodes);
+    let (nodes, mut document) = match (source, bound) {
+        (Some(source), Some(bound)) => {
+            let found = refine(nodes, channels, bound, |nodes| {
+                let document = at_nodes(nodes).map_err(|error| file(out, &error))?;
+                let certificate = source.certify_written(&document, target, out)?;
+                let error = certificate.ok_or_else(|| source.no_bound(out))?.worst();
+                Ok::<_, Failure>((document, error))
+            })?;
+            if !found.is_met {
+                let (out, reached) = (out.display(), described(&found.nodes));
+                return Err(Failure::Check(format!(
+                    "{out}: the smallest error that was reached is {:.3e}, with {reached}; expected {bound} or less. No file \
+                     was written",
+                    found.error
+                )));
+            }
+            (found.nodes, found.measured)
+        }
+        _ => {
+            let document = at_nodes(&nodes).map_err(|error| file(out, &error))?;
+            (nodes, document)
+        }
+    };
+    let certificate = match source {
+        Some(source) => source.certify_written(&document, target, out)?,
+        None => None,
+    };
+    let words = described(&nodes);
+    if let (Some(source), Some(certificate)) = (source, &certificate) {
+        document.source.push((RESAMPLED.into(), format!("from {}, {words}: {}", source.name(), certificate.line())));
+    }
+    (writer.write)(&document, out)?;
     let kind = if isotropic { "isotropic" } else { "anisotropic" };
     let side = side_of(target, sides, scatter);
-    say(format_args!("{}: {format}, resampled: {kind} {side}, {nodes}", out.display()));
+    say(format_args!("{}: {format}, resampled: {kind} {side}, {words}", out.display()));
     if let Some(note) = &map.note {
         say(format_args!("  {note}"));
     }
+    let aspects: Vec<Aspect> = match &nodes {
+        Nodes::Klems(_) | Nodes::Tree(_) => {
+            document.parts.iter().flat_map(|part| part.data.representation().aspects()).collect()
+        }
+        _ => vec![Aspect::front(scatter)],
+    };
     match errors(surface, target, &aspects, out)? {
         Some(errors) => {
             say(format_args!("  {errors}"));
             if errors.is_large() {
-                say(format_args!("  {}", advice(writer.resampled_as)));
+                say(format_args!("  {}", advice(&nodes)));
             }
         }
         None => say("  lobe does not read this format, so the error is not known"),
     }
-    Ok(())
+    if let Some(certificate) = &certificate {
+        certificate.lines().for_each(|line| say(format_args!("  {line}")));
+    }
+    Ok(Resampled { nodes: words, note: map.note, certificate })
+}
+
+/// The kind of scatter that is written.
+fn scatter(target: Target, sides: Sides, out: &Path) -> Result<Scatter, Failure> {
+    let refuse = |found: &str, expected: &str| {
+        let format = target.format;
+        Err(Failure::Usage(format!("{}: found {found}; expected {expected} in {format}", out.display())))
+    };
+    match ((target.writer.scatter)(out), sides) {
+        (Some(Scatter::Reflection), Sides::One(Scatter::Transmission)) => refuse("transmission", "reflection"),
+        (Some(Scatter::Transmission), Sides::One(Scatter::Reflection)) => refuse("reflection", "transmission"),
+        (_, Sides::One(scatter)) | (Some(scatter), Sides::Both) => Ok(scatter),
+        (None, Sides::Both) => Ok(Scatter::Reflection),
+    }
+}
+
+/// The nodes that are asked for, and what their progress counts.
+fn nodes(target: Target, output: &Output, isotropic: bool) -> Result<(Nodes, &'static str), Failure> {
+    let (format, out) = (target.format, output.out.display());
+    let refuse = |found: &str, expected: &str| {
+        Err(Failure::Usage(format!("{out}: found {found}; expected {expected} in {format}")))
+    };
+    let kind = match target.writer.resampled_as {
+        Ok(kind) => kind,
+        Err(expected) => {
+            output.refuse_others(&[])?;
+            return refuse("values for pairs of directions", expected);
+        }
+    };
+    let is_tree = output.basis.is_some_and(|basis| basis.rank().is_some());
+    output.refuse_others(match kind {
+        rgl::KIND if isotropic => &[Purpose::Images],
+        rgl::KIND => &[Purpose::Images, Purpose::Azimuths],
+        klems::KIND if is_tree => &[Purpose::Patches, Purpose::Leaves],
+        klems::KIND => &[Purpose::Patches],
+        half_diff::KIND | UNIFORM_HALF => &[],
+        _ => &[Purpose::Knots],
+    })?;
+    Ok(match kind {
+        half_diff::KIND | UNIFORM_HALF if !isotropic => return refuse("an anisotropic material", "an isotropic one"),
+        half_diff::KIND => (Nodes::HalfDiff(bins::MERL), "bins"),
+        rgl::KIND => (Nodes::Rgl(output.rgl(isotropic)), "directions of the light"),
+        klems::KIND => match output.window() {
+            Nodes::Tree(Refinement { rank: Rank::Three, .. }) if !isotropic => {
+                return refuse(
+                    "an anisotropic material",
+                    "an isotropic one in a tree of three dimensions, or --basis tree4,",
+                );
+            }
+            nodes @ Nodes::Tree(_) => (nodes, "branches"),
+            nodes => (nodes, "patches"),
+        },
+        spherical::KIND => {
+            let knots = output.spherical(isotropic);
+            (Nodes::Spherical { knots, is_half: false }, "directions of the light")
+        }
+        UNIFORM_HALF => match Nodes::of(UNIFORM_HALF, isotropic) {
+            Some(nodes) => (nodes, "directions of the light"),
+            None => return refuse("an anisotropic material", "an isotropic one"),
+        },
+        _ => (Nodes::Specular(output.knots(isotropic)), "directions of the light"),
+    })
+}
+
+/// The facts of the file: those of the source if it is of the same format, or its name.
+fn facts(source: Option<&Source<'_>>, nodes: &Nodes, out: &Path) -> Vec<(String, String)> {
+    let (Nodes::Klems(_) | Nodes::Tree(_)) = nodes else { return Vec::new() };
+    let of_source = source.filter(|source| !source.document().kept.is_empty());
+    match of_source {
+        Some(source) => source.document().source.iter().filter(|(name, _)| name != RESAMPLED).cloned().collect(),
+        None => {
+            let name = out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            vec![("name".into(), name)]
+        }
+    }
+}
+
+fn kept(source: Option<&Source<'_>>) -> Vec<(&'static str, String)> {
+    source.map_or_else(Vec::new, |source| source.document().kept.clone())
 }
 
 /// How to make a large error smaller.
-fn advice(kind: Result<Kind, &str>) -> &'static str {
-    match kind {
-        Ok(rgl::KIND) => "for a smaller error: more --zeniths, --azimuths or --texels",
-        Ok(klems::KIND) => "these are means over patches, which are the smallest with --basis full",
-        Ok(half_diff::KIND) => "the grid of this format cannot be refined; --to rgl and specular tables can",
-        Ok(_) | Err(_) => {
+fn advice(nodes: &Nodes) -> &'static str {
+    match nodes {
+        Nodes::Rgl(_) => "for a smaller error: more --zeniths, --azimuths or --texels",
+        Nodes::Klems(_) => {
+            "these are means over patches, which are the smallest with --basis full; trees divide further"
+        }
+        Nodes::Tree(_) => "for a smaller error: a larger --depth, and a smaller --leaf-error",
+        Nodes::HalfDiff(_) => "the grid of this format cannot be refined; --to rgl and specular tables can",
+        Nodes::Spherical { is_half: true, .. } => "for a smaller error: convert with --error",
+        Nodes::Specular(_) | Nodes::Spherical { .. } => {
             "for a smaller error: denser --sigma, --psi, --theta or --phi, or --to rgl, whose nodes follow the peak"
         }
     }
@@ -132,6 +252,10 @@ fn described(nodes: &Nodes) -> String {
             let [sigma, psi, theta, phi] = knots.each_ref().map(Vec::len);
             format!("{sigma} sigma x {psi} psi x {theta} theta x {phi} phi")
         }
+        Nodes::Spherical { knots, .. } => {
+            let [theta_i, phi_i, theta_o, phi_o] = knots.each_ref().map(Vec::len);
+            format!("{theta_i} theta_i x {phi_i} phi_i x {theta_o} theta_o x {phi_o} phi_o")
+        }
         Nodes::HalfDiff([halves, differences, turns]) => {
             format!("{halves} x {differences} x {turns} bins of half and difference angles")
         }
@@ -139,6 +263,9 @@ fn described(nodes: &Nodes) -> String {
             format!("{theta_i} theta_i x {phi_i} phi_i, {spectra} x {spectra} texels")
         }
         Nodes::Klems(basis) => format!("means over {n} x {n} patches", n = basis.patches()),
+        Nodes::Tree(Refinement { rank, depth, error }) => {
+            format!("a tree of {} dimensions, halved up to {depth} times, leaves within {error}", rank.dimensions())
+        }
     }
 }
 
@@ -150,4 +277,9 @@ fn errors(surface: &dyn Surface, target: Target, aspects: &[Aspect], out: &Path)
     let options = Options { lookup: Lookup::Linear, ..Options::default() };
     let found = MaterialSurface { material: Material::open_with(out, &options)?, scatter: None };
     Ok(Some(Errors::between(surface, &found, aspects)))
+}
+
+/// Whether a kind of nodes has the sides of a sheet.
+pub fn is_of_sheets(kind: Result<Kind, &str>) -> bool {
+    kind == Ok(klems::KIND)
 }

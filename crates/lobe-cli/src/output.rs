@@ -6,8 +6,10 @@ use clap::ValueEnum;
 use lobe::Scatter;
 use lobe_formats::Format;
 use lobe_model::goniometer::rgl;
-use lobe_ops::remeasure::knots;
+use lobe_model::goniometer::tensor_tree::Refinement;
+use lobe_ops::remeasure::{Nodes, knots, spherical_knots};
 use lobe_table::window::klems::AngleBasis;
+use lobe_table::window::tensor_tree::Rank;
 
 use crate::failure::Failure;
 use crate::target::{Target, parser, target};
@@ -23,16 +25,16 @@ pub struct Output {
     /// Write this channel only, by the name that `lobe info` shows.
     #[arg(long, value_name = "NAME")]
     pub channel: Option<String>,
-    /// Knots of resampled specular tables: angle of incidence. By default 19 from 0 to 88, or 11 if psi matters.
+    /// Knots of resampled tables: angle of incidence. By default 19 from 0 to 88, or 11 if psi matters.
     #[arg(long, value_name = "DEGREES", value_delimiter = ',', help_heading = "Resampling")]
     pub sigma: Vec<f64>,
     /// Rotation of the sample; a single 0 for isotropic ones. By default every 15 degrees, if it makes a difference.
     #[arg(long, value_name = "DEGREES", value_delimiter = ',', help_heading = "Resampling")]
     pub psi: Vec<f64>,
-    /// Angle to the mirror direction. By default 30 from 0 to 180, dense near 0.
+    /// Angle to the mirror direction, by default 30 from 0 to 180, dense near 0; of grids in spherical coordinates the polar angle of the viewer.
     #[arg(long, value_name = "DEGREES", value_delimiter = ',', help_heading = "Resampling")]
     pub theta: Vec<f64>,
-    /// Azimuth about the mirror direction. By default every 15 degrees.
+    /// Azimuth about the mirror direction, by default every 15 degrees; of grids in spherical coordinates that of the viewer.
     #[arg(long, value_name = "DEGREES", value_delimiter = ',', help_heading = "Resampling")]
     pub phi: Vec<f64>,
     /// Number of polar angles of the light in RGL files. By default 48, or 20 if the material is anisotropic.
@@ -44,15 +46,26 @@ pub struct Output {
     /// Rows and columns of the images of values in RGL files. By default 64, or 40 if the material is anisotropic.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(2..=1024), help_heading = "Resampling")]
     pub texels: Option<u16>,
-    /// Patches of WINDOW XML files. By default full.
+    /// Patches of WINDOW XML files, or trees. By default full.
     #[arg(long, value_enum, help_heading = "Resampling")]
     pub basis: Option<Basis>,
+    /// How often trees may halve each dimension. By default 6 in tree3 and 5 in tree4.
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u8).range(1..=10), help_heading = "Resampling")]
+    pub depth: Option<u8>,
+    /// How far values in a leaf of a tree may be from their mean, relative to it or to the mean of all if that is larger. By default 0.05.
+    #[arg(long, value_name = "SHARE", value_parser = leaf_error, help_heading = "Resampling")]
+    pub leaf_error: Option<f64>,
+}
+
+fn leaf_error(text: &str) -> Result<f64, String> {
+    let share = text.parse().ok().filter(|share: &f64| *share > 0.0 && share.is_finite());
+    share.ok_or_else(|| format!("found `{text}`; expected a number above 0"))
 }
 
 /// What an option of resampling is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// The knots of tables in specular coordinates.
+    /// The knots of tables in specular or spherical coordinates.
     Knots,
     /// The images of RGL files.
     Images,
@@ -60,21 +73,24 @@ pub enum Purpose {
     Azimuths,
     /// The patches of Klems matrices.
     Patches,
+    /// The leaves of trees.
+    Leaves,
 }
 
 impl Purpose {
     fn words(self) -> &'static str {
         match self {
-            Purpose::Knots => "tables in specular coordinates",
+            Purpose::Knots => "tables in specular or spherical coordinates",
             Purpose::Images => "RGL files",
             Purpose::Azimuths => "RGL files of anisotropic materials",
             Purpose::Patches => "WINDOW XML files",
+            Purpose::Leaves => "trees in WINDOW XML files",
         }
     }
 }
 
-/// The standard bases of Klems matrices.
-#[derive(Clone, Copy, Debug, ValueEnum)]
+/// The standard bases of Klems matrices, and trees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Basis {
     /// 145 patches.
     Full,
@@ -82,6 +98,31 @@ pub enum Basis {
     Half,
     /// 41 patches.
     Quarter,
+    /// A tensor tree of an isotropic material.
+    Tree3,
+    /// A tensor tree of any material.
+    Tree4,
+}
+
+impl Basis {
+    /// The patches; `None` of trees.
+    pub fn patches(self) -> Option<AngleBasis> {
+        match self {
+            Basis::Full => Some(AngleBasis::full()),
+            Basis::Half => Some(AngleBasis::half()),
+            Basis::Quarter => Some(AngleBasis::quarter()),
+            Basis::Tree3 | Basis::Tree4 => None,
+        }
+    }
+
+    /// The dimensions; `None` of patches.
+    pub fn rank(self) -> Option<Rank> {
+        match self {
+            Basis::Tree3 => Some(Rank::Three),
+            Basis::Tree4 => Some(Rank::Four),
+            Basis::Full | Basis::Half | Basis::Quarter => None,
+        }
+    }
 }
 
 impl Output {
@@ -99,6 +140,8 @@ impl Output {
             azimuths: None,
             texels: None,
             basis: None,
+            depth: None,
+            leaf_error: None,
         }
     }
 
@@ -117,8 +160,13 @@ impl Output {
 
     /// The knots of a specular table in radians: the requested ones, or else some that suit most materials.
     pub fn knots(&self, is_isotropic: bool) -> [Vec<f64>; 4] {
+        self.or_default(knots(is_isotropic))
+    }
+
+    /// The requested knots, and others for the axes without.
+    fn or_default(&self, knots: [Vec<f64>; 4]) -> [Vec<f64>; 4] {
         let asked = [&self.sigma, &self.psi, &self.theta, &self.phi];
-        let mut chosen = asked.into_iter().zip(knots(is_isotropic)).map(|(asked, default)| match asked.as_slice() {
+        let mut chosen = asked.into_iter().zip(knots).map(|(asked, default)| match asked.as_slice() {
             [] => default,
             degrees => degrees.iter().map(|angle| angle.to_radians()).collect(),
         });
@@ -137,13 +185,22 @@ impl Output {
         }
     }
 
-    /// The patches of Klems matrices.
-    pub fn basis(&self) -> AngleBasis {
-        match self.basis.unwrap_or(Basis::Full) {
-            Basis::Full => AngleBasis::full(),
-            Basis::Half => AngleBasis::half(),
-            Basis::Quarter => AngleBasis::quarter(),
+    /// The patches of Klems matrices, or the leaves of trees.
+    pub fn window(&self) -> Nodes {
+        let basis = self.basis.unwrap_or(Basis::Full);
+        match (basis.patches(), basis.rank()) {
+            (None, Some(rank)) => Nodes::Tree(Refinement {
+                rank,
+                depth: self.depth.map_or(if rank == Rank::Three { 6 } else { 5 }, u32::from),
+                error: self.leaf_error.unwrap_or(0.05),
+            }),
+            (patches, _) => Nodes::Klems(patches.unwrap_or_else(AngleBasis::full)),
         }
+    }
+
+    /// The knots of a grid in spherical coordinates in radians: the requested ones, or else some that suit most materials.
+    pub fn spherical(&self, is_isotropic: bool) -> [Vec<f64>; 4] {
+        self.or_default(spherical_knots(is_isotropic))
     }
 
     /// The options of resampling that were given.
@@ -155,6 +212,8 @@ impl Output {
             ("--azimuths", Purpose::Azimuths, self.azimuths.is_some()),
             ("--texels", Purpose::Images, self.texels.is_some()),
             ("--basis", Purpose::Patches, self.basis.is_some()),
+            ("--depth", Purpose::Leaves, self.depth.is_some()),
+            ("--leaf-error", Purpose::Leaves, self.leaf_error.is_some()),
         ];
         knots.into_iter().chain(others).filter(|(.., is_given)| *is_given).map(|(name, purpose, _)| (name, purpose))
     }

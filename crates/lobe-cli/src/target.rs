@@ -4,14 +4,29 @@ use std::path::Path;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use lobe_formats::{Format, Writer};
+use lobe_table::window::klems;
 
 use crate::failure::Failure;
 
 /// Parses the word for a format that can be written.
 pub fn parser() -> impl TypedValueParser<Value = Format> {
-    let value = |format: Format| PossibleValue::new(format.spec().word).help(format.name());
+    let value = |format: Format| {
+        let held = format.writer().map_or_else(String::new, |writer| format!(": {}", holds(writer)));
+        PossibleValue::new(format.spec().word).help(format!("{format}{held}"))
+    };
     PossibleValuesParser::new(Format::writable().map(value))
         .try_map(|word| Format::writable().find(|format| format.spec().word == word).ok_or("no format of this name"))
+}
+
+/// What a format can hold, in words.
+fn holds(writer: &Writer) -> String {
+    let nodes = match writer.resampled_as {
+        Ok(klems::KIND) => "Klems matrices, tensor trees",
+        Ok(kind) => kind.name(),
+        Err(words) => words,
+    };
+    let sides = if writer.holds_sheets { "; several sides" } else { "" };
+    format!("{}; {nodes}{sides}", writer.channels)
 }
 
 /// A format that can be written, and how.

@@ -1,0 +1,102 @@
+//! By how much a file is wrong that was made of another one.
+
+use lobe::Backend;
+use lobe_colour::NoColour;
+use lobe_table::{Bsdf, Channels, Directions};
+use serde::Serialize;
+
+use crate::compare::{Difference, difference};
+use crate::{Aspect, OnBackend, Subject};
+
+/// The number of pairs of directions of [`certify`], and of `lobe compare` if it is not told another one.
+pub const PAIRS: usize = 100_000;
+/// The largest polar angle of both directions in degrees, likewise.
+pub const LIMIT: f64 = 85.0;
+
+/// The difference of one measurement.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Certified {
+    /// Which measurement.
+    #[serde(serialize_with = "in_words")]
+    pub aspect: Aspect,
+    /// The difference between source and file.
+    pub difference: Difference,
+}
+
+fn in_words<S: serde::Serializer>(aspect: &Aspect, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(aspect)
+}
+
+/// Compares the measurements that both files have at `pairs` pairs of directions up to [`LIMIT`]: the first ones of a fixed
+/// sequence ([`direction_pairs`](crate::direction_pairs)), which no grid has for its nodes. With the name of a channel of the
+/// source, only this one is compared: with the channel of the same name, or with the only one.
+///
+/// # Errors
+/// [`NoColour`] if the channels differ and those of one file have no colour.
+pub fn certify(
+    source: &Subject,
+    written: &Subject,
+    channel: Option<&str>,
+    pairs: usize,
+) -> Result<Vec<Certified>, NoColour> {
+    let theirs = written.aspects();
+    let mut aspects: Vec<Aspect> = source.aspects().into_iter().filter(|aspect| theirs.contains(aspect)).collect();
+    aspects.dedup();
+    let [a, b] = [source, written].map(|subject| OnBackend::from(&subject.material));
+    let picked = channel.and_then(|name| Some((Channel::of(a, name)?, Channel::of(b, name)?)));
+    let limit = LIMIT.to_radians();
+    let certified = |aspect: Aspect| {
+        let difference = match &picked {
+            Some((a, b)) => difference(a, b, aspect, limit, pairs)?,
+            None => difference(a, b, aspect, limit, pairs)?,
+        };
+        Ok(Certified { aspect, difference })
+    };
+    aspects.into_iter().map(certified).collect()
+}
+
+/// The largest of the relative differences (root mean square).
+pub fn worst(certified: &[Certified]) -> f64 {
+    certified.iter().map(|of_aspect| of_aspect.difference.relative_rms).fold(0.0, f64::max)
+}
+
+/// One channel of a material.
+#[derive(Debug)]
+pub struct Channel<'a> {
+    scattering: OnBackend<'a>,
+    index: usize,
+}
+
+impl<'a> Channel<'a> {
+    /// The channel of this name, in any case of letters, or the only one; `None` if there is neither.
+    pub fn of(scattering: impl Into<OnBackend<'a>>, name: &str) -> Option<Self> {
+        let scattering = scattering.into();
+        let names = scattering.channels().names();
+        let index = names.iter().position(|known| known.eq_ignore_ascii_case(name));
+        let index = index.or_else(|| (names.len() == 1).then_some(0))?;
+        Some(Channel { scattering, index })
+    }
+}
+
+impl<'a> From<&'a Channel<'_>> for OnBackend<'a> {
+    fn from(channel: &'a Channel<'_>) -> Self {
+        OnBackend::new(channel, channel.scattering.backend)
+    }
+}
+
+impl Bsdf for Channel<'_> {
+    fn channels(&self) -> &Channels {
+        &Channels::Mono
+    }
+
+    fn holds(&self, aspect: Aspect) -> bool {
+        self.scattering.bsdf.holds(aspect)
+    }
+
+    fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        let count = self.scattering.channels().count();
+        let mut values = vec![0.0; wi.count() * count];
+        self.scattering.bsdf.eval_batch(backend, wi, wo, &mut values);
+        out.iter_mut().zip(values.iter().skip(self.index).step_by(count)).for_each(|(out, value)| *out = *value);
+    }
+}
