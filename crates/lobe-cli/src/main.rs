@@ -5,6 +5,7 @@
 
 mod albedo;
 mod angles;
+mod certificate;
 mod check;
 mod compare;
 mod convert;
@@ -20,6 +21,7 @@ mod import;
 mod info;
 mod interrupt;
 mod matrices;
+mod matrix;
 mod measure;
 mod merge;
 mod message;
@@ -74,6 +76,7 @@ enum Command {
     Plot(Box<plot::Args>),
     Preview(preview::Args),
     Render(render::Args),
+    Matrix(matrix::Args),
     Merge(merge::Args),
     Farm(Box<farm::Args>),
     Convert(Box<convert::Args>),
@@ -113,6 +116,7 @@ fn main() -> ExitCode {
         Command::Plot(args) => plot::run(&args),
         Command::Preview(args) => preview::run(&args),
         Command::Render(args) => render::run(&args),
+        Command::Matrix(args) => matrix::run(&args),
         Command::Merge(args) => merge::run(&args),
         Command::Farm(args) => farm::run(&args),
         Command::Convert(args) => convert::run(&args),

@@ -8,7 +8,9 @@
 //!   asks for, and the error that was made;
 //! - [`remeasure`]: any material at the nodes that another representation has;
 //! - [`colour`]: spectra to CIE XYZ and to RGB;
-//! - [`compare`]: how far two materials are apart, in numbers and to the eye.
+//! - [`compare`]: how far two materials are apart, in numbers and to the eye;
+//! - [`certify`]: by how much a file is wrong that was made of another one;
+//! - [`daylight`]: matrices of views, transmission and daylight, as Radiance multiplies them.
 //!
 //! What has values is any [`Bsdf`](lobe_table::Bsdf) on a backend, such as a [`lobe::Material`]. A [`Subject`] is an opened file with what the
 //! operations have to know about it. Directions point away from the surface, normal on +z; angles are radians; values
@@ -16,9 +18,11 @@
 #![forbid(unsafe_code)]
 
 pub mod albedo;
+pub mod certify;
 pub mod check;
 pub mod colour;
 pub mod compare;
+pub mod daylight;
 mod directions;
 pub mod energy;
 pub mod fill;

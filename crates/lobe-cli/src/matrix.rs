@@ -1,0 +1,128 @@
+//! `lobe matrix`: products of matrices of views, transmission, daylight and skies.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use lobe_files::check_output;
+use lobe_formats::window_xml;
+use lobe_ops::daylight::{self, Format, Matrix, Shapes, product, transmission};
+
+use crate::failure::Failure;
+use crate::message::{self, say};
+
+/// Multiply matrices of a view, transmission and daylight for a sky, as Radiance's dctimestep does.
+#[derive(clap::Args)]
+#[command(
+    after_help = "Each matrix is a file of Radiance (NROWS, NCOLS and NCOMP in its header; ascii, float or double), or of the transmission a WINDOW XML file with Klems matrices. A sky without a header has a row per patch. Components are multiplied each by itself.
+
+A WINDOW file counts with its Visible band, or in colour with CIE-X and CIE-Z too, for light that arrives at its front; trees become matrices with `lobe convert --to klems --basis full`.
+
+Examples:
+  lobe matrix view.mtx blinds.xml daylight.mtx sky.mtx                three phases, for every hour of the sky
+  lobe matrix daylight.mtx sky.mtx -o lit.mtx --format float          two
+  lobe matrix view.mtx blinds.xml daylight.mtx sky.mtx --minus direct.mtx,blinds.xml,suns.mtx,sky.mtx --plus sun.mtx,discs.mtx    five"
+)]
+pub struct Args {
+    /// The factors, from left to right.
+    #[arg(required = true)]
+    factors: Vec<PathBuf>,
+    /// The file to write; by default the product is printed as text.
+    #[arg(long, short, value_name = "OUT")]
+    out: Option<PathBuf>,
+    /// How numbers are written.
+    #[arg(long, value_enum, default_value = "ascii", requires = "out")]
+    format: NumberFormat,
+    /// Add another product, of files with commas between them.
+    #[arg(long, value_name = "LIST")]
+    plus: Vec<String>,
+    /// Subtract another product.
+    #[arg(long, value_name = "LIST")]
+    minus: Vec<String>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum NumberFormat {
+    /// Text.
+    Ascii,
+    /// 32-bit floats.
+    Float,
+    /// 64-bit floats.
+    Double,
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let split = |list: &String| list.split(',').map(PathBuf::from).collect::<Vec<_>>();
+    let others: Vec<(f64, Vec<PathBuf>)> = [(1.0, &args.plus), (-1.0, &args.minus)]
+        .into_iter()
+        .flat_map(|(sign, lists)| lists.iter().map(move |list| (sign, split(list))))
+        .collect();
+    if let Some(out) = &args.out {
+        let inputs: Vec<&PathBuf> = args.factors.iter().chain(others.iter().flat_map(|(_, files)| files)).collect();
+        check_output(out, &inputs)?;
+    }
+    let mut result = multiplied(&args.factors)?;
+    for (sign, files) in &others {
+        let other = multiplied(files)?;
+        let [a, b] = [&result, &other].map(shape);
+        result = result.plus(&other, *sign).ok_or_else(|| {
+            let (first, second) = (names(&args.factors), names(files));
+            Failure::Usage(format!("{second}: found {b}; expected {a}, as the product of {first} has"))
+        })?;
+    }
+    let format = match args.format {
+        NumberFormat::Ascii => Format::Ascii,
+        NumberFormat::Float => Format::Float,
+        NumberFormat::Double => Format::Double,
+    };
+    let made_by = format!("lobe matrix {}", names(&args.factors));
+    match &args.out {
+        Some(out) => {
+            daylight::write(&result, format, &made_by, out)?;
+            say(format_args!("{}: {}", out.display(), shape(&result)));
+        }
+        None => {
+            let mut out = message::out(false);
+            out.write_all(&daylight::to_bytes(&result, format, &made_by))?;
+            out.flush()?;
+        }
+    }
+    Ok(())
+}
+
+fn names(files: &[PathBuf]) -> String {
+    files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>().join(" ")
+}
+
+fn shape(matrix: &Matrix) -> String {
+    let [rows, columns, components] = matrix.shape();
+    let words = if components == 1 { "component" } else { "components" };
+    format!("{rows} rows x {columns} columns of {components} {words}")
+}
+
+fn multiplied(files: &[PathBuf]) -> Result<Matrix, Failure> {
+    let matrices = files.iter().map(|file| matrix(file)).collect::<Result<Vec<_>, _>>()?;
+    product(&matrices).map_err(|error| {
+        let shown = |index: usize| format!("{} ({})", files[index].display(), shape(&matrices[index]));
+        Failure::Usage(match error {
+            Shapes::Inner { index, columns, .. } => {
+                format!("{}: found after it {}; expected {columns} rows", shown(index), shown(index + 1))
+            }
+            Shapes::Components { index, expected, .. } => {
+                format!("{}: expected 1 or {expected} components, as before", shown(index))
+            }
+            Shapes::Empty => error.to_string(),
+        })
+    })
+}
+
+/// A matrix of Radiance, or the transmission of a WINDOW file.
+fn matrix(file: &Path) -> Result<Matrix, Failure> {
+    let bytes = lobe_files::read(file)?;
+    if !window_xml::matches(&bytes) {
+        return Ok(daylight::read(&bytes, file)?);
+    }
+    let measured = window_xml::read(&bytes, file)?;
+    transmission(&measured.data).map_err(|error| Failure::Usage(format!("{}: found {error}", file.display())))
+}
