@@ -10,7 +10,8 @@ use lobe::Side;
 use lobe_files::check_output;
 use lobe_formats::{Document, Format, write_whole};
 use lobe_plot::{
-    DrawError, Facts, Figure, Page, Progress, Scaling, Shown, Subject, View, ViewError, draw, page, rasterise,
+    DrawError, Facts, Figure, Fitted, Page, Progress, Quantity, Scaling, Shown, Subject, View, ViewError, draw,
+    page_with_fit, rasterise,
 };
 
 use crate::describe::{Part, describe};
@@ -30,6 +31,7 @@ use crate::reading::Reading;
   lobe plot film.csv -o film.svg --kind spectra --sigma 20,60 --theta 20,0,-20
   lobe plot screen.xml -o slices.svg --kind slices --sigma 0,40,60 --channel Visible --side back
   lobe plot cloth.ddr -o warp.png --kind sphere --psi 90
+  lobe plot paint.ddr --fit fit.json -o fit.html            with what `lobe fit -o fit.json` found, and where it fails
 
 The extension of OUT says what is written: .html a page, .svg or .png a figure. In every figure the light is on the left, viewing angles are positive on the side of the mirror direction, and f is in 1/sr, without the cosine. Dots are measured points; dashed lines were not measured but continued. Browsers show the value at the pointer.")]
 pub struct Args {
@@ -66,6 +68,9 @@ pub struct Args {
     /// Draw this channel, by the name that `lobe info` shows; by default the luminance, and spheres in colour.
     #[arg(long, value_name = "NAME")]
     channel: Option<String>,
+    /// A fit of the file, as `lobe fit -o FIT.json` writes it: a page shows where it fails.
+    #[arg(long, value_name = "FIT")]
+    fit: Option<PathBuf>,
     /// The width of a figure in pixels. Below 560 it is laid out for narrow paper.
     #[arg(long, default_value_t = 960, value_parser = clap::value_parser!(u32).range(100..=8000))]
     width: u32,
@@ -110,7 +115,7 @@ enum Target {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let target = target(&args.out, args.kind)?;
-    check_output(&args.out, &args.files)?;
+    check_output(&args.out, &args.files.iter().chain(&args.fit).collect::<Vec<_>>())?;
     refuse_idle(args)?;
     let mut subjects = Vec::new();
     let mut tables = Vec::new();
@@ -125,7 +130,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let views = views(args, &subjects)?;
     let shown: Vec<Shown<'_>> = subjects.iter().zip(&views).map(|(subject, view)| Shown { subject, view }).collect();
     let wrong = |error: DrawError| Failure::Usage(format!("{}: {error}", args.files[0].display()));
-    let Content { bytes, what, said } = content(target, &shown, &tables, &args.out)?.map_err(wrong)?;
+    let fitted = fitted(args, target, &shown)?;
+    let Content { bytes, what, said } = content(target, &shown, &tables, fitted.as_ref(), &args.out)?.map_err(wrong)?;
     write_whole(&args.out, &bytes)?;
     let said: String = said.iter().map(|said| format!("; {said}")).collect();
     let mut out = message::out(false);
@@ -148,7 +154,7 @@ pub fn write(file: &Path, format: Format, document: &Document, out: &Path) -> Re
     let subject = Subject::new(file, format, document.clone())?;
     let shown = [Shown { subject: &subject, view: &View::new(&subject) }];
     let wrong = |error: DrawError| Failure::Usage(format!("{}: {error}", file.display()));
-    let Content { bytes, .. } = content(target, &shown, &tables, out)?.map_err(wrong)?;
+    let Content { bytes, .. } = content(target, &shown, &tables, None, out)?.map_err(wrong)?;
     Ok(write_whole(out, &bytes)?)
 }
 
@@ -164,12 +170,13 @@ fn content(
     target: Target,
     shown: &[Shown<'_>],
     tables: &[Vec<Facts>],
+    fitted: Option<&Fitted<'_>>,
     out: &Path,
 ) -> Result<Result<Content, DrawError>, Failure> {
     let bar = Bar::new();
     let figure = match target {
         Target::Page => {
-            let Page { html, figures, said } = page(shown, tables, &bar);
+            let Page { html, figures, said } = page_with_fit(shown, tables, fitted, &bar);
             return Ok(Ok(Content { bytes: html.into_bytes(), what: format!("a page of {figures} figures"), said }));
         }
         Target::Svg(figure) | Target::Png(figure) => figure,
@@ -186,6 +193,52 @@ fn content(
         _ => drawing.svg.into_bytes(),
     };
     Ok(Ok(Content { bytes, what: format!("{figure}, {width} pixels wide"), said: drawing.said }))
+}
+
+/// The fit to be shown with the only file.
+fn fitted<'a>(args: &Args, target: Target, shown: &[Shown<'_>]) -> Result<Option<Fitted<'a>>, Failure> {
+    let Some(file) = &args.fit else { return Ok(None) };
+    let refuse = |found: String, expected: &str| {
+        Err(Failure::Usage(format!("{}: found {found}; expected {expected}", file.display())))
+    };
+    let [Shown { subject, view }] = shown else {
+        return refuse(format!("a fit with {} files", shown.len()), "the file that was fitted");
+    };
+    if !matches!(target, Target::Page) {
+        return refuse("a fit with a figure".into(), "a page, .html, to show it on");
+    }
+    let text = String::from_utf8_lossy(&lobe_files::read(file)?).into_owned();
+    let saved = lobe_fit::output::read(&text).map_err(|error| Failure::File(format!("{}: {error}", file.display())))?;
+    let aspect = saved.aspect();
+    if aspect.light != view.side || !subject.scatters(view.side).contains(&aspect.scatter) {
+        return refuse(format!("a fit of {aspect}"), "one of what is shown (--side chooses the light)");
+    }
+    let material = subject.material().channels();
+    let names = material.names();
+    let modelled = saved.fitted.channels().clone();
+    let at = |name: &str| names.iter().position(|known| known == name);
+    let (measured, modelled) = match (&saved.channels[..], &args.channel) {
+        ([one], _) if names.len() > 1 => match at(one) {
+            Some(index) => (Quantity::channel(material, index), Quantity::channel(&modelled, 0)),
+            None => return refuse(format!("a fit of the channel {one}"), &format!("one of {}", names.join(", "))),
+        },
+        (same, Some(name)) if same == names => match names.iter().position(|known| known.eq_ignore_ascii_case(name)) {
+            Some(index) => (Quantity::channel(material, index), Quantity::channel(&modelled, index)),
+            None => (Quantity::of(material), Quantity::of(material)),
+        },
+        (same, None) if same == names => (Quantity::of(material), Quantity::of(material)),
+        // A fit of linear sRGB: the luminance of both.
+        (rgb, None) if rgb == ["R", "G", "B"] && Quantity::of(material).name == "luminance" => {
+            (Quantity::of(material), Quantity::of(&modelled))
+        }
+        (other, _) => {
+            return refuse(format!("a fit of the channels {}", other.join(" ")), &format!("of {}", names.join(" ")));
+        }
+    };
+    let facts = vec![Facts { title: "The fit".into(), rows: saved.facts.clone() }];
+    let (fitted, channels) = (saved.fitted, saved.channels.len());
+    let f = Box::new(move |wi: [f64; 3], wo: [f64; 3], out: &mut [f64]| fitted.f(wi, wo, out));
+    Ok(Some(Fitted { scatter: aspect.scatter, channels, modelled, measured, f, facts }))
 }
 
 /// The extension and the kind must agree.

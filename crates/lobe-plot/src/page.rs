@@ -9,9 +9,11 @@ use quick_xml::escape::escape;
 use crate::albedo::albedos;
 use crate::evaluate::Progress;
 use crate::figures::{
-    Plate, all_curves, channels_plate, curves_plate, polar_plate, side_name, slices_plate, spectra_plate, sphere_plate,
+    Plate, all_curves, channels_plate, curves_plate, polar_plate, residuals_plate, side_name, slices_plate,
+    spectra_plate, sphere_plate,
 };
 use crate::layout::{Layout, Paper, Sprites};
+use crate::residual::Fitted;
 use crate::scale::{Scaling, degrees};
 use crate::shown::Shown;
 use crate::subject::Subject;
@@ -38,11 +40,24 @@ pub struct Page {
 ///
 /// `facts` are those of each file.
 pub fn page(shown: &[Shown<'_>], facts: &[Vec<Facts>], progress: &dyn Progress) -> Page {
+    page_with_fit(shown, facts, None, progress)
+}
+
+/// As [`page()`], with a model that was fitted to the first of the files: what is known of the fit, and where it fails.
+pub fn page_with_fit(
+    shown: &[Shown<'_>],
+    facts: &[Vec<Facts>],
+    fitted: Option<&Fitted<'_>>,
+    progress: &dyn Progress,
+) -> Page {
     let sprites = Sprites::default();
     let mut out = Out { html: String::new(), sprites: &sprites, pixels: 0, figures: 0, said: Vec::new() };
     out.pixels = shown.first().map_or(0, |first| first.view.width);
     out.overview(shown, facts, progress);
     out.findings(shown, progress);
+    if let (Some(first), Some(fitted)) = (shown.first(), fitted) {
+        out.fit(*first, fitted, progress);
+    }
     match shown {
         [one] => out.sections(*one, progress),
         several => out.section("In the plane of incidence and over the hemisphere", several, true, progress),
@@ -143,6 +158,14 @@ impl Out<'_> {
             let prefix = if name.is_empty() { String::new() } else { format!("{name}: ") };
             self.said.push(format!("{prefix}checks: {}", counts(&findings)));
         }
+        self.put("</div>\n</section>");
+    }
+
+    /// The fit of a material, and its residuals.
+    fn fit(&mut self, shown: Shown<'_>, fitted: &Fitted<'_>, progress: &dyn Progress) {
+        self.put("<section>\n<h2>The fit, and where it fails</h2>\n<div class=\"cards\">");
+        self.put(&facts_table("", &fitted.facts));
+        self.figure(&residuals_plate(shown, fitted, progress));
         self.put("</div>\n</section>");
     }
 

@@ -4,6 +4,7 @@ mod gltf;
 mod materialx;
 mod optics;
 mod parameters;
+mod saved;
 
 use lobe_colour::Channels;
 use thiserror::Error;
@@ -15,6 +16,7 @@ pub use gltf::gltf;
 pub use materialx::materialx;
 pub use optics::{table, total};
 pub use parameters::{Report, json, toml};
+pub use saved::{Saved, SavedError, read};
 
 /// Why a fit cannot be written in a format.
 #[derive(Clone, Debug, PartialEq, Error)]

@@ -1,7 +1,7 @@
 //! Files of fits.
 
 use lobe_colour::Channels;
-use lobe_fit::output::{Report, gltf, json, materialx, table, toml, total};
+use lobe_fit::output::{Report, gltf, json, materialx, read, table, toml, total};
 use lobe_fit::{Fit, Fitted, Measurement, Model, Request, fit, residuals};
 use lobe_ops::Aspect;
 
@@ -105,4 +105,35 @@ fn formats_refuse_what_they_cannot_hold() {
     assert!(materialx(&fit, "x").expect_err("no colour").to_string().contains("found the channels X Y Z"));
     assert!(gltf(&fit, "x").expect_err("no model").to_string().contains("found a fit of lambert"));
     assert!(table(&fit).expect_err("no model").to_string().contains("abg, harvey-shack"));
+}
+
+/// The model of a file has the values of the model that was fitted.
+#[test]
+fn fits_are_read_from_json() {
+    let (fit, measurement) = fitted(Model::Ggx, Channels::Rgb, [0.1, 0.2, 0.3].map(|d| vec![0.2, d, 0.5]).to_vec());
+    let residuals = residuals(&fit.fitted, &measurement);
+    let report = Report { aspect: "reflection front".into(), fit: &fit, residuals: &residuals, delta_e: None };
+    let text = json(&report);
+    let saved = read(&text).expect("a fit");
+    assert_eq!((saved.aspect(), saved.channels.len()), (Aspect::REFLECTION, 3));
+    assert!(
+        saved.facts.iter().any(|(name, value)| name == "alpha" && value.starts_with("0.2000 ± ")),
+        "{:?}",
+        saved.facts
+    );
+    for (wi, wo) in [([0.6, 0.0, 0.8], [-0.6, 0.0, 0.8]), ([0.0, 0.0, 1.0], [0.0, 0.28, 0.96])] {
+        let (mut found, mut expected) = ([0.0; 3], [0.0; 3]);
+        saved.fitted.f(wi, wo, &mut found);
+        fit.fitted.f(wi, wo, &mut expected);
+        assert_eq!(found, expected);
+    }
+    for (from, to, found) in [
+        ("\"ggx\"", "\"gx\"", "the model \"gx\""),
+        ("reflection front", "reflection top", "the aspect"),
+        ("\"alpha\"", "\"alfa\"", "no alpha of channel 0"),
+        ("{", "[", "expected JSON"),
+    ] {
+        let error = read(&text.replacen(from, to, 3)).expect_err(to).to_string();
+        assert!(error.contains(found), "{error}");
+    }
 }

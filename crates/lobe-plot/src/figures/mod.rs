@@ -6,6 +6,7 @@ mod chart;
 mod legend;
 mod lines;
 mod polar;
+mod residuals;
 mod shared;
 mod slices;
 mod spectral;
@@ -18,6 +19,7 @@ use thiserror::Error;
 use crate::evaluate::Progress;
 use crate::in_plane::{Curve, MOST, curves};
 use crate::layout::Paper;
+use crate::residual::Fitted;
 use crate::scale::{Scaling, degrees};
 use crate::shown::{Shown, incidences};
 use crate::view::View;
@@ -158,6 +160,12 @@ pub(crate) fn slices_plate<'a>(shown: &[Shown<'a>], progress: &dyn Progress) -> 
     sigmas.dedup();
     let shown = shown.to_vec();
     Plate { draw: Box::new(move |paper| slices::draw(&shown, &slices, paper)), said: vec![lights(&sigmas)] }
+}
+
+pub(crate) fn residuals_plate<'a>(shown: Shown<'a>, fitted: &Fitted<'_>, progress: &dyn Progress) -> Plate<'a> {
+    let disks = residuals::residuals(shown, fitted, progress);
+    let sigmas: Vec<f64> = disks.iter().map(|disk| disk.slice.sigma).collect();
+    Plate { draw: Box::new(move |paper| residuals::draw(shown, &disks, paper)), said: vec![lights(&sigmas)] }
 }
 
 pub(crate) fn sphere_plate<'a>(shown: &[Shown<'a>], progress: &dyn Progress) -> Plate<'a> {

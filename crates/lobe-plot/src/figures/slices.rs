@@ -138,10 +138,10 @@ fn picture(slice: &Slice, scale: &Scale) -> Image {
 
 /// Where a disk is.
 #[derive(Clone, Copy)]
-struct Place {
-    x: f64,
-    y: f64,
-    radius: f64,
+pub(super) struct Place {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) radius: f64,
 }
 
 impl Place {
@@ -165,6 +165,15 @@ fn disk(svg: &mut Svg<'_>, place: Place, slice: &Slice, view: &View, scale: &Sca
              fill=\"none\"/>"
         ));
     }
+    rings(svg, place);
+    light_and_mirror(svg, place, view, slice.sigma);
+    hints(svg, place, slice);
+    let label = Text { is_heavy: true, size: 16.0, ..MIDDLE };
+    svg.text([x, y - radius - 9.0], label, &format!("σ = {}", degrees(slice.sigma)));
+}
+
+/// The rings of polar angles, and the rim.
+pub(super) fn rings(svg: &mut Svg<'_>, Place { x, y, radius }: Place) {
     for angle in [30.0_f64, 60.0] {
         svg.raw(&format!(
             "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"none\" stroke=\"#ffffff\" stroke-opacity=\"0.28\" stroke-width=\"0.9\"/>",
@@ -174,13 +183,13 @@ fn disk(svg: &mut Svg<'_>, place: Place, slice: &Slice, view: &View, scale: &Sca
         ));
     }
     svg.circle([x, y], radius, Role::Frame, 1.4);
-    // The light, where it comes from, and the mirror direction or the straight-through ray.
-    let [u, v] = to_disk(view.side, view.psi, incident(view.side, slice.sigma, view.psi));
+}
+
+/// The light, where it comes from, and the mirror direction or the straight-through ray.
+pub(super) fn light_and_mirror(svg: &mut Svg<'_>, place: Place, view: &View, sigma: f64) {
+    let [u, v] = to_disk(view.side, view.psi, incident(view.side, sigma, view.psi));
     svg.raw(&sun(place.at([u, v])));
     svg.raw(&cross_mark(place.at([-u, -v])));
-    hints(svg, place, slice);
-    let label = Text { is_heavy: true, size: 16.0, ..MIDDLE };
-    svg.text([x, y - radius - 9.0], label, &format!("σ = {}", degrees(slice.sigma)));
 }
 
 /// The radius on the unit disk of a polar angle in degrees.
@@ -225,19 +234,11 @@ fn cross_mark([x, y]: [f64; 2]) -> String {
     )
 }
 
-/// The colour bar: what it measures at its right end, or above it if there is no room.
-fn bar(svg: &mut Svg<'_>, y: f64, scale: &Scale) {
-    const STEPS: usize = 256;
-    let width = svg.layout().width;
-    let is_narrow = svg.layout().is_narrow;
-    let left = if is_narrow { 40.0 } else { 150.0 };
-    let length = width - 2.0 * left;
-    let rgba = (0..STEPS).flat_map(|step| {
-        let colorous::Color { r, g, b } = colorous::VIRIDIS.eval_rational(step, STEPS);
-        [r, g, b, 255]
-    });
-    let ramp = Image { width: STEPS as u32, height: 1, rgba: rgba.collect() };
-    svg.image(Area { x: left, y, width: length, height: 16.0 }, &ramp);
+/// Where the colour bar begins on wide paper.
+pub(super) const LEFT_OF_BAR: f64 = 150.0;
+
+/// The frame of a colour bar.
+pub(super) fn frame_of_bar(svg: &mut Svg<'_>, [left, y]: [f64; 2], length: f64) {
     for (from, to) in [
         ([left, y], [left + length, y]),
         ([left, y + 16.0], [left + length, y + 16.0]),
@@ -246,6 +247,22 @@ fn bar(svg: &mut Svg<'_>, y: f64, scale: &Scale) {
     ] {
         svg.line(from, to, Role::Frame, 1.0);
     }
+}
+
+/// The colour bar: what it measures at its right end, or above it if there is no room.
+fn bar(svg: &mut Svg<'_>, y: f64, scale: &Scale) {
+    const STEPS: usize = 256;
+    let width = svg.layout().width;
+    let is_narrow = svg.layout().is_narrow;
+    let left = if is_narrow { 40.0 } else { LEFT_OF_BAR };
+    let length = width - 2.0 * left;
+    let rgba = (0..STEPS).flat_map(|step| {
+        let colorous::Color { r, g, b } = colorous::VIRIDIS.eval_rational(step, STEPS);
+        [r, g, b, 255]
+    });
+    let ramp = Image { width: STEPS as u32, height: 1, rgba: rgba.collect() };
+    svg.image(Area { x: left, y, width: length, height: 16.0 }, &ramp);
+    frame_of_bar(svg, [left, y], length);
     let mut end = f64::NEG_INFINITY;
     for tick in scale.ticks() {
         let x = left + length * scale.place(tick.value);
