@@ -123,7 +123,10 @@ fn what_a_format_cannot_hold_is_refused() {
     let said = folder.refused(&["convert", "glass.ddt", "x.bsdf", "--to", "rgl"], "x.bsdf");
     assert_eq!(said, "error: x.bsdf: found transmission; expected reflection in RGL BSDF\n");
     let said = folder.refused(&["convert", "glass.ddt", "x.bsdf"], "x.bsdf");
-    assert!(said.contains("the extension .bsdf, which RGL and Zemax files share; expected --to"), "{said}");
+    assert!(
+        said.contains("the extension .bsdf, which RGL and Zemax and LightTools files share; expected --to"),
+        "{said}"
+    );
     let said = folder.refused(&["convert", "glass.ddt", "x.txt"], "x.txt");
     assert!(said.contains("the extension .txt, which no format that lobe writes has"), "{said}");
     let said = folder.refused(&["convert", "glass.ddt", "x.sdt"], "x.sdt");
@@ -193,4 +196,102 @@ fn every_command_has_an_example() {
         let help = folder.printed(&[command, "--help"]);
         assert!(help.contains("Example") && help.contains(&format!("lobe {command}")), "{command}: {help}");
     }
+}
+
+/// The numbers that a conversion states are those that `lobe compare` finds, and the file keeps them.
+#[test]
+fn what_a_conversion_states_is_what_compare_finds() {
+    let folder = Folder::new();
+    let source = fixture(CONDUCTOR);
+    let source = source.to_str().expect("a path in UTF-8");
+    for (out, options, comment) in [
+        ("a.bsdf", &["--to", "rgl", "--zeniths", "8", "--texels", "16"][..], true),
+        ("b.xml", &["--basis", "quarter"], true),
+        ("c.xml", &["--basis", "tree3", "--depth", "4", "--leaf-error", "0.2"], true),
+        ("d.txt", &["--to", "astm"], false),
+        ("e.bsdf", &["--to", "lighttools"], true),
+        ("f.mbsdf", &[], true),
+        ("g.binary", &["--to", "merl"], false),
+        ("h.brdf", &["--channel", "G"], true),
+    ] {
+        let output = folder.lobe(&[&["convert", source, out, "--json"], options].concat());
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{out}: {said}");
+        let stated: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let channel = if out == "h.brdf" { &["--channel", "G"][..] } else { &[] };
+        let found = folder.printed(&[&["compare", "--json", source, out, "--pixels", "8"], channel].concat());
+        let found: serde_json::Value = serde_json::from_str(&found).expect("JSON");
+        for name in ["max", "rms", "relative_rms", "pairs"] {
+            let [stated, found] = [&stated["error"], &found].map(|list| list[0]["difference"][name].as_f64());
+            assert!(stated.is_some() && stated == found, "{out}: {name} {stated:?} and {found:?}");
+        }
+        let max = format!("{:.3e}", stated["error"][0]["difference"]["max"].as_f64().expect("a number"));
+        assert!(said.contains(&max), "{out}: {said}");
+        let bytes = std::fs::read(folder.0.path().join(out)).expect("the file");
+        let is_kept = bytes.windows(max.len()).any(|bytes| bytes == max.as_bytes());
+        assert_eq!(is_kept, comment, "{out}");
+    }
+}
+
+/// Nodes are refined until the bound holds; where it cannot, nothing is written.
+#[test]
+fn a_bound_is_met_or_the_conversion_fails() {
+    let folder = Folder::new();
+    let source = fixture(CONDUCTOR);
+    let source = source.to_str().expect("a path in UTF-8");
+    let knots = ["--sigma", "0,30,60,85", "--theta", "0,5,15,30,60,90,180", "--phi", "0,90,180,270,360"];
+    folder.said(&["generate", "ggx", "gold.bsdf", "--to", "rgl", "--alpha", "0.4"]);
+    let coarse = folder.lobe(&[&["convert", "gold.bsdf", "coarse.ddr", "--json"], &knots[..]].concat());
+    let error = |output: &Output| {
+        let stated: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        stated["error"][0]["difference"]["relative_rms"].as_f64().expect("a number")
+    };
+    let before = error(&coarse);
+    let bound = format!("{:.5}", before / 3.0);
+    let fine = folder.lobe(&[&["convert", "gold.bsdf", "fine.ddr", "--json", "--error", &bound], &knots[..]].concat());
+    assert!(fine.status.success(), "{}", String::from_utf8_lossy(&fine.stderr));
+    assert!(error(&fine) <= before / 3.0, "{} after {before}", error(&fine));
+    folder.said(&["compare", "gold.bsdf", "fine.ddr", "--within", &bound, "--pixels", "8"]);
+    // There are no finer patches than those of the full basis.
+    let output = folder.lobe(&["convert", source, "x.xml", "--basis", "half", "--error", "1e-4"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("the smallest error that was reached is") && said.contains("145 x 145 patches"), "{said}");
+    assert!(!folder.0.path().join("x.xml").exists());
+}
+
+#[test]
+fn matrices_are_multiplied() {
+    let folder = Folder::new();
+    let write = |name: &str, text: &str| std::fs::write(folder.0.path().join(name), text).expect("written");
+    write("v.mtx", "#?RADIANCE\nNROWS=1\nNCOLS=2\nNCOMP=3\nFORMAT=ascii\n\n1 2 3\t4 5 6\n");
+    write("s.txt", "1 1 1\n0.5 1 2\n");
+    let printed = folder.printed(&["matrix", "v.mtx", "s.txt"]);
+    assert!(printed.ends_with("FORMAT=ascii\n\n3 7 15\n"), "{printed}");
+    let printed = folder.printed(&["matrix", "v.mtx", "s.txt", "--minus", "v.mtx,s.txt", "--plus", "v.mtx,s.txt"]);
+    assert!(printed.ends_with("\n\n3 7 15\n"), "{printed}");
+    folder.said(&["matrix", "v.mtx", "s.txt", "-o", "out.mtx", "--format", "float"]);
+    write("one.txt", "2 2 2\n");
+    let printed = folder.printed(&["matrix", "out.mtx", "one.txt"]);
+    assert!(printed.ends_with("\n\n6 14 30\n"), "{printed}");
+    let said = folder.refused(&["matrix", "s.txt", "v.mtx", "s.txt", "v.mtx", "v.mtx", "-o", "x.mtx"], "x.mtx");
+    assert!(said.contains("v.mtx (1 rows x 2 columns of 3 components): found after it v.mtx"), "{said}");
+}
+
+#[test]
+fn a_page_shows_where_a_fit_fails() {
+    let folder = Folder::new();
+    let source = fixture(CONDUCTOR);
+    let source = source.to_str().expect("a path in UTF-8");
+    folder.printed(&["fit", source, "--model", "lambert", "-o", "fit.json"]);
+    folder.printed(&["plot", source, "-o", "page.html", "--fit", "fit.json", "--width", "200"]);
+    let page = folder.read("page.html");
+    assert!(
+        page.contains("The fit, and where it fails") && page.contains("lambert") && page.contains("rms "),
+        "no fit"
+    );
+    let said = folder.refused(&["plot", source, "-o", "x.svg", "--fit", "fit.json"], "x.svg");
+    assert!(said.contains("a fit with a figure"), "{said}");
+    let said = folder.lobe(&["plot", source, "-o", "y.html", "--fit", source]);
+    assert_eq!(said.status.code(), Some(1));
 }

@@ -104,6 +104,19 @@ impl Scratch {
         // Light through the sheet from its front, and light reflected by its back, in the words of this format.
         self.write("blinds.xml", sheet.replace("Reflection Back", "Transmission Back"));
         self.write("screen.xml", sheet.replace("Reflection Back", "Reflection Front"));
+        for (name, rows, columns) in [
+            ("view.mtx", 2, 3),
+            ("direct.mtx", 2, 3),
+            ("daylight.mtx", 3, 4),
+            ("suns.mtx", 3, 4),
+            ("sky.mtx", 4, 2),
+            ("sun.mtx", 2, 5),
+            ("discs.mtx", 5, 2),
+        ] {
+            let elements = "0.5 0.5 0.5\n".repeat(rows * columns);
+            self.write(name, format!("#?RADIANCE\nNROWS={rows}\nNCOLS={columns}\nNCOMP=3\nFORMAT=ascii\n\n{elements}"));
+        }
+        self.run("lobe fit paint.ddr --model ggx --starts 2 -o fit.json");
         self.write("pairs.csv", "0,0,1,0,0,1\n0.6,0,0.8,-0.6,0,0.8\n");
         self.write("scene.toml", SCENE);
         self.write("glass.toml", format!("{SCENE}\n[spectrum]\nstokes = true\n"));
