@@ -27,6 +27,9 @@ RADIANCE = 4e-4
 # Radiance keeps the colour of a patch as u' and v' in steps of 1/410, randomly rounded: two steps at most.
 RADIANCE_COLOUR = 2 / 410
 
+# dctimestep multiplies in single precision, and prints six digits; it keeps colours as Radiance does.
+DAYLIGHT = 1e-5
+
 PAIRS = 5000
 
 
@@ -169,6 +172,71 @@ def radiance_peer(lobe, verdict):
         expected = lobe.eval(file, wi, wo, "--channel", "CIE-X", "--channel", "Visible", "--channel", "CIE-Z")
         verdict.compare("Y against lobe on the file", expected[:, 1], found[:, 1], RADIANCE)
         verdict.compare_steps("u' and v' against lobe on the file", chromaticity(expected), chromaticity(found), RADIANCE_COLOUR)
+    trees = [
+        lobe.write("tree3.xml", "generate", "ggx", "--alpha", "0.3", "--basis", "tree3"),
+        lobe.write("tree4.xml", "generate", "ggx", "--alpha", "0.3,0.5", "--basis", "tree4", "--depth", "4"),
+        lobe.write("conductor-tree.xml", "convert", FIXTURES / "conductor-7x8x13.ddr", "--basis", "tree3"),
+    ]
+    for file in trees:
+        print(f"{file.name} in pyradiance")
+        data = bsdf.load_file(str(file))
+        found = np.array([bsdf.query(data, *a, *b) for a, b in zip(polar(wi), polar(wo))])
+        expected = lobe.eval(file, wi, wo, "--channel", "Visible")
+        error = errors(expected[:, 0], found[:, 1])
+        # Where rounding puts a direction into the next cell, the other one has the value of that.
+        near = error > RADIANCE
+        for pair in np.flatnonzero(near):
+            moved = [wi[pair] + shift for shift in 1e-6 * np.random.default_rng(7).standard_normal((40, 3))]
+            around = lobe.eval(file, np.array(moved), np.tile(wo[pair], (40, 1)), "--channel", "Visible")[:, 0]
+            near[pair] = np.abs(around - found[pair, 1]).min() > RADIANCE * abs(found[pair, 1])
+        print(f"  {np.count_nonzero(error > RADIANCE)} pairs on the border of two cells")
+        verdict.compare("Y against lobe on the file", expected[~(error > RADIANCE), 0], found[~(error > RADIANCE), 1], RADIANCE)
+        verdict.agrees &= not near.any()
+
+
+def daylight_peer(lobe, verdict):
+    """Products of matrices against dctimestep."""
+    import pyradiance
+
+    program = pathlib.Path(pyradiance.__file__).parent / "bin" / "dctimestep"
+    rng = np.random.default_rng(9)
+
+    def matrix(name, rows, columns, kind="ascii"):
+        values = rng.random((rows, columns, 3))
+        head = f"#?RADIANCE\nNROWS={rows}\nNCOLS={columns}\nNCOMP=3\n"
+        body = {"float": values.astype("<f4").tobytes(), "double": values.astype("<f8").tobytes()}
+        ending = "" if kind == "ascii" else "BigEndian=0\n"
+        text = "\n".join("\t".join(" ".join(f"{x:.9g}" for x in element) for element in row) for row in values) + "\n"
+        path = lobe.folder / name
+        path.write_bytes(f"{head}{ending}FORMAT={kind}\n\n".encode() + body.get(kind, text.encode()))
+        return path
+
+    def parsed(text):
+        return np.array([float(word) for word in text.split("\n\n", 1)[1].split()])
+
+    sheets = [
+        lobe.write("grey.xml", "convert", lobe.write("through.bsdf", "generate", "ggx", "--to", "rgl", "--alpha", "0.5"), "--to", "klems"),
+    ]
+    sheets = [transmitting(lobe, sheet) for sheet in sheets]
+    for sheet in sheets:
+        for kinds in [("ascii", "float", "double"), ("double", "ascii", "float")]:
+            view, daylight, sky = (
+                matrix(f"{name}-{kind}.mtx", *shape, kind)
+                for name, shape, kind in zip("vds", [(7, 145), (145, 146), (146, 24)], kinds)
+            )
+            files = [view, sheet, daylight, sky]
+            done = subprocess.run([str(program), *map(str, files)], capture_output=True, text=True, check=True)
+            found = parsed(lobe.run("matrix", *files).stdout)
+            verdict.compare(f"V T D s ({', '.join(kinds)}) against dctimestep", parsed(done.stdout), found, DAYLIGHT)
+
+
+def transmitting(lobe, sheet):
+    """The same matrices as those of transmission from the front: reflection of light from z > 0 is exchanged for it."""
+    text = sheet.read_text().replace("Reflection Back", "Transmission Front").replace("BRDF", "BTDF")
+    path = lobe.folder / "transmitting.xml"
+    path.write_text(text)
+    return path
+
 
 
 def numpy_peer(lobe, verdict):
@@ -197,7 +265,7 @@ def main():
         folder = arguments.keep or pathlib.Path(temporary)
         folder.mkdir(parents=True, exist_ok=True)
         lobe = Lobe(str(pathlib.Path(arguments.lobe).resolve()), folder)
-        for peer in (numpy_peer, radiance_peer, mitsuba_peer):
+        for peer in (numpy_peer, radiance_peer, daylight_peer, mitsuba_peer):
             peer(lobe, verdict)
     sys.exit(0 if verdict.agrees else 1)
 
