@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use lobe::Side;
+use lobe::{Bsdf as _, Side};
 use lobe_files::check_output;
 use lobe_formats::{Document, Format, write_whole};
 use lobe_plot::{
