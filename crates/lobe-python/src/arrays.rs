@@ -1,17 +1,11 @@
-//! Arrays of vectors: anything that NumPy understands, as slices that kernels read. `float32` whose vectors, or whose columns
-//! of components, lie next to each other is read where it is.
+//! Arrays of numbers: anything that NumPy understands.
 
-use lobe::Directions;
+use numpy::PyArrayDyn;
 use numpy::prelude::*;
-use numpy::{PyArrayDyn, PyReadonlyArrayDyn, PyReadwriteArrayDyn};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
 
-/// How far the square of the length of a unit vector may be from 1: vectors with three digits pass.
-const LENGTH: f32 = 5e-3;
-/// At most as many vectors of a batch are checked, evenly chosen: whoever forgets to normalise forgets it for most.
-const CHECKED: usize = 1024;
+use crate::results::{output, written};
 
 /// An array of real numbers as `float32`.
 ///
@@ -36,7 +30,10 @@ pub fn doubles<'py>(value: &Bound<'py, PyAny>, name: &str) -> PyResult<Bound<'py
 }
 
 /// An array of real numbers of any type.
-fn numbers<'py>(value: &Bound<'py, PyAny>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+///
+/// # Errors
+/// As [`floats`].
+pub fn numbers<'py>(value: &Bound<'py, PyAny>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     let py = value.py();
     let numpy = py.import("numpy")?;
     if value.hasattr("mask")? && value.hasattr("filled")? {
@@ -85,177 +82,6 @@ pub fn shown(shape: &[usize]) -> String {
         [one] => format!("({one},)"),
         _ => format!("({})", shape.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),
     }
-}
-
-/// Vectors of `N` components, in an array that lives as long as this.
-pub struct Vectors<'py, const N: usize> {
-    name: &'static str,
-    array: Bound<'py, PyArrayDyn<f32>>,
-}
-
-impl<'py, const N: usize> Vectors<'py, N> {
-    /// Takes an array of shape `(..., N)`.
-    ///
-    /// # Errors
-    /// `ValueError` if its last axis has another length.
-    pub fn new(value: &Bound<'py, PyAny>, name: &'static str) -> PyResult<Self> {
-        let array = floats(value, name)?;
-        match array.shape().last() {
-            Some(&last) if last == N => Ok(Vectors { name, array }),
-            _ => Err(PyValueError::new_err(format!(
-                "{name}: found an array of shape {}; expected (..., {N})",
-                shown(array.shape())
-            ))),
-        }
-    }
-
-    /// The shape without the last axis.
-    pub fn shape(&self) -> &[usize] {
-        &self.array.shape()[..self.array.shape().len() - 1]
-    }
-
-    /// The vectors of a batch of this shape, which they are repeated to.
-    ///
-    /// # Errors
-    /// If something writes to the array.
-    pub fn batch(self, shape: &[usize]) -> PyResult<Batch<'py, N>> {
-        let may_be_columns = has_columns(&self.array);
-        self.laid_out(shape, may_be_columns)
-    }
-
-    /// As [`batch`](Self::batch), each vector in one piece.
-    ///
-    /// # Errors
-    /// As [`batch`](Self::batch).
-    pub fn batch_of_rows(self, shape: &[usize]) -> PyResult<Batch<'py, N>> {
-        self.laid_out(shape, false)
-    }
-
-    fn laid_out(self, shape: &[usize], are_columns: bool) -> PyResult<Batch<'py, N>> {
-        let is_whole = self.shape() == shape;
-        let array = match is_whole && (self.array.is_c_contiguous() || are_columns) {
-            true => self.array,
-            false => {
-                let numpy = self.array.py().import("numpy")?;
-                let full = PyTuple::new(self.array.py(), [shape, &[N]].concat())?;
-                let wide = numpy.call_method1("broadcast_to", (&self.array, full))?;
-                numpy.call_method1("ascontiguousarray", (wide,))?.cast_into()?
-            }
-        };
-        let array = array.try_readonly().map_err(|error| PyValueError::new_err(format!("{}: {error}", self.name)))?;
-        Ok(Batch { name: self.name, array })
-    }
-}
-
-/// Whether all components of the same name lie next to each other, as in the transpose of an array of columns.
-fn has_columns(array: &Bound<'_, PyArrayDyn<f32>>) -> bool {
-    let (shape, strides) = (array.shape(), array.strides());
-    let mut next = size_of::<f32>() as isize;
-    for axis in (0..shape.len() - 1).rev() {
-        if shape[axis] != 1 && strides[axis] != next {
-            return false;
-        }
-        next *= shape[axis] as isize;
-    }
-    true
-}
-
-/// Vectors that a kernel can read.
-pub struct Batch<'py, const N: usize> {
-    name: &'static str,
-    array: PyReadonlyArrayDyn<'py, f32>,
-}
-
-impl<const N: usize> Batch<'_, N> {
-    /// The vectors, if they lie one after the other.
-    pub fn rows(&self) -> Option<&[[f32; N]]> {
-        self.array.as_array().to_slice().map(|values| values.as_chunks().0)
-    }
-}
-
-impl Batch<'_, 3> {
-    /// The directions, in either layout.
-    ///
-    /// # Errors
-    /// `ValueError` if they are not of unit length; vectors of zero length are no directions, and pass.
-    pub fn directions(&self) -> PyResult<Directions<'_>> {
-        let directions = match self.rows() {
-            Some(rows) => Directions::Vectors(rows),
-            None => {
-                let view = self.array.as_array();
-                let last = numpy::ndarray::Axis(view.ndim() - 1);
-                let column = |k| view.clone().index_axis_move(last, k);
-                let columns = [0, 1, 2].map(|k| column(k).to_slice());
-                match columns {
-                    [Some(x), Some(y), Some(z)] => Directions::Columns([x, y, z]),
-                    _ => return Err(PyValueError::new_err(format!("{}: found no vectors", self.name))),
-                }
-            }
-        };
-        let count = directions.count();
-        for index in (0..count).step_by(count.div_ceil(CHECKED).max(1)) {
-            let [x, y, z] = directions.get(index);
-            let square = x * x + y * y + z * z;
-            if (square - 1.0).abs() > LENGTH && square != 0.0 {
-                return Err(PyValueError::new_err(format!(
-                    "{}: found vector {index}, ({x}, {y}, {z}), of length {}; expected unit vectors (normalize() makes them)",
-                    self.name,
-                    square.sqrt()
-                )));
-            }
-        }
-        Ok(directions)
-    }
-
-    /// The directions as vectors; columns are copied.
-    ///
-    /// # Errors
-    /// As [`directions`](Self::directions).
-    pub fn vectors(&self) -> PyResult<std::borrow::Cow<'_, [[f32; 3]]>> {
-        Ok(match self.directions()? {
-            Directions::Vectors(rows) => rows.into(),
-            columns => (0..columns.count()).map(|index| columns.get(index)).collect::<Vec<_>>().into(),
-        })
-    }
-}
-
-/// A new array of zeros, or the one to write to.
-///
-/// # Errors
-/// `MemoryError`; `ValueError` if the array is of another shape or type, or cannot be written to.
-pub fn output<'py>(
-    py: Python<'py>,
-    out: Option<&Bound<'py, PyAny>>,
-    shape: &[usize],
-) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
-    let Some(out) = out else {
-        let shape = PyTuple::new(py, shape)?;
-        return Ok(py.import("numpy")?.call_method1("zeros", (shape, "float32"))?.cast_into()?);
-    };
-    match out.cast::<PyArrayDyn<f32>>() {
-        Ok(array) if array.shape() == shape && array.is_c_contiguous() && array.is_aligned() => Ok(array.clone()),
-        _ => Err(PyValueError::new_err(format!(
-            "out: found {}; expected a contiguous array of float32 of shape {}",
-            described(out),
-            shown(shape)
-        ))),
-    }
-}
-
-fn described(value: &Bound<'_, PyAny>) -> String {
-    let attribute = |name: &str| value.getattr(name).map(|found| found.to_string());
-    match (attribute("dtype"), attribute("shape")) {
-        (Ok(dtype), Ok(shape)) => format!("an array of {dtype} of shape {shape}"),
-        _ => format!("a {}", value.get_type()),
-    }
-}
-
-/// The values to write to.
-///
-/// # Errors
-/// `ValueError` if something else uses the array, or it is read-only.
-pub fn written<'py>(array: &Bound<'py, PyArrayDyn<f32>>) -> PyResult<PyReadwriteArrayDyn<'py, f32>> {
-    array.try_readwrite().map_err(|error| PyValueError::new_err(format!("out: {error}")))
 }
 
 /// Unit vectors with the directions of v, an array of shape (..., 3), as float32.

@@ -1,11 +1,12 @@
 //! Measured materials for Python: the module `lobe_bsdf._lobe`, whose names the package in `python/lobe_bsdf` re-exports.
 //!
-//! Arrays become slices (`arrays`), errors exceptions (`errors`), and work is done without the lock of the interpreter,
+//! Arrays become batches (`batches`), errors exceptions (`errors`), and work is done without the lock of the interpreter,
 //! in a way that Ctrl-C can end (`threads`). What is computed is in the crates below.
 #![forbid(unsafe_code)]
 
 mod arrays;
 mod aspects;
+mod batches;
 mod content;
 mod errors;
 mod files;
@@ -16,10 +17,13 @@ mod operations;
 mod options;
 mod pictures;
 mod resampling;
+mod results;
 mod sampler;
 mod samples;
 mod saving;
 mod scattered;
+mod strided;
+mod tasks;
 mod threads;
 
 /// The native part of `lobe_bsdf`.

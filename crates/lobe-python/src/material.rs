@@ -6,14 +6,17 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::arrays::{Vectors, broadcast, output, written};
+use crate::arrays::broadcast;
 use crate::aspects::Asked;
+use crate::batches::Vectors;
 use crate::content::{Reduced, arrays, remake};
 use crate::opened::Opened;
 use crate::operations;
 use crate::resampling;
+use crate::results::{output, written};
 use crate::sampler::Sampler;
 use crate::saving;
+use crate::tasks;
 use crate::threads;
 
 /// A measured material, in the form in which it was measured: nothing is resampled.
@@ -124,7 +127,8 @@ impl Material {
     ///
     /// wi and wo are unit vectors: arrays of shapes (..., 3) that broadcast. The result is float32 of shape (..., channels), and
     /// is written to `out` if it is given. Contiguous float32 is not copied, and neither are columns, as in the transpose of an
-    /// array of shape (3, n). Large batches are shared among threads, without the lock of the interpreter.
+    /// array of shape (3, n); everything else is copied piece by piece. Large batches are shared among threads, without the lock
+    /// of the interpreter.
     #[pyo3(signature = (wi, wo, *, out=None))]
     fn eval<'py>(
         &self,
@@ -143,10 +147,7 @@ impl Material {
         let mut written = written(&result)?;
         let values = written.as_slice_mut()?;
         let material = &self.opened.material;
-        threads::batches(py, wi.count(), |part| {
-            let values = &mut values[part.start * channels..part.end * channels];
-            material.eval_batch(wi.part(part.clone()), wo.part(part), values);
-        })?;
+        tasks::evaluate(py, [&wi, &wo], channels, values, &|wi, wo, values| material.eval_batch(wi, wo, values))?;
         drop(written);
         Ok(result)
     }

@@ -1,15 +1,19 @@
 //! The class `Sampler`.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
-use lobe::{Sampled, SamplerOptions};
+use lobe::{Directions, Sampled, SamplerOptions};
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use crate::arrays::{Vectors, broadcast, output, written};
+use crate::arrays::broadcast;
+use crate::batches::Vectors;
 use crate::errors::Failure;
 use crate::options::given;
+use crate::results::{output, written};
+use crate::tasks;
 use crate::threads;
 
 type Floats<'py> = Bound<'py, PyArrayDyn<f32>>;
@@ -76,13 +80,8 @@ impl Sampler {
         let given = self::given(given)?;
         let (w, u) = (Vectors::<3>::new(w, "w")?, Vectors::<2>::new(u, "u")?);
         let shape = broadcast(["w", "u"], w.shape(), u.shape())?;
-        let (w, u) = (w.batch(&shape)?, u.batch_of_rows(&shape)?);
-        let (known, u) = (w.vectors()?, u.rows().unwrap_or_default());
-        let unfit = u.iter().position(|u| !u.iter().all(|u| (0.0..1.0).contains(u)));
-        if let Some(index) = unfit {
-            let message = format!("u: found {:?} at {index}; expected numbers in [0, 1)", u[index]);
-            return Err(Failure::Value(message).into());
-        }
+        let (w, u) = (w.batch(&shape)?, u.batch(&shape)?);
+        let (known, u) = (w.rows_of_directions()?, u.rows());
         let channels = self.sampler.material().channel_count();
         let with = |last: &[usize]| output(py, None, &[shape.as_slice(), last].concat());
         let (directions, pdfs, weights) = (with(&[3])?, with(&[])?, with(&[channels])?);
@@ -90,14 +89,11 @@ impl Sampler {
             (written(&directions)?, written(&pdfs)?, written(&weights)?);
         let all = of_directions.as_slice_mut()?.as_chunks_mut::<3>().0;
         let (all_pdfs, all_weights) = (of_pdfs.as_slice_mut()?, of_weights.as_slice_mut()?);
-        threads::batches(py, known.len(), |part| {
-            let out = Sampled {
-                directions: &mut all[part.clone()],
-                weights: &mut all_weights[part.start * channels..part.end * channels],
-                pdfs: &mut all_pdfs[part.clone()],
-            };
-            self.sampler.sample_batch(given, &known[part.clone()], &u[part], out);
-        })?;
+        let out = Sampled { directions: all, weights: all_weights, pdfs: all_pdfs };
+        if let Some(index) = tasks::sample(py, &self.sampler, given, &known, &u, out)? {
+            let message = format!("u: found {:?} at {index}; expected numbers in [0, 1)", u.get(index));
+            return Err(Failure::Value(message).into());
+        }
         drop((of_directions, of_pdfs, of_weights));
         Ok((directions, pdfs, weights))
     }
@@ -116,12 +112,12 @@ impl Sampler {
         let (wi, wo) = (Vectors::<3>::new(wi, "wi")?, Vectors::<3>::new(wo, "wo")?);
         let shape = broadcast(["wi", "wo"], wi.shape(), wo.shape())?;
         let (wi, wo) = (wi.batch(&shape)?, wo.batch(&shape)?);
-        let (wi, wo) = (wi.vectors()?, wo.vectors()?);
+        let (wi, wo) = (wi.rows_of_directions()?, wo.rows_of_directions()?);
         let result = output(py, None, &shape)?;
         let mut written = written(&result)?;
         let pdfs = written.as_slice_mut()?;
-        threads::batches(py, wi.len(), |part| {
-            self.sampler.pdf_batch(given, &wi[part.clone()], &wo[part.clone()], &mut pdfs[part]);
+        tasks::evaluate(py, [&wi, &wo], 1, pdfs, &|wi, wo, pdfs| {
+            self.sampler.pdf_batch(given, &vectors(wi), &vectors(wo), pdfs);
         })?;
         drop(written);
         Ok(result)
@@ -144,5 +140,13 @@ impl Sampler {
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         Ok(format!("<lobe_bsdf.Sampler of {}>", self.material.bind(py).repr()?))
+    }
+}
+
+/// Directions as vectors, which those that were asked for in rows are already.
+fn vectors(directions: Directions<'_>) -> Cow<'_, [[f32; 3]]> {
+    match directions {
+        Directions::Vectors(rows) => rows.into(),
+        columns => (0..columns.count()).map(|index| columns.get(index)).collect::<Vec<_>>().into(),
     }
 }

@@ -1,0 +1,144 @@
+//! Arrays for results, whose memory is used again.
+//!
+//! New memory comes from the system page by page, and each page is cleared: for a million pairs that takes as long as a quarter
+//! of the evaluation. What results no longer need is kept for the next ones instead.
+
+use std::sync::{Mutex, PoisonError};
+
+use numpy::prelude::*;
+use numpy::{PyArray1, PyArrayDyn, PyReadwriteArrayDyn};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::arrays::shown;
+
+/// Results of fewer numbers are left to NumPy: memory for them does not come from the system each time.
+const FROM: usize = (128 << 10) / size_of::<f32>();
+/// How many numbers are kept at most.
+const KEPT: usize = (128 << 20) / size_of::<f32>();
+/// Bytes of a cache line. Results begin with one, as kernels write a whole line at a time.
+const LINE: usize = 64;
+
+/// An array of NumPy that results lie in.
+struct Block {
+    array: Py<PyArray1<f32>>,
+    /// How many numbers of a result fit.
+    room: usize,
+}
+
+/// What nothing uses, the oldest first. The lock is taken and given back with that of the interpreter held, which a thread needs
+/// to fork: so it is never found taken in a new process. No code of Python runs while it is held.
+static SPARE: Mutex<Vec<Block>> = Mutex::new(Vec::new());
+
+/// The memory of a result. The result keeps it alive, and so do all views of that.
+#[pyclass(frozen, module = "lobe_bsdf")]
+struct Memory {
+    block: Option<Block>,
+    address: usize,
+    shape: Vec<usize>,
+}
+
+impl Memory {
+    fn new(py: Python<'_>, count: usize, shape: &[usize]) -> PyResult<Self> {
+        let block = match spare(count) {
+            Some(block) => block,
+            None => {
+                let zeros = py.import("numpy")?.call_method1("zeros", (count + LINE / size_of::<f32>(), "float32"))?;
+                Block { array: zeros.cast_into()?.unbind(), room: count }
+            }
+        };
+        let address = block.array.bind(py).data().expose_provenance().next_multiple_of(LINE);
+        Ok(Memory { block: Some(block), address, shape: shape.to_vec() })
+    }
+}
+
+#[pymethods]
+impl Memory {
+    #[getter]
+    fn __array_interface__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let interface = PyDict::new(py);
+        interface.set_item("version", 3)?;
+        interface.set_item("typestr", if cfg!(target_endian = "little") { "<f4" } else { ">f4" })?;
+        interface.set_item("shape", PyTuple::new(py, &self.shape)?)?;
+        interface.set_item("data", (self.address, false))?;
+        Ok(interface)
+    }
+}
+
+impl Drop for Memory {
+    fn drop(&mut self) {
+        if let Some(block) = self.block.take() {
+            keep(block);
+        }
+    }
+}
+
+/// The smallest spare block that `count` numbers fit into, if they take at least half of it: the last one that was used, which
+/// may still be in a cache.
+fn spare(count: usize) -> Option<Block> {
+    let mut spare = SPARE.lock().unwrap_or_else(PoisonError::into_inner);
+    let fitting = spare.iter().enumerate().rev().filter(|(_, block)| (count..=2 * count).contains(&block.room));
+    let (index, _) = fitting.min_by_key(|(_, block)| block.room)?;
+    Some(spare.remove(index))
+}
+
+/// Keeps a block, in place of what has been spare for longest.
+fn keep(block: Block) {
+    let mut spare = SPARE.lock().unwrap_or_else(PoisonError::into_inner);
+    spare.push(block);
+    let mut kept: usize = spare.iter().map(|block| block.room).sum();
+    let mut gone = Vec::new();
+    while kept > KEPT {
+        let oldest = spare.remove(0);
+        kept -= oldest.room;
+        gone.push(oldest);
+    }
+    drop(spare);
+}
+
+/// A new array, or the one to write to. What is in it is left over: everything must be written.
+///
+/// # Errors
+/// `MemoryError`; `ValueError` if the array is of another shape or type, or cannot be written to.
+pub fn output<'py>(
+    py: Python<'py>,
+    out: Option<&Bound<'py, PyAny>>,
+    shape: &[usize],
+) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
+    let Some(out) = out else { return new(py, shape) };
+    match out.cast::<PyArrayDyn<f32>>() {
+        Ok(array) if array.shape() == shape && array.is_c_contiguous() && array.is_aligned() => Ok(array.clone()),
+        _ => Err(PyValueError::new_err(format!(
+            "out: found {}; expected a contiguous array of float32 of shape {}",
+            described(out),
+            shown(shape)
+        ))),
+    }
+}
+
+fn new<'py>(py: Python<'py>, shape: &[usize]) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
+    let numpy = py.import("numpy")?;
+    let count = shape.iter().try_fold(1_usize, |count, &length| count.checked_mul(length)).unwrap_or(usize::MAX);
+    if !(FROM..=KEPT).contains(&count) {
+        return Ok(numpy.call_method1("zeros", (PyTuple::new(py, shape)?, "float32"))?.cast_into()?);
+    }
+    let memory = Bound::new(py, Memory::new(py, count, shape)?)?;
+    Ok(numpy.call_method1("asarray", (memory,))?.cast_into()?)
+}
+
+fn described(value: &Bound<'_, PyAny>) -> String {
+    let attribute = |name: &str| value.getattr(name).map(|found| found.to_string());
+    match (attribute("dtype"), attribute("shape")) {
+        (Ok(dtype), Ok(shape)) => format!("an array of {dtype} of shape {shape}"),
+        _ => format!("a {}", value.get_type()),
+    }
+}
+
+/// The values to write to.
+///
+/// # Errors
+/// `ValueError` if something else uses the array, or it is read-only.
+pub fn written<'py>(array: &Bound<'py, PyArrayDyn<f32>>) -> PyResult<PyReadwriteArrayDyn<'py, f32>> {
+    array.try_readwrite().map_err(|error| PyValueError::new_err(format!("out: {error}")))
+}
