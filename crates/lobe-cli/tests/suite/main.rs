@@ -18,5 +18,7 @@ mod import;
 mod plot;
 mod render;
 mod resample;
+#[cfg(unix)]
+mod slurm;
 mod strangers;
 mod sums;
