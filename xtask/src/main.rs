@@ -6,6 +6,7 @@
 
 mod ci;
 mod python;
+mod wheel;
 
 use std::process::{Command, ExitCode};
 

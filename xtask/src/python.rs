@@ -1,19 +1,34 @@
 //! `cargo xtask python`: the package for Python, installed as a user does and tested.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
+use super::wheel;
+
 pub const ABOUT: &str = "Install the package for Python into an environment of its own, and run its tests";
+
+const HELP: &str = "
+Usage: cargo xtask python [--wheel] [ARGUMENTS OF PYTEST]
+
+Options:
+  --wheel    Make a wheel for most distributions of Linux in target/wheels, and install and test that
+
+Examples:
+  cargo xtask python
+  cargo xtask python --wheel
+  cargo xtask python -k arrays";
 
 /// Prints `True` if this interpreter can make environments, and is new enough.
 const PROBE: &str = "import sys, venv, ensurepip; print(sys.version_info >= (3, 10))";
 
 pub fn run(arguments: &[String]) -> ExitCode {
     if arguments.iter().any(|argument| ["-h", "--help"].contains(&argument.as_str())) {
-        println!("{ABOUT}\n\nUsage: cargo xtask python [ARGUMENTS OF PYTEST]");
+        println!("{ABOUT}\n{HELP}");
         return ExitCode::SUCCESS;
     }
-    match check(arguments) {
+    let (options, arguments): (Vec<_>, Vec<_>) = arguments.iter().cloned().partition(|argument| argument == "--wheel");
+    match check(!options.is_empty(), &arguments) {
         Ok(Outcome::Passed) => ExitCode::SUCCESS,
         Ok(Outcome::Skipped(why)) => {
             println!("SKIP the package for Python: {why}");
@@ -31,7 +46,7 @@ enum Outcome {
     Skipped(&'static str),
 }
 
-fn check(arguments: &[String]) -> Result<Outcome, String> {
+fn check(is_wheel: bool, arguments: &[String]) -> Result<Outcome, String> {
     let Some(python) = ["python3", "python"].into_iter().find(|python| is_usable(python)) else {
         return Ok(Outcome::Skipped("there is no Python 3.10 or newer that can make virtual environments"));
     };
@@ -41,7 +56,8 @@ fn check(arguments: &[String]) -> Result<Outcome, String> {
     let python = interpreter(&environment);
     let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
     let tools = ["maturin>=1.9.4,<2", "numpy", "pytest", "scipy", "matplotlib"];
-    if done(Command::new(&python).args(pip).args(tools)).is_err() {
+    let of_wheels: &[&str] = if is_wheel { &wheel::TOOLS } else { &[] };
+    if done(Command::new(&python).args(pip).args(tools).args(of_wheels)).is_err() {
         return Ok(Outcome::Skipped("pip cannot install maturin, numpy and pytest"));
     }
     // Not every Python has them; the tests that need them say that they are skipped.
@@ -54,8 +70,12 @@ fn check(arguments: &[String]) -> Result<Outcome, String> {
     let mut path = vec![environment.join(BIN)];
     path.extend(std::env::split_paths(&std::env::var_os("PATH").unwrap_or_default()));
     let path = std::env::join_paths(path).map_err(|error| error.to_string())?;
-    let install = ["--no-build-isolation", "--no-deps", "--force-reinstall", "./crates/lobe-python"];
-    done(Command::new(&python).args(pip).args(install).env("PATH", path))?;
+    let package = match is_wheel {
+        true => wheel::build(&python, &path)?.into_os_string(),
+        false => OsString::from("./crates/lobe-python"),
+    };
+    let install = ["--no-build-isolation", "--no-deps", "--force-reinstall"];
+    done(Command::new(&python).args(pip).args(install).arg(package).env("PATH", path))?;
     // What is compared with the program needs it as it is now. The tests of the workspace use the same build.
     done(super::cargo().args(["build", "--quiet", "--workspace", "--bin", "lobe"]))?;
     done(
@@ -78,7 +98,7 @@ fn interpreter(environment: &Path) -> PathBuf {
     environment.join(BIN).join(if cfg!(windows) { "python.exe" } else { "python" })
 }
 
-fn done(command: &mut Command) -> Result<(), String> {
+pub fn done(command: &mut Command) -> Result<(), String> {
     match command.status() {
         Ok(status) if status.success() => Ok(()),
         Ok(status) => Err(format!("{command:?}: {status}")),
