@@ -1,4 +1,4 @@
-//! `lobe albedo`: how much of the light comes back.
+//! `lobe albedo`: the share of the light that is reflected or transmitted.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -18,7 +18,7 @@ use crate::reading::Reading;
 /// Compute the albedo (directional-hemispherical reflectance, or transmittance) by incident direction and channel.
 #[derive(clap::Args)]
 #[command(
-    after_help = "The integral of f cos(theta_o) over the hemisphere of viewers. Without --sigma, the angles of incidence are those at which the file was measured, or else 0 to 80 degrees. Grids are integrated between their knots, Klems matrices summed over their patches.
+    after_help = "The integral of f cos(theta_o) over the hemisphere of viewers. Without --sigma, the angles of incidence are the measured ones of the file, or else 0 to 80 degrees. Grids are integrated between their knots, Klems matrices summed over their patches.
 
 Examples:
   lobe albedo paint.ddr
@@ -45,7 +45,7 @@ pub struct Args {
     /// The absolute error to aim for.
     #[arg(long, default_value_t = 1e-4)]
     tolerance: f64,
-    /// Print JSON, angles in radians.
+    /// Print JSON, with angles in radians.
     #[arg(long)]
     json: bool,
 }
@@ -57,7 +57,7 @@ struct Answer {
     albedos: Vec<Albedo>,
 }
 
-/// Files with more channels than this show their extremes; JSON has them all.
+/// For files with more channels than this, only the extremes are shown; JSON has all channels.
 const WIDE: usize = 6;
 
 /// Runs the command.
@@ -111,14 +111,14 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     Ok(out.flush()?)
 }
 
-/// As many directions as people read, evenly chosen: a file may have been measured at a million.
+/// A readable number of directions, evenly chosen: a file may have been measured at a million.
 fn some(all: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     const MOST: usize = 100;
     if all.len() <= MOST {
         return all;
     }
     say(format_args!(
-        "note: {MOST} of {} measured directions of the light; --sigma and --psi ask for others",
+        "note: {MOST} of {} measured directions of the light; --sigma and --psi choose others",
         all.len()
     ));
     (0..MOST).map(|index| all[index * (all.len() - 1) / (MOST - 1)]).collect()

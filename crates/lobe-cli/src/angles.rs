@@ -1,4 +1,4 @@
-//! Lists of angles and measurements of a sheet, from the command line.
+//! Lists of angles, and the choice of a measurement of a sheet, from the command line.
 
 use std::cell::Cell;
 use std::io::{IsTerminal, stdout};
@@ -20,7 +20,7 @@ pub struct Angles(pub Vec<f64>);
 /// The longest list: more knots than any instrument has positions.
 const LONGEST: f64 = 100_000.0;
 
-/// Parses degrees with commas between them; `first:last:step` means a sequence of them.
+/// Parses degrees separated by commas; `first:last:step` means a sequence of them.
 pub fn parse_angles(text: &str) -> Result<Angles, String> {
     let mut angles = Vec::new();
     for item in text.split(',') {
@@ -33,7 +33,7 @@ pub fn parse_angles(text: &str) -> Result<Angles, String> {
         match numbers.collect::<Result<Vec<f64>, String>>()?.as_slice() {
             [angle] => angles.push(*angle),
             [first, last, step] if *step > 0.0 && last >= first && (last - first) / step < LONGEST => {
-                // Half a step of rounding must not cost the last angle.
+                // The last angle must not be lost to rounding, so half a step is allowed.
                 let steps = ((last - first) / step + 1e-9).floor() as usize;
                 angles.extend((0..=steps).map(|index| first + index as f64 * step));
             }
@@ -84,11 +84,11 @@ pub fn choose_aspects(
     Ok(chosen)
 }
 
-/// A narrower terminal than this, or one that says it has no columns, gets lines as long as they are.
+/// Lines are not wrapped if the terminal is narrower than this, or reports no columns.
 const NARROWEST: u16 = 40;
 
-/// A table for the terminal, all columns but the first `words` to the right. Lines are wrapped on a terminal only, and words
-/// are never cut.
+/// A table for the terminal, with all columns but the first `words` right-aligned. Lines are wrapped only on a
+/// terminal, and words are never cut.
 pub fn table(header: Vec<String>, rows: Vec<Vec<String>>, words: usize) -> Table {
     let columns = header.len();
     let longest = |column: usize| {
@@ -116,7 +116,7 @@ pub fn table(header: Vec<String>, rows: Vec<Vec<String>>, words: usize) -> Table
     table
 }
 
-/// A progress bar that receives the share that is done.
+/// A progress bar that receives the finished share.
 pub fn progress(what: &'static str) -> impl Fn(f64) {
     let (bar, done) = (Progress::new(100, what), Cell::new(0));
     move |share: f64| {

@@ -1,4 +1,4 @@
-//! `lobe check`: is a measurement sound, and what does it cover?
+//! `lobe check`: whether a measurement is sound, and what it covers.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -14,21 +14,21 @@ use crate::reading::Reading;
 
 /// Check measurements: values, knots, poles, seams, coverage, energy, stated totals, units, reciprocity.
 #[derive(clap::Args)]
-#[command(after_help = "pass: as it should be. note: worth knowing. warn: probably a mistake. FAIL: impossible.
+#[command(after_help = "pass: in order. note: worth knowing. warn: probably a mistake. FAIL: impossible.
 
 Examples:
   lobe check paint.ddr
   lobe check --strict scans/*.bsdf
   lobe check --json paint.ddr | jq '.[0].findings[] | select(.status == \"fail\") | .text'
 
-With --strict, the exit code is 3 if a check warned, too.")]
+With --strict, the exit code is also 3 if a check warned.")]
 pub struct Args {
     /// The files to check.
     #[arg(required = true)]
     files: Vec<PathBuf>,
     #[command(flatten)]
     reading: Reading,
-    /// Warnings count as failures.
+    /// Count warnings as failures.
     #[arg(long)]
     strict: bool,
     /// Print JSON: an array with one object per file.
@@ -42,7 +42,7 @@ struct Report {
     format: Option<&'static str>,
     kind: Option<&'static str>,
     channels: Vec<String>,
-    /// Why nothing could be checked.
+    /// The reason why nothing could be checked.
     unreadable: Option<String>,
     /// The worst of the findings.
     status: Option<Status>,
@@ -75,7 +75,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// Checks one file. A file that cannot be read is reported, not fatal; a wrong backend is.
+/// Checks one file. A file that cannot be read is reported and not fatal; an invalid backend is fatal.
 fn report(file: &Path, reading: &Reading) -> Result<Report, Failure> {
     let name = file.display().to_string();
     let subject = match reading.subject(file, &Options::default()) {

@@ -1,4 +1,4 @@
-//! `lobe compare`: how far two materials are apart.
+//! `lobe compare`: the difference between two materials.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -17,11 +17,11 @@ use crate::message;
 /// Compare two materials: their values over many directions, and the appearance of two spheres.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Both files are evaluated at the same pairs of directions, every other one near the mirror direction. If their channels differ they are compared in CIE XYZ under D65. Delta E is CIE 2000, between the pixels of two spheres under one light; about 1 is just noticeable side by side.
+    after_help = "Both files are evaluated at the same pairs of directions, half of them near the mirror direction. If their channels differ they are compared in CIE XYZ under D65. Delta E is CIE 2000, between the pixels of two spheres under one light; about 1 is just noticeable side by side.
 
 Examples:
   lobe compare paint.ddr paint-resampled.ddr
-  lobe compare --within 0.01 old.bsdf new.bsdf      exit code 3 if they are further apart
+  lobe compare --within 0.01 old.bsdf new.bsdf      exit code 3 if they differ more
   lobe compare --json a.ddr b.brdf | jq '.[0].difference.rms'"
 )]
 pub struct Args {
@@ -50,7 +50,7 @@ pub struct Args {
     /// The largest relative difference (root mean square) that is not a failure.
     #[arg(long, value_name = "SHARE")]
     within: Option<f64>,
-    /// Print JSON: an array with an object for each measurement that both files have.
+    /// Print JSON: an array with one object per measurement that both files have.
     #[arg(long)]
     json: bool,
 }
@@ -59,7 +59,7 @@ pub struct Args {
 struct Answer {
     aspect: String,
     difference: Difference,
-    /// `None` if channels have no colour.
+    /// `None` if the channels have no colour.
     delta_e: Option<Visible>,
 }
 
@@ -141,14 +141,14 @@ impl Answer {
         writeln!(out, "pairs     {}, values up to {:.5} 1/sr", found.pairs, found.peak)?;
         writeln!(out, "max       {:.6} 1/sr, for light at ({wi}) and viewer at ({wo}) degrees", found.max)?;
         writeln!(out, "rms       {:.6} 1/sr, {:.3} % of the first", found.rms, 100.0 * found.relative_rms)?;
-        writeln!(out, "bias      {:+.6} 1/sr, the second less the first", found.bias)?;
+        writeln!(out, "bias      {:+.6} 1/sr, the second minus the first", found.bias)?;
         match &self.delta_e {
             Some(visible) => writeln!(
                 out,
                 "delta E   {:.3} on average over {} pixels, 95 % below {:.3}, at most {:.3}",
                 visible.mean, visible.pixels, visible.percentile_95, visible.max
             ),
-            None => writeln!(out, "delta E   none, as these channels have no colour"),
+            None => writeln!(out, "delta E   none, because these channels have no colour"),
         }
     }
 }

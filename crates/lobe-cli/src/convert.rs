@@ -24,7 +24,7 @@ use crate::target::Target;
 /// Convert a material to another format.
 #[derive(clap::Args)]
 #[command(
-    after_help = "The format to write follows from the extension of OUT or from --to. If it has the representation of the file, knots and values are written unchanged. Otherwise the material is resampled, which is reported together with the error at sample directions, the last of which is what `lobe compare` finds: files that have comments keep it. --error refines the nodes until the relative error (root mean square) is met; if it cannot be, the exit code is 3 and no file is written. What the format cannot hold is refused, and so is an option that would change nothing. Trees of WINDOW XML are written as trees, unless --to klems or --basis ask for matrices.
+    after_help = "The extension of OUT, or --to, determines the format to write. If that format has the representation of the file, knots and values are written unchanged. Otherwise the material is resampled, which is reported together with the error at sample directions, the last of which is what `lobe compare` finds: files that have comments keep it. --error refines the nodes until the relative error (root mean square) is met; if it cannot be, the exit code is 3 and no file is written. What the format cannot hold is refused, and so is an option that would change nothing. Trees of WINDOW XML are written as trees, unless --to klems or --basis ask for matrices.
 
 Examples:
   lobe convert paint.ddr paint.ssdd                           the same table in another format
@@ -47,7 +47,7 @@ pub struct Args {
     reading: Reading,
     #[command(flatten)]
     output: Output,
-    /// Which measurement to write, if the file has both and the format holds one, or only one is wanted.
+    /// The measurement to write, if the file has both and the format holds one, or only one is wanted.
     #[arg(long, value_enum)]
     scatter: Option<ScatterKind>,
     /// The largest relative error (root mean square) of a file that is resampled: nodes are refined until it holds.
@@ -124,7 +124,7 @@ fn written(document: Document, args: &Args) -> Result<Answer, Failure> {
         args.output.refuse_all()?;
         if let Some(written) = convert(&document, format, args.output.channel.as_deref(), out)? {
             let note = written.note.as_ref().map(|note| format!("; {note}")).unwrap_or_default();
-            say(format_args!("{}: {format}, the values and nodes of the file{note}", out.display()));
+            say(format_args!("{}: {format}, with the values and nodes of the file{note}", out.display()));
             let error = interpolated(&document, target, args)?;
             return Ok(answer(None, written.note, error));
         }
@@ -194,7 +194,7 @@ fn interpolated(document: &Document, target: Target, args: &Args) -> Result<Opti
     }
 }
 
-/// What a table for one side leaves out of a document.
+/// The parts of a document that a table for one side leaves out.
 fn loss(document: &Document, written: Option<Scatter>) -> Option<String> {
     let data = || document.parts.iter().map(|part| part.data.representation());
     if data().any(|data| data.is_polarised()) {
@@ -208,7 +208,7 @@ fn loss(document: &Document, written: Option<Scatter>) -> Option<String> {
     Some(format!("a sheet with two sides; the {} of light from the front is written", side(written)))
 }
 
-/// Whether matrices are wanted of what a WINDOW file has as trees, or on other patches.
+/// Whether trees of a WINDOW file are to be written as matrices, or matrices on other patches.
 fn asks_for_matrices(document: &Document, args: &Args) -> bool {
     let Some(Data::Window(window)) = document.only() else { return false };
     let mut components =
@@ -228,7 +228,7 @@ fn asks_for_matrices(document: &Document, args: &Args) -> bool {
         })
 }
 
-/// The kind of scatter that is written of a sheet, for light from the front.
+/// The scatter of a sheet that is written, for light from the front.
 fn one_of_both(material: &Material, target: Target, asked: Option<Scatter>, args: &Args) -> Result<Scatter, Failure> {
     let held = [Scatter::Reflection, Scatter::Transmission].map(Aspect::front);
     let held: Vec<Scatter> =
@@ -247,14 +247,14 @@ fn one_of_both(material: &Material, target: Target, asked: Option<Scatter>, args
     }
 }
 
-/// The one measurement of a sheet to write, if the target holds one or one is asked for.
+/// The one measurement of a sheet to write, if the target holds only one or one is requested.
 fn choose(document: Document, target: Target, asked: Option<Scatter>, args: &Args) -> Result<Document, Failure> {
     if let Some(data) = document.only() {
         return match (data, asked) {
             (Data::Window(window), Some(asked)) => {
                 let kept = blocks_of(window, asked);
                 if kept.bands.is_empty() {
-                    let message = format!("{}: found no {}; expected some", args.file.display(), side(asked));
+                    let message = format!("{}: found no {}; expected it in the file", args.file.display(), side(asked));
                     return Err(Failure::Usage(message));
                 }
                 Ok(Document { parts: vec![Part::new("", kept)], ..document.clone() })
@@ -287,19 +287,19 @@ fn choose(document: Document, target: Target, asked: Option<Scatter>, args: &Arg
             Ok(Document::new(data.clone()))
         }
         [] => Err(Failure::Usage(format!(
-            "{}: found no such measurement; expected what {} holds",
+            "{}: found no such measurement; expected one that {} holds",
             args.file.display(),
             target.format
         ))),
         _ => Err(Failure::Usage(format!(
-            "{}: found {} measurements; expected --scatter with the one to write",
+            "{}: found {} measurements; expected --scatter to choose one",
             args.file.display(),
             candidates.len()
         ))),
     }
 }
 
-/// The blocks of one kind of scatter, in the bands that have any.
+/// The blocks with one scatter, in the bands that have any.
 fn blocks_of(window: &window::Data, scatter: Scatter) -> window::Data {
     let mut kept = window::Data::default();
     for band in &window.bands {

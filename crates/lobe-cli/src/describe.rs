@@ -1,4 +1,4 @@
-//! What there is to say about each representation.
+//! Descriptions of each representation, for people and as JSON.
 
 use lobe_formats::{self as formats, Document};
 use lobe_table::data::Section;
@@ -31,10 +31,10 @@ pub struct Axis {
 
 #[derive(Serialize)]
 pub struct Values {
-    /// What they are.
+    /// The meaning of the values.
     pub of: &'static str,
     pub count: usize,
-    /// In memory.
+    /// Size in memory.
     pub bytes: usize,
     pub smallest: f32,
     pub largest: f32,
@@ -42,7 +42,7 @@ pub struct Values {
 }
 
 impl Part {
-    /// Everything but the name, as names and values for people.
+    /// Everything but the name, as readable names and values.
     pub fn rows(&self) -> Vec<(&'static str, String)> {
         let mut rows = vec![
             ("kind", self.kind.to_string()),
@@ -124,12 +124,12 @@ impl Values {
     }
 }
 
-/// The smallest and the largest.
+/// The smallest and the largest value.
 pub fn range(values: impl Iterator<Item = f32>) -> (f32, f32) {
     values.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
 }
 
-/// Files hold degrees in `f32` precision, so rounding to that shows what the file says.
+/// Files hold degrees in `f32` precision, so rounding to it shows the number in the file.
 fn degrees(radians: &[f64]) -> Vec<f32> {
     radians.iter().map(|angle| angle.to_degrees() as f32).collect()
 }

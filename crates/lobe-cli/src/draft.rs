@@ -1,4 +1,4 @@
-//! Small renderings, to try commands out.
+//! Small renderings, for trying commands out.
 
 use std::ops::Range;
 use std::time::Duration;
@@ -8,12 +8,12 @@ use crate::failure::Failure;
 /// The variable that makes renderings small.
 const VARIABLE: &str = "LOBE_DRAFT";
 
-/// Divides numbers of samples and time limits by what `LOBE_DRAFT` says; by 1 if it is not set.
+/// Divides sample counts and time limits by the value of `LOBE_DRAFT`, or by 1 if it is not set.
 #[derive(Clone, Copy, Debug)]
 pub struct Draft(u32);
 
 impl Draft {
-    /// What the environment says.
+    /// Reads the environment.
     pub fn from_environment() -> Result<Self, Failure> {
         let Some(value) = std::env::var_os(VARIABLE) else { return Ok(Draft(1)) };
         let divisor = value.to_str().and_then(|text| text.parse().ok()).filter(|divisor| *divisor > 0);
@@ -27,13 +27,13 @@ impl Draft {
         samples.div_ceil(self.0)
     }
 
-    /// Ranges that meet still meet.
+    /// Adjacent ranges stay adjacent.
     pub fn range(self, range: &Range<u32>) -> Range<u32> {
         let start = range.start / self.0;
         start..(range.end / self.0).max(start + 1)
     }
 
-    /// A part of a time limit.
+    /// Divides a time limit.
     pub fn time(self, time: Duration) -> Duration {
         time / self.0
     }
@@ -44,7 +44,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_of_a_picture_stay_parts_of_it() {
+    fn parts_of_a_picture_stay_its_parts() {
         let draft = Draft(32);
         assert_eq!((draft.samples(64), draft.samples(1), draft.samples(33)), (2, 1, 2));
         assert_eq!((draft.range(&(0..32)), draft.range(&(32..64))), (0..1, 1..2));

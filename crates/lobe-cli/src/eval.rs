@@ -20,7 +20,7 @@ use crate::reading::Reading;
 #[derive(clap::Args)]
 #[command(
     group(ArgGroup::new("query").required(true).args(["wi", "angles", "pairs"])),
-    after_help = "Directions point away from the surface, with the normal on +z: wi to the light, wo to the viewer. They are normalised. Below the horizon f is 0; transmission tables accept either sign of z, and in files with both sides of a sheet it selects the side.
+    after_help = "Directions point away from the surface, with the normal on +z: wi to the light, wo to the viewer. They are normalised. Below the horizon, f is 0; transmission tables accept either sign of z, and in files with both sides of a sheet the sign selects the side.
 
 Examples:
   lobe eval paint.ddr --wi -0.5,0,0.8 --wo 0.4,0.1,0.9
@@ -29,7 +29,7 @@ Examples:
   echo 0,0,1,0.6,0,0.8 | lobe eval paint.ddr --edge zero --pairs -
   lobe eval blinds.xml --wi 0,0.5,0.8 --wo 0,-0.5,-0.8 --channel Visible --cosine
 
-LOBE_BACKEND=scalar|sse2|sse4.1|avx2|avx512 chooses the instructions; the default is the best that this machine has."
+LOBE_BACKEND=scalar|sse2|sse4.1|avx2|avx512 chooses the instructions; the default is the best set that this machine has."
 )]
 pub struct Args {
     /// The file of a measured BRDF or BTDF.
@@ -45,19 +45,20 @@ pub struct Args {
     /// Specular coordinates in degrees instead of two directions.
     #[arg(long, value_name = "SIGMA,PSI,THETA,PHI", allow_hyphen_values = true, value_parser = parse_specular)]
     angles: Option<[f64; 4]>,
-    /// A CSV file with six columns, wi then wo, or with their names in the first line; `-` is the standard input. Prints a line of channels for each pair.
+    /// A CSV file with six columns, wi then wo, or with their names in the first line; `-` is standard input. Prints
+    /// one line of channels per pair.
     #[arg(long, value_name = "FILE")]
     pairs: Option<PathBuf>,
-    /// What happens beyond the outermost angles of a table in specular coordinates [default: clamp].
+    /// The values beyond the outermost angles of a table in specular coordinates [default: clamp].
     #[arg(long, value_enum)]
     edge: Option<EdgeRule>,
-    /// How grids of half and difference angles (MERL) are looked up [default: nearest].
+    /// The lookup in grids of half and difference angles (MERL) [default: nearest].
     #[arg(long, value_enum)]
     lookup: Option<LookupRule>,
-    /// Which direction the tables of the EPFL database (RGL) are indexed by [default: light].
+    /// The direction that indexes tables of the EPFL database (RGL) [default: light].
     #[arg(long, value_enum)]
     indexed_by: Option<IndexRule>,
-    /// Print this channel only, by the name that `lobe info` shows: Y, R, 550nm. May be repeated.
+    /// Print only this channel, by the name that `lobe info` shows: Y, R, 550nm. May be repeated.
     #[arg(long = "channel", value_name = "NAME")]
     channels: Vec<String>,
     /// Print f times the cosine between wo and the normal.
@@ -73,9 +74,9 @@ pub struct Args {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum EdgeRule {
-    /// The value at the nearest angle that was measured; psi and phi are full circles; never negative.
+    /// The value at the nearest measured angle; psi and phi are full circles; never negative.
     Clamp,
-    /// Straight lines beyond the ends of all four axes; negative values are kept.
+    /// Linear extrapolation beyond the ends of all four axes; negative values are kept.
     Extrapolate,
     /// 0 outside sigma and theta; psi and phi are full circles; never negative.
     Zero,
@@ -101,7 +102,7 @@ enum LookupRule {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum IndexRule {
-    /// The light, as they were measured.
+    /// The light, as in the measurement.
     Light,
     /// The viewer, as in renderers that trace from the camera.
     Viewer,
@@ -133,7 +134,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let mut source = match (args.wi, args.wo, args.angles, &args.pairs) {
         (Some(wi), Some(wo), ..) => Source::One(Some(Pair { wi, wo })),
         (_, _, Some(angles), _) => {
-            // A table with refraction counts theta from the refracted ray.
+            // A table with refraction measures theta from the refracted ray.
             let zenith = |sigma| {
                 let Some(Data::Specular(samples)) = document.only() else { return sigma };
                 zenith(samples, &options.edges, sigma)
@@ -163,7 +164,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         }
         count += pairs.len();
         let (wi, wo): (Vec<_>, Vec<_>) = pairs.iter().map(|pair| (narrow(pair.wi), narrow(pair.wo))).unzip();
-        // A spectrum may have a million channels: no more at once than fits.
+        // A spectrum may have a million channels, so the number of pairs at a time is limited by memory.
         let at_once = (AT_ONCE / all.len()).max(1);
         let mut values = vec![0.0; at_once.min(pairs.len()) * all.len()];
         for ((pairs, wi), wo) in pairs.chunks(at_once).zip(wi.chunks(at_once)).zip(wo.chunks(at_once)) {
@@ -176,7 +177,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
                 args.print(&mut out, pair, &names, &texel)?;
             }
         }
-        // Whoever sends pairs one by one waits for the answers.
+        // A program that sends pairs one by one waits for the answers.
         out.flush()?;
     }
     if count == 0 {
@@ -185,7 +186,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Values that are evaluated before they are printed.
+/// The number of values that are evaluated before they are printed.
 const AT_ONCE: usize = 1 << 24;
 
 /// The source of pairs.
@@ -221,7 +222,7 @@ impl Args {
         Ok(())
     }
 
-    /// Refuses what would make no difference: whoever asks for it expects one.
+    /// Refuses options that would make no difference, because users who give one expect an effect.
     fn check_options(&self, document: &Document) -> Result<(), Failure> {
         let uses = document.uses();
         let check = |option: &str, is_given: bool, applies: bool, expected: &str| match is_given && !applies {
@@ -238,7 +239,7 @@ impl Args {
     }
 }
 
-/// Specular coordinates in degrees: polar angles of the light and from the mirror direction, and two azimuths.
+/// Specular coordinates in degrees: the polar angle of the light, the angle to the mirror direction, and two azimuths.
 fn parse_specular(text: &str) -> Result<[f64; 4], String> {
     let angles: [f64; 4] = parse_numbers(text)?;
     match angles {

@@ -1,4 +1,4 @@
-//! How a command ends when it does not succeed, and the exit code of that.
+//! The ways in which a command fails, and their exit codes.
 
 use std::fmt;
 use std::io;
@@ -10,23 +10,23 @@ use lobe_formats::{ConvertError, FormatError};
 use lobe_memory::NoRoom;
 use lobe_render::picture::PictureError;
 
-/// Why a command stopped.
+/// The reason why a command stopped.
 #[derive(Debug)]
 pub enum Failure {
     /// A file cannot be read or written, or is damaged. Exit code 1.
     File(String),
-    /// The request makes no sense. Exit code 2.
+    /// The request is invalid. Exit code 2.
     Usage(String),
     /// A check failed, or a bound was not met. Exit code 3.
     Check(String),
-    /// The user has asked the program to end. Exit code 130.
+    /// The user asked the program to end. Exit code 130.
     Interrupted(String),
     /// The reader of the output has closed it, as `head` does. Not a failure.
     OutputClosed,
 }
 
 impl Failure {
-    /// The code for the shell.
+    /// The exit code for the shell.
     pub fn exit_code(&self) -> ExitCode {
         match self {
             Failure::File(_) => ExitCode::from(1),
@@ -41,7 +41,7 @@ impl Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            // Messages quote files, which a terminal must not obey; some have several lines.
+            // Messages quote text from files, which a terminal must not obey; some have several lines.
             Failure::File(message)
             | Failure::Usage(message)
             | Failure::Check(message)
@@ -54,7 +54,7 @@ impl fmt::Display for Failure {
     }
 }
 
-/// The exit code of a program that a signal has ended: 128 and the number of Ctrl-C's.
+/// The exit code of a program ended by a signal: 128 plus the number of SIGINT.
 pub const INTERRUPTED: u8 = 130;
 
 impl From<FormatError> for Failure {
@@ -93,7 +93,7 @@ impl From<PictureError> for Failure {
     }
 }
 
-/// Errors of writing to the standard output.
+/// Errors while writing to standard output.
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
         match error.kind() {

@@ -1,4 +1,4 @@
-//! `lobe fit`: a model with parameters, from a measured material.
+//! `lobe fit`: the parameters of a model, from a measured material.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -18,12 +18,12 @@ use crate::measure::fits;
 use crate::message;
 use crate::reading::Reading;
 
-/// Fit a model of renderers or of optics programs: its parameters, how sure they are, and where it fails.
+/// Fit a model for renderers or optics programs: its parameters, their uncertainties, and where the model fails.
 #[derive(clap::Args)]
 #[command(
-    after_help = "The pairs of directions that the file lists are fitted themselves; those of others are interpolated. A number after +- is a standard deviation. The relative error is the root mean square of the differences over that of the values; with --weights log or relative it is the root mean square of the differences of logarithms.
+    after_help = "If the file lists pairs of directions, these are fitted; otherwise pairs are interpolated. A number after +- is a standard deviation. The relative error is the root mean square of the differences divided by that of the values; with --weights log or relative it is the root mean square of the differences of logarithms.
 
-The extension of OUT says what is written: .toml or .json (everything), .mtlx (MaterialX: openpbr, gltf, lambert, oren-nayar), .gltf (a material: gltf, gltf-clearcoat, gltf-sheen), .csv (a table for Zemax OpticStudio, TracePro and FRED: abg, harvey-shack, k-correlation).
+The extension of OUT determines what is written: .toml or .json (everything), .mtlx (MaterialX: openpbr, gltf, lambert, oren-nayar), .gltf (a material: gltf, gltf-clearcoat, gltf-sheen), .csv (a table for Zemax OpticStudio, TracePro and FRED: abg, harvey-shack, k-correlation).
 
 Examples:
   lobe fit paint.ddr --model ggx
@@ -47,22 +47,22 @@ pub struct Args {
     /// Print JSON: an object with the parameters, their uncertainties and the residuals.
     #[arg(long)]
     json: bool,
-    /// The largest relative error that is not a failure.
+    /// The largest relative error that does not count as a failure.
     #[arg(long, value_name = "SHARE")]
     limit: Option<f64>,
-    /// What differences count. By default cosine, and relative for models of smooth optics.
+    /// The weights of the differences; by default cosine, and relative for models of smooth optics.
     #[arg(long, value_enum)]
     weights: Option<WeightRule>,
-    /// Let outliers count by their size, not by its square.
+    /// Let outliers count linearly instead of quadratically.
     #[arg(long)]
     robust: bool,
-    /// Give each channel a shape of its own, instead of one for all.
+    /// Give each channel its own shape, instead of one shape for all.
     #[arg(long)]
     per_channel: bool,
-    /// Fit this channel only, by the name that `lobe info` shows.
+    /// Fit only this channel, by the name that `lobe info` shows.
     #[arg(long, value_name = "NAME")]
     channel: Option<String>,
-    /// Fit linear sRGB instead of the channels of the file. OpenPBR and glTF always are.
+    /// Fit linear sRGB instead of the channels of the file. OpenPBR and glTF are always fitted in it.
     #[arg(long, conflicts_with = "channel")]
     rgb: bool,
     /// The wavelength of channels that have none, which k-correlation needs.
@@ -80,19 +80,19 @@ pub struct Args {
     /// The most pairs of directions to fit.
     #[arg(long, default_value_t = 8192, value_parser = clap::value_parser!(u32).range(64..=1_000_000))]
     pairs: u32,
-    /// From how many values of the parameters to start.
+    /// The number of starting points of the search.
     #[arg(long, default_value_t = 24, value_parser = clap::value_parser!(u16).range(1..=1000))]
     starts: u16,
 }
 
-/// What differences between measured and modelled values count.
+/// The weights of differences between measured and modelled values.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum WeightRule {
-    /// By the root of both cosines.
+    /// The square root of the product of both cosines.
     Cosine,
-    /// As they are.
+    /// The differences themselves.
     Value,
-    /// Those of logarithms.
+    /// Differences of logarithms.
     Log,
     /// Relative to the model.
     Relative,
@@ -103,7 +103,7 @@ fn model() -> impl TypedValueParser<Value = Model> {
     PossibleValuesParser::new(Model::ALL.map(value)).try_map(|name| Model::named(&name).ok_or("no model of this name"))
 }
 
-/// What the extension of the file to write asks for.
+/// The output that the extension of the file selects.
 #[derive(Clone, Copy)]
 enum Kind {
     Toml,
@@ -128,7 +128,7 @@ fn kind(out: &Path) -> Result<Kind, Failure> {
     }
 }
 
-/// Pairs that the residuals are computed for.
+/// The number of pairs for which residuals are computed.
 const CHECKED: usize = 50_000;
 /// The width of the spheres that are compared, in pixels.
 const PIXELS: usize = 128;
@@ -197,14 +197,14 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 
 fn refused(args: &Args, error: &lobe_fit::FitError) -> Failure {
     let advice = match error {
-        lobe_fit::FitError::TooMany(_) => " (--rgb, --channel and --per-channel are others)",
+        lobe_fit::FitError::TooMany(_) => " (--rgb, --channel or --per-channel may fit)",
         lobe_fit::FitError::NoWavelength(_) => " (--wavelength gives it)",
         _ => "",
     };
     Failure::Usage(format!("{}: {error}{advice}", args.file.display()))
 }
 
-/// The error that a limit is for.
+/// The error that the limit applies to.
 fn error(fit: &Fit, residuals: &Residuals) -> f64 {
     match fit.request.weights {
         Weights::Cosine | Weights::Value => residuals.relative_rms,
@@ -221,7 +221,7 @@ fn weights(rule: WeightRule) -> Weights {
     }
 }
 
-/// The only measurement that was asked for.
+/// The one requested measurement.
 fn aspect(args: &Args, subject: &Subject) -> Result<Aspect, Failure> {
     let aspects = choose_aspects(&args.file, subject, args.scatter, args.side)?;
     let file = args.file.display();
@@ -288,9 +288,9 @@ fn print(report: &Report<'_>, out: &mut impl Write) -> std::io::Result<()> {
         writeln!(out, "  {:first$}  {:>second$}  {:third$}  {}", row[0], row[1], row[2], row[3])?;
     }
     if !fit.has_converged {
-        writeln!(out, "  the search ended before it had converged")?;
+        writeln!(out, "  the search ended before it converged")?;
     }
-    let zero = if fit.left_out > 0 { format!("; {} more are 0 and left out", fit.left_out) } else { String::new() };
+    let zero = if fit.left_out > 0 { format!("; {} more are 0 and were left out", fit.left_out) } else { String::new() };
     writeln!(
         out,
         "pairs     {} fitted, {} compared, values up to {:.5} 1/sr{zero}",
@@ -305,7 +305,7 @@ fn print(report: &Report<'_>, out: &mut impl Write) -> std::io::Result<()> {
         100.0 * found.relative_rms,
         found.log_rms
     )?;
-    writeln!(out, "bias      {:+.6} 1/sr, the model less the measurement", found.bias)?;
+    writeln!(out, "bias      {:+.6} 1/sr, the model minus the measurement", found.bias)?;
     if let Some(visible) = &report.delta_e {
         writeln!(
             out,

@@ -43,7 +43,7 @@ enum ModelArgs {
     /// Metal of GGX microfacets with Smith's masking: Walter et al. 2007, Heitz 2014.
     #[command(after_help = "Example:\n  lobe generate ggx brushed.bsdf --to rgl --alpha 0.1,0.4")]
     Ggx {
-        /// Roughness, or that along x and y.
+        /// Roughness, or roughnesses along x and y.
         #[arg(long, default_value = "0.2", value_parser = roughness)]
         alpha: [f64; 2],
         /// Real part of the refractive index.
@@ -62,7 +62,7 @@ enum ModelArgs {
         after_help = "Example:\n  lobe generate ward paint.binary --alpha 0.15 --specular 0.3 --diffuse 0.5,0.1,0.1"
     )]
     Ward {
-        /// Standard deviation of the slope, or that along x and y.
+        /// Standard deviation of the slope, or deviations along x and y.
         #[arg(long, default_value = "0.2", value_parser = roughness)]
         alpha: [f64; 2],
         /// Reflected share of the light.
@@ -91,7 +91,7 @@ enum ModelArgs {
         /// The exponent.
         #[arg(long, default_value = "20", value_parser = exponent)]
         exponent: f64,
-        /// Reflected share of the light from the zenith.
+        /// Reflected share of light from the zenith.
         #[arg(long, default_value = "0.5", value_parser = share)]
         specular: Colour,
         #[command(flatten)]
@@ -105,7 +105,7 @@ enum ModelArgs {
         /// The exponent.
         #[arg(long, default_value = "80", value_parser = exponent)]
         exponent: f64,
-        /// Reflected share of the light from the zenith.
+        /// Reflected share of light from the zenith.
         #[arg(long, default_value = "0.5", value_parser = share)]
         specular: Colour,
         #[command(flatten)]
@@ -113,11 +113,11 @@ enum ModelArgs {
         #[command(flatten)]
         output: Output,
     },
-    /// Mueller matrices of GGX microfacets, by Fresnel's equations.
+    /// Mueller matrices of GGX microfacets, from Fresnel's equations.
     Mueller(matrices::Args),
     /// Woven cloth, by tracing light through its threads: Volevich et al. 1997.
     #[command(
-        after_help = "Example:\n  lobe generate cloth silk.ddr --warp 0.02,0.08,0.45 --weft 0.6,0.18,0.02 --paths 500\n\nThe values are simulated with --paths paths of light for each direction of the light: their noise falls with the square root of that number."
+        after_help = "Example:\n  lobe generate cloth silk.ddr --warp 0.02,0.08,0.45 --weft 0.6,0.18,0.02 --paths 500\n\nThe values are simulated with --paths light paths per direction of the light; their noise falls with the square root of that number."
     )]
     Cloth {
         /// Colour of the yarns along y.
@@ -132,10 +132,10 @@ enum ModelArgs {
         /// Roughness of the gloss along and across the fibres.
         #[arg(long, default_value = "0.16,0.4", value_parser = roughness)]
         alpha: [f64; 2],
-        /// Wefts that a warp yarn passes over, then under: 1,1 is plain weave.
+        /// Number of wefts that a warp yarn passes over, then under: 1,1 is plain weave.
         #[arg(long, default_value = "1,1", value_parser = weave)]
         weave: [u32; 2],
-        /// Paths of light for each of its directions.
+        /// Light paths per direction of the light.
         #[arg(long, default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..))]
         paths: u32,
         /// The seed of the random numbers.
@@ -146,7 +146,7 @@ enum ModelArgs {
     },
 }
 
-/// A diffuse component under a lobe.
+/// A diffuse component added to a lobe.
 #[derive(clap::Args)]
 struct Diffuse {
     /// Colour of a diffuse component that covers half of the surface; none by default.
@@ -154,7 +154,7 @@ struct Diffuse {
     diffuse: Option<Colour>,
 }
 
-/// Cells of the height field of a cloth for each yarn.
+/// Cells of the height field of a cloth per yarn.
 const CELLS_PER_YARN: usize = 24;
 
 /// Runs the command.
@@ -180,7 +180,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         ModelArgs::Cloth { warp, weft, shine, alpha, weave, paths, seed, output } => {
             let plies = [Ply { along: 1, across: 3.0, depth: 0.03 }; 2];
             let weave = Weave { over: weave[0], under: weave[1], crimp: 0.05, roundness: 0.3, plies };
-            // The shine has the hue of the body, as bright as it can be.
+            // The shine has the hue of the body, at the greatest possible brightness.
             let yarn = |body: Colour| {
                 let brightest = body.into_iter().fold(f64::MIN_POSITIVE, f64::max);
                 Yarn { body, shine: body.map(|c| c / brightest), share: *shine, roughness: *alpha }

@@ -1,4 +1,4 @@
-//! Warnings about what a file cannot answer.
+//! Warnings about values that a file does not determine.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use lobe_formats::Document;
 
 use crate::message::say;
 
-/// Says on the standard error what of the answers is guessed rather than measured.
+/// Says on standard error which values are guessed rather than measured.
 pub fn warn_of_guesses(file: &Path, document: &Document) {
     for guess in lobe_ops::check::guesses(document) {
         say(format_args!("warning: {}: {guess}", file.display()));

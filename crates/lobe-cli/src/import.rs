@@ -1,4 +1,5 @@
-//! `lobe import`: one's own measurement, from what an instrument or a spreadsheet wrote to a file that every program reads.
+//! `lobe import`: a user's own measurement, from the output of an instrument or a spreadsheet to a file that every
+//! program reads.
 
 use std::io::{IsTerminal, Write, stderr, stdin, stdout};
 use std::path::{Path, PathBuf};
@@ -17,10 +18,10 @@ use crate::reading::Reading;
 use crate::target::parser;
 use crate::{convert, plot};
 
-/// Import your own measurement: see how a file is understood, add what it does not say, and write it for other programs.
+/// Import your own measurement: see how a file is understood, add missing information, and write it for other programs.
 #[derive(clap::Args)]
 #[command(
-    after_help = "What is said with options is kept in FILE.lobe.toml next to the file, and from then on every command and the library read the file like this. On a terminal, what is not understood is asked for.
+    after_help = "The options are kept in FILE.lobe.toml next to the file, and from then on every command and the library use them. On a terminal, the command asks about whatever it does not understand.
 
 Examples:
   lobe import scan.csv                       how it is understood
@@ -36,19 +37,19 @@ pub struct Args {
     file: PathBuf,
     #[command(flatten)]
     reading: Reading,
-    /// Write the material to this file, for other programs, as lobe convert does.
+    /// Write the material to this file for other programs, as lobe convert does.
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// The format to write, if the extension does not determine it.
     #[arg(long, value_name = "FORMAT", value_parser = parser(), requires = "out")]
     to: Option<Format>,
-    /// Draw what was read: .html is a page, .svg and .png are curves in the plane of incidence.
+    /// Draw the material: .html is a page, .svg and .png are curves in the plane of incidence.
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
     /// Do not write FILE.lobe.toml.
     #[arg(long)]
     no_sidecar: bool,
-    /// Print JSON, and ask nothing.
+    /// Print JSON, and ask no questions.
     #[arg(long)]
     json: bool,
 }
@@ -57,16 +58,16 @@ pub struct Args {
 struct Report {
     file: String,
     format: &'static str,
-    /// What was understood.
+    /// How the file was understood.
     notes: Vec<String>,
-    /// What may be wrong.
+    /// Possible misunderstandings.
     doubts: Vec<String>,
     parts: Vec<Part>,
     source: Vec<(String, String)>,
     findings: Vec<Finding>,
     /// The sidecar that says how the file is read, if there is one.
     sidecar: Option<String>,
-    /// What it says.
+    /// The content of the sidecar.
     options: Option<String>,
 }
 
@@ -84,7 +85,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
                 }
                 show(&mut stderr(), &found.1)?;
                 match ask(
-                    "Right? Enter, or what to say differently, such as `values luminance-factor`: ",
+                    "Right? Press Enter, or type a correction such as `values luminance-factor`: ",
                     &mut options,
                 )? {
                     true => {}
@@ -95,7 +96,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
                 say(&error);
                 first_lines(file);
                 if !ask(
-                    "Enter to give up, or say it, such as `columns theta_i=1,theta_o=2,f=3` or `unit rad`: ",
+                    "Press Enter to give up, or type an option such as `columns theta_i=1,theta_o=2,f=3` or `unit rad`: ",
                     &mut options,
                 )? {
                     return Err(error.into());
@@ -145,7 +146,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// Writes the sidecar if there is something new to say; whether there is one then.
+/// Writes the sidecar if there is something new; returns whether there is one.
 fn keep(args: &Args, given: &ReadOptions, options: &ReadOptions) -> Result<bool, Failure> {
     let path = sidecar::path_of(&args.file);
     let before = sidecar::find(&args.file)?;
@@ -157,7 +158,7 @@ fn keep(args: &Args, given: &ReadOptions, options: &ReadOptions) -> Result<bool,
     }
     write_whole(&path, sidecar::to_text(options, &name(&args.file)).as_bytes())?;
     let how = if given.is_empty() { "what was said" } else { "these options" };
-    say(format_args!("{}: {how}, which every command and the library take from there", path.display()));
+    say(format_args!("{}: {how}, which every command and the library read from there", path.display()));
     Ok(true)
 }
 
@@ -174,12 +175,12 @@ impl Report {
             writeln!(out, "  {}: {}: {part}{}", finding.status, finding.check, finding.text)?;
         }
         let passed = self.findings.iter().filter(|finding| finding.status < Status::Warn).count();
-        writeln!(out, "  {passed} of {} checks passed; lobe check has them all", self.findings.len())?;
+        writeln!(out, "  {passed} of {} checks passed; lobe check shows them all", self.findings.len())?;
         Ok(())
     }
 }
 
-/// What was understood, and what it makes.
+/// Prints how the file was understood, and the resulting material.
 fn show(out: &mut impl Write, document: &Document) -> Result<(), Failure> {
     for note in &document.notes {
         writeln!(out, "  {note}")?;
@@ -196,7 +197,7 @@ fn show(out: &mut impl Write, document: &Document) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Lines that an error shows of a text.
+/// The number of lines of the text that an error shows.
 const SHOWN: usize = 6;
 
 fn first_lines(file: &Path) {
@@ -235,7 +236,7 @@ fn explained(error: FormatError, file: &Path) -> Failure {
     }
 }
 
-/// Asks for an option and sets it, until the answer can be understood; `false` if the answer is empty.
+/// Asks for an option until the answer can be understood, and sets it; `false` if the answer is empty.
 fn ask(question: &str, options: &mut ReadOptions) -> Result<bool, Failure> {
     loop {
         write!(stderr(), "{question}")?;

@@ -1,4 +1,4 @@
-//! `lobe info`: what a file holds.
+//! `lobe info`: the contents of a file.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -11,14 +11,14 @@ use crate::failure::Failure;
 use crate::message;
 use crate::reading::Reading;
 
-/// Show what a file holds: format, channels, angles, values, and what its header says.
+/// Show the contents of a file: format, channels, angles, values, and header facts.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   lobe info paint.ddr
   lobe info --json sensor.bsdf | jq '.parts[0].axes'
 
-The format is recognised by its content. Only whether Integra files are of reflection or transmission is decided by their extension: .ddt and .sdt are transmission.
-Files packed with gzip are read as what is in them. A folder is read as the files in it that have one incident direction each (RPC Photonics, pab), which are one material.")]
+The format is recognised by the content of the file. The extension only decides whether Integra files are of reflection or transmission: .ddt and .sdt are transmission.
+Files compressed with gzip are unpacked. In a folder, the files with one incident direction each (RPC Photonics, pab) are read as one material.")]
 pub struct Args {
     /// The file to show.
     file: PathBuf,
@@ -29,28 +29,28 @@ pub struct Args {
     json: bool,
 }
 
-/// Everything that is printed, in either form.
+/// Everything that is printed, in both forms.
 #[derive(Serialize)]
 struct Info {
     file: String,
     format: &'static str,
     /// `None` for a folder.
     file_bytes: Option<u64>,
-    /// One for each block of values; most files have one.
+    /// One per block of values; most files have one block.
     parts: Vec<Part>,
     /// Total integrated scatter, as stated in the file.
     tis: Vec<f32>,
     source: Vec<(String, String)>,
-    /// How a table without a format of its own was understood.
+    /// How a table in no particular format was understood.
     notes: Vec<String>,
-    /// What may be wrong with that.
+    /// Possible misunderstandings.
     doubts: Vec<String>,
 }
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let (format, document) = args.reading.open(&args.file)?;
-    // The standard input has none.
+    // Standard input has no size.
     let metadata = std::fs::metadata(&args.file).ok();
     let info = Info {
         file: args.file.display().to_string(),

@@ -1,4 +1,4 @@
-//! Ctrl-C, and the signals that ask a program to end: once to end in good order, twice to end at once.
+//! Ctrl-C and termination signals: the first one ends the program in good order, the second one at once.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -7,14 +7,14 @@ use crate::message::say;
 
 static ASKED: AtomicUsize = AtomicUsize::new(0);
 
-/// From now on signals are counted, and the second one ends the program. Without this, the first one does.
+/// From now on, signals are counted, and the second one ends the program. Without this, the first one does.
 pub fn listen() {
-    // If it cannot be had, signals end the program as they always do.
+    // If no handler can be installed, signals end the program as usual.
     let _ = ctrlc::set_handler(|| {
         if ASKED.fetch_add(1, Ordering::Relaxed) > 0 {
             std::process::exit(INTERRUPTED.into());
         }
-        say("interrupted: what there is will be written; once more ends at once");
+        say("interrupted: saving the samples so far; interrupt again to end at once");
     });
 }
 

@@ -1,6 +1,6 @@
-//! The `lobe` program: look at measured materials, evaluate, convert and draw them.
+//! The `lobe` program: inspect, evaluate, convert and draw measured materials.
 #![forbid(unsafe_code)]
-// The macros panic if nobody reads what they print, or a disk is full: `message` does not.
+// The macros panic if nobody reads their output, or a disk is full; `message` does not.
 #![deny(clippy::print_stdout, clippy::print_stderr)]
 
 mod albedo;
@@ -46,13 +46,12 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::failure::Failure;
 
-/// The same for all commands, and at the end of the help of each.
-const EXIT_CODES: &str = "Exit codes: 0 done, 1 a file cannot be read or written or is damaged, or memory is short, \
+/// The same for all commands, at the end of each help text.
+const EXIT_CODES: &str = "Exit codes: 0 done, 1 a file cannot be read or written or is damaged, or there is not enough memory, \
 2 wrong usage, 3 a check failed or a bound was not met, 130 interrupted.";
 
-/// Inspect, check, evaluate, convert and draw measured BRDFs and BTDFs.
-///
-/// A file to read that is called `-` is the standard input.
+/// Inspect, check, evaluate, convert and draw measured BRDFs and BTDFs. If the name of a file to read is `-`, standard
+/// input is read.
 #[derive(Parser)]
 #[command(
     name = "lobe",

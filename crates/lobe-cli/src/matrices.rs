@@ -1,4 +1,4 @@
-//! Mueller matrices: of rough surfaces, and from one grid to another.
+//! Mueller matrices: generated for rough surfaces, and resampled from one grid to another.
 
 use lobe::Data;
 use lobe_formats::{Document, Format};
@@ -13,10 +13,10 @@ use crate::output::{Output, Purpose};
 use crate::progress::Progress;
 use crate::target::Target;
 
-/// Steps of `phi_d`, `theta_d` and `theta_h` of matrices that are resampled on half and difference angles.
+/// Numbers of `phi_d`, `theta_d` and `theta_h` when matrices are resampled on half and difference angles.
 const STEPS: [u16; 3] = [36, 45, 45];
 
-/// Matrices on the grid of the other format of matrices; `None` if this is not what is asked for.
+/// Matrices resampled on the grid of the other matrix format; `None` if that was not requested.
 pub fn converted(document: &Document, target: Target, output: &Output) -> Result<Option<()>, Failure> {
     let out = output.out.as_path();
     let failed = |error: &dyn std::fmt::Display| Failure::File(format!("{}: {error}", out.display()));
@@ -54,14 +54,14 @@ fn write(matrices: Data, target: Target, output: &Output, how: &str) -> Result<(
     Ok(())
 }
 
-/// A rough surface of microfacets with its polarisation.
+/// A rough surface of microfacets that polarises light.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   lobe generate mueller gold.mueller --metal gold --alpha 0.2
   lobe generate mueller lacquer.mueller --glass BK7 --alpha 0.05 --wavelengths 450,550,650
   lobe generate mueller rough.mueller --index 1.5 --alpha 0.1,0.3
 
-A dielectric reflects only: what passes through its surface is left out.")]
+A dielectric only reflects: light that passes through its surface is left out.")]
 pub struct Args {
     /// Roughness, or that along x and y.
     #[arg(long, default_value = "0.2", value_delimiter = ',', num_args = 1..=2)]

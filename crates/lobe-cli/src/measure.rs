@@ -1,4 +1,4 @@
-//! Resampling a surface at the nodes of the format that is written.
+//! Resampling a surface at the nodes of the target format.
 
 use std::path::Path;
 
@@ -48,6 +48,9 @@ pub struct Resampled {
 }
 
 /// Measures a surface and writes it; reports the nodes and the error of the file on standard error.
+///
+/// Within a degree of the horizon, a material from a file may have any value, because many formats store values that
+/// have to be divided by the cosine; so it is never evaluated there. Models are exact.
 pub fn write(job: &Job<'_>) -> Result<Resampled, Failure> {
     let Job { surface, sides, is_from_file, output, source, bound } = *job;
     let (target, out) = (output.target()?, output.out.as_path());
@@ -60,7 +63,7 @@ pub fn write(job: &Job<'_>) -> Result<Resampled, Failure> {
     let channels = surface.channels().count();
     let (nodes, counted) = nodes(target, output, isotropic)?;
     fits(out, &nodes.counts(), channels)?;
-    // Of a format that has both sides, all is measured.
+    // If a format has both sides, everything is measured.
     let measured = if let Nodes::Klems(_) | Nodes::Tree(_) = nodes { sides } else { Sides::One(scatter) };
     let at_nodes = |nodes: &Nodes| {
         let progress = Progress::new(nodes.steps(measured), counted);
@@ -231,13 +234,13 @@ fn side_of(target: Target, sides: Sides, scatter: Scatter) -> &'static str {
 
 /// Fails if there is no memory for values of so many nodes.
 pub fn fits(out: &Path, nodes: &[usize], channels: usize) -> Result<(), Failure> {
-    /// Bytes of a value: itself, copies while it is on its way, and its text in a file.
+    /// Bytes per value: the value, temporary copies, and its text in a file.
     const VALUE: u64 = 40;
     let values = nodes.iter().chain([&channels]).fold(1_u64, |product, &count| product.saturating_mul(count as u64));
     lobe_memory::require(values.saturating_mul(VALUE)).map_err(|no_room| {
         let nodes: Vec<String> = nodes.iter().map(ToString::to_string).collect();
-        let message = format!("found {} nodes of {channels} channels, which take {no_room}", nodes.join(" x "));
-        Failure::File(format!("{}: {message}; expected what fits into memory", out.display()))
+        let message = format!("found {} nodes with {channels} channels, which take {no_room}", nodes.join(" x "));
+        Failure::File(format!("{}: {message}; expected a size that fits into memory", out.display()))
     })
 }
 
@@ -269,7 +272,7 @@ fn described(nodes: &Nodes) -> String {
     }
 }
 
-/// Reads the file back and compares what was written.
+/// Reads the file back and compares it with the surface.
 fn errors(surface: &dyn Surface, target: Target, aspects: &[Aspect], out: &Path) -> Result<Option<Errors>, Failure> {
     if target.format.spec().read.is_none() {
         return Ok(None);

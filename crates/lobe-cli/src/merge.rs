@@ -1,4 +1,4 @@
-//! `lobe merge`: parts of a picture back together.
+//! `lobe merge`: joins the parts of a picture.
 
 use std::path::PathBuf;
 
@@ -10,8 +10,8 @@ use crate::failure::Failure;
 use crate::picture::Kind;
 use crate::render::Show;
 
-/// Add the parts of a picture that `lobe render --tile` and `--samples-range` have written. The result is the same bits
-/// as the picture rendered at once.
+/// Add the parts of a picture written by `lobe render --tile` and `--samples-range`. The result has the same bits as
+/// the picture rendered at once.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   lobe merge part*.exr -o picture.exr
@@ -26,10 +26,10 @@ pub struct Args {
     /// Write the picture even if samples are missing.
     #[arg(long)]
     allow_gaps: bool,
-    /// For PNG: multiply radiance by two to this power; by default that of the scene.
+    /// For PNG: multiply radiance by two to this power; by default the exposure of the scene.
     #[arg(long, allow_hyphen_values = true)]
     exposure: Option<f32>,
-    /// What a PNG shows.
+    /// The quantity that a PNG shows.
     #[arg(long, value_enum, default_value = "colour")]
     show: Show,
 }
@@ -52,7 +52,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// Merges parts in their channels.
+/// Merges parts with their channels.
 fn merged<T: Transport>(args: &Args, kind: Kind, basis: &T::Basis) -> Result<(), Failure> {
     let shown = args.show.shown(&args.output, kind, T::POLARISED)?;
     let merged = merge_in::<T>(&args.parts, args.allow_gaps, basis);

@@ -1,27 +1,27 @@
-//! What the program says, and to whom. Text of a file is never sent to the terminal as it is: what would move its cursor or
-//! set its title is shown, not done. Nor does it matter to the work whether somebody listens.
+//! Output of the program. Text from files is escaped before it reaches a terminal: control characters that would move
+//! the cursor or set the title are shown, not obeyed. A closed or full output does not stop the work.
 
 use std::fmt::Display;
 use std::io::{self, BufWriter, StdoutLock, Write, stderr, stdout};
 
-/// Says something on standard error. That nobody can read it is no reason to stop.
+/// Prints to standard error. A failure to do so is ignored.
 pub fn say(text: impl Display) {
     let _ = writeln!(stderr().lock(), "{}", escaped(&text.to_string()));
 }
 
-/// The standard output.
+/// Standard output.
 pub struct Out {
     stdout: BufWriter<StdoutLock<'static>>,
     is_json: bool,
 }
 
-/// The standard output for JSON, which escapes text itself, or for people.
+/// Standard output for JSON, which escapes text itself, or for people.
 pub fn out(is_json: bool) -> Out {
     Out { stdout: BufWriter::new(stdout().lock()), is_json }
 }
 
 impl Write for Out {
-    /// Text arrives in whole characters, as [`Display`] has written it.
+    /// Text arrives in whole characters, as [`Display`] wrote it.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         if self.is_json || !bytes.iter().any(|byte| is_suspicious(*byte)) {
             return self.stdout.write(bytes);
@@ -40,7 +40,7 @@ fn is_suspicious(byte: u8) -> bool {
     !matches!(byte, b'\n' | b'\t' | b' '..=b'~')
 }
 
-/// The text, its control characters and those that turn the order of writing shown as `\u{1b}`.
+/// The text, with control characters and characters that change the direction of writing shown as in `\u{1b}`.
 pub fn escaped(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     for character in text.chars() {
@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_terminal_would_obey_is_shown() {
+    fn control_characters_are_shown() {
         let text = "\u{1b}]0;title\u{7}\u{1b}[31mred\r\u{9b}2J\u{202e}end\n\tα 5 °";
         let expected = "\\u{1b}]0;title\\u{7}\\u{1b}[31mred\\r\\u{9b}2J\\u{202e}end\n\tα 5 °";
         assert_eq!(escaped(text), expected);

@@ -1,4 +1,4 @@
-//! The options for writing a table: where, and how finely.
+//! The options for writing a table: the file, and the resolution.
 
 use std::path::{Path, PathBuf};
 
@@ -22,13 +22,14 @@ pub struct Output {
     /// The format to write, if the extension does not determine it.
     #[arg(long, value_name = "FORMAT", value_parser = parser())]
     pub to: Option<Format>,
-    /// Write this channel only, by the name that `lobe info` shows.
+    /// Write only this channel, by the name that `lobe info` shows.
     #[arg(long, value_name = "NAME")]
     pub channel: Option<String>,
     /// Knots of resampled tables: angle of incidence. By default 19 from 0 to 88, or 11 if psi matters.
     #[arg(long, value_name = "DEGREES", value_delimiter = ',', help_heading = "Resampling")]
     pub sigma: Vec<f64>,
-    /// Rotation of the sample; a single 0 for isotropic ones. By default every 15 degrees, if it makes a difference.
+    /// Rotation of the sample; a single 0 for isotropic materials. By default every 15 degrees, if it makes a
+    /// difference.
     #[arg(long, value_name = "DEGREES", value_delimiter = ',', help_heading = "Resampling")]
     pub psi: Vec<f64>,
     /// Angle to the mirror direction, by default 30 from 0 to 180, dense near 0; of grids in spherical coordinates the polar angle of the viewer.
@@ -62,14 +63,14 @@ fn leaf_error(text: &str) -> Result<f64, String> {
     share.ok_or_else(|| format!("found `{text}`; expected a number above 0"))
 }
 
-/// What an option of resampling is for.
+/// The output that a resampling option applies to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// The knots of tables in specular or spherical coordinates.
     Knots,
     /// The images of RGL files.
     Images,
-    /// The azimuths of the light in RGL files, which those of anisotropic materials have.
+    /// The azimuths of the light in RGL files of anisotropic materials.
     Azimuths,
     /// The patches of Klems matrices.
     Patches,
@@ -145,12 +146,12 @@ impl Output {
         }
     }
 
-    /// The format to write. The sidecar of an older file with this name would be read with the new one.
+    /// The format to write. Refuses a file that has a sidecar, which would be applied to the new content.
     pub fn target(&self) -> Result<Target, Failure> {
         let sidecar = lobe_formats::sidecar::path_of(&self.out);
         if sidecar.exists() {
             return Err(Failure::File(format!(
-                "{}: found a file that says how another {} is read; expected none: remove it, or write to another name",
+                "{}: found the sidecar of an older {}; expected none: remove it, or write to another name",
                 sidecar.display(),
                 self.out.display()
             )));
@@ -158,7 +159,7 @@ impl Output {
         target(&self.out, self.to)
     }
 
-    /// The knots of a specular table in radians: the requested ones, or else some that suit most materials.
+    /// The knots of a specular table in radians: the requested ones, or else defaults that suit most materials.
     pub fn knots(&self, is_isotropic: bool) -> [Vec<f64>; 4] {
         self.or_default(knots(is_isotropic))
     }
@@ -203,7 +204,7 @@ impl Output {
         self.or_default(spherical_knots(is_isotropic))
     }
 
-    /// The options of resampling that were given.
+    /// The resampling options that were given.
     fn given(&self) -> impl Iterator<Item = (&'static str, Purpose)> {
         let knots = [("--sigma", &self.sigma), ("--psi", &self.psi), ("--theta", &self.theta), ("--phi", &self.phi)];
         let knots = knots.map(|(name, knots)| (name, Purpose::Knots, !knots.is_empty()));
@@ -218,19 +219,19 @@ impl Output {
         knots.into_iter().chain(others).filter(|(.., is_given)| *is_given).map(|(name, purpose, _)| (name, purpose))
     }
 
-    /// Refuses options of resampling that would change nothing in what is written.
+    /// Refuses resampling options that would have no effect.
     pub fn refuse_others(&self, used: &[Purpose]) -> Result<(), Failure> {
         let Some((name, purpose)) = self.given().find(|(_, purpose)| !used.contains(purpose)) else { return Ok(()) };
         let (out, what) = (self.out.display(), purpose.words());
-        let message = format!("{out}: found {name}, which is for {what}; expected no option that changes nothing");
+        let message = format!("{out}: found {name}, which is for {what}; expected only options that have an effect");
         Err(Failure::Usage(message))
     }
 
-    /// Refuses options of resampling where values and nodes are written as they are.
+    /// Refuses resampling options if values and nodes are written unchanged.
     pub fn refuse_all(&self) -> Result<(), Failure> {
         let Some((name, _)) = self.given().next() else { return Ok(()) };
         let message = format!(
-            "{}: found {name}, but this format takes the values and nodes of the file; expected no such option (`lobe \
+            "{}: found {name}, but this format keeps the values and nodes of the file; expected no such option (`lobe \
              resample` chooses other nodes)",
             self.out.display()
         );
@@ -238,7 +239,7 @@ impl Output {
     }
 }
 
-/// The side of the surface for people.
+/// The name of a side, for messages.
 pub fn side(scatter: Scatter) -> &'static str {
     match scatter {
         Scatter::Reflection => "reflection",

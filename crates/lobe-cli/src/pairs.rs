@@ -15,12 +15,12 @@ pub struct Pair {
     pub wo: [f64; 3],
 }
 
-/// Parses `N` finite numbers with commas between them.
+/// Parses `N` finite numbers separated by commas.
 pub fn parse_numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     let parts: Vec<&str> = text.split(',').collect();
     let parts: [&str; N] = parts
         .try_into()
-        .map_err(|parts: Vec<&str>| format!("{} numbers; expected {N} with commas between", parts.len()))?;
+        .map_err(|parts: Vec<&str>| format!("{} numbers; expected {N} separated by commas", parts.len()))?;
     let mut numbers = [0.0; N];
     for (number, part) in numbers.iter_mut().zip(parts) {
         *number = parse_number(part)?;
@@ -51,21 +51,21 @@ fn normalise(v: [f64; 3]) -> Result<[f64; 3], String> {
     Ok(v.map(|c| c / length))
 }
 
-/// The names of columns, in the order that they have without names.
+/// The names of columns, in their default order.
 const NAMES: [&str; 6] = ["wi.x", "wi.y", "wi.z", "wo.x", "wo.y", "wo.z"];
-/// Pairs that are read before they are evaluated.
+/// The number of pairs that are read before they are evaluated.
 const BATCH: usize = 1 << 16;
-/// Bytes of the longest line: what has no end must not be read to it.
+/// Bytes of the longest line, so that an endless input is not read into memory.
 const LONGEST: u64 = 1 << 16;
 
-/// Pairs in six columns, wi and wo, from a file, or from standard input if it is called `-`.
+/// Pairs in six columns, wi and wo, from a file, or from standard input if the name is `-`.
 ///
-/// Columns are separated by commas, semicolons, tabs or spaces. A first line without any number names them: `wi.x` or
-/// `wi_x` or `wix`, in any order and with others between. Lines that start with `#` are comments.
+/// Columns are separated by commas, semicolons, tabs or spaces. A first line without numbers names them: `wi.x` or
+/// `wi_x` or `wix`, in any order, possibly among others. Lines that start with `#` are comments.
 pub struct Pairs {
     path: PathBuf,
     input: BufReader<Box<dyn Read>>,
-    /// Whether somebody may wait for an answer before the next pair is sent.
+    /// Whether the sender may wait for an answer before it sends the next pair.
     is_stream: bool,
     line: usize,
     columns: Option<Columns>,
@@ -91,7 +91,7 @@ impl Pairs {
         let input: Box<dyn Read> = if is_stream {
             Box::new(stdin().lock())
         } else {
-            // Spreadsheets write UTF-16, byte-order marks, and carriage returns alone.
+            // Spreadsheets write UTF-16, byte-order marks, and bare carriage returns.
             Box::new(Cursor::new(lobe_formats::plain_text(&lobe_files::read(path)?).into_owned()))
         };
         let capacity = if is_stream { 1 << 16 } else { 1 << 20 };
@@ -99,7 +99,8 @@ impl Pairs {
         Ok(Pairs { path: path.into(), input, is_stream, line: 0, columns: None })
     }
 
-    /// The next pairs: of a file as many as are evaluated at once, of a stream those that have arrived. None at the end.
+    /// The next pairs: from a file as many as are evaluated at once, from a stream those that have arrived. None at the
+    /// end.
     pub fn read(&mut self) -> Result<Vec<Pair>, Failure> {
         let mut pairs = Vec::new();
         while pairs.len() < BATCH {
@@ -148,7 +149,7 @@ fn pair(columns: &mut Option<Columns>, line: &str) -> Result<Option<Pair>, Strin
     };
     let fields = split(line, *delimiter);
     if fields.len() != *count {
-        let names = if *count == 6 { ", wi and wo" } else { ", as are named" };
+        let names = if *count == 6 { ", wi and wo" } else { ", as in the first line" };
         return Err(format!("found {} columns; expected {count}{names}", fields.len()));
     }
     let mut numbers = [0.0; 6];
@@ -160,7 +161,7 @@ fn pair(columns: &mut Option<Columns>, line: &str) -> Result<Option<Pair>, Strin
     Ok(Some(Pair { wi: normalise([a, b, c])?, wo: normalise([d, e, f])? }))
 }
 
-/// What the fields of a line are separated by. A comma between digits is a decimal one if there are semicolons.
+/// The separator of the fields of a line. A comma between digits is a decimal comma if there are semicolons.
 fn delimiter(line: &str) -> Delimiter {
     match [';', ','].map(|character| line.contains(character)) {
         [true, _] => Delimiter::Character(';'),
@@ -181,7 +182,7 @@ fn parse(field: &str, delimiter: Delimiter) -> Option<f64> {
     if delimiter == Delimiter::Character(',') { field.parse().ok() } else { field.replace(',', ".").parse().ok() }
 }
 
-/// Which columns of these names hold wi and wo. Names that say nothing are those of columns in their usual order.
+/// The columns that hold wi and wo, from their names. If the names say nothing, the columns are in their default order.
 fn order(names: &[&str]) -> Result<[usize; 6], String> {
     let plain = |name: &str| -> String { name.chars().filter(char::is_ascii_alphanumeric).collect() };
     let found = NAMES.map(|wanted| {
@@ -194,7 +195,7 @@ fn order(names: &[&str]) -> Result<[usize; 6], String> {
         return Err(format!("found the columns {}; expected each of {wanted} once", names.join(", ")));
     }
     if found.iter().all(|(first, _)| first.is_none()) && names.len() == 6 {
-        say(format_args!("warning: the columns {} are taken to be {wanted}", names.join(", ")));
+        say(format_args!("warning: the columns {} are assumed to be {wanted}", names.join(", ")));
         return Ok([0, 1, 2, 3, 4, 5]);
     }
     let mut order = [0; 6];
@@ -215,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_are_known_by_their_names() {
+    fn columns_are_found_by_name() {
         let expected = [Pair { wi: [0.6, 0.0, 0.8], wo: [0.0, 0.0, 1.0] }];
         for text in [
             "0.6,0,0.8,0,0,1",
@@ -238,7 +239,7 @@ mod tests {
             ("wi.x,wi.y,wi.z,wo.x,wo.y,wo.y\n", "each of wi.x"),
             ("theta_i,phi_i,theta_o,phi_o\n0,0,0,0", "found the columns theta_i, phi_i"),
             ("0,0,1,0,0,1,0\n", "found 7 columns; expected 6"),
-            ("wi.x,wi.y,wi.z,wo.x,wo.y,wo.z,n\n0,0,1,0,0,1\n", "expected 7, as are named"),
+            ("wi.x,wi.y,wi.z,wo.x,wo.y,wo.z,n\n0,0,1,0,0,1\n", "expected 7, as in the first line"),
             ("0,0,1,0,0,x\n", "found `x`; expected a finite number"),
         ] {
             let error = read(text).expect_err(text);

@@ -1,4 +1,4 @@
-//! Where a picture goes, what an earlier rendering has left there, and that nothing of it is lost.
+//! The file of a picture, the sums that an earlier rendering left there, and their protection.
 
 use std::path::{Path, PathBuf};
 
@@ -11,11 +11,12 @@ use lobe_render::{Channels, Film, Rect, Transport};
 
 use crate::failure::Failure;
 
-/// Bytes that writing a finished picture takes per pixel, in addition to the film: the columns of the file, and the file.
+/// Bytes per pixel that writing a finished picture takes in addition to the film: the columns of the file, and the
+/// file.
 pub const FILM: usize = 100;
-/// The same of the picture so far: a copy of the film, and the sums in columns and as a file.
+/// The same for the picture so far: a copy of the film, and the sums in columns and as a file.
 const SO_FAR: usize = 400;
-/// The same for each channel, of which there are three at least.
+/// The same per channel, of which there are at least three.
 const SUMS: usize = 40;
 
 /// The kinds of files that pictures are written to.
@@ -38,13 +39,13 @@ impl Kind {
         }
     }
 
-    /// Refuses an exposure for EXR, which holds radiances.
+    /// Refuses an exposure for EXR files, which hold radiances.
     pub fn refuse_exposure(self, exposure: Option<f32>, path: &Path) -> Result<(), Failure> {
         if self == Kind::Png || exposure.is_none() {
             return Ok(());
         }
         let message =
-            format!("{}: found --exposure, but EXR holds radiances as they are; expected .png", path.display());
+            format!("{}: found --exposure, but EXR files hold unscaled radiances; expected .png", path.display());
         Err(Failure::Usage(message))
     }
 }
@@ -53,34 +54,34 @@ impl Kind {
 pub struct Output<'a> {
     path: &'a Path,
     kind: Kind,
-    /// How a PNG is tone-mapped.
+    /// The tone mapping of a PNG.
     pub tone: ToneMap,
     /// What a PNG shows.
     pub shown: Shown,
     keep_sums: bool,
 }
 
-/// What there is to go on with.
+/// What an earlier rendering left.
 pub enum Begun<T: Transport> {
     /// The sums of some samples.
     Sums(Film<T>),
-    /// Everything that was requested: this many samples.
+    /// A finished picture with this many samples.
     Finished(u32),
 }
 
 impl<'a> Output<'a> {
-    /// A file of this kind, which has the sums in the end if they are kept.
+    /// A file of this kind, which finally has the sums if they are kept.
     pub fn new(path: &'a Path, kind: Kind, keep_sums: bool) -> Self {
         Output { path, kind, tone: ToneMap { exposure: 0.0 }, shown: Shown::Colour, keep_sums }
     }
 
-    /// Whether all can be written that will be, and nothing of it is an input.
+    /// Whether all output files can be written, and none of them is an input.
     pub fn check<P: AsRef<Path>>(&self, inputs: &[P]) -> Result<(), Failure> {
         check_output(self.path, inputs)?;
         Ok(check_output(&self.part(), inputs)?)
     }
 
-    /// The file that a stopped rendering leaves.
+    /// The file that a stopped rendering leaves behind.
     pub fn part(&self) -> PathBuf {
         match self.kind {
             Kind::Exr => self.path.into(),
@@ -92,7 +93,7 @@ impl<'a> Output<'a> {
         }
     }
 
-    /// What an earlier rendering has left; `None` if there is no file, or one that lobe has not written.
+    /// What an earlier rendering left; `None` if there is no file, or lobe did not write it.
     pub fn earlier(&self) -> Result<Option<Inspected>, Failure> {
         match inspect(&self.part()) {
             Ok(earlier) => Ok(Some(earlier)),
@@ -101,17 +102,17 @@ impl<'a> Output<'a> {
         }
     }
 
-    /// Why the sums that are there are not overwritten.
+    /// The error if existing sums would be overwritten.
     pub fn refuse(&self, earlier: &Inspected) -> Failure {
         Failure::Usage(format!(
-            "{}: found the sums of an earlier rendering of {} samples; expected --resume to go on with them, or --force \
-             to begin anew",
+            "{}: found the sums of an earlier rendering of {} samples; expected --resume to continue with them, or \
+             --force to start anew",
             self.part().display(),
             earlier.meta.samples.end - earlier.meta.samples.start
         ))
     }
 
-    /// What an earlier rendering of the same has left.
+    /// What an earlier rendering of the same picture left.
     pub fn resume<T: Transport>(
         &self,
         basis: &T::Basis,
@@ -140,7 +141,7 @@ impl<'a> Output<'a> {
         let asked = wanted.samples.end - wanted.samples.start;
         let fewer = |there: u32| {
             wrong(format!(
-                "found {there} samples, more than the {asked} that were requested; expected at least as many"
+                "found {there} samples, more than the {asked} requested; expected a request for at least as many"
             ))
         };
         if *has_sums {
@@ -152,12 +153,12 @@ impl<'a> Output<'a> {
             there if there > asked && !wanted.timed => fewer(there),
             there if there == asked || wanted.timed => Ok(Begun::Finished(there)),
             there => wrong(format!(
-                "found a finished picture of {there} samples without its sums; expected one of --keep-sums to add to"
+                "found a finished picture of {there} samples without its sums; expected one written with --keep-sums"
             )),
         }
     }
 
-    /// The film so far: to look at, and to continue.
+    /// Writes the film so far, for viewing and for continuing.
     pub fn write_so_far<T: Transport>(
         &self,
         basis: &T::Basis,
@@ -177,7 +178,7 @@ impl<'a> Output<'a> {
         Ok(())
     }
 
-    /// The picture that is finished. If it cannot be written there, it goes elsewhere: it may have taken hours.
+    /// Writes the finished picture. If that fails, it is written elsewhere, because it may have taken hours.
     pub fn write<T: Transport>(
         &self,
         film: &Film<T>,
@@ -200,7 +201,7 @@ impl<'a> Output<'a> {
         meta: &Meta,
         partial: bool,
     ) -> Result<(), Failure> {
-        // What ended before its time says what it has, not what it was to have.
+        // A picture that was ended early records the samples that it has, not those that were requested.
         let samples = meta.samples.start..meta.samples.start + film.samples().1;
         let total = meta.total.min(samples.end);
         let finished = if partial { meta.clone() } else { Meta { samples, total, ..meta.clone() } };
@@ -211,7 +212,7 @@ impl<'a> Output<'a> {
                 if self.keep_sums {
                     return Ok(write_exr_in(&self.part(), film, basis, &finished, true)?);
                 }
-                // Only a rendering that took long has left one.
+                // Only a long rendering leaves one behind.
                 match std::fs::remove_file(self.part()) {
                     Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
                         return Err(Failure::File(format!("{}: {error}", self.part().display())));
@@ -223,7 +224,7 @@ impl<'a> Output<'a> {
         Ok(())
     }
 
-    /// Writes what there is of a picture that the user has ended, and says how to go on.
+    /// Writes an interrupted picture, and says how to continue it.
     pub fn interrupted<T: Transport>(&self, film: &Film<T>, basis: &T::Basis, meta: &Meta) -> Failure {
         let (least, most) = film.samples();
         if most == 0 {
@@ -231,7 +232,7 @@ impl<'a> Output<'a> {
         }
         match self.write_sums(film, basis, meta) {
             Ok(()) => Failure::Interrupted(format!(
-                "{}: interrupted with {least} to {most} of {} samples, which were written; the same command with --resume goes on",
+                "{}: interrupted with {least} to {most} of {} samples, which were saved; continue with the same command and --resume",
                 self.path.display(),
                 meta.samples.end - meta.samples.start
             )),

@@ -33,9 +33,9 @@ use crate::reading::Reading;
   lobe plot cloth.ddr -o warp.png --kind sphere --psi 90
   lobe plot paint.ddr --fit fit.json -o fit.html            with what `lobe fit -o fit.json` found, and where it fails
 
-The extension of OUT says what is written: .html a page, .svg or .png a figure. In every figure the light is on the left, viewing angles are positive on the side of the mirror direction, and f is in 1/sr, without the cosine. Dots are measured points; dashed lines were not measured but continued. Browsers show the value at the pointer.")]
+The extension of OUT determines what is written: .html is a page, .svg or .png a figure. In every figure, the light is on the left, viewing angles are positive on the side of the mirror direction, and f is in 1/sr, without the cosine. Dots are measured points; dashed lines are extrapolated. Browsers show the value at the pointer.")]
 pub struct Args {
-    /// The files of measured BRDFs or BTDFs; several are drawn into the same figures.
+    /// The files of measured BRDFs or BTDFs; several files are drawn into the same figures.
     #[arg(required = true)]
     files: Vec<PathBuf>,
     #[command(flatten)]
@@ -43,14 +43,14 @@ pub struct Args {
     /// The file to write: .html, .svg or .png. An existing one is replaced.
     #[arg(short, long)]
     out: PathBuf,
-    /// What to draw; by default a page in .html and curves in .svg and .png.
+    /// The figure to draw; by default a page in .html, and curves in .svg and .png.
     #[arg(long, value_enum)]
     kind: Option<Kind>,
     /// Logarithmic values.
     #[arg(long, conflicts_with = "linear")]
     log: bool,
-    /// Linear values. By default curves and slices are logarithmic, spectra linear, and lobes logarithmic if their peaks
-    /// differ much.
+    /// Linear values. By default, curves and slices are logarithmic, spectra are linear, and lobes are logarithmic if
+    /// their peaks differ greatly.
     #[arg(long)]
     linear: bool,
     /// Polar angles of the light in degrees; by default knots of the measurement.
@@ -59,10 +59,10 @@ pub struct Args {
     /// Viewing angles of spectra in degrees; by default some about the mirror direction.
     #[arg(long, value_name = "DEG,DEG", value_delimiter = ',', allow_hyphen_values = true, value_parser = parse_theta)]
     theta: Vec<f64>,
-    /// Azimuth of the light in degrees; by default that of the first knot.
+    /// Azimuth of the light in degrees; by default the first knot.
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = parse_angle)]
     psi: Option<f64>,
-    /// The side from which the light comes; by default the front, if there are values.
+    /// The side from which the light comes; by default the front, if it has values.
     #[arg(long, value_enum)]
     side: Option<LightSide>,
     /// Draw this channel, by the name that `lobe info` shows; by default the luminance, and spheres in colour.
@@ -71,14 +71,14 @@ pub struct Args {
     /// A fit of the file, as `lobe fit -o FIT.json` writes it: a page shows where it fails.
     #[arg(long, value_name = "FIT")]
     fit: Option<PathBuf>,
-    /// The width of a figure in pixels. Below 560 it is laid out for narrow paper.
+    /// The width of a figure in pixels. Below 560, it is laid out for a narrow column.
     #[arg(long, default_value_t = 960, value_parser = clap::value_parser!(u32).range(100..=8000))]
     width: u32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Kind {
-    /// All figures, what is known about the file, what the checks find, and the albedo.
+    /// All figures, the facts about the file, the findings of the checks, and the albedo.
     Page,
     /// f against the viewing angle in the plane of incidence.
     Curves,
@@ -104,7 +104,7 @@ enum LightSide {
     Back,
 }
 
-/// What a file will contain.
+/// The contents of a file to write.
 #[derive(Clone, Copy)]
 enum Target {
     Page,
@@ -158,14 +158,14 @@ pub fn write(file: &Path, format: Format, document: &Document, out: &Path) -> Re
     Ok(write_whole(out, &bytes)?)
 }
 
-/// What a file will hold, and what there is to say about it.
+/// The contents of a file to write, and remarks about it.
 struct Content {
     bytes: Vec<u8>,
     what: String,
     said: Vec<String>,
 }
 
-/// The inner error is one of what is to be drawn, the outer one of writing it.
+/// The inner error concerns what is drawn, the outer one writing it.
 fn content(
     target: Target,
     shown: &[Shown<'_>],
@@ -267,20 +267,20 @@ fn target(out: &Path, kind: Option<Kind>) -> Result<Target, Failure> {
     }
 }
 
-/// Refuses options that change nothing in spheres, which have lights and a scale of their own.
+/// Refuses options that have no effect on spheres, which have their own lights and scale.
 fn refuse_idle(args: &Args) -> Result<(), Failure> {
     let given = [("--log", args.log), ("--linear", args.linear), ("--sigma", !args.sigma.is_empty())];
     let found = given.into_iter().find(|(_, is_given)| *is_given && args.kind == Some(Kind::Sphere));
     match found {
         Some((name, _)) => Err(Failure::Usage(format!(
-            "{}: found {name}, which is for curves, lobes and slices; expected no option that changes nothing in spheres",
+            "{}: found {name}, which is for curves, lobes and slices; expected no option that has no effect on spheres",
             args.out.display()
         ))),
         None => Ok(()),
     }
 }
 
-/// What to show of each material: the same light for all of them.
+/// The view of each material, with the same light for all.
 fn views(args: &Args, subjects: &[Subject]) -> Result<Vec<View>, Failure> {
     let mut views: Vec<View> = Vec::new();
     for (subject, file) in subjects.iter().zip(&args.files) {
@@ -312,11 +312,11 @@ fn views(args: &Args, subjects: &[Subject]) -> Result<Vec<View>, Failure> {
     Ok(views)
 }
 
-/// What `lobe info` says, as tables.
+/// The facts of `lobe info`, as tables.
 fn facts(file: &Path, format: &str, document: &Document) -> Result<Vec<Facts>, Failure> {
     let row = |name: &str, value: String| (String::from(name), value);
     let mut rows = vec![row("format", format.into())];
-    // A folder and the standard input have none.
+    // A folder and standard input have no size.
     if let Some(metadata) = std::fs::metadata(file).ok().filter(std::fs::Metadata::is_file) {
         rows.push(row("file", format!("{} bytes", metadata.len())));
     }
@@ -354,7 +354,7 @@ fn parse_sigma(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A bar on standard error, if that is a terminal, once a second has passed.
+/// A progress bar on standard error, if that is a terminal, once a second has passed.
 struct Bar(ProgressBar);
 
 /// Work that takes less than this shows no bar.

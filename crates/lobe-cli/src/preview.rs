@@ -1,4 +1,4 @@
-//! `lobe preview`: a material on a ball and on a cloth, without a scene.
+//! `lobe preview`: a material on a ball and on a cloth, without a scene file.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -28,14 +28,14 @@ use crate::{interrupt, message};
   lobe preview paint.bsdf -o paint.png
   lobe preview velvet.ddr -o velvet.png --show cloth --samples 128 --size 1600x1200
 
-A tangent of the cloth runs along its weft, so that psi of an anisotropic material follows the weave.")]
+The tangent of the cloth runs along its weft, so that psi of an anisotropic material follows the weave.")]
 pub struct Args {
-    /// The file of a measured BRDF or BSDF, of any format that lobe opens.
+    /// The file of a measured BRDF or BSDF, in any format that lobe opens.
     material: PathBuf,
     /// The picture, .png or .exr.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// What to show it on.
+    /// The objects to show it on.
     #[arg(long, value_enum, default_value = "both")]
     show: Shown,
     /// Width and height in pixels.
@@ -44,7 +44,7 @@ pub struct Args {
     /// Samples per pixel.
     #[arg(long, value_name = "N", default_value_t = 48, value_parser = clap::value_parser!(u32).range(1..65_537))]
     samples: u32,
-    /// Stop after this time, preparing the material included; every pixel gets a sample in any case.
+    /// Stop after this time, including the preparation of the material; every pixel gets at least one sample.
     #[arg(long, value_name = "TIME", default_value = "20s", value_parser = humantime::parse_duration)]
     time: Duration,
     /// For PNG: multiply radiance by two to this power [default: 0].
@@ -77,7 +77,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     kind.refuse_exposure(args.exposure, &args.output)?;
     check_output(&args.output, &[&args.material])?;
     let backend = args.machine.backend()?;
-    // A grid of half and difference angles that is not interpolated shows its bins; light is looked for from the camera.
+    // A grid of half and difference angles that is not interpolated shows its bins; EPFL tables are indexed by the
+    // viewer.
     let options = Options { lookup: Lookup::Linear, indexed_by: Given::Viewer, ..Options::default() };
     let (_, document) = lobe_formats::open(&args.material)?;
     warn_of_guesses(&args.material, &document);
@@ -85,7 +86,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let (wanted, time) = (draft.samples(args.samples), draft.time(args.time));
     let bar = (!args.machine.is_quiet()).then(|| progress("preparing the material"));
     let mut watch = |done: usize, all: usize| bar.iter().for_each(|bar| bar(done as f64 / all.max(1) as f64));
-    // Half of the time for the picture itself.
+    // Half of the time is for the picture itself.
     let material = from_document(&document, &args.material, &options, backend, Some(time / 2), &mut watch);
     drop(bar);
     let material = material.map_err(|error| Failure::File(error.to_string()))?;
@@ -136,7 +137,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         }
     }
     if interrupt::is_asked() {
-        let message = format!("{}: interrupted; what there is was written", args.output.display());
+        let message = format!("{}: interrupted; the picture so far was written", args.output.display());
         return Err(Failure::Interrupted(message));
     }
     if !args.machine.is_quiet() {
@@ -147,17 +148,17 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What was written: the pixels, how many of their samples were reached, and the exposure.
+/// A summary of the output: the pixels, the number of samples reached, and the exposure.
 fn summary(args: &Args, kind: Kind, wanted: u32, (least, most): (u32, u32), elapsed: Duration) -> String {
     let [width, height] = args.size;
     let samples = if least == most { least.to_string() } else { format!("{least} to {most}") };
     let mut words = format!("{width} x {height} pixels of {samples} samples in {:.1} s", elapsed.as_secs_f64());
     if least < wanted {
-        words.push_str(&format!(", not {wanted}, as the time of --time was up"));
+        words.push_str(&format!(", not {wanted}, because the time of --time was up"));
     }
     match kind {
         Kind::Png => words + &format!("; exposure {:+} EV", args.exposure.unwrap_or(0.0)),
-        // Values are as they are.
+        // Values are not scaled.
         Kind::Exr => words,
     }
 }

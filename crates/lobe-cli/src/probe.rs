@@ -1,4 +1,4 @@
-//! How far what was written is from what it was made of.
+//! The difference between a written file and its source.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt;
@@ -8,7 +8,7 @@ use lobe_model::{Surface, halton};
 
 use crate::progress::Progress;
 
-/// Pairs of directions that are compared.
+/// The number of pairs of directions that are compared.
 const PROBES: u32 = 4096;
 
 /// Differences at the probes, relative to the value, or to a hundredth of the mean value if that is larger.
@@ -21,16 +21,16 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Compares two surfaces of the same channels, in turn on the sides of each of the measurements. Half of the probes are
-    /// spread over both hemispheres in proportion to their cosines, half are near the mirror direction or what continues
-    /// the light straight on. None is within a degree of the horizon.
+    /// Compares two surfaces with the same channels, in turn on the sides of each measurement. Half of the probes are
+    /// spread over both hemispheres in proportion to their cosines, half are near the mirror or straight-through
+    /// direction. None is within a degree of the horizon.
     pub fn between(expected: &dyn Surface, found: &dyn Surface, aspects: &[Aspect]) -> Self {
         let channels = expected.channels().count();
         let mut values = Vec::new();
         let progress = Progress::new(PROBES as usize, "probes");
         for n in 1..=PROBES {
             let (wi, wo) = pair(n);
-            // Two probes that follow each other are of both kinds.
+            // Consecutive probes are of different kinds.
             let aspect = aspects.get(n as usize / 2 % aspects.len().max(1)).copied().unwrap_or(Aspect::REFLECTION);
             let (wi, wo) = aspect.place(wi, wo);
             let (mut a, mut b) = (vec![0.0; channels], vec![0.0; channels]);
@@ -75,7 +75,7 @@ impl fmt::Display for Errors {
 
 fn pair(n: u32) -> ([f64; 3], [f64; 3]) {
     let [a, b, c, d] = halton(n);
-    // Of a disc, so that the density is the cosine; its rim is the horizon.
+    // A point on a disc, so that the density is the cosine; the rim is the horizon.
     let up = |square: f64, turn: f64| {
         let (radius, (sin, cos)) = ((0.9997 * square).sqrt(), (TAU * turn).sin_cos());
         [radius * cos, radius * sin, (1.0 - radius * radius).sqrt()]

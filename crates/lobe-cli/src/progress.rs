@@ -1,4 +1,4 @@
-//! How far a long command has come.
+//! The progress of long commands.
 
 use std::time::Duration;
 
@@ -9,7 +9,7 @@ use crate::message::say;
 /// Work that takes less than this shows no bar.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// A bar on standard error, if that is a terminal, once a second has passed.
+/// A progress bar on standard error, if that is a terminal, once a second has passed.
 pub struct Progress(ProgressBar);
 
 impl Progress {
@@ -37,12 +37,12 @@ impl Drop for Progress {
     }
 }
 
-/// A bar for work that ends with its samples or its time, whichever is first; nothing if standard error is not a
-/// terminal.
+/// A progress bar for work that ends with its samples or its time, whichever is first; nothing if standard error is not
+/// a terminal.
 pub struct Bar(ProgressBar);
 
 impl Bar {
-    /// A bar, or none.
+    /// A progress bar, or none.
     pub fn new(quiet: bool) -> Self {
         let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let style = ProgressStyle::with_template("{wide_bar} {percent:>3}%  {elapsed} / {eta} left  {msg}")
@@ -50,7 +50,7 @@ impl Bar {
         Bar(ProgressBar::with_draw_target(Some(0), target).with_style(style))
     }
 
-    /// Shows how many samples are done, and how much of the time limit has passed.
+    /// Shows the number of finished samples, and the elapsed share of the time limit.
     pub fn show(&self, done: u64, total: u64, time: Option<(Duration, Duration)>) {
         let share = done as f64 / total.max(1) as f64;
         // Whichever limit is nearer.
@@ -61,7 +61,7 @@ impl Bar {
         self.0.set_message(format!("{:.1} M samples", done as f64 / 1e6));
     }
 
-    /// Says something above the bar.
+    /// Prints a line above the bar.
     pub fn say(&self, text: &str) {
         self.0.suspend(|| say(text));
     }

@@ -1,4 +1,4 @@
-//! The options that say what a file leaves open.
+//! The options that supply what a file leaves open.
 
 use std::path::Path;
 
@@ -14,31 +14,31 @@ use crate::failure::Failure;
 #[derive(clap::Args, Clone, Debug, Default)]
 #[command(next_help_heading = "Reading the file (kept in FILE.lobe.toml by lobe import)")]
 pub struct Reading {
-    /// Which columns of a table hold what: theta_i=1,phi_i=2,theta_o=3,phi_o=4,f=5 (or R=5,G=6,B=7 or 550nm=5),
-    /// wavelength=6 if each row has its own, names of columns instead of numbers, and theta_i=30deg for an angle that is
-    /// the same in all rows.
+    /// The meaning of the columns of a table: theta_i=1,phi_i=2,theta_o=3,phi_o=4,f=5 (or R=5,G=6,B=7 or 550nm=5),
+    /// wavelength=6 if each row has its own, names of columns instead of numbers, and theta_i=30deg for an angle that
+    /// is the same in all rows.
     #[arg(long, value_name = "NAME=COLUMN,...", value_parser = columns)]
     columns: Option<Columns>,
     /// The unit of angles that do not state it: deg or rad.
     #[arg(long, value_parser = str::parse::<Unit>)]
     unit: Option<Unit>,
-    /// What the values are: f, luminance-factor (pi f) or f-cos.
+    /// The quantity of the values: f, luminance-factor (pi f) or f-cos.
     #[arg(long, value_parser = str::parse::<Quantity>)]
     values: Option<Quantity>,
-    /// What the values are multiplied by, or tis: what makes their integral the total that the file states.
+    /// A factor for the values, or tis: the factor that makes their integral the total that the file states.
     #[arg(long, value_name = "X|tis", value_parser = str::parse::<Scale>)]
     scale: Option<Scale>,
-    /// What a table holds: reflection, transmission, or both if what is beyond 90 degrees is transmitted.
+    /// The scatter that a table holds: reflection, transmission, or both if values beyond 90 degrees are transmission.
     #[arg(long, value_parser = str::parse::<Holds>)]
     holds: Option<Holds>,
     /// A table without azimuths is in the plane of incidence: same-sign if the mirror direction is at theta_o = theta_i,
     /// opposite-sign if it is at -theta_i.
     #[arg(long, value_name = "SIGN", value_parser = str::parse::<InPlane>)]
     in_plane: Option<InPlane>,
-    /// Where azimuths of the viewer are counted from, if there are none of the light: light or mirror.
+    /// The direction from which azimuths of the viewer are counted, if there are none of the light: light or mirror.
     #[arg(long, value_name = "SIDE", value_parser = str::parse::<AzimuthFrom>)]
     azimuth_from: Option<AzimuthFrom>,
-    /// Numbers of a table have a comma before their decimals.
+    /// Numbers in a table have decimal commas.
     #[arg(long)]
     decimal_comma: bool,
 }
@@ -51,7 +51,7 @@ fn columns(text: &str) -> Result<Columns, String> {
 }
 
 impl Reading {
-    /// What the user said.
+    /// The options that the user gave.
     pub fn options(&self) -> ReadOptions {
         ReadOptions {
             columns: self.columns.clone().map(|Columns(columns)| columns).unwrap_or_default(),
@@ -65,7 +65,7 @@ impl Reading {
         }
     }
 
-    /// Opens a file; what the user does not say, its sidecar may.
+    /// Opens a file; its sidecar supplies options that the user does not give.
     pub fn open(&self, path: &Path) -> Result<(Format, Document), Failure> {
         Ok(open_with(path, &self.options())?)
     }

@@ -25,18 +25,18 @@ use crate::{interrupt, message};
 /// Render a scene file to EXR or PNG.
 #[derive(clap::Args)]
 #[command(
-    after_help = "The picture does not depend on threads, tiles, or the order of work. With --strict it does not depend \
-on the instructions of the machine either.
+    after_help = "The picture does not depend on threads, tiles, or the order of work. With --strict, it does not \
+depend on the instructions of the machine either.
 
 Every 30 seconds, and on Ctrl-C, the picture so far is written; an EXR file then also has the exact sums from which \
---resume continues. For a PNG they are next to it, in OUT.part.exr. A second Ctrl-C ends at once. A finished picture has \
-no sums, unless --keep-sums is given.
+--resume continues. For a PNG, they are next to it, in OUT.part.exr. A second Ctrl-C ends the program at once. A \
+finished picture has no sums, unless --keep-sums is given.
 
 Integrators: `path` for most scenes; `bdpt` for rooms that are lit indirectly and for caustics; `light` for caustics alone; \
-`sppm` and `vcm` for caustics that mirrors and glass show, `vcm` if the scene has other light as well. The last four follow \
-light paths of the whole picture in every part of it, so divide their work by --samples-range, not by --tile.
+`sppm` and `vcm` for caustics that mirrors and glass show, `vcm` if the scene has other light as well. The last four \
+follow the light paths of the whole picture in every part of it, so divide their work with --samples-range, not with --tile.
 
-LOBE_DRAFT=N divides numbers of samples and time limits by N, for a first look.
+LOBE_DRAFT=N divides sample counts and time limits by N, for a first look.
 
 Examples:
   lobe render scene.toml -o picture.exr
@@ -61,7 +61,8 @@ pub struct Args {
     /// The integrator, with its default parameters, instead of the one in the scene.
     #[arg(long, value_name = "NAME", value_parser = integrators())]
     integrator: Option<String>,
-    /// Stop after this time, such as 90s or 10m, reading the scene included; every pixel gets a sample in any case.
+    /// Stop after this time, such as 90s or 10m, including the time to read the scene; every pixel gets at least one
+    /// sample.
     #[arg(long, value_name = "TIME", value_parser = humantime::parse_duration)]
     time: Option<Duration>,
     /// Render the pixels from column X0 and row Y0 up to, but not including, X1 and Y1, counted from the upper left.
@@ -73,38 +74,38 @@ pub struct Args {
     /// Render only these samples, and write them so that `lobe merge` can add them to the others.
     #[arg(long, value_name = "A..B", value_parser = parse_range, conflicts_with = "time")]
     samples_range: Option<Range<u32>>,
-    /// How often the picture so far is written.
+    /// The interval at which the picture so far is written.
     #[arg(long, value_name = "TIME", default_value = "30s", value_parser = humantime::parse_duration)]
     write_every: Duration,
-    /// Continue from the file that a stopped rendering, or one with --keep-sums, has left.
+    /// Continue from the file that a stopped rendering, or one with --keep-sums, left behind.
     #[arg(long)]
     resume: bool,
-    /// Begin anew, even if the sums of an earlier rendering are lost by that.
+    /// Start anew, even if the sums of an earlier rendering are lost.
     #[arg(long, conflicts_with = "resume")]
     force: bool,
-    /// Write the exact sums of the finished picture too, so that --resume can add samples.
+    /// Also write the exact sums of the finished picture, so that --resume can add samples.
     #[arg(long)]
     keep_sums: bool,
-    /// What a PNG shows.
+    /// The quantity that a PNG shows.
     #[arg(long, value_enum, default_value = "colour")]
     show: Show,
-    /// Print what the rendering took as JSON.
+    /// Print statistics of the rendering as JSON.
     #[arg(long)]
     json: bool,
     #[command(flatten)]
     machine: Machine,
 }
 
-/// How to use the machine; the picture does not depend on it, except for the last digits on other backends.
+/// The use of the machine; the picture does not depend on it, except that the last digits may differ between backends.
 #[derive(clap::Args)]
 pub struct Machine {
-    /// Number of threads; by default as many as the machine has.
+    /// The number of threads; by default as many as the machine has.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..1025))]
     threads: Option<u16>,
-    /// The instructions: scalar, sse2, sse4.1, avx2 or avx512; the default is the best that this machine has.
+    /// The instructions: scalar, sse2, sse4.1, avx2 or avx512; the default is the best set that this machine has.
     #[arg(long, value_name = "NAME")]
     backend: Option<String>,
-    /// Round the same way on all machines and instructions, which is a little slower.
+    /// Round in the same way with all instruction sets, which is slightly slower.
     #[arg(long)]
     strict: bool,
     /// Show no progress and no summary.
@@ -138,7 +139,7 @@ impl Machine {
     }
 }
 
-/// The names of integrators, each with what it does.
+/// The names of integrators, each with its summary.
 fn integrators() -> PossibleValuesParser {
     let values: Vec<_> = INTEGRATORS.iter().map(|spec| PossibleValue::new(spec.name).help(spec.summary)).collect();
     PossibleValuesParser::new(values)
@@ -163,7 +164,7 @@ fn parse_range(text: &str) -> Result<Range<u32>, String> {
     pair.filter(|range: &Range<u32>| !range.is_empty()).ok_or_else(|| "expected A..B with A < B".into())
 }
 
-/// With a time limit only, there is no other limit.
+/// If only a time limit is given, the number of samples is not limited.
 const UNLIMITED: u32 = 1 << 20;
 
 /// Runs the command.
@@ -193,15 +194,15 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// What is known before the scene.
+/// The information that does not depend on the scene.
 struct Beginning {
     begun: Instant,
     backend: Backend,
-    /// Whether other machines have other parts.
+    /// Whether other parts are rendered elsewhere.
     partial: bool,
 }
 
-/// Renders a scene in its channels.
+/// Renders a scene with its channels.
 fn run_scene<T: Transport>(
     args: &Args,
     Beginning { begun, backend, partial }: Beginning,
@@ -248,13 +249,13 @@ fn run_scene<T: Transport>(
         (true, Some(earlier)) => match output.resume(basis, &meta, &earlier)? {
             Begun::Sums(film) => film,
             Begun::Finished(samples) => {
-                say(format_args!("{}: finished before, with {samples} samples", args.output.display()));
+                say(format_args!("{}: already finished, with {samples} samples", args.output.display()));
                 return Ok(());
             }
         },
         (true, None) => {
             if !args.machine.quiet {
-                say(format_args!("{}: missing, so there is nothing to go on with", output.part().display()));
+                say(format_args!("{}: missing, so there is nothing to continue", output.part().display()));
             }
             Film::try_new(window, FILM)?
         }
@@ -279,7 +280,7 @@ fn run_scene<T: Transport>(
     let rendered = render(&scene.world, &settings, film, |progress| {
         bar.show(progress.done, progress.total, settings.time.map(|limit| (progress.elapsed, limit)));
         if written.elapsed() >= args.write_every && !interrupt::is_asked() {
-            // The work goes on: there may be room again when it is finished.
+            // The work continues: there may be space again when it is finished.
             if let Err(failure) = output.write_so_far(basis, &meta, || progress.film()) {
                 let warning = format!("warning: the picture so far was not written: {failure}");
                 if warned.as_ref() != Some(&warning) {
@@ -294,10 +295,10 @@ fn run_scene<T: Transport>(
     bar.finish();
     let (film, stats) = rendered.map_err(|error| Failure::Usage(error.to_string()))?;
     if stats.invalid > 0 {
-        say(format_args!("warning: {} samples were not finite and count as black", stats.invalid));
+        say(format_args!("warning: {} samples were not finite and were counted as black", stats.invalid));
     }
     if stats.light_paths > 0 && stats.landed == 0 {
-        say(format_args!("warning: none of {} light paths has met a surface", stats.light_paths));
+        say(format_args!("warning: none of {} light paths met a surface", stats.light_paths));
     }
     let (least, most) = film.samples();
     if interrupt::is_asked() && least < meta.samples.end - meta.samples.start {
@@ -315,7 +316,7 @@ fn run_scene<T: Transport>(
     Ok(out.flush()?)
 }
 
-/// What a PNG shows.
+/// The quantity that a PNG shows.
 #[derive(Clone, Copy, Default, PartialEq, ValueEnum)]
 pub enum Show {
     /// The colour of light.
@@ -323,19 +324,19 @@ pub enum Show {
     Colour,
     /// The degree of linear polarisation.
     Dolp,
-    /// The angle of linear polarisation as a hue, as bright as the degree.
+    /// The angle of linear polarisation as a hue, with the degree as brightness.
     Aolp,
 }
 
 impl Show {
-    /// Refuses what the picture does not have.
+    /// Refuses a quantity that the picture does not have.
     pub fn shown(self, path: &Path, kind: Kind, is_polarised: bool) -> Result<Shown, Failure> {
         let refuse = |found: &str, expected: &str| {
             Err(Failure::Usage(format!("{}: found --show with {found}; expected {expected}", path.display())))
         };
         match self {
             Show::Colour => Ok(Shown::Colour),
-            _ if kind == Kind::Exr => refuse("an EXR file, which has all of it as channels", ".png"),
+            _ if kind == Kind::Exr => refuse("an EXR file, which has all quantities as channels", ".png"),
             _ if !is_polarised => refuse("light that is not polarised", "a scene with `stokes = true` in [spectrum]"),
             Show::Dolp => Ok(Shown::Degree),
             Show::Aolp => Ok(Shown::Angle),

@@ -1,4 +1,4 @@
-//! `lobe resample`: any material into a table of specular coordinates, and repairs of such a table.
+//! `lobe resample`: resamples any material into a table in specular coordinates, and repairs such tables.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -22,12 +22,12 @@ use crate::guesses::warn_of_guesses;
 use crate::measure::fits;
 use crate::message::{self, say};
 
-/// Resample any material into a table in specular coordinates, repair it, and report how far it is from the original.
+/// Resample any material into a table in specular coordinates, repair it, and report its error.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Axes that are not given get the knots that keep the interpolation error below --error, relative to the largest value (or, with --per-value, to each value above a thousandth of that). A specular table keeps its knots unless an axis or --error is given; then knots are chosen among its own. Errors count up to polar angles of --limit. Without --error, 0.01 is aimed at, and a material that cannot be resampled so well gets the knots that bring the error near the smallest possible one, which is reported.
+    after_help = "Axes that are not given get knots that keep the interpolation error below --error, relative to the largest value (or, with --per-value, to each value above a thousandth of that). A specular table keeps its knots unless an axis or --error is given; then its knots are chosen from among them. Errors count up to polar angles of --limit. Without --error, the command aims at 0.01; a material that cannot be resampled so accurately gets knots that bring the error near the smallest possible one, which is reported.
 
-Repairs come after, in the order of this list: colour, fill, mirror, reciprocal, conserve.
+Repairs follow, in this order: colour, fill, mirror, reciprocal, conserve.
 
 Examples:
   lobe resample vinyl.bsdf vinyl.ddr --error 0.01
@@ -35,20 +35,20 @@ Examples:
   lobe resample sensor.bsdf sensor.ddr --fill zeros --beyond linear --mask filled.csv --conserve
   lobe resample paint.brdf paint.ddr --colour rgb
 
-If --error is given and no choice of knots meets it, the exit code is 3, the message names an error that can be met, and no file is written. Tables whose knots are all given are always written."
+If --error is given and no choice of knots meets it, the exit code is 3, the message names an achievable error, and no file is written. A table is always written if the knots of all axes are given."
 )]
 pub struct Args {
     /// The material.
     input: PathBuf,
     /// The file to write: .ddr for reflection, .ddt for transmission, .ssdd for either.
     output: PathBuf,
-    /// The largest interpolation error that is accepted; by default 0.01 is aimed at.
+    /// The largest acceptable interpolation error; by default, the command aims at 0.01.
     #[arg(long, value_name = "SHARE")]
     error: Option<f64>,
     /// The error is relative to each value, not to the largest.
     #[arg(long)]
     per_value: bool,
-    /// The polar angle of both directions, in degrees, up to which errors count: toward the horizon values grow
+    /// The polar angle of both directions, in degrees, up to which errors count, because values grow toward the horizon
     /// [default: 80].
     #[arg(long, value_name = "DEGREES")]
     limit: Option<f64>,
@@ -70,13 +70,13 @@ pub struct Args {
     /// The side that the light comes from, if the file has both; by default the first.
     #[arg(long, value_enum)]
     side: Option<SideRule>,
-    /// Turn spectra and the like into colours.
+    /// Convert spectra and other channels to colours.
     #[arg(long, value_enum)]
     colour: Option<ColourRule>,
-    /// Fill what was not measured.
+    /// Fill unmeasured values.
     #[arg(long, value_enum)]
     fill: Option<FillRule>,
-    /// How values continue beyond the last measured one.
+    /// The extrapolation beyond the last measured value.
     #[arg(long, value_enum, default_value = "nearest", requires = "fill")]
     beyond: BeyondRule,
     /// Write the nodes that were filled: CSV of sigma, psi, theta, phi in degrees.
@@ -85,10 +85,10 @@ pub struct Args {
     /// Average both sides of the plane of incidence (of psi 0 in an anisotropic table).
     #[arg(long)]
     mirror: bool,
-    /// Average with light and viewer exchanged.
+    /// Average each value with that for exchanged light and viewer.
     #[arg(long)]
     reciprocal: bool,
-    /// Scale slices whose albedo is above 1 to 1.
+    /// Scale slices whose albedo is above 1 to an albedo of 1.
     #[arg(long)]
     conserve: bool,
     /// Print JSON.
@@ -108,7 +108,7 @@ enum ColourRule {
 enum FillRule {
     /// Values whose channels are all exactly 0.
     Zeros,
-    /// Values of which any channel is negative.
+    /// Values with a negative channel.
     Negatives,
 }
 
@@ -116,7 +116,7 @@ enum FillRule {
 enum BeyondRule {
     /// The nearest measured value.
     Nearest,
-    /// The line through the two nearest, not below 0.
+    /// The line through the two nearest values, not below 0.
     Linear,
 }
 
@@ -168,18 +168,18 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     Ok(out.flush()?)
 }
 
-/// The table before repairs, and its error unless it is the file's own.
+/// The table before repairs, and its error unless it is the table of the file.
 fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(specular::Data, Option<Resampling>), Failure> {
     let given = [&args.sigma, &args.psi, &args.theta, &args.phi];
     let own = if let Some(Data::Specular(samples)) = subject.data(aspect) { Some(samples) } else { None };
     let is_all_given = given.iter().all(|axis| axis.is_some());
     let idle = |name: &str, why: &str| {
         let message =
-            format!("{}: found {name}, but {why}; expected no option that changes nothing", args.input.display());
+            format!("{}: found {name}, but {why}; expected only options that have an effect", args.input.display());
         Err(Failure::Usage(message))
     };
     if let Some(samples) = own.filter(|_| args.error.is_none() && given.iter().all(|axis| axis.is_none())) {
-        const KEPT: &str = "the table keeps its knots, as neither an axis nor --error is given";
+        const KEPT: &str = "the table keeps its knots, because neither an axis nor --error is given";
         return match (args.per_value, args.limit) {
             (true, _) => idle("--per-value", KEPT),
             (_, Some(_)) => idle("--limit", KEPT),
@@ -224,19 +224,19 @@ fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(specular::Da
             bound.error
         ));
     }
-    // Knots that are all given are what was wanted, whatever the error.
+    // If the knots of all axes are given, they are what the user wants, whatever the error.
     if chosen.error > bound.error && !is_all_given {
         let (output, least) = (args.output.display(), rounded_up(chosen.least));
         if args.error.is_some() {
             return Err(Failure::Check(format!(
-                "{output}: the smallest error that was reached is {:.4}; expected {} or less. --error {least} would succeed{}",
+                "{output}: the smallest error reached is {:.4}; expected {} or less. --error {least} would succeed{}",
                 chosen.least,
                 bound.error,
                 if limit > 60.0 { ", and a smaller --limit may allow less" } else { "" }
             )));
         }
         say(format_args!(
-            "{output}: the error is {:.1} %, more than the {:.0} % aimed at; an --error below {least} may not be met",
+            "{output}: the error is {:.1} %, more than the intended {:.0} %; an --error below {least} may not be achievable",
             100.0 * chosen.error,
             100.0 * bound.error
         ));
@@ -245,12 +245,12 @@ fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(specular::Da
     Ok((chosen.samples, Some(found)))
 }
 
-/// An error with two digits that is not smaller.
+/// An error rounded up to two digits.
 fn rounded_up(error: f64) -> f64 {
     let unit = 10_f64.powf(error.max(f64::MIN_POSITIVE).log10().floor() - 1.0);
     let digits = (-unit.log10()).round().clamp(0.0, 17.0) as usize;
     let rounded = (error / unit - 1e-9).ceil() * unit;
-    // What is printed has no digits of rounding.
+    // The printed number has no rounding digits.
     format!("{rounded:.digits$}").parse().map_or(rounded, |short: f64| if short < error { short + unit } else { short })
 }
 
@@ -324,7 +324,7 @@ fn extension(path: &Path) -> String {
     path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
 }
 
-/// Checked before anything takes long.
+/// Checked before any long computation.
 fn check_extension(path: &Path, scatter: Scatter) -> Result<(), Failure> {
     let (wanted, what) = match scatter {
         Scatter::Reflection => ("ddr", "reflection"),
@@ -381,7 +381,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rounding_is_upward_and_short() {
+    fn errors_are_rounded_up_to_two_digits() {
         for (error, expected) in
             [(0.0230, 0.023), (0.023_01, 0.024), (0.472_6, 0.48), (3.0, 3.0), (12.1, 13.0), (9.99e-5, 1e-4)]
         {

@@ -1,4 +1,4 @@
-//! `lobe completions` and `lobe man`: what makes a program at home in a shell.
+//! `lobe completions` and `lobe man`: completions and manual pages.
 
 use std::io::{Write, stdout};
 use std::path::PathBuf;
@@ -19,13 +19,13 @@ pub struct Completions {
     shell: Shell,
 }
 
-/// Print the manual page, or write those of all commands.
+/// Print the manual page, or write the pages of all commands.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   lobe man | man -l -
   lobe man --out ~/.local/share/man/man1")]
 pub struct Man {
-    /// A folder for lobe.1 and a page for each command.
+    /// A folder for lobe.1 and one page per command.
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
 }

@@ -1,4 +1,4 @@
-//! What a rendering took, in a line or as JSON.
+//! Statistics of a rendering, in a line or as JSON.
 
 use std::fmt;
 use std::time::Duration;
@@ -9,11 +9,11 @@ use serde::Serialize;
 /// The figures of one rendering.
 #[derive(Debug, Serialize)]
 pub struct Summary {
-    /// Columns and rows that were rendered.
+    /// The rendered columns and rows.
     size: [u32; 2],
-    /// Fewest and most samples that a pixel has.
+    /// The fewest and the most samples of a pixel.
     samples: [u32; 2],
-    /// From the first ray to the last one.
+    /// The time from the first ray to the last.
     seconds: f64,
     /// Rays traced.
     rays: u64,
@@ -21,7 +21,7 @@ pub struct Summary {
     invalid: u64,
     /// Shares of the threads' time.
     shares: Shares,
-    /// The share of lanes in use while materials were evaluated, by the number of surfaces hit before.
+    /// The share of lanes in use while materials were evaluated, by the number of earlier surfaces on the path.
     lanes_in_use: Vec<f64>,
     /// The same at all depths together.
     lanes: f64,
@@ -37,7 +37,7 @@ struct Shares {
 }
 
 impl Summary {
-    /// Sums up.
+    /// Computes the summary.
     pub fn new(size: [u32; 2], (least, most): (u32, u32), elapsed: Duration, stats: &Stats) -> Self {
         let share = |time: Duration| time.as_secs_f64() / stats.total.as_secs_f64().max(1e-9);
         let materials = stats.materials();

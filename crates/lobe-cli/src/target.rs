@@ -1,4 +1,4 @@
-//! The format to write: one of those that the library can.
+//! The format to write: one of those that the library can write.
 
 use std::path::Path;
 
@@ -29,14 +29,14 @@ fn holds(writer: &Writer) -> String {
     format!("{}; {nodes}{sides}", writer.channels)
 }
 
-/// A format that can be written, and how.
+/// A format that can be written, and its writer.
 #[derive(Clone, Copy)]
 pub struct Target {
     pub format: Format,
     pub writer: &'static Writer,
 }
 
-/// The format that was asked for, or that the extension of the file names.
+/// The requested format, or the one that the extension of the file names.
 pub fn target(path: &Path, to: Option<Format>) -> Result<Target, Failure> {
     let unknown =
         |why: String| Failure::Usage(format!("{}: {why}; expected --to with the format to write", path.display()));
@@ -50,7 +50,7 @@ pub fn target(path: &Path, to: Option<Format>) -> Result<Target, Failure> {
     match found.as_slice() {
         [target] => Ok(*target),
         [] if extension.is_empty() => Err(unknown("found no extension".into())),
-        [] => Err(unknown(format!("found the extension .{extension}, which no format that lobe writes has"))),
+        [] => Err(unknown(format!("found the extension .{extension}, which belongs to no format that lobe writes"))),
         several => {
             let name = |target: &Target| target.format.name().trim_end_matches(" BSDF");
             let names: Vec<&str> = several.iter().map(name).collect();

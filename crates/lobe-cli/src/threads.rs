@@ -1,16 +1,16 @@
-//! The threads that work is shared among.
+//! The threads among which work is divided.
 
 use std::sync::mpsc;
 use std::thread;
 
 use rayon::ThreadPoolBuilder;
 
-/// Makes rayon's pool, of as many threads as the system allows: by itself it would panic if one of them cannot be made.
+/// Creates rayon's pool with as many threads as the system allows; rayon itself would panic if one cannot be created.
 pub fn start() {
     let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|count| count.parse().ok()).filter(|count| *count > 0);
     let wanted = asked.unwrap_or_else(|| thread::available_parallelism().map_or(1, usize::from));
     let mut waiting = Vec::new();
-    // Threads that wait for their task are there, whatever happens until they get it.
+    // A thread that waits for a task exists, whatever happens until it gets one.
     while waiting.len() < wanted {
         let (sender, receiver) = mpsc::channel::<rayon::ThreadBuilder>();
         let thread = thread::Builder::new().spawn(move || receiver.recv().map(rayon::ThreadBuilder::run));
@@ -20,7 +20,7 @@ pub fn start() {
         }
     }
     let pool = ThreadPoolBuilder::new();
-    // It is not an error if somebody else has made the pool.
+    // It is not an error if the pool already exists.
     let _ = match waiting.len() {
         0 => pool.num_threads(1).use_current_thread().build_global(),
         threads => {

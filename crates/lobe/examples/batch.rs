@@ -1,4 +1,4 @@
-//! Evaluates a batch whose directions lie in columns, one slice per component, and in vectors: the same bits.
+//! Evaluates a batch whose directions are in columns, one slice per component, and in vectors: both give the same bits.
 
 use std::error::Error;
 

@@ -1,5 +1,5 @@
-//! Evaluates a table inside a kernel of one's own: directions never leave the registers, and nothing is dispatched per
-//! query. This is what a vectorised renderer does.
+//! Evaluates a table inside your own kernel, as a vectorised renderer does: directions never leave the registers, and
+//! nothing is dispatched per query.
 
 use std::error::Error;
 
@@ -7,7 +7,7 @@ use lobe::{Floats, Ints, Kernel, Lanes, Material, specular};
 
 const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/conductor-7x8x13.ddr");
 
-/// f cos of the first channel for viewers in the plane of incidence, from the horizon at x = -1 to that at x = 1.
+/// f cos of the first channel for viewers in the plane of incidence, from the horizon at x = -1 to the one at x = 1.
 struct Curve<'a> {
     table: &'a specular::Table,
     wi: [f32; 3],

@@ -1,4 +1,4 @@
-//! Why a material could not be opened, or slices do not fit together.
+//! Errors: a material could not be opened, or slices do not fit together.
 
 use std::path::{Path, PathBuf};
 
@@ -15,7 +15,7 @@ pub enum OpenError {
     /// The file cannot be read.
     #[error(transparent)]
     Format(#[from] FormatError),
-    /// What was found is not a material: mirror reflectances only, or parts that do not go together.
+    /// The file was read but is not a material: it has only mirror reflectances, or parts that do not fit together.
     #[error("{}found {found}; expected {expected}", before(.file))]
     NotAMaterial {
         /// The file, if there is one.
@@ -25,7 +25,7 @@ pub enum OpenError {
         /// What was expected.
         expected: &'static str,
     },
-    /// The data have no value for a pair of directions, or are too large.
+    /// The data have no values for pairs of directions, or are too large.
     #[error("{}{source}", before(.file))]
     Data {
         /// The file, if there is one.
@@ -33,7 +33,7 @@ pub enum OpenError {
         /// What is wrong with them.
         source: PrepareError,
     },
-    /// `LOBE_BACKEND` names no backend of this machine.
+    /// `LOBE_BACKEND` does not name a backend of this machine.
     #[error(transparent)]
     Backend(#[from] BackendError),
 }
@@ -53,11 +53,11 @@ impl OpenError {
         OpenError::NotAMaterial { file: None, found: found.into(), expected: "a BRDF or BTDF" }
     }
 
-    /// The same error, naming the file that the document or the data came from.
+    /// The same error, with the file that the document or the data came from.
     pub fn in_file(mut self, path: &Path) -> Self {
         match &mut self {
             OpenError::NotAMaterial { file, .. } | OpenError::Data { file, .. } => *file = Some(path.into()),
-            // These say where they come from.
+            // These errors name their source themselves.
             OpenError::Format(_) | OpenError::Backend(_) => {}
         }
         self
@@ -82,7 +82,7 @@ pub(crate) fn expect(what: &'static str, found: usize, expected: usize) -> Resul
     if found == expected { Ok(()) } else { Err(ShapeError { what, found, expected }) }
 }
 
-/// The value, or a panic that says what does not fit.
+/// The value, or a panic with a message that says what does not fit.
 #[track_caller]
 pub(crate) fn fitting<T>(result: Result<T, ShapeError>) -> T {
     match result {

@@ -16,8 +16,8 @@
 //! # Ok::<(), lobe::OpenError>(())
 //! ```
 //!
-//! A batch, of vectors or of [columns](Directions::columns): many times as fast per pair. Large ones are shared among threads;
-//! beyond the caches they are fastest in [`Buffer`]s, which lie on huge pages.
+//! A batch, of vectors or of [columns](Directions::columns), which is many times as fast per pair. Large batches are
+//! divided among threads; batches larger than the caches are fastest in [`Buffer`]s, which are on huge pages.
 //!
 //! ```no_run
 //! # use lobe::Material;
@@ -29,8 +29,8 @@
 //! # Ok::<(), lobe::OpenError>(())
 //! ```
 //!
-//! In lanes, inside a [`Kernel`] of your own, which [`Backend::run`] compiles for every backend. A renderer that is itself
-//! vectorised pays for no dispatch and no memory between its own arithmetic and the table's:
+//! In lanes, inside a [`Kernel`] of your own, which [`Backend::run`] compiles for every backend. A renderer that is
+//! itself vectorised then needs no dispatch and no memory between its own arithmetic and the table's:
 //!
 //! ```no_run
 //! use lobe::{Kernel, Lanes, Material, specular};
@@ -68,31 +68,31 @@
 //! # Ok::<(), lobe::OpenError>(())
 //! ```
 //!
-//! The [examples](https://github.com/lobe-rs/lobe/tree/main/crates/lobe/examples) have whole programs.
+//! The [examples](https://github.com/lobe-rs/lobe/tree/main/crates/lobe/examples) are complete programs.
 //!
 //! # Features
 //!
-//! All are on by default; `default-features = false` builds specular tables only, and scattered samples without lanes. A file
-//! of what was left out opens with an error that says so.
+//! All are on by default; `default-features = false` builds only specular tables, and scattered samples without lanes.
+//! Opening a file that needs a missing feature gives an error that says so.
 //!
 //! | feature | what it adds |
 //! |---|---|
-//! | `rayon` | large batches are shared among the threads of the current rayon pool |
-//! | `fourier` | cosine series of the azimuth |
+//! | `rayon` | large batches are divided among the threads of the current rayon pool |
+//! | `fourier` | cosine series in the azimuth |
 //! | `half-diff` | grids of half and difference angles, as in the MERL database |
-//! | `json` | files in JSON: OpenMaterial, and one's own tables |
+//! | `json` | JSON files: OpenMaterial, and users' own tables |
 //! | `mueller` | Mueller matrices |
 //! | `rgl` | materials of the EPFL database |
 //! | `scattered` | scattered samples in lanes, rather than pair by pair |
-//! | `spherical` | grids of spherical coordinates |
+//! | `spherical` | grids in spherical coordinates |
 //! | `utia` | materials of the UTIA database |
 //! | `window` | Klems matrices and tensor trees |
 //! | `zernike` | expansions in Zernike polynomials |
 //!
-//! # Crates below
+//! # Underlying crates
 //!
-//! What most programs name is re-exported here. The rest is in [`table`] (representations), [`formats`] (readers and
-//! writers) and [`math`] (functions over lanes).
+//! Everything that most programs need is re-exported here. The rest is in [`table`] (representations), [`formats`]
+//! (readers and writers) and [`math`] (functions over lanes).
 #![forbid(unsafe_code)]
 
 mod error;

@@ -1,20 +1,22 @@
-//! The one rule by which batches are shared among threads.
+//! The one rule by which batches are divided among threads.
 //!
-//! From [`PARALLEL_FROM`] queries on, a batch is split into tasks of a fixed size, which the threads of the current rayon
-//! pool run (feature `rayon`). No query depends on another, so results are the same bits for any number of threads.
+//! A batch of [`PARALLEL_FROM`] queries or more is split into tasks of a fixed size, which the threads of the current
+//! rayon pool run (feature `rayon`). No query depends on another, so results have the same bits for any number of
+//! threads.
 
 use std::ops::Range;
 
 use lobe_table::Sampled;
 
-/// Batches of at least this many queries are shared among threads; below it, starting them would cost more than it saves.
+/// Batches of at least this many queries are divided among threads; for smaller ones, starting threads would cost more
+/// than it saves.
 pub const PARALLEL_FROM: usize = 16_384;
 
 /// Queries per task: a few tens of microseconds of work.
 #[cfg(feature = "rayon")]
 const TASK: usize = 4_096;
 
-/// Fills `out`, which has `width` elements per query, with what `run` makes of ranges of queries.
+/// Fills `out`, which has `width` elements per query, with the results of `run` for ranges of queries.
 pub(crate) fn fill<T: Send>(width: usize, out: &mut [T], run: &(dyn Fn(Range<usize>, &mut [T]) + Sync)) {
     let width = width.max(1);
     let count = out.len() / width;
@@ -30,10 +32,10 @@ pub(crate) fn fill<T: Send>(width: usize, out: &mut [T], run: &(dyn Fn(Range<usi
     run(0..count, out);
 }
 
-/// What makes two outputs of a range of queries.
+/// Fills two outputs for a range of queries.
 type BothTask<'a, T, U> = dyn Fn(Range<usize>, &mut [T], &mut [U]) + Sync + 'a;
 
-/// As [`fill`], with two outputs, the first of which has `width` elements per query and the second one.
+/// As [`fill`], with two outputs, the first with `width` elements per query, and the second with one.
 pub(crate) fn fill_both<T: Send, U: Send>(width: usize, first: &mut [T], second: &mut [U], run: &BothTask<'_, T, U>) {
     #[cfg(feature = "rayon")]
     if second.len() >= PARALLEL_FROM {

@@ -7,26 +7,26 @@ use lobe_files::write_whole;
 use super::plan::Plan;
 use crate::failure::Failure;
 
-/// Where a job says what it is.
+/// The file that describes a job.
 pub const PLAN: &str = "plan.json";
 
-/// The file of a part in the folder of a job.
+/// The file of one part in the folder of a job.
 pub fn part(folder: &Path, part: u32) -> PathBuf {
     folder.join(format!("part-{part}.exr"))
 }
 
-/// Makes the folder of a job; parts that are in it stay if they are of the same plan.
+/// Creates the folder of a job; parts in it are kept if they belong to the same plan.
 ///
 /// # Errors
-/// If the folder cannot be made, or has parts of another plan.
+/// If the folder cannot be created, or has parts of another plan.
 pub fn begin(folder: &Path, plan: &Plan) -> Result<(), Failure> {
     let file = folder.join(PLAN);
     if file.exists() {
         let earlier = read(folder)?;
         if earlier != *plan {
             return Err(Failure::Usage(format!(
-                "{}: found a job of {} parts of {} x {} pixels with {} samples; expected this one, or none: remove the folder, or \
-                 write to another name",
+                "{}: found a job of {} parts of {} x {} pixels with {} samples; expected the same job, or none: remove \
+                 the folder, or write to another name",
                 folder.display(),
                 earlier.parts,
                 earlier.size[0],
@@ -51,7 +51,7 @@ pub fn read(folder: &Path) -> Result<Plan, Failure> {
     serde_json::from_slice(&bytes).map_err(|error| wrong(error.to_string()))
 }
 
-/// One word of a shell, whatever it has in it.
+/// Quotes any text as one word of a shell.
 pub fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+%@".contains(c);
     match !word.is_empty() && word.chars().all(is_plain) {
@@ -60,10 +60,10 @@ pub fn quoted(word: &str) -> String {
     }
 }
 
-/// A path as one word of a shell.
+/// Quotes a path as one word of a shell.
 ///
 /// # Errors
-/// If it is not Unicode, which scripts are.
+/// If it is not Unicode, because scripts are.
 pub fn path(path: &Path) -> Result<String, Failure> {
     let text = path.to_str().ok_or_else(|| {
         Failure::Usage(format!(
@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shells_read_words_as_they_are() {
+    fn shells_read_quoted_words_unchanged() {
         assert_eq!(quoted("/a/b-1.exr"), "/a/b-1.exr");
         assert_eq!(quoted("it's $HOME"), r"'it'\''s $HOME'");
         assert_eq!(quoted(""), "''");

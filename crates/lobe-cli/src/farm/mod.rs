@@ -1,7 +1,7 @@
-//! `lobe farm`: a picture on many machines, by engines that run jobs there.
+//! `lobe farm`: rendering a picture on many machines with a job scheduler.
 //!
-//! What is made are scripts and templates around `lobe render --tile --resume` and `lobe merge`: a part that is finished is not
-//! made again, one that was interrupted goes on, and the merge refuses gaps and doubles.
+//! Writes scripts and templates around `lobe render --tile --resume` and `lobe merge`: a finished part is not rendered
+//! again, an interrupted one continues, and the merge refuses gaps and duplicates.
 
 mod files;
 mod openjd;
@@ -13,14 +13,14 @@ use clap::Subcommand;
 
 use crate::failure::Failure;
 
-/// Render a scene on many machines: job scripts for Slurm, a job template for OpenJD, and how far they are.
+/// Render a scene on many machines: job scripts for Slurm, a job template for OpenJD, and their progress.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   lobe farm slurm scene.toml -o picture.exr --parts 8
   lobe farm openjd scene.toml -o job --parts 8
   lobe farm status look.exr.farm
 
-The picture is the same bits as that of `lobe render`, on machines with the same instructions, or on all with --strict.")]
+The picture has the same bits as that of `lobe render` if all machines have the same instructions, or with --strict.")]
 pub struct Args {
     #[command(subcommand)]
     engine: Engine,

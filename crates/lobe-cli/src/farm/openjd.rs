@@ -1,4 +1,4 @@
-//! A job template in the Open Job Description, for its tools and for Deadline Cloud.
+//! A job template in the Open Job Description format, for its tools and for Deadline Cloud.
 
 use std::path::{Path, PathBuf};
 
@@ -10,20 +10,21 @@ use super::plan::{By, Plan, Planned, Wanted, absolute};
 use crate::failure::Failure;
 use crate::message::say;
 
-/// Write a job template of the Open Job Description: a step with a task per part, and a step that merges them.
+/// Write an Open Job Description template: a step with one task per part, and a step that merges the parts.
 ///
-/// The template has parameters for the folder of the scene, which is sent to the machines, the folder for the parts and the
-/// picture, which comes back, and the program. Parts that are there already are kept, and interrupted ones go on.
+/// The template has parameters for the folder of the scene, which is sent to the machines, the folder for the parts and
+/// the picture, which is sent back, and the path of the program. Finished parts are kept, and interrupted ones
+/// continue.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   lobe farm openjd scene.toml -o job --parts 8
   lobe farm openjd scene.toml -o job --parts 8 --picture look.png --strict
 
-It says how to render it here with openjd-cli; `deadline bundle submit job` does on Deadline Cloud.")]
+The command prints how to render the job here with openjd-cli; `deadline bundle submit job` submits it to Deadline Cloud.")]
 pub struct Args {
     #[command(flatten)]
     wanted: Wanted,
-    /// The folder to write the template to, which is also where the picture will be.
+    /// The folder to write the template to; the picture will be there too.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// The name of the picture, .exr or .png.
@@ -48,7 +49,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let template = template(&planned, &args.picture)?;
     let file = folder.join("template.json");
     write_whole(&file, serde_json::to_string_pretty(&template)?.as_bytes())?;
-    // Defaults of folders must not lead out of that of the template, but values may; Deadline Cloud finds them here.
+    // Default folders must be inside the folder of the template, but values need not be; Deadline Cloud finds them
+    // here.
     let root = text(&root(&planned.files))?;
     let values = json!({ "parameterValues": [{ "name": "SceneFolder", "value": root }] });
     write_whole(&folder.join("parameter_values.json"), serde_json::to_string_pretty(&values)?.as_bytes())?;
@@ -61,7 +63,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The folder that all files of a scene are in.
+/// The folder that contains all files of a scene.
 fn root(files: &[PathBuf]) -> PathBuf {
     let folder = |file: &Path| file.parent().map_or_else(PathBuf::new, plain);
     let mut folders = files.iter().map(|file| folder(file));
@@ -87,7 +89,7 @@ fn plain(path: &Path) -> PathBuf {
     plain
 }
 
-/// Text that a template takes as it is.
+/// Text that a template takes literally.
 fn text(path: &Path) -> Result<String, Failure> {
     let text = path.to_str().filter(|text| !text.contains("{{"));
     text.map(String::from).ok_or_else(|| {
@@ -139,11 +141,11 @@ fn template(planned: &Planned, picture: &str) -> Result<Value, Failure> {
         "parameterDefinitions": [
             {
                 "name": "SceneFolder", "type": "PATH", "objectType": "DIRECTORY", "dataFlow": "IN",
-                "description": "The folder that all files of the scene are in",
+                "description": "The folder that contains all files of the scene",
             },
             {
                 "name": "OutputFolder", "type": "PATH", "objectType": "DIRECTORY", "dataFlow": "OUT",
-                "default": ".", "description": "Where the parts and the picture are written",
+                "default": ".", "description": "The folder for the parts and the picture",
             },
             {
                 "name": "Lobe", "type": "STRING", "default": text(lobe)?,
@@ -165,7 +167,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_root_has_all_files() {
+    fn the_root_contains_all_files() {
         let root = |files: &[&str]| root(&files.iter().map(PathBuf::from).collect::<Vec<_>>());
         assert_eq!(root(&["/a/b/scene.toml"]), Path::new("/a/b"));
         assert_eq!(root(&["/a/b/scene.toml", "/a/b/../c/x.ddr", "/a/b/c/d/y.ddr"]), Path::new("/a"));

@@ -1,4 +1,4 @@
-//! What is rendered, and how it is cut into parts.
+//! The picture to render, and its division into parts.
 
 use std::path::{Path, PathBuf};
 
@@ -13,15 +13,15 @@ use serde::{Deserialize, Serialize};
 use crate::angles::progress;
 use crate::failure::Failure;
 
-/// Arguments of every engine.
+/// Arguments for every scheduler.
 #[derive(clap::Args)]
 pub struct Wanted {
     /// The scene, a TOML file.
     pub scene: PathBuf,
-    /// Into how many parts the picture is cut.
+    /// The number of parts of the picture.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     parts: u32,
-    /// Cut the picture into strips of rows, or its samples into ranges.
+    /// Divide the picture into strips of rows, or its samples into ranges.
     #[arg(long, value_enum, default_value = "rows")]
     by: By,
     /// Samples per pixel, instead of those in the scene.
@@ -30,13 +30,13 @@ pub struct Wanted {
     /// The integrator, with its default parameters, instead of the one in the scene.
     #[arg(long, value_name = "NAME", value_parser = integrators())]
     integrator: Option<String>,
-    /// The instructions, which every machine then must have.
+    /// The instructions to use, which every machine must then have.
     #[arg(long, value_name = "NAME")]
     backend: Option<String>,
-    /// Round the same way on all machines and instructions: for machines that differ.
+    /// Round in the same way with all instruction sets: for machines that differ.
     #[arg(long)]
     strict: bool,
-    /// The program on the machines that render; by default this one.
+    /// The path of lobe on the machines that render; by default the path of this program.
     #[arg(long, value_name = "PATH")]
     lobe: Option<PathBuf>,
 }
@@ -46,7 +46,7 @@ fn integrators() -> PossibleValuesParser {
     PossibleValuesParser::new(values)
 }
 
-/// What is cut.
+/// What is divided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum By {
@@ -56,12 +56,12 @@ pub enum By {
     Samples,
 }
 
-/// What is rendered: enough to say how far it is.
+/// A description of the picture that is sufficient to report progress.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Plan {
-    /// How many parts there are.
+    /// The number of parts.
     pub parts: u32,
-    /// What is cut.
+    /// What is divided.
     pub by: By,
     /// Columns and rows.
     pub size: [u32; 2],
@@ -69,24 +69,24 @@ pub struct Plan {
     pub samples: u32,
 }
 
-/// A plan, and how its parts are rendered.
+/// A plan, and the way in which its parts are rendered.
 pub struct Planned {
     pub plan: Plan,
-    /// The scene, from the root.
+    /// The scene, relative to the root.
     pub scene: PathBuf,
-    /// All files that it reads, from the root, itself first.
+    /// All files that it reads, relative to the root, starting with itself.
     pub files: Vec<PathBuf>,
-    /// The program on the machines that render.
+    /// The path of lobe on the machines that render.
     pub lobe: PathBuf,
-    /// Options of `lobe render` that all parts have.
+    /// Options of `lobe render` for all parts.
     pub options: Vec<String>,
 }
 
 impl Wanted {
-    /// Reads the scene, so that no machine finds a mistake in it, and cuts the picture.
+    /// Reads the scene, so that mistakes are found before it reaches a machine, and divides the picture.
     ///
     /// # Errors
-    /// If the scene cannot be read, or cannot be cut like this.
+    /// If the scene cannot be read, or cannot be divided in this way.
     pub fn plan(&self) -> Result<Planned, Failure> {
         let backend = match &self.backend {
             Some(name) => Backend::named(name).map_err(|error| Failure::Usage(error.to_string()))?,
@@ -124,7 +124,7 @@ impl Wanted {
     }
 }
 
-/// The path from the root; machines have no working folder in common.
+/// The absolute path; machines do not share a working folder.
 ///
 /// # Errors
 /// If there is no working folder.
@@ -144,12 +144,12 @@ impl Plan {
         }
     }
 
-    /// Where part `part` of the samples ends.
+    /// The end of the samples of part `part`.
     fn cut(&self, part: u32) -> u32 {
         (u64::from(self.samples) * u64::from(part) / u64::from(self.parts)) as u32
     }
 
-    /// How many samples of pixels a part has.
+    /// The number of pixel samples of a part.
     pub fn work(&self, part: u32) -> u64 {
         let [width, height] = self.size;
         let whole = Rect { x: 0, y: 0, width, height };
@@ -165,7 +165,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_are_the_whole_picture() {
+    fn parts_add_up_to_the_whole_picture() {
         for by in [By::Rows, By::Samples] {
             for parts in 1..=7 {
                 let plan = Plan { parts, by, size: [5, 9], samples: 7 };

@@ -1,4 +1,4 @@
-//! Job scripts for Slurm: an array of parts, and what puts them together when all are there.
+//! Job scripts for Slurm: an array job for the parts, and a job that merges them when all are finished.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -11,25 +11,25 @@ use crate::failure::Failure;
 use crate::message::say;
 use crate::picture::Kind;
 
-/// Write job scripts for Slurm: an array job, a task per part, and a job that merges them.
+/// Write job scripts for Slurm: an array job with one task per part, and a job that merges the parts.
 ///
-/// The scripts are in the folder OUT.farm, which all machines must see, as they must the scene, and so are the parts. A part that
-/// fails is rendered again, three times at most, and one whose machine dies is requeued; parts that are there already are kept,
-/// and interrupted ones go on.
+/// The scripts and the parts are in the folder OUT.farm. All machines must have access to it and to the scene. A part
+/// that fails is rendered again, up to three times, and one whose machine dies is requeued; finished parts are kept,
+/// and interrupted ones continue.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   lobe farm slurm scene.toml -o picture.exr --parts 8
   lobe farm slurm scene.toml -o picture.exr --parts 8 --by samples --strict
 
-Then `sh picture.exr.farm/submit.sh --partition=long --cpus-per-task=16` submits it, with options of sbatch, or --submit does at
-once. `lobe farm status picture.exr.farm` says how far it is.")]
+Then `sh picture.exr.farm/submit.sh --partition=long --cpus-per-task=16` submits the job, with options for sbatch;
+--submit does so at once. `lobe farm status picture.exr.farm` shows its progress.")]
 pub struct Args {
     #[command(flatten)]
     wanted: Wanted,
     /// The picture, .exr or .png.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Submit it.
+    /// Submit the job.
     #[arg(long)]
     submit: bool,
 }
@@ -67,11 +67,11 @@ struct Scripts<'a> {
 }
 
 impl Scripts<'_> {
-    /// The head of a script: what sbatch reads.
+    /// The head of a script, which sbatch reads.
     fn head(&self, name: &str, lines: &str, log: &str) -> Result<String, Failure> {
         let scene = self.planned.scene.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let job: String = scene.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
-        // Sbatch has its own rules for what is in quotes, and % in names of logs.
+        // Sbatch has its own rules for quoted text, and for % in names of logs.
         let log = self.folder.join("log").join(log);
         let log = log.to_str().filter(|log| !log.contains(['"', '\n', '\\'])).ok_or_else(|| {
             let message = "found a name that sbatch cannot write logs to; expected one without quotes";
@@ -82,7 +82,7 @@ impl Scripts<'_> {
         ))
     }
 
-    /// Renders the part that the task of the array is.
+    /// Renders the part that belongs to the task of the array.
     fn part(&self) -> Result<String, Failure> {
         let Planned { plan, scene, lobe, options, .. } = self.planned;
         let head =
@@ -102,7 +102,7 @@ impl Scripts<'_> {
 threads=${{SLURM_CPUS_PER_TASK:-}}
 {lobe} render {scene} -o {out}\"$part.exr\" {which} {options} --resume --quiet ${{threads:+--threads \"$threads\"}}
 status=$?
-# What is wrong with the job will not be right the next time, but a machine may be.
+# A wrong job fails again, but another machine may succeed.
 if [ $status -ne 0 ] && [ $status -ne 2 ] && [ \"${{SLURM_RESTART_COUNT:-0}}\" -lt 3 ]; then
     scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_$part\" && sleep 60
 fi
@@ -133,7 +133,7 @@ exec {lobe} merge \"$@\" -o {output}
         ))
     }
 
-    /// Submits both, the second to run if all of the first succeeds.
+    /// Submits both; the second runs if all tasks of the first succeed.
     fn submit(&self) -> Result<String, Failure> {
         let [part, merge] = ["part.sh", "merge.sh"].map(|name| path(&self.folder.join(name)));
         Ok(format!(

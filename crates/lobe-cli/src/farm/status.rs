@@ -1,4 +1,4 @@
-//! How far a job is, by its parts.
+//! The progress of a job, from its parts.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -11,13 +11,13 @@ use super::files::{part, read};
 use crate::failure::Failure;
 use crate::message;
 
-/// Say how far a job is that `lobe farm slurm` or `lobe farm openjd` has begun: its parts, and the time that is left.
+/// Show the progress of a job written by `lobe farm slurm` or `lobe farm openjd`: its parts, and the time left.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   lobe farm status look.exr.farm
   lobe farm status --json look.exr.farm | jq .share
 
-Parts that are being rendered write what they have every 30 seconds.")]
+Parts that are being rendered save their samples every 30 seconds.")]
 pub struct Args {
     /// The folder of the job.
     folder: PathBuf,
@@ -30,13 +30,13 @@ pub struct Args {
 struct Status {
     parts: u32,
     finished: u32,
-    /// Begun and not finished.
+    /// Started and not finished.
     running: u32,
-    /// Of the samples of all pixels.
+    /// The share of the samples of all pixels.
     share: f64,
-    /// In seconds, if it goes on as from the first part on; `None` if there is nothing to judge by.
+    /// In seconds, at the average speed since the first part; `None` if there is nothing to estimate it from.
     left: Option<f64>,
-    /// Files that are no parts of one picture.
+    /// Files that are not parts of one picture.
     damaged: Vec<String>,
 }
 

@@ -1,9 +1,9 @@
-//! `lobe albedo` from outside.
+//! `lobe albedo` as a user runs it.
 
 use crate::common::{Files, diffuse, json, printed, run, text};
 
 #[test]
-fn albedos_are_those_of_the_file() {
+fn albedos_are_correct() {
     let files = Files::new();
     let file = files.write("paint.ddr", &diffuse([0.5, 0.25, 0.75]));
     let shown = printed(&["albedo", text(&file)]);
@@ -22,7 +22,7 @@ fn albedos_are_those_of_the_file() {
 }
 
 #[test]
-fn what_makes_no_sense_is_refused() {
+fn invalid_requests_are_refused() {
     let files = Files::new();
     let file = files.write("paint.ddr", &diffuse([0.5; 3]));
     for (args, expected) in [

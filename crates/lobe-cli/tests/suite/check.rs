@@ -1,4 +1,4 @@
-//! `lobe check` from outside, and on the real files if they are available.
+//! `lobe check` as a user runs it, and on the real files if they are available.
 
 use std::path::Path;
 
@@ -26,7 +26,7 @@ fn a_sound_file_passes_and_a_wrong_one_fails() {
 }
 
 #[test]
-fn json_has_the_findings_and_the_refusal() {
+fn json_has_findings_and_read_errors() {
     let files = Files::new();
     let good = files.write("good.ddr", &diffuse([0.5; 3]));
     let found = json(&["check", text(&good)]);
@@ -53,7 +53,7 @@ fn findings(folder: &Path, file: &str) -> Vec<(String, String, String)> {
 }
 
 #[test]
-fn real_files_are_told_apart() {
+fn sound_and_damaged_real_files_are_distinguished() {
     let Some(folder) = shared() else { return };
     for (file, check, status, words) in [
         ("rgl_bsdf/vch_golden_yellow_rgb.bsdf", "negative values", "warn", "1118 of 24576"),

@@ -1,4 +1,4 @@
-//! The program from outside: what it prints, and the code it ends with.
+//! The program as a user runs it: its output and its exit codes.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -34,14 +34,14 @@ fn text(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
-/// What the command prints, which has to succeed.
+/// The output of a command, which has to succeed.
 fn printed(args: &[&str]) -> String {
     let output = lobe(args);
     assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// The exit code of a command that fails, which has to print nothing but a message.
+/// The exit code of a command that fails, which must print only a message.
 fn failed(args: &[&str]) -> (Option<i32>, String) {
     let output = lobe(args);
     assert!(!output.status.success(), "{args:?}");
@@ -103,7 +103,7 @@ fn eval_of_one_pair() {
     let file = files.write("lacquer.ddr", RGB);
     let file = text(&file);
     let eval = |args: &str| printed(&["eval", file].into_iter().chain(args.split(' ')).collect::<Vec<_>>());
-    // Half way from the mirror direction to 90 degrees off it.
+    // Halfway from the mirror direction to 90 degrees off it.
     assert_channels(&eval("--wi=-1,0,1 --wo 0,0,3"), &[("R", 0.5), ("G", 1.0), ("B", 0.0)]);
     let extrapolated = [("R", 0.5), ("G", 1.0), ("B", -0.5)];
     assert_channels(&eval("--wi=-1,0,1 --wo 0,0,3 --edge extrapolate"), &extrapolated);
@@ -213,7 +213,7 @@ fn eval_of_many_pairs() {
 }
 
 #[test]
-fn bad_pairs_are_named_with_their_line() {
+fn errors_in_pairs_name_the_line() {
     let files = Files::new();
     let file = files.write("lacquer.ddr", RGB);
     for (content, expected) in [
@@ -223,7 +223,7 @@ fn bad_pairs_are_named_with_their_line() {
         ("0,0,1,0,0,1\n0,0,1,0,0\n", "bad.csv:2: found 5 columns; expected 6"),
     ] {
         let (code, message) = failed(&["eval", text(&file), "--pairs", text(&files.write("bad.csv", content))]);
-        // A damaged file, as any other.
+        // A damaged file, like any other.
         assert_eq!(code, Some(1), "{message}");
         assert!(message.contains(expected), "{message}");
     }
@@ -256,7 +256,7 @@ fn exit_codes() {
 }
 
 #[test]
-fn a_reader_that_has_enough_is_no_failure() {
+fn a_reader_that_stops_early_is_not_a_failure() {
     let files = Files::new();
     let file = files.write("lacquer.ddr", RGB);
     let pairs = files.write("pairs.csv", &"0,0,1,0,0,1\n".repeat(100_000));

@@ -37,11 +37,11 @@ fn plot_and_preview_agree_on_the_colour_of_every_file() {
     assert!(compared > 30 && coloured > 10, "{compared} files, {coloured} in colour");
 }
 
-/// Compares the colours of a file; `None` if it has no value for a pair of directions. `true` if they are no greys.
+/// Compares the colours of a file; `None` if it has no values for pairs of directions. `true` if they are not greys.
 fn is_coloured(path: &Path, wi: &[[f32; 3]], wo: &[[f32; 3]]) -> Option<bool> {
     let subject = Subject::open(path).ok()?;
     let shader = open(path, &Options::default(), Backend::detect().expect("a backend"))
-        .expect("what can be drawn can be rendered");
+        .expect("a file that can be drawn can be rendered");
     if shader.delta().is_some() {
         return None;
     }

@@ -5,7 +5,7 @@ use std::process::{Command, Output, Stdio};
 
 use tempfile::TempDir;
 
-/// A folder that goes away.
+/// A temporary folder.
 pub struct Files(TempDir);
 
 impl Files {
@@ -32,26 +32,26 @@ pub fn lobe(args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_lobe")).args(args).stdin(Stdio::null()).output().expect("the program")
 }
 
-/// The exit code, what is printed, and the message.
+/// The exit code, the output, and the message.
 pub fn run(args: &[&str]) -> (i32, String, String) {
     let Output { status, stdout, stderr } = lobe(args);
     let utf8 = |bytes| String::from_utf8(bytes).expect("UTF-8");
     (status.code().expect("an exit code"), utf8(stdout), utf8(stderr))
 }
 
-/// What the command prints, which has to succeed.
+/// The output of a command, which has to succeed.
 pub fn printed(args: &[&str]) -> String {
     let (code, printed, message) = run(args);
     assert_eq!(code, 0, "{args:?}: {message}");
     printed
 }
 
-/// What the command prints with `--json`.
+/// The output of a command with `--json`.
 pub fn json(args: &[&str]) -> serde_json::Value {
     serde_json::from_str(&printed(&[args, &["--json"]].concat())).expect("JSON")
 }
 
-/// A grey DDR file that is the same everywhere, with this albedo for light at 0, 40 and 80 degrees.
+/// A grey DDR file with constant values, and this albedo for light at 0, 40 and 80 degrees.
 pub fn diffuse(albedos: [f64; 3]) -> String {
     let rows: String =
         albedos.iter().flat_map(|albedo| (0..3).map(move |_| format!("{albedo} {albedo} {albedo}\n"))).collect();

@@ -1,9 +1,9 @@
-//! `lobe compare` from outside.
+//! `lobe compare` as a user runs it.
 
 use crate::common::{Files, diffuse, json, printed, run, text};
 
 #[test]
-fn differences_are_told_in_numbers_and_in_colours() {
+fn differences_are_given_in_numbers_and_in_colours() {
     let files = Files::new();
     let first = files.write("first.ddr", &diffuse([0.5; 3]));
     let second = files.write("second.ddr", &diffuse([0.55; 3]));
@@ -20,7 +20,7 @@ fn differences_are_told_in_numbers_and_in_colours() {
 }
 
 #[test]
-fn a_script_can_ask_whether_they_are_alike() {
+fn scripts_can_check_a_limit() {
     let files = Files::new();
     let first = files.write("first.ddr", &diffuse([0.5; 3]));
     let second = files.write("second.ddr", &diffuse([0.55; 3]));

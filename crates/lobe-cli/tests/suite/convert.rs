@@ -17,7 +17,7 @@ impl Folder {
         Command::new(env!("CARGO_BIN_EXE_lobe")).current_dir(&self.0).args(arguments).output().expect("lobe runs")
     }
 
-    /// What a command that succeeds says on the standard error.
+    /// The standard error of a command that succeeds.
     fn said(&self, arguments: &[&str]) -> String {
         let output = self.lobe(arguments);
         let said = String::from_utf8(output.stderr).expect("text");
@@ -25,7 +25,7 @@ impl Folder {
         said
     }
 
-    /// Why a command is refused, with exit code 2; no file is written.
+    /// The message of a command that is refused with exit code 2; no file is written.
     fn refused(&self, arguments: &[&str], out: &str) -> String {
         let output = self.lobe(arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
@@ -56,12 +56,12 @@ impl Folder {
 const CONDUCTOR: &str = "conductor-7x8x13.ddr";
 
 #[test]
-fn what_a_format_can_hold_is_written_as_it_is() {
+fn data_that_a_format_can_hold_are_written_unchanged() {
     let folder = Folder::new();
     let source = fixture(CONDUCTOR);
     let source = source.to_str().expect("a path in UTF-8");
     let said = folder.said(&["convert", source, "table.ssdd"]);
-    assert_eq!(said, "table.ssdd: SSDD, the values and nodes of the file\n");
+    assert_eq!(said, "table.ssdd: SSDD, with the values and nodes of the file\n");
     folder.said(&["convert", "table.ssdd", "table.csv"]);
     folder.said(&["convert", "table.csv", "back.ddr"]);
     assert!(folder.read("back.ddr") == std::fs::read_to_string(fixture(CONDUCTOR)).expect("the fixture"));
@@ -69,7 +69,7 @@ fn what_a_format_can_hold_is_written_as_it_is() {
     let said = folder.said(&["convert", source, "table.bsdf", "--to", "zemax"]);
     assert_eq!(
         said,
-        "table.bsdf: Zemax BSDF, the values and nodes of the file; R G B, taken to be linear sRGB, as X Y Z\n"
+        "table.bsdf: Zemax BSDF, with the values and nodes of the file; R G B, taken to be linear sRGB, as X Y Z\n"
     );
     let angles = ["--angles", "25,0,4,60"];
     let rgb: Vec<f64> = folder
@@ -91,7 +91,7 @@ fn what_a_format_can_hold_is_written_as_it_is() {
 }
 
 #[test]
-fn resampling_is_said_with_its_error() {
+fn resampling_is_reported_with_its_error() {
     let folder = Folder::new();
     let source = fixture(CONDUCTOR);
     let source = source.to_str().expect("a path in UTF-8");
@@ -113,7 +113,7 @@ fn resampling_is_said_with_its_error() {
 }
 
 #[test]
-fn what_a_format_cannot_hold_is_refused() {
+fn data_that_a_format_cannot_hold_are_refused() {
     let folder = Folder::new();
     std::fs::write(
         folder.0.path().join("glass.ddt"),

@@ -1,4 +1,4 @@
-//! `lobe farm`: its scripts and templates, on engines that are played by the shell and by this test.
+//! `lobe farm`: its scripts and templates, on schedulers imitated by the shell and by this test.
 
 use std::os::unix::fs::PermissionsExt as _;
 use std::path::Path;
@@ -9,14 +9,14 @@ use serde_json::Value;
 use crate::common::{Files, json, printed, run, text};
 use crate::hardening::SCENE;
 
-/// A program in a folder of programs.
+/// Writes a program into a folder of programs.
 fn program(folder: &Path, name: &str, script: &str) {
     let path = folder.join(name);
     std::fs::write(&path, format!("#!/bin/sh\n{script}\n")).expect("a file");
     std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).expect("a program");
 }
 
-/// Runs each task of an array at once, in the order of their numbers, and writes what it was asked for to `asked`.
+/// Runs each task of an array at once, in the order of their numbers, and records the requests in `asked`.
 const SBATCH: &str = r#"
 echo "$@" >> "$FAKE/asked"
 for script; do :; done
@@ -63,7 +63,7 @@ fn bytes(path: &Path) -> Vec<u8> {
 fn an_array_of_parts_is_the_picture() {
     let files = Files::new();
     engine(&files);
-    // A name that a shell must not take apart.
+    // A name that a shell must not split.
     let scene = files.write("a scene's.toml", SCENE);
     let whole = files.path("whole.exr");
     printed(&["render", text(&scene), "-o", text(&whole), "--quiet"]);
@@ -85,7 +85,7 @@ fn an_array_of_parts_is_the_picture() {
 }
 
 #[test]
-fn parts_that_are_there_are_kept_and_others_made_again() {
+fn finished_parts_are_kept_and_others_rendered_again() {
     let files = Files::new();
     engine(&files);
     let scene = files.write("scene.toml", SCENE);
@@ -101,7 +101,7 @@ fn parts_that_are_there_are_kept_and_others_made_again() {
     assert_eq!(json(&["farm", "status", text(&job)])["finished"], 3);
     assert!(submitted(&files, &job));
     assert!(bytes(&out) == first);
-    // Parts of a picture that is cut in another way are no parts of this one.
+    // Parts of a picture that is divided differently are not parts of this one.
     let (code, _, message) = run(&["farm", "slurm", text(&scene), "-o", text(&out), "--parts", "5"]);
     assert!(code == 2 && message.contains("found a job of 4 parts"), "{message}");
     std::fs::write(job.join("part-3.exr"), "no picture").expect("a file");
@@ -123,16 +123,16 @@ fn a_part_that_fails_is_requeued_three_times() {
     printed(&farm);
     let job = files.path("picture.exr.farm");
     assert!(!submitted(&files, &job));
-    // Once, three times again, and once the merge.
+    // Once, three more times, and once for the merge.
     assert_eq!(bytes(&files.path("broken")).len(), 3 * 5);
-    // A wrong scene is wrong everywhere.
+    // An invalid scene is invalid on every machine.
     program(&bin, "broken", r#"echo no >> "$FAKE/usage"; exit 2"#);
     std::fs::remove_file(files.path("scontrol")).expect("what was requeued");
     assert!(!submitted(&files, &job));
     assert_eq!(bytes(&files.path("usage")).len(), 3 * 2);
 }
 
-/// Replaces what is in double braces.
+/// Replaces text in double braces.
 fn filled(text: &str, values: &[(&str, &str)]) -> String {
     let filled =
         values.iter().fold(text.to_string(), |text, (name, value)| text.replace(&format!("{{{{{name}}}}}"), value));
@@ -157,7 +157,7 @@ fn a_job_template_makes_the_picture() {
             .iter()
             .map(|p| {
                 let name = p["name"].as_str().expect("a name");
-                // The folder of the scene is a value; the default of the other one is relative to the template.
+                // The folder of the scene is given; the default of the other one is relative to the template.
                 let value = match (&p["default"], p["type"] == "PATH") {
                     (Value::String(default), true) => text(&job.join(default)).to_string(),
                     (Value::String(default), false) => default.clone(),
@@ -193,7 +193,7 @@ fn a_job_template_makes_the_picture() {
 }
 
 #[test]
-fn what_cannot_be_cut_is_refused() {
+fn impossible_divisions_are_refused() {
     let files = Files::new();
     let scene = files.write("scene.toml", SCENE);
     let (out, job) = (files.path("out.exr"), files.path("job"));

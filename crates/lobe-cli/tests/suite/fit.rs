@@ -1,4 +1,4 @@
-//! `lobe fit` from outside.
+//! `lobe fit` as a user runs it.
 
 use crate::common::{Files, diffuse, json, printed, run, text};
 
@@ -17,7 +17,7 @@ fn parameters_are_found_by_name_and_written() {
         assert!((diffuse - expected).abs() < 0.01 * expected, "{found}");
     }
     assert!(number(&found["uncertainties"]["alpha"]) < 0.01 && number(&found["residuals"]["relative_rms"]) < 0.01);
-    // Spheres are compared between the nodes, too, where the table interpolates.
+    // Spheres are also compared between the nodes, where the table interpolates.
     assert!(number(&found["delta_e"]["mean"]) < 0.2, "{found}");
 
     let out = files.path("paint.toml");
@@ -31,7 +31,7 @@ fn parameters_are_found_by_name_and_written() {
 }
 
 #[test]
-fn a_script_can_ask_whether_a_model_is_good_enough() {
+fn scripts_can_limit_the_error_of_a_model() {
     let files = Files::new();
     let paint = files.path("paint.ddr");
     printed(&["generate", "ward", text(&paint), "--alpha", "0.15"]);
@@ -43,7 +43,7 @@ fn a_script_can_ask_whether_a_model_is_good_enough() {
 }
 
 #[test]
-fn what_cannot_be_fitted_or_written_is_refused() {
+fn impossible_fits_and_outputs_are_refused() {
     let files = Files::new();
     let grey = files.write("grey.ddr", &diffuse([0.5; 3]));
     let refused = |more: &[&str]| {

@@ -1,4 +1,4 @@
-//! What the program does with the user's files, with outputs that cannot be written, and with input that means harm.
+//! The program with the user's files, with outputs that cannot be written, and with malicious input.
 
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::process::{Command, Stdio};
@@ -6,12 +6,12 @@ use std::time::{Duration, Instant};
 
 use crate::common::{Files, diffuse, lobe, printed, run, text};
 
-/// A scene of one white sphere, which takes no time to render.
+/// A scene with one white sphere, which renders quickly.
 pub const SCENE: &str = "[camera]\nposition = [0, 1.2, 4]\ntarget = [0, 0.5, 0]\n[film]\nwidth = 24\nheight = 16\n[integrator]\n\
     samples = 4\n[material.floor]\nmodel = \"lambert\"\nalbedo = 0.5\n[[object]]\nshape = \"sphere\"\nmaterial = \"floor\"\n\
     [[light]]\nkind = \"environment\"\nradiance = 1\n";
 
-/// The program under a shell, which sets limits or redirects.
+/// The program in a shell, which sets limits or redirects.
 #[cfg(unix)]
 fn shell(files: &Files, script: &str) -> (i32, String, String) {
     let mut shell = Command::new("sh");
@@ -31,14 +31,14 @@ fn figures_without_anything_positive() {
     let negative = files.write("negative.csv", &format!("theta_i,theta_o,phi_o,f\n{}", rows("-1")));
     let zero = files.write("zero.csv", &format!("theta_i,theta_o,phi_o,f\n{}", rows("0")));
     let blue = files.write("blue.csv", &format!("theta_i,theta_o,phi_o,R,G,B\n{}", rows("1,0.5,-0.01")));
-    // Curves of values near the ends of what floats hold.
+    // Curves of values near the limits of floats.
     let tiny = files.write("tiny.csv", &format!("theta_i,theta_o,phi_o,f\n{}", rows("1e-38")));
     let huge = files.write("huge.csv", &format!("theta_i,theta_o,phi_o,f\n{}", rows("1e38")));
     let grid = files.write("grid.ddr", &diffuse([-0.5; 3]));
     let out = files.path("out.svg");
     for file in [&negative, &zero, &tiny, &huge, &grid] {
         for kind in ["curves", "polar", "slices", "sphere"] {
-            // Spheres have a scale of their own.
+            // Spheres have their own scale.
             let scales: &[&str] = if kind == "sphere" { &[] } else { &["--log", "--linear"] };
             printed(&["plot", text(file), "-o", text(&out), "--kind", kind]);
             for scale in scales {
@@ -74,7 +74,7 @@ fn control_characters_of_a_file_are_shown_and_not_obeyed() {
         &["info", text(&ddr), "--json"],
     ] {
         let (_, printed, message) = run(args);
-        // JSON may have those above the first 32 as they are.
+        // JSON may contain those above the first 32 unescaped.
         let is_json = args.contains(&"--json");
         let is_control = |c: char| c.is_control() && !matches!(c, '\n' | '\t') && (c < ' ' || !is_json);
         assert!(!format!("{printed}{message}").contains(is_control), "{args:?}: {printed:?} {message:?}");
@@ -117,7 +117,7 @@ fn no_input_is_overwritten() {
 }
 
 #[test]
-fn outputs_are_tried_before_the_work_begins() {
+fn outputs_are_tested_before_the_work_begins() {
     let files = Files::new();
     let table = files.write("a.ddr", &diffuse([0.5; 3]));
     let scene = files.write("scene.toml", &SCENE.replace("samples = 4", "samples = 4000000"));
@@ -141,10 +141,10 @@ fn outputs_are_tried_before_the_work_begins() {
     assert!(begun.elapsed() < Duration::from_secs(60));
 }
 
-/// A device that takes nothing, and a pipe that nobody reads.
+/// A full device, and a pipe that nobody reads.
 #[cfg(target_os = "linux")]
 #[test]
-fn an_output_that_takes_nothing_is_no_panic() {
+fn a_full_output_causes_no_panic() {
     let files = Files::new();
     files.write("a.ddr", &diffuse([0.5; 3]));
     files.write("scene.toml", SCENE);
@@ -222,7 +222,7 @@ fn devices_and_pipes_are_not_read() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn what_does_not_fit_into_memory_says_how_much_it_would_take() {
+fn memory_errors_say_how_much_is_needed() {
     let files = Files::new();
     files.write("a.ddr", &diffuse([0.5; 3]));
     files.write("big.toml", &SCENE.replace("width = 24\nheight = 16", "width = 30000\nheight = 4000"));
@@ -249,7 +249,7 @@ fn what_does_not_fit_into_memory_says_how_much_it_would_take() {
     }
 }
 
-/// So many knots from 0 to 90 degrees.
+/// This many knots from 0 to 90 degrees.
 fn list(count: usize) -> String {
     let knots: Vec<String> = (0..count).map(|knot| format!("{:.5}", knot as f64 * 90.0 / count as f64)).collect();
     knots.join(",")
@@ -257,7 +257,7 @@ fn list(count: usize) -> String {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn threads_that_cannot_be_made_are_done_without() {
+fn fewer_threads_are_used_if_the_system_refuses_more() {
     let files = Files::new();
     files.write("scene.toml", SCENE);
     let (code, ..) = shell(&files, "\"$LOBE\" render scene.toml -o all.exr --strict");
@@ -272,7 +272,7 @@ fn threads_that_cannot_be_made_are_done_without() {
 }
 
 #[test]
-fn pairs_are_answered_as_they_come() {
+fn pairs_are_answered_as_they_arrive() {
     let files = Files::new();
     let table = files.write("a.ddr", &diffuse([0.5; 3]));
     let mut child = Command::new(env!("CARGO_BIN_EXE_lobe"))
@@ -283,7 +283,7 @@ fn pairs_are_answered_as_they_come() {
         .expect("the program");
     let (mut input, mut output) =
         (child.stdin.take().expect("a pipe"), BufReader::new(child.stdout.take().expect("a pipe")));
-    // Each answer is there before the next pair is sent: were they kept, this would wait for ever.
+    // Each answer arrives before the next pair is sent; if answers were buffered, this would wait forever.
     for _ in 0..3 {
         input.write_all(b"0,0,1,0,0,1\n").expect("a reader");
         let mut line = String::new();
@@ -311,7 +311,7 @@ fn pairs_by_name_and_with_semicolons() {
 }
 
 #[test]
-fn angles_out_of_range_and_options_that_make_no_difference() {
+fn angles_out_of_range_and_options_without_effect_are_refused() {
     let files = Files::new();
     let table = files.write("a.ddr", &diffuse([0.5; 3]));
     let grid = files.write("a.csv", "theta_i,theta_o,phi_o,f\n30,0,0,1\n30,60,0,2\n30,60,180,3\n");
@@ -349,7 +349,7 @@ fn every_help_lists_the_exit_codes() {
 }
 
 #[test]
-fn a_killed_program_leaves_nothing_that_the_next_one_does_not_clean() {
+fn leftovers_of_a_killed_program_are_cleaned_up() {
     let files = Files::new();
     let table = files.write("a.ddr", &diffuse([0.5; 3]));
     files.write(".lobe-x1y2z3.tmp", "half of a file");
@@ -359,7 +359,7 @@ fn a_killed_program_leaves_nothing_that_the_next_one_does_not_clean() {
 }
 
 #[test]
-fn a_file_called_dash_is_the_standard_input() {
+fn a_dash_is_standard_input() {
     let files = Files::new();
     let table = diffuse([0.5; 3]);
     let path = files.write("a.ddr", &table);
@@ -367,7 +367,7 @@ fn a_file_called_dash_is_the_standard_input() {
         let mut command = Command::new(env!("CARGO_BIN_EXE_lobe"));
         let child = command.args(args).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
         let mut child = child.expect("the program");
-        // Who does not read it closes the pipe.
+        // A program that does not read its input closes the pipe.
         let _ = child.stdin.take().expect("a pipe").write_all(input.as_bytes());
         let output = child.wait_with_output().expect("an end");
         let utf8 = |bytes| String::from_utf8(bytes).expect("UTF-8");

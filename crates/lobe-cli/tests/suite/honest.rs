@@ -1,12 +1,12 @@
-//! Nothing is ignored silently: options are honoured or refused, errors that are stated are those that there are, and data
-//! that cannot answer say so.
+//! Nothing is ignored silently: options are honoured or refused, stated errors are the actual ones, and data that do
+//! not determine an answer say so.
 
 use std::path::{Path, PathBuf};
 
 use crate::common::{Files, diffuse, json, printed, run, text};
 use lobe_testing::files::fixture;
 
-/// A WINDOW file of matrices on three patches: the values of each block, by the name of it.
+/// A WINDOW file of matrices on three patches: the name and the values of each block.
 fn sheet(blocks: &[(&str, f64)]) -> String {
     let ring = |lower: u32, upper: u32, patches: u32| {
         format!(
@@ -52,7 +52,7 @@ fn refused(args: &[&str], word: &str) {
     assert!(message.contains(word), "{args:?}: {message}");
 }
 
-/// What a command that succeeds says on the standard error.
+/// The standard error of a command that succeeds.
 fn said(args: &[&str]) -> String {
     let (code, _, message) = run(args);
     assert_eq!(code, 0, "{args:?}: {message}");
@@ -67,7 +67,7 @@ const UP: [&str; 4] = ["--wi", "0.3,0,0.9", "--wo", "-0.1,0.2,0.9"];
 const THROUGH: [&str; 4] = ["--wi", "0.3,0,0.9", "--wo", "-0.1,0.2,-0.9"];
 
 #[test]
-fn the_scatter_that_is_asked_for_is_written() {
+fn the_requested_scatter_is_written() {
     let files = Files::new();
     let window = files.write("sheet.xml", &sheet(&[("Transmission Back", 0.2), ("Reflection Back", 0.02)]));
     let path = |name: &str| files.path(name);
@@ -84,7 +84,7 @@ fn the_scatter_that_is_asked_for_is_written() {
     ] {
         let out = path(out);
         let message = convert(&out, &scatter.map_or(vec![], |scatter| vec!["--scatter", scatter]));
-        // Nothing to be measured but a constant: the stated error is 0, and not that of what was not written.
+        // The written part is constant, so the stated error is 0; the part that was not written does not count.
         let largest = message.split("largest ").nth(1).and_then(|rest| rest.split(',').next()).expect("an error");
         assert!(largest.parse::<f64>().expect("a number") < 1e-5, "{message}");
         let found = value(&[&[text(&out)], &there[usize::from(expected > 0.1)][..]].concat());
@@ -149,7 +149,7 @@ fn options_that_change_nothing_are_refused() {
 }
 
 #[test]
-fn matrices_are_made_of_trees_where_they_are_asked_for() {
+fn trees_become_matrices_on_request() {
     let files = Files::new();
     let tree = files.write("tree.xml", &tree());
     let out = |name: &str| files.path(name);
@@ -190,7 +190,7 @@ fn nothing_near_the_horizon_stands_out() {
 }
 
 #[test]
-fn stated_errors_are_those_that_there_are() {
+fn stated_errors_are_the_actual_ones() {
     let files = Files::new();
     // A lobe through a sheet: twelve rings of samples about the straight-through direction.
     let mut rows = String::from("# scatter: transmission\ntheta_i,phi_i,theta_o,phi_o,f\n");
@@ -224,11 +224,11 @@ fn the_albedo_of_a_tree_is_exact() {
     let tree = files.write("tree.xml", &tree());
     let found = json(&["albedo", text(&tree), "--sigma", "10"]);
     let (albedo, error) = (&found[0]["albedos"][0]["values"][0], &found[0]["albedos"][0]["error"]);
-    // One leaf of 4^4 cells: 16 of the light, each with 16 of the viewer, one or more of which are bright.
+    // One leaf of 4^4 cells: 16 for the light, each with 16 for the viewer, one or more of which are bright.
     let cells: Vec<f64> = (0..256).map(|i| if i % 17 == 0 { 1.5 } else { 0.05 }).collect();
     let sums: Vec<f64> = cells.chunks(16).map(|row| std::f64::consts::PI * row.iter().sum::<f64>() / 16.0).collect();
     let albedo = albedo.as_f64().expect("a number");
-    assert!(sums.iter().any(|sum| (sum - albedo).abs() < 1e-5), "{albedo} is none of {sums:?}");
+    assert!(sums.iter().any(|sum| (sum - albedo).abs() < 1e-5), "{albedo} is not among {sums:?}");
     assert_eq!(error.as_f64(), Some(0.0));
 }
 
@@ -243,7 +243,7 @@ fn in_plane(files: &Files) -> PathBuf {
 }
 
 #[test]
-fn data_that_cannot_answer_say_so() {
+fn warnings_tell_of_undetermined_values() {
     let files = Files::new();
     let plane = in_plane(&files);
     let plane = text(&plane);
@@ -282,7 +282,7 @@ fn sides_have_one_name() {
     let files = Files::new();
     let window = files.write("sheet.xml", &sheet(&[("Transmission Back", 0.2), ("Reflection Back", 0.02)]));
     let info = printed(&["info", text(&window)]);
-    // What WINDOW calls the back is the front here, where the normal points.
+    // WINDOW's back is the front here: the side to which the normal points.
     assert!(info.contains("Visible transmission front") && info.contains("transmission back in the file"), "{info}");
     let check = printed(&["check", text(&window)]);
     assert!(check.contains("Visible transmission front") && !check.contains("dark there"), "{check}");

@@ -1,10 +1,10 @@
-//! `lobe import`, and the options that say what a file leaves open, in every command.
+//! `lobe import`, and in every command the options for what a file leaves open.
 
 use std::f64::consts::PI;
 
 use crate::common::{Files, json, printed, run, text};
 
-/// Luminance factors of a Lambertian surface with an albedo of 0.9, without names.
+/// Luminance factors of a Lambertian surface with an albedo of 0.9, without column names.
 fn lambert(value: f64) -> String {
     let rows = |theta_i: i32| {
         (0..=8).flat_map(move |theta| {
@@ -19,7 +19,7 @@ fn lambert(value: f64) -> String {
 const COLUMNS: &str = "theta_i=1,theta_o=2,phi_o=3,f=4";
 
 #[test]
-fn what_is_not_understood_is_shown_with_a_way_to_say_it() {
+fn tables_that_are_not_understood_are_shown_with_the_options() {
     let files = Files::new();
     let file = files.write("scan.txt", &lambert(0.9));
     let (code, _, message) = run(&["import", text(&file)]);
@@ -34,7 +34,7 @@ fn what_is_not_understood_is_shown_with_a_way_to_say_it() {
 }
 
 #[test]
-fn what_was_said_is_kept_for_every_command() {
+fn options_are_kept_for_every_command() {
     let files = Files::new();
     let file = files.write("scan.txt", &lambert(0.9));
     let said = ["import", text(&file), "--columns", COLUMNS, "--values", "luminance-factor"];
@@ -69,7 +69,7 @@ fn what_was_said_is_kept_for_every_command() {
     assert_eq!(code, 0, "{message}");
     let (code, _, message) = run(&["compare", text(&file), text(&converted), "--within", "1e-6"]);
     assert_eq!(code, 0, "{message}");
-    // A file must not be written where the sidecar of another would be taken for its own.
+    // A file must not be written where an existing sidecar would apply to it.
     files.write("other.csv.lobe.toml", "scale = 2\n");
     let (code, _, message) = run(&["convert", text(&file), text(&files.path("other.csv"))]);
     assert!(code == 1 && message.contains("other.csv.lobe.toml"), "{message}");

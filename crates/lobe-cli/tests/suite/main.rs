@@ -1,4 +1,4 @@
-//! The program as it is run: what it prints, writes and refuses.
+//! The program as users run it: what it prints, writes and refuses.
 
 mod albedo;
 mod check;

@@ -1,4 +1,4 @@
-//! `lobe plot` from outside.
+//! `lobe plot` as a user runs it.
 
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
@@ -6,7 +6,7 @@ use std::process::{Command, Output, Stdio};
 use quick_xml::Reader;
 use quick_xml::events::Event;
 
-/// Lacquer, measured as far as 60 degrees from the mirror direction.
+/// Lacquer, measured up to 60 degrees from the mirror direction.
 const LACQUER: &str = "Source Measured\nTypeSym AxiSymmetrical\nTypeColorModel RGB\nsigma 3 0 30 60\nphi 1 0\ntheta 3 0 20 60\n\
     red def 9 2 1 9 2 1 9 2 1 enddef\ngre def 8 1 1 8 1 1 8 1 1 enddef\nblu def 7 1 1 7 1 1 7 1 1 enddef\n";
 
@@ -50,7 +50,7 @@ fn the_extension_chooses_what_is_written() {
         args.extend(more);
         let output = lobe(&args);
         assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
-        // It says what it wrote: how large, for which light, and at which exposure.
+        // It reports the size of the output, the light, and the exposure.
         let said = String::from_utf8_lossy(&output.stdout).into_owned();
         let bytes = std::fs::metadata(&out).unwrap().len();
         assert!(said.starts_with(&format!("{}: ", out.display())), "{args:?}: {said}");
@@ -63,7 +63,7 @@ fn the_extension_chooses_what_is_written() {
     assert_eq!(count(&read("slices.svg"), "image"), 3);
     assert!(read("slices.svg").contains("σ = 45°") && read("slices.svg").contains("channel G"));
     assert_eq!(count(&read("curves.svg"), "clipPath"), 1);
-    // Three incidences, each with a sample in the legend and a line in the plot that stops to be measured.
+    // Three incidences, each with a sample in the legend and a line in the plot whose measured part ends.
     assert!(read("curves.svg").contains("class=\"s2\"") && !read("curves.svg").contains("class=\"s3\""));
     assert!(read("polar.svg").contains("linear radius"));
     // Spheres, logarithmic and linear curves, channels, lobes and slices.
@@ -78,7 +78,7 @@ fn the_extension_chooses_what_is_written() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_an_error_and_leaves_nothing() {
+fn a_failed_plot_leaves_no_file() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("lacquer.ddr");
     std::fs::write(&file, LACQUER).unwrap();
@@ -108,7 +108,7 @@ fn what_cannot_be_drawn_is_an_error_and_leaves_nothing() {
     }
     let output = lobe(&["plot", &out("missing.ddr"), "-o", &out("a.svg")]);
     assert_eq!(output.status.code(), Some(1));
-    // Only the material is there: no half figure, no temporary file.
+    // Only the material is there: no partial figure, no temporary file.
     let left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left, ["lacquer.ddr"]);
 }

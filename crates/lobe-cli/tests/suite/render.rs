@@ -75,7 +75,7 @@ impl Folder {
         assert!(output.status.success(), "{args}: {}", String::from_utf8_lossy(&output.stderr));
     }
 
-    /// Fails with this code and words.
+    /// Fails with this code and message.
     fn bad(&self, args: &str, code: i32, words: &str) {
         let output = self.run(args);
         let error = String::from_utf8_lossy(&output.stderr);
@@ -84,7 +84,7 @@ impl Folder {
 }
 
 #[test]
-fn the_same_file_however_it_is_made() {
+fn the_same_file_is_written_in_every_way() {
     let folder = Folder::new();
     folder.good("render scene.toml -o whole.exr --strict --threads 1");
     let whole = folder.bytes("whole.exr");
@@ -95,7 +95,7 @@ fn the_same_file_however_it_is_made() {
             folder.good(&format!("render scene.toml -o backend.exr --strict --backend {backend}"));
             assert!(folder.bytes("backend.exr") == whole, "{backend}");
         } else {
-            println!("skipped {backend}, which this machine has not");
+            println!("skipped {backend}, which this machine does not have");
         }
     }
     for tile in 1..=4 {
@@ -137,7 +137,7 @@ fn killed_and_resumed() {
     folder.good(&format!("{render} -o killed.exr --resume"));
     folder.good(&format!("{render} -o whole.exr"));
     assert!(folder.bytes("killed.exr") == folder.bytes("whole.exr"));
-    // With nothing to go on with it begins.
+    // If there is nothing to continue, it starts.
     folder.good("render scene.toml -o fresh.png --samples 1 --resume");
     let leftovers: Vec<_> = std::fs::read_dir(folder.0.path()).unwrap().map(|entry| entry.unwrap().path()).collect();
     let stray = |path: &PathBuf| path.to_string_lossy().contains("part.exr");
@@ -165,7 +165,7 @@ fn time_crop_and_png() {
 }
 
 #[test]
-fn pictures_say_what_they_have_and_what_they_took() {
+fn pictures_record_their_samples_and_statistics() {
     let folder = Folder::new();
     let short = folder.run("render scene.toml -o short.exr --time 1ms --samples 100000 --json");
     let took: serde_json::Value = serde_json::from_slice(&short.stdout).expect("JSON");
@@ -191,14 +191,14 @@ fn a_preview_of_a_file() {
         assert!(output.status.success(), "{arguments}");
         String::from_utf8(output.stdout).expect("UTF-8")
     };
-    // It says how many samples were reached, and at which exposure the picture is.
+    // It reports the number of samples and the exposure.
     let line = said(&format!("preview {fixture} -o ball.png --size 64x48 --samples 4 --exposure -1"));
     assert!(
         line.starts_with("ball.png: 64 x 48 pixels of 4 samples in ") && line.ends_with("; exposure -1 EV\n"),
         "{line}"
     );
     let line = said(&format!("preview {fixture} -o short.png --size 320x240 --samples 60000 --time 1ms"));
-    assert!(line.contains(", not 60000, as the time of --time was up; exposure +0 EV\n"), "{line}");
+    assert!(line.contains(", not 60000, because the time of --time was up; exposure +0 EV\n"), "{line}");
     assert!(said(&format!("preview {fixture} -o ball.png --size 64x48 --samples 1 --quiet")).is_empty());
     assert_eq!(folder.bytes("ball.png")[16..24], [0, 0, 0, 64, 0, 0, 0, 48]);
     folder.good(&format!("preview {fixture} -o ball.exr --size 64x48 --samples 2 --show cloth"));

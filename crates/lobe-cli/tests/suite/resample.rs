@@ -1,4 +1,4 @@
-//! `lobe resample` from outside.
+//! `lobe resample` as a user runs it.
 
 use crate::common::{Files, diffuse, json, printed, run, text};
 
@@ -21,7 +21,7 @@ fn glossy() -> String {
 }
 
 #[test]
-fn the_bound_is_met_and_the_error_is_said() {
+fn the_bound_is_met_and_the_error_reported() {
     let files = Files::new();
     let (input, output) = (files.write("glossy.csv", &glossy()), files.path("glossy.ddr"));
     let found = json(&["resample", text(&input), text(&output), "--error", "0.1"]);
@@ -36,14 +36,14 @@ fn the_bound_is_met_and_the_error_is_said() {
     let (code, _, message) = run(&["resample", text(&input), text(&files.path("no.ddr")), "--error", "1e-9"]);
     assert!(code == 3 && message.contains("expected 0.000000001 or less"), "{message}");
     assert!(!files.path("no.ddr").exists());
-    // The message names an error that can be met.
+    // The message names an achievable error.
     let least = message.split("--error ").nth(1).and_then(|rest| rest.split(' ').next()).expect("an error");
     printed(&["resample", text(&input), text(&files.path("yes.ddr")), "--error", least]);
 }
 
-/// A jump cannot be interpolated to any bound.
+/// A discontinuity cannot be interpolated to any bound.
 #[test]
-fn without_a_bound_what_is_possible_is_enough() {
+fn without_a_bound_the_best_possible_error_is_accepted() {
     let files = Files::new();
     let mut csv = String::from(CSV);
     for theta_i in [0, 40, 80] {
@@ -56,9 +56,9 @@ fn without_a_bound_what_is_possible_is_enough() {
     let (input, output) = (files.write("jagged.csv", &csv), files.path("jagged.ddr"));
     let (code, shown, message) = run(&["resample", text(&input), text(&output)]);
     assert!(code == 0 && output.exists(), "{message}");
-    assert!(message.contains("more than the 1 % aimed at"), "{message}");
+    assert!(message.contains("more than the intended 1 %"), "{message}");
     assert!(shown.contains("of the largest value"), "{shown}");
-    // Knots that are all given are taken even if a bound is not met.
+    // If the knots of all axes are given, they are used even if a bound is not met.
     let knots = ["--sigma", "0,80", "--psi", "0", "--theta", "0,90", "--phi", "0,180"];
     let given = files.path("given.ddr");
     printed(&[&["resample", text(&input), text(&given), "--error", "0.01"], knots.as_slice()].concat());
@@ -66,7 +66,7 @@ fn without_a_bound_what_is_possible_is_enough() {
 }
 
 #[test]
-fn given_knots_are_taken() {
+fn given_knots_are_used() {
     let files = Files::new();
     let (input, output) = (files.write("glossy.csv", &glossy()), files.path("glossy.ssdd"));
     let args = ["--sigma", "0:80:20", "--psi", "0", "--theta", "0,10,30:180:30", "--phi", "0:360:30"];
@@ -98,14 +98,14 @@ fn spectra_become_colours() {
     let args = ["--sigma", "0,60", "--psi", "0", "--theta", "0,90", "--phi", "0,180", "--colour", "rgb"];
     let found = json(&[&["resample", text(&input), text(&output)], args.as_slice()].concat());
     assert_eq!(found["channels"], serde_json::json!(["R", "G", "B"]));
-    // One wavelength is the same at all others: grey.
+    // One wavelength counts for all others: grey.
     let values = json(&["eval", text(&output), "--angles", "0,0,0,0"]);
     let value = |index: usize| values["values"][index].as_f64().expect("a number");
     assert!((value(0) - value(2)).abs() < 1e-3 * value(0), "{values}");
 }
 
 #[test]
-fn what_makes_no_sense_is_refused() {
+fn invalid_requests_are_refused() {
     let files = Files::new();
     let input = files.write("paint.ddr", &diffuse([0.5; 3]));
     for (output, args, expected) in [

@@ -1,4 +1,4 @@
-//! Files that are something else, packed or in a folder, and files of which nothing may reach a terminal.
+//! Foreign files, compressed files and folders, and files whose control characters must not reach a terminal.
 
 use std::path::PathBuf;
 
@@ -33,7 +33,7 @@ fn every_command_says_what_a_file_is() {
             vec!["plot", file, "-o", text(&out)],
             vec!["convert", file, "out.csv"],
         ] {
-            // A check reports what it cannot read with what it has checked.
+            // A check lists unreadable files along with those that it checked.
             let (code, report, message) = run(&args);
             let is_said = message.contains(expected) || report.contains(expected);
             assert!(code == 1 && is_said, "{args:?}: {code}: {message}{report}");
@@ -83,7 +83,7 @@ fn fourier_bsdfs_open_in_every_command() {
 }
 
 #[test]
-fn nothing_that_a_terminal_obeys_is_printed() {
+fn control_characters_are_never_printed() {
     let files = Files::new();
     let evil = "\u{1b}[31mred\u{7}";
     let harmless = |text: &str| !text.chars().any(|c| c.is_control() && c != '\n');

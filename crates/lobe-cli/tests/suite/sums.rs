@@ -1,4 +1,4 @@
-//! What renderings are refused and what they leave behind: parts, sums and pictures, and that no work is lost.
+//! Refused renderings, and the parts, sums and pictures that renderings leave behind: no work is lost.
 
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use crate::common::{Files, printed, run, text};
 use crate::hardening::SCENE;
 
-/// The parts of a picture of a mesh whose vertices lie in another file.
+/// Parts of a picture of a mesh whose vertices are in another file.
 #[test]
 fn parts_of_two_versions_of_a_buffer_are_not_merged() {
     let files = Files::new();
@@ -47,13 +47,13 @@ fn sums_are_not_lost() {
         assert_eq!(code, 0, "{out} {options:?}: {message}");
         message
     };
-    // A finished picture may be made again, and has nothing to add to.
+    // A finished picture may be rendered again; without sums, nothing can be added to it.
     good("whole.exr", &[]);
     good("whole.exr", &[]);
-    assert!(good("whole.exr", &["--resume"]).contains("finished before, with 4 samples"));
+    assert!(good("whole.exr", &["--resume"]).contains("already finished, with 4 samples"));
     let (code, _, message) = render("whole.exr", &["--resume", "--samples", "9"]);
     assert!(code == 2 && message.contains("--keep-sums"), "{message}");
-    // With its sums it goes on, and ends like one that was rendered at once.
+    // With its sums it continues, and ends like one that was rendered at once.
     good("kept.exr", &["--keep-sums"]);
     let (code, _, message) = render("kept.exr", &[]);
     assert!(code == 2 && message.contains("the sums of an earlier rendering of 4 samples"), "{message}");
@@ -63,17 +63,17 @@ fn sums_are_not_lost() {
     good("nine.exr", &["--samples", "9"]);
     let read = |name: &str| std::fs::read(files.path(name)).expect("a picture");
     assert!(read("kept.exr") == read("nine.exr"));
-    // So does a PNG, next to which they are.
+    // The same applies to a PNG, which has its sums next to it.
     good("kept.png", &["--keep-sums"]);
     assert_eq!(render("kept.png", &[]).0, 2);
     good("kept.png", &["--resume", "--samples", "9"]);
     good("nine.png", &["--samples", "9"]);
     assert!(read("kept.png") == read("nine.png"));
-    // Whoever wants to lose them says so.
+    // --force overwrites them.
     good("lost.exr", &["--keep-sums"]);
     good("lost.exr", &["--force"]);
     assert!(read("lost.exr") == read("whole.exr"));
-    // Sums of other arithmetic are no beginning.
+    // Sums of other arithmetic cannot be continued.
     if lobe_of("avx2") {
         good("fused.exr", &["--keep-sums"]);
         let out = files.path("fused.exr");
@@ -89,7 +89,7 @@ fn lobe_of(backend: &str) -> bool {
 }
 
 #[test]
-fn tiles_that_time_has_ended_are_merged() {
+fn tiles_ended_by_the_time_limit_are_merged() {
     let files = Files::new();
     let scene = files.write("scene.toml", SCENE);
     let bright = files.write("bright.toml", &SCENE.replace("height = 16", "height = 16\nexposure = -2"));
@@ -116,7 +116,7 @@ fn tiles_that_time_has_ended_are_merged() {
     assert!(read(&merged) != read(&whole));
 }
 
-/// Ctrl-C writes what there is; with `--resume` nothing was lost.
+/// Ctrl-C saves the samples so far; with `--resume`, nothing is lost.
 #[cfg(unix)]
 #[test]
 fn interrupted_and_resumed() {
@@ -133,13 +133,13 @@ fn interrupted_and_resumed() {
         let ended = child.wait_with_output().expect("an end");
         let message = String::from_utf8_lossy(&ended.stderr).into_owned();
         assert_eq!(ended.status.code(), Some(130), "{message}");
-        assert!(message.contains("the same command with --resume goes on"), "{message}");
+        assert!(message.contains("continue with the same command and --resume"), "{message}");
         assert!(out.exists());
         let part = if text(&out).ends_with("png") { files.path("a.png.part.exr") } else { out.clone() };
         let (film, _) = lobe_render::picture::read_partial(&part).expect("sums");
         let (least, most) = film.samples();
         assert!(most > 0 && least < 500, "{least} to {most}");
-        // One that has another number of samples, so that this test takes no time.
+        // With another number of samples, so that this test is short.
         let most = (most + 1).to_string();
         let resume = ["render", text(&scene), "-o", text(&out), "--samples", &most, "--strict", "--resume"];
         assert_eq!(run(&resume).0, 0);
@@ -151,7 +151,7 @@ fn interrupted_and_resumed() {
 
 #[cfg(unix)]
 #[test]
-fn what_cannot_be_written_on_the_way_is_a_warning() {
+fn a_failed_intermediate_save_is_a_warning() {
     let files = Files::new();
     let scene = files.write("scene.toml", &SCENE.replace("width = 24\nheight = 16", "width = 200\nheight = 150"));
     let folder = files.path("folder");
@@ -166,7 +166,7 @@ fn what_cannot_be_written_on_the_way_is_a_warning() {
     while !out.exists() && begun.elapsed() < Duration::from_secs(60) {
         std::thread::sleep(Duration::from_millis(5));
     }
-    // In its place is something that is not replaced, for a while.
+    // For a while, something that is not replaced is in its place.
     std::fs::remove_file(&out).expect("a file");
     std::fs::create_dir(&out).expect("a folder");
     std::thread::sleep(Duration::from_millis(300));

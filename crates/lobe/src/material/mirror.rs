@@ -1,17 +1,17 @@
-//! Light that is mirrored, or goes straight through: what has no value for a pair of directions.
+//! Light that is mirrored or goes straight through, which has no value for a pair of directions.
 
 use lobe_table::{Aspect, Scatter, Side, mirror};
 
-/// A mirror reflectance or a transmittance straight through, and the side from which it was measured.
+/// A mirror reflectance or a straight-through transmittance, and the side from which it was measured.
 #[derive(Clone, Debug)]
 pub(crate) struct Mirror {
-    /// `None` holds for both sides.
+    /// `None` means both sides.
     pub(crate) side: Option<Side>,
     pub(crate) data: mirror::Data,
 }
 
 impl Mirror {
-    /// Whether this answers for an aspect.
+    /// Whether this applies to an aspect.
     pub(crate) fn answers(&self, aspect: Aspect) -> bool {
         self.data.scatter() == aspect.scatter && self.side.is_none_or(|side| side == aspect.light)
     }
@@ -25,7 +25,7 @@ impl Mirror {
     }
 }
 
-/// Where light from `wi` goes: mirrored at the normal, or straight on.
+/// The direction in which light from `wi` continues: mirrored about the normal, or straight on.
 pub(crate) fn mirrored([x, y, z]: [f32; 3], scatter: Scatter) -> [f32; 3] {
     match scatter {
         Scatter::Reflection => [-x, -y, z],

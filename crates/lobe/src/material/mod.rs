@@ -17,7 +17,7 @@ pub(crate) use mirror::mirrored;
 pub use sheet::SHEET;
 pub(crate) use sheet::flipped;
 
-/// Where a material comes from.
+/// The source of a material.
 #[derive(Clone, Debug)]
 struct Origin {
     format: Option<&'static str>,
@@ -30,8 +30,8 @@ struct Origin {
 /// `wi` points to the light and `wo` to the viewer: unit vectors away from the surface, normal on +z. Values are `f` in
 /// 1/sr, without the cosine, one per channel. All representations are evaluated in the SIMD lanes of the backend.
 ///
-/// Batches of [`PARALLEL_FROM`](crate::PARALLEL_FROM) queries or more are shared among the threads of the current rayon
-/// pool (feature `rayon`); results are the same bits for any number of threads.
+/// Batches of [`PARALLEL_FROM`](crate::PARALLEL_FROM) queries or more are divided among the threads of the current
+/// rayon pool (feature `rayon`); results have the same bits for any number of threads.
 ///
 /// ```no_run
 /// let material = lobe::Material::open("paint.bsdf")?;
@@ -42,8 +42,7 @@ struct Origin {
 /// material.eval_batch(&wi, &wo, &mut f);
 /// # Ok::<(), lobe::OpenError>(())
 /// ```
-///
-/// Clones share what was prepared.
+/// Clones share the prepared tables.
 #[derive(Clone, Debug)]
 pub struct Material {
     origin: Origin,
@@ -58,7 +57,7 @@ impl Material {
         Material { backend, ..self }
     }
 
-    /// The backend that evaluates.
+    /// The backend that evaluates the material.
     pub fn backend(&self) -> Backend {
         self.backend
     }
@@ -73,17 +72,17 @@ impl Material {
         self.origin.kind
     }
 
-    /// What the header of the file says: names and values in its order.
+    /// The facts in the header of the file: names and values, in its order.
     pub fn source(&self) -> &[(String, String)] {
         &self.origin.source
     }
 
-    /// What the channels mean.
+    /// The meaning of the channels.
     pub fn channels(&self) -> &Channels {
         self.bsdf.channels()
     }
 
-    /// How many channels a value has.
+    /// The number of channels of a value.
     pub fn channel_count(&self) -> usize {
         self.channels().count()
     }
@@ -106,16 +105,17 @@ impl Material {
         self.bsdf.is_isotropic()
     }
 
-    /// Whether there are values for light from a side that is reflected, or transmitted.
+    /// Whether there are values for light from a side that is reflected or transmitted.
     pub fn holds(&self, aspect: Aspect) -> bool {
         self.bsdf.holds(aspect)
     }
 
-    /// The share of the light from `wi` that is mirrored, or goes straight through, into `out`, one value per channel; and
-    /// where it goes. `None` if that was not measured. These have no value for a pair of directions.
+    /// Writes the share of the light from `wi` that is mirrored or goes straight through to `out`, one value per
+    /// channel, and returns the direction in which it continues; `None` if that was not measured. Such light has no
+    /// value for a pair of directions.
     ///
     /// # Panics
-    /// If `out` is not as long as there are channels.
+    /// If the length of `out` is not the number of channels.
     pub fn mirror(&self, wi: [f32; 3], scatter: Scatter, out: &mut [f32]) -> Option<[f32; 3]> {
         let aspect = Aspect { scatter, light: Side::of(wi) };
         let mirror = self.mirrors.iter().find(|mirror| mirror.answers(aspect))?;
@@ -128,13 +128,13 @@ impl Material {
         !self.mirrors.is_empty()
     }
 
-    /// The table, if the material is one in specular coordinates, for its axes, and for evaluation in lanes inside a kernel
-    /// of your own.
+    /// The table, if the material is one in specular coordinates: for its axes, and for evaluation in lanes inside your
+    /// own kernel.
     pub fn specular_table(&self) -> Option<&Arc<specular::Table>> {
         self.bsdf.specular_table()
     }
 
-    /// The function without the backend, for what takes any [`Bsdf`].
+    /// The function without the backend, for code that takes any [`Bsdf`].
     pub fn bsdf(&self) -> &dyn Bsdf {
         &*self.bsdf
     }
@@ -142,7 +142,7 @@ impl Material {
     /// Evaluates one pair into `out`, one value per channel. For many pairs use [`eval_batch`](Material::eval_batch).
     ///
     /// # Panics
-    /// If `out` is not as long as there are channels.
+    /// If the length of `out` is not the number of channels.
     pub fn eval(&self, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
         fitting(self.try_eval(wi, wo, out));
     }
@@ -150,7 +150,7 @@ impl Material {
     /// As [`eval`](Material::eval), with an error instead of a panic.
     ///
     /// # Errors
-    /// If `out` is not as long as there are channels.
+    /// If the length of `out` is not the number of channels.
     pub fn try_eval(&self, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) -> Result<(), ShapeError> {
         expect("values", out.len(), self.channel_count())?;
         self.bsdf.eval(self.backend, wi, wo, out);
@@ -161,7 +161,7 @@ impl Material {
     /// [columns](Directions::columns) of components.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+    /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times the number of channels.
     pub fn eval_batch<'a>(&self, wi: impl Into<Directions<'a>>, wo: impl Into<Directions<'a>>, out: &mut [f32]) {
         fitting(self.try_eval_batch(wi, wo, out));
     }
@@ -169,7 +169,7 @@ impl Material {
     /// As [`eval_batch`](Material::eval_batch), with an error instead of a panic.
     ///
     /// # Errors
-    /// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+    /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times the number of channels.
     pub fn try_eval_batch<'a>(
         &self,
         wi: impl Into<Directions<'a>>,
@@ -179,7 +179,8 @@ impl Material {
         self.try_eval_on(self.backend, wi.into(), wo.into(), out)
     }
 
-    /// As [`eval_batch`](Material::eval_batch), on the backend given: for a renderer that chooses one for all of a picture.
+    /// As [`eval_batch`](Material::eval_batch), but on the given backend: for a renderer that chooses one backend for a
+    /// whole picture.
     ///
     /// # Panics
     /// As [`eval_batch`](Material::eval_batch).
@@ -222,12 +223,14 @@ impl Material {
         self.bsdf.is_polarised()
     }
 
-    /// The Mueller matrices of many pairs in 1/sr, without the cosine, at every wavelength of the channels, in the SIMD lanes
-    /// of the backend: `out[query][channel][row][column]`, 16 floats per matrix in C order, with the Stokes frames of
-    /// [`mueller`](Material::mueller). `false` if the representation has no polarisation, which leaves `out` alone.
+    /// The Mueller matrices of many pairs in 1/sr, without the cosine, at every wavelength of the channels, in the SIMD
+    /// lanes of the backend: `out[query][channel][row][column]`, 16 floats per matrix in C order, with the Stokes
+    /// frames of [`mueller`](Material::mueller). `false` if the representation has no polarisation, which leaves `out`
+    /// unchanged.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo`, or `out` is not that many times 16 times the channels long.
+    /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times 16 times the number of
+    /// channels.
     pub fn mueller_batch<'a>(
         &self,
         wi: impl Into<Directions<'a>>,
@@ -240,7 +243,8 @@ impl Material {
     /// As [`mueller_batch`](Material::mueller_batch), with an error instead of a panic.
     ///
     /// # Errors
-    /// If there are not as many `wi` as `wo`, or `out` is not that many times 16 times the channels long.
+    /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times 16 times the number of
+    /// channels.
     pub fn try_mueller_batch<'a>(
         &self,
         wi: impl Into<Directions<'a>>,
@@ -270,7 +274,7 @@ impl Material {
     }
 }
 
-/// How many directions there are.
+/// The number of directions.
 fn length(directions: Directions<'_>) -> Result<usize, ShapeError> {
     match directions {
         Directions::Vectors(vectors) => Ok(vectors.len()),
@@ -282,8 +286,8 @@ fn length(directions: Directions<'_>) -> Result<usize, ShapeError> {
     }
 }
 
-/// Evaluated as [`Material::eval_batch_on`]; sampled in proportion to the cosine, which a [`Sampler`](crate::Sampler) does
-/// better. [Mirrors](Material::mirror) have no value and no density.
+/// Evaluates like [`Material::eval_batch_on`], and samples in proportion to the cosine; a [`Sampler`](crate::Sampler)
+/// samples better. [Mirrors](Material::mirror) have no value and no density.
 impl Bsdf for Material {
     fn channels(&self) -> &Channels {
         self.bsdf.channels()

@@ -11,7 +11,7 @@ use super::sheet::{self, SHEET, Sheet};
 use super::{Material, Origin};
 use crate::{Backend, OpenError};
 
-/// The measurements of a sheet as they are read.
+/// The measurements of a sheet, while they are read.
 #[derive(Default)]
 struct Parts {
     parts: Vec<sheet::Part>,
@@ -48,13 +48,12 @@ impl Material {
     /// Opens a file of any format that [`formats`](crate::formats) reads, on the detected backend.
     ///
     /// # Errors
-    /// [`OpenError`] if the file cannot be read or holds nothing that has a value for a pair of directions, or
-    /// `LOBE_BACKEND` is wrong.
+    /// [`OpenError`] if the file cannot be read, has no values for pairs of directions, or `LOBE_BACKEND` is invalid.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, OpenError> {
         Material::open_with(path, &Options::default())
     }
 
-    /// As [`open`](Material::open), with answers to what the file leaves open.
+    /// As [`open`](Material::open), with options for what the file leaves open.
     ///
     /// # Errors
     /// As [`open`](Material::open).
@@ -64,8 +63,8 @@ impl Material {
         Material::from_document(&document, options).map_err(|error| error.in_file(path))
     }
 
-    /// A material from the content of a file in memory. `name` is what the file is called in errors; its extension counts
-    /// only if the content says too little, as in [`formats::open`](lobe_formats::open).
+    /// A material from the content of a file in memory. `name` is the name of the file in errors; its extension is used
+    /// only if the content is ambiguous, as in [`formats::open`](lobe_formats::open).
     ///
     /// # Errors
     /// As [`open`](Material::open).
@@ -75,7 +74,7 @@ impl Material {
         Material::from_document(&document, options).map_err(|error| error.in_file(name))
     }
 
-    /// The material of a document that was read or made.
+    /// A material from a document that was read or created.
     ///
     /// # Errors
     /// As [`open`](Material::open); the error names no file.
@@ -93,7 +92,7 @@ impl Material {
         parts.finish(origin)
     }
 
-    /// The material of samples in any representation, such as [`specular::Data`](lobe_table::specular::Data).
+    /// A material from samples in any representation, such as [`specular::Data`](lobe_table::specular::Data).
     ///
     /// # Errors
     /// As [`from_document`](Material::from_document).
@@ -101,15 +100,15 @@ impl Material {
         Material::from_document(&Document::new(samples), options)
     }
 
-    /// A sheet of which both sides, and both ways through, were measured into files of their own: those measured with
-    /// light on the front (z > 0), and those with light on the back, each with its own side up. Files of mirror
-    /// reflectance (SDR) and of transmittance straight through (SDT) are its [mirrors](Material::mirror).
+    /// A sheet whose sides were measured into separate files: those measured with light in front (z > 0), and those
+    /// with light behind, each with its own side up. Files of mirror reflectance (SDR) and of straight-through
+    /// transmittance (SDT) become its [mirrors](Material::mirror).
     ///
-    /// Transmission that was measured in one direction only is the same in the other one; a side without reflection is
-    /// black.
+    /// Transmission that was measured in one direction only is assumed to be the same in the other one; a side without
+    /// reflection is black.
     ///
     /// # Errors
-    /// As [`open`](Material::open), and if the files do not have the same channels, or one of them is a sheet itself.
+    /// As [`open`](Material::open), and if the files have different channels, or one of them is itself a sheet.
     pub fn open_sheet<P: AsRef<Path>>(front: &[P], back: &[P], options: &Options) -> Result<Self, OpenError> {
         let mut parts = Parts::default();
         let mut last = None;

@@ -1,17 +1,17 @@
-//! Several measurements of one sheet: the sides of the two directions choose which of them answers.
+//! Several measurements of one sheet: the sides of the two directions select the measurement.
 
 use lobe_table::{Aspect, Bsdf, Channels, Directions, Kind, Scatter, Side};
 
 use crate::Backend;
 
-/// What a sheet is called, of which there are several measurements.
+/// The kind of a material that consists of several measurements.
 pub const SHEET: Kind = Kind::new("sheet");
 
-/// A measurement, and for which directions it holds.
+/// A measurement, and the directions that it applies to.
 #[derive(Debug)]
 pub(super) struct Part {
     pub(super) scatter: Scatter,
-    /// `None` holds for both sides.
+    /// `None` means both sides.
     pub(super) side: Option<Side>,
     pub(super) bsdf: Box<dyn Bsdf>,
 }
@@ -27,7 +27,7 @@ impl Part {
             Some(Side::Front) => wi[2] > 0.0,
             Some(Side::Back) => wi[2] < 0.0,
         };
-        // Signs, as a product of small numbers may vanish.
+        // Compares signs, because a product of small numbers may vanish.
         is_on_side && (wi[2] > 0.0 && opposite * wo[2] > 0.0 || wi[2] < 0.0 && opposite * wo[2] < 0.0)
     }
 }
@@ -69,7 +69,8 @@ impl Bsdf for Sheet {
         self.measures(aspect) || (aspect.scatter == Scatter::Transmission && self.measures(aspect.reversed()))
     }
 
-    /// Transmission that was measured in one direction only is the same in the other one (Helmholtz reciprocity).
+    /// Transmission that was measured in one direction only is assumed to be the same in the other one (Helmholtz
+    /// reciprocity).
     fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
         let (count, channels) = (wi.count(), self.channels.count());
         assert_eq!(count, wo.count(), "as many wi as wo");
@@ -85,7 +86,7 @@ impl Bsdf for Sheet {
                     (light, viewer) = (viewer, light);
                 }
                 if part.answers(light, viewer) {
-                    // What was measured from behind was measured with that side up.
+                    // Measurements from behind were made with that side up.
                     if light[2] < 0.0 {
                         (light, viewer) = (flipped(light), flipped(viewer));
                     }

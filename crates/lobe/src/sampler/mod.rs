@@ -12,16 +12,16 @@ use crate::error::{ShapeError, expect, fitting};
 use crate::{Backend, Material, parallel};
 use lobes::Lobes;
 
-/// A material and what is needed to sample directions in proportion to luminance times `f` times cosine.
+/// A material, and the distributions to sample directions in proportion to luminance times `f` times cosine.
 ///
-/// Every representation is sampled in the way that fits it: specular tables and the EPFL database by their own schemes,
-/// in lanes; Klems matrices by their patches; everything else by histograms over the hemisphere, blended between
-/// directions of incidence, whose density is exact. Sheets and windows have a lobe for each side and each way through;
-/// light chooses among the lobes of its side by how bright they are, and mirrors are lobes too.
+/// Every representation is sampled in its own way: specular tables and the EPFL database by their own schemes,
+/// in lanes; Klems matrices by their patches; everything else by histograms over the hemisphere, which are blended
+/// between incident directions and have an exact density. Sheets and windows have a lobe for each side and scatter;
+/// light chooses among the lobes of its side by their brightness, and mirrors are lobes too.
 ///
-/// Directions are unit vectors away from the surface, normal on +z. Densities are per steradian. The density is positive
-/// wherever `f` is, but for the EPFL database, whose published scheme is kept. In strict form samples are the same bits
-/// on every backend.
+/// Directions are unit vectors away from the surface, normal on +z. Densities are per steradian. The density is
+/// positive wherever `f` is, except for the EPFL database, whose published scheme is kept. In strict form, samples have
+/// the same bits on every backend.
 ///
 /// ```no_run
 /// use std::sync::Arc;
@@ -39,12 +39,12 @@ pub struct Sampler {
     distribution: Distribution,
 }
 
-/// How directions are drawn.
+/// The way in which directions are drawn.
 #[derive(Clone, Debug)]
 enum Distribution {
-    /// The representation has a scheme of its own.
+    /// The representation's own scheme.
     Own(Scheme),
-    /// A lobe for each side and way.
+    /// A lobe for each side and scatter.
     Lobes(Arc<Lobes>),
 }
 
@@ -52,7 +52,7 @@ impl Sampler {
     /// Builds the distributions of a material.
     ///
     /// # Errors
-    /// If the options make no sense for this material.
+    /// If the options do not apply to this material.
     pub fn new(material: Arc<Material>, options: &SamplerOptions) -> Result<Self, SamplerError> {
         Sampler::with_progress(material, options, &mut |_, _| {})
     }
@@ -87,8 +87,8 @@ impl Sampler {
         &self.material
     }
 
-    /// Bytes of memory that the distributions take in addition to the material: at most one and a half times what it
-    /// takes, but for the tiniest.
+    /// Bytes of memory that the distributions take in addition to the material: at most one and a half times its own,
+    /// except for the tiniest materials.
     pub fn bytes(&self) -> usize {
         match &self.distribution {
             Distribution::Own(scheme) => scheme.bytes,
@@ -96,13 +96,13 @@ impl Sampler {
         }
     }
 
-    /// Samples one direction for two numbers in `[0, 1)`. Returns it with its density, and `weight` is set to `f` times
-    /// cosine over the density, one value per channel. If the draw leads nowhere, everything is 0.
+    /// Samples one direction from two numbers in `[0, 1)`. Returns it with its density, and sets `weight` to `f` times
+    /// cosine over the density, one value per channel. If the draw fails, everything is 0.
     ///
     /// A mirror has a density of infinity, and its weight is its reflectance over the probability of choosing it.
     ///
     /// # Panics
-    /// If `weight` is not as long as there are channels.
+    /// If the length of `weight` is not the number of channels.
     pub fn sample(&self, given: Given, direction: [f32; 3], u: [f32; 2], weight: &mut [f32]) -> ([f32; 3], f32) {
         fitting(self.try_sample(given, direction, u, weight))
     }
@@ -110,7 +110,7 @@ impl Sampler {
     /// As [`sample`](Sampler::sample), with an error instead of a panic.
     ///
     /// # Errors
-    /// If `weight` is not as long as there are channels.
+    /// If the length of `weight` is not the number of channels.
     pub fn try_sample(
         &self,
         given: Given,
@@ -124,8 +124,7 @@ impl Sampler {
         Ok((sampled[0], pdf[0]))
     }
 
-    /// The density with which [`sample`](Sampler::sample) finds the direction of the pair that is not given, without
-    /// mirrors.
+    /// The density with which [`sample`](Sampler::sample) draws the other direction of the pair, without mirrors.
     pub fn pdf(&self, given: Given, wi: [f32; 3], wo: [f32; 3]) -> f32 {
         let mut pdf = [0.0];
         self.pdf_batch(given, &[wi], &[wo], &mut pdf);
@@ -135,7 +134,8 @@ impl Sampler {
     /// Samples one direction for each given direction, as [`sample`](Sampler::sample).
     ///
     /// # Panics
-    /// If `u` or a part of `out` does not have one entry per direction, or the weights one more per channel.
+    /// If `u` or a field of `out` does not have one entry per direction, or the weights do not have one per direction
+    /// and channel.
     pub fn sample_batch(&self, given: Given, directions: &[[f32; 3]], u: &[[f32; 2]], out: Sampled<'_>) {
         fitting(self.try_sample_batch(given, directions, u, out));
     }
@@ -143,7 +143,8 @@ impl Sampler {
     /// As [`sample_batch`](Sampler::sample_batch), with an error instead of a panic.
     ///
     /// # Errors
-    /// If `u` or a part of `out` does not have one entry per direction, or the weights one more per channel.
+    /// If `u` or a field of `out` does not have one entry per direction, or the weights do not have one per direction
+    /// and channel.
     pub fn try_sample_batch(
         &self,
         given: Given,
@@ -171,7 +172,7 @@ impl Sampler {
     }
 
     /// Draws directions and their densities as [`sample_batch`](Sampler::sample_batch) does, without the weights: for
-    /// programs that evaluate later. A density of infinity is a mirror's.
+    /// programs that evaluate later. A density of infinity means a mirror.
     ///
     /// # Panics
     /// If the slices do not have the same length.
@@ -219,7 +220,7 @@ impl Sampler {
     /// The densities of many pairs, as [`pdf`](Sampler::pdf).
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo` and `pdfs`.
+    /// If the numbers of `wi`, `wo` and `pdfs` differ.
     pub fn pdf_batch(&self, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], pdfs: &mut [f32]) {
         fitting(self.try_pdf_batch(given, wi, wo, pdfs));
     }
@@ -227,7 +228,7 @@ impl Sampler {
     /// As [`pdf_batch`](Sampler::pdf_batch), with an error instead of a panic.
     ///
     /// # Errors
-    /// If there are not as many `wi` as `wo` and `pdfs`.
+    /// If the numbers of `wi`, `wo` and `pdfs` differ.
     pub fn try_pdf_batch(
         &self,
         given: Given,
@@ -254,12 +255,12 @@ impl Sampler {
         });
     }
 
-    /// Values, `f` in 1/sr as [`Material::eval_batch`] gives them, `[pair][channel]`, and densities, as
-    /// [`pdf`](Sampler::pdf), of many pairs: what light that is drawn from lights is weighted by. Both at once take less
-    /// time than one after the other if they are in the same place of a table.
+    /// Values (`f` in 1/sr, `[pair][channel]`, as from [`Material::eval_batch`]) and densities (as from
+    /// [`pdf`](Sampler::pdf)) of many pairs, which weight samples drawn from lights. Computing both at once is faster
+    /// than one after the other if they are read from the same place in a table.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo` and `pdfs`, and that many values per channel.
+    /// If the numbers of `wi`, `wo` and `pdfs` differ, or there is not one value per pair and channel.
     pub fn eval_pdf_batch(&self, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], values: &mut [f32], pdfs: &mut [f32]) {
         fitting(self.try_eval_pdf_batch(given, wi, wo, values, pdfs));
     }
@@ -267,7 +268,7 @@ impl Sampler {
     /// As [`eval_pdf_batch`](Sampler::eval_pdf_batch), with an error instead of a panic.
     ///
     /// # Errors
-    /// If there are not as many `wi` as `wo` and `pdfs`, and that many values per channel.
+    /// If the numbers of `wi`, `wo` and `pdfs` differ, or there is not one value per pair and channel.
     pub fn try_eval_pdf_batch(
         &self,
         given: Given,

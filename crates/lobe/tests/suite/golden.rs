@@ -6,7 +6,7 @@ use lobe::{Backend, Data, Edges, Material, Options};
 use lobe_testing::files::shared;
 use lobe_testing::golden::{Worst, direction, queries};
 
-/// Of the largest magnitude in the table.
+/// Relative to the largest magnitude in the table.
 const BOUND: f64 = 2e-5;
 
 /// All backends of this machine, fused and strict.
@@ -66,7 +66,7 @@ fn synthetic_tables_agree_with_libbsdf_in_lanes() {
     }
 }
 
-/// Every real table that there are answers for.
+/// Every real table for which there are answers.
 #[test]
 fn measured_tables_agree_with_libbsdf_in_lanes() {
     let Some(shared) = shared() else { return };

@@ -23,7 +23,7 @@ fn narrow(pairs: &[([f64; 3], [f64; 3])]) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
     pairs.iter().map(|(wi, wo)| (wi.map(|c| c as f32), wo.map(|c| c as f32))).unzip()
 }
 
-/// The values of all pairs on every backend; strict ones are the same bits.
+/// The values of all pairs on every backend; strict ones must have the same bits.
 fn everywhere(mut material: Material, pairs: &[([f64; 3], [f64; 3])]) -> Vec<(Backend, Vec<f32>)> {
     let (wi, wo) = narrow(pairs);
     let mut answers: Vec<(Backend, Vec<f32>)> = Vec::new();
@@ -36,12 +36,12 @@ fn everywhere(mut material: Material, pairs: &[([f64; 3], [f64; 3])]) -> Vec<(Ba
     let strict: Vec<_> = answers.iter().filter(|(backend, _)| backend.is_strict()).collect();
     for (backend, values) in &strict {
         let same = values.iter().zip(&strict[0].1).all(|(a, b)| a.to_bits() == b.to_bits());
-        assert!(same, "{backend} is not the same bits as {}", strict[0].0);
+        assert!(same, "{backend} does not have the same bits as {}", strict[0].0);
     }
     answers
 }
 
-/// The directions as `f32` has them.
+/// The directions, rounded to `f32`.
 fn rounded((wi, wo): ([f64; 3], [f64; 3])) -> ([f64; 3], [f64; 3]) {
     let round = |w: [f64; 3]| {
         let w = w.map(|c| f64::from(c as f32));
@@ -69,7 +69,7 @@ fn merl_bins_agree_with_the_reader_of_the_database() {
                 exact += 1;
                 continue;
             }
-            // Next to a border, the bin may be the other one: here, or where the answer was given.
+            // Next to a border, the neighbouring bin may be chosen, here or by the other program.
             let (wi, wo) = rounded(pairs[at]);
             let candidates = data.candidates(wi, wo);
             assert!(candidates.len() > 1 && candidates.contains(&found), "{backend} {at}: {found:?}, not {answer:?}");
@@ -129,8 +129,8 @@ fn polarised_values_agree_with_mitsuba() {
     }
 }
 
-/// If no border is near, the value of the table; Radiance, which perturbs values by up to 3.5e-4 on purpose, is that
-/// near.
+/// If no border is near, the value is that of the table; Radiance is within 3.5e-4 of it, by which it perturbs values
+/// on purpose.
 fn check_sheet(xml: &Path, answers: &Path, exact: Option<usize>) -> usize {
     let (_, document) = lobe::formats::open(xml).unwrap_or_else(|error| panic!("{error}"));
     let Some(Data::Window(data)) = document.only() else { panic!("{} is not a sheet", xml.display()) };

@@ -1,4 +1,4 @@
-//! Materials of every kind: what they evaluate to, on every backend, and how they are sampled.
+//! Materials of every kind: their values on every backend, and their samples.
 
 mod examples;
 mod golden;

@@ -1,4 +1,4 @@
-//! One interface over all representations: the value is that of the representation, whatever it is.
+//! One interface over all representations: it gives the values of each representation.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
@@ -57,7 +57,7 @@ fn the_sides_choose_the_part_of_a_sheet() {
     let (wi, wo) = ([UP, DOWN, UP, DOWN, UP, graze], [UP, DOWN, DOWN, UP, graze, UP]);
     let mut values = [f32::NAN; 6];
     sheet.eval_batch(&wi, &wo, &mut values);
-    // What was measured one way through holds the other way too.
+    // Transmission measured in one direction applies to the other one too.
     assert_eq!(values, [1.0, 2.0, 3.0, 3.0, 0.0, 0.0]);
 }
 
@@ -78,7 +78,7 @@ fn sheets_without_one_answer_are_refused() {
 }
 
 #[test]
-fn half_difference_grids_are_looked_up_as_asked() {
+fn half_difference_grids_honour_the_requested_lookup() {
     let data = half_diff::Data::new([4, 5, 6], (0..360).map(|i| i as f32).collect()).expect("a grid");
     let wo = [0.0, 0.28, 0.96];
     let wide = |w: [f32; 3]| w.map(f64::from);
@@ -98,7 +98,7 @@ fn half_difference_grids_are_looked_up_as_asked() {
 }
 
 #[test]
-fn directions_that_point_nowhere_are_dark() {
+fn zero_length_directions_are_dark() {
     let data = half_diff::Data::new([1, 1, 1], vec![1.0; 3]).expect("a grid");
     let material = material(Document::new(data));
     assert_eq!(value(&material, UP, [0.0, 0.0, 2.0]), [1.0; 3], "the length makes no difference");
@@ -159,7 +159,7 @@ fn rgl_sampler(data: rgl::Data, indexed_by: Given) -> Sampler {
 }
 
 #[test]
-fn rgl_values_are_indexed_as_asked_and_samples_by_the_known_direction() {
+fn rgl_values_are_indexed_as_requested_and_samples_by_the_known_direction() {
     let data = rgl();
     let reference = Reference::new(&data);
     let wide = |w: [f32; 3]| w.map(f64::from);

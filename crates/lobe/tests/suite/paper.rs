@@ -15,10 +15,10 @@ fn backends() -> impl Iterator<Item = (String, Backend)> {
         .flat_map(|b| [(format!("{b} fused"), b.fused()), (format!("{b} strict"), b.strict())])
 }
 
-/// Steepest change of [`smooth`] with each angle, a radian.
+/// The steepest slope of [`smooth`] along each angle, per radian.
 const SLOPES: [f64; 4] = [0.3, 0.2, 0.4, 0.2];
 
-/// A smooth function of the four angles, periodic in psi and phi, that no table of it exceeds in slope.
+/// A smooth function of the four angles, periodic in psi and phi. No table of it is steeper than the function.
 fn smooth([sigma, psi, theta, phi]: [f64; 4], channel: usize) -> f64 {
     let slow = [1.0, 0.5, 0.7][channel];
     1.0 + slow * (0.3 * sigma.sin() + 0.2 * psi.cos() + 0.4 * (-theta).exp() + 0.2 * phi.sin())
@@ -49,11 +49,11 @@ fn tables() -> [specular::Data; 2] {
     [samples(vec![0.0]), samples(vec![0.0, 0.7, 1.9, 3.0, 4.4, 5.5])]
 }
 
-/// Pairs of directions above the horizon, `count` a side, in the order of a scan (coherent) or scattered.
+/// Pairs of directions above the horizon, `count` per axis, in scan order (coherent) or scattered.
 fn pairs(coherent: bool) -> Vec<[[f32; 3]; 2]> {
     let mut pairs = Vec::new();
     for i in 0..4001u32 {
-        // A step of a large odd number visits every angle once, far from the one before.
+        // A large odd stride visits every angle once, far from the one before.
         let at = if coherent { i } else { i * 1597 % 4001 };
         let part = |turns: f64| (f64::from(at) / 4001.0 * turns).fract();
         let angles = [0.02 + 1.5 * part(1.0), TAU * part(3.0), 0.03 + 3.0 * part(11.0), TAU * part(5.0)];
@@ -82,7 +82,7 @@ fn shaken(angle: f64, delta: f64) -> f64 {
 
 /// The error that four terms and the rounding of the cosines leave in a value at `angles`.
 fn tolerance(angles: [f64; 4]) -> f64 {
-    // Some five roundings of numbers of size 1 make a cosine; that of psi and phi is a quotient by their radius.
+    // A cosine has about five roundings of numbers of size 1; for psi and phi, it is divided by their radius.
     let rounding = 5.0 * f64::from(f32::EPSILON);
     let radius = [1.0, angles[0].sin(), 1.0, angles[2].sin()];
     let errors =
@@ -110,14 +110,14 @@ fn values_are_the_reference_within_the_error_of_four_terms() {
                         largest = largest.max(error);
                     }
                 }
-                // The polynomial is visible, so what ran was the paper's and not the library's.
+                // The error of the polynomial is visible, so the paper's kernel ran and not the library's.
                 assert!(largest > 1e-5, "{name}: {largest:e}");
             }
         }
     }
 }
 
-/// Interpolation of equal values gives that value, wherever the angles have no meaning.
+/// Interpolating equal values gives that value, even if the angles have no meaning.
 #[test]
 fn degenerate_directions_give_a_value_of_the_table_or_zero() {
     let flat = |psi: Vec<f64>| {
@@ -148,7 +148,7 @@ fn degenerate_directions_give_a_value_of_the_table_or_zero() {
     }
 }
 
-/// What the three searches find, for all of `x`: index, both weights, and the value of a function.
+/// The results of the three searches for all of `x`: index, both weights, and the value of a function.
 struct Searches<'a> {
     knots: &'a [f32],
     values: &'a [f32],
@@ -191,7 +191,8 @@ fn all_searches_agree_with_one_lane_at_a_time() {
     for knot_count in [2, 3, 7, 8, 13, 17, 90] {
         let knots: Vec<f32> = (0..knot_count).map(|i| (i as f32 / knot_count as f32).powi(2) + 0.125).collect();
         let values: Vec<f32> = (0..knot_count).map(|i| ((i * 7) % 5) as f32).collect();
-        // Knots themselves, what lies between and outside, scattered so that every lane goes its own way.
+        // The knots themselves, and values between and outside them, scattered so that every lane takes a different
+        // branch.
         let last = knots[knot_count - 1];
         let spread = (0..997u32).map(|i| (i * 619 % 997) as f32 / 997.0 * last);
         let mut x: Vec<f32> = knots.iter().copied().chain(spread).chain([-1.0, 0.0, last, last + 1.0]).collect();
@@ -241,7 +242,7 @@ fn components_and_vectors_give_the_same() {
 }
 
 #[test]
-fn what_the_kernel_cannot_do_is_refused() {
+fn unsupported_tables_are_refused() {
     let one = |scatter, channels: Channels, phi: Vec<f64>| {
         let knots = [vec![0.0, 1.0], vec![0.0], vec![0.0, 1.0], phi];
         let count = channels.count() * knots.iter().map(Vec::len).product::<usize>();

@@ -1,4 +1,4 @@
-//! Every file of the shared folder of measurements opens, or is refused for a reason that the message says.
+//! Every file in the shared folder of measurements opens, or is refused with a message that gives the reason.
 
 use std::path::{Path, PathBuf};
 
@@ -14,23 +14,23 @@ use lobe::table::zernike::KIND as ZERNIKE;
 use lobe::{Kind, Material, SHEET};
 use lobe_testing::files::{files, shared};
 
-/// What is to become of a file.
+/// The expected outcome for a file.
 #[derive(Clone, Copy, Debug)]
 enum Outcome {
-    /// It opens as this, with so many channels.
+    /// It opens as this kind, with this many channels.
     Opens(Kind, usize),
-    /// It is refused, and the message has this in it.
+    /// It is refused with a message that contains this text.
     Refused(&'static str),
 }
 use Outcome::{Opens, Refused};
 
 const UNKNOWN: Outcome = Refused("content of no known format");
 
-/// Folders, beginnings of names, and their outcome; the first that fits counts.
+/// Folders, prefixes of names, and their outcome; the first match counts.
 const OUTCOMES: &[(&str, &str, Outcome)] = &[
     ("alta_dat", "retro", Opens(SCATTERED, 1)),
     ("cornell_brdf", "", Opens(SCATTERED, 31)),
-    // Packed with gzip.
+    // Compressed with gzip.
     ("fourier_bsdf", "roughglass", Opens(FOURIER, 1)),
     ("fourier_bsdf", "", Opens(FOURIER, 3)),
     ("fred_txt", "", Opens(SCATTERED, 1)),
@@ -45,7 +45,7 @@ const OUTCOMES: &[(&str, &str, Outcome)] = &[
     ("mdl_mbsdf", "test_reflection_scalar_theta_2_phi_3_transmission", Opens(SHEET, 1)),
     ("mdl_mbsdf", "test", Opens(SPHERICAL, 1)),
     ("mdl_mbsdf", "", Opens(SPHERICAL, 3)),
-    // A table without a header, and weights of networks.
+    // A table without a header, and weights of neural networks.
     ("merl_derived", "npf", UNKNOWN),
     ("merl_derived", "", Refused("a zip archive with")),
     ("nist_mueller_csv", "PTFE.data", Opens(SCATTERED, 4)),
@@ -72,7 +72,7 @@ fn name(path: &Path) -> String {
     path.file_name().expect("a name").to_string_lossy().into_owned()
 }
 
-/// A value at directions that every material above the horizon has.
+/// A value at directions at which every material should have one.
 fn check_values(material: &Material, path: &Path) {
     let (wi, wo) = ([[0.48, 0.0, 0.877_268_5]; 2], [[-0.48, 0.0, 0.877_268_5], [-0.48, 0.0, -0.877_268_5]]);
     let mut values = vec![f32::NAN; 2 * material.channel_count()];

@@ -1,4 +1,4 @@
-//! Sharing a batch among threads changes nothing.
+//! Dividing a batch among threads does not change the result.
 #![cfg(feature = "rayon")]
 
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::sync::Arc;
 use lobe::{Channels, Given, Material, Options, PARALLEL_FROM, Sampled, Sampler, SamplerOptions, Scatter, specular};
 use lobe_testing::examples;
 
-/// Neither a multiple of the block nor of the task.
+/// Not a multiple of the block or of the task.
 const COUNT: usize = PARALLEL_FROM + 4_173;
 
 fn direction(i: usize) -> [f32; 3] {
@@ -39,7 +39,7 @@ fn values_do_not_depend_on_the_number_of_threads() {
     for count in [2, 5] {
         assert_eq!(evaluate(count), one, "{count} threads");
     }
-    // And with the same queries in pieces too small to be shared.
+    // The same queries again, in pieces too small to be divided.
     let mut pieces = vec![f32::NAN; 3 * COUNT];
     for (at, out) in pieces.chunks_mut(3 * 1000).enumerate() {
         let range = 1000 * at..1000 * at + out.len() / 3;
@@ -48,7 +48,7 @@ fn values_do_not_depend_on_the_number_of_threads() {
     assert_eq!(pieces, one);
 }
 
-/// What a sampler answers to one batch, as bits.
+/// The results of a sampler for one batch, as bits.
 fn answers(sampler: &Sampler) -> Vec<u32> {
     let channels = sampler.material().channel_count();
     let known: Vec<_> = (0..COUNT).map(direction).collect();
@@ -74,7 +74,7 @@ fn answers(sampler: &Sampler) -> Vec<u32> {
 }
 
 #[test]
-fn samples_of_no_representation_depend_on_the_number_of_threads() {
+fn samples_do_not_depend_on_the_number_of_threads() {
     let mut seen = Vec::new();
     for (format, bytes) in examples::all() {
         let Ok(material) = Material::from_bytes(&bytes, Path::new("example"), &Options::default()) else { continue };

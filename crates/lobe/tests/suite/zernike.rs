@@ -4,7 +4,7 @@ use lobe::{Channels, Material, formats};
 use lobe_testing::files::shared_file;
 
 #[test]
-fn published_coefficients_give_the_published_measurement() {
+fn published_coefficients_reproduce_the_published_measurement() {
     let paths = ["coeff", "data"].map(|what| shared_file(&format!("data/nist_mueller_csv/PTFE.{what}.csv")));
     let [Some(coefficients), Some(measured)] = paths else { return };
     let material = Material::open(coefficients).expect("coefficients");
@@ -26,7 +26,7 @@ fn published_coefficients_give_the_published_measurement() {
     assert!(wi.len() > 500, "{} pairs of directions", wi.len());
     let errors: Vec<f32> = found.iter().zip(&wanted).map(|(found, wanted)| found / wanted - 1.0).collect();
     let rms = (errors.iter().map(|error| f64::from(error * error)).sum::<f64>() / errors.len() as f64).sqrt();
-    // The fit and the measurement are published apart; 0.023 was found.
+    // The fit and the measurement were published separately; a difference of 0.023 was found.
     println!("{} values, rms difference {rms:.4}", errors.len());
     assert!(rms < 0.03, "rms difference {rms}");
 }

@@ -1,13 +1,13 @@
 //! Commands in texts.
 
-/// Lines for the shell that stand together.
+/// A block of lines for the shell.
 pub struct Block {
     pub lines: Vec<String>,
     pub is_slow: bool,
 }
 
 /// The blocks of a Markdown document that are marked `sh` or `sh slow`. Lines that belong together, such as those of a
-/// loop, are one.
+/// loop, count as one.
 pub fn blocks(document: &str) -> Vec<Block> {
     let mut blocks: Vec<Block> = Vec::new();
     let mut is_open = false;
@@ -35,12 +35,12 @@ pub fn blocks(document: &str) -> Vec<Block> {
     blocks
 }
 
-/// Whether a loop has begun and not ended, or a line goes on.
+/// Whether a loop is open, or a line is continued.
 fn is_unfinished(line: &str) -> bool {
     line.ends_with('\\') || (line.starts_with("for ") && !line.lines().any(|line| line.trim() == "done"))
 }
 
-/// The commands of this project in the sentences of a Markdown document: what is between single backquotes and begins
+/// The commands of this project in the sentences of a Markdown document: text between single backquotes that begins
 /// with `lobe` or `cargo`.
 pub fn spans(document: &str) -> Vec<String> {
     let mut found = Vec::new();
@@ -71,16 +71,16 @@ pub fn subcommands(help: &str) -> Vec<String> {
     names.filter(|name| *name != "help").map(String::from).collect()
 }
 
-/// The commands under `Example:` or `Examples:` in a help text, without what is said of them.
+/// The commands under `Example:` or `Examples:` in a help text, without their explanations.
 pub fn examples(help: &str) -> Vec<String> {
     let after = help.lines().skip_while(|line| !["Example:", "Examples:"].contains(line)).skip(1);
     let of_list = after.take_while(|line| line.starts_with("  "));
-    // What is said of a command stands apart from it.
+    // Two or more spaces separate the explanation of a command from it.
     of_list.map(|line| line.trim().split("   ").next().unwrap_or_default().trim().to_string()).collect()
 }
 
 #[test]
-fn loops_are_one_line_and_other_blocks_are_none() {
+fn loops_count_as_one_line_and_other_blocks_are_ignored() {
     let document = "a `lobe info FILE` b\n```sh\none # first\n\ntwo\n```\n```text\nnot this\n```\n```sh slow\nfor x in y; do\n    z\ndone\n```\n";
     let found = blocks(document);
     assert_eq!(found.len(), 2);
@@ -90,7 +90,7 @@ fn loops_are_one_line_and_other_blocks_are_none() {
 }
 
 #[test]
-fn examples_end_where_they_end() {
+fn examples_end_at_the_blank_line() {
     let help = "Commands:\n  one    What it does\n         and more\n  help   Print\n\nExamples:\n  lobe a b       what it does\n  lobe c | d\n\nNot this\n";
     assert_eq!(examples(help), ["lobe a b", "lobe c | d"]);
     assert_eq!(subcommands(help), ["one"]);

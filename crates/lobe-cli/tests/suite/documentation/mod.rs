@@ -1,11 +1,11 @@
-//! Every command of the documents and of the help texts is run as it stands.
+//! Runs every command in the documents and help texts as written.
 //!
-//! - In a block marked `sh`, every line is run by the shell, in a scratch folder that has the fixtures. The lines of a
-//!   document are run one after the other, so that a command may use what an earlier one has written.
-//! - A block marked `sh slow` takes minutes, or changes the machine: it is run if `LOBE_SLOW_COMMANDS` is set. Otherwise
-//!   only the names in it are looked up: of commands, options, packages, tests and files.
+//! - In a block marked `sh`, every line is run by the shell, in a scratch folder with the fixtures. The lines of a
+//!   document are run one after the other, so a command may use the output of an earlier one.
+//! - A block marked `sh slow` takes minutes, or changes the machine: it is run if `LOBE_SLOW_COMMANDS` is set.
+//!   Otherwise, only the names of commands, options, packages, tests and files in it are looked up.
 //! - Commands inside a sentence are looked up in the same way.
-//! - The examples of a help text are run with the files that they name, which [`scratch`] makes.
+//! - The examples of a help text are run with the files that they name, which [`scratch`] creates.
 //!
 //! `LOBE_DRAFT` makes renderings small.
 
@@ -53,7 +53,7 @@ fn runs_slow_commands() -> bool {
     std::env::var_os("LOBE_SLOW_COMMANDS").is_some()
 }
 
-/// The help texts, each with its command: that of the program is the first.
+/// The help texts, each with its command; that of the program comes first.
 fn help_texts() -> &'static [(String, String)] {
     static TEXTS: OnceLock<Vec<(String, String)>> = OnceLock::new();
     TEXTS.get_or_init(|| {
@@ -81,12 +81,12 @@ fn help_texts() -> &'static [(String, String)] {
     })
 }
 
-/// Runs a line in the shell, and says what went wrong.
+/// Runs a line in the shell; the error says what went wrong.
 fn run(scratch: &Scratch, line: &str) -> Result<(), String> {
     let output = scratch.shell(line).output().expect("a shell");
     // The status of a pipe is that of its last program.
     let has_failed = text(&output.stderr).lines().any(|line| line.starts_with("error: "));
-    // What is imported is checked, and need not be sound as long as its values are not said.
+    // An imported file is checked, and may fail as long as the quantity of its values is not given.
     let is_unsound = line.starts_with("lobe import") && output.status.code() == Some(3);
     match is_unsound || output.status.success() && !has_failed {
         true => Ok(()),
@@ -127,7 +127,7 @@ fn every_command_of_the_documents_runs() {
 }
 
 #[test]
-fn commands_in_sentences_name_what_is_there() {
+fn commands_in_sentences_name_existing_things() {
     let mut looked_up = 0;
     let mut failures = Vec::new();
     for document in DOCUMENTS.into_iter().chain(["docs/formats.md", "docs/dependencies.md", "docs/glossary.md"]) {
@@ -150,7 +150,7 @@ fn every_example_of_a_help_text_runs() {
         .flat_map(|(command, text)| examples(text).into_iter().map(move |example| (command, example)))
         .collect();
     let run_example = |(command, example): &(&String, String)| {
-        // One example does not read what another writes.
+        // The output of one example is not an input of another.
         let own = scratch.copy();
         own.without_output(example);
         run(&own, example).err().map(|error| format!("{command} --help: {error}"))

@@ -1,4 +1,4 @@
-//! Whether a command could be run: the names in it are those of something that is there.
+//! Checks that a command could be run: everything that it names exists.
 
 use std::path::Path;
 
@@ -19,7 +19,7 @@ pub fn look_up(root: &Path, help: &[(String, String)], command: &str) -> Result<
     Ok(())
 }
 
-/// What may stand before a program.
+/// Words that may precede a program.
 fn is_prefix(word: &&str) -> bool {
     let is_assignment =
         word.split_once('=').is_some_and(|(name, _)| name.chars().all(|c| c.is_ascii_uppercase() || c == '_'));
@@ -66,7 +66,7 @@ fn of_cargo(root: &Path, words: &[&str]) -> Result<(), String> {
     let folder = package.map(|package| folder(root, package)).transpose()?;
     let exists = |what: &str, path: String| match root.join(&path).exists() {
         true => Ok(()),
-        false => Err(format!("found the {what} {path}; expected one that is there")),
+        false => Err(format!("found the {what} {path}; expected one that exists")),
     };
     let under = folder.clone().unwrap_or_else(|| "crates/lobe".into());
     if let Some(test) = value(["--test", "--test"]) {
@@ -103,7 +103,7 @@ fn folder(root: &Path, package: &str) -> Result<String, String> {
 }
 
 #[test]
-fn what_is_not_there_is_named() {
+fn errors_name_whatever_is_missing() {
     let root = super::root();
     let help = [
         ("lobe".to_string(), "Commands:\n  info  ...".to_string()),

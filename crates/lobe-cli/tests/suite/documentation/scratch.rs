@@ -9,13 +9,13 @@ use tempfile::TempDir;
 
 use super::root;
 
-/// A folder that goes away, and the folder of its user in it.
+/// A temporary folder, and a home folder in it.
 pub struct Scratch(TempDir);
 
 impl Scratch {
     pub fn new() -> Self {
         let scratch = Scratch(tempfile::tempdir().expect("a temporary folder"));
-        // Folders that shells look for their files in.
+        // Folders in which shells look for their files.
         for folder in
             [".local/share/bash-completion/completions", ".local/share/man/man1", ".zfunc", ".config/fish/completions"]
         {
@@ -54,7 +54,7 @@ impl Scratch {
         assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
     }
 
-    /// The fixtures, and what cargo needs to look at the workspace.
+    /// The fixtures, and the files that cargo needs to inspect the workspace.
     pub fn fixtures(&self) {
         copy(&root().join("fixtures"), &self.path("fixtures"));
         copy(&root().join("docs/data"), &self.path("docs/data"));
@@ -101,7 +101,7 @@ impl Scratch {
         self.write("film.ssdd", examples::SSDD);
         self.write("gold.binary", examples::tiny_merl());
         let sheet = examples::sheet("Columns", "0.1 0.1 0.1 0.1 0.1 0.1 0.1 0.1 0.1");
-        // Light through the sheet from its front, and light reflected by its back, in the words of this format.
+        // Light through the sheet from its front, and light reflected by its back, as this format calls them.
         self.write("blinds.xml", sheet.replace("Reflection Back", "Transmission Back"));
         self.write("screen.xml", sheet.replace("Reflection Back", "Reflection Front"));
         for (name, rows, columns) in [
@@ -126,8 +126,8 @@ impl Scratch {
         self.run("lobe farm slurm scene.toml -o look.exr --parts 4");
     }
 
-    /// Programs of others in examples may be missing here; then they are taken to do nothing, so that the commands of
-    /// this project are still run.
+    /// Other programs in examples may be missing here; they are then replaced by programs that do nothing, so that the
+    /// commands of this project are still run.
     fn without_missing_programs(&self) {
         for program in ["jq", "man"] {
             let name = self.path("home").join(program);
@@ -136,7 +136,8 @@ impl Scratch {
         }
     }
 
-    /// Removes what a command that renders is to write: a finished part is not overwritten, unless it is to go on.
+    /// Removes the output file of a command that renders, because a finished part is not overwritten; with `--resume`
+    /// it is kept.
     pub fn without_output(&self, line: &str) {
         let output = line.split_once(" -o ").and_then(|(_, rest)| rest.split_whitespace().next());
         if let Some(output) = output.filter(|_| line.starts_with("lobe render") && !line.contains("--resume")) {
@@ -152,7 +153,7 @@ impl Scratch {
     }
 }
 
-/// Copies a folder with all that is in it.
+/// Copies a folder with all of its contents.
 fn copy(from: &Path, to: &Path) {
     fs::create_dir_all(to).expect("a folder");
     for entry in fs::read_dir(from).expect("a folder") {
@@ -165,7 +166,7 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// A lobe about the mirror direction, at a grid of angles.
+/// A lobe about the mirror direction, on a grid of angles.
 fn glossy(line: impl Fn([f64; 3], f64) -> String) -> String {
     let mut lines = String::new();
     for theta_i in [0.0_f64, 20.0, 40.0, 60.0, 80.0] {

@@ -1,4 +1,4 @@
-//! Draws and densities of a mixture, a chunk of directions at a time: each step asks lobes in lanes.
+//! Samples and densities of a mixture, a chunk of directions at a time: each step evaluates all lobes in lanes.
 
 use lobe_table::{Given, Sampled};
 
@@ -8,10 +8,11 @@ use super::{Lobe, Lobes, SCATTERS};
 use crate::material::flipped;
 use crate::{Backend, Material};
 
-/// Directions at a time: few enough that what is handed on stays in the second cache, and enough that calls cost little.
+/// Directions per chunk: few enough that intermediate values stay in the second-level cache, and enough that calls cost
+/// little.
 const CHUNK: usize = 1024;
 
-/// What is handed on within a chunk; the next one overwrites it.
+/// Intermediate values of a chunk, which the next one overwrites.
 #[derive(Debug, Default)]
 struct Room {
     lit: Lit,

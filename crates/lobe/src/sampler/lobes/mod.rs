@@ -1,4 +1,4 @@
-//! A mixture of lobes: for each side a lobe of reflection and one of transmission, and mirrors.
+//! A mixture of lobes: one of reflection and one of transmission for each side, and mirrors.
 
 mod draw;
 mod mirrors;
@@ -14,7 +14,7 @@ use crate::{Backend, Material};
 const SCATTERS: [Scatter; 2] = [Scatter::Reflection, Scatter::Transmission];
 const SIDES: [Side; 2] = [Side::Front, Side::Back];
 
-/// The lobes of light from the front and from the back, of reflection and of transmission.
+/// The lobes for light from the front and from the back, of reflection and of transmission.
 #[derive(Debug)]
 pub(super) struct Lobes {
     lobes: [[Option<Lobe>; 2]; 2],
@@ -24,7 +24,7 @@ pub(super) struct Lobes {
 
 #[derive(Debug)]
 enum Lobe {
-    /// About directions with z > 0: those from the back are flipped.
+    /// For directions with z > 0: those from the back are flipped.
     Histograms(Box<Distribution>),
     Patches(Box<PatchSampler>),
 }
@@ -62,7 +62,7 @@ impl Lobes {
         Ok(Lobes { lobes, luminance, has_mirrors: material.has_mirrors() })
     }
 
-    /// The lobes there are: whether of the front, the index of its [way](SCATTERS), and itself.
+    /// The existing lobes: whether each is for the front, the index of its [scatter](SCATTERS), and the lobe itself.
     fn each(&self) -> impl Iterator<Item = (bool, usize, &Lobe)> {
         let lobes = self.lobes.iter().zip([true, false]);
         lobes.flat_map(|(ways, front)| {
@@ -70,7 +70,7 @@ impl Lobes {
         })
     }
 
-    /// The lobe of all of these directions, if there is nothing to choose from.
+    /// The lobe of all these directions, if there is only one.
     fn only(&self, known: &[[f32; 3]]) -> Option<&Lobe> {
         let lobe = match &self.lobes[0] {
             [Some(lobe), None] | [None, Some(lobe)] if !self.has_mirrors => lobe,
@@ -127,7 +127,7 @@ struct LitSide<'a> {
 }
 
 impl LitSide<'_> {
-    /// Luminance times `f` of pairs that are given with this side up.
+    /// Luminance times `f`, for pairs given with this side up.
     fn fill(&mut self, wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]) {
         let channels = self.luminance.len();
         self.values.resize(wi.len() * channels, 0.0);

@@ -11,15 +11,16 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use super::materials::{Named, samplers};
 use super::{below, incidents, numbers};
 
-/// Bins in theta and phi about the mirror direction, which are not the coordinates sampled in.
+/// Bins in theta and phi about the mirror direction; samples are drawn in other coordinates.
 const THETAS: usize = 40;
 const PHIS: usize = 24;
 
-/// Points a bin over which the density is summed, at least and at most: as many as it takes.
+/// The fewest and the most points per bin at which the density is summed.
 const POINTS: [usize; 2] = [1024, 1 << 19];
 
-/// Samples an incident direction: what the variable `LOBE_SAMPLES` says, which tests all files there are (or those whose
-/// names contain `LOBE_FILES`) and takes half an hour for a million; without it fewer, and two files of each kind.
+/// Samples per incident direction: the value of `LOBE_SAMPLES`, with which all files are tested (or those whose names
+/// contain `LOBE_FILES`), which takes half an hour for a million. Without the variable there are fewer samples, and two
+/// files of each kind.
 fn asked() -> Option<usize> {
     std::env::var("LOBE_SAMPLES").ok().map(|count| count.parse().expect("LOBE_SAMPLES is a number"))
 }
@@ -28,7 +29,7 @@ fn sample_count() -> usize {
     asked().unwrap_or(100_000)
 }
 
-/// What is tested.
+/// The subject of a test.
 fn tested() -> Vec<&'static Named> {
     let mut kinds = HashMap::new();
     let mut is_asked = |named: &Named| {
@@ -40,7 +41,7 @@ fn tested() -> Vec<&'static Named> {
     samplers().iter().filter(|named| named.name.contains(&part) && is_asked(named)).collect()
 }
 
-/// The theta at a part of the way: bins are finer near the peak.
+/// The theta at a fraction of the range: bins are finer near the peak.
 fn theta_at(part: f64) -> f64 {
     PI * part * part
 }
@@ -50,33 +51,34 @@ fn raised([x, y, z]: [f32; 3]) -> [f64; 3] {
     [x, y, z.abs()].map(f64::from)
 }
 
-/// A density given an incident direction, and the frame in which it is summed up.
+/// A density for one incident direction, and the frame in which it is summed.
 struct Density<'a> {
     sampler: &'a Sampler,
     incident: [f32; 3],
     angles: [f64; 2],
 }
 
-/// Where scattered directions lie: the side of the surface, and the ranges of `1 - cos theta` and phi.
+/// A region of scattered directions: the side of the surface, and the ranges of `1 - cos theta` and phi.
 struct Bin {
     side: f64,
     rest: [f64; 2],
     phi: [f64; 2],
-    /// Where its points begin.
+    /// The offset of its points.
     start: f64,
 }
 
 impl Density<'_> {
-    /// The sum of the density over some of the points of a bin, each times its share of the solid angle. As the density is
-    /// not continuous, no two are at the same theta or phi.
+    /// The sum of the density over some of the points of a bin, each multiplied by its share of the solid angle.
+    /// Because the density is not continuous, no two points have the same theta or phi.
     fn sum(&self, bin: &Bin, points: std::ops::Range<usize>) -> f64 {
         let [sigma, psi] = self.angles;
         let [rest, phi] = [bin.rest, bin.phi].map(|[low, high]| (low, high - low));
         let place = |point: usize| {
-            // The additive recurrence of the plastic number (Roberts 2018), begun elsewhere in each bin.
+            // The additive recurrence of the plastic number (Roberts 2018), with a different start in each bin.
             let at = bin.start + point as f64;
             let [u, w] = [0.754_877_666_246_693, 0.569_840_290_998_053].map(|step| (at * step).fract());
-            // At the mirror direction the density of an EPFL material may be infinite, as theta^(-3/2): points gather.
+            // At the mirror direction, the density of an EPFL material may grow without bound, as theta^(-3/2): points
+            // are denser there.
             let (u, share) = if rest.0 == 0.0 { (u.powi(4), 4.0 * u.powi(3)) } else { (u, 1.0) };
             let theta = 2.0 * (0.5 * (rest.0 + u * rest.1)).sqrt().asin();
             let wo = coords::angles_to_directions([sigma, psi, theta, phi.0 + w * phi.1], |s| s).1;
@@ -89,8 +91,8 @@ impl Density<'_> {
         pdfs.into_iter().zip(shares).map(|(pdf, share)| f64::from(pdf) * share).sum()
     }
 
-    /// The integral of the density over a bin, by so many points that those of two halves differ by a tenth of the noise
-    /// of the samples.
+    /// The integral of the density over a bin, with so many points that the sums of the two halves differ by at most a
+    /// tenth of the noise of the samples.
     fn integral(&self, bin: &Bin, samples: f64) -> f64 {
         let mut points = POINTS[0] / 2;
         let mut first = self.sum(bin, 0..points);
@@ -106,7 +108,7 @@ impl Density<'_> {
     }
 }
 
-/// The integral of the density over each bin, those of reflection before those of transmission.
+/// The integral of the density over each bin, reflection before transmission.
 fn expected(sampler: &Sampler, incident: [f32; 3]) -> Vec<f64> {
     let [sigma, psi, ..] = coords::directions_to_angles(raised(incident), [0.0, 0.0, 1.0], |s| s);
     let density = Density { sampler, incident, angles: [sigma, psi] };
@@ -130,7 +132,7 @@ fn expected(sampler: &Sampler, incident: [f32; 3]) -> Vec<f64> {
     bins
 }
 
-/// How many samples fall into each bin, and how many lead nowhere.
+/// The number of samples in each bin, and the number of failed draws.
 fn observed(sampler: &Sampler, incident: [f32; 3], seed: u64) -> (Vec<f64>, usize) {
     const CHUNK: usize = 20_000;
     let (mut bins, mut nowhere) = (vec![0.0; 2 * THETAS * PHIS], 0);
@@ -154,7 +156,7 @@ fn observed(sampler: &Sampler, incident: [f32; 3], seed: u64) -> (Vec<f64>, usiz
     (bins, nowhere)
 }
 
-/// The probability of a worse fit, bins of less than 10 samples lumped together.
+/// The probability of a worse fit, with bins of fewer than 10 samples merged.
 fn p_value(expected: &[f64], observed: &[f64]) -> f64 {
     let (total, count) = (expected.iter().sum::<f64>(), observed.iter().sum::<f64>());
     let (mut statistic, mut freedom) = (0.0, -1.0);
@@ -190,7 +192,7 @@ fn samples_follow_the_density() {
         let below = if reaches(Side::Back) && above.is_empty() { below(&incidents()) } else { Vec::new() };
         cases.extend(above.into_iter().chain(below).map(|incident| (name, sampler, incident)));
     }
-    // Sidak: all tests together pass with probability 0.99 if all hypotheses hold.
+    // Šidák: if all hypotheses are true, all tests together pass with probability 0.99.
     let significance = 1.0 - 0.99f64.powf(1.0 / cases.len() as f64);
     assert!(!cases.is_empty(), "nothing to test");
     println!("{} materials, {} tests, p at least {significance:.1e}", tested.len(), cases.len());
@@ -201,7 +203,7 @@ fn samples_follow_the_density() {
             let expected = expected(sampler, incident);
             let (observed, nowhere) = observed(sampler, incident, seed as u64);
             let (total, p) = (expected.iter().sum::<f64>(), p_value(&expected, &observed));
-            // What leads nowhere is missing from the density too.
+            // The probability of failed draws is missing from the density too.
             let count = sample_count() as f64;
             let deficit = nowhere as f64 / count;
             let noise = 4.0 * (deficit * (1.0 - deficit) / count).sqrt();

@@ -1,4 +1,4 @@
-//! Estimates by samples are right, and less noisy than those by the cosine.
+//! Estimates from samples are right, and less noisy than those from cosine sampling.
 
 use std::f64::consts::PI;
 
@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::materials::{Named, fixture, sampler, samplers};
 use super::{cosine, direction, incidents, numbers};
 
-/// The mean, and the variance of one value over the mean's square.
+/// The mean, and the variance of one value divided by the square of the mean.
 fn moments(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (mut count, mut sum, mut squares) = (0.0, 0.0, 0.0);
     for value in values {
@@ -22,7 +22,7 @@ fn dot(texel: &[f32], weights: &[f32]) -> f64 {
     texel.iter().zip(weights).map(|(f, y)| f64::from(*f) * f64::from(*y)).sum()
 }
 
-/// Luminance of the albedo by samples and by the cosine: mean and relative variance of each.
+/// The luminance of the albedo, from samples and from cosine sampling: mean and relative variance of each.
 fn albedo(sampler: &Sampler, given: Given, known: [f32; 3], count: usize) -> [(f64, f64); 2] {
     let material = sampler.material();
     let (channels, weights) = (material.channel_count(), luminance(material.channels()));
@@ -50,9 +50,9 @@ fn albedo(sampler: &Sampler, given: Given, known: [f32; 3], count: usize) -> [(f
 }
 
 #[test]
-fn estimates_agree_with_those_of_the_cosine() {
+fn estimates_agree_with_cosine_sampling() {
     samplers().par_iter().for_each(|Named { name, sampler, .. }| {
-        // The published scheme of the EPFL database loses what falls below the horizon, and its measurements have values
+        // The published scheme of the EPFL database loses samples below the horizon, and its measurements have values
         // where the scheme has no density.
         let tolerance = if sampler.material().kind() == lobe::table::rgl::KIND { 0.02 } else { 0.0 };
         let front = [Aspect::REFLECTION, Aspect::TRANSMISSION].iter().any(|&aspect| sampler.material().holds(aspect));
@@ -76,7 +76,7 @@ fn estimates_agree_with_those_of_the_cosine() {
 }
 
 #[test]
-fn samples_are_less_noisy_than_the_cosine() {
+fn samples_are_less_noisy_than_cosine_sampling() {
     for (name, at_least) in [("conductor-7x8x13.ddr", 10.0), ("cloth-17x7x17x13.ddr", 3.0)] {
         let sampler = sampler(fixture(name));
         for incident in incidents() {
@@ -96,8 +96,8 @@ fn memory_is_at_most_one_and_a_half_materials() {
 }
 
 #[test]
-fn values_and_densities_at_once_are_those_of_one_after_the_other() {
-    // Those with a way of their own, and some without.
+fn joint_values_and_densities_equal_separate_ones() {
+    // Representations with their own implementation, and some without.
     for Named { name, sampler, is_shared } in samplers() {
         let material = sampler.material();
         if *is_shared && material.kind() != lobe::table::rgl::KIND {

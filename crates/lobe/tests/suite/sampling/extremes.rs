@@ -1,4 +1,4 @@
-//! Values near the ends of what `f32` holds: a file may have them.
+//! Values near the limits of `f32`, which a file may contain.
 
 use lobe::{Channels, Data, Given, Material, Options, Sampled, Scatter};
 use lobe_table::{scattered, spherical};
@@ -17,7 +17,7 @@ fn materials(value: f32) -> Vec<Data> {
 }
 
 #[test]
-fn densities_are_numbers_whatever_the_values() {
+fn densities_are_finite_for_extreme_values() {
     let known = incidents();
     let count = known.len();
     for value in [f32::MAX, 1e38, 1e30, 1e-30, f32::MIN_POSITIVE, 1e-45, 0.0, -1.0, f32::MIN] {

@@ -21,7 +21,7 @@ pub fn sampler(material: Material) -> Sampler {
     Sampler::new(Arc::new(material), &SamplerOptions::default()).unwrap()
 }
 
-/// A table of noise on knots that are not even.
+/// A table of noise on uneven knots.
 fn noise(seed: u64, [sigma, psi, theta, phi]: [usize; 4], channels: Channels, scatter: Scatter) -> specular::Data {
     let mut rng = Pcg32::seed_from_u64(seed);
     let mut knots = |count: usize, last: f64| {
@@ -47,7 +47,8 @@ pub struct Named {
     pub is_shared: bool,
 }
 
-/// Samplers of [every kind of table](made) and of the [shared] files, made once for all tests: it takes longer than most.
+/// Samplers of [every kind of table](made) and of the [shared] files, made once for all tests, because making them
+/// takes longer than most tests.
 pub fn samplers() -> &'static [Named] {
     static SAMPLERS: LazyLock<Vec<Named>> = LazyLock::new(|| {
         let made = made().into_iter().map(|(name, material)| (name, material, false));
@@ -76,7 +77,7 @@ fn made() -> Vec<(String, Material)> {
     made
 }
 
-/// The measured files and golden inputs outside the project that make a material.
+/// The measured files and golden inputs outside the project that can be opened as materials.
 fn shared() -> Vec<(String, Material)> {
     let Some(root) = lobe_testing::files::shared() else { return Vec::new() };
     let folders = lobe_testing::files::files(&root.join("data")).into_iter().filter(|path| path.is_dir());

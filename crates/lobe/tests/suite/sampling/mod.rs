@@ -31,12 +31,12 @@ fn incidents() -> Vec<[f32; 3]> {
     incidents
 }
 
-/// The same from below.
+/// The same directions, from below.
 fn below(incidents: &[[f32; 3]]) -> Vec<[f32; 3]> {
     incidents.iter().map(|&[x, y, z]| [x, y, -z]).collect()
 }
 
-/// A direction in proportion to the cosine, on the side of `z`.
+/// A direction drawn in proportion to the cosine, on the side of `z`.
 fn cosine([u, w]: [f32; 2], z: f32) -> [f32; 3] {
     let (sin, cos) = (f64::from(w) * TAU).sin_cos();
     let radius = f64::from(u).sqrt();

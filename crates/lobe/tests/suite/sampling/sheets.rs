@@ -1,4 +1,4 @@
-//! Materials with two sides: which lobe is drawn, mirrors, and what was not measured.
+//! Materials with two sides: the choice of the lobe, mirrors, and unmeasured sides.
 
 use lobe::formats::{Document, Part};
 use lobe::table::mirror;
@@ -12,8 +12,8 @@ fn constant(scatter: Scatter, value: f32) -> specular::Data {
     specular::Data::new(scatter, knots, Channels::Mono, vec![value]).unwrap()
 }
 
-/// Reflects 0.3 on the front and 0.1 on the back, mirrors 0.2 on the front and lets 0.25 through, measured from the
-/// front.
+/// A sheet that reflects 0.3 on the front and 0.1 on the back, mirrors 0.2 on the front, and transmits 0.25, measured
+/// from the front.
 fn sheet() -> Material {
     let flat = |share: f64, scatter| Data::Specular(constant(scatter, (share / std::f64::consts::PI) as f32));
     let mirror = mirror::Data::new(Scatter::Reflection, [vec![0.0], vec![0.0]], Channels::Mono, vec![0.2]).unwrap();
@@ -28,7 +28,7 @@ fn sheet() -> Material {
 }
 
 #[test]
-fn every_lobe_is_drawn_as_often_as_it_is_bright() {
+fn lobes_are_drawn_in_proportion_to_brightness() {
     let sampler = sampler(sheet());
     assert!(sampler.samples_mirrors());
     let count = 200_000;
@@ -56,8 +56,8 @@ fn every_lobe_is_drawn_as_often_as_it_is_bright() {
             drawn[way] += 1.0 / count as f64;
             light[way] += f64::from(weights[query]) / count as f64;
         }
-        // At the edge of a cell rounding leads to the other one.
-        assert!(apart < count / 1000, "{apart} of {count} densities are not found again");
+        // At the edge of a cell, rounding may lead to the neighbouring one.
+        assert!(apart < count / 1000, "{apart} of {count} densities are not reproduced");
         for way in 0..3 {
             let (drawn, light, expected) = (drawn[way], light[way], expected[way]);
             assert!((drawn - expected / total).abs() < 0.006, "{drawn} of all draws for {expected} in {total}");
@@ -67,7 +67,7 @@ fn every_lobe_is_drawn_as_often_as_it_is_bright() {
 }
 
 #[test]
-fn what_was_measured_one_way_through_holds_the_other_way() {
+fn transmission_measured_in_one_direction_applies_to_both() {
     let material = sheet();
     let ([x, y, z], wo) = (direction(30.0, 10.0), direction(50.0, 200.0));
     let (mut there, mut back) = ([f32::NAN], [f32::NAN]);
