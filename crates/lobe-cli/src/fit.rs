@@ -290,7 +290,8 @@ fn print(report: &Report<'_>, out: &mut impl Write) -> std::io::Result<()> {
     if !fit.has_converged {
         writeln!(out, "  the search ended before it converged")?;
     }
-    let zero = if fit.left_out > 0 { format!("; {} more are 0 and were left out", fit.left_out) } else { String::new() };
+    let zero =
+        if fit.left_out > 0 { format!("; {} more are 0 and were left out", fit.left_out) } else { String::new() };
     writeln!(
         out,
         "pairs     {} fitted, {} compared, values up to {:.5} 1/sr{zero}",

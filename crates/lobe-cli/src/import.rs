@@ -84,10 +84,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
                     break found;
                 }
                 show(&mut stderr(), &found.1)?;
-                match ask(
-                    "Right? Press Enter, or type a correction such as `values luminance-factor`: ",
-                    &mut options,
-                )? {
+                match ask("Right? Press Enter, or type a correction such as `values luminance-factor`: ", &mut options)?
+                {
                     true => {}
                     false => break found,
                 }

@@ -16,7 +16,7 @@ pub enum Channels {
 }
 
 impl Channels {
-    /// How many channels there are.
+    /// The number of channels.
     pub fn count(&self) -> usize {
         match self {
             Channels::Mono => 1,

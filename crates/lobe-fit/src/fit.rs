@@ -57,7 +57,7 @@ pub struct Estimate {
 pub struct Fit {
     /// How it was made.
     pub request: Request,
-    /// What the channels mean.
+    /// The meaning of the channels.
     pub channels: Channels,
     /// The parameters of the shape, then those of the channels.
     pub estimates: Vec<Estimate>,

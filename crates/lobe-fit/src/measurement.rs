@@ -121,7 +121,7 @@ impl Measurement {
         self.values.extend(texel);
     }
 
-    /// What the channels mean.
+    /// The meaning of the channels.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }

@@ -15,7 +15,7 @@ use crate::vec3::spherical;
 /// Directions are unit vectors that point away from the surface, normal on +z; `wi` toward the light. Values are `f` in
 /// 1/sr, without the cosine.
 pub trait Surface: Sync {
-    /// What the channels mean.
+    /// The meaning of the channels.
     fn channels(&self) -> &Channels;
 
     /// The values for light from `wi` to each of the viewers: `out[viewer * channels + channel]`, which is as long as that.

@@ -10,7 +10,7 @@ use crate::columns::{Column, ZEROS};
 ///
 /// The associated types are what the renderer keeps such values in; an array of any length has all of them.
 pub trait Channels: Copy + Debug + PartialEq + Send + Sync + AsRef<[f32]> + AsMut<[f32]> + 'static {
-    /// How many channels there are.
+    /// The number of channels.
     const COUNT: usize;
     /// 0 in every channel.
     const ZERO: Self;

@@ -68,7 +68,7 @@ pub struct Resampling {
 }
 
 impl Resampling {
-    /// How many channels there are.
+    /// The number of channels.
     pub fn channels(&self) -> usize {
         self.channels
     }

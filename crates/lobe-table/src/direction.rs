@@ -47,7 +47,7 @@ pub(crate) fn phi(d: Vector) -> f64 {
     if d[0] == 0.0 && d[1] == 0.0 { 0.0 } else { d[1].atan2(d[0]) }
 }
 
-/// A direction turned about the normal by `angle`.
+/// A direction rotated about the normal by `angle`.
 pub(crate) fn rotate_z([x, y, z]: Vector, angle: f64) -> Vector {
     let (sin, cos) = angle.sin_cos();
     [cos * x - sin * y, sin * x + cos * y, z]
@@ -56,7 +56,7 @@ pub(crate) fn rotate_z([x, y, z]: Vector, angle: f64) -> Vector {
 /// An azimuth moved into `[0, 2 pi)`.
 pub(crate) fn wrap(phi: f64) -> f64 {
     let wrapped = phi.rem_euclid(TAU);
-    // A tiny negative angle rounds up to the whole turn.
+    // A tiny negative angle rounds up to the full turn.
     if wrapped < TAU { wrapped } else { 0.0 }
 }
 
@@ -68,7 +68,7 @@ pub(crate) fn half_difference(wi: Vector, wo: Vector) -> (f64, f64, f64) {
     let h = normalize(add(wi, wo));
     let (sin, cos) = ((h[0] * h[0] + h[1] * h[1]).sqrt(), h[2]);
     let (cos_phi, sin_phi) = if sin > 0.0 { (h[0] / sin, h[1] / sin) } else { (1.0, 0.0) };
-    // Rotated about the normal by -phi_h, then about y by -theta_h, which brings h to the pole.
+    // Rotated about the normal by -phi_h, then about y by -theta_h, which moves h to the pole.
     let (x, y) = (cos_phi * wi[0] + sin_phi * wi[1], cos_phi * wi[1] - sin_phi * wi[0]);
     let d = [cos * x - sin * wi[2], y, sin * x + cos * wi[2]];
     (theta(h), theta(d), phi(d))

@@ -42,7 +42,7 @@ impl<'a, const N: usize> From<&'a [[f32; 3]; N]> for Directions<'a> {
 }
 
 impl<'a> Directions<'a> {
-    /// Directions whose components lie in slices of their own.
+    /// Directions whose components are in separate slices.
     ///
     /// # Panics
     /// If the slices differ in length.
@@ -51,7 +51,7 @@ impl<'a> Directions<'a> {
         Directions::Columns([x, y, z])
     }
 
-    /// How many there are.
+    /// The number of directions.
     ///
     /// # Panics
     /// If they are columns that differ in length.
@@ -74,7 +74,7 @@ impl<'a> Directions<'a> {
     /// One direction.
     ///
     /// # Panics
-    /// If there are not so many.
+    /// If there are fewer directions.
     #[inline]
     pub fn get(&self, index: usize) -> [f32; 3] {
         match self {
@@ -96,7 +96,7 @@ impl<'a> Directions<'a> {
 
     /// The block from direction `at` on. If fewer are left than a block has, zero vectors follow.
     ///
-    /// A block that is not whole is copied to `padding`, and so are vectors for a single lane, which reads columns only.
+    /// A block that is not full is copied to `padding`, and so are vectors for a single lane, which reads only columns.
     #[inline(always)]
     pub(crate) fn block<'b, L: Lanes>(&'b self, _lanes: L, at: usize, padding: &'b mut Padding) -> DirectionBlock<'b> {
         match self {
@@ -121,7 +121,7 @@ impl<'a> Directions<'a> {
     }
 }
 
-/// Room for a block that is copied.
+/// Space for a block that is copied.
 pub(crate) struct Padding([[f32; BLOCK]; 3]);
 
 pub(crate) const PADDING: Padding = Padding([[0.0; BLOCK]; 3]);
@@ -140,7 +140,7 @@ impl Padding {
         }
     }
 
-    /// The last block of a batch, once per batch: not worth its code in every kernel.
+    /// Copies the last block of a batch: this happens once per batch, and so is kept out of the kernels.
     #[inline(never)]
     fn fill_partly(&mut self, count: usize, vector: impl Fn(usize) -> [f32; 3]) {
         for query in 0..BLOCK {
@@ -152,7 +152,7 @@ impl Padding {
     }
 }
 
-/// A whole block of directions, which needs no bounds checks.
+/// A full block of directions, which needs no bounds checks.
 #[derive(Clone, Copy)]
 pub(crate) struct DirectionBlock<'a, const B: usize = BLOCK> {
     /// The directions, unless they are in `columns`.
@@ -166,7 +166,7 @@ impl<'a, const B: usize> DirectionBlock<'a, B> {
         DirectionBlock { vectors: None, columns }
     }
 
-    /// For more lanes than one.
+    /// For more than one lane.
     #[inline(always)]
     fn of_vectors(vectors: &'a [[f32; 3]; B]) -> Self {
         DirectionBlock { vectors: Some(vectors), columns: [&[0.0; B]; 3] }
@@ -174,8 +174,8 @@ impl<'a, const B: usize> DirectionBlock<'a, B> {
 
     /// Directions `at .. at + LANES` of the block as x, y and z; `at` is a multiple of the lanes.
     ///
-    /// The branch goes the same way for all of a batch. A single lane has none: it would be taken once per query, and would
-    /// keep the compiler from computing a few queries at once.
+    /// The branch goes the same way for a whole batch. A single lane has no branch: it would be executed once per
+    /// query, and would keep the compiler from computing several queries at once.
     #[inline(always)]
     pub(crate) fn load<L: Lanes>(self, lanes: L, at: usize) -> [L::F; 3] {
         let at = at & (B - L::LANES);
@@ -220,7 +220,7 @@ mod tests {
 
     #[test]
     #[should_panic(expected = "components of 1, 2, 1")]
-    fn columns_have_one_length() {
+    fn columns_must_have_equal_lengths() {
         Directions::Columns([&[0.0], &[0.0, 0.0], &[0.0]]).count();
     }
 }

@@ -1,10 +1,10 @@
-//! Why the parts of a measured table do not fit together.
+//! The error for parts of a measured table that do not fit together.
 
 use thiserror::Error;
 
-/// A part of a table that cannot be used: which part, what was found, what was expected.
+/// An unusable part of a table: its name, what was found, and what was expected.
 ///
-/// The parts have the names that the file format gives them, so a reader can say where in its file they lie.
+/// The parts have the names that the file format gives them, so a reader can say where they are in its file.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{part}: found {found}; expected {expected}")]
 pub struct Invalid {
@@ -52,5 +52,5 @@ pub(crate) fn count(part: &'static str, found: usize, shape: &[usize]) -> Result
     if expected == Some(found) {
         return Ok(());
     }
-    Err(Invalid::new(part, format!("{found} values"), format!("as many as the shape {shape:?} holds")))
+    Err(Invalid::new(part, format!("{found} values"), format!("as many as the shape {shape:?} requires")))
 }

@@ -1,28 +1,28 @@
-//! Measured BRDFs and BTDFs, in the representations that they are measured in, evaluated in SIMD lanes.
+//! Measured BRDFs and BTDFs, in the representations in which they were measured, evaluated in SIMD lanes.
 //!
-//! Each representation has a module with its `Data`, as they were measured, their evaluation in `f64`, written for the
-//! reader, and, except for mirrors, a `Table`, made ready to be evaluated on any [`lobe_lane`] backend:
+//! Each representation has a module with its `Data`, as measured, a readable evaluation of them in `f64`, and, except
+//! for mirrors, a `Table` prepared for evaluation on any [`lobe_lane`] backend:
 //!
-//! - [`specular`]: a grid of specular coordinates, whose axes follow the peak;
-//! - [`spherical`]: a grid of spherical coordinates of both directions;
+//! - [`specular`]: a grid in specular coordinates, whose axes follow the peak;
+//! - [`spherical`]: a grid in spherical coordinates of both directions;
 //! - [`scattered`]: any number of directions, on no grid;
 //! - [`rgl`]: the adaptive parameterisation of the EPFL database;
-//! - [`fourier`]: cosine series of the azimuth, between knots of both polar angles;
+//! - [`fourier`]: cosine series in the azimuth, between knots of both polar angles;
 //! - [`zernike`]: expansions in Zernike polynomials of both directions;
 //! - [`half_diff`]: a grid of half and difference angles, as in the MERL database;
 //! - [`mueller`]: matrices of polarised reflection over half and difference angles;
-//! - [`polarised`]: matrices of polarised reflection on a grid of specular coordinates;
+//! - [`polarised`]: matrices of polarised reflection on a grid in specular coordinates;
 //! - [`utia`]: the grid of the UTIA database;
 //! - [`window`]: Klems matrices and tensor trees of the two sides of a sheet;
 //! - [`mirror`]: mirror reflectances, which have no value for a pair of directions.
 //!
-//! [`Data`] is any of them, with the trait [`Representation`] for what programs need to know of it.
+//! [`Data`] holds any of them, and the trait [`Representation`] gives access to it.
 //!
-//! They share [`Axis`] and the other parts of a grid, and [`Channels`] and [`Scatter`], which say what the values are.
+//! They share [`Axis`] and the other parts of a grid, and [`Channels`] and [`Scatter`], which describe the values.
 //!
 //! # Features
 //!
-//! | feature | the `Table` of |
+//! | feature | enables the `Table` of |
 //! |---|---|
 //! | `fourier` | [`fourier`] |
 //! | `half-diff` | [`half_diff`] |
@@ -35,9 +35,9 @@
 //! | `zernike` | [`zernike`] |
 //!
 //! All of them are on by default. [`specular`] is always there, and so are the data of every representation with their
-//! evaluation in `f64`: what takes the compiler long are the kernels.
+//! evaluation in `f64`: only the kernels take long to compile.
 #![forbid(unsafe_code)]
-// Without some of the kernels, some of what they share is left over.
+// Without some of the kernels, some of their shared code is unused.
 #![cfg_attr(
     not(all(
         feature = "fourier",

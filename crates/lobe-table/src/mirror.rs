@@ -8,8 +8,8 @@ use crate::{Aspect, Channels, Invalid, Kind, Representation, Scatter};
 /// The name of the representation.
 pub const KIND: Kind = Kind::new("mirror reflectance");
 
-/// Mirror reflectance (or transmittance straight through) by the direction of the light: a ratio of fluxes, 0 to 1, no
-/// pi in it.
+/// Mirror reflectance (or straight-through transmittance) by direction of the light: a ratio of fluxes from 0 to 1,
+/// without pi.
 ///
 /// It accompanies a BRDF or BTDF as its delta part.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,8 +21,8 @@ pub struct Data {
 }
 
 impl Data {
-    /// `knots` are those of sigma and psi in radians, which ascend strictly; one psi if it makes no difference.
-    /// `values` is `[sigma][psi][channel]`. `None` unless the values are as many as that, and all are finite.
+    /// `knots` are those of sigma and psi in radians, which ascend strictly, with one psi if it makes no difference.
+    /// `values` is `[sigma][psi][channel]`. `None` unless there are exactly these values, and all are finite.
     pub fn new(scatter: Scatter, knots: [Vec<f64>; 2], channels: Channels, values: Vec<f32>) -> Option<Self> {
         let mut expected = channels.count();
         for axis in &knots {
@@ -43,7 +43,7 @@ impl Data {
         &self.knots
     }
 
-    /// What the channels mean.
+    /// The meaning of the channels.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }

@@ -1,14 +1,15 @@
 //! The list of representations.
 //!
-//! [`Data`] is the only enum of them, and the only match over it is made here, by the macro: programs ask the trait
-//! [`Representation`].
+//! [`Data`] is the only enum of them, and the only match over it is generated here, by the macro: programs use the
+//! trait [`Representation`].
 
 use crate::data::Representation;
 
-/// The list of representations: a line makes a variant of [`Data`], its conversion, and its arm of the one match.
+/// The list of representations: each line generates a variant of [`Data`], its conversion, and its arm of the one
+/// match.
 macro_rules! representations {
     ($($(#[$doc:meta])* $variant:ident($data:ty)),* $(,)?) => {
-        /// What was measured, in the form in which it was measured.
+        /// Measured values in the representation in which they were measured.
         #[derive(Clone, Debug)]
         #[non_exhaustive]
         pub enum Data {
@@ -16,14 +17,14 @@ macro_rules! representations {
         }
 
         impl Data {
-            /// What every representation can report.
+            /// The data as a [`Representation`].
             pub fn representation(&self) -> &dyn Representation {
                 match self {
                     $(Data::$variant(data) => data),*
                 }
             }
 
-            /// As [`representation`](Data::representation), to change the data.
+            /// As [`representation`](Data::representation), but mutable.
             pub fn representation_mut(&mut self) -> &mut dyn Representation {
                 match self {
                     $(Data::$variant(data) => data),*
@@ -40,11 +41,11 @@ macro_rules! representations {
 }
 
 representations! {
-    /// A BRDF or BTDF on a grid of specular coordinates.
+    /// A BRDF or BTDF on a grid in specular coordinates.
     Specular(crate::specular::Data),
-    /// A BRDF or BTDF on a grid of spherical coordinates.
+    /// A BRDF or BTDF on a grid in spherical coordinates.
     Spherical(crate::spherical::Data),
-    /// A BRDF or BTDF on no grid.
+    /// A BRDF or BTDF without a grid.
     Scattered(crate::scattered::Data),
     /// The adaptive parameterisation of the EPFL database.
     Rgl(crate::rgl::Data),
@@ -52,22 +53,22 @@ representations! {
     HalfDiff(crate::half_diff::Data),
     /// Mueller matrices over half and difference angles.
     Mueller(crate::mueller::Data),
-    /// Mueller matrices on a grid of specular coordinates.
+    /// Mueller matrices on a grid in specular coordinates.
     Polarised(crate::polarised::Data),
     /// The grid of the UTIA database.
     Utia(crate::utia::Data),
-    /// Cosine series of the azimuth.
+    /// Cosine series in the azimuth.
     Fourier(crate::fourier::Data),
     /// An expansion in Zernike polynomials.
     Zernike(crate::zernike::Data),
     /// Klems matrices or tensor trees of the two sides of a sheet.
     Window(crate::window::Data),
-    /// The mirror reflectance, or the transmittance straight through, of a smooth surface.
+    /// The mirror reflectance, or the straight-through transmittance, of a smooth surface.
     Mirror(crate::mirror::Data),
 }
 
 impl Data {
-    /// The mirror reflectance, if the data are one: they have no value for a pair of directions.
+    /// The mirror reflectance, if the data are one; they then have no values for pairs of directions.
     pub fn mirror(&self) -> Option<&crate::mirror::Data> {
         if let Data::Mirror(data) = self { Some(data) } else { None }
     }

@@ -1,6 +1,6 @@
-//! Which light the values of a measurement are for.
+//! Reflection or transmission.
 
-/// Which side of the surface the light leaves on.
+/// The side of the surface on which the light leaves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scatter {
     /// A BRDF: `wi` and `wo` on the same side.

@@ -1,4 +1,4 @@
-//! Sampling in proportion to the cosine: what every function can be sampled by, if no scheme suits it better.
+//! Sampling in proportion to the cosine, which works for every function without a better scheme.
 
 use std::f32::consts::{PI, TAU};
 
@@ -34,7 +34,7 @@ pub(super) fn sample_batch<B: Bsdf + ?Sized>(
     out.times_cosine_over_density();
 }
 
-/// A direction on one of the sides that light goes to, and its density.
+/// A direction on one of the sides that light leaves to, and its density.
 fn draw(ways: [bool; 2], known: [f32; 3], [u, w]: [f32; 2]) -> ([f32; 3], f32) {
     let (passes, u, share) = match ways {
         [false, false] => return ([0.0; 3], 0.0),
@@ -69,7 +69,7 @@ mod tests {
     use super::*;
     use crate::{Channels, Directions};
 
-    /// 0.6 of the light, half of it reflected and half passed on.
+    /// Scatters 0.6 of the light, half of it reflected and half transmitted.
     #[derive(Debug)]
     struct White;
 

@@ -1,4 +1,4 @@
-//! Sampling by histograms of what a function answers.
+//! Sampling by histograms of a function's values.
 
 use std::sync::Arc;
 
@@ -11,11 +11,11 @@ use crate::{
     specular,
 };
 
-/// A function with histograms of its luminance times value times cosine, which directions are sampled from: for models
-/// and functions of a program's own.
+/// A function with histograms of luminance times value times cosine, from which directions are sampled: for models and
+/// for a program's own functions.
 ///
-/// Its values are those of the function. Only known directions with `z > 0` are sampled, and scattered ones on the side
-/// that the options say.
+/// Its values are those of the function. Directions are sampled only for known directions with `z > 0`, on the side
+/// that the options name.
 #[derive(Clone, Debug)]
 pub struct ByHistograms<B> {
     bsdf: B,
@@ -23,12 +23,12 @@ pub struct ByHistograms<B> {
 }
 
 impl<B: Bsdf> ByHistograms<B> {
-    /// Measures where the function scatters. `given` says whether the histograms are of known directions to the light or
-    /// to the viewer; sampling and densities are right for both, though for a function that is not reciprocal there is
-    /// less noise for that one.
+    /// Measures where the function scatters light. `given` says whether the histograms are for known directions to the
+    /// light or to the viewer; sampling and densities are right for both, but if the function is not reciprocal,
+    /// samples for the chosen one are less noisy.
     ///
     /// # Errors
-    /// If the options make no sense.
+    /// If the options are invalid.
     pub fn new(
         bsdf: B,
         backend: Backend,
@@ -117,7 +117,7 @@ mod tests {
     use super::*;
     use crate::Scatter;
 
-    /// Brighter where the viewer stands up, in two channels: not reciprocal.
+    /// A function with two channels that is brighter for viewers near the normal, and so not reciprocal.
     #[derive(Debug)]
     struct Rising(Channels);
 
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn weights_are_values_times_cosine_over_density_whatever_is_given() {
+    fn weights_are_values_times_cosine_over_density_for_both_given_directions() {
         const SIDE: usize = 64;
         const COUNT: usize = SIDE * SIDE;
         let at = |i: usize| (i as f32 + 0.5) / SIDE as f32;
@@ -164,8 +164,8 @@ mod tests {
                         assert!((weight - expected).abs() <= 1e-5 * expected, "{weight}, not {expected}");
                     }
                 }
-                // At the edge of a cell rounding leads to the other one.
-                assert!(apart < COUNT / 50, "{apart} of {COUNT} densities are not found again");
+                // At the edge of a cell, rounding may lead to the neighbouring one.
+                assert!(apart < COUNT / 50, "{apart} of {COUNT} densities are not reproduced");
                 let mean = weights.iter().step_by(2).sum::<f32>() / COUNT as f32;
                 assert!((mean / albedo - 1.0).abs() < 0.02, "{mean} of the light, not {albedo}");
             }

@@ -1,4 +1,4 @@
-//! Functions of pairs of directions inside a kernel of the caller's own.
+//! Functions of pairs of directions, for use inside the caller's own kernel.
 
 use lobe_lane::Lanes;
 
@@ -8,13 +8,13 @@ use crate::specular;
 ///
 /// It is for programs that know their type when they are compiled; the conventions are those of [`Bsdf`](super::Bsdf).
 pub trait BsdfLanes: Sync {
-    /// How many channels a value has.
+    /// The number of channels of a value.
     fn channel_count(&self) -> usize;
 
     /// The value of a pair in each lane, one number per channel; 0 in the lanes that `mask` leaves out.
     ///
     /// # Panics
-    /// If `out` is not as long as there are channels.
+    /// If the length of `out` is not the number of channels.
     fn eval_lanes<L: Lanes>(&self, lanes: L, wi: [L::F; 3], wo: [L::F; 3], mask: L::M, out: &mut [L::F]);
 }
 

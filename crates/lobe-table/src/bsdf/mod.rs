@@ -1,4 +1,4 @@
-//! What has a value for every pair of directions, ready to be evaluated and sampled in batches.
+//! Functions of pairs of directions that can be evaluated and sampled in batches.
 
 mod cosine;
 mod histograms;
@@ -18,21 +18,20 @@ use crate::{
 pub use histograms::ByHistograms;
 pub use lanes::BsdfLanes;
 
-/// A function of pairs of directions, which measured materials, analytic models and whatever else scatters light are.
+/// A function of pairs of directions: a measured material, an analytic model, or anything else that scatters light.
 ///
 /// `wi` points to the light and `wo` to the viewer: unit vectors away from the surface, normal on +z. Values are `f` in
-/// 1/sr, without the cosine, one per channel; densities are over solid angle, in 1/sr. A delta function in direction has no
-/// value here; if [`sample_batch`](Self::sample_batch) finds such a direction, its density is infinite, and
+/// 1/sr, without the cosine, one per channel; densities are over solid angle, in 1/sr. A delta function in direction
+/// has no value here; if [`sample_batch`](Self::sample_batch) draws such a direction, its density is infinite, and
 /// [`samples_mirrors`](Self::samples_mirrors) says so.
 ///
-/// Only [`channels`](Self::channels) and [`eval_batch`](Self::eval_batch) have to be written: directions are then sampled in
-/// proportion to the cosine, on the sides that [`holds`](Self::holds) names.
+/// Only [`channels`](Self::channels) and [`eval_batch`](Self::eval_batch) have to be implemented: directions are then
+/// sampled in proportion to the cosine, on the sides that [`holds`](Self::holds) names.
 pub trait Bsdf: Debug + Send + Sync {
-    /// What the channels of a value mean.
+    /// The meaning of the channels of a value.
     fn channels(&self) -> &Channels;
 
-    /// Whether there are values for this side of the light and this kind of scatter: by default, reflection on the
-    /// front.
+    /// Whether there are values for light from this side and this scatter: by default, for reflection on the front.
     fn holds(&self, aspect: Aspect) -> bool {
         aspect == Aspect::REFLECTION
     }
@@ -55,22 +54,23 @@ pub trait Bsdf: Debug + Send + Sync {
     /// Values of many pairs: `out[query * channels + channel]`.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+    /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times the number of channels.
     fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]);
 
     /// The value of one pair, one number per channel.
     ///
     /// # Panics
-    /// If `out` is not as long as there are channels.
+    /// If the length of `out` is not the number of channels.
     fn eval(&self, backend: Backend, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
         self.eval_batch(backend.narrow(), (&[wi]).into(), (&[wo]).into(), out);
     }
 
-    /// Samples one direction for each of the `known` ones, which are those to the light or to the viewer as `given`
-    /// says, from two numbers in `[0, 1)` each. Weights are values times cosine over density.
+    /// Samples one direction for each of the `known` ones, from two numbers in `[0, 1)` each. `given` says whether the
+    /// known directions are to the light or to the viewer. Weights are values times cosine over density.
     ///
     /// # Panics
-    /// If `u` or a part of `out` does not have one entry per direction, or the weights one more per channel.
+    /// If `u` or a field of `out` does not have one entry per direction, or the weights do not have one per direction
+    /// and channel.
     fn sample_batch(&self, backend: Backend, given: Given, known: &[[f32; 3]], u: &[[f32; 2]], out: Sampled<'_>) {
         cosine::sample_batch(self, backend, given, known, u, out);
     }
@@ -85,16 +85,16 @@ pub trait Bsdf: Debug + Send + Sync {
         self.sample_batch(backend, Given::Light, known, u, out);
     }
 
-    /// The densities with which [`sample_batch`](Self::sample_batch) finds the direction of each pair that is not given.
+    /// The densities with which [`sample_batch`](Self::sample_batch) draws the other direction of each pair.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo` and `pdfs`.
+    /// If the numbers of `wi`, `wo` and `pdfs` differ.
     fn pdf_batch(&self, backend: Backend, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], pdfs: &mut [f32]) {
         let _ = backend;
         cosine::pdf_batch(self, given, wi, wo, pdfs);
     }
 
-    /// Values and densities of many pairs: both at once may take less time than one after the other.
+    /// Values and densities of many pairs: computing both at once may take less time than one after the other.
     ///
     /// # Panics
     /// As [`eval_batch`](Self::eval_batch) and [`pdf_batch`](Self::pdf_batch).
@@ -111,11 +111,11 @@ pub trait Bsdf: Debug + Send + Sync {
         self.pdf_batch(backend, given, wi, wo, pdfs);
     }
 
-    /// The same function, sampled in proportion to luminance times value times cosine, if it has a scheme of its own for
-    /// that. `progress` is called with the parts that are done and all of them.
+    /// The same function, sampled in proportion to luminance times value times cosine, if it has its own scheme for
+    /// that. `progress` is called with the number of finished parts and their total.
     ///
     /// # Errors
-    /// If the options make no sense for it.
+    /// If the options do not apply to it.
     fn sampled(
         &self,
         backend: Backend,
@@ -126,11 +126,11 @@ pub trait Bsdf: Debug + Send + Sync {
         Ok(None)
     }
 
-    /// A lobe of its own for one side and kind of scatter, if it is constant on patches. `luminance` is how much each
-    /// channel counts, and `defensive` the part that is a cosine distribution.
+    /// A separate lobe for one side and scatter, if the function is constant on patches. `luminance` gives the weight
+    /// of each channel, and `defensive` the part that is a cosine distribution.
     ///
     /// # Errors
-    /// If the options make no sense for it.
+    /// If the options do not apply to it.
     fn patches(
         &self,
         aspect: Aspect,
@@ -152,27 +152,28 @@ pub trait Bsdf: Debug + Send + Sync {
         false
     }
 
-    /// The Mueller matrices of many pairs at every wavelength of the channels: `out[query][channel][row][column]`, in 1/sr,
-    /// without the cosine, in the Stokes frames of [`stokes_basis`](crate::mueller::stokes_basis). Returns whether there are
-    /// any; `out` is left alone if not.
+    /// The Mueller matrices of many pairs at every wavelength of the channels: `out[query][channel][row][column]`, in
+    /// 1/sr, without the cosine, in the Stokes frames of [`stokes_basis`](crate::mueller::stokes_basis). Returns
+    /// whether there are any; if not, `out` is unchanged.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo`, or `out` is not that many times 16 times the channels long.
+    /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times 16 times the number of
+    /// channels.
     fn mueller_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) -> bool {
         let _ = (backend, wi, wo, out);
         false
     }
 
-    /// The table, if this is one in specular coordinates, for evaluation inside a kernel of the caller's own.
+    /// The table, if this is one in specular coordinates, for evaluation inside the caller's own kernel.
     fn specular_table(&self) -> Option<&Arc<specular::Table>> {
         None
     }
 }
 
-/// A function with a scheme of its own to sample it.
+/// A function with its own sampling scheme.
 #[derive(Clone, Debug)]
 pub struct Scheme {
-    /// The function; its values are what they were.
+    /// The function; its values are unchanged.
     pub bsdf: Arc<dyn Bsdf>,
     /// Bytes of memory that the distributions take in addition to the values.
     pub bytes: usize,
@@ -183,17 +184,17 @@ pub struct Scheme {
 pub struct OnBackend<'a> {
     /// The function.
     pub bsdf: &'a dyn Bsdf,
-    /// Where it runs.
+    /// The backend that evaluates it.
     pub backend: Backend,
 }
 
 impl<'a> OnBackend<'a> {
-    /// A function on the backend given.
+    /// A function on the given backend.
     pub fn new(bsdf: &'a dyn Bsdf, backend: Backend) -> Self {
         OnBackend { bsdf, backend }
     }
 
-    /// What the channels of a value mean.
+    /// The meaning of the channels of a value.
     pub fn channels(&self) -> &'a Channels {
         self.bsdf.channels()
     }
@@ -207,11 +208,11 @@ impl<'a> OnBackend<'a> {
     }
 }
 
-/// Evaluates pair by pair with an evaluator in `f64`, which finds unit vectors there to the last digit. Directions
-/// that have no length or are not finite give 0.
+/// Evaluates pair by pair with an evaluator in `f64`, which receives directions normalised in `f64`. Directions that
+/// have no length or are not finite give 0.
 ///
 /// # Panics
-/// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+/// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times the number of channels.
 pub(crate) fn pair_by_pair(
     channels: &Channels,
     wi: Directions<'_>,
@@ -230,7 +231,7 @@ pub(crate) fn pair_by_pair(
     }
 }
 
-/// A direction in `f64`; `None` if it points nowhere.
+/// A direction normalised in `f64`; `None` if it has no length or is not finite.
 pub(crate) fn unit(direction: [f32; 3]) -> Option<[f64; 3]> {
     let v = direction.map(f64::from);
     let length = v.iter().map(|c| c * c).sum::<f64>().sqrt();

@@ -1,10 +1,10 @@
-//! Which of the up to four measurements of a sheet is meant: the sides that the light comes from and leaves to.
+//! Names for the up to four measurements of a sheet: the sides that light comes from and leaves to.
 
 use std::fmt;
 
 use crate::Scatter;
 
-/// A side of a sheet: the front is that of z > 0.
+/// A side of a sheet; the front is the side of z > 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Side {
     /// z > 0.
@@ -33,7 +33,7 @@ impl Side {
 pub struct Aspect {
     /// Whether the light stays on its side.
     pub scatter: Scatter,
-    /// The side that the light comes from; the front is that of z > 0.
+    /// The side that the light comes from; the front is the side of z > 0.
     pub light: Side,
 }
 
@@ -43,7 +43,7 @@ impl Aspect {
     /// A BTDF, lit from the front.
     pub const TRANSMISSION: Aspect = Aspect { scatter: Scatter::Transmission, light: Side::Front };
 
-    /// All four: reflection and transmission of light on the front, then of light on the back.
+    /// All four: reflection and transmission of light from the front, then of light from the back.
     pub const ALL: [Aspect; 4] = [
         Aspect::REFLECTION,
         Aspect::TRANSMISSION,
@@ -51,19 +51,19 @@ impl Aspect {
         Aspect { scatter: Scatter::Transmission, light: Side::Back },
     ];
 
-    /// Scatter of light that comes from the front.
+    /// The scatter of light that comes from the front.
     pub fn front(scatter: Scatter) -> Aspect {
         Aspect { scatter, light: Side::Front }
     }
 
-    /// Moves two directions with z > 0 to the sides of this measurement, mirroring them at the surface if necessary.
+    /// Moves two directions with z > 0 to the sides of this measurement, mirroring them about the surface if necessary.
     pub fn place(self, wi: [f64; 3], wo: [f64; 3]) -> ([f64; 3], [f64; 3]) {
         let below = |[x, y, z]: [f64; 3], is_below| [x, y, if is_below { -z } else { z }];
         let is_lit_below = self.light == Side::Back;
         (below(wi, is_lit_below), below(wo, is_lit_below != (self.scatter == Scatter::Transmission)))
     }
 
-    /// The measurement that light takes on its way back.
+    /// The measurement for light on the reverse path.
     pub fn reversed(self) -> Aspect {
         let light = match self.scatter {
             Scatter::Reflection => self.light,

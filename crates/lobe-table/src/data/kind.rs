@@ -2,14 +2,13 @@
 
 use std::fmt;
 
-/// Which representation data have: a name that is the same in the library, in files and on the command line.
-///
-/// Each representation has its own as the constant `KIND` of its module.
+/// The name of a representation, which is the same in the library, in files and on the command line. Each
+/// representation defines its own as the constant `KIND` of its module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Kind(&'static str);
 
 impl Kind {
-    /// A kind of this name.
+    /// A kind with this name.
     pub const fn new(name: &'static str) -> Self {
         Kind(name)
     }

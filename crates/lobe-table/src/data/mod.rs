@@ -1,5 +1,5 @@
-//! What can be asked of measured data, whatever their representation: the trait [`Representation`], which each
-//! representation implements next to its data, and the words of its answers.
+//! The interface to measured data in any representation: the trait [`Representation`], which each representation
+//! implements next to its data, and the types of its results.
 
 mod aspect;
 mod kind;

@@ -1,8 +1,8 @@
-//! Directions near each other, for what was measured and what is only continued.
+//! Directions near each other, to distinguish measured values from extrapolated ones.
 
 use std::collections::HashMap;
 
-/// Angles nearer than this, in radians, are the same.
+/// Angles that differ by less than this, in radians, are equal.
 pub(crate) const SAME: f64 = 1e-4;
 
 /// The direction at a polar angle and an azimuth.
@@ -10,8 +10,8 @@ pub(crate) fn direction(theta: f64, phi: f64) -> [f64; 3] {
     [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
 }
 
-/// Whether light at this polar angle is between the measured ones, or at one of them. One incidence is all that there is:
-/// everything next to it is extrapolated.
+/// Whether light at this polar angle is between the measured angles, or at one of them. If there is only one, every
+/// other angle is extrapolated.
 pub(crate) fn spans(thetas: &[f64], theta: f64) -> bool {
     let first = thetas.first().copied().unwrap_or(0.0);
     let last = thetas.last().copied().unwrap_or(0.0);
@@ -19,7 +19,7 @@ pub(crate) fn spans(thetas: &[f64], theta: f64) -> bool {
     is_between || thetas.iter().any(|knot| (knot - theta).abs() < SAME)
 }
 
-/// Tells whether a direction has others near it, by cells as wide as that distance.
+/// Finds whether a direction has others near it, with cells as wide as that distance.
 pub(crate) struct Near {
     cells: HashMap<[i32; 3], Vec<[f64; 3]>>,
     width: f64,
@@ -27,9 +27,9 @@ pub(crate) struct Near {
 }
 
 impl Near {
-    /// `reach` is how far near is, in radians.
+    /// `reach` is the distance that counts as near, in radians.
     pub(crate) fn new(directions: Vec<[f64; 3]>, reach: f64) -> Self {
-        // The chord of the angle: a neighbour is at most one cell away.
+        // The chord of the angle, so that a neighbour is at most one cell away.
         let mut near = Near { cells: HashMap::new(), width: (2.0 * (0.5 * reach).sin()).max(1e-3), cos: reach.cos() };
         for direction in directions {
             near.cells.entry(near.cell(direction)).or_default().push(direction);
@@ -48,11 +48,11 @@ impl Near {
     }
 }
 
-/// One and a half times the distance at which most directions have a neighbour, within reason.
+/// One and a half times the distance at which most directions have a neighbour, within limits.
 pub(crate) fn reach(outgoing: &[[f64; 2]]) -> f64 {
     let directions: Vec<[f64; 3]> =
         outgoing.iter().map(|[theta, phi]| [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]).collect();
-    // A few hundred directions are enough to tell.
+    // A few hundred directions are enough to estimate it.
     let step = directions.len().div_ceil(200);
     let mut nearest: Vec<f64> = Vec::new();
     for a in directions.iter().step_by(step) {

@@ -1,26 +1,26 @@
-//! What a file leaves open.
+//! Options for what a file leaves open.
 
 use crate::half_diff::Lookup;
 use crate::utia::Decode;
 use crate::{Edges, Given};
 
-/// What a file leaves open. Each representation looks at what concerns it.
+/// Options for what a file leaves open. Each representation uses those that concern it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
-    /// What holds outside the measured angles of specular tables. The other representations have their own rule, which
-    /// is that of the programs that defined them.
+    /// The values outside the measured angles of specular tables. The other representations follow the rule of the
+    /// programs that defined them.
     pub edges: Edges,
-    /// How half-difference grids are looked up.
+    /// The lookup in half-difference grids.
     pub lookup: Lookup,
-    /// What to make of the numbers of the UTIA database, whose unit is not documented.
+    /// The conversion of the numbers of the UTIA database, whose unit is not documented.
     pub decode: Decode,
-    /// Which direction finds the slice of a material of the EPFL database: the light, as it was measured, or the viewer,
-    /// as renderers that trace from the camera do (Mitsuba, pbrt). They differ as far as the data are not reciprocal. The
-    /// direction given is the one that is best sampled by.
+    /// The direction that indexes the slices of a material of the EPFL database: the light, as in the measurement, or
+    /// the viewer, as in renderers that trace from the camera (Mitsuba, pbrt). The values differ if the data are not
+    /// reciprocal. Sampling works best if this direction is the known one.
     pub indexed_by: Given,
 }
 
-/// Which of the [`Options`] a representation looks at.
+/// The [`Options`] that affect a representation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Uses {
     /// Whether [`Options::edges`] makes a difference.
@@ -34,7 +34,7 @@ pub struct Uses {
 }
 
 impl Uses {
-    /// What makes a difference to one or the other.
+    /// The options that affect either of two representations.
     pub fn or(self, other: Self) -> Self {
         Uses {
             edges: self.edges || other.edges,

@@ -1,4 +1,4 @@
-//! What every representation can report.
+//! The trait that every representation implements.
 
 use std::fmt::Debug;
 
@@ -6,55 +6,56 @@ use super::{Aspect, Gaps, Grid, Kind, Kinks, Options, PrepareError, Section, Use
 use crate::bsdf::Bsdf;
 use crate::{Channels, Edges, Invalid, Scatter};
 
-/// Turns values of one set of channels into those of another one.
+/// Converts values from one set of channels to another.
 pub type ValueMap<'a> = dyn Fn(&[f32]) -> Vec<f32> + 'a;
 
 /// A test of outgoing directions.
 pub type Coverage<'a> = Box<dyn Fn([f64; 3]) -> bool + Sync + 'a>;
 
-/// Values one by one: polar angle and azimuth of the light, then of the viewer, in radians; and the channels.
+/// Receives values one by one: polar angle and azimuth of the light, then of the viewer, in radians; and the channels.
 pub type Samples<'a> = Box<dyn Iterator<Item = ([f64; 4], &'a [f32])> + 'a>;
 
-/// What programs need from measured data without knowing their representation.
+/// Access to measured data without knowing their representation.
 ///
 /// Directions are unit vectors away from the surface, normal on +z; angles are in radians.
 pub trait Representation: Debug + Send + Sync {
     /// The name of the representation.
     fn kind(&self) -> Kind;
 
-    /// What the channels of a value mean.
+    /// The meaning of the channels of a value.
     fn channels(&self) -> Channels;
 
-    /// What was measured, in the order of the file: at least one, unless every block is missing.
+    /// The aspects that were measured, in the order of the file: at least one, unless every block is missing.
     fn aspects(&self) -> Vec<Aspect>;
 
     /// `true` if values do not depend on the rotation of the sample.
     fn is_isotropic(&self) -> bool;
 
-    /// The data made ready to be evaluated.
+    /// The data prepared for evaluation.
     ///
     /// # Errors
-    /// If they have no value for a pair of directions, or are too large, or if this program was built without the feature
-    /// of the representation.
+    /// If they have no values for pairs of directions or are too large, or if this program was built without the
+    /// feature of the representation.
     fn prepare(&self, _options: &Options) -> Result<Box<dyn Bsdf>, PrepareError> {
         Err(PrepareError::LeftOut(self.kind()))
     }
 
-    /// Which options make a difference to what [`prepare`](Self::prepare) gives.
+    /// The options that affect the result of [`prepare`](Self::prepare).
     fn uses(&self) -> Uses {
         Uses::default()
     }
 
-    /// Gives the same nodes other channels: `map` turns values `[...][channel]` into those of the new channels. `false` if
-    /// the channels of this representation cannot be mapped one value at a time, which leaves it as it is.
+    /// Converts the values at all nodes to other channels: `map` turns values `[...][channel]` into values of the new
+    /// channels. `false` if the channels of this representation cannot be mapped one value at a time; the data are then
+    /// unchanged.
     ///
     /// # Errors
-    /// If a new value is not finite, which leaves the data as they are.
+    /// If a new value is not finite; the data are then unchanged.
     fn map_channels(&mut self, _channels: Channels, _map: &ValueMap<'_>) -> Result<bool, Invalid> {
         Ok(false)
     }
 
-    /// `true` if the data tell light on the front from light on the back.
+    /// `true` if the data distinguish light from the front and from the back.
     fn is_two_sided(&self) -> bool {
         false
     }
@@ -64,7 +65,7 @@ pub trait Representation: Debug + Send + Sync {
         false
     }
 
-    /// The values, and what there is to say about them.
+    /// The values, and facts about them.
     fn sections(&self) -> Vec<Section<'_>>;
 
     /// The directions of the light that were measured, polar angle and azimuth, by ascending polar angle; empty if the
@@ -73,40 +74,39 @@ pub trait Representation: Debug + Send + Sync {
         Vec::new()
     }
 
-    /// The azimuth of the light to begin with, in radians, when only its polar angle is varied.
+    /// The azimuth of the light to use, in radians, when only its polar angle is varied.
     fn azimuth(&self) -> f64 {
         0.0
     }
 
-    /// The outgoing directions that were measured for light at a polar angle and an azimuth, as if light and view were both
-    /// above the surface. Empty if the representation has no directions of its own.
+    /// The outgoing directions that were measured for light at a polar angle and an azimuth, as if light and viewer
+    /// were both above the surface. Empty if the representation does not list directions.
     fn outgoing(&self, _light: [f64; 2]) -> Vec<[f64; 3]> {
         Vec::new()
     }
 
-    /// A test of outgoing directions for light at a polar angle and an azimuth, as if both were above the surface: is the
-    /// value there one of the measurement, and not only its continuation?
+    /// A test of outgoing directions for light at a polar angle and an azimuth, as if both were above the surface:
+    /// `true` if the value there was measured, and not only extrapolated.
     fn coverage(&self, _light: [f64; 2]) -> Coverage<'_> {
         Box::new(|_| true)
     }
 
-    /// Where values have kinks for light at a polar angle and an azimuth, under these edges; `None` if they have none
-    /// that are known.
+    /// The kinks of the values for light at a polar angle and an azimuth, under these edges; `None` if none are known.
     fn kinks(&self, _edges: &Edges, _light: [f64; 2]) -> Option<Kinks> {
         None
     }
 
-    /// The values as a grid of four angles, if they are one.
+    /// The values as a grid of four angles, if they form one.
     fn grid(&self) -> Option<Grid<'_>> {
         None
     }
 
-    /// The pairs of directions that were measured, by incident direction, if they are on no grid.
+    /// The measured pairs of directions, by incident direction, if they are not on a grid.
     fn samples(&self) -> Option<Samples<'_>> {
         None
     }
 
-    /// What the file marks as not measured; `None` if it marks nothing.
+    /// The values that the file marks as not measured; `None` if it marks none.
     fn gaps(&self) -> Option<Gaps> {
         None
     }
@@ -121,23 +121,24 @@ pub trait Representation: Debug + Send + Sync {
         true
     }
 
-    /// The refractive index of what is behind the surface, relative to what is in front of it. Radiance changes with its
-    /// square, so that transmission is reciprocal only up to that.
+    /// The refractive index behind the surface, relative to that in front of it. Radiance changes with its square, so
+    /// transmission is reciprocal only up to that factor.
     fn refractive_index(&self) -> f64 {
         1.0
     }
 
-    /// `true` if the data know more of polarised light than a value for a pair of directions can express.
+    /// `true` if the data contain information about polarised light that a value for a pair of directions cannot
+    /// express.
     fn is_polarised(&self) -> bool {
         false
     }
 
-    /// Which part of the hemisphere was measured, in words, if the representation is the same for every material.
+    /// The measured part of the hemisphere, in words, if it is the same for every material of the representation.
     fn extent(&self) -> Option<&'static str> {
         None
     }
 
-    /// Reflection or transmission: that of the first of the [aspects](Self::aspects).
+    /// Reflection or transmission: the scatter of the first of the [aspects](Self::aspects).
     fn scatter(&self) -> Scatter {
         self.aspects().first().map_or(Scatter::Reflection, |aspect| aspect.scatter)
     }

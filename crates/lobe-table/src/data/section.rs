@@ -1,33 +1,33 @@
-//! What there is to say about measured values, for people and for checks.
+//! Descriptions of measured values, for people and for checks.
 
 use std::borrow::Cow;
 
 use super::{Aspect, Kind};
 use crate::Channels;
 
-/// Values of one measurement, with what there is to say about them. Most data have one section; windows have one for each
-/// band of wavelengths, side and way.
+/// Values of one measurement, with facts about them. Most data have one section; windows have one per band of
+/// wavelengths, side and scatter.
 #[derive(Clone, Debug)]
 pub struct Section<'a> {
-    /// What the section is called in the file's own words; empty if there is only one.
+    /// The name of the section in the file; empty if there is only one.
     pub name: String,
     /// The representation of these values.
     pub kind: Kind,
-    /// What was measured.
+    /// The aspect that was measured.
     pub aspect: Aspect,
-    /// What the channels mean.
+    /// The meaning of the channels.
     pub channels: Channels,
     /// The knots of each axis. Empty if the representation has no lists of knots.
     pub axes: Vec<SectionAxis>,
-    /// Whatever else there is to say.
+    /// Further facts.
     pub facts: Vec<Fact>,
-    /// What the values are, with their unit.
+    /// The quantity of the values, with its unit.
     pub quantity: &'static str,
-    /// All values that are stored, without gaps that are NaN.
+    /// All stored values, without gaps that are NaN.
     pub values: Cow<'a, [f32]>,
     /// The memory that the values take, in bytes.
     pub bytes: usize,
-    /// Those of the values that represent light and were measured; `None` if all do.
+    /// The values that represent light and were measured; `None` if all do.
     pub measured: Option<Vec<f32>>,
 }
 
@@ -40,17 +40,17 @@ pub struct SectionAxis {
     pub knots: Vec<f64>,
 }
 
-/// Something to say, under a name of one word.
+/// A fact, with a name of one word.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fact {
-    /// What it is about.
+    /// The subject of the fact.
     pub name: &'static str,
-    /// What there is to say.
+    /// The text of the fact.
     pub text: String,
 }
 
 impl<'a> Section<'a> {
-    /// `f` in 1/sr, about which nothing else is known.
+    /// A section of `f` in 1/sr, without further facts.
     pub fn new(kind: Kind, aspect: Aspect, channels: Channels, values: &'a [f32]) -> Self {
         Section {
             name: String::new(),
@@ -85,16 +85,16 @@ impl<'a> Section<'a> {
     }
 }
 
-/// How much of the data the file itself marks as not measured.
+/// The part of the data that the file itself marks as not measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Gaps {
-    /// How many are missing.
+    /// The number that is missing.
     pub missing: usize,
-    /// How many there would be.
+    /// The number if nothing were missing.
     pub all: usize,
     /// What is counted, such as `bins`.
     pub of: &'static str,
-    /// Whether evaluation knows them as gaps; a mask that no program uses is only worth telling.
+    /// Whether evaluation treats them as gaps; a mask that no program uses is only mentioned.
     pub is_used: bool,
 }
 
@@ -107,15 +107,15 @@ pub struct Grid<'a> {
     pub knots: &'a [Vec<f64>; 4],
     /// `[light polar][light azimuth][viewer polar][viewer azimuth][channel]`.
     pub values: &'a [f32],
-    /// How many channels a value has.
+    /// The number of channels of a value.
     pub channels: usize,
-    /// The azimuths of the viewer cover half a turn, and that is how it is meant.
+    /// The azimuths of the viewer cover half a turn on purpose.
     pub is_mirrored: bool,
     /// The angles of the viewer are about the mirror direction.
     pub is_specular: bool,
 }
 
-/// Where interpolated values have kinks, for integrals over the hemisphere: angles about an axis in the plane of incidence.
+/// The kinks of interpolated values, for integrals over the hemisphere: angles about an axis in the plane of incidence.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kinks {
     /// The polar angle of the axis, on the other side of the normal from the light; 0 is the normal.
@@ -126,7 +126,7 @@ pub struct Kinks {
     pub phis: Vec<f64>,
 }
 
-/// Knots that were degrees in a file come back to within this of the pole or the full turn, in radians.
+/// Knots that were degrees in a file are within this of the pole or the full turn, in radians.
 pub const ANGLE_ROUNDING: f64 = 1e-5;
 
 /// `true` if the last of these angles is the first one again, a turn later.

@@ -3,20 +3,20 @@
 use crate::invalid::{Invalid, count, finite};
 use crate::{Aspect, Channels, Scatter, Side};
 
-/// A series: where its coefficients begin, and how many a channel has. Channels follow each other.
+/// A series: the start of its coefficients, and their number per channel. Channels follow each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Series {
     /// Index of the first coefficient.
     pub start: u32,
-    /// How many coefficients each channel has; 0 if there is no light.
+    /// The number of coefficients of each channel; 0 if there is no light.
     pub count: u32,
 }
 
-/// What a material is made of; [`Data::new`] checks it.
+/// The parts of a material, which [`Data::new`] checks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parts {
-    /// Knots of the cosines, in `[-1, 1]`, ascending; 0 may occur twice. They are the cosine of the direction in which light
-    /// *travels* toward the surface, and that of the direction to the viewer.
+    /// Knots of the cosines, in `[-1, 1]`, ascending; 0 may occur twice. They are the cosines of the direction in which
+    /// light *travels* toward the surface, and of the direction to the viewer.
     pub mu: Vec<f32>,
     /// `[viewer][light]`, a series for each pair of knots.
     pub series: Vec<Series>,
@@ -24,21 +24,21 @@ pub struct Parts {
     pub coefficients: Vec<f32>,
     /// [`Channels::Mono`] or [`Channels::Rgb`].
     pub channels: Channels,
-    /// The refractive index of what is behind the surface, relative to what is in front of it.
+    /// The refractive index behind the surface, relative to that in front of it.
     pub eta: f32,
 }
 
-/// A material of cosine series.
+/// A material described by cosine series.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Data {
     parts: Parts,
 }
 
-/// How far outside of `[-1, 1]` a knot may be that was rounded.
+/// The largest distance of a rounded knot outside `[-1, 1]`.
 const ROUNDING: f32 = 1e-6;
 
 impl Data {
-    /// Checks the parts and keeps them.
+    /// Checks the parts and stores them.
     ///
     /// # Errors
     /// [`Invalid`] names `mu`, `series`, `coefficients`, `channels` or `eta`.
@@ -78,7 +78,7 @@ impl Data {
         }
     }
 
-    /// The parts, which are as [`new`](Self::new) requires.
+    /// The parts, which satisfy the requirements of [`new`](Self::new).
     pub fn parts(&self) -> &Parts {
         &self.parts
     }
@@ -93,7 +93,7 @@ impl Data {
         &self.parts.coefficients[start..start + count]
     }
 
-    /// The series of a pair of knots: that of the viewer and that of the light.
+    /// The series of a pair of knots: one of the viewer and one of the light.
     ///
     /// # Panics
     /// If there is no such knot.
@@ -101,7 +101,7 @@ impl Data {
         self.parts.series[viewer * self.parts.mu.len() + light]
     }
 
-    /// What pairs of knots are about, unless one of them is on the horizon.
+    /// The aspect of a pair of knots, unless one of them is on the horizon.
     pub(super) fn aspect(&self, viewer: usize, light: usize) -> Option<Aspect> {
         let (viewer, light) = (self.parts.mu[viewer], self.parts.mu[light]);
         if viewer == 0.0 || light == 0.0 {
@@ -113,7 +113,7 @@ impl Data {
         Some(Aspect { scatter, light: side })
     }
 
-    /// What `f` is multiplied by in addition, because radiance changes with the refractive index.
+    /// An additional factor for `f`, because radiance changes with the refractive index.
     pub(super) fn radiance(&self, aspect: Aspect) -> f64 {
         let eta = f64::from(self.parts.eta);
         match (aspect.scatter, aspect.light) {
@@ -123,7 +123,7 @@ impl Data {
         }
     }
 
-    /// What has coefficients.
+    /// The aspects that have coefficients.
     pub(super) fn measured(&self) -> Vec<Aspect> {
         let knots = self.parts.mu.len();
         let has = |wanted: &Aspect| {

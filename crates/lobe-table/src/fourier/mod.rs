@@ -1,4 +1,5 @@
-//! Isotropic materials as cosine series in the difference of the azimuths, between knots of the cosines of both polar angles.
+//! Isotropic materials as cosine series in the difference of the azimuths, interpolated between knots of the cosines of
+//! both polar angles.
 //!
 //! Jakob, d'Eon, Jakob and Marschner, "A Comprehensive Framework for Rendering Layered Materials", ACM TOG 33(4), 2014; the
 //! Fourier BSDF of pbrt-v3 and the results of layerlab.

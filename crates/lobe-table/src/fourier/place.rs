@@ -1,4 +1,4 @@
-//! Where a pair of directions lies among the knots, in `f64`, for the reference and for the lanes alike.
+//! The place of a pair of directions among the knots, in `f64`, for both the reference and the lanes.
 
 use super::data::Data;
 use crate::{Aspect, Scatter, Side};
@@ -9,13 +9,13 @@ pub(super) struct Place {
     /// The knots of the light and of the viewer.
     pub(super) light: Spline,
     pub(super) viewer: Spline,
-    /// The cosine of the azimuth between the direction in which light travels and that to the viewer.
+    /// The cosine of the azimuth between the direction in which light travels and the direction to the viewer.
     pub(super) cos_phi: f64,
-    /// From the value of the series to `f`.
+    /// The factor from the value of the series to `f`.
     pub(super) scale: f64,
 }
 
-/// The knots that a cubic spline blends, and how much of each.
+/// The knots that a cubic spline blends, and their weights.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spline {
     /// The second of the four knots.
@@ -23,16 +23,16 @@ pub(super) struct Spline {
     weights: [f64; 4],
 }
 
-/// Vectors shorter or longer than this point nowhere, as in the other representations.
+/// Vectors shorter or longer than this have no direction, as in the other representations.
 const LENGTHS: [f64; 2] = [1e-15, 1e15];
-/// Nearer to the surface than this cosine, a direction grazes it: `f` is a quotient by it.
+/// Below this cosine, a direction grazes the surface and has no value, because `f` is a quotient by the cosine.
 const GRAZING: f64 = 1e-7;
-/// Nearer to the normal than this sine, a direction has no azimuth.
+/// Below this sine, a direction is so near the normal that it has no azimuth.
 const POLE: f64 = 1e-15;
 
 impl Place {
-    /// Finds `wi` and `wo`, which may be of any length. `None` where there is no value: for directions that point nowhere or
-    /// graze the surface.
+    /// Finds the place of `wi` and `wo`, which may have any length. `None` if there is no value, because a direction
+    /// has no length or grazes the surface.
     pub(super) fn find(data: &Data, wi: [f64; 3], wo: [f64; 3]) -> Option<Self> {
         let ([ix, iy, iz], [ox, oy, oz]) = (unit(wi)?, unit(wo)?);
         let (light, viewer) = (-iz, oz);
@@ -71,8 +71,8 @@ fn unit(direction: [f64; 3]) -> Option<[f64; 3]> {
 }
 
 impl Spline {
-    /// The Catmull-Rom spline of pbrt: through the knots, with slopes from their neighbours, of one side at the ends. A place
-    /// outside of the knots counts as that of the first or last.
+    /// The Catmull-Rom spline of pbrt: through the knots, with slopes from their neighbours, one-sided at the ends. A
+    /// place outside the knots counts as that of the first or last.
     fn at(knots: &[f32], x: f64) -> Self {
         let knot = |at: usize| f64::from(knots[at]);
         let last = knots.len() - 1;
@@ -80,7 +80,7 @@ impl Spline {
         let at = knots.partition_point(|knot| f64::from(*knot) <= x).clamp(1, last) - 1;
         let (x0, x1) = (knot(at), knot(at + 1));
         let width = x1 - x0;
-        // Between two knots at 0 there is nothing.
+        // There is nothing between two knots at 0.
         let t = if width > 0.0 { (x - x0) / width } else { 0.0 };
         let (t2, t3) = (t * t, t * t * t);
         let mut weights = [0.0, 2.0 * t3 - 3.0 * t2 + 1.0, -2.0 * t3 + 3.0 * t2, 0.0];
@@ -106,7 +106,8 @@ impl Spline {
     }
 }
 
-/// The channels of the material from those of the series, none below 0: green is what luminance has besides red and blue.
+/// The channels of the material from those of the series, clamped at 0: green is the rest of luminance without red and
+/// blue.
 pub(super) fn colours(series: [f64; 3], channels: usize) -> [f64; 3] {
     let [luminance, red, blue] = series;
     let luminance = luminance.max(0.0);

@@ -7,7 +7,7 @@ use crate::bsdf::Bsdf;
 use crate::data::PrepareError;
 use crate::{Aspect, Channels, Directions};
 
-/// Keeps the data, and what they hold.
+/// Stores the data, and their aspects.
 pub(super) fn prepare(data: &Data) -> Result<Box<dyn Bsdf>, PrepareError> {
     Ok(Box::new(Prepared { table: Table::new(data), aspects: data.measured() }))
 }

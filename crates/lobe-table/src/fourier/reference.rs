@@ -1,4 +1,4 @@
-//! The evaluation of [`Data`] one query at a time in `f64`: what the lanes are compared with.
+//! The evaluation of [`Data`] one query at a time in `f64`: the reference for the lanes.
 
 use super::data::Data;
 use super::place::{Place, colours};
@@ -21,8 +21,8 @@ impl Data {
         out
     }
 
-    /// How far a value may be off in the lanes of a [`Table`](super::Table): they sum coefficients, in `f32`, that may cancel
-    /// each other.
+    /// The largest error of a value in the lanes of a [`Table`](super::Table), which sum coefficients in `f32` that may
+    /// cancel each other.
     pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
         const ROUNDINGS: f64 = 1e-6;
         let Some(place) = Place::find(self, wi, wo) else { return 0.0 };
@@ -32,7 +32,7 @@ impl Data {
                 |channel: usize| self.coefficients(series, channel).iter().map(|a| f64::from(a.abs())).sum::<f64>();
             weight.abs() * (0..self.parts().channels.count()).map(of_channel).sum::<f64>()
         });
-        // Green has the luminance half again.
+        // Green contains the luminance one and a half times.
         1.5 * ROUNDINGS * place.scale * magnitudes.sum::<f64>()
     }
 

@@ -1,4 +1,4 @@
-//! What programs need from cosine series.
+//! [`Representation`] for cosine series.
 
 use std::borrow::Cow;
 

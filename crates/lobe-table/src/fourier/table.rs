@@ -1,4 +1,4 @@
-//! [`Data`] made ready to be evaluated in SIMD lanes.
+//! [`Data`] prepared for evaluation in SIMD lanes.
 
 use lobe_backend::Backend;
 use lobe_lane::{Kernel, Lanes};
@@ -9,16 +9,16 @@ use crate::directions::Directions;
 use crate::passes::block::{BLOCK, Column};
 use crate::passes::pairs::{Evaluate, Pairs, evaluation};
 
-/// Coefficients that are summed at once.
+/// The number of coefficients that are summed at once.
 const OCT: usize = 8;
-/// Cosines that are computed before coefficients are multiplied with them.
+/// The number of cosines that are computed before coefficients are multiplied by them.
 const CHUNK: usize = 64;
 
 /// [`Data`] for evaluation in SIMD lanes.
 ///
 /// The values are those of [`Data::eval`], in `f32`: `f` in 1/sr, without the cosine. The directions need not be unit
-/// vectors, but their lengths have to be between 1e-15 and 1e15. Where a pair lies among the knots is found in `f64`; its
-/// series are summed along the coefficients, eight at a time on every backend.
+/// vectors, but their lengths have to be between 1e-15 and 1e15. The place of a pair among the knots is found in `f64`;
+/// its series are summed along the coefficients, eight at a time on every backend.
 ///
 /// In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
@@ -27,7 +27,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// Keeps the coefficients as they are.
+    /// Stores the coefficients unchanged.
     pub fn new(data: &Data) -> Self {
         Table { data: data.clone() }
     }
@@ -55,7 +55,7 @@ impl Table {
     /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[query * channels + channel]`.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+    /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times the number of channels.
     pub fn batch<'a>(
         &'a self,
         wi: Directions<'a>,
@@ -100,7 +100,7 @@ impl Table {
     }
 }
 
-/// The sum of products, in eight sums that are added in the end.
+/// The sum of products, as eight partial sums that are added at the end.
 #[inline(always)]
 fn dot<L: Lanes>(lanes: L, coefficients: &[f32], terms: &[f32; CHUNK]) -> f64 {
     let mut sum = lanes.oct_splat(0.0);
@@ -126,7 +126,7 @@ fn dot<L: Lanes>(lanes: L, coefficients: &[f32], terms: &[f32; CHUNK]) -> f64 {
     total
 }
 
-/// The cosines of the multiples of an angle, eight after the other: `cos((k + 8) x) = 2 cos(8 x) cos(k x) - cos((k - 8) x)`.
+/// The cosines of the multiples of an angle, eight at a time: `cos((k + 8) x) = 2 cos(8 x) cos(k x) - cos((k - 8) x)`.
 struct Cosines {
     before: [f64; OCT],
     next: [f64; OCT],
@@ -140,7 +140,7 @@ impl Cosines {
         for k in 2..2 * OCT {
             all[k] = 2.0 * cosine * all[k - 1] - all[k - 2];
         }
-        // Those before 0 are those after it.
+        // The cosine is even, so those before 0 equal those after it.
         let before = [8, 7, 6, 5, 4, 3, 2, 1].map(|k| all[k]);
         let next = [0, 1, 2, 3, 4, 5, 6, 7].map(|k| all[k]);
         Cosines { before, next, twice: 2.0 * all[OCT] }

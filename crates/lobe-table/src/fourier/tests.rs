@@ -1,4 +1,4 @@
-//! What series must do whatever their coefficients are.
+//! Properties of series with any coefficients.
 
 use super::data::{Data, Parts, Series};
 use crate::{Aspect, Channels, Representation, Scatter, Side};
@@ -13,7 +13,7 @@ fn direction(theta: f64, phi: f64) -> [f64; 3] {
     [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
 }
 
-/// Splines go through their knots and are exact for straight lines.
+/// Splines pass through their knots and are exact for straight lines.
 #[test]
 fn values_at_knots_are_those_of_their_series() {
     let mu = vec![-1.0, -0.6, -0.3, 0.0, 0.0, 0.2, 0.7, 1.0];
@@ -26,7 +26,7 @@ fn values_at_knots_are_those_of_their_series() {
         for light in (0..knots).filter(|at| mu[*at] != 0.0) {
             let [theta_i, theta_o] = [-mu[light], mu[viewer]].map(|cos| f64::from(cos).acos());
             for phi in [0.3_f64, 2.0] {
-                // Light travels away from where it comes from: an azimuth of 0 between them is straight on.
+                // Light travels away from its source: an azimuth of 0 between the directions is straight on.
                 let found = data.eval(direction(theta_i, 0.5), direction(theta_o, 0.5 + std::f64::consts::PI + phi))[0];
                 let series = data.coefficients(data.series(viewer, light), 0);
                 let at_pole = mu[light].abs() == 1.0 || mu[viewer].abs() == 1.0;
@@ -41,10 +41,10 @@ fn values_at_knots_are_those_of_their_series() {
 }
 
 #[test]
-fn sides_are_those_that_have_coefficients() {
+fn sides_with_coefficients_have_values() {
     let mut parts = parts(vec![-1.0, -0.5, 0.5, 1.0]);
     for (at, series) in parts.series.iter_mut().enumerate() {
-        // Only light that travels down, and is reflected.
+        // Only light that travels down and is reflected.
         if !(at / 4 >= 2 && at % 4 < 2) {
             *series = Series::default();
         }

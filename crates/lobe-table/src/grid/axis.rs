@@ -11,7 +11,7 @@ use crate::Edge;
 /// An axis with at most this many cells is searched inside registers, or by counting knots.
 pub(crate) const MAX_REGISTER_CELLS: usize = 32;
 
-/// The knots of one axis in `f32` radians, with what the search of its kind needs.
+/// The knots of one axis in `f32` radians, and the data that its kind of search needs.
 ///
 /// A periodic axis whose knots stop short of the full circle has one knot more than its file: the first one again, a
 /// turn later.
@@ -20,21 +20,21 @@ pub struct Axis {
     knots: Vec<f32>,
     /// `[knots[i], 1 / (knots[i + 1] - knots[i])]` for each cell.
     cells: Vec<[f32; 2]>,
-    /// For each knot the knot of the file whose values it has.
+    /// For each knot, the index of the knot in the file whose values it has.
     source: Vec<usize>,
     edge: Edge,
     pub(crate) bounds: Bounds,
     search: Search,
 }
 
-/// The edge policy in numbers, so that applying it takes no branch.
+/// The edge policy as numbers, so that it is applied without a branch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
-    /// Angles below this move up a turn.
+    /// Angles below this are increased by a turn.
     pub(crate) turn_below: f32,
-    /// The range to which angles are clamped: at least to that of all angles, so that no NaN gets through.
+    /// The range to which angles are clamped: at most the range of all angles, so that no NaN passes.
     pub(crate) clamp: [f32; 2],
-    /// Outside these the value is 0.
+    /// The value is 0 outside these.
     pub(crate) inside: [f32; 2],
 }
 
@@ -51,7 +51,7 @@ impl Bounds {
     }
 }
 
-/// Why knots do not make an axis.
+/// Knots that cannot form an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum AxisError {
     /// No knots.
@@ -68,31 +68,31 @@ pub enum AxisError {
     /// A function needs a value at each knot.
     #[error("{values} values at {knots} knots; expected one each")]
     Values {
-        /// How many knots there are.
+        /// The number of knots.
         knots: usize,
-        /// How many values.
+        /// The number of values.
         values: usize,
     },
 }
 
-/// In the place of a knot that does not exist: no query is at or above it, not even an infinite one.
+/// Stands for a knot that does not exist: no query is at or above it, not even an infinite one.
 const BEYOND: f32 = f32::NAN;
 
-/// How the cell of a query is found.
+/// The way to find the cell of a query.
 #[derive(Clone, Debug)]
 pub(crate) enum Search {
     /// One knot: cell 0, fraction 0.
     Constant,
-    /// Equal cells: `cells_per_radian` from the first knot on.
+    /// Equal cells: `cells_per_radian`, starting at the first knot.
     Uniform { cells_per_radian: f32 },
     /// Few cells: a search tree of the inner knots and the cells, both in registers.
     Registers(Box<Registers>),
-    /// Many cells: a table over equal buckets gives the cell at the start of each. Where registers are wide, they may hold a
+    /// Many cells: a table over equal buckets gives the cell at the start of each. Wide registers may instead hold a
     /// tree of the cells.
     Guide { buckets_per_radian: f32, buckets: Vec<[f32; 2]>, steps: usize, tree: Option<Box<Tree>> },
 }
 
-/// Up to 31 inner knots, sorted and in the order of a breadth-first search tree with node 1 the root, missing ones
+/// Up to 31 inner knots, both sorted and in the order of a breadth-first search tree with root node 1, missing ones as
 /// [`BEYOND`], and the first knots and inverse widths of the cells.
 #[derive(Clone, Debug)]
 pub(crate) struct Registers {
@@ -109,7 +109,7 @@ impl Axis {
     /// Prepares knots in radians.
     ///
     /// # Errors
-    /// Unless there is at least one knot, and all are finite and ascend strictly also in `f32`.
+    /// If there is no knot, one is not finite, or they do not ascend strictly in `f32`.
     pub fn new(knots: &[f64], edge: Edge) -> Result<Self, AxisError> {
         if knots.is_empty() {
             return Err(AxisError::NoKnots);
@@ -147,12 +147,12 @@ impl Axis {
         &self.knots
     }
 
-    /// What happens outside the knots.
+    /// The behaviour outside the knots.
     pub fn edge(&self) -> Edge {
         self.edge
     }
 
-    /// For each knot the position, among the knots given, of the one whose values it has.
+    /// For each knot, the index among the given knots of the one whose values it has.
     pub(crate) fn source(&self) -> &[usize] {
         &self.source
     }
@@ -203,17 +203,17 @@ fn uniform(knots: &[f64]) -> Option<f32> {
 impl Registers {
     fn new(knots: &[f32], cells: &[[f32; 2]]) -> Self {
         let inner = &knots[1..knots.len() - 1];
-        // The searches come in three depths.
+        // The searches exist in three depths.
         let levels = ((inner.len() + 1).next_power_of_two().ilog2() as usize).max(3);
         let mut tree = [BEYOND; 32];
-        // Node k of level l is the middle of the k-th of the 2^l parts of the sorted knots.
+        // Node k of level l is the middle of the k-th of 2^l parts of the sorted knots.
         for (node, knot) in tree.iter_mut().enumerate().take(1 << levels).skip(1) {
             let level = node.ilog2() as usize;
             let part = 1 << (levels - level);
             let rank = (node - (1 << level)) * part + part / 2 - 1;
             *knot = inner.get(rank).copied().unwrap_or(BEYOND);
         }
-        // Look-ups beyond the last cell cannot happen; the padding keeps its values so that none of them is special.
+        // No lookup goes beyond the last cell; the padding repeats its values, so that nothing there is special.
         let padded = |column: usize| std::array::from_fn(|i| cells[i.min(cells.len() - 1)][column]);
         let sorted = std::array::from_fn(|i| inner.get(i).copied().unwrap_or(BEYOND));
         let wide = Tree::new(knots, cells);
@@ -221,7 +221,7 @@ impl Registers {
     }
 }
 
-/// The coarsest of a row of bucket counts with at most one inner knot per bucket, or the finest tried.
+/// The smallest in a sequence of bucket counts with at most one inner knot per bucket, or the largest that was tried.
 fn guide(knots: &[f32], cells: &[[f32; 2]]) -> Search {
     let inner = &knots[1..knots.len() - 1];
     let (first, last) = (knots[0], knots[knots.len() - 1]);

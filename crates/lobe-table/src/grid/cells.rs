@@ -45,7 +45,7 @@ impl<L: Lanes, const B: usize> Visitor<L> for Pass<'_, L, B> {
         let [low, high] = axis.bounds.clamp;
         let (low, high) = (lanes.splat(low), lanes.splat(high));
         let stride = lanes.splat_int(stride as i32);
-        // Few axes begin above 0, so few have to be turned.
+        // Few axes begin above 0, so few angles have to be wrapped.
         if axis.bounds.turn_below > 0.0 {
             turn_up(lanes, n, axis, angle);
         }
@@ -78,7 +78,7 @@ fn leave_out<L: Lanes, const B: usize>(
     }
 }
 
-/// Angles below the first knot move up a turn.
+/// Angles below the first knot are increased by a turn.
 #[inline(always)]
 fn turn_up<L: Lanes, const B: usize>(lanes: L, n: usize, axis: &Axis, angle: &mut Column<f32, B>) {
     let mut query = 0;

@@ -3,17 +3,17 @@
 use super::error::GridError;
 use crate::Channels;
 
-/// What an axis of a grid in files is called, and the angles that it can hold.
+/// The name of a grid axis in files, and the angles that it can hold.
 pub(crate) struct AxisOf {
     pub(crate) name: &'static str,
     /// The largest angle, in radians; the smallest is 0.
     pub(crate) limit: f64,
 }
 
-/// How far beyond its limits a knot may be that was rounded in its file, in radians.
+/// The largest distance of a knot, rounded in its file, beyond its limits, in radians.
 pub(crate) const KNOT_ROUNDING: f64 = 1e-5;
 
-/// Checks the knots of each axis, that there are channels, and that there is a finite value for each of them at each node.
+/// Checks the knots of each axis, that there are channels, and that each node has a finite value for each channel.
 pub(crate) fn check(
     axes: &[AxisOf; 4],
     knots: &[Vec<f64>; 4],
@@ -43,7 +43,7 @@ pub(crate) fn check(
 }
 
 impl AxisOf {
-    /// Checks that there are knots, all finite and within the limits, which ascend also after rounding to `f32`.
+    /// Checks that there are knots, all finite and within the limits, which still ascend after rounding to `f32`.
     fn check(&self, knots: &[f64]) -> Result<(), GridError> {
         let &AxisOf { name: axis, limit } = self;
         if knots.is_empty() {

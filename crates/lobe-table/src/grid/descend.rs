@@ -1,4 +1,4 @@
-//! A walk down a search tree that lies in registers of sixteen floats.
+//! A descent of a search tree held in registers of sixteen floats.
 
 use lobe_lane::{Floats, Lanes};
 
@@ -39,7 +39,7 @@ impl<L: Lanes, const LEVELS: usize, const N: usize> Descend<L, LEVELS, N> {
 impl<L: Lanes, const LEVELS: usize, const N: usize> Find<L> for Descend<L, LEVELS, N> {
     #[inline(always)]
     fn find(self, lanes: L, x: L::F) -> Cell<L> {
-        // Of NaN the sign says nothing; it is below all knots, as it is where knots are compared with.
+        // The sign of NaN means nothing; NaN counts as below all knots, as in searches that compare with the knots.
         let within = x.max(self.lowest);
         let mut node = lanes.descend(lanes.splat_int(1), within - self.root);
         let mut level = 1;

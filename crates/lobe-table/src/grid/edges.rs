@@ -1,18 +1,18 @@
-//! What a table answers outside its outermost knots.
+//! The values of a table outside its outermost knots.
 
-/// What happens to a query outside the first and last knot of one axis.
+/// The behaviour for a query outside the first and last knot of an axis.
 ///
 /// An axis with a single knot is constant, whatever its policy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Edge {
     /// The query moves to the nearest knot.
     Clamp,
-    /// The outermost cell continues in a straight line. Values can become negative.
+    /// The outermost cell is extrapolated linearly. Values can become negative.
     Extrapolate,
     /// The value is 0 outside the knots.
     Zero,
-    /// The axis is a full circle: the query is wrapped into `[k0, k0 + 2 pi)`, and where the last knot `kn` lies below
-    /// `k0 + 2 pi` the gap between them is one more cell, with the values of `k0` at its end.
+    /// The axis is a full circle: the query is wrapped into `[k0, k0 + 2 pi)`. If the last knot `kn` is below `k0 + 2
+    /// pi`, the gap between them is one more cell, with the values of `k0` at its end.
     Periodic,
 }
 
@@ -33,17 +33,18 @@ impl Default for Edges {
 }
 
 impl Edges {
-    /// Straight lines beyond every end and negative values kept: the rule of the libbsdf library, which also does not
-    /// join the ends of psi and phi.
+    /// Linear extrapolation beyond every end, with negative values kept: the rule of the libbsdf library, which also
+    /// does not join the ends of psi and phi.
     pub fn extrapolate() -> Self {
         Edges { axes: [Edge::Extrapolate; 4], non_negative: false }
     }
 
-    /// 0 if sigma or theta lies outside the knots, periodic in psi and phi, never negative.
+    /// 0 if sigma or theta is outside the knots, periodic in psi and phi, never negative.
     pub fn zero() -> Self {
         Edges { axes: [Edge::Zero, Edge::Periodic, Edge::Zero, Edge::Periodic], non_negative: true }
     }
 }
 
-/// How far outside its knots, in radians, a query still counts as inside: room for knots and angles rounded in a file.
+/// The distance outside its knots, in radians, at which a query still counts as inside: a tolerance for knots and
+/// angles rounded in a file.
 pub(crate) const ROUNDING: f64 = 1e-6;

@@ -1,10 +1,10 @@
-//! Why knots and values do not make a grid, or not one for lanes.
+//! Errors for knots and values that cannot form a grid, or a grid for lanes.
 
 use thiserror::Error;
 
 use super::axis::AxisError;
 
-/// Why knots and values do not make a grid.
+/// Knots and values that cannot form a grid.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum GridError {
     /// An axis without a knot.
@@ -23,7 +23,7 @@ pub enum GridError {
         /// What was found.
         value: f64,
     },
-    /// Knots that do not ascend strictly, also after rounding to `f32`.
+    /// Knots that do not ascend strictly after rounding to `f32`.
     #[error("{axis} knot {index} is {value} rad after {previous} rad; expected strictly ascending knots")]
     KnotsNotAscending {
         /// Name of the axis.
@@ -35,7 +35,7 @@ pub enum GridError {
         /// The second of the two knots.
         value: f64,
     },
-    /// A knot outside what the axis can hold.
+    /// A knot outside the range of the axis.
     #[error("{axis} knot {index} is {value} rad; expected an angle in [0, {limit}] rad")]
     KnotOutOfRange {
         /// Name of the axis.
@@ -69,15 +69,15 @@ pub enum GridError {
         /// What was found.
         value: f32,
     },
-    /// As many refraction offsets as sigma knots are needed, all finite.
+    /// Refraction offsets that are not finite, or not one per sigma knot.
     #[error("{0}")]
     Refraction(String),
 }
 
-/// Why knots and values do not make a table for lanes.
+/// Knots and values that cannot form a table for lanes.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum TableError {
-    /// Knots that do not make an axis.
+    /// Knots that cannot form an axis.
     #[error("{axis}: {source}")]
     Axis {
         /// Name of the axis.
@@ -88,9 +88,9 @@ pub enum TableError {
     /// More floats than a lane's 32-bit index reaches.
     #[error("a table of {channels} channels and {nodes} nodes has more floats than a 32-bit index reaches")]
     TooLarge {
-        /// Knots of all axes multiplied.
+        /// The product of the numbers of knots of all axes.
         nodes: usize,
-        /// Channels.
+        /// The number of channels.
         channels: usize,
     },
 }

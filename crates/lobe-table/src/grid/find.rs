@@ -1,13 +1,13 @@
-//! A cell in each lane, and ways to find it.
+//! The cell of each lane, and ways to find it.
 
 use lobe_lane::Lanes;
 
-/// A cell in each lane.
+/// The cell of each lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Cell<L: Lanes> {
-    /// Which cell, from 0.
+    /// The index of the cell, from 0.
     pub index: L::I,
-    /// How far into it: 0 at its first knot and 1 at its second, beyond them outside the knots.
+    /// The fraction: 0 at the first knot of the cell and 1 at the second, and beyond them outside the knots.
     pub fraction: L::F,
 }
 
@@ -17,7 +17,7 @@ pub(crate) trait Find<L: Lanes>: Copy {
     fn find(self, lanes: L, x: L::F) -> Cell<L>;
 }
 
-/// Work to be done with the searcher of an axis, whichever that is.
+/// Work to be done with the searcher of an axis, of whatever type.
 pub(crate) trait Visitor<L: Lanes> {
     type Out;
     /// Must be `#[inline(always)]`.

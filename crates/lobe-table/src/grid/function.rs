@@ -1,7 +1,7 @@
 //! Functions of one variable, straight from the search of their knots.
 //!
-//! The specialised searches of the paper (section 2.2): what a caller wants is seldom the index of a cell, but the
-//! interpolation weights there ([`Axis::weights`]), or the value of a function.
+//! These are the specialised searches of the paper (section 2.2): a caller seldom wants the index of a cell, but rather
+//! the interpolation weights there ([`Axis::weights`]), or the value of a function.
 
 use lobe_lane::{Floats, Lanes};
 
@@ -14,12 +14,12 @@ use crate::{AxisError, Edge};
 #[derive(Clone, Debug)]
 pub struct Function {
     axis: Axis,
-    /// `[value at the cell's first knot, difference to its second]`.
+    /// `[value at the cell's first knot, difference to that at its second]`.
     cells: Vec<[f32; 2]>,
 }
 
 impl Function {
-    /// A function with a value at each knot. Knots are radians, strictly ascending.
+    /// A function with a value at each knot. Knots are in radians, strictly ascending.
     ///
     /// # Errors
     /// If knots and values do not match, or the knots are not finite and strictly ascending.
@@ -42,7 +42,7 @@ impl Function {
         &self.axis
     }
 
-    /// The value at `x`, in radians, one at a time in `f64`.
+    /// The value at one `x`, in radians, in `f64`.
     pub(crate) fn at(&self, x: f64) -> f64 {
         let edge = if self.axis.edge() == Edge::Extrapolate { Edge::Extrapolate } else { Edge::Clamp };
         let at = Neighbours::find(self.axis.knots(), edge, x).unwrap_or(Neighbours::ONLY);

@@ -21,22 +21,22 @@ use crate::passes::block::{BLOCK, Column, registers};
 pub(crate) struct Interpolator {
     axes: [Axis; 4],
     layout: Layout,
-    /// What no result is less than. Texels are finite, so the least float leaves every sum as it is.
+    /// The lower bound of results. Texels are finite, so the least float leaves every sum unchanged.
     floor: f32,
 }
 
-/// What a [`Interpolator`] is made of.
+/// The parts of an [`Interpolator`].
 pub(crate) struct Source<'a> {
     pub(crate) names: &'a [&'static str; 4],
-    /// Radians.
+    /// In radians.
     pub(crate) knots: &'a [Vec<f64>; 4],
     pub(crate) channels: usize,
     pub(crate) values: &'a [f32],
 }
 
-/// What the passes of a block hand on.
+/// The intermediate values of a block.
 pub(crate) struct Scratch<const B: usize = BLOCK> {
-    /// Angles in radians, and then the fractions into their cells.
+    /// Angles in radians, which are replaced by the fractions into their cells.
     pub(crate) angles: [Column<f32, B>; 4],
     /// All bits set for queries that have a value.
     pub(crate) valid: Column<i32, B>,
@@ -106,7 +106,7 @@ impl Interpolator {
         self.layout.bytes() + self.axes.iter().map(Axis::bytes).sum::<usize>()
     }
 
-    /// From the angles of queries `0..n` to base indices and corner weights. `n` is a multiple of the lanes.
+    /// Converts the angles of queries `0..n` to base indices and corner weights. `n` is a multiple of the lanes.
     #[inline(always)]
     pub(crate) fn find<L: Lanes, const B: usize>(&self, lanes: L, n: usize, scratch: &mut Scratch<B>) {
         let Scratch { angles, valid, base, weights, .. } = scratch;
@@ -129,8 +129,8 @@ impl Interpolator {
         }
     }
 
-    /// The values of the first queries of a block that were found: `out[query][channel]` of these channels, which are all,
-    /// or begin at a multiple of eight.
+    /// The values of the first queries of a block whose places were found: `out[query][channel]` of these channels,
+    /// which are all, or start at a multiple of eight.
     #[inline(always)]
     pub(crate) fn blend<L: Lanes, const B: usize>(
         &self,
@@ -179,16 +179,16 @@ impl Interpolator {
         }
     }
 
-    /// From the angles of a block to its values, `out[query][channel]`: all that is after the coordinates.
+    /// Converts the angles of a block to its values, `out[query][channel]`: everything after the coordinates.
     #[inline(always)]
     pub(crate) fn values<L: Lanes>(&self, lanes: L, scratch: &mut Scratch, out: &mut [f32]) {
         call(lanes, Interpolate { grid: self, scratch, out });
     }
 
-    /// The values of as many found queries as there are lanes: `out[channel]` holds that channel in all lanes.
+    /// The values of one register of queries whose places were found: `out[channel]` holds that channel for all lanes.
     #[inline(always)]
     pub(crate) fn blend_lanes<L: Lanes, const B: usize>(&self, lanes: L, scratch: &mut Scratch<B>, out: &mut [L::F]) {
-        // Texels come query by query; the lanes want them channel by channel.
+        // Texels are computed query by query, but the lanes need them channel by channel.
         let texels = self.layout.texels();
         let mut tile = [0.0f32; MAX_LANES * CHUNK];
         let mut from = 0;
@@ -212,7 +212,7 @@ impl Interpolator {
     }
 }
 
-/// [`Interpolator::values`]: whatever interpolates a grid calls it, so that it is compiled once.
+/// [`Interpolator::values`] as a kernel that everything that interpolates a grid calls, so that it is compiled once.
 struct Interpolate<'a> {
     grid: &'a Interpolator,
     scratch: &'a mut Scratch,
@@ -230,5 +230,5 @@ impl Kernel for Interpolate<'_> {
     }
 }
 
-/// Channels that [`Interpolator::blend_lanes`] turns into lanes at once.
+/// The number of channels that [`Interpolator::blend_lanes`] transposes at once.
 const CHUNK: usize = 8;

@@ -1,4 +1,4 @@
-//! Where the texels of a table lie in memory.
+//! The layout of the texels of a table in memory.
 
 use lobe_lane::Block;
 
@@ -6,28 +6,29 @@ use crate::grid::axis::Axis;
 use crate::grid::texel::{Precision, Stored, half_scale};
 use lobe_memory::Storage;
 
-/// How the channels of a node are stored. All but the last index of an axis have their upper neighbour at a fixed
+/// The storage of the channels of a node. For all but the last index of an axis, the upper neighbour is at a fixed
 /// distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// One channel: for each cell of the last two axes its four corners side by side, the last axis faster, which one load
-    /// of four floats brings.
+    /// One channel: for each cell of the last two axes, its four corners side by side, with the last axis faster, so
+    /// that one load of four floats fetches them.
     Mono,
-    /// Two or three channels: four floats per node, so that one load of eight brings two neighbours along the last axis.
+    /// Two or three channels: four floats per node, so that one load of eight fetches two neighbours along the last
+    /// axis.
     Rgb,
-    /// More: the channels of a node, padded to a multiple of eight.
+    /// More channels: those of a node, padded to a multiple of eight.
     Wide,
 }
 
 /// The axis of the rotation of the sample, which has one knot in an isotropic grid.
 pub(crate) const TURN: usize = 1;
-/// The axis along which nodes lie side by side.
+/// The axis along which nodes are adjacent in memory.
 pub(crate) const LAST: usize = 3;
 
-/// The texels of a table and the corners of a cell, by kind and by whether [`TURN`] counts.
+/// The texels of a table and the corners of a cell, by kind and by whether [`TURN`] is used.
 ///
-/// Corners go over the axes, the last fastest. One load brings two corners along [`LAST`] of [`Kind::Rgb`], and all four
-/// along the last two axes of [`Kind::Mono`].
+/// Corners are ordered by axis, the last fastest. One load fetches two corners along [`LAST`] for [`Kind::Rgb`], and
+/// all four along the last two axes for [`Kind::Mono`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Corners<'a, T> {
     MonoIso(Block<'a, 2, 4, T>),
@@ -57,7 +58,7 @@ pub(crate) struct Layout {
     pub(crate) kind: Kind,
     pub(crate) channels: usize,
     memory: Memory,
-    /// What stored values are to be multiplied by.
+    /// The factor for stored values.
     scale: f32,
     /// Floats from a node to the next along each axis.
     strides: [usize; 4],
@@ -107,7 +108,7 @@ impl Layout {
         Some(Layout { kind, channels, memory, scale, strides, anisotropic, offsets })
     }
 
-    /// `true` if [`TURN`] counts.
+    /// `true` if [`TURN`] is used.
     #[inline(always)]
     pub(crate) fn anisotropic(&self) -> bool {
         self.anisotropic
@@ -119,7 +120,7 @@ impl Layout {
         &self.strides
     }
 
-    /// What stored values are to be multiplied by: a power of two.
+    /// The factor for stored values: a power of two.
     #[inline(always)]
     pub(crate) fn scale(&self) -> f32 {
         self.scale
@@ -157,7 +158,7 @@ impl Layout {
 
 /// The values of a grid as they were measured: `[axis 0][axis 1][axis 2][axis 3][channel]`.
 pub(crate) struct Values<'a> {
-    /// How many nodes each axis has.
+    /// The number of nodes on each axis.
     pub(crate) nodes: [usize; 4],
     pub(crate) channels: usize,
     pub(crate) values: &'a [f32],
@@ -171,7 +172,7 @@ impl Values<'_> {
     }
 }
 
-/// How many numbers of what kind go where.
+/// The number, the kind and the place of the stored numbers.
 struct Shape {
     kind: Kind,
     width: usize,
@@ -185,7 +186,8 @@ impl Shape {
         let Shape { kind, width, channels, nodes } = *self;
         let mut storage = Storage::zeros(len);
         let texel = |node: [usize; 4]| {
-            // The upper neighbour of the last node is itself; the search never gives it any weight but in rounding.
+            // The upper neighbour of the last node is the node itself; the search gives it no weight except in
+            // rounding.
             values.texel(std::array::from_fn(|axis| {
                 let source = axes[axis].source();
                 source[node[axis].min(source.len() - 1)]
@@ -221,8 +223,8 @@ fn first<const N: usize>(offsets: &[usize; 16]) -> [usize; N] {
     *offsets.first_chunk().expect("at most 16 corners")
 }
 
-/// The offsets of the corners over the axes given, the last fastest; an axis of one knot has no upper corner, except
-/// the last one, which has that knot twice.
+/// The offsets of the corners over the given axes, the last fastest; an axis with one knot has no upper corner, except
+/// the last axis, which has that knot twice.
 fn offsets(axes: &[Axis; 4], strides: [usize; 4], over: &[usize]) -> [usize; 16] {
     let mut offsets = [0; 16];
     for (corner, offset) in offsets.iter_mut().enumerate().take(1 << over.len()) {

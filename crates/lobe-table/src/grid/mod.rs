@@ -1,14 +1,14 @@
-//! Grids apart from what their axes mean.
+//! Grids, without the meaning of their axes.
 //!
-//! An [`Axis`] has knots, a way to find the cell of an angle among them (`search`), and an [`Edge`] rule for what is
-//! outside. `layout` and `texel` say how values lie in memory. The passes of a block go from angles to values:
+//! An [`Axis`] has knots, a way to find the cell of an angle among them (`search`), and an [`Edge`] rule for angles
+//! outside. `layout` and `texel` define how values are stored. The passes of a block go from angles to values:
 //!
-//! 1. `cells`: for each axis the cell and the fraction, summed up to the index of a texel;
-//! 2. `weights`: fractions to the weights of the corners;
+//! 1. `cells`: the cell and the fraction on each axis; the cells add up to the index of a texel;
+//! 2. `weights`: from the fractions to the weights of the corners;
 //! 3. `texels`: the corners of each query, weighted and summed.
 //!
-//! `interpolation` is all of it for four axes, and `single` the same for one query. `neighbours` finds cells in `f64`,
-//! for the references.
+//! `interpolation` combines these for four axes, and `single` does the same for one query. `neighbours` finds cells in
+//! `f64`, for the references.
 
 pub(crate) mod axis;
 pub(crate) mod cells;

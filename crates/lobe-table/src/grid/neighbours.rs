@@ -1,10 +1,10 @@
-//! Where an angle lies among knots, one query at a time in `f64`: what the cells of the lanes are compared with.
+//! The place of an angle among knots, one query at a time in `f64`: the reference for the cells of the lanes.
 
 use std::f64::consts::TAU;
 
 use super::edges::{Edge, ROUNDING};
 
-/// The two nodes about a query on one axis, and how much each counts. A query at a knot is in the cell above it.
+/// The two nodes around a query on one axis, and their weights. A query at a knot is in the cell above it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Neighbours {
     pub(crate) nodes: [usize; 2],
@@ -15,7 +15,7 @@ impl Neighbours {
     /// On an axis of one knot.
     pub(crate) const ONLY: Self = Neighbours { nodes: [0, 0], weights: [1.0, 0.0] };
 
-    /// Where `x` lies among ascending knots, of which there is at least one. `None` if the value is 0 because `x` is
+    /// The place of `x` among ascending knots, of which there is at least one. `None` if the value is 0 because `x` is
     /// outside.
     pub(crate) fn find<K: Copy + Into<f64>>(knots: &[K], edge: Edge, x: f64) -> Option<Self> {
         let (first, last) = (knots[0].into(), knots[knots.len() - 1].into());
@@ -39,7 +39,7 @@ impl Neighbours {
         Some(Neighbours::between([upper - 1, upper], [knots[upper - 1].into(), knots[upper].into()], x))
     }
 
-    /// Where `x` lies among ascending knots, of which there is at least one; beyond them the outermost one counts.
+    /// The place of `x` among ascending knots, of which there is at least one; beyond them, the outermost one counts.
     pub(crate) fn held<K: Copy + Into<f64>>(knots: &[K], x: f64) -> Self {
         Neighbours::find(knots, Edge::Clamp, x).unwrap_or(Neighbours::ONLY)
     }
@@ -50,7 +50,7 @@ impl Neighbours {
     }
 }
 
-/// Calls `add` with the node of each corner of a cell in a grid and its weight, leaving out those that do not count.
+/// Calls `add` with the node of each corner of a cell in a grid and its weight, except for corners without weight.
 pub(crate) fn corners<const AXES: usize>(cell: &[Neighbours; AXES], mut add: impl FnMut([usize; AXES], f64)) {
     for corner in 0..1_usize << AXES {
         let upper = |axis: usize| corner >> axis & 1;
@@ -61,7 +61,7 @@ pub(crate) fn corners<const AXES: usize>(cell: &[Neighbours; AXES], mut add: imp
     }
 }
 
-/// `x` in `[start, start + 2 pi)`, untouched if it already is.
+/// `x` moved into `[start, start + 2 pi)`, unchanged if it already is there.
 fn wrap(x: f64, start: f64) -> f64 {
     if (start..start + TAU).contains(&x) {
         return x;

@@ -1,7 +1,7 @@
-//! From angles to cells: which cell of an axis each lane lies in, and how far into it.
+//! From angles to cells: the cell of an axis that each lane is in, and the fraction into it.
 //!
-//! Each kind of axis has a searcher of its own, a [`Find`], so that the loop around it holds no branch and keeps what
-//! the search needs in registers. [`Axis::visit`] picks the kind once.
+//! Each kind of axis has its own searcher, a [`Find`], so that the loop around it has no branch and keeps the data of
+//! the search in registers. [`Axis::visit`] selects the kind once.
 
 use std::f32::consts::TAU;
 
@@ -12,9 +12,8 @@ use super::descend::Descend;
 use super::find::{Cell, Find, Visitor};
 
 impl Axis {
-    /// The cell of each lane of `x`, in radians, with no regard to the edge policy.
-    ///
-    /// For lanes inside a caller's own kernel; a loop over many angles does better to look up the searcher once.
+    /// The cell of each lane of `x`, in radians, without the edge policy. For lanes inside a caller's own kernel; a
+    /// loop over many angles should look up the searcher once.
     #[inline(always)]
     pub fn cell<L: Lanes>(&self, lanes: L, x: L::F) -> Cell<L> {
         struct One<L: Lanes>(L, L::F);
@@ -45,8 +44,8 @@ impl Axis {
         lanes.splat(low).le(x) & x.le(lanes.splat(high))
     }
 
-    /// Where the table is to be read for angles in radians. Angles on a periodic axis are at most a turn below its first
-    /// knot, and none above.
+    /// The angle at which to read the table, for angles in radians. Angles on a periodic axis are at most a turn below
+    /// its first knot, and not above.
     #[inline(always)]
     pub(crate) fn bring_inside<L: Lanes>(&self, lanes: L, x: L::F) -> L::F {
         let [low, high] = self.bounds.clamp;
@@ -54,7 +53,7 @@ impl Axis {
         turned.max(lanes.splat(low)).min(lanes.splat(high))
     }
 
-    /// Hands the searcher of this axis to `visitor`.
+    /// Passes the searcher of this axis to `visitor`.
     #[inline(always)]
     pub(crate) fn visit<L: Lanes, V: Visitor<L>>(&self, lanes: L, visitor: V) -> V::Out {
         match self.search() {
@@ -97,7 +96,8 @@ impl Axis {
     }
 }
 
-/// The whole part of a position, in `[0, last]`. It is brought there first: far outside it would not fit an integer.
+/// The integer part of a position, in `[0, last]`. It is clamped first, because far outside it would not fit an
+/// integer.
 #[inline(always)]
 fn whole_within<L: Lanes>(lanes: L, position: L::F, last: L::F) -> L::I {
     position.max(lanes.splat(0.0)).min(last).to_int()
@@ -131,9 +131,8 @@ impl<L: Lanes> Find<L> for Uniform<L> {
     }
 }
 
-/// Up to `KNOTS` inner knots, all compared with, and `OCTS` times eight cells, all in registers.
-///
-/// More instructions than a tree of look-ups, but none waits for another.
+/// Up to `KNOTS` inner knots, each compared with the query, and `OCTS` times eight cells, all in registers.
+/// This takes more instructions than a tree of lookups, but none of them waits for another.
 #[derive(Clone, Copy)]
 struct Compare<L: Lanes, const KNOTS: usize, const OCTS: usize> {
     inner: [L::F; KNOTS],
@@ -218,9 +217,9 @@ fn look_up<L: Lanes, const OCTS: usize>(lanes: L, octs: [L::Oct; OCTS], index: L
 impl<L: Lanes, const LEVELS: usize, const OCTS: usize> Find<L> for Permute<L, LEVELS, OCTS> {
     #[inline(always)]
     fn find(self, lanes: L, x: L::F) -> Cell<L> {
-        // From node n on to node 2 n, or 2 n + 1 if the query is not left of its knot. Levels 1 to 3 are nodes 1 to 7
-        // and lie in the first oct, level 4 fills the second, level 5 the last two: one look-up per level up to the
-        // fourth.
+        // From node n, the search goes to node 2 n, or to 2 n + 1 if the query is not below its knot. Levels 1 to 3 are
+        // nodes 1 to 7, in the first oct; level 4 fills the second oct, and level 5 the last two: one lookup per level
+        // up to the fourth.
         let mut node = lanes.splat_int(1);
         let mut level = 0;
         while level < LEVELS {
@@ -246,7 +245,7 @@ impl<L: Lanes, const LEVELS: usize, const OCTS: usize> Find<L> for Permute<L, LE
     }
 }
 
-/// A few knots, all compared with.
+/// A few knots, each compared with the query.
 #[derive(Clone, Copy)]
 struct Count<'a> {
     inner: &'a [f32],
@@ -273,9 +272,9 @@ struct Guide<'a, L: Lanes> {
     first: L::F,
     buckets_per_radian: L::F,
     last_bucket: L::F,
-    /// The cell at the start of the bucket, and the first knot inside the bucket or beyond.
+    /// The cell at the start of the bucket, and the first knot inside or beyond the bucket.
     buckets: &'a [[f32; 2]],
-    /// Knots in the fullest bucket beyond the first.
+    /// The number of knots in the fullest bucket, minus one.
     further: usize,
     inner: &'a [f32],
     cells: &'a [[f32; 2]],
@@ -289,7 +288,7 @@ impl<L: Lanes> Find<L> for Guide<'_, L> {
         let mut index = start.to_int().count(knot.le(x));
         let mut step = 0;
         while step < self.further {
-            // Beyond the last inner knot the gather reads that knot again, and it has been counted.
+            // Beyond the last inner knot, the gather reads that knot again; it has already been counted.
             let within = index.lt(lanes.splat_int(self.inner.len() as i32));
             index = index.count(lanes.gather(self.inner, index).le(x) & within);
             step += 1;

@@ -1,7 +1,7 @@
-//! One query at a time, with SIMD inside the query.
+//! One query at a time, with SIMD within the query.
 //!
-//! The arithmetic is that of the passes, operation by operation, so the results are the same bits; only its arrangement
-//! differs. There is no other query to hide latency behind: a cell is found by comparing with eight knots at once, and
+//! The arithmetic is that of the passes, operation by operation, so the results have the same bits; only its
+//! arrangement differs. No other query hides the latency, so a cell is found by comparing with eight knots at once, and
 //! texels are loaded whole.
 
 use std::f32::consts::TAU;
@@ -13,7 +13,7 @@ use super::interpolation::Interpolator;
 use super::layout::{Corners, LAST, TURN, Texels};
 use super::texel::Stored;
 
-/// Where in a grid a query lies.
+/// The place of a query in a grid.
 struct Located {
     at: usize,
     fractions: [f32; 4],
@@ -68,7 +68,7 @@ impl Located {
 /// The cell of one angle.
 struct OneCell {
     index: u32,
-    /// How far into the cell.
+    /// The fraction into the cell.
     fraction: f32,
     /// Whether the table has a value there.
     contained: bool,
@@ -81,7 +81,7 @@ impl Axis {
         let Bounds { turn_below, clamp: [low, high], inside } = self.bounds;
         let contained = inside[0] <= x && x <= inside[1];
         let x = x + if x < turn_below { TAU } else { 0.0 };
-        // Written out as lanes compare, so that NaN goes the same way.
+        // Written with the comparisons of the lanes, so that NaN is treated in the same way.
         let x = if x > low { x } else { low };
         let x = if x < high { x } else { high };
         let (index, fraction) = self.find_one(lanes, x);
@@ -125,8 +125,8 @@ impl Axis {
     }
 }
 
-/// The weight of each corner over the axes whose fractions are given, the last axis fastest. They add up to `scale`,
-/// or to 0 if not `valid`.
+/// The weight of each corner over the axes with the given fractions, the last axis fastest. They add up to `scale`, or
+/// to 0 if not `valid`.
 #[inline(always)]
 fn weights<const AXES: usize, const CORNERS: usize>(fractions: [f32; AXES], valid: bool, scale: f32) -> [f32; CORNERS] {
     let mut products = [scale; CORNERS];

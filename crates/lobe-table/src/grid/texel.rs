@@ -1,20 +1,20 @@
-//! The number formats that texels are stored in.
+//! The number formats of stored texels.
 
 use lobe_lane::{Block, Lanes};
 
-/// How the values of a table are stored.
+/// The storage format of the values of a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Precision {
     /// 32-bit floats: the values of the file.
     #[default]
     Single,
-    /// 16-bit floats, half the memory, scaled by a power of two so that the largest value fits. Each value is rounded to
-    /// 11 significant bits, an error of at most 2^-11 of the value, or of 2^-39 of the largest value of the table if
-    /// that is more. Faster for tables that do not fit the caches.
+    /// 16-bit floats, half the memory, scaled by a power of two so that the largest value fits. Each value is rounded
+    /// to 11 significant bits, an error of at most 2^-11 of the value, or of 2^-39 of the largest value of the table if
+    /// that is more. This is faster for tables that do not fit into the caches.
     Half,
 }
 
-/// A number as it lies in memory, which loads turn into floats.
+/// A number as stored in memory, which loads convert to a float.
 pub(crate) trait Stored: Copy + Default + bytemuck::Pod + Send + Sync {
     /// The number nearest to `x`.
     fn from_f32(x: f32) -> Self;
@@ -61,13 +61,13 @@ impl Stored for u16 {
     }
 }
 
-/// The bits of the half-precision float nearest to `x`; of two that are equally near, of the one that ends in 0.
+/// The bits of the half-precision float nearest to `x`; of two equally near ones, the one whose last bit is 0.
 fn to_half(x: f32) -> u16 {
     /// The least normal half, the first power of two beyond halves, and infinity, as bits of floats.
     const NORMAL: u32 = (127 - 14) << 23;
     const BEYOND: u32 = (127 + 16) << 23;
     const INFINITE: u32 = 255 << 23;
-    /// A float whose last bit counts as much as that of a subnormal half, so that a sum with it is rounded there.
+    /// A float whose last bit has the same value as that of a subnormal half, so that a sum with it is rounded there.
     const SUBNORMAL: u32 = (127 - 24 + 23) << 23;
 
     let sign = x.to_bits() >> 16 & 0x8000;
@@ -79,7 +79,7 @@ fn to_half(x: f32) -> u16 {
     } else if bits < NORMAL {
         (f32::from_bits(bits) + f32::from_bits(SUBNORMAL)).to_bits() - SUBNORMAL
     } else {
-        // Half a unit of what is cut off, less one if the last bit that stays is 0; and the other bias of the exponent.
+        // Half a unit of the last kept bit, minus one if that bit is 0; and the difference of the exponent biases.
         let odd = bits >> 13 & 1;
         (bits + 0xfff + odd - ((127 - 15) << 23)) >> 13
     };
@@ -88,7 +88,7 @@ fn to_half(x: f32) -> u16 {
 
 /// The power of two by which values of at most `largest` are multiplied so that they fit a half-precision float.
 pub(crate) fn half_scale(largest: f32) -> f32 {
-    // 2^15 leaves room for the rounding up of the largest value. Powers beyond 2^100 would overflow on the way back.
+    // 2^15 leaves room for rounding up the largest value. Powers beyond 2^100 would overflow when they are undone.
     let exponent = if largest > 0.0 { 15 - largest.log2().ceil() as i32 } else { 0 };
     2f32.powi(exponent.clamp(-100, 100))
 }
@@ -117,14 +117,14 @@ mod tests {
     }
 
     #[test]
-    fn between_halves_the_nearer_one_is_taken() {
+    fn floats_round_to_the_nearer_half() {
         for half in 0..0x7bff_u16 {
             let [low, high] = [half, half + 1].map(from_half);
             let middle = ((low + high) / 2.0) as f32;
             assert_eq!(to_half(middle), half + (half & 1), "{middle:e}");
             assert_eq!([middle.next_down(), middle.next_up()].map(to_half), [half, half + 1], "{middle:e}");
         }
-        // Half a unit beyond the largest is infinite.
+        // Half a unit beyond the largest half rounds to infinity.
         assert_eq!([65519.996, 65520.0].map(to_half), [0x7bff, 0x7c00]);
     }
 }

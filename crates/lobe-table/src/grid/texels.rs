@@ -8,14 +8,13 @@ use super::texel::Stored;
 use super::weights::MAX_CORNERS;
 use crate::passes::block::{BLOCK, Column};
 
-/// Room for up to three channels of each query of a block, one after the other, and for the fourth float that the last store
-/// writes.
+/// Space for up to three channels of each query of a block, one after the other, and for the fourth float that the last store writes.
 pub(crate) type Tile<const B: usize = BLOCK> = [[f32; B]; 4];
 
 /// Queries per iteration of the loop over texels, if there are as many lanes.
 const TURN: usize = 8;
 
-/// Where queries lie in a table.
+/// The places of queries in a table.
 #[derive(Clone, Copy)]
 pub(crate) struct Located<'a, const B: usize = BLOCK> {
     /// The index of the first corner.
@@ -23,8 +22,8 @@ pub(crate) struct Located<'a, const B: usize = BLOCK> {
     pub(crate) weights: &'a [Column<f32, B>; MAX_CORNERS],
 }
 
-/// Two or three channels: `CORNERS` pairs of neighbours along the last axis. Writes three floats per query, from the
-/// first, none less than `floor`. `n` is a multiple of the lanes.
+/// Two or three channels: `CORNERS` pairs of neighbours along the last axis. Writes three floats per query, starting
+/// with the first, none less than `floor`. `n` is a multiple of the lanes.
 #[inline(always)]
 pub(crate) fn rgb<L: Lanes, T: Stored, const CORNERS: usize, const B: usize>(
     lanes: L,
@@ -39,12 +38,13 @@ pub(crate) fn rgb<L: Lanes, T: Stored, const CORNERS: usize, const B: usize>(
     let turn = if L::LANES < TURN { L::LANES } else { TURN };
     let mut first = 0;
     while first < n {
-        // A few queries per iteration, which the compiler writes out: the loop itself would be a tenth of the work.
+        // A few queries per iteration, which the compiler unrolls: the loop overhead would otherwise be a tenth of the
+        // work.
         let mut query = first;
         while query < first + turn {
             let [low, high] = pair(lanes, query, corners, located);
             let texel = lanes.quad_mul_add(lanes.quad_splat(phi.one(query)), high - low, low);
-            // Each store writes a float too many, which the next one overwrites.
+            // Each store writes one extra float, which the next store overwrites.
             lanes.quad_store(&mut tile.as_flattened_mut()[3 * (query & (B - 1))..][..4], lanes.quad_max(texel, floor));
             query += 1;
         }
@@ -52,8 +52,8 @@ pub(crate) fn rgb<L: Lanes, T: Stored, const CORNERS: usize, const B: usize>(
     }
 }
 
-/// As [`rgb`], with texels that say by their fourth float whether there is a value: those without one are 0 all through and
-/// take no part in the average. 0 if there is none at all.
+/// As [`rgb`], with texels whose fourth float says whether there is a value: texels without one are all 0 and are left
+/// out of the average. 0 if no texel has a value.
 #[inline(always)]
 pub(crate) fn measured<L: Lanes, T: Stored, const CORNERS: usize, const B: usize>(
     lanes: L,
@@ -66,13 +66,13 @@ pub(crate) fn measured<L: Lanes, T: Stored, const CORNERS: usize, const B: usize
     let mut query = 0;
     while query < n {
         let [low, high] = pair(lanes, query, corners, located);
-        // Nothing is subtracted, so that a small part of what was measured keeps its digits when it is all that there is.
+        // Nothing is subtracted, so that a measured corner with a small weight keeps its digits if it is the only one.
         let upper = phi.one(query);
         let texel = lanes.quad_mul_add(lanes.quad_splat(upper), high, low * lanes.quad_splat(1.0 - upper));
         let mut four = [0.0; 4];
         lanes.quad_store(&mut four, texel);
         let scale = if four[3] > 0.0 { 1.0 / four[3] } else { 0.0 };
-        // Each store writes a float too many, which the next one overwrites.
+        // Each store writes one extra float, which the next store overwrites.
         lanes.quad_store(&mut tile.as_flattened_mut()[3 * (query & (B - 1))..][..4], texel * lanes.quad_splat(scale));
         query += 1;
     }
@@ -96,7 +96,7 @@ fn pair<L: Lanes, T: Stored, const CORNERS: usize, const B: usize>(
     lanes.oct_halves(sum)
 }
 
-/// One texel of up to three channels per query, as it is stored.
+/// One texel of up to three channels per query, as stored.
 #[inline(always)]
 pub(crate) fn nearest<L: Lanes, T: Stored, const B: usize>(
     lanes: L,
@@ -108,7 +108,7 @@ pub(crate) fn nearest<L: Lanes, T: Stored, const B: usize>(
     let mut query = 0;
     while query < n {
         let [texel] = T::quads(lanes, texels, base.one(query) as u32 as usize);
-        // Each store writes a float too many, which the next one overwrites.
+        // Each store writes one extra float, which the next store overwrites.
         lanes.quad_store(&mut tile.as_flattened_mut()[3 * (query & (B - 1))..][..4], texel);
         query += 1;
     }
@@ -140,8 +140,8 @@ pub(crate) fn mono<L: Lanes, T: Stored, const CORNERS: usize, const B: usize>(
     }
 }
 
-/// Many channels: `CORNERS` nodes of all channels, padded to eights; lanes run along the channels. Writes those of
-/// `channels`, which begin at a multiple of eight, one query after the other, none less than `floor`.
+/// Many channels: `CORNERS` nodes of all channels, padded to eights; lanes run along the channels. Writes the channels
+/// `channels`, which start at a multiple of eight, one query after the other, none less than `floor`.
 #[inline(always)]
 pub(crate) fn wide<L: Lanes, T: Stored, const CORNERS: usize, const B: usize>(
     lanes: L,

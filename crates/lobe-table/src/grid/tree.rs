@@ -3,21 +3,21 @@
 /// The largest number of cells.
 pub(crate) const MAX_CELLS: usize = 64;
 
-/// In the place of a knot that does not exist: every query is below it.
+/// Stands for a knot that does not exist: every query is below it.
 const BEYOND: f32 = f32::INFINITY;
 
 /// Up to 63 inner knots in the order of a breadth-first search, and the cells that they lead to.
 ///
-/// The tree is mirrored: below the knot of node `n`, a query goes on to node `2 n + 1`, otherwise to `2 n`. So the sign bit of
-/// the difference of query and knot is all that a step needs, and after the last one the node says how many cells are
-/// *above* that of the query.
+/// The tree is mirrored: if a query is below the knot of node `n`, it continues at node `2 n + 1`, otherwise at `2 n`.
+/// So a step needs only the sign bit of the difference between query and knot, and after the last step the node gives
+/// the number of cells *above* the query's cell.
 #[derive(Clone, Debug)]
 pub(crate) struct Tree {
     pub(crate) levels: usize,
-    /// The knot of node `n` at `n`, from the root 1 on.
+    /// The knot of node `n` at index `n`, starting with the root, 1.
     pub(crate) knots: [f32; 64],
-    /// The first knot and the inverse width of the cell of last node `n`, at as many of the low bits of `n` as a table in
-    /// registers goes by: four, or one per level if that is more.
+    /// The first knot and the inverse width of the cell of last node `n`, indexed by the low bits of `n`: four of them,
+    /// as a table in registers uses, or one per level if that is more.
     pub(crate) first: [f32; 64],
     pub(crate) inverse: [f32; 64],
 }
@@ -30,10 +30,10 @@ impl Tree {
         let mut tree = Tree { levels, knots: [BEYOND; 64], first: [0.0; 64], inverse: [0.0; 64] };
         for (node, knot) in tree.knots.iter_mut().enumerate().take(1 << levels).skip(1) {
             let level = node.ilog2() as usize;
-            // The last node of a level is the middle of the first of the parts that the level divides the knots into.
+            // The last node of a level is the middle of the first part into which the level divides the knots.
             let part = 1 << (levels - level);
             let rank = ((2 << level) - 1 - node) * part + part / 2 - 1;
-            // Zero without a sign minus zero with one would have a sign.
+            // Avoids the difference of zeros of different signs, which would have a sign.
             *knot = inner.get(rank).map_or(BEYOND, |&knot| if knot == 0.0 { -0.0 } else { knot });
         }
         let last_nodes = 1 << levels;
@@ -50,7 +50,7 @@ impl Tree {
 mod tests {
     use super::*;
 
-    /// The walk in plain numbers.
+    /// The descent in plain numbers.
     fn cell(tree: &Tree, x: f32) -> (usize, [f32; 2]) {
         let mut node = 1;
         for _ in 0..tree.levels {
@@ -61,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn queries_arrive_at_their_cells() {
+    fn queries_reach_their_cells() {
         for count in 1..=MAX_CELLS {
             // Zero is a knot of every other axis.
             let knots: Vec<f32> = (0..=count).map(|i| (i * i) as f32 - (count % 2 * 9) as f32).collect();

@@ -1,4 +1,4 @@
-//! Fractions to the weights of the corners.
+//! From fractions to the weights of the corners.
 
 use lobe_lane::{Floats, Ints, Lanes};
 
@@ -7,10 +7,10 @@ use crate::passes::block::Column;
 /// The largest number of corners: both ends of four axes.
 pub(crate) const MAX_CORNERS: usize = 16;
 
-/// What the roundings of the weights and of a sum of up to 16 corners amount to, in parts of the largest value.
+/// The error due to rounding the weights and a sum of up to 16 corners, relative to the largest value.
 pub(crate) const SUM: f64 = 4e-6;
 
-/// The weight of each corner over the axes whose fractions are given, the last axis fastest, for queries `0..n`: the
+/// The weight of each corner over the axes with the given fractions, the last axis fastest, for queries `0..n`: the
 /// first `2^AXES` columns of `weights`. They add up to `scale`, or to 0 for queries that are not valid.
 #[inline(always)]
 pub(crate) fn run<L: Lanes, const AXES: usize, const B: usize>(
@@ -29,7 +29,7 @@ pub(crate) fn run<L: Lanes, const AXES: usize, const B: usize>(
         while axis < AXES {
             let upper = fractions[axis].load(lanes, query);
             let lower = one - upper;
-            // From the back, so that each product is read before it is overwritten.
+            // Backwards, so that each product is read before it is overwritten.
             let mut corner = 1 << axis;
             while corner > 0 {
                 corner -= 1;

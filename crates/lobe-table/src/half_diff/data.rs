@@ -3,10 +3,10 @@
 use crate::invalid::{Invalid, count, finite};
 use std::f64::consts::{PI, TAU};
 
-/// How to look up values on a grid of half and difference angles.
+/// The lookup of values on a grid of half and difference angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Lookup {
-    /// The value of the bin, as the reader of the MERL database does it.
+    /// The value of the bin, as in the reader of the MERL database.
     #[default]
     Nearest,
     /// Linear between the middles of the bins.
@@ -16,8 +16,8 @@ pub enum Lookup {
 /// A measured RGB material on bins of `theta_h`, `theta_d` and `phi_d`.
 ///
 /// Bin `i` of `n` in `theta_h` covers `pi / 2 (i / n)^2` to `pi / 2 ((i + 1) / n)^2`, so that the bins are narrowest at
-/// the peak; the other two axes are uniform. `theta_d` spans a quarter turn. `phi_d` spans half a turn, which
-/// reciprocity repeats; or a whole one in the tables of 360 bins of materials that are not reciprocal.
+/// the peak; the other two axes are uniform. `theta_d` spans a quarter turn. `phi_d` spans half a turn, which repeats
+/// by reciprocity; in tables of 360 bins, for materials that are not reciprocal, it spans a whole turn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Data {
     pub(super) bins: [usize; 3],
@@ -39,7 +39,7 @@ impl Data {
         Ok(Data { bins, values })
     }
 
-    /// How many bins `theta_h`, `theta_d` and `phi_d` have.
+    /// The numbers of bins of `theta_h`, `theta_d` and `phi_d`.
     pub fn bins(&self) -> [usize; 3] {
         self.bins
     }
@@ -49,13 +49,13 @@ impl Data {
         &self.values
     }
 
-    /// The angle that `phi_d` repeats after: `pi`, or `2 pi` for a table with four times as many bins in `phi_d` as in
-    /// `theta_d`, which are then of the same width.
+    /// The period of `phi_d`: `pi`, or `2 pi` for a table with four times as many bins in `phi_d` as in `theta_d`,
+    /// which then have the same width.
     pub fn period(&self) -> f64 {
         if self.bins[2] >= 4 * self.bins[1] { TAU } else { PI }
     }
 
-    /// The values of a bin in the three channels, as they are stored.
+    /// The values of a bin in the three channels, as stored.
     ///
     /// # Panics
     /// If there is no such bin.
@@ -72,7 +72,7 @@ impl Data {
         (0..h * d * p).map(move |index| [index / (d * p), index / p % d, index % p])
     }
 
-    /// Whether a bin was measured: below the horizon, and where a measurement failed, the file has negative numbers.
+    /// Whether a bin was measured: the file has negative numbers below the horizon, and where a measurement failed.
     pub fn is_measured(&self, bin: [usize; 3]) -> bool {
         self.texel(bin).iter().all(|value| *value >= 0.0)
     }

@@ -3,8 +3,8 @@
 //! Matusik et al., "A Data-Driven Reflectance Model", ACM TOG 22(3), 2003, in the coordinates of Rusinkiewicz, "A New
 //! Change of Variables for Efficient BRDF Representation", 1998.
 //!
-//! [`Data`] are the bins as they were measured, with their evaluation in `f64`; a [`Table`] is made ready for
-//! evaluation in SIMD lanes.
+//! [`Data`] are the bins as measured, with an evaluation in `f64`; a [`Table`] is prepared for evaluation in SIMD
+//! lanes.
 
 mod data;
 #[cfg(feature = "half-diff")]

@@ -12,7 +12,7 @@ pub(super) fn prepare(data: &Data, options: &crate::data::Options) -> Result<Box
     Ok(Box::new(Prepared { table: Table::new(data)?, lookup: options.lookup }))
 }
 
-/// A table, and how it is looked up.
+/// A table, and its lookup.
 #[derive(Debug)]
 pub(crate) struct Prepared {
     pub(crate) table: Table,

@@ -1,4 +1,4 @@
-//! The evaluation of [`Data`] one query at a time in `f64`: what the lanes are compared with.
+//! The evaluation of [`Data`] one query at a time in `f64`: the reference for the lanes.
 
 use std::f64::consts::FRAC_PI_2;
 use std::ops::RangeInclusive;
@@ -14,8 +14,8 @@ impl Data {
         self.coordinates(wi, wo).map(|(x, n)| (x as usize).min(n - 1))
     }
 
-    /// The value of the bin that the directions fall into, without interpolation, as the reader of the database does
-    /// it. 0 if nothing was measured or a direction is not above the surface.
+    /// The value of the bin that the directions fall into, without interpolation, as in the reader of the database. 0
+    /// if the bin was not measured or a direction is not above the surface.
     pub fn eval_nearest(&self, wi: [f64; 3], wo: [f64; 3]) -> [f64; 3] {
         let bin = self.bin(wi, wo);
         if wi[2] <= 0.0 || wo[2] <= 0.0 || !self.is_measured(bin) {
@@ -24,9 +24,10 @@ impl Data {
         self.texel(bin).map(f64::from)
     }
 
-    /// The value interpolated linearly in the coordinates of the bins. The value of a bin is taken to lie at its middle,
-    /// as the measurement averaged over it: for `theta_h` that is `pi / 2 ((i + 1/2) / n)^2`. Beyond the first and last
-    /// middle the value is constant; `phi_d` repeats. Bins that were not measured are left out of the average.
+    /// The value interpolated linearly in the coordinates of the bins. The value of a bin is placed at its middle,
+    /// because the measurement averaged over the bin: for `theta_h` that is `pi / 2 ((i + 1/2) / n)^2`. Beyond the
+    /// first and last middle the value is constant; `phi_d` repeats. Bins that were not measured are left out of the
+    /// average.
     pub fn eval_linear(&self, wi: [f64; 3], wo: [f64; 3]) -> [f64; 3] {
         if wi[2] <= 0.0 || wo[2] <= 0.0 {
             return [0.0; 3];
@@ -56,8 +57,8 @@ impl Data {
         if total > 0.0 { sum.map(|value| value / total) } else { sum }
     }
 
-    /// All values that [`eval_nearest`](Self::eval_nearest) may have in the lanes of a [`Table`](super::Table): the one
-    /// of the bin, and where the directions are within rounding of another bin, the one of that too.
+    /// All values that [`eval_nearest`](Self::eval_nearest) may have in the lanes of a [`Table`](super::Table): that of
+    /// the bin and, if the directions are within rounding of other bins, those too.
     pub fn candidates(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<[f64; 3]> {
         if wi[2] <= 0.0 || wo[2] <= 0.0 {
             return vec![[0.0; 3]];
@@ -77,7 +78,7 @@ impl Data {
         values
     }
 
-    /// The bins within rounding along each axis. Azimuths that are not known reach all of them.
+    /// The bins within rounding along each axis. If an azimuth is undefined, these are all bins.
     fn reach(&self, wi: [f64; 3], wo: [f64; 3]) -> [RangeInclusive<isize>; 3] {
         let (places, errors) = (self.coordinates(wi, wo), self.rounding(wi, wo));
         std::array::from_fn(|axis| {
@@ -89,16 +90,16 @@ impl Data {
         })
     }
 
-    /// How far, in bins along each axis, the place of a pair in the lanes of a [`Table`](super::Table) may be from the
-    /// true one.
+    /// The largest error, in bins along each axis, of the place of a pair in the lanes of a [`Table`](super::Table).
     ///
-    /// The bins of `theta_h` are narrowest at the peak, and near it and near `theta_d = 0` an azimuth is hardly known.
+    /// The bins of `theta_h` are narrowest at the peak, and near it and near `theta_d = 0` an azimuth is poorly
+    /// determined.
     pub fn rounding(&self, wi: [f64; 3], wo: [f64; 3]) -> [f64; 3] {
         let (theta_h, theta_d, _) = half_difference(wi, wo);
         let [half, difference, azimuth] = half_vector::rounding(theta_h, theta_d);
         let [h, d, p] = self.bins.map(|n| n as f64);
         let place = |theta: f64| (theta.max(0.0) / FRAC_PI_2).sqrt() * h;
-        // What the places themselves are rounded by.
+        // The rounding of the places themselves.
         let last = |n: f64| n * f64::from(f32::EPSILON);
         [
             (place(theta_h + half) - place(theta_h)).max(place(theta_h) - place(theta_h - half)) + last(h),
@@ -107,19 +108,19 @@ impl Data {
         ]
     }
 
-    /// How far [`eval_linear`](Self::eval_linear) may be off in the lanes of a [`Table`](crate::half_diff::Table), in parts
-    /// of the largest difference of two values, if all bins were measured.
+    /// The largest error of [`eval_linear`](Self::eval_linear) in the lanes of a [`Table`](crate::half_diff::Table),
+    /// relative to the largest difference of two values, if all bins were measured.
     pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
         // Between the middles of two bins, a bin apart, the value changes by their difference.
         self.rounding(wi, wo).iter().sum::<f64>() + SUM
     }
 
-    /// The place in bins along each axis, with the number of bins.
+    /// The place along each axis, in bins, and the number of bins.
     fn coordinates(&self, wi: [f64; 3], wo: [f64; 3]) -> [(f64, usize); 3] {
         let [h, d, p] = self.bins;
         let (theta_h, theta_d, phi_d) = half_difference(wi, wo);
         let period = self.period();
-        // `phi_d` of exactly zero from below rounds up to the period, which the last bin takes.
+        // A tiny negative `phi_d` rounds up to the period, which belongs to the last bin.
         let turns = if phi_d < 0.0 { phi_d + period } else { phi_d };
         [
             ((theta_h / FRAC_PI_2 * (h * h) as f64).sqrt(), h),

@@ -1,4 +1,4 @@
-//! What programs need from grids of half and difference angles.
+//! [`Representation`] for grids of half and difference angles.
 
 use super::data::Data;
 use crate::bsdf::Bsdf;

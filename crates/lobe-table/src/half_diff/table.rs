@@ -1,4 +1,4 @@
-//! [`Data`] made ready to be evaluated in SIMD lanes.
+//! [`Data`] prepared for evaluation in SIMD lanes.
 
 use std::f32::consts::FRAC_2_PI;
 
@@ -22,7 +22,7 @@ const TEXEL: usize = 4;
 ///
 /// The values are those of [`Data::eval_nearest`] and [`Data::eval_linear`], in `f32`: `f` in 1/sr, linear RGB. The
 /// directions need not be unit vectors, but their lengths have to be between 1e-15 and 1e15. A query that is within
-/// rounding of the border of two bins may be given to either, see [`Data::candidates`].
+/// rounding of the border of two bins may get the value of either; see [`Data::candidates`].
 ///
 /// In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ pub struct Table {
     period: f32,
     /// Floats from a bin to the next along `theta_h`, `theta_d` and `phi_d`.
     strides: [usize; 3],
-    /// `[theta_h][theta_d][phi_d]`, the first `phi_d` again after the last; and a dark bin at the end.
+    /// `[theta_h][theta_d][phi_d]`, with the first `phi_d` repeated after the last, and a dark bin at the end.
     texels: Storage<f32>,
 }
 
@@ -39,7 +39,7 @@ impl Table {
     /// Lays out the bins: 16 bytes each.
     ///
     /// # Errors
-    /// [`Invalid`] if the bins are more than the 32-bit index of a lane reaches.
+    /// [`Invalid`] if there are more bins than a 32-bit index can address.
     pub fn new(data: &Data) -> Result<Self, Invalid> {
         let [h, d, p] = data.bins();
         let row = (p + 1).checked_mul(TEXEL);
@@ -54,7 +54,7 @@ impl Table {
         for theta_h in 0..h {
             for theta_d in 0..d {
                 for phi_d in 0..=p {
-                    let target = target.next().expect("a texel a bin");
+                    let target = target.next().expect("a texel per bin");
                     let bin = [theta_h, theta_d, phi_d % p];
                     if data.is_measured(bin) {
                         let [r, g, b] = data.texel(bin);
@@ -89,7 +89,7 @@ impl Table {
     /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[3 * query + channel]`, in 1/sr.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo`, or `out` is not three times as long.
+    /// If the numbers of `wi` and `wo` differ, or `out` is not three times as long.
     pub fn batch<'a>(
         &'a self,
         lookup: Lookup,
@@ -107,11 +107,11 @@ struct Evaluator<'a> {
     lookup: Lookup,
 }
 
-/// What the passes of a block hand on.
+/// The intermediate values of a block.
 struct Scratch {
     angles: HalfVector,
     base: Column<i32>,
-    /// Places in bins along `theta_h`, `theta_d` and `phi_d`; then the fractions between the middles of two.
+    /// Places along `theta_h`, `theta_d` and `phi_d`, in bins; then the fractions between the middles of two bins.
     places: [Column; 3],
     weights: [Column; MAX_CORNERS],
     tile: Tile,
@@ -155,7 +155,7 @@ impl Evaluate for Evaluator<'_> {
 }
 
 impl Table {
-    /// Where the next bins of `theta_h` and `theta_d` are; those of `phi_d` come along.
+    /// The offsets of the next bins of `theta_h` and `theta_d`; those of `phi_d` are adjacent.
     #[inline(always)]
     fn corners(&self) -> [usize; 4] {
         let h = if self.bins[0] > 1 { self.strides[0] } else { 0 };
@@ -163,7 +163,7 @@ impl Table {
         [0, d, h, h + d]
     }
 
-    /// Angles to places in bins.
+    /// Converts angles to places in bins.
     #[inline(always)]
     fn places<L: Lanes>(&self, lanes: L, n: usize, scratch: &mut Scratch) {
         let Scratch { angles, places: [h, d, p], .. } = scratch;
@@ -182,7 +182,7 @@ impl Table {
         }
     }
 
-    /// Places to the bins that they lie in; the dark one if a query is not valid.
+    /// Converts places to their bins, or to the dark bin if a query is not valid.
     #[inline(always)]
     fn bins<L: Lanes>(&self, lanes: L, n: usize, scratch: &mut Scratch) {
         let Scratch { angles, base, places: [h, d, p], .. } = scratch;
@@ -198,14 +198,14 @@ impl Table {
             let d = d.load(lanes, query).to_int().min(d_last);
             let p = p.load(lanes, query).to_int().min(p_last);
             let bin = h * h_stride + d * d_stride + p * p_stride;
-            // An index outside the table becomes its last, the dark bin.
+            // An index outside the table becomes the last one, the dark bin.
             let valid = angles.valid.load(lanes, query).lt(zero);
             base.store(lanes, query, lanes.select_int(valid, bin, dark));
             query += L::LANES;
         }
     }
 
-    /// Places to the lower of the two bins whose middles they are between, and the fractions between these.
+    /// Converts places to the lower of the two bins whose middles surround them, and the fraction between these.
     #[inline(always)]
     fn middles<L: Lanes>(&self, lanes: L, n: usize, scratch: &mut Scratch) {
         let Scratch { base, places, .. } = scratch;
@@ -216,7 +216,7 @@ impl Table {
             let place = &mut places[axis];
             let bins = self.bins[axis];
             let is_circle = axis == 2;
-            // Beyond the first and last middle the value is constant; on a circle the first bin comes again.
+            // The value is constant beyond the first and last middle; on a circle, the first bin repeats.
             let (end, last) = if is_circle { (bins, bins - 1) } else { (bins - 1, bins.saturating_sub(2)) };
             let (end, last) = (lanes.splat(end as f32), lanes.splat_int(last as i32));
             let turn = if is_circle { end } else { zero };

@@ -40,7 +40,7 @@ fn the_middle_of_a_bin_has_its_value_in_both_modes() {
 }
 
 #[test]
-fn half_a_turn_of_phi_d_swaps_the_directions_and_nothing_else() {
+fn half_a_turn_of_phi_d_only_swaps_the_directions() {
     let reciprocal = table([4, 5, 6], |i| i as f32);
     let (wi, wo) = pair(0.3, 0.5, 1.2);
     assert_eq!(reciprocal.bin(wi, wo), reciprocal.bin(wo, wi));
@@ -51,7 +51,7 @@ fn half_a_turn_of_phi_d_swaps_the_directions_and_nothing_else() {
 }
 
 #[test]
-fn bins_that_were_not_measured_take_no_part() {
+fn unmeasured_bins_are_left_out() {
     let gaps = table([4, 5, 6], |i| if i % 2 == 0 { -1.0 } else { 3.0 });
     let (wi, wo) = pair(0.3, 0.5, 1.2);
     assert!(gaps.eval_linear(wi, wo).iter().all(|value| (value - 3.0).abs() < 1e-12));
@@ -61,7 +61,7 @@ fn bins_that_were_not_measured_take_no_part() {
 }
 
 #[test]
-fn the_last_bins_take_their_upper_ends() {
+fn the_last_bins_include_their_upper_ends() {
     let table = table([4, 5, 6], |i| i as f32);
     assert_eq!(table.bin([1.0, 0.0, 1e-17], [-1.0, 0.0, 1e-17])[1], 4);
     assert_eq!(table.bin([1.0, 0.0, 0.0], [1.0, 0.0, 0.0])[0], 3);
@@ -71,7 +71,7 @@ fn the_last_bins_take_their_upper_ends() {
 }
 
 #[test]
-fn tables_that_do_not_fit_are_named() {
+fn errors_name_the_wrong_part() {
     assert_eq!(Data::new([0, 5, 6], vec![]).expect_err("no bins").part, "dims");
     assert_eq!(Data::new([1, 1, 1], vec![0.0; 2]).expect_err("two values").part, "values");
     assert_eq!(Data::new([1, 1, 1], vec![f32::NAN; 3]).expect_err("NaN").part, "values");

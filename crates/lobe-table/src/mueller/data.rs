@@ -1,8 +1,8 @@
-//! The matrices as they were measured.
+//! The matrices as measured.
 
 use crate::invalid::{Invalid, ascending, count};
 
-/// A 4 x 4 matrix, `[row][column]`, that turns a Stokes vector of the incoming light into one of the outgoing light.
+/// A 4 x 4 matrix, `[row][column]`, that maps the Stokes vector of incoming light to that of outgoing light.
 pub type Matrix = [[f64; 4]; 4];
 
 /// The elements of a matrix.
@@ -15,7 +15,7 @@ pub struct Data {
     pub(super) values: Vec<f32>,
 }
 
-/// The axes of the tables, with the names that the file format gives them.
+/// The axes of the tables, with their names in the file format.
 pub const AXES: [&str; 4] = ["phi_d", "theta_d", "theta_h", "wvls"];
 
 impl Data {

@@ -1,4 +1,4 @@
-//! Whole matrices, made ready to be evaluated in SIMD lanes.
+//! Whole matrices, prepared for evaluation in SIMD lanes.
 
 use lobe_backend::Backend;
 use lobe_lane::{Block, Kernel, Lanes};
@@ -14,16 +14,16 @@ use lobe_memory::Storage;
 
 /// Whole Mueller matrices at each wavelength of the data, laid out for evaluation in SIMD lanes.
 ///
-/// The matrices are those of [`Data::eval`], in `f32`, in 1/sr, without the cosine: they map Stokes vectors with the x axis
-/// [`stokes_basis`](super::stokes_basis)`(-wi)` to such with the x axis `stokes_basis(wo)`. A matrix with an element that
-/// is NaN was not measured, and neither is a blend that it has a part in; those are 0. The directions need not be unit
+/// The matrices are those of [`Data::eval`], in `f32`, in 1/sr, without the cosine: they map Stokes vectors with the x
+/// axis [`stokes_basis`](super::stokes_basis)`(-wi)` to Stokes vectors with the x axis `stokes_basis(wo)`. A matrix
+/// with a NaN element is unmeasured; it is 0, and so is any blend that includes it. The directions need not be unit
 /// vectors, but their lengths have to be between 1e-15 and 1e15. In strict form
 /// ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
 pub struct Matrices {
     wavelengths: usize,
     places: Places,
-    /// A first element below this has a part that was not measured.
+    /// A first element below this includes an unmeasured matrix.
     least: f32,
     /// `[phi_d][theta_d][theta_h][wavelength][element]`, the elements in the order of [`stokes::stored`].
     texels: Storage<f32>,
@@ -33,10 +33,10 @@ impl Matrices {
     /// Lays out all elements: 4 bytes each.
     ///
     /// # Errors
-    /// [`Invalid`] names an axis, or `M` if the elements are more than a 32-bit index reaches.
+    /// [`Invalid`] names an axis, or `M` if there are more elements than a 32-bit index can address.
     pub fn new(data: &Data) -> Result<Self, Invalid> {
         let wavelengths = data.knots()[3].len();
-        // An index of a lane wraps, and is taken without its sign.
+        // Lane indices wrap, and are used as unsigned numbers.
         let places = Places::new(data, wavelengths * ELEMENTS, u32::MAX as usize)?;
         let mut texels = Storage::zeros(places.len);
         let (matrices, _) = data.values().as_chunks::<ELEMENTS>();
@@ -47,7 +47,7 @@ impl Matrices {
         Ok(Matrices { wavelengths, places, least: stokes::least(matrices), texels })
     }
 
-    /// How many wavelengths there are.
+    /// The number of wavelengths.
     pub fn wavelength_count(&self) -> usize {
         self.wavelengths
     }
@@ -69,7 +69,8 @@ impl Matrices {
     /// `out[query][wavelength][row][column]`.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo`, or `out` is not that many times 16 times the wavelengths long.
+    /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times 16 times the number of
+    /// wavelengths.
     pub fn batch<'a>(
         &'a self,
         wi: Directions<'a>,
@@ -80,7 +81,7 @@ impl Matrices {
     }
 }
 
-/// What the passes of a block hand on.
+/// The intermediate values of a block.
 pub(crate) struct MatrixScratch {
     places: Scratch,
     stokes: Stokes,

@@ -4,8 +4,8 @@
 //! isotropic; matrices are tabulated over the coordinates of Rusinkiewicz, in Stokes frames that follow the plane of
 //! the two directions.
 //!
-//! [`Data`] are the matrices as they were measured, with their evaluation in `f64`; a [`Table`] has what
-//! unpolarised light sees of them, and [`Matrices`] have all of their elements, made ready for evaluation in SIMD lanes.
+//! [`Data`] are the matrices as measured, with an evaluation in `f64`. A [`Table`] holds the element that applies to
+//! unpolarised light, and [`Matrices`] hold all elements, prepared for evaluation in SIMD lanes.
 
 mod data;
 #[cfg(feature = "mueller")]

@@ -1,4 +1,4 @@
-//! Where pairs of directions lie between the nodes of the matrices.
+//! The places of pairs of directions between the nodes of the matrices.
 
 use lobe_lane::{Floats, Kernel, Lanes, call};
 
@@ -12,7 +12,7 @@ use crate::passes::block::{Column, registers};
 use crate::passes::half_vector::HalfVector;
 use crate::passes::pairs::Pairs;
 
-/// The grid of angles, and how texels of some width lie on it.
+/// The grid of angles, and the layout of texels of some width on it.
 #[derive(Clone, Debug)]
 pub(super) struct Places {
     /// `phi_d`, `theta_d` and `theta_h`.
@@ -21,7 +21,7 @@ pub(super) struct Places {
     strides: [usize; 3],
     /// The corners of a cell, from its first node.
     pub(super) corners: [usize; 8],
-    /// How many floats all texels are.
+    /// The number of floats of all texels.
     pub(super) len: usize,
 }
 
@@ -29,7 +29,7 @@ impl Places {
     /// The places of texels of `width` floats, a multiple of eight.
     ///
     /// # Errors
-    /// [`Invalid`] names an axis, or `M` if the floats are more than `most`.
+    /// [`Invalid`] names an axis, or `M` if there are more floats than `most`.
     pub(super) fn new(data: &Data, width: usize, most: usize) -> Result<Self, Invalid> {
         let axis = |index: usize| {
             let knots: Vec<f64> = data.knots()[index].iter().map(|knot| f64::from(*knot)).collect();
@@ -59,14 +59,15 @@ impl Places {
         self.axes.iter().map(Axis::bytes).sum()
     }
 
-    /// From the directions of queries `0..n` to the first corner of each and the weights. `n` is a multiple of the lanes.
+    /// Converts the directions of queries `0..n` to the first corner of each and the weights. `n` is a multiple of the
+    /// lanes.
     #[inline(always)]
     pub(super) fn find<L: Lanes>(&self, lanes: L, n: usize, pairs: Pairs<'_>, scratch: &mut Scratch) {
         call(lanes, Find { places: self, n, pairs, scratch });
     }
 }
 
-/// What the passes of a block hand on.
+/// The intermediate values of a block.
 pub(crate) struct Scratch {
     pub(super) angles: HalfVector,
     pub(super) base: Column<i32>,
@@ -78,7 +79,7 @@ impl Scratch {
         Scratch { angles: HalfVector::ZERO, base: Column::<i32>::ZERO, weights: [Column::<f32>::ZERO; MAX_CORNERS] };
 }
 
-/// [`Places::find`]: both tables call it, so that it is compiled once.
+/// [`Places::find`] as a kernel that both tables call, so that it is compiled once.
 struct Find<'a> {
     places: &'a Places,
     n: usize,
@@ -107,7 +108,7 @@ impl Kernel for Find<'_> {
     }
 }
 
-/// No weight may be negative, not even by rounding: what was not measured would turn into light.
+/// No weight may be negative, not even by rounding: unmeasured matrices would turn into light.
 #[inline(always)]
 fn within<L: Lanes>(lanes: L, n: usize, fraction: &mut Column) {
     let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));

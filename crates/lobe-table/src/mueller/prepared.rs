@@ -1,5 +1,5 @@
-//! Mueller matrices, ready to be evaluated: the value of a pair of directions is that of unpolarised light. Whole matrices
-//! are laid out when they are first asked for, as they take sixteen times the memory.
+//! Mueller matrices, ready to be evaluated: the value of a pair of directions is that for unpolarised light. Whole
+//! matrices are laid out when they are first needed, because they take sixteen times the memory.
 
 use std::sync::OnceLock;
 
@@ -17,12 +17,12 @@ pub(super) fn prepare(data: &Data, _: &crate::data::Options) -> Result<Box<dyn B
     Ok(Box::new(Prepared { data: data.clone(), table, matrices: OnceLock::new(), channels }))
 }
 
-/// The matrices, and what unpolarised light sees of them.
+/// The matrices, and their element for unpolarised light.
 #[derive(Debug)]
 pub(crate) struct Prepared {
     pub(crate) data: Data,
     pub(crate) table: Table,
-    /// `None` if they are more than lanes can index.
+    /// `None` if there are more elements than lanes can index.
     pub(crate) matrices: OnceLock<Option<Matrices>>,
     pub(crate) channels: Channels,
 }

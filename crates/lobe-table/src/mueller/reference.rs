@@ -1,4 +1,4 @@
-//! The evaluation of [`Data`] one query at a time in `f64`: what the lanes are compared with.
+//! The evaluation of [`Data`] one query at a time in `f64`: the reference for the lanes.
 
 use std::f64::consts::PI;
 
@@ -11,8 +11,8 @@ use crate::passes::half_vector;
 impl Data {
     /// The Mueller matrix in 1/sr, without the cosine, for light that comes from `wi` and leaves along `wo`.
     ///
-    /// It maps Stokes vectors with the x axis [`stokes_basis`]`(-wi)` to such with the x axis [`stokes_basis`]`(wo)`.
-    /// Zero if a direction is not above the surface or nothing was measured.
+    /// It maps Stokes vectors with the x axis [`stokes_basis`]`(-wi)` to Stokes vectors with the x axis
+    /// [`stokes_basis`]`(wo)`. Zero if a direction is not above the surface or nothing was measured.
     pub fn eval(&self, wi: [f64; 3], wo: [f64; 3], nm: f64) -> Matrix {
         self.in_plane(wi, wo, nm).map_or([[0.0; 4]; 4], |matrix| in_frames(matrix, wi, wo))
     }
@@ -27,7 +27,7 @@ impl Data {
         let at = [phi_d, theta_d, theta_h, nm];
         let cell: [Neighbours; 4] = std::array::from_fn(|axis| Neighbours::held(&self.knots[axis], at[axis]));
         let mut matrix = [[0.0; 4]; 4];
-        // A corner without a part in the blend may not be measured.
+        // A corner without weight in the blend need not be measured.
         corners(&cell, |node, weight| {
             let at = node.iter().zip(&self.knots).fold(0, |at, (node, knots)| at * knots.len() + node);
             let texel = &self.values[at * ELEMENTS..][..ELEMENTS];
@@ -42,12 +42,12 @@ impl Data {
         Some(matrix)
     }
 
-    /// How far a value may be off in the lanes of a [`Table`](crate::mueller::Table), in parts of the largest first element
-    /// of a matrix, if all matrices around were measured.
+    /// The largest error of a value in the lanes of a [`Table`](crate::mueller::Table), relative to the largest first
+    /// element of a matrix, if all surrounding matrices were measured.
     pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
         let at = coordinates(wi, wo);
         let errors = rounding(at);
-        // The two ends of `phi_d` have values of their own.
+        // The two ends of `phi_d` have separate values.
         if PI - at[0].abs() <= errors[0] {
             return 1.0;
         }
@@ -59,15 +59,15 @@ impl Data {
     }
 }
 
-/// How far, in radians, the Stokes frames of [`Matrices`](crate::mueller::Matrices) may be turned from those of the
-/// reference. The normal of a plane says little where it is hardly spanned.
+/// The largest rotation, in radians, of the Stokes frames of [`Matrices`](crate::mueller::Matrices) relative to those
+/// of the reference. The normal of the plane is poorly determined if the directions hardly span it.
 pub fn turned(wi: [f64; 3], wo: [f64; 3]) -> f64 {
     let normal = cross(wi, wo);
     1e-6 + 2.5e-7 / dot(normal, normal).sqrt()
 }
 
-/// A matrix for Stokes vectors with the x axis [`plane_normal`] as one for the x axes [`stokes_basis`]`(-wi)` and
-/// [`stokes_basis`]`(wo)`.
+/// Converts a matrix for Stokes vectors with the x axis [`plane_normal`] to one for the x axes [`stokes_basis`]`(-wi)`
+/// and [`stokes_basis`]`(wo)`.
 pub(crate) fn in_frames(matrix: Matrix, wi: Vector, wo: Vector) -> Matrix {
     let propagation = wi.map(|x| -x);
     let (target_in, target_out) = (stokes_basis(propagation), stokes_basis(wo));
@@ -77,14 +77,14 @@ pub(crate) fn in_frames(matrix: Matrix, wi: Vector, wo: Vector) -> Matrix {
 }
 
 /// `phi_d` in `(-pi, pi]`, `theta_d` and `theta_h`, with the viewer turned to azimuth 0 as in figure 3 of Baek et al.:
-/// if the half vector is the normal, and its azimuth open, the result still follows a rotation of both.
+/// if the half vector is the normal, so that its azimuth is undefined, the result still follows a rotation of both.
 pub fn coordinates(wi: [f64; 3], wo: [f64; 3]) -> [f64; 3] {
     let turn = phi(wo);
     let (theta_h, theta_d, phi_d) = half_difference(rotate_z(wi, -turn), rotate_z(wo, -turn));
     [phi_d, theta_d, theta_h]
 }
 
-/// How far, in radians, the [`coordinates`] of a pair may be off in the lanes of a [`Table`](crate::mueller::Table).
+/// The largest error, in radians, of the [`coordinates`] of a pair in the lanes of a [`Table`](crate::mueller::Table).
 pub fn rounding([_, theta_d, theta_h]: [f64; 3]) -> [f64; 3] {
     let [theta_h, theta_d, phi_d] = half_vector::rounding(theta_h, theta_d);
     [phi_d, theta_d, theta_h]

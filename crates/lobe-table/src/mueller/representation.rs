@@ -1,4 +1,4 @@
-//! What programs need from Mueller matrices.
+//! [`Representation`] for Mueller matrices.
 
 use std::borrow::Cow;
 
@@ -30,7 +30,7 @@ impl Representation for Data {
     fn sections(&self) -> Vec<Section<'_>> {
         // NaN means that nothing was measured.
         let values: Vec<f32> = self.values.iter().copied().filter(|value| !value.is_nan()).collect();
-        // The first element is the light; the others have a sign.
+        // The first element is an amount of light; the others have a sign.
         let measured = self.values.iter().copied().step_by(ELEMENTS).filter(|value| !value.is_nan()).collect();
         let wide = |axis: usize| self.knots[axis].iter().map(|&knot| f64::from(knot)).collect::<Vec<_>>();
         let (all, gaps) = (self.values.len() / ELEMENTS, (self.values.len() - values.len()).div_ceil(ELEMENTS));

@@ -1,4 +1,4 @@
-//! What unpolarised light sees of [`Data`], made ready to be evaluated in SIMD lanes.
+//! The elements of [`Data`] for unpolarised light, prepared for evaluation in SIMD lanes.
 
 use lobe_backend::Backend;
 use lobe_lane::{Block, Kernel, Lanes};
@@ -11,10 +11,10 @@ use crate::invalid::Invalid;
 use crate::passes::pairs::{Evaluate, Pairs, evaluation};
 use lobe_memory::Storage;
 
-/// Stored where nothing was measured. However small its part in a blend, the result is far below 0 and becomes 0.
+/// Stored where nothing was measured. However small its weight in a blend, the result is far below 0 and becomes 0.
 pub(super) const UNMEASURED: f32 = f32::MIN;
 
-/// The values that unpolarised light has, laid out for evaluation in SIMD lanes: the first element of the matrix, at each
+/// The values for unpolarised light, laid out for evaluation in SIMD lanes: the first element of the matrix, at each
 /// wavelength of the table.
 ///
 /// The values are those of [`Data::in_plane`], in `f32`: `f` in 1/sr, without the cosine. The directions need not be unit
@@ -24,7 +24,7 @@ pub(super) const UNMEASURED: f32 = f32::MIN;
 pub struct Table {
     channels: usize,
     places: Places,
-    /// `[phi_d][theta_d][theta_h][wavelength]`, the wavelengths padded to eights.
+    /// `[phi_d][theta_d][theta_h][wavelength]`, with the wavelengths padded to a multiple of eight.
     texels: Storage<f32>,
 }
 
@@ -32,7 +32,7 @@ impl Table {
     /// Lays out the first elements: 4 bytes each, a sixteenth of the matrices.
     ///
     /// # Errors
-    /// [`Invalid`] names an axis, or `M` if the elements are more than the 32-bit index of a lane reaches.
+    /// [`Invalid`] names an axis, or `M` if there are more elements than a 32-bit index can address.
     pub fn new(data: &Data) -> Result<Self, Invalid> {
         let channels = data.knots()[3].len();
         let width = channels.next_multiple_of(8);
@@ -47,7 +47,7 @@ impl Table {
         Ok(Table { channels, places, texels })
     }
 
-    /// How many wavelengths there are.
+    /// The number of wavelengths.
     pub fn channel_count(&self) -> usize {
         self.channels
     }
@@ -69,7 +69,8 @@ impl Table {
     /// in 1/sr.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo`, or `out` is not that many times the wavelengths long.
+    /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times the number of
+    /// wavelengths.
     pub fn batch<'a>(
         &'a self,
         wi: Directions<'a>,

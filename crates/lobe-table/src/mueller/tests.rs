@@ -11,14 +11,14 @@ fn near(a: Matrix, b: Matrix) -> bool {
 }
 
 #[test]
-fn the_plane_matrix_does_not_see_a_rotation_of_both() {
+fn the_plane_matrix_is_invariant_under_rotation_of_both() {
     let material = material(|i| ((i * 37) % 101) as f32 / 101.0);
     let pair = |turn: f64| (spherical(0.4, 0.3 + turn), spherical(1.1, 2.0 + turn));
     let (wi, wo) = pair(0.0);
     let (wi2, wo2) = pair(1.7);
     let matrix = material.in_plane(wi, wo, 530.0).expect("above the surface");
     assert!(near(matrix, material.in_plane(wi2, wo2, 530.0).expect("above the surface")));
-    // Rotations of the Stokes frames leave the intensity and the circular elements alone.
+    // Rotations of the Stokes frames do not change the intensity and the circular elements.
     let rotated = material.eval(wi, wo, 530.0);
     for (i, j) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
         assert!((rotated[i][j] - matrix[i][j]).abs() < 1e-12);
@@ -38,7 +38,7 @@ fn retroreflection_has_the_value_of_its_neighbours() {
 }
 
 #[test]
-fn what_was_not_measured_is_dark() {
+fn unmeasured_matrices_are_dark() {
     let (wi, wo) = (spherical(0.4, 0.3), spherical(1.1, 2.0));
     let gaps = material(|i| if i % 16 == 0 { f32::NAN } else { 1.0 });
     assert_eq!(gaps.eval(wi, wo, 550.0), [[0.0; 4]; 4]);
@@ -49,7 +49,7 @@ fn what_was_not_measured_is_dark() {
 }
 
 #[test]
-fn tables_that_do_not_fit_are_named() {
+fn errors_name_the_wrong_part() {
     let new = |phi_d: Vec<f32>, n| Data::new([phi_d, vec![0.0], vec![0.0], vec![500.0]], vec![0.0; n]);
     assert_eq!(new(vec![0.0, 1.0], 32).map(|m| m.values().len()), Ok(32));
     assert_eq!(new(vec![0.0, 1.0], 16).expect_err("too few").part, "M");

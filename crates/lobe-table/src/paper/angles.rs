@@ -1,4 +1,4 @@
-//! Directions to the four angles, by one arc cosine each.
+//! From directions to the four angles, with one arc cosine each.
 
 use std::f32::consts::TAU;
 
@@ -34,7 +34,7 @@ fn turn<L: Lanes>(lanes: L, cos: L::F, sin: L::F) -> L::F {
     lanes.select(sin.lt(lanes.splat(0.0)), lanes.splat(TAU) - half_turn, half_turn)
 }
 
-/// Four terms; rounding may have left the argument outside `[-1, 1]`.
+/// The four-term arc cosine, for arguments that rounding may have moved outside `[-1, 1]`.
 #[inline(always)]
 fn acos<L: Lanes>(lanes: L, cos: L::F) -> L::F {
     let one = lanes.splat(1.0);

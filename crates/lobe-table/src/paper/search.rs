@@ -1,12 +1,12 @@
 //! Binary search of a knot array for all lanes at once (paper, section 2.2).
 //!
-//! All lanes go down the same branch for as long as they agree. When they do not, the branch of the lanes at or above
-//! the knot waits on a stack and the others go on. The sets of lanes on the stack and at hand have no lane in common,
-//! so that at most `LANES - 1` branches ever wait.
+//! All lanes take the same branch as long as they agree. When they do not, the branch of the lanes at or above the knot
+//! waits on a stack, and the others continue. The sets of lanes on the stack and in progress are disjoint, so at most
+//! `LANES - 1` branches ever wait.
 //!
-//! What a caller wants is seldom the index alone. The specialised versions write the interpolation weights, or the value
-//! of a function of one variable, where the branch ends: every lane of the branch has the same cell there, so the cell
-//! is read once and no indexing by lane is needed.
+//! A caller seldom wants just the index. The specialised versions write the interpolation weights, or the value of a
+//! function of one variable, at the end of a branch: there, every lane of the branch has the same cell, so the cell is
+//! read once and no indexing by lane is needed.
 
 use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
 
@@ -27,7 +27,7 @@ pub fn index<L: Lanes>(lanes: L, knots: &[f32], x: L::F, mask: L::M) -> L::F {
 /// `cells[i]` is `[knots[i], 1 / (knots[i + 1] - knots[i])]`.
 ///
 /// # Panics
-/// If there are fewer than two knots, or fewer cells than one less than knots.
+/// If there are fewer than two knots, or fewer cells than the number of knots minus one.
 #[inline(always)]
 pub fn weights<L: Lanes>(lanes: L, knots: &[f32], cells: &[[f32; 2]], x: L::F, mask: L::M) -> (L::F, [L::F; 2]) {
     let zero = lanes.splat(0.0);
@@ -41,7 +41,7 @@ pub fn weights<L: Lanes>(lanes: L, knots: &[f32], cells: &[[f32; 2]], x: L::F, m
 /// `cells[i]` is the value at `knots[i]` and the slope from there to the next knot.
 ///
 /// # Panics
-/// If there are fewer than two knots, or fewer cells than one less than knots.
+/// If there are fewer than two knots, or fewer cells than the number of knots minus one.
 #[inline(always)]
 pub fn value<L: Lanes>(lanes: L, knots: &[f32], cells: &[[f32; 2]], x: L::F, mask: L::M) -> L::F {
     let mut value = lanes.splat(0.0);
@@ -49,7 +49,7 @@ pub fn value<L: Lanes>(lanes: L, knots: &[f32], cells: &[[f32; 2]], x: L::F, mas
     value
 }
 
-/// What is written where a branch ends.
+/// The output that is written at the end of a branch.
 trait Leaf<L: Lanes> {
     /// Writes for `cell` under the mask. Must be `#[inline(always)]`.
     fn write(&mut self, lanes: L, cell: usize, mask: L::M);
@@ -100,7 +100,7 @@ impl<L: Lanes> Leaf<L> for Value<'_, L::F> {
     }
 }
 
-/// The lanes whose cell lies in `low..high`.
+/// The lanes whose cell is in `low..high`.
 #[derive(Clone, Copy)]
 struct Branch {
     low: u32,
@@ -110,7 +110,7 @@ struct Branch {
 }
 
 impl Branch {
-    /// Goes down until one cell is left, or until the lanes disagree: then the branch of the upper ones is returned.
+    /// Descends until one cell is left, or until the lanes disagree; then the branch of the upper lanes is returned.
     #[inline(always)]
     fn descend<L: Lanes>(&mut self, lanes: L, knots: &[f32], x: L::F) -> Option<Branch> {
         while self.high - self.low > 1 {
@@ -150,7 +150,7 @@ impl Branch {
 fn search<L: Lanes>(lanes: L, knots: &[f32], x: L::F, mask: L::M, mut leaf: impl Leaf<L>) {
     assert!(knots.len() > 1, "a search needs two knots");
     let mut here = Branch { low: 0, high: knots.len() as u32 - 1, lanes: mask.bits() };
-    // A coherent packet arrives here with nothing put aside.
+    // A coherent packet arrives here with an empty stack.
     let Some(upper) = here.descend(lanes, knots, x) else {
         return leaf.write(lanes, here.low as usize, mask);
     };

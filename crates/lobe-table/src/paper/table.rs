@@ -12,12 +12,12 @@ use crate::passes::blocks::{Blocks, Blockwise};
 use crate::passes::pairs::PairPadding;
 use crate::{AxisError, Edge, Edges, Scatter, specular, specular::AXIS_NAMES};
 
-/// Floats hold every integer up to this one, so no more texels can be distinguished.
+/// Floats represent every integer up to this one, so no more texels can be distinguished.
 const MAX_TEXELS: usize = 1 << 24;
 
 /// An RGB table in specular coordinates, three-dimensional (isotropic) or four-dimensional, evaluated as in the paper.
 ///
-/// Sigma and theta are clamped at their ends, psi and phi close the circle, and values below 0 become 0: the default
+/// Sigma and theta are clamped at their ends, psi and phi are periodic, and values below 0 become 0: the default
 /// [`Edges`]. Directions and results are those of [`Table`](crate::specular::Table).
 #[derive(Clone, Debug)]
 pub struct PaperTable {
@@ -27,18 +27,18 @@ pub struct PaperTable {
     strides: [usize; 4],
 }
 
-/// Why samples do not make such a table.
+/// Samples that cannot form such a table.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum PaperError {
-    /// The kernel is written for a BRDF of three channels.
+    /// The kernel is written for a BRDF with three channels.
     #[error("found {found}; expected {expected}")]
     Unsupported {
         /// What the samples have.
         found: String,
-        /// What the kernel can do.
+        /// What the kernel supports.
         expected: &'static str,
     },
-    /// Knots that do not make an axis.
+    /// Knots that cannot form an axis.
     #[error("{axis}: {source}")]
     Axis {
         /// Name of the axis.
@@ -49,11 +49,11 @@ pub enum PaperError {
 }
 
 impl PaperTable {
-    /// Lays out samples of three channels.
+    /// Lays out samples with three channels.
     ///
     /// # Errors
-    /// For a BTDF, for other than three channels, for an axis but psi with a single knot, and for more texels than a
-    /// float can count.
+    /// For a BTDF, for a number of channels other than three, for an axis other than psi with a single knot, and for
+    /// more texels than a float can count.
     pub fn new(samples: &specular::Data) -> Result<Self, PaperError> {
         let unsupported = |found: String, expected| Err(PaperError::Unsupported { found, expected });
         if samples.scatter() != Scatter::Reflection {
@@ -111,12 +111,12 @@ impl PaperTable {
         } else {
             self.interpolate::<L, 3, 8>(lanes, [(0, sigma), (2, theta), (3, phi)], mask)
         };
-        // Lanes outside the mask have no weight, but a direction of theirs may be NaN.
+        // Lanes outside the mask have no weight, but their directions may be NaN.
         let [r, g, b] = rgb;
         [r.max(zero).masked(mask), g.max(zero).masked(mask), b.max(zero).masked(mask)]
     }
 
-    /// Searches the axes given, multiplies their weights, and sums the `CORNERS = 2^AXES` corners.
+    /// Searches the given axes, multiplies their weights, and sums the `CORNERS = 2^AXES` corners.
     #[inline(always)]
     fn interpolate<L: Lanes, const AXES: usize, const CORNERS: usize>(
         &self,

@@ -1,11 +1,11 @@
-//! Indexing and interpolation (paper, section 2.3): a cell is loaded once for all the lanes that lie in it.
+//! Indexing and interpolation (paper, section 2.3): a cell is loaded once for all lanes in it.
 
 use lobe_lane::{Floats, Lanes, MAX_LANES, Mask};
 
 /// RGB in each lane: the corners at `base + offsets[i]`, weighted and summed. Lanes outside the mask have weights of 0.
 ///
 /// # Panics
-/// If a corner of a lane inside the mask lies outside `texels`.
+/// If a corner of a lane inside the mask is outside `texels`.
 #[inline(always)]
 pub(super) fn interpolate<L: Lanes, const CORNERS: usize>(
     lanes: L,
@@ -39,7 +39,8 @@ pub(super) fn interpolate<L: Lanes, const CORNERS: usize>(
         return sum;
     }
 
-    // Else cell by cell, the smallest index first, until every lane has its corners. Lanes that are done wait at infinity.
+    // Otherwise cell by cell, the smallest index first, until every lane has its corners. Finished lanes wait at
+    // infinity.
     let done = lanes.splat(f32::INFINITY);
     let mut waiting = lanes.select(mask, base, done);
     let mut corners = [[zero; 3]; CORNERS];
@@ -55,8 +56,8 @@ pub(super) fn interpolate<L: Lanes, const CORNERS: usize>(
             let texel = cell[offsets[corner]];
             let mut k = 0;
             while k < 3 {
-                // Each lane is loaded once, onto a zero. A select here becomes a masked store, which some CPUs make of
-                // dozens of steps.
+                // Each lane is loaded once, and added to zero. A select here would become a masked store, which takes
+                // dozens of steps on some CPUs.
                 corners[corner][k] = corners[corner][k] + lanes.splat(texel[k]).masked(here);
                 k += 1;
             }

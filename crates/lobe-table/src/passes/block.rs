@@ -1,8 +1,9 @@
-//! A block of queries and the columns that the passes hand on.
+//! A block of queries, and the columns passed from one pass to the next.
 
 use lobe_lane::Lanes;
 
-/// Queries per block: enough to keep the core busy within a pass, few enough that all columns stay in the first cache.
+/// Queries per block: enough to keep the core busy within a pass, few enough that all columns stay in the first-level
+/// cache.
 pub(crate) const BLOCK: usize = 128;
 
 /// So many queries of a block in whole registers. There are never more than a block holds; saying so keeps the compiler
@@ -46,7 +47,7 @@ impl<const B: usize> Column<i32, B> {
     pub(crate) fn store<L: Lanes>(&mut self, lanes: L, at: usize, x: L::I) {
         lanes.store_int(&mut self.0[at & (B - L::LANES)..][..L::LANES], x);
     }
-    /// As many as there are lanes, in memory.
+    /// One float per lane, in memory.
     #[inline(always)]
     pub(crate) fn slice<L: Lanes>(&self, _lanes: L, at: usize) -> &[i32] {
         &self.0[at & (B - L::LANES)..][..L::LANES]

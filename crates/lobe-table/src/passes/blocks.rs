@@ -1,4 +1,4 @@
-//! Work on many queries, taken through its blocks.
+//! Work on many queries, block by block.
 
 use std::ops::Range;
 
@@ -8,15 +8,15 @@ use super::block::BLOCK;
 
 /// Work on many queries that is done block by block.
 pub(crate) trait Blockwise {
-    /// What its passes hand on.
+    /// The intermediate values of its passes.
     type Scratch;
     /// The scratch before the first block.
     const SCRATCH: Self::Scratch;
 
-    /// How many queries there are.
+    /// The number of queries.
     fn count(&self) -> usize;
 
-    /// Does `queries`: a whole block, or the last ones. Must be `#[inline(always)]`.
+    /// Processes `queries`: a full block, or the last ones. Must be `#[inline(always)]`.
     fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut Self::Scratch);
 }
 

@@ -1,9 +1,10 @@
-//! Directions to half and difference angles: the coordinates of Rusinkiewicz, "A New Change of Variables for Efficient BRDF
-//! Representation", 1998.
+//! From directions to half and difference angles: the coordinates of Rusinkiewicz, "A New Change of Variables for
+//! Efficient BRDF Representation", 1998.
 //!
-//! With unit vectors, the half vector lies along the sum `h = wi + wo`, and the difference `d = wi - wo` lies across
-//! it. Both are exact to the rounding of the directions near the peak, where products lose their digits; and as `|h| =
-//! 2 cos(theta_d)` and `|d| = 2 sin(theta_d)`, no rotation into the frame of the half vector has to be computed.
+//! For unit vectors, the half vector lies along the sum `h = wi + wo`, and the difference `d = wi - wo` is
+//! perpendicular to it. Near the peak, where products lose their digits, both are exact up to the rounding of the
+//! directions; and because `|h| = 2 cos(theta_d)` and `|d| = 2 sin(theta_d)`, no rotation into the frame of the half
+//! vector has to be computed.
 
 use lobe_lane::{Floats, Lanes};
 
@@ -14,10 +15,11 @@ use super::unit::unit;
 /// The angles of a block of queries.
 #[derive(Clone, Copy)]
 pub(crate) struct HalfVector {
-    /// `theta_h` and `theta_d`; before, the tangents of their halves.
+    /// `theta_h` and `theta_d`; at first, the tangents of their halves.
     pub(crate) theta_h: Column,
     pub(crate) theta_d: Column,
-    /// `phi_d` in `[-pi, pi]`; before, `wi` across the half vector, away from the normal and toward the side.
+    /// `phi_d` in `[-pi, pi]`; at first, the components of `wi` perpendicular to the half vector, away from the normal
+    /// and to the side.
     pub(crate) phi_d: Column,
     side: Column,
     /// All bits set if both directions point above the horizon.
@@ -53,7 +55,7 @@ impl HalfVector {
         }
     }
 
-    /// What the angles are computed from.
+    /// The intermediate values from which the angles are computed.
     #[inline(always)]
     fn frame<L: Lanes, const VIEWED: bool>(&mut self, lanes: L, n: usize, Pairs { wi, wo }: Pairs<'_>) {
         let (zero, one, two) = (lanes.splat(0.0), lanes.splat(1.0), lanes.splat(2.0));
@@ -68,13 +70,14 @@ impl HalfVector {
             let (hx, hy, hz) = (ix + ox, iy + oy, iz + oz);
             let (dx, dy, dz) = (ix - ox, iy - oy, iz - oz);
             let across2 = lanes.mul_add(hx, hx, hy * hy);
-            // A half vector along the horizon may be of no length in rounding.
+            // A half vector along the horizon may have no length due to rounding.
             let h = lanes.mul_add(hz, hz, across2).max(pole).sqrt();
             let d = lanes.mul_add(dx, dx, lanes.mul_add(dy, dy, dz * dz)).sqrt();
             self.theta_h.store(lanes, query, across2.sqrt() / (h + hz));
             self.theta_d.store(lanes, query, d / (two + h));
 
-            // The azimuth of the half vector, of any length; at the pole the vector across is in the horizontal plane.
+            // The azimuth of the half vector, of any length; at the pole, the perpendicular vector is in the horizontal
+            // plane.
             let tilted = pole.lt(across2);
             let (mut x, mut y) = (one, zero);
             if VIEWED {
@@ -94,19 +97,19 @@ impl HalfVector {
     }
 }
 
-/// Closer to the normal than the root of this sine, the half vector is the normal: the sum of two unit vectors is not known
-/// better.
+/// Closer to the normal than the root of this sine, the half vector counts as the normal: the sum of two unit vectors
+/// is not more accurate.
 const POLE2: f32 = 1e-15;
 
-/// What is left of the roundings of two unit vectors, their sum and their difference.
+/// The error from rounding two unit vectors, their sum and their difference.
 const VECTOR: f64 = 6e-7;
-/// What is left of those of an angle of up to a turn.
+/// The error from rounding an angle of up to a turn.
 const ANGLE: f64 = 1e-6;
 
-/// How far `theta_h`, `theta_d` and `phi_d` of the lanes may be from those of exact arithmetic, in radians.
+/// The largest errors of `theta_h`, `theta_d` and `phi_d` in the lanes, in radians.
 ///
-/// The half vector is of length `2 cos(theta_d)`, so that an error of the directions counts for more where they graze the
-/// surface on opposite sides; and its azimuth says little near the normal, as that of `wi` does near the half vector.
+/// The half vector has the length `2 cos(theta_d)`, so errors of the directions are amplified if they graze the surface
+/// on opposite sides; its azimuth is poorly determined near the normal, as is that of `wi` near the half vector.
 pub(crate) fn rounding(theta_h: f64, theta_d: f64) -> [f64; 3] {
     let (half, difference) = (2.0 * theta_d.cos().abs(), 2.0 * theta_d.sin());
     [VECTOR / half + ANGLE, VECTOR + ANGLE, VECTOR / (half * theta_h.sin()) + VECTOR / difference + ANGLE]

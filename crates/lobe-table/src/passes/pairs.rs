@@ -15,7 +15,7 @@ pub(crate) struct Pairs<'a, const B: usize = BLOCK> {
     pub(crate) wo: DirectionBlock<'a, B>,
 }
 
-/// Room for the pairs of a block that is copied.
+/// Space for the pairs of a block that is copied.
 pub(crate) struct PairPadding {
     wi: Padding,
     wo: Padding,
@@ -24,7 +24,7 @@ pub(crate) struct PairPadding {
 impl PairPadding {
     pub(crate) const ZERO: Self = PairPadding { wi: PADDING, wo: PADDING };
 
-    /// The block of pairs from `at` on.
+    /// The block of pairs that starts at `at`.
     #[inline(always)]
     pub(crate) fn block<'a, L: Lanes>(
         &'a mut self,
@@ -37,7 +37,7 @@ impl PairPadding {
     }
 }
 
-/// As many pairs as there are lanes, which a caller's kernel has in registers.
+/// One pair per lane, held in registers by the caller's kernel.
 pub(crate) struct LanePairs {
     wi: [[f32; MAX_LANES]; 3],
     wo: [[f32; MAX_LANES]; 3],
@@ -64,17 +64,17 @@ impl LanePairs {
     }
 }
 
-/// What has values for pairs of directions.
+/// Anything with values for pairs of directions.
 pub(crate) trait Evaluate: Copy {
-    /// What its passes hand on.
+    /// The intermediate values of its passes.
     type Scratch;
     /// The scratch before the first block.
     const SCRATCH: Self::Scratch;
 
-    /// How many values there are per pair.
+    /// The number of values per pair.
     fn channel_count(self) -> usize;
 
-    /// Evaluates the first pairs of a block, as many as there is room for in `out`: `[query][channel]`. `n` is their number
+    /// Evaluates the first pairs of a block, as many as fit into `out`: `[query][channel]`. `n` is their number
     /// rounded up to the lanes. Must be `#[inline(always)]`.
     fn evaluate<L: Lanes>(self, lanes: L, n: usize, pairs: Pairs<'_>, scratch: &mut Self::Scratch, out: &mut [f32]);
 }
@@ -90,7 +90,7 @@ pub(crate) struct Evaluation<'a, E> {
 /// The evaluation of many pairs: `out[query * channels + channel]`.
 ///
 /// # Panics
-/// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+/// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times the number of channels.
 pub(crate) fn evaluation<'a, E: Evaluate + 'a>(
     evaluator: E,
     wi: Directions<'a>,
@@ -102,7 +102,7 @@ pub(crate) fn evaluation<'a, E: Evaluate + 'a>(
     Blocks(Evaluation { evaluator, wi, wo, out })
 }
 
-/// What passes over pairs hand on, and room for the last pairs.
+/// The intermediate values of passes over pairs, and space for the last pairs.
 pub(crate) struct PairScratch<S> {
     pub(crate) passes: S,
     pub(crate) padding: PairPadding,

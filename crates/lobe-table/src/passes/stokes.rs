@@ -1,10 +1,10 @@
-//! Mueller matrices of a table to the Stokes frames of the directions.
+//! Conversion of Mueller matrices from a table to the Stokes frames of the directions.
 //!
-//! A table has its matrices for Stokes vectors with the x axis along the normal of the plane of the two directions. Where
-//! they are wanted, the x axes are functions of each direction alone. Both changes of the axis mix the second and the third
-//! row, and the second and the third column. If the block that they share is split into its four parts that a rotation
-//! turns into each other, a change of both axes is a plane rotation of six pairs of numbers: one multiplication and one
-//! multiply-add for each half of the matrix.
+//! The matrices of a table are for Stokes vectors with the x axis along the normal of the plane of the two directions.
+//! In the result, each x axis is a function of its direction alone. The two changes of axes mix the second and third
+//! row, and the second and third column. If the block that these share is written as four combinations that a rotation
+//! maps to each other in pairs, a change of both axes is a plane rotation of six pairs of numbers: one multiplication
+//! and one multiply-add for each half of the matrix.
 
 use lobe_lane::{Floats, Ints, Lanes};
 
@@ -15,11 +15,12 @@ use super::unit::unit;
 /// The elements of a matrix.
 const ELEMENTS: usize = 16;
 
-/// Stored as the first element where nothing was measured. However small its part in a blend, the result is far below 0.
+/// Stored as the first element where nothing was measured. However small its weight in a blend, the result is far below
+/// 0.
 const UNMEASURED: f32 = f32::MIN;
 
-/// A matrix, `[row][column]`, in the order of a table: the pairs that are rotated lie eight apart. Where an element is NaN,
-/// nothing was measured.
+/// A matrix, `[row][column]`, in the order of a table: rotated pairs are eight apart. If an element is NaN, the matrix
+/// is unmeasured.
 pub(crate) fn stored(matrix: &[f32; ELEMENTS]) -> [f32; ELEMENTS] {
     let [m00, m01, m02, m03, m10, m11, m12, m13, m20, m21, m22, m23, m30, m31, m32, m33] = *matrix;
     if matrix.iter().any(|element| element.is_nan()) {
@@ -33,10 +34,10 @@ pub(crate) fn stored(matrix: &[f32; ELEMENTS]) -> [f32; ELEMENTS] {
     [m10, m13, m01, m31, p, r, m00, m03, m20, m23, m02, m32, q, t, m30, m33]
 }
 
-/// Where the first element is stored.
+/// The position of the first element.
 const FIRST: usize = 6;
 
-/// What no blend of matrices that were measured has for its first element or below.
+/// A bound that the first element of any blend of measured matrices exceeds.
 pub(crate) fn least(matrices: &[[f32; ELEMENTS]]) -> f32 {
     let first = matrices.iter().map(|matrix| matrix[0]).filter(|first| !first.is_nan());
     -2.0 * first.fold(1.0f32, |most, first| most.max(first.abs())).min(1e37)
@@ -49,7 +50,7 @@ pub(crate) struct Stokes {
     sin: [Column; 4],
 }
 
-/// Where the columns of [`Stokes`] are.
+/// The positions of the columns of [`Stokes`].
 const OUT: usize = 0;
 const IN: usize = 1;
 const DIFFERENCE: usize = 2;
@@ -69,7 +70,7 @@ impl Stokes {
         while query < n {
             let (unit_wi, wi) = units(lanes, wi.load(lanes, query));
             let (unit_wo, wo) = units(lanes, wo.load(lanes, query));
-            // The difference is exact where the directions are close to each other and their product would not be.
+            // The difference is exact if the directions are close to each other; their product would not be.
             let [dx, dy, dz] = [wo[0] - wi[0], wo[1] - wi[1], wo[2] - wi[2]];
             let normal = [
                 lanes.mul_add(wi[1], dz, -(wi[2] * dy)),
@@ -81,7 +82,7 @@ impl Stokes {
             let plane = lanes.splat(PLANE2).lt(length2) & valid.load(lanes, query).lt(zero);
             let (co, so) = doubled(lanes, unit_wo, normal, plane, one);
             let (ci, minus_si) = doubled(lanes, unit_wi, normal, plane, one);
-            // The light comes toward the surface, so that its azimuths turn the other way.
+            // Incoming light travels toward the surface, so its azimuths turn the other way.
             let si = -minus_si;
             self.cos[OUT].store(lanes, query, co);
             self.sin[OUT].store(lanes, query, so);
@@ -95,8 +96,9 @@ impl Stokes {
         }
     }
 
-    /// Refers the matrices of the first queries of a block, in the order of [`stored`], to the frames of the directions, and
-    /// puts their elements in order: `out[query][matrix][row][column]`. Those with a first element below `least` are 0.
+    /// Converts the matrices of the first queries of a block, in the order of [`stored`], to the frames of the
+    /// directions, and puts their elements in order: `out[query][matrix][row][column]`. Matrices with a first element
+    /// below `least` become 0.
     #[inline(always)]
     pub(crate) fn refer<L: Lanes>(&self, lanes: L, matrices: usize, least: f32, out: &mut [f32]) {
         let mut query = 0;
@@ -132,7 +134,8 @@ impl Stokes {
     }
 }
 
-/// The unit vector along a direction; and the direction as it is, if it is of about unit length, so that nothing is rounded.
+/// The unit vector along a direction; a direction of about unit length is returned unchanged, so that nothing is
+/// rounded.
 #[inline(always)]
 fn units<L: Lanes>(lanes: L, [x, y, z]: [L::F; 3]) -> ([L::F; 3], [L::F; 3]) {
     let length2 = lanes.mul_add(x, x, lanes.mul_add(y, y, z * z));

@@ -1,17 +1,17 @@
-//! The matrices as they were measured or computed.
+//! The matrices as measured or computed.
 
 use std::cmp::Ordering;
 
 use crate::mueller::ELEMENTS;
 use crate::{Channels, GridError, Scatter, specular};
 
-/// Mueller matrices on a grid of specular coordinates.
+/// Mueller matrices on a grid in specular coordinates.
 ///
 /// Axes as in [`specular::Data`], in radians; an isotropic table has one psi knot. Elements are in 1/sr, without the cosine,
 /// in the order `[sigma][psi][theta][phi][wavelength][row][column]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Data {
-    /// What unpolarised light sees: the first elements.
+    /// The values for unpolarised light: the first elements.
     pub(super) first: specular::Data,
     pub(super) values: Vec<f32>,
 }
@@ -61,7 +61,7 @@ impl Data {
         &self.values
     }
 
-    /// What unpolarised light sees: the first elements.
+    /// The values for unpolarised light: the first elements.
     pub fn unpolarised(&self) -> &specular::Data {
         &self.first
     }

@@ -1,4 +1,4 @@
-//! Whole matrices, made ready to be evaluated in SIMD lanes.
+//! Whole matrices, prepared for evaluation in SIMD lanes.
 
 use lobe_backend::Backend;
 use lobe_lane::{Kernel, Lanes};
@@ -27,7 +27,7 @@ impl Matrices {
     /// Lays out all elements: 4 bytes each.
     ///
     /// # Errors
-    /// If they are more than a 32-bit index reaches, or a periodic axis cannot be closed.
+    /// If there are more elements than a 32-bit index can address, or a periodic axis cannot be closed.
     pub fn new(data: &Data, edges: &Edges) -> Result<Self, TableError> {
         let wavelengths = data.wavelengths().len();
         let (matrices, _) = data.values().as_chunks::<ELEMENTS>();
@@ -39,7 +39,7 @@ impl Matrices {
         Ok(Matrices { wavelengths, grid: Interpolator::new(&source, &edges, Precision::Single)? })
     }
 
-    /// How many wavelengths there are.
+    /// The number of wavelengths.
     pub fn wavelength_count(&self) -> usize {
         self.wavelengths
     }
@@ -61,7 +61,8 @@ impl Matrices {
     /// `out[query][wavelength][row][column]`.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo`, or `out` is not that many times 16 times the wavelengths long.
+    /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times 16 times the number of
+    /// wavelengths.
     pub fn batch<'a>(
         &'a self,
         wi: Directions<'a>,
@@ -72,7 +73,7 @@ impl Matrices {
     }
 }
 
-/// What the passes of a block hand on.
+/// The intermediate values of a block.
 pub(crate) struct MatrixScratch {
     frame: Frame,
     grid: Scratch,

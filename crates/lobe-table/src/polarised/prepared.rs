@@ -1,5 +1,5 @@
-//! Mueller matrices in specular coordinates, ready to be evaluated and sampled: as unpolarised light sees them, a specular
-//! table; whole matrices are laid out when they are first asked for, as they take sixteen times the memory.
+//! Mueller matrices in specular coordinates, ready to be evaluated and sampled. For unpolarised light, they are a
+//! specular table; whole matrices are laid out when they are first needed, because they take sixteen times the memory.
 
 use std::sync::{Arc, OnceLock};
 
@@ -50,21 +50,21 @@ impl Polarised {
     }
 }
 
-/// The matrices, and what unpolarised light sees of them.
+/// The matrices, and a table of their elements for unpolarised light.
 #[derive(Clone, Debug)]
 struct Prepared {
     table: Arc<specular::Table>,
     polarised: Arc<Polarised>,
 }
 
-/// The same, with the directions of a specular sampler.
+/// The same, with a specular sampler.
 #[derive(Debug)]
 struct Drawn {
     sampler: Sampler,
     polarised: Arc<Polarised>,
 }
 
-/// What both have.
+/// The data of both.
 macro_rules! polarised {
     () => {
         fn mueller(&self, wi: [f32; 3], wo: [f32; 3], nm: f64) -> Option<Matrix> {

@@ -1,4 +1,4 @@
-//! The evaluation of [`Data`] one query at a time in `f64`: what the lanes are compared with.
+//! The evaluation of [`Data`] one query at a time in `f64`: the reference for the lanes.
 
 use super::data::Data;
 use crate::Edges;
@@ -10,8 +10,8 @@ impl Data {
     /// The Mueller matrix in 1/sr, without the cosine, for light that comes from `wi` and leaves along `wo`, with the policy
     /// of each axis outside its knots.
     ///
-    /// It maps Stokes vectors with the x axis [`stokes_basis`](crate::mueller::stokes_basis)`(-wi)` to such with the x axis
-    /// `stokes_basis(wo)`. Zero if a direction is not above the surface.
+    /// It maps Stokes vectors with the x axis [`stokes_basis`](crate::mueller::stokes_basis)`(-wi)` to Stokes vectors
+    /// with the x axis `stokes_basis(wo)`. Zero if a direction is not above the surface.
     pub fn eval(&self, edges: &Edges, wi: [f64; 3], wo: [f64; 3], nm: f64) -> Matrix {
         self.in_plane(edges, wi, wo, nm).map_or([[0.0; 4]; 4], |matrix| in_frames(matrix, wi, wo))
     }

@@ -1,4 +1,4 @@
-//! What programs need from Mueller matrices in specular coordinates.
+//! [`Representation`] for Mueller matrices in specular coordinates.
 
 use std::borrow::Cow;
 
@@ -37,7 +37,7 @@ impl Representation for Data {
         let section = Section {
             quantity: "elements of Mueller matrices in 1/sr",
             values: Cow::Borrowed(&self.values),
-            // The first element is the light; the others have a sign.
+            // The first element is an amount of light; the others have a sign.
             measured: Some(self.first.values().to_vec()),
             ..section
         };

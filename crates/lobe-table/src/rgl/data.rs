@@ -5,13 +5,13 @@ use crate::Channels;
 use crate::invalid::{Invalid, ascending};
 use std::f64::consts::{PI, TAU};
 
-/// The least area that the unit square is stretched to, at the pole of the half vector, where it would vanish and densities
-/// be infinite. It reaches 1.6e-7 rad around the pole, as far as directions in single precision are apart. The 1e-6 of the
-/// loader of the database reach 1.5e-5 rad: where visible normals are dense there, a four-hundredth of all samples would
-/// have a density that is too low.
+/// The least area to which the unit square is mapped, at the pole of the half vector, where the area would vanish and
+/// densities be infinite. It has an effect up to 1.6e-7 rad around the pole, the distance between directions in single
+/// precision. The 1e-6 in the loader of the database has an effect up to 1.5e-5 rad: if visible normals are dense
+/// there, a four-hundredth of all samples would have too low a density.
 pub(super) const LEAST_AREA: f64 = 1e-9;
 
-/// What [`Data`] is made of. P is the number of `phi_i`, T of `theta_i`, C of channels.
+/// The parts of [`Data`]. P is the number of `phi_i`, T of `theta_i`, C of channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parts {
     /// Free text.
@@ -26,7 +26,7 @@ pub struct Parts {
     pub sigma: Images,
     /// `P x T` images: the distribution of visible normals, not normalised.
     pub vndf: Images,
-    /// `P x T` images: what the warped samples are drawn after, not normalised.
+    /// `P x T` images: the density from which warped samples are drawn, not normalised.
     pub luminance: Images,
     /// [`Channels::Rgb`], or [`Channels::Spectral`] with ascending wavelengths.
     pub channels: Channels,
@@ -84,7 +84,7 @@ impl Data {
         Ok(Data { parts, reduction })
     }
 
-    /// What the material is made of.
+    /// The parts of the material.
     pub fn parts(&self) -> &Parts {
         &self.parts
     }
@@ -99,15 +99,16 @@ impl Data {
         self.parts.phi_i.len() <= 2
     }
 
-    /// By how much symmetry has reduced the stored azimuths: 1 stores the whole turn, 2 half of it (the material looks
-    /// the same after a rotation by pi), 4 a quarter (it also equals its mirror images). 1 for isotropic materials.
+    /// The factor by which symmetry reduces the stored azimuths: 1 means the full turn, 2 half of it (the material is
+    /// unchanged when rotated by pi), 4 a quarter (it is also unchanged when mirrored). It is 1 for isotropic
+    /// materials.
     pub fn reduction(&self) -> u32 {
         self.reduction
     }
 }
 
 fn angles(part: &'static str, knots: &[f32], low: f64, high: f64) -> Result<(), Invalid> {
-    // A knot may have been rounded up to f32.
+    // A knot may have been rounded up to `f32`.
     let rounding = 1e-5;
     match knots.iter().find(|x| f64::from(**x) < low - rounding || f64::from(**x) > high + rounding) {
         Some(x) => Err(Invalid::new(part, format!("{x} rad"), format!("angles in [{low}, {high}] rad"))),
@@ -130,7 +131,8 @@ fn reduction(phi_i: &[f32]) -> Result<u32, Invalid> {
     }
     let span = f64::from(*last) - f64::from(*first);
     let turns = (TAU / span).round();
-    [1, 2, 4].into_iter().find(|n| f64::from(*n) == turns).ok_or_else(|| {
-        Invalid::new("phi_i", format!("azimuths that span {span} rad"), "a whole turn, its half or its quarter")
-    })
+    [1, 2, 4]
+        .into_iter()
+        .find(|n| f64::from(*n) == turns)
+        .ok_or_else(|| Invalid::new("phi_i", format!("azimuths that span {span} rad"), "a full, half or quarter turn"))
 }

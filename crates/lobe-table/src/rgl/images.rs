@@ -10,16 +10,16 @@ pub struct Images {
     pub(super) slices: usize,
     pub(super) height: usize,
     pub(super) width: usize,
-    /// Shared, so that an evaluator may keep them too.
+    /// Shared, so that an evaluator can also keep them.
     pub(super) texels: Arc<Vec<f32>>,
 }
 
 impl Images {
-    /// Checks that the texels are finite and fill `[slices][height][width]`, with two rows and columns at least, so
+    /// Checks that the texels are finite and fill `[slices][height][width]`, with at least two rows and columns, so
     /// that there is a cell to interpolate in. `part` names the images in the error.
     ///
     /// # Errors
-    /// [`Invalid`] says which of these does not hold.
+    /// [`Invalid`] says which of these conditions is violated.
     pub fn new(part: &'static str, [slices, height, width]: [usize; 3], texels: Vec<f32>) -> Result<Self, Invalid> {
         if slices == 0 || height < 2 || width < 2 {
             let found = format!("{slices} slices of {height} x {width} texels");
@@ -30,12 +30,12 @@ impl Images {
         Ok(Images { slices, height, width, texels: Arc::new(texels) })
     }
 
-    /// How many images there are.
+    /// The number of images.
     pub fn slices(&self) -> usize {
         self.slices
     }
 
-    /// Rows and columns of each image.
+    /// The numbers of rows and columns of each image.
     pub fn size(&self) -> [usize; 2] {
         [self.height, self.width]
     }
@@ -71,7 +71,7 @@ pub(super) fn bilinear(images: &Images, u: [f64; 2], value: impl Fn(usize) -> f6
     lerp(lerp(at(0, 0), at(0, 1), fx), lerp(at(1, 0), at(1, 1), fx), fy)
 }
 
-/// A coordinate in `[0, 1]` as cell and fraction of `n` texels.
+/// A coordinate in `[0, 1]` as a cell and a fraction, for `n` texels.
 pub(super) fn place(u: f64, n: usize) -> (usize, f64) {
     let x = u.clamp(0.0, 1.0) * (n - 1) as f64;
     let cell = (x as usize).min(n - 2);

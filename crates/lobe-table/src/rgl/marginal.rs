@@ -1,12 +1,13 @@
 //! The warp of the unit square that turns uniform positions into samples of a piecewise bilinear density, and back.
 //!
-//! The density of a query is a blend of stored slices, each normalised to integrate to one. Rows are drawn by their
-//! marginal distribution and columns by the conditional one; within a cell both are quadratic and are inverted exactly.
+//! The density of a query is a blend of stored slices, each normalised to integrate to one. Rows are drawn from their
+//! marginal distribution and columns from the conditional one; within a cell, both are quadratic and are inverted
+//! exactly.
 
 use super::images::{Images, bilinear, lerp, place};
 use crate::grid::neighbours::Neighbours;
 
-/// Which slices of a table to blend, and with which weights. The weights add up to one.
+/// The slices of a table to blend, and their weights, which add up to one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blend {
     /// Slice and weight; a slice may occur twice.
@@ -25,10 +26,10 @@ impl Blend {
         Blend { terms: [term([0, 0]), term([0, 1]), term([1, 0]), term([1, 1])] }
     }
 
-    /// The first slice of a table, by itself.
+    /// The first slice of a table alone.
     pub const FIRST: Blend = Blend { terms: [(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0)] };
 
-    /// The blended value of anything that has a value per slice.
+    /// Blends anything that has a value per slice.
     pub(super) fn mix(&self, mut value: impl FnMut(usize) -> f64) -> f64 {
         let mut sum = 0.0;
         for (slice, weight) in self.terms {
@@ -43,11 +44,11 @@ impl Blend {
 
 /// Normalised slices with their cumulative distributions.
 ///
-/// Negative texels, which noise may leave, count as zero, and a slice without any density adds none to a blend.
+/// Negative texels, which noise may cause, count as zero, and a slice without density adds nothing to a blend.
 #[derive(Clone, Debug)]
 pub struct Warp {
     images: Images,
-    /// One factor per slice, after which the cells of the slice add up to one.
+    /// One factor per slice, which makes the cells of the slice add up to one.
     norm: Vec<f64>,
     /// `[slice][row][column]`: integral of the row up to the column, in cells.
     conditional: Vec<f64>,
@@ -95,9 +96,8 @@ impl Warp {
         bilinear(&self.images, u, |texel| self.texel(texel, blend)) * self.cells()
     }
 
-    /// The uniform position that [`sample`](Self::sample) turns into `u`, and the density at `u`.
-    ///
-    /// If a whole row has no density, the position in it is not defined, and 0.
+    /// The uniform position that [`sample`](Self::sample) turns into `u`, and the density at `u`. If a whole row has no
+    /// density, the position in it is undefined, and set to 0.
     pub fn invert(&self, u: [f64; 2], blend: &Blend) -> ([f64; 2], f64) {
         let [height, width] = self.images.size();
         let ((col, fx), (row, fy)) = (place(u[0], width), place(u[1], height));
@@ -113,7 +113,7 @@ impl Warp {
     /// The position with the density of the blended slices that belongs to a uniform position, and its density.
     pub fn sample(&self, uniform: [f64; 2], blend: &Blend) -> ([f64; 2], f64) {
         let [height, width] = self.images.size();
-        // The open interval, in steps that f32 also has: at 0 and 1 rows without density would be chosen.
+        // The open interval, in steps that `f32` also has: at 0 and 1, rows without density would be chosen.
         let edge = 2.0f64.powi(-24);
         let [ux, uy] = uniform.map(|u| u.clamp(edge, 1.0 - edge));
         let row = last_below(height, |row| self.marginal(row, blend) < uy);
@@ -142,7 +142,7 @@ impl Warp {
         [self.conditional[row * width + width - 1], self.marginal[row]]
     }
 
-    /// How many cells the unit square has.
+    /// The number of cells of the unit square.
     pub(super) fn cells(&self) -> f64 {
         let [height, width] = self.images.size();
         ((height - 1) * (width - 1)) as f64
@@ -184,20 +184,20 @@ fn density(texel: f32) -> f64 {
     f64::from(texel).max(0.0)
 }
 
-/// The integral from 0 to `t` of a function that goes linearly from `a` at 0 to `b` at 1.
+/// The integral from 0 to `t` of a linear function with values `a` at 0 and `b` at 1.
 fn integral(a: f64, b: f64, t: f64) -> f64 {
     t * a + 0.5 * t * t * (b - a)
 }
 
 /// The `t` in `[0, 1]` at which that integral is `q`. The quadratic formula is used with the root in the denominator,
-/// which holds for `a = b` too. The root is guarded: rounding may make its argument negative.
+/// which is also valid for `a = b`. The argument of the root is clamped, because rounding may make it negative.
 fn solve(a: f64, b: f64, q: f64) -> f64 {
     let t = 2.0 * q / (a + (a * a - 2.0 * q * (a - b)).max(0.0).sqrt());
     // 0/0 in a cell without density.
     if t.is_finite() { t.clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// The last of `n` places, save the very last, at which the cumulative distribution is still below.
+/// The last of `n` places, except the very last, at which the cumulative distribution is still below.
 fn last_below(n: usize, below: impl Fn(usize) -> bool) -> usize {
     let (mut low, mut high) = (0, n - 1);
     while high - low > 1 {

@@ -1,14 +1,14 @@
 //! The adaptive parameterisation of the EPFL material database.
 //!
 //! Dupuy and Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and Rendering", ACM TOG 37(6),
-//! 2018. A measurement is kept on the unit square, warped for every incident direction so that the samples lie where
-//! the microfacet distribution of the material puts its energy.
+//! 2018. A measurement is stored on the unit square, warped for every incident direction so that the samples are dense
+//! where the microfacet distribution of the material has its energy.
 //!
-//! The direction that a table is indexed by is `wi`; the other one is `wo`. Renderers that trace from the camera put
-//! the viewer into `wi`, so that [`Reference::sample`] yields the next direction of a path.
+//! `wi` is the direction that indexes a table, and `wo` the other one. Renderers that trace from the camera pass the
+//! viewer as `wi`, so that [`Reference::sample`] yields the next direction of a path.
 //!
-//! [`Data`] is the data; [`Reference`] evaluates it one query at a time in `f64`; [`Table`]
-//! evaluates many in SIMD lanes; [`Warp`] is the interpolant between.
+//! [`Data`] holds the data; [`Reference`] evaluates them one query at a time in `f64`; [`Table`] evaluates many queries
+//! in SIMD lanes; [`Warp`] is the interpolated warp of the unit square.
 
 mod data;
 mod images;

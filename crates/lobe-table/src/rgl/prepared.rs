@@ -1,4 +1,4 @@
-//! Materials of the EPFL database, ready to be evaluated and sampled by their published scheme.
+//! Materials of the EPFL database, ready to be evaluated, and sampled by their published scheme.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ pub(super) fn prepare(data: &Data, options: &crate::data::Options) -> Result<Box
     Ok(Box::new(Prepared { table, indexed_by: options.indexed_by }))
 }
 
-/// A table, and which direction it is indexed by.
+/// A table, and the direction that indexes it.
 #[derive(Clone, Debug)]
 pub(crate) struct Prepared {
     pub(crate) table: Arc<Table>,
@@ -44,7 +44,7 @@ impl Bsdf for Prepared {
         let drawn = Drawn { wo: &mut *out.directions, pdf: &mut *out.pdfs, weights: &mut *out.weights };
         self.table.sample_batch(backend, known.into(), u, UniformOrder::default(), drawn);
         if given != self.indexed_by {
-            // These are the weights with light and viewer exchanged.
+            // These are the weights for exchanged light and viewer.
             let found = &*out.directions;
             let (wi, wo) = if given == Given::Light { (known, found) } else { (found, known) };
             self.eval_batch(backend, wi.into(), wo.into(), out.weights);

@@ -1,4 +1,4 @@
-//! Evaluation of [`Data`] one query at a time in `f64`: what the lanes are compared with.
+//! Evaluation of [`Data`] one query at a time in `f64`: the reference for the lanes.
 
 use super::data::{Data, LEAST_AREA};
 use super::images::bilinear;
@@ -8,17 +8,17 @@ use crate::direction::{Vector, add, dot, normalize, phi, scale, spherical, sub, 
 use crate::grid::neighbours::Neighbours;
 use std::f64::consts::{PI, TAU};
 
-/// In which order the two uniform numbers of [`Reference::sample`] are used. The distribution is the same.
+/// The order in which [`Reference::sample`] uses the two uniform numbers. The distribution is the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum UniformOrder {
-    /// The first number chooses the row (azimuth), as the loader of the database and Mitsuba do.
+    /// The first number chooses the row (azimuth), as in the loader of the database and in Mitsuba.
     #[default]
     Powitacq,
-    /// The first number chooses the column (zenith angle), as pbrt does.
+    /// The first number chooses the column (zenith angle), as in pbrt.
     Pbrt,
 }
 
-/// What [`Reference::sample`] found.
+/// The result of [`Reference::sample`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sample {
     /// The direction.
@@ -38,7 +38,7 @@ pub struct Reference {
     clamp_negative: bool,
 }
 
-/// Where in the tables a pair of directions lies.
+/// The place of a pair of directions in the tables.
 struct Footprint {
     blend: Blend,
     /// Position in the spectra and the luminance.
@@ -47,7 +47,7 @@ struct Footprint {
     p_v: f64,
     /// The factor of every channel: `ndf / (4 sigma)`, or 1.
     factor: f64,
-    /// `d(u_m) / d(wo)`, inverse.
+    /// The inverse of `d(u_m) / d(wo)`.
     jacobian: f64,
 }
 
@@ -59,7 +59,7 @@ impl Reference {
         Reference { rgl: rgl.clone(), vndf, luminance, clamp_negative: false }
     }
 
-    /// Whether values below zero, which the measurements have, become zero. Off unless set.
+    /// Whether negative values, which the measurements contain, become zero. Off unless set.
     pub fn clamp_negative(mut self, clamp: bool) -> Self {
         self.clamp_negative = clamp;
         self
@@ -68,7 +68,7 @@ impl Reference {
     /// `f` in 1/sr, without the cosine, in every channel.
     ///
     /// # Panics
-    /// Unless `out` has as many elements as there are channels.
+    /// If the length of `out` is not the number of channels.
     pub fn eval(&self, wi: [f64; 3], wo: [f64; 3], out: &mut [f64]) {
         self.eval_cos(wi, wo, out);
         if wo[2] > 0.0 {
@@ -76,10 +76,10 @@ impl Reference {
         }
     }
 
-    /// `f cos(theta_o)`, what the tables hold, in every channel; 0 if a direction is not above the surface.
+    /// `f cos(theta_o)`, as stored in the tables, in every channel; 0 if a direction is not above the surface.
     ///
     /// # Panics
-    /// Unless `out` has as many elements as there are channels.
+    /// If the length of `out` is not the number of channels.
     pub fn eval_cos(&self, wi: [f64; 3], wo: [f64; 3], out: &mut [f64]) {
         assert_eq!(out.len(), self.channels(), "one output per channel");
         match self.footprint(wi, wo) {
@@ -92,7 +92,7 @@ impl Reference {
     pub fn eval_cos_at(&self, wi: [f64; 3], wo: [f64; 3], nm: f64) -> Option<f64> {
         let Channels::Spectral(wavelengths) = &self.rgl.parts().channels else { return None };
         let Some(footprint) = self.footprint(wi, wo) else { return Some(0.0) };
-        // The wavelengths of a file are f32, so this loses nothing.
+        // The wavelengths of a file are `f32`, so this loses nothing.
         let knots: Vec<f32> = wavelengths.iter().map(|nm| *nm as f32).collect();
         let Neighbours { nodes: [lower, upper], weights } = Neighbours::held(&knots, nm);
         let value = weights[0] * self.channel(&footprint, lower) + weights[1] * self.channel(&footprint, upper);
@@ -104,7 +104,7 @@ impl Reference {
         self.footprint(wi, wo).map_or(0.0, |at| at.p_v * self.luminance.density(at.s, &at.blend) / at.jacobian)
     }
 
-    /// Draws `wo` for a `wi` from two numbers in `[0, 1)`. `None` if the sample lies below the surface.
+    /// Draws `wo` for a `wi` from two numbers in `[0, 1)`. `None` if the sample is below the surface.
     pub fn sample(&self, wi: [f64; 3], uniform: [f64; 2], order: UniformOrder) -> Option<Sample> {
         if wi[2] <= 0.0 {
             return None;
@@ -163,7 +163,7 @@ impl Reference {
         Some(Footprint { blend, s, p_v, factor: self.factor(u_m, wi), jacobian: jacobian(dot(wi, m), u_m[0], m) })
     }
 
-    /// Which of x and y to negate, in `wi` and `wo` alike, to get into the azimuths that are stored.
+    /// Which of x and y to negate, in both `wi` and `wo`, to reach the stored azimuths.
     fn signs(&self, wi: Vector) -> [f64; 2] {
         let sign = |negate| if negate { -1.0 } else { 1.0 };
         match self.rgl.reduction() {
@@ -212,8 +212,8 @@ fn phi_to_u(phi: f64) -> f64 {
     (phi + PI) / TAU
 }
 
-/// From the density of the half vector on the unit square to that of `wo` over solid angle, with the lower bound
-/// [`LEAST_AREA`] at the pole of the half vector.
+/// The factor from the density of the half vector on the unit square to that of `wo` over solid angle, with the lower
+/// bound [`LEAST_AREA`] at the pole of the half vector.
 fn jacobian(cos: f64, u_x: f64, m: Vector) -> f64 {
     let sin_theta_m = (m[0] * m[0] + m[1] * m[1]).sqrt();
     4.0 * cos * (2.0 * PI * PI * u_x * sin_theta_m).max(LEAST_AREA)

@@ -1,4 +1,4 @@
-//! What programs need from materials of the EPFL database.
+//! [`Representation`] for materials of the EPFL database.
 
 use super::data::Data;
 use crate::bsdf::Bsdf;

@@ -1,4 +1,4 @@
-//! What the parts of a material must be, and the symmetries that a reduced one has.
+//! The requirements on the parts of a material, and the symmetries of a reduced one.
 
 use super::*;
 use crate::Channels;
@@ -39,7 +39,7 @@ fn reduction_follows_the_span_of_the_azimuths() {
     assert_eq!(reduction(&[0.0, 1.0, 2.0]).expect_err("a third of a turn").part, "phi_i");
 }
 
-/// Every sign of x and y is brought into the quarter that is stored.
+/// All signs of x and y are mapped to the stored quarter.
 #[test]
 fn a_quarter_stands_for_all_mirror_images() {
     let rgl = Data::new(parts(vec![-PI_F32, -2.0, -PI_F32 / 2.0])).expect("a valid material");
@@ -90,7 +90,7 @@ fn negative_values_stay_unless_they_are_clamped() {
 }
 
 #[test]
-fn parts_that_do_not_fit_are_named() {
+fn errors_name_the_wrong_part() {
     let refused = |change: fn(&mut Parts)| {
         let mut changed = parts(vec![0.0]);
         change(&mut changed);

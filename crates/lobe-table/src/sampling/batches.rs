@@ -1,4 +1,4 @@
-//! Draws, densities and brightnesses of many directions.
+//! Samples, densities and brightnesses of many directions.
 
 use std::ops::Range;
 
@@ -15,8 +15,8 @@ use crate::passes::blocks::{Blocks, Blockwise};
 use crate::passes::pairs::{PairPadding, Pairs};
 
 impl Distribution {
-    /// Draws a scattered direction, and its density, for each known direction and two numbers in `[0, 1)`; zeros if
-    /// the known direction is not above the surface.
+    /// Draws a scattered direction and its density for each known direction, from two numbers in `[0, 1)`; zeros if the
+    /// known direction is not above the surface.
     ///
     /// # Panics
     /// If the slices do not have the same length.
@@ -31,7 +31,7 @@ impl Distribution {
         backend.run(self.drawing(known, u, directions, pdfs));
     }
 
-    /// The drawing of many directions as a kernel, for lanes that are not a [`Backend`] (see
+    /// The sampling of many directions as a kernel, for lanes that are not a [`Backend`] (see
     /// [`draw_batch`](Self::draw_batch)).
     ///
     /// # Panics
@@ -70,8 +70,8 @@ impl Distribution {
         Blocks(Densities { distribution: self, known: known.into(), other: other.into(), pdfs })
     }
 
-    /// How bright the surface is for light from each known direction: the integral of luminance times `f` times cosine,
-    /// interpolated between the slices; 0 if it is not above the surface.
+    /// The brightness of the surface for light from each known direction: the integral of luminance times `f` times
+    /// cosine, interpolated between the slices; 0 if the direction is not above the surface.
     ///
     /// # Panics
     /// If the slices do not have the same length.
@@ -99,7 +99,7 @@ struct Draws<'a> {
     pdfs: &'a mut [f32],
 }
 
-/// What the passes of draws hand on.
+/// The intermediate values of sampling.
 struct DrawScratch {
     passes: block::Scratch,
     places: Places,
@@ -163,14 +163,14 @@ impl Blockwise for Densities<'_> {
     }
 }
 
-/// How bright the surface is for many directions.
+/// The brightness of the surface for many directions.
 struct Brightnesses<'a> {
     distribution: &'a Distribution,
     known: Directions<'a>,
     out: &'a mut [f32],
 }
 
-/// What the passes of brightnesses hand on.
+/// The intermediate values of brightnesses.
 struct BrightnessScratch {
     places: Places,
     padding: Padding,
@@ -201,8 +201,8 @@ impl Blockwise for Brightnesses<'_> {
     }
 }
 
-/// Finds the slices of a block. Draws and brightnesses call it, so that it is compiled once; densities need what it finds
-/// on the way, and do it themselves.
+/// Finds the slices of a block. Sampling and brightnesses call this kernel, so that it is compiled once; densities need
+/// its intermediate results, and repeat it.
 struct Locate<'a> {
     distribution: &'a Distribution,
     known: DirectionBlock<'a>,

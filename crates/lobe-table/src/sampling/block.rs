@@ -1,7 +1,7 @@
 //! A block of samples in short passes.
 //!
-//! A search is a chain of loads, each waiting for the one before. Taking one step of it in all queries of a block before
-//! the next keeps many loads in flight. The arithmetic is that of [`Distribution::draw_lanes`].
+//! A search is a chain of loads, each of which waits for the one before. Taking each step for all queries of a block
+//! before the next step keeps many loads in flight. The arithmetic is that of [`Distribution::draw_lanes`].
 
 use lobe_lane::{Lanes, MAX_LANES};
 
@@ -12,16 +12,16 @@ use super::slices::{Row, Search, Sums, View};
 use crate::directions::DirectionBlock;
 use crate::passes::block::Column;
 
-/// The columns that the passes hand on.
+/// The columns passed from one pass to the next.
 pub(super) struct Scratch {
     first: Column<i32>,
     cell: Column<i32>,
     target: Column,
     low: Column,
     high: Column,
-    /// The sum of all rows, and then what makes a density of a mass.
+    /// The sum of all rows, and later the factor from a mass to a density.
     scale: Column,
-    /// The second number, and then phi.
+    /// The second number, and later phi.
     phi: Column,
 }
 
@@ -62,16 +62,16 @@ impl Scratch {
     }
 }
 
-/// What a block of samples is drawn for.
+/// The inputs of a block of samples.
 pub(super) struct Input<'a> {
     pub(super) known: DirectionBlock<'a>,
     /// Two numbers in `[0, 1)` for each direction.
     pub(super) u: &'a [[f32; 2]],
-    /// The slices about each direction.
+    /// The slices around each direction.
     pub(super) places: &'a Places,
 }
 
-/// Where the samples of a block go.
+/// The outputs of a block of samples.
 pub(super) struct Out<'a> {
     pub(super) directions: &'a mut [[f32; 3]],
     pub(super) pdfs: &'a mut [f32],
@@ -90,7 +90,7 @@ pub(super) fn draw<L: Lanes, S: Sums>(
     let n = u.len();
     let mut at = 0;
     while at < n {
-        // Beyond the last pair of numbers that pair is read again.
+        // Beyond the last pair of numbers, that pair is read again.
         let [first, second] = lanes.gather_pair(u, lanes.iota() + lanes.splat_int(at as i32));
         let (search, total) = view.begin(lanes, &places.load(lanes, at), first);
         scratch.begin(lanes, at, search);
@@ -144,7 +144,7 @@ pub(super) fn draw<L: Lanes, S: Sums>(
     }
 }
 
-/// Writes as many vectors as there is room for.
+/// Writes as many vectors as fit.
 #[inline(always)]
 pub(super) fn store<L: Lanes>(lanes: L, target: &mut [[f32; 3]], [x, y, z]: [L::F; 3]) {
     let mut columns = [[0.0f32; MAX_LANES]; 3];

@@ -1,4 +1,4 @@
-//! From the light of a material to the slices of its distribution.
+//! From the scattered light of a material to the slices of its distribution.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -10,29 +10,30 @@ use super::slices::Slices;
 use crate::grid::axis::Axis;
 use lobe_memory::Storage;
 
-/// At most this many cells per slice, as a power of two: what the caches near a core can hold of a few slices.
+/// At most this many cells per slice, as a power of two, so that a few slices fit into the caches near a core.
 const MOST_BITS: u32 = 13;
 /// At least this many.
 const LEAST_BITS: u32 = 4;
-/// Slices that decide where the grid is fine.
+/// The number of slices that decide where the grid is fine.
 const SURVEYED: usize = 32;
-/// Psi is lost at the normal and the light at the horizon, so the slices of knots there are built a hair away.
+/// Psi is undefined at the normal, and there is no light at the horizon, so slices of knots there are built slightly
+/// away from it.
 const SIGMAS: [f64; 2] = [1e-4, FRAC_PI_2 - 1e-3];
-/// No slice is darker than this part of the brightest, so that none is lost to rounding.
+/// No slice is darker than this share of the brightest, so that none is lost to rounding.
 const DARKEST: f64 = 1e-6;
-/// No cell has less than this part of its row, and no row of its slice, so that sums ascend also in `f32`.
+/// No cell has less than this share of its row, and no row of its slice, so that sums also ascend in `f32`.
 const LEAST_SHARE: f64 = 4.0 * f32::EPSILON as f64;
 
-/// What a builder is given.
+/// The inputs of a builder.
 pub(crate) struct Builder<'a, 'l> {
     /// Runs a kernel in strict form.
     pub(crate) run: &'a dyn Fn(Histogram<'_>) -> Vec<Bin>,
     pub(crate) light: &'a mut Light<'l>,
     pub(crate) surface: &'a Surface,
-    /// Incident directions: the knots of sigma and, if it counts, of psi.
+    /// Incident directions: the knots of sigma and, if it matters, of psi.
     pub(crate) sigma: &'a Axis,
     pub(crate) psi: Option<&'a Axis>,
-    /// Where scattered light is likely to vary: knots of theta, and how many of phi.
+    /// The scale at which scattered light is likely to vary: knots of theta, and a number of steps in phi.
     pub(crate) theta: &'a [f32],
     pub(crate) phis: usize,
     /// At most this much memory.
@@ -41,8 +42,8 @@ pub(crate) struct Builder<'a, 'l> {
 }
 
 impl Builder<'_, '_> {
-    /// Builds the slices, and reports to `progress` how many of how many are done. Also returns the brightness that
-    /// sums of 1 represent.
+    /// Builds the slices, and reports the finished number and the total to `progress`. Also returns the brightness that
+    /// a sum of 1 represents.
     pub(crate) fn build(mut self, progress: &mut dyn FnMut(usize, usize)) -> Result<(Slices, f64), DistributionError> {
         let (sigma, psi) = (knots(self.sigma), self.psi.map_or(vec![0.0], knots));
         let count = sigma.len() * psi.len();
@@ -70,7 +71,7 @@ impl Builder<'_, '_> {
         run(Histogram { light, surface, incident, phi, root_v, points })
     }
 
-    /// The finest grid that the table's size allows, its edges where the light of the surveyed slices varies.
+    /// The finest grid that the size of the table allows, with edges where the light of the surveyed slices varies.
     fn lay_out(
         &mut self,
         surveyed: impl Iterator<Item = [f32; 3]>,
@@ -113,12 +114,12 @@ impl Builder<'_, '_> {
         [Some(self.sigma), self.psi].map(|axis| axis.map_or(1, |axis| axis.cells().len().max(1)))
     }
 
-    /// Slices that a lane blends.
+    /// The number of slices that a lane blends.
     fn width(&self) -> usize {
         if self.psi.is_some() { 4 } else { 2 }
     }
 
-    /// Puts the slices that are blended side by side.
+    /// Places blended slices next to each other.
     fn store(&self, grid: Grid, slices: &[Slice], brightest: f64) -> Slices {
         let psis = self.psi.map_or(1, |psi| knots(psi).len());
         let sums: Vec<[Vec<f32>; 2]> = slices.iter().map(|slice| slice.sums(brightest, &grid)).collect();
@@ -131,9 +132,9 @@ impl Builder<'_, '_> {
             let mut target = storage.as_mut_slice().chunks_exact_mut(entries * width);
             for sigma in 0..blocks[0] {
                 for psi in 0..blocks[1] {
-                    let block = target.next().expect("a chunk a block");
+                    let block = target.next().expect("a chunk per block");
                     for corner in 0..width {
-                        // If psi counts, it is the fast one of the two.
+                        // If psi matters, it is the faster axis.
                         let (up_sigma, up_psi) = if width == 2 { (corner, 0) } else { (corner / 2, corner % 2) };
                         let slice = source(Some(self.sigma), sigma + up_sigma) * psis + source(self.psi, psi + up_psi);
                         for (entry, sum) in sums[slice][which].iter().enumerate() {
@@ -148,13 +149,13 @@ impl Builder<'_, '_> {
     }
 }
 
-/// The knots of an axis without the one that closes a circle.
+/// The knots of an axis, without the one that closes a circle.
 fn knots(axis: &Axis) -> Vec<f64> {
     let count = axis.source().iter().max().map_or(0, |last| last + 1);
     axis.knots()[..count].iter().map(|&knot| f64::from(knot)).collect()
 }
 
-/// The distribution of one slice: shares of its cells, which add up to 1, and what they add up to in the table.
+/// The distribution of one slice: shares of its cells, which add up to 1, and their total in the table.
 struct Slice {
     shares: Vec<f64>,
     brightness: f64,
@@ -171,8 +172,8 @@ impl Slice {
         Slice { shares, brightness }
     }
 
-    /// The sums over rows, and over the columns of each row. The last sum of a row is, to the bit, what the row adds to
-    /// the sums over rows.
+    /// The sums over rows, and over the columns of each row. The last sum of a row equals, to the bit, what the row
+    /// adds to the sums over rows.
     fn sums(&self, brightest: f64, grid: &Grid) -> [Vec<f32>; 2] {
         let (rows, columns) = (1 << grid.row_bits, 1 << grid.column_bits);
         let scale = if brightest > 0.0 { (self.brightness / brightest).max(DARKEST) } else { 1.0 };

@@ -1,4 +1,4 @@
-//! The distribution of scattered light about every incident direction.
+//! The distribution of scattered light for every incident direction.
 
 use lobe_backend::Backend;
 use lobe_lane::{Floats, Lanes};
@@ -15,7 +15,7 @@ use crate::{Edge, Scatter};
 /// Densities of scattered directions in proportion to light times cosine, for every incident direction.
 ///
 /// The incident direction is called `known` here, because it may be that of the light or of the viewer. Directions are
-/// unit vectors away from the surface, normal on +z; densities are per steradian. In strict form, samples are the same
+/// unit vectors away from the surface, normal on +z; densities are per steradian. In strict form, samples have the same
 /// bits on every backend.
 #[derive(Clone, Debug)]
 pub struct Distribution {
@@ -28,13 +28,13 @@ pub struct Distribution {
 
 impl Distribution {
     /// Builds the distribution of a function that returns luminance times `f`, 1/sr, of many pairs: it gets the
-    /// incident directions, as many scattered ones, and where to put the results. It is called for incident directions
-    /// with `z > 0` only, and for scattered ones on the side that `options` say.
+    /// incident directions, as many scattered ones, and where to put the results. It is called only for incident
+    /// directions with `z > 0`, and for scattered ones on the side that `options` name.
     ///
     /// `progress(done, all)` is called after each slice.
     ///
     /// # Errors
-    /// If the options make no sense.
+    /// If the options are invalid.
     pub fn of_function(
         backend: Backend,
         options: &DistributionOptions,
@@ -80,7 +80,7 @@ impl Distribution {
         Ok(Distribution { surface, sigma, psi, slices, brightest: brightest as f32 })
     }
 
-    /// Whether scattered directions lie on the side of the incident one, or on the other.
+    /// Whether scattered directions are on the side of the incident one, or on the other.
     pub fn scatter(&self) -> Scatter {
         self.surface.scatter
     }
@@ -127,7 +127,7 @@ impl Distribution {
         (density / height).masked(valid)
     }
 
-    /// How bright the surface is, inside a caller's own kernel (see [`brightness_batch`](Self::brightness_batch)).
+    /// The brightness of the surface, inside a caller's own kernel (see [`brightness_batch`](Self::brightness_batch)).
     #[inline(always)]
     pub fn brightness_lanes<L: Lanes>(&self, lanes: L, known: [L::F; 3]) -> L::F {
         let incident = Incident::new(lanes, &self.surface, known);
@@ -145,7 +145,7 @@ impl Distribution {
     }
 }
 
-/// From a sample of the slices to a direction and its density; zeros as
+/// Converts a sample of the slices to a direction and its density; zeros as in
 /// [`draw_lanes`](Distribution::draw_lanes).
 #[inline(always)]
 pub(super) fn leave<L: Lanes>(lanes: L, incident: &Incident<L>, draw: Draw<L>, mask: L::M) -> ([L::F; 3], L::F) {

@@ -1,11 +1,11 @@
-//! Which direction of a pair is known.
+//! The known direction of a pair.
 
 /// Which direction of a pair is known; the other one is sampled.
 ///
-/// A table depends on its light in a way (sigma and psi) and on its viewer in another (theta and phi). Given the viewer,
-/// the light is sampled as if the material were reciprocal, that is from the distribution of what a light at the viewer's
-/// place would scatter. The weight has the true `f(wi, wo)`, so estimates are right for every material; where the data
-/// are far from reciprocal, or a BTDF refracts, they are noisier.
+/// A table depends on the light in one way (sigma and psi) and on the viewer in another (theta and phi). Given the
+/// viewer, the light is sampled as if the material were reciprocal, that is, from the distribution of light scattered
+/// from the viewer's direction. The weight contains the true `f(wi, wo)`, so estimates are right for every material; if
+/// the data are far from reciprocal, or a BTDF refracts, they are noisier.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Given {
     /// `wi` is given and `wo` sampled.
@@ -15,7 +15,7 @@ pub enum Given {
     Viewer,
 }
 
-/// `(wi, wo)` from the known and the other direction, and the other way round.
+/// `(wi, wo)` from the known and the other direction, and vice versa.
 #[inline(always)]
 pub(super) fn pair<T>(given: Given, known: T, other: T) -> (T, T) {
     match given {

@@ -4,21 +4,21 @@ use std::f64::consts::TAU;
 
 use crate::{Axis, AxisError, Edge};
 
-/// Rows in phi and columns in `v`, as many as a power of two of each.
+/// Rows in phi and columns in `v`; each number is a power of two.
 #[derive(Clone, Debug)]
 pub(crate) struct Grid {
     pub(crate) row_bits: u32,
     pub(crate) column_bits: u32,
     /// The edges of the rows.
     pub(crate) phi: Axis,
-    /// The edges of the columns in the root of `v`, in which they are more even.
+    /// The edges of the columns in the square root of `v`, where they are more even.
     pub(crate) root_v: Axis,
     /// `[lower edge in v, 1 / width]` of each column.
     pub(crate) columns: Vec<[f32; 2]>,
 }
 
 impl Grid {
-    /// A grid from the edges of the rows in phi and of the columns in the root of `v`.
+    /// A grid from the edges of the rows in phi and of the columns in the square root of `v`.
     pub(crate) fn new(phi: &[f64], root_v: &[f64]) -> Result<Self, AxisError> {
         let columns = root_v
             .windows(2)
@@ -39,8 +39,8 @@ impl Grid {
     }
 }
 
-/// The edges of `count` cells over the candidate cells between `edges`: half of them spread with the mass of the
-/// candidates, half evenly over the candidates, so that a peak is resolved and no tail is left out.
+/// The edges of `count` cells over the candidate cells between `edges`: half of them are spread by the mass of the
+/// candidates, half evenly over the candidates, so that a peak is resolved and no tail is neglected.
 pub(crate) fn spread(edges: &[f64], mass: &[f64], count: usize) -> Vec<f64> {
     let candidates = mass.len();
     let total: f64 = mass.iter().sum();
@@ -66,14 +66,14 @@ pub(crate) fn candidate_rows(phis: usize) -> Vec<f64> {
     (0..=count).map(|i| TAU * i as f64 / count as f64).collect()
 }
 
-/// Columns to choose from, as edges in the root of `v`: the knots of theta with the horizon at a right angle, and as
-/// many between them as make about 128.
+/// Columns to choose from, as edges in the square root of `v`: the knots of theta, with the horizon at a right angle,
+/// and as many between them as give about 128.
 pub(crate) fn candidate_columns(theta: &[f32]) -> Vec<f64> {
     let mut knots = vec![0.0];
     for &theta in theta {
         let root = (1.0 - f64::from(theta).cos()).max(0.0).sqrt();
         let last = knots[knots.len() - 1];
-        // Knots that single precision does not distinguish become one.
+        // Knots that single precision does not distinguish are merged.
         if root > last + 1e-5 && root < 1.0 - 1e-5 {
             knots.push(root);
         }

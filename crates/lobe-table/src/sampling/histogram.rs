@@ -7,7 +7,7 @@ use super::incident::{Incident, Surface};
 /// Computes luminance times `f`, 1/sr, of each pair of incident and scattered directions into its last argument.
 pub(crate) type Light<'a> = dyn FnMut(&[[f32; 3]], &[[f32; 3]], &mut [f32]) + 'a;
 
-/// The light of values, `[pair][channel]`, each channel counting as `luminance` says.
+/// The luminance of values `[pair][channel]`, with the weights `luminance` of the channels.
 pub(crate) fn weigh(values: &[f32], luminance: &[f32], out: &mut [f32]) {
     for (out, texel) in out.iter_mut().zip(values.chunks_exact(luminance.len())) {
         let mut brightness = 0.0;
@@ -27,11 +27,11 @@ pub(crate) struct Histogram<'a> {
     /// The edges of rows and columns.
     pub(crate) phi: &'a [f64],
     pub(crate) root_v: &'a [f64],
-    /// Midpoints a cell along each axis.
+    /// The number of midpoints per cell along each axis.
     pub(crate) points: usize,
 }
 
-/// What a histogram counts in one cell.
+/// The value of a histogram in one cell.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Bin {
     pub(crate) light: f64,
@@ -82,7 +82,7 @@ impl Kernel for Histogram<'_> {
                     let [low, high] = [root_v[column], root_v[column + 1]];
                     let cosine = f64::from(scattered[at][2].abs()) * solid_angle * (high * high - low * low);
                     bins[column].cosine += cosine;
-                    // What is no number counts as dark, and what is beyond all numbers as the largest.
+                    // NaN counts as dark, and infinity as the largest float.
                     let light = if values[at] > 0.0 { values[at].min(f32::MAX) } else { 0.0 };
                     bins[column].light += cosine * f64::from(light);
                     at += 1;
@@ -95,7 +95,7 @@ impl Kernel for Histogram<'_> {
     }
 }
 
-/// The middles of `points` equal parts of each cell, after `map` of its edges.
+/// The middles of `points` equal parts of each cell, after `map` was applied to its edges.
 fn midpoints(edges: &[f64], points: usize, map: impl Fn(f64) -> f64) -> Vec<f32> {
     let mut middles = Vec::with_capacity((edges.len() - 1) * points);
     for ends in edges.windows(2) {

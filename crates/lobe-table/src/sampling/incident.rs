@@ -1,13 +1,15 @@
-//! The geometry of scattering about one incident direction a lane: the hemisphere as a rectangle.
+//! The geometry of scattering for one incident direction per lane: the hemisphere as a rectangle.
 //!
-//! About the zenith of the scattered light (see [`coords`](crate::specular::coords)), the horizon lies at a theta that
-//! depends on phi: with the zenith at polar angle `z`, `wo` is above it where `cos z cos theta + sin z cos phi sin
-//! theta > 0`, that is up to `tan(theta_max - pi/2) = tan z cos phi`. With `height = 1 - cos theta_max`, the coordinate
+//! About the zenith of the scattered light (see [`coords`](crate::specular::coords)), the horizon is at a theta that
+//! depends on phi: with the zenith at polar angle `z`, `wo` is above the horizon if `cos z cos theta + sin z cos phi
+//! sin theta > 0`, that is, up to `tan(theta_max - pi/2) = tan z cos phi`. With `height = 1 - cos theta_max`, the
+//! coordinate
 //!
 //! `v = (1 - cos theta) / height(phi)` in `[0, 1)`
 //!
 //! and phi in `[0, 2 pi)` cover the hemisphere and nothing below it. The Jacobian is simple, `sin theta dtheta dphi =
-//! height(phi) dv dphi`, it is finite at the peak, and neither way takes a trigonometric function of theta.
+//! height(phi) dv dphi`, it is finite at the peak, and neither direction of the map needs a trigonometric function of
+//! theta.
 
 use lobe_lane::{Floats, Lanes};
 
@@ -16,15 +18,15 @@ use crate::grid::function::Function;
 use crate::passes::unit::{FARTHEST, POLE};
 use crate::specular::frame::{Refracted, Zenith};
 
-/// What the frame of scattered light depends on, in addition to the incident direction.
+/// The properties on which the frame of scattered light depends, in addition to the incident direction.
 #[derive(Clone, Debug)]
 pub(crate) struct Surface {
     pub(crate) scatter: Scatter,
-    /// How far refraction turns the zenith, by sigma.
+    /// The angle by which refraction turns the zenith, by sigma.
     pub(crate) refraction: Option<Function>,
 }
 
-/// An incident direction in each lane, and the frame of what it scatters.
+/// An incident direction in each lane, and the frame of its scattered light.
 #[derive(Clone, Copy)]
 pub(crate) struct Incident<L: Lanes> {
     /// Cosine of the polar angle, and its squared sine.
@@ -35,7 +37,7 @@ pub(crate) struct Incident<L: Lanes> {
     /// The zenith mirrored about the normal, and the sine of its polar angle.
     opposite: [L::F; 3],
     sin_zenith: L::F,
-    /// The sign that z of a scattered direction has.
+    /// The sign of z of scattered directions.
     side: L::F,
     /// Set if the direction is finite and above the horizon.
     pub(crate) valid: L::M,
@@ -75,7 +77,7 @@ impl<L: Lanes> Incident<L> {
     /// `1 - cos theta_max` at an azimuth whose cosine is given.
     #[inline(always)]
     pub(crate) fn height(&self, lanes: L, cos_phi: L::F) -> L::F {
-        // cos theta_max = -a / q with a = sin z cos phi and q^2 = a^2 + cos^2 z. Where a < 0, the difference 1 + a / q
+        // cos theta_max = -a / q with a = sin z cos phi and q^2 = a^2 + cos^2 z. If a < 0, the difference 1 + a / q
         // would cancel, so it is written as cos^2 z / (q (q - a)).
         let cos_zenith = self.opposite[2];
         let a = self.sin_zenith * cos_phi;
@@ -102,13 +104,13 @@ impl<L: Lanes> Incident<L> {
         [lanes.mul_add(cos_psi, x, -(sin_psi * y)), lanes.mul_add(sin_psi, x, cos_psi * y), z]
     }
 
-    /// Where a scattered direction lies about the zenith.
+    /// The place of a scattered direction about the zenith.
     #[inline(always)]
     pub(crate) fn locate(&self, lanes: L, [ox, oy, oz]: [L::F; 3]) -> Local<L> {
         let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
         let ([cos_psi, sin_psi], [ax, ay, cos_zenith]) = (self.psi, self.opposite);
         let oz = oz * self.side;
-        // The difference of wo and the zenith keeps the digits that a product loses near the peak.
+        // Near the peak, the difference of wo and the zenith keeps digits that a product would lose.
         let (dx, dy, dz) = (ox + ax, oy + ay, oz - cos_zenith);
         let toward = lanes.mul_add(cos_psi, dx, sin_psi * dy);
         let y = lanes.mul_add(cos_psi, dy, -(sin_psi * dx));

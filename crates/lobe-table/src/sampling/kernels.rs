@@ -5,7 +5,7 @@ use lobe_lane::{Floats, Lanes};
 use super::given::{Given, pair};
 use crate::passes::block::BLOCK;
 
-/// Where the samples of a batch go.
+/// The outputs of a batch of samples.
 #[derive(Debug)]
 pub struct Sampled<'a> {
     /// The sampled directions.
@@ -17,15 +17,15 @@ pub struct Sampled<'a> {
 }
 
 impl Sampled<'_> {
-    /// Turns values of `f` in place of the weights into weights: times cosine over density. There must be a whole
-    /// number of weights per direction.
+    /// Turns values of `f`, stored in place of the weights, into weights: times cosine over density. There must be a
+    /// whole number of weights per direction.
     pub fn times_cosine_over_density(&mut self) {
         let channels = self.weights.len().checked_div(self.directions.len()).unwrap_or(0);
         weigh(self.weights, channels.max(1), self.directions, self.pdfs);
     }
 }
 
-/// Values to weights: times cosine over density, or 0 if the density is 0.
+/// Turns values into weights: times cosine over density, or 0 if the density is 0.
 fn weigh(values: &mut [f32], channels: usize, directions: &[[f32; 3]], pdfs: &[f32]) {
     for ((texel, direction), &pdf) in values.chunks_exact_mut(channels).zip(directions).zip(pdfs) {
         let factor = if 0.0 < pdf { direction[2].abs() / pdf } else { 0.0 };
@@ -35,22 +35,23 @@ fn weigh(values: &mut [f32], channels: usize, directions: &[[f32; 3]], pdfs: &[f
     }
 }
 
-/// What `f` times becomes a weight: cosine over density, or 0 if the density is 0.
+/// The factor from `f` to a weight: cosine over density, or 0 if the density is 0.
 #[inline(always)]
 pub(super) fn factor<L: Lanes>(lanes: L, z: L::F, pdf: L::F) -> L::F {
     (z.abs() / pdf).masked(lanes.splat(0.0).lt(pdf))
 }
 
-/// Draws directions and densities: from the known directions and numbers to both.
+/// Draws directions and densities from the known directions and random numbers.
 pub(super) type Draw<'a> = dyn Fn(&[[f32; 3]], &[[f32; 2]], &mut [[f32; 3]], &mut [f32]) + 'a;
 
 /// Evaluates a table: `[pair][channel]`.
 pub(super) type Values<'a> = dyn Fn(&[[f32; 3]], &[[f32; 3]], &mut [f32]) + 'a;
 
-/// Queries between the two halves of the work: few enough that their directions stay in the first cache.
+/// The number of queries per step of drawing and evaluating: few enough that their directions stay in the first-level
+/// cache.
 const CHUNK: usize = 8 * BLOCK;
 
-/// All samples of a batch whose directions `draw` finds and whose `f` `values` finds, each of which enters the backend.
+/// All samples of a batch, with directions from `draw` and `f` from `values`, each of which enters the backend.
 pub(super) fn sample(
     draw: &Draw<'_>,
     values: &Values<'_>,

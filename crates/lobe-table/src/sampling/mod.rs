@@ -1,17 +1,17 @@
-//! Importance sampling of tables in specular coordinates, with densities that are exact.
+//! Importance sampling of tables in specular coordinates, with exact densities.
 //!
-//! For each knot of sigma (and psi) the [`Sampler`] has a histogram of luminance times f times cosine over the scattered
-//! hemisphere. The hemisphere is a rectangle in phi and `v = (1 - cos theta) / (1 - cos theta_max(phi))`, where theta_max
-//! is the horizon, so no sample lies below the horizon and no mass has to be thrown away; the Jacobian between solid
-//! angle and the rectangle is `1 - cos theta_max(phi)`. Between the knots the histograms are blended as the table
+//! For each knot of sigma (and psi) the [`Sampler`] has a histogram of luminance times f times cosine over the
+//! scattered hemisphere. The hemisphere is a rectangle in phi and `v = (1 - cos theta) / (1 - cos theta_max(phi))`,
+//! where theta_max is the horizon, so no sample is below the horizon and no mass is lost; the Jacobian between solid
+//! angle and the rectangle is `1 - cos theta_max(phi)`. Between the knots, the histograms are blended as the table
 //! interpolates; their cumulative sums are blended while they are searched, first the rows in phi, then the columns in
 //! `v` (inversion of the marginal and the conditional distribution: Pharr, Jakob and Humphreys 2023, *Physically Based
 //! Rendering*, appendix A.4; blending of sums as in Dupuy and Jakob 2018, *An adaptive parameterization for efficient
 //! material acquisition and rendering*). The map from `u` to directions is continuous in the incident direction and
 //! keeps the stratification of `u`.
 //!
-//! Every histogram holds a part [`SamplerOptions::defensive`] of a cosine distribution, so the density is positive in
-//! all of the hemisphere.
+//! Every histogram includes a share [`SamplerOptions::defensive`] of a cosine distribution, so the density is positive
+//! on the whole hemisphere.
 
 mod batches;
 mod block;

@@ -1,4 +1,4 @@
-//! What a distribution is laid out for, and why there may be none.
+//! The options of a distribution, and the errors if there can be none.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,18 +6,18 @@ use thiserror::Error;
 
 use crate::{Axis, AxisError, Scatter};
 
-/// What a [`Distribution`](super::Distribution) is laid out for.
+/// The options for laying out a [`Distribution`](super::Distribution).
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistributionOptions {
-    /// Whether scattered directions lie on the side of the incident one, or on the other.
+    /// Whether scattered directions are on the side of the incident one, or on the other.
     pub scatter: Scatter,
     /// Polar angles of incidence in radians, ascending in `[0, pi/2]`: at each there is a slice.
     pub sigma: Vec<f64>,
-    /// Azimuths of incidence in radians, ascending in `[0, 2 pi)`; one or none if the azimuth does not count.
+    /// Azimuths of incidence in radians, ascending in `[0, 2 pi)`; one or none if the azimuth does not matter.
     pub psi: Vec<f64>,
-    /// Angles from the mirror direction, radians in `[0, pi]`, between which the light varies little.
+    /// Angles from the mirror direction, in radians in `[0, pi]`, between which the light varies little.
     pub theta: Vec<f64>,
-    /// About how many steps in azimuth about the mirror direction it takes to follow the light.
+    /// The approximate number of steps in azimuth about the mirror direction that resolve the light.
     pub phis: usize,
     /// The most memory to take, except for the coarsest grid.
     pub bytes: usize,
@@ -26,8 +26,9 @@ pub struct DistributionOptions {
 }
 
 impl DistributionOptions {
-    /// A grid for light of which nothing is known: steps in theta that are finest at the mirror direction, and slices
-    /// every 5 degrees and closer at grazing; if psi counts, every 10 degrees, and of psi every 22.5.
+    /// A grid for light about which nothing is known: steps in theta that are finest at the mirror direction, and
+    /// slices every 5 degrees, closer at grazing angles; if psi matters, every 10 degrees, and every 22.5 degrees of
+    /// psi.
     pub fn unknown(scatter: Scatter, isotropic: bool, bytes: usize) -> Self {
         let (step, last) = if isotropic { (5, 17) } else { (10, 9) };
         let mut sigma: Vec<f64> = (0..last).map(|i| f64::from(step * i).to_radians()).collect();
@@ -38,16 +39,16 @@ impl DistributionOptions {
     }
 }
 
-/// Why there is no distribution.
+/// A distribution that cannot be built.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum DistributionError {
-    /// A defensive part outside of `(0, 1]`.
+    /// A defensive part outside `(0, 1]`.
     #[error("a defensive part of {found}; expected a number in (0, 1]")]
     Defensive {
         /// What was found.
         found: f32,
     },
-    /// Knots that do not make an axis.
+    /// Knots that cannot form an axis.
     #[error("{axis} of the distribution: {source}")]
     Axis {
         /// Which axis.
@@ -63,7 +64,7 @@ pub enum DistributionError {
     },
 }
 
-/// What decides how fine a distribution is (see [`DistributionOptions`]).
+/// The options that determine the resolution of a distribution (see [`DistributionOptions`]).
 pub(super) struct Plan<'a> {
     /// The incident directions of the slices.
     pub(super) sigma: Axis,

@@ -1,4 +1,4 @@
-//! The slices about incident directions.
+//! The slices around incident directions.
 
 use lobe_lane::{Floats, Lanes};
 
@@ -7,7 +7,7 @@ use super::slices::Place;
 use crate::grid::axis::Axis;
 use crate::passes::block::Column;
 
-/// The slices about the incident directions of a block.
+/// The slices around the incident directions of a block.
 pub(super) struct Places {
     block: Column<i32>,
     weights: [Column; 4],
@@ -34,14 +34,14 @@ impl Places {
     }
 }
 
-/// The cell of an angle and how far into it, never outside.
+/// The cell of an angle and the fraction into it, never outside.
 #[inline(always)]
 fn cell<L: Lanes>(lanes: L, axis: &Axis, angle: L::F) -> (L::I, L::F) {
     let cell = axis.cell(lanes, axis.bring_inside(lanes, angle));
     (cell.index, cell.fraction.max(lanes.splat(0.0)).min(lanes.splat(1.0)))
 }
 
-/// The slices about an incident direction, in sigma and psi.
+/// The slices around an incident direction, in sigma and psi.
 #[inline(always)]
 pub(super) fn place<L: Lanes>(lanes: L, sigma: &Axis, psi: Option<&Axis>, incident: &Incident<L>) -> Place<L> {
     let one = lanes.splat(1.0);

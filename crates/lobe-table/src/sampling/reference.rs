@@ -1,4 +1,4 @@
-//! Draws one at a time in `f64`, with the functions of the standard library: what lanes are compared with.
+//! One sample at a time in `f64`, with the functions of the standard library: the reference for the lanes.
 
 use std::f64::consts::TAU;
 
@@ -10,8 +10,8 @@ use crate::grid::neighbours::Neighbours;
 use crate::specular::coords;
 
 impl Distribution {
-    /// As [`draw_lanes`](Distribution::draw_lanes), in `f64`; `None` if `known` is not above the surface. Sums
-    /// are those of the lanes, rounded to `f32`, and so are the knots; all else is exact.
+    /// As [`draw_lanes`](Distribution::draw_lanes), in `f64`; `None` if `known` is not above the surface. Sums and
+    /// knots are those of the lanes, rounded to `f32`; everything else is exact.
     pub fn draw_reference(&self, known: [f64; 3], u: [f64; 2]) -> Option<([f64; 3], f64)> {
         let [x, y, z] = known;
         let (side, up) = match self.surface.scatter {
@@ -63,13 +63,13 @@ impl Distribution {
     }
 }
 
-/// The slices about an incident direction.
+/// The slices around an incident direction.
 struct Blend {
     block: usize,
     weights: [f64; 4],
 }
 
-/// Where a number falls among cumulative sums.
+/// The place of a number among cumulative sums.
 struct Inverted {
     cell: usize,
     fraction: f64,
@@ -77,7 +77,7 @@ struct Inverted {
     total: f64,
 }
 
-/// The cell of `0..count` up to and with which `sum` passes the part `u` of its last value.
+/// The cell of `0..count` at whose end `sum` first exceeds the share `u` of its last value.
 fn invert(u: f64, count: usize, sum: impl Fn(usize) -> f64) -> Inverted {
     let total = sum(count - 1);
     let target = u * total;
@@ -96,7 +96,7 @@ fn invert(u: f64, count: usize, sum: impl Fn(usize) -> f64) -> Inverted {
     Inverted { cell, fraction: ((target - below) / mass).clamp(0.0, 1.0), mass, total }
 }
 
-/// The cell of an angle and how far into it, never outside.
+/// The cell of an angle and the fraction into it, never outside.
 fn cell(axis: &Axis, angle: f64) -> (usize, f64) {
     let knots = axis.knots();
     let first = f64::from(knots[0]);

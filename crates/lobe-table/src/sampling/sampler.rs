@@ -1,4 +1,4 @@
-//! A table and what is needed to sample it.
+//! A table and the distributions to sample it.
 
 use std::sync::Arc;
 
@@ -15,48 +15,48 @@ use super::kernels::{Sampled, Values, factor, sample};
 use super::options::{DistributionError, Plan};
 use crate::specular::{self, PHI, PSI, SIGMA, THETA};
 
-/// How a sampler is built.
+/// The options for building a sampler.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SamplerOptions {
-    /// The part of every slice that is a cosine distribution, in `(0, 1]`. With part `d` a weight is at most
-    /// about `pi f / d`, and noise, if the histogram fits, grows by `1 / (1 - d)`.
+    /// The share of a cosine distribution in every slice, in `(0, 1]`. With a share `d`, a weight is at most about `pi
+    /// f / d`, and noise, if the histogram fits well, grows by `1 / (1 - d)`.
     pub defensive: f32,
-    /// How much each channel counts in luminance; as the function [`luminance`] says if it is `None`. If a path is
-    /// traced at a few wavelengths, those count.
+    /// The weight of each channel in luminance; if `None`, as given by the function [`luminance`]. If a path is traced
+    /// at a few wavelengths, those have weight.
     pub luminance: Option<Vec<f32>>,
-    /// At most this much memory for histograms, except for the coarsest grid, if it is less than one and a half times that of
+    /// The most memory for histograms, except for the coarsest grid, if it is less than one and a half times that of
     /// the material. Building them takes up to two evaluations per byte.
     pub bytes: Option<usize>,
 }
 
 impl Default for SamplerOptions {
-    /// A twentieth of cosine; luminance by the kind of the channels.
+    /// A twentieth of a cosine distribution; luminance by the kind of the channels.
     fn default() -> Self {
         SamplerOptions { defensive: 0.05, luminance: None, bytes: None }
     }
 }
 
-/// Why there is no sampler.
+/// A sampler that cannot be built.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SamplerError {
-    /// What keeps it from having a distribution.
+    /// The distribution cannot be built.
     #[error(transparent)]
     Distribution(#[from] DistributionError),
-    /// Luminance weights that do not go with the channels, or are negative, not finite, or all 0.
+    /// Luminance weights that do not match the channels, or are negative, not finite, or all 0.
     #[error("luminance weights {found:?}; expected {channels}, not negative, finite and not all 0")]
     Luminance {
         /// What was found.
         found: Vec<f32>,
-        /// How many channels the table has.
+        /// The number of channels of the table.
         channels: usize,
     },
 }
 
-/// A table and what is needed to sample directions in proportion to luminance times f times cosine.
+/// A table and the distributions to sample directions in proportion to luminance times f times cosine.
 ///
 /// As in a [`specular::Table`], `wi` points to the light and `wo` to the viewer, unit vectors, normal on +z. Sampled
-/// directions of a reflection table have `z > 0`; those of a transmission table lie on the other side of the surface.
-/// Densities are per steradian. In strict form, samples are the same bits on every backend.
+/// directions of a reflection table have `z > 0`; those of a transmission table are on the other side of the surface.
+/// Densities are per steradian. In strict form, samples have the same bits on every backend.
 #[derive(Clone, Debug)]
 pub struct Sampler {
     table: Arc<specular::Table>,
@@ -64,12 +64,10 @@ pub struct Sampler {
 }
 
 impl Sampler {
-    /// Builds the distributions of a table on a backend.
-    ///
-    /// They are the same bits whichever backend builds them.
+    /// Builds the distributions of a table on a backend. They have the same bits whichever backend builds them.
     ///
     /// # Errors
-    /// If the options make no sense for this table.
+    /// If the options do not apply to this table.
     pub fn new(backend: Backend, table: Arc<specular::Table>, options: &SamplerOptions) -> Result<Self, SamplerError> {
         Sampler::with_progress(backend, table, options, &mut |_, _| {})
     }
@@ -127,11 +125,11 @@ impl Sampler {
         self.distribution.bytes()
     }
 
-    /// Samples one direction for two numbers in `[0, 1)`. Returns it with its density, and `weight` is set to `f` times
+    /// Samples one direction from two numbers in `[0, 1)`. Returns it with its density, and sets `weight` to `f` times
     /// cosine over the density, one value per channel. If `given` is not above the surface, everything is 0.
     ///
     /// # Panics
-    /// If `weight` is not as long as there are channels.
+    /// If the length of `weight` is not the number of channels.
     pub fn sample(
         &self,
         backend: Backend,
@@ -146,11 +144,11 @@ impl Sampler {
         (sampled[0], pdf[0])
     }
 
-    /// The density with which [`sample`](Sampler::sample) finds the direction of the pair that is not given. It is 0
-    /// unless the table can scatter from one to the other.
+    /// The density with which [`sample`](Sampler::sample) draws the other direction of the pair. It is 0 unless the
+    /// table can scatter from one to the other.
     ///
-    /// Rounding can put a direction that lies on the very edge of a histogram's cell into the neighbouring cell, which
-    /// has a density of its own.
+    /// Rounding can move a direction on the very edge of a cell of the histogram into the neighbouring cell, whose
+    /// density may differ.
     pub fn pdf(&self, backend: Backend, given: Given, wi: [f32; 3], wo: [f32; 3]) -> f32 {
         let mut pdf = [0.0];
         self.pdf_batch(backend, given, &[wi], &[wo], &mut pdf);
@@ -160,7 +158,8 @@ impl Sampler {
     /// Samples one direction for each given direction, as [`sample`](Sampler::sample).
     ///
     /// # Panics
-    /// If `u` or a part of `out` does not have one entry per direction, and the weights one per direction and channel.
+    /// If `u` or a field of `out` does not have one entry per direction, or the weights do not have one per direction
+    /// and channel.
     pub fn sample_batch(
         &self,
         backend: Backend,
@@ -202,7 +201,7 @@ impl Sampler {
     }
 
     /// # Panics
-    /// If there is not one of each per direction, and a weight per direction and channel.
+    /// If there is not one of each per direction, or one weight per direction and channel.
     fn check(&self, directions: &[[f32; 3]], u: &[[f32; 2]], out: &Sampled<'_>) {
         let count = directions.len();
         assert_eq!(u.len(), count, "a pair of numbers per direction");
@@ -213,7 +212,7 @@ impl Sampler {
     /// The densities of many pairs, as [`pdf`](Sampler::pdf).
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo` and `pdfs`.
+    /// If the numbers of `wi`, `wo` and `pdfs` differ.
     pub fn pdf_batch(&self, backend: Backend, given: Given, wi: &[[f32; 3]], wo: &[[f32; 3]], pdfs: &mut [f32]) {
         let (known, other) = pair(given, wi, wo);
         self.distribution.pdf_batch(backend, known, other, pdfs);
@@ -223,7 +222,7 @@ impl Sampler {
     /// `mask` leaves out.
     ///
     /// # Panics
-    /// If `weight` is not as long as there are channels.
+    /// If the length of `weight` is not the number of channels.
     #[inline(always)]
     pub fn sample_lanes<L: Lanes>(
         &self,
@@ -255,7 +254,7 @@ impl Sampler {
     }
 }
 
-/// The distribution of a table whose `values` are found, and whose histograms are `run`, in strict form.
+/// The distribution of a table, with values from `values`, and histograms computed by `run` in strict form.
 fn distribution(
     table: &specular::Table,
     options: &SamplerOptions,

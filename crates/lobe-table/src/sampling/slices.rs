@@ -1,37 +1,37 @@
 //! The cumulative sums of all slices, and their blend between the knots of sigma and psi.
 //!
-//! A slice is the distribution of scattered light at one knot of sigma (and psi): a histogram over rows in phi and columns
-//! in `v` (see [`incident`](super::incident)). Between knots, the blend of the histograms, weighted as the table itself
-//! interpolates, is a histogram again, and so are its sums: the sums are blended as they are searched, and the density
-//! is exact. Slices keep the brightness that they have, so that a bright knot counts for more than a dark one, just as
-//! it does in the interpolated value.
+//! A slice is the distribution of scattered light at one knot of sigma (and psi): a histogram over rows in phi and
+//! columns in `v` (see [`incident`](super::incident)). Between knots, the blend of the histograms, with the weights of
+//! the table's own interpolation, is again a histogram, and its sums are the blended sums: they are blended while they
+//! are searched, and the density is exact. Slices keep their brightness, so that a bright knot counts for more than a
+//! dark one, just as in the interpolated value.
 
 use lobe_lane::{Block, Floats, Ints, Lanes};
 
 use super::grid::Grid;
 use lobe_memory::Storage;
 
-/// The sums of the slices. The slices that one blend reads, two or four, lie side by side.
+/// The sums of the slices. The slices that one blend reads, two or four, are adjacent.
 #[derive(Clone, Debug)]
 pub(crate) struct Slices {
     pub(crate) grid: Grid,
-    /// Slices in a blend: both ends in sigma, or in sigma and psi.
+    /// The number of slices in a blend: both ends in sigma, or in sigma and psi.
     pub(crate) width: usize,
-    /// Up to and with each row, `[block][row][slice]`.
+    /// Up to and including each row, `[block][row][slice]`.
     pub(crate) rows: Storage<f32>,
-    /// Within a row, up to and with each column, `[block][row][column][slice]`.
+    /// Within a row, up to and including each column, `[block][row][column][slice]`.
     pub(crate) columns: Storage<f32>,
 }
 
-/// Which slices a lane blends, and how much each counts.
+/// The slices that a lane blends, and their weights.
 #[derive(Clone, Copy)]
 pub(crate) struct Place<L: Lanes> {
     pub(crate) block: L::I,
-    /// Sigma slow, psi fast; the first two alone if psi does not count.
+    /// Sigma slow, psi fast; only the first two if psi does not matter.
     pub(crate) weights: [L::F; 4],
 }
 
-/// A sample of a blend: where, and how dense per unit of `v` and phi.
+/// A sample of a blend: its place, and its density per unit of `v` and phi.
 #[derive(Clone, Copy)]
 pub(crate) struct Draw<L: Lanes> {
     pub(crate) v: L::F,
@@ -39,9 +39,9 @@ pub(crate) struct Draw<L: Lanes> {
     pub(crate) density: L::F,
 }
 
-/// Sums whose slices lie side by side.
+/// Sums whose slices are adjacent.
 pub(crate) trait Sums: Copy {
-    /// Entry `index`, blended. Outside the table it is any entry.
+    /// Entry `index`, blended. Outside the table, it is an arbitrary entry.
     fn blend<L: Lanes>(self, lanes: L, index: L::I, weights: &[L::F; 4]) -> L::F;
 }
 
@@ -118,7 +118,7 @@ impl<S: Sums> View<'_, S> {
         self.end(lanes, search, row)
     }
 
-    /// Half the rows, and half the columns: where their searches begin.
+    /// Half the rows, and half the columns: the start of their searches.
     #[inline(always)]
     pub(crate) fn row_half(&self) -> i32 {
         (1 << self.grid.row_bits) >> 1
@@ -128,7 +128,7 @@ impl<S: Sums> View<'_, S> {
         (1 << self.grid.column_bits) >> 1
     }
 
-    /// The search of a row by a number in `[0, 1)`, and the sum of all rows.
+    /// The search of a row for a number in `[0, 1)`, and the sum of all rows.
     #[inline(always)]
     pub(crate) fn begin<L: Lanes>(&self, lanes: L, place: &Place<L>, u: L::F) -> (Search<L>, L::F) {
         let first = place.block * lanes.splat_int(1 << self.grid.row_bits);
@@ -142,7 +142,7 @@ impl<S: Sums> View<'_, S> {
         search.step(lanes, self.rows, half, weights)
     }
 
-    /// From the row that was found to the search of a column in it.
+    /// Goes from the row that was found to the search of a column in it.
     #[inline(always)]
     pub(crate) fn turn<L: Lanes>(&self, lanes: L, search: Search<L>, total: L::F, w: L::F) -> (Search<L>, Row<L>) {
         let (mass, fraction) = search.end(lanes);
@@ -198,8 +198,8 @@ impl<S: Sums> View<'_, S> {
     }
 }
 
-/// A search on its way: the target lies between the sums `low` and `high`, in one of the cells from `cell` on, whose
-/// sums lie from entry `first` on.
+/// A search in progress: the target is between the sums `low` and `high`, in one of the cells that start at `cell`,
+/// whose sums start at entry `first`.
 #[derive(Clone, Copy)]
 pub(crate) struct Search<L: Lanes> {
     pub(crate) first: L::I,
@@ -209,7 +209,7 @@ pub(crate) struct Search<L: Lanes> {
     pub(crate) high: L::F,
 }
 
-/// The azimuth of a sample, and what makes a density of a column's mass and width.
+/// The azimuth of a sample, and the factor from a column's mass and width to a density.
 #[derive(Clone, Copy)]
 pub(crate) struct Row<L: Lanes> {
     pub(crate) phi: L::F,
@@ -222,7 +222,7 @@ impl<L: Lanes> Search<L> {
         Search { first, cell: lanes.splat_int(0), target, low: lanes.splat(0.0), high: total }
     }
 
-    /// Halves the cells that are left, from twice `half`.
+    /// Halves the number of remaining cells, from twice `half`.
     #[inline(always)]
     fn step<S: Sums>(self, lanes: L, sums: S, half: i32, weights: &[L::F; 4]) -> Self {
         let Search { first, cell, target, low, high } = self;
@@ -237,7 +237,7 @@ impl<L: Lanes> Search<L> {
         }
     }
 
-    /// The mass of the cell that is left, and how far into it the target lies.
+    /// The mass of the remaining cell, and the fraction of the target in it.
     #[inline(always)]
     fn end(self, lanes: L) -> (L::F, L::F) {
         let mass = (self.high - self.low).max(lanes.splat(f32::MIN_POSITIVE));
@@ -245,7 +245,7 @@ impl<L: Lanes> Search<L> {
     }
 }
 
-/// A number held in `[0, 1)`; 0 for NaN.
+/// A number clamped to `[0, 1)`; 0 for NaN.
 #[inline(always)]
 fn unit<L: Lanes>(lanes: L, u: L::F) -> L::F {
     u.max(lanes.splat(0.0)).min(lanes.splat(1.0 - f32::EPSILON / 2.0))

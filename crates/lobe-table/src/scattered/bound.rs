@@ -1,16 +1,16 @@
-//! How far lanes may be from the evaluation in `f64`.
+//! The error bound of lanes, relative to the evaluation in `f64`.
 
 use super::Data;
 use crate::passes::unit::SPHERICAL;
 
-/// How far the place of a direction may be off in lanes, in radians.
+/// The largest error of the place of a direction in lanes, in radians.
 const PLACE: f64 = 2.0 * SPHERICAL;
-/// What is left of rounding in a sum of up to nine weighted samples, relative to the largest of them.
+/// The rounding error of a sum of up to nine weighted samples, relative to the largest of them.
 const SUM: f64 = 1.5e-6;
 
 impl Data {
-    /// How far a value of a `Table` may be from that of [`eval`](Self::eval), in 1/sr, for unit vectors: what a small change
-    /// of both directions makes of it.
+    /// The largest difference between a value of a `Table` and that of [`eval`](Self::eval), in 1/sr, for unit vectors,
+    /// found from the effect of a small change of both directions.
     pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
         let middle = self.eval(wi, wo);
         let apart =
@@ -30,7 +30,7 @@ impl Data {
     }
 }
 
-/// Two directions across another one, and across each other: along the meridian and along the horizon.
+/// Two directions perpendicular to another one and to each other: along the meridian and along the horizon.
 fn across([x, y, z]: [f64; 3]) -> [[f64; 3]; 2] {
     let flat = x.hypot(y);
     let (cos, sin) = if flat > 0.0 { (x / flat, y / flat) } else { (1.0, 0.0) };

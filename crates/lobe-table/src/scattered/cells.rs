@@ -1,6 +1,6 @@
 //! Squares of the plane that lead to the region of a point in one or two steps.
 //!
-//! A square in which many regions meet has sixteen smaller ones, so that there are as many of them as it takes where
+//! A square in which many regions meet is divided into sixteen smaller ones, so that there are enough squares where
 //! points are dense, and few elsewhere.
 
 use std::cmp::Ordering;
@@ -9,15 +9,15 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::regions::Region;
 
-/// The plane is looked at up to here in `x` and in `y`, a little farther than any polar angle is.
+/// The plane is covered up to here in `x` and in `y`, slightly more than any polar angle.
 pub(super) const REACH: f64 = FRAC_PI_2 * (1.0 + 1e-6);
-/// Squares along each axis, and parts along each axis of one that is divided.
+/// The number of squares along each axis, and the number of parts along each axis of a divided square.
 pub(super) const SQUARES: usize = 16;
 pub(super) const PARTS: usize = 4;
-/// Entries from here on are the first of a divided square; others are regions. As floats, in whose bits they are stored,
-/// none is a NaN, whose bits a processor need not keep.
+/// Entries of this value or more point to the first entry of a divided square; others are regions. They are stored as
+/// the bits of floats, none of which is NaN, because a processor need not preserve the bits of a NaN.
 pub(super) const DIVIDED: u32 = 0x4000_0000;
-/// The most that an entry may say.
+/// The largest value of an entry.
 pub(super) const MOST: usize = 0x3f00_0000;
 
 /// A square with the regions that reach into it.
@@ -29,7 +29,7 @@ struct Square {
 }
 
 impl Square {
-    /// How many steps may be saved by dividing it: the regions in it, as often as points fall there.
+    /// The number of steps that dividing it may save: the regions in it, weighted by how often points fall there.
     fn gain(&self) -> f64 {
         self.half * self.half * (self.regions.len() - 1) as f64
     }
@@ -46,7 +46,7 @@ impl Square {
         Square { entry, middle, half, regions: reaching }
     }
 
-    /// The region in which its middle lies, or nearly so.
+    /// The region that contains its middle, or nearly so.
     fn start(&self, regions: &[Region]) -> u32 {
         let depth = |region: &u32| regions[*region as usize].depth(self.middle);
         self.regions.iter().copied().max_by(|a, b| depth(a).total_cmp(&depth(b))).unwrap_or(0)
@@ -73,8 +73,8 @@ impl Ord for Square {
     }
 }
 
-/// Appends the squares of some regions, whose numbers begin at `first`, to `entries`, rows along `x` one after the other.
-/// Returns where they begin, or `None` if there are more than an entry can say.
+/// Appends the squares of some regions, whose numbers start at `first`, to `entries`, one row along `x` after the
+/// other. Returns their start, or `None` if there are more than an entry can represent.
 pub(super) fn lay_out(regions: &[Region], first: usize, entries: &mut Vec<u32>) -> Option<usize> {
     let root = entries.len();
     entries.resize(root + SQUARES * SQUARES, 0);
@@ -82,7 +82,7 @@ pub(super) fn lay_out(regions: &[Region], first: usize, entries: &mut Vec<u32>) 
     let half = REACH / SQUARES as f64;
     let mut pending = BinaryHeap::new();
     for row in 0..SQUARES {
-        // A row first, so that no square looks at all regions.
+        // Rows first, so that no square has to examine all regions.
         let middle = [0.0, half * (2 * row + 1) as f64 - REACH];
         let mut of_row = whole.regions.clone();
         of_row.retain(|&region| {
@@ -98,7 +98,7 @@ pub(super) fn lay_out(regions: &[Region], first: usize, entries: &mut Vec<u32>) 
             pending.push(Square { entry, middle, half, regions });
         }
     }
-    // As many divisions as there are regions and some more: the entries take less memory than the regions.
+    // Slightly more divisions than regions: the entries take less memory than the regions.
     let mut divisions = 64 + regions.len();
     while let Some(square) = pending.pop() {
         let is_divided = divisions > 0 && square.regions.len() > 1 && square.half > 1e-5;

@@ -1,4 +1,4 @@
-//! The samples, and what interpolates between them.
+//! The samples, and their interpolation.
 
 use super::mesh::Mesh;
 use crate::spherical::AXIS_NAMES;
@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// Why angles and values are not a measurement.
+/// Angles and values that are not a valid measurement.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ScatteredError {
     /// No samples or no channels.
@@ -42,12 +42,12 @@ pub enum ScatteredError {
     },
 }
 
-/// How far beyond the horizon a polar angle may be that was rounded in its file, in radians.
+/// The largest distance of a polar angle, rounded in its file, beyond the horizon, in radians.
 const ROUNDING: f64 = 1e-4;
-/// Directions nearer to each other than this, in radians, are the same.
+/// Directions nearer to each other than this, in radians, are equal.
 pub(super) const SAME: f64 = 1e-6;
 
-/// What was measured for one incident direction.
+/// The measurement for one incident direction.
 #[derive(Clone, Debug)]
 pub(super) struct Incidence {
     pub(super) theta: f64,
@@ -62,26 +62,26 @@ pub(super) struct Incidence {
 
 /// Scattered measurements of a BRDF or BTDF. Values are `f` in 1/sr, without the cosine; negative ones are kept.
 ///
-/// If all incident directions have one azimuth, the material is isotropic. If the outgoing directions of
-/// an isotropic material are all on one side of the plane of incidence, the other side is their mirror image.
+/// If all incident directions have the same azimuth, the material is isotropic. If the outgoing directions of an
+/// isotropic material are all on one side of the plane of incidence, the other side is their mirror image.
 ///
-/// [`eval`](Self::eval) is their evaluation in `f64`, a pair at a time; a `Table` has the same values in lanes.
+/// [`eval`](Self::eval) evaluates them in `f64`, one pair at a time; a `Table` has the same values in lanes.
 #[derive(Clone, Debug)]
 pub struct Data {
     pub(super) scatter: Scatter,
     pub(super) channels: Channels,
     pub(super) is_isotropic: bool,
-    /// 1 or -1 if only outgoing directions with a sine of that sign were measured, 0 else.
+    /// 1 or -1 if only outgoing directions with a sine of that sign were measured, otherwise 0.
     pub(super) measured_side: f64,
-    /// Shared by clones, as are the triangles: what is prepared to be evaluated is the same data.
+    /// Shared by clones, as are the triangles, because prepared materials keep the same data.
     pub(super) incidences: Arc<[Incidence]>,
     pub(super) mesh: Arc<Mesh>,
 }
 
 impl Data {
-    /// Checks samples and keeps them. `angles` are the [`AXIS_NAMES`] of each sample in radians, each polar angle from the
-    /// normal on the side of its direction, so that those of a BTDF are below `pi/2` too; `values` are
-    /// `[sample][channel]`. Samples of the same two directions are averaged.
+    /// Checks samples and stores them. `angles` are the [`AXIS_NAMES`] of each sample in radians, each polar angle from
+    /// the normal on the side of its direction, so that those of a BTDF are below `pi/2` too; `values` are
+    /// `[sample][channel]`. Samples with the same two directions are averaged.
     ///
     /// # Errors
     /// [`ScatteredError`] names the sample, what was found and what was expected.
@@ -115,7 +115,7 @@ impl Data {
         let first = azimuths.next();
         let is_isotropic = azimuths.all(|azimuth| Some(azimuth) == first);
 
-        // By the place in the mesh, where the seam of the azimuths does not show.
+        // Compared by the place in the mesh, which has no seam of azimuths.
         let mut samples: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
         for (sample, [theta, phi, ..]) in angles.iter().enumerate() {
             let theta = if *theta <= SAME { 0.0 } else { *theta };
@@ -145,7 +145,7 @@ impl Data {
         self.scatter
     }
 
-    /// What the channels mean.
+    /// The meaning of the channels.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }
@@ -166,7 +166,8 @@ impl Data {
             .map(|([theta, phi, theta_o, relative], values)| ([theta, phi, theta_o, phi + relative], values))
     }
 
-    /// The samples as they are stored: as [`samples`](Self::samples), but the outgoing azimuth counts from the incident one.
+    /// The samples as stored: like [`samples`](Self::samples), but with the outgoing azimuth counted from the incident
+    /// one.
     pub fn relative_samples(&self) -> impl Iterator<Item = ([f64; 4], &[f32])> {
         let count = self.channels.count();
         self.incidences.iter().flat_map(move |incidence| {
@@ -178,8 +179,8 @@ impl Data {
 
     /// The channels of `f` in 1/sr for light from `wi` to `wo`, unit vectors that point away from the surface.
     ///
-    /// Zero for directions that graze the surface, for two sides if reflection was measured, and for one side where
-    /// transmission was. The two sides of the surface are taken to be alike.
+    /// Zero for directions that graze the surface, for directions on opposite sides if reflection was measured, and on
+    /// the same side if transmission was. The two sides of the surface are assumed to be alike.
     pub fn eval(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f32> {
         let count = self.channels.count();
         let (mut sum, mut out) = (vec![0.0; count], vec![0.0; count]);
@@ -187,10 +188,11 @@ impl Data {
         out
     }
 
-    /// As [`eval`](Self::eval), into `out`; `sum` holds the channels while they are added up. Many pairs share both.
+    /// As [`eval`](Self::eval), into `out`; `sum` is scratch memory for the channels. Both can be reused for many
+    /// pairs.
     ///
     /// # Panics
-    /// If one of the two is shorter than there are channels.
+    /// If one of the two is shorter than the number of channels.
     pub fn eval_into(&self, wi: [f64; 3], wo: [f64; 3], sum: &mut [f64], out: &mut [f32]) {
         let count = self.channels.count();
         let (sum, out) = (&mut sum[..count], &mut out[..count]);
@@ -237,7 +239,7 @@ fn incidence(
     is_isotropic: bool,
 ) -> Option<Incidence> {
     let [theta, phi, ..] = angles[samples[0]];
-    // Without isotropy the azimuths at the pole keep the meaning that they have for the sample.
+    // For anisotropic materials, azimuths at the pole remain relative to the sample.
     let is_fixed_pole = !is_isotropic && theta <= SAME;
     let mut places: BTreeMap<(i64, i64), (usize, Vec<f64>)> = BTreeMap::new();
     let mut outgoing: Vec<[f64; 2]> = Vec::new();
@@ -264,8 +266,8 @@ fn incidence(
     Some(Incidence { theta, phi: if is_fixed_pole { 0.0 } else { phi }, outgoing, values: averages, mesh })
 }
 
-/// Polar angle and azimuth, relative to the plane of incidence, of an outgoing direction that is turned in that plane by
-/// `by`, away from the light, and stays above the horizon.
+/// Polar angle and azimuth, relative to the plane of incidence, of an outgoing direction that is rotated in that plane
+/// by `by`, away from the light, and kept above the horizon.
 fn turned(wo: [f64; 3], phi_i: f64, by: f64) -> [f64; 2] {
     let ((sin, cos), (sin_by, cos_by)) = (phi_i.sin_cos(), by.sin_cos());
     let (x, y, z) = (cos * wo[0] + sin * wo[1], cos * wo[1] - sin * wo[0], wo[2].abs());
@@ -277,7 +279,7 @@ fn project(theta: f64, phi: f64) -> [f64; 2] {
     [theta * phi.cos(), theta * phi.sin()]
 }
 
-/// The azimuth at which an incident direction lies in the mesh: an isotropic material has them all on a line.
+/// The azimuth of an incident direction in the mesh: for an isotropic material, all are on a line.
 fn place(phi: f64, is_isotropic: bool) -> f64 {
     if is_isotropic { 0.0 } else { phi }
 }
@@ -286,7 +288,7 @@ fn key(angle: f64) -> i64 {
     (angle / SAME).round() as i64
 }
 
-/// The same for a whole turn more or less, and for what rounding puts on either side of the seam.
+/// The same azimuth for a full turn more or less, and for angles that rounding puts on either side of the seam.
 fn azimuth_key(phi: f64) -> i64 {
     key(phi.rem_euclid(TAU)) % key(TAU)
 }

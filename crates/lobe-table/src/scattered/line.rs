@@ -1,18 +1,18 @@
-//! Linear interpolation between points of a plane that lie on a line.
+//! Linear interpolation between points of a plane that are on a line.
 
-/// Points on a line, and how to interpolate between them.
+/// Points on a line, and the interpolation between them.
 #[derive(Clone, Debug)]
 pub(crate) struct Line {
-    /// An end of the line, and its direction; of no length if there is only one point.
+    /// An end of the line, and its direction, which is zero if there is only one point.
     start: [f64; 2],
     direction: [f64; 2],
-    /// How far along the line each point is, ascending, and which it is.
+    /// The distance of each point along the line, ascending, and its index.
     points: Vec<(f64, usize)>,
 }
 
 impl Line {
-    /// The points as a line; `None` if there is no point, or one is further than `tolerance` from the line through those
-    /// at its ends.
+    /// The points as a line; `None` if there is no point, or one is farther than `tolerance` from the line through the
+    /// points at its ends.
     pub(crate) fn new(points: &[[f64; 2]], tolerance: f64) -> Option<Self> {
         let farthest = |from: [f64; 2]| {
             let distance = |point: &[f64; 2]| (point[0] - from[0]).hypot(point[1] - from[1]);
@@ -33,30 +33,30 @@ impl Line {
         Some(line)
     }
 
-    /// How far along the line the point of it is that is nearest to `point`.
+    /// The distance along the line of its point nearest to `point`.
     fn along(&self, [x, y]: [f64; 2]) -> f64 {
         self.direction[0] * (x - self.start[0]) + self.direction[1] * (y - self.start[1])
     }
 
-    /// Where [`points`](Self::points) count from.
+    /// The origin of the distances of [`points`](Self::points).
     #[cfg(feature = "scattered")]
     pub(super) fn start(&self) -> [f64; 2] {
         self.start
     }
 
-    /// The direction of the line, of length 1; 0 if there is only one point.
+    /// The direction of the line, of length 1; zero if there is only one point.
     #[cfg(feature = "scattered")]
     pub(super) fn direction(&self) -> [f64; 2] {
         self.direction
     }
 
-    /// How far along the line each point is, ascending, and which it is.
+    /// The distance of each point along the line, ascending, and its index.
     #[cfg(feature = "scattered")]
     pub(super) fn points(&self) -> &[(f64, usize)] {
         &self.points
     }
 
-    /// The two points around the one of the line that is nearest to `point`, and what each counts for.
+    /// The two points around the point of the line nearest to `point`, and their weights.
     pub(crate) fn weights(&self, point: [f64; 2]) -> [(usize, f64); 2] {
         let at = self.along(point);
         let upper = self.points.partition_point(|&(along, _)| along < at).min(self.points.len() - 1);

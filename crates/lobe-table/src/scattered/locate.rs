@@ -1,9 +1,9 @@
-//! From places in the plane to the samples that count there, in SIMD lanes.
+//! From places in the plane to the samples with weights there, in SIMD lanes.
 //!
-//! [Squares](super::cells) lead to a [region](super::regions) that is the right one or close to it, and from there it is a
-//! walk: as long as a place lies behind a side of its region, the region on the other side is next. A triangulation of
-//! Delaunay has no way round in a circle, and a side counts only if a place is farther behind it than rounding could put
-//! it.
+//! [Squares](super::cells) lead to a [region](super::regions) that is the right one or close to it, and a walk
+//! continues from there: as long as a place is behind a side of its region, the region on the other side is next. In a
+//! Delaunay triangulation, such a walk has no cycles, and a side counts only if a place is farther behind it than
+//! rounding could put it.
 
 use lobe_lane::{Block, Floats, Ints, Kernel, Lanes, Mask};
 use lobe_memory::Storage;
@@ -13,26 +13,26 @@ use super::mesh::Mesh;
 use super::regions::{Region, regions};
 use crate::passes::block::{Column, registers};
 
-/// Floats of a region: for each side the coefficients of `x`, `y` and 1, and the bits of the next region; then what makes
-/// weights of the first two, and 1 if the region is too narrow for single precision.
+/// Floats per region: for each side, the coefficients of `x`, `y` and 1, and the bits of the next region; then the
+/// factors that turn the first two into weights, and 1 if the region is too narrow for single precision.
 const REGION: usize = 16;
-/// Floats of a region's corners, of which the last is not used.
+/// Floats of a region's corners; the last is not used.
 const CORNERS: usize = 4;
-/// How far behind a side a place may lie and still count as inside, in radians: more than rounding may do.
+/// The distance behind a side at which a place still counts as inside, in radians: more than rounding may cause.
 const SLACK: f32 = 1e-6;
-/// Steps after which a walk is left to double precision.
+/// The number of steps after which a walk is left to double precision.
 const STEPS: usize = 48;
 
-/// Some meshes, laid out for look-ups in lanes.
+/// Several meshes, laid out for lookup in lanes.
 #[derive(Clone, Debug)]
 pub(super) struct Meshes {
-    /// The bits of regions, or of where the parts of a divided square are.
+    /// The bits of regions, or of the positions of the parts of a divided square.
     squares: Storage<f32>,
     regions: Storage<f32>,
     corners: Storage<f32>,
 }
 
-/// The meshes as they are added.
+/// Collects the meshes.
 #[derive(Default)]
 pub(super) struct Builder {
     squares: Vec<u32>,
@@ -41,12 +41,12 @@ pub(super) struct Builder {
 }
 
 impl Builder {
-    /// Adds a mesh, of which `place` says what its points are called. Returns where its squares begin; `None` if lanes
-    /// cannot look it up.
+    /// Adds a mesh; `place` gives the number under which each of its points is known. Returns the start of its squares;
+    /// `None` if lanes cannot look it up.
     pub(super) fn add(&mut self, mesh: &Mesh, place: impl Fn(usize) -> usize) -> Option<i32> {
         let regions = regions(mesh)?;
         let first = self.regions.len() / REGION;
-        // Positions among floats have to be indices of lanes.
+        // Positions among floats must fit into the indices of lanes.
         i32::try_from((first + regions.len()).checked_mul(REGION)?).ok()?;
         let root = cells::lay_out(&regions, first, &mut self.squares)?;
         for Region { inside, next, corners, scale, is_narrow } in &regions {
@@ -72,7 +72,7 @@ impl Builder {
     }
 }
 
-/// An index as the bits of a float that is not NaN, whose bits a processor need not keep.
+/// An index as the bits of a float that is not NaN, because a processor need not preserve the bits of a NaN.
 pub(super) fn index_bits(index: usize) -> Option<f32> {
     (index < f32::INFINITY.to_bits() as usize).then(|| f32::from_bits(index as u32))
 }
@@ -83,15 +83,15 @@ impl Meshes {
     }
 }
 
-/// Where places are, and what counts there.
+/// The places of queries, and the results there.
 pub(super) struct Located {
-    /// The places, and the mesh of each by where its squares begin.
+    /// The places, and the mesh of each, given by the start of its squares.
     pub(super) at: [Column; 2],
     pub(super) mesh: Column<i32>,
-    /// What the mesh calls the three points that count, and their weights, which add up to 1.
+    /// The numbers of the three points with weights, and the weights, which add up to 1.
     pub(super) corners: [Column<i32>; 3],
     pub(super) weights: [Column; 3],
-    /// -1 if double precision has to answer; what was before is kept.
+    /// -1 if double precision is needed; earlier values are kept.
     pub(super) is_hard: Column<i32>,
     region: Column<i32>,
 }
@@ -107,7 +107,7 @@ impl Located {
     };
 }
 
-/// Looks up the places of queries `0..n`: compiled once, for lights and for viewers.
+/// Looks up the places of queries `0..n`; compiled once for lights and viewers.
 pub(super) struct Locate<'a> {
     pub(super) meshes: &'a Meshes,
     pub(super) n: usize,
@@ -158,7 +158,7 @@ fn start<L: Lanes>(lanes: L, n: usize, meshes: &Meshes, Located { at: [x, y], me
     }
 }
 
-/// From there to the region of each place, and the weights of its corners.
+/// Walks from there to the region of each place, and finds the weights of its corners.
 #[inline(always)]
 fn walk<L: Lanes>(lanes: L, n: usize, meshes: &Meshes, located: &mut Located) {
     let Located { at: [x, y], corners, weights, is_hard, region: regions, .. } = located;
@@ -180,7 +180,7 @@ fn walk<L: Lanes>(lanes: L, n: usize, meshes: &Meshes, located: &mut Located) {
                 inside[side] = lanes.mul_add(a, x, lanes.mul_add(b, y, c));
                 side += 1;
             }
-            // Through the side that the place is farthest behind.
+            // Continues through the side that the place is farthest behind.
             let [first, second, third] = inside;
             let least = first.min(second).min(third);
             let next = lanes.select(second.le(least), sides[1][3], sides[2][3]);

@@ -10,19 +10,20 @@ use super::rim::{Edge, Rim};
 
 type Delaunay = DelaunayTriangulation<Vertex, (), (), (), HierarchyHintGenerator<f64>>;
 
-/// Triangles at the rim that are lower than this, in radians, are there by rounding only; and points are on a line that
-/// are no farther from it.
+/// Triangles at the rim that are lower than this, in radians, exist only due to rounding; and points no farther than
+/// this from a line count as on it.
 const FLAT: f64 = 1e-5;
 
-/// Scattered points and how to interpolate between them.
+/// Scattered points, and the interpolation between them.
 #[derive(Clone, Debug)]
 pub(crate) enum Mesh {
-    /// Apart, as there is nothing to triangulate, and trying it would take time that grows with the square of the points.
+    /// A separate case, because there is nothing to triangulate, and trying it would take time quadratic in the number
+    /// of points.
     Line(Line),
     Triangles(Box<Triangles>),
 }
 
-/// A point and its position in the list given.
+/// A point and its position in the given list.
 #[derive(Clone, Copy, Debug)]
 struct Vertex {
     at: Point2<f64>,
@@ -43,11 +44,11 @@ pub(crate) struct Triangles {
     triangles: Delaunay,
     /// The edges around all triangles that are not [`FLAT`], by the indices of their ends.
     rim: Rim,
-    /// By the index of a triangle, whether it lies outside the rim.
+    /// By the index of a triangle, whether it is outside the rim.
     is_outside: Vec<bool>,
 }
 
-/// A triangle within the rim: its corners, which turn to the left, by their index, and where they are.
+/// A triangle within the rim: the indices and places of its corners, in counterclockwise order.
 #[cfg(feature = "scattered")]
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Triangle {
@@ -55,7 +56,7 @@ pub(super) struct Triangle {
     pub(super) at: [[f64; 2]; 3],
 }
 
-/// Up to three points and what each counts for; the weights are not negative and add up to 1.
+/// Up to three points and their weights, which are not negative and add up to 1.
 pub(crate) type Weights = [(usize, f64); 3];
 
 impl Mesh {
@@ -67,8 +68,8 @@ impl Mesh {
         }
     }
 
-    /// The weights at a point of the plane. Outside of the convex hull they are those of the nearest point of its rim,
-    /// and so they are if all points lie on a line.
+    /// The weights at a point of the plane. Outside the convex hull, or if all points are on a line, they are those of
+    /// the nearest point of the rim.
     pub(crate) fn weights(&self, point: [f64; 2]) -> Weights {
         match self {
             Mesh::Line(line) => {
@@ -82,14 +83,14 @@ impl Mesh {
 
 impl Triangles {
     fn new(points: &[[f64; 2]]) -> Option<Self> {
-        // Coordinates that only rounding keeps from zero would be refused.
+        // Coordinates that differ from zero only by rounding would be refused.
         let snap = |x: f64| if x.abs() < 1e-12 { 0.0 } else { x };
-        // One by one in an order that has nothing to do with that of the file: whatever the points, this takes a time that
-        // hardly more than doubles with twice as many. Sweeping over them all takes the square of it for some sets.
+        // Inserted one by one in an order unrelated to that of the file: for any set of points, the time hardly more
+        // than doubles with twice as many points. A sweep over all points takes quadratic time for some sets.
         let mut order: Vec<usize> = (0..points.len()).collect();
         order.sort_by_key(|&index| scrambled(index as u64));
-        // As long as all are on a line, each takes a time that grows with their number: so the corners of a large triangle
-        // go first. That they come again later changes nothing.
+        // As long as all points are on a line, each insertion takes time that grows with their number, so the corners
+        // of a large triangle go first. Inserting them again later changes nothing.
         let mut triangles = Delaunay::new();
         for index in corners(points)?.into_iter().chain(order) {
             let [x, y] = points[index];
@@ -98,8 +99,8 @@ impl Triangles {
         if triangles.num_vertices() == 0 {
             return None;
         }
-        // Points on a straight rim are a little off it by rounding, and then a long flat triangle covers them: at the
-        // rim its far ends would answer for the points. So such triangles are taken off, one after the other.
+        // Points on a straight rim are slightly off it due to rounding, and then a long flat triangle covers them: at
+        // the rim, its far ends would replace the points. So such triangles are removed, one after the other.
         let mut is_outside = vec![false; triangles.num_all_faces()];
         let mut rim = Vec::new();
         let mut pending: Vec<_> = triangles.convex_hull().map(|edge| edge.fix()).collect();
@@ -129,7 +130,7 @@ impl Triangles {
                 let [a, b, c] = corners.map(|corner| corner.position());
                 let parts = [area(at, b, c), area(a, at, c), area(a, b, at)];
                 let whole: f64 = parts.iter().sum();
-                // A triangle too thin for its area to show: any corner is as near as rounding allows.
+                // A triangle too thin to have an area: any corner is as near as rounding allows.
                 let weight = |index: usize| if whole > 0.0 { parts[index] / whole } else { 1.0 / 3.0 };
                 std::array::from_fn(|index| (corners[index].data().index, weight(index)))
             }
@@ -168,7 +169,7 @@ fn weights_along([from, to]: [(usize, f64); 2]) -> Weights {
     [from, to, (0, 0.0)]
 }
 
-/// Three points that are far from being on a line.
+/// Three points that are far from collinear.
 fn corners(points: &[[f64; 2]]) -> Option<[usize; 3]> {
     let farthest = |distance: &dyn Fn([f64; 2]) -> f64| {
         (0..points.len()).max_by(|&i, &j| distance(points[i]).total_cmp(&distance(points[j])))
@@ -180,7 +181,7 @@ fn corners(points: &[[f64; 2]]) -> Option<[usize; 3]> {
     Some([0, second, third])
 }
 
-/// A number that looks random for each index (the finaliser of splitmix64; Steele, Lea and Flood, OOPSLA 2014).
+/// A pseudorandom number for each index (the finaliser of splitmix64; Steele, Lea and Flood, OOPSLA 2014).
 fn scrambled(index: u64) -> u64 {
     let mut x = index.wrapping_add(0x9e37_79b9_7f4a_7c15);
     x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -188,7 +189,7 @@ fn scrambled(index: u64) -> u64 {
     x ^ (x >> 31)
 }
 
-/// Twice the area of a triangle whose corners turn to the left, or 0.
+/// Twice the area of a triangle with counterclockwise corners, or 0.
 fn area(a: Point2<f64>, b: Point2<f64>, c: Point2<f64>) -> f64 {
     ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)).max(0.0)
 }
@@ -214,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn points_on_a_line_and_single_points_will_do() {
+    fn points_on_a_line_and_single_points_are_accepted() {
         let mesh = Mesh::new(&[[0.0, 0.0], [2.0, 0.0], [4.0, 0.0]]).expect("points");
         assert_eq!(value(&mesh, &[1.0, 2.0, 6.0], [3.0, 0.0]), 4.0);
         assert_eq!(value(&mesh, &[1.0, 2.0, 6.0], [1.0, 5.0]), 1.5);
@@ -224,9 +225,9 @@ mod tests {
         assert!(Mesh::new(&[]).is_none());
     }
 
-    /// Straight, askew, and with what rounding leaves: a hostile file may have as many as fit into it.
+    /// Straight, skewed, and with rounding errors: a hostile file may contain as many as fit into it.
     #[test]
-    fn a_hundred_thousand_points_on_a_line_take_no_time() {
+    fn a_hundred_thousand_points_on_a_line_are_quick() {
         for jitter in [0.0, 1e-13, 1e-7] {
             let offset = |index: i32| jitter * f64::from(index * 7 % 11 - 5);
             let point = |index: i32| [f64::from(index) * 1e-5, f64::from(index) * 3e-6 + offset(index)];
@@ -240,8 +241,8 @@ mod tests {
     }
 
     #[test]
-    fn points_on_a_straight_rim_answer_for_themselves() {
-        // A fan of rays whose outermost ones are straight except for rounding.
+    fn points_on_a_straight_rim_keep_their_values() {
+        // A fan of rays whose outermost points are collinear except for rounding.
         let mut points = vec![[0.0, 0.0]];
         for ray in 0..4 {
             let (sin, cos) = (0.3 + 0.2 * f64::from(ray)).sin_cos();
@@ -257,9 +258,10 @@ mod tests {
         }
     }
 
-    /// A circle, whose rim has as many edges as it has points, asked from outside: the rim must not be searched whole.
+    /// A circle, whose rim has as many edges as points, queried from outside: not every edge of the rim may be
+    /// searched.
     #[test]
-    fn a_long_rim_is_asked_quickly() {
+    fn a_long_rim_is_searched_quickly() {
         let count = 100_000;
         let angle = |index: usize| index as f64 / count as f64 * std::f64::consts::TAU;
         let points: Vec<_> = (0..count).map(|index| [angle(index).cos(), angle(index).sin()]).collect();
@@ -272,9 +274,9 @@ mod tests {
         }
     }
 
-    /// Sets that a sweep over all points takes the square of their number for: that would make this test take minutes.
+    /// Sets for which a sweep over all points takes quadratic time, which would make this test take minutes.
     #[test]
-    fn no_set_of_points_takes_the_square_of_their_number() {
+    fn no_set_of_points_takes_quadratic_time() {
         let count = 100_000;
         let part = |index: usize| index as f64 / count as f64;
         type Curve = fn(f64) -> [f64; 2];

@@ -1,11 +1,11 @@
-//! Measurements that are on no grid: any number of outgoing directions at any number of incident ones.
+//! Measurements without a grid: any number of outgoing directions for any number of incident ones.
 //!
 //! Interpolation is linear on two levels of Delaunay triangulations, both in the azimuthal equidistant projection
 //! `theta (cos phi, sin phi)`, in which a pole is one point, azimuths have no seam, and a grid stays linear in theta.
-//! One triangulation is over the incident directions and gives up to three of them; each has one over its own outgoing
-//! directions. Between incident directions the outgoing one is turned with the mirror direction, so that a peak moves
-//! from one measurement to the next and does not fade out here while it fades in there. Outside of what was measured
-//! the nearest point of the convex hull answers.
+//! One triangulation is over the incident directions and selects up to three of them; each of these has one over its
+//! own outgoing directions. Between incident directions, the outgoing one is rotated with the mirror direction, so that
+//! a peak moves from one measurement to the next instead of fading out here while it fades in there. Outside the
+//! measured region, the value at the nearest point of the convex hull is used.
 
 mod bound;
 #[cfg(feature = "scattered")]

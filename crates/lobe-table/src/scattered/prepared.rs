@@ -1,4 +1,4 @@
-//! Scattered samples, ready to be evaluated: in lanes, or in `f64` where there are none.
+//! Scattered samples, ready to be evaluated: in lanes, or in `f64` without them.
 
 use lobe_backend::Backend;
 
@@ -9,7 +9,7 @@ use crate::bsdf::{Bsdf, pair_by_pair};
 use crate::data::PrepareError;
 use crate::{Aspect, Channels, Directions, Scatter, Side};
 
-/// Lays the samples out, unless lanes cannot look them up; then `f64` answers.
+/// Lays the samples out, unless lanes cannot look them up; then they are evaluated in `f64`.
 #[cfg(feature = "scattered")]
 pub(super) fn prepare(data: &Data) -> Result<Box<dyn Bsdf>, PrepareError> {
     Ok(match Table::new(data) {
@@ -29,7 +29,7 @@ impl Bsdf for Data {
         Data::channels(self)
     }
 
-    /// Values of transmission take light from either side.
+    /// Transmission accepts light from either side.
     fn holds(&self, aspect: Aspect) -> bool {
         self.scatter == aspect.scatter && (aspect.light == Side::Front || aspect.scatter == Scatter::Transmission)
     }

@@ -1,46 +1,46 @@
-//! A mesh as regions of the plane, each with the line behind which another one begins: what lanes walk through.
+//! A mesh as regions of the plane, each with the lines behind which other regions begin; lanes walk through them.
 //!
-//! A triangle is a region, and so is what lies outside the rim and nearest to one of its edges, up to where the next one
-//! begins. Points on a line have a strip across it for each two of them. In each region weights are linear.
+//! A triangle is a region, and so is the area outside the rim that is nearest to one of its edges. For points on a
+//! line, there is a strip across it for each pair of neighbours. In each region, weights are linear.
 
 use std::collections::HashMap;
 
 use super::mesh::{Mesh, Triangle};
 
-/// Narrower than this, in radians, a region is not left to single precision, in which a place is off by some 5e-7.
+/// A region narrower than this, in radians, is too narrow for single precision, in which a place is off by some 5e-7.
 const NARROW: f64 = 2e-5;
 
 /// A region of the plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Region {
-    /// Coefficients of `x`, of `y` and of 1, which add up to how far inside of each side a point lies.
+    /// The coefficients of `x`, `y` and 1 that give the distance of a point inside each side.
     pub(super) inside: [[f64; 3]; 3],
     /// The region on the other side, or itself if there is none.
     pub(super) next: [usize; 3],
-    /// The points that count in it.
+    /// The points that have weights in it.
     pub(super) corners: [usize; 3],
-    /// What makes weights of the second and the third corner of how far a point is inside of the first and the second side.
+    /// The factors from the distances inside the first and second side to the weights of the second and third corner.
     pub(super) scale: [f64; 2],
-    /// Whether double precision has to answer.
+    /// Whether double precision is needed.
     pub(super) is_narrow: bool,
 }
 
-/// A side that all points are inside of.
+/// A side that has all points inside.
 const NO_SIDE: [f64; 3] = [0.0, 0.0, 1.0];
 
 impl Region {
-    /// How far inside a point lies.
+    /// The distance of a point inside.
     pub(super) fn depth(&self, [x, y]: [f64; 2]) -> f64 {
         self.inside.iter().map(|[a, b, c]| a * x + b * y + c).fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether a part of a square may lie in it.
+    /// Whether a part of a square may be in it.
     pub(super) fn may_reach(&self, [x, y]: [f64; 2], half: f64) -> bool {
         self.inside.iter().all(|[a, b, c]| a * x + b * y + c + half * (a.abs() + b.abs()) >= 0.0)
     }
 }
 
-/// The regions of a mesh; `None` if its rim is no simple curve, as rounding may make it.
+/// The regions of a mesh; `None` if its rim is not a simple curve, which rounding may cause.
 pub(super) fn regions(mesh: &Mesh) -> Option<Vec<Region>> {
     match mesh {
         Mesh::Line(line) => Some(of_line(line.start(), line.direction(), line.points())),
@@ -48,12 +48,12 @@ pub(super) fn regions(mesh: &Mesh) -> Option<Vec<Region>> {
     }
 }
 
-/// What is left of a line through `from`, taken in the direction `along`, a unit vector.
+/// The half plane to the left of a line through `from` in the direction `along`, a unit vector.
 fn left_of(from: [f64; 2], along: [f64; 2]) -> [f64; 3] {
     ahead_of(from, [-along[1], along[0]])
 }
 
-/// What is ahead of a point in a direction, a unit vector.
+/// The half plane ahead of a point in a direction, a unit vector.
 fn ahead_of(from: [f64; 2], along: [f64; 2]) -> [f64; 3] {
     [along[0], along[1], -(along[0] * from[0] + along[1] * from[1])]
 }
@@ -96,7 +96,7 @@ fn of_line(start: [f64; 2], direction: [f64; 2], points: &[(f64, usize)]) -> Vec
 }
 
 fn of_triangles(triangles: &[Triangle]) -> Option<Vec<Region>> {
-    // Each edge by its ends, taken with the triangle on the left.
+    // Each edge by its ends, ordered so that the triangle is on the left.
     let mut owner = HashMap::new();
     for (index, triangle) in triangles.iter().enumerate() {
         for k in 0..3 {
@@ -143,7 +143,7 @@ struct Edge {
     triangle: usize,
 }
 
-/// Adds what lies outside of each edge; `None` if the edges are not one closed curve.
+/// Adds the region outside each edge; `None` if the edges do not form one closed curve.
 fn strips(rim: &[Edge], regions: &mut Vec<Region>) -> Option<()> {
     let first = regions.len();
     let starts: HashMap<usize, usize> = rim.iter().enumerate().map(|(index, edge)| (edge.ends[0], index)).collect();
@@ -167,7 +167,7 @@ fn strips(rim: &[Edge], regions: &mut Vec<Region>) -> Option<()> {
         let (along, length) = way(*start, *stop);
         let (onward, _) = way(rim[after].at[0], rim[after].at[1]);
         regions.push(Region {
-            // What is nearest to the end of an edge belongs to it, and not to the next one.
+            // Points nearest to the end of an edge belong to it, and not to the next one.
             inside: [ahead_of(*start, along), reversed(ahead_of(*stop, onward)), reversed(left_of(*start, along))],
             next: [first + before, first + after, *triangle],
             corners: [*from, *to, *from],

@@ -1,4 +1,4 @@
-//! What programs need from scattered samples.
+//! [`Representation`] for scattered samples.
 
 use std::borrow::Cow;
 
@@ -90,8 +90,8 @@ impl Representation for Data {
 }
 
 impl Data {
-    /// The measured light nearest to a polar angle and an azimuth, and the outgoing directions for it: polar angles, and
-    /// azimuths from that of the light.
+    /// The measured light nearest to a polar angle and an azimuth, and the outgoing directions for it: polar angles,
+    /// and azimuths relative to the light.
     fn around(&self, light: [f64; 2]) -> ([f64; 2], Vec<[f64; 2]>) {
         let wi = direction(light[0], light[1]);
         let distance = |[theta, phi]: [f64; 2]| match self.is_isotropic {
@@ -107,7 +107,7 @@ impl Data {
         let Some(nearest) = nearest else { return ([0.0; 2], Vec::new()) };
         let measured = [nearest.theta, nearest.phi];
         let mut outgoing = nearest.outgoing.clone();
-        // One half of an isotropic material stands for both.
+        // One half of an isotropic material represents both.
         if self.is_isotropic && self.measured_side != 0.0 {
             let mirrored: Vec<_> = outgoing.iter().map(|&[theta, phi]| [theta, -phi]).collect();
             outgoing.extend(mirrored);

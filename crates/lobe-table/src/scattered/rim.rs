@@ -1,6 +1,6 @@
-//! The nearest of many edges of a plane: boxes around halves, around quarters, and so on.
+//! The nearest of many edges in a plane, found with boxes around halves, quarters, and so on.
 
-/// How many edges a box of the lowest level is around.
+/// The number of edges in a box of the lowest level.
 const LEAF: usize = 8;
 
 /// A line between two points, each with its index in a list.
@@ -11,7 +11,7 @@ pub(super) struct Edge {
     to: [f64; 2],
 }
 
-/// What the two ends of an edge count for at its point that is nearest to another; they add up to 1.
+/// The weights of the two ends of an edge at its point nearest to a given point; they add up to 1.
 pub(super) type Share = [(usize, f64); 2];
 
 impl Edge {
@@ -61,16 +61,16 @@ impl Bounds {
     }
 }
 
-/// Edges, of which the nearest is found in a time that grows with the logarithm of their number.
+/// Edges, among which the nearest is found in logarithmic time.
 #[derive(Clone, Debug)]
 pub(super) struct Rim {
     /// Each with its place in the order in which they were given.
     edges: Vec<(usize, Edge)>,
-    /// In the order of a walk through the tree: a box, those of its first half, those of its second half.
+    /// In depth-first order: a box, the boxes of its first half, the boxes of its second half.
     boxes: Vec<Box>,
 }
 
-/// The bounds of some edges, and which box is around the second half of them.
+/// The bounds of some edges, and the box around the second half of them.
 #[derive(Clone, Copy, Debug)]
 struct Box {
     bounds: Bounds,
@@ -105,8 +105,8 @@ impl Rim {
         }
     }
 
-    /// What the ends of the nearest edge count for, of several that are equally near the first that was given; `None` if
-    /// there are no edges.
+    /// The weights of the ends of the nearest edge; of several equally near ones, the first in the given order; `None`
+    /// if there are no edges.
     pub(super) fn nearest(&self, at: [f64; 2]) -> Option<Share> {
         let mut best = Best { distance2: f64::INFINITY, place: usize::MAX, share: None };
         self.search(0, [0, self.edges.len()], at, &mut best);
@@ -127,7 +127,7 @@ impl Rim {
         let distances = halves.map(|(node, _)| self.boxes[node].bounds.distance2(at));
         let order = if distances[1] < distances[0] { [1, 0] } else { [0, 1] };
         for side in order {
-            // Rounding may put an edge a little nearer than the box around it.
+            // Rounding may put an edge slightly nearer than the box around it.
             if distances[side] * (1.0 - 1e-12) <= best.distance2 {
                 self.search(halves[side].0, halves[side].1, at, best);
             }
@@ -135,7 +135,7 @@ impl Rim {
     }
 }
 
-/// Where a box is cut into two; `None` if it is of the lowest level.
+/// The position at which a box is split; `None` if it is of the lowest level.
 fn half(begin: usize, end: usize) -> Option<usize> {
     (end - begin > LEAF).then(|| begin + (end - begin) / 2)
 }
@@ -145,7 +145,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_nearest_edge_is_that_of_a_search_through_all() {
+    fn the_nearest_edge_equals_a_search_of_all() {
         let point = |seed: usize| [(seed as f64 * 0.754_877_67).fract(), (seed as f64 * 0.569_840_29).fract()];
         for count in [0, 1, 2, 8, 9, 17, 100, 1000] {
             // Pairs of equal edges among them: the first of them counts.

@@ -1,4 +1,4 @@
-//! Scattered samples made ready to be evaluated in SIMD lanes.
+//! Scattered samples prepared for evaluation in SIMD lanes.
 
 use lobe_backend::Backend;
 use lobe_lane::{Block, Floats, Ints, Kernel, Lanes, call};
@@ -15,30 +15,30 @@ use crate::passes::block::{BLOCK, Column};
 use crate::passes::pairs::{Evaluate, Pairs, evaluation};
 use crate::passes::unit::{POLE, across, polar, unit};
 
-/// Floats of an incident direction: sine and cosine of its polar angle, the bits of where the squares of its mesh begin,
+/// Floats per incident direction: sine and cosine of its polar angle, the bits of the start of the squares of its mesh,
 /// and 1 if azimuths count from the sample's own axis because it is at the pole.
 const LIGHT: usize = 4;
-/// The most incident directions that count for a pair, and outgoing ones for each of them.
+/// The most incident directions with weights for a pair, and outgoing ones for each of them.
 const LIGHTS: usize = 3;
 
 /// [`Data`] laid out for evaluation in SIMD lanes.
 ///
-/// The values are those of [`Data::eval`], `f` in 1/sr, one per channel, but for what single precision makes of places
-/// between samples: as if the directions were off by some 1e-6, see [`Data::bound`]. Directions need not be unit vectors, but
-/// their lengths have to be between 1e-15 and 1e15. Where samples are too close together for single precision, `f64`
-/// answers.
+/// The values are those of [`Data::eval`], `f` in 1/sr, one per channel, except that single precision places queries
+/// between samples as if the directions were off by some 1e-6; see [`Data::bound`]. Directions need not be unit
+/// vectors, but their lengths have to be between 1e-15 and 1e15. If samples are too close together for single
+/// precision, `f64` is used.
 ///
 /// In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
 pub struct Table {
     data: Data,
     meshes: Meshes,
-    /// Where the squares of the mesh of incident directions begin.
+    /// The start of the squares of the mesh of incident directions.
     root: i32,
-    /// How many incident directions may count for a pair: one, two, or three.
+    /// The number of incident directions that may have weights for a pair: one, two, or three.
     count: usize,
     lights: Storage<f32>,
-    /// Floats from a sample to the next: one, four, or eights.
+    /// Floats from a sample to the next: one, four, or a multiple of eight.
     stride: usize,
     values: Storage<f32>,
 }
@@ -47,11 +47,11 @@ impl Table {
     /// Lays out samples.
     ///
     /// # Errors
-    /// [`Invalid`] if there are more than a 32-bit index reaches, or rounding left no simple curve around them.
+    /// [`Invalid`] if there are more than a 32-bit index can address, or rounding left no simple curve around them.
     pub fn new(data: &Data) -> Result<Self, Invalid> {
         Table::try_new(data).ok_or_else(|| {
             let found = format!("{} samples", data.samples().count());
-            Invalid::new("samples", found, "triangles within a simple curve, which 32-bit indices reach")
+            Invalid::new("samples", found, "triangles within a simple curve, few enough for 32-bit indices")
         })
     }
 
@@ -110,7 +110,7 @@ impl Table {
     /// 1/sr.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+    /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times the number of channels.
     pub fn batch<'a>(
         &'a self,
         wi: Directions<'a>,
@@ -120,7 +120,7 @@ impl Table {
         evaluation(self, wi, wo, out)
     }
 
-    /// The values of one pair in `f64`, of which `out` gets the channels.
+    /// The values of one pair in `f64`, whose channels are written to `out`.
     #[cold]
     #[inline(never)]
     fn exact(&self, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
@@ -131,7 +131,7 @@ impl Table {
     }
 }
 
-/// What the passes of a block hand on.
+/// The intermediate values of a block.
 pub(crate) struct Scratch {
     /// Sine and cosine of the polar angle of the light, and of its azimuth.
     theta: [Column; 2],
@@ -200,7 +200,7 @@ impl Evaluate for &Table {
 }
 
 impl Table {
-    /// The viewer turned with the light onto +x, and the place of the light among those that were measured.
+    /// The viewer, rotated with the light onto +x, and the place of the light among the measured ones.
     #[inline(always)]
     fn frame<L: Lanes>(&self, lanes: L, n: usize, Pairs { wi, wo }: Pairs<'_>, scratch: &mut Scratch) {
         let Scratch { theta, phi, viewer, valid, located, .. } = scratch;
@@ -238,7 +238,8 @@ impl Table {
         }
     }
 
-    /// The place of the viewer in the mesh of one of the lights, turned in the plane of incidence as the mirror direction is.
+    /// The place of the viewer in the mesh of one of the lights, rotated in the plane of incidence with the mirror
+    /// direction.
     #[inline(always)]
     fn turn<L: Lanes>(&self, lanes: L, n: usize, light: usize, scratch: &mut Scratch) {
         let Scratch { theta, phi, viewer, located, lights, .. } = scratch;
@@ -266,7 +267,7 @@ impl Table {
             let back_x = lanes.mul_add(cos_phi, at_x, -(sin_phi * at_y));
             let back_y = lanes.mul_add(cos_phi, at_y, sin_phi * at_x);
             let (at_x, at_y) = (lanes.select(is_fixed, back_x, at_x), lanes.select(is_fixed, back_y, at_y));
-            // One side stands for both if only one was measured.
+            // One side represents both if only one was measured.
             let at_y = if self.data.measured_side == 0.0 { at_y } else { at_y.abs() * side };
             located.at[0].store(lanes, query, at_x);
             located.at[1].store(lanes, query, at_y);
@@ -301,7 +302,7 @@ impl Table {
         let Scratch { valid, samples, weights, .. } = scratch;
         let (channels, corners) = (self.data.channels().count(), 3 * self.count);
         let values = Block::<1, 4>::new(self.values.as_slice(), [0]);
-        // Each store writes a float too many, which the next one overwrites.
+        // Each store writes one extra float, which the next store overwrites.
         let mut tile = [0.0; 4 * BLOCK];
         let mut query = 0;
         while query < out.len() / channels {
@@ -351,7 +352,7 @@ impl Table {
         }
     }
 
-    /// What lanes have left to double precision.
+    /// Evaluates the queries that lanes left to double precision.
     #[inline(always)]
     fn hard<L: Lanes>(&self, lanes: L, n: usize, Pairs { wi, wo }: Pairs<'_>, scratch: &Scratch, out: &mut [f32]) {
         let channels = self.data.channels().count();

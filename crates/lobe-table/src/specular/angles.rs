@@ -44,7 +44,7 @@ pub(crate) fn run<L: Lanes, const B: usize>(
     }
 }
 
-/// The tangents of half of theta and half of phi, by one root and one division.
+/// The tangents of half of theta and half of phi, with one root and one division.
 #[inline(always)]
 fn half_tangents<L: Lanes, const B: usize>(
     lanes: L,

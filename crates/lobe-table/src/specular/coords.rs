@@ -1,22 +1,22 @@
 //! Specular coordinates: a pair of directions as four angles about the mirror direction.
 //!
 //! `sigma` is the polar angle of `wi`, `psi` its azimuth (the rotation of the sample), `theta` the angle between `wo`
-//! and the *zenith* of the scattered light, and `phi` the azimuth of `wo` about that zenith. The zenith lies in the
-//! plane of `wi` and the normal, on the other side of the normal, at the polar angle `zenith(sigma)`: `sigma` itself,
-//! which is the mirror direction, unless a BTDF has refraction offsets. `phi` is 0 from the zenith toward the normal,
-//! grows right-handed about the zenith, and is `pi` toward the horizon. So `theta = 2 sigma, phi = 0` is the way back
-//! to the light. (Adinetz et al. 2005, section 2; the same axes as libbsdf's `SpecularCoordinateSystem`.)
+//! and the *zenith* of the scattered light, and `phi` the azimuth of `wo` about that zenith. The zenith is in the plane
+//! of `wi` and the normal, on the other side of the normal, at the polar angle `zenith(sigma)`, which is `sigma` itself
+//! (the mirror direction) unless a BTDF has refraction offsets. `phi` is 0 from the zenith toward the normal,
+//! grows right-handed about the zenith, and is `pi` toward the horizon. So `theta = 2 sigma, phi = 0` is the direction
+//! back to the light. (Adinetz et al. 2005, section 2; the same axes as libbsdf's `SpecularCoordinateSystem`.)
 //!
-//! Transmission uses the same geometry with the transmitted direction mirrored up at the surface.
+//! Transmission uses the same geometry, with the transmitted direction mirrored to the upper hemisphere.
 //!
 //! This is the `f64` form; directions are unit vectors, `[x, y, z]` with the normal on +z.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Four angles to two unit vectors, `(wi, wo)`. `angles` are sigma, psi, theta and phi in radians.
+/// Converts four angles to two unit vectors, `(wi, wo)`. `angles` are sigma, psi, theta and phi in radians.
 ///
 /// `zenith` maps sigma to the polar angle of the zenith and is clamped to `[0, pi/2]`; `|sigma| sigma` for the mirror
-/// direction. `wo` may lie below the horizon.
+/// direction. `wo` may be below the horizon.
 pub fn angles_to_directions(angles: [f64; 4], zenith: impl Fn(f64) -> f64) -> ([f64; 3], [f64; 3]) {
     let [sigma, psi, theta, phi] = angles;
     let (sin_psi, cos_psi) = psi.sin_cos();
@@ -33,7 +33,7 @@ pub fn angles_to_directions(angles: [f64; 4], zenith: impl Fn(f64) -> f64) -> ([
     (wi, [cos_psi * x - sin_psi * y, sin_psi * x + cos_psi * y, z])
 }
 
-/// Two unit vectors to four angles, sigma, psi, theta and phi in radians; psi and phi in `[0, 2 pi)`.
+/// Converts two unit vectors to four angles, sigma, psi, theta and phi in radians; psi and phi are in `[0, 2 pi)`.
 ///
 /// `zenith` as in [`angles_to_directions`]. The difference of `wo` and the zenith, not their dot product, gives theta
 /// and phi, so that both keep their accuracy at the mirror peak. An undefined angle is 0: psi with `wi` at
@@ -45,7 +45,8 @@ pub fn directions_to_angles(wi: [f64; 3], wo: [f64; 3], zenith: impl Fn(f64) -> 
     let (cos_psi, sin_psi) = if across > 0.0 { (wi[0] / across, wi[1] / across) } else { (1.0, 0.0) };
 
     let polar = zenith(sigma).clamp(0.0, FRAC_PI_2);
-    // Without an offset the components of wi serve as they are, and a wo that is their exact mirror image gives theta 0.
+    // Without an offset, the components of wi are used directly, and a wo that is their exact mirror image gives theta
+    // 0.
     let (sin_zenith, cos_zenith) = if polar == sigma { (across, wi[2]) } else { polar.sin_cos() };
     let axis = if polar == sigma {
         [-wi[0], -wi[1], wi[2]]
@@ -57,7 +58,8 @@ pub fn directions_to_angles(wi: [f64; 3], wo: [f64; 3], zenith: impl Fn(f64) -> 
     // Half the angle between two unit vectors has the tangent |a - b| / |a + b| (Kahan): accurate from 0 to pi.
     let theta = 2.0 * length(difference).atan2(length(sum));
 
-    // The components across the axis are the same for wo, wo - axis and wo + axis; the shortest loses least.
+    // The components perpendicular to the axis are the same for wo, wo - axis and wo + axis; the shortest loses the
+    // fewest digits.
     let offset = if theta < FRAC_PI_2 { difference } else { sum };
     let x = cos_psi * offset[0] + sin_psi * offset[1];
     let y = cos_psi * offset[1] - sin_psi * offset[0];
@@ -65,7 +67,7 @@ pub fn directions_to_angles(wi: [f64; 3], wo: [f64; 3], zenith: impl Fn(f64) -> 
     [sigma, psi, theta, phi]
 }
 
-/// `atan2(y, x)` in `[0, 2 pi)`, and 0 for the zero vector whatever its signs.
+/// `atan2(y, x)` in `[0, 2 pi)`, and 0 for the zero vector with any signs.
 fn azimuth(y: f64, x: f64) -> f64 {
     if x == 0.0 && y == 0.0 {
         return 0.0;
@@ -114,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn angles_survive_the_way_there_and_back() {
+    fn angles_survive_a_round_trip() {
         let zeniths: [fn(f64) -> f64; 2] = [|s| s, |s| (s.sin() / 1.5).asin()];
         for zenith in zeniths {
             for sigma in [1e-3, 0.3, 1.0, 1.5, FRAC_PI_2] {
@@ -124,7 +126,7 @@ mod tests {
                             let angles = [sigma, psi, theta, phi];
                             let (wi, wo) = angles_to_directions(angles, zenith);
                             let back = directions_to_angles(wi, wo, zenith);
-                            // phi is as sharp as the rounding of the directions leaves it: 1e-16 over sin(theta).
+                            // phi is as accurate as the rounding of the directions allows: 1e-16 over sin(theta).
                             let sharp = 1e-14 + 1e-15 / theta.sin();
                             assert!((back[0] - sigma).abs() < 1e-14 && (back[2] - theta).abs() < 1e-14);
                             for axis in [1, 3] {
@@ -173,7 +175,7 @@ mod tests {
         assert_eq!((psi, theta, phi), (FRAC_PI_2, 0.0, 0.0));
         let [_, _, theta, phi] = directions_to_angles(wi, mirror.map(|c| -c), |s| s);
         assert_eq!((theta, phi), (PI, 0.0));
-        // A hair below zero must not become the full circle.
+        // An angle just below zero must not become the full circle.
         let [_, psi, ..] = directions_to_angles([1.0, -1e-20, 0.0], [0.0, 0.0, 1.0], |s| s);
         assert_eq!(psi, 0.0);
     }

@@ -1,7 +1,7 @@
-//! A material as it was measured: knots and values, nothing derived.
+//! A material as measured: knots and values, nothing derived.
 //!
-//! [`Data`] is what a file reader produces and what a [`Table`](super::Table) is built from. It keeps the
-//! knots in `f64` radians and the values in `f32`, in the order that the evaluator wants them.
+//! [`Data`] is what a file reader produces and what a [`Table`](super::Table) is built from. It stores the knots in
+//! `f64` radians and the values in `f32`, in the order that the evaluator needs.
 
 use crate::grid::check::{AxisOf, check};
 use crate::{Channels, GridError, Scatter};
@@ -9,12 +9,12 @@ use crate::{Channels, GridError, Scatter};
 /// The axes of the specular coordinate system, in the order of every `[_; 4]` in this crate.
 pub const AXIS_NAMES: [&str; 4] = ["sigma", "psi", "theta", "phi"];
 
-/// A measured BRDF or BTDF on a grid of specular coordinates, as in a file.
+/// A measured BRDF or BTDF on a grid in specular coordinates, as in a file.
 ///
-/// Axes, all in radians (see [`coords`](crate::specular::coords) for the geometry):
-/// `sigma` in `[0, pi/2]`, `psi` in `[0, 2 pi]`, `theta` in `[0, pi]`, `phi` in `[0, 2 pi]`, strictly ascending and
-/// not uniform in general. An isotropic table has one psi knot. Values are `f` in 1/sr, without the cosine, in the
-/// order `[sigma][psi][theta][phi][channel]`, the channel fastest. Negative values, which measurements have, are kept.
+/// Axes, all in radians (see [`coords`](crate::specular::coords) for the geometry): `sigma` in `[0, pi/2]`, `psi` in
+/// `[0, 2 pi]`, `theta` in `[0, pi]`, `phi` in `[0, 2 pi]`, strictly ascending and in general not uniform. An isotropic
+/// table has one psi knot. Values are `f` in 1/sr, without the cosine, in the order
+/// `[sigma][psi][theta][phi][channel]`, the channel fastest. Negative values, which measurements contain, are kept.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Data {
     scatter: Scatter,
@@ -36,7 +36,7 @@ const AXES: [AxisOf; 4] = {
 };
 
 impl Data {
-    /// Checks knots and values and keeps them. `knots` are in the order of [`AXIS_NAMES`], in radians.
+    /// Checks knots and values and stores them. `knots` are in the order of [`AXIS_NAMES`], in radians.
     ///
     /// # Errors
     /// [`GridError`] names the axis, the position, what was found and what was expected.
@@ -50,11 +50,11 @@ impl Data {
         Ok(Data { scatter, knots, refraction: None, channels, values })
     }
 
-    /// Adds the refraction offsets of a BTDF: one angle in radians per sigma knot, by which the zenith of the
-    /// `(theta, phi)` frame lies away from `sigma` (`sigmat - sigma` in a DDT file).
+    /// Adds the refraction offsets of a BTDF: one angle in radians per sigma knot, by which the zenith of the `(theta,
+    /// phi)` frame differs from `sigma` (`sigmat - sigma` in a DDT file).
     ///
     /// # Errors
-    /// [`GridError::Refraction`] unless there are as many finite offsets as sigma knots.
+    /// [`GridError::Refraction`] unless there is one finite offset per sigma knot.
     pub fn with_refraction(mut self, offsets: Vec<f64>) -> Result<Self, GridError> {
         if offsets.len() != self.knots[0].len() {
             let expected = self.knots[0].len();
@@ -85,7 +85,7 @@ impl Data {
         self.refraction.as_deref()
     }
 
-    /// What the channels mean.
+    /// The meaning of the channels.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }

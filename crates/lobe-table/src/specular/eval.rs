@@ -11,7 +11,7 @@ use crate::grid::interpolation as grid;
 use crate::passes::block::BLOCK;
 use crate::passes::pairs::{Evaluate, LanePairs, Pairs, evaluation};
 
-/// What the passes of a block hand on.
+/// The intermediate values of a block.
 pub(crate) struct Scratch<const B: usize = BLOCK> {
     frame: Frame<B>,
     grid: grid::Scratch<B>,
@@ -25,7 +25,7 @@ impl Table {
     /// Evaluates one pair into `out`, one value per channel, on a backend.
     ///
     /// # Panics
-    /// If `out` is not as long as there are channels.
+    /// If the length of `out` is not the number of channels.
     pub fn eval(&self, backend: Backend, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
         backend.run_narrow(self.single(wi, wo, out));
     }
@@ -33,7 +33,7 @@ impl Table {
     /// Evaluates many pairs on a backend: `out[query * channels + channel]`.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+    /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times the number of channels.
     pub fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
         backend.run(self.batch(wi, wo, out));
     }
@@ -41,8 +41,8 @@ impl Table {
     /// The work of [`eval`](Table::eval) as a kernel, for lanes that are not a [`Backend`].
     ///
     /// # Panics
-    /// If `out` is not as long as there are channels.
-    // A kernel that is made elsewhere is copied before it is run, which costs as much as the evaluation.
+    /// If the length of `out` is not the number of channels.
+    // A kernel that is created elsewhere is copied before it runs, which costs as much as the evaluation.
     #[inline(always)]
     pub fn single<'a>(&'a self, wi: [f32; 3], wo: [f32; 3], out: &'a mut [f32]) -> impl Kernel<Out = ()> + 'a {
         assert_eq!(out.len(), self.channel_count(), "one output per channel");
@@ -66,7 +66,7 @@ impl Table {
     /// lanes that `mask` leaves out.
     ///
     /// # Panics
-    /// If `out` is not as long as there are channels.
+    /// If the length of `out` is not the number of channels.
     #[inline(always)]
     pub fn eval_lanes<L: Lanes>(&self, lanes: L, wi: [L::F; 3], wo: [L::F; 3], mask: L::M, out: &mut [L::F]) {
         assert_eq!(out.len(), self.channel_count(), "one output per channel");

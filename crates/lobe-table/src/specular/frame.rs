@@ -1,4 +1,4 @@
-//! Directions to what the angles are computed from: the specular frame (see [`coords`](crate::specular::coords)).
+//! From directions to the specular frame, from which the angles are computed (see [`coords`](crate::specular::coords)).
 
 use std::f32::consts::FRAC_PI_2;
 
@@ -10,17 +10,17 @@ use crate::passes::block::{BLOCK, Column};
 use crate::passes::pairs::Pairs;
 use crate::passes::unit::{FARTHEST, POLE};
 
-/// What the angles of a block are computed from.
+/// The intermediate values from which the angles of a block are computed.
 ///
-/// Every angle comes from the tangent of its half, `sin / (1 + cos)`. Divisions and roots are what the first passes wait
-/// for, so each root serves two angles, and so does each division.
+/// Every angle comes from the tangent of its half, `sin / (1 + cos)`. The first passes mostly wait for divisions and
+/// roots, so each root and each division serves two angles.
 #[derive(Clone, Copy)]
 pub(crate) struct Frame<const B: usize = BLOCK> {
-    /// Tangent of half of sigma.
+    /// The tangent of half of sigma.
     pub(crate) half_sigma: Column<f32, B>,
     /// Cosine and sine of psi.
     pub(crate) psi: [Column<f32, B>; 2],
-    /// `wo` about the zenith: across it toward phi = 0 and phi = pi/2, and along it.
+    /// `wo` about the zenith: perpendicular to it toward phi = 0 and phi = pi/2, and along it.
     pub(crate) across: [Column<f32, B>; 2],
     pub(crate) along: Column<f32, B>,
 }
@@ -53,7 +53,7 @@ pub(crate) fn run<L: Lanes, const B: usize>(
     }
 }
 
-/// Where the zenith of the scattered light lies.
+/// The zenith of the scattered light.
 pub(crate) trait Zenith: Copy {
     /// `true` if directions below the surface are folded up.
     const FOLD: bool;
@@ -118,7 +118,7 @@ fn pass<L: Lanes, Z: Zenith, const B: usize>(
         let scale = (reach * shared).masked(tilted);
         let (cos_psi, sin_psi) = (lanes.select(tilted, ix * scale, one), iy * scale);
 
-        // The difference of wo and the zenith: near the peak its digits are exact where those of a product are lost.
+        // The difference of wo and the zenith: near the peak, its digits are exact, and those of a product are lost.
         let ([ax, ay, cos_zenith], sin_zenith) = zenith.opposite(lanes, [ix, iy, iz], sin, [cos_psi, sin_psi]);
         let (dx, dy, dz) = (ox + ax, oy + ay, oz - cos_zenith);
         let toward = lanes.mul_add(cos_psi, dx, sin_psi * dy);

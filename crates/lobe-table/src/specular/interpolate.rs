@@ -1,4 +1,4 @@
-//! A [`Table`] at known angles: the evaluation without its directions.
+//! A [`Table`] at known angles: evaluation without directions.
 
 use std::ops::Range;
 
@@ -17,7 +17,7 @@ impl Table {
     /// `[0, 2 pi]`. An isotropic table does not read psi, which may be empty. Results are 0 if an angle is not finite.
     ///
     /// # Panics
-    /// If the angles differ in number, or `out` is not that many times the channels long.
+    /// If the numbers of angles differ, or the length of `out` is not that number times the number of channels.
     pub fn interpolate_batch(&self, backend: Backend, angles: [&[f32]; 4], out: &mut [f32]) {
         backend.run(self.interpolation(angles, out));
     }
@@ -70,7 +70,7 @@ impl Blockwise for Interpolation<'_> {
     }
 }
 
-/// Queries `0..n` are valid if all angles are finite; those that are not become 0.
+/// Queries `0..n` are valid if all angles are finite; angles that are not become 0.
 #[inline(always)]
 fn leave_out<L: Lanes>(lanes: L, n: usize, anisotropic: bool, scratch: &mut Scratch) {
     let mut query = 0;

@@ -12,7 +12,7 @@ use crate::{Aspect, Channels, Directions, Given, Sampled, Sampler, SamplerError,
 #[derive(Clone, Debug)]
 pub(crate) struct Prepared(pub(crate) Arc<Table>);
 
-/// Tables of transmission take light from either side.
+/// Tables of transmission accept light from either side.
 fn holds(table: &Table, aspect: Aspect) -> bool {
     table.scatter() == aspect.scatter && (aspect.light == Side::Front || aspect.scatter == Scatter::Transmission)
 }

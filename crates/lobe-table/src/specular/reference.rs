@@ -1,4 +1,4 @@
-//! The reference evaluation: one query at a time, in `f64`, written for the reader.
+//! The reference evaluation: one query at a time, in `f64`, written to be readable.
 //!
 //! Everything faster in this workspace is tested against this.
 
@@ -12,12 +12,12 @@ use crate::{Edge, Edges, Scatter};
 /// Evaluates `f(wi, wo)` in 1/sr into `out`, one value per channel.
 ///
 /// `wi` points to the light and `wo` to the viewer, unit vectors that point away from the surface, normal on +z. A
-/// reflection table answers 0 unless both have `z > 0`. A transmission table takes `|z|` of both, since its values are
-/// stored mirrored up at the surface, and answers 0 if one of them is 0: which side the light is on is the business
-/// of the material that owns the table. A direction with a NaN or infinite component gives 0.
+/// reflection table gives 0 unless both have `z > 0`. A transmission table uses `|z|` of both, because its values are
+/// stored mirrored to the upper hemisphere, and gives 0 if one of them is 0; the material that owns the table decides
+/// which side the light is on. A direction with a NaN or infinite component gives 0.
 ///
 /// # Panics
-/// If `out` is not as long as there are channels.
+/// If the length of `out` is not the number of channels.
 pub fn eval(samples: &Data, edges: &Edges, wi: [f64; 3], wo: [f64; 3], out: &mut [f64]) {
     let fold = |v: [f64; 3]| match samples.scatter() {
         Scatter::Reflection => v,
@@ -32,11 +32,11 @@ pub fn eval(samples: &Data, edges: &Edges, wi: [f64; 3], wo: [f64; 3], out: &mut
     eval_angles(samples, edges, angles, out);
 }
 
-/// The table at sigma, psi, theta and phi in radians, in 1/sr, with no regard to the horizon: multilinear in the
+/// The table at sigma, psi, theta and phi in radians, in 1/sr, ignoring the horizon: multilinear in the
 /// angles, with the policy of each axis outside its knots.
 ///
 /// # Panics
-/// If `out` is not as long as there are channels.
+/// If the length of `out` is not the number of channels.
 pub fn eval_angles(samples: &Data, edges: &Edges, angles: [f64; 4], out: &mut [f64]) {
     let channels = samples.channels().count();
     assert_eq!(out.len(), channels, "one output per channel");

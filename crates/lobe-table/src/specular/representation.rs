@@ -1,4 +1,4 @@
-//! What programs need from tables in specular coordinates.
+//! [`Representation`] for tables in specular coordinates.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -44,7 +44,7 @@ impl Representation for Data {
         vec![match self.refraction() {
             Some(offsets) => {
                 let refracted = self.knots()[0].iter().zip(offsets).map(|(sigma, offset)| sigma + offset);
-                // Degrees as the file has them, which f32 can hold.
+                // Degrees as in the file, which `f32` can hold.
                 let degrees: Vec<String> = refracted.map(|angle| (angle.to_degrees() as f32).to_string()).collect();
                 section.with_fact("refracted", format!("at {} degrees for the knots of sigma", degrees.join(" ")))
             }
@@ -130,7 +130,7 @@ fn at_sigma(sigmas: &[f64], zeniths: &[f64], sigma: f64) -> f64 {
     let upper = sigmas.partition_point(|knot| *knot < sigma).min(sigmas.len() - 1);
     let lower = upper.saturating_sub(1);
     let ([a, from], [b, to]) = ([sigmas[lower], zeniths[lower]], [sigmas[upper], zeniths[upper]]);
-    // Not what lies between the knots is interpolated but its distance from sigma, which is 0 without refraction.
+    // The interpolated quantity is the difference from sigma, which is 0 without refraction.
     let share = if b > a { ((sigma - a) / (b - a)).clamp(0.0, 1.0) } else { 0.0 };
     sigma + (1.0 - share) * (from - a) + share * (to - b)
 }
@@ -140,7 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_refracted_ray_is_linear_between_its_knots_and_goes_on_beside_them() {
+    fn the_refracted_ray_is_linear_between_its_knots_and_continues_beyond() {
         for (sigma, expected) in [(0.0, 0.0), (0.4, 0.25), (0.8, 0.5), (1.0, 0.7)] {
             assert!((at_sigma(&[0.0, 0.8], &[0.0, 0.5], sigma) - expected).abs() < 1e-12, "{sigma}");
         }

@@ -1,6 +1,6 @@
-//! The coordinates of one query at a time, with SIMD inside the query: the arithmetic of the passes in another
-//! arrangement, in which the four angles share a register.
-//! [`Interpolator::single`](crate::grid::interpolation::Interpolator::single) goes on.
+//! The coordinates of one query at a time, with SIMD within the query: the arithmetic of the passes, arranged so that
+//! the four angles share a register. [`Interpolator::single`](crate::grid::interpolation::Interpolator::single) does
+//! the rest.
 
 use lobe_lane::{Kernel, Lanes, MAX_LANES};
 
@@ -74,7 +74,7 @@ fn angles<L: Lanes>(lanes: L, table: &Table, wi: [f32; 3], wo: [f32; 3]) -> ([f3
     (azimuths(lanes, halves, [1.0, cos_psi, along, x]), valid)
 }
 
-/// As [`lobe_math::azimuth_from`], of four angles.
+/// As [`lobe_math::azimuth_from`], for four angles.
 #[inline(always)]
 fn azimuths<L: Lanes>(lanes: L, t: [f32; 4], x: [f32; 4]) -> [f32; 4] {
     let mut angles = [0.0; MAX_LANES];

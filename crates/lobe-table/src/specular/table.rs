@@ -1,21 +1,20 @@
-//! A measured BRDF or BTDF made ready for evaluation.
+//! A measured BRDF or BTDF prepared for evaluation.
 
 use super::data::{AXIS_NAMES, Data};
 use crate::grid::interpolation::{Interpolator, Source};
 use crate::{Axis, Channels, Edge, Edges, Function, Precision, Scatter, TableError};
 
-/// A measured BRDF or BTDF in specular coordinates, laid out for evaluation in SIMD lanes.
-///
-/// There are three ways to evaluate it, all giving the same bits on one backend (and, in strict form, on all):
+/// A measured BRDF or BTDF in specular coordinates, laid out for evaluation in SIMD lanes. There are three ways to
+/// evaluate it. All give the same bits on one backend and, in strict form, on all backends:
 /// - [`eval`](Table::eval): one pair of directions;
 /// - [`eval_batch`](Table::eval_batch): many pairs, as arrays of vectors or as separate components;
 /// - [`eval_lanes`](Table::eval_lanes): one pair per lane, under a mask, inside a caller's own kernel.
 ///
 /// `wi` points to the light and `wo` to the viewer, unit vectors that point away from the surface, normal on +z.
 /// Results are `f` in 1/sr without the cosine. A reflection table gives 0 unless both directions have `z > 0`; a
-/// transmission table takes `|z|` of both, as its values are stored mirrored up at the surface, and gives 0 if one is
-/// 0. Directions with a component that is not finite give 0. With `wi` at the normal psi is 0 and phi counts from +x;
-/// with `wo` at the zenith phi is 0.
+/// transmission table uses `|z|` of both, because its values are stored mirrored to the upper hemisphere, and gives 0
+/// if one is 0. Directions with a component that is not finite give 0. If `wi` is the normal, psi is 0 and phi counts
+/// from +x; if `wo` is the zenith, phi is 0.
 #[derive(Clone, Debug)]
 pub struct Table {
     scatter: Scatter,
@@ -34,7 +33,7 @@ impl Table {
         Table::with_precision(samples, edges, Precision::Single)
     }
 
-    /// As [`new`](Table::new), with a choice of how the values are stored.
+    /// As [`new`](Table::new), with a choice of the storage format of the values.
     ///
     /// # Errors
     /// As [`new`](Table::new).
@@ -60,12 +59,12 @@ impl Table {
         self.scatter
     }
 
-    /// What the channels mean.
+    /// The meaning of the channels.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }
 
-    /// How many channels there are.
+    /// The number of channels.
     #[inline]
     pub fn channel_count(&self) -> usize {
         self.grid.channels()

@@ -1,4 +1,4 @@
-//! Pairs of directions to polar angles and azimuths, in lanes.
+//! From pairs of directions to polar angles and azimuths, in lanes.
 
 use lobe_lane::{Floats, Lanes};
 
@@ -6,23 +6,23 @@ use crate::passes::block::Column;
 use crate::passes::pairs::Pairs;
 use crate::passes::unit::{POLE, across, azimuth, polar, unit};
 
-/// Which pairs of directions have a value.
+/// The pairs of directions that have a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sides {
     /// Both are above the surface.
     Above,
-    /// Both are on one side of the surface, whichever that is.
+    /// Both are on the same side of the surface.
     Same,
     /// They are on different sides of the surface.
     Opposite,
 }
 
-/// What is looked up for the azimuths of a pair.
+/// The lookup of the azimuths of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Azimuths {
     /// Both of them.
     Both,
-    /// That of `wo` counted from that of `wi`, plus the angle with this cosine and sine.
+    /// The azimuth of `wo` relative to that of `wi`, plus the angle with this cosine and sine.
     Between([f32; 2]),
     /// The angle between both, in `[0, pi]`.
     Unsigned,
@@ -47,12 +47,12 @@ pub(crate) fn run<L: Lanes, const B: usize>(
     }
 }
 
-/// Where the azimuths of two unit vectors, above the surface and of these lengths across, are looked up.
+/// The lookup angles for the azimuths of two unit vectors above the surface, whose projections have these lengths.
 trait LookUp: Copy {
     fn azimuths<L: Lanes>(self, lanes: L, wi: Across<L>, wo: Across<L>) -> [L::F; 2];
 }
 
-/// The projection of a unit vector on the surface.
+/// The projection of a unit vector onto the surface.
 #[derive(Clone, Copy)]
 struct Across<L: Lanes> {
     x: L::F,
@@ -77,7 +77,7 @@ impl<L: Lanes> Across<L> {
         }
     }
 
-    /// As seen from `from`: the azimuth is what is between both.
+    /// Relative to `from`: the azimuth becomes the angle between both.
     #[inline(always)]
     fn seen_from(self, lanes: L, from: Self) -> Self {
         let (from, to) = (from.tilted(lanes), self.tilted(lanes));

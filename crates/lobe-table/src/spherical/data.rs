@@ -10,9 +10,9 @@ pub const AXIS_NAMES: [&str; 4] = ["theta_i", "phi_i", "theta_o", "phi_o"];
 
 /// A BRDF or BTDF on a grid of `theta_i`, `phi_i`, `theta_o`, `phi_o`, in radians.
 ///
-/// Polar angles are in `[0, pi/2]`, from the normal on the side of their direction; azimuths in `[0, 2 pi]`; all strictly
-/// ascending. A grid with one `phi_i` is isotropic: only the difference of the azimuths counts. Values are `f` in 1/sr,
-/// without the cosine, `[theta_i][phi_i][theta_o][phi_o][channel]`.
+/// Polar angles are in `[0, pi/2]`, from the normal on the side of their direction; azimuths in `[0, 2 pi]`; all
+/// strictly ascending. A grid with one `phi_i` is isotropic: only the difference of the azimuths matters. Values are
+/// `f` in 1/sr, without the cosine, `[theta_i][phi_i][theta_o][phi_o][channel]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Data {
     scatter: Scatter,
@@ -33,7 +33,7 @@ const AXES: [AxisOf; 4] = {
 };
 
 impl Data {
-    /// Checks knots and values and keeps them.
+    /// Checks knots and values and stores them.
     ///
     /// # Errors
     /// [`GridError`] names the axis, the position, what was found and what was expected.
@@ -48,7 +48,7 @@ impl Data {
     }
 
     /// Makes the grid one half of an isotropic material whose other half, across the plane of incidence, is its mirror
-    /// image. `phi_o` then is the angle between the azimuths, held beyond its knots.
+    /// image. `phi_o` is then the angle between the azimuths, and values are constant beyond its knots.
     ///
     /// # Errors
     /// [`GridError::KnotOutOfRange`] if there is a second `phi_i`, or a `phi_o` beyond half a turn.
@@ -77,7 +77,7 @@ impl Data {
         &self.knots
     }
 
-    /// What the channels mean.
+    /// The meaning of the channels.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }
@@ -87,7 +87,7 @@ impl Data {
         &self.values
     }
 
-    /// `true` if the value depends on the difference of the azimuths only.
+    /// `true` if the value depends only on the difference of the azimuths.
     pub fn is_isotropic(&self) -> bool {
         self.knots[1].len() == 1
     }

@@ -1,6 +1,6 @@
-//! BRDFs and BTDFs on a grid of spherical coordinates of both directions.
+//! BRDFs and BTDFs on a grid in spherical coordinates of both directions.
 //!
-//! [`Data`] are the values as they were measured, with their evaluation in `f64`; a [`Table`] is made ready for
+//! [`Data`] are the values as measured, with an evaluation in `f64`; a [`Table`] is made ready for
 //! evaluation in SIMD lanes.
 
 pub(crate) mod coordinates;

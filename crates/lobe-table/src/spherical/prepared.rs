@@ -1,4 +1,4 @@
-//! Grids of spherical coordinates, ready to be evaluated.
+//! Grids in spherical coordinates, ready to be evaluated.
 
 use lobe_backend::Backend;
 
@@ -17,7 +17,7 @@ impl Bsdf for Table {
         Table::channels(self)
     }
 
-    /// Values of transmission take light from either side.
+    /// Transmission accepts light from either side.
     fn holds(&self, aspect: Aspect) -> bool {
         self.scatter() == aspect.scatter && (aspect.light == Side::Front || aspect.scatter == Scatter::Transmission)
     }

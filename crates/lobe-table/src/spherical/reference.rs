@@ -1,4 +1,4 @@
-//! The evaluation of [`Data`] one query at a time in `f64`: what the lanes are compared with.
+//! The evaluation of [`Data`] one query at a time in `f64`: the reference for the lanes.
 
 use std::f64::consts::TAU;
 
@@ -12,10 +12,10 @@ use crate::{Edge, Scatter};
 
 impl Data {
     /// The channels of `f` in 1/sr for light from `wi` to `wo`, unit vectors that point away from the surface:
-    /// multilinear in the angles. Polar angles beyond the knots are held, azimuths go round.
+    /// multilinear in the angles. Values are constant beyond the knots of polar angles, and azimuths are periodic.
     ///
-    /// Zero for directions that graze the surface, for two sides of a BRDF, and for one side of a BTDF. The two sides of
-    /// the surface are taken to be alike.
+    /// Zero for directions that graze the surface, for directions on opposite sides of a BRDF, and on the same side of
+    /// a BTDF. The two sides of the surface are assumed to be alike.
     pub fn eval(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f64> {
         let mut out = vec![0.0; self.channels().count()];
         self.eval_into(wi, wo, &mut out);
@@ -25,7 +25,7 @@ impl Data {
     /// As [`eval`](Self::eval), into `out`, one value per channel.
     ///
     /// # Panics
-    /// If `out` is not as long as there are channels.
+    /// If the length of `out` is not the number of channels.
     pub fn eval_into(&self, wi: [f64; 3], wo: [f64; 3], out: &mut [f64]) {
         let channels = self.channels().count();
         assert_eq!(out.len(), channels, "one output per channel");
@@ -56,9 +56,9 @@ impl Data {
         });
     }
 
-    /// How far a value may be off in the lanes of a [`Table`](super::Table), in parts of the largest magnitude.
+    /// The largest error of a value in the lanes of a [`Table`](super::Table), relative to the largest magnitude.
     pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
-        // Next to the pole the lanes take an azimuth to be 0. Knots of a full circle have values of their own at both ends.
+        // Near the pole, lanes set the azimuth to 0. Knots of a full circle may have different values at both ends.
         let at_pole = |[x, y, _]: [f64; 3]| (f64::MIN_POSITIVE..2.0 * f64::from(POLE)).contains(&x.hypot(y));
         let at_seam = |knots: &[f64], azimuth: f64| {
             let from_seam = (azimuth - knots[0]).rem_euclid(TAU);
@@ -75,8 +75,8 @@ impl Data {
         (2.0 * slopes.sum::<f64>() + SUM).min(2.0)
     }
 
-    /// The angle that is looked up among `phi_o`: the azimuth of `wo`, turned with `wi` if the material is isotropic. The
-    /// unsigned angle between both azimuths, if the grid is one half.
+    /// The angle that is looked up among `phi_o`: the azimuth of `wo`, relative to `wi` if the material is isotropic;
+    /// the unsigned angle between both azimuths if the grid is one half.
     fn azimuth(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
         if self.is_mirrored() {
             let between = (phi(wo) - phi(wi)).rem_euclid(TAU);
@@ -87,15 +87,15 @@ impl Data {
     }
 }
 
-/// How far azimuths of the lanes may be off: of two directions, and of a knot that was rounded to `f32`.
+/// The largest error of azimuths in lanes: those of two directions, and of a knot rounded to `f32`.
 const AZIMUTH: f64 = 2.0 * SPHERICAL;
 
-/// What is missing between the last azimuth and the first one, a turn later.
+/// The gap between the last azimuth and the first one, a turn later.
 fn seam(knots: &[f64]) -> f64 {
     knots[0] + TAU - knots[knots.len() - 1]
 }
 
-/// The width of the narrowest cell, of which one may be over the seam.
+/// The width of the narrowest cell, including the one across the seam.
 fn narrowest(knots: &[f64]) -> f64 {
     let widths = knots.windows(2).map(|ends| ends[1] - ends[0]);
     widths.chain(Some(seam(knots)).filter(|seam| *seam > ROUNDING)).fold(f64::INFINITY, f64::min)
@@ -106,7 +106,7 @@ fn polar([x, y, z]: [f64; 3]) -> f64 {
     x.hypot(y).atan2(z.abs())
 }
 
-/// The place among azimuths, which go round.
+/// The place among azimuths, which are periodic.
 fn circular(knots: &[f64], azimuth: f64) -> Neighbours {
     Neighbours::find(knots, Edge::Periodic, azimuth).unwrap_or(Neighbours::ONLY)
 }

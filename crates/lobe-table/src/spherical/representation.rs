@@ -1,4 +1,4 @@
-//! What programs need from grids in spherical coordinates.
+//! [`Representation`] for grids in spherical coordinates.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -42,7 +42,8 @@ impl Representation for Data {
         pairs(&self.knots()[0], &self.knots()[1])
     }
 
-    /// About the normal, azimuths count from the light; in the grid they do so if it is isotropic, else from +x.
+    /// Kinks are about the normal, with azimuths counted from the light; in the grid, this is so if it is isotropic,
+    /// and otherwise they count from +x.
     fn kinks(&self, _: &Edges, [_, phi]: [f64; 2]) -> Option<Kinks> {
         let turn = match () {
             () if self.is_mirrored() => 0.0,

@@ -1,4 +1,4 @@
-//! [`Data`] made ready to be evaluated in SIMD lanes.
+//! [`Data`] prepared for evaluation in SIMD lanes.
 
 use lobe_backend::Backend;
 use lobe_lane::{Kernel, Lanes, MAX_LANES};
@@ -12,9 +12,9 @@ use crate::{Channels, Edge, Edges, Precision, Scatter, TableError};
 
 /// [`Data`] laid out for evaluation in SIMD lanes.
 ///
-/// The values are those of [`Data::eval`], in `f32`: `f` in 1/sr, without the cosine. They are 0 for pairs that the
-/// data do not answer, that is for two sides of a BRDF, for one side of a BTDF, and for directions that graze the
-/// surface. The directions need not be unit vectors, but their lengths have to be between 1e-15 and 1e15.
+/// The values are those of [`Data::eval`], in `f32`: `f` in 1/sr, without the cosine. They are 0 for directions on
+/// opposite sides of a BRDF, on the same side of a BTDF, and for directions that graze the surface. The directions need
+/// not be unit vectors, but their lengths have to be between 1e-15 and 1e15.
 ///
 /// In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
@@ -26,10 +26,10 @@ pub struct Table {
 }
 
 impl Table {
-    /// Lays out the values: 16 bytes for each node of up to three channels, more for more.
+    /// Lays out the values: 16 bytes per node with up to three channels, and more for more channels.
     ///
     /// # Errors
-    /// If the grid is too large to be indexed, or azimuths cannot be closed to a circle.
+    /// If the grid is too large to be indexed, or its azimuths cannot be closed to a circle.
     pub fn new(data: &Data) -> Result<Self, TableError> {
         let knots = data.knots();
         let source = Source { names: &AXIS_NAMES, knots, channels: data.channels().count(), values: data.values() };
@@ -56,17 +56,17 @@ impl Table {
         self.scatter
     }
 
-    /// What the channels mean.
+    /// The meaning of the channels.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }
 
-    /// How many channels there are.
+    /// The number of channels.
     pub fn channel_count(&self) -> usize {
         self.grid.channels()
     }
 
-    /// `true` if the value depends on the difference of the azimuths only.
+    /// `true` if the value depends only on the difference of the azimuths.
     pub fn is_isotropic(&self) -> bool {
         !self.grid.is_anisotropic()
     }
@@ -87,7 +87,7 @@ impl Table {
     /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[query * channels + channel]`.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+    /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times the number of channels.
     pub fn batch<'a>(
         &'a self,
         wi: Directions<'a>,
@@ -101,7 +101,7 @@ impl Table {
     /// lanes that `mask` leaves out.
     ///
     /// # Panics
-    /// If `out` is not as long as there are channels.
+    /// If the length of `out` is not the number of channels.
     #[inline(always)]
     pub fn eval_lanes<L: Lanes>(&self, lanes: L, wi: [L::F; 3], wo: [L::F; 3], mask: L::M, out: &mut [L::F]) {
         assert_eq!(out.len(), self.channel_count(), "one output per channel");
@@ -112,7 +112,7 @@ impl Table {
         self.grid.blend_lanes(lanes, &mut scratch, out);
     }
 
-    /// From the directions of queries `0..n` to their angles.
+    /// Converts the directions of queries `0..n` to angles.
     #[inline(always)]
     fn angles<L: Lanes, const B: usize>(&self, lanes: L, n: usize, pairs: Pairs<'_, B>, scratch: &mut Scratch<B>) {
         let sides = match self.scatter {

@@ -1,4 +1,4 @@
-//! The values as they were measured.
+//! The values as measured.
 
 use crate::invalid::{Invalid, count};
 
@@ -7,9 +7,9 @@ pub(super) const STEPS: [f64; 2] = [15.0, 7.5];
 /// Stored values are divided by this before the sRGB curve is undone.
 pub(super) const SCALE: f64 = 140.0;
 
-/// How many zenith angles each direction has.
+/// The number of zenith angles of each direction.
 pub const THETAS: usize = 6;
-/// How many azimuths each direction has.
+/// The number of azimuths of each direction.
 pub const PHIS: usize = 48;
 /// The values of one channel.
 pub const PLANE: usize = THETAS * PHIS * THETAS * PHIS;
@@ -22,7 +22,7 @@ pub struct Data {
     pub(super) values: Vec<f64>,
 }
 
-/// What to make of the stored values.
+/// The conversion of the stored values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Decode {
     /// The stored values, interpolated.

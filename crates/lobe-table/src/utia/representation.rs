@@ -1,4 +1,4 @@
-//! What programs need from the grid of the UTIA database.
+//! [`Representation`] for the grid of the UTIA database.
 
 use std::borrow::Cow;
 

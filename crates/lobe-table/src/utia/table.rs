@@ -1,4 +1,4 @@
-//! [`Data`] made ready to be evaluated in SIMD lanes.
+//! [`Data`] prepared for evaluation in SIMD lanes.
 
 use lobe_backend::Backend;
 use lobe_lane::{Floats, Kernel, Lanes};
@@ -34,7 +34,7 @@ impl Table {
         let planes = data.values();
         let values: Vec<f32> =
             (0..PLANE).flat_map(|at| [0, 1, 2].map(|channel| stored(planes[channel * PLANE + at]) as f32)).collect();
-        // Zenith angles beyond the last knot continue the line, as the reader of the database does.
+        // Beyond the last knot, zenith angles are extrapolated linearly, as in the reader of the database.
         let edges =
             Edges { axes: [Edge::Extrapolate, Edge::Periodic, Edge::Extrapolate, Edge::Periodic], non_negative: false };
         let knots = [thetas.clone(), phis.clone(), thetas, phis];
@@ -63,7 +63,7 @@ impl Table {
     /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[3 * query + channel]`.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo`, or `out` is not three times as long.
+    /// If the numbers of `wi` and `wo` differ, or `out` is not three times as long.
     pub fn batch<'a>(
         &'a self,
         wi: Directions<'a>,

@@ -10,7 +10,7 @@ fn material() -> Data {
 }
 
 #[test]
-fn zenith_angles_go_on_beyond_the_last_and_end_at_the_horizon() {
+fn zenith_angles_continue_beyond_the_last_up_to_the_horizon() {
     let value =
         |ti: f64, tv: f64| material().eval_angles([ti.to_radians(), 1.0], [tv.to_radians(), 0.0], Decode::Raw)[0];
     assert!((value(20.0, 31.0) - 330.0).abs() < 1e-9);

@@ -4,7 +4,7 @@ use super::klems::KlemsMatrix;
 use super::tensor_tree::TensorTree;
 use crate::{Aspect, Scatter, Side};
 
-/// The values of one block, in the form its file has them.
+/// The values of one block, in the form of its file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Component {
     /// Constant on pairs of patches.
@@ -14,7 +14,7 @@ pub enum Component {
 }
 
 impl Component {
-    /// `f` in 1/sr for light from `wi` to `wo`, unit vectors that point away from the surface, whatever their sides.
+    /// `f` in 1/sr for light from `wi` to `wo`, unit vectors that point away from the surface, on any sides.
     pub fn eval(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
         match self {
             Component::Klems(matrix) => matrix.eval(wi, wo),
@@ -22,8 +22,8 @@ impl Component {
         }
     }
 
-    /// All values that [`eval`](Self::eval) may have in the lanes: where directions are within rounding of the border
-    /// of two patches or cells, those of both.
+    /// All values that [`eval`](Self::eval) may have in the lanes: if directions are within rounding of the border of
+    /// two patches or cells, those of both.
     pub fn candidates(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f64> {
         match self {
             Component::Klems(matrix) => matrix.candidates(wi, wo),
@@ -32,7 +32,7 @@ impl Component {
     }
 }
 
-/// The four blocks of a sheet, by the names that WINDOW files give them.
+/// The four blocks of a sheet, with their names in WINDOW files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Block {
     /// Light arrives from z < 0 and leaves to z > 0.
@@ -46,11 +46,11 @@ pub enum Block {
 }
 
 impl Block {
-    /// All blocks, in the order in which [`Blocks`] keeps them.
+    /// All blocks, in the order in which [`Blocks`] stores them.
     pub const ALL: [Block; 4] =
         [Block::TransmissionFront, Block::TransmissionBack, Block::ReflectionFront, Block::ReflectionBack];
 
-    /// The block from which the values of this one may be taken with the directions exchanged (Helmholtz reciprocity).
+    /// The block that has the values of this one for exchanged directions (Helmholtz reciprocity).
     pub(super) fn reverse(self) -> Option<Block> {
         match self {
             Block::TransmissionFront => Some(Block::TransmissionBack),
@@ -59,7 +59,7 @@ impl Block {
         }
     }
 
-    /// The name that WINDOW files give it, in lower case.
+    /// Its name in WINDOW files, in lower case.
     pub fn name(self) -> &'static str {
         match self {
             Block::TransmissionFront => "transmission front",
@@ -69,7 +69,7 @@ impl Block {
         }
     }
 
-    /// The measurement that this block is. The front of a WINDOW file is the side of z < 0.
+    /// The aspect of this block. The front of a WINDOW file is the side of z < 0.
     pub fn aspect(self) -> Aspect {
         let (scatter, light) = match self {
             Block::TransmissionFront => (Scatter::Transmission, Side::Back),
@@ -80,7 +80,7 @@ impl Block {
         Aspect { scatter, light }
     }
 
-    /// The block of a measurement.
+    /// The block of an aspect.
     pub fn of_aspect(aspect: Aspect) -> Block {
         match (aspect.scatter, aspect.light) {
             (Scatter::Transmission, Side::Back) => Block::TransmissionFront,
@@ -92,8 +92,8 @@ impl Block {
 
     /// The block for light from `wi` to `wo`; `None` if either grazes the surface.
     ///
-    /// The front of a WINDOW file is the side of z < 0: Radiance, whose front is +z, and WINDOW call the sides by each
-    /// other's names.
+    /// The front of a WINDOW file is the side of z < 0: WINDOW's names of the sides are the opposite of Radiance's,
+    /// whose front is +z.
     pub fn of(wi: [f64; 3], wo: [f64; 3]) -> Option<Block> {
         let above = |direction: [f64; 3]| (direction[2] != 0.0).then_some(direction[2] > 0.0);
         Some(match (above(wi)?, above(wo)?) {
@@ -117,15 +117,15 @@ impl Blocks {
         self.blocks[block as usize].as_ref()
     }
 
-    /// Sets a block and returns what it was before.
+    /// Sets a block and returns its previous value.
     pub fn set(&mut self, block: Block, component: Component) -> Option<Component> {
         self.blocks[block as usize].replace(component)
     }
 
     /// `f` in 1/sr for light from `wi` to `wo`, unit vectors that point away from the surface.
     ///
-    /// A transmission block that is missing is the other one with the directions exchanged (Helmholtz reciprocity). A
-    /// side without values, and light that grazes the surface, give 0.
+    /// A missing transmission block is replaced by the other one with the directions exchanged (Helmholtz reciprocity).
+    /// A side without values, and light that grazes the surface, give 0.
     pub fn eval(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
         self.answer(wi, wo).map_or(0.0, |(component, wi, wo)| component.eval(wi, wo))
     }
@@ -136,7 +136,7 @@ impl Blocks {
         self.answer(wi, wo).map_or(vec![0.0], |(component, wi, wo)| component.candidates(wi, wo))
     }
 
-    /// The block that answers for light from `wi` to `wo`, and with which directions.
+    /// The block for light from `wi` to `wo`, and the directions with which to evaluate it.
     fn answer(&self, wi: [f64; 3], wo: [f64; 3]) -> Option<(&Component, [f64; 3], [f64; 3])> {
         let block = Block::of(wi, wo)?;
         let own = self.block(block).map(|component| (component, wi, wo));

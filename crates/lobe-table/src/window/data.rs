@@ -1,11 +1,11 @@
-//! The blocks of a sheet in every band of wavelengths, as they were measured.
+//! The blocks of a sheet in every band of wavelengths, as measured.
 
 use super::blocks::{Block, Blocks, Component};
 
-/// Klems matrices or tensor trees of the two sides of a sheet, in bands of wavelengths that have names.
+/// Klems matrices or tensor trees of the two sides of a sheet, in named bands of wavelengths.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Data {
-    /// The bands in the order of the file. No two have names that differ in case only.
+    /// The bands in the order of the file. No two names differ only in case.
     pub bands: Vec<Band>,
 }
 

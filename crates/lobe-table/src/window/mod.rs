@@ -1,7 +1,7 @@
-//! A sheet of material with two sides: which block of values answers for which pair of directions.
+//! A sheet with two sides: blocks of values, selected by the sides of a pair of directions.
 //!
-//! [`Blocks`] are the values of one band of wavelengths, with their evaluation in `f64`; [`Data`] are several bands, and a
-//! [`Table`] is the same made ready for evaluation in SIMD lanes.
+//! [`Blocks`] are the values of one band of wavelengths, with an evaluation in `f64`; [`Data`] holds several bands, and
+//! a [`Table`] has them prepared for evaluation in SIMD lanes.
 
 mod blocks;
 mod data;

@@ -32,7 +32,7 @@ impl Bsdf for Prepared {
         &self.channels
     }
 
-    /// One block of transmission serves for the other as well.
+    /// One transmission block also serves for the other direction.
     fn holds(&self, aspect: Aspect) -> bool {
         let has = |aspect| self.table.bands().iter().any(|band| band.block(Block::of_aspect(aspect)).is_some());
         has(aspect) || (aspect.scatter == Scatter::Transmission && has(aspect.reversed()))
@@ -50,7 +50,7 @@ impl Bsdf for Prepared {
         self.table.eval_batch(backend, wi, wo, out);
     }
 
-    /// Those of the matrices, if every band has one.
+    /// The matrices, if every band has one.
     fn patches(
         &self,
         aspect: Aspect,

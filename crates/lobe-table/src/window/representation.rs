@@ -1,4 +1,4 @@
-//! What programs ask of sheets.
+//! [`Representation`] for sheets.
 
 use super::blocks::{Block, Component};
 use super::data::{Band, Data};
@@ -74,7 +74,7 @@ impl Representation for Data {
     fn incidences(&self, aspect: Aspect) -> Vec<[f64; 2]> {
         let block = Block::of_aspect(aspect);
         let found = self.bands.iter().find_map(|band| {
-            // A transmission block that is missing is the other one with the directions exchanged.
+            // A missing transmission block is replaced by the other one with the directions exchanged.
             let stand_in = block.reverse().and_then(|reverse| band.window.block(reverse));
             band.window.block(block).or(stand_in)
         });
@@ -84,7 +84,8 @@ impl Representation for Data {
         }
     }
 
-    /// The sum over the patches of Klems matrices or the cells of trees, unless transmission is known the other way only.
+    /// The sum over the patches of Klems matrices or the cells of trees, unless transmission is known only in the other
+    /// direction.
     fn albedo(&self, aspect: Aspect, [theta, phi]: [f64; 2]) -> Option<Vec<f64>> {
         // The patch is found by the direction in which light travels.
         let travels = [-theta.sin() * phi.cos(), -theta.sin() * phi.sin(), theta.cos()];

@@ -1,4 +1,4 @@
-//! Sheets made ready to be evaluated in SIMD lanes.
+//! Sheets prepared for evaluation in SIMD lanes.
 
 use lobe_backend::Backend;
 use lobe_lane::{Floats, Ints, Kernel, Lanes, Mask};
@@ -14,28 +14,28 @@ use crate::passes::block::Column;
 use crate::passes::pairs::{Evaluate, Pairs, evaluation};
 use crate::passes::unit::unit;
 
-/// The bands of wavelengths of a sheet, made ready for evaluation in SIMD lanes.
+/// The bands of wavelengths of a sheet, prepared for evaluation in SIMD lanes.
 ///
 /// The values are those of [`Blocks::eval`], `f` in 1/sr, one channel per band. The directions need not be unit
 /// vectors, but their lengths have to be between 1e-15 and 1e15. A query that is within rounding of the border of two
-/// patches or cells may be given to either, see [`Blocks::candidates`].
+/// patches or cells may get the value of either; see [`Blocks::candidates`].
 ///
 /// In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
 pub struct Table {
     bands: Vec<Blocks>,
-    /// By [`Block`]: what answers for it.
+    /// By [`Block`]: the groups of bands for it.
     groups: [Vec<Group>; 4],
 }
 
-/// Bands whose values are found in the same place, for light from one side to one side.
+/// Bands that share the lookup, for light from one side to one side.
 #[derive(Clone, Debug)]
 struct Group {
     source: Source,
     members: Members,
 }
 
-/// Where the values of a block are.
+/// The source of the values of a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Source {
     /// Its own block, or the reverse one.
@@ -48,15 +48,15 @@ struct Source {
 enum Members {
     /// The patches of light arriving and leaving, and the bands.
     Klems(Box<[Patches; 2]>, Vec<usize>),
-    /// The bands, each with a tree of its own.
+    /// The bands, each with its own tree.
     Trees(Rank, Vec<(usize, Walk)>),
 }
 
 impl Table {
-    /// Makes the bands ready. The values stay where they are.
+    /// Prepares the bands. The values are not copied.
     ///
     /// # Errors
-    /// [`Invalid`] if the values are more than the 32-bit index of a lane reaches, or the rings of a basis are too narrow.
+    /// [`Invalid`] if there are more values than a 32-bit index can address, or the rings of a basis are too narrow.
     pub fn new(bands: Vec<Blocks>) -> Result<Self, Invalid> {
         let mut groups: [Vec<Group>; 4] = Default::default();
         for (groups, block) in groups.iter_mut().zip(Block::ALL) {
@@ -103,7 +103,7 @@ impl Table {
     /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[query * bands + band]`, in 1/sr.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo`, or `out` is not that many times the bands long.
+    /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times the number of bands.
     pub fn batch<'a>(
         &'a self,
         wi: Directions<'a>,
@@ -114,7 +114,7 @@ impl Table {
     }
 }
 
-/// Adds a band to the group that it fits, or to a new one.
+/// Adds a band to a matching group, or to a new one.
 fn add(groups: &mut Vec<Group>, band: usize, component: &Component, source: Source) -> Result<(), Invalid> {
     let alike = groups.iter_mut().filter(|group| group.source.exchanged == source.exchanged);
     match component {
@@ -154,15 +154,15 @@ fn add(groups: &mut Vec<Group>, band: usize, component: &Component, source: Sour
     Ok(())
 }
 
-/// What the passes of a block hand on.
+/// The intermediate values of a block.
 pub(crate) struct Scratch {
     wi: [Column; 3],
     wo: [Column; 3],
-    /// Which [`Block`] a query is for; -1 if it is for none.
+    /// The [`Block`] of a query; -1 if it has none.
     side: Column<i32>,
     valid: Column<i32>,
     patches: PatchScratch,
-    /// The patches of light arriving and leaving; then the index of the pair in the first.
+    /// The patches of light arriving and leaving; later, the first holds the index of the pair.
     pair: [Column<i32>; 2],
     positions: [Column; 4],
     value: Column,
@@ -189,7 +189,7 @@ impl Evaluate for &Table {
     fn evaluate<L: Lanes>(self, lanes: L, n: usize, pairs: Pairs<'_>, scratch: &mut Scratch, out: &mut [f32]) {
         let seen = scratch.sides(lanes, n, pairs);
         out.fill(0.0);
-        // Queries of one block are usually for one side, so that the passes for the others have nothing to do.
+        // The queries of a block are usually for one side, so the passes for the others have nothing to do.
         let mut block = 0;
         while block < 4 {
             if seen[block] {
@@ -204,7 +204,7 @@ impl Evaluate for &Table {
 }
 
 impl Scratch {
-    /// Unit vectors and sides of queries `0..n`, and for which blocks there are any.
+    /// Unit vectors and sides of queries `0..n`, and the blocks that occur among them.
     #[inline(always)]
     fn sides<L: Lanes>(&mut self, lanes: L, n: usize, Pairs { wi, wo }: Pairs<'_>) -> [bool; 4] {
         let (zero, none) = (lanes.splat(0.0), lanes.splat_int(0));
@@ -236,7 +236,7 @@ impl Scratch {
         seen
     }
 
-    /// Makes the queries for a block the valid ones.
+    /// Marks the queries for one block as valid.
     #[inline(always)]
     fn begin<L: Lanes>(&mut self, lanes: L, n: usize, block: usize) {
         let mut query = 0;
@@ -249,7 +249,7 @@ impl Scratch {
 }
 
 impl Group {
-    /// Adds the values of the valid ones of queries `0..n` to `out`, which is 0 for them.
+    /// Adds the values of the valid queries among `0..n` to `out`, which is 0 for them.
     #[inline(always)]
     fn run<L: Lanes>(&self, lanes: L, n: usize, bands: &[Blocks], scratch: &mut Scratch, out: &mut [f32]) {
         let Scratch { wi, wo, valid, patches, pair: [arriving, leaving], positions: at, value, .. } = scratch;
@@ -259,7 +259,7 @@ impl Group {
             Members::Klems(bases, members) => {
                 let mut side = 0;
                 while side < 2 {
-                    // Light arrives through the patch that it travels toward.
+                    // The arriving patch is found by the direction in which light travels.
                     let (toward, patch) = if side == 0 { (from, &mut *arriving) } else { (to, &mut *leaving) };
                     bases[side].find(lanes, n, toward, patches, patch, valid);
                     side += 1;

@@ -17,14 +17,14 @@ pub struct Term {
     pub radial: [u8; 2],
     /// The azimuthal order l: at most m, and even or odd as n and m are.
     pub azimuthal: u8,
-    /// The power of the wavelength in micrometres that the term is multiplied by.
+    /// The power of the wavelength in micrometres by which the term is multiplied.
     pub power: u8,
     /// The coefficient.
     pub coefficient: f64,
 }
 
 impl Term {
-    /// What the products of the polynomials are multiplied by for light of this wavelength, in micrometres.
+    /// The factor of the products of the polynomials for light of this wavelength, in micrometres.
     pub(super) fn factor(&self, micrometres: f64) -> f64 {
         let [n, m] = self.radial.map(f64::from);
         let half = |is: bool| if is { 0.5 } else { 1.0 };
@@ -39,7 +39,7 @@ impl Term {
     }
 }
 
-/// An expansion, and the wavelengths that it is evaluated at.
+/// An expansion, and the wavelengths at which it is evaluated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Data {
     terms: Vec<Term>,
@@ -47,7 +47,8 @@ pub struct Data {
 }
 
 impl Data {
-    /// Checks the orders of the terms. Channels are wavelengths, or one without any if no term depends on the wavelength.
+    /// Checks the orders of the terms. Channels are wavelengths, or one channel without a wavelength if no term depends
+    /// on it.
     ///
     /// # Errors
     /// [`Invalid`] names `terms` or `channels`.

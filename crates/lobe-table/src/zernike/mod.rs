@@ -3,8 +3,8 @@
 //! J. J. Koenderink and A. J. van Doorn, "Phenomenological description of bidirectional surface reflection", JOSA A 15(11),
 //! 1998; the unpolarised part of the model that T. A. Germer fitted to sintered PTFE, Applied Optics 56(33), 2017.
 //!
-//! A direction with polar angle `theta` lies at the radius `rho = sqrt(2) sin(theta / 2)` of the unit disk. With the radial
-//! polynomials `R`, a term of the orders n, m and l with the coefficient `a` adds
+//! A direction with polar angle `theta` is at the radius `rho = sqrt(2) sin(theta / 2)` of the unit disk. With the
+//! radial polynomials `R`, a term of the orders n, m and l with the coefficient `a` adds
 //!
 //! ```text
 //! a c / (2 pi) (R_n^l(rho_i) R_m^l(rho_o) + R_m^l(rho_i) R_n^l(rho_o)) cos(l (phi_o - phi_i)) lambda^p

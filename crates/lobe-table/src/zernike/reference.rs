@@ -1,18 +1,18 @@
-//! The evaluation of [`Data`] one query at a time in `f64`, by the sums that define the polynomials.
+//! The evaluation of [`Data`] one query at a time in `f64`, with the sums that define the polynomials.
 
 use super::data::{Data, MAX_ORDER, Term};
 
 impl Data {
-    /// `f` in 1/sr of each channel for light from `wi` to `wo`, unit vectors that point away from the surface. Zero unless
-    /// both are above it. Where the expansion is negative, so is the value.
+    /// `f` in 1/sr of each channel for light from `wi` to `wo`, unit vectors that point away from the surface. Zero
+    /// unless both are above it. If the expansion is negative, so is the value.
     pub fn eval(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f64> {
         self.sum(wi, wo, |factor, products, cosine| factor * (products[0] + products[1]) * cosine)
     }
 
-    /// How far each channel may be off in the lanes of a [`Table`](super::Table): they add terms, in `f32`, that may cancel
-    /// each other.
+    /// The largest error of each channel in the lanes of a [`Table`](super::Table), which add terms in `f32` that may
+    /// cancel each other.
     pub fn bound(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f64> {
-        // Near the rim of the disk polynomials are as steep as the square of their order.
+        // Near the rim of the disk, the slope of polynomials is proportional to the square of their order.
         let steepness = (1 + self.order() * self.order()) as f64;
         let term = |factor: f64, products: [f64; 2], _: f64| {
             let [a, b] = products.map(f64::abs);

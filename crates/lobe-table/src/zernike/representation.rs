@@ -1,4 +1,4 @@
-//! What programs need from expansions.
+//! [`Representation`] for expansions.
 
 use std::borrow::Cow;
 use std::f64::consts::PI;

@@ -1,4 +1,4 @@
-//! [`Data`] made ready to be evaluated in SIMD lanes.
+//! [`Data`] prepared for evaluation in SIMD lanes.
 
 use lobe_backend::Backend;
 use lobe_lane::{Floats, Kernel, Lanes};
@@ -21,16 +21,17 @@ const MAX_LANES: usize = 64;
 /// The values are those of [`Data::eval`], in `f32`: `f` in 1/sr, without the cosine. The directions need not be unit
 /// vectors, but their lengths have to be between 1e-15 and 1e15.
 ///
-/// Polynomials are computed from each other as Jacobi polynomials of the squared radius, which loses no digits, and the
-/// cosines of the multiples of the azimuth as powers of a complex number, without an angle.
+/// Polynomials are computed by recurrence as Jacobi polynomials of the squared radius, which loses no digits; the
+/// cosines of the multiples of the azimuth are powers of a complex number, without an angle.
 ///
 /// In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
 pub struct Table {
     channels: Channels,
-    /// The polynomials of each azimuthal order, from order 0 on.
+    /// The polynomials of each azimuthal order, starting with order 0.
     orders: Vec<Order>,
-    /// From a polynomial and the one before it to the next one, for all of an order after the first: see [`Step`].
+    /// The recurrence from a polynomial and the one before it to the next, for all polynomials of an order after the
+    /// first: see [`Step`].
     steps: Vec<Step>,
     /// `[channel]`, then for each azimuthal order the factors of the products `[of wi][of wo]`.
     factors: Vec<f32>,
@@ -42,7 +43,7 @@ struct Order {
     count: usize,
     /// The position of its first step.
     steps: usize,
-    /// The position of its first factor in those of a channel.
+    /// The position of its first factor among those of a channel.
     factors: usize,
 }
 
@@ -55,7 +56,7 @@ struct Step {
 }
 
 impl Step {
-    /// From the Jacobi polynomials `P^(0, l)` of degree `k - 1` and `k - 2` to the one of degree `k`.
+    /// The step from the Jacobi polynomials `P^(0, l)` of degree `k - 1` and `k - 2` to the one of degree `k`.
     fn new(l: usize, k: usize) -> Self {
         let (l, k) = (l as f64, k as f64);
         let (slope, offset, before) = match k {
@@ -122,7 +123,7 @@ impl Table {
     /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[query * channels + channel]`.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+    /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times the number of channels.
     pub fn batch<'a>(
         &'a self,
         wi: Directions<'a>,

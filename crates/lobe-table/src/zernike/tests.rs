@@ -1,4 +1,4 @@
-//! What expansions must be whatever their terms are.
+//! Properties of expansions with any terms.
 
 use std::f64::consts::PI;
 
@@ -15,7 +15,7 @@ fn direction(theta: f64, phi: f64) -> [f64; 3] {
 }
 
 #[test]
-fn polynomials_are_those_of_zernike() {
+fn polynomials_match_their_definition() {
     for rho in [0.0, 0.3, 0.8, 1.0_f64] {
         let square = rho * rho;
         assert!((radial(2, 0, rho) - (2.0 * square - 1.0)).abs() < 1e-15);

@@ -10,7 +10,7 @@ use rand_pcg::Pcg32;
 /// Not a multiple of any number of lanes, and more than one block.
 const COUNT: usize = 203;
 
-/// A smooth table whose knots leave out both ends of sigma and theta, so that policies count.
+/// A smooth table whose knots leave out both ends of sigma and theta, so that policies matter.
 fn samples(psi: usize, channels: Channels) -> specular::Data {
     let knots = |count: usize, from: f64, to: f64| -> Vec<f64> {
         (0..count).map(|i| from + (to - from) * (i as f64 / (count - 1).max(1) as f64).powf(1.3)).collect()
@@ -31,7 +31,7 @@ fn samples(psi: usize, channels: Channels) -> specular::Data {
     specular::Data::new(Scatter::Reflection, knots, channels, values).expect("a valid table")
 }
 
-/// Points in all of the table and outside it; the first eight have an angle that is not finite.
+/// Points throughout the table and outside it; the first eight have an angle that is not finite.
 fn angles() -> [Vec<f32>; 4] {
     let mut rng = Pcg32::seed_from_u64(3);
     let mut angles = [FRAC_PI_2, TAU, PI, TAU].map(|end| {
@@ -63,7 +63,7 @@ fn compare(samples: &specular::Data, edges: &Edges, angles: &[Vec<f32>; 4], out:
     for (query, texel) in out.chunks_exact(channels).enumerate() {
         let at = angles.each_ref().map(|angles| f64::from(angles[query]));
         let mut expected = vec![0.0; channels];
-        // If there is one psi knot, psi is not read, so it may be anything.
+        // With one psi knot, psi is not read, so it may have any value.
         let at = if anisotropic { at } else { [at[0], 0.0, at[2], at[3]] };
         if at.iter().all(|angle| angle.is_finite()) {
             reference::eval_angles(samples, edges, at, &mut expected);
@@ -75,7 +75,7 @@ fn compare(samples: &specular::Data, edges: &Edges, angles: &[Vec<f32>; 4], out:
 }
 
 #[test]
-fn values_at_angles_are_those_of_the_reference() {
+fn values_at_angles_agree_with_the_reference() {
     for psi in [1, 5] {
         for channels in [Channels::Mono, Channels::Rgb, Channels::Named((0..9).map(|i| format!("band {i}")).collect())]
         {

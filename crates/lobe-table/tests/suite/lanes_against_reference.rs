@@ -1,4 +1,4 @@
-//! Evaluation in lanes against the `f64` reference, for every layout, edge policy and way to search.
+//! Evaluation in lanes against the `f64` reference, for every layout, edge policy and kind of search.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -11,8 +11,8 @@ use lobe_table::{
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
-/// Smooth in all angles, so that an error in an angle is an error of the same size in the value, with equal values around
-/// each pole, and negative in places.
+/// A function that is smooth in all angles, so that an error in an angle causes an error of the same size in the value;
+/// it has equal values around each pole, and is negative in places.
 fn smooth(knots: [Vec<f64>; 4], channels: Channels, scatter: Scatter) -> specular::Data {
     let mut values = Vec::new();
     for sigma in &knots[0] {
@@ -56,7 +56,7 @@ fn directions(count: usize) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
     (wi, wo)
 }
 
-/// Where a table is evaluated.
+/// The backend or lanes on which a table is evaluated.
 trait Machine: Copy {
     fn name(self) -> String;
 
@@ -85,7 +85,7 @@ impl Machine for Backend {
     }
 }
 
-/// Lanes that are no backend, which take the kernels themselves.
+/// Lanes that are not a backend, which run the kernels directly.
 #[derive(Clone, Copy)]
 struct Emulated<L>(L);
 
@@ -173,7 +173,7 @@ fn check_stored(
         };
         let (wi, wo) = (exact(wi[query]), exact(wo[query]));
         reference::eval(samples, edges, wi, wo, &mut expected);
-        // If the ends of phi are not joined, a hair to either side of 0 gives one end's value or the other's.
+        // If the ends of phi are not joined, an angle just to either side of 0 gives the value of one end or the other.
         let [.., phi] = coords::directions_to_angles(wi, wo, |sigma| reference::zenith(samples, edges, sigma));
         if edges.axes[3] != Edge::Periodic && phi.min(TAU - phi) < 1e-6 {
             continue;
@@ -210,7 +210,7 @@ fn check_all(machine: impl Machine) {
             ];
             let samples = smooth(turning, colour, Scatter::Reflection);
             check(machine, &samples, &edges, &format!("{policy} {channels} anisotropic"));
-            // Weights add up to 1, so an interpolated value errs no more than a stored one: by 2^-11 of it.
+            // Weights add up to 1, so an interpolated value has no larger error than a stored one: 2^-11 of it.
             let half = 2e-5 + 1.0 / 2048.0;
             check_stored(machine, &samples, &edges, Precision::Half, half, &format!("{policy} {channels} half"));
         }

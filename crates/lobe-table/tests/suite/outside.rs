@@ -1,4 +1,4 @@
-//! Angles far outside, and NaN, neither reach a wrong cell nor spoil a value.
+//! Angles far outside, and NaN, do not reach a wrong cell or spoil a value.
 
 use std::f64::consts::{PI, TAU};
 
@@ -24,9 +24,9 @@ fn queries_far_outside_belong_to_the_outermost_cells() {
     }
 }
 
-/// A cell so narrow that one over its width is no `f32`.
+/// A cell so narrow that the inverse of its width overflows `f32`.
 #[test]
-fn knots_as_close_as_denormals_give_numbers() {
+fn knots_as_close_as_denormals_give_finite_values() {
     let axis = Axis::new(&[0.0, 1e-40, 1.0, 1.5], Edge::Clamp).unwrap();
     for x in [0.0, 1e-40, 0.5] {
         let (_, [low, high]) = axis.weights(LANES, LANES.splat(x));
@@ -34,9 +34,9 @@ fn knots_as_close_as_denormals_give_numbers() {
     }
 }
 
-/// With every channel layout, and with a zenith that is computed and so is finite even if wi is not.
+/// With every channel layout, and with a computed zenith, which is finite even if wi is not.
 #[test]
-fn directions_that_are_none_give_zero() {
+fn invalid_directions_give_zero() {
     let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
     for channels in [1, 3, 9] {
         for scatter in [Scatter::Reflection, Scatter::Transmission] {

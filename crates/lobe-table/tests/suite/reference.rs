@@ -1,4 +1,4 @@
-//! The reference evaluation: policies at the edges, the horizon, and what degenerate input gives.
+//! The reference evaluation: policies at the edges, the horizon, and degenerate input.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -30,7 +30,7 @@ fn all(edge: Edge) -> Edges {
     Edges { axes: [edge; 4], non_negative: false }
 }
 
-/// A function that is linear in each angle is reproduced exactly, up to the f32 of the stored values.
+/// A function that is linear in each angle is reproduced exactly, up to the rounding of stored values to `f32`.
 #[test]
 fn multilinear_functions_are_exact_between_the_knots() {
     let knots: [&[f64]; 4] = [&[0.0, 0.1, 0.9, 1.5], &[0.0, 2.0, 5.0], &[0.0, 0.02, 0.1, 3.0], &[0.0, 1.0, TAU]];
@@ -70,7 +70,7 @@ fn an_axis_with_one_knot_is_constant_whatever_its_policy() {
 
 #[test]
 fn a_periodic_axis_closes_its_gap() {
-    // Knots 0.5, 2 and 5: the gap from 5 to 0.5 + 2 pi is a cell of its own.
+    // Knots 0.5, 2 and 5: the gap from 5 to 0.5 + 2 pi is another cell.
     let open = table([&[0.0], &[0.0], &[0.0], &[0.5, 2.0, 5.0]], |[.., h]| h);
     let phi = |h| at(&open, &all(Edge::Periodic), [0.0, 0.0, 0.0, h]);
     let gap = 0.5 + TAU - 5.0;
@@ -88,7 +88,7 @@ fn a_periodic_axis_closes_its_gap() {
 }
 
 #[test]
-fn negative_results_are_kept_or_cut() {
+fn negative_results_are_kept_or_clamped() {
     let line = table([&[0.0, 1.0], &[0.0], &[0.0], &[0.0]], |[s, ..]| 1.0 - 2.0 * s);
     assert_eq!(at(&line, &Edges::default(), [1.0, 0.0, 0.0, 0.0]), 0.0);
     assert_eq!(at(&line, &Edges::extrapolate(), [1.0, 0.0, 0.0, 0.0]), -1.0);
@@ -114,7 +114,7 @@ fn reflection_is_zero_at_and_below_the_horizon() {
 }
 
 #[test]
-fn transmission_takes_either_side() {
+fn transmission_accepts_either_side() {
     let flat = specular::Data::new(
         Scatter::Transmission,
         [vec![0.0], vec![0.0], vec![0.0], vec![0.0]],
@@ -151,7 +151,7 @@ fn refraction_offsets_move_the_zenith() {
     assert!((zenith(&samples, &edges, 1.5) - 1.1).abs() < 1e-15, "the offset is clamped with sigma");
     assert!((zenith(&samples, &Edges::extrapolate(), 1.5) - 0.9).abs() < 1e-15);
     assert!(zenith(&samples, &edges, FRAC_PI_2) <= FRAC_PI_2);
-    // The peak, at theta 0, lies along the refracted ray.
+    // The peak, at theta 0, is along the refracted ray.
     let (wi, wo) = angles_to_directions([0.5, 0.0, 0.0, 0.0], |_| 0.3);
     let mut out = [0.0];
     eval(&samples, &edges, wi, [wo[0], wo[1], -wo[2]], &mut out);

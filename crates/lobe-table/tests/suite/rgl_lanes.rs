@@ -8,8 +8,8 @@ use lobe_table::{Channels, Directions};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
-/// Smooth along u.x, and with equal ends along u.y, so that an error of a position is an error of the same size in the
-/// value; from `low` up.
+/// An image that is smooth along u.x, with equal ends along u.y, so that an error in a position causes an error of the
+/// same size in the value; its values start at `low`.
 fn images(part: &'static str, [slices, height, width]: [usize; 3], low: f32) -> Images {
     let mut texels = Vec::new();
     for slice in 0..slices {
@@ -45,7 +45,7 @@ fn material(phi_i: &[f32], theta_i: &[f32], channels: usize, jacobian: bool) -> 
     .expect("a valid material")
 }
 
-/// Directions of all kinds: every quadrant, the normal, the mirror direction, below the surface, and no directions.
+/// Directions of all kinds: every quadrant, the normal, the mirror direction, below the surface, and invalid ones.
 fn directions(count: usize) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
     let mut rng = Pcg32::seed_from_u64(18);
     let mut any = || loop {
@@ -84,7 +84,7 @@ const NOTHING: std::ops::Range<usize> = 10..38;
 /// Not a multiple of any number of lanes, and more than one block.
 const COUNT: usize = 331;
 
-/// `f`, `f cos` and densities, which must not depend on what is requested together; and directions drawn, with their
+/// `f`, `f cos` and densities, which must not depend on what is requested together; and drawn directions, with their
 /// densities and weights.
 fn evaluate(backend: Backend, table: &rgl::Table) -> [Vec<f32>; 6] {
     let (wi, wo) = directions(COUNT);
@@ -137,7 +137,7 @@ fn bits(values: &[f32]) -> Vec<u32> {
     values.iter().map(|x| x.to_bits()).collect()
 }
 
-/// What is drawn, and what its weights are.
+/// Checks drawn directions and their weights.
 fn check_draws(rgl: &rgl::Data, [.., wo, pdf, weights]: &[Vec<f32>; 6], clamp: bool, name: &str) {
     let reference = Reference::new(rgl).clamp_negative(clamp);
     let channels = rgl.parts().channels.count();
@@ -149,7 +149,7 @@ fn check_draws(rgl: &rgl::Data, [.., wo, pdf, weights]: &[Vec<f32>; 6], clamp: b
             reference.sample(wi, uniform.map(f64::from), UniformOrder::Pbrt)
         });
         let Some(sample) = found.flatten() else {
-            // A direction along the surface may lie on either side of it.
+            // A direction along the surface may be on either side of it.
             if wo[2] > 1e-5 || pdf[query] > 0.0 && wo[2] == 0.0 {
                 panic!("{name} {query}: drawn {wo:?}");
             }
@@ -178,7 +178,7 @@ fn unit(w: [f32; 3]) -> [f64; 3] {
     w.map(|x| x / length)
 }
 
-/// Values and densities.
+/// Checks values and densities.
 fn check(rgl: &rgl::Data, [f, cos, pdf, ..]: &[Vec<f32>; 6], clamp: bool, name: &str) {
     let reference = Reference::new(rgl).clamp_negative(clamp);
     let channels = rgl.parts().channels.count();
@@ -196,7 +196,7 @@ fn check(rgl: &rgl::Data, [f, cos, pdf, ..]: &[Vec<f32>; 6], clamp: bool, name: 
         reference.eval(wi, wo, &mut expected);
         reference.eval_cos(wi, wo, &mut expected_cos);
         let density = [reference.pdf(wi, wo)];
-        // The spectra have both signs, so what they sum up to is as exact as they are; f is that divided by the cosine.
+        // The spectra have both signs, so the error of their sum is absolute; f is that sum divided by the cosine.
         let pairs = f[at.clone()].iter().zip(&expected).map(|pair| (pair, 1.0 / wo[2]));
         let pairs = pairs.chain(cos[at].iter().zip(&expected_cos).map(|pair| (pair, 1.0)));
         for ((got, expected), unit) in pairs.chain(pdf[query..=query].iter().zip(&density).map(|pair| (pair, 1.0))) {
@@ -238,7 +238,7 @@ const THETA_I: [f32; 4] = [0.0, 0.4, 1.0, 1.5];
 fn isotropic_materials() {
     check_all(&[0.0], &THETA_I);
     check_all(&[0.0], &[0.3]);
-    // Two azimuths are blended, and yet the material turns with the light.
+    // Two azimuths are blended, but the material still turns with the light.
     check_all(&[-PI, PI], &THETA_I);
 }
 
@@ -249,7 +249,7 @@ fn anisotropic_materials() {
 }
 
 #[test]
-fn materials_of_which_a_part_is_stored() {
+fn materials_with_reduced_azimuths() {
     check_all(&[-PI, -1.0, 0.0], &THETA_I);
     check_all(&[-PI, -2.0, -FRAC_PI_2], &THETA_I);
 }

@@ -1,5 +1,5 @@
-//! Importance sampling of tables: every way of asking, on every backend. That samples follow their density is tested
-//! for all materials together, in the crate `lobe`.
+//! Importance sampling of tables: every entry point, on every backend. The crate `lobe` tests, for all materials
+//! together, that samples follow their density.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -20,7 +20,7 @@ fn fixture(name: &str) -> specular::Data {
     }
 }
 
-/// A table of noise on knots that are not even.
+/// A table of noise on uneven knots.
 fn random(seed: u64, [sigma, psi, theta, phi]: [usize; 4], channels: Channels, scatter: Scatter) -> specular::Data {
     let mut rng = Pcg32::seed_from_u64(seed);
     let mut knots = |count: usize, last: f64| {
@@ -76,7 +76,7 @@ fn incidents() -> Vec<[f32; 3]> {
     incidents
 }
 
-/// specular::Data and densities of one table, whatever the backend.
+/// Samples and densities of one table, on any backend.
 struct Run {
     directions: Vec<[f32; 3]>,
     weights: Vec<f32>,
@@ -100,7 +100,7 @@ fn numbers(seed: u64, count: usize) -> Vec<[f32; 2]> {
     (0..count).map(|_| [rng.random(), rng.random()]).collect()
 }
 
-/// One sample and one density in the last lane only.
+/// One sample and one density, in the last lane only.
 struct OneLane<'a>(&'a Sampler, Given, [f32; 3], [f32; 2], &'a mut [f32]);
 
 impl Kernel for OneLane<'_> {
@@ -191,14 +191,14 @@ fn check_ways(backend: Backend) {
                 drawn += 1;
                 agree += usize::from((pdf - again).abs() <= 2e-3 * pdf);
             }
-            // At the edge of a cell, and near light that skims the surface, rounding may lead to another cell.
-            assert!(agree + 12 > drawn, "{name} {given:?}: {agree} of {drawn} densities are found again");
+            // At the edge of a cell, and for light that skims the surface, rounding may lead to another cell.
+            assert!(agree + 12 > drawn, "{name} {given:?}: {agree} of {drawn} densities are reproduced");
         }
     }
 }
 
 #[test]
-fn lanes_draw_what_the_f64_reference_draws() {
+fn lanes_draw_like_the_f64_reference() {
     for (name, samples) in tables() {
         let sampler = sampler(&samples);
         let (known, u) = (incidents(), numbers(9, 4_000));
@@ -213,8 +213,8 @@ fn lanes_draw_what_the_f64_reference_draws() {
             let found = drawn.directions[query].map(f64::from);
             let distance = (0..3).map(|i| (found[i] - direction[i]).powi(2)).sum::<f64>().sqrt();
             let density = (f64::from(drawn.pdfs[query]) / pdf - 1.0).abs();
-            // At the edge of a cell rounding leads to the other cell, and phi changes fast if the light skims the
-            // surface.
+            // At the edge of a cell, rounding may lead to the neighbouring cell, and phi changes fast if the light
+            // skims the surface.
             apart += usize::from(distance > 2e-3 || density > 2e-3);
         }
         assert!(apart < u.len() / 100, "{name}: {apart} of {} samples", u.len());
@@ -227,14 +227,14 @@ fn batches_single_queries_and_lanes_agree() {
 }
 
 #[test]
-fn strict_samples_are_the_same_bits_on_every_backend() {
+fn strict_samples_have_the_same_bits_on_every_backend() {
     for (name, samples) in tables() {
         let table = Arc::new(specular::Table::new(&samples, &Edges::default()).unwrap());
         let options = SamplerOptions::default();
         let (known, u) = hostile(5_003);
         let mut expected = Vec::new();
         for backend in Backend::available() {
-            // Built on the backend that samples, so that building is compared too.
+            // Built on the backend that samples, so that building is also compared.
             let sampler = Sampler::new(backend, table.clone(), &options).unwrap();
             for given in [Given::Light, Given::Viewer] {
                 let got = run(backend.strict(), &sampler, given, &known, &u);
@@ -265,21 +265,21 @@ fn the_density_is_positive_wherever_the_table_is() {
             let wo = [wo[0], wo[1], if through { -wo[2] } else { wo[2] }];
             sampler.table().eval(Backend::scalar(), incident, wo, &mut f);
             let pdf = sampler.pdf(Backend::scalar(), Given::Light, incident, wo);
-            // A cosine is a twentieth of each slice; a cell holds its mean.
+            // A cosine distribution is a twentieth of each slice; a cell has its mean.
             assert!(pdf > 1e-3 * wo[2].abs(), "{name}: {pdf} from {incident:?} to {wo:?}, f {f:?}");
         }
     }
 }
 
 #[test]
-fn a_black_table_is_sampled_as_a_cosine() {
+fn a_black_table_is_sampled_by_the_cosine() {
     let black = random(1, [3, 1, 4, 5], Channels::Mono, Scatter::Reflection);
     let black = specular::Data::new(Scatter::Reflection, black.knots().clone(), Channels::Mono, vec![0.0; 60]).unwrap();
     let sampler = sampler(&black);
     let u = numbers(4, 100_000);
     let sampled = run(Backend::scalar(), &sampler, Given::Light, &vec![direction(40.0, 0.0); u.len()], &u);
     assert!(sampled.weights.iter().all(|&weight| weight == 0.0));
-    // The mean of the cosine under a density in proportion to it is 2/3.
+    // The mean cosine under a density proportional to the cosine is 2/3.
     let mean = sampled.directions.iter().map(|w| f64::from(w[2])).sum::<f64>() / u.len() as f64;
     assert!((mean - 2.0 / 3.0).abs() < 0.02, "mean cosine {mean}");
 }
@@ -306,7 +306,7 @@ fn progress_ends_with_all_slices() {
 }
 
 #[test]
-fn options_that_make_no_sense_are_refused() {
+fn invalid_options_are_refused() {
     let table = Arc::new(specular::Table::new(&fixture("conductor-7x8x13.ddr"), &Edges::default()).unwrap());
     for defensive in [0.0, -0.1, 1.1, f32::NAN] {
         let options = SamplerOptions { defensive, ..SamplerOptions::default() };

@@ -9,7 +9,7 @@ fn direction(theta: f64, phi: f64) -> [f64; 3] {
     [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
 }
 
-/// A value for each of the four angles that is linear in both polar angles.
+/// A function of the four angles that is linear in both polar angles.
 fn f([theta_i, phi_i, theta_o, phi_o]: [f64; 4]) -> f32 {
     (1.0 + theta_i + 0.5 * theta_o * (phi_o - phi_i).cos() + 0.2 * theta_i * (2.0 * phi_i).cos()) as f32
 }
@@ -31,7 +31,7 @@ fn samples(azimuths: &[f64]) -> Vec<[f64; 4]> {
 }
 
 #[test]
-fn a_grid_is_exact_at_its_knots_and_goes_round() {
+fn a_grid_is_exact_at_its_knots_and_periodic() {
     let knots = [steps(4, 1.2), steps(9, TAU)[..8].to_vec(), steps(5, FRAC_PI_2), steps(13, TAU)[..12].to_vec()];
     let mut values = Vec::new();
     for &theta_i in &knots[0] {
@@ -46,7 +46,7 @@ fn a_grid_is_exact_at_its_knots_and_goes_round() {
     for angles in [[0.4, TAU / 8.0, FRAC_PI_2 / 4.0, TAU / 12.0], [1.2, -TAU / 8.0, FRAC_PI_2 / 2.0, -TAU / 12.0]] {
         assert!((at(angles) - f(angles)).abs() < 1e-6, "{angles:?}");
     }
-    // Half-way over the seam, in both azimuths.
+    // Halfway across the seam, in both azimuths.
     let (a, b) = ([0.4, -TAU / 16.0, FRAC_PI_2 / 2.0, 0.0], [0.4, 0.0, FRAC_PI_2 / 2.0, -TAU / 24.0]);
     let mean = |low: [f64; 4], high: [f64; 4]| 0.5 * (f(low) + f(high));
     assert!((at(a) - mean([0.4, 7.0 * TAU / 8.0, a[2], 0.0], [0.4, 0.0, a[2], 0.0])).abs() < 1e-6);
@@ -108,7 +108,7 @@ fn bad_grids_are_refused() {
 }
 
 #[test]
-fn scattered_samples_come_back_and_lie_between_each_other() {
+fn scattered_samples_are_reproduced_and_interpolated() {
     for azimuths in [vec![0.3], steps(13, TAU)] {
         let angles = samples(&azimuths);
         let values: Vec<f32> = angles.iter().map(|&a| f(a)).collect();
@@ -116,7 +116,7 @@ fn scattered_samples_come_back_and_lie_between_each_other() {
         assert_eq!(data.is_isotropic(), azimuths.len() == 1);
         let (mut at_samples, mut between) = (0.0_f32, 0.0_f32);
         for &[theta_i, phi_i, theta_o, phi_o] in angles.iter().step_by(3) {
-            // At the pole of incidence no direction has an azimuth.
+            // At the pole of incidence, no direction has an azimuth.
             if theta_o > 1.5 || theta_i == 0.0 {
                 continue;
             }
@@ -175,8 +175,8 @@ fn bad_samples_are_refused() {
     assert_eq!(angle, ScatteredError::Angle { name: "theta_o", sample: 1, angle: 1.6 });
 }
 
-/// Zero, a turn, and what rounding leaves below it are one azimuth; so are all azimuths so near to the pole that they
-/// hardly differ in direction.
+/// Zero, a turn, and an angle that rounding leaves just below it are the same azimuth; so are all azimuths so near the
+/// pole that the directions hardly differ.
 #[test]
 fn azimuths_have_no_seam() {
     for [a, b] in [[0.0, -1e-18], [0.0, TAU - 1e-9], [1.0, 1.0 + TAU], [0.5, 0.5 - 3.0 * TAU]] {

@@ -12,7 +12,7 @@ use crate::rgl::data::LEAST_AREA;
 /// `1 / (2 pi)`.
 const TURNS_PER_RADIAN: f32 = 0.5 * FRAC_1_PI;
 
-/// What is known of `wi`.
+/// The angles and the position of `wi`.
 pub(super) struct Incident {
     /// Zenith angle and azimuth in radians.
     pub(super) theta: Column,
@@ -27,8 +27,7 @@ impl Incident {
 }
 
 /// Zenith angle and azimuth of `wi` in radians, and its position on the unit square, from the frame of queries `0..n`.
-///
-/// Unless `azimuthal`, the azimuth is not computed, and nothing may depend on it.
+/// If not `azimuthal`, the azimuth is not computed, and nothing may depend on it.
 #[inline(always)]
 pub(super) fn incident<L: Lanes>(lanes: L, n: usize, azimuthal: bool, frame: &Frame, incident: &mut Incident) {
     let mut query = 0;
@@ -66,13 +65,13 @@ pub(super) fn half<L: Lanes>(lanes: L, n: usize, frame: &Frame, u_m: &mut [Colum
     }
 }
 
-/// The zenith angle in radians, all its digits near the pole: `1 - cos = sin^2 / (1 + cos)`.
+/// The zenith angle in radians, with full precision near the pole: `1 - cos = sin^2 / (1 + cos)`.
 #[inline(always)]
 fn zenith<L: Lanes>(lanes: L, cos: L::F, sin2: L::F) -> L::F {
     lobe_math::acos_from(lanes, cos, sin2 / (lanes.splat(1.0) + cos))
 }
 
-/// From the density of the half vector on the unit square to that of `wo` over solid angle, as a divisor, with the lower
+/// The divisor from the density of the half vector on the unit square to that of `wo` over solid angle, with the lower
 /// bound [`LEAST_AREA`] at the pole of the half vector.
 #[inline(always)]
 pub(super) fn jacobian<L: Lanes>(lanes: L, cos_d: L::F, u_x: L::F, sin_m: L::F) -> L::F {

@@ -12,7 +12,7 @@ use crate::passes::block::registers;
 use crate::passes::blocks::{Blocks, Blockwise};
 use crate::passes::pairs::{PairPadding, PairScratch};
 
-/// What to compute for each pair of directions, and where to put it.
+/// The quantities to compute for each pair of directions, and their outputs.
 #[derive(Debug)]
 pub enum Wanted<'a> {
     /// `f` in 1/sr, without the cosine: `[query][channel]`.
@@ -39,7 +39,7 @@ impl<'a> Wanted<'a> {
     }
 }
 
-/// What is wanted, one by one.
+/// The requested quantities, one by one.
 struct Parts<'a> {
     values: Option<&'a mut [f32]>,
     /// Whether values keep the cosine.
@@ -51,7 +51,7 @@ impl Table {
     /// Evaluates `f` in 1/sr of many pairs on a backend: `out[query * channels + channel]`.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo`, or `out` is not that many times the channels long.
+    /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times the number of channels.
     pub fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
         self.evaluate(backend, wi, wo, Wanted::Values(out));
     }
@@ -59,7 +59,7 @@ impl Table {
     /// The density over solid angle, 1/sr, with which `wo` is sampled for `wi`, for many pairs on a backend.
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo` and elements in `out`.
+    /// If the lengths of `wi`, `wo` and `out` differ.
     pub fn pdf_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
         self.evaluate(backend, wi, wo, Wanted::Pdf(out));
     }
@@ -67,13 +67,13 @@ impl Table {
     /// Evaluates `f` in 1/sr of one pair into `out`, one value per channel, on a backend.
     ///
     /// # Panics
-    /// If `out` is not as long as there are channels.
+    /// If the length of `out` is not the number of channels.
     pub fn eval(&self, backend: Backend, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]) {
         self.eval_batch(backend.narrow(), (&[wi]).into(), (&[wo]).into(), out);
     }
 
-    /// Evaluates whatever is wanted of many pairs on a backend. Values and densities together take less time than one after
-    /// the other.
+    /// Evaluates the wanted quantities for many pairs on a backend. Computing values and densities together takes less
+    /// time than one after the other.
     ///
     /// # Panics
     /// As [`batch`](Self::batch).
@@ -84,7 +84,7 @@ impl Table {
     /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`].
     ///
     /// # Panics
-    /// If there are not as many `wi` as `wo`, or a slice in `wanted` is not as long as that requires.
+    /// If the numbers of `wi` and `wo` differ, or a slice in `wanted` does not have the required length.
     pub fn batch<'a>(
         &'a self,
         wi: Directions<'a>,

@@ -1,7 +1,7 @@
-//! Uniform positions to positions that have the density of a [`Warp`].
+//! From uniform positions to positions with the density of a [`Warp`].
 //!
-//! A search is a chain of loads, each waiting for the one before: one step of it is taken in all queries of a block before
-//! the next.
+//! A search is a chain of loads, each of which waits for the one before; so each step is taken for all queries of a
+//! block before the next step.
 
 use lobe_lane::{Floats, Ints, Lanes};
 
@@ -10,10 +10,11 @@ use super::warp::{Entries, STRIDE, Warp};
 use crate::grid::weights::MAX_CORNERS;
 use crate::passes::block::Column;
 
-/// The open interval: at 0 and 1 rows without density would be chosen.
+/// The open interval: at 0 and 1, rows without density would be chosen.
 const EDGE: f32 = 1.0 / (1 << 24) as f32;
 
-/// Where each query of a block is in its search: an entry of the table, and the first beyond the ones searched.
+/// The state of the search of each query of a block: an entry of the table, and the first entry beyond the search
+/// range.
 struct Search {
     here: Column<i32>,
     end: Column<i32>,
@@ -102,8 +103,8 @@ impl Search {
     }
 }
 
-/// From the rows that were found to the columns to be searched: `u.y` becomes row and fraction in one number, and `u.x` the
-/// integral to be reached in that row.
+/// Goes from the rows that were found to the search of columns: `u.y` becomes row plus fraction, and `u.x` the target
+/// integral in that row.
 #[inline(always)]
 fn turn<L: Lanes, const SLICES: usize>(
     lanes: L,
@@ -140,7 +141,7 @@ fn turn<L: Lanes, const SLICES: usize>(
     }
 }
 
-/// From the coarse texels that were found to the texels between them and the next.
+/// Goes from the coarse texels that were found to the texels between them and the next.
 #[inline(always)]
 fn refine<L: Lanes>(lanes: L, n: usize, warp: &Warp, blend: &Blend, search: &mut Search, place: &Column) {
     let (coarse, fine) = (warp.coarse(), warp.fine());
@@ -158,7 +159,7 @@ fn refine<L: Lanes>(lanes: L, n: usize, warp: &Warp, blend: &Blend, search: &mut
     }
 }
 
-/// From the columns that were found to positions.
+/// Goes from the columns that were found to positions.
 #[inline(always)]
 fn end<L: Lanes, const SLICES: usize>(
     lanes: L,
@@ -191,7 +192,7 @@ fn end<L: Lanes, const SLICES: usize>(
     }
 }
 
-/// A row and a fraction into it from their sum. Both are read back from it, so that a fraction that was rounded up to 1
+/// A row and a fraction into it, from their sum. Both are computed from it, so that a fraction that was rounded up to 1
 /// is at the next row.
 #[inline(always)]
 fn split<L: Lanes>(lanes: L, warp: &Warp, place: L::F) -> (L::I, L::F) {
@@ -199,8 +200,8 @@ fn split<L: Lanes>(lanes: L, warp: &Warp, place: L::F) -> (L::I, L::F) {
     (row, place - row.to_float())
 }
 
-/// The `t` in `[0, 1]` at which the integral from 0 to `t` of a function that goes linearly from `a` at 0 to `b` at 1
-/// is `q`; 0 where there is nothing to integrate. The root is guarded: rounding may make its argument negative.
+/// The `t` in `[0, 1]` at which the integral from 0 to `t` of a linear function with values `a` at 0 and `b` at 1
+/// equals `q`; 0 if the function is 0. The argument of the root is clamped, because rounding may make it negative.
 #[inline(always)]
 fn solve<L: Lanes>(lanes: L, a: L::F, b: L::F, q: L::F) -> L::F {
     let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));

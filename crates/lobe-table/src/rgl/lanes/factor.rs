@@ -8,10 +8,10 @@ use crate::passes::block::Column;
 use crate::rgl::Images;
 use lobe_memory::Storage;
 
-/// Factors of a larger size are cut off: an overflow would turn into NaN if a weight is 0.
+/// Larger factors are clamped: an overflow would become NaN if a weight is 0.
 const LARGEST: f32 = 1e20;
 
-/// One image as cells: the four corners of each side by side, for one load.
+/// One image as cells: the four corners of each cell are adjacent, for one load.
 #[derive(Clone, Debug)]
 struct Cells {
     grid: Grid,

@@ -1,4 +1,4 @@
-//! Directions to what the angles are computed from.
+//! From directions to the quantities from which angles are computed.
 
 use lobe_lane::{Floats, Lanes};
 
@@ -9,18 +9,18 @@ use crate::passes::unit::{FARTHEST, POLE};
 /// The columns that the first pass fills.
 #[derive(Clone, Copy)]
 pub(super) struct Frame {
-    /// x and y of `wi`, moved to the azimuths that are stored; its z and its squared sine.
+    /// x and y of `wi`, moved to the stored azimuths; its z and its squared sine.
     pub(super) wi: [Column; 2],
     pub(super) cos_i: Column,
     pub(super) sin2_i: Column,
-    /// x and y along the azimuth of the half vector; in isotropic materials less the azimuth of `wi`.
+    /// x and y along the azimuth of the half vector; for isotropic materials, minus the azimuth of `wi`.
     pub(super) across: [Column; 2],
     /// The half vector's cosine and squared sine.
     pub(super) cos_m: Column,
     pub(super) sin2_m: Column,
     /// Cosine of the angle between the half vector and either direction.
     pub(super) cos_d: Column,
-    /// What every value is multiplied by so far: 1, or the inverse of the cosine of `wo`.
+    /// The factor of every value so far: 1, or the inverse of the cosine of `wo`.
     pub(super) factor: Column,
     /// All bits set if both directions are finite and above the surface.
     pub(super) valid: Column<i32>,
@@ -40,10 +40,10 @@ impl Frame {
     };
 }
 
-/// The least cosine that is divided by: the inverse of a smaller one would overflow in products.
+/// The smallest cosine to divide by: the inverse of a smaller one would overflow in products.
 const FLATTEST: f32 = 1e-20;
 
-/// What a material says of azimuths.
+/// The treatment of azimuths by a material.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Symmetry {
     pub(super) isotropic: bool,
@@ -51,21 +51,22 @@ pub(super) struct Symmetry {
     pub(super) reduction: u32,
 }
 
-/// A `wi` in each lane, moved to the azimuths that are stored.
+/// A `wi` in each lane, moved to the stored azimuths.
 #[derive(Clone, Copy)]
 pub(super) struct Oriented<L: Lanes> {
-    /// -0.0 if x, or y, of all directions must change sign to get there, and back; +0.0 elsewhere.
+    /// -0.0 if x, or y, of all directions must change sign for this, and back; +0.0 otherwise.
     pub(super) signs: [L::F; 2],
     /// x, y and z.
     pub(super) wi: [L::F; 3],
     /// Squared sine.
     pub(super) sin2: L::F,
-    /// Cosine and sine of the azimuth that a half vector is measured from: 0 unless the material is isotropic.
+    /// Cosine and sine of the azimuth from which half vectors are measured, which is 0 unless the material is
+    /// isotropic.
     pub(super) turn: [L::F; 2],
 }
 
 impl Symmetry {
-    /// Moves `wi` to the azimuths that are stored.
+    /// Moves `wi` to the stored azimuths.
     #[inline(always)]
     pub(super) fn orient<L: Lanes>(self, lanes: L, [x, y, z]: [L::F; 3]) -> Oriented<L> {
         let (zero, one, negative) = (lanes.splat(0.0), lanes.splat(1.0), lanes.splat(-0.0));
@@ -88,9 +89,8 @@ fn every<L: Lanes>(lanes: L, wanted: bool) -> L::M {
     lanes.first_n(if wanted { L::LANES } else { 0 })
 }
 
-/// Fills the frame of queries `0..n` of a block. `n` is a multiple of the lanes.
-///
-/// `cosine` leaves the cosine of `wo` in the values.
+/// Fills the frame of queries `0..n` of a block. `n` is a multiple of the lanes. `cosine` keeps the cosine of `wo` in
+/// the values.
 #[inline(always)]
 pub(super) fn run<L: Lanes>(
     lanes: L,
@@ -109,10 +109,10 @@ pub(super) fn run<L: Lanes>(
         let [ox, oy, oz] = wo.load(lanes, query);
         let (ox, oy) = (ox.mul_sign(signs[0]), oy.mul_sign(signs[1]));
 
-        // The sum of the directions has the digits of a half vector near the normal that a product would lose.
+        // Near the normal, the sum of the directions keeps digits of the half vector that a product would lose.
         let (hx, hy, hz) = (ix + ox, iy + oy, iz + oz);
         let across2 = lanes.mul_add(hx, hx, hy * hy);
-        // The azimuth of a half vector at the normal is 0, before that of `wi` is taken off.
+        // The azimuth of a half vector at the normal is 0, before that of `wi` is subtracted.
         let tilted = pole.lt(across2);
         let (x, y) = (lanes.select(tilted, hx, one), hy.masked(tilted));
         let length2 = lanes.mul_add(hz, hz, across2);

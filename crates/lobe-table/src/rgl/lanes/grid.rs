@@ -1,4 +1,4 @@
-//! Where images lie in memory, and where in them a position on the unit square is.
+//! The layout of images in memory, and the place of a position on the unit square in them.
 
 use lobe_lane::{Floats, Ints, Lanes};
 
@@ -20,7 +20,7 @@ impl Grid {
     /// floats.
     ///
     /// # Errors
-    /// If that is more than the 32-bit index of a lane reaches.
+    /// If that is more than a 32-bit index can address.
     pub(super) fn new(
         part: &'static str,
         images: &Images,
@@ -66,7 +66,7 @@ pub(super) struct Placer<L: Lanes> {
 }
 
 impl<L: Lanes> Placer<L> {
-    /// The cells along x and y that `u`, clamped to the unit square, lies in, and the fractions into them.
+    /// The cells along x and y that contain `u`, clamped to the unit square, and the fractions into them.
     #[inline(always)]
     pub(super) fn cells(&self, lanes: L, u: [L::F; 2]) -> ([L::I; 2], [L::F; 2]) {
         let zero = lanes.splat(0.0);
@@ -76,29 +76,29 @@ impl<L: Lanes> Placer<L> {
         (cells, [x - cells[0].to_float(), y - cells[1].to_float()])
     }
 
-    /// The position on the unit square of a cell and a fraction into it, added up: `axis` 0 is x, 1 is y.
+    /// The position on the unit square of the sum of a cell and a fraction: `axis` 0 is x, 1 is y.
     #[inline(always)]
     pub(super) fn position(&self, axis: usize, place: L::F) -> L::F {
         place / self.cells[axis]
     }
 
-    /// Where the first texel of a cell of the first slice lies.
+    /// The index of the first texel of a cell in the first slice.
     #[inline(always)]
     pub(super) fn texel(&self, cells: [L::I; 2]) -> L::I {
         cells[0] * self.strides[0] + cells[1] * self.strides[1]
     }
 
-    /// Where a slice begins.
+    /// The start of a slice.
     #[inline(always)]
     pub(super) fn slice(&self, slice: L::I) -> L::I {
         slice * self.strides[2]
     }
 }
 
-/// Where the positions `u` of queries `0..n` lie in the images of `grid`.
+/// The places of the positions `u` of queries `0..n` in the images of `grid`.
 #[derive(Clone, Copy)]
 pub(super) struct Places {
-    /// The first texel of the cell in the first slice that counts.
+    /// The first texel of the cell in the first blended slice.
     pub(super) base: Column<i32>,
     /// Fractions into the cell along x and y.
     pub(super) fractions: [Column; 2],

@@ -1,4 +1,4 @@
-//! Positions on the unit square back to the uniform positions that a [`Warp`] samples them from, and densities.
+//! From positions on the unit square back to the uniform positions from which a [`Warp`] samples them, and densities.
 
 use lobe_lane::{Block, Floats, Lanes};
 
@@ -7,7 +7,7 @@ use super::warp::Warp;
 use crate::grid::weights::MAX_CORNERS;
 use crate::passes::block::Column;
 
-/// Which slices a block of queries blends: the first of each, and the weights of all.
+/// The slices that the queries of a block blend: the first of each, and the weights of all.
 #[derive(Clone, Copy)]
 pub(super) struct Blend {
     /// The slice, from 0.
@@ -20,8 +20,8 @@ impl Blend {
     pub(super) const ZERO: Self = Blend { slice: Column::<i32>::ZERO, weights: [Column::<f32>::ZERO; MAX_CORNERS] };
 }
 
-/// The row of a cell and the next, blended: at a fraction between them the density, in cells, at the left and the right
-/// end, and the integral up to the left end.
+/// The row of a cell and the next, blended: at a fraction between them, the density, in cells, at the left and the
+/// right end, and the integral up to the left end.
 #[inline(always)]
 pub(super) fn columns<L: Lanes, const SLICES: usize>(
     lanes: L,
@@ -48,7 +48,7 @@ pub(super) fn columns<L: Lanes, const SLICES: usize>(
     sums
 }
 
-/// The integrals of a row and the next, and of what lies below the row, blended.
+/// The integrals of a row and the next, and the integral below the row, blended.
 #[inline(always)]
 pub(super) fn rows<L: Lanes, const SLICES: usize>(
     lanes: L,
@@ -85,13 +85,13 @@ pub(super) fn slices<L: Lanes, const SLICES: usize>(lanes: L, query: usize, blen
     weights
 }
 
-/// The integral from 0 to `t` of a function that goes linearly from `a` at 0 to `b` at 1.
+/// The integral from 0 to `t` of a linear function with values `a` at 0 and `b` at 1.
 #[inline(always)]
 fn integral<L: Lanes>(lanes: L, a: L::F, b: L::F, t: L::F) -> L::F {
     t * lanes.mul_add(lanes.splat(0.5) * t, b - a, a)
 }
 
-/// What is found by an inversion.
+/// The result of an inversion.
 pub(super) struct Inverse<'a> {
     /// The uniform positions.
     pub(super) s: &'a mut [Column; 2],
@@ -99,7 +99,7 @@ pub(super) struct Inverse<'a> {
     pub(super) density: &'a mut Column,
 }
 
-/// The uniform positions that `u`, at `places`, come from, of queries `0..n`, and the density there.
+/// The uniform positions that map to `u`, at `places`, for queries `0..n`, and the density there.
 #[inline(always)]
 pub(super) fn run<L: Lanes, const SLICES: usize>(
     lanes: L,
@@ -116,7 +116,7 @@ pub(super) fn run<L: Lanes, const SLICES: usize>(
     let ends = warp.ends();
     let scale = lanes.splat(warp.scale);
 
-    // The integral of the row so far, first on its own: the texels of the two loads are far apart.
+    // The integral of the row so far comes first, separately: the texels of the two loads are far apart.
     let mut query = 0;
     while query < n {
         let weights = slices::<L, SLICES>(lanes, query, blend);

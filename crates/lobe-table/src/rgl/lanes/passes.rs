@@ -1,4 +1,4 @@
-//! The passes of a block in their order, and what they hand on.
+//! The passes of a block in order, and their intermediate values.
 
 use lobe_lane::{Floats, Kernel, Lanes, call};
 
@@ -14,7 +14,7 @@ use crate::grid::weights::{self, MAX_CORNERS};
 use crate::passes::block::{BLOCK, Column, registers};
 use crate::passes::pairs::Pairs;
 
-/// What the passes of a block hand on.
+/// The intermediate values of a block.
 pub(super) struct Scratch {
     pub(super) frame: Frame,
     pub(super) incident: Incident,
@@ -43,7 +43,7 @@ impl Scratch {
 }
 
 impl Table {
-    /// The passes that values and densities share: where the queries `0..n` are in the tables.
+    /// The passes shared by values and densities: the places of queries `0..n` in the tables.
     #[inline(always)]
     pub(super) fn locate<L: Lanes, const SLICES: usize>(
         &self,
@@ -62,7 +62,7 @@ impl Table {
         invert::run::<L, SLICES>(lanes, n, &self.vndf, u_m, blend, places, Inverse { s, density });
     }
 
-    /// The density over solid angle of the located queries `0..n`, in place of that of the visible normals.
+    /// The density over solid angle of the located queries `0..n`, which replaces that of the visible normals.
     #[inline(always)]
     pub(super) fn density<L: Lanes, const SLICES: usize>(&self, lanes: L, n: usize, scratch: &mut Scratch) {
         let Scratch { frame, blend, u_m, places, s, density, .. } = scratch;
@@ -78,8 +78,8 @@ impl Table {
     }
 }
 
-/// The slices that queries `0..n` blend; none if they are not `valid`. The angles turn into fractions. Evaluation and
-/// drawing call it, so that it is compiled once.
+/// The slices that queries `0..n` blend; none if they are not `valid`. The angles become fractions. Evaluation and
+/// sampling call this kernel, so that it is compiled once.
 pub(super) struct Slices<'a, const SLICES: usize> {
     pub(super) table: &'a Table,
     pub(super) n: usize,
@@ -112,7 +112,7 @@ impl<const SLICES: usize> Kernel for Slices<'_, SLICES> {
     }
 }
 
-/// The values of the located queries `0..n`. Evaluation and drawing call it, so that it is compiled once.
+/// The values of the located queries `0..n`. Evaluation and sampling call this kernel, so that it is compiled once.
 pub(super) struct Values<'a, const SLICES: usize, const PAIRS: usize, const FOURS: usize> {
     pub(super) table: &'a Table,
     pub(super) n: usize,

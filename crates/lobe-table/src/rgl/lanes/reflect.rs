@@ -1,4 +1,4 @@
-//! From a drawn half vector to the direction that it reflects `wi` to.
+//! From a sampled half vector to the direction into which it reflects `wi`.
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
@@ -10,7 +10,7 @@ use crate::directions::DirectionBlock;
 use crate::passes::block::Column;
 use crate::passes::unit::FARTHEST;
 
-/// `wi` of queries `0..n`: what of the frame does not need `wo`.
+/// `wi` of queries `0..n`: the part of the frame that does not need `wo`.
 #[inline(always)]
 pub(super) fn incident<L: Lanes>(lanes: L, n: usize, wi: DirectionBlock<'_>, symmetry: Symmetry, frame: &mut Frame) {
     let zero = lanes.splat(0.0);
@@ -33,7 +33,7 @@ pub(super) struct Reflected<'a> {
     pub(super) density: &'a mut Column,
 }
 
-/// Directions and densities from the half vectors at `u_m`, in place of the density on the unit square; 0 if a direction
+/// Directions and densities from the half vectors at `u_m`, replacing the density on the unit square; 0 if a direction
 /// is not above the surface. The factor becomes the inverse of the density.
 #[inline(always)]
 pub(super) fn run<L: Lanes>(
@@ -72,5 +72,5 @@ pub(super) fn run<L: Lanes>(
     }
 }
 
-/// The least density that is divided by: the inverse of a smaller one would overflow in products.
+/// The smallest density to divide by: the inverse of a smaller one would overflow in products.
 const LEAST: f32 = 1e-20;

@@ -1,4 +1,4 @@
-//! Drawing many directions.
+//! Sampling many directions.
 
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ use crate::passes::block::{BLOCK, Column, registers};
 use crate::passes::blocks::{Blocks, Blockwise};
 use crate::rgl::UniformOrder;
 
-/// Where drawn directions go. All is 0 for a sample that is not above the surface.
+/// The outputs of sampling. Everything is 0 for a sample that is not above the surface.
 #[derive(Debug)]
 pub struct Drawn<'a> {
     /// The directions.
@@ -29,7 +29,8 @@ impl Table {
     /// Draws a `wo` for each `wi` from two numbers in `[0, 1)`, on a backend.
     ///
     /// # Panics
-    /// If there are not as many `wi` as uniforms, directions and densities, and that many weights per channel.
+    /// If the numbers of `wi`, uniforms, directions and densities differ, or there is not one weight per direction and
+    /// channel.
     pub fn sample_batch(
         &self,
         backend: Backend,
@@ -41,7 +42,7 @@ impl Table {
         backend.run(self.sampling(wi, uniforms, order, drawn));
     }
 
-    /// The drawing of many directions as a kernel, for lanes that are not a [`Backend`].
+    /// The sampling of many directions as a kernel, for lanes that are not a [`Backend`].
     ///
     /// # Panics
     /// As [`sample_batch`](Table::sample_batch).
@@ -61,7 +62,7 @@ impl Table {
     }
 }
 
-/// All draws of a batch, with blends of `SLICES`: `PAIRS` corners of a cell in one dimension, and `FOURS` in two.
+/// All samples of a batch, with blends of `SLICES`: `PAIRS` corners of a cell in one dimension, and `FOURS` in two.
 struct Draws<'a, const SLICES: usize, const PAIRS: usize, const FOURS: usize> {
     table: &'a Table,
     wi: Directions<'a>,
@@ -70,7 +71,7 @@ struct Draws<'a, const SLICES: usize, const PAIRS: usize, const FOURS: usize> {
     drawn: Drawn<'a>,
 }
 
-/// What the passes of draws hand on.
+/// The intermediate values of sampling.
 struct DrawScratch {
     passes: Scratch,
     wo: [Column; 3],
@@ -108,7 +109,7 @@ impl<const SLICES: usize, const PAIRS: usize, const FOURS: usize> Blockwise for 
             query += 1;
         }
         *density = Column([1.0; BLOCK]);
-        // By luminance first, then by the visible normals from there.
+        // First warped by the luminance, and then by the visible normals.
         *u_m = *s;
         let mut step = 0;
         while step < 2 {

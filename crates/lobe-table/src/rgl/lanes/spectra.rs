@@ -1,4 +1,4 @@
-//! The values of a material as texels: what the positions are looked up in last.
+//! The values of a material as texels, which are looked up last.
 
 use lobe_lane::{Block, Lanes};
 
@@ -11,8 +11,8 @@ use crate::passes::block::{BLOCK, Column};
 use crate::rgl::Images;
 use lobe_memory::Storage;
 
-/// Up to this many channels are kept as four floats per texel, so that one load brings two neighbours; more are padded
-/// to eights.
+/// Up to this many channels are stored as four floats per texel, so that one load fetches two neighbours; more are
+/// padded to a multiple of eight.
 const FEW: usize = 3;
 
 /// The spectra, `[azimuth][zenith angle][row][column][channel]`.
@@ -21,17 +21,17 @@ pub(super) struct Spectra {
     pub(super) grid: Grid,
     pub(super) channels: usize,
     texels: Storage<f32>,
-    /// Corners over the slices and the rows; with many channels the columns too.
+    /// Corners over the slices and the rows; with many channels, also over the columns.
     offsets: [usize; MAX_CORNERS],
-    /// What no value is less than.
+    /// The lower bound of values.
     floor: f32,
 }
 
-/// Where the queries of a block are in the spectra.
+/// The places of the queries of a block in the spectra.
 pub(super) struct At<'a> {
     pub(super) places: &'a Places,
     pub(super) blend: &'a Blend,
-    /// What each value is multiplied by.
+    /// The factor of each value.
     pub(super) factor: &'a Column,
 }
 
@@ -62,8 +62,8 @@ impl Spectra {
         Ok(Spectra { grid, channels, texels, offsets, floor })
     }
 
-    /// The values of as many queries as there is room for, `[query][channel]`. `n` is their number rounded up to the lanes.
-    /// `FEW_CORNERS` is twice, and `MANY_CORNERS` four times the `SLICES`.
+    /// The values of as many queries as fit into the output, `[query][channel]`. `n` is their number rounded up to the
+    /// lanes. `FEW_CORNERS` is twice, and `MANY_CORNERS` four times the `SLICES`.
     #[inline(always)]
     pub(super) fn run<L: Lanes, const SLICES: usize, const FEW_CORNERS: usize, const MANY_CORNERS: usize>(
         &self,
@@ -116,7 +116,7 @@ fn corners<L: Lanes, const SLICES: usize, const AXES: usize>(
         while axis < AXES {
             let upper = fractions[axis].load(lanes, query);
             let lower = one - upper;
-            // From the back, so that each product is read before it is overwritten.
+            // Backwards, so that each product is read before it is overwritten.
             let mut end = 1 << axis;
             while end > 0 {
                 end -= 1;

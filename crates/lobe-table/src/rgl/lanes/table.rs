@@ -10,20 +10,19 @@ use crate::grid::edges::Edge;
 use crate::invalid::Invalid;
 use crate::rgl::Data;
 
-/// How a [`Table`] is to be evaluated.
+/// Options for the evaluation of a [`Table`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// Whether values below zero, which the measurements have, become zero. Off by default.
+    /// Whether negative values, which the measurements contain, become zero. Off by default.
     pub clamp_negative: bool,
 }
 
 /// A material of the EPFL database, laid out for evaluation in SIMD lanes.
 ///
 /// `wi` is the direction that the tables are indexed by, `wo` the other one: the same choice as in
-/// [`Reference`](crate::rgl::Reference), with whose values these agree. Both are unit vectors that point away from the
-/// surface, normal on +z. Results are 0 unless both have `z > 0`, and if a component is not finite. Values are `f` in
-/// 1/sr or, where asked for, `f cos(theta_o)`, one for each stored channel; densities are those of sampling `wo` for a
-/// `wi`, in 1/sr.
+/// [`Reference`](crate::rgl::Reference), with which the values agree. Both are unit vectors that point away from the
+/// surface, normal on +z. Results are 0 unless both have `z > 0` and finite components. Values are `f` in 1/sr or, on
+/// request, `f cos(theta_o)`, one per stored channel; densities are those of sampling `wo` for a `wi`, in 1/sr.
 ///
 /// In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
@@ -45,7 +44,7 @@ impl Table {
     /// texel of RGB.
     ///
     /// # Errors
-    /// [`Invalid`] names the part of the material that is larger than the 32-bit index of a lane reaches.
+    /// [`Invalid`] names the part of the material that is too large for a 32-bit index.
     pub fn new(rgl: &Data, options: Options) -> Result<Self, Invalid> {
         let parts = rgl.parts();
         let axis = |part: &'static str, knots: &[f32]| {
@@ -69,12 +68,12 @@ impl Table {
         })
     }
 
-    /// What the channels mean.
+    /// The meaning of the channels.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }
 
-    /// How many channels there are.
+    /// The number of channels.
     pub fn channel_count(&self) -> usize {
         self.spectra.channels
     }
@@ -91,7 +90,7 @@ impl Table {
         axes + self.vndf.bytes() + self.luminance.bytes() + factor + self.spectra.bytes()
     }
 
-    /// Whether slices differ in azimuth, so that a blend has four of them and not two.
+    /// Whether slices differ in azimuth, so that a blend has four slices instead of two.
     pub(super) fn blends_azimuths(&self) -> bool {
         self.phi_i.knots().len() > 1
     }

@@ -7,25 +7,25 @@ use crate::invalid::Invalid;
 use crate::rgl::{Images, marginal};
 use lobe_memory::Storage;
 
-/// Normalised slices: what [`rgl::Warp`](crate::rgl::Warp) is in `f64`.
+/// Normalised slices: the counterpart of [`rgl::Warp`](crate::rgl::Warp) for lanes.
 ///
-/// A blend reads the same texel of two neighbouring zenith angles, and a cell two neighbouring rows. All four lie side by
-/// side, so that a step of a search takes one load of four floats, and what a density needs shares one or two lines of
-/// the cache. The price is that every texel is kept four times.
+/// A blend reads the same texel at two neighbouring zenith angles, and a cell two neighbouring rows. All four are
+/// adjacent, so that a step of a search takes one load of four floats, and the data for a density share one or two
+/// cache lines. The price is that every texel is stored four times.
 #[derive(Clone, Debug)]
 pub(super) struct Warp {
     pub(super) grid: Grid,
     /// For a texel, its slice and row first: the integrals up to it of (this slice, this row), (this slice, next row),
     /// (next slice, this row), (next slice, next row); then their densities.
     texels: Storage<f32>,
-    /// The integrals of every [`STRIDE`]th texel by themselves, four floats each: the first steps of a search stay in a
-    /// table that the second cache holds.
+    /// The integrals of every [`STRIDE`]th texel in a separate table, four floats each, so that the first steps of a
+    /// search stay in the second-level cache.
     coarse: Storage<f32>,
-    /// For a row: the integral of what lies below it in this slice and the next, then its own integral in both.
+    /// For a row: the integral below it in this slice and the next, then its own integral in both.
     rows: Storage<f32>,
-    /// Slices of an azimuth; 0 if there is only one, which is its own neighbour.
+    /// The number of slices per azimuth; 0 if there is only one azimuth, which is its own neighbour.
     zeniths: usize,
-    /// Cells of the unit square: from a density in cells to one on the square.
+    /// The number of cells of the unit square: the factor from a density in cells to one on the square.
     pub(super) scale: f32,
 }
 
@@ -50,25 +50,25 @@ impl Warp {
         let mut nodes = texels.as_mut_slice().chunks_exact_mut(TEXEL);
         let mut ends = rows.as_mut_slice().chunks_exact_mut(ROW);
         for slice in 0..images.slices() {
-            // The last zenith angle has no next.
+            // The last zenith angle has no next one.
             let next = if (slice + 1) % zeniths == 0 { slice } else { slice + 1 };
             for row in 0..height - 1 {
                 for col in 0..width {
                     let corners = [(slice, row), (slice, row + 1), (next, row), (next, row + 1)];
-                    let node = nodes.next().expect("a node a texel");
+                    let node = nodes.next().expect("a node per texel");
                     for (corner, (slice, row)) in corners.into_iter().enumerate() {
                         let [density, integral] = exact.node(slice, row, col);
                         (node[corner], node[4 + corner]) = (integral as f32, density as f32);
                     }
                     if col % STRIDE == 0 && col < width - 1 {
-                        skips.next().expect("a place for some").copy_from_slice(&node[..4]);
+                        skips.next().expect("a place for every coarse texel").copy_from_slice(&node[..4]);
                     }
                 }
             }
             for row in 0..height {
                 let ([this, below], [other, other_below]) = (exact.row(slice, row), exact.row(next, row));
                 let entry = [below, other_below, this, other].map(|x| x as f32);
-                ends.next().expect("an entry a row").copy_from_slice(&entry);
+                ends.next().expect("an entry per row").copy_from_slice(&entry);
             }
         }
         Ok(Warp {
@@ -81,15 +81,15 @@ impl Warp {
         })
     }
 
-    /// For a base at a cell: the integrals at its left, and the densities at its left and right; in its slice, and in that of
-    /// the next azimuth.
+    /// For a base at a cell: the integrals at its left, and the densities at its left and right, in its slice and in
+    /// that of the next azimuth.
     #[inline(always)]
     pub(super) fn cells(&self) -> [Block<'_, 3, 4>; 2] {
         let (texels, next) = (self.texels.as_slice(), self.zeniths * self.grid.strides[2]);
         [Block::new(texels, [0, 4, TEXEL + 4]), Block::new(texels, [next, next + 4, next + TEXEL + 4])]
     }
 
-    /// For a base at a row: that row and the next; in its slice, and in that of the next azimuth.
+    /// For a base at a row: that row and the next, in its slice and in that of the next azimuth.
     #[inline(always)]
     pub(super) fn rows(&self) -> [Block<'_, 2, 4>; 2] {
         let (rows, next) = (self.rows.as_slice(), self.zeniths * (self.grid.cells[1] + 1) * ROW);
@@ -129,17 +129,17 @@ impl Warp {
     }
 }
 
-/// How many of so many columns have a coarse texel.
+/// The number of coarse texels for this many columns.
 #[inline(always)]
 fn coarse_columns(columns: usize) -> usize {
     columns.div_ceil(STRIDE)
 }
 
-/// A table to search: ascending entries of four floats, one behind the other, for each row of each slice.
+/// A table to search: consecutive ascending entries of four floats, for each row of each slice.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entries<'a> {
     floats: &'a [f32],
-    /// Entries that a search chooses from.
+    /// The number of entries that a search chooses from.
     pub(super) count: i32,
     /// Floats from an entry to the next, from a row to the next, from a slice to the next, and to the slice of the next
     /// azimuth.
@@ -150,23 +150,23 @@ pub(super) struct Entries<'a> {
 }
 
 impl<'a> Entries<'a> {
-    /// For a base at an entry: the one so many further; in its slice, and in that of the next azimuth.
+    /// For a base at an entry: the one that many entries later, in its slice and in that of the next azimuth.
     ///
     /// # Panics
-    /// If no slice has so many.
+    /// If no slice has that many.
     #[inline(always)]
     pub(super) fn further(&self, by: i32) -> Block<'a, 2, 4> {
         let further = (by * self.stride) as usize;
         Block::new(self.floats, [further, further + self.azimuth as usize])
     }
 
-    /// Where a slice begins.
+    /// The start of a slice.
     #[inline(always)]
     pub(super) fn of_slice<L: Lanes>(&self, lanes: L, slice: L::I) -> L::I {
         slice * lanes.splat_int(self.slice)
     }
 
-    /// Where a row of a slice begins.
+    /// The start of a row of a slice.
     #[inline(always)]
     pub(super) fn of_row<L: Lanes>(&self, lanes: L, slice: L::I, row: L::I) -> L::I {
         self.of_slice(lanes, slice) + row * lanes.splat_int(self.row)

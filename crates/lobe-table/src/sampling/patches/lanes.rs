@@ -1,7 +1,7 @@
-//! Draws and densities of many directions in SIMD lanes.
+//! Samples and densities of many directions in SIMD lanes.
 //!
-//! A block of draws finds the patches of light first, then takes each step of the search among the sums of a row in all of
-//! its queries, and then finds directions in the patches of viewers.
+//! A block of samples first finds the patches of the light, then takes each step of the search among the sums of a row
+//! for all of its queries, and then finds directions in the patches of the viewer.
 
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
@@ -22,22 +22,23 @@ use crate::window::klems::lanes::{PatchScratch, Patches};
 
 /// Floats per patch of [`Lookup::places`].
 const PLACE: usize = 8;
-/// Where in it the density of a patch that has all light is.
+/// The position there of the density of a patch that has all the light.
 const PER_ANGLE: usize = 6;
 
-/// What finds patches, and directions in them.
+/// Finds patches, and directions in them.
 #[derive(Clone, Debug)]
 pub(super) struct Lookup {
     arriving: Patches,
     leaving: Patches,
-    /// Of each exit patch: where in azimuth it begins and how far it reaches, the same of the squared sine of the polar
-    /// angle and of its squared cosine, which begins at the other end so that small ones keep their digits, and one over
+    /// For each exit patch: the start and the width in azimuth, the same for the squared sine of the polar angle and
+    /// for its squared cosine, which starts at the other end so that small values keep their digits, and the inverse of
     /// the projected solid angle.
     places: Vec<f32>,
 }
 
 impl Lookup {
-    /// `None` if single precision does not distinguish the rings, or a 32-bit index does not reach all pairs of patches.
+    /// `None` if single precision does not distinguish the rings, or a 32-bit index cannot address all pairs of
+    /// patches.
     pub(super) fn new(incident: &AngleBasis, exit: &AngleBasis) -> Option<Self> {
         i32::try_from(incident.patches() * exit.patches()).ok()?;
         let (arriving, leaving) = (Patches::arriving(incident).ok()?, Patches::leaving(exit).ok()?);
@@ -64,8 +65,8 @@ fn squares(degrees: f64) -> [f64; 2] {
 }
 
 impl PatchSampler {
-    /// A direction and its density, 1/sr, for light from each of the `known` directions, on either side, and two numbers in
-    /// `[0, 1)`; zeros if it lies in no patch.
+    /// A direction and its density, 1/sr, for light from each of the `known` directions, on either side, and two
+    /// numbers in `[0, 1)`; zeros if the known direction is in no patch.
     ///
     /// # Panics
     /// If the slices do not have the same length.
@@ -80,7 +81,7 @@ impl PatchSampler {
         backend.run(self.drawing(known, u, directions, pdfs));
     }
 
-    /// The drawing of many directions as a kernel, for lanes that are not a [`Backend`].
+    /// The sampling of many directions as a kernel, for lanes that are not a [`Backend`].
     ///
     /// # Panics
     /// As [`draw_batch`](Self::draw_batch).
@@ -118,7 +119,7 @@ impl PatchSampler {
         Blocks(Densities { sampler: self, known: known.into(), other: other.into(), pdfs })
     }
 
-    /// The integral of luminance times `f` times cosine for light from each direction; 0 if it lies in no patch.
+    /// The integral of luminance times `f` times cosine for light from each direction; 0 if it is in no patch.
     ///
     /// # Panics
     /// If the slices do not have the same length.
@@ -187,10 +188,10 @@ struct Draws<'a> {
     pdfs: &'a mut [f32],
 }
 
-/// What the passes of draws hand on.
+/// The intermediate values of sampling.
 struct DrawScratch {
     light: Place,
-    /// The first sum of a row, and how many patches lie below the number that is looked for.
+    /// The first sum of a row, and the number of patches below the number that is searched for.
     first: Column<i32>,
     cell: Column<i32>,
     below: Column,
@@ -225,7 +226,7 @@ impl Blockwise for Draws<'_> {
         let u = &u[queries.clone()];
         let mut query = 0;
         while query < n {
-            // Beyond the last pair of numbers that pair is read again.
+            // Beyond the last pair of numbers, that pair is read again.
             let [number, other] = lanes.gather_pair(u, lanes.iota() + lanes.splat_int(query as i32));
             numbers.store(lanes, query, number.max(zero).min(lanes.splat(1.0 - f32::EPSILON / 2.0)));
             others.store(lanes, query, other.max(zero).min(one));
@@ -264,7 +265,7 @@ impl Blockwise for Draws<'_> {
             let (sin_phi, cos_phi) = lobe_math::sin_cos(lanes, lanes.mul_add(within, width, begin));
             let other = others.load(lanes, query);
             let across = lanes.mul_add(other, more_sin2, sin2).max(zero).sqrt();
-            // Rounding must not put a direction into the surface.
+            // Rounding must not move a direction into the surface.
             let up = lanes.mul_add(one - other, more_cos2, cos2).max(zero).sqrt().max(lanes.splat(1e-9));
             let valid = light.valid.load(lanes, query).lt(lanes.splat_int(0));
             let side = lanes.splat(same).mul_sign(light.toward[2].load(lanes, query));
@@ -285,7 +286,7 @@ struct Densities<'a> {
     pdfs: &'a mut [f32],
 }
 
-/// What the passes of densities hand on.
+/// The intermediate values of densities.
 struct DensityScratch {
     light: Place,
     viewer: Place,
@@ -330,14 +331,14 @@ impl Blockwise for Densities<'_> {
     }
 }
 
-/// How bright the surface is for many directions.
+/// The brightness of the surface for many directions.
 struct Brightnesses<'a> {
     sampler: &'a PatchSampler,
     known: Directions<'a>,
     out: &'a mut [f32],
 }
 
-/// What the passes of brightnesses hand on.
+/// The intermediate values of brightnesses.
 struct BrightnessScratch {
     light: Place,
     padding: Padding,

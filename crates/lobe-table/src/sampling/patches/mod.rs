@@ -1,9 +1,9 @@
 //! Sampling of Klems matrices: a patch in proportion to the light that leaves through it, and a direction in the patch.
 //!
-//! Values are constant on a pair of patches, so the density is the values' own: in proportion to luminance times `f` times
-//! cosine to the last digit, with a part of a cosine over the whole hemisphere mixed in.
+//! Values are constant on a pair of patches, so the density is exactly proportional to luminance times `f` times
+//! cosine, with a share of a cosine distribution over the whole hemisphere mixed in.
 //!
-//! Batches are drawn in SIMD lanes; one at a time in `f64` is what these are compared with.
+//! Batches are drawn in SIMD lanes; sampling one at a time in `f64` is the reference for them.
 
 #[cfg(feature = "window")]
 mod lanes;
@@ -26,14 +26,14 @@ pub struct PatchSampler {
     sums: Vec<f32>,
     /// Luminance times albedo of each incident patch.
     brightness: Vec<f32>,
-    /// What lanes find patches and directions in them by.
+    /// The tables in which lanes find patches, and directions in them.
     #[cfg(feature = "window")]
     lookup: lanes::Lookup,
 }
 
 impl PatchSampler {
-    /// A sampler of the weighted sum of matrices, one per channel. `None` if their patches are not the same, there are
-    /// none, or single precision does not distinguish their rings.
+    /// A sampler of the weighted sum of matrices, one per channel. `None` if their patches differ, there are none, or
+    /// single precision does not distinguish their rings.
     ///
     /// # Errors
     /// If `defensive`, the part of a cosine, is not in `(0, 1]`.

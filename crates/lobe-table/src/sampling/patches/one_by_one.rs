@@ -1,11 +1,12 @@
-//! Batches without kernels: one draw after the other.
+//! Batches without kernels: one sample after the other.
 
 use lobe_backend::Backend;
 
 use super::PatchSampler;
 
 impl PatchSampler {
-    /// A direction and its density, 1/sr, for light from each of the `known` directions; zeros if it lies in no patch.
+    /// A direction and its density, 1/sr, for light from each of the `known` directions; zeros if the known direction
+    /// is in no patch.
     ///
     /// # Panics
     /// If the slices do not have the same length.

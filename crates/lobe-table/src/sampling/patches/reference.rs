@@ -1,4 +1,4 @@
-//! One draw at a time in `f64`: what lanes are compared with.
+//! One sample at a time in `f64`: the reference for the lanes.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +13,7 @@ impl PatchSampler {
         self.row(wi).map_or(0.0, |row| self.brightness[row])
     }
 
-    /// A direction and its density, 1/sr, for light from `wi` and two numbers in `[0, 1)`; zeros if `wi` lies in no
+    /// A direction and its density, 1/sr, for light from `wi` and two numbers in `[0, 1)`; zeros if `wi` is in no
     /// patch.
     pub fn draw_reference(&self, wi: [f32; 3], [u, w]: [f32; 2]) -> ([f32; 3], f32) {
         let Some(row) = self.row(wi) else { return ([0.0; 3], 0.0) };
@@ -29,14 +29,14 @@ impl PatchSampler {
         let w = f64::from(if w > 0.0 { w.min(1.0) } else { 0.0 });
         let z2 = cos2(ring.lower) + w * (cos2(ring.upper) - cos2(ring.lower));
         let (sin_phi, cos_phi) = (turn * TAU).sin_cos();
-        // Rounding must not put a direction into the surface.
+        // Rounding must not move a direction into the surface.
         let (sin, z) = ((1.0 - z2).max(0.0).sqrt(), z2.max(0.0).sqrt().max(1e-9));
         let side = f64::from(wi[2].signum()) * if self.scatter == Scatter::Reflection { 1.0 } else { -1.0 };
         let direction = [sin * cos_phi, sin * sin_phi, z * side].map(|x| x as f32);
         (direction, (mass / self.exit.projected_solid_angle(patch) * z) as f32)
     }
 
-    /// The density of [`draw_reference`](Self::draw_reference), 1/sr, with which it finds `wo` for light from `wi`.
+    /// The density, 1/sr, with which [`draw_reference`](Self::draw_reference) draws `wo` for light from `wi`.
     pub fn pdf_reference(&self, wi: [f32; 3], wo: [f32; 3]) -> f32 {
         let sides = f64::from(wi[2]) * f64::from(wo[2]);
         if (self.scatter == Scatter::Reflection && sides <= 0.0)

@@ -22,7 +22,7 @@ fn short() -> AngleBasis {
     AngleBasis::new("short", vec![ring(0.0, 20.0, 3), ring(20.0, 40.0, 7), ring(40.0, 70.0, 1)]).expect("a basis")
 }
 
-/// Directions well inside of patches, on both sides, so that rounding does not choose another one.
+/// Directions well inside patches, on both sides, so that rounding does not select another patch.
 fn inside(basis: &AngleBasis, seed: u64) -> Vec<[f32; 3]> {
     let mut rng = Pcg32::seed_from_u64(seed);
     let one = |_| {
@@ -63,7 +63,7 @@ fn check(scatter: Scatter, incident: AngleBasis, exit: AngleBasis) {
             let (direction, pdf) = sampler.draw_reference(known[query], u[query]);
             let off = (0..3).map(|k| (direction[k] - directions[query][k]).abs()).fold(0.0, f32::max);
             assert!(off <= 6e-7, "{query} on {backend}: {:?}, not {direction:?}", directions[query]);
-            // Near the horizon the cosine of a direction is small, and off by as much as others are.
+            // Near the horizon, the cosine of a direction is small, but its absolute error is the same.
             let near = |a: f32, b: f32| (a - b).abs() <= 2e-6 * b + 1e-7;
             assert!(near(pdfs[query], pdf), "{query} on {backend}: {}, not {pdf}", pdfs[query]);
             let density = sampler.pdf_reference(known[query], other[query]);
@@ -86,7 +86,7 @@ fn check(scatter: Scatter, incident: AngleBasis, exit: AngleBasis) {
 }
 
 #[test]
-fn lanes_draw_as_the_reference_does() {
+fn lanes_draw_like_the_reference() {
     for scatter in [Scatter::Reflection, Scatter::Transmission] {
         check(scatter, AngleBasis::full(), AngleBasis::full());
         check(scatter, AngleBasis::half(), short());

@@ -16,16 +16,16 @@ use crate::passes::unit::spherical;
 #[derive(Clone, Debug)]
 pub(crate) struct Patches {
     basis: AngleBasis,
-    /// -1 if the reverse of a direction in the plane of the surface is looked up, else 1.
+    /// -1 if the direction is reversed in the plane of the surface before the lookup, otherwise 1.
     sign: f32,
     rings: Axis,
-    /// The first patch of each ring, and how many it has.
+    /// The first patch of each ring, and its number of patches.
     sectors: Vec<[f32; 2]>,
-    /// Polar angles from here on have no patch.
+    /// Polar angles of at least this have no patch.
     end: f32,
 }
 
-/// What finding patches takes.
+/// The data for finding patches.
 #[derive(Clone, Copy)]
 pub(crate) struct PatchScratch {
     theta: Column,
@@ -39,7 +39,7 @@ impl PatchScratch {
 }
 
 impl Patches {
-    /// The patches through which light arrives, those that it travels toward.
+    /// The patches through which light arrives, found by the direction in which it travels.
     ///
     /// # Errors
     /// [`Invalid`] if no ring is wide enough for its bounds to differ in `f32`.
@@ -59,7 +59,7 @@ impl Patches {
         let (mut bounds, mut sectors, mut first) = (vec![0.0], Vec::new(), 0);
         for ring in basis.rings() {
             let upper = ring.upper.to_radians();
-            // A ring that ends where another one does, or before, has no direction.
+            // A ring that ends where another one ends, or before, contains no direction.
             if bounds.last().is_some_and(|&last: &f64| upper as f32 > last as f32) {
                 bounds.push(upper);
                 sectors.push([first as f32, ring.patches as f32]);
@@ -77,7 +77,7 @@ impl Patches {
         Ok(Patches { basis: basis.clone(), sign, rings, sectors, end })
     }
 
-    /// The basis that this was made of.
+    /// The basis that this was built from.
     pub(crate) fn basis(&self) -> &AngleBasis {
         &self.basis
     }
@@ -114,7 +114,7 @@ impl Patches {
         let mut query = 0;
         while query < n {
             let [first, count] = lanes.gather_pair(&self.sectors, ring.load(lanes, query));
-            // The first sector of a ring is centred on +x, so the end of the turn belongs to it again.
+            // The first sector of a ring is centred on +x, so the end of the turn also belongs to it.
             let sector = lanes.mul_add(phi.load(lanes, query) * turns, count, half).to_int().to_float();
             let sector = lanes.select(sector.lt(count), sector, zero);
             patch.store(lanes, query, (first + sector).to_int());

@@ -1,4 +1,4 @@
-//! Bases and matrices as they were measured.
+//! Bases and matrices as measured.
 
 use crate::Kind;
 use thiserror::Error;
@@ -6,7 +6,7 @@ use thiserror::Error;
 /// The name of the representation.
 pub const KIND: Kind = Kind::new("Klems matrices");
 
-/// Why rings do not make a basis, or values do not make a matrix.
+/// Rings that cannot form a basis, or values that cannot form a matrix.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum KlemsError {
     /// A basis without rings.
@@ -50,14 +50,14 @@ pub enum KlemsError {
     },
 }
 
-/// One ring of a basis. Its bounds are in degrees, as every file and table of bases has them.
+/// One ring of a basis. Its bounds are in degrees, as in all files and tables of bases.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ring {
     /// Lower bound of the polar angle, in degrees; it belongs to the ring.
     pub lower: f64,
     /// Upper bound of the polar angle, in degrees; it belongs to the next ring.
     pub upper: f64,
-    /// How many equal sectors of azimuth the ring has.
+    /// The number of equal sectors of azimuth in the ring.
     pub patches: u32,
 }
 
@@ -69,11 +69,11 @@ pub struct AngleBasis {
     pub(super) patches: usize,
 }
 
-/// How far apart, in degrees, two bounds may be that mean the same circle.
+/// The largest difference, in degrees, between two bounds that count as the same.
 pub(super) const SAME_BOUND: f64 = 1e-3;
 
 impl AngleBasis {
-    /// Checks that the rings follow each other from 0 to at most 90 degrees and keeps them.
+    /// Checks that the rings follow each other from 0 to at most 90 degrees and stores them.
     ///
     /// # Errors
     /// [`KlemsError`] names the ring.
@@ -130,12 +130,12 @@ impl AngleBasis {
         &self.rings
     }
 
-    /// How many patches there are; at least one.
+    /// The number of patches; at least one.
     pub fn patches(&self) -> usize {
         self.patches
     }
 
-    /// The solid angle of a patch projected on the surface, in sr: `pi (cos^2 lower - cos^2 upper) / patches`.
+    /// The solid angle of a patch projected onto the surface, in sr: `pi (cos^2 lower - cos^2 upper) / patches`.
     ///
     /// # Panics
     /// If `patch` is not below [`patches`](Self::patches).
@@ -165,7 +165,7 @@ pub struct KlemsMatrix {
 }
 
 impl KlemsMatrix {
-    /// Checks the number of values and keeps them.
+    /// Checks the number of values and stores them.
     ///
     /// # Errors
     /// [`KlemsError::ValueCount`] and [`KlemsError::ValueNotFinite`].
@@ -195,7 +195,8 @@ impl KlemsMatrix {
         &self.values
     }
 
-    /// The share of the light arriving through `incident` that leaves: the sum of `f` times projected solid angle.
+    /// The share of the light arriving through `incident` that is scattered: the sum of `f` times projected solid
+    /// angle.
     ///
     /// # Panics
     /// If `incident` is not a patch of the incident basis.

@@ -1,4 +1,4 @@
-//! The evaluation of a [`KlemsMatrix`] one query at a time in `f64`: what the lanes are compared with.
+//! The evaluation of a [`KlemsMatrix`] one query at a time in `f64`: the reference for the lanes.
 
 use super::matrix::{AngleBasis, KlemsMatrix, SAME_BOUND};
 use crate::direction::phi;
@@ -7,8 +7,8 @@ use crate::passes::unit::SPHERICAL;
 impl AngleBasis {
     /// The patch that holds the unit vector `direction`, whose z must not be negative; `None` beyond the last ring.
     ///
-    /// Neighbouring patches meet without a gap, so that a change in the last bit of a direction that lies on a bound
-    /// changes its patch.
+    /// Neighbouring patches meet without a gap, so a change in the last bit of a direction on a bound changes its
+    /// patch.
     pub fn patch(&self, direction: [f64; 3]) -> Option<usize> {
         let [x, y, z] = direction;
         let theta = z.clamp(-1.0, 1.0).acos().to_degrees();
@@ -25,8 +25,8 @@ impl AngleBasis {
         None
     }
 
-    /// All patches that may hold a direction in the lanes: that of the direction, and if it is within rounding of the
-    /// border of another one, that too.
+    /// All patches that may contain a direction in the lanes: its patch and, if it is within rounding of the border of
+    /// another patch, that one too.
     fn candidates(&self, [x, y, z]: [f64; 3]) -> Vec<Option<usize>> {
         let (theta, phi) = (x.hypot(y).atan2(z), y.atan2(x));
         let mut found = Vec::new();
@@ -55,8 +55,8 @@ impl KlemsMatrix {
         }
     }
 
-    /// All values that [`eval`](Self::eval) may have in the lanes: the one of the patches, and if a direction is within
-    /// rounding of another patch, the one of that too.
+    /// All values that [`eval`](Self::eval) may have in the lanes: that of the patches and, if a direction is within
+    /// rounding of another patch, those of that patch too.
     pub fn candidates(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f64> {
         let exits = self.exit.candidates([wo[0], wo[1], wo[2].abs()]);
         let value = |incident: Option<usize>, exit: Option<usize>| match (incident, exit) {

@@ -1,4 +1,4 @@
-//! A walk down a [`TensorTree`] in SIMD lanes.
+//! The descent of a [`TensorTree`] in SIMD lanes.
 
 use std::f32::consts::FRAC_1_PI;
 
@@ -9,12 +9,12 @@ use crate::invalid::Invalid;
 use crate::passes::block::Column;
 use crate::passes::unit::POLE;
 
-/// The nodes of a tree, laid out so that a branch and a leaf are read in the same way: as a grid whose first dimension
-/// varies slowest, of nodes or of values.
+/// The nodes of a tree, laid out so that a branch and a leaf are read in the same way: as a grid of nodes or values
+/// whose first dimension varies slowest.
 #[derive(Clone, Debug)]
 pub(crate) struct Walk {
-    /// The bits of the position of the first node or value of the grid, and how many cells it has along each dimension,
-    /// negative if they are nodes.
+    /// The bits of the position of the first node or value of the grid, and its number of cells along each dimension,
+    /// negated if they are nodes.
     nodes: Vec<[f32; 2]>,
 }
 
@@ -22,7 +22,7 @@ impl Walk {
     /// # Errors
     /// [`Invalid`] if the tree has more nodes or values than bit patterns of positive floats.
     pub(crate) fn new(tree: &TensorTree) -> Result<Self, Invalid> {
-        // No pattern may be that of a NaN, whose bits a processor need not keep.
+        // No pattern may be a NaN, because a processor need not preserve the bits of a NaN.
         let most = f32::INFINITY.to_bits() as usize;
         if tree.nodes().len().max(tree.values().len()) >= most {
             let found = format!("{} nodes and {} values", tree.nodes().len(), tree.values().len());
@@ -32,7 +32,7 @@ impl Walk {
         let mut place: Vec<usize> = (0..tree.nodes().len()).collect();
         for node in tree.nodes() {
             if let Node::Branch(first) = *node {
-                // In the file dimension 0 varies fastest among children, and slowest among values.
+                // In the file, dimension 0 varies fastest among children, and slowest among values.
                 for child in 0..1_usize << dimensions {
                     let reversed = child.reverse_bits() >> (usize::BITS as usize - dimensions);
                     place[first as usize + child] = first as usize + reversed;
@@ -53,7 +53,7 @@ impl Walk {
         size_of_val(self.nodes.as_slice())
     }
 
-    /// The values of `tree`, of which this was made, at the positions of queries `0..n`.
+    /// The values of `tree`, from which this was built, at the positions of queries `0..n`.
     #[inline(always)]
     pub(crate) fn run<L: Lanes, const DIMENSIONS: usize>(
         &self,
@@ -88,7 +88,7 @@ impl Walk {
                     dimension += 1;
                 }
                 node = first.bits() + cell;
-                // Lanes that have arrived walk on among nodes that mean nothing until all have.
+                // Lanes that have arrived continue among arbitrary nodes until all have arrived.
                 found = lanes.select_int(walking, node, found);
                 walking = walking & cells.lt(zero);
                 if !walking.any() {
@@ -144,8 +144,8 @@ pub(crate) fn positions<L: Lanes>(
 
 /// Shirley and Chiu's concentric map of the unit disk onto the unit square, as [`super::square`].
 ///
-/// All four wedges are one: along the axis that is nearer lies the radius, and along the other one that times the angle
-/// from the axis, in parts of an eighth of a turn.
+/// All four wedges are treated as one: the coordinate along the nearer axis is the radius, and that along the other
+/// axis is the radius times the angle from the nearer axis, in units of an eighth of a turn.
 #[inline(always)]
 fn square<L: Lanes>(lanes: L, x: L::F, y: L::F) -> [L::F; 2] {
     let (half, one) = (lanes.splat(0.5), lanes.splat(1.0));

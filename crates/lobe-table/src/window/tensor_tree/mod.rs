@@ -5,8 +5,8 @@
 //! the squares of the incident and of the exit direction; one of rank 3 is isotropic and has a radius in place of the
 //! incident square. Every branch halves each dimension. Nothing is interpolated.
 //!
-//! Nodes and leaf values lie in flat arrays, so that a walk down the tree is a gather per level. The evaluation in SIMD
-//! lanes is that of [`Table`](super::Table).
+//! Nodes and leaf values are in flat arrays, so a descent takes one gather per level. [`Table`](super::Table) evaluates
+//! trees in SIMD lanes.
 
 #[cfg(feature = "window")]
 pub(crate) mod lanes;

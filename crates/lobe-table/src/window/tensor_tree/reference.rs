@@ -1,8 +1,8 @@
-//! The evaluation of a [`TensorTree`] one query at a time in `f64`: what the lanes are compared with.
+//! The evaluation of a [`TensorTree`] one query at a time in `f64`: the reference for the lanes.
 
 use super::tree::{INSET, Node, Rank, TensorTree};
 
-/// What a coordinate in the unit cube may be off in the lanes.
+/// The largest error of a coordinate in the unit cube in lanes.
 const ROUNDING: f64 = 6e-7;
 
 impl TensorTree {
@@ -11,8 +11,8 @@ impl TensorTree {
         self.at(self.position(wi, wo))
     }
 
-    /// All values that [`eval`](Self::eval) may have in the lanes: the one of the cell, and if the position is within
-    /// rounding of another cell, the one of that too.
+    /// All values that [`eval`](Self::eval) may have in the lanes: that of the cell and, if the position is within
+    /// rounding of another cell, that of the other cell too.
     pub fn candidates(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f64> {
         let position = self.position(wi, wo);
         let corners = 0..1_usize << self.rank.dimensions();
@@ -23,12 +23,12 @@ impl TensorTree {
         std::iter::once(position).chain(corners.map(moved)).map(|position| self.at(position)).collect()
     }
 
-    /// The share of the light from `wi` that is scattered to all directions of the exit side, exactly: the map of the disk
-    /// onto the square keeps areas, so it is pi times the mean over the square.
+    /// The exact share of the light from `wi` that is scattered to all directions of the exit side: the map of the disk
+    /// onto the square preserves areas, so it is pi times the mean over the square.
     pub fn albedo(&self, wi: [f64; 3]) -> f64 {
         let position = self.position(wi, [0.0, 0.0, 1.0]);
         let incident = self.rank.dimensions() - 2;
-        // Nodes with the place of the light in each, and how much of the square each fills.
+        // Nodes, with the place of the light in each and the share of the square that each fills.
         let mut pending = vec![(0_usize, [position[0], position[1]], 1.0_f64)];
         let mut sum = 0.0;
         while let Some((node, mut light, share)) = pending.pop() {
@@ -93,7 +93,7 @@ impl TensorTree {
     }
 }
 
-/// The position of a direction pair in a tree of rank 3. The exit direction is turned with the incident one onto the
+/// The position of a direction pair in a tree of rank 3. The exit direction is rotated with the incident one onto the
 /// plane of incidence; only the lower half of the radius dimension is in use, as in the files.
 fn isotropic_position(wi: [f64; 3], wo: [f64; 3]) -> [f64; 4] {
     let (x, y) = (-wi[0], -wi[1]);

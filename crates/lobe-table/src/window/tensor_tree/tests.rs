@@ -35,7 +35,7 @@ fn children_and_cells_are_in_opposite_orders() {
 }
 
 #[test]
-fn trees_that_are_none_are_refused() {
+fn invalid_trees_are_refused() {
     let leaf = Node::Leaf { first: 0, level: 0 };
     let new = |nodes| TensorTree::new(Rank::Three, nodes, vec![1.0]);
     assert_eq!(new(vec![]), Err(TreeError::Empty));
@@ -48,7 +48,7 @@ fn trees_that_are_none_are_refused() {
     assert_eq!(TensorTree::new(Rank::Three, vec![leaf], vec![f32::NAN]), Err(TreeError::ValueNotFinite { index: 0 }));
 }
 
-/// The integral over the hemisphere, by many points of equal projected solid angle.
+/// The integral over the hemisphere, from many points of equal projected solid angle.
 fn integral(tree: &TensorTree, wi: [f64; 3]) -> f64 {
     const N: usize = 512;
     let mut sum = 0.0;
@@ -65,7 +65,7 @@ fn integral(tree: &TensorTree, wi: [f64; 3]) -> f64 {
 
 #[test]
 fn the_albedo_is_the_integral() {
-    // A coarse tree with one branch that is finer, and a peak.
+    // A coarse tree with one finer branch, and a peak.
     for (rank, children) in [(Rank::Three, 8), (Rank::Four, 16)] {
         let mut nodes = vec![Node::Branch(1)];
         let mut values: Vec<f32> = Vec::new();

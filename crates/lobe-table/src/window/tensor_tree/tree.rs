@@ -1,4 +1,4 @@
-//! Trees as they were measured.
+//! Trees as measured.
 
 use crate::Kind;
 use thiserror::Error;
@@ -6,13 +6,13 @@ use thiserror::Error;
 /// The name of the representation.
 pub const KIND: Kind = Kind::new("tensor trees");
 
-/// How many times a tree may halve its dimensions, leaf grids included: what a 32-bit index can address.
+/// The most halvings of the dimensions of a tree, including leaf grids, that a 32-bit index can address.
 pub const MAX_DEPTH: usize = 24;
 
-/// How far below the middle the radii of a tree of rank 3 begin.
+/// The distance below the middle at which the radii of a tree of rank 3 begin.
 pub(super) const INSET: f64 = 1e-6;
 
-/// How a direction pair addresses a tree.
+/// The way in which a pair of directions addresses a tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rank {
     /// Isotropic: radius of the incident direction, square of the exit direction.
@@ -34,7 +34,7 @@ impl Rank {
 /// A node of a tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Node {
-    /// `2^dimensions` child nodes that follow each other from this position. Child number `n` is in the upper half
+    /// `2^dimensions` consecutive child nodes that start at this position. Child number `n` is in the upper half
     /// along dimension `d` if bit `d` of `n` is set.
     Branch(u32),
     /// A grid of `2^level` cells along each dimension.
@@ -46,18 +46,18 @@ pub enum Node {
     },
 }
 
-/// Why nodes and values do not make a tree.
+/// Nodes and values that cannot form a tree.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum TreeError {
     /// No node at all.
     #[error("no nodes; expected a root")]
     Empty,
-    /// A branch whose children are not further along than itself, or not there.
+    /// A branch whose children do not follow it, or do not exist.
     #[error("the children of node {node} start at {first}; expected a position after the node, and room for all")]
     Children {
         /// Position of the branch.
         node: usize,
-        /// Where its children start.
+        /// The start of its children.
         first: u32,
     },
     /// A node with no parent, or with two.
@@ -74,7 +74,7 @@ pub enum TreeError {
         /// Position of the node.
         node: usize,
     },
-    /// A leaf whose values are not there.
+    /// A leaf whose values do not exist.
     #[error("the grid of node {node} ends beyond the values")]
     Values {
         /// Position of the leaf.
@@ -88,7 +88,7 @@ pub enum TreeError {
     },
 }
 
-/// A BSDF of one side and one direction, in a tree. Values are `f` in 1/sr, without the cosine.
+/// A BSDF of one side and one scatter, as a tree. Values are `f` in 1/sr, without the cosine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TensorTree {
     pub(super) rank: Rank,
@@ -97,7 +97,7 @@ pub struct TensorTree {
 }
 
 impl TensorTree {
-    /// Checks nodes and values and keeps them. Node 0 is the root.
+    /// Checks nodes and values and stores them. Node 0 is the root.
     ///
     /// # Errors
     /// [`TreeError`] names the node.

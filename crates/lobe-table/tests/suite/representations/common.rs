@@ -67,10 +67,10 @@ impl Pairs {
     }
 }
 
-/// How many of the last queries have directions that point nowhere, and no value.
+/// The number of queries at the end whose directions are invalid and have no value.
 pub const NOWHERE: usize = 28;
 
-/// What is compared: an evaluation of many pairs.
+/// An evaluation of many pairs, which is compared.
 pub trait Evaluate {
     fn run(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]);
 }
@@ -79,9 +79,9 @@ fn bits(values: &[f32]) -> Vec<u32> {
     values.iter().map(|x| x.to_bits()).collect()
 }
 
-/// The values of all pairs, `width` per pair, in strict form and in the fused form of the backends that have one. Asserts
-/// that strict ones are the same bits on every backend, however the directions lie in memory, and that none depends on its
-/// neighbours.
+/// The values of all pairs, `width` per pair, in strict form and in the fused form of the backends that have one.
+/// Asserts that strict values have the same bits on every backend and for every layout of directions, and that no value
+/// depends on its neighbours.
 pub fn evaluate<E: Evaluate>(evaluator: &E, pairs: &Pairs, width: usize) -> Vec<(&'static str, Vec<f32>)> {
     let Pairs { wi, wo } = pairs;
     let strict = on(evaluator, Backend::scalar().strict(), pairs, width);

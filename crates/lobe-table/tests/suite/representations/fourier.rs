@@ -12,7 +12,7 @@ impl Evaluate for Table {
     }
 }
 
-/// Series of all lengths up to `longest`, whose coefficients fall off.
+/// Series of all lengths up to `longest`, with decreasing coefficients.
 fn material(channels: Channels, longest: u32) -> Data {
     let mu = vec![-1.0, -0.95, -0.8, -0.5, -0.1, 0.0, 0.0, 0.15, 0.4, 0.75, 0.97, 1.0];
     let count = channels.count();
@@ -30,9 +30,9 @@ fn material(channels: Channels, longest: u32) -> Data {
 }
 
 #[test]
-fn values_are_those_of_the_reference() {
+fn values_agree_with_the_reference() {
     let pairs = Pairs::new(true);
-    // Shorter and longer than the cosines that are computed at once.
+    // Shorter and longer than the number of cosines that are computed at once.
     for (channels, longest) in [(Channels::Mono, 60), (Channels::Rgb, 21), (Channels::Rgb, 200)] {
         let width = channels.count();
         let data = material(channels, longest);

@@ -14,7 +14,7 @@ impl Evaluate for Look {
     }
 }
 
-/// The MERL shape made small, one that is not reciprocal, and the least there is.
+/// A small grid of MERL's shape, one that is not reciprocal, and the smallest possible one.
 const SHAPES: [[usize; 3]; 4] = [[45, 45, 90], [9, 7, 30], [1, 1, 1], [2, 3, 1]];
 
 fn grid(bins: [usize; 3], value: impl Fn(usize) -> f32) -> (half_diff::Data, half_diff::Table) {
@@ -24,13 +24,13 @@ fn grid(bins: [usize; 3], value: impl Fn(usize) -> f32) -> (half_diff::Data, hal
     (data, table)
 }
 
-/// Every bin has values of its own, and some were not measured.
+/// Every bin has different values, and some are unmeasured.
 fn coded(i: usize) -> f32 {
     if i % 11 == 3 { -1.0 } else { 1.0 + i as f32 }
 }
 
 #[test]
-fn the_nearest_bin_is_that_of_the_reference_or_a_neighbour_within_rounding() {
+fn the_nearest_bin_agrees_with_the_reference_within_rounding() {
     let pairs = Pairs::new(false);
     for bins in SHAPES {
         let (data, table) = grid(bins, coded);
@@ -45,13 +45,13 @@ fn the_nearest_bin_is_that_of_the_reference_or_a_neighbour_within_rounding() {
                 certain += usize::from(candidates.len() == 1);
             }
             println!("{bins:?} {form}: {certain} of {COUNT} far from any border");
-            assert!(certain > COUNT * 3 / 4, "{bins:?}: only {certain} queries say anything");
+            assert!(certain > COUNT * 3 / 4, "{bins:?}: only {certain} queries are conclusive");
         }
     }
 }
 
 #[test]
-fn linear_look_up_is_that_of_the_reference() {
+fn linear_lookup_agrees_with_the_reference() {
     let pairs = Pairs::new(false);
     for bins in SHAPES {
         let (data, table) = grid(bins, |i| ((i * 37) % 101) as f32 / 101.0);
@@ -73,7 +73,7 @@ fn linear_look_up_is_that_of_the_reference() {
 }
 
 #[test]
-fn bins_that_were_not_measured_take_no_part() {
+fn unmeasured_bins_are_left_out() {
     let pairs = Pairs::new(false);
     let (data, table) = grid([9, 7, 10], |i| if (i / 13) % 3 == 0 { 3.0 } else { -1.0 });
     for (form, values) in evaluate(&Look(table, Lookup::Linear), &pairs, 3) {

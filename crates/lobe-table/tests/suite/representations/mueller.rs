@@ -1,4 +1,4 @@
-//! Mueller matrices, as unpolarised light sees them.
+//! Mueller matrices, for unpolarised light and whole.
 
 use std::f64::consts::PI;
 
@@ -41,7 +41,7 @@ fn reference(data: &mueller::Data, wi: [f64; 3], wo: [f64; 3], channel: usize) -
 }
 
 #[test]
-fn values_are_those_of_the_reference() {
+fn values_agree_with_the_reference() {
     let pairs = Pairs::new(false);
     for (sizes, wavelengths) in [([22, 9, 9], 5), ([5, 40, 7], 1), ([3, 2, 1], 8), ([1, 1, 1], 11), ([4, 3, 36], 9)] {
         let data = material(sizes, wavelengths, |i| ((i / 16 * 37) % 101) as f32 / 101.0);
@@ -64,10 +64,10 @@ fn values_are_those_of_the_reference() {
 }
 
 #[test]
-fn whole_matrices_are_those_of_the_reference() {
+fn whole_matrices_agree_with_the_reference() {
     let pairs = Pairs::new(false);
     for (sizes, wavelengths) in [([22, 9, 9], 4), ([5, 40, 7], 1), ([1, 1, 1], 3)] {
-        // Any sixteen numbers will do: the first is an intensity, and the others have signs.
+        // Sixteen arbitrary numbers: the first is an intensity, and the others have signs.
         let value = |i: usize| {
             let part = ((i * 37) % 101) as f32 / 101.0;
             if i.is_multiple_of(16) { part } else { 0.5 - part }
@@ -79,7 +79,8 @@ fn whole_matrices_are_those_of_the_reference() {
             let (mut worst, mut close) = (0.0_f64, 0);
             for query in 0..COUNT - NOWHERE {
                 let (wi, wo) = pairs.exact(query);
-                // Elements are at most 1 in size, so that a turn by an angle counts twice that for each of two frames.
+                // Elements are at most 1 in magnitude, so a rotation by an angle changes them by up to twice the angle
+                // for each of two frames.
                 let bound = data.bound(wi, wo) + 4.0 * mueller::turned(wi, wo);
                 for (channel, found) in values[query * width..][..width].chunks_exact(16).enumerate() {
                     let expected = data.eval(wi, wo, f64::from(data.knots()[3][channel]));
@@ -95,14 +96,14 @@ fn whole_matrices_are_those_of_the_reference() {
                 }
             }
             println!("{sizes:?} {form}: at most {worst:.2} of the bound");
-            // Neighbouring matrices have nothing in common, so that the last digits of an angle count.
+            // Neighbouring matrices are unrelated, so the last digits of an angle matter.
             assert!(close > (COUNT - NOWHERE) * width * 85 / 100, "{sizes:?} {form}: {close} within 2e-5");
         }
     }
 }
 
 #[test]
-fn a_matrix_that_was_not_measured_is_dark_in_all_elements() {
+fn an_unmeasured_matrix_is_dark_in_all_elements() {
     let pairs = Pairs::new(false);
     let data = material([6, 5, 4], 3, |i| if i / 48 % 5 == 0 { f32::NAN } else { 0.5 });
     let matrices = mueller::Matrices::new(&data).expect("a small table");
@@ -114,14 +115,14 @@ fn a_matrix_that_was_not_measured_is_dark_in_all_elements() {
             assert!(matrix[0] > 0.0 || matrix.iter().all(|element| *element == 0.0), "{form}: {matrix:?}");
         }
     }
-    // A negative intensity becomes 0, and the other elements stay, as they do in the reference.
+    // A negative intensity becomes 0, and the other elements stay, as in the reference.
     let negative = mueller::Matrices::new(&material([6, 5, 4], 1, |i| if i.is_multiple_of(16) { -1.0 } else { 0.25 }));
     let found = &evaluate(&negative.expect("a small table"), &pairs, 16)[0].1;
     assert!(found[0] == 0.0 && found[15] == 0.25, "{:?}", &found[..16]);
 }
 
 #[test]
-fn what_was_not_measured_is_dark() {
+fn unmeasured_matrices_are_dark() {
     let pairs = Pairs::new(false);
     let data = material([6, 5, 4], 3, |i| if i / 48 % 5 == 0 { f32::NAN } else { 0.5 });
     let table = mueller::Table::new(&data).expect("a small table");

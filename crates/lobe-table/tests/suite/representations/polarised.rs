@@ -13,7 +13,7 @@ impl Evaluate for polarised::Matrices {
     }
 }
 
-/// Matrices that change slowly, as those of measurements do.
+/// Matrices that change slowly, like those of measurements.
 fn data(psis: usize, wavelengths: usize) -> polarised::Data {
     let even = |n: usize, most: f64| (0..n).map(|i| most * i as f64 / (n.max(2) - 1) as f64).collect::<Vec<f64>>();
     let knots = [even(9, 1.5), even(psis, TAU), even(14, PI), even(13, TAU)];
@@ -38,7 +38,7 @@ fn data(psis: usize, wavelengths: usize) -> polarised::Data {
 }
 
 #[test]
-fn whole_matrices_are_those_of_the_reference() {
+fn whole_matrices_agree_with_the_reference() {
     let (pairs, edges) = (Pairs::new(false), Edges::default());
     for (psis, wavelengths) in [(1, 4), (5, 3)] {
         let data = data(psis, wavelengths);
@@ -65,14 +65,14 @@ fn whole_matrices_are_those_of_the_reference() {
                     far += usize::from(worst > allowed);
                 }
             }
-            // Next to the normal and to the mirror direction, psi and phi are known to a few digits only.
+            // Near the normal and the mirror direction, psi and phi are known to only a few digits.
             assert!(far <= COUNT / 200, "{psis} psi, {form}: {far} far from the reference");
         }
     }
 }
 
 #[test]
-fn unpolarised_light_sees_the_first_elements() {
+fn unpolarised_values_are_the_first_elements() {
     let data = data(1, 3);
     let bsdf = data.prepare(&Options::default()).expect("a small table");
     assert!(bsdf.is_polarised() && bsdf.is_isotropic() && bsdf.channels().count() == 3);

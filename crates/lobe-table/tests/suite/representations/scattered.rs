@@ -24,7 +24,7 @@ fn names(count: usize) -> Channels {
     }
 }
 
-/// Samples with values that have nothing to do with each other, or change slowly.
+/// Samples with values that are unrelated, or change slowly.
 fn data(scatter: Scatter, channels: usize, angles: &[[f64; 4]]) -> Data {
     let mut rng = Pcg32::seed_from_u64(9);
     let values: Vec<f32> = (0..angles.len() * channels).map(|_| rng.random_range(-0.1..1.0)).collect();
@@ -59,7 +59,7 @@ fn check(name: &str, data: &Data) {
     }
 }
 
-/// A ring of directions with a gap, closer to each other where the peak is.
+/// A ring of directions with a gap, closer together near the peak.
 fn about_the_peak(theta: f64, phi: f64, rings: usize, sectors: usize, reach: f64) -> Vec<[f64; 4]> {
     let mut angles = Vec::new();
     for ring in 0..rings {
@@ -76,7 +76,7 @@ fn about_the_peak(theta: f64, phi: f64, rings: usize, sectors: usize, reach: f64
 }
 
 #[test]
-fn isotropic_samples_are_those_of_the_reference() {
+fn isotropic_samples_agree_with_the_reference() {
     let all = |reach| -> Vec<[f64; 4]> {
         [0.0, 0.2, 0.5, 0.9, 1.3].into_iter().flat_map(|theta| about_the_peak(theta, 0.0, 9, 16, reach)).collect()
     };
@@ -90,7 +90,7 @@ fn isotropic_samples_are_those_of_the_reference() {
 }
 
 #[test]
-fn samples_on_lines_and_single_ones_are_those_of_the_reference() {
+fn samples_on_lines_and_single_ones_agree_with_the_reference() {
     let plane = |theta: f64| {
         (-30..=30).map(move |k: i32| [theta, 0.4, 0.05 * f64::from(k.abs()), if k < 0 { 0.4 } else { 0.4 + PI }])
     };
@@ -102,7 +102,7 @@ fn samples_on_lines_and_single_ones_are_those_of_the_reference() {
 }
 
 #[test]
-fn anisotropic_samples_are_those_of_the_reference() {
+fn anisotropic_samples_agree_with_the_reference() {
     let mut rng = Pcg32::seed_from_u64(4);
     let mut angles = Vec::new();
     let mut lights = vec![[0.0, 0.0], [0.3, 0.0], [0.3, 2.0], [0.3, 4.0], [1.4, 1.0], [1.4, 3.0], [1.4, 5.0]];
@@ -115,9 +115,9 @@ fn anisotropic_samples_are_those_of_the_reference() {
     check("anisotropic transmission", &data(Scatter::Transmission, 12, &angles));
 }
 
-/// Points so close together, and triangles so thin, that single precision cannot tell where a direction lies.
+/// Points so close together, and triangles so thin, that single precision cannot locate a direction.
 #[test]
-fn what_is_too_narrow_is_left_to_double_precision() {
+fn narrow_triangles_are_left_to_double_precision() {
     let mut angles = about_the_peak(0.5, 0.0, 6, 12, 1.2);
     for k in 0..12 {
         let at = f64::from(k);

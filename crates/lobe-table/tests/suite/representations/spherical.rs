@@ -1,4 +1,4 @@
-//! Grids of spherical coordinates.
+//! Grids in spherical coordinates.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -32,12 +32,12 @@ fn polar() -> Vec<f64> {
     vec![0.0, 0.1, 0.35, 0.6, 0.9, 1.15, 1.3, 1.45]
 }
 
-/// Azimuths that leave a gap of a cell at the seam, and begin above 0.
+/// Azimuths that leave a gap of one cell at the seam, and start above 0.
 fn open() -> Vec<f64> {
     vec![0.3, 0.9, 1.6, 2.5, 3.3, 4.2, 5.0, 5.8]
 }
 
-/// Every edge rule, layout and way of looking up azimuths.
+/// Every edge rule, layout and lookup of azimuths.
 fn grids() -> Vec<(&'static str, Data)> {
     let bands = Channels::Spectral(vec![400.0, 450.0, 500.0, 550.0, 600.0, 650.0, 700.0, 750.0, 800.0]);
     let half = [polar(), vec![0.7], steps(10, FRAC_PI_2), steps(13, PI)];
@@ -58,7 +58,7 @@ fn grids() -> Vec<(&'static str, Data)> {
 }
 
 #[test]
-fn values_are_those_of_the_reference() {
+fn values_agree_with_the_reference() {
     let pairs = Pairs::new(true);
     for (name, data) in grids() {
         let table = Table::new(&data).expect("a small grid");
@@ -83,7 +83,7 @@ fn values_are_those_of_the_reference() {
     }
 }
 
-/// What a vectorised renderer does.
+/// Evaluates as a vectorised renderer does.
 struct InLanes<'a> {
     table: &'a Table,
     wi: &'a [[f32; 3]],

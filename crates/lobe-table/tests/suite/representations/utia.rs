@@ -19,7 +19,7 @@ fn material(largest: f64) -> utia::Data {
 }
 
 #[test]
-fn values_are_those_of_the_reference() {
+fn values_agree_with_the_reference() {
     let pairs = Pairs::new(false);
     let data = material(60.0);
     let table = utia::Table::new(&data, Decode::Raw).expect("a valid table");
@@ -39,7 +39,7 @@ fn values_are_those_of_the_reference() {
 }
 
 #[test]
-fn decoded_values_are_those_of_the_reference() {
+fn decoded_values_agree_with_the_reference() {
     let pairs = Pairs::new(false);
     let data = material(140.0);
     let table = utia::Table::new(&data, Decode::Srgb).expect("a valid table");
@@ -62,7 +62,7 @@ fn decoded_values_are_those_of_the_reference() {
 }
 
 #[test]
-fn values_that_no_lane_holds_are_refused() {
+fn values_beyond_f32_are_refused() {
     let mut values = vec![0.0; 3 * PLANE];
     values[7] = 1e300;
     let error = utia::Table::new(&utia::Data::new(values).expect("finite"), Decode::Raw).expect_err("beyond f32");

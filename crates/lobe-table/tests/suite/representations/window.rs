@@ -16,7 +16,7 @@ impl Evaluate for window::Table {
     }
 }
 
-/// Every pair of patches has a value of its own.
+/// Every pair of patches has a different value.
 fn klems(incident: &AngleBasis, exit: &AngleBasis) -> Component {
     let values = (0..incident.patches() * exit.patches()).map(|i| 1.0 + i as f32).collect();
     Component::Klems(KlemsMatrix::new(incident.clone(), exit.clone(), values).expect("a matrix"))
@@ -29,7 +29,7 @@ fn short() -> AngleBasis {
     AngleBasis::new("short", rings).expect("a basis")
 }
 
-/// Every cell has a value of its own.
+/// Every cell has a different value.
 fn tree(rank: Rank, seed: u64) -> Component {
     let children = 1 << rank.dimensions();
     let mut rng = Pcg32::seed_from_u64(seed);
@@ -87,7 +87,7 @@ fn window(components: [Option<Component>; 4]) -> window::Blocks {
 }
 
 #[test]
-fn patches_are_those_of_the_reference() {
+fn patches_agree_with_the_reference() {
     let [full, half, quarter] = [AngleBasis::full(), AngleBasis::half(), AngleBasis::quarter()];
     let all = |basis: &AngleBasis| window([0; 4].map(|_| Some(klems(basis, basis))));
     check("full", vec![all(&full)]);
@@ -97,7 +97,7 @@ fn patches_are_those_of_the_reference() {
 }
 
 #[test]
-fn cells_of_trees_are_those_of_the_reference() {
+fn cells_of_trees_agree_with_the_reference() {
     for rank in [Rank::Three, Rank::Four] {
         let trees = [1, 2, 3, 4].map(|seed| Some(tree(rank, seed)));
         check("trees", vec![window(trees)]);
@@ -108,7 +108,7 @@ fn cells_of_trees_are_those_of_the_reference() {
 }
 
 #[test]
-fn bands_of_different_kinds_keep_to_themselves() {
+fn bands_of_different_kinds_are_independent() {
     let quarter = AngleBasis::quarter();
     let bands = vec![
         window([Some(klems(&quarter, &quarter)), None, None, Some(tree(Rank::Four, 7))]),

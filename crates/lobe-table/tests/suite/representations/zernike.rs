@@ -12,7 +12,7 @@ impl Evaluate for Table {
     }
 }
 
-/// All terms up to an order, with coefficients that fall off.
+/// All terms up to an order, with decreasing coefficients.
 fn material(channels: Channels, order: u8) -> Data {
     let powers = if channels == Channels::Mono { 1 } else { 2 };
     let mut terms = Vec::new();
@@ -31,7 +31,7 @@ fn material(channels: Channels, order: u8) -> Data {
 }
 
 #[test]
-fn values_are_those_of_the_reference() {
+fn values_agree_with_the_reference() {
     let pairs = Pairs::new(false);
     for (channels, order) in [
         (Channels::Mono, 0),
