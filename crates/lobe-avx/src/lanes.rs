@@ -193,7 +193,7 @@ fn quads<const N: usize>(token: Avx2, block: &Block<'_, N, 4>, bases: [usize; 8]
     corners
 }
 
-/// Rows to columns, in each half of the registers.
+/// Transposes rows to columns, in each half of the registers.
 #[inline(always)]
 fn transpose([Floats(a), Floats(b), Floats(c), Floats(d)]: [Floats; 4]) -> [Floats; 4] {
     op!({

@@ -1,8 +1,8 @@
-//! The 8-lane backend of x86_64: [`Avx2`], with fused multiply-add, half-precision loads, and the instructions on bits that
-//! came with it: kernels walk through masks.
+//! The 8-lane backend of x86_64: [`Avx2`], with fused multiply-add, half-precision loads, and the bit-manipulation
+//! instructions that came with it, because kernels iterate over masks.
 //!
 //! `unsafe` occurs in three places: in the `op!` macro (register-only intrinsics, safe because the token proves the
-//! features), in `memory.rs` (loads and stores, each checked where it is used), and in `vectorize`, the way in.
+//! features), in `memory.rs` (loads and stores, each checked where it is used), and in `vectorize`, the entry point.
 #![cfg(target_arch = "x86_64")]
 #![no_std]
 
@@ -24,7 +24,7 @@ mod values;
 
 pub use values::{Floats, Ints, Mask, Quad};
 
-/// A proof that the CPU has AVX2, FMA, F16C, BMI1, BMI2, LZCNT and POPCNT: eight lanes. CPUs that have the first have had
+/// A proof that the CPU has AVX2, FMA, F16C, BMI1, BMI2, LZCNT and POPCNT: eight lanes. All CPUs with AVX2 so far have
 /// the others.
 #[derive(Clone, Copy, Debug)]
 pub struct Avx2(());
@@ -42,7 +42,7 @@ impl Avx2 {
         has.then_some(Avx2(()))
     }
 
-    /// The token without a look at the CPU.
+    /// The token without a check of the CPU.
     ///
     /// # Safety
     /// Safe from code compiled with the features of the attribute; elsewhere the CPU must have them.

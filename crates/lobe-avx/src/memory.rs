@@ -18,7 +18,7 @@ pub(crate) fn load8(_proof: Avx2, src: &[f32]) -> __m256 {
 #[inline(always)]
 pub(crate) fn store8(_proof: Avx2, dst: &mut [f32], x: __m256) {
     let dst = &mut dst[..8];
-    // SAFETY: `dst` has room for eight floats; the token proves AVX; the store needs no alignment.
+    // SAFETY: `dst` holds eight floats; the token proves AVX; the store needs no alignment.
     unsafe { _mm256_storeu_ps(dst.as_mut_ptr(), x) }
 }
 
@@ -44,7 +44,7 @@ pub(crate) fn load4(_proof: Avx2, src: &[f32]) -> __m128 {
 #[inline(always)]
 pub(crate) fn store4(_proof: Avx2, dst: &mut [f32], x: __m128) {
     let dst = &mut dst[..4];
-    // SAFETY: `dst` has room for four floats; the token proves AVX; the store needs no alignment.
+    // SAFETY: `dst` holds four floats; the token proves AVX; the store needs no alignment.
     unsafe { _mm_storeu_ps(dst.as_mut_ptr(), x) }
 }
 
@@ -58,7 +58,7 @@ pub(crate) fn load_int(_proof: Avx2, src: &[i32]) -> __m256i {
 #[inline(always)]
 pub(crate) fn store_int(_proof: Avx2, dst: &mut [i32], x: __m256i) {
     let dst = &mut dst[..8];
-    // SAFETY: `dst` has room for eight integers; the token proves AVX; the store needs no alignment.
+    // SAFETY: `dst` holds eight integers; the token proves AVX; the store needs no alignment.
     unsafe { _mm256_storeu_si256(dst.as_mut_ptr().cast(), x) }
 }
 
@@ -77,7 +77,7 @@ pub(crate) fn indices(proof: Avx2, x: __m256i) -> [usize; 8] {
     indices_in(&lanes)
 }
 
-/// The same of the first eight integers in memory.
+/// The same for the first eight integers in memory.
 #[inline(always)]
 pub(crate) fn indices_in(lanes: &[i32]) -> [usize; 8] {
     let lanes = &lanes[..8];
@@ -99,7 +99,7 @@ pub(crate) fn load_pair(_proof: Avx2, table: &[[f32; 2]], index: usize) -> __m12
     unsafe { _mm_castsi128_ps(_mm_loadl_epi64(table.as_ptr().add(index.min(last)).cast())) }
 }
 
-/// Four floats at `base + offsets[corner]`; `base` is clamped to the block's last.
+/// Four floats at `base + offsets[corner]`; `base` is clamped to the block's last base.
 #[inline(always)]
 pub(crate) fn load_quad<const N: usize>(_proof: Avx2, block: &Block<'_, N, 4>, base: usize, corner: usize) -> __m128 {
     let at = base.min(block.last_base()) + block.offsets()[corner];
@@ -108,7 +108,7 @@ pub(crate) fn load_quad<const N: usize>(_proof: Avx2, block: &Block<'_, N, 4>, b
     unsafe { _mm_loadu_ps(block.data().as_ptr().add(at)) }
 }
 
-/// Eight floats at `base + offsets[corner]`; `base` is clamped to the block's last.
+/// Eight floats at `base + offsets[corner]`; `base` is clamped to the block's last base.
 #[inline(always)]
 pub(crate) fn load_oct<const N: usize>(_proof: Avx2, block: &Block<'_, N, 8>, base: usize, corner: usize) -> __m256 {
     let at = base.min(block.last_base()) + block.offsets()[corner];
@@ -117,7 +117,7 @@ pub(crate) fn load_oct<const N: usize>(_proof: Avx2, block: &Block<'_, N, 8>, ba
     unsafe { _mm256_loadu_ps(block.data().as_ptr().add(at)) }
 }
 
-/// Four half-precision floats at `base + offsets[corner]`, as floats; `base` is clamped to the block's last.
+/// Four half-precision floats at `base + offsets[corner]`, as floats; `base` is clamped to the block's last base.
 #[inline(always)]
 pub(crate) fn load_half_quad<const N: usize>(
     _proof: Avx2,
@@ -131,7 +131,7 @@ pub(crate) fn load_half_quad<const N: usize>(
     unsafe { _mm_cvtph_ps(_mm_loadl_epi64(block.data().as_ptr().add(at).cast())) }
 }
 
-/// Eight half-precision floats at `base + offsets[corner]`, as floats; `base` is clamped to the block's last.
+/// Eight half-precision floats at `base + offsets[corner]`, as floats; `base` is clamped to the block's last base.
 #[inline(always)]
 pub(crate) fn load_half_oct<const N: usize>(
     _proof: Avx2,

@@ -1,7 +1,7 @@
-//! Gathers by the hardware. Each is bounds-safe by itself: it clamps its indices in the register that it gathers with.
+//! Hardware gathers. Each is bounds-safe by itself: it clamps its indices in the register that it gathers with.
 //!
-//! All functions take the token, which proves the CPU's features. The hardware takes signed indices, so tables of more than
-//! 2^31 entries are read one by one.
+//! All functions take the token, which proves the CPU's features. The hardware takes signed indices, so tables of more
+//! than 2^31 entries are read lane by lane.
 
 use core::arch::x86_64::*;
 
@@ -10,7 +10,7 @@ use lobe_lane::Block;
 use crate::memory::{load, load_int, store_int};
 use crate::{Avx512, Floats};
 
-/// The indices, none beyond `last`; `None` if the hardware does not reach that far.
+/// The indices, none beyond `last`; `None` if hardware indices cannot reach that far.
 #[inline(always)]
 fn reachable(_proof: Avx512, index: __m512i, last: usize) -> Option<__m512i> {
     let last = i32::try_from(last).ok()?;
@@ -66,7 +66,8 @@ pub(crate) fn pair(proof: Avx512, table: &[[f32; 2]], index: __m512i) -> [Floats
     }
 }
 
-/// The four floats at `base + offset` for each offset of the block; a base that is too large is clamped to the last.
+/// The four floats at `base + offset` for each offset of the block; a base that is too large is clamped to the last
+/// base.
 #[inline(always)]
 pub(crate) fn quads<const N: usize>(proof: Avx512, block: &Block<'_, N, 4>, base: __m512i) -> [[Floats; 4]; N] {
     let mut corners = [[Floats(op!(_mm512_setzero_ps())); 4]; N];
@@ -105,7 +106,7 @@ pub(crate) fn quads<const N: usize>(proof: Avx512, block: &Block<'_, N, 4>, base
     corners
 }
 
-/// As [`quads`], from bases in memory. If each leads to several quads, these are loaded whole and turned into columns.
+/// As [`quads`], from bases in memory. If each has several quads, these are loaded whole and transposed.
 #[inline(always)]
 pub(crate) fn quads_at<const N: usize>(proof: Avx512, block: &Block<'_, N, 4>, bases: &[i32]) -> [[Floats; 4]; N] {
     if N < 3 {
@@ -141,8 +142,8 @@ pub(crate) fn quads_at<const N: usize>(proof: Avx512, block: &Block<'_, N, 4>, b
     corners
 }
 
-/// A base of sixteen. Volatile, since compilers otherwise load all of them into a vector, from which they
-/// then take them one by one.
+/// One base of sixteen. The read is volatile, because compilers otherwise load all bases into a vector and extract them
+/// one by one.
 #[inline(always)]
 fn base(bases: &[i32], lane: usize) -> usize {
     let base: *const i32 = &bases[lane];
@@ -151,7 +152,7 @@ fn base(bases: &[i32], lane: usize) -> usize {
     base as u32 as usize
 }
 
-/// The quad at `base + offsets[corner]`, of a base that may be too large.
+/// The quad at `base + offsets[corner]`, for a base that may be too large.
 #[inline(always)]
 fn load_quad<const N: usize>(_proof: Avx512, block: &Block<'_, N, 4>, base: usize, corner: usize) -> __m128 {
     let at = base.min(block.last_base()) + block.offsets()[corner];
@@ -168,7 +169,7 @@ pub(crate) fn half_quads<const N: usize>(
     base: __m512i,
 ) -> [[Floats; 4]; N] {
     let mut corners = [[Floats(op!(_mm512_setzero_ps())); 4]; N];
-    // So that a quarter of each row holds four neighbours after they have been transposed.
+    // Ordered so that a quarter of each row holds four neighbours after the transposition.
     let order = op!(_mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15));
     let bases = reachable(proof, op!(_mm512_permutexvar_epi32(order, base)), block.last_base());
     let mut corner = 0;
@@ -221,7 +222,7 @@ fn unzip(_proof: Avx512, low: __m512d, high: __m512d) -> [Floats; 2] {
     })
 }
 
-/// Rows to columns, in each quarter of the registers.
+/// Transposes rows to columns, in each quarter of the registers.
 #[inline(always)]
 fn transpose(_proof: Avx512, [a, b, c, d]: [__m512; 4]) -> [Floats; 4] {
     op!({

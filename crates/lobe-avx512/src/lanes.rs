@@ -147,7 +147,7 @@ impl Lanes for Avx512 {
     }
     #[inline(always)]
     fn oct_lookup(self, table: lobe_avx::Floats, index: Ints) -> Floats {
-        // Twice the table, so that only the three bits that count matter.
+        // The table twice, so that only the low three bits matter.
         Floats(op!(_mm512_permutexvar_ps(index.0, _mm512_broadcast_f32x8(table.into()))))
     }
     #[inline(always)]

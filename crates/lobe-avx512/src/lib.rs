@@ -1,10 +1,11 @@
-//! The 16-lane backend of x86_64: [`Avx512`], with masks in registers of their own, searches of up to 64 cells inside
-//! registers, and gathers by the hardware.
+//! The 16-lane backend of x86_64: [`Avx512`], with masks in separate registers, searches of up to 64 cells inside
+//! registers, and hardware gathers.
 //!
 //! Quads, octs and the narrow backend are those of [`Avx2`], whose instructions every CPU with AVX-512 has.
 //!
 //! `unsafe` occurs in three places: in the `op!` macro (register-only intrinsics, safe because the token proves the
-//! features), in `memory.rs` and `gathers.rs` (each access is checked where it is made), and in `vectorize`, the way in.
+//! features), in `memory.rs` and `gathers.rs` (each access is checked where it is made), and in `vectorize`, the entry
+//! point.
 #![cfg(target_arch = "x86_64")]
 #![no_std]
 
@@ -29,8 +30,8 @@ mod values;
 
 pub use values::{Floats, Ints, Mask};
 
-/// A proof that the CPU has AVX-512 F, VL, DQ, BW and VBMI2, and what [`Avx2`] proves: sixteen lanes. That is Intel since Ice
-/// Lake and AMD since Zen 4.
+/// A proof that the CPU has AVX-512 F, VL, DQ, BW and VBMI2, and the features of [`Avx2`]: sixteen lanes. Intel has had
+/// these since Ice Lake, and AMD since Zen 4.
 #[derive(Clone, Copy, Debug)]
 pub struct Avx512 {
     narrow: Avx2,
@@ -48,7 +49,7 @@ impl Avx512 {
         has.then_some(Avx512 { narrow })
     }
 
-    /// The token without a look at the CPU.
+    /// The token without a check of the CPU.
     ///
     /// # Safety
     /// Safe from code compiled with the features of the attribute; elsewhere the CPU must have them.

@@ -16,7 +16,7 @@ pub(crate) fn load(_proof: Avx512, src: &[f32]) -> __m512 {
 #[inline(always)]
 pub(crate) fn store(_proof: Avx512, dst: &mut [f32], x: __m512) {
     let dst = &mut dst[..16];
-    // SAFETY: `dst` has room for sixteen floats; the token proves AVX-512; the store needs no alignment.
+    // SAFETY: `dst` holds sixteen floats; the token proves AVX-512; the store needs no alignment.
     unsafe { _mm512_storeu_ps(dst.as_mut_ptr(), x) }
 }
 
@@ -30,7 +30,7 @@ pub(crate) fn load_int(_proof: Avx512, src: &[i32]) -> __m512i {
 #[inline(always)]
 pub(crate) fn store_int(_proof: Avx512, dst: &mut [i32], x: __m512i) {
     let dst = &mut dst[..16];
-    // SAFETY: `dst` has room for sixteen integers; the token proves AVX-512; the store needs no alignment.
+    // SAFETY: `dst` holds sixteen integers; the token proves AVX-512; the store needs no alignment.
     unsafe { _mm512_storeu_si512(dst.as_mut_ptr().cast(), x) }
 }
 
@@ -40,21 +40,21 @@ pub(crate) fn first(n: usize) -> __mmask16 {
     if n < 16 { (1 << n) - 1 } else { u16::MAX }
 }
 
-/// As many floats as there are, and zeros.
+/// As many floats as `src` has, followed by zeros.
 #[inline(always)]
 pub(crate) fn load_partial(_proof: Avx512, src: &[f32]) -> __m512 {
     // SAFETY: the mask leaves out the lanes beyond `src`, which are not read; the token proves AVX-512.
     unsafe { _mm512_maskz_loadu_ps(first(src.len()), src.as_ptr()) }
 }
 
-/// As many floats as there is room for.
+/// Writes as many floats as fit.
 #[inline(always)]
 pub(crate) fn store_partial(_proof: Avx512, dst: &mut [f32], x: __m512) {
     // SAFETY: the mask leaves out the lanes beyond `dst`, which are not written; the token proves AVX-512.
     unsafe { _mm512_mask_storeu_ps(dst.as_mut_ptr(), first(dst.len()), x) }
 }
 
-/// As many integers as there is room for.
+/// Writes as many integers as fit.
 #[inline(always)]
 pub(crate) fn store_int_partial(_proof: Avx512, dst: &mut [i32], x: __m512i) {
     // SAFETY: the mask leaves out the lanes beyond `dst`, which are not written; the token proves AVX-512.

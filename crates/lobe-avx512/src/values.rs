@@ -1,4 +1,4 @@
-//! Lane values in one `zmm` register, and masks in one of their own.
+//! Lane values in one `zmm` register, and masks in one mask register.
 
 use core::arch::x86_64::*;
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
@@ -139,7 +139,7 @@ impl lobe_lane::Ints for Ints {
     }
     #[inline(always)]
     fn shl<const BITS: i32>(self) -> Self {
-        // A literal type: the intrinsic's constant is unsigned, and constants cannot be converted on the way.
+        // A literal type: the intrinsic's constant is unsigned, and generic constants cannot be converted.
         Ints(op!(_mm512_sllv_epi32(self.0, _mm512_set1_epi32(BITS))))
     }
     #[inline(always)]

@@ -1,7 +1,7 @@
-//! Which SIMD instructions to use, chosen when the program runs.
+//! The choice of SIMD instructions at run time.
 //!
 //! This is the only crate that names the backends: each is one line of the list in `src/list.rs`, and everything else
-//! asks a [`Backend`]. [`Backend::run`] compiles a kernel for every backend of the target, so put a kernel behind a
+//! uses [`Backend`]. [`Backend::run`] compiles a kernel for every backend of the target, so put a kernel behind a
 //! non-generic function in the crate that defines it: it is then compiled once per backend, and not again in every
 //! program.
 #![forbid(unsafe_code)]
@@ -21,7 +21,8 @@ use list::{Isa, NAMES};
 /// The environment variable that overrides detection.
 pub const BACKEND_VARIABLE: &str = "LOBE_BACKEND";
 
-/// A backend that this CPU has, and whether its results are the same bits as every other backend's.
+/// A backend that this CPU supports, in strict form, whose results have the same bits on every backend, or in fused
+/// form.
 ///
 /// ```
 /// use lobe_backend::Backend;
@@ -59,7 +60,7 @@ pub struct BackendError {
 }
 
 impl Backend {
-    /// The names of all backends, slowest first, whether or not this machine can run them.
+    /// The names of all backends, slowest first, including those that this machine cannot run.
     pub const ALL: &[&str] = NAMES;
 
     /// The backend named by the environment variable `LOBE_BACKEND`, or else the fastest that this CPU can run.
@@ -76,7 +77,7 @@ impl Backend {
             .clone()
     }
 
-    /// The fastest backend of this CPU, whatever the environment says.
+    /// The fastest backend of this CPU, ignoring the environment.
     pub fn best() -> Self {
         *Backend::available().last().expect("the scalar backend is always available")
     }
@@ -110,13 +111,13 @@ impl Backend {
         Backend::available().into_iter().flat_map(forms).flatten().collect()
     }
 
-    /// The names of the backends whose instructions the CPU reports, slowest first. The backends are not consulted, so
-    /// that their own detection can be checked: the names must be those of [`available`](Backend::available).
+    /// The names of the backends whose instructions the CPU reports, slowest first. The backends themselves are not
+    /// asked, so that their own detection can be checked: the names must be those of [`available`](Backend::available).
     pub fn reported() -> Vec<&'static str> {
         Isa::reported()
     }
 
-    /// The same backend with every multiply-add rounded twice: the same bits on every machine.
+    /// The same backend with every multiply-add rounded twice, which gives the same bits on every machine.
     pub fn strict(self) -> Self {
         Backend { strict: true, ..self }
     }
@@ -127,7 +128,7 @@ impl Backend {
         Backend { strict: false, ..self }
     }
 
-    /// `true` if results are the same bits on every machine.
+    /// `true` if results have the same bits on every machine.
     pub fn is_strict(&self) -> bool {
         self.strict
     }
@@ -147,20 +148,20 @@ impl Backend {
         self.isa.lanes()
     }
 
-    /// Runs a kernel on this backend. Call it once per batch: each call pays for dispatch and is not inlined.
+    /// Runs a kernel on this backend. Call it once per batch: each call costs a dispatch and is not inlined.
     #[inline]
     pub fn run<K: Kernel>(&self, kernel: K) -> K::Out {
         self.isa.run(self.strict, kernel)
     }
 
-    /// The [narrow](Lanes::narrow) backend that belongs to this one, in the same form: usually this one. It is faster for a
-    /// few queries, and gives the same bits if this is strict.
+    /// The [narrow](Lanes::narrow) backend of this one, in the same form: usually the backend itself. It is faster for
+    /// a few queries, and gives the same bits if this backend is strict.
     pub fn narrow(self) -> Self {
         Backend { isa: self.isa.narrow(), ..self }
     }
 
-    /// Runs a kernel that has too little to do for many lanes, such as a single query, on the
-    /// [narrow](Self::narrow) backend. If that is another one, the kernel is not compiled for the wide lanes.
+    /// Runs a kernel that is too small for many lanes, such as a single query, on the [narrow](Self::narrow) backend.
+    /// If that is a different one, the kernel is not compiled for the wide lanes.
     #[inline]
     pub fn run_narrow<K: Kernel>(&self, kernel: K) -> K::Out {
         self.isa.run_narrow(self.strict, kernel)

@@ -1,4 +1,4 @@
-//! The list of backends, and what follows from it.
+//! The list of backends, and everything that is generated from it.
 
 use lobe_lane::{Kernel, Lanes};
 
@@ -9,7 +9,7 @@ use std::arch::is_x86_feature_detected as has;
 
 macro_rules! backends {
     ($dollar:tt $($(#[$target:meta])* $name:literal, $variant:ident($token:ty), $detect:expr, [$($feature:tt),*];)*) => {
-        /// One token per backend: having one proves that the CPU can run it.
+        /// One token per backend, which proves that the CPU can run it.
         #[derive(Clone, Copy, Debug)]
         pub(crate) enum Isa {
             $($(#[$target])* $variant($token),)*
@@ -18,7 +18,7 @@ macro_rules! backends {
         /// The names of all backends, slowest first on each target.
         pub(crate) const NAMES: &[&str] = &[$($name),*];
 
-        /// Hands the variant and the name of every backend, whatever the target, to a macro: `macro! { Sse2 "sse2"; ... }`,
+        /// Passes the variant and the name of every backend, of any target, to a macro: `macro! { Sse2 "sse2"; ... }`,
         /// for tests that are named by backend.
         #[doc(hidden)]
         #[macro_export]
@@ -35,14 +35,14 @@ macro_rules! backends {
         })*
 
         impl Isa {
-            /// All that this CPU can run, slowest first.
+            /// All backends that this CPU can run, slowest first.
             pub(crate) fn detect() -> Vec<Self> {
                 let mut found = Vec::new();
                 $($(#[$target])* found.extend(Option::<$token>::map($detect, Isa::$variant));)*
                 found
             }
 
-            /// The names of those whose instructions the CPU reports, whatever the backends themselves say.
+            /// The names of the backends whose instructions the CPU reports, without asking the backends themselves.
             pub(crate) fn reported() -> Vec<&'static str> {
                 let mut names = Vec::new();
                 $($(#[$target])* if true $(&& has!($feature))* {
@@ -69,7 +69,7 @@ macro_rules! backends {
                 }
             }
 
-            /// The narrow backend that belongs to this one.
+            /// The narrow backend of this one.
             pub(crate) fn narrow(self) -> Self {
                 match self {
                     $($(#[$target])* Isa::$variant(lanes) => lanes.narrow().into(),)*
@@ -93,7 +93,8 @@ macro_rules! backends {
     };
 }
 
-// One line per backend, slowest first: its name, its token, how the token is found, and the CPU features that it needs.
+// One line per backend, slowest first: its name, its token, how the token is obtained, and the CPU features that it
+// needs.
 backends! { $
     "scalar", Scalar(lobe_scalar::Scalar<1>), Some(lobe_scalar::Scalar), [];
     #[cfg(target_arch = "x86_64")]

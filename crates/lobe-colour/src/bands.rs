@@ -1,17 +1,17 @@
-//! Which of several named bands show colour.
+//! The colour of named bands.
 
-/// The meaning of the names of bands: the one rule for files whose channels have names only.
+/// The meaning of the names of bands: the one rule for files whose channels have only names.
 ///
-/// A name is compared in any case of letters, by its words, so that `Visible`, `VISIBLE` and `Visible (D65)` are the
+/// A name is compared word by word, in upper or lower case, so that `Visible`, `VISIBLE` and `Visible (D65)` are the
 /// visible band, and `Invisible` is not.
 ///
-/// - `CIE-X`, `CIE-Z` and between them the visible band, or one called `CIE-Y`, are X, Z and Y, as window sheets for
-///   Radiance have them. These are relative to a white of equal energy, X = Y = Z, so they are scaled to D65.
+/// - `CIE-X`, the visible band or one called `CIE-Y`, and `CIE-Z` are X, Y and Z, as in window sheets for Radiance.
+///   These are relative to an equal-energy white, X = Y = Z, so they are scaled to D65.
 /// - Otherwise the visible band is grey.
-/// - Without one there is no colour; pictures show the first band as grey.
+/// - Without a visible band, there is no colour; pictures show the first band as grey.
 ///
-/// Chromaticities (`CIE-u`, `CIE-v`) are not a linear map of the bands and are not used. A table that has the channels
-/// X, Y, Z or wavelengths says so by its kind: such names do not get here.
+/// Chromaticities (`CIE-u`, `CIE-v`) are not a linear map of the bands and are not used. Tables with the channels X, Y,
+/// Z or wavelengths say so by their kind, and their names are not treated here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NamedBands {
     /// The visible band, `CIE-Y` if there is no band called visible.
@@ -21,7 +21,7 @@ pub struct NamedBands {
 }
 
 impl NamedBands {
-    /// The meaning of these names. Of bands with the same meaning the first counts.
+    /// The meaning of these names. Of several bands with the same meaning, the first counts.
     pub fn new(names: &[String]) -> Self {
         let find = |wanted: &[&str]| names.iter().position(|name| has_words(name, wanted));
         let visible = find(&["visible"]).or_else(|| find(&["cie", "y"]));
@@ -33,7 +33,7 @@ impl NamedBands {
     }
 }
 
-/// Whether the words of a name begin, somewhere, with these in their order.
+/// Whether a name contains these words in this order, one after the other.
 fn has_words(name: &str, wanted: &[&str]) -> bool {
     let name = name.to_lowercase();
     let words: Vec<&str> = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
@@ -49,7 +49,7 @@ mod tests {
     }
 
     #[test]
-    fn the_visible_band_is_a_word() {
+    fn the_visible_band_is_recognised_by_word() {
         for name in ["Visible", "VISIBLE", " visible ", "Visible (D65)", "integral-visible"] {
             assert_eq!(of(&["Solar", name]).visible, Some(1), "{name}");
         }

@@ -1,9 +1,9 @@
-//! What the numbers of a value mean.
+//! The meaning of the channels of a value.
 
-/// What the channels of a table mean.
+/// The meaning of the channels of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Channels {
-    /// One value, no colour.
+    /// One value without colour.
     Mono,
     /// Linear red, green, blue; the file says no more about the primaries.
     Rgb,
@@ -11,7 +11,7 @@ pub enum Channels {
     Xyz,
     /// One channel per wavelength, in nm, in the file's order.
     Spectral(Vec<f64>),
-    /// Bands that have names only, such as `Visible` and `Solar`.
+    /// Bands that have only names, such as `Visible` and `Solar`.
     Named(Vec<String>),
 }
 
@@ -26,7 +26,7 @@ impl Channels {
         }
     }
 
-    /// A name for each channel, in order: `Y`, or `R G B`, or `X Y Z`, or `550nm`, or what the file calls it.
+    /// A name for each channel, in order: `Y`, or `R G B`, or `X Y Z`, or `550nm`, or its name in the file.
     pub fn names(&self) -> Vec<String> {
         match self {
             Channels::Mono => vec!["Y".into()],

@@ -195,7 +195,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn entries_are_where_the_cie_has_them() {
+    fn entries_match_the_cie_tables() {
         let at = |nm: usize| [X_BAR[nm - 380], Y_BAR[nm - 380], Z_BAR[nm - 380]];
         assert_eq!(at(380), [0.001_368, 0.000_039, 0.006_450_001]);
         assert_eq!(at(555), [0.512_050_1, 1.0, 0.005_749_999]);

@@ -1,10 +1,10 @@
-//! How far two colours are apart to the eye.
+//! The perceived difference of two colours.
 
 use std::f64::consts::TAU;
 
 use crate::WHITE;
 
-/// CIELAB of an XYZ of which a perfect white has Y = 1 (ISO/CIE 11664-4).
+/// CIELAB of an XYZ relative to a perfect white with Y = 1 (ISO/CIE 11664-4).
 fn lab(xyz: [f64; 3]) -> [f64; 3] {
     const KINK: f64 = 6.0 / 29.0;
     let f = |t: f64| if t > KINK.powi(3) { t.cbrt() } else { t / (3.0 * KINK * KINK) + 4.0 / 29.0 };
@@ -12,7 +12,7 @@ fn lab(xyz: [f64; 3]) -> [f64; 3] {
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
-/// The colour difference of two XYZ, of which a perfect white has Y = 1: CIE delta E 2000 (ISO/CIE 11664-6) between
+/// The colour difference of two XYZ relative to a perfect white with Y = 1: CIE delta E 2000 (ISO/CIE 11664-6) between
 /// their CIELAB under D65.
 pub fn delta_e(a: [f64; 3], b: [f64; 3]) -> f64 {
     of_labs(lab(a), lab(b))
@@ -27,7 +27,7 @@ fn of_labs([l1, a1, b1]: [f64; 3], [l2, a2, b2]: [f64; 3]) -> f64 {
     let ((c1, h1), (c2, h2)) = (polar(a1, b1), polar(a2, b2));
     let is_grey = c1 * c2 == 0.0;
 
-    // The shorter way round the circle, and the hue in the middle of it.
+    // The shorter way around the circle, and the hue in the middle of it.
     let turn = match h2 - h1 {
         _ if is_grey => 0.0,
         turn if turn > 180.0 => turn - 360.0,
@@ -64,7 +64,7 @@ mod tests {
 
     /// Table 1 of the paper; pairs that reach every branch.
     #[test]
-    fn differences_are_those_of_the_published_pairs() {
+    fn differences_agree_with_the_published_pairs() {
         for (a, b, expected) in [
             ([50.0, 2.6772, -79.7751], [50.0, 0.0, -82.7485], 2.0425),
             ([50.0, 3.1571, -77.2803], [50.0, 0.0, -82.7485], 2.8615),

@@ -1,17 +1,17 @@
-//! What the channels of a measured material mean as colour.
+//! The colour of the channels of a measured material.
 //!
-//! There is one observer, CIE 1931 of 2 degrees, and one white, D65. A BRDF turns the spectrum of the light into that
-//! of what is seen, so the colour of a material is its colour under a light: under D65, where a perfect white has Y = 1
-//! and linear sRGB 1, 1, 1. XYZ in files is taken to be relative to the same white; nothing is adapted from one white
-//! to another, except the bands of window sheets (see [`NamedBands`]) and pictures with [`Primaries`] of their own.
+//! There is one observer, CIE 1931 (2 degrees), and one white, D65. A material has a colour only under a light: here
+//! under D65, where a perfect white has Y = 1 and linear sRGB 1, 1, 1. XYZ in files is assumed to be relative to the
+//! same white; nothing is adapted from one white to another, except the bands of window sheets (see [`NamedBands`]) and
+//! pictures with other [`Primaries`].
 //!
-//! - [`Channels`]: what the numbers of a value mean;
-//! - [`Reduction`]: from these to XYZ or to linear sRGB, a linear map;
-//! - [`luminance()`]: how much each channel counts when directions are drawn;
+//! - [`Channels`]: the meaning of the numbers of a value;
+//! - [`Reduction`]: a linear map from these to XYZ or to linear sRGB;
+//! - [`luminance()`]: the weight of each channel when directions are drawn;
 //! - [`RGB_TO_XYZ`], [`XYZ_TO_RGB`], [`WHITE`], [`LUMINANCE`]: the numbers behind them;
-//! - [`Primaries`]: other RGB spaces than sRGB, in which pictures of surroundings come;
+//! - [`Primaries`]: RGB spaces other than sRGB, which environment pictures may use;
 //! - [`ToneMap`], [`encode`]: from linear sRGB to bytes;
-//! - [`delta_e`]: how far two colours are apart to the eye.
+//! - [`delta_e`]: the perceived difference of two colours.
 #![forbid(unsafe_code)]
 
 mod bands;

@@ -1,12 +1,12 @@
-//! How much each channel counts when directions are drawn.
+//! The weight of each channel when directions are drawn.
 
 use crate::reduction::{any_visible, of_wavelengths};
 use crate::{Channels, LUMINANCE};
 
 /// The weight of each channel in luminance: Y of XYZ, the weights of Rec. 709 for RGB, and Y of the spectrum that has
 /// the value 1 at one wavelength, as [`Reduction`](crate::Reduction) interpolates it. The weights sum to 1.
-///
-/// Named bands count equally, as any of them may be requested, and so do wavelengths if none of them is visible.
+/// Named bands have equal weights, because any of them may be requested, and so do wavelengths if none of them is
+/// visible.
 pub fn luminance(channels: &Channels) -> Vec<f32> {
     match channels {
         Channels::Mono => vec![1.0],
@@ -24,7 +24,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn green_counts_most_and_what_cannot_be_seen_counts_alike() {
+    fn green_weighs_most_and_invisible_channels_weigh_alike() {
         let weights = luminance(&Channels::Spectral((0..31).map(|i| 400.0 + 10.0 * f64::from(i)).collect()));
         assert!((weights.iter().sum::<f32>() - 1.0).abs() < 1e-5);
         let brightest = (0..31).max_by(|&a, &b| weights[a].total_cmp(&weights[b])).unwrap();

@@ -1,9 +1,9 @@
-//! Red, green, blue and white of other colour spaces than sRGB.
+//! Red, green, blue and white of colour spaces other than sRGB.
 
 use crate::rgb::product;
 use crate::{WHITE, XYZ_TO_RGB};
 
-/// The chromaticities (x, y) of an RGB space: what its red, green and blue are, and what is white in it.
+/// The chromaticities (x, y) of an RGB space: those of its red, green and blue, and of its white.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Primaries {
     /// The chromaticity of red.
@@ -18,22 +18,22 @@ pub struct Primaries {
 
 /// Chromaticities in files have three or four digits.
 const SAME: f64 = 6e-4;
-/// Responses of the cones, to which white is adapted (Lam's matrix, known as Bradford's).
+/// The cone responses in which white is adapted (Lam's matrix, known as Bradford's).
 const CONES: [[f64; 3]; 3] = [[0.8951, 0.2664, -0.1614], [-0.7502, 1.7135, 0.0367], [0.0389, -0.0685, 1.0296]];
 
 impl Primaries {
-    /// Those of sRGB and of Rec. ITU-R BT.709, with the white of D65.
+    /// The primaries of sRGB and of Rec. ITU-R BT.709, with the white of D65.
     pub const SRGB: Primaries =
         Primaries { red: [0.64, 0.33], green: [0.3, 0.6], blue: [0.15, 0.06], white: [0.3127, 0.329] };
 
-    /// Whether these are the primaries of sRGB, as far as files state them.
+    /// Whether these are the primaries of sRGB, to the precision of files.
     pub fn is_srgb(&self) -> bool {
         let all = |p: &Primaries| [p.red, p.green, p.blue, p.white];
         all(self).as_flattened().iter().zip(all(&Primaries::SRGB).as_flattened()).all(|(a, b)| (a - b).abs() <= SAME)
     }
 
-    /// The matrix from linear RGB of these primaries to linear sRGB. White stays white: it is adapted to D65. `None` if the
-    /// primaries span no space of colours.
+    /// The matrix from linear RGB of these primaries to linear sRGB. White stays white: it is adapted to D65. `None` if
+    /// the primaries do not span a colour space.
     pub fn to_srgb(&self) -> Option<[[f64; 3]; 3]> {
         let xyz = |[x, y]: [f64; 2]| [x, y, 1.0 - x - y];
         let [red, green, blue, white] = [self.red, self.green, self.blue, self.white].map(xyz);
@@ -57,7 +57,7 @@ fn times(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
 }
 
 fn inverse(m: &[[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
-    // Cofactors, with the indices going round.
+    // Cofactors, with cyclic indices.
     let cofactor = |i: usize, j: usize| {
         let at = |di: usize, dj: usize| m[(i + di) % 3][(j + dj) % 3];
         at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn xyz_is_a_space_of_primaries_and_a_line_is_none() {
+    fn xyz_is_a_valid_space_and_a_line_is_not() {
         let d65 = [0.3127, 0.329];
         let xyz = Primaries { red: [1.0, 0.0], green: [0.0, 1.0], blue: [0.0, 0.0], white: d65 };
         // Equal numbers are white there, so X and Z are relative to those of white.

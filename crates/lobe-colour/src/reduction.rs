@@ -13,7 +13,7 @@ pub struct NoColour {
     pub found: String,
 }
 
-/// Which three numbers are wanted.
+/// The three numbers to compute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Space {
     /// CIE 1931 XYZ, 2 degrees.
@@ -25,12 +25,12 @@ pub enum Space {
 /// A linear map from the channels of a material to three.
 ///
 /// - One channel without a colour, and the visible band of named ones ([`NamedBands`]), are grey.
-/// - RGB is taken to be linear sRGB.
+/// - RGB is assumed to be linear sRGB.
 /// - Wavelengths are integrated with the colour matching functions under D65 in steps of 1 nm: the spectrum is linear
-///   between them and constant beyond the first and the last. So one wavelength alone is grey, and so is what lies
-///   outside the visible.
+///   between them and constant beyond the first and the last. So a single wavelength is grey, and so are invisible
+///   wavelengths.
 ///
-/// Colours outside the triangle of the primaries have negative RGB, which are kept.
+/// Colours outside the triangle of the primaries have negative RGB, which is kept.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reduction {
     /// `[X, Y, Z]` or `[R, G, B]` of each channel.
@@ -44,7 +44,7 @@ impl Reduction {
     /// The map from these channels.
     ///
     /// # Errors
-    /// [`NoColour`] if channels have names that say nothing about colour.
+    /// [`NoColour`] if the names of the channels say nothing about colour.
     pub fn new(channels: &Channels, space: Space) -> Result<Self, NoColour> {
         let map = |xyz: Vec<[f64; 3]>| match space {
             Space::Xyz => xyz,
@@ -98,12 +98,12 @@ impl Reduction {
         Reduction { is_identity: weights == UNIT, weights, narrow }
     }
 
-    /// How many channels the material has.
+    /// The number of channels of the material.
     pub fn channels(&self) -> usize {
         self.weights.len()
     }
 
-    /// Whether the channels are the wanted ones already.
+    /// Whether the channels are already the wanted ones.
     pub fn is_identity(&self) -> bool {
         self.is_identity
     }
@@ -165,7 +165,7 @@ fn alone(count: usize, index: usize, weights: [f64; 3]) -> Vec<[f64; 3]> {
     all
 }
 
-/// The one channel that counts, if no other does.
+/// The channel with all the weight, if there is one.
 fn only(weights: &[[f64; 3]]) -> Option<usize> {
     let counts = |weights: &[f64; 3]| weights.iter().any(|weight| *weight != 0.0);
     let mut indices = (0..weights.len()).filter(|&index| counts(&weights[index]));
@@ -195,7 +195,7 @@ pub(crate) fn of_wavelengths(wavelengths: &[f64]) -> Vec<[f64; 3]> {
     weights.into_iter().map(|weight| weight.map(|c| c / luminance)).collect()
 }
 
-/// Whether any of these wavelengths can be seen.
+/// Whether any of these wavelengths is visible.
 pub(crate) fn any_visible(wavelengths: &[f64]) -> bool {
     wavelengths.iter().any(|nm| (FIRST..=LAST).contains(nm))
 }
@@ -295,7 +295,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_rgb_already_is_left_alone() {
+    fn rgb_is_left_unchanged() {
         let reduction = Reduction::for_display(&Channels::Rgb);
         assert!(reduction.is_identity() && reduction.channels() == 3);
         assert_eq!(reduction.apply(&[0.1, -0.2, f32::MAX]), [0.1, -0.2, f32::MAX]);

@@ -1,10 +1,10 @@
-//! From linear sRGB to what a screen shows. Computed in software, so the bytes are the same on every machine.
+//! From linear sRGB to display values, in portable arithmetic, so the bytes are the same on every machine.
 
 /// A tone map: exposure, a shoulder, and the curve of sRGB.
 ///
-/// Radiance is multiplied by `2^exposure`. Up to 0.7 it is then shown as it is, so that colours of materials stay what
-/// they are; what is brighter approaches 1 along `1 - 0.3 exp((0.7 - x) / 0.3)`, which continues with the same slope,
-/// so that highlights do not end in flat patches. Last comes the transfer function of IEC 61966-2-1.
+/// Radiance is multiplied by `2^exposure`. Values up to 0.7 are then left as they are, so that colours of materials do
+/// not change; brighter ones approach 1 along `1 - 0.3 exp((0.7 - x) / 0.3)`, which continues with the same slope, so
+/// that highlights do not end in flat patches. The transfer function of IEC 61966-2-1 is applied last.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ToneMap {
     /// In stops.
@@ -23,7 +23,7 @@ impl ToneMap {
     }
 }
 
-/// The byte for a linear value from 0 to 1 by the transfer function of sRGB; values beyond are clipped, NaN is 0.
+/// The byte for a linear value from 0 to 1, by the sRGB transfer function; values outside are clipped, NaN is 0.
 pub fn encode(linear: f32) -> u8 {
     let x = linear.clamp(0.0, 1.0);
     let curved = if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * libm::powf(x, 1.0 / 2.4) - 0.055 };
@@ -45,7 +45,7 @@ mod tests {
     }
 
     #[test]
-    fn the_shoulder_goes_on_with_the_same_slope() {
+    fn the_shoulder_continues_with_the_same_slope() {
         let tone = ToneMap::default();
         let bytes: Vec<u8> = (0..400).map(|k| tone.byte(0.5 + 0.001 * k as f32)).collect();
         assert!(bytes.windows(2).all(|pair| pair[1] >= pair[0] && pair[1] - pair[0] <= 1), "{bytes:?}");

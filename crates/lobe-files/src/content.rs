@@ -1,4 +1,4 @@
-//! What a file is, if it is none of those that are read: so that an error can say so, and what to do.
+//! Recognition of files in unsupported formats, so that an error can say what a file is, and what to do.
 
 mod archive;
 mod signatures;
@@ -6,12 +6,12 @@ mod text;
 
 use std::path::Path;
 
-/// What a file is.
+/// A recognised kind of file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Content {
     /// In words, with an article: `a web page (HTML)`.
     pub what: String,
-    /// What to do, as a sentence without a period; empty if there is nothing to say.
+    /// What to do, as a sentence without a period; empty if there is no advice.
     pub advice: String,
 }
 
@@ -26,8 +26,8 @@ impl Content {
     }
 }
 
-/// What the file `path` with this content is, by its first bytes and, for formats that others are built on, its name.
-/// `None` for plain text and for what is unknown; [`beginning`] shows how it begins.
+/// The kind of the file `path` with this content, from its first bytes and, for container formats, its name. `None` for
+/// plain text and for unknown content; [`beginning`] shows how it begins.
 pub fn content(bytes: &[u8], path: &Path) -> Option<Content> {
     if bytes.is_empty() {
         return Some(Content::new("an empty file", AGAIN));
@@ -38,13 +38,13 @@ pub fn content(bytes: &[u8], path: &Path) -> Option<Content> {
     archive::content(bytes, path).or_else(|| signatures::content(bytes, path)).or_else(|| text::content(bytes))
 }
 
-/// `true` for HTML, which shows the words of other formats without being one of them.
+/// `true` for HTML, which may contain the keywords of other formats.
 pub fn is_web_page(bytes: &[u8]) -> bool {
     let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
     start.starts_with(b"<") && text::of(bytes).is_some_and(|text| text::is_web_page(text.trim_start()))
 }
 
-/// How a file begins, for people: the first line of a text, or the first bytes in hexadecimal.
+/// The beginning of a file, for people: the first line of a text, or the first bytes in hexadecimal.
 pub fn beginning(bytes: &[u8]) -> String {
     const LIMIT: usize = 40;
     if let Some(text) = text::of(bytes) {
@@ -57,7 +57,7 @@ pub fn beginning(bytes: &[u8]) -> String {
     format!("binary data that begin {}", bytes.join(" "))
 }
 
-/// For files that were lost on their way.
+/// Advice for files that were damaged in transfer.
 pub(crate) const AGAIN: &str = "The copy or download failed: fetch the file again";
 
 #[cfg(test)]
@@ -111,8 +111,8 @@ mod tests {
     }
 
     #[test]
-    fn archives_name_what_is_in_them() {
-        // Local headers of two files that are stored.
+    fn archives_are_described_by_their_contents() {
+        // Local headers of two stored files.
         let entry = |name: &str| {
             let mut bytes = b"PK\x03\x04\x14\0\0\0\0\0\0\0\0\0".to_vec();
             bytes.extend([0; 12]);

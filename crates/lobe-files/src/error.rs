@@ -1,11 +1,11 @@
-//! One error for every reader: which file, where in it, what was found, what was expected.
+//! One error type for all readers: the file, the place in it, what was found, and what was expected.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::printable;
 
-/// Where in a file something is wrong.
+/// The place of an error in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// The file as a whole.
@@ -16,14 +16,14 @@ pub enum Place {
     Byte(u64),
 }
 
-/// Why a file could not be read.
+/// A file could not be read.
 ///
 /// Prints as `FILE:LINE: found X; expected Y` (`FILE: byte N: ...` in binary files), with control characters escaped.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct FormatError {
     /// The file, as the caller named it.
     pub file: PathBuf,
-    /// Where in the file.
+    /// The place in the file.
     pub place: Place,
     /// What was found there.
     pub found: String,
@@ -38,8 +38,8 @@ impl FormatError {
     }
 }
 
-/// Text of a file as an error shows it: control characters escaped, and what is longer than `most` characters cut, with
-/// dots that say so.
+/// Text from a file as an error shows it: control characters are escaped, and text longer than `most` characters is cut
+/// and ends in dots.
 pub fn excerpt(text: &str, most: usize) -> String {
     let mut shown: String = text.chars().take(most).flat_map(char::escape_debug).collect();
     if text.chars().nth(most).is_some() {
@@ -48,8 +48,8 @@ pub fn excerpt(text: &str, most: usize) -> String {
     shown
 }
 
-/// What was found and what was expected. An error of a part, which says itself what it expected, is not followed by what the
-/// whole was to be.
+/// What was found and what was expected. If the error of a part already says what it expected, the expectation for the
+/// whole is omitted.
 pub fn sentence(found: &str, expected: &str) -> String {
     let found = found.strip_prefix("found ").unwrap_or(found);
     if found.contains("; expected ") { format!("found {found}") } else { format!("found {found}; expected {expected}") }
@@ -73,13 +73,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn long_text_is_cut_and_says_so() {
+    fn long_text_is_cut_and_ends_in_dots() {
         assert_eq!(excerpt("a word", 6), "a word");
         assert_eq!(excerpt("a \u{1b}[31mword", 4), "a \\u{1b}[...");
     }
 
     #[test]
-    fn what_was_expected_is_said_once() {
+    fn expectations_are_stated_once() {
         let error = |found: &str| FormatError::new(Path::new("a"), Place::Line(2), found, "a table").to_string();
         assert_eq!(error("a word"), "a:2: found a word; expected a table");
         assert_eq!(error("found 3 knots; expected 4"), "a:2: found 3 knots; expected 4");

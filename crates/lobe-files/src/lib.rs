@@ -1,8 +1,8 @@
-//! What all readers and writers of files share, whatever the files hold: [`FormatError`] says which file, where in it, what
-//! was found and what was expected; [`read()`] reads files and nothing else, and [`recorded`] says which; [`unpacked`] opens
-//! files that are packed with gzip; [`content()`] says what an unsupported file is; [`printable`] makes
-//! text of files safe to show; [`write_whole`] and [`replace`] write a file completely or leave the old one alone, and
-//! [`check_output`] says beforehand whether they will.
+//! Code shared by all readers and writers of files, of any content: [`FormatError`] names the file, the place in it,
+//! what was found and what was expected; [`read()`] reads ordinary files, and [`recorded`] lists which were read;
+//! [`unpacked`] unpacks files compressed with gzip; [`content()`] says what an unsupported file is; [`printable`] makes
+//! text from files safe to show; [`write_whole`] and [`replace`] write a file completely or leave the old one
+//! unchanged, and [`check_output`] checks beforehand whether they can.
 #![forbid(unsafe_code)]
 
 mod content;

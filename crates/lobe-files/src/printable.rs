@@ -1,10 +1,10 @@
-//! Text of files on its way to a terminal.
+//! Text from files, made safe for a terminal.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
-/// `text` as it may be shown to people: control characters, which a terminal would obey, and characters that reorder text
-/// are escaped (`\u{1b}`); white space other than the space becomes one.
+/// `text` made safe to show: control characters, which a terminal would obey, and characters that reorder text are
+/// escaped (`\u{1b}`); other white space becomes a space.
 pub fn printable(text: &str) -> Cow<'_, str> {
     if !text.chars().any(|c| is_obeyed(c) || is_blank(c)) {
         return Cow::Borrowed(text);
@@ -35,7 +35,7 @@ mod tests {
     use super::printable;
 
     #[test]
-    fn nothing_that_a_terminal_obeys_is_left() {
+    fn no_control_characters_are_left() {
         assert_eq!(printable("Größe 1 µm"), "Größe 1 µm");
         assert_eq!(printable("a\tb\r\nc"), "a b  c");
         assert_eq!(printable("\u{1b}[2Jx\u{7}\0\u{9b}\u{7f}"), "\\u{1b}[2Jx\\u{7}\\u{0}\\u{9b}\\u{7f}");

@@ -1,4 +1,4 @@
-//! Reading files whole, and keeping track of which were read.
+//! Reading whole files, and recording which were read.
 
 use std::cell::RefCell;
 use std::fs::{File, Metadata};
@@ -11,11 +11,11 @@ use sha2::{Digest as _, Sha256};
 
 use crate::{FormatError, Place};
 
-/// Reads a whole file. Devices, pipes and sockets, which may have no end or never answer, are refused before they are
+/// Reads a whole file. Devices, pipes and sockets, which may be endless or never answer, are refused before they are
 /// opened.
 ///
 /// # Errors
-/// [`FormatError`] if the file cannot be read, is none, or does not fit into memory.
+/// [`FormatError`] if the file cannot be read, is not an ordinary file, or does not fit into memory.
 pub fn read(path: &Path) -> Result<Vec<u8>, FormatError> {
     if is_standard_input(path) {
         let bytes = standard_input(path)?;
@@ -32,24 +32,24 @@ pub fn read(path: &Path) -> Result<Vec<u8>, FormatError> {
     Ok(bytes)
 }
 
-/// The name of the standard input, for programs that say so.
+/// The name of standard input, for programs that enable it.
 const DASH: &str = "-";
 
 static IS_DASH_STANDARD_INPUT: AtomicBool = AtomicBool::new(false);
 
-/// From now on a file called `-` is the standard input: what programs mean by it, and libraries do not.
+/// From now on, the file name `-` means standard input, which is for programs and not for libraries.
 pub fn name_standard_input() {
     IS_DASH_STANDARD_INPUT.store(true, Ordering::Relaxed);
 }
 
-/// Whether a file of this name is the standard input.
+/// Whether a file with this name is standard input.
 pub fn is_standard_input(path: &Path) -> bool {
     path == Path::new(DASH) && IS_DASH_STANDARD_INPUT.load(Ordering::Relaxed)
 }
 
-/// All of the standard input, which can be read once only but is asked for as often as any other file.
+/// All of standard input, which can be read only once but may be requested as often as any other file.
 fn standard_input(path: &Path) -> Result<Vec<u8>, FormatError> {
-    /// Larger than any measurement that is known.
+    /// Larger than any known measurement.
     const MOST: u64 = 4 << 30;
     static BYTES: OnceLock<Result<Vec<u8>, String>> = OnceLock::new();
     let read = || {
@@ -65,7 +65,7 @@ fn standard_input(path: &Path) -> Result<Vec<u8>, FormatError> {
 
 const READABLE: &str = "a file that can be read";
 
-/// The error of [`read`] as one of the system, for errors that name the file themselves.
+/// Reads like [`read`], with a system error, for callers whose errors name the file themselves.
 ///
 /// # Errors
 /// As [`read`].
@@ -77,13 +77,13 @@ pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
 
 fn content(path: &Path, size: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    let too_large = |_| io::Error::other(format!("{size} bytes, for which there is no memory"));
+    let too_large = |_| io::Error::other(format!("{size} bytes, which do not fit into memory"));
     bytes.try_reserve_exact(usize::try_from(size).unwrap_or(usize::MAX)).map_err(too_large)?;
     File::open(path)?.read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 
-/// What something that is not an ordinary file is.
+/// Describes something that is not an ordinary file.
 pub(crate) fn not_a_file(metadata: &Metadata) -> Option<&'static str> {
     let kind = metadata.file_type();
     match (kind.is_file(), kind.is_dir()) {
@@ -93,12 +93,12 @@ pub(crate) fn not_a_file(metadata: &Metadata) -> Option<&'static str> {
     }
 }
 
-/// The files that a piece of work has read, in their order.
+/// The files that a piece of work read, in order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Reads {
-    /// Which files.
+    /// The paths of the files.
     pub files: Vec<PathBuf>,
-    /// SHA-256 of their sizes and contents; what they are called does not count.
+    /// SHA-256 of their sizes and contents, without their names.
     pub hash: [u8; 32],
 }
 
@@ -109,12 +109,12 @@ struct Record {
 }
 
 thread_local! {
-    /// What [`recorded`] collects on this thread.
+    /// The files that [`recorded`] collects on this thread.
     static RECORD: RefCell<Option<Record>> = const { RefCell::new(None) };
 }
 
-/// Runs `work`, and returns what it read by [`read`] and [`bytes`] on this thread. A reader may open further files next to
-/// the one that it was given: here they all are.
+/// Runs `work`, and returns the files that it read with [`read`] and [`bytes`] on this thread, including those that a
+/// reader opens next to the file that it was given.
 pub fn recorded<R>(work: impl FnOnce() -> R) -> (R, Reads) {
     let outer = RECORD.replace(Some(Record::default()));
     let result = work();
@@ -142,7 +142,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_read_is_recorded_by_its_content() {
+    fn files_are_recorded_by_content() {
         let folder = tempfile::tempdir().unwrap();
         let write = |name: &str, content: &str| {
             let path = folder.path().join(name);
@@ -174,7 +174,7 @@ mod tests {
         }
     }
 
-    /// Opening a pipe that nobody writes to would wait for ever.
+    /// Opening a pipe that nobody writes to would wait forever.
     #[cfg(unix)]
     #[test]
     fn a_pipe_is_not_waited_for() {

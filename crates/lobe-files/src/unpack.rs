@@ -1,4 +1,4 @@
-//! Files that are packed with gzip.
+//! Files compressed with gzip.
 
 use std::borrow::Cow;
 use std::io::{ErrorKind, Read as _};
@@ -8,30 +8,30 @@ use flate2::read::{MultiGzDecoder, ZlibDecoder};
 
 use crate::{FormatError, Place};
 
-/// The content of a file, unpacked if it was packed with gzip.
+/// The content of a file, unpacked if it was compressed with gzip.
 #[derive(Debug)]
 pub struct Unpacked<'a> {
-    /// What the file holds.
+    /// The content.
     pub bytes: Cow<'a, [u8]>,
-    /// The name of what it holds: without `.gz`, if it was packed.
+    /// The name of the content: without `.gz`, if it was compressed.
     pub name: Cow<'a, Path>,
 }
 
-/// Unpacked files up to this size are never refused for it.
+/// Unpacked files up to this size are never refused for their size.
 const ALWAYS: u64 = 256 << 20;
-/// Larger ones have at most this many bytes per byte of the packed file.
+/// Larger ones may have at most this many bytes per byte of the compressed file.
 const RATIO: u64 = 100;
 
-/// `true` for the first bytes of a file that is packed with gzip.
+/// `true` for the first bytes of a file compressed with gzip.
 pub fn is_gzip(bytes: &[u8]) -> bool {
     bytes.starts_with(&[0x1f, 0x8b, 8])
 }
 
-/// Unpacks the content of the file `path`, if it is packed with gzip: by its first bytes, whatever its name.
+/// Unpacks the content of the file `path` if its first bytes say that it is compressed with gzip, whatever its name.
 ///
 /// # Errors
-/// [`FormatError`] if the packed data are damaged or cut short, or if they unpack to more than 256 MiB and a hundred times
-/// their size.
+/// [`FormatError`] if the compressed data are damaged or cut short, or if they unpack to more than 256 MiB and more
+/// than a hundred times their size.
 pub fn unpacked<'a>(bytes: &'a [u8], path: &'a Path) -> Result<Unpacked<'a>, FormatError> {
     if !is_gzip(bytes) {
         return Ok(Unpacked { bytes: bytes.into(), name: path.into() });
@@ -55,7 +55,7 @@ pub fn unpacked<'a>(bytes: &'a [u8], path: &'a Path) -> Result<Unpacked<'a>, For
     Err(FormatError::new(path, Place::File, found, expected))
 }
 
-/// Unpacks a stream of zlib that begins at byte `at` of the file `path`; what follows it in `bytes` is let be.
+/// Unpacks a zlib stream that begins at byte `at` of the file `path`; bytes that follow it are ignored.
 ///
 /// # Errors
 /// As [`unpacked`].
@@ -70,7 +70,7 @@ pub fn inflated(bytes: &[u8], at: u64, path: &Path) -> Result<Vec<u8>, FormatErr
         }
         Err(error) => format!("damaged packed data ({error}), of which {} bytes can be unpacked", content.len()),
     };
-    Err(FormatError::new(path, Place::Byte(at), found, "a whole stream of zlib"))
+    Err(FormatError::new(path, Place::Byte(at), found, "a whole zlib stream"))
 }
 
 /// The name without `.gz`.
@@ -95,14 +95,14 @@ mod tests {
     }
 
     #[test]
-    fn content_is_unpacked_and_its_name_loses_the_ending() {
+    fn content_is_unpacked_and_its_name_loses_the_extension() {
         let path = Path::new("folder/paint.ddt.GZ");
         let packed = gzip(b"sigma");
         let found = unpacked(&packed, path).expect("gzip");
         assert_eq!((&*found.bytes, &*found.name), (b"sigma".as_slice(), Path::new("folder/paint.ddt")));
         let found = unpacked(b"sigma", path).expect("a plain file");
         assert_eq!((&*found.bytes, &*found.name), (b"sigma".as_slice(), path));
-        // Files may be packed in pieces.
+        // Files may be compressed in several pieces.
         let pieces = [gzip(b"sig"), gzip(b"ma")].concat();
         assert_eq!(&*unpacked(&pieces, Path::new("x")).expect("gzip").bytes, b"sigma");
     }

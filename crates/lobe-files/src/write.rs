@@ -1,4 +1,4 @@
-//! Writing a file so that it is either whole or missing.
+//! Writing a file so that it is never half-written.
 
 use std::fs::File;
 use std::io::{self, ErrorKind, Write as _};
@@ -17,11 +17,11 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), FormatError> {
     replace(path, content).map_err(|error| unwritable(path, &error))
 }
 
-/// As [`write_whole`], with the error of the system. A file that is replaced keeps its permissions; a new one has those of
-/// the user's umask. A link is followed: what it points to is replaced.
+/// As [`write_whole`], with a system error. A file that is replaced keeps its permissions; a new one has those of the
+/// user's umask. A link is followed: its target is replaced.
 ///
 /// # Errors
-/// If the folder or the file cannot be written, or there is something other than a file that may be written.
+/// If the folder or the file cannot be written, or the path is not a writable file.
 pub fn replace(path: &Path, content: &[u8]) -> io::Result<()> {
     let target = target(path)?;
     let folder = folder(&target);
@@ -32,17 +32,17 @@ pub fn replace(path: &Path, content: &[u8]) -> io::Result<()> {
     }
     file.as_file().sync_all()?;
     file.persist(&target)?;
-    // The new name lasts only if the folder reaches the disk too. Not every system can do that.
+    // The new name is durable only if the folder is also synced, which not every system supports.
     #[cfg(unix)]
     let _ = File::open(folder).and_then(|folder| folder.sync_all());
     Ok(())
 }
 
-/// Whether `path` could be written now: for programs that would work for hours before they write. Fails as well if it is
-/// one of `inputs`, or a file in one of them that is a folder: what was read must not be replaced by accident.
+/// Checks that `path` could be written now, for programs that work for hours before they write. Also fails if it is one
+/// of `inputs`, or a file in an input folder: inputs must not be replaced by accident.
 ///
 /// # Errors
-/// [`FormatError`] names `path`, what is there, and what should be.
+/// [`FormatError`] names `path`, what is there, and what is expected.
 pub fn check_output<P: AsRef<Path>>(path: &Path, inputs: &[P]) -> Result<(), FormatError> {
     let refuse = |error: io::Error| unwritable(path, &error);
     if is_standard_input(path) {
@@ -68,7 +68,7 @@ pub fn check_output<P: AsRef<Path>>(path: &Path, inputs: &[P]) -> Result<(), For
     temporary(folder(&target)).map_err(refuse).map(drop)
 }
 
-/// Where links lead, and that there is nothing or a file that may be written.
+/// Follows links, and checks that there is nothing or a writable file.
 fn target(path: &Path) -> io::Result<PathBuf> {
     /// As many links as Linux follows.
     const LINKS: usize = 40;
@@ -101,7 +101,7 @@ const SUFFIX: &str = ".tmp";
 
 /// A temporary file, which is locked as long as it is in use.
 fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
-    // Without the folder, the error would name a temporary file in it.
+    // If the folder is missing, the error would otherwise name a temporary file in it.
     folder.metadata()?;
     #[cfg(unix)]
     clean(folder);
@@ -112,7 +112,7 @@ fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     loop {
         let file = builder.tempfile_in(folder)?;
-        // Between its making and its locking another program may have taken it for one that was left behind.
+        // Between its creation and its locking, another program may have removed it as a leftover.
         #[cfg(unix)]
         if matches!(file.as_file().try_lock(), Err(std::fs::TryLockError::WouldBlock)) || !file.path().exists() {
             continue;
@@ -121,7 +121,7 @@ fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
     }
 }
 
-/// Removes the temporary files of programs that were killed: those that nobody has locked.
+/// Removes the temporary files of killed programs, which nobody has locked.
 #[cfg(unix)]
 fn clean(folder: &Path) {
     let Ok(entries) = folder.read_dir() else { return };
@@ -138,7 +138,7 @@ fn clean(folder: &Path) {
     }
 }
 
-/// Why `path` was not written: the file system refused, or the material does not fit the format.
+/// `path` was not written: the file system refused, or the material does not fit the format.
 pub fn unwritable(path: &Path, error: &io::Error) -> FormatError {
     let expected = match error.kind() {
         ErrorKind::InvalidInput => "a material that fits the format",
@@ -152,7 +152,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_is_replaced_and_nothing_is_left_beside_it() {
+    fn a_file_is_replaced_and_nothing_is_left_next_to_it() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a");
         write_whole(&path, b"old").unwrap();
@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_read_is_not_written() {
+    fn inputs_are_not_overwritten() {
         let folder = tempfile::tempdir().unwrap();
         let (a, b) = (folder.path().join("a"), folder.path().join("b"));
         std::fs::write(&a, "a").unwrap();
@@ -192,14 +192,14 @@ mod tests {
             let error = check_output(output, &[&b, &a]).unwrap_err();
             assert!(error.expected == "another file to write" && error.found.ends_with("used otherwise"), "{error}");
         }
-        // A file of a folder that is read as a whole; a new one does no harm.
+        // An existing file of an input folder is refused; a new one is allowed.
         assert!(check_output(&a, &[folder.path()]).is_err());
         check_output(&b, &[folder.path()]).unwrap();
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 
     #[test]
-    fn what_is_no_file_or_read_only_is_not_replaced() {
+    fn non_files_and_read_only_files_are_not_replaced() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a");
         std::fs::create_dir(&path).unwrap();
@@ -234,13 +234,13 @@ mod tests {
             assert_eq!(std::fs::read(path(file)).unwrap(), b"new");
         }
         assert!(write_whole(&path("circle"), b"").is_err());
-        // A link to what is read is what is read.
+        // A link to an input counts as the input.
         assert!(check_output(&path("chain"), &[path("below/file")]).is_err());
     }
 
     #[cfg(unix)]
     #[test]
-    fn what_a_killed_program_left_is_removed_and_what_is_in_use_is_not() {
+    fn leftovers_are_removed_and_files_in_use_are_not() {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name);
         let used = temporary(folder.path()).unwrap();

@@ -1,6 +1,6 @@
-//! A table that corner loads cannot leave.
+//! A pattern of corner loads that cannot leave its table.
 
-/// A slice of texels with `N` fixed offsets that are all inside it for every base up to a known last one.
+/// A slice of texels with `N` fixed offsets, all of which are inside it for every base up to a known last one.
 ///
 /// An interpolation loads the same pattern of corners from one base index. Checking each of the 2 to 8 loads of a
 /// query would put a branch before every load of the hottest loop. A `Block` checks the pattern once: a base clamped

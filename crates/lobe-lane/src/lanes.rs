@@ -1,9 +1,9 @@
-//! The token of a backend and what it can make.
+//! The token of a backend, and its operations.
 
 use crate::strict::{Strictly, backend_trait};
 use crate::{Block, Floats, Ints, Mask, Strict, Texels};
 
-/// The widest backend there may be; kernels that need an array with one entry per lane use this size.
+/// The largest number of lanes of any backend; kernels that need an array with one entry per lane use this size.
 pub const MAX_LANES: usize = 16;
 
 /// Work to be compiled for a backend's instruction set.
@@ -16,7 +16,7 @@ pub trait Kernel {
 }
 
 /// Calls a kernel from another one instead of inlining it, so that its code exists once per backend. The call costs a
-/// few nanoseconds, so it is meant for a block of work; loops around it cannot keep values in registers across it.
+/// few nanoseconds, so it is meant for a block of work; a loop around the call cannot keep values in registers.
 #[inline(never)]
 pub fn call<L: Lanes, K: Kernel>(lanes: L, kernel: K) -> K::Out {
     lanes.vectorize(kernel)
@@ -34,22 +34,22 @@ backend_trait! {
         /// `LANES` truth values.
         type M: Mask;
 
-        /// The backend for work that has too little to do for all lanes: one query, or one ray against the eight boxes
-        /// of a node. Usually the backend itself.
+        /// The backend for work that is too small for all lanes: one query, or one ray against the eight boxes of a
+        /// node. Usually the backend itself.
         type Narrow: Lanes;
 
-        /// How many lanes there are: a power of two, at most [`MAX_LANES`].
+        /// The number of lanes: a power of two, at most [`MAX_LANES`].
         const LANES: usize;
-        /// Name of the backend as in `LOBE_BACKEND`.
+        /// The name of the backend, as in `LOBE_BACKEND`.
         const NAME: &'static str;
         /// `true` if [`mul_add`](Lanes::mul_add) rounds once.
         const FUSED: bool;
         /// `true` if [`oct_lookup`](Lanes::oct_lookup) is a single instruction, so that small tables are best searched
-        /// inside registers. Of sixteen lanes, [`look_up`](Lanes::look_up) is one as well.
+        /// inside registers. For sixteen lanes, [`look_up`](Lanes::look_up) is then also a single instruction.
         const PERMUTES: bool;
 
-        /// Runs a kernel compiled with this backend's instructions. Call it once per batch: what is called through it
-        /// cannot be inlined into the caller.
+        /// Runs a kernel compiled with this backend's instructions. Call it once per batch: the kernel cannot be
+        /// inlined into the caller.
         fn vectorize<K: Kernel>(self, kernel: K) -> K::Out;
 
         /// The same backend with [`mul_add`](Lanes::mul_add) rounded twice: bit-identical on every backend and width.
@@ -57,7 +57,7 @@ backend_trait! {
         fn strict(self) -> Strict<Self> {
             Strict(self)
         }
-        /// The token of the backend for little work.
+        /// The token of the backend for small work.
         fn narrow(self) -> Self::Narrow;
 
         /// `a * b + c`, rounded once if [`FUSED`](Lanes::FUSED), otherwise twice.
@@ -67,7 +67,7 @@ backend_trait! {
     handed_on as LANES_HANDED_ON {
         /// `x` in every lane.
         fn splat(self, x: f32) -> Self::F;
-        /// The four floats in lanes 0 to 3, as far as there are such lanes; 0 in the others.
+        /// The four floats in lanes 0 to 3, if there are so many lanes; 0 in the others.
         fn first_four(self, x: [f32; 4]) -> Self::F;
         /// `x` in every lane.
         fn splat_int(self, x: i32) -> Self::I;
@@ -84,7 +84,7 @@ backend_trait! {
         /// `a` where the mask is set, else `b`.
         fn select_int(self, mask: Self::M, a: Self::I, b: Self::I) -> Self::I;
 
-        /// `a` where `sign` is negative, else `b`: the sign bit alone decides, so that a bit of an index can be shifted
+        /// `a` where `sign` is negative, else `b`: only the sign bit decides, so a bit of an index can be shifted
         /// there.
         fn select_negative(self, sign: Self::I, a: Self::F, b: Self::F) -> Self::F;
 
@@ -118,7 +118,7 @@ backend_trait! {
             buffer[..src.len()].copy_from_slice(src);
             self.load(&buffer)
         }
-        /// Writes as many lanes as `dst` has room for, at most `LANES`.
+        /// Writes as many lanes as fit into `dst`, at most `LANES`.
         #[inline(always)]
         fn store_partial(self, dst: &mut [f32], x: Self::F) {
             if dst.len() >= Self::LANES {
@@ -129,7 +129,7 @@ backend_trait! {
             let n = dst.len();
             dst.copy_from_slice(&buffer[..n]);
         }
-        /// Writes as many lanes as `dst` has room for, at most `LANES`.
+        /// Writes as many lanes as fit into `dst`, at most `LANES`.
         #[inline(always)]
         fn store_int_partial(self, dst: &mut [i32], x: Self::I) {
             if dst.len() >= Self::LANES {
@@ -140,8 +140,8 @@ backend_trait! {
             let n = dst.len();
             dst.copy_from_slice(&buffer[..n]);
         }
-        /// Prefetches cache lines if the backend can: entry `at` of a slice, on the first of them, will be read soon.
-        /// It may lie outside the slice, in which case nothing is gained.
+        /// Prefetches cache lines if the backend can: entry `at` of a slice, on the first of these lines, will be read
+        /// soon. It may be outside the slice; then the prefetch is useless but harmless.
         #[inline(always)]
         fn prefetch<const LINES: usize, T>(self, memory: &[T], at: usize) {
             let _ = (memory, at);
@@ -163,11 +163,11 @@ backend_trait! {
         /// If the table is empty.
         fn gather_pair(self, table: &[[f32; 2]], index: Self::I) -> [Self::F; 2];
         /// In each lane, the four floats at `base + offset` of the block, for each of its offsets; a base that is too
-        /// large is clamped to the block's last. The result is transposed: `[corner][k]` holds float `k` of that corner
-        /// in all lanes.
+        /// large is clamped to the block's last base. The result is transposed: `[corner][k]` holds float `k` of that
+        /// corner in all lanes.
         fn gather_quads<const N: usize>(self, block: &Block<'_, N, 4>, base: Self::I) -> [[Self::F; 4]; N];
         /// As [`gather_quads`](Lanes::gather_quads), from the first `LANES` bases of a slice. It is faster if they were
-        /// stored long before: they need not leave a vector on their way to addresses.
+        /// stored long before, because the indices need not be extracted from a vector.
         ///
         /// # Panics
         /// If `bases` is shorter.
@@ -179,8 +179,8 @@ backend_trait! {
         fn gather_quads_half<const N: usize>(self, block: &Block<'_, N, 4, u16>, base: Self::I) -> [[Self::F; 4]; N];
         /// In each lane, float `index & 7` of the eight in `table`.
         fn oct_lookup(self, table: Self::Oct, index: Self::I) -> Self::F;
-        /// Entry `index` of a table in `N` registers, which are 1, 2 or 4: of the index only the bits that count so far
-        /// matter.
+        /// Entry `index` of a table in `N` registers, where `N` is 1, 2 or 4: only the bits of the index that address
+        /// an entry matter.
         #[inline(always)]
         fn look_up<const N: usize>(self, table: [Self::F; N], index: Self::I) -> Self::F {
             const { assert!(N == 1 || N == 2 || N == 4, "a table in 1, 2 or 4 registers") };
@@ -192,8 +192,8 @@ backend_trait! {
             }
             self.gather(&entries, index & self.splat_int((N * Self::LANES - 1) as i32))
         }
-        /// One step down a binary tree whose node `n` is followed by `2 n` and `2 n + 1`: the latter where `difference`
-        /// has its sign bit set.
+        /// One step down a binary tree whose node `n` has the children `2 n` and `2 n + 1`: goes to the latter where
+        /// the sign bit of `difference` is set.
         #[inline(always)]
         fn descend(self, node: Self::I, difference: Self::F) -> Self::I {
             node.shl::<1>() | difference.bits().shr::<31>()

@@ -1,14 +1,15 @@
 //! Portable SIMD lanes for measured-material kernels.
 //!
-//! A *kernel* is written once, generic over [`Lanes`], and runs on whatever the processor has. This crate holds the
-//! trait and nothing else: no `unsafe`, no intrinsics, no backend. Backends live in crates of their own.
+//! A *kernel* is written once, generic over [`Lanes`], and runs with whatever instructions the processor has. This
+//! crate holds only the trait: no `unsafe`, no intrinsics, no backend. Backends are in separate crates.
 //!
-//! - A backend is a zero-sized **token** that only detection can make, so having one proves the CPU feature.
+//! - A backend is a zero-sized **token** that only detection can create, so holding one proves that the CPU has the
+//!   feature.
 //! - Lane values ([`Lanes::F`], [`Lanes::I`], [`Lanes::M`]) come only from a token, so their operators are ordinary
-//!   safe Rust: kernels read as formulas.
-//! - [`Lanes::vectorize`] is the only door into code compiled with the feature. **Everything generic over `L: Lanes`
+//!   safe Rust: kernels read like formulas.
+//! - [`Lanes::vectorize`] is the only entry into code compiled with the feature. **Everything generic over `L: Lanes`
 //!   must be `#[inline(always)]`**, or it is compiled without the feature and runs many times slower.
-//! - Memory is touched by a handful of loads and stores, each bounds-safe by itself. A wrong backend gives wrong
+//! - Only a handful of loads and stores touch memory, each bounds-safe by itself. A wrong backend gives wrong
 //!   numbers, never undefined behaviour.
 //! - [`Lanes::strict`] gives the same backend with multiply-add rounded twice: bit-identical on every backend.
 //!

@@ -1,12 +1,12 @@
-//! A backend whose multiply-add rounds twice, and the form in which traits of backends are declared.
+//! A backend whose multiply-add rounds twice, and the macro that declares the traits of backends.
 
 use crate::{Kernel, Lanes};
 
 /// Declares a trait of backends together with its implementation for [`Strict`], so that neither can be changed alone.
 ///
-/// What the trait holds in braces is not handed on: it has no default, or the strict form has its own, which the last
-/// part gives. The functions of `handed_on` belong to the trait as well, and `Strict` hands each to the backend
-/// underneath, whether or not it has a default: a backend that overrides a default overrides it for its strict form.
+/// Items of the trait in braces are not forwarded: they have no default, or the strict form has its own, which the last
+/// part gives. The functions of `handed_on` also belong to the trait, and `Strict` forwards each to the underlying
+/// backend, whether or not it has a default: a backend that overrides a default also overrides it for its strict form.
 /// Their names are listed in a constant, for a test.
 macro_rules! backend_trait {
     (
@@ -24,7 +24,7 @@ macro_rules! backend_trait {
         backend_trait! { @read [$trait $names { $($strict)* }] [] $($handed_on)* }
     };
 
-    // One function at a time: those read so far, and those left. Whether one has a default makes no difference.
+    // One function at a time: those read so far, and those left. A default makes no difference.
     (@read $to:tt [$($read:tt)*]
         $(#[$meta:meta])*
         fn $name:ident $(<$(const $value:ident: usize),+ $(, $type:ident)?>)? (self $(, $arg:ident: $of:ty)* $(,)?) $(-> $out:ty)?;
@@ -55,7 +55,7 @@ macro_rules! backend_trait {
             })*
         }
 
-        /// The functions that the strict form hands on to the backend underneath.
+        /// The functions that the strict form forwards to the underlying backend.
         #[doc(hidden)]
         pub const $names: &[&str] = &[$(stringify!($name)),*];
     };
@@ -63,18 +63,18 @@ macro_rules! backend_trait {
 
 pub(crate) use backend_trait;
 
-/// The backend `L` with every multiply-add rounded twice: results are the same bits on every backend and width.
+/// The backend `L` with every multiply-add rounded twice: results have the same bits on every backend and width.
 #[derive(Clone, Copy, Debug)]
 pub struct Strict<L>(pub(crate) L);
 
 impl<L: Lanes> Strict<L> {
-    /// The backend underneath.
+    /// The underlying backend.
     pub fn inner(self) -> L {
         self.0
     }
 }
 
-/// Hands a kernel the strict form of whatever backend it is run on.
+/// Runs a kernel on the strict form of any backend.
 pub(crate) struct Strictly<K>(pub(crate) K);
 
 impl<K: Kernel> Kernel for Strictly<K> {

@@ -1,11 +1,11 @@
 //! Whole texels of one query: four floats (a *quad*) and two neighbouring texels (an *oct*).
 //!
-//! The corners of an interpolation lie far apart, but the channels of a texel lie side by side. Loading a texel at
-//! once takes one load; gathering its channels lane by lane takes one each, so the inner loop of a table runs
+//! The corners of an interpolation are far apart in memory, but the channels of a texel are adjacent. Loading a whole
+//! texel takes one load; gathering its channels lane by lane takes one load each, so the inner loop of a table runs
 //! along a query and not across queries. Quads and octs have the same width on every backend.
 //!
-//! Tables may also hold half-precision floats (IEEE 754 binary16, as `u16`). They are finite: what a backend makes of
-//! the bits of infinities and NaNs is not defined.
+//! Tables may also hold half-precision floats (IEEE 754 binary16, as `u16`). They must be finite: the conversion of
+//! infinities and NaNs is not defined.
 
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Sub};
@@ -14,7 +14,7 @@ use crate::strict::backend_trait;
 use crate::{Block, Lanes, Strict};
 
 backend_trait! {
-    /// Operations on the channels of one query, the same bits on every backend of equal fusing.
+    /// Operations on the channels of one query, with the same bits on all backends that fuse, and on all that do not.
     pub trait Texels: Copy + Debug + Send + Sync + 'static {
         /// Four floats.
         type Quad: Copy + Debug + Add<Output = Self::Quad> + Sub<Output = Self::Quad> + Mul<Output = Self::Quad>;
@@ -41,7 +41,7 @@ backend_trait! {
         /// If `dst` is shorter.
         fn quad_store(self, dst: &mut [f32], x: Self::Quad);
         /// The four floats at `base + offset` of the block, for each of its offsets; `base` is clamped to the block's
-        /// last.
+        /// last base.
         fn quad_corners<const N: usize>(self, block: &Block<'_, N, 4>, base: usize) -> [Self::Quad; N];
         /// As [`quad_corners`](Texels::quad_corners), from half-precision floats.
         fn quad_corners_half<const N: usize>(self, block: &Block<'_, N, 4, u16>, base: usize) -> [Self::Quad; N];
@@ -62,7 +62,7 @@ backend_trait! {
         fn oct_store(self, dst: &mut [f32], x: Self::Oct);
         /// `x` eight times.
         fn oct_splat(self, x: f32) -> Self::Oct;
-        /// The floats at `base + offset` of the block, for each of its offsets; `base` is clamped to the block's last.
+        /// The floats at `base + offset` of the block, for each of its offsets; `base` is clamped to the block's last base.
         fn oct_corners<const N: usize>(self, block: &Block<'_, N, 8>, base: usize) -> [Self::Oct; N];
         /// As [`oct_corners`](Texels::oct_corners), from half-precision floats.
         fn oct_corners_half<const N: usize>(self, block: &Block<'_, N, 8, u16>, base: usize) -> [Self::Oct; N];

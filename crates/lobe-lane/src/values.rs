@@ -1,4 +1,4 @@
-//! What a lane value can do: arithmetic and comparison, lane by lane, the same bits on every backend.
+//! The operations of lane values: arithmetic and comparison, lane by lane, with the same bits on every backend.
 
 use core::fmt::Debug;
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
@@ -73,10 +73,10 @@ pub trait Ints:
     fn eq(self, other: Self) -> Self::M;
     /// Shifted left by `BITS` (less than 32).
     fn shl<const BITS: i32>(self) -> Self;
-    /// Shifted right by `BITS` (less than 32), zeros coming in.
+    /// Shifted right by `BITS` (less than 32), with zeros shifted in.
     fn shr<const BITS: i32>(self) -> Self;
-    /// One more where the mask is set, for kernels that count: on most hardware a set mask *is* -1, so
-    /// `a.count(m)` is a single subtraction.
+    /// Adds one where the mask is set, for kernels that count: on most hardware a set mask *is* -1, so `a.count(m)` is
+    /// a single subtraction.
     fn count(self, mask: Self::M) -> Self;
     /// Rounded to the nearest float, ties to even.
     fn to_float(self) -> Self::F;

@@ -7,7 +7,7 @@ use lobe_lane::{Floats, Lanes};
 use crate::poly::horner;
 
 /// Abramowitz and Stegun 4.4.46: `acos x = sqrt(1 - x) P(x)` on `[0, 1]`, within 2e-8 in exact arithmetic. Its first
-/// coefficient, 1.5707963050, lies between two floats; the upper one makes `acos 0` the float nearest to pi/2.
+/// coefficient, 1.5707963050, is between two floats; the upper one makes `acos 0` the float nearest to pi/2.
 const EIGHT_TERMS: [f32; 8] = [
     FRAC_PI_2,
     -0.214_598_8,
@@ -34,10 +34,10 @@ pub fn acos<L: Lanes>(lanes: L, x: L::F) -> L::F {
     lanes.select(x.lt(lanes.splat(0.0)), lanes.splat(PI) - angle, angle)
 }
 
-/// Arc cosine of `c`, for a caller that knows `rest = 1 - |c|` better than that subtraction would give it.
+/// Arc cosine of `c`, for a caller that knows `rest = 1 - |c|` more accurately than the subtraction would give it.
 ///
 /// Near the poles the arc cosine depends on `rest` alone: an error of 6e-8 in a cosine near 1 is an error of 3e-4 rad
-/// in the angle. From the sine, `rest = s^2 / (1 + |c|)` keeps full precision. `c` needs only to be near its true
+/// in the angle. From the sine, `rest = s^2 / (1 + |c|)` keeps full precision. `c` only needs to be near its true
 /// value; `rest` must be in `[0, 1]`.
 ///
 /// Largest error against the angle that `rest` and the sign of `c` define: that of [`acos`].

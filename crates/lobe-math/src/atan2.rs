@@ -20,8 +20,8 @@ const ODD_TERMS: [f32; 8] = [
 
 /// Twice the arc tangent of `t` in `[-1, 1]`: the angle, in `[-pi/2, pi/2]`, whose half has the tangent `t`.
 ///
-/// The tangent of half an angle is `sin / (1 + cos)`: one division, no root, and no octants to distinguish. It keeps the
-/// small angles that an arc cosine loses.
+/// The tangent of half an angle is `sin / (1 + cos)`: one division, no root, and no octants to distinguish. It keeps
+/// the digits of small angles, which an arc cosine loses.
 ///
 /// Largest error: [`bounds::DOUBLE_ATAN`](crate::bounds::DOUBLE_ATAN).
 #[inline(always)]
@@ -31,8 +31,8 @@ pub fn double_atan<L: Lanes>(lanes: L, t: L::F) -> L::F {
     half + half
 }
 
-/// The polar angle, in `[0, pi]`, of a direction whose cosine is `cos` and whose `t` is `sin / (1 + |cos|)`. Only the sign
-/// of `cos` counts.
+/// The polar angle, in `[0, pi]`, of a direction whose cosine is `cos` and whose `t` is `sin / (1 + |cos|)`. Only the
+/// sign of `cos` matters.
 #[inline(always)]
 pub fn polar_from<L: Lanes>(lanes: L, t: L::F, cos: L::F) -> L::F {
     let angle = double_atan(lanes, t);
@@ -40,7 +40,7 @@ pub fn polar_from<L: Lanes>(lanes: L, t: L::F, cos: L::F) -> L::F {
 }
 
 /// The azimuth, in `[0, 2 pi]` (the upper end only by rounding), of a vector `(x, y)` whose `t` is
-/// `y / (length + |x|)`. Only the sign of `x` counts.
+/// `y / (length + |x|)`. Only the sign of `x` matters.
 #[inline(always)]
 pub fn azimuth_from<L: Lanes>(lanes: L, t: L::F, x: L::F) -> L::F {
     let angle = half_plane(lanes, t, x);

@@ -6,7 +6,7 @@
 //! | function | method |
 //! |---|---|
 //! | [`acos`], [`asin`] | eight terms, Abramowitz and Stegun 4.4.46 (asin near zero: an odd minimax polynomial) |
-//! | [`acos_from`] | the same polynomial with `1 - abs(c)` given by a caller who knows it without cancellation |
+//! | [`acos_from`] | the same polynomial with `1 - abs(c)` from a caller that knows it without cancellation |
 //! | [`paper::acos`], [`paper::asin`] | four terms, the form of the 2005 paper, for comparison |
 //! | [`atan2`], [`azimuth`], [`double_atan`] | odd minimax polynomial of eight terms, of half the angle |
 //! | [`fifth_root`] | three steps of Newton's method from a fifth of the exponent |

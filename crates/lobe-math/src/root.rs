@@ -8,8 +8,8 @@ const OFFSET: i32 = 851_981_000;
 
 /// The fifth root of a positive normal number.
 ///
-/// Read as an integer, a float is nearly its own logarithm, so a fifth of it is the root to within 4 %, and each of
-/// three steps of Newton's method doubles the digits.
+/// The bits of a float, read as an integer, are nearly its logarithm, so a fifth of them gives the root to within 4 %,
+/// and each of three steps of Newton's method doubles the digits.
 ///
 /// Largest error: [`bounds::FIFTH_ROOT`](crate::bounds::FIFTH_ROOT), relative.
 #[inline(always)]

@@ -7,11 +7,12 @@ use bytemuck::Pod;
 
 use crate::Storage;
 
-/// A fixed number of values for long reads and writes in order, on huge pages if the system has them.
+/// A fixed number of values for long sequential reads and writes, on huge pages if the system has them.
 ///
-/// A batch that exceeds the caches is read and written in several streams at once. On pages of 4 KB each of them stops every
-/// 1024 floats: the processor fetches ahead up to the end of a page only, and has to find the next one. On huge pages a batch
-/// of a million pairs takes hardly longer per pair than one of a few thousand. Where there are none, this is like a `Vec`.
+/// A batch that exceeds the caches is read and written in several streams at once. On pages of 4 KB, each of them
+/// stalls every 1024 floats: the processor prefetches only up to the end of a page, and then has to find the next one.
+/// On huge pages, a batch of a million pairs takes hardly longer per pair than one of a few thousand. Without huge
+/// pages, this is like a `Vec`.
 ///
 /// ```
 /// use lobe_memory::Buffer;
@@ -62,7 +63,7 @@ impl<T: Pod> Clone for Buffer<T> {
 }
 
 impl<T: Pod> FromIterator<T> for Buffer<T> {
-    /// Values are collected first, as their number is known only then.
+    /// Values are collected first, because only then is their number known.
     fn from_iter<I: IntoIterator<Item = T>>(values: I) -> Self {
         Buffer::copied(&values.into_iter().collect::<Vec<T>>())
     }

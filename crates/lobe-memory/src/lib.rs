@@ -1,6 +1,8 @@
-//! Memory for random look-ups and for large batches: aligned to cache lines, and on huge pages, which small tables share.
+//! Memory for random lookups and for large batches: aligned to cache lines, and on huge pages, which small tables
+//! share.
 //!
-//! `unsafe` occurs in `pool.rs` only: parts of one mapping belong to different storages, which no safe type can say.
+//! `unsafe` occurs only in `pool.rs`: parts of one mapping belong to different storages, which no safe type can
+//! express.
 #![deny(unsafe_code)]
 
 mod buffer;
@@ -18,10 +20,10 @@ pub use buffer::Buffer;
 use pool::Share;
 pub use room::{NoRoom, available, require};
 
-/// From this many bytes on, memory lies on huge pages if the system has them: a random look-up beyond the caches
-/// would otherwise miss the address translation too. One table alone is small, but scenes have many.
+/// Memory of at least this many bytes is on huge pages if the system has them: a random lookup beyond the caches would
+/// otherwise also miss the address translation. One table alone is small, but scenes have many.
 const SHARED: usize = 64 << 10;
-/// From this many bytes on, a storage has pages of its own.
+/// A storage of at least this many bytes has its own pages.
 const ALONE: usize = 4 << 20;
 
 /// A cache line.
@@ -72,7 +74,7 @@ impl<T: Pod> Storage<T> {
         lines * size_of::<Line>()
     }
 
-    /// Bytes of `len` values, and the lines that they lie on.
+    /// The bytes of `len` values, and the number of lines that they occupy.
     fn size(len: usize) -> (usize, usize) {
         let bytes = len.checked_mul(size_of::<T>()).expect("a size in bytes");
         (bytes, bytes.div_ceil(size_of::<Line>()))
@@ -96,7 +98,7 @@ impl<T: Pod> Storage<T> {
         bytemuck::cast_slice(&bytes[..self.len * size_of::<T>()])
     }
 
-    /// All values, to be written.
+    /// All values, mutable.
     pub fn as_mut_slice(&mut self) -> &mut [T] {
         let bytes = match &mut self.place {
             Place::Heap(lines) => bytemuck::cast_slice_mut(lines),
@@ -130,7 +132,7 @@ impl<T> fmt::Debug for Storage<T> {
 
 /// Zeroed memory from the system, on huge pages if it has them.
 fn map(bytes: usize) -> Option<MmapMut> {
-    // Miri knows no mappings: the heap does as well.
+    // Miri does not support mappings; the heap serves as well.
     if cfg!(miri) {
         return None;
     }
@@ -146,7 +148,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_lie_on_cache_lines_whatever_their_number() {
+    fn values_start_on_a_cache_line_for_any_length() {
         let _alone = pool::alone();
         let edges = if cfg!(miri) { [SHARED, 2 * SHARED] } else { [SHARED, ALONE] };
         let edges = edges.into_iter().flat_map(|bytes| [bytes / 4 - 1, bytes / 4, bytes / 4 + 1]);

@@ -1,7 +1,7 @@
-//! Huge pages that storages share: a storage smaller than a huge page would waste one of its own.
+//! Huge pages that storages share, because a storage smaller than a huge page would waste a whole one.
 //!
-//! What is given back is joined with what is free next to it, so that storages of any size can take it again. A mapping
-//! that nothing is left in goes back to the system, except for one that is kept as long as there are others in use.
+//! Returned ranges are joined with free neighbours, so that storages of any size can use them again. An empty mapping
+//! is returned to the system, except for one that is kept as long as others are in use.
 
 use std::collections::BTreeMap;
 use std::ops::{Deref, DerefMut};
@@ -16,7 +16,7 @@ use crate::{Line, map};
 /// Bytes mapped at once. Pages that have not been written to take no memory.
 const CHUNK: usize = if cfg!(miri) { 1 << 20 } else { 32 << 20 };
 const CHUNK_LINES: usize = CHUNK / size_of::<Line>();
-/// Shares are of whole small pages: that leaves few pieces which are too small to be of use.
+/// Shares consist of whole small pages, which leaves few pieces that are too small to be useful.
 const PIECE: usize = 4096 / size_of::<Line>();
 
 /// Lines of a shared mapping, for one storage.
@@ -25,30 +25,30 @@ pub(crate) struct Share {
     len: usize,
 }
 
-// SAFETY: a share is the only one that has its lines, from when they are taken out of the free ranges of their mapping until
-// it is dropped, so that it may go to another thread as a `Box<[Line]>` may.
+// SAFETY: a share is the only owner of its lines, from when they are taken out of the free ranges of their mapping
+// until it is dropped, so it may be sent to another thread like a `Box<[Line]>`.
 unsafe impl Send for Share {}
-// SAFETY: as above; a shared reference to it only reads them.
+// SAFETY: as above; a shared reference to it only reads the lines.
 unsafe impl Sync for Share {}
 
-/// What lines lie in. It is kept for its memory only: after `first` has been found, nothing goes through it any more.
+/// The owner of the lines, kept only for its memory: after `first` has been found, nothing accesses it any more.
 enum Memory {
     Map(MmapMut),
-    /// For Miri, which knows no mappings.
+    /// For Miri, which does not support mappings.
     Heap(Vec<Line>),
 }
 
-/// A mapping that shares are cut from.
+/// A mapping from which shares are cut.
 struct Chunk {
     first: NonNull<Line>,
-    /// Free ranges of lines: the length of each by its start. No two of them touch.
+    /// Free ranges of lines: the length of each, by its start. No two are adjacent.
     free: BTreeMap<usize, usize>,
-    /// From this line on, nothing has been written: there are zeros.
+    /// Nothing has been written from this line on, so all of these are zero.
     fresh: usize,
     _memory: Memory,
 }
 
-// SAFETY: the lines that `first` leads to belong to the chunk and to the shares cut from it, whatever thread they are on.
+// SAFETY: the lines that `first` points to belong to the chunk and to the shares cut from it, on any thread.
 unsafe impl Send for Chunk {}
 
 /// The oldest first.
@@ -66,14 +66,14 @@ impl Chunk {
         Some(Chunk { first, free: BTreeMap::from([(0, CHUNK_LINES)]), fresh: 0, _memory: memory })
     }
 
-    /// Takes the first free range of so many lines.
+    /// Takes the first free range of this many lines.
     fn take(&mut self, len: usize) -> Option<Share> {
         let (start, room) = self.free.iter().map(|(start, room)| (*start, *room)).find(|(_, room)| *room >= len)?;
         self.free.remove(&start);
         if room > len {
             self.free.insert(start + len, room - len);
         }
-        // SAFETY: free ranges lie inside the lines of the chunk, whose memory does not move.
+        // SAFETY: free ranges are inside the lines of the chunk, whose memory does not move.
         let lines = unsafe { self.first.add(start) };
         let mut share = Share { lines, len };
         let used = self.fresh.saturating_sub(start).min(len);
@@ -82,13 +82,13 @@ impl Chunk {
         Some(share)
     }
 
-    /// The number of a line that is one of the chunk's.
+    /// The index of a line of the chunk.
     fn line(&self, at: NonNull<Line>) -> Option<usize> {
         let offset = (at.as_ptr() as usize).checked_sub(self.first.as_ptr() as usize)? / size_of::<Line>();
         (offset < CHUNK_LINES).then_some(offset)
     }
 
-    /// Takes a range back, and joins it with its neighbours.
+    /// Takes a range back, and joins it with its free neighbours.
     fn give_back(&mut self, mut start: usize, mut len: usize) {
         if let Some(after) = self.free.remove(&(start + len)) {
             len += after;
@@ -137,7 +137,7 @@ impl Drop for Share {
             } else {
                 Vec::new()
             };
-            // Pages are given back without the others waiting for it.
+            // Pages are returned after the lock is released, so that other threads do not wait.
             drop(pool);
             drop(gone);
         }
@@ -149,8 +149,8 @@ impl Deref for Share {
 
     #[inline(always)]
     fn deref(&self) -> &[Line] {
-        // SAFETY: the lines lie in a mapping that lives at least as long as the share, are initialised, and are written only
-        // through this share.
+        // SAFETY: the lines are in a mapping that lives at least as long as the share, are initialised, and are written
+        // only through this share.
         unsafe { slice::from_raw_parts(self.lines.as_ptr(), self.len) }
     }
 }
@@ -167,13 +167,13 @@ pub(crate) fn rounded(lines: usize) -> usize {
     lines.next_multiple_of(PIECE)
 }
 
-/// Bytes that are mapped.
+/// The number of mapped bytes.
 #[cfg(test)]
 fn mapped() -> usize {
     POOL.lock().unwrap_or_else(PoisonError::into_inner).len() * CHUNK
 }
 
-/// Tests of one process share the pool: those that take from it run one at a time.
+/// Tests of one process share the pool, so those that use it run one at a time.
 #[cfg(test)]
 pub(crate) fn alone() -> std::sync::MutexGuard<'static, ()> {
     static ALONE: Mutex<()> = Mutex::new(());
@@ -184,7 +184,7 @@ pub(crate) fn alone() -> std::sync::MutexGuard<'static, ()> {
 mod tests {
     use super::*;
 
-    /// A part of a mapping, of whatever size that is.
+    /// A fraction of the size of a mapping.
     fn part(of: usize) -> usize {
         CHUNK_LINES / 512 * of
     }
@@ -198,10 +198,10 @@ mod tests {
     }
 
     #[test]
-    fn shares_never_overlap_and_begin_with_zeros() {
+    fn shares_never_overlap_and_start_with_zeros() {
         let _alone = alone();
         let mut held: Vec<(u8, Share)> = Vec::new();
-        // More than a mapping in all, about half of it given back again and again.
+        // More than a mapping in total, about half of it returned again and again.
         for mark in 1..=200 {
             held.push((mark, take(part(1) + 7 + part(1) * (mark as usize % 13), mark)));
             if mark % 2 == 0 {
@@ -214,11 +214,11 @@ mod tests {
     }
 
     #[test]
-    fn what_is_given_back_is_taken_again_in_other_sizes() {
+    fn returned_lines_are_reused_in_other_sizes() {
         let _alone = alone();
         let kept = take(part(1), 1);
         let before = mapped();
-        // Growing ones, as many as would fill forty mappings.
+        // Growing sizes, enough to fill forty mappings.
         for size in 1..200 {
             let shares: Vec<Share> = (0..2).map(|_| take(part(size), 2)).collect();
             drop(shares);
@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn what_nobody_holds_goes_back_to_the_system() {
+    fn unused_mappings_are_returned_to_the_system() {
         let _alone = alone();
         let shares: Vec<Share> = (0..40).map(|mark| take(part(100), mark)).collect();
         assert!(mapped() >= 8 * CHUNK);

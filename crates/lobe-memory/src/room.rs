@@ -1,13 +1,13 @@
-//! How much memory there is: a program that asks for more is ended by the system, and cannot say why.
+//! The amount of available memory: a program that uses more is ended by the system, and cannot say why.
 
 use std::fmt;
 
-/// Something would take more memory than there is.
+/// Something would take more memory than is available.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoRoom {
-    /// Bytes that it would take.
+    /// The bytes that it would take.
     pub needed: u64,
-    /// Bytes that there are.
+    /// The bytes that are available.
     pub available: u64,
 }
 
@@ -19,7 +19,7 @@ impl fmt::Display for NoRoom {
 
 impl std::error::Error for NoRoom {}
 
-/// Bytes for people.
+/// Formats bytes for people.
 struct Bytes(u64);
 
 impl fmt::Display for Bytes {
@@ -31,12 +31,12 @@ impl fmt::Display for Bytes {
     }
 }
 
-/// Whether so many bytes more can be had, as far as the system says.
+/// Checks that this many more bytes are available, as far as the system reports it.
 ///
 /// # Errors
-/// [`NoRoom`] says how many there are.
+/// [`NoRoom`] says how many are available.
 pub fn require(bytes: u64) -> Result<(), NoRoom> {
-    // Little can always be tried, without asking the system.
+    // Small amounts are always tried, without asking the system.
     const LITTLE: u64 = 64 << 20;
     match available() {
         Some(available) if bytes > LITTLE && bytes > available => Err(NoRoom { needed: bytes, available }),
@@ -44,8 +44,9 @@ pub fn require(bytes: u64) -> Result<(), NoRoom> {
     }
 }
 
-/// Bytes that this program can still take before the system refuses or ends it: what is free on the machine, and within the
-/// limits of the address space and of the control group. `None` if the system does not say, as on others than Linux.
+/// The bytes that this program can still take before the system refuses or ends it: the free memory of the machine,
+/// within the limits of the address space and of the control group. `None` if the system does not report it, as on
+/// systems other than Linux.
 pub fn available() -> Option<u64> {
     let limits = [machine(), address_space(), control_group()];
     limits.into_iter().flatten().min()
@@ -59,7 +60,7 @@ fn machine() -> Option<u64> {
 fn address_space() -> Option<u64> {
     let limits = std::fs::read_to_string("/proc/self/limits").ok()?;
     let line = limits.lines().find_map(|line| line.strip_prefix("Max address space"))?;
-    // Fails, and there is no limit, if it is called `unlimited`.
+    // Fails for `unlimited`, which means no limit.
     let limit: u64 = line.split_whitespace().next()?.parse().ok()?;
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     Some(limit.saturating_sub(kilobytes(&status, "VmSize:")?))
@@ -70,13 +71,13 @@ fn control_group() -> Option<u64> {
     let groups = std::fs::read_to_string("/proc/self/cgroup").ok()?;
     let group = groups.lines().find_map(|line| line.strip_prefix("0::"))?.trim_matches('/').to_owned();
     let mut tightest = None;
-    // The limits of all groups that it is in.
+    // The limits of all groups that contain it.
     let mut folder = std::path::Path::new("/sys/fs/cgroup").join(group);
     while folder.starts_with("/sys/fs/cgroup") {
         let read = |name: &str| std::fs::read_to_string(folder.join(name)).ok();
         let number = |name: &str| read(name)?.trim().parse::<u64>().ok();
         if let (Some(most), Some(used)) = (number("memory.max"), number("memory.current")) {
-            // What is kept of files gives way.
+            // Cached file pages can be reclaimed.
             let stat = read("memory.stat").unwrap_or_default();
             let files = stat.lines().find_map(|line| line.strip_prefix("inactive_file ")?.parse().ok()).unwrap_or(0);
             let left = most.saturating_sub(used.saturating_sub(files));
@@ -100,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_no_machine_has_is_refused_and_little_is_not() {
+    fn huge_amounts_are_refused_and_small_ones_are_not() {
         assert_eq!(require(1 << 20), Ok(()));
         if cfg!(target_os = "linux") {
             let error = require(1 << 60).unwrap_err();

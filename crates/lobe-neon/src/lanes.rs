@@ -16,7 +16,7 @@ impl Lanes for Neon {
     const LANES: usize = 4;
     const NAME: &'static str = "neon";
     const FUSED: bool = true;
-    // One instruction, after two that make bytes of indices, which look-ups at the same index share.
+    // One instruction, after two that turn indices into bytes, which lookups at the same index share.
     const PERMUTES: bool = true;
 
     #[inline(always)]
@@ -88,7 +88,7 @@ fn gather_quads<T: Stored, const N: usize>(block: &Block<'_, N, 4, T>, base: Int
     corners
 }
 
-/// Rows to columns.
+/// Transposes rows to columns.
 #[inline(always)]
 fn transpose([Floats(a), Floats(b), Floats(c), Floats(d)]: [Floats; 4]) -> [Floats; 4] {
     op!({

@@ -1,8 +1,8 @@
 //! The 4-lane backend of 64-bit Arm: `Neon`, with fused multiply-add and half-precision loads. Octs are two registers.
 //!
-//! `unsafe` occurs in two places: in the `op!` macro (register-only intrinsics, safe because the target has NEON), and in
-//! `memory.rs` (loads and stores, each checked where it is used). The crate is empty unless the target has NEON for all of
-//! its code, as those with an operating system do, so nothing has to be compiled for it especially.
+//! `unsafe` occurs in two places: in the `op!` macro (register-only intrinsics, safe because the target has NEON), and
+//! in `memory.rs` (loads and stores, each checked where it is used). The crate is empty unless the whole target has
+//! NEON, as all targets with an operating system do, so nothing needs to be compiled with an additional feature.
 #![cfg(all(target_arch = "aarch64", target_feature = "neon", target_endian = "little"))]
 #![no_std]
 
@@ -11,7 +11,7 @@ extern crate std;
 /// Calls intrinsics that touch nothing but registers.
 macro_rules! op {
     ($call:expr) => {{
-        // SAFETY: this crate is compiled for targets with NEON only, and the intrinsic touches registers only.
+        // SAFETY: this crate is compiled only for targets with NEON, and the intrinsic touches registers only.
         unsafe { $call }
     }};
 }

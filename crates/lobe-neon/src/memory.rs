@@ -69,7 +69,7 @@ pub(crate) fn load_pair(table: &[[f32; 2]], index: usize) -> float32x2_t {
     unsafe { vld1_f32(pair.as_ptr()) }
 }
 
-/// A way of storing floats.
+/// A storage format of floats.
 pub(crate) trait Stored: Sized {
     /// Four of them, as floats.
     fn load(four: &[Self; 4]) -> Floats;
@@ -91,7 +91,7 @@ impl Stored for u16 {
     }
 }
 
-/// Four floats at `base + offsets[corner]`, or behind those; `base` is clamped to the block's last.
+/// Four floats at `base + offsets[corner]`, or following those; `base` is clamped to the block's last base.
 #[inline(always)]
 pub(crate) fn load_corner<T: Stored, const N: usize, const WIDTH: usize>(
     block: &Block<'_, N, WIDTH, T>,

@@ -60,7 +60,7 @@ impl lobe_lane::Floats for Floats {
     type M = Mask;
 
     methods! {
-        // `fmin` and `fmax` differ for NaN and for zeros of both signs.
+        // `fmin` and `fmax` differ for NaN and for zeros of different signs.
         fn min(self, other: Self) -> Self = Floats(op!(vbslq_f32(vcltq_f32(self.0, other.0), self.0, other.0)));
         fn max(self, other: Self) -> Self = Floats(op!(vbslq_f32(vcgtq_f32(self.0, other.0), self.0, other.0)));
         fn abs(self) -> Self = Floats(op!(vabsq_f32(self.0)));
@@ -74,7 +74,7 @@ impl lobe_lane::Floats for Floats {
             let sign = vandq_u32(vreinterpretq_u32_f32(sign.0), vdupq_n_u32(1 << 31));
             Floats(vreinterpretq_f32_u32(veorq_u32(vreinterpretq_u32_f32(self.0), sign)))
         });
-        // The conversion saturates, and makes 0 of NaN.
+        // The conversion saturates, and turns NaN into 0.
         fn to_int(self) -> Ints = op!({
             let fits = vcltq_f32(self.0, vdupq_n_f32(2_147_483_648.0));
             Ints(vbslq_s32(fits, vcvtq_s32_f32(self.0), vdupq_n_s32(i32::MIN)))
@@ -95,7 +95,8 @@ impl lobe_lane::Ints for Ints {
         fn count(self, mask: Mask) -> Self = Ints(op!(vsubq_s32(self.0, vreinterpretq_s32_u32(mask.0))));
         fn to_float(self) -> Floats = Floats(op!(vcvtq_f32_s32(self.0)));
         fn as_float(self) -> Floats = Floats(op!(vreinterpretq_f32_s32(self.0)));
-        // Shifts by constants in a register become shifts by constants; intrinsics of those refuse 0.
+        // The compiler turns shifts by constants in a register into immediate shifts; the intrinsics for those refuse
+        // 0.
         fn shl<const BITS: i32>(self) -> Self = Ints(op!(vshlq_s32(self.0, vdupq_n_s32(BITS))));
         fn shr<const BITS: i32>(self) -> Self =
             Ints(op!(vreinterpretq_s32_u32(vshlq_u32(vreinterpretq_u32_s32(self.0), vdupq_n_s32(-BITS)))));

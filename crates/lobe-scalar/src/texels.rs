@@ -1,4 +1,4 @@
-//! Quads and octs: arrays of four and eight, whatever the number of lanes.
+//! Quads and octs: arrays of four and eight, for any number of lanes.
 
 use std::ops::{Add, Mul, Sub};
 
@@ -162,8 +162,8 @@ fn halves<const K: usize>(src: &[u16]) -> Texel<K> {
     Texel(texel)
 }
 
-/// A finite half-precision float, exactly: its exponent and mantissa moved to where `f32` has them, and the difference of
-/// the two exponent biases multiplied in, which makes subnormal halves right as well.
+/// Converts a finite half-precision float exactly: its exponent and mantissa are moved to their places in `f32`, and
+/// the difference of the exponent biases is multiplied in, which is also right for subnormal halves.
 #[inline(always)]
 pub(crate) fn from_half(half: u16) -> f32 {
     let magnitude = f32::from_bits(u32::from(half & 0x7fff) << 13) * f32::from_bits((127 + 127 - 15) << 23);

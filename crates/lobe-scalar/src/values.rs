@@ -16,7 +16,7 @@ pub struct Mask<const N: usize>(pub(crate) [bool; N]);
 
 /// `f` of each lane.
 ///
-/// One lane is what programs compute with, so it is inlined. More lanes are only for tests of width-generic code; there each
+/// Programs compute with one lane, so it is inlined. More lanes are only for tests of width-generic code; there, each
 /// operation is a call, because inlining it once per lane into every kernel would take the compiler minutes.
 #[inline(always)]
 pub(crate) fn each<T: Copy, const N: usize>(f: impl Fn(usize) -> T) -> [T; N] {
@@ -101,7 +101,7 @@ impl<const N: usize> Not for Mask<N> {
     }
 }
 
-/// As the hardware converts: toward zero, `i32::MIN` if the result does not fit.
+/// Converts like the hardware: toward zero, `i32::MIN` if the result does not fit.
 #[inline(always)]
 fn truncate(x: f32) -> i32 {
     if (-2_147_483_648.0..2_147_483_648.0).contains(&x) { x as i32 } else { i32::MIN }

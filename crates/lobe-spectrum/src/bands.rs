@@ -6,21 +6,22 @@ use crate::spectrum::ascending;
 use crate::upsample;
 use crate::{Illuminant, Spectrum, SpectrumError};
 
-/// Wavelengths at which light is followed, and what they are as colour.
+/// Wavelengths at which light is followed, and their colours.
 ///
-/// A band has the radiance at its wavelength; between bands spectra are linear, and constant beyond the first and the last.
-/// The radiance 1 in all bands (illuminant E) has about the luminance 1. Reflectances under [D65](Illuminant::D65) have exactly
-/// the colour that [`Reduction`] gives them.
+/// A band has the radiance at its wavelength; spectra are linear between bands, and constant beyond the first and the
+/// last. Radiance 1 in all bands (illuminant E) has a luminance of about 1. Reflectances under [D65](Illuminant::D65)
+/// have exactly the colour that [`Reduction`] gives them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bands {
     wavelengths: Vec<f64>,
-    /// Linear sRGB of the radiance 1 in each band.
+    /// Linear sRGB of radiance 1 in each band.
     weights: Vec<[f64; 3]>,
-    /// Linear sRGB of the reflectance 1 in each band, under D65.
+    /// Linear sRGB of reflectance 1 in each band, under D65.
     pub(crate) reduction: Vec<[f64; 3]>,
-    /// D65 in bands, of the luminance 1.
+    /// D65 in bands, with luminance 1.
     d65: Vec<f64>,
-    /// The reflectances of colours whose largest component is 1/2, by which of them it is and by the two others.
+    /// The reflectances of colours whose largest component is 1/2, indexed by which component that is and by the other
+    /// two.
     palette: Vec<Vec<f32>>,
 }
 
@@ -28,14 +29,14 @@ pub struct Bands {
 const MOST: usize = 32;
 /// Nodes of each side of the palette.
 const SIDE: usize = 17;
-/// What the largest component of a colour in the palette is.
+/// The largest component of every colour in the palette.
 const BRIGHT: f64 = 0.5;
 
 impl Bands {
     /// Bands at these wavelengths in nm.
     ///
     /// # Errors
-    /// [`SpectrumError`] if there are none or more than 32, if they do not ascend, or if none of them can be seen.
+    /// [`SpectrumError`] if there are none or more than 32, if they do not ascend, or if none of them is visible.
     pub fn new(wavelengths: Vec<f64>) -> Result<Self, SpectrumError> {
         ascending(&wavelengths)?;
         if wavelengths.len() > MOST {
@@ -48,7 +49,7 @@ impl Bands {
         let reduction = Reduction::for_display(&Channels::Spectral(wavelengths.clone())).weights().to_vec();
         let mut bands = Bands { wavelengths, weights: Vec::new(), reduction, d65: Vec::new(), palette: Vec::new() };
         let d65 = bands.mean(&Illuminant::D65.spectrum());
-        // Equal energy has the luminance 1.
+        // Equal energy has luminance 1.
         let luminance = |of: &dyn Fn(f64) -> f64| -> f64 {
             let fine: Vec<f64> = (380..=780).map(f64::from).collect();
             let y = Reduction::new(&Channels::Spectral(fine.clone()), Space::Xyz)
@@ -68,7 +69,7 @@ impl Bands {
         Ok(bands)
     }
 
-    /// That many bands from 400 to 700 nm, equally spaced.
+    /// This many bands from 400 to 700 nm, equally spaced.
     ///
     /// # Errors
     /// If there are fewer than 2 or more than 32.
@@ -84,17 +85,17 @@ impl Bands {
         &self.wavelengths
     }
 
-    /// How many bands there are.
+    /// The number of bands.
     pub fn count(&self) -> usize {
         self.wavelengths.len()
     }
 
-    /// Linear sRGB of the radiance 1 in each band.
+    /// Linear sRGB of radiance 1 in each band.
     pub fn weights(&self) -> &[[f64; 3]] {
         &self.weights
     }
 
-    /// The colour of radiance, linear sRGB.
+    /// The colour of a radiance, in linear sRGB.
     pub fn colour(&self, radiance: &[f32]) -> [f32; 3] {
         let mut sum = [0.0f64; 3];
         for (weights, &value) in self.weights.iter().zip(radiance) {
@@ -103,12 +104,12 @@ impl Bands {
         sum.map(|c| c as f32)
     }
 
-    /// A spectrum at the wavelengths: what reflectances and indices are.
+    /// A spectrum sampled at the wavelengths: for reflectances and refractive indices.
     pub fn at(&self, spectrum: &Spectrum) -> Vec<f64> {
         self.wavelengths.iter().map(|nm| spectrum.at(*nm)).collect()
     }
 
-    /// The mean of a spectrum about each wavelength, up to its neighbours and less the nearer they are: what light is, which
+    /// The mean of a spectrum around each wavelength, with weights that fall to 0 at its neighbours: for light, which
     /// may have narrow lines.
     pub fn mean(&self, spectrum: &Spectrum) -> Vec<f64> {
         let mean = |k: usize| {
@@ -135,7 +136,7 @@ impl Bands {
         (0..self.wavelengths.len()).map(mean).collect()
     }
 
-    /// A spectrum of light in the units of the spectrum.
+    /// A spectrum of light, in the units of the spectrum.
     pub fn light(&self, spectrum: &Spectrum) -> Vec<f32> {
         self.mean(spectrum).into_iter().map(|x| x as f32).collect()
     }
@@ -159,7 +160,7 @@ impl Bands {
             let places: Vec<f64> = self.wavelengths.iter().map(|nm| place(*nm)).collect();
             return upsample::reflectance(&places, &self.reduction, rgb);
         }
-        // Few bands cannot tell colours apart: the spectrum is that of all wavelengths.
+        // A few bands cannot distinguish colours, so the spectrum is found for all wavelengths.
         let fine: Vec<f64> = (0..=80).map(|k| 380.0 + 5.0 * f64::from(k)).collect();
         let weights = Reduction::for_display(&Channels::Spectral(fine.clone())).weights().to_vec();
         let places: Vec<f64> = fine.iter().map(|nm| place(*nm)).collect();
@@ -183,15 +184,15 @@ impl Bands {
         palette
     }
 
-    /// The light of D65 through a smooth filter, with this colour: components that are not negative, of any size. Between the
-    /// nodes of a palette spectra are blended, which keeps the colour.
+    /// The light of D65 through a smooth filter, with this colour, whose components may be of any size but not
+    /// negative. Spectra are blended between the nodes of a palette, which preserves the colour.
     pub fn emission(&self, rgb: [f32; 3]) -> Vec<f32> {
         let mut out = vec![0.0; self.count()];
         self.emission_into(rgb, &mut out);
         out
     }
 
-    /// As [`emission`](Self::emission), into the first numbers of `out`; the others are left alone.
+    /// As [`emission`](Self::emission), into the first numbers of `out`; the others are unchanged.
     pub fn emission_into(&self, rgb: [f32; 3], out: &mut [f32]) {
         let rgb = rgb.map(|c| if c > 0.0 { c } else { 0.0 });
         let largest = (0..3).fold(0, |most, k| if rgb[k] > rgb[most] { k } else { most });
@@ -230,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_come_back() {
+    fn colours_are_reproduced() {
         for bands in [Bands::uniform(16).unwrap(), Bands::uniform(8).unwrap(), Bands::uniform(31).unwrap()] {
             let (mut worst, mut lit) = (0.0f32, 0.0f32);
             for i in 0..11 * 11 * 11 {
@@ -311,7 +312,7 @@ mod tests {
     }
 
     #[test]
-    fn bands_that_are_none_are_refused() {
+    fn invalid_bands_are_refused() {
         for (nm, expected) in [
             (vec![], "0 wavelengths"),
             (vec![500.0, 450.0], "wavelength 1"),

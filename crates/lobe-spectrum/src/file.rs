@@ -7,8 +7,8 @@ use lobe_files::{FormatError, Place};
 use crate::Spectrum;
 
 impl Spectrum {
-    /// Reads a spectrum: a wavelength in nm and a number on each line, between blanks, a comma, a semicolon or a tab. Lines
-    /// that are empty or begin with `#` do not count, and neither does a first line of names.
+    /// Reads a spectrum: a wavelength in nm and a number on each line, separated by blanks, a comma, a semicolon or a
+    /// tab. Empty lines, lines that begin with `#`, and a first line of names are ignored.
     ///
     /// # Errors
     /// [`FormatError`] names the file and the line.
@@ -17,7 +17,7 @@ impl Spectrum {
         Spectrum::parse(&String::from_utf8_lossy(&bytes), path)
     }
 
-    /// As [`open`](Self::open), of a text that was read; `path` only names it in errors.
+    /// As [`open`](Self::open), for a text that was already read; `path` is only its name in errors.
     ///
     /// # Errors
     /// As [`open`](Self::open).

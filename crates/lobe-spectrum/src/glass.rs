@@ -1,6 +1,6 @@
 //! Refractive indices of transparent media.
 
-/// The refractive index of a transparent medium, by a formula of the wavelength.
+/// The refractive index of a transparent medium, as a formula of the wavelength.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Glass {
     /// `n^2 = 1 + sum(b x / (x - c))`, with `x` the squared wavelength in micrometres.
@@ -51,7 +51,7 @@ impl Glass {
         NAMED.iter().map(|(name, ..)| *name).chain(["water"])
     }
 
-    /// The medium of that name.
+    /// The medium with this name.
     pub fn named(name: &str) -> Option<Self> {
         if name == "water" {
             let [b, c] = WATER.map(Vec::from);
@@ -61,7 +61,7 @@ impl Glass {
         Some(Glass::Sellmeier { b: b.to_vec(), c: c.to_vec() })
     }
 
-    /// The index at a wavelength in nm. NaN if the formula has none there.
+    /// The index at a wavelength in nm. NaN if the formula has no value there.
     pub fn index(&self, nm: f64) -> f64 {
         let x = (nm / 1000.0).powi(2);
         match self {
@@ -76,8 +76,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn indices_are_those_of_the_catalogues() {
-        // At the helium line d, and Abbe's number.
+    fn indices_agree_with_the_catalogues() {
+        // The index at the helium d line, and Abbe's number.
         for (name, d, abbe) in [
             ("BK7", 1.5168, 64.17),
             ("F2", 1.62004, 36.37),

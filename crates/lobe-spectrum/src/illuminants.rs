@@ -3,7 +3,7 @@
 
 /// The wavelength of the first entry, in nm.
 pub(crate) const FIRST: f64 = 380.0;
-/// The distance of two entries, in nm.
+/// The distance between two entries, in nm.
 pub(crate) const STEP: f64 = 5.0;
 
 /// CIE D50.

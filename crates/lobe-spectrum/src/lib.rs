@@ -2,7 +2,8 @@
 //!
 //! - [`Spectrum`]: numbers by wavelength, from a table, a file, an illuminant or a black body;
 //! - [`Glass`], [`Metal`]: refractive indices by wavelength;
-//! - [`Bands`]: the wavelengths of a picture; spectra, colours and the channels of measurements to bands, and bands to colour.
+//! - [`Bands`]: the wavelengths of a picture; conversions from spectra, colours and measured channels to bands, and
+//!   from bands to colour.
 //!
 //! Wavelengths are in nm, in vacuum. Colours are linear sRGB, as in [`lobe_colour`].
 #![forbid(unsafe_code)]

@@ -29,13 +29,13 @@ impl Metal {
         NAMED.iter().map(|(name, _)| *name)
     }
 
-    /// The metal of that name.
+    /// The metal with this name.
     pub fn named(name: &str) -> Option<Self> {
         let (_, rows) = NAMED.iter().find(|(known, _)| *known == name)?;
         Metal::of_rows(rows).ok()
     }
 
-    /// A metal by rows of the wavelength in nm, `n` and `k`.
+    /// A metal from rows of wavelength in nm, `n` and `k`.
     ///
     /// # Errors
     /// As [`Spectrum::new`].

@@ -1,4 +1,4 @@
-//! Refractive indices of metals, `[wavelength in nm, n, k]`, from the references that are named, as collected by
+//! Refractive indices of metals, `[wavelength in nm, n, k]`, from the named references, as collected by
 //! refractiveindex.info (public domain).
 
 /// Silver: P. B. Johnson and R. W. Christy, Physical Review B 6, 4370, 1972.

@@ -1,12 +1,12 @@
-//! The channels of measurements as bands.
+//! Conversion of measured channels to bands.
 
 use lobe_colour::{Channels, Reduction};
 
 use crate::Bands;
 
 impl Bands {
-    /// How the values of channels become bands: wavelengths are interpolated; all other channels are colours, which become
-    /// spectra by three smooth parts. `None` if the channels are the bands already.
+    /// The conversion of channels to bands: wavelengths are interpolated; all other channels are colours, which become
+    /// sums of three smooth spectra. `None` if the channels are already the bands.
     pub fn resampling(&self, channels: &Channels) -> Option<Resampling> {
         if let Channels::Spectral(wavelengths) = channels {
             if *wavelengths == self.wavelengths() {
@@ -32,11 +32,11 @@ impl Bands {
         Some(Resampling { channels: channels.count(), parts: parts.collect() })
     }
 
-    /// Three spectra whose sum is 1 everywhere, with the colours of red, green and blue under D65. They may be a little below 0
-    /// somewhere.
+    /// Three spectra whose sum is 1 everywhere, with the colours of red, green and blue under D65. They may be slightly
+    /// below 0 in places.
     fn primaries(&self) -> [Vec<f64>; 3] {
         let [red, green, blue] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|rgb| self.fit(rgb));
-        // What the three lack to be white goes to each by its share, which keeps them smooth.
+        // The difference of their sum from white is divided among the three in proportion, which keeps them smooth.
         let mut parts = [red, green, blue];
         for band in 0..self.count() {
             let sum: f64 = parts.iter().map(|part| part[band]).sum();
@@ -63,7 +63,7 @@ impl Bands {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resampling {
     channels: usize,
-    /// For each band the channels that count, and how much.
+    /// For each band, the channels with weights, and the weights.
     parts: Vec<Vec<(usize, f32)>>,
 }
 
@@ -73,12 +73,12 @@ impl Resampling {
         self.channels
     }
 
-    /// For each band the channels that count, and how much: two for wavelengths.
+    /// For each band, the channels with weights, and the weights: two for wavelengths.
     pub fn parts(&self) -> &[Vec<(usize, f32)>] {
         &self.parts
     }
 
-    /// The bands of a value, into the first numbers of `out`.
+    /// Converts a value to bands, into the first numbers of `out`.
     pub fn apply(&self, texel: &[f32], out: &mut [f32]) {
         for (out, parts) in out.iter_mut().zip(&self.parts) {
             *out = 0.0;
@@ -89,7 +89,7 @@ impl Resampling {
     }
 }
 
-/// The inverse of a matrix, unless it is nearly singular, as that of few bands is.
+/// The inverse of a matrix, unless it is nearly singular, as for few bands.
 fn inverse(m: &[[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
     let cofactor = |i: usize, j: usize| {
         let at = |di: usize, dj: usize| m[(i + di) % 3][(j + dj) % 3];

@@ -4,37 +4,37 @@ use thiserror::Error;
 
 use crate::illuminants::{D50, D65, F2, F11, FIRST, STEP};
 
-/// Why numbers make no spectrum.
+/// Numbers that cannot form a spectrum.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SpectrumError {
-    /// Not as many values as wavelengths.
-    #[error("found {values} values at {wavelengths} wavelengths; expected as many")]
+    /// The numbers of values and wavelengths differ.
+    #[error("found {values} values at {wavelengths} wavelengths; expected one each")]
     Length {
-        /// How many wavelengths.
+        /// The number of wavelengths.
         wavelengths: usize,
-        /// How many values.
+        /// The number of values.
         values: usize,
     },
-    /// No or too many wavelengths.
+    /// No wavelengths, or too many.
     #[error("found {found} wavelengths; expected {expected}")]
     Count {
-        /// How many there are.
+        /// The number found.
         found: usize,
-        /// What may be there.
+        /// The allowed number.
         expected: &'static str,
     },
     /// A wavelength that is not a positive number, or not above the one before.
-    #[error("wavelength {index} is {value} nm; expected positive numbers that ascend")]
+    #[error("wavelength {index} is {value} nm; expected ascending positive numbers")]
     Wavelength {
-        /// Which one.
+        /// Its position.
         index: usize,
         /// What was found.
         value: f64,
     },
-    /// A value that is negative or no finite number.
-    #[error("value {index} is {value}; expected finite numbers that are not negative")]
+    /// A value that is negative or not finite.
+    #[error("value {index} is {value}; expected finite numbers, not negative")]
     Value {
-        /// Which one.
+        /// Its position.
         index: usize,
         /// What was found.
         value: f64,
@@ -42,7 +42,7 @@ pub enum SpectrumError {
     /// A temperature at which nothing glows.
     #[error("found {0} K; expected a temperature from 500 to 100000 K")]
     Temperature(f64),
-    /// No wavelength that can be seen.
+    /// No visible wavelength.
     #[error("found wavelengths from {first} to {last} nm; expected some from 380 to 780 nm")]
     Invisible {
         /// The first wavelength.
@@ -90,7 +90,7 @@ impl Spectrum {
         Ok(Spectrum { wavelengths, values })
     }
 
-    /// The same number everywhere.
+    /// The same number at all wavelengths.
     ///
     /// # Errors
     /// If it is negative or not finite.
@@ -98,7 +98,7 @@ impl Spectrum {
         Spectrum::new(vec![550.0], vec![value])
     }
 
-    /// The radiation of a black body at a temperature in K by Planck's law, relative to its largest visible value.
+    /// The radiation of a black body at a temperature in K, by Planck's law, relative to its largest visible value.
     ///
     /// # Errors
     /// If the temperature is out of range.
@@ -144,7 +144,7 @@ impl Spectrum {
 /// A standard illuminant of the CIE (CIE 15, Colorimetry).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Illuminant {
-    /// Incandescent light: a black body at 2848 K of its time.
+    /// Incandescent light: a black body at 2848 K on the temperature scale of its time.
     A,
     /// Daylight at 5003 K.
     D50,
@@ -154,7 +154,7 @@ pub enum Illuminant {
     E,
     /// A fluorescent lamp, cool white.
     F2,
-    /// A fluorescent lamp of three narrow bands.
+    /// A fluorescent lamp with three narrow bands.
     F11,
 }
 
@@ -175,7 +175,7 @@ impl Illuminant {
         }
     }
 
-    /// The illuminant of that name.
+    /// The illuminant with this name.
     pub fn named(name: &str) -> Option<Self> {
         Illuminant::ALL.into_iter().find(|illuminant| illuminant.name() == name)
     }
@@ -187,7 +187,7 @@ impl Illuminant {
             values: values.to_vec(),
         };
         match self {
-            // The definition: 100 (560 / nm)^5 (e^(c / (2848 560)) - 1) / (e^(c / (2848 nm)) - 1), with c of 1931.
+            // The definition: 100 (560 / nm)^5 (e^(c / (2848 560)) - 1) / (e^(c / (2848 nm)) - 1), with the c of 1931.
             Illuminant::A => Spectrum::planck(2848.0, 1.435e7),
             Illuminant::D50 => table(&D50),
             Illuminant::D65 => table(&D65),
@@ -211,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_that_are_no_spectrum_are_named() {
+    fn errors_name_the_invalid_number() {
         for (nm, values, expected) in [
             (vec![500.0, 400.0], vec![1.0, 1.0], "wavelength 1 is 400 nm"),
             (vec![500.0, 500.0], vec![1.0, 1.0], "wavelength 1 is 500 nm"),
@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn illuminant_a_is_that_of_the_standard() {
+    fn illuminant_a_agrees_with_the_standard() {
         let a = Illuminant::A.spectrum();
         // CIE 15, table T.1, relative to 560 nm.
         for (nm, expected) in [(400.0, 14.708), (450.0, 33.0859), (500.0, 59.8611), (600.0, 129.043), (700.0, 198.261)]

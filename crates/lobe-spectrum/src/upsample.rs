@@ -1,13 +1,13 @@
 //! Smooth reflectances with a given colour: W. Jakob and J. Hanika, "A Low-Dimensional Function Space for Efficient Spectral
 //! Upsampling", Computer Graphics Forum 38(2), 2019.
 //!
-//! A reflectance is a sigmoid of a quadratic polynomial of the wavelength, so that it is smooth and lies in [0, 1]. Its three
-//! coefficients are found by Newton's method, damped, on the way from the grey of the same brightness.
+//! A reflectance is a sigmoid of a quadratic polynomial in the wavelength, so it is smooth and in [0, 1]. Its three
+//! coefficients are found by damped Newton iterations along a path from the grey of the same brightness.
 
-/// The reflectance at places in [-1, 1] whose colour, by the `weights` of each place, is nearest to `rgb`.
+/// The reflectance at places in [-1, 1] whose colour, with the `weights` of each place, is nearest to `rgb`.
 pub(crate) fn reflectance(places: &[f64], weights: &[[f64; 3]], rgb: [f64; 3]) -> Vec<f64> {
     let rgb = rgb.map(|c| c.clamp(0.0, 1.0));
-    // A white that wavelengths of too few bands show is not exactly white.
+    // With too few bands, white is not exactly white.
     let grey = (rgb[0] + rgb[1] + rgb[2]) / 3.0;
     if rgb == [0.0; 3] || rgb == [1.0; 3] {
         return vec![rgb[0]; places.len()];
@@ -22,11 +22,11 @@ pub(crate) fn reflectance(places: &[f64], weights: &[[f64; 3]], rgb: [f64; 3]) -
     places.iter().map(|x| sigmoid(polynomial(coefficients, *x))).collect()
 }
 
-/// How many steps from grey to the colour.
+/// The number of steps from grey to the colour.
 const STEPS: u32 = 12;
-/// Iterations of a step.
+/// The number of iterations per step.
 const ITERATIONS: usize = 40;
-/// Polynomials do not become steeper than this, where colours cannot be reached.
+/// A limit on the slope of polynomials, for colours that cannot be reached.
 const MOST: f64 = 400.0;
 
 fn polynomial([a, b, c]: [f64; 3], x: f64) -> f64 {

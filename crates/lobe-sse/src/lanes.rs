@@ -160,7 +160,7 @@ impl<V: Level> Lanes for Sse<V> {
     }
 }
 
-/// Rows to columns.
+/// Transposes rows to columns.
 #[inline(always)]
 fn transpose<V: Level>([a, b, c, d]: [Floats<V>; 4]) -> [Floats<V>; 4] {
     let (a, b, c, d) = (a.0, b.0, c.0, d.0);

@@ -14,7 +14,7 @@ mod sealed {
 }
 
 /// An instruction-set level of four lanes. Sealed: each level is a promise about the CPU, and each of its operations
-/// asks for the token that proves it.
+/// takes the token that proves it.
 pub trait Level: sealed::Sealed + Copy + Debug + Send + Sync + 'static {
     #[doc(hidden)]
     const NAME: &'static str;

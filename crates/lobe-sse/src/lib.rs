@@ -1,8 +1,8 @@
 //! The 4-lane backends of x86_64: [`Sse2`], which every such CPU has, and [`Sse41`].
 //!
-//! Both are one piece of code over a [`Level`], the few instructions that differ. `unsafe` occurs in three places: in
-//! the `op!` macro (register-only intrinsics, safe because the token proves the feature), in `memory.rs` (loads and
-//! stores, each checked where it is used), and in `vectorize`, the way in.
+//! Both share their code, which is generic over a [`Level`], the few instructions that differ. `unsafe` occurs in three
+//! places: in the `op!` macro (register-only intrinsics, safe because the token proves the feature), in `memory.rs`
+//! (loads and stores, each checked where it is used), and in `vectorize`, the entry point.
 #![cfg(target_arch = "x86_64")]
 #![no_std]
 
@@ -57,10 +57,10 @@ impl Sse41 {
         std::is_x86_feature_detected!("sse4.1").then_some(Sse(PhantomData))
     }
 
-    /// The token without a look at the CPU.
+    /// The token without a check of the CPU.
     ///
     /// # Safety
-    /// Safe from code compiled with SSE4.1, which is what the attribute says; elsewhere the CPU must have it.
+    /// Safe from code compiled with SSE4.1, as the attribute says; elsewhere the CPU must have it.
     #[inline]
     #[target_feature(enable = "sse4.1")]
     pub fn new() -> Self {

@@ -26,7 +26,7 @@ pub(crate) fn load(src: &[f32]) -> __m128 {
 #[inline(always)]
 pub(crate) fn store(dst: &mut [f32], x: __m128) {
     let dst = &mut dst[..4];
-    // SAFETY: `dst` has room for four floats; SSE2 is the baseline of x86_64; the store needs no alignment.
+    // SAFETY: `dst` holds four floats; SSE2 is the baseline of x86_64; the store needs no alignment.
     unsafe { _mm_storeu_ps(dst.as_mut_ptr(), x) }
 }
 
@@ -40,7 +40,7 @@ pub(crate) fn load_int(src: &[i32]) -> __m128i {
 #[inline(always)]
 pub(crate) fn store_int(dst: &mut [i32], x: __m128i) {
     let dst = &mut dst[..4];
-    // SAFETY: `dst` has room for four integers; SSE2 is the baseline of x86_64; the store needs no alignment.
+    // SAFETY: `dst` holds four integers; SSE2 is the baseline of x86_64; the store needs no alignment.
     unsafe { _mm_storeu_si128(dst.as_mut_ptr().cast(), x) }
 }
 
@@ -62,7 +62,7 @@ pub(crate) fn load_pair(table: &[[f32; 2]], index: usize) -> __m128 {
     unsafe { _mm_castsi128_ps(_mm_loadl_epi64(table.as_ptr().add(index.min(last)).cast())) }
 }
 
-/// Four floats at `base + offsets[corner]`; `base` is clamped to the block's last.
+/// Four floats at `base + offsets[corner]`; `base` is clamped to the block's last base.
 #[inline(always)]
 pub(crate) fn load_corner<const N: usize, const WIDTH: usize>(
     block: &Block<'_, N, WIDTH>,
@@ -77,7 +77,7 @@ pub(crate) fn load_corner<const N: usize, const WIDTH: usize>(
     unsafe { _mm_loadu_ps(block.data().as_ptr().add(at)) }
 }
 
-/// Four half-precision floats at `base + offsets[corner]`, as floats; `base` is clamped to the block's last.
+/// Four half-precision floats at `base + offsets[corner]`, as floats; `base` is clamped to the block's last base.
 #[inline(always)]
 pub(crate) fn load_half_corner<const N: usize, const WIDTH: usize>(
     block: &Block<'_, N, WIDTH, u16>,
@@ -91,7 +91,8 @@ pub(crate) fn load_half_corner<const N: usize, const WIDTH: usize>(
     // `4 * half + 4 <= WIDTH`; SSE2 is the baseline; the load of eight bytes needs no alignment.
     let halves = unsafe { _mm_loadl_epi64(block.data().as_ptr().add(at).cast()) };
     op!({
-        // Exponent and mantissa to where a float has them, and the difference of the exponent biases multiplied in.
+        // Exponent and mantissa are moved to their places in a float, and the difference of the exponent biases is
+        // multiplied in.
         let bits = _mm_unpacklo_epi16(halves, _mm_setzero_si128());
         let magnitude = _mm_slli_epi32::<13>(_mm_and_si128(bits, _mm_set1_epi32(0x7fff)));
         let bias = _mm_castsi128_ps(_mm_set1_epi32((127 + 127 - 15) << 23));

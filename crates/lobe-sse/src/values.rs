@@ -22,7 +22,7 @@ pub struct Mask<V>(pub(crate) __m128, PhantomData<V>);
 #[derive(Clone, Copy, Debug)]
 pub struct Oct<V>(pub(crate) Floats<V>, pub(crate) Floats<V>);
 
-// Private constructors: only code that holds a token or a value makes another value.
+// Private constructors: only code that holds a token or a value can create another value.
 #[inline(always)]
 pub(crate) fn floats<V>(x: __m128) -> Floats<V> {
     Floats(x, PhantomData)
@@ -36,7 +36,7 @@ pub(crate) fn mask<V>(x: __m128) -> Mask<V> {
     Mask(x, PhantomData)
 }
 
-/// The token again; its callers hold a value, which came from one.
+/// The token again; callers hold a value, which came from one.
 #[inline(always)]
 fn proof<V: Level>() -> Sse<V> {
     Sse(PhantomData)

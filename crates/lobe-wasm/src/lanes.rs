@@ -63,7 +63,7 @@ impl Lanes for Simd128 {
             let (ab, cd) = (i32x4_shuffle::<0, 4, 1, 5>(a, b), i32x4_shuffle::<0, 4, 1, 5>(c, d));
             [Floats(i64x2_shuffle::<0, 2>(ab, cd)), Floats(i64x2_shuffle::<1, 3>(ab, cd))]
         };
-        // A byte outside of a table becomes 0, so each of the two look-ups is 0 where the other one is not.
+        // A byte outside a table becomes 0, so each of the two lookups is 0 where the other one is not.
         fn oct_lookup(self, table: Oct, index: Ints) -> Floats = {
             let entry = i32x4_mul(v128_and(index.0, i32x4_splat(7)), i32x4_splat(0x0404_0404));
             let bytes = v128_or(entry, i32x4_splat(0x0302_0100));
@@ -94,7 +94,7 @@ fn gather_quads<T: Stored, const N: usize>(block: &Block<'_, N, 4, T>, base: Int
     corners
 }
 
-/// Rows to columns.
+/// Transposes rows to columns.
 #[inline(always)]
 fn transpose([Floats(a), Floats(b), Floats(c), Floats(d)]: [Floats; 4]) -> [Floats; 4] {
     let (ab_low, ab_high) = (i32x4_shuffle::<0, 4, 1, 5>(a, b), i32x4_shuffle::<2, 6, 3, 7>(a, b));

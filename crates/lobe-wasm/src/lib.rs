@@ -1,12 +1,12 @@
 //! The 4-lane backend of WebAssembly: `Simd128`. Octs are two registers.
 //!
-//! A module says before it runs which instructions it uses, and an engine that lacks them refuses it. So the crate is empty
-//! unless it is compiled with `-C target-feature=+simd128`, and where it is not, the token needs no detection. Intrinsics that
-//! touch registers only are safe functions; `unsafe` occurs in `memory.rs` only (loads and stores, each checked where it is
-//! used).
+//! A module declares before it runs which instructions it uses, and an engine that lacks them refuses it. So the crate
+//! is empty unless it is compiled with `-C target-feature=+simd128`, and then the token needs no detection. Intrinsics
+//! that touch only registers are safe functions; `unsafe` occurs only in `memory.rs` (loads and stores, each checked
+//! where it is used).
 //!
-//! Multiply-add rounds twice. Relaxed SIMD has one that rounds once or twice, as the engine likes: neither of the two forms
-//! of a backend, each of which has the same bits everywhere.
+//! Multiply-add rounds twice. Relaxed SIMD has one that rounds once or twice, as the engine chooses, which is neither
+//! of the two forms of a backend: each of these has the same bits everywhere.
 #![cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 #![no_std]
 
@@ -35,7 +35,7 @@ pub use values::{Floats, Ints, Mask, Oct};
 pub struct Simd128(());
 
 impl Simd128 {
-    /// The token: whatever runs this has the instructions.
+    /// The token: any engine that runs this has the instructions.
     #[inline(always)]
     pub fn new() -> Self {
         Simd128(())

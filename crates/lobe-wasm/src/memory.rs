@@ -14,14 +14,14 @@ pub(crate) fn load<T: Stored>(src: &[T]) -> v128 {
 #[inline(always)]
 pub(crate) fn store(dst: &mut [f32], x: v128) {
     let dst = &mut dst[..4];
-    // SAFETY: `dst` has room for four floats; the store needs no alignment.
+    // SAFETY: `dst` holds four floats; the store needs no alignment.
     unsafe { v128_store(dst.as_mut_ptr().cast(), x) }
 }
 
 #[inline(always)]
 pub(crate) fn store_int(dst: &mut [i32], x: v128) {
     let dst = &mut dst[..4];
-    // SAFETY: `dst` has room for four integers; the store needs no alignment.
+    // SAFETY: `dst` holds four integers; the store needs no alignment.
     unsafe { v128_store(dst.as_mut_ptr().cast(), x) }
 }
 
@@ -42,9 +42,9 @@ pub(crate) fn load_pair(table: &[[f32; 2]], index: usize) -> v128 {
     unsafe { v128_load64_zero(pair.as_ptr().cast()) }
 }
 
-/// What loads read.
+/// A storage format that loads read.
 pub(crate) trait Stored: Sized {
-    /// Four of them: half-precision floats become floats.
+    /// Loads four of them; half-precision floats become floats.
     fn load(four: &[Self; 4]) -> v128;
 }
 
@@ -70,14 +70,15 @@ impl Stored for u16 {
     fn load(four: &[u16; 4]) -> v128 {
         // SAFETY: `four` has eight bytes; the load needs no alignment.
         let bits = unsafe { u32x4_load_extend_u16x4(four.as_ptr()) };
-        // Exponent and mantissa to where a float has them, and the difference of the exponent biases multiplied in.
+        // Exponent and mantissa are moved to their places in a float, and the difference of the exponent biases is
+        // multiplied in.
         let magnitude = i32x4_shl(v128_and(bits, i32x4_splat(0x7fff)), 13);
         let sign = i32x4_shl(v128_and(bits, i32x4_splat(0x8000)), 16);
         v128_or(f32x4_mul(magnitude, i32x4_splat((127 + 127 - 15) << 23)), sign)
     }
 }
 
-/// Four floats at `base + offsets[corner]`, or behind those; `base` is clamped to the block's last.
+/// Four floats at `base + offsets[corner]`, or following those; `base` is clamped to the block's last base.
 #[inline(always)]
 pub(crate) fn load_corner<T: Stored, const N: usize, const WIDTH: usize>(
     block: &Block<'_, N, WIDTH, T>,

@@ -60,7 +60,7 @@ impl lobe_lane::Floats for Floats {
     type M = Mask;
 
     methods! {
-        // `pmin(a, b)` is `if b < a { b } else { a }`; `min` and `max` differ for NaN and for zeros of both signs.
+        // `pmin(a, b)` is `if b < a { b } else { a }`; `min` and `max` differ for NaN and for zeros of different signs.
         fn min(self, other: Self) -> Self = Floats(f32x4_pmin(other.0, self.0));
         fn max(self, other: Self) -> Self = Floats(f32x4_pmax(other.0, self.0));
         fn abs(self) -> Self = Floats(f32x4_abs(self.0));
@@ -70,7 +70,7 @@ impl lobe_lane::Floats for Floats {
         fn eq(self, other: Self) -> Mask = Mask(f32x4_eq(self.0, other.0));
         fn masked(self, mask: Mask) -> Self = Floats(v128_and(self.0, mask.0));
         fn mul_sign(self, sign: Self) -> Self = Floats(v128_xor(self.0, v128_and(sign.0, i32x4_splat(i32::MIN))));
-        // The conversion saturates, and makes 0 of NaN.
+        // The conversion saturates, and turns NaN into 0.
         fn to_int(self) -> Ints = {
             let fits = f32x4_lt(self.0, f32x4_splat(2_147_483_648.0));
             Ints(v128_bitselect(i32x4_trunc_sat_f32x4(self.0), i32x4_splat(i32::MIN), fits))

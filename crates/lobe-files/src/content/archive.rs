@@ -1,4 +1,4 @@
-//! Packed files and archives.
+//! Compressed files and archives.
 
 use std::path::Path;
 
@@ -34,7 +34,7 @@ pub(super) fn content(bytes: &[u8], path: &Path) -> Option<Content> {
     bytes.starts_with(b"PK\x03\x04").then(|| zip(bytes, path))
 }
 
-/// A zip archive, which many formats are built on.
+/// A zip archive, on which many formats are built.
 fn zip(bytes: &[u8], path: &Path) -> Content {
     let name = first_name(bytes);
     let is_named = |extension: &str| path.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension));
@@ -53,7 +53,7 @@ fn zip(bytes: &[u8], path: &Path) -> Content {
     }
 }
 
-/// The name of the first file, as its header has it.
+/// The name of the first file, from its header.
 fn first_name(bytes: &[u8]) -> String {
     let length = bytes.get(26..28).map_or(0, |length| usize::from(u16::from_le_bytes([length[0], length[1]])));
     let name = bytes.get(30..).unwrap_or_default();

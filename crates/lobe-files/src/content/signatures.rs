@@ -1,4 +1,4 @@
-//! Binary files by their first bytes.
+//! Recognition of binary files by their first bytes.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ const ARRAY: &str = "Save the angles and values as columns of a CSV file";
 const PROGRAM: &str = "It holds no data";
 const SOUND: &str = "It holds no measurement";
 
-/// What a file is that begins like this, and what to do.
+/// The kind of a file that begins like this, and what to do.
 const SIGNATURES: [(&[u8], &str, &str); 44] = [
     (b"%PDF-", "a PDF document", DOCUMENT),
     (b"%!PS", "a PostScript document", DOCUMENT),
@@ -61,7 +61,7 @@ const SIGNATURES: [(&[u8], &str, &str); 44] = [
 
 pub(super) fn content(bytes: &[u8], path: &Path) -> Option<Content> {
     let found = SIGNATURES.iter().find(|(magic, ..)| bytes.starts_with(magic));
-    // Two letters may begin a text.
+    // A text may begin with two letters.
     let found = found.filter(|(magic, ..)| *magic != b"MZ" || bytes.contains(&0));
     if let Some((_, what, advice)) = found {
         return Some(Content::new(*what, *advice));
@@ -86,7 +86,7 @@ fn hdf5(bytes: &[u8], path: &Path) -> Option<Content> {
         true => Content::new(
             "an AxF file of X-Rite (HDF5)",
             "AxF is not public, and only X-Rite's own library decodes it: export the measurement as a table (CSV, ASTM \
-             E1392) from a program that has it",
+             E1392) from a program with that library",
         ),
         false => Content::new("an HDF5 file", ARRAY),
     })
@@ -104,14 +104,14 @@ fn office(bytes: &[u8], path: &Path) -> Option<Content> {
     })
 }
 
-/// A Windows bitmap, whose header has the size of the file.
+/// A Windows bitmap, whose header contains the size of the file.
 fn bitmap(bytes: &[u8]) -> Option<Content> {
     let size = bytes.strip_prefix(b"BM")?.first_chunk::<4>()?;
     let is_bitmap = u32::from_le_bytes(*size) as usize == bytes.len();
     is_bitmap.then(|| Content::new("a picture (BMP)", PICTURE))
 }
 
-/// Pictures, sounds and films that name their kind after a size.
+/// Pictures, sounds and films with a size before their type.
 fn container(bytes: &[u8]) -> Option<Content> {
     if bytes.starts_with(b"RIFF") {
         return Some(match bytes.get(8..12)? {
@@ -126,7 +126,7 @@ fn container(bytes: &[u8]) -> Option<Content> {
     })
 }
 
-/// Binary STL has no signature, but a size: 84 bytes, and 50 per triangle.
+/// Binary STL has no signature, but a known size: 84 bytes, and 50 per triangle.
 fn stl(bytes: &[u8]) -> Option<Content> {
     let count = u32::from_le_bytes(*bytes.get(80..)?.first_chunk::<4>()?) as usize;
     let is_stl = count > 0 && count.checked_mul(50).and_then(|size| size.checked_add(84)) == Some(bytes.len());

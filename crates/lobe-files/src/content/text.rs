@@ -1,14 +1,14 @@
-//! Text files by their first words.
+//! Recognition of text files by their first words.
 
 use super::Content;
 use crate::printable;
 
 const MESH: &str = "Meshes are shapes of scenes, not materials";
 
-/// How much of a text is looked at.
+/// The number of bytes of a text that are examined.
 const HEAD: usize = 1 << 14;
 
-/// The first bytes as text, if that is what they are.
+/// The first bytes as text, if they are text.
 pub(super) fn of(bytes: &[u8]) -> Option<String> {
     let head = &bytes[..bytes.len().min(HEAD)];
     let head = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head);
@@ -17,7 +17,7 @@ pub(super) fn of(bytes: &[u8]) -> Option<String> {
         [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes),
         _ => String::from_utf8_lossy(head).into_owned(),
     };
-    // Text in an old code page has some letters that are not UTF-8; what is mostly something else is no text.
+    // Text in an old code page has some letters that are not UTF-8; if most bytes are not, it is not text.
     let odd = text.chars().filter(|c| *c == '\u{fffd}' || (c.is_control() && !c.is_whitespace() && *c != '\u{1b}'));
     let is_text = !text.contains('\0') && odd.count() * 20 <= text.chars().count();
     is_text.then_some(text)
@@ -42,7 +42,7 @@ pub(super) fn content(bytes: &[u8]) -> Option<Content> {
         .or_else(|| other(text))
 }
 
-/// What stands in a repository or a download for a file that is elsewhere.
+/// Placeholders in a repository or a download for a file that is elsewhere.
 fn pointer(text: &str) -> Option<Content> {
     let line = text.lines().next().unwrap_or_default().trim();
     if text.starts_with("version https://git-lfs.github.com/spec/") {
@@ -66,14 +66,14 @@ fn pointer(text: &str) -> Option<Content> {
     })
 }
 
-/// Files of Radiance say what they hold.
+/// Files of Radiance declare their contents.
 fn radiance(text: &str) -> Option<Content> {
     let head = text.strip_prefix("#?")?;
     let kind = head.lines().take_while(|line| !line.is_empty()).find_map(|line| line.strip_prefix("FORMAT="));
     Some(match kind.unwrap_or_default().trim() {
         "BSDF_RBFmesh" => Content::new(
             "an interpolated BSDF of Radiance (.sir)",
-            "Make a WINDOW file of it with `bsdf2klems` or `bsdf2ttree`",
+            "Convert it to a WINDOW file with `bsdf2klems` or `bsdf2ttree`",
         ),
         _ => {
             Content::new("a picture (Radiance HDR)", "Pictures are environments and textures of scenes, not materials")
@@ -101,7 +101,7 @@ fn markup(text: &str) -> Option<Content> {
             let named = named_file(text).map_or(String::new(), |file| format!(", such as {file}"));
             Content::new("a scene of Mitsuba", format!("Open the material files that it names{named}"))
         }
-        "materialx" => Content::new("a material of MaterialX", "It holds formulas, no measurement"),
+        "materialx" => Content::new("a material of MaterialX", "It holds formulas, not measurements"),
         "error" => Content::new("the error message of a server (XML)", super::AGAIN),
         "collada" => Content::new("a mesh (COLLADA)", MESH),
         "x3d" => Content::new("a mesh (X3D)", MESH),
@@ -129,14 +129,14 @@ fn root(text: &str) -> Option<&str> {
     }
 }
 
-/// The file that a scene of Mitsuba names as that of a material.
+/// The material file that a scene of Mitsuba names.
 fn named_file(scene: &str) -> Option<String> {
     let (_, rest) = scene.split_once("name=\"filename\"")?;
     let value = rest.split_once("value=\"")?.1.split_once('"')?.0;
     (value.len() <= 60).then(|| printable(value).into_owned())
 }
 
-/// JSON by the names in its object.
+/// JSON, described by the names in its object.
 fn json(text: &str) -> Option<Content> {
     let inner = text.strip_prefix('{')?.trim_start();
     if !inner.starts_with('"') {
@@ -169,7 +169,7 @@ fn json(text: &str) -> Option<Content> {
     Some(Content::new(format!("a JSON file of another kind, with {names}"), ""))
 }
 
-/// OBJ and STL by lines that begin like theirs.
+/// OBJ and STL, recognised by their lines.
 fn mesh(text: &str) -> Option<Content> {
     if text.starts_with("solid") && text.contains("facet normal") {
         return Some(Content::new("a mesh (STL)", MESH));
@@ -188,18 +188,18 @@ fn mesh(text: &str) -> Option<Content> {
         () if is_other(line) => Some(seen),
         () => None,
     });
-    // The last of the lines that are looked at may be cut off.
+    // The last of the examined lines may be cut off.
     (is_obj == Some(true)).then(|| Content::new("a mesh (OBJ)", MESH))
 }
 
-/// Texts of programs of this field.
+/// Text files of other programs in this field.
 fn other(text: &str) -> Option<Content> {
-    const FORMULA: &str = "It holds formulas, no measurement";
+    const FORMULA: &str = "It holds formulas, not measurements";
     let has = |word: &str| text.contains(word);
     let first = text.split_whitespace().next().unwrap_or_default();
     Some(match () {
         () if has("::begin parameters") => {
-            Content::new("a shader of Disney's BRDF Explorer, a formula", "It holds a formula, no measurement")
+            Content::new("a shader of Disney's BRDF Explorer, a formula", "It holds a formula, not a measurement")
         }
         () if first == "mdl" && has("import ") => Content::new("the source of an MDL material", FORMULA),
         () if text.starts_with("IESNA") => {

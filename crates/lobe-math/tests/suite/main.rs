@@ -89,7 +89,7 @@ fn check(backend: &str, name: &str, bound: Bound, pairs: impl Iterator<Item = (f
     assert!(abs >= bound.abs / 8.0, "{backend} {name}: absolute error {abs:e} is far below the stated {:e}", bound.abs);
 }
 
-/// What runs a function: a backend in one of its forms, or emulated lanes.
+/// The lanes that run a function: a backend in one of its forms, or emulated lanes.
 struct On<'a> {
     name: &'a str,
     run: &'a dyn Fn(Apply<'_>),

@@ -1,4 +1,4 @@
-//! A strict form hands every method on, whether or not it has a default.
+//! A strict form forwards every method, whether or not it has a default.
 
 use std::cell::RefCell;
 
@@ -16,7 +16,7 @@ thread_local! {
     static CALLED: RefCell<Vec<&'static str>> = const { RefCell::new(Vec::new()) };
 }
 
-/// A backend that overrides every method to note its name.
+/// A backend that overrides every method to record its name.
 #[derive(Clone, Copy, Debug)]
 struct Spy;
 
@@ -143,7 +143,7 @@ fn overridden_methods_are_reached_through_the_strict_form() {
 }
 
 #[test]
-fn multiply_adds_of_the_strict_form_are_its_own() {
+fn the_strict_form_has_its_own_multiply_adds() {
     let lanes = Spy.strict();
     let (x, four, eight) = (lanes.splat(2.0), lanes.quad_splat(2.0), lanes.oct_splat(2.0));
     assert_eq!(lanes.extract(lanes.mul_add(x, x, x), 3), 6.0);
