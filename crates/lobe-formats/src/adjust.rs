@@ -1,4 +1,4 @@
-//! Values of a file that are not `f` yet: other quantities, a factor, stated totals.
+//! Conversion of values that are not yet `f`: other quantities, a factor, stated totals.
 
 use std::f64::consts::PI;
 use std::path::Path;
@@ -9,10 +9,10 @@ use crate::integra::units::{divide_nodes_by_cosine, scale_slices};
 use crate::reading::{Quantity, ReadOptions, Scale};
 use crate::{Document, FormatError, Place, totals};
 
-/// The smallest cosine that a value is divided by: that of 89.9 degrees.
+/// The smallest cosine by which a value is divided: that of 89.9 degrees.
 const HORIZON: f64 = 1.745e-3;
 
-/// Makes `f` of the values, as the options say they are. `is_table`: the reader has dealt with the quantity.
+/// Converts the values to `f` as the options say. `is_table`: the reader has already converted the quantity.
 pub(crate) fn adjust(
     mut document: Document,
     options: &ReadOptions,
@@ -29,7 +29,7 @@ pub(crate) fn adjust(
         Some(Scale::By(factor)) => each(&mut document, |data| multiply(data, factor, file))?,
         Some(Scale::Tis) => to_totals(&mut document, file)?,
     }
-    let note = |what: String| format!("{what}, as was said");
+    let note = |what: String| format!("{what}, as the options say");
     if let Some(quantity) = options.values.filter(|_| !is_table) {
         document.notes.push(note(format!("values are {quantity}")));
     }
@@ -133,7 +133,7 @@ fn to_totals(document: &mut Document, file: &Path) -> Result<(), FormatError> {
     Ok(())
 }
 
-/// How many incident directions a grid has.
+/// The number of incident directions of a grid.
 fn incidences(data: &Data) -> usize {
     let count = |knots: &[Vec<f64>; 4]| knots[0].len() * knots[1].len();
     match data {

@@ -1,10 +1,10 @@
 //! Data files of the ALTA library, text form.
 //!
-//! `#KEY value` lines, among them `#DIM inputs outputs`, `#PARAM_IN` and `#PARAM_OUT`, then one record per line. Read
-//! here are two parametrisations of isotropic materials: `ISOTROPIC_TL_TV_PROJ_DPHI`, which is `theta_i`, `theta_o
+//! `#KEY value` lines, among them `#DIM inputs outputs`, `#PARAM_IN` and `#PARAM_OUT`, then one record per line. Two
+//! parametrisations of isotropic materials are read: `ISOTROPIC_TL_TV_PROJ_DPHI`, which is `theta_i`, `theta_o
 //! cos(dphi)`, `theta_o sin(dphi)`, and `ISOTROPIC_TV_TL_DPHI`, which is `theta_o`, `theta_i`, `dphi`; radians. Values
 //! are `f` in 1/sr (`INV_STERADIAN`), or with the cosine of the outgoing direction (`INV_STERADIAN_COSINE_FACTOR`),
-//! which is divided out; at the horizon, where it is zero, such a sample says nothing and is left out.
+//! which is divided out; at the horizon, where it is zero, such a sample has no information and is left out.
 
 use std::path::Path;
 
@@ -27,7 +27,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     writer: None,
 };
 
-/// Below this cosine a value cannot be distinguished from the error of the division.
+/// Below this cosine, a value cannot be distinguished from the error of the division.
 const LEAST_COSINE: f64 = 1e-3;
 
 /// `true` if the lines at the start that begin with `#` have `#DIM` and `#PARAM_IN`.
@@ -37,7 +37,7 @@ pub fn matches(bytes: &[u8]) -> bool {
     has("#DIM ") && has("#PARAM_IN ")
 }
 
-/// What the lines at the start say about the sample.
+/// The facts about the sample in the lines at the start.
 fn facts(bytes: &[u8]) -> Facts {
     let mut facts = named(bytes, |key| key.strip_prefix('#').map(String::from));
     facts.retain(|(key, _)| !matches!(key.as_str(), "DIM" | "VS"));
@@ -49,10 +49,11 @@ enum Input {
     Angles,
 }
 
-/// Reads a file. `file` only names it in errors.
+/// Reads a file. `file` is only its name in errors.
 ///
 /// # Errors
-/// [`FormatError`] with the line: another parametrisation, a `#DIM` that does not fit it, or records of another length.
+/// [`FormatError`] with the line: another parametrisation, a `#DIM` that does not match it, or records of another
+/// length.
 pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
     let text = String::from_utf8_lossy(bytes);
     let (mut input, mut has_cosine, mut outputs) = (None, false, None);

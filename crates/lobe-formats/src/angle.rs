@@ -37,7 +37,7 @@ words! {
 }
 
 impl Unit {
-    /// What makes radians of it.
+    /// The factor that converts it to radians.
     pub fn radians(self) -> f64 {
         match self {
             Unit::Deg => PI / 180.0,

@@ -1,9 +1,9 @@
-//! ASTM E1392 text files of scattered light, as the Cornell Program of Computer Graphics has them.
+//! ASTM E1392 text files of scattered light, as used by the Cornell Program of Computer Graphics.
 //!
 //! Lines of a keyword and a value, among them `NUM_POINTS`; the last is `VARS` with the names of the columns. Then a
 //! comma-separated record per line: `theta_i`, `phi_i`, `theta_s`, `phi_s` in radians, or `theta_i`, `theta_s`, `phi_s`
-//! with the light at azimuth 0, and `f` in 1/sr: `R,G,B`, or `X,Y,Z`, or columns such as `400nm`, or one of any name.
-//! Whether it is reflection or transmission the file does not say.
+//! with the light at azimuth 0, and `f` in 1/sr: `R,G,B`, or `X,Y,Z`, or columns such as `400nm`, or one with any name.
+//! The file does not say whether it is reflection or transmission.
 
 mod write;
 
@@ -61,10 +61,11 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
     read_as(bytes, file, Scatter::Reflection)
 }
 
-/// Reads a file. `file` only names it in errors.
+/// Reads a file. `file` is only its name in errors.
 ///
 /// # Errors
-/// [`FormatError`] with the line: other columns, records of another length, or another number of them than announced.
+/// [`FormatError`] with the line: other columns, records of another length, or a number of records that differs from
+/// the announced one.
 pub fn read_as(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<scattered::Data, FormatError> {
     let text = String::from_utf8_lossy(bytes);
     let mut lines = lines(file, &text);

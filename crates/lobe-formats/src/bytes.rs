@@ -15,12 +15,12 @@ impl<'a, 'f> Cursor<'a, 'f> {
         Cursor { bytes, at: 0, file }
     }
 
-    /// An error at the place reached.
+    /// An error at the current place.
     pub fn error(&self, found: impl Into<String>, expected: impl Into<String>) -> FormatError {
         FormatError::new(self.file, Place::Byte(self.at as u64), found, expected)
     }
 
-    /// Passes over `magic`, which is shown as `name`.
+    /// Skips `magic`, which errors show as `name`.
     pub fn signature(&mut self, magic: &[u8], name: &str) -> Result<(), FormatError> {
         if !self.rest().starts_with(magic) {
             let start = &self.rest()[..self.rest().len().min(magic.len())];
@@ -30,12 +30,12 @@ impl<'a, 'f> Cursor<'a, 'f> {
         Ok(())
     }
 
-    /// What is left of the file.
+    /// The rest of the file.
     pub fn rest(&self) -> &'a [u8] {
         &self.bytes[self.at..]
     }
 
-    /// The next `n` bytes; `what` they are is for the error.
+    /// The next `n` bytes; `what` describes them in errors.
     pub fn take(&mut self, n: usize, what: &str) -> Result<&'a [u8], FormatError> {
         let Some(taken) = self.rest().get(..n) else {
             let found = format!("the end of the file, {} bytes on", self.rest().len());
@@ -52,7 +52,7 @@ impl<'a, 'f> Cursor<'a, 'f> {
         Ok(array)
     }
 
-    /// The next `count` 32-bit floats. Fails before it allocates if the file does not hold them.
+    /// The next `count` 32-bit floats. Fails before allocating if the file does not contain them.
     pub fn floats(&mut self, count: Option<usize>, what: &str) -> Result<Vec<f32>, FormatError> {
         let Some(bytes) = count.and_then(|count| count.checked_mul(4)) else {
             return Err(self.error("more values than memory holds", what));

@@ -1,9 +1,9 @@
-//! What the names of columns of values say.
+//! The meaning of the names of value columns.
 
 use lobe_table::Channels;
 
-/// The channels that columns of these names hold: `R,G,B`, `X,Y,Z`, wavelengths in nm (`550` or `550nm`), or one column of
-/// any other name. `None` for other sets of names.
+/// The channels that columns with these names hold: `R,G,B`, `X,Y,Z`, wavelengths in nm (`550` or `550nm`), or one
+/// column with any other name. `None` for other sets of names.
 pub(crate) fn channels(names: &[&str]) -> Option<Channels> {
     let is = |wanted: [&str; 3]| names.len() == 3 && names.iter().zip(wanted).all(|(a, b)| a.eq_ignore_ascii_case(b));
     let wavelength = |name: &&str| {

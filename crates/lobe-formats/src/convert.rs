@@ -1,4 +1,4 @@
-//! Writing a document in another format: as it is, or with its channels mapped. Nothing is resampled.
+//! Writing a document in another format: unchanged, or with its channels mapped. Nothing is resampled.
 
 use std::path::Path;
 
@@ -9,11 +9,11 @@ use thiserror::Error;
 
 use crate::{Document, Format, FormatError, Place};
 
-/// Why a document was not written.
+/// A document could not be written.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ConvertError {
-    /// The format has no channels like these.
+    /// The format does not support these channels.
     #[error("{0}")]
     Channels(String),
     /// The file cannot be written, or the document does not fit.
@@ -27,19 +27,19 @@ const VISIBLE: [f64; 2] = [360.0, 830.0];
 /// A linear map of channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChannelMap {
-    /// What it leads to.
+    /// The resulting channels.
     pub channels: Channels,
-    /// What to tell the user about it; `None` if it changes nothing.
+    /// A description for the user; `None` if it changes nothing.
     pub note: Option<String>,
-    /// A row for each channel it leads to: how much of each of the old ones.
+    /// One row per resulting channel: the weights of the old channels.
     pub rows: Vec<Vec<f64>>,
 }
 
 impl ChannelMap {
-    /// The way from these channels, or from the one of them that was chosen, to a format.
+    /// The map from these channels, or from a chosen one, to a format.
     ///
     /// # Errors
-    /// [`ConvertError::Channels`] if there is no such channel, or the format has nothing like them.
+    /// [`ConvertError::Channels`] if there is no such channel, or the format does not support these channels.
     pub fn new(from: &Channels, chosen: Option<&str>, format: Format) -> Result<Self, ConvertError> {
         let writer = format.writer().ok_or_else(|| ConvertError::Channels(format!("{format}: it is only read")))?;
         let (holds, count) = (writer.holds_channels, from.count());
@@ -78,7 +78,7 @@ impl ChannelMap {
             Channels::Rgb if holds(&Channels::Xyz) => (
                 Channels::Xyz,
                 RGB_TO_XYZ.iter().map(|row| &row[..]).collect(),
-                "R G B, taken to be linear sRGB, as X Y Z",
+                "R G B, assumed to be linear sRGB, as X Y Z",
             ),
             Channels::Xyz if holds(&Channels::Rgb) => {
                 (Channels::Rgb, XYZ_TO_RGB.iter().map(|row| &row[..]).collect(), "X Y Z as linear sRGB")
@@ -99,7 +99,7 @@ impl ChannelMap {
         Ok(map.with_white_of(format))
     }
 
-    /// XYZ relative to the white that a format has: in window sheets that of equal energy, X = Y = Z.
+    /// XYZ relative to the white of a format: in window sheets, equal energy, X = Y = Z.
     fn with_white_of(mut self, format: Format) -> Self {
         let is_window = format.writer().is_some_and(|writer| writer.resampled_as == Ok(klems::KIND));
         if is_window && self.channels == Channels::Xyz {
@@ -117,7 +117,7 @@ impl ChannelMap {
         self.note.is_none()
     }
 
-    /// Maps texels of the old channels to texels of the new.
+    /// Maps texels of the old channels to texels of the new ones.
     pub fn apply(&self, texels: &[f32]) -> Vec<f32> {
         if self.is_identity() {
             return texels.to_vec();
@@ -134,15 +134,15 @@ impl ChannelMap {
 /// What was written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Written {
-    /// What happened to the channels, in words; `None` if they are what they were.
+    /// What happened to the channels, in words; `None` if they are unchanged.
     pub note: Option<String>,
 }
 
-/// Writes the document if the format has its representation, whole or not at all: all of its channels, or the one that is
-/// named. `None` if the values would have to be computed anew, in which case nothing is written.
+/// Writes the document if the format has its representation, whole or not at all: all of its channels, or the named
+/// one. `None` if the values would have to be resampled; then nothing is written.
 ///
 /// # Errors
-/// [`ConvertError`] if the format has no such channels, or the file cannot be written.
+/// [`ConvertError`] if the format does not support the channels, or the file cannot be written.
 pub fn convert(
     document: &Document,
     format: Format,
@@ -168,7 +168,7 @@ pub fn convert(
     Ok(Some(Written { note: map.note }))
 }
 
-/// The same nodes with other channels; `None` if the representation cannot have them.
+/// The same nodes with other channels; `None` if the representation does not support them.
 fn mapped(data: &Data, map: &ChannelMap, path: &Path) -> Result<Option<Data>, FormatError> {
     let mut mapped = data.clone();
     let changed = mapped.representation_mut().map_channels(map.channels.clone(), &|values| map.apply(values));

@@ -32,7 +32,7 @@ pub fn matches(bytes: &[u8]) -> bool {
     comments.any(|comment| comment.trim_start_matches(['#', ' ']).eq_ignore_ascii_case("num wls"))
 }
 
-/// The comments of the header that are not about its structure.
+/// The comments of the header that do not describe its structure.
 fn facts(bytes: &[u8]) -> Facts {
     comments(bytes, "#", |text| {
         let text = text.to_ascii_lowercase();
@@ -40,11 +40,11 @@ fn facts(bytes: &[u8]) -> Facts {
     })
 }
 
-/// Reads a file. `file` only names it in errors.
+/// Reads a file. `file` is only its name in errors.
 ///
 /// # Errors
-/// [`FormatError`] with the line: numbers that are missing or none, a last record that is cut off, or polar angles that
-/// are on no side of a surface.
+/// [`FormatError`] with the line: missing or invalid numbers, a last record that is cut off, or polar angles that are
+/// on no side of a surface.
 pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
     let mut text = Text::new(file, bytes, "#");
     let count = text.count("wavelengths")?;

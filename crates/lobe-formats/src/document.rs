@@ -1,31 +1,32 @@
-//! What a file holds: the data, and what the file says about them.
+//! The contents of a file: the data, and facts about them.
 
 use std::borrow::Cow;
 
 use lobe_files::printable;
 use lobe_table::{Data, Side, Uses};
 
-/// What was found in a file, in the form in which it was measured.
+/// The contents of a file, in the form in which they were measured.
 #[derive(Clone, Debug)]
 pub struct Document {
     /// The name of the format, if it was read from a file.
     pub format: Option<&'static str>,
-    /// The measurements, in the order of the file. More than one are those of a sheet: reflection and transmission, or
-    /// both of its sides.
+    /// The measurements, in the order of the file. Several measurements belong to a sheet: reflection and transmission,
+    /// or both of its sides.
     pub parts: Vec<Part>,
     /// Names and values of the header in the order of the file, for people to read. Comments have the name `comment`.
-    /// What became part of the data (knots, channels) is left out.
+    /// Facts that became part of the data (knots, channels) are left out.
     pub source: Vec<(String, String)>,
-    /// Total integrated scatter, the hemispherical integral of `f cos`, as the file states it for each block of its data.
-    /// Empty if it states none. Values are scaled to it only if [`ReadOptions::scale`](crate::ReadOptions::scale) says so.
+    /// Total integrated scatter, the hemispherical integral of `f cos`, as stated in the file for each block of its
+    /// data. Empty if it states none. Values are scaled to it only if [`ReadOptions::scale`](crate::ReadOptions::scale)
+    /// says so.
     ///
     /// For data in specular coordinates `[channel][psi][sigma]`; for those in spherical coordinates
     /// `[theta_i][phi_i][channel]`, part by part.
     pub tis: Vec<f32>,
-    /// What the reader made of a file that leaves something open, in sentences for people: which column it took for
-    /// what, what it left out.
+    /// How the reader understood a file that leaves something open, in sentences for people: the meaning of columns,
+    /// and what was left out.
     pub notes: Vec<String>,
-    /// What may be wrong with that.
+    /// Possible misunderstandings.
     pub doubts: Vec<String>,
     /// What a file says besides its values, as it stands there, for a writer of the same format to put it back: the name of
     /// each piece, and its text.
@@ -50,7 +51,7 @@ impl Part {
         Part { name: name.into(), side: None, data: data.into() }
     }
 
-    /// `true` if the data hold whichever side the light comes from.
+    /// `true` if the data apply to light from either side.
     pub fn is_of_any_side(&self) -> bool {
         self.side.is_none() && !self.data.representation().is_two_sided()
     }
@@ -69,12 +70,12 @@ impl Document {
         }
     }
 
-    /// One measurement about which there is nothing else to say.
+    /// One measurement without further facts.
     pub fn new(data: impl Into<Data>) -> Self {
         Document { format: None, parts: vec![Part::new("", data)], ..Document::empty() }
     }
 
-    /// The measurements of a sheet. The name of a single one that is of no particular side becomes a fact of the header.
+    /// The measurements of a sheet. The name of a single measurement of no particular side becomes a header fact.
     pub fn of_parts(mut parts: Vec<Part>) -> Self {
         let mut source = Vec::new();
         if let [Part { name, side: None, .. }] = parts.as_mut_slice()
@@ -93,7 +94,7 @@ impl Document {
         }
     }
 
-    /// Which options make a difference to any of the measurements.
+    /// The options that affect any of the measurements.
     pub fn uses(&self) -> Uses {
         self.parts.iter().fold(Uses::default(), |uses, part| uses.or(part.data.representation().uses()))
     }
@@ -109,13 +110,13 @@ impl Document {
         self.only().is_none()
     }
 
-    /// The same with facts of the header that were found before.
+    /// The same with header facts that were found earlier, placed first.
     pub(crate) fn with_facts(mut self, facts: Vec<(String, String)>) -> Self {
         self.source.extend(facts);
         self
     }
 
-    /// The same with names and facts that can be shown to people: see [`printable`](lobe_files::printable).
+    /// The same with names and facts made safe to show: see [`printable`](lobe_files::printable).
     pub(crate) fn printable(mut self) -> Self {
         let facts = self.source.iter_mut().flat_map(|(name, value)| [name, value]);
         for text in facts.chain(self.parts.iter_mut().map(|part| &mut part.name)).chain(&mut self.notes) {
@@ -126,7 +127,7 @@ impl Document {
         self
     }
 
-    /// The same with facts of the header; those without a value are left out.
+    /// The same with header facts; those without a value are left out.
     pub(crate) fn with_source(mut self, source: &[(&str, &str)]) -> Self {
         let stated = source.iter().filter(|(_, value)| !value.is_empty());
         self.source.extend(stated.map(|(name, value)| ((*name).into(), (*value).into())));
@@ -134,7 +135,7 @@ impl Document {
     }
 }
 
-/// Data of a known type, and what their file says about them.
+/// Data of a known type, and facts from their file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured<T> {
     /// The data.

@@ -1,10 +1,10 @@
-//! What people wrote into the header of a text file, kept for `Document::source`.
+//! Facts that people wrote into the header of a text file, kept for `Document::source`.
 
 /// Names and values.
 pub(crate) type Facts = Vec<(String, String)>;
 
-/// The comments among the first lines, up to the first one that is neither empty nor a comment, without those of which
-/// nothing is left or that are `structure`.
+/// The comments among the first lines, up to the first line that is neither empty nor a comment, without empty ones and
+/// those that are `structure`.
 pub(crate) fn comments(bytes: &[u8], marker: &str, structure: impl Fn(&str) -> bool) -> Facts {
     let head = bytes.split(|&byte| matches!(byte, b'\n' | b'\r')).map(<[u8]>::trim_ascii);
     let lines = head.take_while(|line| line.is_empty() || line.starts_with(marker.as_bytes()));
@@ -13,7 +13,7 @@ pub(crate) fn comments(bytes: &[u8], marker: &str, structure: impl Fn(&str) -> b
     worded.map(|text| ("comment".into(), text)).collect()
 }
 
-/// Lines of a name and a value, up to the first one for which there is no name.
+/// Lines with a name and a value, up to the first one without a name.
 pub(crate) fn named<'a>(bytes: &'a [u8], name: impl Fn(&str) -> Option<String> + 'a) -> Facts {
     let lines = bytes.split(|&byte| matches!(byte, b'\n' | b'\r')).map(|line| String::from_utf8_lossy(line));
     let fact = |line: std::borrow::Cow<'_, str>| {

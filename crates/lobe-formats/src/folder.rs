@@ -1,4 +1,4 @@
-//! Folders of files that are one material: formats with one incident direction a file.
+//! Folders of files that form one material: formats with one incident direction per file.
 
 use std::path::{Path, PathBuf};
 
@@ -9,8 +9,8 @@ use crate::{Document, Format, FormatError, Place, plain, sniff};
 /// The names and the contents of files.
 type Files = Vec<(PathBuf, Vec<u8>)>;
 
-/// Reads the files of a folder that are of a format with one incident direction a file, as one material. Other files are let
-/// be, and so are folders in it.
+/// Reads the files of a folder in a format with one incident direction per file, as one material. Other files and
+/// subfolders are ignored.
 ///
 /// # Errors
 /// [`FormatError`] if the folder or a file cannot be read, if there is no such file, or if there are files of several such
@@ -40,7 +40,7 @@ pub(crate) fn open(folder: &Path) -> Result<(Format, Document), FormatError> {
     let found = found.and_then(|(format, files)| Some((format, files, format.spec().read_set?)));
     let Some((format, files, read_set)) = found else {
         let names: Vec<&str> = sets().map(|(format, _)| format.name()).collect();
-        let expected = format!("files of a format with one incident direction a file: {}", names.join(" or "));
+        let expected = format!("files of a format with one incident direction per file: {}", names.join(" or "));
         return Err(FormatError::new(folder, Place::File, "a folder without such files", expected));
     };
     Ok((format, read_set(&files)?))

@@ -1,9 +1,10 @@
 //! Fourier BSDFs of pbrt-v3 and layerlab: `SCATFUN` files, isotropic and without textures.
 //!
-//! Little-endian: the signature `SCATFUN`, a byte of version 1; as 32-bit integers flags, the number n of cosines, of
-//! coefficients, of those of the longest series, of channels, of bases, of bytes of metadata, of parameters and of their
-//! values; the relative refractive index as `f32`, and four more floats. Then n cosines, n x n numbers for sampling, which are
-//! passed over, n x n pairs of the index and the number of the coefficients of a series, the coefficients, and metadata.
+//! Little-endian: the signature `SCATFUN` and a byte, version 1; then 32-bit integers: flags and the numbers of cosines
+//! (n), of coefficients, of those of the longest series, of channels, of bases, of bytes of metadata, of parameters and
+//! of their values; the relative refractive index as `f32`, and four more floats. Then n cosines, n x n numbers for
+//! sampling, which are ignored, n x n pairs of the index and the number of the coefficients of a series, the
+//! coefficients, and metadata.
 
 use std::path::Path;
 
@@ -35,11 +36,12 @@ pub fn matches(bytes: &[u8]) -> bool {
     bytes.starts_with(SIGNATURE)
 }
 
-/// Reads a file. `file` only names it in errors.
+/// Reads a file. `file` is only its name in errors.
 ///
 /// # Errors
-/// [`FormatError`] with the byte: another version, textures (several bases), harmonic extrapolation, other than one or three
-/// channels, counts that the file is too short for, bytes that are left over, and what [`Data::new`] refuses.
+/// [`FormatError`] with the byte: another version, textures (several bases), harmonic extrapolation, a number of
+/// channels other than one or three, counts for which the file is too short, bytes that are left over, and anything
+/// that [`Data::new`] refuses.
 pub fn read(bytes: &[u8], file: &Path) -> Result<Document, FormatError> {
     let mut cursor = Cursor::new(bytes, file);
     cursor.signature(SIGNATURE, "SCATFUN")?;
@@ -93,7 +95,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Document, FormatError> {
         let [Ok(start), Ok(count)] = numbers.map(u32::try_from) else {
             cursor.at = start + 8 * series.len();
             return Err(
-                cursor.error(format!("{} coefficients from {} on", numbers[1], numbers[0]), "no negative numbers")
+                cursor.error(format!("{} coefficients from {} on", numbers[1], numbers[0]), "numbers that are not negative")
             );
         };
         series.push(Series { start, count });
@@ -116,11 +118,11 @@ fn integer(cursor: &mut Cursor<'_, '_>, what: &str) -> Result<i32, FormatError> 
     Ok(i32::from_le_bytes(cursor.array(what)?))
 }
 
-/// A number of things that follow, which is not negative.
+/// A non-negative number of items that follow.
 fn count(cursor: &mut Cursor<'_, '_>, what: &str) -> Result<usize, FormatError> {
     let number = integer(cursor, &format!("the number of {what}"))?;
     usize::try_from(number).map_err(|_| {
         cursor.at -= 4;
-        cursor.error(format!("{number} {what}"), "no negative number")
+        cursor.error(format!("{number} {what}"), "a number that is not negative")
     })
 }

@@ -1,4 +1,4 @@
-//! Tables of scattered light of FRED, and those of RPC Photonics (now VIAVI) for engineered diffusers.
+//! Tables of scattered light from FRED, and from RPC Photonics (now VIAVI) for engineered diffusers.
 //!
 //! Both have lines of two angles, the polar angle and azimuth in which light *travels* toward the surface, each followed
 //! by lines of polar angle, azimuth and `f` in 1/sr. So the mirrored and the straight-through ray have the azimuth of
@@ -67,7 +67,7 @@ pub fn matches_rpc(bytes: &[u8]) -> bool {
     head.trim_start().starts_with("!!") && head.lines().any(|line| line.trim() == "!!BSDF Data")
 }
 
-/// How a table states its values.
+/// The statement of values in a table.
 fn facts(bytes: &[u8]) -> Facts {
     let mut facts = named(bytes, |key| matches!(key, "type" | "format").then(|| key.into()));
     facts.retain(|(key, _)| key == "format");
@@ -79,7 +79,7 @@ fn rpc_facts(bytes: &[u8]) -> Facts {
     comments(bytes, "!!", |text| text == "BSDF Data")
 }
 
-/// How a table states angles and values.
+/// The statement of angles and values in a table.
 struct Units {
     to_radians: f64,
     scale: f64,
@@ -93,7 +93,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
     read_as(bytes, file, Scatter::Reflection)
 }
 
-/// Reads a FRED table. `file` only names it in errors.
+/// Reads a FRED table. `file` is only its name in errors.
 ///
 /// # Errors
 /// [`FormatError`] with the line: a format other than values at angles in degrees or radians, lines that are neither two
@@ -132,7 +132,7 @@ fn units(line: Line<'_>) -> Result<Units, FormatError> {
     Ok(units)
 }
 
-/// Reads one RPC file. `file` only names it in errors.
+/// Reads one RPC file. `file` is only its name in errors.
 ///
 /// # Errors
 /// See [`read_rpc_set`].
@@ -155,7 +155,7 @@ pub fn read_rpc_set<B: AsRef<[u8]>>(files: &[(PathBuf, B)]) -> Result<scattered:
     records.scattered(name, Scatter::Transmission, Channels::Mono)
 }
 
-/// Reads all RPC files of a folder as one material; other files in it are let be.
+/// Reads all RPC files of a folder as one material; other files in it are ignored.
 ///
 /// # Errors
 /// [`FormatError`] if the folder or a file cannot be read or none is an RPC file, and as in [`read_rpc_set`].

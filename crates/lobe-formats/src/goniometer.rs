@@ -1,14 +1,14 @@
-//! Tables of people's own goniometers: CSV, text or JSON with named columns.
+//! Tables from users' own goniometers: CSV, text or JSON with named columns.
 //!
-//! Columns of angles are `theta_i`, `phi_i`, `theta_o`, `phi_o`, or in specular coordinates `sigma`, `psi`, `theta`, `phi`;
-//! other names that people give them are understood too, and so are tabs, semicolons or blanks between cells, a comma
-//! before decimals, lines above the names and below the rows, and cells without a value. `docs/formats.md` lists it all.
-//! What a table does not say itself, [`ReadOptions`] says; what was understood is in [`Document::notes`].
+//! Columns of angles are `theta_i`, `phi_i`, `theta_o`, `phi_o`, or in specular coordinates `sigma`, `psi`, `theta`,
+//! `phi`; other common names are understood too, and so are tabs, semicolons or blanks between cells, decimal commas,
+//! lines above the names and below the rows, and cells without a value. `docs/formats.md` lists everything.
+//! [`ReadOptions`] supply what a table does not say, and [`Document::notes`] says how it was understood.
 //!
-//! A comment `# scatter: transmission` before the names says that it is a BTDF, and one `# rows: samples`, `# rows: nodes of
-//! a grid` or `# rows: nodes of a mirrored grid` what the rows are. JSON has an object with a list of numbers a
-//! column. Rows may be in any order: if they are all nodes of a grid over more than half a turn they become a grid,
-//! else scattered samples.
+//! A comment `# scatter: transmission` before the names says that the table is a BTDF, and a comment `# rows: samples`,
+//! `# rows: nodes of a grid` or `# rows: nodes of a mirrored grid` says what the rows are. JSON files contain an object
+//! with a list of numbers per column. Rows may be in any order: if they are all nodes of a grid over more than half a
+//! turn, they become a grid, otherwise scattered samples.
 
 mod angles;
 mod build;
@@ -73,7 +73,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     }),
 };
 
-/// The names of the angles in files that are written.
+/// The names of the angles in written files.
 const SPHERICAL: [&str; 4] = ["theta_i", "phi_i", "theta_o", "phi_o"];
 const SPECULAR: [&str; 4] = ["sigma", "psi", "theta", "phi"];
 
@@ -83,10 +83,10 @@ const TRANSMISSION: &str = "scatter: transmission";
 /// The beginning of the comment, before the names, that says what the rows are.
 const ROWS: &str = "rows";
 
-/// What the rows of a table are.
+/// The kind of the rows of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Rows {
-    /// All nodes of a grid, whatever it covers.
+    /// All nodes of a grid, of any range.
     Grid,
     /// All nodes of a grid that is one half of an isotropic material.
     MirroredGrid,
@@ -97,7 +97,7 @@ enum Rows {
 impl Rows {
     const ALL: [Rows; 3] = [Rows::Grid, Rows::MirroredGrid, Rows::Samples];
 
-    /// How a comment says it.
+    /// Its form in a comment.
     fn word(self) -> &'static str {
         match self {
             Rows::Grid => "nodes of a grid",
@@ -107,10 +107,10 @@ impl Rows {
     }
 }
 
-/// The beginning of a file, which is enough to recognise it.
+/// The length of the beginning of a file that is enough to recognise it.
 const HEAD: usize = 1 << 16;
 
-/// `true` for a text with the names of columns of angles and rows of numbers, and for such JSON.
+/// `true` for a text with names of angle columns and rows of numbers, and for such JSON.
 pub fn matches(bytes: &[u8]) -> bool {
     let bytes = plain::text(bytes);
     let head = text(&bytes[..bytes.len().min(HEAD)]);
@@ -121,15 +121,15 @@ pub fn matches(bytes: &[u8]) -> bool {
     }
 }
 
-/// `true` for a text with rows of numbers, whatever stands above them: a table for which it has to be said what it holds.
+/// `true` for a text with rows of numbers, whatever is above them: a table whose contents options have to describe.
 pub fn may_be(bytes: &[u8]) -> bool {
     let bytes = plain::text(bytes);
     let head = text(&bytes[..bytes.len().min(HEAD)]);
     !head.contains('\0') && table::has_rows(&head)
 }
 
-/// Reads a table that says everything itself. If it holds both reflection and transmission it is no table but a sheet,
-/// which only [`read_with`] reads.
+/// Reads a table that needs no options. If it holds both reflection and transmission, it is not a single table but a
+/// sheet, which only [`read_with`] reads.
 ///
 /// # Errors
 /// See [`read_with`].
@@ -139,13 +139,14 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Data, FormatError> {
     part.ok_or_else(|| FormatError::new(file, Place::File, "no rows", "at least one"))
 }
 
-/// Reads a table: grids if all nodes of one are present, else scattered samples, of which those in specular coordinates
-/// that are below the horizon are left out. `file` only names it in errors. [`ReadOptions::scale`] is not applied here.
+/// Reads a table: a grid if all of its nodes are present, otherwise scattered samples, without those in specular
+/// coordinates that are below the horizon. `file` is only its name in errors. [`ReadOptions::scale`] is not applied
+/// here.
 ///
 /// # Errors
-/// [`FormatError`] with the line, or the column of JSON: columns of which it is not clear what they hold, channels that are
-/// neither colours nor wavelengths nor one, rows of another length, words that are not finite numbers, angles that may be
-/// degrees or radians.
+/// [`FormatError`] with the line, or the column of JSON: columns with unclear contents, channels that are neither
+/// colours nor wavelengths nor a single one, rows of another length, words that are not finite numbers, angles that may
+/// be degrees or radians.
 pub fn read_with(bytes: &[u8], file: &Path, options: &ReadOptions) -> Result<Document, FormatError> {
     let bytes = plain::text(bytes);
     let raw = match bytes.trim_ascii_start().starts_with(b"{") {
@@ -155,7 +156,7 @@ pub fn read_with(bytes: &[u8], file: &Path, options: &ReadOptions) -> Result<Doc
     build::document(raw, file, options)
 }
 
-/// UTF-8, or the letters of western Europe with a byte each.
+/// UTF-8, or a single-byte encoding of western Europe.
 fn text(bytes: &[u8]) -> Cow<'_, str> {
     match std::str::from_utf8(bytes) {
         Ok(text) => text.into(),

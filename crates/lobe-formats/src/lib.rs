@@ -1,14 +1,14 @@
 //! Readers and writers for the file formats of measured BRDFs and BSDFs.
 //!
-//! [`open`] reads any of them, and [`open_with`] those that leave something open, which a [`sidecar`] may say too; each
-//! format has a module with its own reader, and a writer if one makes sense. What the
-//! formats look like, and how their open questions are settled, is described in `docs/formats.md`.
+//! [`open`] reads any of them, and [`open_with`] also those that leave something open, which a [`sidecar`] may supply
+//! too; each format has a module with its own reader, and a writer if that makes sense. `docs/formats.md` describes the
+//! formats, and how their open questions are settled.
 //!
 //! # Features
 //!
 //! | feature | formats |
 //! |---|---|
-//! | `json` | OpenMaterial, and one's own tables in JSON |
+//! | `json` | OpenMaterial, and users' own tables in JSON |
 //! | `mueller` | `pbsdf`, Mueller matrices in specular coordinates |
 //! | `rgl` | the EPFL database |
 //! | `spherical` | MDL |
@@ -16,7 +16,7 @@
 //!
 //! All of them are on by default. The other formats are always there.
 #![forbid(unsafe_code)]
-// Without some of the formats, some of what they share is left over.
+// Without some of the formats, some of their shared code is unused.
 #![cfg_attr(
     not(all(feature = "json", feature = "mueller", feature = "rgl", feature = "spherical", feature = "window")),
     allow(dead_code, unused_imports)

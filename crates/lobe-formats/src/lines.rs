@@ -1,4 +1,4 @@
-//! Lines of the text formats in which a line is a record.
+//! Lines of text formats in which each line is a record.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ pub(crate) struct Line<'a> {
     pub text: &'a str,
 }
 
-/// The lines of `text` that have more than white space, whatever ends them.
+/// The lines of `text` that have more than white space, with any line ends.
 pub(crate) fn lines<'a>(file: &'a Path, text: &'a str) -> impl Iterator<Item = Line<'a>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let line = move |(index, text): (usize, &'a str)| Line { file, number: index + 1, text: text.trim() };
@@ -32,7 +32,7 @@ impl<'a> Line<'a> {
         self.words().map(|word| self.number(word)).collect()
     }
 
-    /// All words as finite numbers, of which there have to be `N`.
+    /// All words as exactly `N` finite numbers.
     pub(crate) fn exactly<const N: usize>(&self, expected: &str) -> Result<[f64; N], FormatError> {
         let numbers = self.numbers()?;
         let count = numbers.len();
@@ -51,7 +51,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Words of a file as an error shows them: quoted and cut short.
+/// Words from a file as an error shows them: quoted and cut short.
 pub(crate) fn shown(words: &str) -> String {
     format!("\"{}\"", lobe_files::excerpt(words, 40))
 }

@@ -1,8 +1,8 @@
-//! Tables for satellites' brightness, as the lumos-sat project has them.
+//! Tables for the brightness of satellites, in the format of the lumos-sat project.
 //!
-//! `#` comments, the last of which names five columns between white space: zenith angle and azimuth of the direction
-//! toward the light (there called phi and theta), those of the scattered light, and `f` in 1/sr. Degrees. Zenith angles
-//! may be negative, which is the other half of the plane.
+//! `#` comments, the last of which names five columns separated by white space: zenith angle and azimuth of the
+//! direction toward the light (there called phi and theta), those of the scattered light, and `f` in 1/sr. Degrees.
+//! Zenith angles may be negative, which is the other half of the plane.
 
 use std::path::Path;
 
@@ -39,12 +39,12 @@ fn names_columns(comment: &str) -> bool {
     short == ["phi_", "theta_", "phi_", "theta_", "brdf"]
 }
 
-/// The comments but for that which names the columns.
+/// The comments, except for the one that names the columns.
 fn facts(bytes: &[u8]) -> Facts {
     comments(bytes, "#", names_columns)
 }
 
-/// Reads a file. `file` only names it in errors.
+/// Reads a file. `file` is only its name in errors.
 ///
 /// # Errors
 /// [`FormatError`] with the line that does not have five finite numbers, or without a line if the file has no data.

@@ -5,9 +5,9 @@
 //! scalar, 1 RGB), the number of zenith angles and the number of azimuths as little-endian `u32`; and the values as
 //! 32-bit floats, `[theta_in][theta_out][phi][channel]`. Lines end with a single line feed.
 //!
-//! The zenith angles are documented as uniform in `[0, pi/2)` and the azimuths, those between the two directions, as
-//! uniform in `[0, pi]`. Measured files bear out the first: with `theta_out` index 0 their values do not depend on the
-//! azimuth, so it is the pole itself.
+//! The zenith angles are documented as uniform in `[0, pi/2)`, and the azimuths (angles between the azimuths of the two
+//! directions) as uniform in `[0, pi]`. Measured files confirm the first: at `theta_out` index 0, their values do not
+//! depend on the azimuth, so it is the pole itself.
 
 use crate::Document;
 use crate::Sides;
@@ -56,7 +56,7 @@ pub fn matches(bytes: &[u8]) -> bool {
     bytes.starts_with(MAGIC)
 }
 
-/// Where on an axis of `n` values over `[0, end]` the values lie.
+/// The positions of `n` values on an axis over `[0, end]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Nodes {
     /// At `i / n` of the range: the end is not a node.
@@ -86,7 +86,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Sides<spherical::Data>, FormatE
     read_with(bytes, file, [Nodes::LowerEdge, Nodes::Closed])
 }
 
-/// Reads both sides, with values that lie as `nodes` say on the zenith axes and on the azimuth axis.
+/// Reads both sides, with the positions `nodes` of values on the zenith axes and on the azimuth axis.
 ///
 /// # Errors
 /// [`FormatError`] if the signature or all data are missing, a block is cut off, or something follows the last one.
@@ -97,7 +97,7 @@ pub fn read_with(bytes: &[u8], file: &Path, nodes: [Nodes; 2]) -> Result<Sides<s
     let mut heading = metadata(&mut cursor)?;
     if heading != TRANSMISSION {
         sides.reflection = Some(block(&mut cursor, Scatter::Reflection, nodes)?);
-        // The format's description ends a block with a line feed, its files do not.
+        // The specification ends a block with a line feed, but real files do not.
         if cursor.rest().starts_with(b"\n") {
             cursor.at += 1;
         }
@@ -117,7 +117,7 @@ pub fn read_with(bytes: &[u8], file: &Path, nodes: [Nodes; 2]) -> Result<Sides<s
     }
 }
 
-/// Passes over the metadata and the first heading, which is returned.
+/// Skips the metadata, and returns the first heading.
 fn metadata<'a>(cursor: &mut Cursor<'a, '_>) -> Result<&'a [u8], FormatError> {
     loop {
         let line = line(cursor);
@@ -132,7 +132,7 @@ fn metadata<'a>(cursor: &mut Cursor<'a, '_>) -> Result<&'a [u8], FormatError> {
     }
 }
 
-/// The next line with its line feed, or what is left of the file.
+/// The next line with its line feed, or the rest of the file.
 fn line<'a>(cursor: &mut Cursor<'a, '_>) -> &'a [u8] {
     let rest = cursor.rest();
     let end = rest.iter().position(|byte| *byte == b'\n').map_or(rest.len(), |at| at + 1);
@@ -212,7 +212,7 @@ pub fn to_bytes(sides: &Sides<spherical::Data>) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Writes an `.mbsdf` file, replacing what was there at once.
+/// Writes an `.mbsdf` file, replacing an existing one atomically.
 ///
 /// # Errors
 /// [`FormatError`] as [`to_bytes`], and if the file system refuses.
@@ -229,7 +229,7 @@ fn write_with(sides: &Sides<spherical::Data>, metadata: Option<String>, path: &P
     write_whole(path, &bytes)
 }
 
-/// The grids of a document, if it has at most one for each kind of scatter and does not tell sides apart.
+/// The grids of a document, if it has at most one per scatter and does not distinguish sides.
 fn sides(document: &Document) -> Option<Sides<spherical::Data>> {
     let mut sides = Sides { reflection: None, transmission: None };
     for part in &document.parts {

@@ -1,8 +1,9 @@
 //! MERL `.binary` files: isotropic RGB materials in half and difference angles.
 //!
 //! Little-endian: the numbers of bins of `theta_h`, `theta_d` and `phi_d` as `i32`, 90, 90 and 180 in the database and
-//! 360 for `phi_d` in its relatives that are not reciprocal; then one `f64` a bin for red, green and blue, one channel
-//! after the other, `phi_d` fastest. `f` in 1/sr is the stored number times 1/1500, 1.15/1500, 1.66/1500.
+//! 360 for `phi_d` in similar files of materials that are not reciprocal; then one `f64` per bin for red, green and
+//! blue, one channel after the other, `phi_d` fastest. `f` in 1/sr is the stored number times 1/1500, 1.15/1500,
+//! 1.66/1500.
 
 use crate::Document;
 use crate::bytes::Cursor;
@@ -36,7 +37,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     }),
 };
 
-/// What red, green and blue are multiplied by.
+/// The factors of red, green and blue.
 const SCALE: [f64; 3] = [1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0];
 const HEADER: usize = 12;
 
@@ -58,8 +59,7 @@ pub fn matches(bytes: &[u8]) -> bool {
     header(bytes).is_some_and(|(_, size)| size == bytes.len())
 }
 
-/// What a file is that looks like one of this format, but has another size than its header implies or another order of
-/// bytes.
+/// Describes a file that looks like this format, but has a size other than its header implies, or another byte order.
 pub(crate) fn damaged(bytes: &[u8], name: &Path) -> Option<Content> {
     const DATABASE: [[usize; 3]; 2] = [[90, 90, 180], [90, 90, 360]];
     /// No material has more bins along an axis.
@@ -84,7 +84,7 @@ pub(crate) fn damaged(bytes: &[u8], name: &Path) -> Option<Content> {
             return Some(Content { what, advice: advice.into() });
         }
         if is_likely(&bins) {
-            let how = if len < size { "cut short" } else { "with more bytes than its header says" };
+            let how = if len < size { "cut short" } else { "with more bytes than its header states" };
             let what = format!("a MERL file {how} ({found} of {} bytes)", grouped(size));
             return Some(Content { what, advice: again.into() });
         }
@@ -161,7 +161,7 @@ pub fn to_bytes(material: &half_diff::Data) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Writes a MERL file, replacing what was there at once.
+/// Writes a MERL file, replacing an existing one atomically.
 ///
 /// # Errors
 /// [`FormatError`] as [`to_bytes`], and if the file system refuses.

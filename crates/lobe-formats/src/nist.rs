@@ -38,7 +38,7 @@ fn simple(name: &str) -> String {
     name.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_ascii_lowercase()
 }
 
-/// Reads the unpolarised BRDF. `file` only names it in errors.
+/// Reads the unpolarised BRDF. `file` is only its name in errors.
 ///
 /// # Errors
 /// [`FormatError`] with the line that does not have 21 finite numbers, or if wavelengths have different directions.

@@ -1,10 +1,10 @@
 //! NumPy `.npz`: the knots and values of any document as named arrays, for `numpy.load`. Written only.
 //!
-//! Angles are in radians and values `f` in 1/sr unless their name says otherwise; every file has `kind` (text). Grids in
-//! specular coordinates have `sigma`, `psi`, `theta`, `phi` and `values [sigma, psi, theta, phi, channel]`, with `channels`
-//! (text), `scatter` (text) and, if channels are wavelengths, `wavelengths` in nm; grids in spherical coordinates the
-//! same with `theta_i`, `phi_i`, `theta_o`, `phi_o`; scattered samples have one of each angle per sample. Other kinds
-//! have the names of their own format. Parts of a sheet have a number and a dot before the name.
+//! Angles are in radians and values `f` in 1/sr unless their name says otherwise; every file has `kind` (text). Grids
+//! in specular coordinates have `sigma`, `psi`, `theta`, `phi` and `values [sigma, psi, theta, phi, channel]`, with
+//! `channels` (text), `scatter` (text) and, if channels are wavelengths, `wavelengths` in nm; grids in spherical
+//! coordinates the same with `theta_i`, `phi_i`, `theta_o`, `phi_o`; scattered samples have one of each angle per
+//! sample. Other kinds use the names of their own format. Parts of a sheet have a number and a dot before the name.
 
 use std::io;
 use std::path::Path;

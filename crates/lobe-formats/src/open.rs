@@ -1,4 +1,4 @@
-//! Reading a file or a folder of whatever format.
+//! Reading a file or a folder of any format.
 
 use std::path::Path;
 
@@ -9,24 +9,24 @@ use crate::registry::{Format, sniff};
 use crate::unknown::{is_other, unknown};
 use crate::{Document, FormatError, Place, ReadOptions, folder, goniometer, plain, sidecar};
 
-/// Reads a file of any supported format, which is recognised by the content. Formats that do not say whether they hold
-/// reflection or transmission are assumed to hold reflection; only for those of Integra does the extension decide: `.ddt` and
-/// `.sdt` are transmission. If there is a [sidecar], it says what the file leaves open.
+/// Reads a file of any supported format, which is recognised by its content. Formats that do not say whether they hold
+/// reflection or transmission are assumed to hold reflection, except that the extension decides for those of Integra:
+/// `.ddt` and `.sdt` are transmission. A [sidecar], if there is one, supplies what the file leaves open.
 ///
-/// A file that is packed with gzip is read as what is in it. A folder is read as the files in it that have one incident
-/// direction each (RPC Photonics, pab), which are one material.
+/// A file compressed with gzip is unpacked. In a folder, the files with one incident direction each (RPC Photonics,
+/// pab) are read as one material.
 ///
 /// # Errors
-/// [`FormatError`] if the file or its sidecar cannot be read, is of no known format, or is damaged. For files that are
-/// something else, it says what they are.
+/// [`FormatError`] if the file or its sidecar cannot be read, is of no known format, or is damaged. For other kinds of
+/// files, it says what they are.
 pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
     open_with(path, &ReadOptions::default())
 }
 
-/// As [`open`], with options, which come before those of a [sidecar].
+/// As [`open`], with options, which take precedence over those of a [sidecar].
 ///
 /// # Errors
-/// As [`open`], and if the options do not fit the file.
+/// As [`open`], and if the options do not apply to the file.
 pub fn open_with(path: &Path, options: &ReadOptions) -> Result<(Format, Document), FormatError> {
     let options = options.clone().or(sidecar::find(path)?);
     if path.is_dir() {
@@ -38,7 +38,7 @@ pub fn open_with(path: &Path, options: &ReadOptions) -> Result<(Format, Document
     read_any(&bytes, path, &options)
 }
 
-/// Reads the content of a file in memory, whatever its format. `path` names it in errors, and its extension counts as in
+/// Reads the content of a file in memory, of any format. `path` names it in errors, and its extension is used as in
 /// [`open`].
 ///
 /// # Errors
@@ -47,7 +47,7 @@ pub fn from_bytes(bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
     from_bytes_with(bytes, path, &ReadOptions::default())
 }
 
-/// As [`from_bytes`], with options; no sidecar is looked for.
+/// As [`from_bytes`], with options; a sidecar is not read.
 ///
 /// # Errors
 /// As [`open_with`].
@@ -69,7 +69,7 @@ fn read_any(bytes: &[u8], path: &Path, options: &ReadOptions) -> Result<(Format,
 
 /// The format of content that may be a table, if the options say so or it looks like one.
 fn recognised(content: &[u8], options: &ReadOptions) -> Option<Format> {
-    // The page that shows a file has the words of the file in it.
+    // A web page that shows a file contains the words of the file.
     if is_web_page(content) {
         return None;
     }
@@ -77,7 +77,7 @@ fn recognised(content: &[u8], options: &ReadOptions) -> Option<Format> {
     sniff(content).or_else(|| is_table().then_some(Format::Goniometer))
 }
 
-/// What a program that was built without some formats says when it recognises none.
+/// A remark for programs built without some formats, if none is recognised.
 fn left_out() -> String {
     let features = [
         ("json", cfg!(feature = "json")),
@@ -93,11 +93,11 @@ fn left_out() -> String {
     }
 }
 
-/// Reads `bytes` as a file of this format, whatever they look like. `path` names it in errors, and its extension counts
+/// Reads `bytes` as a file of this format, without recognising it. `path` names it in errors, and its extension is used
 /// as in [`open`].
 ///
 /// # Errors
-/// [`FormatError`] if the bytes are no sound file of the format.
+/// [`FormatError`] if the bytes are not a valid file of the format.
 pub fn read(format: Format, bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
     read_with(format, bytes, path, &ReadOptions::default())
 }
@@ -105,7 +105,7 @@ pub fn read(format: Format, bytes: &[u8], path: &Path) -> Result<Document, Forma
 /// As [`read`], with options.
 ///
 /// # Errors
-/// As [`read`], and if the options do not fit the file.
+/// As [`read`], and if the options do not apply to the file.
 pub fn read_with(format: Format, bytes: &[u8], path: &Path, options: &ReadOptions) -> Result<Document, FormatError> {
     let spec = format.spec();
     let Some(read) = spec.read else {
@@ -120,7 +120,7 @@ pub fn read_with(format: Format, bytes: &[u8], path: &Path, options: &ReadOption
     Ok(Document { format: Some(spec.name), ..adjusted(document, format, path, options)? }.printable())
 }
 
-/// The values as the options say that they are.
+/// Converts the values as the options say.
 fn adjusted(document: Document, format: Format, path: &Path, options: &ReadOptions) -> Result<Document, FormatError> {
     let is_table = format == Format::Goniometer;
     if !is_table {

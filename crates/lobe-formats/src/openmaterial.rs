@@ -1,4 +1,4 @@
-//! Look-up tables of ASAM OpenMATERIAL 3D, `.xompt`: JSON with rows of wavelength in m, `theta_i`, `theta_o`, `phi_o`
+//! Lookup tables of ASAM OpenMATERIAL 3D, `.xompt`: JSON with rows of wavelength in m, `theta_i`, `theta_o`, `phi_o`
 //! relative to the incident azimuth, in radians, and `f` in 1/sr.
 
 use std::path::Path;
@@ -48,8 +48,7 @@ pub fn matches(bytes: &[u8]) -> bool {
     head.starts_with('{') && head.contains("\"brdf\"") && is_list
 }
 
-/// Reads a file. `file` only names it in errors. Rows in which a number is null are left out: they say that nothing was
-/// measured there.
+/// Reads a file. `file` is only its name in errors. Rows with a null are left out: null means "not measured".
 ///
 /// # Errors
 /// [`FormatError`] with the line of the JSON that is wrong; wavelengths that are not positive; or if wavelengths have
@@ -65,7 +64,7 @@ fn parse(bytes: &[u8], file: &Path) -> Result<Json, FormatError> {
     })
 }
 
-/// The metadata that are words or numbers, or lists of them.
+/// The metadata that are words or numbers, or lists of these.
 fn facts(document: &Json) -> Vec<(String, String)> {
     let word = |value: &Value| match value {
         Value::String(text) => Some(text.clone()),
@@ -85,7 +84,7 @@ fn table(document: &Json, file: &Path) -> Result<scattered::Data, FormatError> {
     let mut samples = ByWavelength::default();
     for (row, numbers) in document.brdf.lookup_table.iter().enumerate() {
         if let &[Some(metres), Some(theta_i), Some(theta_o), Some(phi), Some(value)] = numbers {
-            // Nanometres to a millionth, so that 4.1e-7 m is 410 nm.
+            // Rounded to a millionth of a nanometre, so that 4.1e-7 m is 410 nm.
             let nm = (metres * 1e15).round() / 1e6;
             if !(nm > 0.0 && nm.is_finite()) {
                 let found = format!("wavelength {metres} in row {row}");

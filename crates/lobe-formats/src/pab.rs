@@ -1,10 +1,10 @@
-//! Text files of pab's gonio-photometers (pgII) and of Radiance's tools for them: one incident direction a file.
+//! Text files of pab's gonio-photometers (pgII) and of Radiance's tools for them: one incident direction per file.
 //!
-//! Lines that start with `#` are the head: `#intheta` and `#inphi`, or `#incident_angle` with both, are the direction of the
-//! light; `#upphi` is the azimuth of what is up on the sample, which becomes 90 degrees here; `#colorimetry: CIE-XYZ`
-//! means three values a line; and `#format: theta phi BSDF` says what the lines that follow hold: two angles in degrees and
-//! `f` in 1/sr (`BSDF`, `BRDF`, `BTDF`), or `f` times the cosine (`DSF`). Both directions point away from the surface, and
-//! polar angles beyond 90 degrees are on its back.
+//! Lines that start with `#` are the head: `#intheta` and `#inphi`, or `#incident_angle` with both, are the direction
+//! of the light; `#upphi` is the azimuth of the upward direction on the sample, which becomes 90 degrees here;
+//! `#colorimetry: CIE-XYZ` means three values per line; and `#format: theta phi BSDF` gives the contents of the
+//! following lines: two angles in degrees and `f` in 1/sr (`BSDF`, `BRDF`, `BTDF`), or `f` times the cosine (`DSF`).
+//! Both directions point away from the surface, and polar angles beyond 90 degrees are behind it.
 //!
 //! A material is the set of such files in a folder.
 
@@ -29,7 +29,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     writer: None,
 };
 
-/// Values of `DSF` this close to the horizon, as a cosine, say nothing about `f`.
+/// Values of `DSF` this close to the horizon, as a cosine, do not determine `f`.
 const GRAZING: f64 = 1e-3;
 
 /// `true` for a text whose head has a line `#format: theta phi ...`.
@@ -50,21 +50,21 @@ fn of_format(line: &str) -> Option<String> {
     is_format.then(|| words.collect::<Vec<_>>().join(" "))
 }
 
-/// What the head of a file says.
+/// The contents of the head of a file.
 struct Head {
     /// Polar angle and azimuth of the light, in degrees.
     light: [f64; 2],
-    /// What is added to azimuths, in degrees.
+    /// The angle to add to azimuths, in degrees.
     turn: f64,
     /// Values are `f` times the cosine.
     is_dsf: bool,
     channels: Channels,
-    /// How many lines of values there are.
+    /// The number of lines of values.
     count: Option<usize>,
     source: Vec<(String, String)>,
 }
 
-/// Reads one file. `file` only names it in errors.
+/// Reads one file. `file` is only its name in errors.
 ///
 /// # Errors
 /// See [`read_set`].
@@ -75,9 +75,9 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Document, FormatError> {
 /// Reads the files of one material, each with its name for errors.
 ///
 /// # Errors
-/// [`FormatError`] with the line: no incident direction, values that are neither BSDF nor DSF (currents of a detector, say),
-/// lines with another number of values, fewer of them than the head states, or files with other channels or another
-/// orientation than the first.
+/// [`FormatError`] with the line: no incident direction, values that are neither BSDF nor DSF (such as detector
+/// currents), lines with another number of values, fewer lines than the head states, or files whose channels or
+/// orientation differ from those of the first.
 pub fn read_set(files: &[(PathBuf, Vec<u8>)]) -> Result<Document, FormatError> {
     let mut records: BTreeMap<(Side, bool), Records> = BTreeMap::new();
     let mut first: Option<Head> = None;
@@ -156,7 +156,8 @@ fn samples(file: &Path, text: &str, records: &mut BTreeMap<(Side, bool), Records
     Ok(head)
 }
 
-/// A polar angle from the normal of its side, in degrees, and the side. Negative ones are the other half of the plane.
+/// A polar angle from the normal of its side, in degrees, and the side. Negative angles are in the other half of the
+/// plane.
 fn folded(theta: f64) -> (f64, Side) {
     if theta.abs() <= 90.0 { (theta, Side::Front) } else { ((180.0 - theta.abs()).copysign(theta), Side::Back) }
 }
@@ -221,8 +222,8 @@ fn is_dsf(line: Line<'_>, quantity: &str) -> Result<bool, FormatError> {
         // Currents of the detector, counts, and the like.
         _ => Err(line.error(
             format!("values of {}", shown(quantity)),
-            "BSDF, BRDF, BTDF or DSF: signals of a detector are no BSDF before they are divided by that of the light, so \
-             export normalised values",
+            "BSDF, BRDF, BTDF or DSF: detector signals are not a BSDF until they are divided by the signal of the \
+             light, so export normalised values",
         )),
     }
 }

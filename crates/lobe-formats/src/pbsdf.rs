@@ -1,8 +1,8 @@
 //! `.pbsdf` files of polarised reflection (Baek et al. 2020, KAIST), which are [tensor files](crate::tensor).
 //!
 //! Fields: `theta_h [1, H]`, `theta_d [1, D]`, `phi_d [1, P]` in radians and `M [P, D, H, L, 4, 4]` in 32-bit floats,
-//! and `wvls [L]` in nm as `u16`. There are files that give the angles with the shape `[0, n]` and do not store them;
-//! they are then taken to lie uniformly over a quarter turn, and `phi_d` over the whole turn from `-pi`.
+//! and `wvls [L]` in nm as `u16`. Some files give the angles the shape `[0, n]` and do not store them; then they are
+//! assumed to be uniform over a quarter turn, and `phi_d` over a full turn from `-pi`.
 
 use crate::Document;
 use crate::spec::{FormatSpec, Writer, reflection, unfit};
@@ -51,7 +51,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 pub fn read(bytes: &[u8], file: &Path) -> Result<mueller::Data, FormatError> {
     let tensors = tensor::read(bytes, file)?;
     let (values, shape) = tensors.floats("M", 6)?;
-    // With a dimension of zero the others could be anything, and would be believed below.
+    // With a dimension of zero, the others could be anything, and are not checked below.
     if values.is_empty() {
         return Err(tensors.error("M", format!("M as {shape:?}"), "at least one matrix"));
     }
@@ -103,7 +103,7 @@ pub fn to_bytes(material: &mueller::Data) -> io::Result<Vec<u8>> {
     .to_bytes()
 }
 
-/// Writes a `.pbsdf` file, replacing what was there at once.
+/// Writes a `.pbsdf` file, replacing an existing one atomically.
 ///
 /// # Errors
 /// [`FormatError`] as [`to_bytes`], and if the file system refuses.

@@ -1,8 +1,10 @@
-//! Texts as the readers expect them: UTF-8 without a byte-order mark, with line feeds at the ends of lines.
+//! Conversion of texts to the form that readers expect: UTF-8 without a byte-order mark, with line feeds at the ends of
+//! lines.
 
 use std::borrow::Cow;
 
-/// The same text in UTF-8 without a byte-order mark and with a line feed at the end of each line; other content as it is.
+/// The same text in UTF-8 without a byte-order mark and with a line feed at the end of each line; other content is
+/// unchanged.
 ///
 /// UTF-16 is recognised by its mark, or by every other byte being 0 at the start. Carriage returns become line feeds
 /// if there are no line feeds.
@@ -31,7 +33,7 @@ enum Order {
     Big,
 }
 
-/// Whether it is UTF-16, and in which order its bytes are.
+/// Whether it is UTF-16, and its byte order.
 fn utf_16(bytes: &[u8]) -> Option<Order> {
     const SAMPLE: usize = 64;
     match bytes {

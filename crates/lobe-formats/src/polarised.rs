@@ -75,7 +75,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<polarised::Data, FormatError> {
 /// The bytes of a file. Knots are rounded to 32-bit floats.
 ///
 /// # Errors
-/// If the matrices are more than the format counts.
+/// If there are more matrices than the format can count.
 pub fn to_bytes(data: &polarised::Data) -> io::Result<Vec<u8>> {
     let rounded = |knots: &[f64]| knots.iter().map(|knot| *knot as f32).collect::<Vec<f32>>();
     let mut shape: Vec<usize> = data.knots().iter().map(Vec::len).collect();
@@ -89,7 +89,7 @@ pub fn to_bytes(data: &polarised::Data) -> io::Result<Vec<u8>> {
     TensorFile::new(fields).to_bytes()
 }
 
-/// Writes a file, replacing what was there at once.
+/// Writes a file, replacing an existing one atomically.
 ///
 /// # Errors
 /// [`FormatError`] as [`to_bytes`], and if the file system refuses.
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn files_come_back_and_are_not_taken_for_others() {
+    fn files_are_restored_and_recognised() {
         let bytes = to_bytes(&data()).expect("bytes");
         assert!(matches(&bytes) && !crate::pbsdf::matches(&bytes));
         assert_eq!(crate::sniff(&bytes), Some(crate::Format::Polarised));
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_fit_is_named() {
+    fn errors_name_the_wrong_part() {
         let knots = || [vec![0.0], vec![0.0], vec![0.0], vec![0.0]];
         for (nm, value, expected) in [
             (vec![500.0, 450.0], 1.0, "450 after 500"),

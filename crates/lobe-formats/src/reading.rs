@@ -1,4 +1,4 @@
-//! What a file does not say itself, and how its reader is told.
+//! Options for what a file does not say.
 
 use std::fmt;
 use std::path::Path;
@@ -8,62 +8,64 @@ use crate::angle::{Angle, Unit};
 use crate::words::words;
 use crate::{FormatError, Place};
 
-/// What a file leaves open. All of it may be left open: then the file, its sidecar or the rule of its format decides.
+/// Options for what a file leaves open. Each may be `None`: then the file, its sidecar or the rule of its format
+/// decides.
 ///
 /// On the command line each field is an option of the same name; in a [sidecar](crate::sidecar) it is a key.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions {
-    /// Which columns of a table hold what, if its names do not say so. If one of them holds values, no others do.
+    /// The meaning of the columns of a table, if their names do not state it. If one of these holds values, no other
+    /// columns do.
     pub columns: Vec<Column>,
     /// The unit of angles in tables that do not state it.
     pub unit: Option<Unit>,
-    /// What the values are.
+    /// The quantity of the values.
     pub values: Option<Quantity>,
-    /// What the values are multiplied by.
+    /// The factor of the values.
     pub scale: Option<Scale>,
     /// Whether a table holds reflection or transmission.
     pub holds: Option<Holds>,
-    /// How the polar angles of a table within the plane of incidence are counted.
+    /// The sign of polar angles in tables within the plane of incidence.
     pub in_plane: Option<InPlane>,
-    /// Where the azimuths of the viewer are counted from in tables without azimuths of the light.
+    /// The origin of the azimuths of the viewer in tables without azimuths of the light.
     pub azimuth_from: Option<AzimuthFrom>,
-    /// Whether numbers of a table have a comma before their decimals.
+    /// Whether numbers in a table have decimal commas.
     pub decimal_comma: Option<bool>,
 }
 
 words! {
-    /// What the values of a file are.
+    /// The quantity of the values of a file.
     Quantity:
     /// `f` in 1/sr, without the cosine.
     F = "f" or "brdf" or "btdf" or "bsdf",
-    /// Luminance factors: relative to a perfect white diffuser lit and seen in the same way, which is pi f.
+    /// Luminance factors, pi f: relative to a perfect white diffuser lit and seen in the same way.
     LuminanceFactor = "luminance-factor" or "radiance-factor" or "reflectance-factor" or "pi-f",
     /// `f` times the cosine of the viewer's polar angle.
     FCos = "f-cos" or "cosine-corrected",
 }
 
 words! {
-    /// What a table holds.
+    /// The scatter that a table holds.
     Holds:
     /// Both directions on one side.
     Reflection = "reflection" or "brdf",
     /// The directions on opposite sides. The viewer's polar angles are below 90 degrees, or all above.
     Transmission = "transmission" or "btdf",
-    /// Both: what is seen beyond 90 degrees is transmitted.
+    /// Both: light beyond 90 degrees is transmitted.
     Both = "both" or "bsdf",
 }
 
 words! {
-    /// How a table within the plane of incidence counts polar angles.
+    /// The sign of polar angles in a table within the plane of incidence.
     InPlane:
     /// The mirror direction has the angle of the light.
     SameSign = "same-sign",
-    /// The mirror direction has the angle of the light with the other sign.
+    /// The mirror direction has the angle of the light with the opposite sign.
     OppositeSign = "opposite-sign",
 }
 
 words! {
-    /// Where azimuths of the viewer are counted from.
+    /// The origin of azimuths of the viewer.
     AzimuthFrom:
     /// The side of the light: the mirror direction is at 180 degrees.
     Light = "light",
@@ -71,13 +73,13 @@ words! {
     Mirror = "mirror",
 }
 
-/// What the values are multiplied by.
+/// The factor of the values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scale {
     /// A positive number.
     By(f64),
-    /// Whatever makes the integral of `f cos` over the hemisphere the total integrated scatter that the file states
-    /// for the block of values.
+    /// The factor that makes the integral of `f cos` over the hemisphere equal to the total integrated scatter that the
+    /// file states for the block of values.
     Tis,
 }
 
@@ -102,32 +104,32 @@ impl fmt::Display for Scale {
     }
 }
 
-/// What one column of a table holds.
+/// The meaning of one column of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
-    /// What it holds.
+    /// The quantity.
     pub content: Content,
-    /// Where it is.
+    /// The location of the quantity.
     pub at: Position,
 }
 
-/// What a column holds.
+/// The quantity in a column.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content {
     /// An angle.
     Angle(Angle),
     /// The wavelength of the values in the row, in nm, unless its name says micrometres.
     Wavelength,
-    /// Values of the channel of this name.
+    /// Values of the channel with this name.
     Values(String),
 }
 
-/// Where a quantity is found.
+/// The location of a quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Position {
     /// In a column, counted from 1.
     Number(usize),
-    /// In the column of this name.
+    /// In the column with this name.
     Named(String),
     /// Nowhere: an angle that is the same in all rows.
     Fixed(f64, Unit),
@@ -175,14 +177,14 @@ impl fmt::Display for Column {
         }
         match &self.at {
             Position::Number(number) => write!(f, "={number}"),
-            // In quotes, so that a name such as 5 is no number of a column.
+            // In quotes, so that a name such as 5 is not the number of a column.
             Position::Named(name) => write!(f, "=\"{name}\""),
             Position::Fixed(angle, unit) => write!(f, "={angle}{unit}"),
         }
     }
 }
 
-/// A list of columns with commas between them, as on the command line.
+/// A list of columns separated by commas, as on the command line.
 ///
 /// # Errors
 /// What was found, and what was expected.
@@ -201,12 +203,12 @@ pub fn parse_columns(text: &str) -> Result<Vec<Column>, String> {
 }
 
 impl ReadOptions {
-    /// `true` if all is left open.
+    /// `true` if no option is given.
     pub fn is_empty(&self) -> bool {
         *self == ReadOptions::default()
     }
 
-    /// The same, with what they leave open taken from others.
+    /// The same, with missing options taken from others.
     #[must_use]
     pub fn or(self, other: ReadOptions) -> Self {
         ReadOptions {
@@ -221,7 +223,7 @@ impl ReadOptions {
         }
     }
 
-    /// The names of the options that only tables with named columns have.
+    /// The names of the given options that apply only to tables with named columns.
     pub(crate) fn of_tables(&self) -> Vec<&'static str> {
         let given = [
             ("columns", !self.columns.is_empty()),
@@ -234,13 +236,13 @@ impl ReadOptions {
         given.into_iter().filter(|(_, is_given)| *is_given).map(|(name, _)| name).collect()
     }
 
-    /// Refuses what only tables have, for a file of another format.
+    /// Refuses options for tables if the file has another format.
     pub(crate) fn check_no_table(&self, path: &Path, format: &str) -> Result<(), FormatError> {
         let given = self.of_tables();
         if given.is_empty() {
             return Ok(());
         }
-        let found = format!("{}, which only tables with named columns have, for a file of {format}", given.join(", "));
+        let found = format!("{}, which only apply to tables with named columns, for a file of {format}", given.join(", "));
         Err(FormatError::new(path, Place::File, found, "only values and scale"))
     }
 }

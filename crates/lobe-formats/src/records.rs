@@ -1,4 +1,4 @@
-//! Samples on their way from a file to a representation.
+//! Collects the samples of a file for a representation.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -14,26 +14,26 @@ use crate::{FormatError, Place};
 pub(crate) struct Records {
     pub angles: Vec<[f64; 4]>,
     pub values: Vec<f32>,
-    /// The line that each sample is from, if its reader says so.
+    /// The line of each sample, if its reader gives it.
     lines: Vec<usize>,
 }
 
 impl Records {
-    /// As [`push`](Self::push), of a line of a text.
+    /// As [`push`](Self::push), for a line of a text.
     pub(crate) fn push_line(&mut self, line: usize, angles: [f64; 4], values: impl IntoIterator<Item = f64>) {
         self.lines.push(line);
         self.push(angles, values);
     }
 
-    /// Adds a sample. Polar angles may be negative, as goniometers count them within a plane: the azimuth is then the
-    /// opposite one.
+    /// Adds a sample. Polar angles may be negative, as goniometers count them within a plane: they mean the opposite
+    /// azimuth.
     pub(crate) fn push(&mut self, [theta_i, phi_i, theta_o, phi_o]: [f64; 4], values: impl IntoIterator<Item = f64>) {
         let ((theta_i, phi_i), (theta_o, phi_o)) = (unsigned(theta_i, phi_i), unsigned(theta_o, phi_o));
         self.angles.push([theta_i, phi_i, theta_o, phi_o]);
         self.values.extend(values.into_iter().map(|value| value as f32));
     }
 
-    /// Keeps the samples.
+    /// Converts the samples to data.
     pub(crate) fn scattered(
         self,
         file: &Path,
@@ -69,7 +69,7 @@ pub(crate) struct ByWavelength {
 impl ByWavelength {
     /// Adds a sample; the wavelength is in nm, and positive.
     pub(crate) fn push(&mut self, nm: f64, angles: [f64; 4], value: f64) {
-        // Positive numbers are in the order of their bits. Adding zero takes the sign off a zero.
+        // Positive numbers are ordered like their bits. Adding zero removes the sign of a zero.
         let (geometries, wavelengths) = (self.geometries.len(), self.wavelengths.len());
         let geometry = *self.geometries.entry(angles.map(|angle| (angle + 0.0).to_bits())).or_insert(geometries);
         let wavelength = *self.wavelengths.entry(nm.to_bits()).or_insert(wavelengths);

@@ -1,4 +1,4 @@
-//! The list of formats, and which of them a file has.
+//! The list of formats, and the recognition of the format of a file.
 
 use std::fmt;
 
@@ -21,10 +21,10 @@ macro_rules! formats {
 
         impl Format {
             /// All formats, in the order in which [`sniff`] tries them: first those with a signature, then those
-            /// recognised by their size, then texts, those with the commonest words last.
+            /// recognised by their size, then texts, with the least distinctive last.
             pub const ALL: &[Format] = &[$($(#[$left_out])? Format::$variant),*];
 
-            /// What the registry knows of the format.
+            /// The static description of the format.
             pub fn spec(self) -> &'static FormatSpec {
                 match self {
                     $($(#[$left_out])? Format::$variant => &crate::$($path)::+),*
@@ -77,7 +77,7 @@ impl Format {
         self.spec().name
     }
 
-    /// How the format is written; `None` if it is only read.
+    /// The writer of the format; `None` if it is only read.
     pub fn writer(self) -> Option<&'static Writer> {
         self.spec().writer.as_ref()
     }
@@ -94,8 +94,8 @@ impl fmt::Display for Format {
     }
 }
 
-/// The format of a file from its content: `.bsdf` alone is the extension of four different ones. `None` if it is of no known
-/// format.
+/// The format of a file from its content: `.bsdf` alone is the extension of four different formats. `None` if no known
+/// format matches.
 pub fn sniff(bytes: &[u8]) -> Option<Format> {
     let bytes = &*plain::text(bytes);
     Format::ALL.iter().copied().find(|format| (format.spec().matches)(bytes))

@@ -1,9 +1,9 @@
 //! `.bsdf` files of the EPFL material database (RGL), which are [tensor files](crate::tensor).
 //!
-//! The fields and their shapes, P being the number of `phi_i`, T of `theta_i`: `phi_i [P]`, `theta_i [T]`, `ndf [H, W]`,
-//! `sigma [H, W]`, `vndf [P, T, H, W]`, `luminance [P, T, H, W]`, and either `rgb [P, T, 3, H, W]` or `wavelengths [L]`
-//! with `spectra [P, T, L, H, W]`, all 32-bit floats, and `description`, `jacobian` and, if there is one, `valid` in
-//! bytes. Their order is free. Other fields are passed over: [`tensor::read`] has them.
+//! The fields and their shapes, where P is the number of `phi_i` and T of `theta_i`: `phi_i [P]`, `theta_i [T]`, `ndf
+//! [H, W]`, `sigma [H, W]`, `vndf [P, T, H, W]`, `luminance [P, T, H, W]`, and either `rgb [P, T, 3, H, W]` or
+//! `wavelengths [L]` with `spectra [P, T, L, H, W]`, all 32-bit floats, and `description`, `jacobian` and, if there is
+//! one, `valid` in bytes. Fields may be in any order. Other fields are ignored; [`tensor::read`] returns them.
 
 use crate::spec::{FormatSpec, Writer, reflection, resampled, unfit};
 use crate::tensor::{self, DType, Field, TensorFile};
@@ -110,7 +110,7 @@ fn images(tensors: &TensorFile<'_>, name: &'static str, leading: &[usize]) -> Re
             format!("{leading:?} as the first dimensions"),
         ));
     }
-    // The data lie in the file, so that the product of the dimensions is a count that fits.
+    // The data are in the file, so the product of the dimensions fits.
     let slices = leading.iter().product();
     Images::new(name, [slices, size[0], size[1]], texels).map_err(|invalid| tensors.invalid(invalid))
 }
@@ -149,7 +149,7 @@ pub fn to_bytes(rgl: &rgl::Data) -> io::Result<Vec<u8>> {
     TensorFile::new(fields).to_bytes()
 }
 
-/// Writes an RGL file, replacing what was there at once.
+/// Writes an RGL file, replacing an existing one atomically.
 ///
 /// # Errors
 /// [`FormatError`] as [`to_bytes`], and if the file system refuses.

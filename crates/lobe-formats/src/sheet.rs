@@ -1,10 +1,10 @@
-//! Files that say what is reflected and what passes through.
+//! Files with both reflection and transmission.
 
 use lobe_table::Data;
 
 use crate::Part;
 
-/// What light does that is reflected, and what it does that passes through, whatever the side that it comes from.
+/// Reflection and transmission, for light from either side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sides<T> {
     /// Both directions on the same side, if the file has it.

@@ -1,4 +1,4 @@
-//! A small file next to a measurement that says how it is to be read: `scan.csv.lobe.toml` next to `scan.csv`.
+//! A small file next to a measurement that says how to read it: `scan.csv.lobe.toml` next to `scan.csv`.
 //!
 //! ```toml
 //! columns = "theta_i=1,theta_o=2,f=3"
@@ -7,8 +7,8 @@
 //! scale = 0.98
 //! ```
 //!
-//! Keys are the fields of [`ReadOptions`], with a hyphen or an underscore between words. Numbers, and `true` and `false`,
-//! may stand with or without quotes.
+//! Keys are the fields of [`ReadOptions`], with a hyphen or an underscore between words. Numbers, and `true` and
+//! `false`, may be written with or without quotes.
 
 use std::ffi::OsString;
 use std::fmt::Write as _;
@@ -20,7 +20,7 @@ use toml::de::{DeTable, DeValue};
 use crate::reading::{ReadOptions, parse_columns};
 use crate::{FormatError, Place, plain};
 
-/// What a sidecar is called after the name of the file.
+/// The suffix of the name of a sidecar, after the name of the file.
 const EXTENSION: &str = ".lobe.toml";
 
 const KEYS: &str = "columns, unit, values, scale, holds, in-plane, azimuth-from or decimal-comma";
@@ -32,7 +32,7 @@ pub fn path_of(file: &Path) -> PathBuf {
     file.with_file_name(name)
 }
 
-/// What the sidecar of a file says; nothing if there is none.
+/// The options in the sidecar of a file; empty if there is none.
 ///
 /// # Errors
 /// [`FormatError`] with the line if the sidecar cannot be read or understood.
@@ -48,7 +48,7 @@ pub fn find(file: &Path) -> Result<ReadOptions, FormatError> {
     parse(text, &path)
 }
 
-/// The options in the text of a sidecar, which the path names in errors.
+/// The options in the text of a sidecar; `path` names it in errors.
 ///
 /// # Errors
 /// [`FormatError`] with the line that cannot be understood.
@@ -76,7 +76,7 @@ pub fn parse(text: &str, path: &Path) -> Result<ReadOptions, FormatError> {
     Ok(options)
 }
 
-/// A value as it would stand on the command line; a table of columns as a list.
+/// A value as on the command line; a table of columns becomes a list.
 fn word(value: &Spanned<DeValue<'_>>) -> Option<String> {
     let DeValue::Table(table) = value.get_ref() else { return scalar(value.get_ref()) };
     let entries = table.iter().map(|(key, value)| Some(format!("{}={}", key.get_ref(), scalar(value.get_ref())?)));
@@ -93,10 +93,10 @@ fn scalar(value: &DeValue<'_>) -> Option<String> {
     }
 }
 
-/// Sets the option of this name to what a word says.
+/// Sets the option with this name to the meaning of a word.
 ///
 /// # Errors
-/// What was found and what was expected, if there is no such option or the word does not fit it.
+/// What was found and what was expected, if there is no such option or the word is invalid for it.
 pub fn set(options: &mut ReadOptions, key: &str, word: &str) -> Result<(), String> {
     fn keep<T>(field: &mut T, value: Result<T, String>) -> Result<(), String> {
         *field = value?;
@@ -120,7 +120,7 @@ pub fn set(options: &mut ReadOptions, key: &str, word: &str) -> Result<(), Strin
     }
 }
 
-/// The text of a sidecar that says this.
+/// The text of a sidecar with these options.
 pub fn to_text(options: &ReadOptions, name: &str) -> String {
     let mut out = format!("# How lobe reads {}.\n", name.escape_debug());
     let mut line = |key: &str, value: Option<String>| {

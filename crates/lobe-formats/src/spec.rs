@@ -1,4 +1,4 @@
-//! What the registry knows of a format; each is in the module of its format.
+//! The static description of a format, which is in the module of the format.
 
 use std::path::{Path, PathBuf};
 
@@ -15,57 +15,57 @@ pub struct FormatSpec {
     pub name: &'static str,
     /// The word for it on the command line.
     pub word: &'static str,
-    /// Extensions that files of the format have, in lower case. They are never trusted; see [`sniff`](crate::sniff).
+    /// The usual extensions of files in the format, in lower case. They are never trusted; see [`sniff`](crate::sniff).
     pub extensions: &'static [&'static str],
     /// Whether the content looks like this format. Formats later in the registry may look alike.
     pub matches: fn(&[u8]) -> bool,
-    /// Reads the content of a file, which the path names in errors; `None` if the format is only written.
+    /// Reads the content of a file; the path names it in errors. `None` if the format is only written.
     pub read: Option<Read>,
-    /// Reads the files of a folder as one material, for formats with one incident direction a file.
+    /// Reads the files of a folder as one material, for formats with one incident direction per file.
     pub read_set: Option<ReadSet>,
-    /// How it is written; `None` if it is only read.
+    /// The writer; `None` if the format is only read.
     pub writer: Option<Writer>,
 }
 
-/// Makes a document of the content of a file, which the path names in errors. Of the options, readers look only at what
-/// their format leaves open: quantities and scales are applied to what they return, but for tables with named columns.
+/// Makes a document from the content of a file; the path names it in errors. Readers use only the options for what
+/// their format leaves open: quantities and scales are applied to the result, except for tables with named columns.
 pub type Read = fn(&[u8], &Path, &ReadOptions) -> Result<Document, FormatError>;
 
-/// Makes a document of files, each with the path that names it in errors.
+/// Makes a document from several files, each with the path that names it in errors.
 pub type ReadSet = fn(&[(PathBuf, Vec<u8>)]) -> Result<Document, FormatError>;
 
-/// How a format is written.
+/// The writer of a format.
 #[derive(Debug)]
 pub struct Writer {
     /// Extensions of the files, in lower case.
     pub extensions: &'static [&'static str],
-    /// Whether it has channels like these.
+    /// Whether it supports these channels.
     pub holds_channels: fn(&Channels) -> bool,
-    /// The channels that it has, for people.
+    /// The channels that it supports, described for people.
     pub channels: &'static str,
-    /// Whether it has the representation of a document, so that nothing has to be computed anew.
+    /// Whether it has the representation of a document, so that nothing has to be resampled.
     pub holds: fn(&Document) -> bool,
-    /// Whether one file has room for several measurements of a sheet.
+    /// Whether one file can hold several measurements of a sheet.
     pub holds_sheets: bool,
-    /// The only kind of scatter that a file of this name can hold, if there is one.
+    /// The only scatter that a file with this name can hold, if there is one.
     pub scatter: fn(&Path) -> Option<Scatter>,
-    /// The representation into which other data have to be resampled; if they cannot be, what a file holds, in words.
+    /// The representation into which other data are resampled; if that is impossible, the contents of a file, in words.
     pub resampled_as: Result<Kind, &'static str>,
     /// Writes the file whole or not at all.
     pub write: fn(&Document, &Path) -> Result<(), FormatError>,
 }
 
-/// For formats whose files may hold either kind of scatter.
+/// For formats whose files may hold either scatter.
 pub(crate) fn either(_: &Path) -> Option<Scatter> {
     None
 }
 
-/// For formats whose files hold reflection only.
+/// For formats whose files hold only reflection.
 pub(crate) fn reflection(_: &Path) -> Option<Scatter> {
     Some(Scatter::Reflection)
 }
 
-/// An error for a document that the format has no room for.
+/// An error for a document that the format cannot hold.
 pub(crate) fn unfit(document: &Document, path: &Path, expected: &'static str) -> FormatError {
     let found = match document.only() {
         Some(data) => data.representation().kind().name(),

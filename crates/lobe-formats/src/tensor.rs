@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 const MAGIC: &[u8] = b"tensor_file\0";
 const VERSION: [u8; 2] = [1, 0];
-/// The header of the file, and the least that the header of a field takes.
+/// The size of the header of the file, and the smallest size of the header of a field.
 const HEADER: usize = 18;
 const FIELD_HEADER: usize = 13;
 /// The data of each field start at a multiple of this.
@@ -54,7 +54,7 @@ impl DType {
         [U8, I8, U16, I16, U32, I32, U64, I64, F16, F32, F64]
     };
 
-    /// How many bytes an element takes.
+    /// The size of an element in bytes.
     pub fn size(self) -> usize {
         match self {
             DType::U8 | DType::I8 => 1,
@@ -76,7 +76,7 @@ pub struct Field<'a> {
     pub shape: Vec<usize>,
     /// The elements, little-endian.
     pub data: Cow<'a, [u8]>,
-    /// Where the header of the field begins in its file, or 0.
+    /// The position of the header of the field in its file, or 0.
     position: u64,
 }
 
@@ -111,7 +111,7 @@ pub fn matches(bytes: &[u8]) -> bool {
     bytes.starts_with(MAGIC)
 }
 
-/// Reads a tensor file. The fields borrow from `bytes`, so that nothing of the size of the data is allocated.
+/// Reads a tensor file. The fields borrow from `bytes`, so nothing of the size of the data is allocated.
 ///
 /// # Errors
 /// [`FormatError`] if the header or a field is cut off, unknown or outside the file.
@@ -149,12 +149,12 @@ impl<'a> TensorFile<'a> {
         TensorFile { fields, file: PathBuf::new() }
     }
 
-    /// The field of this name, if there is one.
+    /// The field with this name, if there is one.
     pub fn get(&self, name: &str) -> Option<&Field<'a>> {
         self.fields.iter().find(|field| field.name == name)
     }
 
-    /// The field of this name, checked to have this type and number of dimensions.
+    /// The field with this name, checked to have this type and number of dimensions.
     ///
     /// # Errors
     /// [`FormatError`] if there is no such field or it has another type or number of dimensions.
@@ -191,7 +191,7 @@ impl<'a> TensorFile<'a> {
         FormatError::new(&self.file, place, found, expected)
     }
 
-    /// An error at the field that a table found to be wrong.
+    /// An error at the field that a table rejected.
     pub(crate) fn invalid(&self, invalid: lobe_table::Invalid) -> FormatError {
         self.error(invalid.part, format!("{}: {}", invalid.part, invalid.found), invalid.expected)
     }
@@ -213,7 +213,7 @@ impl<'a> TensorFile<'a> {
         header.extend_from_slice(&VERSION);
         header.extend_from_slice(&fields.to_le_bytes());
         for field in &self.fields {
-            // `check` has seen that the casts lose nothing.
+            // `check` ensures that the casts lose nothing.
             data.resize((at + data.len()).next_multiple_of(ALIGNMENT) - at, 0);
             header.extend_from_slice(&(field.name.len() as u16).to_le_bytes());
             header.extend_from_slice(field.name.as_bytes());
@@ -227,7 +227,7 @@ impl<'a> TensorFile<'a> {
         Ok(header)
     }
 
-    /// Writes the file, replacing what was there at once.
+    /// Writes the file, replacing an existing one atomically.
     ///
     /// # Errors
     /// [`FormatError`] as [`to_bytes`](Self::to_bytes), and if the file system refuses.

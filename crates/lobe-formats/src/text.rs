@@ -1,6 +1,7 @@
-//! Tokens of the text formats: words between white space, with their line numbers, and comments taken out.
+//! Tokens of the text formats: words separated by white space, with their line numbers, without comments.
 //!
-//! Files are bytes here. What is not UTF-8 (a name in an old code page, say) is shown lossily and is otherwise let be.
+//! Files are bytes here. Text that is not UTF-8 (such as a name in an old code page) is shown lossily and otherwise
+//! ignored.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -17,12 +18,12 @@ pub(crate) struct Token<'a> {
 }
 
 impl<'a> Token<'a> {
-    /// The word, with U+FFFD for what is not UTF-8.
+    /// The word, with U+FFFD for bytes that are not UTF-8.
     pub fn text(&self) -> Cow<'a, str> {
         String::from_utf8_lossy(self.bytes)
     }
 
-    /// `true` if the word is `word` in any spelling of upper and lower case.
+    /// `true` if the word is `word` in upper or lower case.
     pub fn is(&self, word: &str) -> bool {
         self.bytes.eq_ignore_ascii_case(word.as_bytes())
     }
@@ -47,7 +48,7 @@ impl<'a> Token<'a> {
 
 /// A reader of tokens.
 ///
-/// Carriage returns and tabs are white space, a byte order mark at the start is skipped, and so is the end-of-file
+/// Carriage returns and tabs are white space; a byte-order mark at the start is skipped, and so is the end-of-file
 /// character of DOS. A token that starts with the comment marker opens a comment to the end of its line.
 pub(crate) struct Text<'a> {
     file: &'a Path,
@@ -78,7 +79,7 @@ impl<'a> Text<'a> {
         token
     }
 
-    /// The next token, which stays there.
+    /// The next token, without consuming it.
     pub fn peek(&self) -> Option<Token<'a>> {
         self.scan().0
     }
@@ -101,13 +102,13 @@ impl<'a> Text<'a> {
         (None, at, line)
     }
 
-    /// The comments passed since the last call, without their markers.
+    /// The comments read since the last call, without their markers.
     pub fn take_comments(&mut self) -> Vec<String> {
         std::mem::take(&mut self.comments)
     }
 
-    /// The tokens up to the end of the line of `token`, which was the last one, or up to one that `stop` knows, with
-    /// single spaces between them.
+    /// The tokens up to the end of the line of `token`, which was the last one, or up to one that `stop` recognises,
+    /// separated by single spaces.
     pub fn rest_of_line(&mut self, token: Token<'_>, stop: impl Fn(Token<'_>) -> bool) -> String {
         let mut words = Vec::new();
         while let Some(next) = self.peek().filter(|&next| next.line == token.line && !stop(next)) {
@@ -117,7 +118,7 @@ impl<'a> Text<'a> {
         words.join(" ")
     }
 
-    /// What is left of the line of the last token, as it stands there: marks of comments are ordinary characters.
+    /// The rest of the line of the last token, unchanged: comment markers are ordinary characters.
     pub fn raw_rest_of_line(&mut self) -> String {
         let rest = &self.bytes[self.at..];
         let line = &rest[..rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len())];
@@ -130,7 +131,7 @@ impl<'a> Text<'a> {
         self.next().ok_or_else(|| self.error(self.line, "the end of the file", what))
     }
 
-    /// The next token, which has to be `word` in any case of letters.
+    /// The next token, which has to be `word` in upper or lower case.
     pub fn keyword(&mut self, word: &str) -> Result<Token<'a>, FormatError> {
         let token = self.expect(&format!("`{word}`"))?;
         if token.is(word) { Ok(token) } else { Err(self.unexpected(token, format!("`{word}`"))) }
@@ -156,8 +157,7 @@ impl<'a> Text<'a> {
         }
     }
 
-    /// The next token as a count of `what` that are still to come: at least 1, and no more than the rest of the file
-    /// has room for.
+    /// The next token as a count of `what` that follow: at least 1, and no more than fit into the rest of the file.
     pub fn count(&mut self, what: &str) -> Result<usize, FormatError> {
         let token = self.expect(&format!("the number of {what}"))?;
         match token.parse() {
@@ -177,7 +177,7 @@ impl<'a> Text<'a> {
                 Err(self.error(
                     line,
                     format!("a count of {count} {what}"),
-                    format!("at most {limit} in what is left of the file"),
+                    format!("at most {limit} in the rest of the file"),
                 ))
             }
         }
@@ -198,15 +198,15 @@ impl<'a> Text<'a> {
         self.error(token.line, token.shown(), expected)
     }
 
-    /// Checks that nothing but white space and comments is left.
+    /// Checks that only white space and comments are left.
     pub fn end(&mut self, expected: &str) -> Result<(), FormatError> {
         self.next().map_or(Ok(()), |token| Err(self.unexpected(token, expected)))
     }
 }
 
-/// `true` if the beginning of a text contains every one of `words` as a token, in any case of letters.
+/// `true` if the beginning of a text contains every one of `words` as a token, in upper or lower case.
 ///
-/// Only the first MiB is looked at, comments not counted among the words; a file with a zero byte is not text.
+/// Only the first MiB is examined, without comments; a file with a zero byte is not text.
 pub(crate) fn has_words(bytes: &[u8], marker: &'static str, words: &[&str]) -> bool {
     const HEAD: usize = 1 << 20;
     let head = &bytes[..bytes.len().min(HEAD)];
@@ -225,7 +225,7 @@ pub(crate) fn has_words(bytes: &[u8], marker: &'static str, words: &[&str]) -> b
 }
 
 /// A number with nine significant digits, which is enough to distinguish every `f32` from its neighbours, in the
-/// shortest form that says the same.
+/// shortest equivalent form.
 pub fn nine_digits(x: f64) -> String {
     let rounded: f64 = format!("{x:.8e}").parse().expect("a number that was just printed");
     match rounded.abs() {
@@ -299,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn nine_digits_tell_every_f32_apart() {
+    fn nine_digits_distinguish_every_f32() {
         for (x, expected) in
             [(0.1, "0.1"), (1.0, "1"), (0.0, "0"), (-2.5e-7, "-2.5e-7"), (3e12, "3e12"), (1.0 / 3.0, "0.333333333")]
         {

@@ -1,4 +1,4 @@
-//! Grids of spherical coordinates whose values are relative to a total that their file states.
+//! Grids in spherical coordinates whose values are relative to a total that their file states.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::Path;
@@ -7,7 +7,7 @@ use lobe_table::spherical;
 
 use crate::{FormatError, Place};
 
-/// Scales each slice of a grid so that its integral of `f cos` over the hemisphere is its total, of
+/// Scales each slice of a grid so that its integral of `f cos` over the hemisphere equals its total in
 /// `[theta_i][phi_i][channel]`.
 pub(crate) fn scale(file: &Path, grid: &spherical::Data, totals: &[f32]) -> Result<spherical::Data, FormatError> {
     let channels = grid.channels().count();
@@ -58,7 +58,7 @@ pub(crate) fn integrals(grid: &spherical::Data) -> Vec<f64> {
     integrals
 }
 
-/// What each knot of the viewer's polar angle counts for: values are linear between knots and constant beyond them.
+/// The weight of each knot of the viewer's polar angle: values are linear between knots and constant beyond them.
 fn polar(knots: &[f64]) -> Vec<f64> {
     let mut weights = vec![0.0; knots.len()];
     let last = knots.len() - 1;
@@ -76,7 +76,7 @@ fn polar(knots: &[f64]) -> Vec<f64> {
     weights
 }
 
-/// What each knot of the viewer's azimuth counts for; a half circle that is mirrored counts twice.
+/// The weight of each knot of the viewer's azimuth; a mirrored half circle counts twice.
 fn azimuthal(knots: &[f64], is_mirrored: bool) -> Vec<f64> {
     let mut weights = vec![0.0; knots.len()];
     for (i, pair) in knots.windows(2).enumerate() {

@@ -1,4 +1,4 @@
-//! Files that are none of those that are read: what they are, and what to do.
+//! Errors for files in unsupported formats: what they are, and what to do.
 
 use std::path::Path;
 
@@ -6,8 +6,8 @@ use lobe_files::{Content, beginning, content};
 
 use crate::{Format, FormatError, Place, merl, utia};
 
-/// The error for a file of no known format. `bytes` are its content, which was packed if `is_packed`; `name` is that of the
-/// content.
+/// The error for a file in no known format. `bytes` is its content, which was compressed if `is_packed`; `name` is the
+/// name of the content.
 pub(crate) fn unknown(bytes: &[u8], name: &Path, is_packed: bool) -> FormatError {
     let known = merl::damaged(bytes, name)
         .or_else(|| speos(bytes))
@@ -28,7 +28,7 @@ pub(crate) fn unknown(bytes: &[u8], name: &Path, is_packed: bool) -> FormatError
     FormatError::new(name, Place::File, found, expected)
 }
 
-/// `true` for content that is known to be something else, whatever rows of numbers are in it.
+/// `true` for content that is known to be something else, even if it contains rows of numbers.
 pub(crate) fn is_other(bytes: &[u8]) -> bool {
     content(bytes, Path::new("")).is_some()
 }
@@ -38,7 +38,7 @@ fn speos(bytes: &[u8]) -> Option<Content> {
     let line = bytes.strip_prefix(b"OPTIS - ").map(|_| bytes.split(|byte| *byte < b' ').next().unwrap_or_default())?;
     let line = String::from_utf8_lossy(&line[..line.len().min(80)]).into_owned();
     Some(Content {
-        what: format!("another file of Speos, `{line}`"),
-        advice: "Of Speos, surfaces with measured values are read: export a .brdf or .anisotropicbsdf as text".into(),
+        what: format!("another kind of Speos file, `{line}`"),
+        advice: "Only Speos surfaces with measured values are read: export a .brdf or .anisotropicbsdf as text".into(),
     })
 }

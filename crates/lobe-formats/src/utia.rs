@@ -18,7 +18,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     extensions: &["bin"],
     matches,
     read: Some(|bytes, path, _| {
-        let unit = ("unit", "not documented; values are as they are stored");
+        let unit = ("unit", "not documented; values are as stored");
         Ok(Document::new(read(bytes, path)?).with_source(&[unit]))
     }),
     read_set: None,
@@ -44,8 +44,8 @@ pub fn matches(bytes: &[u8]) -> bool {
     bytes.len() == SIZE
 }
 
-/// What a file is that may be one of this format of another size: the format has no signature, but an extension, and 64-bit
-/// numbers of a size that values have.
+/// Describes a file that may be in this format but has another size: the format has no signature, only an extension and
+/// 64-bit numbers in the range of values.
 pub(crate) fn damaged(bytes: &[u8], name: &Path) -> Option<Content> {
     const LOOKED_AT: usize = 4096;
     let is_named = name.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("bin"));
@@ -60,7 +60,7 @@ pub(crate) fn damaged(bytes: &[u8], name: &Path) -> Option<Content> {
     }
     let how = if bytes.len() < SIZE { "cut short" } else { "with more bytes" };
     Some(Content {
-        what: format!("what may be a UTIA file {how} ({} of {} bytes)", grouped(bytes.len()), grouped(SIZE)),
+        what: format!("possibly a UTIA file {how} ({} of {} bytes)", grouped(bytes.len()), grouped(SIZE)),
         advice: "If it is, fetch the file again; other files of numbers need names of columns (CSV)".into(),
     })
 }
@@ -88,7 +88,7 @@ pub fn to_bytes(material: &utia::Data) -> Vec<u8> {
     material.values().iter().flat_map(|value| value.to_le_bytes()).collect()
 }
 
-/// Writes a UTIA file, replacing what was there at once.
+/// Writes a UTIA file, replacing an existing one atomically.
 ///
 /// # Errors
 /// [`FormatError`] if the file system refuses.

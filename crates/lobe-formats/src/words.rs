@@ -1,6 +1,6 @@
 //! Enums whose variants are words on the command line and in sidecars.
 
-/// Makes an enum whose variants are words on the command line and in sidecars.
+/// Declares an enum whose variants are words on the command line and in sidecars.
 macro_rules! words {
     ($(#[$doc:meta])* $name:ident: $($(#[$of:meta])* $variant:ident = $word:literal $(or $other:literal)*),* $(,)?) => {
         $(#[$doc])*
@@ -10,7 +10,7 @@ macro_rules! words {
         }
 
         impl $name {
-            /// The word for each.
+            /// The word for each variant.
             pub const WORDS: &[(&str, $name)] = &[$(($word, $name::$variant)),*];
         }
 

@@ -45,7 +45,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
 const AXES: [&str; 4] = ["AngleOfIncidence", "SampleRotation", "ScatterRadial", "ScatterAzimuth"];
 const XYZ: [&str; 3] = ["TristimulusX", "TristimulusY", "TristimulusZ"];
 
-/// What the header says.
+/// The contents of the header.
 struct Header {
     grid: Grid,
     scatter: Scatter,
@@ -56,7 +56,7 @@ struct Header {
 /// Reads a file from its content.
 ///
 /// # Errors
-/// [`FormatError`] names the line, what is there and what should be.
+/// [`FormatError`] names the line, what was found and what was expected.
 pub fn read(bytes: &[u8], file: &Path) -> Result<Measured<specular::Data>, FormatError> {
     let text = &mut Text::new(file, bytes, "#");
     let header = read_header(text)?;
@@ -96,7 +96,7 @@ fn read_header(text: &mut Text<'_>) -> Result<Header, FormatError> {
             continue;
         }
         let stated = text.rest_of_line(token, |next| axes.find(next).is_some());
-        // The values of these keywords are one word, but for writers that put a space before 4D.
+        // The values of these keywords are one word, except that some writers put a space before 4D.
         let word: String = stated.split_whitespace().collect::<String>().to_ascii_lowercase();
         let unknown = |expected| Err(text.error(token.line, format!("{} `{stated}`", token.text()), expected));
         if token.is("Symmetry") {

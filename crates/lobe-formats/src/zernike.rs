@@ -1,9 +1,9 @@
-//! Expansions of NIST in Zernike polynomials: the coefficient files of SCATMECH's `ZernikeExpansion_BRDF_Model`, which T. A.
-//! Germer published for sintered PTFE.
+//! NIST's expansions in Zernike polynomials: the coefficient files of SCATMECH's `ZernikeExpansion_BRDF_Model`, which
+//! T. A. Germer published for sintered PTFE.
 //!
-//! Lines of eight numbers between commas or blanks: row and column of the Mueller matrix, from 1; the radial orders n and m;
-//! the azimuthal orders k and l; the power of the wavelength in micrometres; the coefficient. Those of row and column 1 are
-//! the unpolarised BRDF, and are what is read: for them k is l.
+//! Lines of eight numbers separated by commas or blanks: row and column of the Mueller matrix, from 1; the radial
+//! orders n and m; the azimuthal orders k and l; the power of the wavelength in micrometres; the coefficient. Only row
+//! and column 1, the unpolarised BRDF, are read; for them, k equals l.
 
 use std::path::Path;
 
@@ -25,14 +25,14 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     writer: None,
 };
 
-/// The wavelengths at which NIST measured what it fitted, in nm: files say that terms depend on the wavelength, but not where
-/// they hold.
+/// The wavelengths of NIST's measurements, in nm: files say that terms depend on the wavelength, but not where they are
+/// valid.
 const WAVELENGTHS: [f64; 4] = [351.0, 532.0, 633.0, 1064.0];
 
-/// Lines that are looked at to recognise a file.
+/// The number of lines that are examined to recognise a file.
 const HEAD: usize = 4;
 
-/// `true` if the first lines are seven whole numbers, the first two of which count the elements of a matrix, and a coefficient.
+/// `true` if the first lines are seven whole numbers, the first two of which index a matrix, and a coefficient.
 pub fn matches(bytes: &[u8]) -> bool {
     let head = std::str::from_utf8(&bytes[..bytes.len().min(1 << 10)]).unwrap_or_default();
     let is_row = |line: &Line<'_>| {
@@ -47,11 +47,11 @@ pub fn matches(bytes: &[u8]) -> bool {
     first.len() == HEAD && first.iter().all(is_row)
 }
 
-/// Reads the terms of the unpolarised BRDF. `file` only names it in errors.
+/// Reads the terms of the unpolarised BRDF. `file` is only its name in errors.
 ///
 /// # Errors
-/// [`FormatError`] with the line that is not eight numbers, or has orders that do not fit together; and if no line is of the
-/// unpolarised BRDF.
+/// [`FormatError`] with the line that is not eight numbers, or has orders that do not fit together; and if no line
+/// belongs to the unpolarised BRDF.
 pub fn read(bytes: &[u8], file: &Path) -> Result<Document, FormatError> {
     let text = String::from_utf8_lossy(bytes);
     let (mut terms, mut polarised) = (Vec::new(), 0);
@@ -84,7 +84,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Document, FormatError> {
                 return Err(line.error(found, "small orders, of which k is l for the unpolarised BRDF"));
             }
         };
-        // What is wrong with a term is said of its line.
+        // An error in a term names its line.
         Data::new(vec![Term { power: 0, ..term }], Channels::Mono)
             .map_err(|error| line.error(error.found, error.expected))?;
         terms.push(term);

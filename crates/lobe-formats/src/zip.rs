@@ -1,12 +1,12 @@
-//! Archives whose members are stored as they are, which is what NumPy's `.npz` files are.
+//! Archives with uncompressed members, such as NumPy's `.npz` files.
 //!
-//! The fields are those of PKWARE's APPNOTE 6.3, sections 4.3 and 4.5.3. Sizes and offsets that do not fit 32 bits are
-//! in the ZIP64 fields.
+//! The fields are those of PKWARE's APPNOTE 6.3, sections 4.3 and 4.5.3. Sizes and offsets that do not fit into 32 bits
+//! are in the ZIP64 fields.
 
-/// What a 32-bit field holds if the number is in the ZIP64 field.
+/// The value of a 32-bit field if the number is in the ZIP64 field.
 const ELSEWHERE: u32 = u32::MAX;
 
-/// The first day that there is, 1980-01-01: archives of the same members are the same bytes.
+/// The earliest possible day, 1980-01-01, so that archives of the same members have the same bytes.
 const DATE: u16 = 0x0021;
 
 /// An archive that is being written.
@@ -15,7 +15,7 @@ pub(crate) struct Archive {
     /// The central directory, which comes last.
     directory: Vec<u8>,
     members: u64,
-    /// Numbers from here on are in ZIP64 fields.
+    /// Numbers of at least this value are in ZIP64 fields.
     large_from: u64,
 }
 
@@ -26,7 +26,7 @@ impl Default for Archive {
 }
 
 impl Archive {
-    /// Adds a member made of these parts. Its name has at most 65535 bytes.
+    /// Adds a member that consists of these parts. Its name has at most 65535 bytes.
     pub(crate) fn add(&mut self, name: &str, parts: &[&[u8]]) {
         let size = parts.iter().map(|part| part.len() as u64).sum::<u64>();
         let offset = self.bytes.len() as u64;
@@ -111,7 +111,7 @@ impl Archive {
     }
 }
 
-/// The checksum of ISO 3309, by bytes.
+/// The checksum of ISO 3309, byte by byte.
 fn crc32(parts: &[&[u8]]) -> u32 {
     const TABLE: [u32; 256] = {
         let mut table = [0; 256];
@@ -142,12 +142,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_checksum_is_that_of_the_standard() {
+    fn the_checksum_agrees_with_the_standard() {
         assert_eq!(crc32(&[b"123456789"]), 0xcbf4_3926);
         assert_eq!(crc32(&[b"1234", b"", b"56789"]), 0xcbf4_3926);
     }
 
-    /// With ZIP64 fields from any size on, so that they need not be tried on gigabytes.
+    /// With ZIP64 fields for small sizes too, so that gigabytes are not needed to test them.
     #[test]
     fn another_program_finds_every_member() {
         let members: Vec<(String, Vec<u8>)> =

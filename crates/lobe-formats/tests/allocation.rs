@@ -1,4 +1,4 @@
-//! No reader allocates more than a small multiple of the size of its file, whatever the file says.
+//! No reader allocates more than a small multiple of the size of its file, whatever the file claims.
 
 use lobe_formats::{mbsdf, merl, pbsdf, rgl, speos, tensor, window_xml};
 use lobe_testing::memory::peak;
@@ -6,7 +6,7 @@ use std::path::Path;
 
 lobe_testing::count_memory!();
 
-/// A tensor file whose fields all lie over the same data, and say whatever the caller wants of their shape.
+/// A tensor file whose fields all share the same data, with any shapes.
 fn overlapping(names: &[String], dtype: u8, shape: &[u64], data: usize) -> Vec<u8> {
     let mut bytes = b"tensor_file\0\x01\x00".to_vec();
     bytes.extend_from_slice(&(names.len() as u32).to_le_bytes());
@@ -23,10 +23,10 @@ fn overlapping(names: &[String], dtype: u8, shape: &[u64], data: usize) -> Vec<u
     bytes
 }
 
-/// Reads a file; whether that went as it should.
+/// Reads a file, and returns whether the outcome is as expected.
 type Read = fn(&[u8], &Path) -> bool;
 
-/// One test, so that no other thread allocates meanwhile.
+/// A single test, so that no other thread allocates meanwhile.
 #[test]
 fn memory_follows_the_size_of_the_file() {
     let file = Path::new("hostile.file");
@@ -73,8 +73,8 @@ fn memory_follows_the_size_of_the_file() {
     for (name, bytes, read) in cases {
         let ((), used) = peak(|| assert!(read(&bytes, file), "{name}"));
         println!("{name}: {used} bytes for a file of {}", bytes.len());
-        // The header of a field, of 16 bytes or more, becomes a structure of about 130. A short file still has an error
-        // to tell.
+        // The header of a field, of 16 bytes or more, becomes a structure of about 130. Even a short file needs an
+        // error message.
         let times = match name {
             "nothing but the headers of fields" => 12,
             // An empty block of 22 characters becomes a structure of about 200.

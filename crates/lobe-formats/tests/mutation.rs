@@ -1,9 +1,9 @@
-//! Damaged files of every format, thousands of them: a material or an error, never a panic, and never more memory than the
-//! size of the file can justify.
+//! Thousands of damaged files of every format must give a material or an error, never a panic, and never use more
+//! memory than the size of the file can justify.
 //!
-//! The damage follows from a seed, so every run is the same. `LOBE_MUTATIONS` sets the number of damaged files for each
-//! sound one, which is 400 without it, and `LOBE_MUTATION_SEED` the seed of the first of them, which is 0. A file that is
-//! too much for its reader is kept in `target/tmp`.
+//! The damage follows from a seed, so every run is the same. `LOBE_MUTATIONS` sets the number of damaged files per
+//! sound one (400 by default), and `LOBE_MUTATION_SEED` the seed of the first of them (0 by default). A file that
+//! breaks its reader is kept in `target/tmp`.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -21,7 +21,7 @@ lobe_testing::count_memory!();
 /// Files beyond this size have fewer mutants, so that each file takes about as long.
 const FULL_COUNT_SIZE: usize = 4_096;
 
-/// What reading the files of a format took.
+/// Statistics of reading the files of a format.
 #[derive(Default)]
 struct Cost {
     files: usize,
@@ -30,7 +30,7 @@ struct Cost {
     bytes_per_byte: f64,
 }
 
-/// Reads one file; if that goes wrong, keeps the file and reports which it is.
+/// Reads one file; if that goes wrong, keeps the file and reports its name.
 fn run(format: Format, name: &str, bytes: &[u8], costs: &mut BTreeMap<&'static str, Cost>) -> bool {
     let start = Instant::now();
     let outcome = catch_unwind(AssertUnwindSafe(|| {
@@ -57,7 +57,7 @@ fn variable(name: &str, default: usize) -> usize {
         .map_or(default, |value| value.parse().unwrap_or_else(|_| panic!("{name} is not a number: {value}")))
 }
 
-/// One test, so that no other thread allocates meanwhile.
+/// A single test, so that no other thread allocates meanwhile.
 #[test]
 fn damaged_files_do_no_harm() {
     let (count, first) = (variable("LOBE_MUTATIONS", 400), variable("LOBE_MUTATION_SEED", 0));
@@ -90,6 +90,6 @@ fn damaged_files_do_no_harm() {
         }
     }
     for (format, Cost { files, sound, slowest, bytes_per_byte }) in costs {
-        println!("{format}: {files} files, {sound} sound, {bytes_per_byte:.1} bytes a byte, slowest {slowest:.1?}");
+        println!("{format}: {files} files, {sound} sound, {bytes_per_byte:.1} bytes per byte, slowest {slowest:.1?}");
     }
 }

@@ -69,7 +69,7 @@ fn data_that_a_format_can_hold_are_written_unchanged() {
     let said = folder.said(&["convert", source, "table.bsdf", "--to", "zemax"]);
     assert_eq!(
         said,
-        "table.bsdf: Zemax BSDF, with the values and nodes of the file; R G B, taken to be linear sRGB, as X Y Z\n"
+        "table.bsdf: Zemax BSDF, with the values and nodes of the file; R G B, assumed to be linear sRGB, as X Y Z\n"
     );
     let angles = ["--angles", "25,0,4,60"];
     let rgb: Vec<f64> = folder

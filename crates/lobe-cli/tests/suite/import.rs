@@ -42,7 +42,7 @@ fn options_are_kept_for_every_command() {
     assert!(code == 0 && !files.path("scan.txt.lobe.toml").exists(), "{message}");
     for part in [
         "semicolons between cells, a comma before decimals",
-        "luminance factors, pi f, as was said",
+        "luminance factors, pi f, as the options say",
         "column 1 is theta_i",
     ] {
         assert!(shown.contains(part), "{part}: {shown}");

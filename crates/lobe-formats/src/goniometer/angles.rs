@@ -5,7 +5,7 @@ use super::words::{AZIMUTHS, INCOMING, OUTGOING, POLARS, RELATIVE};
 use crate::angle::Angle;
 
 impl Name {
-    /// An angle, if each word has to do with one.
+    /// An angle, if each word belongs to one.
     pub fn angle(&self) -> Option<Meaning> {
         let (mut is_polar, mut is_azimuth, mut is_angle, mut is_relative) = (false, false, false, false);
         let mut sides: Vec<Side> = Vec::new();
@@ -19,7 +19,7 @@ impl Name {
                 () => match side(word) {
                     Some(side) => sides.push(side),
                     None => {
-                        // One word of both, as in `thetai` and `Einfallswinkel`.
+                        // One word for both, as in `thetai` and `Einfallswinkel`.
                         let (part, kind) = parted(word)?;
                         match kind {
                             Kind::Polar => is_polar = true,
@@ -51,7 +51,7 @@ impl Name {
             (true, _, Some(Side::Light)) => Some(Meaning::Angle(Angle::ThetaI, unit)),
             (true, _, Some(Side::Viewer)) => Some(Meaning::Angle(Angle::ThetaO, unit)),
             (true, _, Some(Side::Either)) => Some(Meaning::EitherTheta(unit)),
-            // A letter next to `angle` says too little.
+            // A single letter next to `angle` says too little.
             (_, _, Some(Side::Light)) if is_angle && self.is_spelled() => Some(Meaning::Angle(Angle::ThetaI, unit)),
             (_, _, Some(Side::Viewer)) if is_angle && self.is_spelled() => Some(Meaning::Angle(Angle::ThetaO, unit)),
             (true, _, None) if self.compact == "theta" => Some(Meaning::Angle(Angle::Theta, unit)),
@@ -90,7 +90,7 @@ pub(super) fn side(word: &str) -> Option<Side> {
     }
 }
 
-/// The part of a compound word that says which direction, and the kind of angle that the rest says.
+/// The part of a compound word that names the direction, and the kind of angle that the rest names.
 fn parted(word: &str) -> Option<(&str, Kind)> {
     for (prefix, kind) in [
         ("theta", Kind::Polar),

@@ -15,12 +15,12 @@ use crate::reading::{Holds, Quantity, ReadOptions};
 use crate::records::Records;
 use crate::{Document, FormatError, Part, Place};
 
-/// How far beyond the horizon a polar angle may be that was rounded in its file, in radians.
+/// The largest distance of a polar angle, rounded in its file, beyond the horizon, in radians.
 const ROUNDING: f64 = 1e-3;
-/// The smallest cosine that a value is divided by: that of 89.9 degrees.
+/// The smallest cosine by which a value is divided: that of 89.9 degrees.
 const HORIZON: f64 = 1.745e-3;
 
-/// Makes a document of what was read.
+/// Builds a document from the rows that were read.
 pub(super) fn document(mut raw: Raw, file: &Path, options: &ReadOptions) -> Result<Document, FormatError> {
     let mut notes = std::mem::take(&mut raw.notes);
     notes.append(&mut raw.layout.notes);
@@ -106,9 +106,9 @@ impl Samples {
         Ok(())
     }
 
-    /// Rows with a wavelength each become rows with a channel per wavelength.
+    /// Turns rows with one wavelength each into rows with one channel per wavelength.
     fn by_wavelength(&mut self, wavelengths: &[f64], file: &Path) -> Result<(), FormatError> {
-        // Adding zero takes the sign off a zero. Wavelengths are positive, and in the order of their bits.
+        // Adding zero removes the sign of a zero. Wavelengths are positive, so they are in the order of their bits.
         let key = |angles: &[f64; 4]| angles.map(|angle| (angle + 0.0).to_bits());
         let mut channels: BTreeMap<u64, usize> = wavelengths.iter().map(|nm| (nm.to_bits(), 0)).collect();
         channels.values_mut().enumerate().for_each(|(position, index)| *index = position);
@@ -148,7 +148,7 @@ impl Samples {
         Ok(())
     }
 
-    /// From what was measured to `f`.
+    /// Converts measured values to `f`.
     fn quantify(
         &mut self,
         raw: &Raw,
@@ -163,7 +163,7 @@ impl Samples {
             let expected = "f in 1/sr, or values = luminance-factor";
             return Err(FormatError::new(file, Place::Line(raw.names_line.max(1)), "values in %", expected));
         }
-        let said = if options.values.is_some() { "as was said" } else { "by their name" };
+        let said = if options.values.is_some() { "as the options say" } else { "by their name" };
         match quantity {
             Quantity::F if stated.is_none() => {
                 notes.push("values are assumed to be f in 1/sr, without the cosine".into())
@@ -197,7 +197,7 @@ impl Samples {
         Ok(())
     }
 
-    /// Whether each row is transmitted light, after polar angles were compared with what they may be.
+    /// Whether each row is transmitted light, after a check of the ranges of polar angles.
     fn through(&self, holds: Option<Holds>, file: &Path) -> Result<Vec<bool>, FormatError> {
         let error = |row: usize, axis: usize, expected: &str| {
             let name = if self.is_specular {
@@ -220,7 +220,7 @@ impl Samples {
             (None | Some(Holds::Reflection), Some(row)) => error(
                 row,
                 2,
-                "0 to 90 degrees, or --holds transmission, or --holds both if what is beyond 90 degrees is transmitted",
+                "0 to 90 degrees, or --holds transmission, or --holds both if light beyond 90 degrees is transmitted",
             ),
             (None | Some(Holds::Reflection), None) => Ok(vec![false; self.angles.len()]),
             (Some(Holds::Both), _) => Ok(self.angles.iter().map(is_beyond).collect()),
@@ -241,7 +241,7 @@ impl Samples {
             }
             let mut angles = *angles;
             if self.is_specular {
-                // Specular angles have no sign to take off.
+                // Specular angles have no sign to remove.
                 records.angles.push(angles);
             } else {
                 if angles[2].abs() > FRAC_PI_2 + ROUNDING {

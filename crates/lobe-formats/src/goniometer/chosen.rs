@@ -1,4 +1,4 @@
-//! What columns hold by their names, and what the user says instead.
+//! The contents of columns, from their names and from the user.
 
 use super::meaning::Meaning;
 use super::names::meaning;
@@ -7,7 +7,7 @@ use crate::angle::Angle;
 use crate::lines::shown;
 use crate::reading::{Content, Position, ReadOptions};
 
-/// What the names of columns say, with what the user says instead.
+/// The meaning of the names of columns, overridden by the user.
 pub(super) fn meanings(names: &[String], width: usize, options: &ReadOptions) -> Result<Vec<Meaning>, Trouble> {
     let mut meanings: Vec<Meaning> = names.iter().map(|name| of_name(name)).collect();
     meanings.resize(width.max(names.len()), Meaning::Unknown);
@@ -23,7 +23,7 @@ pub(super) fn meanings(names: &[String], width: usize, options: &ReadOptions) ->
             Position::Number(_) => {
                 return Err(Trouble::new(
                     format!("{column} in rows of {} columns", meanings.len()),
-                    "a column that is there",
+                    "a column that exists",
                 ));
             }
         };
@@ -60,7 +60,7 @@ pub(super) fn meanings(names: &[String], width: usize, options: &ReadOptions) ->
             (Some(chosen), _) => *meaning = chosen,
             (None, Meaning::Angle(angle, _)) if !is_chosen(*angle) => {}
             (None, Meaning::EitherTheta(_) | Meaning::EitherPhi(_) | Meaning::AnyAngle(_)) => {}
-            // A column that the user passes over when naming others.
+            // A column that the user leaves out while naming others.
             (None, Meaning::Angle(..)) => *meaning = Meaning::NoValue,
             (None, Meaning::Wavelength(_)) => {}
             (None, _) if has_values => *meaning = Meaning::NoValue,
@@ -70,7 +70,7 @@ pub(super) fn meanings(names: &[String], width: usize, options: &ReadOptions) ->
     Ok(meanings)
 }
 
-/// What the name of a column says.
+/// The meaning of the name of a column.
 pub(super) fn of_name(name: &str) -> Meaning {
     meaning(corner(name))
 }

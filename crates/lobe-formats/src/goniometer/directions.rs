@@ -1,11 +1,11 @@
-//! Which of the names are the angles of which direction.
+//! The assignment of angle names to the two directions.
 
 use super::facts::Facts;
 use super::meaning::Meaning;
 use super::source::{SPHERICAL, Source};
 use crate::angle::{Angle, Unit};
 
-/// Whether columns with these meanings say where the light and the viewer are.
+/// Whether columns with these meanings determine the directions of light and viewer.
 pub(super) fn has_directions(mut meanings: Vec<Meaning>, facts: &Facts) -> bool {
     let is_fixed = |angle: Angle| facts.angles.iter().any(|fixed| fixed.angle == angle);
     settle(&mut meanings, is_fixed);
@@ -19,7 +19,7 @@ pub(super) fn has_directions(mut meanings: Vec<Meaning>, facts: &Facts) -> bool 
     is_wide || (has_viewer && is_known)
 }
 
-/// Gives names that may mean either direction, or none, the one that the others leave.
+/// Assigns names that may mean either direction to the one that the other names leave.
 pub(super) fn settle(meanings: &mut [Meaning], is_fixed: impl Fn(Angle) -> bool) {
     let has = |meanings: &[Meaning], angle: Angle| {
         is_fixed(angle) || meanings.iter().any(|m| matches!(m, Meaning::Angle(other, _) if *other == angle))
@@ -45,7 +45,8 @@ pub(super) fn settle(meanings: &mut [Meaning], is_fixed: impl Fn(Angle) -> bool)
     }
 }
 
-/// The columns of a table with one per incident or outgoing polar angle, if it is one: all that have numbers as names.
+/// The columns of a table with one column per incident or outgoing polar angle, if it is such a table: all whose names
+/// are numbers.
 pub(super) type Wide = (Vec<(usize, f64)>, Option<Unit>);
 
 pub(super) fn wide(meanings: &[Meaning], angles: &mut [Source; 4]) -> Option<Wide> {

@@ -1,4 +1,4 @@
-//! What stands above the rows of a table: facts for people, and angles, units and kinds of scatter that hold for all rows.
+//! The lines above the rows of a table: facts for people, and angles, units and scatters that apply to all rows.
 
 use super::meaning::Meaning;
 use super::names::meaning;
@@ -7,21 +7,21 @@ use super::{ROWS, Rows};
 use crate::angle::{Angle, Unit};
 use crate::reading::Holds;
 
-/// What the lines above the rows, or between them, say.
+/// The facts in lines above or between the rows.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Facts {
     /// Names and values, for people.
     pub source: Vec<(String, String)>,
-    /// Angles that are the same in all rows from there on, with the unit if it is stated.
+    /// Angles that are the same in all following rows, with the unit if it is stated.
     pub angles: Vec<Fixed>,
     /// The unit of angles.
     pub unit: Option<Unit>,
     pub holds: Option<Holds>,
-    /// What the rows are, if they do not show it.
+    /// The kind of the rows, if they do not show it.
     pub rows: Option<Rows>,
 }
 
-/// An angle in a line of its own: `Angle of incidence: 30 deg`.
+/// An angle in a separate line: `Angle of incidence: 30 deg`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Fixed {
     pub angle: Angle,
@@ -33,7 +33,7 @@ pub(super) struct Fixed {
 const LONGEST: usize = 400;
 
 impl Facts {
-    /// Takes in a line.
+    /// Processes a line.
     pub fn add(&mut self, dialect: Dialect, line: &Line<'_>) {
         let text = line.comment().unwrap_or(line.text).trim();
         if text.chars().all(|c| !c.is_alphanumeric()) {
@@ -63,7 +63,7 @@ impl Facts {
     }
 }
 
-/// A text of the file for people: not too long, and without control characters.
+/// Text from the file for people: not too long, and without control characters.
 fn shown(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars().take(LONGEST) {

@@ -1,4 +1,4 @@
-//! Whether samples are a grid, and which representation they become.
+//! Recognition of grids among samples, and the choice of the representation.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -10,22 +10,22 @@ use super::Rows;
 use crate::records::Records;
 use crate::{FormatError, Place};
 
-/// What samples are of.
+/// The properties of the samples.
 pub(super) struct Of {
     pub scatter: Scatter,
     pub channels: Channels,
     pub is_specular: bool,
 }
 
-/// A grid if all nodes of one are present, else scattered samples, of which those in specular coordinates that are below
-/// the horizon are left out.
+/// A grid if all of its nodes are present, otherwise scattered samples, without those in specular coordinates that are
+/// below the horizon.
 pub(super) fn data(records: Records, of: Of, rows: Option<Rows>, file: &Path) -> Result<Data, FormatError> {
     let Of { scatter, channels, is_specular } = of;
     let is_stated = matches!(rows, Some(Rows::Grid | Rows::MirroredGrid));
     let found = if rows == Some(Rows::Samples) { None } else { grid(&records, channels.count(), is_stated) };
     if is_stated && found.is_none() {
         let found = "rows that are not each node of a grid once";
-        return Err(FormatError::new(file, Place::File, found, "what the comment about rows says"));
+        return Err(FormatError::new(file, Place::File, found, "rows of the kind that the comment states"));
     }
     if let Some((knots, values)) = found {
         let refused = |e: lobe_table::GridError| FormatError::new(file, Place::File, e.to_string(), "a grid");
@@ -45,7 +45,7 @@ pub(super) fn data(records: Records, of: Of, rows: Option<Rows>, file: &Path) ->
 
 /// Knots and values, if the samples are each node of a grid once. A line of directions is not a grid, unless it is stated.
 fn grid(records: &Records, channels: usize, is_stated: bool) -> Option<([Vec<f64>; 4], Vec<f32>)> {
-    // Angles that were written with six digits of radians are the same knot.
+    // Angles that agree to six digits of radians are the same knot.
     let key = |angle: f64| (angle * 1e6).round() as i64;
     let mut knots: [BTreeMap<i64, f64>; 4] = Default::default();
     for angles in &records.angles {
@@ -55,7 +55,7 @@ fn grid(records: &Records, channels: usize, is_stated: bool) -> Option<([Vec<f64
     }
     let nodes = knots.iter().try_fold(1_usize, |nodes, knots| nodes.checked_mul(knots.len()))?;
     let (first, last) = (knots[3].values().next()?, knots[3].values().next_back()?);
-    // Half a turn is for the scattered samples too, which know that the other half is its mirror image.
+    // Half a turn is also left to scattered samples, for which the other half is the mirror image.
     let is_whole_turn = last - first > PI + 1e-6;
     let shows = knots[2].len() > 1 && is_whole_turn;
     if nodes != records.angles.len() || !(shows || is_stated) {

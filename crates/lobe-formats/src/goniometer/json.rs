@@ -1,4 +1,4 @@
-//! Tables as JSON: an object with a list of numbers for each column.
+//! Tables as JSON: an object with a list of numbers per column.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -30,7 +30,7 @@ pub(super) fn matches(head: &str) -> bool {
     has(&[Angle::ThetaI, Angle::ThetaO]) || has(&[Angle::Sigma, Angle::Theta, Angle::Phi])
 }
 
-/// Reads the columns; `null` is a value that was not measured.
+/// Reads the columns; `null` means "not measured".
 pub(super) fn read(bytes: &[u8], file: &Path, options: &ReadOptions) -> Result<Raw, FormatError> {
     let columns: BTreeMap<String, Vec<Option<f64>>> = serde_json::from_slice(bytes).map_err(|error| {
         let expected = "an object with a list of numbers for each column";
@@ -41,7 +41,7 @@ pub(super) fn read(bytes: &[u8], file: &Path, options: &ReadOptions) -> Result<R
         let found = format!("{} numbers in column {name}", column.len());
         return Err(FormatError::new(file, Place::File, found, format!("{rows}, as in the others")));
     }
-    // An object has no order; colours do.
+    // The order of names in an object is arbitrary; colours have an order.
     let mut columns: Vec<(String, Vec<Option<f64>>)> = columns.into_iter().collect();
     let rank = |name: &str| ["r", "g", "b"].iter().position(|colour| name.eq_ignore_ascii_case(colour)).unwrap_or(0);
     let wavelength = |name: &str| name.trim_end_matches("nm").parse::<f64>().unwrap_or(0.0);

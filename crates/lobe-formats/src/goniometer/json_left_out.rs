@@ -1,4 +1,4 @@
-//! What takes the place of the reader of JSON in a program that is built without it.
+//! The replacement for the JSON reader in programs built without it.
 
 use std::path::Path;
 

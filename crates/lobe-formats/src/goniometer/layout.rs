@@ -1,4 +1,4 @@
-//! Which column of a table holds what.
+//! The meaning of each column of a table.
 
 use lobe_table::Channels;
 
@@ -13,32 +13,32 @@ use crate::columns::channels;
 use crate::lines::shown;
 use crate::reading::{Content, Holds, Position, Quantity, ReadOptions};
 
-/// Where values are found.
+/// The location of values.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Values {
-    /// In a column per channel.
+    /// In one column per channel.
     Channels(Vec<usize>, Channels),
-    /// In a column per value of an angle, with its unit.
+    /// In one column per value of an angle, with its unit.
     Wide(Vec<(usize, f64)>, Option<Unit>),
-    /// In one column, for the wavelength of the row: its column, and what makes nm of it.
+    /// In one column, for the wavelength of the row: the column of the wavelength, and its factor to nm.
     ByWavelength { values: usize, wavelength: usize, nm: f64 },
 }
 
-/// Which column holds what.
+/// The meaning of the columns.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {
     pub is_specular: bool,
     /// `theta_i`, `phi_i`, `theta_o`, `phi_o`, or `sigma`, `psi`, `theta`, `phi`.
     pub angles: [Source; 4],
-    /// Whether an angle may change between the rows, as it is in a line of its own.
+    /// Whether an angle may change between the rows, because it is in a separate line.
     pub is_from_facts: [bool; 4],
     pub values: Values,
-    /// What the names say about the values.
+    /// The quantity that the names state.
     pub quantity: Option<Quantity>,
-    /// Values are in hundredths.
+    /// Values are in per cent.
     pub is_percent: bool,
     pub holds: Option<Holds>,
-    /// Columns that are not read although they may matter: rows of the same directions must not differ in them.
+    /// Columns that are not read although they may matter: rows with the same directions must not differ in them.
     pub watched: Vec<usize>,
     pub notes: Vec<String>,
 }
@@ -51,7 +51,7 @@ const SHORTEST: f64 = 100.0;
 const CHANNELS: &str = "R, G, B or X, Y, Z or wavelengths such as 550nm or one column such as BRDF";
 
 impl Layout {
-    /// The layout of a table whose columns have these meanings. `is_text` says which of them hold words.
+    /// The layout of a table whose columns have these meanings. `is_text` says which columns hold words.
     pub fn new(
         names: &[String],
         mut meanings: Vec<Meaning>,
@@ -185,7 +185,7 @@ impl Layout {
                 (_, 1..) => {
                     let found = format!("values called {}", list_of(names, &signals));
                     let expected =
-                        "f in 1/sr, as BRDF, or what they are: values = f, luminance-factor or f-cos, and scale";
+                        "f in 1/sr, as BRDF, or their quantity: values = f, luminance-factor or f-cos, and scale";
                     return Err(Trouble::new(found, expected));
                 }
                 (0, 0) => {
@@ -206,13 +206,13 @@ impl Layout {
                     percents.push(unit == "%");
                     if super::quantities::is_signal_unit(unit) && options.scale.is_none() {
                         let found = format!("values in {unit}, in column {}", shown(name));
-                        return Err(Trouble::new(found, "f in 1/sr, or the scale that makes it of them"));
+                        return Err(Trouble::new(found, "f in 1/sr, or the scale that converts to it"));
                     }
                     if *is_transmission {
                         self.holds = Some(Holds::Transmission);
                     }
                 }
-                // In nm it would be an X-ray, and in micrometres it is not said.
+                // In nm it would be an X-ray, and micrometres are not stated.
                 Meaning::Number(number, ..) if *number < SHORTEST => {
                     let found = format!("the name {}, which may be a wavelength or something else", shown(name));
                     return Err(Trouble::new(

@@ -1,44 +1,44 @@
-//! What a column holds, and the words of its name.
+//! The meaning of a column, and the words of its name.
 
 use crate::angle::{Angle, Unit};
 use crate::reading::Quantity;
 
-/// What a column holds, as far as its name says.
+/// The meaning of a column, from its name.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Meaning {
     Angle(Angle, Option<Unit>),
-    /// A polar angle of either direction: `theta_s` is the sun's or the scattered light's.
+    /// A polar angle of either direction: `theta_s` may belong to the sun or to the scattered light.
     EitherTheta(Option<Unit>),
     /// An azimuth of either direction.
     EitherPhi(Option<Unit>),
-    /// An angle of which the name says no more.
+    /// An angle whose name says nothing else.
     AnyAngle(Option<Unit>),
-    /// The wavelength of a row: what makes nm of it.
+    /// The wavelength of a row, with its factor to nm.
     Wavelength(f64),
-    /// `f` or something like it, for the channel of this name, which is empty for the only one.
+    /// `f` or a similar quantity, for the channel with this name, which is empty for a single channel.
     Values {
         channel: String,
         quantity: Option<Quantity>,
         unit: String,
         is_transmission: bool,
     },
-    /// A number, which may be a wavelength or an angle; of which angle, if the name says so, as in `theta_i=30`.
+    /// A number, which may be a wavelength or an angle, and the angle if the name states it, as in `theta_i=30`.
     Number(f64, Option<Unit>, Option<Angle>),
-    /// What may be measured but is not `f`: intensities, currents, counts.
+    /// A measured quantity that is not `f`: intensities, currents, counts.
     Signal,
-    /// Nothing that counts: uncertainties, comments, numbers of rows.
+    /// A column that does not matter: uncertainties, comments, row numbers.
     NoValue,
     Unknown,
 }
 
-/// A name in its words, with its unit.
+/// A name, split into words, and its unit.
 pub(super) struct Name {
     pub words: Vec<String>,
     /// All letters, digits and points in one word.
     pub compact: String,
     /// The name in lower case without its unit.
     pub text: String,
-    /// What stands in brackets at the end, in lower case, if it is no word of a name.
+    /// The text in brackets at the end, in lower case, if it is not part of the name.
     pub unit: String,
     pub angle_unit: Option<Unit>,
 }

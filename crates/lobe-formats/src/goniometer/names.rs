@@ -1,4 +1,4 @@
-//! What the names of columns say: which angle, in which unit, or which values.
+//! The meaning of the names of columns: an angle and its unit, or values.
 
 use super::angles::side;
 use super::meaning::{Meaning, Name};
@@ -6,7 +6,7 @@ use super::quantities::{COLOURS, LENGTHS, SIGNALS, is_signal_unit, nanometres};
 use super::words::{FILLERS, OF_NO_VALUE, WHOLE};
 use crate::angle::Unit;
 
-/// What the name of a column says.
+/// The meaning of the name of a column.
 pub(crate) fn meaning(name: &str) -> Meaning {
     let name = Name::new(name);
     if let Some((_, meaning)) = WHOLE.iter().find(|(word, _)| *word == name.compact) {
@@ -101,7 +101,7 @@ impl Name {
     }
 }
 
-/// Whether what stands in brackets belongs to the name: `theta (in)`, `f(450 nm)`, `BRDF (R)`.
+/// Whether the text in brackets belongs to the name: `theta (in)`, `f(450 nm)`, `BRDF (R)`.
 fn is_part_of_a_name(inner: &str) -> bool {
     let word = inner.trim();
     side(word).is_some()

@@ -1,4 +1,4 @@
-//! Where the viewer is about the normal: tables of the plane of incidence, and what azimuths are counted from.
+//! The azimuth of the viewer: tables in the plane of incidence, and the origin of azimuths.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -10,7 +10,7 @@ use super::source::Source;
 use crate::reading::{AzimuthFrom, InPlane, ReadOptions};
 use crate::{FormatError, Place};
 
-/// Gives each row the azimuth of its viewer, if a column does not.
+/// Gives each row the azimuth of its viewer, if no column does.
 pub(super) fn place(
     samples: &mut Samples,
     layout: &Layout,
@@ -27,7 +27,7 @@ pub(super) fn place(
         match options.azimuth_from {
             Some(_) if !is_missing(1) => return refused("azimuths of the light, and azimuth-from", "one of them"),
             Some(AzimuthFrom::Mirror) => {
-                notes.push("azimuths counted from the side of the mirror direction, as was said".into());
+                notes.push("azimuths counted from the side of the mirror direction, as the options say".into());
                 samples.angles.iter_mut().for_each(|angles| angles[3] += PI);
             }
             _ if is_missing(1) => {
@@ -43,13 +43,13 @@ pub(super) fn place(
     let has = |sign: fn(f64) -> bool| samples.angles.iter().any(|angles| sign(angles[0]));
     let (negative, positive) = (has(|theta| theta < 0.0), has(|theta| theta > 0.0));
     let (how, why) = match (options.in_plane, negative, positive) {
-        (Some(how), ..) => (how, "as was said"),
+        (Some(how), ..) => (how, "as the options say"),
         (None, true, true) => {
             let expected = "--in-plane same-sign if the mirror direction of theta_i is theta_o = theta_i, or --in-plane opposite-sign if it is -theta_i";
             return refused("theta_i of both signs, and no azimuths", expected);
         }
-        (None, true, false) => (InPlane::OppositeSign, "as there is no azimuth"),
-        (None, false, _) => (InPlane::SameSign, "as there is no azimuth"),
+        (None, true, false) => (InPlane::OppositeSign, "because there is no azimuth"),
+        (None, false, _) => (InPlane::SameSign, "because there is no azimuth"),
     };
     let mirror = match how {
         InPlane::SameSign => "theta_o = theta_i",
@@ -62,12 +62,13 @@ pub(super) fn place(
     Ok(())
 }
 
-/// How far from the plane of incidence and from the polar angle of the light samples are compared, in radians.
+/// The distance from the plane of incidence and from the polar angle of the light up to which samples are compared, in
+/// radians.
 const NEAR: [f64; 2] = [0.36, 0.14];
-/// How much brighter the side of the light has to be.
+/// The ratio by which the side of the light has to be brighter.
 const BRIGHTER: f32 = 1.25;
 
-/// Says if a table looks as if the mirror direction were on the other side.
+/// Adds a doubt if a table looks as if the mirror direction were on the other side.
 pub(super) fn doubt(samples: &Samples, layout: &Layout, options: &ReadOptions) -> Option<String> {
     let is_open = match layout.angles[3] {
         Source::Missing => options.in_plane.is_none(),
@@ -76,7 +77,7 @@ pub(super) fn doubt(samples: &Samples, layout: &Layout, options: &ReadOptions) -
     if !is_open {
         return None;
     }
-    // By incidence: the brightest near the mirror direction, and near the light.
+    // For each incidence: the brightest values near the mirror direction and near the light.
     let mut brightest: BTreeMap<i64, [f32; 2]> = BTreeMap::new();
     let count = samples.channels.count();
     for (angles, texel) in samples.angles.iter().zip(samples.values.chunks_exact(count)) {
@@ -97,7 +98,7 @@ pub(super) fn doubt(samples: &Samples, layout: &Layout, options: &ReadOptions) -
     let how = if layout.angles[3] == Source::Missing { "in-plane opposite-sign" } else { "azimuth-from mirror" };
     let doubt = || {
         format!(
-            "at {doubtful} of {} incidences it is brighter toward the light than in the mirror direction; if that is wrong, say {how}",
+            "at {doubtful} of {} incidences it is brighter toward the light than in the mirror direction; if that is wrong, use {how}",
             both.len()
         )
     };

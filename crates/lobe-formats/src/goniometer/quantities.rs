@@ -3,7 +3,7 @@
 use super::meaning::{Meaning, Name};
 use crate::reading::Quantity;
 
-/// Names of what is measured on the way to `f`.
+/// Names of quantities that are measured on the way to `f`.
 pub(super) const SIGNALS: &[&str] = &[
     "intensity",
     "radiance",
@@ -31,7 +31,7 @@ pub(super) const SIGNALS: &[&str] = &[
 
 /// Units that values of `f` cannot have.
 pub(super) fn is_signal_unit(unit: &str) -> bool {
-    // The words of names are apart, `uA` as well.
+    // Names are already split into words, including `uA`.
     let unit = unit.replace(['µ', 'μ'], "u").replace(' ', "");
     [
         "ua", "na", "ma", "a", "v", "mv", "uv", "w", "mw", "uw", "cd", "cd/m2", "cd/m^2", "lx", "lm", "counts", "cts",
@@ -94,7 +94,7 @@ impl Name {
             _ => format!("{}nm", nanometres(&rest.concat(), &self.unit)?),
         };
         let is_values = is_named || !channel.is_empty();
-        // A wavelength in brackets is a unit that was used up.
+        // A wavelength in brackets was parsed as a unit.
         let unit = if channel.ends_with("nm") && LENGTHS.contains(&self.unit.as_str()) { "" } else { &self.unit };
         let unit = unit.to_string();
         is_values.then_some(Meaning::Values { channel, quantity, unit, is_transmission })

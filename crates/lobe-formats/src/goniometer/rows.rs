@@ -1,4 +1,4 @@
-//! The rows of a table as they stand in the file.
+//! The rows of a table as written in the file.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -13,11 +13,11 @@ use crate::angle::{Angle, Unit};
 use crate::lines::shown;
 use crate::{FormatError, Place};
 
-/// Angles and values as they stand in the file.
+/// Angles and values as written in the file.
 pub(super) struct Raw {
     pub layout: Layout,
     pub facts: Facts,
-    /// As stated, in the unit of the file: see [`Layout::angles`].
+    /// As written, in the unit of the file: see [`Layout::angles`].
     pub rows: Vec<[f64; 4]>,
     /// The line of each row.
     pub lines: Vec<u32>,
@@ -25,13 +25,13 @@ pub(super) struct Raw {
     pub values: Vec<f32>,
     /// The wavelength of each row in nm, if each has its own.
     pub wavelengths: Vec<f64>,
-    /// What was understood, for people.
+    /// How the table was understood, for people.
     pub notes: Vec<String>,
-    /// Where the names stand; 0 if there are none.
+    /// The line of the names; 0 if there are none.
     pub names_line: usize,
 }
 
-/// By the bits of angles and wavelength: the first line with them, and its words in the columns that are watched.
+/// By the bits of angles and wavelength: the first line with them, and its words in the watched columns.
 type Seen = BTreeMap<([u64; 4], u64), (usize, Vec<String>)>;
 
 impl Raw {
@@ -48,7 +48,7 @@ impl Raw {
         let names_text = lines.iter().find(|line| line.number == start.names_line).map(|line| line.text.trim());
         let used = self.layout.used();
         let last = used.iter().copied().max().unwrap_or(0);
-        // A line that is no row, until it is known what follows.
+        // A line that is not a row, until it is known what follows.
         let mut pending: Option<&Line<'_>> = None;
         let mut after = 0;
         let mut seen: BTreeMap<([u64; 4], u64), (usize, Vec<String>)> = BTreeMap::new();
@@ -99,7 +99,7 @@ impl Raw {
         Ok(())
     }
 
-    /// Takes an angle that holds from this line on, if it says one.
+    /// Takes an angle that applies from this line on, if the line states one.
     fn turn(&mut self, dialect: Dialect, line: &Line<'_>) -> bool {
         if !self.layout.is_from_facts.contains(&true) {
             return false;
@@ -139,7 +139,7 @@ impl Raw {
                 Source::Wide | Source::Missing => 0.0,
                 Source::Column(column, _) => match number(column, &axes[axis].to_string())? {
                     Some(value) => value,
-                    // An empty angle is no direction at all.
+                    // Without an angle there is no direction.
                     None => {
                         let found = format!("no {} in column {}", axes[axis], column + 1);
                         return Err(FormatError::new(file, Place::Line(line.number), found, "an angle in each row"));
@@ -180,7 +180,7 @@ impl Raw {
         Ok(())
     }
 
-    /// Refuses rows of the same directions that differ in a column that is not read.
+    /// Refuses rows with the same directions that differ in a column that is not read.
     fn watch(
         &self,
         cells: &[Cow<'_, str>],

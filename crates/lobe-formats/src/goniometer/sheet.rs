@@ -1,21 +1,21 @@
-//! A text as rows of cells: what is between the cells, and what is before the decimals.
+//! A text as rows of cells: the delimiter and the decimal separator.
 
 use std::borrow::Cow;
 
-/// How the cells of a line are separated, and how their numbers are written.
+/// The separator of cells, and the form of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Dialect {
-    /// What is between cells; `None` for any white space.
+    /// The delimiter between cells; `None` for any white space.
     pub delimiter: Option<char>,
-    /// Whether a comma is before the decimals of numbers.
+    /// Whether numbers have decimal commas.
     pub has_decimal_comma: bool,
 }
 
-/// A cell of numbers.
+/// A cell of a row of numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Cell {
     Number(f64),
-    /// Empty, or a word for a value that was not measured.
+    /// Empty, or a word that means "not measured".
     Missing,
     Text,
 }
@@ -28,7 +28,7 @@ pub(super) struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    /// What a comment says, if the line is one.
+    /// The text of a comment, if the line is one.
     pub fn comment(&self) -> Option<&'a str> {
         let text = self.text.trim_start();
         let marker = ["#", "%", "//", "!"].into_iter().find(|marker| text.starts_with(marker))?;
@@ -44,7 +44,7 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
     lines.filter(move |line| !is_blank(line.text.trim_end_matches('\u{1a}')))
 }
 
-/// What people and programs write where nothing was measured.
+/// Words that people and programs write where nothing was measured.
 const MISSING: &[&str] = &[
     "",
     "nan",
@@ -77,7 +77,8 @@ const MISSING: &[&str] = &[
 ];
 
 impl Dialect {
-    /// What fits most cells of numbers in the first lines. Tabs and semicolons come before commas, commas before blanks.
+    /// The dialect that gives the most cells of numbers in the first lines. Tabs and semicolons come before commas,
+    /// commas before blanks.
     pub fn of(lines: &[Line<'_>], has_decimal_comma: Option<bool>) -> Option<Self> {
         let mut bytes = 0;
         let enough = |line: &&Line<'_>| {
@@ -101,7 +102,7 @@ impl Dialect {
         best.1
     }
 
-    /// How many numbers a line has, if it is mostly numbers.
+    /// The number of numbers in a line, if it is mostly numbers.
     fn numbers(self, line: &Line<'_>) -> usize {
         if line.comment().is_some() {
             return 0;
@@ -135,7 +136,7 @@ impl Dialect {
         cells
     }
 
-    /// What is in a cell.
+    /// The content of a cell.
     pub fn cell(self, text: &str) -> Cell {
         let text = text.trim_matches(|c: char| c == '\u{1a}' || c.is_whitespace());
         if MISSING.iter().any(|word| word.eq_ignore_ascii_case(text)) {
@@ -161,7 +162,7 @@ impl Dialect {
         number.ok().filter(|number: &f64| number.is_finite())
     }
 
-    /// For people.
+    /// A description for people.
     pub fn describe(self) -> String {
         let between = match self.delimiter {
             Some('\t') => "tabs",
@@ -175,11 +176,11 @@ impl Dialect {
     }
 }
 
-/// Lines that are looked at to find the dialect.
+/// The number of lines that are examined to find the dialect.
 const SAMPLE: usize = 400;
 const SAMPLE_BYTES: usize = 1 << 20;
 
-/// Cells of which some are in quotes, in which a delimiter is text and two quotes are one.
+/// Cells, some of which are in quotes; within quotes, a delimiter is text and two quotes mean one.
 fn quoted(text: &str, delimiter: char) -> Vec<Cow<'_, str>> {
     let mut cells = Vec::new();
     let mut cell = String::new();
@@ -200,8 +201,8 @@ fn quoted(text: &str, delimiter: char) -> Vec<Cow<'_, str>> {
     cells
 }
 
-/// The cells of a line of names. Between blanks, a name may have several words if there are two blanks or more between
-/// names, and a unit in brackets belongs to the name before it.
+/// The cells of a line of names. With blanks as delimiters, a name may have several words if names are separated by two
+/// or more blanks, and a unit in brackets belongs to the name before it.
 pub(super) fn names(dialect: Dialect, text: &str, width: usize) -> Vec<String> {
     let single: Vec<String> = dialect.cells_to_the_last(text).into_iter().map(Cow::into_owned).collect();
     if dialect.delimiter.is_some() || single.len() == width {

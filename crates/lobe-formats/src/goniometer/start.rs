@@ -1,4 +1,4 @@
-//! Finds where a table begins: the line of names, and the first row.
+//! Finds the beginning of a table: the line of names, and the first row.
 
 use super::chosen::of_name;
 use super::facts::fixed;
@@ -8,9 +8,9 @@ use super::trouble::Trouble;
 use crate::lines::shown;
 use crate::reading::{Position, ReadOptions};
 
-/// Lines that are looked at to find the names.
+/// The number of lines that are examined to find the names.
 pub(super) const HEAD: usize = 2000;
-/// Lines between the names and the first row: units, rulers, comments.
+/// The most lines between the names and the first row: units, rulers, comments.
 const GAP: usize = 4;
 
 /// A line of names with the first row after it.
@@ -33,7 +33,7 @@ fn is_row(dialect: Dialect, line: &Line<'_>) -> bool {
 /// The line of names, and the first row.
 pub(super) fn start(lines: &[Line<'_>], dialect: Dialect, options: &ReadOptions) -> Result<Start, (usize, Trouble)> {
     let head = &lines[..lines.len().min(HEAD)];
-    // As many names as cells come first, and names that are no comment.
+    // Prefers as many names as cells, and names that are not in a comment.
     for (has_same_width, is_comment) in [(true, false), (true, true), (false, false), (false, true)] {
         for (index, line) in head.iter().enumerate().filter(|(_, line)| line.comment().is_some() == is_comment) {
             if let Some(start) = named_start(&head[index..], dialect, has_same_width) {
@@ -51,7 +51,7 @@ pub(super) fn start(lines: &[Line<'_>], dialect: Dialect, options: &ReadOptions)
     let above = above.filter(|(_, names)| names.len() == width);
     if options.columns.iter().all(|column| matches!(column.at, Position::Fixed(..))) {
         let (number, found) = match &above {
-            Some((number, names)) => (*number, format!("names that are no angles, {}", numbered(names))),
+            Some((number, names)) => (*number, format!("names that are not angles, {}", numbered(names))),
             None => (lines[first].number, format!("a row without names above it, {}", shown(lines[first].text.trim()))),
         };
         return Err((number, Trouble::new(found, "names such as theta_i, theta_o, phi_o and f")));
@@ -60,13 +60,13 @@ pub(super) fn start(lines: &[Line<'_>], dialect: Dialect, options: &ReadOptions)
     Ok(Start { names, names_line, first, width })
 }
 
-/// The table that the first of some lines is the head of, if its names are those of angles and rows follow.
+/// The table that starts with the first of these lines, if its names include angles and rows follow.
 fn named_start(lines: &[Line<'_>], dialect: Dialect, has_same_width: bool) -> Option<Start> {
     let line = lines.first()?;
     if fixed(dialect, line).is_some() {
         return None;
     }
-    // Between are units, rulers and comments.
+    // Units, rulers and comments may be in between.
     let first = 1 + lines[1..].iter().take(GAP).position(|line| is_row(dialect, line))?;
     let width = dialect.cells_to_the_last(lines[first].text).len();
     let names = names(dialect, line.comment().unwrap_or(line.text), width);

@@ -1,4 +1,4 @@
-//! Reads the table in a text, and what stands around it.
+//! Reads the table in a text, and the lines around it.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -15,7 +15,8 @@ use crate::angle::Unit;
 use crate::reading::ReadOptions;
 use crate::{FormatError, Place};
 
-/// `true` if the text has a line of names that say where the light and the viewer are, with rows of numbers below it.
+/// `true` if the text has a line of names that determine the directions of light and viewer, with rows of numbers below
+/// it.
 pub(super) fn is_named_table(text: &str) -> bool {
     let lines: Vec<Line<'_>> = lines(text).take(HEAD).collect();
     let options = ReadOptions::default();
@@ -40,7 +41,7 @@ pub(super) fn has_rows(text: &str) -> bool {
             && cells.len() >= width
             && cells.iter().all(|cell| !matches!(dialect.cell(cell), Cell::Text))
     };
-    // Prose has numbers in it as well: half of the lines are rows, or half of those below the names.
+    // Prose also contains numbers, so half of the lines must be rows, or half of those below the names.
     let are_rows = |lines: &[Line<'_>], least: usize, width: usize| {
         let rows = lines.iter().filter(|line| is_row(line, width)).count();
         rows >= least && 2 * rows > lines.len()
@@ -71,7 +72,7 @@ pub(super) fn read(text: &str, file: &Path, options: &ReadOptions) -> Result<Raw
     }
     let of_line = if start.names_line == 0 { lines[start.first].number } else { start.names_line };
     let meanings = meanings(&start.names, start.width, options).map_err(|trouble| at(of_line, trouble))?;
-    // Of a column whose first cells are words, nothing is measured.
+    // A column whose first cells are words has no measured values.
     let sample: Vec<Vec<Cow<'_, str>>> =
         lines[start.first..].iter().take(20).map(|line| dialect.cells(line.text)).collect();
     let is_word = |column: usize| {
@@ -98,7 +99,7 @@ pub(super) fn read(text: &str, file: &Path, options: &ReadOptions) -> Result<Raw
     Ok(raw)
 }
 
-/// Adds how to say what was not understood.
+/// Adds advice on the options for whatever was not understood.
 fn hint(error: FormatError, options: &ReadOptions) -> FormatError {
     let how = "say which column is which with --columns theta_i=1,theta_o=2,phi_o=3,f=4";
     let sidecar = crate::sidecar::path_of(&error.file);

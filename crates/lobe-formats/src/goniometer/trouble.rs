@@ -1,4 +1,4 @@
-//! Why columns are no table.
+//! The error for columns that do not form a table.
 
 /// What a table lacks: what was found, and what was expected.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,7 +10,7 @@ use crate::angle::Unit;
 use crate::reading::ReadOptions;
 use crate::{FormatError, Place};
 
-/// Angles that are rounded may be this much above a right angle or a whole turn, in radians.
+/// Rounded angles may be this much above a right angle or a full turn, in radians.
 const ROUNDING: f64 = 2e-3;
 
 /// The unit of each angle: what its name states, or the user, or a line above the rows, or the numbers themselves.
@@ -34,14 +34,14 @@ pub(super) fn of(
         && let Some(axis) = (0..4).find(|&axis| is_column(axis) && stated[axis].is_some_and(|unit| unit != given))
     {
         let found = format!("{} whose name says {}", axes[axis], stated[axis].unwrap_or(given));
-        return Err(FormatError::new(file, Place::Line(raw.names_line.max(1)), found, format!("{given}, as was said")));
+        return Err(FormatError::new(file, Place::Line(raw.names_line.max(1)), found, format!("{given}, as the options say")));
     }
     let is_there = |axis: usize| raw.layout.angles[axis] != Source::Missing;
     let open: Vec<usize> = (0..4).filter(|&axis| is_there(axis) && stated[axis].is_none()).collect();
     if open.is_empty() {
         return Ok(stated.map(|unit| unit.unwrap_or(Unit::Deg)));
     }
-    // If some names state a unit and others do not, it is the same. An angle that is the same in all rows has its own.
+    // If only some names state a unit, it applies to all. An angle that is the same in all rows has its own unit.
     let is_fixed = |axis: &usize| matches!(raw.layout.angles[*axis], Source::Fixed(..));
     let some = (0..4).filter(|axis| !is_fixed(axis)).find_map(|axis| stated[axis]);
     let unit = match options.unit.or(raw.facts.unit).or(some) {
@@ -63,7 +63,7 @@ pub(super) fn of(
     Ok(stated.map(|stated| stated.unwrap_or(unit)))
 }
 
-/// The unit that the numbers can only have, and why.
+/// The only possible unit of the numbers, and the reason.
 fn guess(raw: &Raw, open: &[usize]) -> Option<(Unit, String)> {
     let largest = |axis: usize| raw.rows.iter().map(|angles| angles[axis].abs()).fold(0.0, f64::max);
     for &axis in open {

@@ -1,4 +1,4 @@
-//! The vocabulary of people's tables.
+//! The vocabulary of users' tables.
 
 use crate::angle::Angle;
 
@@ -93,10 +93,10 @@ pub(super) const OUTGOING: &[&str] = &[
 
 pub(super) const RELATIVE: &[&str] = &["relative", "rel", "delta", "diff", "difference", "relativer"];
 
-/// Words without a meaning of their own.
+/// Words without a meaning.
 pub(super) const FILLERS: &[&str] = &["of", "the", "to", "der", "des", "from", "at"];
 
-/// Names that are abbreviations as a whole.
+/// Names that are abbreviations.
 pub(super) const WHOLE: &[(&str, Angle)] = &[
     ("sigma", Angle::Sigma),
     ("psi", Angle::Psi),
@@ -112,7 +112,7 @@ pub(super) const WHOLE: &[(&str, Angle)] = &[
     ("deltaphi", Angle::PhiO),
 ];
 
-/// Columns that may differ from row to row without being values of their own.
+/// Columns that may differ from row to row without mattering.
 pub(super) const OF_NO_VALUE: &[&str] = &[
     "std",
     "stdev",

@@ -10,17 +10,17 @@ use super::{ROWS, Rows, SPECULAR, SPHERICAL, TRANSMISSION};
 use crate::{FormatError, Place};
 use lobe_files::write_whole;
 
-/// Writes `path` whole or not at all: a line a node or sample, angles in degrees, then the channels; all values come back
-/// the same when the file is read again.
+/// Writes `path` whole or not at all: one line per node or sample, with angles in degrees and then the channels; all
+/// values are the same when the file is read again.
 ///
-/// A grid comes back as the same grid, its angles to a billionth of a degree, except that a table in specular coordinates
-/// that is constant in phi is written with phi 0 and 360. A comment says that rows are the nodes of a grid if they do not
-/// show it, or that they are samples. Samples come back to the bit, so that they are interpolated as before: in radians, if
-/// degrees would not restore one of them.
+/// A grid is restored as the same grid, its angles to a billionth of a degree, except that a table in specular
+/// coordinates that is constant in phi is written with phi 0 and 360. If the rows do not show it, a comment says that
+/// they are the nodes of a grid, or samples. Samples are restored to the bit, so that they are interpolated as before;
+/// they are written in radians if degrees would not restore one of them.
 ///
 /// # Errors
-/// [`FormatError`] if the file cannot be written, and for what the format cannot say: several bands that have names
-/// only, refraction offsets, and mirror reflectances.
+/// [`FormatError`] if the file cannot be written, or the format cannot express the data: several bands with only names,
+/// refraction offsets, and mirror reflectances.
 pub fn write(data: &Data, path: &Path) -> Result<(), FormatError> {
     let refuse = |found: &str, expected: &str| Err(FormatError::new(path, Place::File, found, expected));
     let (channels, scatter) = (data.representation().channels(), data.representation().scatter());
@@ -77,7 +77,7 @@ pub fn write(data: &Data, path: &Path) -> Result<(), FormatError> {
 }
 
 impl Rows {
-    /// What has to be said of the nodes of a grid; `None` if they show it.
+    /// The comment that the nodes of a grid need; `None` if they need none.
     fn of_grid(knots: &[Vec<f64>; 4], is_mirrored: bool) -> Option<Rows> {
         let (first, last) = (knots[3].first()?, knots[3].last()?);
         let shows = last - first > 180.0 + 1e-4 && knots[2].len() > 1;
@@ -95,14 +95,15 @@ fn rows(out: &mut String, rows: Option<Rows>) {
     }
 }
 
-/// Whether a reader makes a sample of these angles, whose last azimuth counts from the incident one.
+/// Whether a reader restores a sample from these angles, whose last azimuth counts from the incident one.
 fn is_restored([theta_i, phi_i, theta_o, relative]: [f64; 4], read: [f64; 4]) -> bool {
     let pairs =
         [(theta_i, read[0]), (phi_i, read[1]), (theta_o, read[2]), (relative, (read[3] - read[1]).rem_euclid(TAU))];
     pairs.into_iter().all(|(a, b)| a.to_bits() == b.to_bits())
 }
 
-/// The angles of a file in degrees, with the fewest digits that a reader makes the same radians of; `None` if there are none.
+/// The angles of a file in degrees, with the fewest digits that a reader converts to the same radians; `None` if there
+/// are none.
 fn exact_degrees(angles: [f64; 4]) -> Option<[f64; 4]> {
     let unit = 1_f64.to_radians();
     let degrees = |angle: f64| {
@@ -127,20 +128,20 @@ fn exact_radians(angles: [f64; 4]) -> [f64; 4] {
     [theta_i, phi_i, theta_o, phi_o]
 }
 
-/// How many neighbours of an azimuth are tried.
+/// The number of neighbours of an azimuth that are tried.
 const ULPS: usize = 40;
 
 /// Azimuths that may have been the outgoing one of a file, before it became a difference.
 fn outgoing(phi_i: f64, relative: f64) -> impl Iterator<Item = f64> {
     let phi_o = phi_i + relative;
     let turns = [phi_o, phi_o - TAU, phi_o - 2.0 * TAU];
-    // A turn that was taken off has left the rounding of a larger number.
+    // Subtracting a turn left the rounding of a larger number.
     let up = |x: f64| std::iter::successors(Some(x), |x| Some(x.next_up())).take(ULPS);
     let down = |x: f64| std::iter::successors(Some(x.next_down()), |x| Some(x.next_down())).take(ULPS);
     turns.into_iter().flat_map(move |x| up(x).chain(down(x))).chain([0.0])
 }
 
-/// 15 degrees are to be written as 15, though they are 14.999999999999998 after a way through radians.
+/// Writes 15 degrees as 15, although a conversion through radians gives 14.999999999999998.
 fn degrees(angles: &[f64]) -> Vec<f64> {
     angles.iter().map(|angle| (angle.to_degrees() * 1e9).round() / 1e9).collect()
 }

@@ -1,4 +1,4 @@
-//! What DDR, DDT, SDR and SDT files have in common: comments, the colour model, and blocks of values by channel name.
+//! Code shared by DDR, DDT, SDR and SDT files: comments, the colour model, and blocks of values by channel name.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -60,7 +60,7 @@ pub(crate) fn starts_block(token: Token<'_>) -> bool {
     ["wl", "bw"].iter().chain(RGB.iter().flatten()).any(|name| token.is(name))
 }
 
-/// Blocks as they are read, in any order: each channel exactly once.
+/// Collects blocks in any order: each channel exactly once.
 pub(crate) struct Blocks {
     model: ColorModel,
     wavelengths: Vec<f64>,
@@ -69,13 +69,13 @@ pub(crate) struct Blocks {
 }
 
 impl Blocks {
-    /// No block yet. The rest of the file has to have room for one value in each of them.
+    /// No block yet. The rest of the file must have room for at least one value in each block.
     pub fn new(model: ColorModel, text: &Text<'_>) -> Result<Self, FormatError> {
         text.room(Some(model.count()), "blocks", text.line())?;
         Ok(Blocks { model, wavelengths: Vec::new(), seen: HashSet::new(), values: vec![None; model.count()] })
     }
 
-    /// Reads the name of a block, with the wavelength of a spectral one; its channel.
+    /// Reads the name of a block, with the wavelength of a spectral one, and returns its channel.
     pub fn read_name(&mut self, text: &mut Text<'_>) -> Result<usize, FormatError> {
         let missing: Vec<&str> =
             (0..self.values.len().min(3)).filter(|&c| self.values[c].is_none()).map(|c| self.name(c)).collect();
@@ -93,7 +93,7 @@ impl Blocks {
                 return Err(text.error(text.line(), wavelength.to_string(), "a wavelength in nm, above 0"));
             }
             if !self.seen.insert(wavelength.to_bits()) {
-                return Err(text.error(text.line(), format!("a second block for {wavelength} nm"), "one a wavelength"));
+                return Err(text.error(text.line(), format!("a second block for {wavelength} nm"), "one per wavelength"));
             }
             self.wavelengths.push(wavelength);
         }
@@ -111,7 +111,7 @@ impl Blocks {
         }
     }
 
-    /// Keeps the values of a channel.
+    /// Stores the values of a channel.
     pub fn keep(&mut self, channel: usize, values: Vec<f32>) {
         self.values[channel] = Some(values);
     }
@@ -143,7 +143,7 @@ pub(crate) fn block_names(file: &Path, channels: &Channels) -> Result<(ColorMode
     }
 }
 
-/// Adds the comments passed so far to the facts of a header, but for mere rulers.
+/// Adds the comments read so far to the header facts, except for rulers.
 pub(crate) fn keep_comments(text: &mut Text<'_>, source: &mut Vec<(String, String)>) {
     let worded = |comment: &String| comment.chars().any(char::is_alphanumeric);
     source.extend(text.take_comments().into_iter().filter(worded).map(|comment| ("comment".to_string(), comment)));
@@ -155,7 +155,7 @@ pub(super) fn scatter_of_extension(path: &Path) -> Scatter {
     if is("ddt") || is("sdt") { Scatter::Transmission } else { Scatter::Reflection }
 }
 
-/// The extension is all that tells reflection from transmission in this family: refuse the misleading ones.
+/// In this family, only the extension distinguishes reflection and transmission, so misleading ones are refused.
 pub(super) fn check_extension(path: &Path, scatter: Scatter, names: [&str; 2]) -> Result<(), FormatError> {
     if scatter_of_extension(path) == scatter {
         return Ok(());
@@ -172,10 +172,10 @@ pub(super) fn check_extension(path: &Path, scatter: Scatter, names: [&str; 2]) -
     ))
 }
 
-/// What the channels of these files may be.
+/// The channels that these files may have.
 pub(super) fn holds_channels(channels: &Channels) -> bool {
     matches!(channels, Channels::Mono | Channels::Rgb | Channels::Spectral(_))
 }
 
-/// The channels for people.
+/// The channels, described for people.
 pub(super) const CHANNELS: &str = "one channel, R G B or wavelengths";

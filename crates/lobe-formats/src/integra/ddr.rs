@@ -1,8 +1,8 @@
 //! Integra (Lumicept) DDR, a BRDF, and DDT, a BTDF, in the dialect of the libbsdf library.
 //!
-//! Words and numbers between white space; the lines have no meaning. A header names the symmetry, the colour model, the
-//! quantity and the angles of the four axes; then each channel has a block of values, theta fastest, then phi, sigma,
-//! psi. The details and the policies are in `docs/formats.md`.
+//! Words and numbers are separated by white space; line breaks have no meaning. A header names the symmetry, the colour
+//! model, the quantity and the angles of the four axes; then each channel has a block of values, theta fastest, then
+//! phi, sigma, psi. The details and the policies are in `docs/formats.md`.
 
 use std::f64::consts::PI;
 use std::fmt::Write as _;
@@ -44,7 +44,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     }),
 };
 
-/// What the header says besides its angles.
+/// The contents of the header besides its angles.
 struct Header {
     grid: Grid,
     model: ColorModel,
@@ -54,10 +54,10 @@ struct Header {
     source: Vec<(String, String)>,
 }
 
-/// Reads a file from its content. Nothing in it says whether it is reflection (`.ddr`) or transmission (`.ddt`).
+/// Reads a file from its content. The content does not say whether it is reflection (`.ddr`) or transmission (`.ddt`).
 ///
 /// # Errors
-/// [`FormatError`] names the line, what is there and what should be.
+/// [`FormatError`] names the line, what was found and what was expected.
 pub fn read(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Measured<specular::Data>, FormatError> {
     let text = &mut Text::new(file, bytes, COMMENT);
     let header = read_header(text)?;
@@ -105,7 +105,7 @@ pub fn read(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Measured<spec
 fn read_header(text: &mut Text<'_>) -> Result<Header, FormatError> {
     let mut source = Vec::new();
     let mut axes = Axes::new(["sigma", "psi", "theta", "phi"]);
-    // What a file leaves out is as the programs of this family take it.
+    // Defaults are those of the programs of this family.
     let (mut mirrored, mut intensity, mut relative) = (true, false, false);
     let mut model = ColorModel::Rgb;
     let mut sigmat = None;
@@ -146,7 +146,7 @@ fn read_one_of<const N: usize>(text: &mut Text<'_>, words: [&'static str; N]) ->
     words.into_iter().find(|word| token.is(word)).ok_or_else(|| text.unexpected(token, expected))
 }
 
-/// Only the plane symmetry changes how the values are read; the others say what the lists of angles show anyway.
+/// Only the plane symmetry changes how the values are read; the others repeat what the lists of angles show.
 fn read_symmetry(text: &mut Text<'_>) -> Result<&'static str, FormatError> {
     let words = ["PlaneSymmetrical", "AxiSymmetrical", "DirSymmetrical", "ASymmetrical", "ASymmetrical4D"];
     let word = read_one_of(text, words)?;
@@ -157,7 +157,7 @@ fn read_symmetry(text: &mut Text<'_>) -> Result<&'static str, FormatError> {
     Ok(if word == "ASymmetrical4D" { "ASymmetrical 4D" } else { word })
 }
 
-/// The polar angles of the refracted light, one a sigma and without a count.
+/// The polar angles of the refracted light, one per sigma and without a count.
 fn read_sigmat(text: &mut Text<'_>, token: Token<'_>, sigmas: usize) -> Result<Vec<f32>, FormatError> {
     if sigmas == 0 {
         return Err(text.unexpected(token, "`sigma` and its angles before `sigmat`"));
@@ -187,30 +187,30 @@ fn read_block(text: &mut Text<'_>, grid: &Grid) -> Result<Vec<f64>, FormatError>
     Ok(block)
 }
 
-/// Writes `path` whole or not at all: `Luminance Absolute` over the whole circle of phi with every kbdf 1, and `sigmat`
-/// if the table has refraction offsets.
+/// Writes `path` whole or not at all: `Luminance Absolute` over the full circle of phi with every kbdf equal to 1, and
+/// `sigmat` if the table has refraction offsets.
 ///
-/// Values have nine significant digits and come back the same when they are read again. The format holds angles as `f32`
-/// degrees: knots that came from such a file come back the same, others within 2e-5 degrees.
+/// Values have nine significant digits and are restored exactly when they are read again. The format stores angles as
+/// `f32` degrees: knots that came from such a file are restored exactly, others within 2e-5 degrees.
 ///
 /// # Errors
-/// [`FormatError`] if the file cannot be written, the channels are XYZ, two knots are one in `f32` degrees, or the
-/// extension (`.ddr` for reflection, `.ddt` for transmission) would make readers take it for the other kind.
+/// [`FormatError`] if the file cannot be written, the channels are XYZ, two knots are equal in `f32` degrees, or the
+/// extension (`.ddr` for reflection, `.ddt` for transmission) would make readers assume the other scatter.
 pub fn write(samples: &specular::Data, path: &Path) -> Result<(), FormatError> {
     write_whole(path, text(samples, path)?.as_bytes())
 }
 
-/// What [`write()`] writes.
+/// The content that [`write()`] writes.
 ///
 /// # Errors
-/// As [`write()`], which `path` would name.
+/// As [`write()`] to `path`.
 pub fn text(samples: &specular::Data, path: &Path) -> Result<String, FormatError> {
     check_extension(path, samples.scatter(), ["ddr", "ddt"])?;
     let (model, names) = block_names(path, samples.channels())?;
     let degrees =
         samples.knots().each_ref().map(|knots| knots.iter().map(|a| a.to_degrees() as f32).collect::<Vec<_>>());
     if degrees.iter().any(|list| list.windows(2).any(|pair| pair[0] >= pair[1])) {
-        return Err(FormatError::new(path, Place::File, "knots that are one in f32 degrees", "distinct ones"));
+        return Err(FormatError::new(path, Place::File, "knots that are equal in f32 degrees", "distinct ones"));
     }
     let symmetry = if samples.is_isotropic() { "ASymmetrical" } else { "ASymmetrical 4D" };
     let mut out = format!("TypeSym {symmetry}\nTypeColorModel {}\nTypeData Luminance Absolute\n", model.keyword());

@@ -9,12 +9,12 @@ use crate::{FormatError, Place};
 
 /// The largest angle of sigma, psi, theta and phi in degrees.
 pub(crate) const LIMITS: [f32; 4] = [90.0, 360.0, 180.0, 360.0];
-/// How far over its limit an angle may be for having been rounded, in degrees.
+/// The distance beyond its limit that counts as the rounding of an angle, in degrees.
 const ROUNDING: f32 = 5e-4;
 
 /// Reads a count and as many strictly ascending angles from 0 to `limit` degrees.
 ///
-/// Angles are rounded to `f32` here, before anything is computed from them, as the programs do that write these files.
+/// Angles are rounded to `f32` here, before anything is computed from them, as in the programs that write these files.
 pub(crate) fn read_angles(text: &mut Text<'_>, name: &str, limit: f32) -> Result<Vec<f32>, FormatError> {
     let count = text.count(&format!("{name} angles"))?;
     let mut angles: Vec<f32> = Vec::with_capacity(count);
@@ -43,7 +43,7 @@ pub(crate) fn read_angle(text: &mut Text<'_>, name: &str, limit: f32) -> Result<
     }
 }
 
-/// Degrees, rounded to `f32` in the file, to radians.
+/// Converts degrees, rounded to `f32` in the file, to radians.
 pub(crate) fn radians(degrees: &[f32]) -> Vec<f64> {
     degrees.iter().map(|&angle| f64::from(angle).to_radians()).collect()
 }
@@ -56,7 +56,7 @@ pub(crate) struct Axes {
 }
 
 impl Axes {
-    /// No lists yet; they will start with these keywords.
+    /// No lists yet; their keywords will be these.
     pub fn new(keywords: [&'static str; 4]) -> Self {
         Axes { keywords, degrees: Default::default(), lines: [0; 4] }
     }
@@ -106,7 +106,8 @@ impl Axes {
                 let expected = format!("{} from 0 to 180 degrees in a plane-symmetrical file", self.keywords[3]);
                 return Err(text.error(self.lines[3], phi[listed - 1].to_string(), expected));
             }
-            // Every knot off the plane of symmetry has a twin; so has 0, so that the circle closes. One alone is constant.
+            // Every knot off the plane of symmetry has a twin, and so has 0, so that the circle closes. A single knot
+            // is constant.
             if listed > 1 {
                 phi_source.extend((0..listed).rev().filter(|&i| phi[i] < 180.0 - ROUNDING));
             }
@@ -117,19 +118,19 @@ impl Axes {
 
 /// Complete angle lists. A block of values in the file is `[psi][sigma][phi][theta]`, theta fastest, phi as listed.
 pub(crate) struct Grid {
-    /// Sigma, psi, theta and phi in degrees, as the file lists them.
+    /// Sigma, psi, theta and phi in degrees, as listed in the file.
     pub degrees: [Vec<f32>; 4],
-    /// The listed phi that each phi of the table comes from: more than are listed in plane-symmetrical files.
+    /// The listed phi that each phi of the table comes from; plane-symmetrical files list fewer than the table has.
     phi_source: Vec<usize>,
 }
 
 impl Grid {
-    /// How many values a block has.
+    /// The number of values of a block.
     pub fn block_len(&self) -> usize {
         self.degrees.iter().map(Vec::len).product()
     }
 
-    /// How many pairs of psi and sigma there are.
+    /// The number of pairs of psi and sigma.
     pub fn incidences(&self) -> usize {
         self.degrees[0].len() * self.degrees[1].len()
     }
@@ -166,7 +167,7 @@ impl Grid {
     }
 }
 
-/// A [`GridError`] about what a file holds.
+/// A [`GridError`] about the contents of a file.
 pub(crate) fn from_samples(file: &Path, error: &GridError) -> FormatError {
     let message = error.to_string();
     let (found, expected) = message.split_once("; expected ").unwrap_or((&message, "a table that fits together"));

@@ -1,4 +1,4 @@
-//! The files of Integra (Lumicept): DDR and DDT, SDR and SDT, and what Zemax tables have in common with them.
+//! The files of Integra (Lumicept): DDR and DDT, SDR and SDT, and code shared with Zemax tables.
 
 mod common;
 pub mod ddr;

@@ -1,7 +1,7 @@
-//! Integra SDR (mirror reflectance) and SDT (transmittance straight through).
+//! Integra SDR (mirror reflectance) and SDT (straight-through transmittance).
 //!
-//! The header has `TypeColorModel` and `sigma`; each block is a name, `def`, one ratio per sigma, `enddef`. Keywords are
-//! read in any case of letters and written in the one that stricter readers require.
+//! The header has `TypeColorModel` and `sigma`; each block is a name, `def`, one ratio per sigma, `enddef`. Keywords
+//! are read in upper or lower case, and written in the case that strict readers require.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -41,10 +41,10 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     }),
 };
 
-/// Reads a file from its content. Nothing in it says whether it is reflection or transmission.
+/// Reads a file from its content. The content does not say whether it is reflection or transmission.
 ///
 /// # Errors
-/// [`FormatError`] names the line, what is there and what should be.
+/// [`FormatError`] names the line, what was found and what was expected.
 pub fn read(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Measured<mirror::Data>, FormatError> {
     let text = &mut Text::new(file, bytes, COMMENT);
     let mut source = Vec::new();
@@ -82,12 +82,12 @@ pub fn read(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<Measured<mirr
     Ok(Measured { data, source, tis: Vec::new() })
 }
 
-/// Writes `path` whole or not at all; nine significant digits, which give the same values when they are read again.
+/// Writes `path` whole or not at all, with nine significant digits, which restore the same values when they are read
+/// again.
 ///
 /// # Errors
-/// [`FormatError`] if the file cannot be written, the channels are not one, RGB or
-/// wavelengths, there is more than one psi, or the extension (`.sdr` for reflection,
-/// `.sdt` for transmission) would make readers take it for the other kind.
+/// [`FormatError`] if the file cannot be written, the channels are not one, RGB or wavelengths, there is more than one
+/// psi, or the extension (`.sdr` for reflection, `.sdt` for transmission) would make readers assume the other scatter.
 pub fn write(specular: &mirror::Data, path: &Path) -> Result<(), FormatError> {
     check_extension(path, specular.scatter(), ["sdr", "sdt"])?;
     let (model, names) = block_names(path, specular.channels())?;

@@ -1,4 +1,4 @@
-//! From the quantities that DDR files hold to `f` in 1/sr.
+//! Conversion of the quantities in DDR files to `f` in 1/sr.
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -10,15 +10,15 @@ use lobe_table::{Edges, specular};
 use super::grid::{Grid, from_samples};
 use crate::{FormatError, Place};
 
-/// The smallest cosine an intensity is divided by: that of 89.9 degrees. Closer to the horizon a measurement is noise,
-/// and the division would make it 600 times as large.
+/// The smallest cosine by which an intensity is divided: that of 89.9 degrees. Closer to the horizon, a measurement is
+/// noise, which the division would amplify 600 times.
 const HORIZON: f64 = 1.745e-3;
 
 /// Divides intensities, `f cos(theta_out)`, by the cosine.
 ///
-/// `block` is `[psi][sigma][phi][theta]`, `zeniths` the polar angle of the frame at each sigma. At and below the horizon
-/// there is no quotient: such a node takes the `f` of the nearest node above it in its row of theta, which keeps the
-/// interpolation across the horizon sane, and 0 if the whole row is below.
+/// `block` is `[psi][sigma][phi][theta]`, and `zeniths` is the polar angle of the frame at each sigma. At and below the
+/// horizon, the quotient is undefined: such a node takes the `f` of the nearest node above the horizon in its row of
+/// theta, which keeps the interpolation across the horizon reasonable, and 0 if the whole row is below.
 pub(crate) fn divide_by_cosine(grid: &Grid, zeniths: &[f64], block: &mut [f64]) {
     let [sigmas, psis, thetas, phis] = grid.degrees.each_ref().map(Vec::len);
     let theta = super::grid::radians(&grid.degrees[2]);
@@ -35,7 +35,7 @@ pub(crate) fn divide_by_cosine(grid: &Grid, zeniths: &[f64], block: &mut [f64]) 
 /// The values of one row of theta.
 fn divide_row(cosines: &[f64], values: &mut [f64]) {
     let above = |cosine: &f64| *cosine > HORIZON;
-    // Along a row the direction leaves the upper side once for good, so the nodes above the horizon are neighbours.
+    // Along a row, the direction leaves the upper side only once, so the nodes above the horizon are contiguous.
     let (Some(first), Some(last)) = (cosines.iter().position(above), cosines.iter().rposition(above)) else {
         return values.fill(0.0);
     };
@@ -47,7 +47,7 @@ fn divide_row(cosines: &[f64], values: &mut [f64]) {
     values[last + 1..].fill(highest);
 }
 
-/// The same for a table that was read as if it held `f`.
+/// The same for a table whose values were read as `f`.
 pub(crate) fn divide_nodes_by_cosine(file: &Path, samples: &specular::Data) -> Result<specular::Data, FormatError> {
     let knots = samples.knots();
     let [sigmas, psis, thetas, phis] = knots.each_ref().map(Vec::len);
@@ -77,7 +77,7 @@ pub(crate) fn divide_nodes_by_cosine(file: &Path, samples: &specular::Data) -> R
 
 /// Scales each slice, a pair of sigma and psi knots in one channel, to a given directional-hemispherical reflectance.
 ///
-/// `targets` holds for each channel one number per pair, `[psi][sigma]`, which errors call by their name in the file.
+/// `targets` holds one number per channel and pair, `[psi][sigma]`, which errors call by the name in the file.
 pub(crate) fn scale_slices(
     file: &Path,
     samples: &specular::Data,
@@ -121,7 +121,7 @@ pub(crate) fn scale_slices(
     }
 }
 
-/// The directional-hemispherical reflectance of each slice, a channel each, `[psi][sigma]`.
+/// The directional-hemispherical reflectance of each slice, one `[psi][sigma]` per channel.
 pub(crate) fn reflectances(samples: &specular::Data) -> Vec<Vec<f64>> {
     let [sigmas, psis, ..] = samples.knots().each_ref().map(Vec::len);
     let channels = samples.channels().count();
@@ -143,20 +143,20 @@ pub(crate) fn reflectances(samples: &specular::Data) -> Vec<Vec<f64>> {
 /// The integral of `f cos(theta_out)` over the hemisphere as a sum over the nodes of a slice: the midpoint rule inside
 /// every cell of theta and phi, whose error at these steps is below 1e-4.
 ///
-/// `f` is linear within a cell, clamped beyond the ends of theta, and periodic in phi. All that depends on one angle is
-/// computed once here, as a file may have a million slices of one value.
+/// `f` is linear within a cell, clamped beyond the ends of theta, and periodic in phi. Everything that depends on one
+/// angle is computed only once, because a file may have a million slices of one value.
 struct Quadrature {
     thetas: Vec<Part>,
     phis: Vec<Part>,
     counts: [usize; 2],
 }
 
-/// A part of a cell, by the angle in its middle.
+/// A part of a cell, given by the angle in its middle.
 struct Part {
     sin: f64,
     cos: f64,
     width: f64,
-    /// The nodes at the ends of the cell, and what each counts for.
+    /// The nodes at the ends of the cell, and their weights.
     nodes: [(usize, f64); 2],
 }
 
@@ -174,7 +174,7 @@ impl Quadrature {
         }
     }
 
-    /// What each node of a slice counts for, `[theta][phi]`, in a frame with this polar angle.
+    /// The weight of each node of a slice, `[theta][phi]`, in a frame with this polar angle.
     fn weights(&self, zenith: f64) -> Vec<f64> {
         let [thetas, phis] = self.counts;
         let (sin_zenith, cos_zenith) = zenith.sin_cos();
@@ -201,7 +201,7 @@ fn cells(knots: &[f64]) -> impl Iterator<Item = ([f64; 2], [usize; 2])> {
     knots.windows(2).enumerate().map(|(i, pair)| ([pair[0], pair[1]], [i, i + 1]))
 }
 
-/// Cuts each cell below `end` into at least two equal parts, none over `step`.
+/// Divides each cell below `end` into at least two equal parts, none larger than `step`.
 fn parts(cells: impl Iterator<Item = ([f64; 2], [usize; 2])>, end: f64, step: f64) -> Vec<Part> {
     let mut parts = Vec::new();
     for ([from, to], nodes) in cells {

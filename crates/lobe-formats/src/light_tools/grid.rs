@@ -1,4 +1,4 @@
-//! Tables of a measurement to a grid.
+//! From the tables of a measurement to a grid.
 
 use std::collections::BTreeSet;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -10,7 +10,7 @@ use super::tables::{ByIncidence, Incidence};
 use crate::FormatError;
 use crate::text::Text;
 
-/// Wavelengths below this, in nm, are those of a file in other units.
+/// Wavelengths below this, in nm, mean that the file uses other units.
 pub(super) const SHORTEST: f64 = 50.0;
 
 /// An angle in degrees, and the row or column of the tables that it belongs to.
@@ -20,7 +20,7 @@ struct Place {
     index: usize,
 }
 
-/// Puts the light from azimuth 90 + POI to POI, completes symmetric azimuths, and sorts all angles.
+/// Moves the light from azimuth 90 + POI to POI, completes symmetric azimuths, and sorts all angles.
 pub(super) fn part(
     text: &Text<'_>,
     head: &Head,
@@ -59,7 +59,7 @@ pub(super) fn part(
     spherical::Data::new(scatter, knots, channels, values).map_err(|e| error(e.to_string(), "a grid of angles"))
 }
 
-/// What the tables differ in.
+/// The values in which the tables differ.
 struct Axes {
     aois: BTreeSet<u64>,
     pois: BTreeSet<u64>,
@@ -75,12 +75,12 @@ impl Axes {
         }
     }
 
-    /// How many tables the grid has.
+    /// The number of tables of the grid.
     fn len(&self) -> usize {
         self.aois.len().saturating_mul(self.pois.len()).saturating_mul(self.channels.len())
     }
 
-    /// What the channels of the values mean.
+    /// The meaning of the channels of the values.
     fn channels(&self, text: &Text<'_>, content: &Channels) -> Result<Channels, FormatError> {
         let error = |found: String, expected: &str| Err(text.error(text.line(), found, expected));
         let wavelengths: Vec<f64> = self.channels.iter().map(|bits| f64::from_bits(*bits)).collect();
@@ -102,8 +102,8 @@ impl Axes {
         }
     }
 
-    /// Checks that no table of the grid is missing, before memory is taken for it: only perpendicular light, which has no
-    /// azimuth, may have been measured once for all POI.
+    /// Checks that no table of the grid is missing, before memory is allocated for it: only perpendicular light, which
+    /// has no azimuth, may have been measured once for all POI.
     fn check(&self, text: &Text<'_>, tables: &ByIncidence) -> Result<(), FormatError> {
         let is_slanted = |aoi: &u64| f64::from_bits(*aoi) > 0.0;
         let slanted = self.aois.iter().filter(|aoi| is_slanted(aoi)).count();
@@ -121,7 +121,7 @@ impl Axes {
             let incidences = self.aois.iter().flat_map(|&aoi| self.pois.iter().map(move |&poi| (aoi, poi)));
             incidences.flat_map(|(aoi, poi)| self.channels.iter().map(move |&channel| Incidence { aoi, poi, channel }))
         };
-        // Some combination is missing among the first ones, one more than there are tables.
+        // A combination is missing among the first ones, of which there is one more than tables.
         let missing =
             each().find(|incidence| !tables.contains_key(incidence) && self.table(tables, *incidence).is_none());
         let found = missing.map_or("a missing table".into(), |Incidence { aoi, poi, channel }| {

@@ -1,11 +1,11 @@
-//! What comes before `DataBegin`.
+//! The lines before `DataBegin`.
 
 use lobe_table::Channels;
 
 use crate::FormatError;
 use crate::text::{Text, Token};
 
-/// What the head of a file says.
+/// The contents of the head of a file.
 pub(super) struct Head {
     /// In degrees, in the order of the columns.
     pub azimuths: Vec<f64>,
@@ -84,7 +84,8 @@ fn angles(text: &mut Text<'_>, what: &str, limit: f64) -> Result<Vec<f64>, Forma
     Ok(angles)
 }
 
-/// The line of an unknown word, as a name and a value. A number is no word: a list is longer than its count says.
+/// The line of an unknown word, as a name and a value. A number is not a word: it means that a list is longer than its
+/// count.
 pub(super) fn fact(text: &mut Text<'_>, key: Token<'_>, expected: &str) -> Result<(String, String), FormatError> {
     if key.is_number() {
         return Err(text.unexpected(key, expected));
@@ -99,7 +100,7 @@ pub(super) fn fact(text: &mut Text<'_>, key: Token<'_>, expected: &str) -> Resul
     Ok((name.trim().into(), value.trim().into()))
 }
 
-/// The comments passed so far are facts, too.
+/// The comments read so far are also facts.
 pub(super) fn keep_comments(text: &mut Text<'_>, source: &mut Vec<(String, String)>) {
     let comments = text.take_comments().into_iter().filter(|comment| !comment.is_empty());
     source.extend(comments.map(|comment| ("comment".into(), comment)));

@@ -1,10 +1,12 @@
-//! LightTools `.bsdf`: tables on a grid of ordinary spherical coordinates, of the program itself and of instruments.
+//! LightTools `.bsdf`: tables on a grid in ordinary spherical coordinates, from the program itself and from
+//! instruments.
 //!
-//! `#` comments and words. The head has `Symmetry` (`PlaneSymmetrical` or `Asymmetric`), `SpectralContent` (`Monochrome`
-//! or `XYZ`), `ScatterAzimuth n ...` and `ScatterRadial n ...` in degrees, and `DataBegin`; lines that start with another
-//! word are facts for people. Then, in any order, a table for each incident direction and channel: `AOI`, `POI`, `Side`,
-//! `Wavelength` in nm, `ScatterType`, `TristimulusValue`, and `TIS t`, after which the values in 1/sr follow, radial angle
-//! fastest; `DataEnd`, which instruments leave out. What is stated once stays in force until it is stated again.
+//! `#` comments and words. The head has `Symmetry` (`PlaneSymmetrical` or `Asymmetric`), `SpectralContent`
+//! (`Monochrome` or `XYZ`), `ScatterAzimuth n ...` and `ScatterRadial n ...` in degrees, and `DataBegin`; lines that
+//! start with another word are facts for people. Then follow, in any order, tables for each incident direction and
+//! channel: `AOI`, `POI`, `Side`, `Wavelength` in nm, `ScatterType`, `TristimulusValue`, and `TIS t`, after which the
+//! values in 1/sr follow, radial angle fastest; Last is `DataEnd`, which instruments leave out. A statement stays in
+//! force until it is replaced.
 //!
 //! The light is at azimuth 90 + `POI` in these files; here it is at `POI`. Several wavelengths of a `Monochrome` file are
 //! its channels.
@@ -47,11 +49,11 @@ pub fn matches(bytes: &[u8]) -> bool {
     has_words(bytes, "#", &["ScatterRadial", "AOI"])
 }
 
-/// Reads a file: up to four parts, and what its head says. `file` only names it in errors.
+/// Reads a file: up to four parts, and the facts of its head. `file` is only its name in errors.
 ///
 /// # Errors
-/// [`FormatError`] with the line: numbers where a word should be, counts that the rest of the file has no room for, a
-/// second table of the same kind, a combination of incident angles and channels that has no table, azimuths that leave
+/// [`FormatError`] with the line: a number in place of a word, counts for which the rest of the file is too short, a
+/// second table of the same kind, a combination of incident angles and channels without a table, azimuths that leave
 /// half a turn without a value, or a file without `DataEnd` that does not end after a whole table.
 pub fn read(bytes: &[u8], file: &Path) -> Result<Document, FormatError> {
     let text = &mut Text::new(file, bytes, "#");
@@ -60,7 +62,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Document, FormatError> {
     if read.tables.is_empty() {
         return Err(text.error(text.line(), "no table", "at least one"));
     }
-    // Half a number is a number, too.
+    // A truncated number may still be a number.
     if !read.has_end && !bytes.ends_with(b"\n") && !bytes.ends_with(b"\r") && !bytes.ends_with(b"\x1a") {
         return Err(text.error(text.line(), "the end of the file within a line", "a whole line, or `DataEnd`"));
     }

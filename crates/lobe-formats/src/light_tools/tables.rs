@@ -8,8 +8,7 @@ use super::head::{Head, fact, keep_comments};
 use crate::FormatError;
 use crate::text::{Text, Token};
 
-/// What distinguishes the tables of a measurement. Angles and wavelengths that are not negative are in the order of their
-/// bits.
+/// The key of a table of a measurement. Angles and wavelengths that are not negative are ordered like their bits.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Incidence {
     pub aoi: u64,
@@ -18,10 +17,10 @@ pub(super) struct Incidence {
     pub channel: u64,
 }
 
-/// Tables by what they are of: the values in the order of the file.
+/// Tables by their keys, with values in the order of the file.
 pub(super) type ByIncidence = BTreeMap<Incidence, Vec<f32>>;
 
-/// All that follows the head.
+/// Everything after the head.
 pub(super) struct Tables {
     /// By the side of the light, and whether they are of a BTDF.
     pub tables: BTreeMap<(Side, bool), ByIncidence>,
@@ -33,7 +32,7 @@ pub(super) struct Tables {
     pub has_end: bool,
 }
 
-/// What precedes `TIS` and stays in force until it is stated again.
+/// The statements that precede `TIS` and stay in force until they are replaced.
 struct State {
     aoi: Option<f64>,
     poi: f64,
@@ -41,7 +40,7 @@ struct State {
     is_btdf: bool,
     tristimulus: Option<u64>,
     wavelength: Option<f64>,
-    /// Something was stated that no table has followed yet.
+    /// Something was stated, and no table has followed yet.
     is_open: bool,
 }
 
@@ -111,7 +110,7 @@ impl Tables {
 }
 
 impl State {
-    /// Reads what a keyword states. `false` if the word states nothing.
+    /// Reads the statement of a keyword. `false` if the word is not a keyword.
     fn read(&mut self, text: &mut Text<'_>, key: Token<'_>) -> Result<bool, FormatError> {
         if key.is("AOI") {
             let angle = text.number("an angle of incidence")?;
@@ -151,7 +150,7 @@ impl State {
         Ok(true)
     }
 
-    /// What the table that follows is of.
+    /// The key of the following table.
     fn incidence(&self, text: &Text<'_>, key: Token<'_>, channels: &Channels) -> Result<Incidence, FormatError> {
         let Some(aoi) = self.aoi else {
             return Err(text.unexpected(key, "AOI first"));

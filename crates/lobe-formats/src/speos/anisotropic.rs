@@ -14,7 +14,7 @@ struct Rotation {
     incidences: Vec<f64>,
 }
 
-/// Percentages by wavelength, and the incident direction at which they hold.
+/// Percentages by wavelength, and the incident direction to which they apply.
 struct Spectrum {
     theta: f64,
     phi: f64,
@@ -23,7 +23,7 @@ struct Spectrum {
 }
 
 pub(super) fn read(source: &mut Source<'_>) -> Result<Sides<scattered::Data>, FormatError> {
-    // The vector turns the sample in its scene; in the coordinates of the surface it is +x.
+    // The vector orients the sample in its scene; in the coordinates of the surface, it is +x.
     source.list(3, "the anisotropy vector")?;
     let sides = [source.flag("whether there is reflection")?, source.flag("whether there is transmission")?];
     let is_intensity = !source.flag("whether values are of the BSDF")?;
@@ -93,8 +93,8 @@ fn read_tables(
             source.error("tables without light at the direction of the spectrum", "values with a positive integral")
         );
     }
-    // All samples are kept once per wavelength, and so a file of many of both would take the square of its size. Those of
-    // instruments have a few hundred wavelengths, and write a sample in eight characters or more.
+    // All samples are stored once per wavelength, so a file with many of both would take the square of its size. Files
+    // of instruments have a few hundred wavelengths, and write a sample in eight characters or more.
     const VALUES_PER_BYTE: usize = 64;
     let samples: usize = tables.iter().map(|(_, _, table)| table.samples(1.0).count()).sum();
     let most = source.size.saturating_mul(VALUES_PER_BYTE);
@@ -112,8 +112,8 @@ fn read_tables(
     records.scattered(source.file, scatter, Channels::Spectral(spectrum.wavelengths.clone()))
 }
 
-/// What makes the albedo 1 at the incident direction of the spectrum: that of the nearest rotation, linear between the
-/// two incident angles around, and held outside of them.
+/// The factor that makes the albedo 1 at the incident direction of the spectrum: from the nearest rotation, linear
+/// between the two incident angles around it, and constant outside them.
 fn scale(tables: &[(f64, f64, Table)], spectrum: &Spectrum) -> f64 {
     let off = |phi: f64| (phi - spectrum.phi).abs();
     let nearest = tables.iter().map(|table| table.0).min_by(|a, b| off(*a).total_cmp(&off(*b)));

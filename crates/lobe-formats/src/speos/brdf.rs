@@ -31,7 +31,7 @@ pub(super) fn read(source: &mut Source<'_>) -> Result<Sides<scattered::Data>, Fo
                 let percentage = source.number("a percentage")?;
                 let table = Table::read(source, is_intensity)?;
                 let integral = table.integral();
-                // Nothing comes of a table without light, whatever the percentage.
+                // A table without light stays 0, whatever the percentage.
                 let scale = if integral > 0.0 { percentage / 100.0 / integral } else { 0.0 };
                 for (theta_o, phi, f) in table.samples(scale) {
                     samples.push(nm, [theta_i, 0.0, theta_o, phi + PI], f);

@@ -1,11 +1,12 @@
 //! Surface files of Ansys Speos (formerly OPTIS), text form: `.brdf` and `.anisotropicbsdf`.
 //!
-//! Both hold tables of polar angle by azimuth for each incident direction, of reflection, of transmission, or of both. A
-//! table is proportional to `f`, or to `f cos` ("intensity"); its scale comes from a percentage, the albedo, that the file
-//! states per wavelength. In `.brdf` every incident angle and wavelength has a table and a percentage of its own; an
+//! Both hold tables of polar angle by azimuth for each incident direction, for reflection, transmission, or both. A
+//! table is proportional to `f`, or to `f cos` ("intensity"); its scale comes from a percentage, the albedo, that the
+//! file states per wavelength. In `.brdf`, every incident angle and wavelength has its own table and percentage; an
 //! `.anisotropicbsdf` has tables per rotation of the sample and incident angle, and one spectrum of percentages, which
-//! holds at one of its incident directions. Azimuth 0 is where the light goes on to, so that the mirror direction of
-//! incidence `i` is at polar angle `i`, azimuth 0; polar angles of transmission are above 90 degrees.
+//! applies to one of its incident directions. Azimuth 0 is the direction in which the light continues, so that the
+//! mirror direction of incidence `i` is at polar angle `i`, azimuth 0; polar angles of transmission are above 90
+//! degrees.
 
 mod anisotropic;
 mod brdf;
@@ -44,7 +45,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     }),
 };
 
-/// `true` if the first line is that of one of these files.
+/// `true` if the first line identifies one of these files.
 pub fn matches(bytes: &[u8]) -> bool {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(128)]).to_ascii_lowercase();
     head.starts_with("optis - ")
@@ -58,11 +59,11 @@ fn facts(bytes: &[u8]) -> Facts {
     comment.map(|comment| ("comment".into(), comment.into())).into_iter().collect()
 }
 
-/// Reads a file of either kind. `file` only names it in errors.
+/// Reads a file of either kind. `file` is only its name in errors.
 ///
 /// # Errors
-/// [`FormatError`] with the line: another kind of file, the binary form, counts that the rest of the file has no room for,
-/// numbers that are missing or none, or tables that have nothing to scale.
+/// [`FormatError`] with the line: another kind of file, the binary form, counts for which the rest of the file is too
+/// short, missing or invalid numbers, or tables that are all 0 and cannot be scaled.
 pub fn read(bytes: &[u8], file: &Path) -> Result<Sides<scattered::Data>, FormatError> {
     let text = String::from_utf8_lossy(bytes);
     let mut source = Source::new(file, &text);
@@ -74,7 +75,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Sides<scattered::Data>, FormatE
     };
     match source.line("0, text")?.trim() {
         "0" => {}
-        // Binary data follow the line, or stand in it.
+        // Binary data follow the line, or are in it.
         mode if mode.starts_with('1') && !mode[1..].starts_with(|c: char| c.is_ascii_digit()) => {
             let expected =
                 "mode 0, text. The binary form is not public: save the file as text, in the BSDF viewer of Speos";

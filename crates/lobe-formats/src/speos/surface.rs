@@ -1,10 +1,11 @@
-//! Surfaces of Speos that are a few numbers: `.simplescattering` and `.coated`.
+//! Surfaces of Speos described by a few numbers: `.simplescattering` and `.coated`.
 //!
 //! Both are text: the line that names the file, a description, and numbers in percent.
 //!
-//! A simple scattering surface has `Reflection`, `Transmission` or `Both`. The light that is not absorbed is shared out: a
-//! Lambertian part, a Gaussian one with its width, and the rest is not scattered. `Both` has these for either kind, and then
-//! either 1, for a split by Fresnel's laws, or 0 and the part that is reflected.
+//! A simple scattering surface has `Reflection`, `Transmission` or `Both`. The light that is not absorbed is divided
+//! into a Lambertian part and a Gaussian part with its width; the rest is not scattered. `Both` has these for
+//! reflection and for transmission, followed either by 1, for a split by Fresnel's laws, or by 0 and the reflected
+//! part.
 //!
 //! A coating has the numbers of incident angles and of wavelengths, the wavelengths, and for each angle two lines of
 //! reflectance and transmittance at each wavelength: one for P polarisation, which begins with the angle, and one for S.
@@ -32,16 +33,16 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
 const SIMPLE: &str = "optis - simple scattering surface file";
 const COATED: &str = "optis - coated surface file";
 
-/// `true` if the first line is that of one of these files.
+/// `true` if the first line identifies one of these files.
 pub fn matches(bytes: &[u8]) -> bool {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(128)]).to_ascii_lowercase();
     head.starts_with(SIMPLE) || head.starts_with(COATED)
 }
 
-/// Reads a file of either kind. `file` only names it in errors.
+/// Reads a file of either kind. `file` is only its name in errors.
 ///
 /// # Errors
-/// [`FormatError`] with the line: another kind of file, numbers that are missing, none, or no percentages; a Gaussian part,
+/// [`FormatError`] with the line: another kind of file, missing or invalid numbers or percentages; a Gaussian part,
 /// whose profile is not public; a split by Fresnel's laws, for which the file has no refractive index.
 pub fn read(bytes: &[u8], file: &Path) -> Result<Document, FormatError> {
     let text = String::from_utf8_lossy(bytes);
@@ -57,7 +58,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Document, FormatError> {
     Ok(Document::of_parts(parts).with_source(&[("description", description.as_str())]))
 }
 
-/// A number in percent, as a part of 1.
+/// A number in percent, as a fraction of 1.
 fn share(source: &mut Source<'_>, what: &str) -> Result<f64, FormatError> {
     let percent = source.number(what)?;
     match (0.0..=100.0).contains(&percent) {
@@ -92,15 +93,16 @@ fn simple(source: &mut Source<'_>) -> Result<Vec<Part>, FormatError> {
     let mut totals = vec![1.0 - absorbed];
     if scatters.len() == 2 {
         if source.flag("whether Fresnel's laws split the light")? {
-            let expected = "0 and the part that is reflected: the file has no refractive index";
+            let expected = "0 and the reflected part: the file has no refractive index";
             return Err(source.error("a split by Fresnel's laws", expected));
         }
-        let reflected = share(source, "the part that is reflected")?;
+        let reflected = share(source, "the reflected part")?;
         totals = vec![(1.0 - absorbed) * reflected, (1.0 - absorbed) * (1.0 - reflected)];
     }
     for (at, &scatter) in scatters.iter().enumerate() {
         if gaussian[at] > 0.0 {
-            let expected = "0: how Speos defines the profile of that width is not public. Export the surface as .brdf";
+            let expected =
+                "0: Speos' definition of the profile with that width is not public. Export the surface as .brdf";
             return Err(source.error(format!("a Gaussian part of {} percent", gaussian[at] * 100.0), expected));
         }
         parts.extend(surface(scatter, totals[at], lambertian[at]).map_err(|found| source.error(found, "a surface"))?);
@@ -108,7 +110,7 @@ fn simple(source: &mut Source<'_>) -> Result<Vec<Part>, FormatError> {
     Ok(parts)
 }
 
-/// The scattered part, and that which is not, of light of which `total` is neither absorbed nor goes elsewhere.
+/// The scattered and the unscattered part of light, of which the share `total` is neither absorbed nor goes elsewhere.
 fn surface(scatter: Scatter, total: f64, lambertian: f64) -> Result<Vec<Part>, String> {
     let f = (total * lambertian / std::f64::consts::PI) as f32;
     let knots = [vec![0.0], vec![0.0], vec![0.0], vec![0.0]];
@@ -127,7 +129,7 @@ fn coated(source: &mut Source<'_>) -> Result<Vec<Part>, FormatError> {
         (source.count("the number of incident angles")?, source.count("the number of wavelengths")?);
     let wavelengths = source.list(wavelengths, "a wavelength in nm")?;
     if wavelengths.iter().any(|nm| *nm <= 0.0) || wavelengths.windows(2).any(|pair| pair[0] >= pair[1]) {
-        return Err(source.error("wavelengths in no order", "positive numbers of nm, ascending"));
+        return Err(source.error("wavelengths out of order", "positive numbers of nm, ascending"));
     }
     let mut thetas: Vec<f64> = Vec::new();
     let (mut reflectance, mut transmittance) = (Vec::new(), Vec::new());

@@ -1,4 +1,4 @@
-//! What both kinds of files are made of.
+//! The elements of both kinds of files.
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::lines::shown;
 use crate::{FormatError, Place};
 
-/// Below this cosine an intensity cannot be distinguished from the error of dividing by it.
+/// Below this cosine, an intensity cannot be distinguished from the error of dividing by it.
 const LEAST_COSINE: f64 = 1e-3;
 
 /// A text that is read line by line in its head and number by number after it.
@@ -39,7 +39,7 @@ impl<'a> Source<'a> {
         Ok(self.take(end).trim_end())
     }
 
-    /// Passes over a description of `length` characters, which may have several lines, and what is left of its last.
+    /// Skips a description of `length` characters, which may have several lines, and the rest of its last line.
     pub(super) fn description(&mut self, length: usize) -> Result<(), FormatError> {
         let end = self.rest.char_indices().nth(length).map_or(self.rest.len(), |(end, _)| end);
         self.take(end);
@@ -58,17 +58,17 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// The next number as a count of numbers that have room in the rest of the file.
+    /// The next number as a count of numbers that fit into the rest of the file.
     pub(super) fn count(&mut self, expected: &str) -> Result<usize, FormatError> {
         let number = self.number(expected)?;
         let most = self.rest.len() / 2;
         if number.fract() != 0.0 || number < 1.0 || number > most as f64 {
-            return Err(self.error(format!("{number}"), format!("{expected}, 1 to {most} in what is left of the file")));
+            return Err(self.error(format!("{number}"), format!("{expected}, 1 to {most} in the rest of the file")));
         }
         Ok(number as usize)
     }
 
-    /// `count` numbers, of which [`count`](Self::count) said that there is room.
+    /// `count` numbers, which fit according to [`count`](Self::count).
     pub(super) fn list(&mut self, count: usize, expected: &str) -> Result<Vec<f64>, FormatError> {
         (0..count).map(|_| self.number(expected)).collect()
     }
@@ -125,7 +125,7 @@ impl Table {
         self.values.iter().all(|value| *value == 0.0)
     }
 
-    /// The integral of the values, with the cosine that makes an albedo of `f`, over the hemisphere: trapezoids in both
+    /// The integral of the values over the hemisphere, with the cosine that gives an albedo, by trapezoids in both
     /// angles. A table of half a turn is half of a symmetric one.
     pub(super) fn integral(&self) -> f64 {
         let columns = self.phis.len();
@@ -144,7 +144,7 @@ impl Table {
         if is_half { 2.0 * whole } else { whole }
     }
 
-    /// `theta_o`, azimuth from where the light goes on to, and `scale` times `f`.
+    /// `theta_o`, the azimuth from the direction in which the light continues, and `scale` times `f`.
     pub(super) fn samples(&self, scale: f64) -> impl Iterator<Item = (f64, f64, f64)> {
         let columns = self.phis.len();
         let at = move |index: usize| (self.thetas[index / columns], self.phis[index % columns], self.values[index]);
@@ -155,7 +155,7 @@ impl Table {
     }
 }
 
-/// The number of incident angles must be known before; they are checked to be on a hemisphere.
+/// Reads incident angles, whose number must be known; checks that they are on a hemisphere.
 pub(super) fn incident_angles(source: &mut Source<'_>, count: usize) -> Result<Vec<f64>, FormatError> {
     let angles = source.list(count, "an incident angle")?;
     match angles.iter().find(|angle| !(0.0..=90.0).contains(*angle)) {

@@ -15,11 +15,11 @@ pub fn matches(bytes: &[u8]) -> bool {
     has("VERSION") && has("DATA_TYPE")
 }
 
-/// Reads all blocks. `file` only names it in errors.
+/// Reads all blocks. `file` is only its name in errors.
 ///
 /// # Errors
-/// [`FormatError`] with the line: keys that are missing or unknown, half-difference and distorted coordinates, which have
-/// no representation here, two blocks of the same type, values that are cut off or no finite numbers.
+/// [`FormatError`] with the line: missing or unknown keys, half-difference and distorted coordinates, which have no
+/// representation here, two blocks of the same type, values that are cut off or not finite numbers.
 pub fn read(bytes: &[u8], file: &Path) -> Result<Vec<Part>, FormatError> {
     let mut source = Source { file, bytes, at: if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 }, line: 0 };
     let (mut header, mut has_version) = (Header::default(), false);
@@ -78,14 +78,14 @@ impl Source<'_> {
         FormatError::new(self.file, Place::Line(self.line.max(1)), found, expected)
     }
 
-    /// `count` values, one colour per line, or `f32` each.
+    /// `count` values: one colour per line, or binary `f32`.
     fn values(&mut self, count: Option<usize>, channels: usize, is_binary: bool) -> Result<Vec<f32>, FormatError> {
         let rest = self.bytes.len() - self.at;
-        // A value has four bytes, or a digit and what separates it from the next.
+        // A value takes four bytes, or a digit and a separator.
         let most = if is_binary { rest / 4 } else { rest.div_ceil(2) };
         let Some(count) = count.filter(|count| *count <= most) else {
             let found = count.map_or("more values than can be counted".into(), |count| format!("{count} values"));
-            return Err(self.error(found, format!("at most {most} in what is left of the file")));
+            return Err(self.error(found, format!("at most {most} in the rest of the file")));
         };
         if is_binary {
             let bytes = &self.bytes[self.at..self.at + 4 * count];
@@ -144,7 +144,7 @@ impl Header {
                 for word in value.split_whitespace() {
                     match word {
                         "bilateral_symmetry" => self.is_symmetric = true,
-                        // It reduces half-difference coordinates only, which are refused.
+                        // It only reduces half-difference coordinates, which are refused.
                         _ => return Err(source.error(format!("REDUCTION_TYPE {}", shown(word)), "bilateral_symmetry")),
                     }
                 }
@@ -152,7 +152,7 @@ impl Header {
             "NAME" => self.name = value.into(),
             _ => {
                 let index = key.strip_prefix("PARAM").and_then(|rest| rest.strip_suffix("_LIST"));
-                // Keys of people and programs are many, and none of them changes a value.
+                // There are many keys of people and programs, and none of them changes a value.
                 if let Some(param) = index.and_then(|i| i.parse::<usize>().ok()).and_then(|i| self.params.get_mut(i)) {
                     let unit = f64::to_radians;
                     *param = Some(numbers()?.into_iter().map(unit).collect());
@@ -221,8 +221,8 @@ fn unfolded(half: Vec<f64>) -> (Vec<f64>, Vec<usize>) {
     all.into_iter().unzip()
 }
 
-/// From the file's order, the first parameter fastest, to `[p0][p1][p2][p3][channel]`, with the requested columns of
-/// p3.
+/// Converts the file's order, with the first parameter fastest, to `[p0][p1][p2][p3][channel]`, with the requested
+/// columns of p3.
 fn reordered(values: &[f32], [n0, n1, n2, _]: [usize; 4], columns: &[usize], channels: usize) -> Vec<f32> {
     let mut out = Vec::with_capacity(n0 * n1 * n2 * columns.len() * channels);
     for p0 in 0..n0 {

@@ -8,7 +8,7 @@ use lobe_table::{Channels, Data, Scatter};
 use crate::{FormatError, Part};
 use lobe_files::{unwritable, write_whole};
 
-/// How values are written.
+/// The encoding of values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Encoding {
     /// Decimal numbers, with as many digits as an `f32` needs.
@@ -17,11 +17,11 @@ pub enum Encoding {
     Binary,
 }
 
-/// Writes a file. Values come back exactly, angles to a billionth of a degree. The file appears whole or not at all.
+/// Writes a file. Values are restored exactly, angles to a billionth of a degree. The file appears whole or not at all.
 ///
 /// # Errors
-/// [`FormatError`] if the file system refuses, and for what the format cannot say: no block, two of the same type,
-/// scattered samples, halves of mirrored grids, bands that have names only, and one side of a sheet.
+/// [`FormatError`] if the file system refuses, or the format cannot express the document: no block, two of the same
+/// type, scattered samples, halves of mirrored grids, bands with only names, and one side of a sheet.
 pub fn write(blocks: &[Part], encoding: Encoding, path: &Path) -> Result<(), FormatError> {
     write_whole(path, &to_bytes(blocks, encoding).map_err(|error| unwritable(path, &error))?)
 }
@@ -55,7 +55,7 @@ fn data_type(data: &Data) -> io::Result<&'static str> {
         Data::Mirror(_) => true,
         other => {
             let kind = other.representation().kind();
-            return Err(unfit(&format!("an SSDD file holds grids in specular or spherical coordinates, no {kind}")));
+            return Err(unfit(&format!("an SSDD file holds grids in specular or spherical coordinates, not a {kind}")));
         }
     };
     Ok(match (data.representation().scatter(), is_delta) {
@@ -86,7 +86,7 @@ fn write_block(out: &mut Vec<u8>, block: &Part, data_type: &str, encoding: Encod
             wavelengths.iter().try_for_each(|nm| write!(out, " {nm}"))?;
             writeln!(out)?;
         }
-        Channels::Named(_) => return Err(unfit("an SSDD file has no bands that have names only")),
+        Channels::Named(_) => return Err(unfit("an SSDD file has no bands with only names")),
     }
     if let Some(system) = system {
         writeln!(out, "PARAM_TYPE {system}")?;
@@ -120,7 +120,7 @@ fn write_block(out: &mut Vec<u8>, block: &Part, data_type: &str, encoding: Encod
 
 fn list(out: &mut Vec<u8>, index: usize, angles: &[f64]) -> io::Result<()> {
     write!(out, "PARAM{index}_LIST")?;
-    // 15 degrees are to be written as 15, though they are 14.999999999999998 after a way through radians.
+    // Writes 15 degrees as 15, although a conversion through radians gives 14.999999999999998.
     angles.iter().try_for_each(|angle| write!(out, " {}", (angle.to_degrees() * 1e9).round() / 1e9))?;
     writeln!(out)
 }

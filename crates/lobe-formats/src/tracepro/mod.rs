@@ -5,9 +5,10 @@
 //! temperature, wavelength in micrometres, polar angle and azimuth of incidence in degrees, `ScatterBeta`,
 //! `ScatterAzimuth`, and the BRDF and BTDF in 1/sr.
 //!
-//! `ScatterBeta` is the abscissa of Harvey and Shack: the distance, in the plane of the surface, between the projections of
-//! the scattered and of the specular direction, both unit vectors. A table that depends on it alone is kept as rings about
-//! the specular direction. Where azimuth 0 is, the file does not say, but the surface that the property is applied to.
+//! `ScatterBeta` is the abscissa of Harvey and Shack: the distance, in the plane of the surface, between the
+//! projections of the scattered and of the specular direction, both unit vectors. A table that depends on it alone is
+//! stored as rings about the specular direction. The file does not say where azimuth 0 is; that depends on the surface
+//! to which the property is applied.
 
 mod rings;
 mod sections;
@@ -35,19 +36,20 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
 
 const FIRST_LINE: &str = "TracePro Surface Property Data";
 
-/// `true` if the first line is that of a surface property.
+/// `true` if the first line identifies a surface property.
 pub fn matches(bytes: &[u8]) -> bool {
     let head = &bytes[..bytes.len().min(256)];
     let head = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head).trim_ascii_start();
     head.get(..FIRST_LINE.len()).is_some_and(|start| start.eq_ignore_ascii_case(FIRST_LINE.as_bytes()))
 }
 
-/// Reads a file: reflection and transmission of each side that has a table, and the mirror reflectance and straight
-/// transmittance beside it. `file` only names it in errors.
+/// Reads a file: reflection and transmission of each side that has a table, and the mirror reflectance and
+/// straight-through transmittance in addition. `file` is only its name in errors.
 ///
 /// # Errors
-/// [`FormatError`] with the line: rows with missing or other columns, a second property, gratings, several temperatures, or
-/// a property that is a formula; or tables that depend on `ScatterAzimuth`, or differ between wavelengths in their angles.
+/// [`FormatError`] with the line: rows with missing or other columns, a second property, gratings, several
+/// temperatures, a property that is a formula, or tables that depend on `ScatterAzimuth` or whose angles differ between
+/// wavelengths.
 pub fn read(bytes: &[u8], file: &Path) -> Result<Document, FormatError> {
     let text = String::from_utf8_lossy(bytes);
     let property = sections::read(file, &text)?;
@@ -91,7 +93,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Document, FormatError> {
     Ok(document)
 }
 
-/// What a sheet says of light that is not scattered.
+/// The unscattered light of a sheet.
 enum Specular {
     /// It has none.
     None,

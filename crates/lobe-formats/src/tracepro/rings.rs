@@ -12,7 +12,7 @@ use crate::{FormatError, Place};
 
 /// Directions on a ring, and on the horizon.
 const DIRECTIONS: usize = 36;
-/// How far apart, relative to the largest, the values of a ring may be that depend on the abscissa alone.
+/// The largest difference, relative to the largest value, between values of a ring that depend on the abscissa alone.
 const ROUNDING: f64 = 1e-5;
 
 /// The values of one incident direction.
@@ -48,7 +48,7 @@ pub(super) fn curves(
             );
             return Err(error(
                 found,
-                "one that depends on ScatterBeta alone: where azimuth 0 is, is not in the file but a choice made with the \
+                "one that depends on ScatterBeta alone: the place of azimuth 0 is not in the file but chosen with the \
                  surface",
             ));
         }
@@ -85,11 +85,11 @@ impl Curve {
         self.knots.iter().all(|(_, values)| values.iter().all(|value| *value == 0.0))
     }
 
-    /// Adds samples on the rings of the abscissas and halfway between them, as far as they are above the horizon, and on the
-    /// horizon as far as the abscissas reach.
+    /// Adds samples on the rings of the abscissas and halfway between them if they are above the horizon, and on the
+    /// horizon within the range of the abscissas.
     pub(super) fn samples(&self, records: &mut Records) {
         let (sin, phi) = (self.theta.to_radians().sin(), self.phi.to_radians());
-        // In the plane of the surface, with the light on +x. Transmitted light goes straight on.
+        // In the plane of the surface, with the light on +x. Transmitted light goes straight through.
         let center = [-sin, 0.0];
         let mut add = |[x, y]: [f64; 2], values: Vec<f64>| {
             let radius = x.hypot(y).min(1.0);

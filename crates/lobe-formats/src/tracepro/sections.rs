@@ -12,22 +12,22 @@ use crate::{FormatError, Place};
 const COLUMNS: [&str; 8] =
     ["Temperature", "Wavelength", "IncAngle", "AziAngle", "ScatterBeta", "ScatterAzimuth", "BRDF", "BTDF"];
 
-/// All that a file holds.
+/// The contents of a file.
 pub(super) struct Property {
-    /// What was measured from either side, or from a side of a property that distinguishes them.
+    /// The measurements from either side, or from one side of a property that distinguishes them.
     pub sheets: Vec<(Option<Side>, Sheet)>,
     /// Lines of the head.
     pub source: Vec<(String, String)>,
 }
 
-/// What was measured from one side.
+/// The measurements from one side.
 #[derive(Default)]
 pub(super) struct Sheet {
     pub specular: Vec<SpecularRow>,
     pub table: Vec<TableRow>,
 }
 
-/// What is not scattered, of unpolarised light: the mean of both polarisations.
+/// The unscattered part of unpolarised light: the mean of both polarisations.
 pub(super) struct SpecularRow {
     pub nm: f64,
     /// In degrees.
@@ -58,7 +58,7 @@ impl Sheet {
     }
 }
 
-/// Where in a file a line is.
+/// The section of a file that contains a line.
 enum Section {
     Head,
     /// The names of the columns of the specular data.
@@ -122,7 +122,7 @@ pub(super) fn read(file: &Path, text: &str) -> Result<Property, FormatError> {
                 sheet(&mut property).table.push(row);
             }
             (_, Section::End) => {
-                return Err(line.error(shown(line.text), "one property a file: nothing after SAVE-DATA"));
+                return Err(line.error(shown(line.text), "one property per file: nothing after SAVE-DATA"));
             }
         }
     }
@@ -156,7 +156,7 @@ fn specular(line: Line<'_>, names: &[String]) -> Result<SpecularRow, FormatError
         at.and_then(|at| numbers.get(at)).copied()
     };
     let needed = |name: &str| value(name).ok_or_else(|| line.error(format!("no {name}"), "a value in each column"));
-    // Files of ours and of others name fewer columns than the program; what they do not name is 0.
+    // Some files name fewer columns than the program does; missing columns are 0.
     let mean = |a: &str, b: &str| (value(a).unwrap_or(0.0) + value(b).unwrap_or(0.0)) / 2.0;
     Ok(SpecularRow {
         nm: nanometres(line, needed("wavelength")?)?,

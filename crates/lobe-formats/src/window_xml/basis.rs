@@ -1,4 +1,4 @@
-//! The angle bases that a file defines, and those that it may take for granted.
+//! The angle bases that a file defines, and the standard ones.
 
 use std::collections::HashMap;
 
@@ -7,7 +7,7 @@ use lobe_table::window::klems::{AngleBasis, Ring};
 /// Collects `AngleBasis` elements of a `DataDefinition`.
 #[derive(Default)]
 pub(super) struct BasisReader {
-    /// By their names in lower case; of several with one name the first.
+    /// By name in lower case; of several with the same name, the first.
     known: HashMap<String, AngleBasis>,
     name: String,
     rings: Vec<Ring>,
@@ -17,7 +17,7 @@ pub(super) struct BasisReader {
 }
 
 impl BasisReader {
-    /// Takes an element outside of a data block as it ends; an error is what was found and what was expected.
+    /// Processes the end of an element outside a data block; an error is what was found and what was expected.
     pub(super) fn close(&mut self, name: &str, content: &str) -> Result<(), (String, &'static str)> {
         let content = content.trim();
         let angle = || content.parse::<f64>().map_err(|_| (format!("{name} {content:?}"), "an angle in degrees"));
@@ -51,7 +51,7 @@ impl BasisReader {
         Ok(())
     }
 
-    /// A basis by its name, in any case. What the file defines goes before the standard bases.
+    /// A basis by its name, in upper or lower case. Bases defined in the file take precedence over the standard ones.
     pub(super) fn find(&self, name: &str) -> Option<AngleBasis> {
         self.known.get(&name.to_ascii_lowercase()).cloned().or_else(|| {
             let standard = [AngleBasis::full(), AngleBasis::half(), AngleBasis::quarter()];

@@ -1,7 +1,7 @@
 //! The elements of a file, taken from a stream of XML events.
 //!
-//! A pull parser keeps no document in memory, expands no entities of the file's own, and does not recurse, so that
-//! neither entity bombs nor deep nesting can hurt.
+//! A pull parser keeps no document in memory, expands no entities that the file defines, and does not recurse, so
+//! neither entity bombs nor deep nesting do any harm.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -20,7 +20,7 @@ use super::tree;
 use super::words::{number, numbers, quoted};
 use crate::{FormatError, Measured, Place, RESAMPLED};
 
-/// Text of a file: UTF-8, or UTF-16 with a byte order mark. Bytes that are neither can only be in names.
+/// The text of a file: UTF-8, or UTF-16 with a byte-order mark. Bytes that are neither can only occur in names.
 pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     let utf16 = |unit: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| unit([pair[0], pair[1]])).collect();
@@ -33,7 +33,7 @@ pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// How the values of a block are listed.
+/// The order of the values of a block.
 #[derive(Clone, Copy)]
 enum Structure {
     /// Exit patch by exit patch.
@@ -44,14 +44,14 @@ enum Structure {
     Tree(Rank),
 }
 
-/// A text of the file and where it starts.
+/// A text of the file and its position.
 type Text<'a> = (Cow<'a, str>, usize);
 
-/// A `WavelengthDataBlock` as text: what its bases and values mean may be said after it.
+/// A `WavelengthDataBlock` as text: the meaning of its bases and values may be stated after it.
 #[derive(Default)]
 struct BlockText<'a> {
     start: usize,
-    /// Shared by all blocks of a `WavelengthData`: the name may be long, and the blocks many.
+    /// Shared by all blocks of a `WavelengthData`, because the name may be long and the blocks many.
     wavelength: Rc<str>,
     direction: Option<Block>,
     columns: Option<Text<'a>>,
@@ -287,7 +287,7 @@ impl<'a> Document<'a> {
         Ok(())
     }
 
-    /// Takes a block into its band.
+    /// Adds a block to its band.
     fn keep(&mut self, block: &BlockText<'_>) -> Result<(), FormatError> {
         let wavelength = &*block.wavelength;
         if wavelength.is_empty() {

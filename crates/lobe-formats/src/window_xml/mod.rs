@@ -1,8 +1,8 @@
 //! The XML files of WINDOW and Radiance: Klems matrices and tensor trees of shading and glazing layers.
 //!
 //! A file has up to four blocks (transmission and reflection, front and back) in any number of wavelength bands:
-//! `Visible`, `Solar`, `NIR`, `CIE-X`, `CIE-Z`, `CIE-u`, `CIE-v` and others. All bands are kept by their names. Values
-//! are `f` in 1/sr, without the cosine, as the file has them: a minimum is not split off and nothing is dropped.
+//! `Visible`, `Solar`, `NIR`, `CIE-X`, `CIE-Z`, `CIE-u`, `CIE-v` and others. All bands are kept under their names.
+//! Values are `f` in 1/sr, without the cosine, as in the file: no minimum is split off and nothing is dropped.
 
 mod basis;
 mod document;
@@ -46,17 +46,17 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     }),
 };
 
-/// `true` if the file starts like one of these; lines before the XML, which real files have, are skipped.
+/// `true` if the file starts like one of these; lines before the XML, which occur in real files, are skipped.
 pub fn matches(bytes: &[u8]) -> bool {
     const HEAD: usize = 16 * 1024;
     document::decode(&bytes[..bytes.len().min(HEAD)]).contains("<WindowElement")
 }
 
-/// Reads a file; the name of the layer and of its manufacturer are facts of the header. `file` only names it in errors.
+/// Reads a file; the name of the layer and of its manufacturer are header facts. `file` is only its name in errors.
 ///
 /// # Errors
-/// [`FormatError`] with the line: XML that is not well-formed or cut off, an unknown basis or direction, a count of
-/// values that does not fit the basis, braces that do not form a tree, and values that are not finite numbers.
+/// [`FormatError`] with the line: XML that is not well-formed or cut off, an unknown basis or direction, a number of
+/// values that does not match the basis, braces that do not form a tree, and values that are not finite numbers.
 pub fn read(bytes: &[u8], file: &Path) -> Result<Measured<window::Data>, FormatError> {
     Ok(document::Document::parse(&document::decode(bytes), file)?.measured)
 }

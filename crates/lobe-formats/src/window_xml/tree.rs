@@ -1,13 +1,13 @@
 //! The braces of a tensor tree.
 //!
-//! `tree = "{" tree x 2^d "}" | "{" number x 2^(d k) "}"`, with white space or commas between. A stack of open branches,
-//! never deeper than [`MAX_DEPTH`], takes the place of recursion.
+//! `tree = "{" tree x 2^d "}" | "{" number x 2^(d k) "}"`, separated by white space or commas. A stack of open
+//! branches, never deeper than [`MAX_DEPTH`], replaces recursion.
 
 use lobe_table::window::tensor_tree::{MAX_DEPTH, Node, Rank, TensorTree};
 
 use super::words::{number, quoted};
 
-/// Where in the text a tree is wrong.
+/// The place of an error in the text of a tree.
 pub(super) struct TreeSyntax {
     pub(super) at: usize,
     pub(super) found: String,
@@ -85,7 +85,7 @@ pub(super) fn parse(rank: Rank, text: &str) -> Result<TensorTree, TreeSyntax> {
             return Err(TreeSyntax::new(end, format!("a leaf of {count} values"), expected));
         }
         nodes[node] = Node::Leaf { first: index(first, end)?, level };
-        // A node that ends may be the last of its branch, which ends then as well, and so on.
+        // A node that ends may be the last of its branch, which then ends too, and so on.
         while let Some(branch) = open.last_mut() {
             branch.filled += 1;
             if branch.filled < children {

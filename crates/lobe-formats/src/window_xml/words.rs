@@ -1,6 +1,6 @@
 //! Numbers in the text of an element.
 
-/// The tokens between white space and commas, each with its offset.
+/// The tokens separated by white space and commas, each with its offset.
 pub(super) fn numbers(content: &str) -> impl Iterator<Item = (usize, &str)> {
     let is_separator = |character: char| character.is_ascii_whitespace() || character == ',';
     content

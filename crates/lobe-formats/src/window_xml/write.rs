@@ -11,12 +11,13 @@ use quick_xml::escape::escape;
 use crate::{FormatError, RESAMPLED};
 use lobe_files::{unwritable, write_whole};
 
-/// Writes a file that [`read`](super::read) gives back exactly: every basis is spelled out, and values have as many
-/// digits as they need. The facts `name` and `manufacturer` of `source` become those of the layer. The file appears whole or not at all.
+/// Writes a file that [`read`](super::read) restores exactly: every basis is spelled out, and values have as many
+/// digits as they need. The facts `name` and `manufacturer` of `source` become those of the layer. The file appears
+/// whole or not at all.
 ///
 /// # Errors
-/// [`FormatError`] if the file system refuses, and if there is no block, or matrices and trees, or trees of both ranks,
-/// are mixed, which a file cannot say.
+/// [`FormatError`] if the file system refuses, if there is no block, or if matrices and trees, or trees of both ranks,
+/// are mixed, which a file cannot express.
 pub fn write(sheet: &Data, source: &[(String, String)], path: &Path) -> Result<(), FormatError> {
     write_with(sheet, source, &[], path)
 }

@@ -11,15 +11,15 @@ use crate::text::push_row;
 use crate::{FormatError, Place};
 use lobe_files::write_whole;
 
-/// Writes `path` whole or not at all, over the whole circle of phi. The total integrated scatter of each block is that of
-/// its interpolated values over the hemisphere.
+/// Writes `path` whole or not at all, over the full circle of phi. The total integrated scatter of each block is
+/// computed from its interpolated values over the hemisphere.
 ///
-/// Values have nine significant digits and come back the same when they are read again. The format holds angles as `f32`
-/// degrees: knots that came from such a file come back the same, others within 2e-5 degrees.
+/// Values have nine significant digits and are restored exactly when they are read again. The format stores angles as
+/// `f32` degrees: knots that came from such a file are restored exactly, others within 2e-5 degrees.
 ///
 /// # Errors
 /// [`FormatError`] if the file cannot be written, the channels are neither one nor XYZ, the table has refraction
-/// offsets, or two knots are one in `f32` degrees.
+/// offsets, or two knots are equal in `f32` degrees.
 pub fn write(samples: &specular::Data, path: &Path) -> Result<(), FormatError> {
     let refuse = |found: String, expected: &str| Err(FormatError::new(path, Place::File, found, expected));
     let (content, names): (_, &[&str]) = match samples.channels() {
@@ -35,7 +35,7 @@ pub fn write(samples: &specular::Data, path: &Path) -> Result<(), FormatError> {
     let degrees =
         samples.knots().each_ref().map(|knots| knots.iter().map(|a| a.to_degrees() as f32).collect::<Vec<_>>());
     if degrees.iter().any(|list| list.windows(2).any(|pair| pair[0] >= pair[1])) {
-        return refuse("knots that are one in f32 degrees".into(), "distinct ones");
+        return refuse("knots that are equal in f32 degrees".into(), "distinct ones");
     }
     let symmetry = if samples.is_isotropic() { "Asymmetrical" } else { "Asymmetrical4D" };
     let kind = if samples.scatter() == Scatter::Reflection { "BRDF" } else { "BTDF" };

@@ -1,6 +1,6 @@
-//! What every reader must survive.
+//! Damage that every reader must survive.
 
-/// Reads every beginning of `bytes`. `read` says whether it found a whole file; at least the first half must not be one.
+/// Reads every prefix of `bytes`. `read` says whether it found a whole file; at least the first half must not be one.
 pub fn truncations(bytes: &[u8], read: impl Fn(&[u8]) -> bool) {
     assert!(read(bytes), "the whole file must be readable");
     for end in 0..bytes.len() {

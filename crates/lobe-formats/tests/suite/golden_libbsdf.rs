@@ -7,7 +7,7 @@ use lobe_table::specular::reference::eval;
 use lobe_table::{Data, Edges, specular};
 use lobe_testing::golden::{Worst, direction, queries};
 
-/// Largest difference to the golden answers, as a part of the largest magnitude in the table.
+/// The largest difference from the golden answers, relative to the largest magnitude in the table.
 fn largest_error(samples: &specular::Data, answers: &Path) -> (usize, f64) {
     let scale = samples.values().iter().fold(0.0_f64, |largest, &value| largest.max(f64::from(value).abs()));
     let queries = queries(answers);

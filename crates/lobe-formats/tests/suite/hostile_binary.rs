@@ -1,4 +1,4 @@
-//! Broken files: every reader refuses them with the file and the place, and none panics.
+//! Broken files: every reader refuses them, naming the file and the place, and none panics.
 
 use lobe_formats::{Format, FormatError, Place, Sides, mbsdf, merl, pbsdf, tensor, utia};
 use lobe_table::mueller;
@@ -56,7 +56,7 @@ fn files_cut_off_anywhere_are_refused() {
     }
 }
 
-/// Where in a tensor file the header of a field begins, and where its type, position and dimensions are.
+/// The positions of the header of a field in a tensor file, and of its type, position and dimensions.
 struct Header {
     start: usize,
     dtype: usize,
@@ -80,7 +80,7 @@ fn tensor_files_with_wrong_headers_are_refused() {
     let half = 1u64 << 31;
     let sigma = header(&good, "sigma").start as u64;
     let at = vndf.start as u64;
-    // What is written where, the place of the error, what it says was found.
+    // The bytes written and their position, the place of the error, and what it says was found.
     let cases: Vec<(usize, Vec<u8>, u64, &str)> = vec![
         (0, b"tensor".map(|b| b + 1).to_vec(), 0, "ufotps_file"),
         (12, vec![2, 7], 12, "version 2.7"),
@@ -116,7 +116,7 @@ fn tensor_files_with_wrong_headers_are_refused() {
     assert!(error.place == Place::File && error.found.contains("vnda") && error.expected.contains("vndf"), "{error}");
 }
 
-/// The product of these dimensions is a multiple of 2^64: no empty array, but one that cannot be.
+/// The product of these dimensions is a multiple of 2^64: not an empty array, but an impossible one.
 #[test]
 fn a_shape_beyond_the_address_space_is_not_empty() {
     let mut bytes = tiny_rgl();
@@ -127,7 +127,7 @@ fn a_shape_beyond_the_address_space_is_not_empty() {
 }
 
 #[test]
-fn a_name_may_occur_once() {
+fn a_name_may_occur_only_once() {
     let field = || tensor::Field::f32("twice", &[1], &[1.0]);
     let bytes = tensor::TensorFile::new(vec![field(), field()]).to_bytes().expect("bytes");
     let error = tensor::read(&bytes, Path::new(FILE)).expect_err("the name occurs twice");
@@ -135,7 +135,7 @@ fn a_name_may_occur_once() {
 }
 
 #[test]
-fn what_does_not_fit_the_container_is_not_written() {
+fn materials_that_do_not_fit_the_container_are_not_written() {
     let unfit = |fields| tensor::TensorFile::new(fields).to_bytes().expect_err("no file").kind();
     let invalid = std::io::ErrorKind::InvalidInput;
     assert_eq!(unfit(vec![tensor::Field::f32("short", &[2], &[1.0])]), invalid);
@@ -217,7 +217,7 @@ fn mbsdf_blocks_that_lie_are_refused() {
     assert!(read_mbsdf(&bytes).expect_err("NaN").to_string().contains("NaN"));
     assert!(read_mbsdf(&[&good[..], b"\n"].concat()).is_ok());
     assert!(read_mbsdf(&[&good[..], b"more"].concat()).expect_err("a tail").found.contains("4 bytes more"));
-    // Metadata are passed over, and the oldest heading means reflection.
+    // Metadata are ignored, and the oldest heading means reflection.
     let rest = &good[start..];
     let old = [b"NVIDIA ARC MBSDF V1\nkey=\"\xff\"\n\nMBSDF_DATA=\n", rest].concat();
     assert!(mbsdf::read(&old, Path::new(FILE)).expect("an old file").reflection.is_some());

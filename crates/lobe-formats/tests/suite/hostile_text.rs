@@ -1,4 +1,4 @@
-//! Damaged Integra and Zemax files: an error that says where.
+//! Damaged Integra and Zemax files: an error that names the place.
 
 use std::path::Path;
 
@@ -28,7 +28,7 @@ fn every_truncation_is_an_error() {
     }
 }
 
-/// A piece of a sound file, and for each thing in its place what the error has to say: the line, and what was found.
+/// A piece of a sound file and, for each replacement, the expected text of the error: the line, and what was found.
 type Damage = (&'static str, &'static [(&'static str, &'static str)]);
 
 const DDR_DAMAGE: &[Damage] = &[
@@ -131,7 +131,7 @@ fn damage_is_named_with_its_line() {
 
 /// Lists of a thousand knots each fit into a small file; the values that they require do not.
 #[test]
-fn products_of_counts_are_checked_before_memory_is_asked_for() {
+fn products_of_counts_are_checked_before_memory_is_allocated() {
     let list: String = (0..1000).map(|i| format!(" {}", f64::from(i) * 0.09)).collect();
     let head = format!(
         "sigma 1000{list}\npsi 1000{list}\ntheta 1000{list}\nphi 1000{list}\nTypeColorModel BW\nbw def 1 enddef"

@@ -1,4 +1,4 @@
-//! DDR, DDT, SDR and SDT: what the values become, and that writing and reading again loses nothing.
+//! DDR, DDT, SDR and SDT: the conversion of values, and writing and reading again without loss.
 
 use std::f64::consts::PI;
 use std::path::Path;
@@ -41,7 +41,7 @@ fn luminance_is_pi_f_times_kbdf() {
     let samples = read(&mono("ASymmetrical", "Luminance Absolute", "kbdf 0.5 2", |s, h, t| s + h + t)).data;
     assert_eq!(samples.texel([0, 0, 1, 1]), [(200.0 * 0.5 / PI) as f32]);
     assert_eq!(samples.texel([1, 0, 3, 0]), [(240.0 * 2.0 / PI) as f32]);
-    // Without kbdf the factor is 1, and without any keyword of the header but the angles the quantity is the same.
+    // Without kbdf the factor is 1, and with no header keyword except the angles, the quantity is the same.
     let bare = read(&mono("ASymmetrical", "Luminance Absolute", "", |s, h, t| s + h + t)).data;
     assert_eq!(bare.texel([1, 0, 3, 0]), [(240.0 / PI) as f32]);
 }
@@ -67,7 +67,7 @@ fn plane_symmetry_fills_the_circle() {
 #[test]
 fn intensity_is_divided_by_the_cosine_but_not_at_the_horizon() {
     let cosine = |s: f64, h: f64, t: f64| (s + if h == 0.0 { -t } else { t }).to_radians().cos();
-    // Below the horizon the file holds a number that would be 1e7 after the division.
+    // Below the horizon, the file holds a number that would be 1e7 after the division.
     let intensity = |s, h, t| if cosine(s, h, t) > 1e-9 { 0.25 * cosine(s, h, t) } else { 5.0 };
     let samples = read(&mono("ASymmetrical", "Intensity Absolute", "kbdf 1 1", intensity)).data;
     for value in samples.values() {
@@ -124,7 +124,7 @@ fn relative_values_are_scaled_to_the_reflectance_in_kbdf() {
     assert!(error(&mono("PlaneSymmetrical", "Luminance Relative", "", |_, _, _| 1.0)).contains("expected `kbdf`"));
 }
 
-/// Slices of one value each: what is computed for each of them has to be little.
+/// Slices of one value each: the work per slice has to be small.
 #[test]
 fn thousands_of_slices_are_scaled_at_once() {
     let sigma: String = (0..4000).map(|i| format!(" {}", f64::from(i) * 0.02)).collect();
@@ -213,7 +213,7 @@ fn tables() -> impl Strategy<Value = specular::Data> {
 
 proptest! {
     #[test]
-    fn a_written_table_comes_back_the_same(samples in tables()) {
+    fn a_written_table_is_restored(samples in tables()) {
         let folder = tempfile::tempdir().unwrap();
         let name = if samples.scatter() == Scatter::Reflection { "t.ddr" } else { "t.DDT" };
         let path = folder.path().join(name);
@@ -230,7 +230,7 @@ proptest! {
         }
         // The difference of two angles and their sum differ by one rounding.
         prop_assert!(near(back.refraction().unwrap_or(&[]), samples.refraction().unwrap_or(&[])));
-        // And from then on everything is the same to the last bit.
+        // From then on, everything is the same to the last bit.
         ddr::write(back, &path).unwrap();
         let document = open(&path).unwrap().1;
         let Some(Data::Specular(again)) = document.only() else { panic!("no table") };
@@ -239,7 +239,7 @@ proptest! {
 }
 
 #[test]
-fn writers_refuse_what_would_be_misread() {
+fn writers_refuse_misleading_extensions() {
     let folder = tempfile::tempdir().unwrap();
     let table = |scatter, channels: Channels| {
         let values = vec![1.0; channels.count()];

@@ -19,7 +19,7 @@ fn rows(base: f64) -> String {
     (0..4).map(row).collect()
 }
 
-/// What is stated, and the table after it.
+/// Statements, and the table after them.
 fn table(stated: &str, base: f64) -> String {
     format!("\n{stated}\nTIS 0.5\n{}", rows(base))
 }
@@ -80,7 +80,7 @@ fn unknown_lines_of_the_head_and_of_the_tables_are_facts() {
     }
     assert_eq!(document.source.iter().filter(|(name, _)| name == "Temperature").count(), 1);
     assert_eq!(document.tis, [0.5, 0.5]);
-    // A number is no word of the head, but one angle or value too many.
+    // A number is not a word of the head, but one angle or value too many.
     refused(&plain.replace("0 30 60", "0 30 60 80"), "file:6: found `80`");
     refused(&plain.replace("4.20\n", "4.20 7\n"), "found `7`");
 }
@@ -94,12 +94,12 @@ fn wavelengths_are_channels_in_ascending_order() {
     };
     let found = grid(&format!("{HEAD}{}{}DataEnd", of(0.0), of(20.0)));
     assert_eq!(found.channels(), &Channels::Spectral(vec![450.0, 550.0, 650.0]));
-    // The light is at azimuth 90 of the file: a viewer beside it is in the second column.
+    // The light is at azimuth 90 of the file: a viewer next to it is in the second column.
     let at = found.eval(direction(20.0, 0.0), direction(30.0, 0.0));
     for (found, wanted) in at.iter().zip([22.1, 23.1, 24.1]) {
         assert!((found - wanted).abs() < 1e-5, "{at:?}");
     }
-    // One wavelength is no channel of its own, but a fact.
+    // A single wavelength is not a channel, but a fact.
     let one = format!("{HEAD}{}DataEnd", table("AOI 10\nWavelength 632.8nm", 1.0));
     assert_eq!(grid(&one).channels(), &Channels::Mono);
     assert_eq!(fact(&read(&one).expect("a file"), "Wavelength"), Some("632.8 nm"));
@@ -141,7 +141,7 @@ fn the_end_word_may_be_missing_after_a_whole_table() {
     assert_eq!(fact(&read(&whole).expect("a file"), "DataEnd"), Some("missing"));
     assert_eq!(fact(&read(&format!("{whole}DataEnd")).expect("a file"), "DataEnd"), None);
     assert_eq!(grid(&whole.replace('\n', "\r\n")), grid(&whole));
-    // A number that is cut short is a number.
+    // A number that is cut short is still a number.
     refused(whole.trim_end(), "the end of the file within a line");
     refused(&whole[..whole.len() - 3], "the end of the file");
     refused(&format!("{whole}AOI 60\n"), "the end of the file");
@@ -166,7 +166,7 @@ fn sides_and_kinds_of_scatter_are_parts() {
 }
 
 #[test]
-fn stated_totals_scale_what_is_relative() {
+fn stated_totals_scale_relative_values() {
     let slice = "5 5 5 5 5 5";
     let text = format!(
         "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\nScatterAzimuth 3 90 180 270\nScatterRadial 2 0 90\nDataBegin\n\
@@ -176,7 +176,7 @@ fn stated_totals_scale_what_is_relative() {
     let document = from_bytes_with(text.as_bytes(), Path::new("relative.bsdf"), &options);
     let document = document.unwrap_or_else(|error| panic!("{error}"));
     let Data::Spherical(grid) = &document.parts[0].data else { panic!("a grid") };
-    // The light at 0 comes first in the grid, whatever the order of the file.
+    // The light at 0 comes first in the grid, whatever the order in the file.
     for (theta, total) in [(0.0_f64, 0.25), (30.0, 0.5)] {
         let (sin, cos) = theta.to_radians().sin_cos();
         let found = grid.eval([sin, 0.0, cos], [0.6, 0.0, 0.8])[0];

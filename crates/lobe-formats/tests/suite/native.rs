@@ -43,8 +43,8 @@ fn polarised_materials_are_read_back() {
     }
 }
 
-/// A real diffuser, whose file leaves out the angles. That they are the uniform ones shows in the data: the ends of
-/// `phi_d` agree, and at the last `theta_d` and `theta_h` there is no light left.
+/// A real diffuser, whose file leaves out the angles. The data confirm that they are uniform: the ends of `phi_d`
+/// agree, and at the last `theta_d` and `theta_h` no light is left.
 #[test]
 fn the_real_diffuser_depolarises() {
     let Some(shared) = shared() else { return };
@@ -133,9 +133,9 @@ fn mbsdf_files_have_the_blocks_that_they_name() {
     }
 }
 
-/// Three real paints: the mirror direction is where they are brightest, and there is no azimuth at the pole.
+/// Three real paints: they are brightest in the mirror direction, and do not depend on the azimuth at the pole.
 #[test]
-fn mbsdf_paints_shine_where_they_mirror() {
+fn mbsdf_paints_are_brightest_in_the_mirror_direction() {
     let Some(shared) = shared() else { return };
     for name in ["carpaint_blue", "carpaint_red", "example_modules"] {
         let path = shared.join("data/mdl_mbsdf").join(format!("{name}.mbsdf"));
@@ -153,7 +153,7 @@ fn mbsdf_paints_shine_where_they_mirror() {
 }
 
 #[test]
-fn fields_that_no_format_knows_are_kept() {
+fn unknown_fields_are_kept() {
     let Some(shared) = shared() else { return };
     let path = shared.join("data/rgl_bsdf/paper_white_rgb.bsdf");
     let bytes = fs::read(&path).expect("file");

@@ -1,4 +1,4 @@
-//! Files of gonio-photometers of pab, alone and in folders.
+//! Files of pab gonio-photometers, single and in folders.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ fn direction(theta: f64, phi: f64) -> [f64; 3] {
     [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
 }
 
-/// A lobe about the mirror direction and an even floor; half as much passes straight through.
+/// A lobe about the mirror direction and a constant floor; half as much is transmitted straight through.
 fn f(theta_i: f64, theta: f64, phi: f64) -> f64 {
     let (wi, wo) = (direction(theta_i, 0.0), direction(theta, phi));
     let (lobe, share) = if wo[2] > 0.0 { ([-wi[0], -wi[1], wi[2]], 1.0) } else { (wi.map(|c| -c), 0.5) };
@@ -52,7 +52,7 @@ fn refused(text: &str, found: &str) {
 }
 
 #[test]
-fn folders_are_one_material_whatever_the_quantity() {
+fn folders_are_one_material_for_any_quantity() {
     for quantity in ["BSDF", "brdf", "DSF"] {
         let folder = tempfile::tempdir().expect("a folder");
         let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");
@@ -99,7 +99,7 @@ fn light_on_the_back_makes_the_sides_distinct() {
     let (reflection, transmission) = (Scatter::Reflection, Scatter::Transmission);
     let back = Some(Side::Back);
     assert_eq!(found, [(Some(Side::Front), reflection), (back, reflection), (back, transmission)]);
-    // Negative angles are the other half of the plane.
+    // Negative angles are in the other half of the plane.
     let half = read(&made(30.0, "BSDF", -85..=0)).expect("a file");
     assert_eq!(scattered_of(&half, 0).scatter(), reflection);
     let found = f64::from(scattered_of(&half, 0).eval(direction(30.0, 0.0), direction(30.0, 180.0))[0]);
@@ -126,7 +126,7 @@ fn heads_may_be_written_in_many_ways() {
         assert!(text != plain && pab::matches(text.as_bytes()), "{to}");
         assert_eq!(eval(&text), wanted, "{to}");
     }
-    // What is up on the sample is at 90 degrees, here for light that comes from there.
+    // The upward direction of the sample is at 90 degrees, here for light from that direction.
     let turned = plain.replace("#pgII\n", "#upphi 0\n");
     let document = read(&turned).expect("a file");
     assert_eq!(scattered_of(&document, 0).incidences().next().map(|[_, phi]| phi.to_degrees().round()), Some(90.0));

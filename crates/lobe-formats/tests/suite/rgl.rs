@@ -13,9 +13,9 @@ fn load(path: &Path) -> Data {
 
 /// The queries of an answer, split at the columns `wi wo u0 u1 -> values pdf wo.xyz pdf weights`.
 ///
-/// `floor` is the value below which errors are taken as absolute: the references compute in single precision, whose
-/// angles resolve very small values, at the foot of a steep peak, no better.
-/// Returns the largest error of the values, of the density and of the sample.
+/// `floor` is the value below which errors are absolute: the references compute in single precision, which does not
+/// resolve very small values at the foot of a steep peak any better. Returns the largest error of the values, of the
+/// density and of the sample.
 fn powitacq(material: &Data, queries: &[(Vec<f64>, Vec<f64>)], floor: f64) -> [Worst; 3] {
     // The loader of the database returns no negative values.
     let reference = Reference::new(material).clamp_negative(true);
@@ -32,8 +32,8 @@ fn powitacq(material: &Data, queries: &[(Vec<f64>, Vec<f64>)], floor: f64) -> [W
             Some(sample) => {
                 sample.wo.iter().zip(direction(drawn, 0)).for_each(|(a, b)| worst[2].see((a - b).abs(), at));
                 sample.weight.iter().zip(&drawn[4..]).for_each(|(a, b)| worst[2].see(relative(*a, *b, 1e-3), at));
-                // Close to the pole of the half vector the density rises without bound, and with it the effect of the
-                // last digit of a single precision position.
+                // Close to the pole of the half vector, the density rises without bound, and with it the effect of the
+                // last digit of a single-precision position.
                 worst[2].see(relative(sample.pdf, drawn[3], 1e-3) / (1.0 + sample.pdf / 100.0), at);
             }
             None => assert!(drawn.iter().all(|x| *x == 0.0), "query {at}: no sample, but {drawn:?}"),
@@ -88,7 +88,7 @@ fn reduced_and_unweighted_materials_match_mitsuba() {
                 let value = reference.eval_cos_at(wi, wo, nm).expect("a spectral material");
                 eval.see(relative(value, *expected, 1e-7), at);
             }
-            // Beyond the stored wavelengths the value stays.
+            // Beyond the stored wavelengths, the value is constant.
             assert_eq!(reference.eval_cos_at(wi, wo, 380.0), Some(stored[0]));
             assert_eq!(reference.eval_cos_at(wi, wo, 800.0), Some(stored[6]));
             pdf.see(relative(reference.pdf(wi, wo), answer[11], 1e-7), at);
@@ -131,7 +131,7 @@ fn real_materials_match_mitsuba_without_the_cosine() {
     assert!(seen >= 5 * 9 * 3 && worst.error < 1e-4);
 }
 
-/// What the reference draws must be what it evaluates: to the digits of `f64`, and in both orders of the uniforms.
+/// Samples of the reference must agree with its evaluation to the digits of `f64`, for both orders of the uniforms.
 #[test]
 fn samples_have_the_density_and_the_value_of_their_direction() {
     let Some(shared) = shared() else { return };
@@ -141,7 +141,7 @@ fn samples_have_the_density_and_the_value_of_their_direction() {
         let mut value = vec![0.0; material.parts().channels.count()];
         let mut drawn = 0;
         for n in 0..200 {
-            // An additive sequence fills the square of uniforms and the hemisphere of directions alike.
+            // An additive sequence fills both the square of uniforms and the hemisphere of directions.
             let at = |step: f64| (0.5 + f64::from(n) * step).fract();
             let uniform = [at(0.754877666), at(0.569840291)];
             let (theta, phi) = (1.4 * at(0.618033989), std::f64::consts::TAU * at(0.414213562));
@@ -158,12 +158,12 @@ fn samples_have_the_density_and_the_value_of_their_direction() {
                 assert!(relative(value / pdf, *weight, 1e-6) < 1e-9, "{name} {n}: {} and {weight}", value / pdf);
             }
         }
-        assert!(drawn > 100, "{name}: {drawn} of 200 samples lie above the surface");
+        assert!(drawn > 100, "{name}: {drawn} of 200 samples are above the surface");
     }
 }
 
 #[test]
-fn what_is_written_is_read_back() {
+fn written_files_are_read_back() {
     let Some(shared) = shared() else { return };
     let folder = tempfile::tempdir().expect("a folder");
     for name in ["golden/rgl_iso_spec_nojac.bsdf", "golden/rgl_aniso_rgb.bsdf", "data/rgl_bsdf/paper_white_rgb.bsdf"] {
@@ -172,7 +172,7 @@ fn what_is_written_is_read_back() {
         rgl::write(&material, &path).expect("written");
         assert_eq!(load(&path), material, "{name}");
         assert!(rgl::matches(&fs::read(&path).expect("written")));
-        // The fields of the container, each where the format wants it.
+        // The fields of the container, each where the format requires it.
         let bytes = fs::read(&path).expect("written");
         let fields = lobe_formats::tensor::read(&bytes, &path).expect("a tensor file").fields;
         assert!(fields.iter().any(|field| field.name == "vndf" && field.shape.len() == 4));

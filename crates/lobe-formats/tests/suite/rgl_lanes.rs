@@ -55,7 +55,7 @@ fn against(backend: Backend, name: &str, table: &Table, queries: &Queries, pdf_a
     assert!(eval.error < 1e-4 && density.error < 1e-4, "{name} on {backend}");
 }
 
-/// The columns behind the density: direction, density and weights of a sample of the loader of the database.
+/// The columns after the density: direction, density and weights of a sample of the loader of the database.
 fn draws(backend: Backend, name: &str, table: &Table, queries: &Queries) {
     let channels = table.channel_count();
     let (wi, _) = directions(queries);
@@ -71,8 +71,8 @@ fn draws(backend: Backend, name: &str, table: &Table, queries: &Queries) {
             assert_eq!((wo[at], pdf[at]), ([0.0; 3], 0.0), "{name} on {backend}: query {at} has no sample");
         }
         wo[at].iter().zip(expected).for_each(|(a, b)| worst[0].see((f64::from(*a) - b).abs(), at));
-        // Close to the pole of the half vector the density rises without bound, and with it the effect of the last digit
-        // of a single precision position.
+        // Close to the pole of the half vector, the density rises without bound, and with it the effect of the last
+        // digit of a single-precision position.
         worst[1].see(relative(f64::from(pdf[at]), expected[3], 1e-3) / (1.0 + expected[3] / 100.0), at);
         for (weight, expected) in weights[at * channels..][..channels].iter().zip(&expected[4..]) {
             worst[2].see(relative(f64::from(*weight), *expected, 1e-3), at);

@@ -1,4 +1,4 @@
-//! Tables on their way from format to format and back: nothing may be lost but what a format cannot print.
+//! Conversion of tables from format to format and back: nothing may be lost except what a format cannot express.
 
 use std::f64::consts::{PI, TAU};
 use std::io::Read as _;
@@ -30,7 +30,7 @@ fn first_channel(samples: &specular::Data, scatter: Scatter, channels: Channels)
 }
 
 #[test]
-fn ddr_files_are_written_as_they_were_read() {
+fn ddr_files_are_written_back_unchanged() {
     let folder = tempfile::tempdir().expect("a folder");
     for name in FIXTURES {
         let original = std::fs::read_to_string(fixture(name)).expect("a fixture");
@@ -42,7 +42,7 @@ fn ddr_files_are_written_as_they_were_read() {
 }
 
 #[test]
-fn the_way_through_ssdd_and_csv_loses_nothing() {
+fn conversion_through_ssdd_and_csv_loses_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     for name in FIXTURES {
         let samples = table(&fixture(name));
@@ -69,7 +69,7 @@ fn the_way_through_ssdd_and_csv_loses_nothing() {
 }
 
 #[test]
-fn zemax_files_come_back_with_their_total_scatter() {
+fn zemax_files_are_restored_with_their_total_scatter() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("table.bsdf");
     let samples = table(&fixture(FIXTURES[0]));
@@ -80,10 +80,10 @@ fn zemax_files_come_back_with_their_total_scatter() {
         assert_eq!(format, Format::Zemax);
         assert!(matches!(back.only(), Some(Data::Specular(found)) if *found == samples));
         assert_eq!(back.tis.len(), 7 * channels.count());
-        // Between its few knots at grazing incidence the table reflects a little more than the metal: 1.03.
+        // Between its few knots at grazing incidence, the table reflects slightly more than the metal: 1.03.
         assert!(back.tis.iter().all(|tis| (0.1..1.04).contains(tis)), "{:?}", back.tis);
     }
-    // A Lambertian table of reflectance 0.6 scatters that much from everywhere.
+    // A Lambertian table of reflectance 0.6 scatters that much for every incident direction.
     let knots = [vec![0.0, 1.2], vec![0.0], vec![0.0, 1.0, PI], vec![0.0, TAU]];
     let value = (0.6 / PI) as f32;
     let white = specular::Data::new(Scatter::Reflection, knots, Channels::Mono, vec![value; 12]).expect("a table");
@@ -93,7 +93,7 @@ fn zemax_files_come_back_with_their_total_scatter() {
 }
 
 #[test]
-fn zemax_files_refuse_what_they_cannot_say() {
+fn zemax_files_refuse_what_they_cannot_express() {
     let samples = table(&fixture(FIXTURES[0]));
     let refused = |samples: &specular::Data| {
         let error = zemax::write(samples, Path::new("nowhere/x.bsdf")).expect_err("not for this format");
@@ -177,7 +177,7 @@ fn bits(data: &Data) -> Vec<u32> {
     out.into_iter().map(f32::to_bits).collect()
 }
 
-/// Written and read again, whatever that is.
+/// Writes and reads a document of any kind.
 fn through_csv(data: &Data) -> Data {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("a.csv");
@@ -188,7 +188,7 @@ fn through_csv(data: &Data) -> Data {
 
 #[test]
 fn samples_on_circles_are_interpolated_as_before() {
-    // Four neighbours of a ring lie on a circle, so that either diagonal is as good, and rounding chooses.
+    // Four neighbours of a ring are on a circle, so either diagonal is as good, and rounding decides.
     for (step, turn, lights) in [(15.0, 180.0, vec![(0.0, 0.0), (15.0, 15.0)]), (7.3, 0.1, vec![(33.3, 12.3)])] {
         for scatter in [Scatter::Reflection, Scatter::Transmission] {
             let mut angles = Vec::new();
@@ -210,7 +210,7 @@ fn samples_on_circles_are_interpolated_as_before() {
 }
 
 #[test]
-fn samples_in_the_places_of_a_grid_stay_samples_and_half_a_grid_stays_a_grid() {
+fn samples_at_grid_nodes_stay_samples_and_half_a_grid_stays_a_grid() {
     let mut angles = Vec::new();
     for theta_i in [0.2, 0.7] {
         for theta_o in [0.3, 0.9] {
@@ -234,13 +234,13 @@ fn samples_in_the_places_of_a_grid_stay_samples_and_half_a_grid_stays_a_grid() {
             assert!((knot - expected).abs() < 1e-10);
         }
     }
-    // What the comment says has to be so.
+    // The comment has to be true.
     let wrong = "# rows: nodes of a grid\ntheta_i,theta_o,phi_o,Y\n0,0,0,1\n0,10,0,1\n0,20,90,1\n";
     let error = lobe_formats::from_bytes(wrong.as_bytes(), Path::new("a.csv")).expect_err("no grid");
     assert!(error.to_string().contains("each node of a grid once"), "{error}");
 }
 
-/// What NumPy reads: the dictionary of the header and the data after it.
+/// The parts that NumPy reads: the dictionary of the header and the data after it.
 fn member(archive: &mut zip::ZipArchive<std::fs::File>, name: &str) -> (String, Vec<u8>) {
     let mut bytes = Vec::new();
     archive.by_name(name).expect(name).read_to_end(&mut bytes).expect("stored bytes");

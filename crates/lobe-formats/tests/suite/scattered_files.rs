@@ -1,4 +1,4 @@
-//! Formats of scattered measurements: what they mean, and what is refused.
+//! Formats of scattered measurements: their meaning, and refused files.
 
 use std::f64::consts::PI;
 use std::path::Path;
@@ -11,7 +11,7 @@ use lobe_testing::files::{bytes, files, shared};
 type Reader = fn(&[u8], &Path) -> Result<scattered::Data, FormatError>;
 type Matches = fn(&[u8]) -> bool;
 
-/// Every format with a small file of it: two incident directions and three outgoing ones each, in the order of angle.
+/// Every format with a small example file: two incident directions and three outgoing ones each, in the order of angle.
 const FORMATS: [(&str, Matches, Reader, &str); 7] = [
     ("cornell", cornell::matches, cornell::read, CORNELL),
     ("fred", fred::matches, fred::read, FRED),
@@ -37,7 +37,7 @@ fn direction(theta: f64, phi: f64) -> [f64; 3] {
 }
 
 #[test]
-fn every_format_knows_its_own_files_only() {
+fn every_format_recognises_only_its_own_files() {
     for (name, _, _, text) in FORMATS {
         for (other, matches, ..) in FORMATS {
             assert_eq!(matches(text.as_bytes()), name == other, "{name} and {other}");
@@ -53,7 +53,7 @@ fn hostile_input_does_no_harm() {
             matches(bytes);
             read(bytes, Path::new("file")).is_ok()
         };
-        // In these every line is a record, and so a beginning of the file may be a shorter file.
+        // In these formats, every line is a record, so a prefix of the file may be a shorter file.
         if name == "openmaterial" {
             lobe_testing::damage::truncations(text.as_bytes(), is_whole);
         } else {
@@ -183,7 +183,7 @@ fn the_files_of_a_diffuser_are_one_material() {
     let data = shared.join("data/rpc_txt");
     let diffuser = fred::read_rpc_folder(&data).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!((diffuser.incidences().len(), diffuser.is_isotropic()), (13, false));
-    // Light that comes down at 10 degrees toward azimuth 37.5 goes on in about that direction.
+    // Light that arrives at 10 degrees toward azimuth 37.5 continues in about that direction.
     let (theta, phi) = (10_f64.to_radians(), 37.5_f64.to_radians());
     let ([x, y, z], [u, v, w]) = (direction(theta, phi), direction(theta, phi + PI));
     let (straight, back) = (diffuser.eval([-x, -y, z], [x, y, -z])[0], diffuser.eval([-x, -y, z], [u, v, -w])[0]);
@@ -201,7 +201,7 @@ fn wavelengths_that_overflow_are_refused() {
 }
 
 #[test]
-fn what_people_wrote_into_a_header_is_kept() {
+fn header_facts_are_kept() {
     let facts = |name: &str, text: &str| {
         lobe_formats::from_bytes(text.as_bytes(), Path::new(name)).unwrap_or_else(|error| panic!("{error}")).source
     };

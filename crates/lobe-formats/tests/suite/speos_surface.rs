@@ -1,4 +1,4 @@
-//! Surfaces of Speos that are a few numbers.
+//! Surfaces of Speos described by a few numbers.
 
 use std::f64::consts::PI;
 use std::path::Path;
@@ -40,7 +40,7 @@ fn assert_parts(text: &str, wanted: &[(Scatter, f64)]) {
 }
 
 #[test]
-fn what_is_not_absorbed_is_shared_out() {
+fn light_that_is_not_absorbed_is_divided() {
     let (reflection, transmission) = (Scatter::Reflection, Scatter::Transmission);
     assert_parts(&simple("Reflection\n0 100 0 5\n"), &[(reflection, 1.0)]);
     assert_parts(&simple("Reflection\n80 100 0 0"), &[(reflection, 0.2)]);
@@ -70,7 +70,7 @@ fn coatings_are_mirrors_of_unpolarised_light() {
     assert!(near(reflected.at(0.0, 0.0), [0.3, 0.04]), "{:?}", reflected.at(0.0, 0.0));
     assert!(near(passed.at(0.0, 0.0), [0.7, 0.96]), "{:?}", passed.at(0.0, 0.0));
     assert!(near(reflected.at(PI / 2.0, 0.0), [1.0, 1.0]));
-    refused(&SPEOS_COATED.replace("480\t\t580", "580\t\t480"), "wavelengths in no order");
+    refused(&SPEOS_COATED.replace("480\t\t580", "580\t\t480"), "wavelengths out of order");
     refused(&SPEOS_COATED.replace("\n90\t", "\n0\t"), "incident angle 0");
     refused(&SPEOS_COATED.replace("2 2", "2000000000 2"), "2000000000");
     refused(&SPEOS_COATED.replace("\t32\t", "\t-1\t"), "a reflectance -1");

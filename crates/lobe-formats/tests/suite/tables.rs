@@ -1,4 +1,4 @@
-//! Formats that hold grids or both sides of a sheet: what they mean, and what is refused.
+//! Formats that hold grids or both sides of a sheet: their meaning, and refused files.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
@@ -98,7 +98,7 @@ fn ssdd_survives_a_round_trip() {
 }
 
 #[test]
-fn ssdd_refuses_what_it_cannot_keep() {
+fn ssdd_refuses_what_it_cannot_express() {
     let change = |from: &str, to: &str| ssdd::read(SSDD.replace(from, to).as_bytes(), file());
     refused(change("specular_coordinate", "half_difference_coordinate"), Place::Line(5), "half_difference");
     refused(change("specular_coordinate", "distorted_spherical_coordinate"), Place::Line(5), "distorted");
@@ -142,7 +142,7 @@ fn speos_tables_are_scaled_to_their_percentages() {
         let through = transmission.eval(degrees(30.0, 200.0), [x, y, -z]);
         let wanted = [0.5, 0.25].into_iter().chain(transmitted).map(|albedo| albedo / PI);
         for (found, wanted) in reflected.into_iter().chain(through).zip(wanted) {
-            // The trapezoids of the integral are good to 1e-4 at steps of a degree.
+            // The trapezoids of the integral are accurate to 1e-4 at steps of a degree.
             assert!((f64::from(found) / wanted - 1.0).abs() < 2e-4, "{kind}: {found}, not {wanted}");
         }
     }
@@ -169,7 +169,7 @@ fn every_real_speos_file_loads() {
     for path in files(&shared.join("data/speos_anisotropicbsdf")) {
         let found = speos::read(&bytes(&path), &path).unwrap_or_else(|error| panic!("{error}"));
         for part in [found.reflection, found.transmission].into_iter().flatten() {
-            // The albedo at normal incidence, by the midpoints of a fine grid.
+            // The albedo at normal incidence, from the midpoints of a fine grid.
             let (mut albedo, (n, m)) = (0.0, (180, 90));
             for (i, j) in (0..n).flat_map(|i| (0..m).map(move |j| (i, j))) {
                 let theta = (f64::from(i) + 0.5) / f64::from(n) * FRAC_PI_2;
@@ -208,7 +208,7 @@ fn astm_records_are_radians() {
 }
 
 #[test]
-fn tables_of_goniometers_find_their_shape_and_unit() {
+fn shape_and_unit_of_goniometer_tables_are_recognised() {
     let radian = 1_f64.to_radians();
     for (head, unit, delimiter) in
         [("phi_o,theta_i,theta_o,f", 1.0, ","), ("phi_o_rad,theta_i_rad,theta_o_rad,550nm", radian, ";")]
@@ -222,7 +222,7 @@ fn tables_of_goniometers_find_their_shape_and_unit() {
     let text = csv("phi_deg,sigma,theta,Y", 1.0);
     let Ok(Data::Specular(samples)) = goniometer::read(text.as_bytes(), file()) else { panic!("a grid") };
     assert_eq!(samples.texel([1, 0, 1, 1]), [9.0]);
-    // With a row missing it is not a grid, and the direction of each row stays what it was.
+    // With a row missing, it is not a grid, and the direction of each row is unchanged.
     let less = text.rsplit_once("\n").and_then(|(text, _)| text.rsplit_once('\n')).expect("lines").0;
     let Ok(Data::Scattered(data)) = goniometer::read(less.as_bytes(), file()) else { panic!("samples") };
     assert!(
@@ -238,7 +238,7 @@ fn tables_of_goniometers_find_their_shape_and_unit() {
 }
 
 #[test]
-fn json_tables_have_a_list_a_column() {
+fn json_tables_have_one_list_per_column() {
     let text = JSON;
     assert!(goniometer::matches(text.as_bytes()));
     let Ok(Data::Scattered(data)) = goniometer::read(text.as_bytes(), file()) else { panic!("samples") };

@@ -10,7 +10,8 @@ const HEAD: &str = "TracePro Surface Property Data\nFile Name\t/a/b.db\nTracePro
                     Scatter    5\nSolve\tBRDF\n\n";
 const NAMES: &str = "Temperature\tWavelength\tIncAngle\tAziAngle\tScatterBeta\tScatterAzimuth\tBRDF\tBTDF\n";
 
-/// Rows of a table that falls by 0.1 from abscissa to abscissa of 1, and one of transmission that is half of it.
+/// Rows of a table that starts at 1 and falls by 0.1 from abscissa to abscissa, and of a transmission table with half
+/// its values.
 fn table(nm: f64, base: f64) -> String {
     let mut rows = String::new();
     for theta in [0, 30, 60] {
@@ -40,7 +41,7 @@ fn refused(text: &str, found: &str) {
     assert!(error.contains(found), "{error}");
 }
 
-/// A direction by its projection on the surface.
+/// A direction from its projection onto the surface.
 fn projected(x: f64, y: f64) -> [f64; 3] {
     [x, y, (1.0 - x * x - y * y).sqrt()]
 }
@@ -65,7 +66,7 @@ fn values_depend_on_the_distance_of_the_projections() {
     for theta in [0.0_f64, 30.0, 60.0] {
         let sin = theta.to_radians().sin();
         for turn in [0.0_f64, 100.0] {
-            // The light on any azimuth: the table does not depend on it.
+            // Light at any azimuth: the table does not depend on it.
             let (c, s) = (turn.to_radians().cos(), turn.to_radians().sin());
             let wi = projected(sin * c, sin * s);
             for (beta, angle) in
@@ -110,14 +111,14 @@ fn wavelengths_sides_and_mirrors_are_kept() {
 }
 
 #[test]
-fn what_a_file_leaves_open_is_refused() {
+fn ambiguous_properties_are_refused() {
     let whole = file("", &table(550.0, 0.4));
     refused(&whole.replacen("0.1\t90\t0.39\t", "0.1\t90\t0.38\t", 1), "depends on ScatterAzimuth");
     refused(&whole.replacen("300\t0.55\t30", "310\t0.55\t30", 1), "a second temperature, 310 K");
     refused(&whole.replace("ScatterBeta", "ScatterTheta"), "ScatterTheta");
     refused(&whole.replacen("\t0.1\t90\t", "\t2.1\t90\t", 1), "ScatterBeta 2.1");
     refused(&format!("{whole}{}", table(600.0, 0.4).lines().next().expect("a row")), "without");
-    refused(&format!("{whole}SAVE-DATA\n{whole}"), "one property a file");
+    refused(&format!("{whole}SAVE-DATA\n{whole}"), "one property per file");
     refused(&whole.replace("Table_BSDF_Data", "GratingData"), "a grating");
     refused(
         &format!("{HEAD}Temperature Wavelength IncAngle BRDF_A\n300 0.55 0 0.1\nSAVE-DATA"),

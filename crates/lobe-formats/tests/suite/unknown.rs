@@ -1,4 +1,4 @@
-//! Files that are packed, damaged or something else, and what is said about them.
+//! Files that are compressed, damaged or something else, and the messages about them.
 
 use std::io::Write as _;
 use std::path::Path;
@@ -28,19 +28,19 @@ fn refused(bytes: &[u8], name: &str, found: &str, expected: &str) {
     assert!(error.found.contains(found) && error.expected.contains(expected), "{error}");
 }
 
-/// Comparable, and with all that was read.
+/// A comparable form of everything that was read.
 fn shown(document: &Document) -> String {
     format!("{document:?}")
 }
 
 #[test]
-fn every_format_may_be_packed() {
+fn every_format_may_be_compressed() {
     for (format, bytes) in examples::all() {
         let plain = from_bytes(&bytes, Path::new("a")).unwrap_or_else(|error| panic!("{format}: {error}"));
         let packed = from_bytes(&gzip(&bytes), Path::new("a.gz")).unwrap_or_else(|error| panic!("{format}: {error}"));
         assert_eq!(shown(&plain), shown(&packed), "{format}");
     }
-    // The name of what is packed counts, and errors name the file.
+    // The name of the content is used, and errors name the file.
     let document = from_bytes(&gzip(examples::DDR.as_bytes()), Path::new("film.ddt.gz")).expect("a table");
     assert_eq!(document.parts[0].data.representation().aspects()[0].scatter, Scatter::Transmission);
     let error = refusal(&gzip(examples::DDR.replace("gre", "grx").as_bytes()), "film.ddt.gz");
@@ -65,7 +65,7 @@ fn merl_files_that_are_damaged_are_recognised() {
         for (len, found) in [(1012, "1,012"), (12, "12"), (size - 1, ""), (size + 1, "")] {
             let mut bytes = head.clone();
             bytes.resize(len, 1);
-            let how = if len < size { "cut short" } else { "with more bytes than its header says" };
+            let how = if len < size { "cut short" } else { "with more bytes than its header states" };
             refused(&bytes, "any.name", how, "fetch the file again");
             refused(&bytes, "any.name", found, "");
             refused(&bytes, "any.name", &format!(" of {of} bytes)"), "");
@@ -77,7 +77,7 @@ fn merl_files_that_are_damaged_are_recognised() {
     refused(&[90, 0, 0, 0, 90], "a.binary", "a MERL file cut short (5 of 34,992,012 bytes)", "again");
     let small = tiny_merl();
     assert!(from_bytes(&small, Path::new("small.binary")).is_ok());
-    // As many bytes as values of 32 bits would take are described as those.
+    // A file with the size for values of 32 bits is described as having those.
     for end in (13..small.len()).filter(|end| *end != 84) {
         refused(&small[..end], "small.binary", "cut short", "again");
     }
@@ -91,16 +91,16 @@ fn merl_files_that_are_damaged_are_recognised() {
 }
 
 #[test]
-fn utia_files_of_another_size_are_guessed_at() {
+fn utia_files_of_another_size_are_described() {
     let values: Vec<u8> = (0..3000).flat_map(|at| (20.0 + f64::from(at % 7)).to_le_bytes()).collect();
-    refused(&values[..23_999], "m001.bin", "what may be a UTIA file cut short (23,999 of 1,990,656 bytes)", "again");
+    refused(&values[..23_999], "m001.bin", "possibly a UTIA file cut short (23,999 of 1,990,656 bytes)", "again");
     refused(&values.repeat(100), "m001.BIN", "with more bytes", "again");
     refused(&values, "m001.dat", "content of no known format, binary data that begin 00 00", "one of");
     refused(&[0xfe; 4000], "m001.bin", "content of no known format", "one of");
 }
 
 #[test]
-fn what_a_file_is_instead_is_said() {
+fn other_files_are_described() {
     let page = format!("<!DOCTYPE html>\n<html><body><pre>{LIGHT_TOOLS}</pre></body></html>");
     refused(page.as_bytes(), "a.bsdf", "a web page (HTML)", "Raw");
     refused(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 5\n", "a", "Git LFS", "git lfs pull");
@@ -109,7 +109,7 @@ fn what_a_file_is_instead_is_said() {
     refused(
         b"OPTIS - something else v8.0\n0\nComment\n",
         "a.brdf",
-        "another file of Speos, `OPTIS - something else v8.0`",
+        "another kind of Speos file, `OPTIS - something else v8.0`",
         ".brdf",
     );
     let binary = b"OPTIS - Anisotropic BSDF surface file v9.0\n1\x03\0\0\0";
@@ -120,7 +120,7 @@ fn what_a_file_is_instead_is_said() {
 }
 
 #[test]
-fn nothing_that_a_terminal_obeys_comes_out_of_a_file() {
+fn control_characters_of_files_are_escaped() {
     let harmless = |text: &str| !text.chars().any(char::is_control);
     let evil = "\u{1b}[31mred\u{7}\u{9b}1m\u{202e}";
     for name in ["a", "a\u{1b}[2J.ddr"] {

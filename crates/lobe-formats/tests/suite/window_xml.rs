@@ -1,4 +1,4 @@
-//! WINDOW XML: what it means, and what is refused.
+//! WINDOW XML: its meaning, and refused files.
 
 use std::path::Path;
 
@@ -37,7 +37,7 @@ fn columns_and_rows_are_transposed() {
 }
 
 #[test]
-fn marks_and_lines_before_the_xml_are_let_pass() {
+fn marks_and_lines_before_the_xml_are_skipped() {
     let plain = sheet("Rows", NINE);
     let wanted = read(plain.as_bytes()).expect("a sheet");
     assert_eq!(read(format!("Recover using: program -r\n{plain}").as_bytes()).as_ref(), Ok(&wanted));
@@ -62,13 +62,13 @@ fn the_definition_may_follow_the_data() {
 }
 
 #[test]
-fn comments_and_sections_within_the_values_do_not_part_them() {
+fn comments_and_sections_do_not_split_values() {
     let parted = "1 2 3 <!-- half --> 4 5 <![CDATA[6 7]]> 8 9";
     assert_eq!(values(&sheet("Rows", parted)), values(&sheet("Rows", NINE)));
 }
 
 #[test]
-fn what_is_wrong_is_named_with_its_line() {
+fn errors_name_the_line() {
     refused(&sheet("Rows", "1 2 3\n4 5 6\n7 8"), Place::Line(8), "8 values");
     refused(&sheet("Rows", "1 2 3\n4 nan 6\n7 8 9"), Place::Line(9), "nan");
     refused(&sheet("Rows", "1 2 3\n4 1e39 6\n7 8 9"), Place::Line(9), "1e39");

@@ -1,4 +1,4 @@
-//! WINDOW XML against what Radiance answered.
+//! WINDOW XML against the answers of Radiance.
 
 use std::path::Path;
 

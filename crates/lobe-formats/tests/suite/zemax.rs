@@ -1,4 +1,4 @@
-//! Zemax files: spellings, layouts and what the values become.
+//! Zemax files: spellings, layouts and the conversion of values.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! People's own tables: each spelling of one measurement is read as that measurement, or refused with a way to say it.
+//! Users' own tables: each spelling of one measurement is read as that measurement, or refused with advice.
 
 mod options;
 mod text;
@@ -18,13 +18,13 @@ pub fn thetas() -> impl Iterator<Item = f64> {
     (-13..=13).map(|step| 6.0 * f64::from(step))
 }
 
-/// What was measured: a lobe about the mirror direction, at positive angles.
+/// The measurement: a lobe about the mirror direction, at positive angles.
 pub fn f(theta_i: f64, theta_o: f64, channel: usize) -> f64 {
     let value = BASE[channel] + 0.1 * (-((theta_o - theta_i) / 12.0).powi(2)).exp();
     (value * 1e4).round() / 1e4
 }
 
-/// A line per pair of directions, made of its angles and its three values.
+/// One line per pair of directions, built from its angles and its three values.
 pub fn rows(row: impl Fn(f64, f64, [f64; 3]) -> String) -> String {
     let pairs = THETA_I.iter().flat_map(|&theta_i| thetas().map(move |theta_o| (theta_i, theta_o)));
     pairs.map(|(i, o)| row(i, o, [0, 1, 2].map(|channel| f(i, o, channel))) + "\n").collect()

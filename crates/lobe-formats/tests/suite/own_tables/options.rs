@@ -1,4 +1,4 @@
-//! What files leave open: sidecars, options that do not fit, totals.
+//! Options for what files leave open: sidecars, options that do not apply, totals.
 
 use std::f64::consts::PI;
 use std::path::Path;
@@ -26,7 +26,7 @@ fn a_sidecar_is_read_with_its_file() {
     assert_eq!(sidecar::parse(&text, path()), Ok(said));
     std::fs::write(folder.path().join("scan.txt.lobe.toml"), &text).expect("a sidecar");
     is_the_measurement(&open(&file).unwrap_or_else(|error| panic!("{error}")).1, 1, "sidecar");
-    // What is said comes before it.
+    // Given options take precedence over it.
     let other = ReadOptions { values: Some(Quantity::F), ..ReadOptions::default() };
     let found = open_with(&file, &other).unwrap_or_else(|error| panic!("{error}")).1;
     assert!(
@@ -57,7 +57,7 @@ fn a_sidecar_is_read_with_its_file() {
 }
 
 #[test]
-fn options_that_do_not_fit_are_refused() {
+fn options_that_do_not_apply_are_refused() {
     let zemax = lobe_testing::examples::ZEMAX;
     for words in [
         ("columns", "theta_i=1"),
@@ -71,7 +71,7 @@ fn options_that_do_not_fit_are_refused() {
 }
 
 #[test]
-fn stated_totals_scale_what_is_relative() {
+fn stated_totals_scale_relative_values() {
     let relative = |values: &str| {
         format!(
             "Source Measured\nSymmetry PlaneSymmetrical\nSpectralContent Monochrome\nScatterType BRDF\nSampleRotation 1\n0\n\
@@ -96,7 +96,7 @@ fn stated_totals_scale_what_is_relative() {
 }
 
 #[test]
-fn cut_off_anywhere_it_is_read_or_refused() {
+fn truncated_tables_are_read_or_refused() {
     for text in [
         table(HEAD, ";").replace('.', ","),
         format!("Angle of incidence: 10 deg\n{}", in_plane("theta_i,theta_o,R,G,B")),

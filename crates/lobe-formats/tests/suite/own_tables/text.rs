@@ -1,4 +1,4 @@
-//! How text becomes cells, and names become angles.
+//! From text to cells, and from names to angles.
 
 use lobe_formats::{Document, Format, sniff};
 use lobe_table::Channels;
@@ -71,7 +71,7 @@ fn encodings_and_ends_of_lines() {
         assert_eq!(sniff(&bytes), Some(Format::Goniometer), "{name}");
         is_the_measurement(&read(&bytes, &[]), 3, name);
     }
-    // A spreadsheet in German.
+    // A German spreadsheet.
     let german =
         table("Einfallswinkel [Grad],Streuwinkel [Grad],Azimut [Grad],450 nm,550 nm,650 nm", ";").replace('.', ",");
     let units: Vec<u8> = german.replace('\n', "\r\n").encode_utf16().flat_map(u16::to_le_bytes).collect();
@@ -168,7 +168,7 @@ fn lines_around_the_rows() {
     }
     let document = read(format!("Instrument,goniometer X\nSample name: blue, matt\n{plain}").as_bytes(), &[]);
     assert_eq!(document.source[0], ("Instrument".into(), "goniometer X".into()));
-    // An angle in a line of its own holds until the next.
+    // An angle in a separate line applies until the next one.
     let blocks: String = THETA_I
         .iter()
         .map(|i| {

@@ -1,4 +1,4 @@
-//! What columns of values hold, and which are read.
+//! The contents of value columns, and which of them are read.
 
 use std::f64::consts::PI;
 
@@ -76,7 +76,7 @@ fn quantities_of_values() {
 }
 
 #[test]
-fn what_passes_through() {
+fn transmission() {
     let through = format!("theta_i,theta_o,BTDF\n{}", rows(|i, o, [a, ..]| format!("{i},{o},{a}")));
     let document = read(through.as_bytes(), &[]);
     assert_eq!(document.only().expect("data").representation().scatter(), Scatter::Transmission);
@@ -104,7 +104,7 @@ fn what_passes_through() {
 }
 
 #[test]
-fn columns_are_said() {
+fn columns_can_be_named() {
     let body = rows(|i, o, [a, b, c]| format!("{i} {o} 180 {a} {b} {c}"));
     let all = "theta_i=1,theta_o=2,phi_o=3,R=4,G=5,B=6";
     is_the_measurement(&read(body.as_bytes(), &[("columns", all)]), 3, "no names");
