@@ -69,7 +69,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let aspects = choose_aspects(&args.file, &subject, args.scatter, args.side)?;
     if let Some(aspect) = aspects.iter().find(|&&aspect| subject.is_in_plane(aspect)) {
         let message = format!(
-            "{}: {aspect}: measured in the plane of incidence only, so there is no albedo",
+            "{}: {aspect}: measured only in the plane of incidence, so there is no albedo",
             args.file.display()
         );
         return Err(Failure::Check(message));

@@ -94,9 +94,10 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Document, FormatError> {
         let numbers = [i32::from_le_bytes([a, b, c, d]), i32::from_le_bytes([e, f, g, h])];
         let [Ok(start), Ok(count)] = numbers.map(u32::try_from) else {
             cursor.at = start + 8 * series.len();
-            return Err(
-                cursor.error(format!("{} coefficients from {} on", numbers[1], numbers[0]), "numbers that are not negative")
-            );
+            return Err(cursor.error(
+                format!("{} coefficients from {} on", numbers[1], numbers[0]),
+                "numbers that are not negative",
+            ));
         };
         series.push(Series { start, count });
     }

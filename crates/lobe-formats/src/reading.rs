@@ -242,7 +242,8 @@ impl ReadOptions {
         if given.is_empty() {
             return Ok(());
         }
-        let found = format!("{}, which only apply to tables with named columns, for a file of {format}", given.join(", "));
+        let found =
+            format!("{}, which only apply to tables with named columns, for a file of {format}", given.join(", "));
         Err(FormatError::new(path, Place::File, found, "only values and scale"))
     }
 }

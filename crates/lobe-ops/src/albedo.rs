@@ -1,5 +1,4 @@
-//! Directional-hemispherical reflectance, or transmittance: the share of the light from one direction that
-//! is scattered.
+//! Directional-hemispherical reflectance or transmittance: the share of the light from one direction that is scattered.
 
 use lobe_table::specular;
 use lobe_table::specular::reference::zenith;
@@ -53,8 +52,8 @@ pub fn albedo<'a>(
 }
 
 /// The albedo of a file for light at a polar angle and an azimuth, in radians, with the quadrature that suits its
-/// representation: between the knots of a grid; the sum over the patches of a Klems matrix, which is exact; refined
-/// toward the mirror direction in all others.
+/// representation: between the knots for grids; the exact sum over the patches for Klems matrices; refined toward the
+/// mirror direction for all others.
 pub fn albedo_of(subject: &Subject, aspect: Aspect, incidence: [f64; 2], effort: Effort) -> Albedo {
     let exact = subject.data(aspect).and_then(|data| data.representation().albedo(aspect, incidence));
     match exact {
@@ -63,8 +62,8 @@ pub fn albedo_of(subject: &Subject, aspect: Aspect, incidence: [f64; 2], effort:
     }
 }
 
-/// The albedo of every slice of a table, `[sigma][psi]`, negative values included, as the default edge policy
-/// interpolates them.
+/// The albedo of every slice of a table, `[sigma][psi]`, including negative values, as interpolated with the default
+/// edge policy.
 ///
 /// For a transmission table it is the transmittance.
 pub fn albedo_of_samples(samples: &specular::Data, effort: Effort) -> Vec<Albedo> {
@@ -77,7 +76,7 @@ pub fn albedo_of_samples(samples: &specular::Data, effort: Effort) -> Vec<Albedo
         let integral = integrate(&panels, channels, effort, |viewers, out| {
             let mut texel = vec![0.0; channels];
             for (viewer, out) in viewers.iter().zip(out.chunks_exact_mut(channels)) {
-                // The slice at the horizon counts too, although no light arrives from there.
+                // The slice at the horizon is included, although no light arrives from there.
                 let light = spherical(sigma, psi);
                 let [.., theta, phi] = lobe_table::specular::coords::directions_to_angles(light, *viewer, |_| polar);
                 lobe_table::specular::reference::eval_angles(samples, &edges, [sigma, psi, theta, phi], &mut texel);

@@ -1,4 +1,4 @@
-//! Tables and materials in CIE XYZ or in RGB, as [`lobe_colour`] has it. Values stay in 1/sr.
+//! Conversion of tables and materials to CIE XYZ or RGB, as defined in [`lobe_colour`]. Values stay in 1/sr.
 
 use lobe::Backend;
 use lobe_colour::{Channels, NoColour, Reduction, Space};
@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use crate::OnBackend;
 
-/// The same table with XYZ or RGB channels. Colours outside the triangle of the primaries have negative RGB, which are
+/// The same table with XYZ or RGB channels. Colours outside the triangle of the primaries have negative RGB, which is
 /// kept.
 ///
 /// # Errors
@@ -30,7 +30,7 @@ fn channels(space: Space) -> Channels {
     }
 }
 
-/// Why a table cannot be converted.
+/// A table that cannot be converted.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ColourError {
     /// Its channels have no colour.

@@ -1,4 +1,4 @@
-//! How far two materials are apart: in numbers, and to the eye.
+//! The difference of two materials, in numbers and in appearance.
 
 use std::f64::consts::PI;
 
@@ -46,7 +46,7 @@ pub struct Visible {
 }
 
 /// Compares two materials at up to `count` pairs of directions with polar angles up to `limit` in radians: the same
-/// pairs at every call, every other one near the mirror direction.
+/// pairs at every call, half of them near the mirror direction.
 ///
 /// Materials with the same channels are compared in these, others in XYZ.
 ///
@@ -135,7 +135,7 @@ fn lit_pixels(size: usize) -> Vec<([f64; 3], [f64; 3])> {
                 continue;
             }
             let normal = [x, y, (1.0 - square).sqrt()];
-            // The tangent goes round the vertical axis, to which no visible normal is parallel.
+            // The tangent is around the vertical axis, to which no visible normal is parallel.
             let around = normal[0].hypot(normal[2]);
             let tangent = [normal[2] / around, 0.0, -normal[0] / around];
             let up = cross(normal, tangent);
@@ -149,7 +149,7 @@ fn lit_pixels(size: usize) -> Vec<([f64; 3], [f64; 3])> {
     pixels
 }
 
-/// XYZ of the pixels, of which a perfect white that faces the light has Y = 1.
+/// XYZ of the pixels, relative to a perfect white that faces the light, with Y = 1.
 fn colours<'a>(
     scattering: impl Into<OnBackend<'a>>,
     aspect: Aspect,
@@ -208,7 +208,7 @@ mod tests {
 
     /// White and black differ by 100 where the white sphere faces the light, and by less where it is darker.
     #[test]
-    fn spheres_differ_as_they_look() {
+    fn spheres_differ_in_appearance() {
         let grey = |albedo: f64| Exact(Lambert { albedo: [albedo; 3] });
         let far = visible(&grey(1.0), &grey(0.0), Aspect::REFLECTION, 64).expect("colours");
         assert!((far.max - 100.0).abs() < 0.5 && far.mean < far.percentile_95, "{far:?}");

@@ -1,4 +1,4 @@
-//! Energy conservation, restored.
+//! Restoring energy conservation.
 
 use lobe_table::{GridError, specular};
 use serde::Serialize;
@@ -17,13 +17,13 @@ pub struct Repair {
 }
 
 /// Scales every slice, a pair of sigma and psi knots, whose albedo is above 1 in any channel, so that its largest
-/// channel is 1: all channels by the same factor, so that the colour stays.
+/// channel is 1. All channels are scaled by the same factor, so that the colour does not change.
 ///
-/// The albedo is that of the default edge policy, negative values included, within `effort`. Between the knots of sigma
-/// it may still be above 1.
+/// The albedo is computed with the default edge policy, including negative values, within `effort`. Between the knots
+/// of sigma, it may still be above 1.
 ///
 /// # Errors
-/// Never for a table whose values are finite, which those of [`specular::Data`] are.
+/// Never for a table with finite values, which [`specular::Data`] guarantees.
 pub fn conserve_energy(samples: &specular::Data, effort: Effort) -> Result<(specular::Data, Vec<Repair>), GridError> {
     let albedos = albedo_of_samples(samples, effort);
     let slice = samples.values().len() / albedos.len();

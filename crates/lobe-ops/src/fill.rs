@@ -1,10 +1,10 @@
-//! Values for directions at which nothing was measured.
+//! Filling in values for unmeasured directions.
 
 use lobe_table::{GridError, specular};
 
 use crate::samples::{closes_circle, position, with_values};
 
-/// How values are continued beyond the last one that was measured.
+/// The extrapolation beyond the last measured value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Beyond {
     /// The nearest measured value.
@@ -19,18 +19,17 @@ pub enum Beyond {
 pub struct Filled {
     /// The table.
     pub samples: specular::Data,
-    /// Which nodes were filled, in the order of the values, `[sigma][psi][theta][phi]`.
+    /// The nodes that were filled, in the order of the values, `[sigma][psi][theta][phi]`.
     pub mask: Vec<bool>,
 }
 
-/// The nodes that look as if nothing was measured there: all channels are exactly 0.
-///
-/// Files have no better way to say so, and a measured value is seldom exactly 0.
+/// The nodes that look as if nothing was measured there: all channels are exactly 0. Files have no better way to
+/// express it, and a measured value is seldom exactly 0.
 pub fn zeros(samples: &specular::Data) -> Vec<bool> {
     missing(samples, |texel| texel.iter().all(|&value| value == 0.0))
 }
 
-/// The nodes with a negative value in any channel: noise about a dark level that was subtracted.
+/// The nodes with a negative value in any channel: noise around a subtracted dark level.
 pub fn negatives(samples: &specular::Data) -> Vec<bool> {
     missing(samples, |texel| texel.iter().any(|&value| value < 0.0))
 }
@@ -41,10 +40,9 @@ fn missing(samples: &specular::Data, is_missing: impl Fn(&[f32]) -> bool) -> Vec
 
 /// Fills the nodes that `mask` marks, which has one element per node in the order of the values.
 ///
-/// Gaps between measured nodes of a row of theta are bridged by lines, and rows that end early are continued as
-/// `beyond` says. What then has no value, in rows in which nothing was measured, is filled along phi in the same way,
-/// around the circle; then along psi; then along sigma. A table in which nothing was measured stays as it is, and its
-/// mask is empty.
+/// Gaps between measured nodes of a row of theta are interpolated linearly, and rows that end early are continued as
+/// `beyond` says. Rows in which nothing was measured are then filled along phi in the same way, around the circle; then
+/// along psi; then along sigma. A table in which nothing was measured is unchanged, and its mask is empty.
 ///
 /// # Panics
 /// If `mask` does not have one element per node.
@@ -88,7 +86,7 @@ pub fn fill(samples: &specular::Data, mask: &[bool], beyond: Beyond) -> Result<F
     Ok(Filled { samples: with_values(samples, values)?, mask: mask.to_vec() })
 }
 
-/// The two known steps that a step of a row is filled from, and their weights.
+/// The two known steps from which a step of a row is filled, and their weights.
 fn sources(knots: &[f64], known: &[usize], step: usize, turn: bool, beyond: Beyond) -> [(usize, f64); 2] {
     use std::f64::consts::TAU;
     let (first, last) = (known[0], known[known.len() - 1]);
@@ -157,22 +155,22 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_value_goes_on() {
+    fn the_nearest_value_is_continued() {
         let (holed, mask) = without(&ramp(), |[_, _, t, _]| t >= 3);
         let filled = fill(&holed, &mask, Beyond::Nearest).expect("a table");
         assert_eq!(filled.samples.texel([1, 0, 4, 2]), ramp().texel([1, 0, 2, 2]));
-        // What was measured stays to the last bit.
+        // Measured values stay to the last bit.
         assert_eq!(filled.samples.texel([1, 0, 1, 2]), ramp().texel([1, 0, 1, 2]));
     }
 
     #[test]
-    fn a_light_that_is_missing_comes_from_its_neighbours() {
+    fn a_missing_incidence_is_filled_from_its_neighbours() {
         let (holed, mask) = without(&ramp(), |[s, ..]| s == 1);
         assert_same(&fill(&holed, &mask, Beyond::Nearest).expect("a table").samples, &ramp());
     }
 
     #[test]
-    fn a_line_does_not_lead_below_the_dark() {
+    fn extrapolation_does_not_go_below_zero() {
         let knots = [vec![0.0], vec![0.0], degrees(&[0.0, 10.0, 40.0]), vec![0.0]];
         let samples =
             specular::Data::new(Scatter::Reflection, knots, Channels::Mono, vec![2.0, 1.0, 0.0]).expect("a table");
@@ -181,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn negative_values_are_found_and_nothing_comes_of_nothing() {
+    fn negative_values_are_found_and_empty_tables_stay_empty() {
         let knots = || [vec![0.0], vec![0.0], degrees(&[0.0, 10.0]), vec![0.0]];
         let table =
             |values| specular::Data::new(Scatter::Reflection, knots(), Channels::Mono, values).expect("a table");

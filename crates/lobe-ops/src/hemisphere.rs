@@ -1,9 +1,8 @@
 //! Integrals over the hemisphere by adaptive Gaussian quadrature.
 //!
 //! The coordinates are a polar angle and an azimuth about an axis in the plane of incidence: the mirror direction,
-//! where the peak is, or the normal. The horizon is a limit of the polar angle that is known for every azimuth, so no
-//! panel ends in the middle of a step; and where panels begin at the knots of a table, its interpolation is smooth in
-//! each.
+//! where the peak is, or the normal. The horizon is a known limit of the polar angle for every azimuth, so no panel
+//! contains a step; and if panels begin at the knots of a table, its interpolation is smooth within each.
 
 use std::f64::consts::{PI, TAU};
 
@@ -33,12 +32,12 @@ pub struct Integral {
     pub evaluations: usize,
 }
 
-/// How accurate an integral is to be, and what it may cost.
+/// The accuracy of an integral, and its largest cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
-    /// The error that is good enough: absolute, but relative for integrals above 1.
+    /// The acceptable error: absolute, but relative for integrals above 1.
     pub tolerance: f64,
-    /// After this many directions the estimate is accepted as it is.
+    /// After this many directions, the estimate is accepted.
     pub evaluations: usize,
 }
 
@@ -50,7 +49,7 @@ impl Default for Effort {
 }
 
 impl Panels {
-    /// Panels about an axis at polar angle `zenith` for light at azimuth `psi`, that shrink toward the axis.
+    /// Panels about an axis at polar angle `zenith` for light at azimuth `psi`, which shrink toward the axis.
     pub fn graded(zenith: f64, psi: f64) -> Self {
         let thetas = (0..=24).map(|i| PI * (f64::from(i) / 24.0).powi(3)).collect();
         let phis: Vec<f64> = (0..=24).map(|i| TAU * f64::from(i) / 24.0).collect();
@@ -60,7 +59,7 @@ impl Panels {
     /// Panels whose bounds are the knots of a grid of polar angles and azimuths.
     pub fn of_knots(zenith: f64, psi: f64, thetas: &[f64], phis: &[f64]) -> Self {
         let start = phis.first().copied().unwrap_or(0.0);
-        // Knots as dense as these are left to the division of panels.
+        // Knots this dense are left to the subdivision of panels.
         let mut sparse: Vec<f64> = Vec::new();
         for &phi in phis {
             if sparse.last().is_none_or(|last| phi - last > DENSE) {
@@ -83,11 +82,12 @@ impl Panels {
     }
 }
 
-/// The largest extent of a panel in polar angle and azimuth: 15 degrees, over which a cosine is a parabola to 1e-5.
+/// The largest extent of a panel in polar angle and azimuth: 15 degrees, over which a cosine is a parabola to within
+/// 1e-5.
 const STEP: f64 = PI / 12.0;
 
-/// Azimuths with those between at which the horizon is at a multiple of 30 degrees. From a low axis it turns within a
-/// few degrees of azimuth from nearly 0 to nearly a half turn, and no rule of few points would see that.
+/// Azimuths, with those in between at which the horizon is at a multiple of 30 degrees. For a low axis, the horizon
+/// goes from nearly 0 to nearly half a turn within a few degrees of azimuth, which a rule with few points would miss.
 fn with_horizon(zenith: f64, mut phis: Vec<f64>) -> Vec<f64> {
     let (start, end) = (phis[0], phis[phis.len() - 1]);
     for step in 1..6 {
@@ -97,7 +97,7 @@ fn with_horizon(zenith: f64, mut phis: Vec<f64>) -> Vec<f64> {
         }
     }
     phis.sort_by(f64::total_cmp);
-    // The ends stay what they are.
+    // The ends are unchanged.
     phis.retain(|&phi| phi == start || phi == end || (start + SAME..=end - SAME).contains(&phi));
     phis.dedup_by(|a, b| *a - *b < SAME);
     phis
@@ -106,11 +106,11 @@ fn with_horizon(zenith: f64, mut phis: Vec<f64>) -> Vec<f64> {
 /// Bounds closer to each other than this are merged.
 const SAME: f64 = 1e-6;
 
-/// Azimuths closer to each other than this, 4 degrees, do not each begin a panel: across it, a cosine is a line to
-/// 6e-4.
+/// Azimuths closer to each other than this, 4 degrees, do not each begin a panel: over this distance, a cosine is a
+/// line to within 6e-4.
 const DENSE: f64 = PI / 45.0;
 
-/// The knots between two ends, with the ends, and with more between where they are far apart.
+/// The knots between two ends, with the ends, and with more in between if they are far apart.
 fn bounds(knots: &[f64], first: f64, last: f64) -> Vec<f64> {
     let mut bounds = vec![first];
     let inner = knots.iter().copied().filter(|&knot| knot > first + SAME && knot < last - SAME);
@@ -138,7 +138,7 @@ impl Rectangle {
     }
 }
 
-/// A rectangle, its integral by its quarters, and the difference from its integral as a whole.
+/// A rectangle, its integral over its quarters, and the difference from its integral as a whole.
 struct Leaf {
     quarters: [Rectangle; 4],
     /// `[quarter][channel]`.
@@ -146,7 +146,7 @@ struct Leaf {
     error: f64,
 }
 
-/// Abscissae and weights of the Gauss-Legendre rule of three points on `[0, 1]`, exact for polynomials of degree 5.
+/// Abscissae and weights of the Gauss-Legendre rule with three points on `[0, 1]`, exact for polynomials of degree 5.
 const GAUSS: [(f64, f64); 3] =
     [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 4.0 / 9.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
 
@@ -198,9 +198,9 @@ struct Rule<'a, F> {
 }
 
 impl<F: FnMut(&[[f64; 3]], &mut [f32])> Rule<'_, F> {
-    /// The integrals over rectangles, `[rectangle][channel]`, by nine points each.
+    /// The integrals over rectangles, `[rectangle][channel]`, with nine points each.
     fn integrals(&mut self, rectangles: &[Rectangle]) -> Vec<f64> {
-        // In batches, as values of many channels take memory.
+        // In batches, because values of many channels take memory.
         rectangles.chunks(2048).flat_map(|batch| self.batch(batch)).collect()
     }
 
@@ -233,7 +233,7 @@ impl<F: FnMut(&[[f64; 3]], &mut [f32])> Rule<'_, F> {
         integrals
     }
 
-    /// The leaves of rectangles whose integrals are known.
+    /// The rectangles whose integrals are known.
     fn leaves(&mut self, rectangles: &[Rectangle], known: &[f64]) -> Vec<Leaf> {
         let channels = self.channels;
         let quarters: Vec<[Rectangle; 4]> = rectangles.iter().map(|rectangle| rectangle.quarters()).collect();
@@ -268,7 +268,7 @@ mod tests {
         }
     }
 
-    /// The integral of `z^n` times the cosine is `2 pi / (n + 2)`, wherever the axis is.
+    /// The integral of `z^n` times the cosine is `2 pi / (n + 2)`, for any axis.
     #[test]
     fn powers_of_the_cosine_are_found() {
         for n in [1, 5, 40] {
@@ -277,9 +277,10 @@ mod tests {
         }
     }
 
-    /// Half of the projected hemisphere is at polar angles below 45 degrees: a step that no rule of fixed points finds.
+    /// Half of the projected hemisphere is at polar angles below 45 degrees: a step that no rule with fixed points
+    /// finds.
     #[test]
-    fn a_step_is_found_by_division() {
+    fn a_step_is_found_by_subdivision() {
         let found = integral(&Panels::graded(0.9, 1.0), |d| if d[2] > 0.5_f64.sqrt() { 1.0 } else { 0.0 });
         assert!((found.values[0] - PI / 2.0).abs() < 1e-3, "{found:?}");
         assert!(found.evaluations > 10_000);

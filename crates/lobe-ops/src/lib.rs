@@ -1,4 +1,4 @@
-//! Operations on measured materials: what their owners need.
+//! Operations on measured materials.
 //!
 //! - [`albedo`]: the share of the light from one direction that is scattered;
 //! - [`reciprocity`], [`check`]: whether a measurement is sound, and what it covers;
@@ -6,15 +6,13 @@
 //! - [`resample`]: any material into a table of specular coordinates, with given knots or with as many as an error
 //!   bound
 //!   asks for, and the error that was made;
-//! - [`remeasure`]: any material at the nodes that another representation has;
-//! - [`colour`]: spectra to CIE XYZ and to RGB;
-//! - [`compare`]: how far two materials are apart, in numbers and to the eye;
-//! - [`certify`]: by how much a file is wrong that was made of another one;
-//! - [`daylight`]: matrices of views, transmission and daylight, as Radiance multiplies them.
+//! - [`remeasure`]: any material at the nodes of another representation;
+//! - [`colour`]: from spectra to CIE XYZ and RGB;
+//! - [`compare`]: the difference of two materials, in numbers and in appearance.
 //!
-//! What has values is any [`Bsdf`](lobe_table::Bsdf) on a backend, such as a [`lobe::Material`]. A [`Subject`] is an opened file with what the
-//! operations have to know about it. Directions point away from the surface, normal on +z; angles are radians; values
-//! are `f` in 1/sr, without the cosine.
+//! Operations evaluate any [`Bsdf`](lobe_table::Bsdf) on a backend, such as a [`lobe::Material`]. A [`Subject`] is an
+//! opened file with the information that operations need. Directions point away from the surface, normal on +z; angles
+//! are radians; values are `f` in 1/sr, without the cosine.
 #![forbid(unsafe_code)]
 
 pub mod albedo;

@@ -1,15 +1,15 @@
-//! Mueller matrices from one grid to another.
+//! Resampling of Mueller matrices from one grid to another.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use lobe_table::specular::coords::angles_to_directions;
 use lobe_table::{Edges, GridError, Invalid, mueller, polarised};
 
-/// Matrices of half and difference angles at knots of sigma, psi, theta and phi, in radians. Where nothing was measured, and
-/// below the surface, they are 0.
+/// Resamples matrices over half and difference angles at knots of sigma, psi, theta and phi, in radians. Unmeasured
+/// ones, and those below the surface, are 0.
 ///
 /// # Errors
-/// If the knots do not make a grid.
+/// If the knots do not form a grid.
 pub fn to_specular(data: &mueller::Data, knots: [Vec<f64>; 4]) -> Result<polarised::Data, GridError> {
     let wavelengths: Vec<f64> = data.knots()[3].iter().map(|nm| f64::from(*nm)).collect();
     let mut values = Vec::new();
@@ -29,11 +29,11 @@ pub fn to_specular(data: &mueller::Data, knots: [Vec<f64>; 4]) -> Result<polaris
     polarised::Data::new(knots, wavelengths, values)
 }
 
-/// Isotropic matrices in specular coordinates on a grid of half and difference angles, of as many equal steps: phi_d over the
-/// whole turn, theta_d and theta_h over a quarter turn. Pairs below the surface are marked as not measured.
+/// Resamples isotropic matrices in specular coordinates on a grid of half and difference angles with equal steps: phi_d
+/// over a full turn, theta_d and theta_h over a quarter turn. Pairs below the surface are marked as not measured.
 ///
 /// # Errors
-/// If there is no step.
+/// If there are no steps.
 pub fn to_half_difference(data: &polarised::Data, steps: [u16; 3]) -> Result<mueller::Data, Invalid> {
     let even = |steps: u16, low: f64, high: f64| -> Vec<f32> {
         (0..=steps).map(|k| (low + (high - low) * f64::from(k) / f64::from(steps.max(1))) as f32).collect()
@@ -70,7 +70,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn angles_come_back() {
+    fn angles_survive_a_round_trip() {
         for at in [[0.4, 0.3, 0.5], [-2.0, 0.7, 0.2], [1.2, 0.1, 0.9]] {
             let (wi, wo) = directions(at);
             let turned = |w: [f64; 3]| (w[0] * w[0] + w[1] * w[1] + w[2] * w[2] - 1.0).abs() < 1e-12;

@@ -3,7 +3,7 @@
 use lobe_table::bsdf::OnBackend;
 use rayon::prelude::*;
 
-/// Pairs per task: enough to be worth one.
+/// The number of pairs that are worth a task.
 const TASK: usize = 2048;
 
 /// Evaluates pairs of directions that are `f64`, on all threads.

@@ -1,4 +1,4 @@
-//! Helmholtz reciprocity: exchanging light and viewer changes nothing.
+//! Helmholtz reciprocity: exchanging light and viewer does not change the value.
 
 use serde::Serialize;
 
@@ -6,10 +6,10 @@ use crate::directions::pairs;
 use crate::pairs::eval_pairs;
 use crate::{Aspect, OnBackend};
 
-/// How far `f(wi, wo)` and `f(wo, wi)` are apart.
+/// The difference between `f(wi, wo)` and `f(wo, wi)`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reciprocity {
-    /// How many pairs of directions were exchanged.
+    /// The number of pairs of directions that were exchanged.
     pub pairs: usize,
     /// The largest difference, in 1/sr.
     pub max: f64,
@@ -23,14 +23,14 @@ pub struct Reciprocity {
     pub worst: [[f64; 3]; 2],
 }
 
-/// Values that are compared at once, at most: with a thousand channels and more, fewer pairs say as much.
+/// The most values that are compared: with a thousand channels or more, fewer pairs are enough.
 const VALUES: usize = 1 << 24;
 
 /// Exchanges up to `count` pairs of directions, with polar angles up to `limit` in radians: the same pairs at every
-/// call, every other one near the mirror direction. Differences are over all channels.
+/// call, half of them near the mirror direction. Differences are over all channels.
 ///
-/// Transmission is compared with transmission in the opposite direction. If a file has one direction only, both are the
-/// same data, and the result says nothing.
+/// Transmission is compared with transmission in the opposite direction. If a file has only one direction, both are the
+/// same data, and the result is meaningless.
 pub fn reciprocity<'a>(scattering: impl Into<OnBackend<'a>>, aspect: Aspect, limit: f64, count: usize) -> Reciprocity {
     let scattering = scattering.into();
     let pairs = pairs(count.min((VALUES / scattering.channels().count()).max(100)), limit);
@@ -79,7 +79,7 @@ mod tests {
 
     /// `f = a + b cos(theta_i)` differs by `b |cos(theta_i) - cos(theta_o)|` from itself exchanged.
     #[test]
-    fn differences_are_what_they_are() {
+    fn differences_are_measured() {
         let limit = 1.3_f64;
         let found = reciprocity(&Mono(|wi: [f64; 3], _| 1.0 + 0.5 * wi[2]), Aspect::REFLECTION, limit, 4000);
         let [wi, wo] = found.worst;
@@ -88,9 +88,9 @@ mod tests {
         assert!(found.rms > 0.01 && found.rms < found.max && found.relative_median < found.max, "{found:?}");
     }
 
-    /// Transmission that knows the side of the light is compared with the other side's.
+    /// Transmission with a known side of the light is compared with that of the other side.
     #[test]
-    fn transmission_is_compared_with_the_way_back() {
+    fn transmission_is_compared_with_the_reverse_direction() {
         let uneven = Mono(|wi: [f64; 3], wo: [f64; 3]| match (wi[2] > 0.0, wo[2] > 0.0) {
             (true, false) => 1.0,
             (false, true) => 0.8,

@@ -1,4 +1,4 @@
-//! What operations on tables share.
+//! Code shared by operations on tables.
 
 pub(crate) use lobe_table::data::closes_circle;
 use lobe_table::specular::coords::angles_to_directions;
@@ -14,7 +14,7 @@ pub(crate) fn with_values(samples: &specular::Data, values: Vec<f32>) -> Result<
     }
 }
 
-/// The edge policy with which repairs look up values: that of the evaluation, but negative values are kept.
+/// The edge policy with which repairs look up values: that of the evaluation, with negative values kept.
 pub(crate) fn signed_edges() -> Edges {
     Edges { non_negative: false, ..Edges::default() }
 }

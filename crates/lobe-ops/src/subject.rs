@@ -1,4 +1,4 @@
-//! An opened file, with what the operations have to know about its representation.
+//! An opened file, with the information about its representation that operations need.
 
 use std::path::Path;
 
@@ -8,12 +8,12 @@ use lobe_table::{Aspect, Data, Edges};
 
 use crate::hemisphere::Panels;
 
-/// What a file holds, and the material made of it.
+/// The contents of a file, and the material made from them.
 #[derive(Debug)]
 pub struct Subject {
     /// The format of the file.
     pub format: Format,
-    /// The data as they were measured.
+    /// The data as measured.
     pub document: Document,
     /// The same, ready to be evaluated.
     pub material: Material,
@@ -37,17 +37,17 @@ impl Subject {
         Ok(Subject::new(format, document, material, options))
     }
 
-    /// A document that was read, and the material that was made of it with these options.
+    /// A document that was read, and the material made from it with these options.
     pub fn new(format: Format, document: Document, material: Material, options: &Options) -> Self {
         Subject { format, document, material, edges: options.edges }
     }
 
-    /// What was measured, in the order of the file.
+    /// The measured aspects, in the order of the file.
     pub fn aspects(&self) -> Vec<Aspect> {
         self.parts().flat_map(aspects).collect()
     }
 
-    /// Whether rotating the sample changes nothing.
+    /// Whether values do not depend on the rotation of the sample.
     pub fn is_isotropic(&self) -> bool {
         self.document.parts.iter().all(|part| part.data.representation().is_isotropic())
     }
@@ -79,8 +79,7 @@ impl Subject {
         incidences.iter().map(|[theta, _]| *theta).fold(0.0, f64::max)
     }
 
-    /// The data that answer for an aspect. The only measurement of a file that does not distinguish sides answers for
-    /// all.
+    /// The data for an aspect. The only measurement of a file that does not distinguish sides applies to all aspects.
     pub fn data(&self, aspect: Aspect) -> Option<&Data> {
         let answers = |part: &&Part| {
             let is_there =
@@ -90,19 +89,19 @@ impl Subject {
         self.document.only().or_else(|| self.parts().find(answers).map(|part| &part.data))
     }
 
-    /// Whether an aspect was measured in the plane of incidence only, so that no integral over the hemisphere is a
+    /// Whether an aspect was measured only in the plane of incidence, so that an integral over the hemisphere is not a
     /// measurement.
     pub fn is_in_plane(&self, aspect: Aspect) -> bool {
         self.data(aspect).is_some_and(|data| crate::check::is_in_plane(data.representation()))
     }
 
-    /// The measurements that have a value for a pair of directions.
+    /// The measurements that have values for pairs of directions.
     fn parts(&self) -> impl Iterator<Item = &Part> {
         self.document.parts.iter().filter(|part| !part.data.representation().is_delta())
     }
 }
 
-/// What a part measures, on the side that the file says it is of.
+/// The aspects that a part measures, on the side that the file states.
 fn aspects(part: &Part) -> Vec<Aspect> {
     let aspects = part.data.representation().aspects().into_iter();
     aspects.map(|aspect| Aspect { light: part.side.unwrap_or(aspect.light), ..aspect }).collect()

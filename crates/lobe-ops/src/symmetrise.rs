@@ -1,4 +1,4 @@
-//! Symmetries that a material has and its measurement does not.
+//! Restoring symmetries that a material has but its measurement does not.
 
 use std::f64::consts::TAU;
 
@@ -8,8 +8,8 @@ use lobe_table::{GridError, specular};
 
 use crate::samples::{angles, directions, nodes, signed_edges, with_values};
 
-/// Averages a table with its mirror image across the plane of psi = 0: for an isotropic table the plane of incidence,
-/// so that left and right of it are the same.
+/// Averages a table with its mirror image across the plane of psi = 0: for an isotropic table, this is the plane of
+/// incidence, whose two sides become equal.
 ///
 /// If the image of a node is not a node, it is interpolated.
 ///
@@ -24,8 +24,8 @@ pub fn mirror(samples: &specular::Data) -> Result<specular::Data, GridError> {
 
 /// Averages a table with itself with light and viewer exchanged.
 ///
-/// Nodes at and below the horizon are left alone, and so are those whose viewer is at a polar angle at which there was
-/// no light: there is no measurement to average with. The exchanged value is interpolated, so the result is closer to
+/// Nodes at and below the horizon are unchanged, and so are those whose viewer is at a polar angle without measured
+/// light: there is no measurement to average with. The exchanged value is interpolated, so the result is closer to
 /// reciprocity, but not exactly reciprocal.
 ///
 /// # Errors
@@ -43,7 +43,7 @@ pub fn reciprocal(samples: &specular::Data) -> Result<specular::Data, GridError>
     })
 }
 
-/// The mean of the value of each node and that at the angles of its partner, if it has one. `partner` is called once
+/// Averages the value of each node with that at the angles of its partner, if it has one. `partner` is called once
 /// per node, in the order of the values.
 fn average(
     samples: &specular::Data,
@@ -76,7 +76,7 @@ mod tests {
         [steps(80.0, 16), degrees(psis), steps(180.0, 36), steps(360.0, 24)]
     }
 
-    /// What is odd across the plane goes, what is even stays.
+    /// Averaging removes the part that is odd across the plane, and keeps the even part.
     #[test]
     fn the_odd_part_vanishes() {
         let skewed = Mono(|_: [f64; 3], wo: [f64; 3]| 1.0 + 0.3 * wo[1] + 0.2 * wo[0]);
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn reciprocity_gets_better() {
+    fn reciprocity_improves() {
         let uneven = Mono(|wi: [f64; 3], wo: [f64; 3]| 1.0 + 0.5 * wi[2] + 0.2 * wi[0] * wo[0]);
         let samples =
             measure(&uneven, Aspect::REFLECTION, knots(&[0.0, 90.0, 180.0, 270.0, 360.0]), |_| {}).expect("a table");

@@ -1,4 +1,4 @@
-//! Materials that are known exactly.
+//! Materials with known values.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ use lobe_table::{Bsdf, Channels, Directions};
 
 use crate::OnBackend;
 
-/// A function of two directions, the same in one channel.
+/// A function of two directions, as a material with one channel.
 pub(crate) struct Mono<F>(pub(crate) F);
 
 impl<F> fmt::Debug for Mono<F> {

@@ -1,4 +1,4 @@
-//! Axis-aligned boxes on the host side.
+//! Axis-aligned boxes, outside lanes.
 
 /// A box given by its two extreme corners; empty if a lower coordinate is above the upper one.
 #[derive(Clone, Copy, Debug, PartialEq)]

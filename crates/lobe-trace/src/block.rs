@@ -1,11 +1,11 @@
-//! 64 rays, with everything that the walks need computed once.
+//! 64 rays, with everything that traversal needs, computed once.
 
 use lobe_lane::{Floats, Ints, Lanes, Mask};
 
 use crate::mesh::LIMIT;
 use crate::packet::Packet;
 
-/// Rays of a block; every number of lanes divides it.
+/// The number of rays of a block, which is a multiple of every number of lanes.
 pub(crate) const RAYS: usize = 64;
 
 /// One float per ray.
@@ -37,7 +37,7 @@ pub(crate) struct Block {
     pub major: [i32; RAYS],
     /// Bit `a` is the sign of the direction along axis `a`.
     pub octant: [i32; RAYS],
-    /// What the t of hits is clamped to: where the ray is inside the box of the instance.
+    /// The range to which the t of hits is clamped: where the ray is inside the box of the instance.
     pub enter: Row,
     /// See [`enter`](Block::enter).
     pub leave: Row,
@@ -63,8 +63,8 @@ impl Block {
         }
     }
 
-    /// Fills in a group. `reach` is the largest magnitude of a coordinate of what the rays are traced against.
-    /// Returns the mask of valid rays.
+    /// Fills in a group. `reach` is the largest magnitude of a coordinate of the traced geometry. Returns the mask of
+    /// valid rays.
     #[inline(always)]
     pub fn prepare<L: Lanes>(&mut self, lanes: L, at: usize, packet: Packet<L>, live: L::M, reach: f32) -> L::M {
         let at = first_ray::<L>(at);
@@ -136,7 +136,7 @@ impl Block {
         lanes.uniform(lanes.load_int(&self.octant[first_ray::<L>(at)..]), live).0
     }
 
-    /// Those of `live` that point into an octant and begin at `t >= 0`.
+    /// The rays of `live` that point into an octant and begin at `t >= 0`.
     #[inline(always)]
     pub fn of_octant<L: Lanes>(&self, lanes: L, octant: usize, live: u64) -> u64 {
         let octant = lanes.splat_int(octant as i32);
@@ -203,14 +203,14 @@ pub(crate) fn mask_of<L: Lanes>(lanes: L, bits: u32) -> L::M {
     (lanes.splat_int(bits as i32) & powers).eq(powers)
 }
 
-/// What has been found for 64 rays.
+/// The hits found for 64 rays.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct Found {
-    /// The best so far; the ray's end before the first hit. `-inf` after it if any hit is enough.
+    /// The nearest t so far; before the first hit, the end of the ray. `-inf` after a hit if any hit is enough.
     pub t: Row,
-    /// As bits, since rows of integers are written whole: for floats that a mask selects, compilers emit masked stores,
-    /// which take 40 steps on some processors.
+    /// As bits, because rows of integers are written whole: for floats selected by a mask, compilers emit masked
+    /// stores, which take 40 steps on some processors.
     pub u: [i32; RAYS],
     /// As bits.
     pub v: [i32; RAYS],

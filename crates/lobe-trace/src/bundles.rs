@@ -1,4 +1,4 @@
-//! Eight rays of one octant tested as one, which is how a walk of 64 rays tests inner nodes.
+//! Eight rays of one octant tested as one; large packets of 64 rays test inner nodes in this way.
 
 use lobe_lane::{Block as Pattern, Floats, Ints, Lanes, MAX_LANES, Mask};
 
@@ -7,10 +7,10 @@ use crate::hull::Edges;
 use crate::mesh::LIMIT;
 use crate::slab::least_lane;
 
-/// Rays of a bundle.
+/// The number of rays of a bundle.
 const RAYS_EACH: usize = 8;
 
-/// Bundles of a block.
+/// The number of bundles of a block.
 const BUNDLES: usize = RAYS / RAYS_EACH;
 
 /// One float per bundle; the rest is padding for the widest lanes.
@@ -24,10 +24,10 @@ pub(crate) struct Bundles {
     far: [Line; 3],
     /// No ray of any bundle begins before it.
     t_min: f32,
-    /// Where the last ray of each bundle currently ends.
+    /// The t at which the last ray of each bundle currently ends.
     end: Line,
-    /// How far apart the rays of a bundle may be at `t` along the axis on which they are farthest apart: `spread + t
-    /// fan`.
+    /// The largest distance between rays of a bundle at `t`, along the axis on which they are farthest apart: `spread +
+    /// t fan`.
     spread: Line,
     fan: Line,
     /// The rays of all bundles.
@@ -103,7 +103,7 @@ impl Bundles {
         bundles
     }
 
-    /// A bit for each bundle that has rays.
+    /// One bit for each bundle that has rays.
     #[inline(always)]
     pub fn all(&self) -> u32 {
         let mut all = 0;
@@ -155,14 +155,14 @@ impl Bundles {
         [enter, leave]
     }
 
-    /// How far apart the rays of a bundle may be at `t`.
+    /// The largest distance between rays of a bundle at `t`.
     #[inline(always)]
     pub fn width<L: Lanes>(&self, lanes: L, bundle: usize, t: L::F) -> L::F {
         let bundle = bundle & (BUNDLES - 1);
         lanes.mul_add(t, lanes.splat(self.fan[bundle]), lanes.splat(self.spread[bundle]))
     }
 
-    /// Those of `bundles` with rays that search as far as `t`.
+    /// The bundles of `bundles` with rays that search as far as `t`.
     #[inline(always)]
     pub fn looking<L: Lanes>(&self, lanes: L, bundles: u32, t: f32) -> u32 {
         let mut bits = 0;
@@ -216,7 +216,7 @@ fn extremes<L: Lanes>(lanes: L, row: &Row, first: usize, bits: L::I) -> [L::F; 2
     [low, high]
 }
 
-/// Where rays are along an axis when the last of their bundle ends.
+/// The positions of rays along an axis when the last ray of their bundle ends.
 #[inline(always)]
 fn end_points<L: Lanes>(lanes: L, rays: &Block, axis: usize, ends: &Line) -> Row {
     let mut points = [0.0; RAYS];

@@ -1,18 +1,18 @@
-//! What kind of ray is traced, and by which walk.
+//! The classes of rays, and the walks that trace them.
 
-/// What a ray is for. It decides how alike neighbouring rays are, and so how they are best traced; the answer is the
-/// same bits whichever walk is taken.
+/// The purpose of a ray. It determines how similar neighbouring rays are, and so how they are best traced; the answer
+/// has the same bits for every walk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RayClass {
-    /// From the eye through neighbouring pixels.
+    /// From the camera through neighbouring pixels.
     Camera,
     /// Mirrored or refracted, with only such bounces before.
     Mirror,
-    /// After a bounce that scatters.
+    /// After a diffuse or glossy bounce.
     Diffuse,
     /// From surfaces seen by coherent rays to a point or a far light.
     Shadow,
-    /// From surfaces seen by coherent rays to places all over an area light or the sky.
+    /// From surfaces seen by coherent rays to points all over an area light or the sky.
     SoftShadow,
     /// From surfaces that scattered rays found.
     ScatteredShadow,
@@ -27,7 +27,7 @@ impl RayClass {
         }
     }
 
-    /// The class of a shadow ray from where this ray hit: `point` if the light has no extent.
+    /// The class of a shadow ray from the hit of this ray: `point` if the light has no extent.
     pub fn shadow(self, point: bool) -> Self {
         match self {
             RayClass::Camera | RayClass::Mirror if point => RayClass::Shadow,
@@ -36,7 +36,7 @@ impl RayClass {
         }
     }
 
-    /// The form of walk that was the fastest for this class when measured.
+    /// The form of walk that measurements showed to be fastest for this class.
     pub fn form(self) -> Form {
         match self {
             RayClass::Camera | RayClass::Mirror | RayClass::Shadow | RayClass::SoftShadow => Form::Large,
@@ -45,7 +45,7 @@ impl RayClass {
     }
 }
 
-/// A way to walk the tree. The class of a ray chooses it; it is public so that tests and measurements can compare.
+/// A way to walk the tree, chosen by the class of a ray; it is public for comparisons in tests and measurements.
 /// Packets whose directions differ in sign are split.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Form {
@@ -53,8 +53,8 @@ pub enum Form {
     Packet,
     /// [`Packet`](Form::Packet) until few rays are live, then [`Single`](Form::Single) for each of them.
     Hybrid,
-    /// Up to 64 rays at once, those of one octant: all children of a node against bundles of eight rays, the rays
-    /// themselves at the leaves. If an octant has few rays they are traced one by one, as are rays that begin before
+    /// Up to 64 rays of one octant at once: all children of a node against bundles of eight rays, and the rays
+    /// themselves at the leaves. If an octant has few rays, they are traced one by one, as are rays that begin before
     /// zero.
     Large,
     /// One lane per child: one ray against all boxes of a node.
@@ -62,6 +62,6 @@ pub enum Form {
 }
 
 impl Form {
-    /// All of them.
+    /// All forms.
     pub const ALL: [Form; 4] = [Form::Packet, Form::Hybrid, Form::Large, Form::Single];
 }

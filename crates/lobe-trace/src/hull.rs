@@ -12,8 +12,8 @@ use crate::slab::{Sides, child_bits, least_lane};
 ///
 /// A plane ahead of all origins is reached no sooner than by a ray from the nearest of them with the inverse of
 /// smallest magnitude, and no later than by one from the farthest with the largest. A plane behind some origin gives a
-/// number below zero for the near planes, which says nothing if no ray begins below zero, and rightly ends the rays for
-/// the far planes.
+/// number below zero for the near planes, which has no effect if no ray begins below zero, and correctly ends the rays
+/// for the far planes.
 #[derive(Clone, Copy)]
 pub(crate) struct Edges<L: Lanes> {
     pub slow: L::F,
@@ -24,7 +24,7 @@ pub(crate) struct Edges<L: Lanes> {
 
 impl<L: Lanes> Edges<L> {
     /// Along one axis, from the least and the greatest origins, and the inverses of the edges that begin there. The
-    /// rays' `pad` is applied twice, since this test rounds differently from theirs.
+    /// rays' `pad` is applied twice, because this test rounds differently from theirs.
     #[inline(always)]
     pub fn new(backward: bool, [low, high]: [L::F; 2], [lower, upper]: [L::F; 2], pad: L::F) -> Self {
         let wide = pad + pad;
@@ -88,7 +88,7 @@ impl<L: Lanes> Hull<L> {
         [enter, leave]
     }
 
-    /// The bits of the children of a node that some ray may hit.
+    /// The bits of the children of a node that any of the rays may hit.
     #[inline(always)]
     pub fn children<const W: usize>(&self, lanes: L, node: &Node<W>, sides: &Sides) -> u32 {
         let mut bits = 0;

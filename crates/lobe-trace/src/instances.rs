@@ -1,4 +1,4 @@
-//! Instances as leaves: rays are transformed into the instance's own space and traced through its tree there.
+//! Instances as leaves: rays are transformed into the space of the instance and traced through its tree there.
 
 use lobe_lane::{Lanes, Mask};
 
@@ -12,7 +12,7 @@ use crate::triangle_leaves::Triangles;
 use crate::walk::{Nodes, Stacks, Walk};
 use crate::{Affine, Form};
 
-/// The instances of a scene, and room for rays in the space of one.
+/// The instances of a scene, and memory for rays in the space of one.
 pub(crate) struct Instances<'a, const W: usize> {
     pub scene: &'a Scene<W>,
     pub form: Form,

@@ -1,4 +1,4 @@
-//! What the leaves of a tree hold: triangles, or instances of trees of triangles.
+//! The contents of the leaves of a tree: triangles, or instances of trees of triangles.
 
 use lobe_lane::Lanes;
 
@@ -7,23 +7,23 @@ use crate::bundles::Bundles;
 use crate::bvh::Child;
 use crate::hull::Hull;
 
-/// What several rays have in common.
+/// The common properties of several rays.
 #[derive(Clone, Copy)]
 pub(crate) enum Around<'a, L: Lanes> {
     Nothing,
-    /// Of a group.
+    /// Those of a group.
     Hull(&'a Hull<L>),
-    /// Of a block.
+    /// Those of a block.
     Bundles(&'a Bundles),
 }
 
-/// What a walk calls at a leaf. Hits go to `found` if they are nearer than those already there.
+/// The operations of a walk at a leaf. Hits go to `found` if they are nearer than earlier ones.
 pub(crate) trait Leaves {
     /// Any hit is enough.
     fn any(&self) -> bool;
 
-    /// Tests several rays of one octant that have reached the leaf: those of `live`, one bit each. Whatever `around`
-    /// shows that none of them can hit is left out. Returns which rays may have hit something.
+    /// Tests several rays of one octant that have reached the leaf: those of `live`, one bit each. Leaves out anything
+    /// that, according to `around`, none of them can hit. Returns the rays that may have hit something.
     fn packet<L: Lanes>(
         &mut self,
         lanes: L,

@@ -1,14 +1,16 @@
 //! Coherent ray tracing on SIMD lanes.
 //!
-//! A [`Scene`] is built from checked [meshes](Mesh) and their instances. Batches of rays ([`RaySoA`]) go through it by
+//! A [`Scene`] is built from checked [meshes](Mesh) and their instances. Batches of rays ([`RaySoA`]) are traced with
 //! [`Scene::intersect`] (nearest hits) and [`Scene::occluded`] (any hit) on any [`Backend`](lobe_backend::Backend); a
 //! caller's own kernel traces one ray per lane with a [`Tracer`].
 //!
-//! - **The class of a ray chooses the way through the tree** ([`RayClass`]): 64 rays at once for the camera, mirrors and
-//!   lights, one ray against all boxes of a node after a diffuse bounce. Incoherent rays are traced one by one.
-//! - **The way does not change the answer.** Box tests are conservative, hits lie inside the boxes in which they are
-//!   found, and of hits at the same t the smaller (primitive, instance) wins. On [`strict`](lobe_lane::Lanes::strict)
-//!   backends hits are the same bits on every backend and width as well; others differ by the rounding of t, u and v.
+//! - **The class of a ray determines how it traverses the tree** ([`RayClass`]): 64 rays at once for the camera,
+//!   mirrors and lights, one ray against all boxes of a node after a diffuse bounce. Incoherent rays are traced one by
+//!   one.
+//! - **The traversal does not change the answer.** Box tests are conservative, hits are inside the boxes in which they
+//!   are found, and of hits at the same t the smaller (primitive, instance) wins. On
+//!   [`strict`](lobe_lane::Lanes::strict) backends, hits also have the same bits on every backend and width; others
+//!   differ by the rounding of t, u and v.
 //! - **No ray leaks** through a shared edge or vertex (Woop, Benthin, Wald, JCGT 2013).
 //! - A ray with a NaN, and a zero-area triangle, hit nothing. [`LIMIT`] bounds all coordinates.
 //!

@@ -1,16 +1,16 @@
 //! Triangles as supplied by a user.
 
 /// The largest magnitude of a coordinate of a vertex, of a ray's origin, and the bounds of a ray's direction
-/// (`1 / LIMIT ..= LIMIT` for its largest component): within these no intermediate result overflows an `f32`.
+/// (`1 / LIMIT ..= LIMIT` for its largest component): within these bounds, no intermediate result overflows an `f32`.
 pub const LIMIT: f32 = 1_099_511_627_776.0;
 
-/// What is wrong with a mesh.
+/// An invalid mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
     /// A coordinate is NaN, infinite or beyond [`LIMIT`].
     #[error("vertex {vertex} has {found} as its coordinate {axis}, expected a number of magnitude up to {LIMIT:e}")]
     Coordinate {
-        /// Which vertex.
+        /// The index of the vertex.
         vertex: usize,
         /// 0, 1, 2 for x, y, z.
         axis: usize,
@@ -20,19 +20,19 @@ pub enum MeshError {
     /// A corner names a vertex that does not exist.
     #[error("corner {corner} of triangle {triangle} is vertex {found}, expected one below {vertices}")]
     Index {
-        /// Which triangle.
+        /// The index of the triangle.
         triangle: usize,
         /// 0, 1 or 2.
         corner: usize,
         /// The index.
         found: u32,
-        /// How many vertices there are.
+        /// The number of vertices.
         vertices: usize,
     },
-    /// More triangles than lane integers can number.
+    /// More triangles than lane integers can count.
     #[error("{found} triangles in one mesh, expected at most {}", Mesh::MAX_TRIANGLES)]
     TooMany {
-        /// How many.
+        /// The number of triangles.
         found: usize,
     },
 }
@@ -45,7 +45,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// The most triangles of one mesh: what a leaf reference of the tree can count.
+    /// The most triangles of one mesh that a leaf reference of the tree can count.
     pub const MAX_TRIANGLES: usize = 1 << 28;
 
     /// A mesh of vertices `[x, y, z]` and triangles of three vertex indices each.

@@ -9,9 +9,9 @@ pub struct Packet<L: Lanes> {
     pub origin: [L::F; 3],
     /// Directions.
     pub direction: [L::F; 3],
-    /// Where the rays begin.
+    /// The t at which the rays begin.
     pub t_min: L::F,
-    /// Where the rays end.
+    /// The t at which the rays end.
     pub t_max: L::F,
 }
 

@@ -1,13 +1,13 @@
-//! Batches over the threads of rayon's pool. The answers do not depend on how many there are.
+//! Batches divided among the threads of rayon's pool. The answers do not depend on their number.
 
 use lobe_backend::Backend;
 
 use crate::{Hits, RayClass, Rays, Scene};
 
-/// Rays that are worth a task, which takes some hundred microseconds.
+/// The number of rays that are worth a task, which takes some hundred microseconds.
 const TASK: usize = 4096;
 
-/// Where a batch is split: in the middle, but never within a packet.
+/// The position at which a batch is split: in the middle, but never within a packet.
 fn middle(n: usize) -> usize {
     (n / 2).next_multiple_of(64)
 }
@@ -28,7 +28,7 @@ pub fn intersect(backend: Backend, scene: &Scene, class: RayClass, rays: Rays<'_
     );
 }
 
-/// Which rays of a batch hit anything, as [`Scene::occluded`] finds it.
+/// Which rays of a batch hit anything, as [`Scene::occluded`] finds them.
 ///
 /// # Panics
 /// If `rays` and `out` differ in length.

@@ -1,7 +1,7 @@
 //! Batches of rays and hits, one array per component.
 
 /// A batch of rays. A ray is `origin + t direction` for `t` in the closed interval `[t_min, t_max]`; the direction may
-/// have any length, and `t` is measured in it. A ray with a NaN anywhere, an empty interval, a zero direction, or
+/// have any length, which is the unit of `t`. A ray with a NaN anywhere, an empty interval, a zero direction, or
 /// numbers beyond [`LIMIT`](crate::LIMIT) hits nothing. All arrays have one entry per ray.
 #[derive(Clone, Debug, Default)]
 pub struct RaySoA {
@@ -9,14 +9,14 @@ pub struct RaySoA {
     pub origin: [Vec<f32>; 3],
     /// Directions: all x, all y, all z.
     pub direction: [Vec<f32>; 3],
-    /// Where the rays begin.
+    /// The t at which the rays begin.
     pub t_min: Vec<f32>,
-    /// Where the rays end; may be infinite.
+    /// The t at which the rays end; may be infinite.
     pub t_max: Vec<f32>,
 }
 
 impl RaySoA {
-    /// No rays yet, but room for `capacity`.
+    /// No rays yet, with space for `capacity`.
     pub fn with_capacity(capacity: usize) -> Self {
         let make = || Vec::with_capacity(capacity);
         RaySoA { origin: [make(), make(), make()], direction: [make(), make(), make()], t_min: make(), t_max: make() }
@@ -115,7 +115,7 @@ pub struct HitSoA {
 }
 
 impl HitSoA {
-    /// Room for the hits of `n` rays.
+    /// Space for the hits of `n` rays.
     pub fn new(n: usize) -> Self {
         HitSoA { t: vec![0.0; n], u: vec![0.0; n], v: vec![0.0; n], primitive: vec![MISS; n], instance: vec![MISS; n] }
     }
@@ -138,7 +138,7 @@ impl HitSoA {
     }
 }
 
-/// Room for part of a batch of hits.
+/// Space for part of a batch of hits.
 #[derive(Debug)]
 pub struct Hits<'a> {
     pub(crate) t: &'a mut [f32],
@@ -149,12 +149,12 @@ pub struct Hits<'a> {
 }
 
 impl Hits<'_> {
-    /// The number of hits that there is room for.
+    /// The number of hits that fit.
     pub fn len(&self) -> usize {
         self.t.len()
     }
 
-    /// `true` if there is room for none.
+    /// `true` if none fit.
     pub fn is_empty(&self) -> bool {
         self.t.is_empty()
     }

@@ -4,23 +4,23 @@ use crate::bvh::{Binary, Child, WideBvh};
 use crate::triangles::Tree;
 use crate::{Aabb, Affine, LIMIT, Mesh};
 
-/// Why a scene cannot be built.
+/// A scene that cannot be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SceneError {
     /// An instance names a mesh that does not exist.
     #[error("instance {instance} is of mesh {found}, expected one below {meshes}")]
     Mesh {
-        /// Which instance.
+        /// The index of the instance.
         instance: usize,
-        /// The mesh it names.
+        /// The mesh that it names.
         found: usize,
-        /// How many meshes there are.
+        /// The number of meshes.
         meshes: usize,
     },
     /// A transform that flattens space, or has numbers that are not finite or not of reasonable size.
     #[error("instance {instance} has a transform without an inverse in numbers of magnitude up to {LIMIT:e}")]
     Transform {
-        /// Which instance.
+        /// The index of the instance.
         instance: usize,
     },
 }
@@ -28,13 +28,13 @@ pub enum SceneError {
 /// Progress of building a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// Triangles whose trees are done.
+    /// The number of triangles whose trees are finished.
     pub done: usize,
-    /// Triangles of all meshes.
+    /// The number of triangles of all meshes.
     pub total: usize,
 }
 
-/// What goes into a scene.
+/// Collects the contents of a scene.
 #[derive(Clone, Debug, Default)]
 pub struct SceneBuilder {
     meshes: Vec<Mesh>,
@@ -83,7 +83,7 @@ impl SceneBuilder {
             let instance = Instance::new(mesh, to_world, trees[mesh].bvh.bounds());
             instances.push(instance.ok_or(SceneError::Transform { instance: number })?);
         }
-        // Instances of empty meshes have no box to be sorted by.
+        // Instances of empty meshes have no box by which to sort them.
         let seen: Vec<usize> = (0..instances.len()).filter(|&i| instances[i].bounds != Aabb::EMPTY).collect();
         let boxes: Vec<Aabb> = seen.iter().map(|&i| instances[i].bounds).collect();
         let binary = Binary::build(&boxes, false);
@@ -130,8 +130,8 @@ fn transformed_box(local: Aabb, to_world: &Affine, to_local: &Affine) -> Aabb {
     }
 }
 
-/// Meshes and their instances, ready to be traced. `W` is how many children a node has, 4 or 8; the hits do not depend
-/// on it.
+/// Meshes and their instances, ready to be traced. `W` is the number of children of a node, 4 or 8; the hits do not
+/// depend on it.
 #[derive(Clone, Debug)]
 pub struct Scene<const W: usize = 8> {
     meshes: Vec<Mesh>,

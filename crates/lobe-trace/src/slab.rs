@@ -1,14 +1,15 @@
 //! Rays against boxes.
 //!
-//! Every test computes the same expression from the same numbers, monotone in the planes of the box. So the interval a
-//! ray spends in a box contains, exactly and not only up to rounding, the one it spends in any box inside it.
+//! Every test computes the same expression from the same numbers, which is monotone in the planes of the box. So the
+//! interval that a ray spends in a box contains the interval that it spends in any box inside it, exactly and not only
+//! up to rounding.
 
 use lobe_lane::{Floats, Lanes, Mask};
 
 use crate::block::{Block, group_rows, ray_rows};
 use crate::bvh::Node;
 
-/// What a box test knows of rays, one value per lane.
+/// The data of rays for box tests, one value per lane.
 #[derive(Clone, Copy)]
 pub(crate) struct SlabRay<L: Lanes> {
     inverse: [L::F; 3],
@@ -37,8 +38,8 @@ impl<L: Lanes> SlabRay<L> {
         }
     }
 
-    /// Where rays enter and leave boxes, given by the three planes they reach first and the three they reach last. A
-    /// ray misses the box unless its first number is at most its second.
+    /// The t at which rays enter and leave boxes, given by the three planes that they reach first and the three that
+    /// they reach last. A ray misses the box unless its first number is at most its second.
     #[inline(always)]
     pub fn interval(&self, lanes: L, near: [L::F; 3], far: [L::F; 3]) -> [L::F; 2] {
         let enter_x = lanes.mul_add(near[0], self.inverse[0], self.near[0]);
@@ -50,7 +51,7 @@ impl<L: Lanes> SlabRay<L> {
         [enter_x.max(enter_y).max(enter_z), leave_x.min(leave_y).min(leave_z)]
     }
 
-    /// As [`interval`](SlabRay::interval) for the box between two corners, whatever octants the rays point into.
+    /// As [`interval`](SlabRay::interval) for the box between two corners, for rays of any octants.
     #[inline(always)]
     pub fn interval_any(&self, lanes: L, lower: [L::F; 3], upper: [L::F; 3]) -> [L::F; 2] {
         let (mut near, mut far) = (lower, upper);
@@ -66,7 +67,7 @@ impl<L: Lanes> SlabRay<L> {
     }
 }
 
-/// Which rows of a node hold the planes that rays of an octant reach first and last.
+/// The rows of a node with the planes that rays of an octant reach first and last.
 #[derive(Clone, Copy)]
 pub(crate) struct Sides {
     pub near: [usize; 3],
@@ -133,7 +134,7 @@ pub(crate) fn least_lane<L: Lanes>(lanes: L, x: L::F) -> f32 {
     buffer[0]
 }
 
-/// The bits of those of `W` children from `slot` on whose lanes are set, moved to their slots.
+/// The bits of those of the `W` children starting at `slot` whose lanes are set, moved to their slots.
 #[inline(always)]
 pub(crate) fn child_bits<L: Lanes, const W: usize>(mask: L::M, slot: usize) -> u32 {
     (mask.bits() << slot) & ((1 << W) - 1)

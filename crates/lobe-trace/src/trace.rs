@@ -22,7 +22,7 @@ impl Scene<8> {
         self.intersect_by(backend, class.form(), rays, hits);
     }
 
-    /// The same by any form of walk, for comparison: the hits are the same bits.
+    /// The same with any form of walk, for comparison: the hits have the same bits.
     ///
     /// # Panics
     /// If `rays` and `hits` differ in length.
@@ -38,7 +38,7 @@ impl Scene<8> {
         self.occluded_by(backend, class.form(), rays, out);
     }
 
-    /// The same by any form of walk, for comparison: the answers are the same.
+    /// The same with any form of walk, for comparison: the answers are the same.
     ///
     /// # Panics
     /// If `rays` and `out` differ in length.
@@ -107,7 +107,7 @@ impl<'s, const W: usize> Tracer<'s, W> {
         valid
     }
 
-    /// Traces what has been set.
+    /// Traces the stored rays.
     #[inline(always)]
     fn trace<L: Lanes>(&mut self, lanes: L, form: Form, any: bool, live: u64) {
         let Tracer { scene, rays, local, found, top, bottom } = self;
@@ -122,7 +122,7 @@ impl<'s, const W: usize> Tracer<'s, W> {
         }
     }
 
-    /// What has been found for a group.
+    /// The hits found for a group.
     #[inline(always)]
     fn conclude<L: Lanes>(&self, lanes: L, at: usize) -> PacketHits<L> {
         let at = first_ray::<L>(at);
@@ -139,7 +139,7 @@ impl<'s, const W: usize> Tracer<'s, W> {
         }
     }
 
-    /// Sets up to 64 rays from `from` on. Returns the bits of the valid ones.
+    /// Stores up to 64 rays, starting at `from`. Returns the bits of the valid ones.
     #[inline(always)]
     fn set_block<L: Lanes>(&mut self, lanes: L, rays: &Rays<'_>, from: usize) -> u64 {
         let mut live = 0;

@@ -1,6 +1,6 @@
 //! The transform of an instance.
 
-/// An affine map `x -> A x + b` from an instance's own space to the world, as three rows `[A | b]`.
+/// An affine map `x -> A x + b` from the space of an instance to the world, as three rows `[A | b]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Affine {
     /// Row `i` gives coordinate `i` of the image.

@@ -18,11 +18,11 @@ pub(crate) struct Triangles<'a> {
     transformed: bool,
     /// Any hit is enough.
     any: bool,
-    /// Boxes of triangles of the block that was tested last, in the order of a node's rows.
+    /// The boxes of triangles of the block that was tested last, in the order of a node's rows.
     boxes: [[f32; MAX_LANES]; 6],
 }
 
-/// If a large packet has no more rays than this, they are tested one by one, each against all triangles at once.
+/// If a large packet has at most this many rays, they are tested one by one, each against all triangles at once.
 const FEW: u32 = 10;
 
 impl<'a> Triangles<'a> {
@@ -142,7 +142,7 @@ impl<'a> Triangles<'a> {
             let other = lanes.splat_int(self.instance);
             let old_number = lanes.load_int(&found.primitive[at..]);
             let old_other = lanes.load_int(&found.instance[at..]);
-            // Of two hits at the same t the smaller numbers win, whichever comes first.
+            // Of two hits at the same t, the smaller numbers win, in any order of visits.
             let first = number.lt(old_number) | (number.eq(old_number) & other.lt(old_other));
             let hit = hit & (t.lt(best) | first);
             some |= hit.bits();
@@ -157,7 +157,7 @@ impl<'a> Triangles<'a> {
         some
     }
 
-    /// Tests the first triangles of a block against one ray, with its axes in that order. Returns whether it hit one.
+    /// Tests the first triangles of a block against one ray, with the axes in its order. Returns whether it hit one.
     #[inline(always)]
     fn one<L: Lanes>(
         &self,

@@ -8,7 +8,7 @@ use crate::bvh::{Binary, Child, WideBvh};
 use crate::slab::row_from;
 use crate::{Aabb, Mesh};
 
-/// Triangles of a block, which fill the lanes of the widest backends.
+/// The number of triangles of a block.
 pub(crate) const SLOTS: usize = 8;
 
 /// Corners of triangles, one triangle per lane: `[corner][axis]`.
@@ -133,8 +133,8 @@ impl<const W: usize> Tree<W> {
     }
 }
 
-/// `false` for a triangle with two corners in one place. Two of its edge functions cancel to the bit whatever the ray,
-/// so it need not be in the tree.
+/// `false` for a triangle with two equal corners. Two of its edge functions cancel exactly for every ray, so it need
+/// not be in the tree.
 fn can_be_hit([a, b, c]: [[f32; 3]; 3]) -> bool {
     a != b && b != c && c != a
 }

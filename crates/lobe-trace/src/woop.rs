@@ -2,7 +2,7 @@
 //!
 //! Woop, Benthin, Wald, *Watertight Ray/Triangle Intersection*, JCGT 2(1), 2013. The triangle is moved and sheared so
 //! that the ray becomes the z axis; then the signs of three 2-D edge functions decide. Two triangles that share an edge
-//! compute the same products for it, so no ray slips between them. That holds only while the products are rounded: the
+//! compute the same products for it, so no ray slips between them. This requires that the products are rounded: the
 //! edge functions must not be fused, on any backend.
 
 use lobe_lane::{Floats, Lanes, MAX_LANES, Mask};
@@ -10,14 +10,14 @@ use lobe_lane::{Floats, Lanes, MAX_LANES, Mask};
 use crate::block::{Block, group_rows, ray_rows};
 use crate::triangles::Corners;
 
-/// What a triangle test knows of rays, one value per lane.
+/// The data of rays for triangle tests, one value per lane.
 #[derive(Clone, Copy)]
 pub(crate) struct ShearRay<L: Lanes> {
     shear: [L::F; 3],
     pivot: [L::F; 3],
 }
 
-/// Which axes become x, y and z, for rays that mostly have the same.
+/// The axes that become x, y and z, for rays that mostly share them.
 #[inline(always)]
 pub(crate) fn axes_of(major: i32) -> [usize; 3] {
     match major {
@@ -27,14 +27,14 @@ pub(crate) fn axes_of(major: i32) -> [usize; 3] {
     }
 }
 
-/// The same without branches, for rays of which none predicts the next.
+/// The same without branches, for rays whose axes are unpredictable.
 #[inline(always)]
 pub(crate) fn axes_of_any(major: i32) -> [usize; 3] {
     const AXES: [[usize; 3]; 4] = [[1, 2, 0], [2, 0, 1], [0, 1, 2], [0, 1, 2]];
     AXES[major as usize & 3]
 }
 
-/// Where triangles are hit, one value per lane. Only the lanes of the mask are meaningful.
+/// The hits of triangles, one value per lane. Only the lanes of the mask are meaningful.
 #[derive(Clone, Copy)]
 pub(crate) struct Candidates<L: Lanes> {
     pub mask: L::M,
@@ -99,7 +99,7 @@ impl<L: Lanes> ShearRay<L> {
         mask = mask & !sum.eq(zero);
         let inverse = lanes.splat(1.0) / sum;
         let (u, v, w) = (u * inverse, v * inverse, w * inverse);
-        // The weights have the same sign, so t stays between those of the vertices up to rounding.
+        // The weights have the same sign, so t stays between the t of the vertices, up to rounding.
         let t = lanes.mul_add(u, z[0], lanes.mul_add(v, z[1], w * z[2])) * self.shear[2];
         Some(Candidates { mask, t, u: v, v: w })
     }
@@ -115,7 +115,7 @@ struct Edges {
 }
 
 impl Edges {
-    /// Puts into `x` the edge functions divided by their sum, or zeros if their exact signs differ. The products are
+    /// Writes the edge functions divided by their sum to `x`, or zeros if their exact signs differ. The products are
     /// exact in double precision, and so are the signs of their differences.
     #[cold]
     #[inline(never)]

@@ -249,7 +249,7 @@ fn warnings_tell_of_undetermined_values() {
     let plane = text(&plane);
     let (code, shown, message) = run(&["albedo", plane]);
     assert_eq!((code, shown.as_str()), (3, ""), "{message}");
-    assert!(message.contains("in the plane of incidence only, so there is no albedo"), "{message}");
+    assert!(message.contains("only in the plane of incidence, so there is no albedo"), "{message}");
     let svg = files.path("plane.svg");
     let ddr = files.path("plane.ddr");
     for args in [
@@ -286,7 +286,7 @@ fn sides_have_one_name() {
     assert!(info.contains("Visible transmission front") && info.contains("transmission back in the file"), "{info}");
     let check = printed(&["check", text(&window)]);
     assert!(check.contains("Visible transmission front") && !check.contains("dark there"), "{check}");
-    assert!(check.contains("no transmission back: that of the other way is used for it"), "{check}");
+    assert!(check.contains("no transmission back: that of the other direction is used for it"), "{check}");
     let back = [["--wi", "0.3,0,-0.9", "--wo", "-0.1,0.2,0.9"], ["--wi", "0.3,0,-0.9", "--wo", "-0.1,0.2,-0.9"]];
     assert!((value(&[&[text(&window)], &back[0][..]].concat()) - 0.2).abs() < 1e-6);
     assert_eq!(value(&[&[text(&window)], &back[1][..]].concat()), 0.0);

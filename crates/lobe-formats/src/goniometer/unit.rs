@@ -34,7 +34,12 @@ pub(super) fn of(
         && let Some(axis) = (0..4).find(|&axis| is_column(axis) && stated[axis].is_some_and(|unit| unit != given))
     {
         let found = format!("{} whose name says {}", axes[axis], stated[axis].unwrap_or(given));
-        return Err(FormatError::new(file, Place::Line(raw.names_line.max(1)), found, format!("{given}, as the options say")));
+        return Err(FormatError::new(
+            file,
+            Place::Line(raw.names_line.max(1)),
+            found,
+            format!("{given}, as the options say"),
+        ));
     }
     let is_there = |axis: usize| raw.layout.angles[axis] != Source::Missing;
     let open: Vec<usize> = (0..4).filter(|&axis| is_there(axis) && stated[axis].is_none()).collect();

@@ -93,7 +93,11 @@ impl Blocks {
                 return Err(text.error(text.line(), wavelength.to_string(), "a wavelength in nm, above 0"));
             }
             if !self.seen.insert(wavelength.to_bits()) {
-                return Err(text.error(text.line(), format!("a second block for {wavelength} nm"), "one per wavelength"));
+                return Err(text.error(
+                    text.line(),
+                    format!("a second block for {wavelength} nm"),
+                    "one per wavelength",
+                ));
             }
             self.wavelengths.push(wavelength);
         }

@@ -1,4 +1,4 @@
-//! Circles of azimuths: whether they close, what they leave out, and whether both sides are alike.
+//! Circles of azimuths: whether they close, their gaps, and whether both sides are alike.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,7 +6,7 @@ use super::finding::{Finding, Status, degrees, percent};
 use super::grid::Grid;
 use crate::samples::closes_circle;
 
-/// A difference of this part of the largest value at the seam is more than rounding.
+/// At the seam, a difference of this share of the largest value is more than rounding.
 const SAME: f64 = 1e-3;
 /// A gap as wide as this, 45 degrees, is more than one step of a circle.
 const WIDE: f64 = PI / 4.0 + 1e-3;
@@ -39,7 +39,8 @@ fn seam(grid: &Grid<'_>, part: &str, axis: usize) -> Finding {
     let (status, text) = match difference {
         d if d <= SAME => (Status::Pass, format!("{name} closes at 360 degrees with the values of 0")),
         d => {
-            let text = format!("the values of {name} 0 and 360, one angle, differ by {} of the largest", percent(d));
+            let text =
+                format!("the values at {name} 0 and 360, which are one angle, differ by {} of the largest", percent(d));
             (Status::Warn, text)
         }
     };
@@ -59,14 +60,14 @@ fn gap(grid: &Grid<'_>, part: &str, axis: usize) -> Finding {
     let step = knots.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
     let (status, text) = if axis == 3 && is_in_plane(grid) {
         let text = format!(
-            "{name} has {} and {} degrees only: measured in the plane of incidence, guessed everywhere else",
+            "{name} has only {} and {} degrees: measured in the plane of incidence, guessed everywhere else",
             degrees(first),
             degrees(last)
         );
         (Status::Warn, text)
     } else if gap > WIDE.max(1.5 * step) {
         let text = format!(
-            "{name} runs from {} to {} degrees; the gap of {} degrees is closed by a line",
+            "{name} runs from {} to {} degrees; the gap of {} degrees is closed by linear interpolation",
             degrees(first),
             degrees(last),
             degrees(gap)
@@ -106,7 +107,7 @@ fn mirror(grid: &Grid<'_>, part: &str) -> Option<Finding> {
     Some(Finding::new("symmetry", part, status, text).number("difference", difference).number("mean", mean))
 }
 
-/// How far the values at pairs of azimuths are apart.
+/// The differences between values at pairs of azimuths.
 struct Apart {
     /// The largest difference, relative to the largest value of the grid.
     largest: f64,

@@ -1,4 +1,4 @@
-//! Which parts of the hemisphere were measured.
+//! The measured parts of the hemisphere.
 
 use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
@@ -26,7 +26,7 @@ fn of_data(data: &dyn Representation, name: &str) -> Vec<Finding> {
     findings
 }
 
-/// Which of the four measurements of a sheet a band has, and what an evaluation answers for the others.
+/// The measurements of a sheet that a band has, and the values that an evaluation gives for the others.
 fn of_band(data: &dyn Representation, band: &str) -> Finding {
     let sections = data.sections();
     let of_band = sections.iter().filter(|section| section.channels.names() == [band]);
@@ -42,7 +42,7 @@ fn of_band(data: &dyn Representation, band: &str) -> Finding {
     }
     let mut text = Vec::new();
     if !answered.is_empty() {
-        text.push(format!("no {}: that of the other way is used for it", answered.join(", no ")));
+        text.push(format!("no {}: that of the other direction is used for it", answered.join(", no ")));
     }
     if !dark.is_empty() {
         text.push(format!("no {}: 0 there", dark.join(", no ")));
@@ -94,7 +94,7 @@ pub(crate) fn is_in_plane(data: &dyn Representation) -> bool {
     data.samples().is_some_and(|mut samples| samples.all(is_flat))
 }
 
-/// The incidences at which the brightest sample is toward the light: such data are often read the wrong way round.
+/// The incidences at which the brightest sample is toward the light: such data are often read the wrong way around.
 fn backward(data: &dyn Representation, part: &str) -> Option<Finding> {
     let mut brightest: Vec<([f64; 4], f64)> = Vec::new();
     for (angles, texel) in data.samples()? {
@@ -129,7 +129,7 @@ const SECTORS: usize = 12;
 /// With samples in a smaller share of the sectors than this, an integral over the hemisphere is a guess.
 const SPARSE: f64 = 0.25;
 
-/// How many sectors of the hemisphere have samples, for each incidence.
+/// The number of sectors of the hemisphere with samples, for each incidence.
 struct Sectors {
     /// For each incidence, in the order of the data.
     counts: Vec<([f64; 2], usize)>,
@@ -166,14 +166,14 @@ impl Sectors {
     }
 }
 
-/// The incidences with so few outgoing directions that nothing can be said of their integral.
+/// The incidences with so few outgoing directions that their integral is unknown.
 pub(super) fn sparse(data: &dyn Representation) -> Vec<[f64; 2]> {
     let Sectors { counts, all } = Sectors::new(data);
     let is_sparse = |(_, count): &([f64; 2], usize)| (*count as f64) < SPARSE * all as f64;
     counts.into_iter().filter(is_sparse).map(|(incidence, _)| incidence).collect()
 }
 
-/// The incidences, and the number of sectors of the hemisphere with samples, of what is on no grid.
+/// The incidences, and the number of sectors of the hemisphere with samples, for data without a grid.
 fn of_samples(data: &dyn Representation, part: &str) -> Vec<Finding> {
     if data.samples().is_none() {
         return Vec::new();
@@ -200,10 +200,10 @@ fn of_samples(data: &dyn Representation, part: &str) -> Vec<Finding> {
     let sectors = Sectors::new(data);
     let Some(([theta, _], least, share)) = sectors.least() else { return findings };
     let (status, text) = if is_in_plane(data) {
-        (Status::Warn, "measured in the plane of incidence only, and guessed everywhere else".to_string())
+        (Status::Warn, "measured only in the plane of incidence, and guessed everywhere else".to_string())
     } else {
         let text = format!(
-            "samples in at least {least} of {} sectors of 15 by 30 degrees, least for light at {} degrees",
+            "samples in at least {least} of {} sectors of 15 by 30 degrees, fewest for light at {} degrees",
             sectors.all,
             degrees(theta)
         );

@@ -1,4 +1,4 @@
-//! Energy: the albedo of every slice, the total integrated scatter that a file states, and what both say about the
+//! Energy: the albedo of every slice, the total integrated scatter that a file states, and their implications for the
 //! unit.
 
 use std::f64::consts::PI;
@@ -14,15 +14,15 @@ use crate::hemisphere::Effort;
 use crate::pairs::eval_pairs;
 use crate::{Aspect, Subject};
 
-/// Albedos between two reports of progress.
+/// The number of albedos between two reports of progress.
 const AT_ONCE: usize = 16;
-/// Light beyond 85 degrees is extrapolated by most measurements, and not looked at.
+/// Light beyond 85 degrees is extrapolated in most measurements, and not checked.
 const GRAZING: f64 = 85.5 * PI / 180.0;
-/// How far above 1 an albedo may be before it fails: instruments are calibrated to a per cent or so.
+/// The excess above 1 at which an albedo fails: instruments are calibrated to about a per cent.
 const CALIBRATION: f64 = 0.01;
 /// The blackest coatings reflect about half as much.
 const BLACK: f64 = 1e-3;
-/// A stated total that deviates by more than this part is not the integral of the values.
+/// A stated total that deviates by more than this share is not the integral of the values.
 const TIS_APART: f64 = 0.05;
 /// The relative deviation from pi up to which a ratio counts as pi.
 const NEAR: f64 = 0.15;
@@ -71,22 +71,22 @@ pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness, progress: im
     findings.extend(sides(&all));
     findings.extend(tis(subject, effort));
     if !subject.document.parts.iter().all(|part| part.data.representation().has_known_unit()) {
-        let text = "the unit of this database is not documented; albedos are those of the numbers as they are stored";
+        let text = "the unit of this database is not documented; albedos are those of the stored numbers";
         findings.push(Finding::new("unit", "", Status::Warn, text.into()));
     }
     findings
 }
 
-/// What can be said without an integral: no albedo is above pi times the largest value.
+/// A bound without an integral: no albedo is above pi times the largest value.
 fn in_plane(data: &dyn Representation, part: &str) -> Vec<Finding> {
-    let text = "measured in the plane of incidence only, so there is no albedo".into();
+    let text = "measured only in the plane of incidence, so there is no albedo".into();
     let mut findings = vec![Finding::new("energy", part, Status::Note, text)];
     let values = data.samples().into_iter().flatten().flat_map(|(_, texel)| texel);
     let largest = values.fold(0.0, |most: f64, &value| most.max(f64::from(value)));
     if largest * PI < BLACK {
         let text = format!(
-            "values are {largest:.1e} at most, so no albedo is above {:.1e}, less than the blackest coatings have: they are \
-             not in 1/sr",
+            "values are at most {largest:.1e}, so no albedo is above {:.1e}, less than that of the blackest coatings: \
+             they are not in 1/sr",
             PI * largest
         );
         findings.push(Finding::new("unit", part, Status::Warn, text).number("largest", largest));
@@ -154,14 +154,16 @@ fn unit(part: &str, albedos: &[Albedo]) -> Option<Finding> {
     } else if median > 1.0 + CALIBRATION {
         format!("half of the incident directions have an albedo of {median:.3} or more: the values are not in 1/sr")
     } else if largest < BLACK && largest > 0.0 {
-        format!("the largest albedo is {largest:.1e}, less than the blackest coatings have: the values are not in 1/sr")
+        format!(
+            "the largest albedo is {largest:.1e}, less than that of the blackest coatings: the values are not in 1/sr"
+        )
     } else {
         return None;
     };
     Some(Finding::new("unit", part, Status::Warn, text).number("albedo", median))
 }
 
-/// Whether values fall off toward the horizon as a cosine does, as those of `f cos` would and those of `f` seldom do.
+/// Whether values fall off toward the horizon like a cosine, as values of `f cos` would and values of `f` seldom do.
 fn cosine(subject: &Subject, aspect: Aspect, part: &str) -> Option<Finding> {
     let incidences = subject.incidences(aspect);
     let [theta, phi] = *incidences.iter().min_by(|a, b| (a[0] - 0.5).abs().total_cmp(&(b[0] - 0.5).abs()))?;
@@ -180,7 +182,7 @@ fn cosine(subject: &Subject, aspect: Aspect, part: &str) -> Option<Finding> {
     let off = sums.iter().zip(&viewers).map(quotient).map(|quotient| (quotient - 1.0).abs()).fold(0.0, f64::max);
     (off < 0.05).then(|| {
         let text =
-            "values fall toward the horizon as a cosine does: they may be f cos (cosine-corrected), not f".into();
+            "values fall off toward the horizon like a cosine: they may be f cos (cosine-corrected), not f".into();
         Finding::new("unit", part, Status::Note, text).number("off", off)
     })
 }
@@ -207,7 +209,7 @@ fn sides(all: &[(Aspect, Vec<Albedo>)]) -> Vec<Finding> {
             let Some((largest, theta, error)) = worst else { continue };
             let status = if largest > 1.0 + CALIBRATION + error { Status::Fail } else { Status::Pass };
             let text =
-                format!("{one} and {other} together are {largest:.4} at most, for light at {} degrees", degrees(theta));
+                format!("{one} and {other} together are at most {largest:.4}, for light at {} degrees", degrees(theta));
             findings.push(Finding::new("energy", "", status, text).number("largest", largest));
         }
     }
@@ -244,7 +246,7 @@ fn tis(subject: &Subject, effort: Effort) -> Option<Finding> {
     let (tis, integral, sigma) = at;
     let near = |ratio: f64| (median / ratio - 1.0).abs() < NEAR;
     let text = format!(
-        "{} stated totals; the integral of the values is {median:.3} times them in the median; furthest off is {tis:.4} \
+        "{} stated totals; the integral of the values is {median:.3} times them in the median; the worst is {tis:.4} \
          stated, {integral:.4} integrated, for light at {} degrees",
         ratios.len(),
         degrees(sigma)

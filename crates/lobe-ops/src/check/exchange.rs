@@ -1,4 +1,4 @@
-//! Whether light and viewer may be exchanged.
+//! Reciprocity: whether light and viewer may be exchanged.
 
 use lobe_table::Scatter;
 
@@ -6,11 +6,11 @@ use super::finding::{Finding, Status, Thoroughness, degrees, percent};
 use crate::Subject;
 use crate::reciprocity::reciprocity;
 
-/// Beyond this, 80 degrees, few instruments measure anything.
+/// Few instruments measure anything beyond this, 80 degrees.
 const LIMIT: f64 = 80.0 * std::f64::consts::PI / 180.0;
-/// A relative difference (root mean square) that interpolation alone makes.
+/// A relative difference (root mean square) that interpolation alone can cause.
 const SAME: f64 = 0.02;
-/// One that is more than measurement error.
+/// A difference beyond measurement error.
 const APART: f64 = 0.15;
 
 pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness) -> Vec<Finding> {
@@ -24,13 +24,13 @@ pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness) -> Vec<Findi
             continue;
         }
         if way_back.is_none() && aspect.scatter == Scatter::Transmission {
-            let text = "only one way was measured: nothing to exchange it with".into();
+            let text = "only one direction of transmission was measured: nothing to exchange it with".into();
             findings.push(Finding::new("reciprocity", &part, Status::Note, text));
             continue;
         }
         let index = subject.data(aspect).map_or(1.0, |data| data.representation().refractive_index());
         if aspect.scatter == Scatter::Transmission && index != 1.0 {
-            let text = format!("light passes into a medium of index {index}: both ways differ by the square of it");
+            let text = format!("light passes into a medium of index {index}: the two directions differ by its square");
             findings.push(Finding::new("reciprocity", &part, Status::Note, text));
             continue;
         }
@@ -43,7 +43,7 @@ pub(super) fn check(subject: &Subject, thoroughness: &Thoroughness) -> Vec<Findi
         let found = reciprocity(&subject.material, aspect, limit, thoroughness.pairs);
         let [wi, wo] = found.worst.map(|w| degrees(w[2].clamp(-1.0, 1.0).acos()));
         let text = format!(
-            "up to {} degrees, f(wi, wo) and f(wo, wi) differ by {} (rms), by {} in the median, and most, by {:.3e}, \
+            "up to {} degrees, f(wi, wo) and f(wo, wi) differ by {} (rms), by {} in the median, and at most by {:.3e}, \
              between {wi} and {wo} degrees",
             degrees(limit),
             percent(found.relative_rms),

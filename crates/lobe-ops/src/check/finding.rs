@@ -1,4 +1,4 @@
-//! What a check reports, and the words and numbers for it.
+//! The findings of checks, in words and numbers.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -11,11 +11,11 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
-    /// As it should be.
+    /// In order.
     Pass,
     /// Worth knowing.
     Note,
-    /// Probably not what was meant.
+    /// Probably a mistake.
     Warn,
     /// Impossible.
     Fail,
@@ -32,7 +32,7 @@ impl fmt::Display for Status {
     }
 }
 
-/// One thing that was found.
+/// One finding of a check.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
     /// The check that found it.
@@ -58,16 +58,16 @@ impl Finding {
     }
 }
 
-/// How much a check may cost.
+/// The effort of checks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thoroughness {
-    /// At most this many directions of the light are integrated over, evenly chosen.
+    /// The most directions of the light for which integrals are computed, evenly chosen.
     pub incidences: usize,
     /// The largest number of directions per integral.
     pub evaluations: usize,
-    /// The error of an integral, absolute, but relative above 1.
+    /// The error of an integral: absolute, but relative above 1.
     pub tolerance: f64,
-    /// Pairs of directions that are exchanged.
+    /// The number of pairs of directions that are exchanged.
     pub pairs: usize,
 }
 
@@ -77,7 +77,7 @@ impl Default for Thoroughness {
     }
 }
 
-/// What a part of a sheet is called; empty if it is the only one.
+/// The name of a part of a sheet; empty if it is the only one.
 pub(super) fn part_name(document: &Document, part: &Part) -> String {
     if !document.is_sheet() {
         return String::new();

@@ -1,4 +1,4 @@
-//! Grids of four angles, whatever they are about, and what has to hold at their knots and poles.
+//! Checks of grids of four angles, of any meaning, at their knots and poles.
 
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Deref;
@@ -16,12 +16,12 @@ impl<'a> Deref for Grid<'a> {
     }
 }
 
-/// At the pole all azimuths are one direction: a difference of this part of the values there is more than rounding.
+/// At the pole, all azimuths are one direction: a difference of this share of the values there is more than rounding.
 const SAME: f64 = 1e-3;
-/// A difference of this part is more than noise.
+/// A difference of this share is more than noise.
 const APART: f64 = 0.05;
 
-/// How far texels that should be equal are apart.
+/// The difference between texels that should be equal.
 struct Spread {
     /// The largest difference, relative to the largest of the texels.
     difference: f64,
@@ -41,7 +41,7 @@ impl<'a> Grid<'a> {
         (0..self.knots[0].len()).flat_map(|polar| (0..self.knots[1].len()).map(move |azimuth| [polar, azimuth]))
     }
 
-    /// Reports the knots, which ascend, or the reader would have refused the file; and whether they reach far enough.
+    /// Reports the knots, which ascend because readers refuse others, and whether they reach far enough.
     pub(super) fn check_knots(&self, part: &str) -> Vec<Finding> {
         let counts = self.knots.each_ref().map(Vec::len);
         let each: Vec<String> =
@@ -53,7 +53,7 @@ impl<'a> Grid<'a> {
         let (first, last) = (light[0], light[light.len() - 1]);
         if last < FRAC_PI_2 - 0.01 || first > 0.01 {
             let text = format!(
-                "light was measured from {} to {} degrees only; beyond, the nearest measurement is used",
+                "light was measured only from {} to {} degrees; beyond, the nearest measurement is used",
                 degrees(first),
                 degrees(last)
             );
@@ -61,7 +61,7 @@ impl<'a> Grid<'a> {
             findings.push(finding.number("first", first.to_degrees()).number("last", last.to_degrees()));
         }
         let reach = viewer[viewer.len() - 1];
-        // From grazing light the other horizon is nearly a half turn from the mirror direction.
+        // For grazing light, the opposite horizon is nearly half a turn from the mirror direction.
         let needed = if self.is_specular { FRAC_PI_2 + last } else { FRAC_PI_2 };
         if reach < needed - 0.05 {
             let text = format!(
@@ -76,7 +76,7 @@ impl<'a> Grid<'a> {
         findings
     }
 
-    /// Whether the pole of the viewer, and that of the light, has one value at all azimuths.
+    /// Whether the pole of the viewer, and that of the light, have one value at all azimuths.
     pub(super) fn check_pole(&self, part: &str) -> Vec<Finding> {
         let mut findings = Vec::new();
         let [light, rotations, viewer, azimuths] = self.knots.each_ref().map(Vec::len);
@@ -87,7 +87,7 @@ impl<'a> Grid<'a> {
             );
             findings.push(self.pole(part, self.names[2], worst));
         }
-        // With the light at the normal, the sample's rotation and the viewer's azimuth are one angle.
+        // With the light at the normal, the rotation of the sample and the azimuth of the viewer are one angle.
         if self.knots[0][0].abs() < 1e-6 && light > 0 && rotations > 1 && self.knots[2][0].abs() < 1e-6 && viewer > 0 {
             let at_zenith = (0..rotations).map(|azimuth| self.texel([0, azimuth, 0, 0])).collect();
             let worst = self.spread(std::iter::once(at_zenith));
@@ -98,7 +98,7 @@ impl<'a> Grid<'a> {
 
     fn pole(&self, part: &str, axis: &str, Spread { difference: worst, group: place }: Spread) -> Finding {
         let (status, text) = match worst {
-            worst if worst <= SAME => (Status::Pass, format!("one value at {axis} 0, whatever the azimuth")),
+            worst if worst <= SAME => (Status::Pass, format!("one value at {axis} 0, for all azimuths")),
             worst => {
                 let status = if worst <= APART { Status::Note } else { Status::Warn };
                 let light = degrees(self.knots[0][place / self.knots[1].len().max(1)]);
@@ -107,7 +107,7 @@ impl<'a> Grid<'a> {
                 (
                     status,
                     format!(
-                        "at {axis} 0, one direction, values with other azimuths differ by {part} of the largest{at}"
+                        "at {axis} 0, which is one direction, values at different azimuths differ by {part} of the largest{at}"
                     ),
                 )
             }

@@ -1,12 +1,12 @@
-//! What data cannot answer, for those who ask for it.
+//! Warnings about values that data do not determine.
 
 use lobe_formats::Document;
 
 use super::finding::part_name;
 use super::{azimuths, coverage, grids};
 
-/// Sentences on what is guessed of a file rather than measured, such as everything outside the plane of incidence, or
-/// what a few directions say of all others. Empty if the data answer for themselves.
+/// Sentences on which values of a file are guessed rather than measured, such as those outside the plane of incidence,
+/// or far from a few measured directions. Empty if the data determine all values.
 pub fn guesses(document: &Document) -> Vec<String> {
     let mut found = Vec::new();
     let mut push = |part: String, text: &str| {
@@ -26,7 +26,7 @@ pub fn guesses(document: &Document) -> Vec<String> {
             push(name.clone(), &text);
         }
         if incidences == 1 {
-            push(name, "light came from one direction only, which is used for all others");
+            push(name, "light came from only one direction, which is used for all others");
         }
     }
     for (part, grid) in grids(document) {
@@ -37,4 +37,4 @@ pub fn guesses(document: &Document) -> Vec<String> {
     found
 }
 
-const IN_PLANE: &str = "measured in the plane of incidence only, and guessed everywhere else";
+const IN_PLANE: &str = "measured only in the plane of incidence, and guessed everywhere else";

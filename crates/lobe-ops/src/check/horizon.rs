@@ -9,11 +9,11 @@ use crate::samples::{directions, nodes};
 
 /// The height up to which a direction is next to the horizon: 1.1 degrees.
 const NEAR: f64 = 0.02;
-/// The height from which it is not: 3.4 degrees.
+/// The height above which it is not: 3.4 degrees.
 const AWAY: f64 = 0.06;
 /// Within this angle of the normal, 30 degrees, half vectors are those of a mirror: peaks there rise toward the horizon.
 const PEAK: f64 = std::f64::consts::PI / 6.0;
-/// A value that is so many times the largest of all others stands out.
+/// A value that is this many times the largest of all others stands out.
 const OUT: f64 = 10.0;
 
 pub(super) fn check(document: &Document) -> Vec<Finding> {
@@ -39,8 +39,8 @@ fn of_data(document: &Document, part: &lobe_formats::Part) -> Option<Finding> {
     let count = values.iter().filter(|value| **value > away).count();
     (away > 0.0 && near > OUT * away).then(|| {
         let text = format!(
-            "{count} values within 1.1 degrees of the horizon are larger than all that are 3.4 degrees above it, up to {near:.3e} \
-             against {away:.3e}: probably quotients by a cosine that is nearly 0"
+            "{count} values within 1.1 degrees of the horizon are larger than all values 3.4 degrees above it, up to \
+             {near:.3e} against {away:.3e}: probably quotients by a cosine that is nearly 0"
         );
         Finding::new("horizon", &part_name(document, part), Status::Warn, text)
             .number("near", near)

@@ -1,8 +1,8 @@
-//! Is a measurement sound, and what does it cover?
+//! Checks whether a measurement is sound, and what it covers.
 //!
-//! [`check`] runs every check that applies to a file and reports what it found in sentences with numbers: a list of
-//! [`Finding`]s. What is impossible, such as an albedo above 1, fails. What is suspicious is a warning. What a user of
-//! the data has to know is a note.
+//! [`check`] runs every check that applies to a file and reports a list of [`Finding`]s: sentences with numbers.
+//! Impossible values, such as an albedo above 1, fail. Suspicious ones are warnings. Facts that a user of the data
+//! should know are notes.
 
 mod azimuths;
 mod coverage;
@@ -25,10 +25,8 @@ use grid::Grid;
 pub use finding::{Finding, Status, Thoroughness};
 pub use guesses::guesses;
 
-/// Checks a file. `progress` is called from time to time with the share that is done.
-///
-/// Knots that do not ascend and values that are NaN do not get this far: the reader refuses such a file and names the
-/// line.
+/// Checks a file. `progress` is called from time to time with the finished share. Knots that do not ascend and values
+/// that are NaN do not occur here: readers refuse such files and name the line.
 pub fn check(subject: &Subject, thoroughness: &Thoroughness, progress: impl Fn(f64)) -> Vec<Finding> {
     let mut findings = values::check(&subject.document);
     for (part, grid) in grids(&subject.document) {
@@ -50,7 +48,7 @@ pub fn worst(findings: &[Finding]) -> Status {
     findings.iter().map(|finding| finding.status).max().unwrap_or(Status::Pass)
 }
 
-/// The grids of a file, and what they are called.
+/// The grids of a file, and their names.
 fn grids(document: &Document) -> Vec<(String, Grid<'_>)> {
     let grid = |part| Some((part_name(document, part), Grid(part.data.representation().grid()?)));
     document.parts.iter().filter_map(grid).collect()

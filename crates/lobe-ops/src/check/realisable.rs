@@ -1,19 +1,19 @@
-//! Can there be a surface with these Mueller matrices?
+//! Whether a surface can have given Mueller matrices.
 //!
-//! A matrix is possible if it is a mixture of matrices of Jones, that is if Cloude's coherency matrix has no negative
-//! eigenvalue: S. R. Cloude, "Group theory and polarisation algebra", Optik 75, 1986. Light that leaves is then never more than
-//! wholly polarised.
+//! A matrix is possible if it is a mixture of Jones matrices, that is, if Cloude's coherency matrix has no negative
+//! eigenvalue: S. R. Cloude, "Group theory and polarisation algebra", Optik 75, 1986. Outgoing light is then never more
+//! than fully polarised.
 
 use lobe_formats::{Document, Part};
 use lobe_table::Data;
 
 use super::finding::{Finding, Status, part_name, percent};
 
-/// The most matrices that are looked at, evenly chosen.
+/// The most matrices that are examined, evenly chosen.
 const MOST: usize = 20_000;
 /// A negative eigenvalue of this share of their sum is noise or rounding.
 const NOISE: f64 = 0.01;
-/// The same of the degree of polarisation above 1.
+/// The same for a degree of polarisation above 1.
 const ROUNDING: f64 = 1e-4;
 
 pub(super) fn check(document: &Document) -> Vec<Finding> {
@@ -30,14 +30,14 @@ fn of_part(document: &Document, part: &Part) -> Option<Finding> {
     let step = matrices.len().div_ceil(MOST).max(1);
     let (mut looked_at, mut impossible, mut least, mut degree) = (0_usize, 0_usize, 0.0_f64, 0.0_f64);
     for matrix in matrices.iter().step_by(step) {
-        // Dark matrices have no polarisation, and NaN was not measured.
+        // Dark matrices have no polarisation, and NaN is unmeasured.
         if !(matrix[0] > 0.0 && matrix.iter().all(|element| element.is_finite())) {
             continue;
         }
         looked_at += 1;
         let relative = matrix.map(|element| f64::from(element) / f64::from(matrix[0]));
         let lowest = eigenvalues(&relative).into_iter().fold(f64::INFINITY, f64::min);
-        // Of light that is wholly polarised in one way less that in the other, and of unpolarised light.
+        // For fully polarised light in either state, and for unpolarised light.
         let size = |elements: [usize; 3]| elements.iter().map(|k| relative[*k].powi(2)).sum::<f64>().sqrt();
         let polarised = size([1, 2, 3]).max(size([4, 8, 12]));
         impossible += usize::from(lowest < -NOISE);
@@ -50,8 +50,8 @@ fn of_part(document: &Document, part: &Part) -> Option<Finding> {
     let bad = impossible > 0 || degree > 1.0 + ROUNDING;
     let text = if bad {
         format!(
-            "{} of {looked_at} Mueller matrices cannot be those of a surface: Cloude's eigenvalues reach {:.3} of their sum, and \
-             unpolarised or wholly polarised light may become {:.1} % polarised",
+            "{} of {looked_at} Mueller matrices cannot be those of a surface: Cloude's eigenvalues reach {:.3} of \
+             their sum, and unpolarised or fully polarised light may become {:.1} % polarised",
             percent(share),
             least,
             100.0 * degree
@@ -144,14 +144,14 @@ mod tests {
     }
 
     #[test]
-    fn eigenvalues_tell_what_is_possible() {
+    fn eigenvalues_decide_what_is_possible() {
         for (matrix, expected) in [
-            // What passes all light on, a mirror, what makes unpolarised light, a polariser.
+            // The identity, a mirror, a depolariser, a polariser.
             (diagonal([1.0; 4]), [0.0, 0.0, 0.0, 1.0]),
             (diagonal([1.0, 1.0, -1.0, -1.0]), [0.0, 0.0, 0.0, 1.0]),
             (diagonal([1.0, 0.0, 0.0, 0.0]), [0.25; 4]),
             (std::array::from_fn(|k| if [0, 1, 4, 5].contains(&k) { 1.0 } else { 0.0 }), [0.0, 0.0, 0.0, 1.0]),
-            // The mirror image of circular light alone is impossible.
+            // Reversing only circular light is impossible.
             (diagonal([1.0, 1.0, 1.0, -1.0]), [-0.5, 0.5, 0.5, 0.5]),
         ] {
             let found = eigenvalues(&matrix);

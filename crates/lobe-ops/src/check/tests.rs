@@ -1,4 +1,4 @@
-//! Every check finds what it is for, and nothing if there is nothing to find.
+//! Every check finds its kind of fault, and nothing in sound data.
 
 use lobe::{Material, Options};
 use lobe_formats::{Document, Format};
@@ -16,7 +16,7 @@ fn subject(samples: specular::Data, tis: Vec<f32>) -> Subject {
     Subject::new(Format::Zemax, document, material.expect("a material"), &Options::default())
 }
 
-/// A table over the whole circle of which the values are given by sigma, theta and phi in degrees.
+/// A table over the full circle whose values are a function of sigma, theta and phi in degrees.
 fn table(phis: &[f64], f: impl Fn(f64, f64, f64) -> f64) -> specular::Data {
     let sigmas = [0.0, 30.0, 60.0, 85.0];
     let mut values = Vec::new();
@@ -108,16 +108,16 @@ fn stated_totals_are_compared_with_the_integral() {
 }
 
 #[test]
-fn what_was_not_measured_is_found() {
+fn unmeasured_values_are_found() {
     let holed = table(&CIRCLE, |_, theta, _| if theta == 60.0 || theta == 120.0 { 0.0 } else { 0.1 + 1e-4 * theta });
     assert_found(&found(holed.clone(), Vec::new(), "coverage"), Status::Warn, "are exactly 0");
     assert_found(&found(holed, Vec::new(), "repeated values"), Status::Note, "not measured; the interpolation");
     let short = table(&CIRCLE, |_, _, _| 0.1);
-    assert_found(&found(short, Vec::new(), "coverage"), Status::Note, "from 0 to 85 degrees only");
+    assert_found(&found(short, Vec::new(), "coverage"), Status::Note, "only from 0 to 85 degrees");
 }
 
 #[test]
-fn one_way_is_not_the_other() {
+fn missing_reciprocity_is_found() {
     let uneven = table(&CIRCLE, |sigma, _, _| 0.1 + 0.2 * sigma / 85.0);
     assert_found(&found(uneven, Vec::new(), "reciprocity"), Status::Warn, "up to 80 degrees");
 }
@@ -147,8 +147,8 @@ fn around(lights: &[f64]) -> Vec<[f64; 4]> {
 }
 
 #[test]
-fn what_few_samples_cannot_say_is_no_failure() {
-    // One outgoing direction for each of many incident ones: nothing is known of an albedo.
+fn sparse_samples_are_not_a_failure() {
+    // One outgoing direction for each of many incident ones: the albedo is unknown.
     let single: Vec<[f64; 4]> = (0..40)
         .map(|i| [1.0 + 2.0 * f64::from(i), 37.0 * f64::from(i), 60.0 - f64::from(i), 91.0 * f64::from(i)])
         .collect();
@@ -162,7 +162,7 @@ fn what_few_samples_cannot_say_is_no_failure() {
     let document = scattered(&in_plane, |_| 0.36);
     assert!(guesses(&document)[0].contains("in the plane of incidence"), "{:?}", guesses(&document));
     let one = scattered(&around(&[30.0]), |_| 0.3);
-    assert!(guesses(&one)[0].contains("one direction only"), "{:?}", guesses(&one));
+    assert!(guesses(&one)[0].contains("only one direction"), "{:?}", guesses(&one));
     assert_found(&all_of(one), Status::Warn, "light from one direction, at 30 degrees, which is used for all others");
 
     let whole = scattered(&around(&[0.0, 30.0, 60.0, 75.0]), |_| 0.36);
@@ -175,7 +175,7 @@ fn what_few_samples_cannot_say_is_no_failure() {
 }
 
 #[test]
-fn quotients_by_a_cosine_of_nothing_are_named() {
+fn quotients_by_a_tiny_cosine_are_named() {
     let mut angles = around(&[0.0, 30.0, 60.0]);
     angles.extend((0..12).map(|step| [30.0, 0.0, 89.9, 30.0 * f64::from(step)]));
     let spike = |[.., theta, _]: [f64; 4]| if theta > 89.0 { 40.0 } else { 0.1 };
@@ -185,7 +185,7 @@ fn quotients_by_a_cosine_of_nothing_are_named() {
 }
 
 #[test]
-fn a_sheet_is_dark_where_it_is_evaluated_as_dark() {
+fn sheet_findings_agree_with_evaluation() {
     use lobe_table::window::klems::{AngleBasis, KlemsMatrix};
     use lobe_table::window::{Band, Block, Blocks, Component, Data};
     let with = |blocks: &[Block]| {
@@ -201,9 +201,12 @@ fn a_sheet_is_dark_where_it_is_evaluated_as_dark() {
     // WINDOW's back is the front here.
     let (status, text) = with(&[Block::TransmissionBack, Block::ReflectionBack]);
     assert_eq!(status, Status::Warn);
-    assert_eq!(text, "no transmission back: that of the other way is used for it; no reflection back: 0 there");
+    assert_eq!(text, "no transmission back: that of the other direction is used for it; no reflection back: 0 there");
     let (status, text) = with(&[Block::TransmissionFront, Block::ReflectionBack, Block::ReflectionFront]);
-    assert_eq!((status, text.as_str()), (Status::Note, "no transmission front: that of the other way is used for it"));
+    assert_eq!(
+        (status, text.as_str()),
+        (Status::Note, "no transmission front: that of the other direction is used for it")
+    );
     let (_, text) = with(&[Block::ReflectionBack]);
     assert_eq!(text, "no transmission back, no transmission front, no reflection back: 0 there");
     assert_eq!(with(&Block::ALL).0, Status::Pass);

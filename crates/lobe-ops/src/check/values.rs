@@ -7,7 +7,7 @@ use lobe_table::data::Gaps;
 
 use super::finding::{Finding, Status, part_name, percent};
 
-/// A number that is this share of all, and is not 0, did not come from a measurement alone.
+/// A non-zero number that is this share of all did not come from a measurement alone.
 const OFTEN: f64 = 0.02;
 /// With fewer numbers than this, repeated ones are not reported.
 const FEW: usize = 100;
@@ -67,13 +67,13 @@ fn negative(part: &str, values: &[f32]) -> Option<Finding> {
     )
 }
 
-/// A number that many samples share is a floor, a ceiling, or a stand-in for what was not measured.
+/// A number that many samples share is a floor, a ceiling, or a placeholder for unmeasured values.
 fn repeated(part: &str, values: &[f32]) -> Option<Finding> {
     if values.len() < FEW {
         return None;
     }
     let mut counts: BTreeMap<u32, usize> = BTreeMap::new();
-    // Both zeros are one number.
+    // Zeros of both signs are one number.
     values.iter().for_each(|value| *counts.entry((value + 0.0).to_bits()).or_default() += 1);
     if counts.len() == 1 {
         let text = format!("all {} values are {}", values.len(), values[0]);
@@ -97,7 +97,7 @@ fn repeated(part: &str, values: &[f32]) -> Option<Finding> {
     Some(finding.number("value", f64::from(value)).number("share", share))
 }
 
-/// What the file itself says was not measured.
+/// Values that the file itself marks as not measured.
 fn gaps(document: &Document, part: &Part) -> Option<Finding> {
     let Gaps { missing, all, of, is_used } = part.data.representation().gaps()?;
     let name = part_name(document, part);
@@ -109,7 +109,7 @@ fn gaps(document: &Document, part: &Part) -> Option<Finding> {
     }
     let share = missing as f64 / all.max(1) as f64;
     let text =
-        format!("{missing} of {all} {of} ({}) were not measured, those below the horizon among them", percent(share));
+        format!("{missing} of {all} {of} ({}) were not measured, including those below the horizon", percent(share));
     let status = if missing == 0 { Status::Pass } else { Status::Note };
     Some(Finding::new("gaps", &name, status, text).number("gaps", missing as f64).number("of", all as f64))
 }

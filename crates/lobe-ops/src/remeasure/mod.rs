@@ -1,5 +1,5 @@
-//! Any material or model measured at the nodes of a format that has another representation: what is written if its values
-//! cannot be kept as they are.
+//! Measures any material or model at the nodes of a format with another representation, for writing it if its values
+//! cannot be kept.
 
 mod nodes;
 mod refine;
@@ -19,11 +19,11 @@ pub use nodes::{Nodes, Sides, knots, spherical_knots};
 pub use refine::{Refined, refine};
 pub use surface::{Lifted, Mapped, MaterialSurface};
 
-/// Why a surface was not measured.
+/// A surface that could not be measured.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RemeasureError {
-    /// The knots make no table.
+    /// The knots do not form a table.
     #[error(transparent)]
     Grid(#[from] GridError),
     /// The channels or the values are not those of the representation.
@@ -37,11 +37,11 @@ pub enum RemeasureError {
     Tree(#[from] TreeError),
 }
 
-/// Measures a surface at nodes, as a document that a format with such nodes can hold. `progress` is called
+/// Measures a surface at nodes, and returns a document that a format with such nodes can hold. `progress` is called
 /// [`Nodes::steps`] times.
 ///
-/// A material from a file (`is_from_file`) may have any value within a degree of the horizon, where many formats store what
-/// has to be divided by the cosine, so that it is never looked at there. Models are exact.
+/// Within a degree of the horizon, a material from a file (`is_from_file`) may have any value, because many formats
+/// store values that have to be divided by the cosine; so it is never evaluated there. Models are exact.
 ///
 /// # Errors
 /// [`RemeasureError`] if the surface has no values for such nodes.
@@ -116,7 +116,8 @@ mod tests {
                 Nodes::HalfDiff(_) => Nodes::HalfDiff([9, 9, 18]),
                 nodes => nodes,
             };
-            // As few nodes as here leave 3 % between those of an EPFL file, which blends the quotient of values and a density.
+            // With so few nodes, the error between those of an EPFL file, which blends the quotient of values and a
+            // density, is 3 %.
             let bound = if kind == rgl::KIND { 0.04 } else { 2e-3 };
             let steps = AtomicUsize::new(0);
             let sides = Sides::One(Scatter::Reflection);

@@ -1,4 +1,4 @@
-//! Where a surface is measured.
+//! The nodes at which a surface is measured.
 
 use lobe_formats::mbsdf::UNIFORM_HALF;
 use lobe_model::goniometer::half_diff as bins;
@@ -10,10 +10,10 @@ use lobe_table::window::klems::{self, AngleBasis};
 use lobe_table::window::tensor_tree::Rank;
 use lobe_table::{Kind, Scatter, half_diff, rgl, specular, spherical};
 
-/// On which sides a surface has values.
+/// The sides on which a surface has values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sides {
-    /// One kind of scatter.
+    /// One scatter.
     One(Scatter),
     /// The surface distinguishes the sides.
     Both,
@@ -70,7 +70,7 @@ impl Nodes {
         }
     }
 
-    /// How often progress is reported.
+    /// The number of progress reports.
     pub fn steps(&self, sides: Sides) -> usize {
         match self {
             Nodes::Specular([sigma, psi, ..]) => sigma.len() * psi.len(),
@@ -82,7 +82,7 @@ impl Nodes {
         }
     }
 
-    /// How many values there are of each channel, as factors.
+    /// The number of values per channel, as factors.
     pub fn counts(&self) -> Vec<usize> {
         match self {
             Nodes::Specular(knots) => knots.iter().map(Vec::len).collect(),

@@ -8,7 +8,7 @@ use lobe_model::Surface;
 pub struct MaterialSurface {
     /// The material.
     pub material: Material,
-    /// The scatter of light from the front that is looked at; `None` for all that it has, of either side.
+    /// The scatter to measure, for light from the front; `None` for everything, on both sides.
     pub scatter: Option<Scatter>,
 }
 
@@ -35,10 +35,10 @@ impl Surface for MaterialSurface {
     }
 }
 
-/// The least height from which [`Lifted`] surfaces are looked at: 3.4 degrees.
+/// The smallest height at which [`Lifted`] surfaces are evaluated: 3.4 degrees.
 const HEIGHT: f64 = 0.06;
 
-/// A surface that is never looked at along itself: directions near the horizon are moved up, at the same azimuth.
+/// A surface that is never evaluated near its horizon: directions there are raised, at the same azimuth.
 pub struct Lifted<'a>(pub &'a dyn Surface);
 
 impl Surface for Lifted<'_> {
@@ -63,7 +63,7 @@ impl Surface for Lifted<'_> {
 pub struct Mapped<'a> {
     /// The surface.
     pub surface: &'a dyn Surface,
-    /// How its channels are mapped.
+    /// The map of its channels.
     pub map: &'a ChannelMap,
 }
 

@@ -1,4 +1,4 @@
-//! How far a table is from the material that it was made from.
+//! The difference between a table and the material that it was made from.
 
 use std::f64::consts::{PI, TAU};
 
@@ -33,9 +33,9 @@ pub struct Resampling {
 /// Elevations below this cosine, 3.4 degrees, are never compared: nodes there are not the material's own values.
 pub(super) const LOWEST: f64 = 0.06;
 
-/// Compares a table with its origin at up to `count` pairs of directions that are the same at every call: evenly in the
-/// four angles, theta more densely toward the mirror direction, within the knots of sigma, and both with polar angles
-/// up to `limit` in radians.
+/// Compares a table with its origin at up to `count` pairs of directions that are the same at every call: spread evenly
+/// over the four angles, with theta denser toward the mirror direction, within the knots of sigma, and both with polar
+/// angles up to `limit` in radians.
 ///
 /// # Errors
 /// If the table is too large to be evaluated.

@@ -9,17 +9,17 @@ use super::{error, measure};
 use crate::samples::{directions, nodes};
 use crate::{Aspect, OnBackend};
 
-/// How large the interpolation error may be.
+/// The bound on the interpolation error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bound {
     /// Relative to the largest value of the material; or to each value, but at least to a thousandth of the largest.
     pub error: f64,
-    /// Which of the two.
+    /// Whether the error is relative to each value.
     pub per_value: bool,
-    /// The polar angle of both directions up to which it has to hold, in radians. Toward the horizon values grow, and
-    /// the largest with them.
+    /// The polar angle of both directions up to which the bound applies, in radians, because values, and the largest
+    /// with them, grow toward the horizon.
     pub limit: f64,
-    /// If no choice of knots meets it, a little more than the smallest error that is possible is allowed instead.
+    /// If no choice of knots meets the bound, slightly more than the smallest possible error is allowed instead.
     pub is_aim: bool,
 }
 
@@ -30,16 +30,16 @@ pub struct Chosen {
     pub samples: specular::Data,
     /// The error at directions that had no part in the choice, measured as in the bound.
     pub error: f64,
-    /// The error if all knots are kept: with any bound that is not smaller, the choice succeeds.
+    /// The error if all knots are kept: any bound of at least this can be met.
     pub least: f64,
 }
 
 /// The knots of one axis, in radians.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Knots {
-    /// All of these.
+    /// All of these knots.
     Keep(Vec<f64>),
-    /// As few of these as the bound allows, and the first and the last.
+    /// As few of these knots as the bound allows, including the first and the last.
     Choose(Vec<f64>),
 }
 
@@ -51,29 +51,28 @@ impl Knots {
     }
 }
 
-/// How much larger than the smallest possible error is enough, if the bound is an aim that cannot be met.
+/// The factor by which the error may exceed the smallest possible one, if the bound is an aim that cannot be met.
 const SLACK: f64 = 1.2;
-/// Values of more channels than this are probed at this many of them.
+/// The most channels that are probed.
 const CHANNELS: usize = 4;
-/// Values below this part of the largest count as that part, in a bound on each value.
+/// In a bound on each value, values below this share of the largest count as that share.
 const FLOOR: f64 = 1e-3;
-/// How far beyond the limit, in radians, nodes have to be exact, so that there is something to interpolate toward: more
-/// than the longest step between candidates.
+/// The distance beyond the limit, in radians, in which nodes have to be exact, because values are interpolated toward
+/// them: more than the longest step between candidates.
 const MARGIN: f64 = 0.09;
-/// Directions on which the result is tested.
+/// The number of directions at which the result is tested.
 pub const PROBES: usize = 100_000;
 
-/// Measures a material on a dense grid, keeps of its knots those that linear interpolation needs, and measures again
-/// there.
+/// Measures a material on a dense grid, keeps the knots that linear interpolation needs, and measures again there.
 ///
 /// On each axis to choose, the knot with the largest error is added until the error there is within its share of the
 /// bound. The multilinear interpolant is no further from the material than the sum of the errors of the axes, so equal
-/// shares are enough; more is tried first, as errors seldom meet, and last that all knots are kept. `progress` is called
-/// with the share that is done.
+/// shares are enough; larger shares are tried first, because the largest errors seldom coincide, and finally all knots
+/// are kept. `progress` is called with the finished share.
 ///
-/// The result misses the bound if [`Chosen::least`] does: between the candidates nothing can be added, and a material
-/// that jumps, as a Klems matrix does, cannot be interpolated to any bound. All knots are then kept, unless the bound is
-/// an aim.
+/// The result misses the bound if [`Chosen::least`] does: no knots can be added between the candidates, and a
+/// discontinuous material, such as a Klems matrix, cannot be interpolated to any bound. All knots are then kept, unless
+/// the bound is an aim.
 ///
 /// # Errors
 /// As [`measure`].
@@ -104,7 +103,7 @@ pub fn choose<'a>(
     }
     let allowed = if is_possible { bound.error } else { SLACK * least };
     let grid = Grid::new(&dense, bound);
-    // First as if the errors of the axes did not add up, then as if they did, then with something to spare.
+    // First as if the errors of the axes did not add up, then as if they did, then with a margin.
     for (step, share) in [1.0, 0.5, 1.0 / free as f64, 0.5 / free as f64].into_iter().enumerate() {
         let knots = std::array::from_fn(|axis| match &axes[axis] {
             Knots::Keep(knots) => knots.clone(),
@@ -120,9 +119,9 @@ pub fn choose<'a>(
     Ok(Chosen { samples: dense, error: least, least })
 }
 
-/// Candidates for the knots of a material of which nothing is known, a million nodes: those of sigma lie densest at
-/// grazing light, where values grow without bound, those of theta at the mirror direction, where their first step is a
-/// ten-thousandth of a degree. An isotropic material has one knot of psi, and more of the others.
+/// Candidates for the knots of an unknown material, a million nodes: those of sigma are densest at grazing light, where
+/// values grow without bound, and those of theta at the mirror direction, where the first step is a ten-thousandth of a
+/// degree. An isotropic material has one knot of psi, and more of the others.
 pub fn candidates(is_isotropic: bool) -> [Vec<f64>; 4] {
     let [sigmas, psis, thetas, phis] = if is_isotropic { [61, 1, 161, 73] } else { [25, 25, 61, 31] };
     let steps = |count: usize| (0..count).map(move |index| index as f64 / (count - 1).max(1) as f64);
@@ -141,7 +140,7 @@ struct Grid {
     values: Vec<f64>,
     /// The units of errors, in the layout of the values.
     scales: Vec<f64>,
-    /// One per node: whether an error there counts.
+    /// One per node: whether an error there matters.
     counts: Vec<bool>,
     channels: usize,
 }
@@ -173,7 +172,7 @@ impl Grid {
         }
     }
 
-    /// The knots of an axis between which no other deviates from a straight line by more than `error`.
+    /// The knots of an axis such that no other knot deviates from the lines between them by more than `error`.
     fn thin(&self, axis: usize, error: f64) -> Vec<f64> {
         let knots = &self.knots[axis];
         if knots.len() < 3 {
@@ -194,8 +193,8 @@ impl Grid {
         kept.into_iter().map(|k| knots[k]).collect()
     }
 
-    /// How far the values at knot `k` of an axis are from the line between knots `a` and `b`, at most, in terms of the
-    /// bound.
+    /// The largest distance of the values at knot `k` of an axis from the line between knots `a` and `b`, in units of
+    /// the bound.
     fn error(&self, axis: usize, a: usize, k: usize, b: usize) -> f64 {
         let knots = &self.knots[axis];
         let t = (knots[k] - knots[a]) / (knots[b] - knots[a]);
@@ -245,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_linear_needs_no_knots() {
+    fn linear_values_need_no_inner_knots() {
         let flat = Mono(|_, _| 0.25);
         let bound = Bound { error: 1e-4, per_value: true, limit: LIMIT, is_aim: false };
         let chosen = choose(&flat, Aspect::REFLECTION, &isotropic(), bound, |_| {}).expect("a table");
@@ -263,17 +262,17 @@ mod tests {
             (&chosen.samples.knots()[0], &chosen.samples.knots()[3]),
             (&vec![0.0, 0.5, 1.0], &vec![0.0, 1.0, 2.0])
         );
-        // Three azimuths are not enough, and that is said.
+        // Three azimuths are not enough, which is reported.
         assert!(chosen.error > 0.05, "{}", chosen.error);
     }
 
     #[test]
-    fn a_jump_is_missed_and_said() {
+    fn a_discontinuity_misses_the_bound_and_is_reported() {
         let jump = Mono(|_: [f64; 3], wo: [f64; 3]| if wo[0] > 0.1 { 1.0 } else { 0.0 });
         let bound = Bound { error: 0.01, per_value: false, limit: LIMIT, is_aim: false };
         let chosen = choose(&jump, Aspect::REFLECTION, &isotropic(), bound, |_| {}).expect("a table");
         assert!(chosen.error > 0.3 && chosen.error == chosen.least, "{} {}", chosen.error, chosen.least);
-        // As an aim it is replaced by what is possible, which fewer knots reach too.
+        // As an aim, it is replaced by a possible error, which fewer knots also reach.
         let aim = choose(&jump, Aspect::REFLECTION, &isotropic(), Bound { is_aim: true, ..bound }, |_| {});
         let aim = aim.expect("a table");
         assert!(aim.error <= SLACK * aim.least && aim.least == chosen.least, "{} {}", aim.error, aim.least);

@@ -1,7 +1,7 @@
-//! Any material into a table of specular coordinates.
+//! Resampling of any material into a table in specular coordinates.
 //!
-//! Nothing else in lobe resamples: a file is evaluated on its own grid. This is for programs that want another grid,
-//! and it always says how far the table is from the material.
+//! Nothing else in lobe resamples: a file is evaluated on its own grid. This is for programs that need another grid,
+//! and it always reports the error of the table.
 
 mod error;
 mod knots;
@@ -17,13 +17,13 @@ use crate::pairs::eval_pairs;
 use crate::{Aspect, OnBackend};
 
 /// Measures a material at every node of `knots`: sigma, psi, theta and phi in radians, as in [`specular::Data`].
-/// `progress` is called from time to time with the share that is done.
+/// `progress` is called from time to time with the finished share.
 ///
-/// A node below 3.4 degrees of elevation takes the value of the same azimuth a little higher (see [`lift`]): below the
-/// horizon there is no value, and a table needs one there to interpolate toward it.
+/// A node below 3.4 degrees of elevation takes the value at the same azimuth slightly higher (see [`lift`]): below the
+/// horizon there is no value, but a table needs one there for interpolation near the horizon.
 ///
 /// # Errors
-/// [`GridError`] if the knots make no table, or a value of the material is not finite.
+/// [`GridError`] if the knots do not form a table, or a value of the material is not finite.
 pub fn measure<'a>(
     scattering: impl Into<OnBackend<'a>>,
     aspect: Aspect,

@@ -1,4 +1,4 @@
-//! Binary trees, built by the crate `obvhs`, which nothing else in the project uses.
+//! Binary trees, built by the crate `obvhs`, which is used only here.
 
 use obvhs::aabb::Aabb as BuilderBox;
 use obvhs::bvh2::Bvh2;
@@ -15,7 +15,7 @@ pub(crate) struct BinaryNode {
     pub bounds: Aabb,
     /// The first place of its primitives in the order of primitives.
     first: u32,
-    /// How many primitives it has.
+    /// The number of its primitives.
     count: u32,
     /// The index of its second child. The first child of a node that has children is the next node.
     second: u32,
@@ -59,9 +59,9 @@ impl Boundable for Primitive {
 }
 
 impl Binary {
-    /// Builds a tree over boxes: parallel locally-ordered clustering (Meister and Bittner 2018), then reinsertion, which
-    /// gave 9 to 23 per cent cheaper trees than 16-bin SAH in the same time. With `pairs`, two leaves of one parent
-    /// become one: if leaves may hold more, hardly any pair is better split.
+    /// Builds a tree over boxes: parallel locally-ordered clustering (Meister and Bittner 2018), then reinsertion,
+    /// which gave 9 to 23 per cent cheaper trees than 16-bin SAH in the same time. With `pairs`, two leaves of one
+    /// parent become one: if leaves may hold more, splitting hardly any pair is better.
     pub fn build(boxes: &[Aabb], pairs: bool) -> Self {
         if boxes.is_empty() {
             return Binary { nodes: Vec::new(), order: Vec::new() };
@@ -124,21 +124,21 @@ impl Binary {
     }
 }
 
-/// How far along the curve a box searches for its nearest neighbour: two boxes in each direction. After reinsertion, trees
-/// cost about as much as with the medium preset's fourteen (1.3 per cent more to 3.5 per cent less, over twelve meshes),
-/// and they are built in two thirds of the time.
+/// The distance along the curve at which a box searches for its nearest neighbour: two boxes in each direction. After
+/// reinsertion, trees cost about as much as with the medium preset's fourteen (1.3 per cent more to 3.5 per cent less,
+/// over twelve meshes), and they are built in two thirds of the time.
 const SEARCH: PlocSearchDistance = PlocSearchDistance::VeryLow;
 
 /// The share of nodes that a round of reinsertion moves: the 0.05 of the presets takes a third longer, for trees that cost
 /// half a per cent less.
 const REINSERTED: f32 = 0.005;
 
-/// Such a share would hardly change small trees, so a round moves at least twice this many nodes, if there are that many.
+/// Such a share would hardly change small trees, so a round moves at least twice this many nodes if the tree has them.
 const FEWEST: f32 = 500.0;
 
-/// The builder's own sequence for its medium preset, without the check that it adds in debug builds: that recurses as
-/// deep as the tree and refuses trees deeper than reinsertion was expected to make them. Joining leaves is left to the
-/// wide tree, which knows what they cost.
+/// The builder's own sequence for its medium preset, without the check that it adds in debug builds: that check
+/// recurses as deep as the tree and refuses trees deeper than reinsertion was expected to make them. Joining leaves is
+/// left to the wide tree, which knows their costs.
 fn clustered(primitives: &[Primitive]) -> Bvh2 {
     let preset = BvhBuildParams::medium_build();
     let mut tree = PlocBuilder::with_capacity(primitives.len()).build(

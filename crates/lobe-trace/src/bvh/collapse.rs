@@ -8,7 +8,7 @@ use super::{Binary, Child, Node, WideBvh};
 use crate::Aabb;
 
 impl<const W: usize> WideBvh<W> {
-    /// Makes the wide tree of least cost with up to `leaf` primitives per leaf. `emit` makes a leaf of a range of
+    /// Builds the wide tree of least cost with up to `leaf` primitives per leaf. `emit` makes a leaf from a range of
     /// primitives in the binary tree's order. Nodes are in the order of a depth-first walk, each subtree in one piece.
     pub(crate) fn collapse(binary: &Binary, leaf: usize, mut emit: impl FnMut(Range<usize>) -> Child) -> Self {
         const { assert!(W == 4 || W == 8, "nodes have 4 or 8 children") };
@@ -44,7 +44,7 @@ impl<const W: usize> WideBvh<W> {
     }
 }
 
-/// What a visit to a leaf costs, in visits to nodes.
+/// The cost of a visit to a leaf, in visits to nodes.
 const LEAF_COST: f32 = 1.5;
 
 /// A binary node that is to become a wide one, and the slot of the parent that is to refer to it.
@@ -56,7 +56,7 @@ struct Waiting {
     slot: usize,
 }
 
-/// What becomes of a binary subtree: whether it is best as a leaf, and how its two children share `k` roots if it may
+/// The plan for a binary subtree: whether it is best as a leaf, and how its two children share `k` roots if it may
 /// become up to `k` subtrees of the wide tree, 4 bits for each `k`. Zero: it is better as one subtree.
 #[derive(Clone, Copy, Default)]
 struct Plan(u32);
@@ -81,8 +81,8 @@ impl Plan {
 /// proportional to its surface area.
 fn plans<const W: usize>(binary: &Binary, leaf: usize) -> Vec<Plan> {
     let mut plans = vec![Plan::default(); binary.nodes.len()];
-    // Costs of subtrees whose parents are still to come, `[k - 1]` of at most `k` roots. Children come before their
-    // parents, second children before first ones.
+    // Costs of subtrees whose parents have not been visited, `[k - 1]` for at most `k` roots. Children come before
+    // their parents, second children before first ones.
     let mut waiting: Vec<[f32; W]> = Vec::new();
     for (node, plan) in binary.nodes.iter().zip(&mut plans).rev() {
         let surface = node.bounds.half_area();
@@ -129,7 +129,7 @@ fn plans<const W: usize>(binary: &Binary, leaf: usize) -> Vec<Plan> {
 /// The up to `W` binary nodes that become the children of a wide one.
 fn widen<const W: usize>(binary: &Binary, plans: &[Plan], at: usize) -> ([usize; W], usize) {
     let (mut children, mut count) = ([at; W], 0);
-    // Subtrees and how many roots they may have, at least one each.
+    // Subtrees, and the number of roots that they may have, at least one each.
     let (mut waiting, mut left) = ([(at, W); W], 1);
     while left > 0 {
         left -= 1;

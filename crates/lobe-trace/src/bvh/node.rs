@@ -11,7 +11,7 @@ pub(crate) struct Child(u32);
 
 impl Child {
     const LEAF: u32 = 1 << 31;
-    /// The most primitives a leaf can have.
+    /// The most primitives that a leaf can have.
     pub const MOST: usize = 8;
 
     pub fn node(index: usize) -> Self {
@@ -47,13 +47,13 @@ impl Child {
         self.0 as usize
     }
 
-    /// The number of a leaf; also of a node, if it does not matter that there may be more of them.
+    /// The number of a leaf; also of a node, if its larger range does not matter.
     #[inline(always)]
     pub fn first(self) -> usize {
         (self.0 & 0x0fff_ffff) as usize
     }
 
-    /// How many primitives a leaf has.
+    /// The number of primitives of a leaf.
     #[inline(always)]
     pub fn count(self) -> usize {
         (self.0 >> 28 & 7) as usize + 1
@@ -104,7 +104,7 @@ pub struct WideBvh<const W: usize> {
     /// Node 0 is the root and always exists.
     pub(crate) nodes: Storage<Node<W>>,
     pub(crate) bounds: Aabb,
-    /// Room for the references that may wait at once during a walk, and for one more to be overwritten.
+    /// The number of references that may wait at once during a walk, plus one that is overwritten.
     pub(crate) stack: usize,
 }
 

@@ -9,7 +9,7 @@ use crate::hull::Hull;
 use crate::leaves::{Around, Leaves};
 use crate::slab::{Sides, SlabRay};
 
-/// A hybrid traces rays one by one if no more than this are live.
+/// A hybrid walk traces rays one by one if at most this many are live.
 pub(super) const FEW: u32 = 2;
 
 #[inline(always)]
@@ -72,7 +72,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(
                 let bits = meets.bits();
                 if bits != 0 {
                     lanes.store(&mut enters[slot], lanes.select(meets, enter, never));
-                    // The first ray that hits it decides for all; the nearest comes last.
+                    // The first ray that hits it decides for all; the nearest child is pushed last.
                     let key = enters[slot][bits.trailing_zeros() as usize & (MAX_LANES - 1)];
                     let mut place = hits & (W - 1);
                     while place > 0 && order[place - 1].0 < key {

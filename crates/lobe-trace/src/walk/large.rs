@@ -18,10 +18,10 @@ use crate::slab::{Sides, SlabRay, child_bits};
 /// The width of a bundle, as a fraction of a box, up to which one of its rays is assumed to hit the box.
 const WIDE: f32 = 0.5;
 
-/// If no more rays than this hit a child, they continue one by one.
+/// If at most this many rays hit a child, they continue one by one.
 const ALONE: u32 = 5;
 
-/// If an octant has no more rays than this, they are traced one by one.
+/// If an octant has at most this many rays, they are traced one by one.
 pub(super) const FEW: u32 = 6;
 
 #[inline(always)]
@@ -53,7 +53,7 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                 left &= left - 1;
                 let [enter, leave] = bundles.interval(lanes, bundle as usize, near, far);
                 let meets = enter.le(leave);
-                // Even for a bundle that misses the child: a key may be too small, and this takes one operation.
+                // Also for a bundle that misses the child: a key may be too small, and this takes only one operation.
                 key = enter.min(key);
                 let narrow = bundles.width(lanes, bundle as usize, enter).le(size);
                 let word = lanes.splat_int(0x100 << bundle).as_float().masked(narrow).bits();
@@ -73,8 +73,8 @@ pub(super) fn walk<L: Lanes, V: Leaves, const W: usize>(lanes: L, walk: Walk<'_,
                 waiting += 1;
             }
         }
-        // The nearest goes on top. How many there are and which is nearer are unpredictable, so their positions are
-        // counted, and two at a time take no branch; a second that does not exist goes beyond the last.
+        // The nearest goes on top. Their number and order are unpredictable, so positions are counted, and two at a
+        // time are pushed without a branch; a missing second one is written beyond the last.
         while bits != 0 {
             let one = bits.trailing_zeros() as usize & (W - 1);
             bits &= bits - 1;
@@ -147,7 +147,8 @@ fn entry<L: Lanes, const W: usize>(
     LargeEntry { key: keys[slot], node: index as u32, slot: slot as u32, bundles: meeting[slot] as u32 }
 }
 
-/// How many of the children of `met` lie behind one of them; of two at the same distance the first does.
+/// The number of children of `met` that are behind one of them; of two at the same distance, the first counts as
+/// behind.
 #[inline(always)]
 fn farther<L: Lanes, const W: usize>(lanes: L, keys: &[f32; MAX_LANES], slot: usize, met: u32) -> usize {
     let own = lanes.splat(keys[slot]);

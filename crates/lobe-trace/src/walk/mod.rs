@@ -15,7 +15,7 @@ use crate::leaves::Leaves;
 
 pub(crate) use stack::Stacks;
 
-/// The nodes of a tree, and where they and its leaves are in memory.
+/// The nodes of a tree, and the memory of its nodes and leaves.
 #[derive(Clone, Copy)]
 pub(crate) struct Nodes<'a, const W: usize> {
     all: &'a [Node<W>],
@@ -35,7 +35,7 @@ impl<'a, const W: usize> Nodes<'a, W> {
         }
     }
 
-    /// Prefetches what waits. Whether that is a node or a leaf is unpredictable, so nothing branches on it.
+    /// Prefetches the next entry. Whether that is a node or a leaf is unpredictable, so there is no branch on it.
     #[inline(always)]
     fn prefetch<L: Lanes>(&self, lanes: L, child: Child) {
         let kind = usize::from(child.is_leaf());
@@ -43,7 +43,7 @@ impl<'a, const W: usize> Nodes<'a, W> {
     }
 }
 
-/// A tree, the rays that walk it, and where their hits go.
+/// A tree, the rays that walk it, and the memory for their hits.
 pub(crate) struct Walk<'a, V, const W: usize> {
     pub bvh: Nodes<'a, W>,
     pub leaves: &'a mut V,
@@ -105,7 +105,7 @@ impl<V: Leaves, const W: usize> Kernel for Single<'_, V, W> {
     }
 }
 
-/// The group that begins at ray `at`; single rays if no more than `few` are live.
+/// The group that begins at ray `at`; single rays if at most `few` are live.
 struct Group<'a, V, const W: usize> {
     walk: Walk<'a, V, W>,
     at: usize,

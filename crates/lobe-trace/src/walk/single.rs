@@ -1,7 +1,7 @@
 //! One ray against all boxes of a node, one child per lane; all rays of a block are in flight at once.
 //!
-//! A single ray waits at every step, first for boxes to arrive and then for eight of them to be compared, and its next
-//! step is unpredictable. So the rays take turns, one step each, and none is held up while another waits.
+//! A single ray waits at every step, first for boxes to arrive and then for the comparison of eight of them, and its
+//! next step is unpredictable. So the rays take turns, one step each, and others advance while one waits.
 
 use core::hint::select_unpredictable;
 
@@ -123,7 +123,8 @@ impl<'a> Flock<'a> {
         keys: &[f32; MAX_LANES],
         mut bits: u32,
     ) -> usize {
-        // How many children are hit, and which of two is nearer, are unpredictable: up to two take no branch.
+        // The number of hit children, and the nearer of two, are unpredictable, so up to two are pushed without a
+        // branch.
         let one = entry(node, keys, bits);
         let more = bits & bits.wrapping_sub(1);
         let other = entry(node, keys, more);
@@ -152,7 +153,7 @@ impl<'a> Flock<'a> {
         if near == Entry::LAST { floor } else { top + 1 }
     }
 
-    /// Finds where a ray goes next: to what waits on its stack below `top`.
+    /// Finds the next step of a ray: the entry on its stack below `top`.
     #[inline(always)]
     fn go_next<L: Lanes, const W: usize>(
         &mut self,
@@ -163,7 +164,7 @@ impl<'a> Flock<'a> {
         mut top: usize,
     ) {
         let state = &mut self.states[ray];
-        // A child that begins exactly at the best hit may still hold one that wins the tie.
+        // A child that begins exactly at the best hit may still contain a hit that wins the tie.
         let end = Entry::until(found.t[ray]);
         while top != state.bottom as usize {
             top -= 1;
@@ -180,7 +181,7 @@ impl<'a> Flock<'a> {
     }
 }
 
-/// The bits of the children that a ray hits before its best hit, and where it enters them.
+/// The bits of the children that a ray hits before its best hit, and the t at which it enters them.
 #[inline(always)]
 fn hit_children<L: Lanes, const W: usize>(
     lanes: L,

@@ -1,9 +1,9 @@
-//! What waits during a walk.
+//! The stacks of a walk.
 
 use crate::block::RAYS;
 use crate::bvh::Child;
 
-/// A child to be visited and where the ray enters it, in one integer so that the nearest is the least.
+/// A child to be visited and the t at which the ray enters it, in one integer, so that the nearest is the smallest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Entry(i64);
 
@@ -33,14 +33,15 @@ impl Entry {
 /// The state of a single ray.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct State {
-    /// Where it is.
+    /// The child that it visits.
     pub child: Child,
-    /// Its part of the stack, and where its next entry goes.
+    /// Its part of the stack, and the position of its next entry.
     pub bottom: u32,
     pub top: u32,
 }
 
-/// A child of a node to be visited by some bundles, one bit each; `key` is a lower bound of where their rays enter it.
+/// A child of a node to be visited by some bundles, one bit each; `key` is a lower bound of the t at which their rays
+/// enter it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LargeEntry {
     pub key: f32,
@@ -49,13 +50,13 @@ pub(crate) struct LargeEntry {
     pub bundles: u32,
 }
 
-/// Room for one walk of each kind over a tree.
+/// Memory for one walk of each kind over a tree.
 #[derive(Clone, Debug)]
 pub(crate) struct Stacks {
     pub single: Vec<Entry>,
     pub states: [State; RAYS],
     pub group: Vec<Child>,
-    /// Where the rays of a group enter the children of [`group`](Stacks::group).
+    /// The t at which the rays of a group enter the children of [`group`](Stacks::group).
     pub enter: Vec<[f32; lobe_lane::MAX_LANES]>,
     pub large: Vec<LargeEntry>,
 }

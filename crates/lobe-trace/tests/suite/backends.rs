@@ -1,4 +1,4 @@
-//! Every form on every backend gives what double precision gives, and the same bits as one ray at a time.
+//! Every form on every backend agrees with double precision, and gives the same bits as one ray at a time.
 
 use std::sync::LazyLock;
 
@@ -16,7 +16,7 @@ pub struct Case {
     pub eight: Scene<8>,
     pub four: Scene<4>,
     pub rays: RaySoA,
-    /// By one ray at a time on the reference backend, and checked against double precision.
+    /// Traced one ray at a time on the reference backend, and checked against double precision.
     pub hits: HitSoA,
 }
 
@@ -72,7 +72,7 @@ pub static CASES: LazyLock<Vec<Case>> = LazyLock::new(|| {
         .collect()
 });
 
-/// What traces: a backend, through the functions that users call, or lanes that are not a backend.
+/// The tracer: a backend, through the functions that users call, or lanes that are not a backend.
 pub trait Tracing: Copy {
     fn name(self) -> &'static str;
     fn is_fused(self) -> bool;
@@ -162,8 +162,8 @@ fn same_bits<const W: usize>(scene: &Scene<W>, rays: &RaySoA, found: &HitSoA, tr
     }
 }
 
-/// A strict form must give the bits of the reference; a fused one those of its own single rays, within the tolerance of
-/// the reference.
+/// A strict form must give the bits of the reference; a fused one those of its own single rays, which are within the
+/// tolerance of the reference.
 fn check_form(lanes: impl Tracing, form: Form) {
     for case in CASES.iter() {
         let name = format!("{} {} {form:?}", case.name, lanes.name());
@@ -322,7 +322,7 @@ fn four_children_sse2() {
 
 #[cfg(feature = "rayon")]
 #[test]
-fn threads_change_nothing() {
+fn hits_do_not_depend_on_threads() {
     let case = &CASES[1];
     let rays = rays::joined(&vec![case.rays.clone(); 5]);
     let mut hits = HitSoA::new(rays.len());

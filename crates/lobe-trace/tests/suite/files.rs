@@ -10,7 +10,7 @@ use lobe_trace::{Form, Mesh, Scene};
 use crate::backends::intersect;
 use crate::{rays, reference};
 
-/// The number of random rays through all meshes together, from the variable `LOBE_RAYS`. A million take minutes.
+/// The number of random rays through all meshes together, from the variable `LOBE_RAYS`. A million takes minutes.
 fn ray_count() -> usize {
     std::env::var("LOBE_RAYS").map_or(20_000, |count| count.parse().expect("LOBE_RAYS is a number"))
 }
@@ -24,7 +24,7 @@ fn meshes(folder: &Path) -> Vec<PathBuf> {
     paths
 }
 
-/// Rays from a camera and random ones: every form hits what double precision finds.
+/// Rays from a camera and random ones: every form agrees with double precision.
 fn check(path: &Path, count: usize) {
     let name = path.file_name().expect("a file").to_string_lossy();
     let parts = lobe_mesh::read(path).unwrap_or_else(|error| panic!("{error}")).into_parts();
@@ -42,7 +42,7 @@ fn check(path: &Path, count: usize) {
 }
 
 #[test]
-fn random_rays_hit_what_double_precision_finds_in_every_mesh() {
+fn random_rays_agree_with_double_precision_in_every_mesh() {
     let mut paths = meshes(&fixture("scenes"));
     assert!(!paths.is_empty(), "the project has meshes");
     if let Some(folder) = shared_file("data/geometry") {

@@ -8,7 +8,7 @@ pub fn random(seed: u64) -> Pcg64Mcg {
     Pcg64Mcg::seed_from_u64(seed)
 }
 
-/// A surface over a grid of `n` by `m` cells, closed in a parameter if its last row is to be the first.
+/// A surface over a grid of `n` by `m` cells, closed in a parameter if its last row is the first.
 fn grid(n: usize, m: usize, closed: [bool; 2], point: impl Fn(f64, f64) -> [f64; 3]) -> Mesh {
     let (rows, columns) = (n + !closed[0] as usize, m + !closed[1] as usize);
     let mut positions = Vec::new();
@@ -28,7 +28,7 @@ fn grid(n: usize, m: usize, closed: [bool; 2], point: impl Fn(f64, f64) -> [f64;
     Mesh::new(positions, triangles).unwrap()
 }
 
-/// The unit sphere; the triangles at the poles have two corners in one place.
+/// The unit sphere; the triangles at the poles have two equal corners.
 pub fn sphere(n: usize) -> Mesh {
     use std::f64::consts::{PI, TAU};
     let ring = |t: f64| if t == 0.0 || t == 1.0 { 0.0 } else { (PI * t).sin() };

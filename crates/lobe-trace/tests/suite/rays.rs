@@ -21,7 +21,7 @@ pub fn camera(bounds: Aabb, n: usize) -> RaySoA {
     rays
 }
 
-/// Packets of 64 rays between two small boxes, of all sizes, one of them often a point: all end at about the same t.
+/// Packets of 64 rays between two small boxes of all sizes, one of which is often a point: all end at about the same t.
 pub fn bounded(bounds: Aabb, packets: usize, seed: u64) -> RaySoA {
     let mut rng = random(seed);
     let mut rays = RaySoA::default();
@@ -44,7 +44,7 @@ pub fn bounded(bounds: Aabb, packets: usize, seed: u64) -> RaySoA {
     rays
 }
 
-/// Rays of every kind: all around, along axes, of short and of bounded intervals, and invalid ones.
+/// Rays of every kind: in all directions, along axes, with short and with bounded intervals, and invalid ones.
 pub fn mixed(bounds: Aabb, n: usize, seed: u64) -> RaySoA {
     let mut rng = random(seed);
     let mut rays = RaySoA::default();

@@ -18,9 +18,9 @@ fn cross(a: V, b: V) -> V {
 #[derive(Clone, Copy, Debug)]
 pub struct Intersection {
     pub t: f64,
-    /// The smallest of the three weights: negative outside, and how far from the edge in heights of the triangle.
+    /// The smallest of the three weights: negative outside, and the distance from the edge in heights of the triangle.
     pub inside: f64,
-    /// How far t moves if the line is moved by a ten-millionth of the numbers that went in.
+    /// The change of t if the line is moved by a ten-millionth of the input numbers.
     pub uncertainty: f64,
 }
 
@@ -53,8 +53,7 @@ fn wedges(mesh: &Mesh) -> Vec<Wedge> {
     (0..mesh.triangles().len()).map(wedge).collect()
 }
 
-/// Whether a line hits a triangle: what [`intersect`] would find to be inside, without its divisions, for many
-/// triangles.
+/// Whether a line hits a triangle: the test of [`intersect`] without its divisions, for many triangles.
 fn crosses(origin: V, direction: V, [a, e, f]: &Wedge) -> bool {
     let p = cross(direction, *f);
     let determinant = dot(*e, p);
@@ -74,10 +73,10 @@ fn corners(mesh: &Mesh, triangle: usize) -> [V; 3] {
     mesh.corners(triangle).map(|corner| corner.map(f64::from))
 }
 
-/// Compares hits with what double precision finds. Returns how many rays hit something.
+/// Compares hits with double precision. Returns the number of rays that hit something.
 ///
 /// If a different triangle was hit, or none, there must be an explanation within the accuracy of single precision: the
-/// ray passes an edge, or both triangles are hit at the same place, or the interval ends there.
+/// ray passes an edge, or both triangles are hit at the same point, or the interval ends there.
 pub fn check<const W: usize>(scene: &Scene<W>, rays: &RaySoA, hits: &HitSoA, name: &str) -> usize {
     let inverses: Vec<Affine> = (0..scene.instance_count()).map(|i| scene.to_world(i).inverse().unwrap()).collect();
     let wedges: Vec<Vec<Wedge>> = (0..scene.instance_count()).map(|i| wedges(scene.mesh_of(i))).collect();
@@ -109,7 +108,8 @@ pub fn check<const W: usize>(scene: &Scene<W>, rays: &RaySoA, hits: &HitSoA, nam
             (intersect(origin, direction, corners(mesh, primitive as usize)), primitive, instance)
         });
         let text = || format!("{name}: ray {ray}: found {found:?} at {}, expected {best:?}", hits.t[ray]);
-        // A ray near an edge, or an end of its interval, may miss; one that looks along a triangle may do anything.
+        // A ray near an edge, or near an end of its interval, may miss; for a ray along a triangle, anything is
+        // allowed.
         let near = |m: &Intersection| {
             let end = (m.t - t_min).abs().min((m.t - t_max).abs());
             m.inside.abs() < 1e-4 || end < m.uncertainty + 1e-5 * m.t.abs() || m.uncertainty > 1e-2 * m.t.abs()

@@ -1,4 +1,4 @@
-//! Input that is wrong or extreme.
+//! Invalid and extreme input.
 
 use lobe_backend::Backend;
 use lobe_trace::{Affine, Form, MISS, Mesh, MeshError, Progress, RayClass, RaySoA, Scene, SceneBuilder, SceneError};
@@ -70,7 +70,7 @@ fn nothing_is_hit_in_an_empty_scene() {
     }
 }
 
-/// A million identical boxes, of which clustering would have joined one pair per round.
+/// A million identical boxes, for which plain clustering would join one pair per round.
 #[test]
 fn a_million_triangles_in_one_place() {
     let corners = vec![[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]];
@@ -110,7 +110,7 @@ fn a_long_fence_and_points_and_needles() {
 }
 
 #[test]
-fn of_equal_hits_the_smallest_numbers_win() {
+fn the_smallest_numbers_win_among_equal_hits() {
     let corners = vec![[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]];
     let mesh = Mesh::new(corners, vec![[0, 1, 2]; 37]).unwrap();
     let mut builder = SceneBuilder::new();
@@ -128,7 +128,7 @@ fn of_equal_hits_the_smallest_numbers_win() {
 }
 
 #[test]
-fn both_ends_of_an_interval_belong_to_it() {
+fn intervals_are_closed() {
     let scene: Scene = Scene::of_mesh(triangle(2.0));
     let below = f32::from_bits(2f32.to_bits() - 1);
     let above = f32::from_bits(2f32.to_bits() + 1);
@@ -142,7 +142,7 @@ fn both_ends_of_an_interval_belong_to_it() {
     }
 }
 
-/// Needles, far from the origin, tiny and huge: found as double precision finds them.
+/// Needles, far from the origin, tiny and huge: hits agree with double precision.
 #[test]
 fn scale_and_place_do_not_matter() {
     for (scale, shift) in [(1e-6, 0.0), (1e9, 0.0), (1.0, 100.0), (1e-3, 1.0)] {
@@ -156,7 +156,7 @@ fn scale_and_place_do_not_matter() {
 }
 
 #[test]
-fn paths_keep_to_their_class() {
+fn paths_have_the_right_class() {
     let mirror = RayClass::Camera.bounce(true);
     assert_eq!(mirror, RayClass::Mirror);
     assert_eq!(mirror.shadow(true), RayClass::Shadow);

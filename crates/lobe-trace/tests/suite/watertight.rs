@@ -1,4 +1,4 @@
-//! No ray from inside a closed mesh gets out, least of all through its edges and vertices.
+//! No ray from inside a closed mesh escapes, in particular not through its edges and vertices.
 
 use lobe_backend::Backend;
 use lobe_trace::{Affine, Form, MISS, Mesh, RaySoA, Scene, SceneBuilder};
@@ -7,7 +7,7 @@ use rand::RngExt;
 use crate::backends::intersect;
 use crate::meshes;
 
-/// From a few points inside, through every vertex, the middle of every edge, and places along it.
+/// From a few points inside, through every vertex, the middle of every edge, and points along it.
 fn through_edges(mesh: &Mesh, origins: &[[f32; 3]]) -> RaySoA {
     let mut rng = meshes::random(11);
     let mut rays = RaySoA::default();
@@ -35,7 +35,7 @@ fn leaks(backend: Backend, scene: &Scene, rays: &RaySoA) {
     }
 }
 
-/// On backends of every width and rounding.
+/// Runs on backends of every width and rounding.
 fn no_leak(scene: &Scene, rays: &RaySoA) {
     Backend::forms().into_iter().for_each(|backend| leaks(backend, scene, rays));
 }
@@ -84,7 +84,7 @@ fn instance() {
     no_leak(&builder.build(|_| ()).unwrap(), &rays);
 }
 
-/// A box of twelve triangles of thousands of units, and rays along its diagonals and edges.
+/// A box of twelve triangles, thousands of units long, and rays along its diagonals and edges.
 #[test]
 fn long_box() {
     let positions: Vec<[f32; 3]> = (0..8)
