@@ -1,7 +1,8 @@
 //! Huge pages that storages share, because a storage smaller than a huge page would waste a whole one.
 //!
-//! Returned ranges are joined with free neighbours, so that storages of any size can use them again. An empty mapping
-//! is returned to the system, except for one that is kept as long as others are in use.
+//! What is given back is joined with what is free next to it, so that storages of any size can take it again. A mapping
+//! that nothing is left in goes back to the system, except for one that is kept as long as there are others in use. Of others,
+//! pages that nobody has go back if there are many of them: one small table that stays must not keep what lay around it.
 
 use std::collections::BTreeMap;
 use std::ops::{Deref, DerefMut};
@@ -10,6 +11,8 @@ use std::slice;
 use std::sync::{Mutex, PoisonError};
 
 use memmap2::MmapMut;
+#[cfg(unix)]
+use memmap2::UncheckedAdvice;
 
 use crate::{Line, map};
 
@@ -18,6 +21,11 @@ const CHUNK: usize = if cfg!(miri) { 1 << 20 } else { 32 << 20 };
 const CHUNK_LINES: usize = CHUNK / size_of::<Line>();
 /// Shares consist of whole small pages, which leaves few pieces that are too small to be useful.
 const PIECE: usize = 4096 / size_of::<Line>();
+/// Pages go back to the system in multiples of this, of which the pages of any system are a part.
+const PAGES: usize = (64 << 10) / size_of::<Line>();
+/// Lines that were written to and that nobody has, at most, before pages go back: those of two mappings. Taking them again is
+/// quicker than taking new ones.
+const IDLE: usize = 2 * CHUNK_LINES;
 
 /// Lines of a shared mapping, for one storage.
 pub(crate) struct Share {
@@ -31,7 +39,7 @@ unsafe impl Send for Share {}
 // SAFETY: as above; a shared reference to it only reads the lines.
 unsafe impl Sync for Share {}
 
-/// The owner of the lines, kept only for its memory: after `first` has been found, nothing accesses it any more.
+/// What lines lie in. It is kept for its memory only: after `first` has been found, nothing is read or written through it.
 enum Memory {
     Map(MmapMut),
     /// For Miri, which does not support mappings.
@@ -41,11 +49,20 @@ enum Memory {
 /// A mapping from which shares are cut.
 struct Chunk {
     first: NonNull<Line>,
-    /// Free ranges of lines: the length of each, by its start. No two are adjacent.
+    /// Free ranges of lines, by their starts. No two of them touch.
     free: BTreeMap<usize, usize>,
-    /// Nothing has been written from this line on, so all of these are zero.
+    /// From this line on, nothing has been written: there are zeros.
     fresh: usize,
-    _memory: Memory,
+    #[cfg_attr(not(unix), allow(dead_code, reason = "pages go back on Unix only"))]
+    memory: Memory,
+}
+
+/// A free range.
+#[derive(Clone, Copy, PartialEq)]
+struct Free {
+    len: usize,
+    /// How many lines of it take memory, at most.
+    idle: usize,
 }
 
 // SAFETY: the lines that `first` points to belong to the chunk and to the shares cut from it, on any thread.
@@ -63,15 +80,18 @@ impl Chunk {
             Memory::Map(map) => NonNull::from(bytemuck::cast_slice_mut::<u8, Line>(&mut map[..])).cast(),
             Memory::Heap(lines) => NonNull::new(lines.as_mut_ptr())?,
         };
-        Some(Chunk { first, free: BTreeMap::from([(0, CHUNK_LINES)]), fresh: 0, _memory: memory })
+        let whole = Free { len: CHUNK_LINES, idle: 0 };
+        Some(Chunk { first, free: BTreeMap::from([(0, whole)]), fresh: 0, memory })
     }
 
     /// Takes the first free range of this many lines.
     fn take(&mut self, len: usize) -> Option<Share> {
-        let (start, room) = self.free.iter().map(|(start, room)| (*start, *room)).find(|(_, room)| *room >= len)?;
+        let (start, room) = self.free.iter().map(|(start, room)| (*start, *room)).find(|(_, room)| room.len >= len)?;
         self.free.remove(&start);
-        if room > len {
-            self.free.insert(start + len, room - len);
+        if room.len > len {
+            let rest = room.len - len;
+            // Which of its lines are idle is not known.
+            self.free.insert(start + len, Free { len: rest, idle: room.idle.min(rest) });
         }
         // SAFETY: free ranges are inside the lines of the chunk, whose memory does not move.
         let lines = unsafe { self.first.add(start) };
@@ -88,22 +108,48 @@ impl Chunk {
         (offset < CHUNK_LINES).then_some(offset)
     }
 
-    /// Takes a range back, and joins it with its free neighbours.
+    /// Takes a range back, and joins it with its neighbours. Returns where the range that it is part of then begins.
     fn give_back(&mut self, mut start: usize, mut len: usize) {
         if let Some(after) = self.free.remove(&(start + len)) {
-            len += after;
+            join(after);
         }
         if let Some((&before, &room)) = self.free.range(..start).next_back()
-            && before + room == start
+            && before + room.len == start
         {
-            (start, len) = (before, len + room);
+            join(room);
+            start = before;
         }
-        self.free.insert(start, len);
+        self.free.insert(start, range);
+        start
     }
 
     fn is_empty(&self) -> bool {
-        self.free.get(&0) == Some(&CHUNK_LINES)
+        self.free.get(&0).is_some_and(|range| range.len == CHUNK_LINES)
     }
+
+    /// Lines that take memory and that nobody has, at most.
+    fn idle(&self) -> usize {
+        self.free.values().map(|range| range.idle).sum()
+    }
+
+    /// Gives the pages of the free range at `start` back to the system.
+    #[cfg(unix)]
+    fn release(&mut self, start: usize) {
+        let (Some(range), Memory::Map(map)) = (self.free.get_mut(&start), &self.memory) else { return };
+        // Only pages that lie in it as a whole.
+        let first = start.next_multiple_of(PAGES);
+        let lines = ((start + range.len) / PAGES * PAGES).saturating_sub(first);
+        let (offset, len) = (first * size_of::<Line>(), lines * size_of::<Line>());
+        // SAFETY: the pages are part of the mapping and of a free range, whose lines nobody reads or writes until they are taken
+        // again; they are then filled with zeros, whatever the system has made of them, as they are below `fresh`.
+        if lines > 0 && unsafe { map.unchecked_advise_range(UncheckedAdvice::DontNeed, offset, len) }.is_ok() {
+            range.idle = range.len - lines;
+        }
+    }
+
+    /// Only other systems can take back parts of a mapping.
+    #[cfg(not(unix))]
+    fn release(&mut self, _: usize) {}
 }
 
 impl Share {
@@ -127,8 +173,12 @@ impl Drop for Share {
         let mut pool = POOL.lock().unwrap_or_else(PoisonError::into_inner);
         let found = pool.iter().enumerate().find_map(|(at, chunk)| Some((at, chunk.line(self.lines)?)));
         let Some((at, line)) = found else { return };
-        pool[at].give_back(line, self.len);
-        if pool[at].is_empty() {
+        let range = pool[at].give_back(line, self.len);
+        if !pool[at].is_empty() {
+            if pool.iter().map(Chunk::idle).sum::<usize>() > IDLE {
+                pool[at].release(range);
+            }
+        } else {
             let empty = pool.iter().filter(|chunk| chunk.is_empty()).count();
             let gone = if empty == pool.len() {
                 std::mem::take(&mut *pool)
