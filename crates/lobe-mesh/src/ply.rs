@@ -2,7 +2,8 @@
 //!
 //! Vertices have `x y z`, and may have `nx ny nz`, texture coordinates (`u v`, `s t`, `texture_u texture_v` or
 //! `texture_s texture_t`) and tangents (`tx ty tz tw`); faces have `vertex_indices` or `vertex_index`. Polygons of any
-//! shape become triangles. Everything else is skipped.
+//! shape become triangles. `tristrips`, as files of scanned models have them, are strips of triangles in such a list, each ended
+//! by -1. Everything else is skipped.
 //!
 //! PLY has no groups. The writer gives every face a property `group`, and names them in comments: `group 0 NAME`,
 //! `material 0 NAME`. The reader sorts faces by it.
@@ -19,7 +20,7 @@ use ply_rs_bw::ply::{ElementDef, Encoding, Header, PropertyAccess, PropertyType,
 
 use crate::file::{self, wrong};
 use crate::{Geometry, Group, Parts, polygon};
-use elements::{Face, Skipped, Vertex};
+use elements::{Face, Skipped, Strips, Vertex};
 pub use write::{to_bytes, write};
 
 /// Reads a PLY file.
@@ -39,18 +40,22 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<Geometry, FormatError> {
     let header = Parser::<Skipped>::new()
         .read_header(&mut file.reader)
         .map_err(|error| file.error(&error, true, "a PLY header"))?;
-    let (mut vertices, mut faces) = (None, None);
+    let (mut vertices, mut faces, mut strips) = (None, None, None);
     for (name, element) in &header.elements {
         match name.as_str() {
             "vertex" => vertices = Some((file.elements::<Vertex>(&header, element)?, element)),
             "face" => faces = Some(file.elements::<Face>(&header, element)?),
+            "tristrips" => strips = Some(file.elements::<Strips>(&header, element)?),
             _ => _ = file.elements::<Skipped>(&header, element)?,
         }
     }
     let Some((vertices, element)) = vertices else { return Err(wrong(path, "no vertices", "an element vertex")) };
-    let Some(faces) = faces else { return Err(wrong(path, "no faces", "an element face")) };
+    if faces.is_none() && strips.is_none() {
+        return Err(wrong(path, "no faces", "an element face or tristrips"));
+    }
     let mut parts = attributes(path, element, &vertices)?;
-    connect(path, &header, faces, &mut parts)?;
+    connect(path, &header, faces.unwrap_or_default(), &mut parts)?;
+    unroll(path, &strips.unwrap_or_default(), &mut parts)?;
     file::geometry(path, parts)
 }
 
@@ -156,6 +161,28 @@ fn connect(path: &Path, header: &Header, mut faces: Vec<Face>, parts: &mut Parts
             material: names.get(&("material", same[0].group)).map(|&name| name.into()),
             triangles: start..parts.triangles.len() as u32,
         });
+    }
+    Ok(())
+}
+
+/// Strips to triangles, which are a group of their own.
+fn unroll(path: &Path, strips: &[Strips], parts: &mut Parts) -> Result<(), FormatError> {
+    let start = parts.triangles.len() as u32;
+    for (number, strip) in strips.iter().enumerate() {
+        if !strip.is_sound {
+            let found = format!("no usable list in tristrips {number}");
+            return Err(wrong(path, found, "`vertex_indices` that are whole numbers"));
+        }
+        let vertices = parts.positions.len();
+        if let Some(corner) = strip.corners.iter().flatten().find(|&&corner| corner as usize >= vertices) {
+            let found = format!("vertex {corner} in tristrips {number}");
+            return Err(wrong(path, found, format!("less than {vertices}, the number of vertices")));
+        }
+        parts.triangles.extend(strip.triangles());
+    }
+    let end = parts.triangles.len() as u32;
+    if end > start {
+        parts.groups.push(Group { name: String::new(), material: None, triangles: start..end });
     }
     Ok(())
 }

@@ -80,6 +80,54 @@ impl PropertyAccess for Face {
     }
 }
 
+/// Strips of triangles one after the other, each ended by an index below 0.
+#[derive(Debug)]
+pub(super) struct Strips {
+    /// `None` ends a strip.
+    pub corners: Vec<Option<u32>>,
+    /// Whether the indices were whole numbers.
+    pub is_sound: bool,
+}
+
+impl PropertyAccess for Strips {
+    fn new() -> Self {
+        Strips { corners: Vec::new(), is_sound: false }
+    }
+
+    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
+        if !matches!(name, "vertex_indices" | "vertex_index") {
+            return PropertyAccessResult::Ignored;
+        }
+        let signed = match property {
+            Property::ListChar(corners) => Some(corners.into_iter().map(|corner| u32::try_from(corner).ok()).collect()),
+            Property::ListShort(corners) => {
+                Some(corners.into_iter().map(|corner| u32::try_from(corner).ok()).collect())
+            }
+            Property::ListInt(corners) => Some(corners.into_iter().map(|corner| u32::try_from(corner).ok()).collect()),
+            // Without a sign there is one strip.
+            other => other.to_u32_list().map(|corners| corners.into_iter().map(Some).collect()),
+        };
+        self.is_sound = signed.is_some();
+        self.corners = signed.unwrap_or_default();
+        PropertyAccessResult::Set
+    }
+}
+
+impl Strips {
+    /// The triangles, all turned as the first of their strip, without those of two equal corners, which only lead from one
+    /// strip to the next.
+    pub fn triangles(&self) -> impl Iterator<Item = [u32; 3]> {
+        let strips = self.corners.split(|corner| corner.is_none());
+        strips.flat_map(|strip| {
+            strip.windows(3).enumerate().filter_map(|(number, corners)| {
+                let &[Some(a), Some(b), Some(c)] = corners else { return None };
+                let is_narrow = a == b || b == c || c == a;
+                (!is_narrow).then_some(if number % 2 == 0 { [a, b, c] } else { [b, a, c] })
+            })
+        })
+    }
+}
+
 /// An element that is not needed.
 #[derive(Debug)]
 pub(super) struct Skipped;

@@ -178,3 +178,46 @@ fn faces_that_are_not_convex_are_filled() {
     let mesh = parse(text.as_bytes()).expect("a mesh");
     assert_eq!((mesh.triangles.len(), mesh.area()), (5, 3.5));
 }
+
+/// A mesh in strips: a head with two squares, then what is said of the strips.
+fn strips(kind: &str, list: &str) -> String {
+    format!(
+        "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\nelement tristrips 1\n\
+         property list int {kind} vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 0 0\n3 0 0\n2 1 0\n3 1 0\n{list}\n"
+    )
+}
+
+#[test]
+fn strips_of_triangles_are_unrolled() {
+    for (kind, list, triangles) in [
+        ("int", "5 0 1 2 3 -1", 2),
+        ("int", "9 0 1 2 3 -1 4 5 6 7", 4),
+        ("short", "11 -1 0 1 2 3 -1 -1 4 5 6 -1", 3),
+        // Equal corners lead from one strip to the next; the second begins at an even place.
+        ("uint", "10 0 1 2 3 3 4 4 5 6 7", 4),
+        ("int", "3 -1 -1 -1", 0),
+    ] {
+        let mesh = parse(strips(kind, list).as_bytes());
+        if triangles == 0 {
+            assert!(mesh.expect_err("no triangles").found.contains("no triangles"));
+            continue;
+        }
+        let mesh = mesh.unwrap_or_else(|error| panic!("{list}: {error}"));
+        assert_eq!((mesh.triangles.len(), mesh.area()), (triangles, triangles as f64 / 2.0), "{list}");
+        // All are seen from the same side.
+        for triangle in &mesh.triangles {
+            let [a, b, c] = crate::common::corners(&mesh, *triangle);
+            assert!((b - a).cross(c - a).z > 0.0, "{list}: {triangle:?}");
+        }
+    }
+    // Faces and strips in one file.
+    let both = strips("int", "5 4 5 6 7 -1\n3 0 1 2")
+        .replace("end_header", "element face 1\nproperty list uchar int vertex_indices\nend_header");
+    assert_eq!(parse(both.as_bytes()).expect("a mesh").triangles.len(), 3);
+    for (kind, list, expected) in
+        [("int", "4 0 1 2 8", "vertex 8 in tristrips 0"), ("float", "4 0 1 2 3", "no usable list in tristrips 0")]
+    {
+        let error = error(&strips(kind, list)).to_string();
+        assert!(error.contains(expected), "{list}: {error}");
+    }
+}
