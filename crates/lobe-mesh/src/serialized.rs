@@ -39,8 +39,11 @@ pub fn read(path: &Path) -> Result<Geometry, FormatError> {
 pub fn parse(path: &Path, bytes: &[u8]) -> Result<Geometry, FormatError> {
     let mut mesh = Parts { normals: Some(Vec::new()), uvs: Some(Vec::new()), ..Parts::default() };
     let mut has = Attributes::default();
-    for start in places(path, bytes)? {
-        let shape = Shape::read(path, bytes, start)?;
+    let Places { shapes, end } = places(path, bytes)?;
+    for (number, &start) in shapes.iter().enumerate() {
+        // Shapes do not lie in each other: a hostile file may nest them, each of which takes as long as all inside it.
+        let next = shapes.get(number + 1).copied().unwrap_or(end);
+        let shape = Shape::read(path, &bytes[..next], start)?;
         has.normals |= shape.normals.is_some();
         has.uvs |= shape.uvs.is_some();
         shape.add(path, start, &mut mesh)?;
@@ -62,8 +65,15 @@ struct Attributes {
     uvs: bool,
 }
 
-/// Where the shapes begin.
-fn places(path: &Path, bytes: &[u8]) -> Result<Vec<usize>, FormatError> {
+/// Where the shapes lie in a file.
+struct Places {
+    /// Where each begins, ascending.
+    shapes: Vec<usize>,
+    /// Where the last ends.
+    end: usize,
+}
+
+fn places(path: &Path, bytes: &[u8]) -> Result<Places, FormatError> {
     let version = version(path, bytes, 0)?;
     let size = if version == 3 { 4 } else { 8 };
     let cut = |found: String| {
@@ -92,7 +102,7 @@ fn places(path: &Path, bytes: &[u8]) -> Result<Vec<usize>, FormatError> {
     if places.windows(2).any(|pair| pair[0] >= pair[1]) {
         return Err(cut("shapes in no order".into()));
     }
-    Ok(places)
+    Ok(Places { shapes: places, end: rest.len() - list.len() })
 }
 
 fn version(path: &Path, bytes: &[u8], start: usize) -> Result<u16, FormatError> {

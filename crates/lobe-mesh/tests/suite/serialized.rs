@@ -138,6 +138,30 @@ fn every_door_opens_them_packed_or_not() {
     assert!(error.contains("found a web page (HTML); expected a mesh"), "{error}");
 }
 
+/// A hostile file may put a shape into another, and both into a third: each would take as long as all within it.
+#[test]
+fn shapes_do_not_lie_in_each_other() {
+    let inner = [&[0x1c, 4, 4, 0], &packed(&content(TWO))[..]].concat();
+    let outer = {
+        // Stored as it is, after the content of its own.
+        let mut encoder = ZlibEncoder::new(vec![0x1c, 4, 4, 0], Compression::none());
+        encoder.write_all(&content(TWO)).expect("memory");
+        encoder.write_all(&inner).expect("memory");
+        encoder.finish().expect("memory")
+    };
+    let place = outer.windows(4).skip(4).position(|window| window == [0x1c, 4, 4, 0]).expect("the inner one") + 4;
+    let with = |places: &[usize]| {
+        let mut bytes = outer.clone();
+        places.iter().for_each(|place| bytes.extend((*place as u64).to_le_bytes()));
+        bytes.extend((places.len() as u32).to_le_bytes());
+        bytes
+    };
+    assert_eq!(parse(&with(&[0])).expect("the outer one").triangles, TRIANGLES);
+    assert_eq!(parse(&with(&[place])).expect("the inner one").triangles, TRIANGLES);
+    refused(&with(&[0, place]), "packed data that are cut short");
+    refused(&with(&[0, 2]), "the end of the file");
+}
+
 #[test]
 fn damage_is_refused_with_its_place() {
     let whole = file(&[TWO, Made { flags: 0x2003, ..TWO }]);
