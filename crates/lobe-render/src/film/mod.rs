@@ -7,6 +7,7 @@ mod pixel;
 mod rect;
 mod splats;
 
+pub(crate) use pixel::{BRIGHTEST_UNITS, SURFACE_UNITS};
 pub use pixel::{FirstHit, Pixel, RADIANCE_UNIT, SURFACE_UNIT, Sample};
 pub use rect::Rect;
 pub(crate) use splats::Splat;

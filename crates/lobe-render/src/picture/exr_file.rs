@@ -17,7 +17,7 @@ use exr::prelude::{
 };
 
 use super::{Meta, PictureError, replace};
-use crate::film::{Film, Pixel, Splat};
+use crate::film::{BRIGHTEST_UNITS, Film, Pixel, SURFACE_UNITS, Splat};
 use crate::transport::Transport;
 
 /// The attribute that holds the [`Meta`].
@@ -262,7 +262,29 @@ pub fn read_partial_in<T: Transport>(path: &Path, basis: &T::Basis) -> Result<(F
             }
         }
     }
+    if let Some(found) = impossible(&film) {
+        return Err(wrong(found));
+    }
     Ok((film, meta))
+}
+
+/// What no rendering sums up, and what could not be added to. `None` if there is nothing of the kind.
+fn impossible<T: Transport>(film: &Film<T>) -> Option<String> {
+    for Pixel { radiance, albedo, normal, samples, .. } in film.pixels() {
+        let (samples, found) = (u128::from(*samples), format!("a sum of more than {samples} samples"));
+        if radiance.as_ref().iter().any(|sum| sum.unsigned_abs() > samples * BRIGHTEST_UNITS) {
+            return Some(format!("{found} of radiance"));
+        }
+        let surface = samples * SURFACE_UNITS;
+        if albedo.iter().chain(normal).any(|sum| u128::from(sum.unsigned_abs()) > surface) {
+            return Some(format!("{found} of a surface"));
+        }
+    }
+    // How many splats a light path makes is not counted; these bounds leave room for as many again.
+    const MOST: u128 = BRIGHTEST_UNITS << 32;
+    let too_large =
+        |splat: &&Splat<T>| splat.paths > 1 << 62 || splat.sums.as_ref().iter().any(|sum| sum.unsigned_abs() > MOST);
+    film.splats().iter().find(too_large).map(|splat| format!("sums of {} light paths that overflow", splat.paths))
 }
 
 /// Refuses files whose header promises far more pixels than their bytes can hold.

@@ -33,10 +33,14 @@ impl Light {
     /// The wavelengths as what a picture of them is made in; `None` for red, green and blue.
     ///
     /// # Errors
-    /// If there are none that can be seen.
+    /// If there are none that can be seen, or more than a picture has: 32, or 16 of polarised light.
     pub fn bands(&self) -> Result<Option<Arc<lobe_spectrum::Bands>>, lobe_spectrum::SpectrumError> {
         if self.wavelengths.is_empty() {
             return Ok(None);
+        }
+        if self.stokes && self.wavelengths.len() > 16 {
+            let found = self.wavelengths.len();
+            return Err(lobe_spectrum::SpectrumError::Count { found, expected: "at most 16 of polarised light" });
         }
         lobe_spectrum::Bands::new(self.wavelengths.clone()).map(|bands| Some(Arc::new(bands)))
     }
@@ -73,4 +77,19 @@ pub fn inspect(path: &Path) -> Result<Inspected, PictureError> {
     let names: Vec<String> = channels.map(|channel| channel.name.to_string()).collect();
     let has_sums = names.iter().any(|name| name == "sum.albedo.R.0");
     Ok(Inspected { meta, has_sums, light: Light::of(names.iter().map(String::as_str)) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_wavelengths_than_a_picture_has_are_refused() {
+        let light = |count: usize, stokes| {
+            let wavelengths = (0..count).map(|k| 400.0 + 5.0 * k as f64).collect();
+            Light { wavelengths, stokes }.bands().map(|bands| bands.map(|bands| bands.count())).map_err(|_| ())
+        };
+        assert_eq!((light(0, true), light(16, true), light(17, true)), (Ok(None), Ok(Some(16)), Err(())));
+        assert_eq!((light(32, false), light(33, false)), (Ok(Some(32)), Err(())));
+    }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use lobe_render::picture::{
     Meta, PictureError, ToneMap, encode_png, read_environment, read_partial, write_exr, write_png,
 };
-use lobe_render::{MergeError, Rect, Settings, merge};
+use lobe_render::{Film, MergeError, Rect, Sample, Settings, merge};
 
 use super::common::*;
 
@@ -88,6 +88,37 @@ fn damaged_files_are_errors() {
     }
     let missing = read_partial(Path::new("/nowhere/part.exr")).unwrap_err();
     assert!(missing.to_string().contains("/nowhere/part.exr"), "{missing}");
+}
+
+/// Sums that no rendering makes would overflow when samples are added to them.
+#[test]
+fn sums_of_more_than_their_samples_are_refused() {
+    let window = Rect { x: 0, y: 0, width: 2, height: 1 };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("part.exr");
+    let said = Meta { size: [2, 1], ..meta(window, 0..6) };
+    let read = |change: &dyn Fn(&mut Film)| {
+        let mut film = Film::new(window);
+        for pixel in film.pixels_mut() {
+            pixel.add(&Sample { radiance: [f32::MAX; 3], ..Sample::EMPTY });
+        }
+        film.add_light_paths(5);
+        change(&mut film);
+        write_exr(&path, &film, &said, true).unwrap();
+        read_partial(&path).map(|_| ()).map_err(|error| error.to_string())
+    };
+    assert_eq!(read(&|_| {}), Ok(()));
+    let changes: [(&dyn Fn(&mut Film), &str); 5] = [
+        (&|film| film.pixels_mut()[1].radiance[2] += 1, "a sum of more than 1 samples of radiance"),
+        (&|film| film.pixels_mut()[0].radiance[0] = i128::MIN, "a sum of more than 1 samples of radiance"),
+        (&|film| film.pixels_mut()[0].samples = 0, "a sum of more than 0 samples of radiance"),
+        (&|film| film.pixels_mut()[1].normal[0] = i64::MIN, "a sum of more than 1 samples of a surface"),
+        (&|film| film.add_light_paths(1 << 62), "light paths that overflow"),
+    ];
+    for (change, found) in changes {
+        let error = read(change).unwrap_err();
+        assert!(error.contains(found), "{error}");
+    }
 }
 
 #[test]
