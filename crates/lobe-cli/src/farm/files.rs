@@ -43,12 +43,19 @@ pub fn begin(folder: &Path, plan: &Plan) -> Result<(), Failure> {
 /// The plan of a job.
 ///
 /// # Errors
-/// If the folder has none.
+/// If the folder has none, or one that makes no sense.
 pub fn read(folder: &Path) -> Result<Plan, Failure> {
     let file = folder.join(PLAN);
     let wrong = |error: String| Failure::File(format!("{}: {error}; expected the plan of a job", file.display()));
     let bytes = lobe_files::bytes(&file).map_err(|error| wrong(error.to_string()))?;
-    serde_json::from_slice(&bytes).map_err(|error| wrong(error.to_string()))
+    let plan: Plan = serde_json::from_slice(&bytes).map_err(|error| wrong(error.to_string()))?;
+    match plan.is_sound() {
+        true => Ok(plan),
+        false => Err(wrong(format!(
+            "found {} parts of {} x {} pixels with {} samples",
+            plan.parts, plan.size[0], plan.size[1], plan.samples
+        ))),
+    }
 }
 
 /// Quotes any text as one word of a shell.

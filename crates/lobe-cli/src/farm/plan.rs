@@ -18,7 +18,7 @@ use crate::failure::Failure;
 pub struct Wanted {
     /// The scene, a TOML file.
     pub scene: PathBuf,
-    /// The number of parts of the picture.
+    /// Into how many parts the picture is cut.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     parts: u32,
     /// Divide the picture into strips of rows, or its samples into ranges.
@@ -132,7 +132,21 @@ pub fn absolute(path: &Path) -> Result<PathBuf, Failure> {
     std::path::absolute(path).map_err(|error| Failure::File(format!("{}: {error}", path.display())))
 }
 
+/// The most parts of a picture.
+const MOST: u32 = 100_000;
+
 impl Plan {
+    /// Whether a picture can be cut like this: what is in a file may be anything.
+    pub fn is_sound(&self) -> bool {
+        let [width, height] = self.size.map(u64::from);
+        let most = match self.by {
+            By::Rows => self.size[1],
+            By::Samples => self.samples,
+        };
+        let work = (width * height).checked_mul(u64::from(self.samples));
+        (1..=most.min(MOST)).contains(&self.parts) && work.is_some_and(|work| work > 0)
+    }
+
     /// The option of `lobe render` for part `part`, counted from 1.
     pub fn option(&self, part: u32) -> [String; 2] {
         match self.by {

@@ -213,3 +213,27 @@ fn impossible_divisions_are_refused() {
     }
     assert!(!out.exists() && !job.exists());
 }
+
+#[test]
+fn a_damaged_plan_is_refused_at_once() {
+    let files = Files::new();
+    std::fs::create_dir(files.path("job")).expect("a folder");
+    let status = |plan: &str| {
+        files.write("job/plan.json", plan);
+        run(&["farm", "status", text(&files.path("job"))])
+    };
+    let sound = r#"{"parts": 2, "by": "rows", "size": [8, 6], "samples": 4}"#;
+    assert_eq!(status(sound).0, 0);
+    for (from, to) in [
+        ("\"parts\": 2", "\"parts\": 4000000000"),
+        ("\"parts\": 2", "\"parts\": 0"),
+        ("[8, 6]", "[4294967295, 4294967295]"),
+        ("[8, 6]", "[8, 1]"),
+        ("\"samples\": 4", "\"samples\": 0"),
+        ("rows", "columns"),
+        ("}", ""),
+    ] {
+        let (code, _, message) = status(&sound.replace(from, to));
+        assert!(code == 1 && message.contains("expected the plan of a job"), "{to}: {code} {message}");
+    }
+}
