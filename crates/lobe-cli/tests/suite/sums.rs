@@ -1,5 +1,6 @@
 //! Refused renderings, and the parts, sums and pictures that renderings leave behind: no work is lost.
 
+use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -146,6 +147,60 @@ fn interrupted_and_resumed() {
         let anew = files.path(if text(&out).ends_with("png") { "b.png" } else { "b.exr" });
         printed(&["render", text(&scene), "-o", text(&anew), "--samples", &most, "--strict"]);
         assert!(std::fs::read(&out).expect("a picture") == std::fs::read(&anew).expect("a picture"));
+    }
+}
+
+/// A second Ctrl-C ends at once: while the picture is written, and if nobody reads what the program says.
+#[cfg(unix)]
+#[test]
+fn interrupted_twice() {
+    let files = Files::new();
+    // Its sums take seconds to write.
+    let scene = files.write("scene.toml", &SCENE.replace("width = 24\nheight = 16", "width = 2400\nheight = 1600"));
+    for is_read in [true, false] {
+        let out = files.path("a.exr");
+        let (reader, mut writer) = std::io::pipe().expect("a pipe");
+        if !is_read {
+            // What a pipe of Linux holds: the program waits with its first word.
+            writer.write_all(&[b'x'; 65_536]).expect("a pipe with room");
+        }
+        let mut child = Command::new(env!("CARGO_BIN_EXE_lobe"))
+            .args(["render", text(&scene), "-o", text(&out), "--samples", "5000", "--threads", "1"])
+            .stderr(writer)
+            .spawn()
+            .expect("the program");
+        let interrupt = || {
+            let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill");
+            assert!(sent.success());
+        };
+        std::thread::sleep(Duration::from_millis(2500));
+        interrupt();
+        let mut said = String::new();
+        let mut lines = BufReader::new(reader);
+        if is_read {
+            lines.read_line(&mut said).expect("a line");
+            assert!(said.contains("once more ends at once"), "{said}");
+        } else {
+            std::thread::sleep(Duration::from_millis(1000));
+        }
+        interrupt();
+        let begun = Instant::now();
+        let ended = loop {
+            if let Some(ended) = child.try_wait().expect("a child") {
+                break ended;
+            }
+            if begun.elapsed() > Duration::from_secs(60) {
+                let _ = child.kill();
+                panic!("it does not end");
+            }
+            std::thread::sleep(Duration::from_millis(5));
+        };
+        assert_eq!(ended.code(), Some(130), "read: {is_read}");
+        if is_read {
+            let mut rest = String::new();
+            lines.read_to_string(&mut rest).expect("what it said");
+            assert!(!rest.contains("--resume goes on"), "too quick to test: {rest}");
+        }
     }
 }
 
