@@ -1,7 +1,7 @@
 //! Values next to the horizon that stand out from all others: quotients by a cosine that is nearly 0.
 
 use lobe_formats::Document;
-use lobe_table::{Data, half_diff, scattered, spherical};
+use lobe_table::{Data, half_diff, rgl, scattered, spherical};
 
 use super::finding::{Finding, Status, part_name};
 use crate::directions::spherical as direction;
@@ -32,12 +32,22 @@ fn of_data(document: &Document, part: &lobe_formats::Part) -> Option<Finding> {
         }
         Data::Spherical(grid) => of_grid(grid, &mut extremes),
         Data::Scattered(data) => of_samples(data, &mut extremes),
+        Data::Rgl(data) => of_rgl(data, &mut extremes),
         _ => return None,
     }
+    let is_product = matches!(part.data, Data::Rgl(_));
     let Extremes { near: values, away } = extremes;
     let near = values.iter().copied().fold(0.0, f64::max);
     let count = values.iter().filter(|value| **value > away).count();
     (away > 0.0 && near > OUT * away).then(|| {
+        if is_product {
+            let text = format!(
+                "within 1.1 degrees of the horizon f grows up to {near:.3e}, against {away:.3e} elsewhere: the file has f times \
+                 the cosine, which does not go to 0 there"
+            );
+            let finding = Finding::new("horizon", &part_name(document, part), Status::Note, text);
+            return finding.number("near", near).number("away", away).number("count", count as f64);
+        }
         let text = format!(
             "{count} values within 1.1 degrees of the horizon are larger than all values 3.4 degrees above it, up to \
              {near:.3e} against {away:.3e}: probably quotients by a cosine that is nearly 0"
@@ -99,6 +109,27 @@ fn of_grid(grid: &spherical::Data, extremes: &mut Extremes) {
                     let Some(texel) = texels.next() else { return };
                     extremes.add((direction(theta_i, phi_i), direction(theta_o, phi_o)), texel);
                 }
+            }
+        }
+    }
+}
+
+/// What is evaluated, as texels are in no directions: some lights, and viewers around the hemisphere, near its rim and not.
+fn of_rgl(data: &rgl::Data, extremes: &mut Extremes) {
+    const HEIGHTS: [f64; 9] = [1e-4, 1e-3, 1e-2, 0.06, 0.1, 0.2, 0.4, 0.7, 0.95];
+    const AROUND: u32 = 16;
+    let reference = rgl::Reference::new(data);
+    let rgl::Parts { theta_i, phi_i, channels, .. } = data.parts();
+    let mut texel = vec![0.0; channels.count()];
+    let phi_i = phi_i.first().map_or(0.0, |phi| f64::from(*phi));
+    for theta_i in theta_i.iter().map(|theta| f64::from(*theta)).filter(|theta| theta.cos() > AWAY) {
+        let wi = direction(theta_i, phi_i);
+        for height in HEIGHTS {
+            for step in 0..AROUND {
+                let wo = direction(height.acos(), phi_i + f64::from(step) * std::f64::consts::TAU / f64::from(AROUND));
+                reference.eval(wi, wo, &mut texel);
+                let values: Vec<f32> = texel.iter().map(|value| *value as f32).collect();
+                extremes.add((wi, wo), &values);
             }
         }
     }

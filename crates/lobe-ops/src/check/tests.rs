@@ -184,6 +184,38 @@ fn quotients_by_a_tiny_cosine_are_named() {
     assert!(smooth.iter().all(|finding| finding.check != "horizon"), "{smooth:#?}");
 }
 
+/// A material of the EPFL database with the same value, times the cosine, in all directions.
+fn constant_product() -> Document {
+    use lobe_table::rgl::{Data, Images, Parts};
+    let images = |shape: [usize; 3], value: f32| {
+        Images::new("made", shape, vec![value; shape.iter().product()]).expect("images")
+    };
+    let data = Data::new(Parts {
+        description: "made".into(),
+        phi_i: vec![0.0],
+        theta_i: vec![0.0, 1.4],
+        ndf: images([1, 2, 3], 1.0),
+        sigma: images([1, 2, 2], 0.25),
+        vndf: images([2, 8, 8], 1.0),
+        luminance: images([2, 8, 8], 1.0),
+        channels: Channels::Spectral(vec![550.0]),
+        spectra: images([2, 8, 8], 0.3),
+        jacobian: true,
+        valid: Some(vec![255]),
+    });
+    Document::new(data.expect("a material"))
+}
+
+#[test]
+fn values_times_the_cosine_that_are_not_0_at_the_horizon_are_noted() {
+    let all = all_of(constant_product());
+    assert_found(&all, Status::Note, "the file has f times the cosine, which does not go to 0 there");
+    let found = all.iter().find(|finding| finding.check == "horizon").expect("the horizon");
+    let [near, away] = ["near", "away"].map(|name| found.numbers[name]);
+    // The smallest heights on either side are 1e-4 and 0.06.
+    assert!((100.0..2000.0).contains(&(near / away)), "{near} {away}");
+}
+
 #[test]
 fn sheet_findings_agree_with_evaluation() {
     use lobe_table::window::klems::{AngleBasis, KlemsMatrix};
