@@ -17,7 +17,7 @@ struct Task {
     packages: &'static [&'static str],
 }
 
-const TASKS: [Task; 9] = [
+const TASKS: [Task; 10] = [
     Task {
         name: "report",
         about: "Measure this machine: the paper's tables first, then everything beyond them",
@@ -33,6 +33,11 @@ const TASKS: [Task; 9] = [
         name: "cross",
         about: "Test the backends of other processors, on emulators of these",
         packages: &["xtask-cross"],
+    },
+    Task {
+        name: "damage",
+        about: "Give damaged files to every command of the program, under limits of memory and time",
+        packages: &["xtask-damage"],
     },
     Task {
         name: "sweep",
