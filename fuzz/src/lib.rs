@@ -3,7 +3,8 @@
 //! `docs/fuzzing.md` says how to run them.
 #![forbid(unsafe_code)]
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use lobe_formats::Format;
 use lobe_testing::probe::probe;
@@ -17,6 +18,31 @@ lobe_testing::count_memory!();
 pub fn read(format: Format, bytes: &[u8]) {
     // Whether it is a valid file does not matter here.
     let _ = probe(format, bytes, Path::new("fuzz"));
+}
+
+/// What `run` makes of a file that holds `bytes`, for what opens files itself. Where there is one, the file is in memory.
+///
+/// # Panics
+/// If `run` does, or the file cannot be written.
+pub fn in_file<R>(bytes: &[u8], run: impl FnOnce(&Path) -> R) -> R {
+    let path = folder().join("input");
+    std::fs::write(&path, bytes).expect("a file in a temporary folder");
+    run(&path)
+}
+
+/// A folder of this process.
+///
+/// # Panics
+/// If it cannot be made.
+pub fn folder() -> &'static Path {
+    static FOLDER: OnceLock<PathBuf> = OnceLock::new();
+    FOLDER.get_or_init(|| {
+        let memory = Path::new("/dev/shm");
+        let temporary = if memory.is_dir() { memory.into() } else { std::env::temp_dir() };
+        let folder = temporary.join(format!("lobe-fuzz-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a temporary folder");
+        folder
+    })
 }
 
 /// The target of a reader, which is named by its variant of [`Format`].
