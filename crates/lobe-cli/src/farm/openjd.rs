@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lobe_files::write_whole;
+use lobe_files::{check_output, write_whole};
 use serde_json::{Value, json};
 
 use super::files::{begin, path, quoted};
@@ -46,6 +46,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let planned = args.wanted.plan()?;
     let folder = absolute(&args.output)?;
     begin(&folder, &planned.plan)?;
+    check_output(&folder.join(&args.picture), &planned.files)?;
     let template = template(&planned, &args.picture)?;
     let file = folder.join("template.json");
     write_whole(&file, serde_json::to_string_pretty(&template)?.as_bytes())?;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::Command;
 
-use lobe_files::write_whole;
+use lobe_files::{check_output, write_whole};
 
 use super::files::{begin, part, path, quoted};
 use super::plan::{By, Planned, Wanted, absolute};
@@ -39,6 +39,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     Kind::of(&args.output)?;
     let planned = args.wanted.plan()?;
     let output = absolute(&args.output)?;
+    check_output(&output, &planned.files)?;
     let mut folder = output.clone().into_os_string();
     folder.push(".farm");
     let folder = PathBuf::from(folder);

@@ -237,3 +237,21 @@ fn a_damaged_plan_is_refused_at_once() {
         assert!(code == 1 && message.contains("expected the plan of a job"), "{to}: {code} {message}");
     }
 }
+
+#[test]
+fn no_file_of_the_scene_is_the_picture() {
+    let files = Files::new();
+    let sky = files.path("sky.exr");
+    let plain = files.write("plain.toml", SCENE);
+    printed(&["render", text(&plain), "-o", text(&sky)]);
+    let before = bytes(&sky);
+    let scene = files.write("scene.toml", &SCENE.replace("radiance = 1", "file = \"sky.exr\""));
+    for farm in [
+        &["farm", "slurm", text(&scene), "-o", text(&sky), "--parts", "2"][..],
+        &["farm", "openjd", text(&scene), "-o", text(&files.path("")), "--picture", "sky.exr", "--parts", "2"],
+    ] {
+        let (code, _, message) = run(farm);
+        assert!(code == 1 && message.contains("expected another file to write"), "{farm:?}: {message}");
+    }
+    assert!(bytes(&sky) == before);
+}
