@@ -1,10 +1,11 @@
 //! `lobe import`: a user's own measurement, from the output of an instrument or a spreadsheet to a file that every
 //! program reads.
 
-use std::io::{IsTerminal, Write, stderr, stdin, stdout};
+use std::io::{IsTerminal, Write, stderr, stdin};
 use std::path::{Path, PathBuf};
 
 use lobe::{Material, Options};
+use lobe_files::check_output;
 use lobe_formats::{Document, Format, FormatError, Place, ReadOptions, open_with, sidecar, write_whole};
 use lobe_ops::Subject;
 use lobe_ops::check::{Finding, Status, Thoroughness, check};
@@ -13,7 +14,7 @@ use serde::Serialize;
 use crate::angles::progress;
 use crate::describe::{Part, describe};
 use crate::failure::Failure;
-use crate::message::say;
+use crate::message::{self, say};
 use crate::reading::Reading;
 use crate::target::parser;
 use crate::{convert, plot};
@@ -74,6 +75,9 @@ struct Report {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let file = args.file.as_path();
+    for output in args.out.iter().chain(&args.plot) {
+        check_output(output, &[file, &sidecar::path_of(file)])?;
+    }
     let given = args.reading.options();
     let mut options = given.clone().or(sidecar::find(file)?);
     let may_ask = !args.json && stdin().is_terminal() && stderr().is_terminal();
@@ -122,7 +126,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         sidecar: kept.then(|| sidecar::path_of(file).display().to_string()),
         options: kept.then(|| sidecar::to_text(&options, &name(file))),
     };
-    let mut out = stdout().lock();
+    let mut out = message::out(args.json);
     if args.json {
         serde_json::to_writer_pretty(&mut out, &report)?;
         writeln!(out)?;
@@ -206,7 +210,8 @@ fn first_lines(file: &Path) {
 
 /// The first lines of a text, with their numbers.
 fn head(file: &Path) -> Option<String> {
-    let bytes = std::fs::read(file).ok()?;
+    // Not of a device or a pipe, which would never end.
+    let bytes = lobe_files::read(file).ok()?;
     let bytes = lobe_formats::plain_text(&bytes);
     let text = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 16)]).into_owned();
     let is_text = !text.contains('\0');

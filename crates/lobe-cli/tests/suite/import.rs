@@ -141,3 +141,52 @@ fn pairs_of_any_spelling() {
         assert!(code == 1 && found.contains(message) && found.contains("bad.csv:1:"), "{found}");
     }
 }
+
+/// A table of one's own must not be replaced by what was made of it.
+#[test]
+fn the_measurement_is_not_overwritten() {
+    let files = Files::new();
+    let table = "theta_i,theta_o,phi_o,f\n30,0,0,0.25\n30,40,0,0.25\n30,40,90,0.25\n30,40,180,0.25\n";
+    let csv = files.write("own.csv", table);
+    let page = files.write("own.html", table);
+    let sidecar = files.write("own.csv.lobe.toml", "unit = \"deg\"\n");
+    let mut runs = vec![
+        vec!["import", text(&csv), "-o", text(&csv)],
+        vec!["import", text(&page), "--plot", text(&page), "--no-sidecar"],
+        vec!["import", text(&csv), "-o", text(&sidecar), "--to", "csv"],
+    ];
+    let link = files.path("link.csv");
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(&csv, &link).expect("a link");
+        runs.push(vec!["import", text(&csv), "-o", text(&link)]);
+    }
+    for args in runs {
+        let (code, _, message) = run(&args);
+        assert!(code == 1 && message.contains("expected another file to write"), "{args:?}: {code} {message}");
+    }
+    assert_eq!(std::fs::read_to_string(&csv).expect("a file"), table);
+    // What cannot be written is said before the work.
+    let nowhere = files.path("nowhere").join("a.csv");
+    let (code, printed, message) = run(&["import", text(&csv), "-o", text(&nowhere)]);
+    assert!(code == 1 && printed.is_empty() && message.contains("expected a file that can be written"), "{message}");
+}
+
+#[cfg(unix)]
+#[test]
+fn names_and_devices_do_no_harm() {
+    let files = Files::new();
+    let evil = files.write("evil\u{1b}[31m.csv", "theta_i,theta_o,phi_o,f\n30,0,0,1\n30,40,0,1\n30,40,90,1\n");
+    let (_, printed, message) = run(&["import", text(&evil), "--no-sidecar"]);
+    let both = format!("{printed}{message}");
+    assert!(!both.contains('\u{1b}') && printed.contains("evil\\u{1b}[31m.csv"), "{both:?}");
+    let made = std::process::Command::new("mkfifo").arg(files.path("pipe.csv")).status().expect("mkfifo");
+    assert!(made.success());
+    for input in [text(&files.path("pipe.csv")), "/dev/zero"] {
+        let mut import = std::process::Command::new("timeout");
+        import.args(["20", env!("CARGO_BIN_EXE_lobe"), "import", input]).stdin(std::process::Stdio::null());
+        let ended = import.output().expect("the program");
+        let message = String::from_utf8_lossy(&ended.stderr);
+        assert!(ended.status.code() == Some(1) && message.contains("a device, a pipe or a socket"), "{message}");
+    }
+}
