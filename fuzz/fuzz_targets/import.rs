@@ -3,6 +3,9 @@
 
 use std::path::Path;
 
+// What counts memory.
+use lobe_fuzz as _;
+
 use lobe_formats::{Format, sidecar};
 use lobe_testing::probe::probe_with;
 

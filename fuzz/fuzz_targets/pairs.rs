@@ -10,6 +10,12 @@ mod failure {
     pub enum Failure {
         File(String),
     }
+
+    impl From<lobe_files::FormatError> for Failure {
+        fn from(error: lobe_files::FormatError) -> Self {
+            Failure::File(error.to_string())
+        }
+    }
 }
 
 mod message {
