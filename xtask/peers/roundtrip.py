@@ -27,8 +27,9 @@ RADIANCE = 4e-4
 # Radiance keeps the colour of a patch as u' and v' in steps of 1/410, randomly rounded: two steps at most.
 RADIANCE_COLOUR = 2 / 410
 
-# dctimestep multiplies in single precision, and prints six digits; it keeps colours as Radiance does.
+# dctimestep multiplies in single precision, and prints seven digits; colours of patches are kept in steps.
 DAYLIGHT = 1e-5
+DAYLIGHT_COLOUR = 2e-3
 
 PAIRS = 5000
 
@@ -214,11 +215,11 @@ def daylight_peer(lobe, verdict):
     def parsed(text):
         return np.array([float(word) for word in text.split("\n\n", 1)[1].split()])
 
-    sheets = [
-        lobe.write("grey.xml", "convert", lobe.write("through.bsdf", "generate", "ggx", "--to", "rgl", "--alpha", "0.5"), "--to", "klems"),
-    ]
-    sheets = [transmitting(lobe, sheet) for sheet in sheets]
-    for sheet in sheets:
+    through = lobe.write("through.bsdf", "generate", "ggx", "--to", "rgl", "--alpha", "0.5")
+    grey = lobe.write("grey.xml", "convert", through, "--to", "klems", "--channel", "G")
+    coloured = lobe.write("coloured.xml", "convert", through, "--to", "klems")
+    for sheet, tolerance in [(grey, DAYLIGHT), (coloured, DAYLIGHT_COLOUR)]:
+        sheet = transmitting(sheet)
         for kinds in [("ascii", "float", "double"), ("double", "ascii", "float")]:
             view, daylight, sky = (
                 matrix(f"{name}-{kind}.mtx", *shape, kind)
@@ -227,13 +228,14 @@ def daylight_peer(lobe, verdict):
             files = [view, sheet, daylight, sky]
             done = subprocess.run([str(program), *map(str, files)], capture_output=True, text=True, check=True)
             found = parsed(lobe.run("matrix", *files).stdout)
-            verdict.compare(f"V T D s ({', '.join(kinds)}) against dctimestep", parsed(done.stdout), found, DAYLIGHT)
+            what = f"V T D s of {sheet.name} ({', '.join(kinds)}) against dctimestep"
+            verdict.compare(what, parsed(done.stdout), found, tolerance)
 
 
-def transmitting(lobe, sheet):
+def transmitting(sheet):
     """The same matrices as those of transmission from the front: reflection of light from z > 0 is exchanged for it."""
     text = sheet.read_text().replace("Reflection Back", "Transmission Front").replace("BRDF", "BTDF")
-    path = lobe.folder / "transmitting.xml"
+    path = sheet.with_name(f"transmitting-{sheet.name}")
     path.write_text(text)
     return path
 

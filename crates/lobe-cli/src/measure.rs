@@ -10,7 +10,7 @@ use lobe_model::goniometer::half_diff as bins;
 use lobe_model::goniometer::rgl::Resolution;
 use lobe_model::goniometer::tensor_tree::Refinement;
 use lobe_model::{Surface, is_isotropic};
-use lobe_ops::remeasure::{Mapped, MaterialSurface, Nodes, Sides, refine, remeasure};
+use lobe_ops::remeasure::{Mapped, Nodes, Sides, refine, remeasure};
 use lobe_table::window::klems;
 use lobe_table::window::tensor_tree::Rank;
 use lobe_table::{Kind, half_diff, rgl, spherical};
@@ -278,8 +278,7 @@ fn errors(surface: &dyn Surface, target: Target, aspects: &[Aspect], out: &Path)
         return Ok(None);
     }
     let options = Options { lookup: Lookup::Linear, ..Options::default() };
-    let found = MaterialSurface { material: Material::open_with(out, &options)?, scatter: None };
-    Ok(Some(Errors::between(surface, &found, aspects)))
+    Ok(Some(Errors::between(surface, &Material::open_with(out, &options)?, aspects)))
 }
 
 /// Whether a kind of nodes has the sides of a sheet.

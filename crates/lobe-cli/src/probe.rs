@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::fmt;
 
-use lobe::Aspect;
+use lobe::{Aspect, Material};
 use lobe_model::{Surface, halton};
 
 use crate::progress::Progress;
@@ -21,24 +21,30 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Compares two surfaces with the same channels, in turn on the sides of each measurement. Half of the probes are
-    /// spread over both hemispheres in proportion to their cosines, half are near the mirror or straight-through
-    /// direction. None is within a degree of the horizon.
+    /// Compares a surface and a material of the same channels, in turn on the sides of each of the measurements. Half of the probes are
+    /// spread over both hemispheres in proportion to their cosines, half are near the mirror direction or what continues
+    /// the light straight on. None is within a degree of the horizon.
     pub fn between(expected: &dyn Surface, found: &dyn Surface, aspects: &[Aspect]) -> Self {
         let channels = expected.channels().count();
-        let mut values = Vec::new();
+        let (mut exact, mut lights, mut viewers) = (Vec::new(), Vec::new(), Vec::new());
+        let narrow = |direction: [f64; 3]| direction.map(|c| c as f32);
         let progress = Progress::new(PROBES as usize, "probes");
         for n in 1..=PROBES {
             let (wi, wo) = pair(n);
             // Consecutive probes are of different kinds.
             let aspect = aspects.get(n as usize / 2 % aspects.len().max(1)).copied().unwrap_or(Aspect::REFLECTION);
             let (wi, wo) = aspect.place(wi, wo);
-            let (mut a, mut b) = (vec![0.0; channels], vec![0.0; channels]);
-            expected.f(wi, &[wo], &mut a);
-            found.f(wi, &[wo], &mut b);
-            values.extend(a.into_iter().zip(b));
+            let mut texel = vec![0.0; channels];
+            expected.f(wi, &[wo], &mut texel);
+            exact.extend(texel);
+            lights.push(narrow(wi));
+            viewers.push(narrow(wo));
             progress.step();
         }
+        // All at once: one pair at a time takes long in some representations.
+        let mut texels = vec![0.0; lights.len() * found.channel_count()];
+        found.eval_batch(&lights, &viewers, &mut texels);
+        let values: Vec<(f64, f64)> = exact.into_iter().zip(texels.into_iter().map(f64::from)).collect();
         let mean = values.iter().map(|(a, _)| a.abs()).sum::<f64>() / values.len() as f64;
         let error = |(a, b): &(f64, f64)| (a - b).abs() / a.abs().max(0.01 * mean).max(f64::MIN_POSITIVE);
         let mut errors: Vec<f64> = values.iter().map(error).collect();

@@ -21,8 +21,9 @@ pub enum ConvertError {
     Write(#[from] FormatError),
 }
 
-/// The ends of the visible range in nm.
-const VISIBLE: [f64; 2] = [360.0, 830.0];
+/// The wavelengths in nm, the ends of the visible range, at which a single channel is written, with equal values, in formats
+/// that have nothing but wavelengths.
+pub const ENDS: [f64; 2] = [360.0, 830.0];
 
 /// A linear map of channels.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,11 +71,9 @@ impl ChannelMap {
                 (Channels::Rgb, vec![&[1.0][..]; 3], "one channel as equal R, G and B")
             }
             // A format with nothing but wavelengths: the ends of the visible range, and so every one between.
-            Channels::Mono if holds(&Channels::Spectral(VISIBLE.into())) => (
-                Channels::Spectral(VISIBLE.into()),
-                vec![&[1.0][..]; 2],
-                "one channel as equal values at 360 and 830 nm",
-            ),
+            Channels::Mono if holds(&Channels::Spectral(ENDS.into())) => {
+                (Channels::Spectral(ENDS.into()), vec![&[1.0][..]; 2], "one channel as equal values at 360 and 830 nm")
+            }
             Channels::Rgb if holds(&Channels::Xyz) => (
                 Channels::Xyz,
                 RGB_TO_XYZ.iter().map(|row| &row[..]).collect(),

@@ -79,7 +79,7 @@ pub mod zemax;
 pub mod zernike;
 mod zip;
 
-pub use convert::{ChannelMap, ConvertError, Written, convert};
+pub use convert::{ChannelMap, ConvertError, ENDS, Written, convert};
 pub use document::{Document, Measured, Part};
 pub use integra::{ddr, sdr};
 pub use lobe_files::{FormatError, Place, write_whole};

@@ -2,6 +2,7 @@
 
 use lobe::Backend;
 use lobe_colour::NoColour;
+use lobe_formats::ENDS;
 use lobe_table::{Bsdf, Channels, Directions};
 use serde::Serialize;
 
@@ -29,7 +30,7 @@ fn in_words<S: serde::Serializer>(aspect: &Aspect, serializer: S) -> Result<S::O
 
 /// Compares the measurements that both files have at `pairs` pairs of directions up to [`LIMIT`]: the first ones of a fixed
 /// sequence ([`direction_pairs`](crate::direction_pairs)), which no grid has for its nodes. With the name of a channel of the
-/// source, only this one is compared: with the channel of the same name, or with the only one.
+/// source, only this one is compared, as [`Channel::of`] finds it in both; nothing if one of them has none.
 ///
 /// # Errors
 /// [`NoColour`] if the channels differ and those of one file have no colour.
@@ -43,7 +44,13 @@ pub fn certify(
     let mut aspects: Vec<Aspect> = source.aspects().into_iter().filter(|aspect| theirs.contains(aspect)).collect();
     aspects.dedup();
     let [a, b] = [source, written].map(|subject| OnBackend::from(&subject.material));
-    let picked = channel.and_then(|name| Some((Channel::of(a, name)?, Channel::of(b, name)?)));
+    let picked = match channel {
+        None => None,
+        Some(name) => match (Channel::of(a, name), Channel::of(b, name)) {
+            (Some(a), Some(b)) => Some((a, b)),
+            _ => return Ok(Vec::new()),
+        },
+    };
     let limit = LIMIT.to_radians();
     let certified = |aspect: Aspect| {
         let difference = match &picked {
@@ -68,12 +75,14 @@ pub struct Channel<'a> {
 }
 
 impl<'a> Channel<'a> {
-    /// The channel of this name, in any case of letters, or the only one; `None` if there is neither.
+    /// The channel of this name, in any case of letters, or the only one, which may have been written as [`ENDS`]; `None` if
+    /// there is none of these.
     pub fn of(scattering: impl Into<OnBackend<'a>>, name: &str) -> Option<Self> {
         let scattering = scattering.into();
         let names = scattering.channels().names();
         let index = names.iter().position(|known| known.eq_ignore_ascii_case(name));
-        let index = index.or_else(|| (names.len() == 1).then_some(0))?;
+        let is_one = names.len() == 1 || *scattering.channels() == Channels::Spectral(ENDS.into());
+        let index = index.or_else(|| is_one.then_some(0))?;
         Some(Channel { scattering, index })
     }
 }

@@ -89,9 +89,9 @@ impl Nodes {
             Nodes::HalfDiff(bins) => bins.to_vec(),
             Nodes::Rgl(Resolution { theta_i, phi_i, spectra, .. }) => vec![*theta_i, *phi_i, *spectra, *spectra],
             Nodes::Klems(basis) => vec![Block::ALL.len(), basis.patches(), basis.patches()],
-            // Of the radii half are in use.
-            Nodes::Tree(Refinement { rank: Rank::Three, depth, .. }) => vec![Block::ALL.len(), (1 << (3 * depth)) / 2],
-            Nodes::Tree(Refinement { depth, .. }) => vec![Block::ALL.len(), 1 << (4 * depth)],
+            // Cells of one block at most, so that there is room for the leaves of all. Of the radii half are in use.
+            Nodes::Tree(Refinement { rank: Rank::Three, depth, .. }) => vec![(1 << (3 * depth)) / 2],
+            Nodes::Tree(Refinement { depth, .. }) => vec![1 << (4 * depth)],
             Nodes::Spherical { knots, .. } => knots.iter().map(Vec::len).collect(),
         }
     }
