@@ -1,9 +1,10 @@
 //! A wheel for most distributions of Linux.
 //!
-//! It is linked by Zig, which has the symbols of every glibc: the wheel then loads with the one that the platform tag names, and
-//! with later ones. `auditwheel` says whether that is true.
+//! Zig links it, which has the symbols of every glibc: the wheel then loads with the one that the platform tag names, and with
+//! later ones. Only the module itself is linked by Zig, so that everything below it is the build that `pip install` makes too;
+//! `maturin build --zig` would compile all of it once more. `auditwheel` says whether the tag is true.
 
-use std::ffi::OsStr;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -12,12 +13,14 @@ use super::python::done;
 /// What pip installs for it.
 pub const TOOLS: [&str; 2] = ["maturin[zig]>=1.9.4,<2", "auditwheel"];
 
-/// The oldest glibc that Rust supports, 2.17, has the distributions since 2014.
+/// The oldest glibc that Rust supports.
+const GLIBC: &str = "2.17";
+/// What wheels for it are called, the distributions of 2014 being the first that have it.
 const PLATFORM: &str = "manylinux2014";
 /// What auditwheel calls it.
 const AUDITED: &str = "manylinux_2_17";
 
-/// Makes the wheel in `target/wheels`, with the interpreter of an environment that has the tools.
+/// Makes the wheel in `target/wheels`, with the interpreter of an environment that has the tools, and `path` to find them.
 ///
 /// # Errors
 /// If it cannot be made, or does not run where it says.
@@ -30,7 +33,9 @@ pub fn build(python: &Path, path: &OsStr) -> Result<PathBuf, String> {
     maturin.args(["-m", "maturin", "build", "--release", "--manifest-path", "crates/lobe-python/Cargo.toml", "--out"]);
     maturin.arg(folder).env("PATH", path);
     if cfg!(target_os = "linux") {
-        maturin.args(["--zig", "--compatibility", PLATFORM]);
+        let mut option = OsString::from("linker=");
+        option.push(linker(python)?);
+        maturin.args(["--compatibility", PLATFORM, "--", "-C"]).arg(option);
     }
     done(&mut maturin)?;
     let wheel = only_wheel(folder)?;
@@ -40,6 +45,21 @@ pub fn build(python: &Path, path: &OsStr) -> Result<PathBuf, String> {
         audit(python, &wheel)?;
     }
     Ok(wheel)
+}
+
+/// A program next to the interpreter that links as `cc` does, for the oldest glibc: maturin's, which knows what Zig does not.
+fn linker(python: &Path) -> Result<PathBuf, String> {
+    let program = python.with_file_name("zig-cc");
+    let target = format!("{}-linux-gnu.{GLIBC}", std::env::consts::ARCH);
+    let script = format!("#!/bin/sh\nexec \"${{0%/*}}/maturin\" zig cc -- -g -target {target} \"$@\"\n");
+    let failed = |error: std::io::Error| format!("{}: {error}", program.display());
+    std::fs::write(&program, script).map_err(failed)?;
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).map_err(failed)?;
+    }
+    Ok(program)
 }
 
 fn only_wheel(folder: &Path) -> Result<PathBuf, String> {
