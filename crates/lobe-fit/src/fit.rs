@@ -1,4 +1,4 @@
-//! Fits: from several starts on few pairs to the best of them on all.
+//! Fits: from several starts on a few pairs to the best of them on all pairs.
 
 use lobe_colour::Channels;
 use rayon::prelude::*;
@@ -12,39 +12,39 @@ use crate::problem::{Problem, columns, wavelengths};
 use crate::uncertainty::deviations;
 use crate::weights::Weights;
 
-/// What is to be fitted, and how.
+/// The model to fit, and the options of the fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Request {
     /// The model.
     pub model: Model,
-    /// What differences count.
+    /// The weights of differences.
     pub weights: Weights,
-    /// Whether outliers count by their size only, not by its square.
+    /// Whether outliers count linearly instead of quadratically.
     pub robust: bool,
-    /// Whether each channel has a shape of its own.
+    /// Whether each channel has its own shape.
     pub per_channel: bool,
-    /// From how many values of the parameters the fit starts.
+    /// The number of starting points.
     pub starts: usize,
-    /// The wavelength in nm of channels that have none.
+    /// The wavelength in nm for channels without one.
     pub wavelength: Option<f64>,
 }
 
 impl Request {
-    /// The usual way to fit a model.
+    /// The usual options for a model.
     pub fn new(model: Model) -> Self {
         let weights = model.default_weights();
         Request { model, weights, robust: false, per_channel: false, starts: 24, wavelength: None }
     }
 }
 
-/// A parameter that was found.
+/// An estimated parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
-    /// What was estimated.
+    /// The parameter.
     pub parameter: &'static Parameter,
-    /// The index of the channel that it is of; `None` if it is of all.
+    /// The index of its channel; `None` if it belongs to all channels.
     pub channel: Option<usize>,
-    /// What was found.
+    /// The estimate.
     pub value: f64,
     /// Its standard deviation; `None` if it is at a bound, or not determined by the measurement.
     pub uncertainty: Option<f64>,
@@ -52,10 +52,10 @@ pub struct Estimate {
     pub is_at_bound: bool,
 }
 
-/// A fit that was made.
+/// A finished fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
-    /// How it was made.
+    /// The request.
     pub request: Request,
     /// The meaning of the channels.
     pub channels: Channels,
@@ -63,34 +63,34 @@ pub struct Fit {
     pub estimates: Vec<Estimate>,
     /// The number of pairs of directions.
     pub pairs: usize,
-    /// Pairs that were 0 in all channels, which are not used.
+    /// The number of pairs that are 0 in all channels, which are not used.
     pub left_out: usize,
-    /// Whether the search came to an end.
+    /// Whether the search converged.
     pub has_converged: bool,
     /// The model with these parameters.
     pub fitted: Fitted,
 }
 
-/// Why nothing can be fitted.
+/// A model that cannot be fitted.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum FitError {
     /// There are fewer values than parameters.
     #[error("found {pairs} pairs of directions with values; expected at least {least} for the {model} model")]
     TooFew {
-        /// The pairs that there are.
+        /// The number of pairs found.
         pairs: usize,
-        /// As many as the model needs.
+        /// The number that the model needs.
         least: usize,
         /// The name of the model.
         model: &'static str,
     },
-    /// The shape would be shared by too many channels.
-    #[error("found {0} channels; expected up to {MOST_CHANNELS} that share a shape")]
+    /// Too many channels would share the shape.
+    #[error("found {0} channels; expected at most {MOST_CHANNELS} that share a shape")]
     TooMany(usize),
     /// The model depends on the wavelength, which is not known.
     #[error("found channels without a wavelength; expected one for the {0} model")]
     NoWavelength(&'static str),
-    /// Nothing is above 0.
+    /// No value is above 0.
     #[error("found no value above 0")]
     Dark,
     /// The model has no finite value near any start.
@@ -100,11 +100,11 @@ pub enum FitError {
 
 /// The most channels that share a shape.
 pub const MOST_CHANNELS: usize = 16;
-/// Pairs of the first fits, of all starts and of the best of them.
+/// The numbers of pairs of the first fits, from all starts and from the best of them.
 const COARSE: [usize; 2] = [512, 1500];
-/// Starts that are fitted again with all channels.
+/// The number of starts that are fitted again with all channels.
 const BEST: usize = 4;
-/// Rounds in which relative weights follow the model.
+/// The number of rounds in which relative weights follow the model.
 const ROUNDS: usize = 4;
 
 /// Fits a model to a measurement.
@@ -143,7 +143,7 @@ fn shared(measurement: &Measurement, request: &Request, nm: &[f64]) -> Result<Fi
     let few = measurement.thinned(COARSE[0]);
     let grey = few.grey();
     let middle = [nm[count / 2]];
-    // Logarithms see every lobe, however narrow, so that the first steps lead somewhere.
+    // With logarithms, every lobe matters, however narrow, so that the first steps make progress.
     let first = |index: usize| {
         let start = start(model, index, &grey, &middle);
         let rough = Problem::new(model, &grey, &middle, Weights::Log, &start).minimise(1e-4, 8).0.values();
@@ -157,7 +157,7 @@ fn shared(measurement: &Measurement, request: &Request, nm: &[f64]) -> Result<Fi
     let more = measurement.thinned(COARSE[1]);
     let shapes = model.shapes();
     let second = |(_, values): &(f64, Vec<f64>)| {
-        // A little away from the bounds, where nothing would move.
+        // Slightly away from the bounds, where the derivatives vanish.
         let inner = |(parameter, value): (&Parameter, &f64)| {
             let inset = 0.02 * (parameter.high - parameter.low);
             match parameter.spacing {
@@ -240,7 +240,7 @@ fn finished(
     }
 }
 
-/// Fits of single channels as one.
+/// Combines the fits of single channels.
 fn joined(measurement: &Measurement, request: &Request, fits: Vec<Fit>) -> Fit {
     let own = |(channel, fit): (usize, &Fit)| {
         fit.estimates
@@ -265,11 +265,11 @@ fn joined(measurement: &Measurement, request: &Request, fits: Vec<Fit>) -> Fit {
     }
 }
 
-/// Values of the parameters to start from: shapes spread evenly over their ranges, amplitudes that fit the values.
+/// Starting values of the parameters: shapes spread evenly over their ranges, and amplitudes that fit the values.
 fn start(model: Model, index: usize, measurement: &Measurement, nm: &[f64]) -> Vec<f64> {
     let parameters = model.parameters();
     let share = |column: usize| {
-        // Steps that have nothing in common (the generalised golden section, as for directions).
+        // Incommensurable steps (the generalised golden section, as for directions).
         let dimensions = parameters.len() as f64;
         let g = (0..60).fold(1.5_f64, |g, _| (1.0 + g).powf(1.0 / (dimensions + 1.0)));
         0.06 + 0.88 * (0.5 + (index as f64 + 1.0) * g.powi(-(column as i32 + 1))).fract()
@@ -294,7 +294,7 @@ fn start(model: Model, index: usize, measurement: &Measurement, nm: &[f64]) -> V
                 });
                 sum / f64::max(count, 1.0)
             };
-            // The power of the amplitude that values are proportional to.
+            // The power of the amplitude to which values are proportional.
             let before = ratio(&values);
             values[column] *= step;
             let power = (before - ratio(&values)) / step.ln();

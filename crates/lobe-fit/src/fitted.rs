@@ -23,11 +23,11 @@ pub struct Fitted {
 }
 
 impl Fitted {
-    /// A model with all of its parameters for each channel, in the order of [`Model::parameters`]. `wavelength` in nm is
-    /// that of channels which have none.
+    /// A model with all of its parameters for each channel, in the order of [`Model::parameters`]. `wavelength` in nm
+    /// is for channels without one.
     ///
     /// # Panics
-    /// If there are not as many lists as channels, or numbers as parameters.
+    /// If the number of lists is not the number of channels, or a list does not have one number per parameter.
     pub fn new(model: Model, channels: Channels, wavelength: Option<f64>, parameters: Vec<Vec<f64>>) -> Self {
         assert_eq!(parameters.len(), channels.count(), "parameters of each channel");
         assert!(parameters.iter().all(|list| list.len() == model.parameters().len()), "all parameters of the model");
@@ -35,7 +35,7 @@ impl Fitted {
         Fitted { model, aspect: Aspect::REFLECTION, channels, wavelengths, parameters }
     }
 
-    /// The same for light on other sides of the surface.
+    /// The same for other sides of the surface.
     #[must_use]
     pub fn on(self, aspect: Aspect) -> Self {
         Fitted { aspect, ..self }

@@ -1,4 +1,4 @@
-//! A pair of directions, with what models ask of it.
+//! A pair of directions, with the quantities that models need.
 
 /// Two directions above the surface, normal on +z, and their half vector.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -7,7 +7,7 @@ pub struct Geometry {
     pub wi: [f64; 3],
     /// To the viewer.
     pub wo: [f64; 3],
-    /// Between both, of unit length.
+    /// The half vector, of unit length.
     pub h: [f64; 3],
     /// The cosine of the angle between either direction and `h`.
     pub cos_d: f64,

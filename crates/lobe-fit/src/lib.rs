@@ -1,6 +1,6 @@
-//! Fits of models to measured materials: the parameters, how sure they are, and where the model fails.
+//! Fits of models to measured materials: the parameters, their uncertainties, and where the model fails.
 //!
-//! - [`Model`]: what can be fitted, from Lambert to OpenPBR, glTF and the scatter of smooth optics;
+//! - [`Model`]: the models, from Lambert to OpenPBR, glTF and the scatter of smooth optics;
 //! - [`Measurement`]: pairs of directions and their values, from a file or a program;
 //! - [`fit`]: bounded least squares from several starts, with the weights that [`Request`] chooses;
 //! - [`Fit`]: estimates with uncertainties, [`Residuals`], and [`Fitted`], a [`Bsdf`](lobe_table::Bsdf) like any other;

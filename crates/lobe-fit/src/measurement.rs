@@ -7,26 +7,26 @@ use thiserror::Error;
 
 use crate::geometry::Geometry;
 
-/// What a model is fitted to.
+/// The values to which a model is fitted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measurement {
     pub(crate) channels: Channels,
     pub(crate) pairs: Vec<Geometry>,
     /// `[pair][channel]`.
     pub(crate) values: Vec<f64>,
-    /// Pairs that are 0 in all channels, which files write for what they have not measured.
+    /// The number of pairs that are 0 in all channels, which in files means "not measured".
     pub(crate) left_out: usize,
 }
 
-/// Why values make no measurement.
+/// Values that are not a valid measurement.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum MeasurementError {
-    /// There is not a value for every pair and channel.
+    /// There is not one value per pair and channel.
     #[error("found {found} values; expected {expected}, one per pair of directions and channel")]
     Count {
-        /// The values that there are.
+        /// The number of values found.
         found: usize,
-        /// As many as pairs times channels.
+        /// The number of pairs times channels.
         expected: usize,
     },
     /// A value is infinite or not a number.
@@ -78,8 +78,8 @@ impl Measurement {
         Ok(measurement)
     }
 
-    /// Up to about `count` pairs of what a file has measured, with polar angles up to `limit` in radians: its own pairs of
-    /// directions if it lists them, or else pairs between which it interpolates, every other one near the mirror direction.
+    /// Up to about `count` pairs of the measurement in a file, with polar angles up to `limit` in radians: its own
+    /// pairs of directions if it lists them, otherwise interpolated pairs, half of them near the mirror direction.
     pub fn of_subject(subject: &Subject, aspect: Aspect, limit: f64, count: usize) -> Measurement {
         let Some(data) = subject.data(aspect) else { return Measurement::empty(subject.material.channels().clone()) };
         let data = data.representation();
@@ -139,7 +139,7 @@ impl Measurement {
     /// One channel of it.
     ///
     /// # Panics
-    /// If there is no channel of this index.
+    /// If there is no channel with this index.
     pub fn channel(&self, index: usize) -> Measurement {
         let count = self.channels.count();
         let channels = match &self.channels {
@@ -162,7 +162,7 @@ impl Measurement {
         Ok(Measurement { channels: Channels::Rgb, values, pairs: self.pairs.clone(), left_out: self.left_out })
     }
 
-    /// About `count` of its pairs, evenly.
+    /// About `count` of its pairs, evenly chosen.
     pub(crate) fn thinned(&self, count: usize) -> Measurement {
         let channels = self.channels.count();
         let mut thinned = Measurement::empty(self.channels.clone());
@@ -207,7 +207,7 @@ fn nodes(data: &dyn Representation, aspect: Aspect, limit: f64, count: usize) ->
     let lowest = limit.cos() - 1e-9;
     let mut lights = data.incidences(aspect);
     lights.retain(|[theta, _]| theta.cos() >= lowest);
-    // Slices of an isotropic material at other azimuths say nothing new, and neither does the end of a full turn.
+    // Slices of an isotropic material at other azimuths add nothing, and neither does the end of a full turn.
     lights.dedup_by(|a, b| same(spherical(*a), spherical(*b)));
     let lights: Vec<[f64; 2]> = spread(lights.len(), count).into_iter().map(|index| lights[index]).collect();
     let quota = count.div_ceil(lights.len().max(1));
@@ -216,7 +216,7 @@ fn nodes(data: &dyn Representation, aspect: Aspect, limit: f64, count: usize) ->
         let is_measured = data.coverage(light);
         let mut outgoing = data.outgoing(light);
         outgoing.retain(|wo| wo[2] >= lowest.max(1e-3) && is_measured(*wo));
-        // A pole is one direction, whatever the azimuth.
+        // A pole is one direction, for all azimuths.
         outgoing.dedup_by(|a, b| same(*a, *b));
         let wi = spherical(light);
         pairs.extend(spread(outgoing.len(), quota).into_iter().map(|index| (wi, outgoing[index])));
@@ -224,7 +224,7 @@ fn nodes(data: &dyn Representation, aspect: Aspect, limit: f64, count: usize) ->
     pairs
 }
 
-/// Pairs of directions that were measured by a representation that has no list of them.
+/// Pairs of directions for a representation that does not list its own.
 fn between(data: &dyn Representation, limit: f64, count: usize) -> Vec<([f64; 3], [f64; 3])> {
     let mut pairs = direction_pairs(count, limit);
     pairs.retain(|(wi, wo)| data.coverage([wi[2].clamp(-1.0, 1.0).acos(), wi[1].atan2(wi[0])])(*wo));
@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_measurement_is_refused() {
+    fn invalid_measurements_are_refused() {
         let up = [0.0, 0.0, 1.0];
         let new = |pair, values: &[f64]| Measurement::new(Channels::Mono, &[pair], values);
         assert!(matches!(new((up, up), &[]), Err(MeasurementError::Count { found: 0, expected: 1 })));

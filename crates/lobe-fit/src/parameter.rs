@@ -1,15 +1,15 @@
-//! What a model is described by.
+//! The parameters of models.
 
-/// For what a parameter is one number.
+/// The scope of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// For all channels: the shape of a lobe.
+    /// One number for all channels: the shape of a lobe.
     Shape,
-    /// For each channel: a colour.
+    /// One number per channel: a colour.
     Channel,
 }
 
-/// How a parameter is varied between its bounds.
+/// The way in which a parameter is varied between its bounds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spacing {
     /// Evenly.
@@ -23,17 +23,17 @@ pub enum Spacing {
 /// A parameter of a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
-    /// What it is called in files and on the command line.
+    /// Its name in files and on the command line.
     pub name: &'static str,
-    /// What it means, with its unit.
+    /// Its meaning, with its unit.
     pub meaning: &'static str,
-    /// For what it is one number.
+    /// Its scope.
     pub scope: Scope,
-    /// The least value that a fit finds.
+    /// The smallest value that a fit can find.
     pub low: f64,
-    /// The largest value that a fit finds.
+    /// The largest value that a fit can find.
     pub high: f64,
-    /// How it is varied between them.
+    /// The way in which it is varied between them.
     pub spacing: Spacing,
 }
 
@@ -75,7 +75,8 @@ impl Parameter {
         ((position - low) / (high - low)).clamp(0.0, 1.0)
     }
 
-    /// The value of a number that the optimiser may move without bounds (as MINUIT does: the sine keeps it within them).
+    /// The value for a number that the optimiser may move without bounds (as in MINUIT, the sine keeps the value within
+    /// them).
     pub(crate) fn value(&self, free: f64) -> f64 {
         self.at(0.5 * (free.sin() + 1.0))
     }
@@ -87,7 +88,7 @@ impl Parameter {
         if self.spacing == Spacing::Linear { slope } else { slope * self.value(free) }
     }
 
-    /// The number of a value: the inverse of [`value`](Self::value).
+    /// The number for a value: the inverse of [`value`](Self::value).
     pub(crate) fn free(&self, value: f64) -> f64 {
         (2.0 * self.share(value) - 1.0).asin()
     }

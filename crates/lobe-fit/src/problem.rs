@@ -1,4 +1,4 @@
-//! A fit as a problem of least squares.
+//! A fit as a least-squares problem.
 
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use lobe_colour::Channels;
@@ -12,23 +12,23 @@ use crate::parameter::{Parameter, Scope};
 use crate::real::{Dual, MOST};
 use crate::weights::Weights;
 
-/// How a difference becomes a residual.
+/// The conversion of a difference to a residual.
 #[derive(Clone, Debug)]
 enum Scale {
-    /// It is multiplied by the weight of its value.
+    /// The difference is multiplied by the weight of its value.
     Weighted(Vec<f64>),
-    /// Logarithms are subtracted, of values above this floor.
+    /// The difference of logarithms, with this floor under the values.
     Log(f64),
 }
 
-/// What the residuals of a measurement are.
+/// The residuals of a measurement.
 #[derive(Clone, Debug)]
 pub(crate) struct Problem<'a> {
     model: Model,
     measurement: &'a Measurement,
     wavelengths: Vec<f64>,
     scale: Scale,
-    /// Residuals larger than this count by their size, not its square.
+    /// Residuals larger than this count linearly instead of quadratically.
     robust: Option<f64>,
     /// The free numbers: those of the shape, then those of each channel.
     free: DVector<f64>,
@@ -36,7 +36,7 @@ pub(crate) struct Problem<'a> {
 
 /// More residuals than this are worth several threads.
 const MANY: usize = 4096;
-/// The share of the median value that logarithms and relative differences treat as nothing.
+/// The share of the median value that logarithms and relative differences use as a floor.
 const FLOOR: f64 = 1e-3;
 
 impl<'a> Problem<'a> {
@@ -68,19 +68,19 @@ impl<'a> Problem<'a> {
         problem
     }
 
-    /// Moves to other values of the parameters.
+    /// Sets other values of the parameters.
     pub fn place(&mut self, values: &[f64]) {
         let free: Vec<f64> = self.columns().zip(values).map(|(parameter, value)| parameter.free(*value)).collect();
         self.free = DVector::from_vec(free);
     }
 
-    /// Makes residuals relative to the values that the model has now.
+    /// Makes residuals relative to the current values of the model.
     pub fn make_relative(&mut self) {
         let floor = floor(self.measurement);
         self.scale = Scale::Weighted(self.modelled().into_iter().map(|value| (value.abs() + floor).recip()).collect());
     }
 
-    /// Makes outliers count less: those beyond 1.345 standard deviations, as Huber has it.
+    /// Makes outliers count less: those beyond 1.345 standard deviations, after Huber.
     pub fn make_robust(&mut self) {
         self.robust = None;
         let mut sizes: Vec<f64> = self.rows().iter().map(|row| row.abs()).collect();
@@ -105,7 +105,7 @@ impl<'a> Problem<'a> {
         if cost.is_finite() { cost } else { f64::INFINITY }
     }
 
-    /// Minimises the cost from where the parameters are; whether that came to an end.
+    /// Minimises the cost, starting with the current parameters; returns whether it converged.
     pub fn minimise(self, tolerance: f64, patience: usize) -> (Self, bool) {
         let method = LevenbergMarquardt::new().with_tol(tolerance).with_patience(patience);
         let (problem, report) = method.minimize(self);
@@ -153,7 +153,7 @@ impl<'a> Problem<'a> {
             }
         };
         match self.robust {
-            // The root of Huber's smooth loss is a residual whose square is that loss.
+            // The square root of Huber's smooth loss is a residual whose square is that loss.
             Some(width) if residual.abs() > 1e-6 * width => {
                 let long = (residual / width).hypot(1.0);
                 let root = (2.0 * (long - 1.0)).sqrt() * width;
@@ -197,7 +197,7 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// The parameters of a model for so many channels, in the order of a fit.
+/// The parameters of a model for this many channels, in the order of a fit.
 pub(crate) fn columns(model: Model, channels: usize) -> impl Iterator<Item = &'static Parameter> {
     let (shape, own) = model.parameters().split_at(model.shapes());
     debug_assert!(shape.iter().all(|parameter| parameter.scope == Scope::Shape));
@@ -222,7 +222,7 @@ fn normalised(measurement: &Measurement, weight: impl Fn(usize) -> f64) -> Vec<f
     weights
 }
 
-/// What logarithms treat as nothing.
+/// The floor of logarithms.
 fn floor(measurement: &Measurement) -> f64 {
     let mut positive: Vec<f64> = measurement.values.iter().copied().filter(|value| *value > 0.0).collect();
     positive.sort_by(f64::total_cmp);

@@ -1,8 +1,8 @@
-//! Numbers that know their derivatives.
+//! Numbers with derivatives.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// What formulas are written in: a number, or a number with its derivatives.
+/// The number type of formulas: a number, or a number with its derivatives.
 pub(crate) trait Real:
     Copy
     + Add<Output = Self>
@@ -55,7 +55,7 @@ pub(crate) trait Real:
         -self + 1.0
     }
 
-    /// From `self` to `other` by the share `t`.
+    /// Interpolates from `self` to `other` by the share `t`.
     fn lerp(self, other: Self, t: Self) -> Self {
         self + (other - self) * t
     }

@@ -1,4 +1,4 @@
-//! By how much a model fails, and where.
+//! The errors of a model, and where they occur.
 
 use lobe_table::Bsdf as _;
 use serde::Serialize;
@@ -17,7 +17,7 @@ pub struct Residuals {
     pub max: f64,
     /// The root of the mean squared difference.
     pub rms: f64,
-    /// The mean of the model less the measurement.
+    /// The mean of the model minus the measurement.
     pub bias: f64,
     /// `rms` relative to the root of the mean squared measurement.
     pub relative_rms: f64,
@@ -31,7 +31,7 @@ pub struct Residuals {
     pub by_distance: Vec<Band>,
 }
 
-/// The differences of the pairs whose angle lies in an interval.
+/// The differences of the pairs whose angle is in an interval.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Band {
     /// The ends of the interval in degrees.
@@ -42,7 +42,7 @@ pub struct Band {
     pub rms: f64,
     /// The same relative to the root of the mean squared measurement of the band.
     pub relative_rms: f64,
-    /// The mean of the model less the measurement, in 1/sr.
+    /// The mean of the model minus the measurement, in 1/sr.
     pub bias: f64,
 }
 
@@ -85,7 +85,7 @@ const DISTANCES: [f64; 8] = [0.0, 1.0, 3.0, 8.0, 20.0, 45.0, 90.0, 180.0];
 /// Compares a model with the pairs of a measurement.
 ///
 /// # Panics
-/// If their channels differ in number.
+/// If the numbers of channels differ.
 pub fn residuals(fitted: &Fitted, measurement: &Measurement) -> Residuals {
     let count = measurement.channels.count();
     assert_eq!(fitted.channels().count(), count, "the same channels");

@@ -1,4 +1,4 @@
-//! How sure the parameters are.
+//! The uncertainties of the parameters.
 
 use std::f64::consts::TAU;
 
@@ -10,13 +10,13 @@ use crate::geometry::Geometry;
 /// is not determined by them.
 const UNDETERMINED: f64 = 1e-12;
 
-/// The standard deviations of the parameters that are `free` to move: `None` of those that are not, or that the measurement
-/// does not determine.
+/// The standard deviations of the parameters that are `free` to move; `None` for those that are not, or that the
+/// measurement does not determine.
 ///
-/// `rows` are residuals `[pair][channel]` and `slopes` their derivatives, row by row. The estimate needs no assumption on the
-/// size of the noise in each direction (the sandwich of P. Huber and H. White). It is made twice, with the residuals of all
-/// pairs independent of each other, and with those of neighbouring pairs summed, since the errors of an interpolation, of an
-/// instrument and of a model are alike there; the larger counts.
+/// `rows` are residuals `[pair][channel]` and `slopes` their derivatives, row by row. The estimate needs no assumption
+/// on the size of the noise in each direction (the sandwich of P. Huber and H. White). It is made twice, with the
+/// residuals of all pairs independent of each other, and with those of neighbouring pairs summed, because the errors of
+/// an interpolation, of an instrument and of a model are similar there; the larger is used.
 pub(crate) fn deviations(pairs: &[Geometry], rows: &[f64], slopes: &[f64], free: &[bool]) -> Vec<Option<f64>> {
     let (width, count) = (free.len(), rows.len() / pairs.len().max(1));
     let kept: Vec<usize> = (0..width).filter(|&column| free[column]).collect();
@@ -108,26 +108,26 @@ mod tests {
         lobe_ops::direction_pairs(600, 1.3).into_iter().map(|(wi, wo)| Geometry::new(wi, wo)).collect()
     }
 
-    /// The deviation of a mean is that of the values over the root of their number.
+    /// The deviation of a mean is that of the values divided by the square root of their number.
     #[test]
-    fn a_mean_is_as_sure_as_it_should_be() {
+    fn a_mean_has_the_right_uncertainty() {
         let pairs = pairs();
         let rows: Vec<f64> = (0..pairs.len()).map(|index| if index % 2 == 0 { 0.1 } else { -0.1 }).collect();
         let slopes = vec![1.0; rows.len()];
         let found = deviations(&pairs, &rows, &slopes, &[true])[0].expect("a deviation");
         let expected = 0.1 / (rows.len() as f64).sqrt();
         assert!((0.99..2.0).contains(&(found / expected)), "{found} for {expected}");
-        // Errors that are alike where directions are near each other say less.
+        // Errors that are similar for neighbouring directions contain less information.
         let rows: Vec<f64> = pairs.iter().map(|pair| if pair.off_mirror() < 0.3 { 0.1 } else { -0.1 }).collect();
         let alike = deviations(&pairs, &rows, &slopes, &[true])[0].expect("a deviation");
         assert!(alike > 1.8 * expected, "{alike} and {expected}");
     }
 
     #[test]
-    fn what_is_not_determined_has_no_deviation() {
+    fn undetermined_parameters_have_no_deviation() {
         let pairs = pairs();
         let rows: Vec<f64> = (0..pairs.len()).map(|index| (index as f64).sin()).collect();
-        // The first two do the same to all residuals, the last does nothing; the fourth is not free.
+        // The first two have the same effect on all residuals, the last has none; the fourth is not free.
         let of_pair = |pair: &Geometry| [pair.cos_i(), 2.0 * pair.cos_i(), pair.cos_o(), 1.0, 0.0];
         let slopes: Vec<f64> = pairs.iter().flat_map(of_pair).collect();
         let found = deviations(&pairs, &rows, &slopes, &[true, true, true, false, true]);

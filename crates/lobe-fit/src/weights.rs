@@ -1,23 +1,23 @@
-//! What a difference between a measured and a modelled value counts.
+//! The weights of differences between measured and modelled values.
 
 /// The weights of a fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weights {
-    /// Differences of `f` times the root of both cosines: what an eye sees of a lit surface.
+    /// Differences of `f` times the square root of the product of both cosines, as in the appearance of a lit surface.
     Cosine,
     /// Differences of `f`.
     Value,
-    /// Differences of the logarithm of `f`: dim directions count like bright ones. Noise makes its mean a little low.
+    /// Differences of the logarithm of `f`: dim directions count like bright ones. Noise makes its mean slightly low.
     Log,
-    /// Differences of `f` relative to the model, which is what measurements with a relative error ask for.
+    /// Differences of `f` relative to the model, as is right for measurements with a relative error.
     Relative,
 }
 
 impl Weights {
-    /// All of them.
+    /// All weights.
     pub const ALL: [Weights; 4] = [Weights::Cosine, Weights::Value, Weights::Log, Weights::Relative];
 
-    /// The word for it.
+    /// Its name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Weights::Cosine => "cosine",

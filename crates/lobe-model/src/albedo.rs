@@ -1,4 +1,4 @@
-//! How much of the light from one direction a model sends back.
+//! The share of the light from one direction that a model reflects.
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,4 +1,4 @@
-//! Varnish on something.
+//! A clear coat on a base.
 
 use crate::vec3::{add, dot, normalize};
 use crate::{Ggx, Model, fresnel_conductor};

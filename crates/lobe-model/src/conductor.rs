@@ -4,8 +4,9 @@ use crate::Model;
 use crate::microfacet::Ggx;
 use crate::vec3::{add, dot, normalize};
 
-/// A metal of GGX microfacets: `f = D F / (4 cos_i cos_o (1 + lambda_i + lambda_o))`, with the height-correlated masking of
-/// Heitz 2014, equation 99 (see [`Ggx`]). Light that meets two facets is lost, so very rough metal is a little too dark.
+/// A metal of GGX microfacets: `f = D F / (4 cos_i cos_o (1 + lambda_i + lambda_o))`, with the height-correlated
+/// masking of Heitz 2014, equation 99 (see [`Ggx`]). Light that hits two facets is lost, so very rough metal is
+/// slightly too dark.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conductor {
     /// The facets.
@@ -27,7 +28,7 @@ impl Model for Conductor {
     }
 }
 
-/// Reflectance of a smooth conductor in vacuum for unpolarised light, from the cosine of the angle of incidence.
+/// The reflectance of a smooth conductor in vacuum for unpolarised light, from the cosine of the angle of incidence.
 ///
 /// The exact Fresnel equations for a complex refractive index `eta + i k`: M. Born and E. Wolf, *Principles of optics*,
 /// section 14.2 (7th edition).
@@ -38,7 +39,8 @@ pub fn fresnel_conductor(cos: f64, eta: f64, k: f64) -> f64 {
     let modulus = difference.hypot(2.0 * eta * k);
     let a = (0.5 * (modulus + difference)).max(0.0).sqrt();
     let perpendicular = (modulus + cos2 - 2.0 * a * cos) / (modulus + cos2 + 2.0 * a * cos);
-    // The parallel reflectance over the perpendicular one, times cos^2 above and below so that nothing divides by zero.
+    // The parallel reflectance over the perpendicular one, with numerator and denominator multiplied by cos^2 to avoid
+    // a division by zero.
     let (even, odd) = (modulus * cos2 + sin2 * sin2, 2.0 * a * cos * sin2);
     0.5 * perpendicular * (1.0 + (even - odd) / (even + odd))
 }
@@ -78,14 +80,15 @@ mod tests {
     }
 
     #[test]
-    fn reflects_no_more_than_it_gets() {
+    fn reflects_no_more_than_it_receives() {
         for alpha in [[0.2, 0.2], [0.15, 0.5], [1.0, 1.0]] {
             for theta in [0.0, 0.8, 1.3, 1.5] {
                 let got = albedo(&silvered(alpha), spherical(theta, 0.9), 200)[0];
                 assert!(got <= 1.0 + 2e-3, "{got} at {theta} with {alpha:?}");
             }
         }
-        // At the zenith what facets steeper than 45 degrees mirror is lost below the horizon: alpha^2 / (1 + alpha^2).
+        // For light from the zenith, the light mirrored by facets steeper than 45 degrees is lost below the horizon:
+        // alpha^2 / (1 + alpha^2).
         let smooth = albedo(&silvered([0.15, 0.15]), [0.0, 0.0, 1.0], 200)[0];
         assert!(smooth < 1.0 / (1.0 + 0.15 * 0.15) && smooth > 0.97, "{smooth}");
         let [r, g, b] = albedo(&gold([0.2, 0.2]), spherical(0.5, 0.0), 100);

@@ -1,8 +1,8 @@
-//! Fresnel's equations with phases: what a smooth surface does to polarised light.
+//! Fresnel's equations with phases: the effect of a smooth surface on polarised light.
 //!
-//! Time goes as `exp(-i omega t)`, so that an absorbing medium has the index `n + i k` with `k > 0`. The x axis of the Stokes
-//! frames is the normal of the plane of incidence, before and after; see M. Born and E. Wolf, *Principles of optics*, 1.5
-//! and 14.2 (7th edition).
+//! The time dependence is `exp(-i omega t)`, so an absorbing medium has the index `n + i k` with `k > 0`. The x axis of
+//! the Stokes frames is the normal of the plane of incidence, before and after; see M. Born and E. Wolf, *Principles of
+//! optics*, 1.5 and 14.2 (7th edition).
 
 /// A complex number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +37,7 @@ impl Complex {
         self.re * self.re + self.im * self.im
     }
 
-    /// The root whose imaginary part is not negative: a wave that fades.
+    /// The square root whose imaginary part is not negative: a decaying wave.
     fn root(self) -> Self {
         let size = self.norm().sqrt();
         let re = (0.5 * (size + self.re)).max(0.0).sqrt();
@@ -46,17 +46,17 @@ impl Complex {
     }
 }
 
-/// What a surface does to Stokes vectors: the Mueller matrix `[[a, b, 0, 0], [b, a, 0, 0], [0, 0, c, s], [0, 0, -s, c]]`, with the
-/// normal of the plane of incidence as the x axis of the frames.
+/// The effect of a surface on Stokes vectors: the Mueller matrix `[[a, b, 0, 0], [b, a, 0, 0], [0, 0, c, s], [0, 0, -s,
+/// c]]`, with the normal of the plane of incidence as the x axis of the frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Elements {
     /// The share of unpolarised light.
     pub a: f64,
-    /// How much more of light across the plane of incidence than of light in it.
+    /// The excess for light polarised perpendicular to the plane of incidence over light polarised in it.
     pub b: f64,
-    /// What is left of diagonal and of circular light.
+    /// The remaining share of diagonal and of circular light.
     pub c: f64,
-    /// What is turned from one of these into the other.
+    /// The share converted from one of these into the other.
     pub s: f64,
 }
 
@@ -74,14 +74,15 @@ impl Elements {
     }
 }
 
-/// What is mirrored at a surface with the relative index `eta + i k` of what is behind it, and what goes through, in parts of
-/// the energy; nothing does behind an absorbing surface or if all is mirrored.
+/// Reflection at a surface and transmission through it, as shares of the energy; `eta + i k` is the relative index
+/// behind the surface. There is no transmission into an absorbing medium, or at total reflection.
 pub fn fresnel(cos: f64, eta: f64, k: f64) -> (Elements, Elements) {
     let cos = cos.clamp(0.0, 1.0);
     let index = Complex { re: eta, im: k };
     let index2 = index.times(index);
     let sin2 = 1.0 - cos * cos;
-    // The normal component of the wave behind the surface, over the length of that in front: n_t cos_t.
+    // The normal component of the wave vector behind the surface, relative to the length of the one in front: n_t
+    // cos_t.
     let through = index2.plus(Complex { re: -sin2, im: 0.0 }).root();
     let front = Complex { re: cos, im: 0.0 };
     let perpendicular = front.plus(through.scaled(-1.0)).over(front.plus(through));
@@ -103,7 +104,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn at_brewsters_angle_what_is_mirrored_is_polarised() {
+    fn reflection_at_brewsters_angle_is_polarised() {
         for eta in [1.33f64, 1.5, 2.4] {
             let angle = eta.atan();
             let (mirrored, passed) = fresnel(angle.cos(), eta, 0.0);
@@ -133,14 +134,14 @@ mod tests {
     }
 
     #[test]
-    fn without_phases_it_is_what_unpolarised_light_sees() {
+    fn unpolarised_light_gives_the_scalar_reflectance() {
         for (eta, k) in [(0.143, 3.983), (1.5, 0.0), (2.0, 1.0)] {
             for cos in [1.0, 0.8, 0.4, 0.05] {
                 let expected = crate::fresnel_conductor(cos, eta, k);
                 assert!((fresnel(cos, eta, k).0.a - expected).abs() < 1e-12, "{eta} {k} {cos}");
             }
         }
-        // At the normal both parts are alike, with opposite signs in these frames.
+        // At the normal, both parts are equal, with opposite signs in these frames.
         let (mirrored, _) = fresnel(1.0, 1.5, 0.0);
         assert!((mirrored.c + mirrored.a).abs() < 1e-12 && mirrored.b.abs() < 1e-12);
     }

@@ -18,17 +18,17 @@ use crate::{Model, Rgb, Surface};
 
 /// Measures `model` at every node of `knots` (sigma, psi, theta, phi in radians, as in [`specular::Data`]).
 ///
-/// - Nodes at `theta` 0 and `pi` are one direction whatever `phi`, and the last `phi` or `psi` knot of a full circle is its
-///   first: they are measured once and get equal values.
+/// - Nodes at `theta` 0 and `pi` are one direction for all `phi`, and the last `phi` or `psi` knot of a full circle
+///   equals the first: they are measured once and get equal values.
 /// - Nodes below the surface cannot be measured, but a table needs values there to interpolate toward the horizon. They
-///   hold the value of the same azimuth just above it: see [`lift`]. The light is lifted in the same way, so `sigma` may be
-///   90 degrees.
+///   get the value at the same azimuth just above it: see [`lift`]. The light is lifted in the same way, so `sigma` may
+///   be 90 degrees.
 ///
-/// Directions of the light are shared out over the threads of rayon; the values do not depend on their number. `progress`
-/// is called after each of them; there are sigma knots times psi knots.
+/// Directions of the light are divided among the threads of rayon; the values do not depend on their number. `progress`
+/// is called after each direction of the light, of which there are as many as sigma knots times psi knots.
 ///
 /// # Errors
-/// [`GridError`] if the knots make no table.
+/// [`GridError`] if the knots do not form a table.
 pub fn measure(
     model: &(impl Model + Sync),
     knots: [Vec<f64>; 4],
@@ -37,7 +37,7 @@ pub fn measure(
     measure_surface(&Rgb(model), Scatter::Reflection, knots, progress)
 }
 
-/// As [`measure`], of any surface, and on either side of it: the viewers of transmission are below.
+/// As [`measure`], for any surface, and on either side of it: for transmission, viewers are below.
 ///
 /// # Errors
 /// As [`measure`].
@@ -52,7 +52,7 @@ pub fn measure_surface(
     let measured: Vec<Vec<f32>> = lights
         .par_iter()
         .map(|&(sigma, psi)| {
-            // A second look at the first position of a full turn would only repeat it.
+            // The last position of a full turn would only repeat the first.
             let psi = if closes_circle(psi, psis) { psis[0] } else { psi };
             let slice = measure_light(surface, scatter, [sigma, psi], thetas, phis);
             progress();
@@ -91,7 +91,7 @@ fn measure_light(
     viewer_of_node.into_iter().flat_map(texel).collect()
 }
 
-/// Knots that were degrees in a file come back to within this of the pole or the full turn.
+/// Knots that were degrees in a file are within this of the pole or the full turn.
 const ANGLE_ROUNDING: f64 = 1e-6;
 
 fn at_pole(theta: f64) -> bool {
@@ -104,7 +104,7 @@ fn closes_circle(angle: f64, knots: &[f64]) -> bool {
 
 /// The height of the lowest direction that is measured: 1.1 degrees above the horizon.
 const LOWEST: f64 = 0.02;
-/// Directions higher than this, 3.4 degrees, are measured as they are.
+/// Directions higher than this, 3.4 degrees, are measured unchanged.
 const UNTOUCHED: f64 = 0.06;
 
 /// A direction that can be measured, close to `w`: `w` itself if its z is above 0.06, or else the same azimuth at a
@@ -116,7 +116,7 @@ pub fn lift(w: [f64; 3]) -> [f64; 3] {
     let room = UNTOUCHED - LOWEST;
     let z = LOWEST + room * ((w[2] - UNTOUCHED) / room).exp();
     let across = w[0].hypot(w[1]);
-    // Straight down the azimuth comes from rounding errors only, and any will do.
+    // Straight down, the azimuth comes only from rounding errors, and any azimuth is acceptable.
     let (x, y) = if across > 1e-9 { (w[0] / across, w[1] / across) } else { (1.0, 0.0) };
     let radius = (1.0 - z * z).sqrt();
     [x * radius, y * radius, z]
@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn lift_changes_only_what_cannot_be_measured() {
+    fn lift_changes_only_directions_that_cannot_be_measured() {
         let w = angles_to_directions([1.0, 0.3, 0.2, 0.4], |sigma| sigma).1;
         assert_eq!(lift(w), w);
         let at = |z: f64| lift([(1.0 - z * z).sqrt(), 0.0, z])[2];
@@ -215,7 +215,7 @@ mod tests {
         assert_eq!(on(1), on(3));
     }
 
-    /// Makes a large difference of the smallest one.
+    /// A surface that turns the smallest difference into a large one.
     struct Chaos;
 
     impl Model for Chaos {

@@ -1,8 +1,8 @@
 //! Reflectance to measure: analytic models, a simulated woven cloth, and the virtual goniometers that turn them, or any
 //! other [`Surface`], into a table of any representation.
 //!
-//! Everything here is plain `f64` on one direction pair at a time: the reference that tables are made from and compared
-//! with, not the evaluator.
+//! Everything here is plain `f64` for one pair of directions at a time: the reference from which tables are made and
+//! with which they are compared, not the evaluator.
 //!
 //! Directions are unit vectors that point away from the surface, whose normal is `+z`: `wi` toward the light, `wo` toward
 //! the viewer. Values are RGB in 1/sr without the cosine.

@@ -1,4 +1,4 @@
-//! Rough surfaces as a crowd of small mirrors.
+//! Rough surfaces as collections of small mirrors.
 
 use std::f64::consts::{PI, TAU};
 
@@ -26,7 +26,7 @@ impl Ggx {
         1.0 / (PI * ax * ay * q * q)
     }
 
-    /// Smith's auxiliary function: the facets that hide others from `w`, for each that is seen.
+    /// Smith's auxiliary function: the hidden facets per facet visible from `w`.
     pub fn lambda(&self, w: [f64; 3]) -> f64 {
         let [ax, ay] = self.alpha;
         let tan2 = ((ax * w[0]).powi(2) + (ay * w[1]).powi(2)) / (w[2] * w[2]);
@@ -42,7 +42,7 @@ impl Ggx {
         self.distribution(normalize(add(wi, wo))) / (4.0 * wi[2] * wo[2] * masking)
     }
 
-    /// A facet normal as `wi` sees them, from two uniform numbers in `[0, 1)`.
+    /// A facet normal visible from `wi`, from two uniform numbers in `[0, 1)`.
     ///
     /// E. Heitz, *Sampling the GGX distribution of visible normals*, JCGT 7(4), 2018.
     pub fn visible_normal(&self, wi: [f64; 3], u: [f64; 2]) -> [f64; 3] {
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn projected_area_of_the_facets_is_that_of_the_surface() {
+    fn projected_area_of_the_facets_equals_the_surface() {
         for ggx in MODELS {
             let area = integrate(|h| ggx.distribution(h) * h[2]);
             assert!((area - 1.0).abs() < 1e-4, "{area} for {ggx:?}");

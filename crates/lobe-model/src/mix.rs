@@ -2,9 +2,8 @@
 
 use crate::Model;
 
-/// A surface of patches too small to see, a `share` of which are `b` and the rest `a`.
-///
-/// Reciprocal and energy conserving wherever both parts are, which the plain sum of a diffuse and a glossy model is not.
+/// A surface of invisibly small patches, a `share` of which is `b` and the rest `a`. Reciprocal and energy conserving
+/// if both parts are, unlike the plain sum of a diffuse and a glossy model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mix<A, B> {
     /// The material of the rest of the area.

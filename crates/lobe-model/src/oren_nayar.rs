@@ -9,7 +9,7 @@ use crate::Model;
 ///
 /// `f = albedo/pi (A + B max(0, cos(phi_i - phi_o)) sin(alpha) tan(beta))` with `A = 1 - s^2 / (2 (s^2 + 0.33))`,
 /// `B = 0.45 s^2 / (s^2 + 0.09)`, `alpha` and `beta` the larger and the smaller polar angle, `s` the roughness.
-/// It leaves out light that goes from wall to wall, and being a fit it can reflect up to 1.5 % more than `albedo` at grazing
+/// It leaves out interreflection between walls and, being a fit, can reflect up to 1.5 % more than `albedo` at grazing
 /// incidence for roughness near 0.2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrenNayar {
@@ -27,7 +27,7 @@ impl Model for OrenNayar {
         let s2 = self.roughness * self.roughness;
         let a = 1.0 - 0.5 * s2 / (s2 + 0.33);
         let b = 0.45 * s2 / (s2 + 0.09);
-        // sin(alpha) tan(beta) = sin_i sin_o / cos(beta), and sin_i sin_o cos(phi_i - phi_o) needs no angle at all.
+        // sin(alpha) tan(beta) = sin_i sin_o / cos(beta), and sin_i sin_o cos(phi_i - phi_o) needs no angles.
         let along = (wi[0] * wo[0] + wi[1] * wo[1]).max(0.0);
         let grooves = a + b * along / wi[2].max(wo[2]);
         self.albedo.map(|albedo| albedo / PI * grooves)
@@ -52,7 +52,7 @@ mod tests {
         let model = OrenNayar { albedo: [0.7; 3], roughness: 0.5 };
         let wi = spherical(1.2, 0.0);
         assert!(model.f(wi, wi)[0] > 1.5 * model.f(wi, spherical(1.2, PI))[0]);
-        // Toward the light: alpha = beta, so A + B sin tan.
+        // Toward the light, alpha = beta, so the factor is A + B sin tan.
         let (a, b) = (1.0 - 0.125 / 0.58, 0.45 * 0.25 / 0.34);
         let expected = 0.7 / PI * (a + b * 1.2f64.sin() * 1.2f64.tan());
         assert!((model.f(wi, wi)[0] - expected).abs() < 1e-12);

@@ -5,11 +5,10 @@ use std::f64::consts::TAU;
 use crate::Model;
 use crate::vec3::{dot, reflect};
 
-/// The lobe of B. T. Phong, *Illumination for computer generated pictures*, CACM 18(6), 1975, in the reciprocal and energy
-/// conserving form of E. P. Lafortune and Y. D. Willems, *Using the modified Phong reflectance model for physically based
-/// rendering*, 1994: `f = specular (n + 2) / (2 pi) cos^n(angle between wo and the mirror direction)`.
-///
-/// All of the lobe is above the surface only for light from the zenith, where it reflects exactly `specular`.
+/// The lobe of B. T. Phong, *Illumination for computer generated pictures*, CACM 18(6), 1975, in the reciprocal and
+/// energy conserving form of E. P. Lafortune and Y. D. Willems, *Using the modified Phong reflectance model for
+/// physically based rendering*, 1994: `f = specular (n + 2) / (2 pi) cos^n(angle between wo and the mirror direction)`.
+/// The whole lobe is above the surface only for light from the zenith, of which it reflects exactly `specular`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Phong {
     /// Reflectance at the zenith, per channel, in `[0, 1]`.

@@ -1,4 +1,4 @@
-//! Rough surfaces that polarise.
+//! Rough surfaces that polarise light.
 
 use lobe_table::mueller::Matrix;
 use lobe_table::specular::coords::angles_to_directions;
@@ -8,7 +8,7 @@ use crate::fresnel::fresnel;
 use crate::microfacet::Ggx;
 use crate::vec3::dot;
 
-/// GGX microfacets, each a mirror by Fresnel's equations: a metal, or the surface of a dielectric without what passes through it.
+/// GGX microfacets, each a mirror with Fresnel's equations: a metal, or the reflection of a dielectric.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoughMirrors {
     /// The facets.
@@ -18,14 +18,14 @@ pub struct RoughMirrors {
 }
 
 impl RoughMirrors {
-    /// The Mueller matrix of a wavelength in 1/sr, without the cosine, for Stokes vectors with the x axis
+    /// The Mueller matrix at a wavelength in 1/sr, without the cosine, for Stokes vectors with the x axis
     /// [`plane_normal`](lobe_table::mueller::plane_normal). 0 below the surface.
     pub fn in_plane(&self, wi: [f64; 3], wo: [f64; 3], wavelength: usize) -> Matrix {
         let mirrors = self.ggx.mirrors(wi, wo);
         if mirrors <= 0.0 {
             return [[0.0; 4]; 4];
         }
-        // Of the angle to the half vector.
+        // The cosine of the angle to the half vector.
         let cos = (0.5 * (1.0 + dot(wi, wo))).clamp(0.0, 1.0).sqrt();
         let [n, k] = self.index[wavelength];
         fresnel(cos, n, k).0.matrix().map(|row| row.map(|element| mirrors * element))
@@ -34,7 +34,7 @@ impl RoughMirrors {
     /// The matrices at knots of sigma, psi, theta and phi, in radians. `step` is called after each direction of the light.
     ///
     /// # Errors
-    /// If the knots or the wavelengths, in nm, do not make a grid, or there are not as many wavelengths as indices.
+    /// If the knots or the wavelengths, in nm, do not form a grid, or the numbers of wavelengths and indices differ.
     pub fn measure(
         &self,
         knots: [Vec<f64>; 4],
@@ -68,7 +68,7 @@ mod tests {
     use crate::{Conductor, Model};
 
     #[test]
-    fn unpolarised_light_sees_a_metal_and_tables_have_its_matrices() {
+    fn unpolarised_values_are_those_of_a_metal_and_tables_have_its_matrices() {
         let ggx = Ggx { alpha: [0.3, 0.3] };
         let gold = RoughMirrors { ggx, index: vec![[0.143, 3.983], [0.375, 2.386], [1.442, 1.603]] };
         let model = Conductor { ggx, eta: [0.143, 0.375, 1.442], k: [3.983, 2.386, 1.603] };

@@ -1,4 +1,4 @@
-//! What a goniometer measures.
+//! The trait for anything that a goniometer can measure.
 
 use std::f64::consts::TAU;
 use std::fmt::Debug;
@@ -10,7 +10,7 @@ use lobe_table::{Bsdf, Channels, Directions};
 use crate::Model;
 use crate::vec3::spherical;
 
-/// Anything that has a value for a pair of directions: a model, a material from a file.
+/// Anything that has values for pairs of directions: a model, a material from a file.
 ///
 /// Directions are unit vectors that point away from the surface, normal on +z; `wi` toward the light. Values are `f` in
 /// 1/sr, without the cosine.
@@ -18,11 +18,12 @@ pub trait Surface: Sync {
     /// The meaning of the channels.
     fn channels(&self) -> &Channels;
 
-    /// The values for light from `wi` to each of the viewers: `out[viewer * channels + channel]`, which is as long as that.
+    /// The values for light from `wi` to each of the viewers: `out[viewer * channels + channel]`, with exactly this
+    /// length.
     fn f(&self, wi: [f64; 3], viewers: &[[f64; 3]], out: &mut [f64]);
 }
 
-/// A [`Model`] as a [`Surface`], and as a [`Bsdf`], of three channels, red, green and blue.
+/// A [`Model`] as a [`Surface`] and as a [`Bsdf`] with three channels, red, green and blue.
 #[derive(Clone, Copy, Debug)]
 pub struct Rgb<M>(pub M);
 
@@ -36,7 +37,7 @@ impl<M: Model + Sync> Surface for Rgb<M> {
     }
 }
 
-/// A model evaluates in `f64`, pair by pair, whatever the backend.
+/// A model is evaluated in `f64`, pair by pair, on every backend.
 impl<M: Model + Debug + Send + Sync> Bsdf for Rgb<M> {
     fn channels(&self) -> &Channels {
         &Channels::Rgb
@@ -73,15 +74,15 @@ impl<M: Model + ?Sized> Model for &M {
 
 /// `true` if the values do not depend on the rotation of the surface about its normal.
 ///
-/// 400 pairs of directions are looked at before and after a turn; 1 % of them may differ by more than a thousandth of the
-/// value, since a table that is constant on bins may fall into the next bin by rounding.
+/// 400 pairs of directions are compared before and after a rotation; 1 % of them may differ by more than a thousandth
+/// of the value, because in a table that is constant on bins, rounding may select the next bin.
 pub fn is_isotropic(surface: &dyn Surface) -> bool {
     let channels = surface.channels().count();
     let (mut before, mut after) = (vec![0.0; channels], vec![0.0; channels]);
     let (mut differ, mut lit) = (0, 0);
     for query in 0..400 {
         let [a, b, c, turn] = crate::halton(query + 1);
-        // Polar angles up to 80 degrees; the lower half of the sphere too, for what transmits.
+        // Polar angles up to 80 degrees, also on the lower half of the sphere, for transmission.
         let (theta_i, theta_o) = (1.4 * a, 1.4 * b);
         let pair = |turn: f64| {
             let [x, y, z] = spherical(theta_o, TAU * c + turn);

@@ -1,4 +1,4 @@
-//! The Gaussian lobe that was fitted to measurements.
+//! The Gaussian lobe, once fitted to measurements.
 
 use std::f64::consts::PI;
 
@@ -37,7 +37,7 @@ mod tests {
     use crate::{albedo, model::testing::*, vec3::spherical};
 
     #[test]
-    fn reflects_nearly_all_and_never_more() {
+    fn reflects_nearly_everything_and_never_more() {
         for alpha in [[0.1, 0.1], [0.1, 0.3], [0.5, 0.5]] {
             let model = Ward { specular: [1.0; 3], alpha };
             for theta in [0.0, 0.5, 1.0, 1.3, 1.5] {

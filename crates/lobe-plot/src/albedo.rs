@@ -1,4 +1,4 @@
-//! How much of the light comes back.
+//! The share of the light that is reflected or transmitted.
 
 use lobe::Scatter;
 use lobe_ops::Aspect;
@@ -24,9 +24,8 @@ pub struct Albedo {
     pub rgb: [f64; 3],
 }
 
-/// The directional albedos of a view, one per incidence and kind of scattering: those of [`albedo_of`] within its
-/// default effort, reduced to the quantity and the colour of the view. There are none of what was measured in the plane of
-/// incidence only.
+/// The directional albedos of a view, one per incidence and scatter: those of [`albedo_of`] within its default effort,
+/// reduced to the quantity and the colour of the view. Data measured only in the plane of incidence have none.
 pub fn albedos(subject: &Subject, view: &View, progress: &dyn Progress) -> Vec<Albedo> {
     let sigmas = view.incidences(subject, MOST);
     let mut scatters = subject.scatters(view.side);

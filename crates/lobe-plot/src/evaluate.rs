@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 /// Called with the progress of a drawing.
 pub trait Progress: Sync {
-    /// A figure begins that takes this many steps, usually pairs of directions.
+    /// A figure of this many steps begins, usually pairs of directions.
     fn begin(&self, figure: &str, steps: u64);
     /// This many more steps are done.
     fn advance(&self, steps: u64);
@@ -20,11 +20,12 @@ impl Progress for Silent {
     fn advance(&self, _steps: u64) {}
 }
 
-/// Pairs per task: enough to be worth a task, and fewer than the material would itself divide among threads.
+/// The number of pairs per task: enough to be worth a task, and fewer than the material itself would divide among
+/// threads.
 const TASK: usize = 2048;
 
-/// The value of every pair of directions, reduced from its channels to `N` numbers as soon as it is known, since a
-/// picture of a spectral material would not fit in memory.
+/// The value of every pair of directions, reduced from its channels to `N` numbers at once, because a picture of a
+/// spectral material would not fit into memory.
 pub(crate) fn evaluate<const N: usize>(
     material: &Material,
     count: usize,

@@ -45,7 +45,7 @@ pub(crate) fn from_disk(side: Side, scatter: Scatter, psi: f64, x: f64, y: f64) 
     // cos(theta) = 1 - r^2, and sin(theta) / r = sqrt(2 - r^2).
     let (along, across) = (x * (2.0 - square).sqrt(), y * (2.0 - square).sqrt());
     let (sin, cos) = psi.sin_cos();
-    // Seen from below, left and right stay where they are relative to the light and the azimuth turns the other way.
+    // Seen from below, left and right are unchanged relative to the light, and the azimuth turns the other way.
     let across = across * sign(side);
     Some([-along * cos + across * sin, -along * sin - across * cos, outgoing_sign(side, scatter) * (1.0 - square)])
 }
@@ -91,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn the_disk_keeps_areas_and_has_an_inverse() {
+    fn the_disk_preserves_areas_and_has_an_inverse() {
         for side in [Side::Front, Side::Back] {
             for (x, y) in [(0.0, 0.0), (0.5, 0.0), (-0.3, 0.8), (0.0, -0.999)] {
                 let d = from_disk(side, Scatter::Transmission, 1.1, x, y).unwrap();

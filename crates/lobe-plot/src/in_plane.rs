@@ -18,7 +18,7 @@ pub struct Curve {
     pub theta: Vec<f64>,
     /// The quantity of the view at each angle, in 1/sr.
     pub f: Vec<f32>,
-    /// Whether each value lies within the measurement, rather than in its continuation.
+    /// Whether each value is measured rather than extrapolated.
     pub is_measured: Vec<bool>,
     /// The positions in `theta` of the angles at which the material was measured.
     pub points: Vec<usize>,
@@ -32,7 +32,7 @@ const NEAR: f64 = 2.0;
 const LAST: f64 = 89.9;
 /// More curves than this cannot be distinguished.
 pub(crate) const MOST: usize = 8;
-/// Angles nearer to each other than this, in degrees, are the same.
+/// Angles nearer to each other than this, in degrees, are equal.
 const SAME: f64 = 1e-6;
 
 /// The curves of a view: one per incidence, reflection before transmission.
@@ -56,7 +56,7 @@ pub(crate) fn channel_curves(
     of_each.into_iter().map(|curves| curves.into_iter().take(channels.len()).collect()).collect()
 }
 
-/// The curves of `N` numbers that values are reduced to.
+/// The curves of the `N` numbers to which values are reduced.
 fn reduced<const N: usize>(
     subject: &Subject,
     view: &View,
@@ -90,7 +90,7 @@ fn reduced<const N: usize>(
         .collect()
 }
 
-/// Viewing angles in radians, ascending, and the positions of those that were measured.
+/// Viewing angles in radians, ascending, and the positions of the measured ones.
 struct Angles {
     theta: Vec<f64>,
     points: Vec<usize>,

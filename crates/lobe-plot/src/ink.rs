@@ -5,7 +5,7 @@ use colorous::{Color, Gradient};
 /// The colour of one of several series.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Ink {
-    /// A letter for what the series are, and the position among them.
+    /// A letter for the kind of the series, and the position among them.
     pub(crate) class: String,
     /// On white.
     pub(crate) light: String,
@@ -14,13 +14,13 @@ pub(crate) struct Ink {
 }
 
 impl Ink {
-    /// Series in an order, such as incidences: evenly spaced in a perceptually uniform ramp, without its palest end, and
-    /// on a dark page without its darkest.
+    /// Ordered series, such as incidences: evenly spaced in a perceptually uniform ramp, without its palest end, and on
+    /// a dark page without its darkest.
     pub(crate) fn of_order(index: usize, count: usize) -> Self {
         Ink::of_ramp('s', colorous::PLASMA, index, count)
     }
 
-    /// Wavelengths and the like, in a ramp that is not that of incidences.
+    /// Wavelengths and similar series, in another ramp than incidences.
     pub(crate) fn of_channel(index: usize, count: usize) -> Self {
         Ink::of_ramp('c', colorous::VIRIDIS, index, count)
     }
@@ -31,7 +31,7 @@ impl Ink {
         Ink { class: format!("c{index}"), light: light.into(), dark: dark.into() }
     }
 
-    /// Series without an order, such as files: colours that are easily distinguished, also by most of the colour-blind
+    /// Unordered series, such as files: colours that are easily distinguished, also by most colour-blind people
     /// (M. Okabe and K. Ito, "Color Universal Design", 2008).
     pub(crate) fn of_set(index: usize) -> Self {
         const PAIRS: [(&str, &str); 7] = [
@@ -53,7 +53,7 @@ impl Ink {
         Ink { class: format!("{letter}{index}"), light: at(0.02, 0.80), dark: at(0.30, 0.98) }
     }
 
-    /// The style by which a page finds the colour for a dark screen.
+    /// The style from which a page takes the colour for a dark screen.
     pub(crate) fn style(&self) -> String {
         format!("--dark:{}", self.dark)
     }

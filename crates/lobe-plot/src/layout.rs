@@ -1,8 +1,8 @@
-//! The paper of a figure: how wide it is in its own units, and where its pictures are kept.
+//! The layout of a figure: its width in its own units, and the store of its pictures.
 
 use std::cell::RefCell;
 
-/// How a figure is laid out.
+/// The layout of a figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Layout {
     /// The width in units of the figure. The letters of labels are 14 to 17 units high.
@@ -17,35 +17,35 @@ impl Layout {
     /// For phones: at 400 pixels, a unit is a pixel.
     pub(crate) const NARROW: Layout = Layout { width: 400.0, is_narrow: true };
 
-    /// The layout whose letters can be read at this width in pixels.
+    /// The layout whose letters are legible at this width in pixels.
     pub(crate) fn of(pixels: u32) -> Self {
         if pixels < 560 { Layout::NARROW } else { Layout::WIDE }
     }
 }
 
-/// What a figure is drawn on.
+/// The paper on which a figure is drawn.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Paper<'a> {
     pub(crate) layout: Layout,
     /// The width in pixels.
     pub(crate) pixels: u32,
-    /// Where the pictures are that several figures of a page show; a figure by itself holds its own.
+    /// The store of pictures that several figures of a page show; a single figure contains its own pictures.
     pub(crate) sprites: Option<&'a Sprites>,
 }
 
 impl Paper<'_> {
-    /// A figure by itself.
+    /// A single figure.
     pub(crate) fn alone(pixels: u32) -> Self {
         Paper { layout: Layout::of(pixels), pixels, sprites: None }
     }
 }
 
-/// Pictures that are on a page once and shown several times.
+/// Pictures that are stored once on a page and shown several times.
 #[derive(Debug, Default)]
 pub(crate) struct Sprites(RefCell<Vec<String>>);
 
 impl Sprites {
-    /// The id of a picture, which is kept if it is new.
+    /// The id of a picture, which is stored if it is new.
     pub(crate) fn id(&self, url: String) -> String {
         let mut urls = self.0.borrow_mut();
         let at = urls.iter().position(|known| *known == url).unwrap_or(urls.len());

@@ -1,9 +1,9 @@
-//! Figures of measured materials: what a goniometer engineer or a shading artist looks at first.
+//! Figures of measured materials, for goniometer engineers and shading artists.
 //!
 //! [`Subject`] is an opened file together with the directions at which it was measured; a [`View`] says what to show,
-//! and [`Shown`] is both. [`draw`] makes one figure of one or more of these as SVG, [`rasterise`] turns that into a PNG,
-//! and [`page()`] is a self-contained HTML page of all figures. A figure is a pure function of files and views: no clock,
-//! no random numbers.
+//! and [`Shown`] combines both. [`draw`] makes one figure of one or more of these as SVG, [`rasterise`] turns that into
+//! a PNG, and [`page()`] is a self-contained HTML page of all figures. A figure is a pure function of files and views:
+//! no clock, no random numbers.
 //!
 //! Conventions of every figure: the light comes from the left; viewing angles are positive on the side of the mirror
 //! direction (for transmission: of the straight-through ray); `f` is in 1/sr, without the cosine.

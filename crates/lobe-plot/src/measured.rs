@@ -1,5 +1,5 @@
-//! The directions at which a material was measured: the incidences to draw, the directions to mark, and the parts of
-//! the hemisphere that are only continued.
+//! The directions at which a material was measured: the incidences to draw, the directions to mark, and the
+//! extrapolated parts of the hemisphere.
 
 use std::f64::consts::PI;
 
@@ -8,20 +8,20 @@ use lobe::table::Representation;
 use lobe::table::data::Coverage;
 use lobe::{Aspect, Scatter};
 
-/// Angles nearer than this, in radians, are the same.
+/// Angles that differ by less than this, in radians, are equal.
 const SAME: f64 = 1e-4;
 
-/// Directions whose component across the plane of incidence is smaller than this, 0.06 degrees, are in it.
+/// Directions whose component perpendicular to the plane of incidence is smaller than this, 0.06 degrees, are in it.
 const FLAT: f64 = 1e-3;
 
-/// The measurement of light that comes from one side and leaves on one side.
+/// The measurement for light from one side that leaves on one side.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Part<'a> {
     pub(crate) aspect: Aspect,
     data: &'a dyn Representation,
 }
 
-/// The parts of a document that have a value for a pair of directions.
+/// The parts of a document that have values for pairs of directions.
 pub(crate) fn parts(document: &Document) -> Vec<Part<'_>> {
     let mut parts = Vec::new();
     for part in &document.parts {
@@ -31,7 +31,7 @@ pub(crate) fn parts(document: &Document) -> Vec<Part<'_>> {
         }
         let mut aspects = data.aspects();
         if data.is_two_sided() {
-            // A missing transmission is the other one the other way round.
+            // A missing transmission is replaced by the reverse of the other one.
             let others: Vec<Aspect> = aspects.iter().map(|aspect| aspect.reversed()).collect();
             aspects.extend(others.into_iter().filter(|aspect| aspect.scatter == Scatter::Transmission));
         }
@@ -42,7 +42,7 @@ pub(crate) fn parts(document: &Document) -> Vec<Part<'_>> {
 }
 
 impl<'a> Part<'a> {
-    /// Polar angles of the light in radians, ascending; empty if the representation has none of its own.
+    /// Polar angles of the light in radians, ascending; empty if the representation does not list them.
     pub(crate) fn incidences(&self) -> Vec<f64> {
         let mut thetas: Vec<f64> = self.data.incidences(self.aspect).into_iter().map(|[theta, _]| theta).collect();
         thetas.dedup_by(|a, b| (*a - *b).abs() < SAME);
@@ -54,14 +54,14 @@ impl<'a> Part<'a> {
         self.data.azimuth()
     }
 
-    /// The outgoing directions that were measured for light at `sigma` and `psi`, as if light and view were both above, and
-    /// only those above the horizon. Empty if the representation has no directions of its own.
+    /// The outgoing directions that were measured for light at `sigma` and `psi`, as if light and viewer were both
+    /// above, and only those above the horizon. Empty if the representation does not list directions.
     pub(crate) fn directions(&self, sigma: f64, psi: f64) -> Vec<[f64; 3]> {
         self.data.outgoing([sigma, psi])
     }
 
-    /// A test of outgoing directions for light at `sigma` and `psi`, as if light and view were both above: is the value
-    /// there one of the measurement, and not only its continuation?
+    /// A test of outgoing directions for light at `sigma` and `psi`, as if light and viewer were both above: `true` if
+    /// the value there was measured, and not only extrapolated.
     pub(crate) fn coverage(&self, sigma: f64, psi: f64) -> Coverage<'a> {
         self.data.coverage([sigma, psi])
     }

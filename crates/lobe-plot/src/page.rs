@@ -23,22 +23,20 @@ use crate::view::View;
 /// The style of the page, for light and dark screens and for paper.
 const STYLE: &str = include_str!("page.css");
 
-/// A page, and what there is to say about it.
+/// A page, and remarks about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Page {
     /// Self-contained HTML without scripts.
     pub html: String,
     /// The number of figures.
     pub figures: usize,
-    /// What is shown, in a few words each: the incidences, the exposures, what the checks found.
+    /// The contents, in a few words each: the incidences, the exposures, the findings of the checks.
     pub said: Vec<String>,
 }
 
-/// A self-contained HTML page: what is known about the files, what the checks of `lobe-ops` find, the albedo at each
+/// A self-contained HTML page: the facts about the files, the findings of the checks in `lobe-ops`, the albedo at each
 /// incidence, and all figures. An anisotropic material is shown from two azimuths, a sheet from both sides. Several
-/// materials are drawn into the same figures.
-///
-/// `facts` are those of each file.
+/// materials are drawn into the same figures. `facts` holds the facts of each file.
 pub fn page(shown: &[Shown<'_>], facts: &[Vec<Facts>], progress: &dyn Progress) -> Page {
     page_with_fit(shown, facts, None, progress)
 }
@@ -127,7 +125,7 @@ impl Out<'_> {
         );
         self.figures += 1;
         for said in &plate.said {
-            // Figures of few incidences show some of those of the first.
+            // Figures with few incidences show some of those of the first figure.
             let kind = |said: &str| said.split(" at ").next().map(String::from);
             if !self.said.iter().any(|other| kind(other) == kind(said)) {
                 self.said.push(said.clone());
@@ -148,9 +146,9 @@ impl Out<'_> {
         self.put("</div>\n</section>");
     }
 
-    /// What the checks of each file found.
+    /// The findings of the checks of each file.
     fn findings(&mut self, shown: &[Shown<'_>], progress: &dyn Progress) {
-        self.put("<section>\n<h2>What the checks found</h2>\n<div class=\"cards\">");
+        self.put("<section>\n<h2>Findings of the checks</h2>\n<div class=\"cards\">");
         for Shown { subject, .. } in shown {
             let findings = subject.findings(progress);
             let name = if shown.len() > 1 { subject.name() } else { "" };
@@ -209,7 +207,7 @@ impl Out<'_> {
     }
 }
 
-/// How many findings there are of each kind that is not as it should be.
+/// The number of findings of each status other than a pass.
 fn counts(findings: &[Finding]) -> String {
     let count = |wanted: Status| findings.iter().filter(|finding| finding.status == wanted).count();
     let words =

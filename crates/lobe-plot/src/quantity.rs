@@ -1,17 +1,17 @@
-//! From channels to the one number that curves and maps show.
+//! From channels to the single number that curves and maps show.
 
 use lobe_colour::{Channels, NamedBands, luminance};
 
 /// The number that curves and maps show: a weighted sum of the channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantity {
-    /// What it is, for people.
+    /// Its description, for people.
     pub name: String,
     weights: Vec<f32>,
 }
 
 impl Quantity {
-    /// One channel as it is.
+    /// One channel, unchanged.
     ///
     /// # Panics
     /// If there is no channel `index`.
@@ -21,8 +21,8 @@ impl Quantity {
         Quantity { name: format!("channel {}", channels.names()[index]), weights }
     }
 
-    /// What the eye is most sensitive to: the luminance of colours and spectra; the visible band of named bands, or the
-    /// first if none is visible; the wavelength nearest to 555 nm if none can be seen.
+    /// The luminance of colours and spectra; the visible one of named bands, or the first if none is visible; the
+    /// wavelength nearest to 555 nm if none is visible.
     pub fn of(channels: &Channels) -> Self {
         let sum = |name: &str| Quantity { name: name.into(), weights: luminance(channels) };
         match channels {
@@ -41,7 +41,7 @@ impl Quantity {
         self.weights.iter().zip(texel).map(|(weight, value)| weight * value).sum()
     }
 
-    /// The number of a value that is `f64`.
+    /// The number of a value in `f64`.
     pub(crate) fn exact(&self, texel: &[f64]) -> f64 {
         self.weights.iter().zip(texel).map(|(&weight, value)| f64::from(weight) * value).sum()
     }
@@ -66,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn the_visible_band_stands_for_bands() {
+    fn the_visible_band_represents_bands() {
         let channels = Channels::Named(vec!["Solar".into(), "VISIBLE".into()]);
         assert_eq!(Quantity::of(&channels).reduce(&[1.0, 0.25]), 0.25);
         assert_eq!(Quantity::channel(&channels, 0).reduce(&[1.0, 0.25]), 1.0);

@@ -8,13 +8,13 @@ use thiserror::Error;
 
 use crate::image::Image;
 
-/// Why a figure could not be turned into pixels.
+/// A figure that could not be turned into pixels.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum RasterError {
     /// Not an SVG.
     #[error("the figure is not an SVG: {0}")]
     Svg(String),
-    /// No pixels, or more than fit in memory.
+    /// No pixels, or more than fit into memory.
     #[error("a picture of {width} x {height} pixels cannot be made")]
     Size {
         /// Pixels per row.
@@ -24,8 +24,8 @@ pub enum RasterError {
     },
 }
 
-/// The typeface of all figures, in the two weights that they use. What it lacks, such as the script of the name of a
-/// file, is taken from the machine.
+/// The typeface of all figures, in the two weights that they use. Glyphs that it lacks, such as other scripts in the
+/// name of a file, are taken from the machine's fonts.
 const FACES: [&[u8]; 2] =
     [include_bytes!("../assets/Roboto-Regular.ttf"), include_bytes!("../assets/Roboto-Medium.ttf")];
 

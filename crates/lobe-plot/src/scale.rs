@@ -1,6 +1,6 @@
 //! Axes of values and their ticks.
 
-/// How values are spread along an axis.
+/// The scaling of values along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scaling {
     /// Equal ratios have equal lengths.
@@ -9,17 +9,17 @@ pub enum Scaling {
     Linear,
 }
 
-/// A logarithmic axis spans at most this factor: what is below it is noise.
+/// A logarithmic axis spans at most this factor; smaller values are noise.
 const DEEPEST: f64 = 1e-6;
 
-/// A linear axis begins at 0 if the values below are smaller than this part of the largest.
+/// A linear axis begins at 0 if the values below 0 are smaller than this share of the largest.
 const NOISE: f64 = 0.02;
 
-/// A mark on an axis.
+/// A tick on an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tick {
     pub(crate) value: f64,
-    /// `None` for a small mark between the others. A power has the form `10^{-2}`.
+    /// `None` for a minor tick. A power has the form `10^{-2}`.
     pub(crate) label: Option<String>,
 }
 
@@ -56,7 +56,7 @@ impl Scale {
                 // Noise below 0 is not worth a step.
                 let least = if -least < NOISE * most { 0.0 } else { least };
                 let mut step = step(most - least);
-                // Rounding may lengthen the axis so much that it gets longer steps.
+                // Rounding may lengthen the axis so much that the steps become longer.
                 loop {
                     let high = (most / step * (1.0 - 1e-9)).ceil() * step;
                     let low = (least / step).floor() * step;
@@ -74,7 +74,7 @@ impl Scale {
         Scale { scaling: Scaling::Log, low, high }
     }
 
-    /// The position of a value: 0 at the low end, 1 at the high end. Values without a logarithm are far below.
+    /// The position of a value: 0 at the low end, 1 at the high end. Values without a logarithm are far below 0.
     pub(crate) fn place(&self, value: f64) -> f64 {
         match self.scaling {
             Scaling::Linear => (value - self.low) / (self.high - self.low),
@@ -92,7 +92,7 @@ impl Scale {
         }
     }
 
-    /// The marks, ascending: at least two with labels. None on an axis without extent.
+    /// The ticks, ascending: at least two with labels. None on an axis without extent.
     pub(crate) fn ticks(&self) -> Vec<Tick> {
         let has_extent = self.high > self.low;
         match self.scaling {
@@ -100,7 +100,7 @@ impl Scale {
             Scaling::Linear => self.linear_ticks(),
             Scaling::Log => {
                 let ticks = self.log_ticks();
-                // In a part of a decade there may be hardly a round number.
+                // A part of a decade may contain hardly any round numbers.
                 let labels = ticks.iter().filter(|tick| tick.label.is_some()).count();
                 if labels < 3 { self.linear_ticks() } else { ticks }
             }
@@ -115,7 +115,7 @@ impl Scale {
             let value = n as f64 * step;
             let label = match power {
                 _ if n == 0 => "0".into(),
-                // Plain numbers as long as they are short.
+                // Plain numbers, if they are short.
                 -3..=4 => format!("{value:.*}", (-exponent(step)).max(0) as usize),
                 _ => {
                     let digits = (power - exponent(step)).max(0) as usize;
@@ -130,7 +130,7 @@ impl Scale {
     fn log_ticks(&self) -> Vec<Tick> {
         let (first, last) = (exponent(self.low), exponent(self.high));
         let decades = (self.high / self.low).log10();
-        // Powers of ten alone would leave a short axis bare.
+        // Powers of ten alone would leave a short axis empty.
         let labelled: &[u32] = match decades {
             decades if decades < 2.2 => &[1, 2, 5],
             _ => &[1],
@@ -162,7 +162,7 @@ fn power(digit: u32, exponent: i32) -> String {
     }
 }
 
-/// With a true minus sign, which is as wide as a digit.
+/// With a proper minus sign, which is as wide as a digit.
 pub(crate) fn minus(number: &str) -> String {
     number.replace('-', "\u{2212}")
 }
@@ -236,7 +236,7 @@ mod tests {
         assert_eq!(Scale::around([0.0].into_iter(), Scaling::Log).high, 1.0);
     }
 
-    /// Whatever the values are, as far as they are numbers of single precision, of either sign.
+    /// For all finite single-precision values of either sign.
     #[test]
     fn every_axis_has_an_extent_and_labels() {
         let magnitudes = [0.0, 1e-45, 1e-38, 3e-7, 0.999, 1.0, 7.0, 4095.0, 1e15, 3.4e38];

@@ -15,7 +15,7 @@ use crate::view::View;
 /// A light far away.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Light {
-    /// Toward its middle; the viewer is at +z, up is +y.
+    /// The direction to its middle; the viewer is at +z, up is +y.
     toward: [f64; 3],
     /// The angle from its middle to its rim, in radians.
     radius: f64,
@@ -23,19 +23,19 @@ struct Light {
     power: f64,
 }
 
-/// How a sphere is lit. The viewer is far away, so that all sight lines are parallel.
+/// The lighting of a sphere. The viewer is far away, so all sight lines are parallel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Studio {
-    /// A round light of 12 degrees from the upper left, and one of an eighth of its power from the right: shows most of
-    /// a material.
+    /// A round light of 12 degrees from the upper left, and one of an eighth of its power from the right, which show
+    /// most of a material.
     Key,
-    /// A light of 2 degrees, 3 degrees next to the viewer: what a driver sees.
+    /// A light of 2 degrees, 3 degrees away from the viewer, like the view of a driver.
     Viewer,
-    /// A light 75 degrees to the side, beyond the left rim: what shows at grazing angles.
+    /// A light 75 degrees to the side, beyond the left rim, which shows grazing angles.
     Rim,
     /// The key light with the sample on the sphere turned by a quarter turn.
     Turned,
-    /// A light behind the sphere, which is a thin shell: what is transmitted.
+    /// A light behind the sphere, which is a thin shell, to show transmission.
     Behind,
 }
 
@@ -68,18 +68,18 @@ pub struct Sphere {
     pub size: usize,
     /// The radiance of each pixel, linear sRGB: a white Lambertian surface that faces a standard light has 1.
     pub linear: Vec<[f32; 3]>,
-    /// How much of each pixel the sphere covers.
+    /// The share of each pixel that the sphere covers.
     pub cover: Vec<f32>,
 }
 
-/// Pairs of directions per pixel and light, and if each takes long.
+/// The number of pairs of directions per pixel and light, normally and if evaluation is slow.
 const SAMPLES: usize = 8;
 const FEW_SAMPLES: usize = 4;
 
 /// A sphere of the material of a view. The sample lies on it with its x axis along the circles of latitude.
 ///
-/// Every pixel is the mean of eight points in it, each lit by a different point of the light; of four, if the material is
-/// on no grid and evaluated pair by pair.
+/// Every pixel is the mean of eight points in it, each lit by a different point of the light; of four, if the material
+/// has no grid and is evaluated pair by pair.
 pub fn shade(subject: &Subject, view: &View, studio: Studio, size: usize, progress: &dyn Progress) -> Sphere {
     let lights = studio.lights();
     let samples = if subject.is_slow() { FEW_SAMPLES } else { SAMPLES };
@@ -125,8 +125,8 @@ pub fn shade(subject: &Subject, view: &View, studio: Studio, size: usize, progre
 }
 
 impl Sphere {
-    /// The exposure in stops at which nine tenths of the sphere are darker than six tenths of white, and a peak has
-    /// room above: a whole number of halves.
+    /// The exposure in stops at which nine tenths of the sphere are darker than six tenths of white, which leaves room
+    /// for a peak; a whole number of halves.
     pub fn exposure(&self) -> f64 {
         let covered = self.linear.iter().zip(&self.cover).filter(|(_, cover)| **cover > 0.5);
         let mut bright: Vec<f32> =
@@ -155,13 +155,13 @@ impl Sphere {
 struct Place {
     pixel: usize,
     normal: [f64; 3],
-    /// Which point of a light shines on it.
+    /// The point of the light that shines on it.
     uniform: [f64; 2],
 }
 
 /// The points of all pixels, without those off the sphere. The points in each pixel are those of the R2 sequence (M.
-/// Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018), which go on from pixel to pixel for the
-/// light, so that neighbours differ and no pattern shows.
+/// Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018); for the light, the sequence continues
+/// from pixel to pixel, so that neighbours differ and no pattern is visible.
 fn places(size: usize, samples: usize) -> Vec<Place> {
     // The plastic number, the root of x^3 = x + 1.
     const PLASTIC: f64 = 1.324_717_957_244_746;
@@ -202,7 +202,7 @@ struct Frame {
 }
 
 impl Frame {
-    /// x along the circle of latitude, toward the right for the viewer, then turned by `turn` about the normal.
+    /// x along the circle of latitude, to the viewer's right, then rotated by `turn` about the normal.
     fn on_sphere(normal: [f64; 3], turn: f64) -> Self {
         let across = [normal[2], 0.0, -normal[0]];
         let along = if across[0].hypot(across[2]) > 1e-9 { normalise(across) } else { [1.0, 0.0, 0.0] };
@@ -217,7 +217,7 @@ impl Frame {
     }
 }
 
-/// The spheres worth showing of a material: those that show something that the others do not.
+/// The useful spheres of a material: those that show something that the others do not.
 pub(crate) fn studios(subject: &Subject, side: Side) -> Vec<Studio> {
     let scatters = subject.scatters(side);
     let mut studios = Vec::new();

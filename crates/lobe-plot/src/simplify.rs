@@ -1,6 +1,6 @@
 //! Fewer points for the same line.
 
-/// Drops the points of a line that lie within `tolerance` of the rest: D. Douglas and T. Peucker, "Algorithms for the
+/// Drops the points of a line that are within `tolerance` of the rest: D. Douglas and T. Peucker, "Algorithms for the
 /// Reduction of the Number of Points Required to Represent a Digitized Line or its Caricature", Cartographica 10(2),
 /// 1973.
 pub(crate) fn simplify(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {

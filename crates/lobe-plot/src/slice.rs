@@ -8,7 +8,8 @@ use crate::geometry::{from_disk, incident, to_disk};
 use crate::subject::Subject;
 use crate::view::View;
 
-/// The values of a hemisphere, on the square around its disk: Lambert's equal-area projection, the light on the left.
+/// The values of a hemisphere, on the square around its disk, in Lambert's equal-area projection with the light on the
+/// left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slice {
     /// The polar angle of the light in radians.
@@ -19,9 +20,9 @@ pub struct Slice {
     pub size: usize,
     /// The quantity of the view in 1/sr, rows from the top; `None` outside the disk.
     pub f: Vec<Option<f32>>,
-    /// Whether each value lies within the measurement, rather than in its continuation.
+    /// Whether each value is measured rather than extrapolated.
     pub is_measured: Vec<bool>,
-    /// The directions that were measured, as positions in the square `[-1, 1]`, y up.
+    /// The measured directions, as positions in the square `[-1, 1]`, with y up.
     pub measured: Vec<[f64; 2]>,
 }
 

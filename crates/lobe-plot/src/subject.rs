@@ -30,7 +30,7 @@ impl Subject {
         Subject::new(path, format, document)
     }
 
-    /// A document that was read from `path`, after whose last part the figures are named.
+    /// A document that was read from `path`, whose last component is the name in figures.
     ///
     /// # Errors
     /// As [`Material::from_document`].
@@ -41,7 +41,7 @@ impl Subject {
         Ok(Subject { name, measured: lobe_ops::Subject::new(format, document, material, &options) })
     }
 
-    /// The same under another name than that of the file.
+    /// The same with another name than that of the file.
     pub fn named(self, name: &str) -> Self {
         Subject { name: name.into(), ..self }
     }
@@ -61,7 +61,7 @@ impl Subject {
         &self.measured
     }
 
-    /// What the checks of `lobe-ops` find.
+    /// The findings of the checks in `lobe-ops`.
     pub fn findings(&self, progress: &dyn Progress) -> Vec<Finding> {
         const STEPS: f64 = 1000.0;
         progress.begin("checks", STEPS as u64);
@@ -74,12 +74,12 @@ impl Subject {
         check(&self.measured, &Thoroughness::default(), advance)
     }
 
-    /// Whether the material is evaluated pair by pair, in microseconds each: pictures of it have fewer pixels.
+    /// Whether the material is evaluated pair by pair, in microseconds each, so that pictures of it have fewer pixels.
     pub(crate) fn is_slow(&self) -> bool {
         self.measured.document.parts.iter().any(|part| part.data.representation().samples().is_some())
     }
 
-    /// What happens to light from `side`: reflection, transmission, both or nothing.
+    /// The scatters of light from `side`: reflection, transmission, both or none.
     pub fn scatters(&self, side: Side) -> Vec<Scatter> {
         let both = [Scatter::Reflection, Scatter::Transmission];
         both.into_iter().filter(|&scatter| self.part(side, scatter).is_some()).collect()
@@ -96,7 +96,7 @@ impl Subject {
     }
 
     /// The polar angles of the light to draw, in radians: at most `most` of the knots of the measurement, or every 15
-    /// degrees if it has none of its own.
+    /// degrees if it has none.
     pub fn incidences(&self, side: Side, most: usize) -> Vec<f64> {
         let part = self.scatters(side).first().and_then(|&scatter| self.part(side, scatter));
         let mut knots: Vec<f64> = part.map(|part| part.incidences()).unwrap_or_default();
@@ -123,7 +123,7 @@ impl Subject {
         self.scatters(side).first().and_then(|&scatter| self.part(side, scatter)).map_or(0.0, |part| part.psi())
     }
 
-    /// Whether turning the sample by an eighth or a quarter of a turn changes the colours by a twentieth or more, over
+    /// Whether rotating the sample by an eighth or a quarter of a turn changes the colours by a twentieth or more, over
     /// a few hundred pairs of directions.
     pub fn is_anisotropic(&self, side: Side) -> bool {
         let scatters = self.scatters(side);

@@ -1,7 +1,7 @@
 //! Writing SVG.
 //!
-//! Every element has the colours of a figure on white as attributes, and a class by which a page may recolour it: style
-//! sheets win over attributes, and programs that know no style sheets still draw the figure.
+//! Every element has the colours of a figure on white as attributes, and a class with which a page may recolour it:
+//! style sheets override attributes, and programs without style sheets still draw the figure.
 
 use std::fmt::Write as _;
 
@@ -11,7 +11,7 @@ use crate::image::Image;
 use crate::ink::Ink;
 use crate::layout::{Layout, Paper};
 
-/// What an element is, which decides its colour.
+/// The role of an element, which determines its colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
     /// Primary text.
@@ -48,7 +48,7 @@ impl Role {
     }
 }
 
-/// Which part of a text is at its position.
+/// The part of a text that is at its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
@@ -56,16 +56,16 @@ pub(crate) enum Anchor {
     End,
 }
 
-/// How a text looks.
+/// The style of a text.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Text {
     pub(crate) size: f64,
     pub(crate) role: Role,
     pub(crate) anchor: Anchor,
     pub(crate) is_heavy: bool,
-    /// Turned to read upward.
+    /// Rotated to read upward.
     pub(crate) is_upward: bool,
-    /// With a halo in the colour of the paper, so that it can be read across lines.
+    /// With a halo in the colour of the paper, so that it is legible across lines.
     pub(crate) has_halo: bool,
 }
 
@@ -199,7 +199,7 @@ impl<'a> Svg<'a> {
         );
     }
 
-    /// Lines of one series: `runs` of points, each with whether it is solid.
+    /// Lines of one series: `runs` of points, and whether each is solid.
     pub(crate) fn series(&mut self, ink: &Ink, runs: &[(bool, Vec<[f64; 2]>)]) {
         for (is_solid, points) in runs {
             let mut path = String::new();
@@ -250,7 +250,7 @@ impl<'a> Svg<'a> {
         }
     }
 
-    /// An invisible place that shows a text when the pointer is on it.
+    /// An invisible area that shows a text when the pointer is on it.
     pub(crate) fn hint(&mut self, [x, y]: [f64; 2], radius: f64, text: &str) {
         let _ = writeln!(
             self.body,
@@ -285,7 +285,7 @@ impl<'a> Svg<'a> {
         };
     }
 
-    /// What `draw` draws, clipped to the area.
+    /// The output of `draw`, clipped to the area.
     pub(crate) fn clipped(&mut self, area: Area, draw: impl FnOnce(&mut Svg<'a>)) {
         let layout = if self.paper.layout.is_narrow { "narrow-" } else { "" };
         let id = format!("{}-{layout}clip-{}", self.name, self.clips);
@@ -324,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn shifts_are_taken_back() {
+    fn shifts_are_undone() {
         let mut svg = Svg::new("test", Paper::alone(720));
         svg.rich([0.0, 0.0], Text { size: 10.0, ..LABEL }, "f_{r} = 10^{2}/sr");
         assert!(

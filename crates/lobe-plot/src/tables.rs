@@ -20,7 +20,7 @@ pub struct Facts {
     pub rows: Vec<(String, String)>,
 }
 
-/// What a table is about, after the name of its file if there are several.
+/// The subject of a table, after the name of its file if there are several.
 fn heading(name: &str, title: &str) -> String {
     match name.is_empty() {
         true => format!("<h3>{}</h3>", escape(title)),
@@ -28,7 +28,7 @@ fn heading(name: &str, title: &str) -> String {
     }
 }
 
-/// The first table of facts, and below it the others, which unfold.
+/// The first table of facts, and below it the others, which are collapsed.
 pub(crate) fn facts_table(name: &str, facts: &[Facts]) -> String {
     let table = |rows: &[(String, String)]| {
         let row = |(name, value): &(String, String)| {
@@ -45,7 +45,7 @@ pub(crate) fn facts_table(name: &str, facts: &[Facts]) -> String {
     out
 }
 
-/// A row per finding, the worst first; those that are as they should be unfold.
+/// One row per finding, the worst first; passed checks are collapsed.
 pub(crate) fn findings_table(name: &str, findings: &[Finding]) -> String {
     let row = |finding: &Finding| {
         let status = finding.status.to_string().to_lowercase();
@@ -68,7 +68,7 @@ pub(crate) fn findings_table(name: &str, findings: &[Finding]) -> String {
     let title = if name.is_empty() { String::new() } else { format!("<h3>{}</h3>", escape(name)) };
     let mut out = format!("<div class=\"card\">{title}");
     match worth_knowing.is_empty() {
-        true => out.push_str("<p>Everything is as it should be.</p>"),
+        true => out.push_str("<p>Everything is in order.</p>"),
         false => out.push_str(&table(worth_knowing)),
     }
     if !as_it_should_be.is_empty() {
@@ -93,7 +93,7 @@ pub(crate) fn albedo_table(name: &str, view: &View, albedos: &[Albedo]) -> Strin
         }
     }
     if albedos.is_empty() {
-        let why = "There is none, as nothing but the plane of incidence was measured.";
+        let why = "There is none, because only the plane of incidence was measured.";
         return format!("<div class=\"card\">{}<p>{why}</p></div>", heading(name, "Directional albedo"));
     }
     let mut out = format!(

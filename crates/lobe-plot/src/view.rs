@@ -1,4 +1,4 @@
-//! What a figure shows of a material.
+//! The view of a material in a figure.
 
 use lobe::Side;
 use lobe_colour::Reduction;
@@ -8,10 +8,10 @@ use crate::quantity::Quantity;
 use crate::scale::{Scaling, degrees};
 use crate::subject::Subject;
 
-/// How far from the mirror direction spectra are shown, toward the light, in degrees.
+/// The angles from the mirror direction, toward the light, at which spectra are shown, in degrees.
 const OFFSETS: [f64; 4] = [0.0, 5.0, 20.0, 45.0];
 
-/// What a figure shows of a material.
+/// The view of a material in a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
     /// The side that the light comes from.
@@ -33,15 +33,15 @@ pub struct View {
     pub width: u32,
 }
 
-/// Why there is nothing to see.
+/// A view that shows nothing.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ViewError {
-    /// No channel of this name.
+    /// No channel with this name.
     #[error("found no channel {asked}; expected one of {}", known.join(", "))]
     Channel {
         /// What was requested.
         asked: String,
-        /// What there is.
+        /// The available ones.
         known: Vec<String>,
     },
     /// Nothing was measured for light from this side.
@@ -81,7 +81,7 @@ impl View {
         }
     }
 
-    /// The same view of one channel, whose name is compared without regard to case.
+    /// The same view of one channel, whose name is not case-sensitive.
     ///
     /// # Errors
     /// [`ViewError::Channel`].
@@ -113,7 +113,7 @@ impl View {
         }
     }
 
-    /// What each of the [viewing angles](Self::viewing_angles) is called.
+    /// The name of each of the [viewing angles](Self::viewing_angles).
     pub(crate) fn angle_names(&self) -> Vec<String> {
         match self.thetas.is_empty() {
             true => OFFSETS

@@ -1,4 +1,4 @@
-//! Figures of small materials whose values are known.
+//! Figures of small materials with known values.
 
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
@@ -85,7 +85,7 @@ fn every_figure_is_an_svg_with_the_name_of_the_file() {
             assert_eq!(elements[0].0, "svg", "{figure}");
             assert_eq!(attribute(&elements[0].1, "width").as_deref(), Some("300"), "{figure}");
             for (_, element) in &elements {
-                // Pictures are any letters at all.
+                // Pictures may contain any letters.
                 let numbers = element.attributes().flatten().filter(|attribute| attribute.key.as_ref() != "href");
                 for attribute in numbers {
                     assert!(
@@ -97,7 +97,7 @@ fn every_figure_is_an_svg_with_the_name_of_the_file() {
             let name =
                 if subject.name().starts_with("glossy") { "glossy &lt;&amp;&quot;&gt;.ddr" } else { "lambert.ddr" };
             assert!(svg.contains(&format!(">{name}</text>")), "{figure}");
-            // What is referred to is there, once.
+            // Everything that is referred to exists exactly once.
             let ids: Vec<String> = elements.iter().filter_map(|(_, element)| attribute(element, "id")).collect();
             assert_eq!(ids.len(), ids.iter().collect::<BTreeSet<_>>().len(), "{figure}");
             for (_, element) in &elements {
@@ -132,9 +132,9 @@ fn curves_hold_the_values_of_the_material() {
     }
 }
 
-/// The drawn line, taken back to values by the frame and the numbers along it.
+/// The drawn line, converted back to values with the frame and the numbers along it.
 #[test]
-fn the_drawn_line_goes_through_the_values() {
+fn the_drawn_line_passes_through_the_values() {
     let subject = glossy();
     for scaling in [Scaling::Linear, Scaling::Log] {
         let view = View { scaling: Some(scaling), sigmas: vec![40_f64.to_radians()], ..View::new(&subject) };
@@ -174,7 +174,7 @@ fn the_drawn_line_goes_through_the_values() {
 }
 
 #[test]
-fn what_was_not_measured_is_marked() {
+fn unmeasured_values_are_marked() {
     let subject = lambert([0.5; 3], Scatter::Reflection);
     let view = View { sigmas: vec![0.5], ..View::new(&subject) };
     let curve = &curves(&subject, &view, &Silent)[0];
@@ -188,7 +188,7 @@ fn what_was_not_measured_is_marked() {
     assert!(slice.is_measured[32 * 64 + 40], "the mirror direction is on the right");
     assert!(!slice.is_measured[32 * 64 + 2], "the far left is 60 degrees and more away from it");
     assert_eq!(slice.f[0], None, "outside the disk");
-    // At 29 degrees all four nodes are above the horizon, at 57 degrees one is below it.
+    // At 29 degrees, all four nodes are above the horizon; at 57 degrees, one is below it.
     assert_eq!(slice.measured.len(), 4);
     assert_eq!(lobe_plot::slice(&subject, &view, 1.0, Scatter::Reflection, 16, &Silent).measured.len(), 3);
     // Light beyond the last knot was not measured at all.
@@ -213,7 +213,7 @@ fn the_albedo_of_lambert_is_its_albedo() {
     }
 }
 
-/// A Lambert sphere sends back albedo x cos: exact at a light of little extent, and white in the right places.
+/// A Lambertian sphere reflects albedo x cos: exact for a small light, and white in the right places.
 #[test]
 fn a_lambert_sphere_has_the_right_pixels() {
     let albedo = [0.6, 0.3, 0.1];
@@ -237,7 +237,7 @@ fn a_lambert_sphere_has_the_right_pixels() {
     // One stop doubles the light.
     let brighter = sphere.picture(-1.0).rgba[4 * at(50, 50)];
     assert!(brighter.abs_diff(encode(0.3 * cos)) <= 1);
-    // The key light comes from the left, so the lower right is darker, and the light behind shows nothing.
+    // The key light comes from the left, so the lower right is darker, and the light from behind shows nothing.
     let key = shade(&subject, &View::new(&subject), Studio::Key, 51, &Silent);
     assert!(key.linear[18 * 51 + 18][0] > 3.0 * key.linear[38 * 51 + 38][0]);
     let behind = shade(&subject, &View::new(&subject), Studio::Behind, 21, &Silent);
@@ -245,7 +245,7 @@ fn a_lambert_sphere_has_the_right_pixels() {
 }
 
 #[test]
-fn a_png_has_the_size_asked_for_and_is_not_blank() {
+fn a_png_has_the_requested_size_and_is_not_blank() {
     let subject = glossy();
     let svg = draw(&subject, &View::new(&subject), Figure::Curves);
     let png = rasterise(&svg, 360).expect("a picture");
@@ -256,7 +256,7 @@ fn a_png_has_the_size_asked_for_and_is_not_blank() {
     assert_eq!(pixels[..4], [255; 4], "white paper");
     let dark = pixels.chunks_exact(4).filter(|pixel| pixel[0] < 100).count();
     assert!(dark > 500, "{dark} dark pixels of text, frame and curves");
-    // Text is drawn without a typeface of the machine: the heading is in the upper left.
+    // Text is drawn without fonts of the machine: the heading is in the upper left.
     let heading =
         (8..20).flat_map(|y| (10..150).map(move |x| 4 * (y * 360 + x))).filter(|&at| pixels[at] < 100).count();
     assert!(heading > 60, "{heading} dark pixels in the heading");

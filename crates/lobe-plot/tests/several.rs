@@ -27,7 +27,7 @@ fn wavelengths() -> Channels {
 }
 
 #[test]
-fn nothing_positive_is_said_and_drawn() {
+fn figures_without_positive_values_say_so() {
     for texel in [[-1.0, -1.0, -1.0], [0.0; 3], [1.0, 0.5, -0.01], [-1e-38, 1e-38, 3e38]] {
         for channels in [Channels::Rgb, wavelengths()] {
             let subject = flat("odd.ddr", channels.clone(), &texel);
@@ -43,7 +43,7 @@ fn nothing_positive_is_said_and_drawn() {
                         }
                         let svg = one(&subject, &view, figure);
                         let is_odd = |line: &&str| line.contains("NaN") || line.contains("inf");
-                        // Pictures are any letters at all.
+                        // Pictures may contain any letters.
                         let odd = svg.lines().filter(|line| !line.contains("href=")).find(is_odd);
                         assert_eq!(odd, None, "{texel:?} {figure}");
                     }
@@ -64,7 +64,7 @@ fn nothing_positive_is_said_and_drawn() {
 }
 
 #[test]
-fn measured_points_are_marked_and_say_their_value() {
+fn measured_points_are_marked_and_show_their_value() {
     let subject = flat("flat.ddr", Channels::Mono, &[0.25]);
     let view = View { sigmas: vec![0.5], ..View::new(&subject) };
     let curve = &curves(&subject, &view, &Silent)[0];
@@ -84,7 +84,7 @@ fn measured_points_are_marked_and_say_their_value() {
 }
 
 #[test]
-fn dark_channels_have_no_curve_and_no_part_in_the_axis() {
+fn dark_channels_have_no_curve_and_no_influence_on_the_axis() {
     let all = flat("rgb.ddr", Channels::Rgb, &[0.3, 0.2, 1e-9]);
     let svg = one(&all, &View::new(&all), Figure::Channels);
     assert!(svg.contains("above a millionth of the largest value: B."), "B is named");
@@ -100,7 +100,7 @@ fn dark_channels_have_no_curve_and_no_part_in_the_axis() {
 }
 
 #[test]
-fn spectra_go_through_the_values_of_all_wavelengths() {
+fn spectra_pass_through_the_values_of_all_wavelengths() {
     let subject = flat("film.ddr", wavelengths(), &[0.1, 0.4, 0.2]);
     let view = View { sigmas: vec![0.5, 1.0], thetas: vec![0.5, -0.9], ..View::new(&subject) };
     let found = spectra(&subject, &view, &view.sigmas, &Silent).expect("spectra");
@@ -122,7 +122,7 @@ fn spectra_go_through_the_values_of_all_wavelengths() {
 }
 
 #[test]
-fn several_files_share_axes_and_have_a_colour_each() {
+fn several_files_share_axes_and_have_different_colours() {
     let subjects = [flat("a.ddr", Channels::Mono, &[0.25]), flat("b.ddr", Channels::Rgb, &[0.5; 3])];
     let views = subjects.each_ref().map(|subject| View { sigmas: vec![0.0, 0.5], ..View::new(subject) });
     let shown = [0, 1].map(|at| Shown { subject: &subjects[at], view: &views[at] });
@@ -137,7 +137,7 @@ fn several_files_share_axes_and_have_a_colour_each() {
     assert!(curves.contains("<title>b.ddr: σ = 28.6°, θ = 28.6°: 0.5 1/sr</title>"));
     // Two disks per file, and the colour bar.
     assert_eq!(svg(Figure::Slices).matches("<image").count(), 5);
-    // One exposure, that of the brighter one.
+    // One exposure, determined by the brighter one.
     let said = draw(&shown, Figure::Sphere, &Silent).expect("a figure").said;
     let alone = draw(&shown[1..], Figure::Sphere, &Silent).expect("a figure").said;
     assert_eq!(said[0], alone[0].split(',').next().unwrap_or_default());
@@ -152,7 +152,7 @@ fn several_files_share_axes_and_have_a_colour_each() {
 }
 
 #[test]
-fn the_page_says_what_the_checks_found() {
+fn the_page_shows_the_findings_of_the_checks() {
     let subject = flat("bright.ddr", Channels::Mono, &[0.9]);
     let view = View { width: 240, ..View::new(&subject) };
     let page = page(&[Shown { subject: &subject, view: &view }], &[Vec::new()], &Silent);
@@ -165,14 +165,14 @@ fn the_page_says_what_the_checks_found() {
 }
 
 #[test]
-fn narrow_figures_have_letters_that_can_be_read() {
+fn narrow_figures_are_legible() {
     let subject = flat("flat.ddr", wavelengths(), &[0.1, 0.4, 0.2]);
     for (width, units) in [(400, "0 0 400 "), (960, "0 0 720 ")] {
         let view = View { width, ..View::new(&subject) };
         for figure in ALL {
             let svg = one(&subject, &view, figure);
             assert!(svg.contains(&format!("viewBox=\"{units}")), "{width} {figure}");
-            // Letters in pixels.
+            // The size of letters in pixels.
             let units: f64 = if width == 400 { 400.0 } else { 720.0 };
             for size in svg.split(" font-size=\"").skip(1).filter_map(|rest| rest.split('"').next()) {
                 let size: f64 = size.parse().expect("a number");

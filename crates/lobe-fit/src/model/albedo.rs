@@ -1,4 +1,4 @@
-//! Albedos by roughness and by the cosine of the direction, which dim what lies under a layer.
+//! Albedos by roughness and cosine of the direction, which dim the base under a layer.
 
 use crate::real::Real;
 

@@ -19,8 +19,9 @@ pub(super) fn oren_nayar<T: Real>(geometry: &Geometry, degrees: T, albedo: T) ->
     albedo / PI * (a + b * (along / wi[2].max(wo[2])))
 }
 
-/// The energy preserving form of Oren and Nayar's model that OpenPBR prescribes: J. Portsmouth, P. Kutz and S. Hill, *EON: A
-/// practical energy-preserving rough diffuse BRDF*, JCGT 14(1), 2025, with the polynomial of its section 3.2 for the albedo.
+/// The energy-preserving form of Oren and Nayar's model that OpenPBR prescribes: J. Portsmouth, P. Kutz and S. Hill,
+/// *EON: A practical energy-preserving rough diffuse BRDF*, JCGT 14(1), 2025, with the polynomial of its section 3.2
+/// for the albedo.
 pub(super) fn eon<T: Real>(geometry: &Geometry, roughness: T, albedo: T) -> T {
     const C1: f64 = 0.5 - 2.0 / (3.0 * PI);
     const C2: f64 = 2.0 / 3.0 - 28.0 / (15.0 * PI);

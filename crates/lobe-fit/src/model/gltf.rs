@@ -1,4 +1,4 @@
-//! Metallic-roughness of glTF 2.0, appendix B, and two of its extensions.
+//! The metallic-roughness model of glTF 2.0, appendix B, and two of its extensions.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::LazyLock;
@@ -18,7 +18,7 @@ pub(super) const SHEEN: Parameter = shape("sheen", "the sheen, equal in all chan
 pub(super) const SHEEN_ROUGHNESS: Parameter =
     width("sheen_roughness", "root of the roughness of the sheen", [LEAST_SHEEN, 1.0]);
 
-/// Reflectance of a surface of index 1.5 along its normal.
+/// The reflectance along the normal of a surface with index 1.5.
 const DIELECTRIC: f64 = 0.04;
 
 fn facets<T: Real>(geometry: &Geometry, roughness: T) -> T {
@@ -33,7 +33,7 @@ pub(super) fn base<T: Real>(geometry: &Geometry, metallic: T, roughness: T, colo
     diffuse + fresnel * facets(geometry, roughness)
 }
 
-/// A clear coat on `base`: the facets of the coat, whose Fresnel term is that of the viewer, dim what lies under them.
+/// A clear coat on `base`: the facets of the coat, with the Fresnel term of the viewer's direction, dim the base.
 pub(super) fn coated<T: Real>(geometry: &Geometry, base: T, coat: T, roughness: T) -> T {
     let reflected = coat * microfacet::schlick(geometry.cos_o(), DIELECTRIC);
     base.lerp(facets(geometry, roughness), reflected)

@@ -1,11 +1,11 @@
-//! GGX facets, as `lobe_model::Ggx` has them.
+//! GGX facets, as in `lobe_model::Ggx`.
 
 use std::f64::consts::PI;
 
 use crate::geometry::Geometry;
 use crate::real::Real;
 
-/// The components of a vector along x and y axes that are turned by so many degrees.
+/// The components of a vector along x and y axes that are rotated by an angle in degrees.
 pub(super) fn turned<T: Real>(w: [f64; 3], degrees: T) -> [T; 2] {
     let angle = degrees.value().to_radians();
     let (sin, cos) = angle.sin_cos();

@@ -36,11 +36,11 @@ pub enum Model {
     Ggx,
     /// The same with two roughnesses and a rotation.
     GgxAnisotropic,
-    /// What a measured opaque material determines of OpenPBR.
+    /// The parameters of OpenPBR that a measured opaque material determines.
     OpenPbr,
     /// The same with the anisotropy of the roughness.
     OpenPbrAnisotropic,
-    /// Metallic-roughness of glTF.
+    /// The metallic-roughness model of glTF.
     Gltf,
     /// The same under `KHR_materials_clearcoat`.
     GltfClearcoat,
@@ -86,7 +86,7 @@ const ROUGHNESS: [f64; 2] = [0.03, 1.0];
 const ALPHA: [f64; 2] = [5e-4, 2.0];
 
 impl Model {
-    /// All of them.
+    /// All models.
     pub const ALL: [Model; 16] = [
         Model::Lambert,
         Model::OrenNayar,
@@ -106,7 +106,7 @@ impl Model {
         Model::KCorrelation,
     ];
 
-    /// The word for it.
+    /// Its name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Model::Lambert => "lambert",
@@ -128,7 +128,7 @@ impl Model {
         }
     }
 
-    /// What it is, in a line.
+    /// A description in one line.
     pub fn description(self) -> &'static str {
         match self {
             Model::Lambert => "equal radiance in every direction",
@@ -150,7 +150,7 @@ impl Model {
         }
     }
 
-    /// The model of a name.
+    /// The model with this name.
     pub fn named(name: &str) -> Option<Model> {
         Model::ALL.into_iter().find(|model| model.name() == name)
     }
@@ -221,12 +221,12 @@ impl Model {
         }
     }
 
-    /// How many parameters belong to the shape.
+    /// The number of parameters of the shape.
     pub fn shapes(self) -> usize {
         self.parameters().iter().filter(|parameter| parameter.scope == Scope::Shape).count()
     }
 
-    /// The weights that it is fitted with if none are chosen.
+    /// The default weights.
     pub fn default_weights(self) -> Weights {
         if self.is_for_optics() { Weights::Relative } else { Weights::Cosine }
     }
@@ -246,7 +246,7 @@ impl Model {
         self == Model::KCorrelation
     }
 
-    /// Whether it describes this kind of scatter.
+    /// Whether it describes this scatter.
     pub fn describes(self, scatter: Scatter) -> bool {
         let of_both = matches!(self, Model::Lambert | Model::Abg | Model::HarveyShack);
         scatter == Scatter::Reflection || of_both

@@ -1,8 +1,9 @@
-//! What a measured opaque material determines of OpenPBR 1.1: base, metalness, specular roughness with its anisotropy, index.
+//! The parameters of OpenPBR 1.1 that a measured opaque material determines: base, metalness, specular roughness with
+//! its anisotropy, index.
 //!
-//! The weights of base and specular are 1 and the specular colour is white, since measurements cannot tell them from the
-//! colour of the base and the index. Facets reflect once. The diffuse base is dimmed by the albedo of the dielectric facets
-//! toward the viewer, which is tabulated with Schlick's Fresnel term.
+//! The weights of base and specular are 1 and the specular colour is white, because measurements cannot separate them
+//! from the colour of the base and the index. Facets reflect once. The diffuse base is dimmed by the albedo of the
+//! dielectric facets toward the viewer, which is tabulated with Schlick's Fresnel term.
 
 use std::sync::LazyLock;
 
@@ -17,11 +18,14 @@ use crate::real::Real;
 pub(super) const METALNESS: Parameter = shape("base_metalness", "share that is metal", [0.0, 1.0]);
 pub(super) const ROUGHNESS: Parameter =
     width("specular_roughness", "root of the roughness of the facets", super::ROUGHNESS);
-pub(super) const IOR: Parameter = shape("specular_ior", "refractive index of what is no metal", [1.01, 3.0]);
+pub(super) const IOR: Parameter = shape("specular_ior", "refractive index of the dielectric part", [1.01, 3.0]);
 pub(super) const DIFFUSE_ROUGHNESS: Parameter =
     shape("base_diffuse_roughness", "roughness of the diffuse base", [0.0, 1.0]);
-pub(super) const ANISOTROPY: Parameter =
-    shape("specular_roughness_anisotropy", "how much rougher one direction is than the other", [0.0, 0.99]);
+pub(super) const ANISOTROPY: Parameter = shape(
+    "specular_roughness_anisotropy",
+    "anisotropy: the excess roughness of one direction over the other",
+    [0.0, 0.99],
+);
 pub(super) const ROTATION: Parameter =
     shape("rotation", "azimuth of the rougher direction, in degrees", [-100.0, 100.0]);
 
@@ -50,15 +54,16 @@ fn albedo<T: Real>(cos: f64, roughness: T, ior: T) -> T {
     f0.rest() * GRAZING.at(cos, roughness) + f0 * MIRRORS.at(cos, roughness)
 }
 
-/// The share that facets reflect which are perfect mirrors.
+/// The share of the light that facets reflect if they are perfect mirrors.
 static MIRRORS: LazyLock<Albedo> =
     LazyLock::new(|| Albedo::new(super::ROUGHNESS[0], |cos, roughness| facets(cos, roughness, |_| 1.0)));
-/// The share that facets reflect by `(1 - cos)^5`, the part of Schlick's term that does not depend on the index.
+/// The share that facets reflect with the factor `(1 - cos)^5`, the part of Schlick's term that does not depend on the
+/// index.
 static GRAZING: LazyLock<Albedo> = LazyLock::new(|| {
     Albedo::new(super::ROUGHNESS[0], |cos, roughness| facets(cos, roughness, |cos| (1.0 - cos).powi(5)))
 });
 
-/// Facets as the viewer sees them, weighted with what masks the light that they reflect.
+/// Facets visible to the viewer, weighted with the masking of the light that they reflect.
 fn facets(cos: f64, roughness: f64, fresnel: impl Fn(f64) -> f64) -> f64 {
     const SIDE: usize = 12;
     let ggx = Ggx { alpha: [roughness * roughness; 2] };

@@ -17,7 +17,7 @@ fn agree(model: Model, parameters: &[f64], expected: impl exact::Model) {
 }
 
 #[test]
-fn formulas_are_those_of_the_reference() {
+fn formulas_agree_with_the_reference() {
     let (albedo, specular) = ([0.3; 3], [0.4; 3]);
     agree(Model::Lambert, &[0.3], exact::Lambert { albedo });
     agree(Model::OrenNayar, &[20.0, 0.3], exact::OrenNayar { albedo, roughness: 20f64.to_radians() });
@@ -29,7 +29,7 @@ fn formulas_are_those_of_the_reference() {
     agree(Model::GgxAnisotropic, &[0.2, 0.5, 0.0, 0.0, 1.0], conductor);
 }
 
-/// Turning the material is turning both directions the other way.
+/// Rotating the material equals rotating both directions the other way.
 #[test]
 fn rotation_is_an_azimuth() {
     let (sin, cos) = 30f64.to_radians().sin_cos();
@@ -74,10 +74,10 @@ fn derivatives_are_limits_of_differences() {
     }
 }
 
-/// White materials send no more light to a viewer than there is, if light comes from everywhere: layers dim what is under them
-/// by the direction of the viewer.
+/// White materials in uniform light send no more light to a viewer than they receive: layers dim the base by the
+/// direction of the viewer.
 #[test]
-fn models_of_renderers_make_no_light() {
+fn renderer_models_create_no_light() {
     let cases: [(Model, &[f64]); 5] = [
         (Model::OpenPbr, &[0.0, 0.5, 1.5, 0.5, 1.0]),
         (Model::OpenPbr, &[1.0, 0.5, 1.5, 0.0, 1.0]),

@@ -1,4 +1,4 @@
-//! A glTF file with one material and nothing else.
+//! A glTF file with only one material.
 
 use serde_json::{Value, json};
 
@@ -11,7 +11,7 @@ const FORMAT: &str = "glTF";
 /// The material of a fit of glTF's own model, as the text of a `.gltf` file.
 ///
 /// # Errors
-/// [`OutputError`] if glTF has no such model or channels.
+/// [`OutputError`] if glTF does not have the model or the channels.
 pub fn gltf(fit: &Fit, name: &str) -> Result<String, OutputError> {
     let found = fit.request.model;
     let extension = match found {

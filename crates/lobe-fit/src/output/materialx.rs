@@ -1,4 +1,4 @@
-//! MaterialX documents: `open_pbr_surface`, `gltf_pbr` and, for what is only diffuse, `standard_surface`.
+//! MaterialX documents: `open_pbr_surface`, `gltf_pbr` and, for purely diffuse materials, `standard_surface`.
 
 use super::{Coloured, OutputError};
 use crate::fit::Fit;
@@ -9,7 +9,7 @@ const FORMAT: &str = "MaterialX";
 /// The material of a fit, as the text of a `.mtlx` file. Colours are linear, with the primaries of Rec. 709.
 ///
 /// # Errors
-/// [`OutputError`] if MaterialX has no such model or channels.
+/// [`OutputError`] if MaterialX does not have the model or the channels.
 pub fn materialx(fit: &Fit, name: &str) -> Result<String, OutputError> {
     let model = fit.request.model;
     let refused = || {
@@ -99,7 +99,7 @@ impl Document {
         self.input(name, "color3", &format!("value=\"{r}, {g}, {b}\""));
     }
 
-    /// The tangent turned about the normal, counterclockwise as seen from above.
+    /// The tangent rotated about the normal, counterclockwise as seen from above.
     fn tangent(&mut self, name: &str, degrees: f64) {
         self.before += &format!(
             "  <normal name=\"normal_world\" type=\"vector3\">\n    <input name=\"space\" type=\"string\" value=\"world\" />\n  </normal>\n\
@@ -112,7 +112,7 @@ impl Document {
     }
 }
 
-/// A name as MaterialX takes it: letters, digits and underscores, the first no digit.
+/// A valid MaterialX name: letters, digits and underscores, not starting with a digit.
 fn identifier(name: &str) -> String {
     let word: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
     if word.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_') { word } else { format!("material_{word}") }

@@ -18,7 +18,7 @@ pub use optics::{table, total};
 pub use parameters::{Report, json, toml};
 pub use saved::{Saved, SavedError, read};
 
-/// Why a fit cannot be written in a format.
+/// A fit that cannot be written in a format.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum OutputError {
     /// The format has no such model.
@@ -32,15 +32,15 @@ pub enum OutputError {
         format: &'static str,
     },
     /// The channels are not red, green and blue, nor a single one.
-    #[error("found the channels {found}; expected RGB or a single one, as {format} has it")]
+    #[error("found the channels {found}; expected RGB or a single one for {format}")]
     Colour {
         /// The channels of the fit.
         found: String,
         /// The name of the format.
         format: &'static str,
     },
-    /// A shape of its own for each channel.
-    #[error("found a shape for each channel; expected one for all, as {format} has it")]
+    /// Each channel has its own shape.
+    #[error("found one shape per channel; expected one for all channels for {format}")]
     Shapes {
         /// The name of the format.
         format: &'static str,

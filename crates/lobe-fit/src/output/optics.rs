@@ -1,4 +1,4 @@
-//! Tables of what optics programs ask for in their dialogues.
+//! Tables of the parameters that optics programs ask for in their dialogues.
 
 use std::f64::consts::TAU;
 
@@ -7,12 +7,12 @@ use crate::fit::Fit;
 use crate::fitted::Fitted;
 use crate::model::Model;
 
-/// A fit of ABg, Harvey-Shack or K-correlation as comma-separated values, with a row per channel: the wavelength in
-/// micrometres (0 if it is not known, which Zemax takes for any), the parameters, and the total integrated scatter of light
+/// A fit of ABg, Harvey-Shack or K-correlation as comma-separated values, with one row per channel: the wavelength in
+/// micrometres (0 if unknown, which Zemax takes for any), the parameters, and the total integrated scatter for light
 /// along the normal.
 ///
-/// ABg is what the ABg catalogue of Zemax OpticStudio, TracePro and FRED have; the two forms of Harvey-Shack are those of FRED
-/// and TracePro.
+/// ABg is the model of the ABg catalogue of Zemax OpticStudio, TracePro and FRED; the two forms of Harvey-Shack are
+/// those of FRED and TracePro.
 ///
 /// # Errors
 /// [`OutputError`] for other models.
@@ -44,8 +44,8 @@ pub fn table(fit: &Fit) -> Result<String, OutputError> {
     Ok(text)
 }
 
-/// The share of the light along the normal that a channel of a model scatters, whose values depend on the polar angle of the
-/// viewer only: the integral of `f` over direction cosines, in even steps of the logarithm of their size.
+/// The share of light along the normal that a channel scatters, for a model whose values depend only on the polar angle
+/// of the viewer: the integral of `f` over direction cosines, in equal steps of the logarithm of their length.
 pub fn total(fitted: &Fitted, channel: usize) -> f64 {
     const STEPS: usize = 4000;
     const LEAST: f64 = 1e-12;

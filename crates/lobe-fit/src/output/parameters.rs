@@ -1,4 +1,4 @@
-//! Everything that is known of a fit, by name.
+//! Everything about a fit, by name.
 
 use lobe_ops::compare::Visible;
 use serde::ser::SerializeMap;
@@ -7,16 +7,16 @@ use serde::{Serialize, Serializer};
 use crate::fit::{Estimate, Fit};
 use crate::residuals::Residuals;
 
-/// A fit with what was found out about it.
+/// A fit with its evaluation.
 #[derive(Clone, Debug)]
 pub struct Report<'a> {
-    /// What was measured, such as `reflection front`.
+    /// The measured aspect, such as `reflection front`.
     pub aspect: String,
     /// The fit.
     pub fit: &'a Fit,
-    /// How far the model is from the measurement.
+    /// The difference of the model from the measurement.
     pub residuals: &'a Residuals,
-    /// How different two spheres look, if the channels have a colour.
+    /// The visible difference of two spheres, if the channels have a colour.
     pub delta_e: Option<Visible>,
 }
 
@@ -116,12 +116,12 @@ impl Serialize for Report<'_> {
     }
 }
 
-/// The fit as JSON. Uncertainties that are not known are null.
+/// The fit as JSON. Unknown uncertainties are null.
 pub fn json(report: &Report<'_>) -> String {
     serde_json::to_string_pretty(report).unwrap_or_else(|error| unreachable!("numbers and names: {error}")) + "\n"
 }
 
-/// The fit as TOML. Uncertainties that are not known are nan.
+/// The fit as TOML. Unknown uncertainties are nan.
 pub fn toml(report: &Report<'_>) -> String {
     let whole = report.whole();
     let text = |text: &str| serde_json::Value::from(text).to_string();

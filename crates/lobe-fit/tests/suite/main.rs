@@ -1,4 +1,4 @@
-//! Fits of materials whose parameters are known.
+//! Fits of materials with known parameters.
 
 mod measured;
 mod outputs;

@@ -1,4 +1,4 @@
-//! Fits of tables that other models were measured into.
+//! Fits of tables measured from other models.
 
 use std::time::Instant;
 
@@ -30,7 +30,7 @@ fn find<'a>(fit: &'a Fit, name: &str) -> &'a lobe_fit::Estimate {
     fit.estimates.iter().find(|estimate| estimate.parameter.name == name).expect("a parameter")
 }
 
-/// A table of 90 x 90 x 180 bins, as in the MERL database: the right parameters, in less than two seconds where the code
+/// A table of 90 x 90 x 180 bins, as in the MERL database: the right parameters, in less than two seconds if the code
 /// is optimised.
 #[test]
 fn a_table_of_the_size_of_the_merl_database_is_fitted_at_once() {
@@ -46,9 +46,9 @@ fn a_table_of_the_size_of_the_merl_database_is_fitted_at_once() {
     assert!(seconds < 2.0 || cfg!(debug_assertions), "{seconds} s");
 }
 
-/// A table in specular coordinates whose nodes have noise: they are fitted themselves, and the uncertainty is true.
+/// A table in specular coordinates whose nodes have noise: the nodes are fitted, and the uncertainty is right.
 #[test]
-fn nodes_are_fitted_where_they_are_known() {
+fn listed_nodes_are_fitted() {
     let degrees = |list: &[f64]| list.iter().map(|angle| angle.to_radians()).collect::<Vec<_>>();
     let knots = [
         degrees(&[0.0, 15.0, 30.0, 45.0, 60.0, 75.0]),

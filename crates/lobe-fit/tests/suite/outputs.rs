@@ -23,7 +23,7 @@ fn json_and_toml_hold_the_same() {
     toml::de::DeTable::parse(&text).expect("TOML");
     let alpha = json["parameters"]["alpha"].as_f64().expect("a number");
     assert!((alpha - 0.2).abs() < 1e-4);
-    // Numbers and lists of TOML are JSON, too.
+    // Numbers and lists of TOML are also JSON.
     let line = |name: &str, nth: usize| {
         let line = text.lines().filter_map(|line| line.strip_prefix(&format!("{name} = "))).nth(nth);
         serde_json::from_str::<serde_json::Value>(line.expect("a line")).expect("a value")
@@ -90,9 +90,10 @@ fn tables_hold_the_parameters_and_the_total() {
     }
 }
 
-/// The roughness of the surface is what the light loses: (4 pi sigma / lambda)^2, for a spectrum within the hemisphere.
+/// The roughness of the surface determines the scattered share: (4 pi sigma / lambda)^2, for a spectrum within the
+/// hemisphere.
 #[test]
-fn k_correlation_scatters_what_the_roughness_says() {
+fn k_correlation_scatters_the_share_given_by_the_roughness() {
     let model = Fitted::new(Model::KCorrelation, Channels::Mono, Some(600.0), vec![vec![200.0, 4.0, 2.0]]);
     let expected = (4.0 * std::f64::consts::PI * 2.0 / 600.0_f64).powi(2);
     let found = total(&model, 0);

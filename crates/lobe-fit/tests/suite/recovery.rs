@@ -1,4 +1,4 @@
-//! Every model is found again, without noise and with it.
+//! The parameters of every model are recovered, without noise and with it.
 
 use lobe_colour::Channels;
 use lobe_fit::{Fit, Fitted, Measurement, Model, Request, Weights, fit};
@@ -81,10 +81,10 @@ fn parameters_are_found_to_a_hundredth_without_noise() {
     }
 }
 
-/// Deviations in units of the stated uncertainties: their mean square would be 1 if these were exact, and as they are the
-/// larger of two estimates, it is at most that.
+/// Deviations in units of the stated uncertainties: their mean square would be 1 if these were exact; because they are
+/// the larger of two estimates, it is at most 1.
 #[test]
-fn uncertainties_are_true_with_noise() {
+fn uncertainties_are_right_with_noise() {
     let mut squares = Vec::new();
     for (index, (model, shape, channels)) in cases().into_iter().enumerate() {
         let measurement = measured(&truth(model, &shape, &channels), 0.05, 100 + index as u64);
@@ -106,7 +106,7 @@ fn uncertainties_are_true_with_noise() {
         }
     }
     let mean = squares.iter().sum::<f64>() / squares.len() as f64;
-    assert!((0.3..1.5).contains(&mean), "deviations are {:.2} times what they are said to be", mean.sqrt());
+    assert!((0.3..1.5).contains(&mean), "deviations are {:.2} times the stated ones", mean.sqrt());
 }
 
 fn alpha(fit: &Fit) -> f64 {
@@ -114,7 +114,7 @@ fn alpha(fit: &Fit) -> f64 {
 }
 
 #[test]
-fn outliers_count_little_if_that_is_asked_for() {
+fn robust_fits_reduce_the_weight_of_outliers() {
     let (shape, channels) = (vec![0.2], [0.5, 0.3, 0.1].map(|diffuse| vec![diffuse, 0.6]));
     let truth = truth(Model::Ggx, &shape, &channels);
     let pairs = direction_pairs(PAIRS, 1.35);
@@ -134,7 +134,7 @@ fn outliers_count_little_if_that_is_asked_for() {
 }
 
 #[test]
-fn channels_may_have_shapes_of_their_own() {
+fn channels_may_have_their_own_shapes() {
     let parameters = [0.1, 0.2, 0.4].map(|alpha| vec![alpha, 0.2, 0.6]);
     let truth = Fitted::new(Model::Ggx, Channels::Rgb, None, parameters.to_vec());
     let measurement = measured(&truth, 0.0, 0);
@@ -149,7 +149,7 @@ fn channels_may_have_shapes_of_their_own() {
 }
 
 #[test]
-fn a_parameter_at_its_bound_is_said_to_be_there() {
+fn parameters_at_a_bound_are_reported() {
     let (shape, channels) = (vec![1.0, 0.3], [0.9, 0.7, 0.3].map(|color| vec![color]));
     let found =
         fit(&measured(&truth(Model::Gltf, &shape, &channels), 0.0, 0), &Request::new(Model::Gltf)).expect("a fit");
@@ -159,7 +159,7 @@ fn a_parameter_at_its_bound_is_said_to_be_there() {
 }
 
 #[test]
-fn what_cannot_be_fitted_is_refused() {
+fn impossible_fits_are_refused() {
     let pairs = direction_pairs(100, 1.2);
     let grey = |value: f64| Measurement::new(Channels::Mono, &pairs, &vec![value; pairs.len()]).expect("a measurement");
     let message =

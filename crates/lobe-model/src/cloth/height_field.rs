@@ -4,15 +4,14 @@ use super::weave::{Thread, Weave};
 use crate::vec3::{Frame, Vec3, cross, normalize};
 
 /// A grid of square cells, each of two triangles that meet on the diagonal from its lower left corner.
-///
-/// Lengths are in cells, the field repeats after `side` of them. Neighbouring triangles share their corners, so the surface
-/// has no holes: a ray that is above it at one end of an interval and below it at the other has met it.
+/// Lengths are in cells; the field repeats after `side` cells. Neighbouring triangles share their corners, so the
+/// surface has no holes: a ray that is above it at one end of an interval and below it at the other has hit it.
 pub(super) struct HeightField {
     side: usize,
     heights: Vec<f64>,
     /// The highest corner of each cell, to skip cells that a ray passes over.
     cell_tops: Vec<f64>,
-    /// Yarn and fibre frame of each triangle: twice the cells.
+    /// The yarn and the fibre frame of each triangle, of which there are twice as many as cells.
     facets: Vec<(Thread, Frame)>,
     lowest: f64,
     highest: f64,
@@ -20,21 +19,21 @@ pub(super) struct HeightField {
 
 /// A point of the surface.
 pub(super) struct Hit {
-    /// Where, inside the first period.
+    /// The position, inside the first period.
     pub point: Vec3,
     /// Index of the triangle.
     pub facet: usize,
 }
 
-/// What a point may lie under the surface by rounding, in cells. Positions up to a thousand cells carry errors of 1e-13,
-/// which the steepest triangles magnify some ten times.
+/// The distance that rounding may put a point below the surface, in cells. Positions up to a thousand cells have errors
+/// of 1e-13, which the steepest triangles magnify some ten times.
 const ROUNDING: f64 = 1e-10;
 
-/// A ray level with the surface can run along a groove for ever. After as many cells it counts as gone.
+/// A horizontal ray can run along a groove forever. After this many cells it counts as gone.
 const LONGEST: usize = 1 << 16;
 
 impl HeightField {
-    /// Samples one period of a weave with `resolution` cells to a yarn.
+    /// Samples one period of a weave with `resolution` cells per yarn.
     pub fn new(weave: &Weave, resolution: usize) -> HeightField {
         let side = resolution * weave.period() as usize;
         let unit = resolution as f64;
@@ -70,7 +69,7 @@ impl HeightField {
         [u[0] * self.side as f64, u[1] * self.side as f64, self.highest]
     }
 
-    /// The first point that a ray meets. `origin` must be on or above the surface.
+    /// The first point that a ray hits. `origin` must be on or above the surface.
     pub fn first_hit(&self, origin: Vec3, direction: Vec3) -> Option<Hit> {
         let step = [0, 1].map(|axis| if direction[axis] > 0.0 { 1.0_f64 } else { -1.0 });
         let inverse = direction.map(f64::recip);
@@ -78,7 +77,7 @@ impl HeightField {
         // The corner of the current cell, of the endless surface and of its first period.
         let mut corner = [origin[0].floor(), origin[1].floor()];
         let mut cell = corner.map(|c| c.rem_euclid(side) as usize);
-        // A ray that goes down is below everything here at the latest; this ends vertical rays, which leave no cell.
+        // A downward ray is below everything here at the latest; this ends vertical rays, which never leave a cell.
         let end = if direction[2] < 0.0 { (self.lowest - 1.0 - origin[2]) * inverse[2] } else { f64::INFINITY };
         let mut t = 0.0;
         for _ in 0..LONGEST {
@@ -113,11 +112,12 @@ impl HeightField {
         None
     }
 
-    /// Looks for the surface inside one cell, between two ray parameters. `origin` is relative to the corner of the cell.
+    /// Searches for the surface inside one cell, between two ray parameters. `origin` is relative to the corner of the
+    /// cell.
     fn hit_in_cell(&self, cell: [usize; 2], origin: Vec3, direction: Vec3, [from, to]: [f64; 2]) -> Option<Hit> {
         let corners = self.corners(cell[0], cell[1]);
         let at = |t: f64| [0, 1, 2].map(|axis| origin[axis] + t * direction[axis]);
-        // Right of the diagonal where positive.
+        // Positive to the right of the diagonal.
         let right = [from, to].map(|t| at(t)[0] - at(t)[1]);
         let crosses = right[0] * right[1] < 0.0;
         let middle = if crosses { from + (to - from) * right[0] / (right[0] - right[1]) } else { to };
@@ -167,7 +167,7 @@ mod tests {
         HeightField::new(&Weave { over: 2, under: 1, crimp: 0.15, roundness: 0.3, plies }, 16)
     }
 
-    /// Height of the surface at any point, straight from the corners.
+    /// The height of the surface at any point, directly from the corners.
     fn height(field: &HeightField, x: f64, y: f64) -> f64 {
         let cell = [x, y].map(|v| v.floor().rem_euclid(field.side as f64) as usize);
         let (x, y) = (x - x.floor(), y - y.floor());
@@ -188,7 +188,7 @@ mod tests {
             let first = field.first_hit(start, down).expect("a ray that goes down meets the cloth");
             let (_, frame) = field.facet(first.facet);
             assert!(dot(frame.0[2], down) < 0.0, "met from behind");
-            // From there in a random direction out of the facet.
+            // Continue from there in a random direction away from the facet.
             let (cos, phi): (f64, f64) = (rng.random(), rng.random());
             let direction = frame.to_world(spherical(cos.acos(), TAU * phi));
             let found = field.first_hit(first.point, direction);
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn no_triangle_is_in_its_own_way() {
+    fn rays_do_not_hit_the_triangle_they_leave() {
         let field = field();
         let mut rng = Pcg32::seed_from_u64(2);
         for _ in 0..20_000 {
@@ -229,7 +229,7 @@ mod tests {
             let (_, frame) = field.facet(hit.facet);
             let direction = frame.to_world(spherical(FRAC_PI_2, TAU * rng.random::<f64>()));
             let next = field.first_hit(hit.point, direction);
-            assert!(next.is_none_or(|next| next.facet != hit.facet), "{:?} is left and met again", hit.point);
+            assert!(next.is_none_or(|next| next.facet != hit.facet), "{:?} is left and hit again", hit.point);
         }
     }
 

@@ -9,15 +9,17 @@ use super::yarn::Yarn;
 use crate::Model;
 use crate::vec3::{Vec3, scale};
 
-/// A woven cloth whose BRDF is found by following light through it.
+/// A woven cloth whose BRDF is computed by following light through it.
 ///
-/// The light comes from `wi` all over one period of the weave. Each path carries an equal part of it from yarn to yarn. At
-/// each yarn it meets, what that yarn sends toward every viewer is added up, if no other yarn is in the way. So the value is
-/// smooth over the viewers (they share their paths) and, since the `n`-th path always takes the same random numbers, over
-/// `wi` too. The same seed gives the same values whatever else is computed, on however many threads.
+/// The light arrives from `wi` all over one period of the weave. Each path carries an equal share of it from yarn to
+/// yarn. At each yarn that it hits, the light that this yarn scatters toward every viewer is added, if no other yarn is
+/// in the way. So the value is smooth over the viewers (which share their paths) and, because the `n`-th path always
+/// uses the same random numbers, also over `wi`. The same seed gives the same values, whatever else is computed and for
+/// any number of threads.
 ///
-/// With irradiance `E cos_i` a path starts with flux 1 of `n`; the intensity of all paths over the projected area seen is
-/// the radiance, so `f = 1 / (n cos_o)` times the sum over paths and hits of `flux f_yarn cos_yarn` toward the viewer.
+/// With irradiance `E cos_i`, each of `n` paths starts with flux 1; the intensity of all paths divided by the projected
+/// visible area is the radiance, so `f = 1 / (n cos_o)` times the sum over paths and hits of `flux f_yarn cos_yarn`
+/// toward the viewer.
 pub struct Cloth {
     field: HeightField,
     yarns: [Yarn; 2],
@@ -25,15 +27,15 @@ pub struct Cloth {
     seed: u64,
 }
 
-/// Hits of a path before chance may end it.
+/// The number of hits of a path before Russian roulette starts.
 const FIRST_HITS: u32 = 2;
-/// Hits after which a path is dropped, lest it never leave a groove that absorbs nothing. What it still carries is lost; a
-/// path leaves after 3 hits on average, so that is nothing.
+/// The number of hits after which a path is dropped, because it might never leave a groove that absorbs nothing. The
+/// flux that it still carries is lost; paths leave after 3 hits on average, so that is negligible.
 const MOST_HITS: u32 = 1000;
 
 impl Cloth {
-    /// Weaves a cloth. `yarns` are warp and weft; `resolution` is the number of cells of the height field per yarn; `paths`
-    /// the number of light paths for each direction of the light, on which the noise depends.
+    /// Weaves a cloth. `yarns` are warp and weft; `resolution` is the number of cells of the height field per yarn;
+    /// `paths` the number of light paths per direction of the light, on which the noise depends.
     pub fn new(weave: &Weave, yarns: [Yarn; 2], resolution: usize, paths: u32, seed: u64) -> Cloth {
         Cloth { field: HeightField::new(weave, resolution), yarns, paths, seed }
     }
@@ -45,7 +47,8 @@ impl Cloth {
         }
     }
 
-    /// Follows one path and adds what it sends to each viewer, times the cosine at the viewer, to `intensities`.
+    /// Follows one path and adds the light that it sends to each viewer, times the cosine at the viewer, to
+    /// `intensities`.
     fn follow(&self, number: u32, wi: Vec3, viewers: &[Vec3], intensities: &mut [Vec3]) {
         let mut rng = Pcg32::new(self.seed, u64::from(number));
         let mut origin = self.field.above(even_point(number));
@@ -99,7 +102,7 @@ impl Model for Cloth {
     }
 }
 
-/// The `n`-th of a sequence that fills the unit square evenly however many are taken.
+/// The `n`-th point of a sequence that fills the unit square evenly for any number of points.
 ///
 /// M. Roberts, *The unreasonable effectiveness of quasirandom sequences*, 2018: steps of `1/g` and `1/g^2`, `g^3 = g + 1`.
 fn even_point(n: u32) -> [f64; 2] {
@@ -123,7 +126,7 @@ mod tests {
         Yarn { body, shine: [0.0; 3], share: 0.0, roughness: [0.2, 0.5] }
     }
 
-    /// Warp and weft unlike in colour and shine.
+    /// Warp and weft with different colours and shine.
     fn silk() -> [Yarn; 2] {
         [
             Yarn { body: [0.1, 0.2, 0.8], shine: [0.6, 0.8, 1.0], share: 0.4, roughness: [0.2, 0.5] },
@@ -141,12 +144,13 @@ mod tests {
     }
 
     #[test]
-    fn a_coloured_cloth_keeps_some() {
+    fn a_coloured_cloth_absorbs_light() {
         let cloth = Cloth::new(&weave(), [matte([0.8, 0.5, 0.2]); 2], 16, 2000, 7);
         let yarns = Cloth::new(&weave(), silk(), 16, 2000, 7);
         for theta in [0.0, 0.9, 1.4] {
             let back = albedo(&cloth, spherical(theta, 0.7), 12);
-            // Light that meets a second yarn before it leaves is absorbed twice: less than the yarn itself reflects.
+            // Light that hits a second yarn before it leaves is absorbed twice, so the cloth reflects less than the
+            // yarn itself.
             for (all, body) in back.into_iter().zip([0.8, 0.5, 0.2]) {
                 assert!(all < body && all > 0.6 * body, "{all} of {body} at {theta}");
             }
@@ -172,7 +176,7 @@ mod tests {
         let [warp, _] = silk();
         let cloth = Cloth::new(&flat, [warp; 2], 4, 50, 1);
         let (wi, wo) = (spherical(0.6, 0.3), spherical(0.5, 3.0));
-        // Where heights are equal the warp counts as on top: fibres along y, the yarn's x axis.
+        // If heights are equal, the warp counts as on top: fibres along y, the yarn's x axis.
         let turn = |[x, y, z]: Vec3| [y, -x, z];
         for (got, expected) in cloth.f(wi, wo).into_iter().zip(warp.f(turn(wi), turn(wo))) {
             assert!((got - expected).abs() < 1e-12, "{got} instead of {expected}");
@@ -183,7 +187,7 @@ mod tests {
     fn colour_and_shine_turn_with_the_sample() {
         let plain = Weave { over: 1, under: 1, crimp: 0.05, roundness: 0.3, plies: [Ply::SMOOTH; 2] };
         let cloth = Cloth::new(&plain, silk(), 16, 2000, 1);
-        // Off the mirror direction across the warp (x) and across the weft (y): round yarns shine across themselves.
+        // Off the mirror direction, across the warp (x) and across the weft (y): round yarns shine across their axis.
         let quarter = std::f64::consts::FRAC_PI_2;
         let pair = |phi: f64| cloth.f(spherical(0.2, phi), spherical(1.2, phi + 2.0 * quarter));
         let (across_warp, across_weft) = (pair(0.0), pair(quarter));

@@ -1,10 +1,10 @@
-//! A simulated woven cloth, measured by tracing light into its threads.
+//! A simulated woven cloth, measured by tracing light through its threads.
 //!
 //! Tables of cloth were computed from a model of the threads before they were measured: V. Volevich, A. Khodulev,
-//! E. Kopylov and O. Karpenko, *An approach to cloth synthesis and visualization*, GraphiCon 1997. This is the same idea
-//! with today's means. A [`Weave`] says which yarn is on top where and how high; a [`Yarn`] how its fibres reflect; the
-//! two make a periodic height field of triangles, and [`Cloth`] follows light through it, from yarn to yarn, until it
-//! leaves.
+//! E. Kopylov and O. Karpenko, *An approach to cloth synthesis and visualization*, GraphiCon 1997. This is the same
+//! idea with today's means. A [`Weave`] says where each yarn is on top, and how high; a [`Yarn`] says how its fibres
+//! reflect. The two form a periodic height field of triangles, and [`Cloth`] follows light through it, from yarn to
+//! yarn, until it leaves.
 //!
 //! Lengths are in units of the distance between neighbouring yarns. The warp runs along y, the weft along x.
 

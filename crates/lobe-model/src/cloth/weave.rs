@@ -1,8 +1,8 @@
-//! Which yarn is on top, and how high.
+//! The yarn on top at each point, and its height.
 
 use std::f64::consts::{PI, TAU};
 
-/// The family a yarn belongs to.
+/// The family of a yarn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Thread {
     /// Along y.
@@ -11,15 +11,15 @@ pub(super) enum Thread {
     Weft,
 }
 
-/// The geometry of a cloth in which each warp yarn goes over `over` wefts, then under `under`, one step later from yarn to
-/// yarn: 1 and 1 is the plain weave, others are twills.
+/// The geometry of a cloth in which each warp yarn passes over `over` wefts, then under `under`, shifted by one step
+/// from yarn to yarn: 1 and 1 is the plain weave, others are twills.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weave {
     /// Wefts that a warp yarn passes over in a row, at least 1.
     pub over: u32,
     /// Wefts that a warp yarn passes under in a row, at least 1.
     pub under: u32,
-    /// How far the middle of a yarn swings up and down.
+    /// The amplitude of the middle of a yarn.
     pub crimp: f64,
     /// Height of the elliptic cross section of a yarn, from its edge to its top.
     pub roundness: f64,
@@ -27,14 +27,15 @@ pub struct Weave {
     pub plies: [Ply; 2],
 }
 
-/// Ridges that wind round a yarn and lead its fibres.
+/// Ridges that wind around a yarn and guide its fibres.
 ///
 /// Their phase is `along u + across v` turns, `u` along the yarn and `v` across it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ply {
-    /// Ridges per unit of length along the yarn: 0 for an untwisted yarn. A whole number, so that the cloth is periodic.
+    /// Ridges per unit of length along the yarn: 0 for an untwisted yarn. It must be a whole number, so that the cloth
+    /// is periodic.
     pub along: u32,
-    /// Ridges across the yarn; the sign says whether the twist is S or Z. Not 0.
+    /// Ridges across the yarn; the sign says whether the twist is S or Z. It must not be 0.
     pub across: f64,
     /// Height of a ridge above the groove next to it; 0 for a smooth yarn.
     pub depth: f64,
@@ -44,14 +45,14 @@ impl Ply {
     /// Parallel fibres and no ridges.
     pub const SMOOTH: Ply = Ply { along: 0, across: 1.0, depth: 0.0 };
 
-    /// The direction of ridge and fibres, along and across the yarn, not normalised.
+    /// The direction of the ridges and fibres, as components along and across the yarn, not normalised.
     fn fibre(&self) -> [f64; 2] {
         [1.0, -f64::from(self.along) / self.across]
     }
 }
 
 impl Weave {
-    /// Yarns until the pattern repeats, in both directions.
+    /// Number of yarns after which the pattern repeats, in both directions.
     pub(super) fn period(&self) -> u32 {
         self.over + self.under
     }
@@ -109,7 +110,7 @@ mod tests {
         for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1), (5, 2), (7, 3)] {
             let (thread, height) = weave.top(f64::from(i) + 0.5, f64::from(j) + 0.5);
             assert_eq!(thread, if (i + j) % 2 == 0 { Thread::Warp } else { Thread::Weft });
-            // Crimp, cross section and half a ridge, either way.
+            // Crimp, cross section and half a ridge, up or down.
             assert!((height - 0.5).abs() <= 0.025 + 1e-12, "{height}");
         }
     }

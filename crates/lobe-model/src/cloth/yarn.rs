@@ -24,8 +24,8 @@ pub struct Yarn {
 }
 
 impl Yarn {
-    /// A direction in which light from `wi` continues, and the share of it that does: `f cos / pdf`. `None` if the
-    /// sampled direction is into the yarn.
+    /// Samples a direction in which light from `wi` continues, with its weight `f cos / pdf`. Returns `None` if the
+    /// sampled direction points into the yarn.
     pub(super) fn sample(&self, wi: Vec3, rng: &mut impl Rng) -> Option<(Vec3, Vec3)> {
         let ggx = Ggx { alpha: self.roughness };
         let u: [f64; 2] = [rng.random(), rng.random()];
@@ -38,7 +38,7 @@ impl Yarn {
         if wi[2] <= 0.0 || wo[2] <= 0.0 {
             return None;
         }
-        // One pdf for both ways to come to this direction, so that neither gives rare bright samples.
+        // One pdf for both ways of reaching this direction, so that neither gives rare bright samples.
         let pdf = (1.0 - self.share) * wo[2] / PI + self.share * ggx.pdf(wi, wo);
         Some((wo, self.f(wi, wo).map(|f| f * wo[2] / pdf)))
     }

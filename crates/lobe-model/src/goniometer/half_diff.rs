@@ -10,14 +10,14 @@ use crate::vec3::{Vec3, spherical};
 
 /// The bins of `theta_h`, `theta_d` and `phi_d` in the database.
 pub const MERL: [usize; 3] = [90, 90, 180];
-/// What a bin holds that has no directions above the surface.
+/// The value of a bin without directions above the surface.
 const NOT_MEASURED: f32 = -1.0;
 
 /// Measures an isotropic surface in the middle of each bin; if that is below the horizon, at those of eight points
-/// about it that are not. Negative values become 0, since they mean "not measured" here.
+/// around it that are above. Negative values become 0, because they mean "not measured" here.
 ///
-/// Half a turn of `phi_d` represents the whole turn, so that a bin is the mean of a pair of directions and its
-/// exchange. Values of `theta_h` are shared out over the threads of rayon; `progress` is called after each of them.
+/// Half a turn of `phi_d` represents a full turn, so a bin is the mean of a pair of directions and the exchanged pair.
+/// Values of `theta_h` are divided among the threads of rayon; `progress` is called after each of them.
 ///
 /// # Errors
 /// [`Invalid`] if the channels are not RGB, there are no bins, or a value is not finite.
@@ -86,7 +86,7 @@ mod tests {
             let [a, b, c, _] = crate::halton(n);
             let (wi, wo) = (spherical(1.5 * a, 0.0), spherical(1.5 * b, 6.0 * c));
             let bin = table.bin(wi, wo);
-            // Every pair above the horizon falls into a bin that has a value, but for slivers of bins.
+            // Every pair above the horizon falls into a bin with a value, except for slivers of bins.
             dark += usize::from(!table.is_measured(bin));
             let (sin, cos) = (((bin[0] as f64 + 0.5) / 12.0).powi(2) * PI / 2.0).sin_cos();
             let tilt = |[x, y, z]: Vec3| [cos * x + sin * z, y, cos * z - sin * x];

@@ -9,14 +9,13 @@ use rayon::prelude::*;
 use crate::Surface;
 use crate::vec3::Vec3;
 
-/// Directions in a patch: as many rows of polar angle, and of azimuth.
+/// The numbers of rows of polar angle and of azimuth of the directions in a patch.
 const ROWS: usize = 4;
 
 /// Measures a block of a sheet, one matrix per channel: each value is the mean of `f` over 16 directions of the one
 /// patch and 16 of the other, which represent equal projected solid angles. So the flux from patch to patch is right,
-/// and a lobe that is narrower than a patch is spread over it.
-///
-/// Incident patches are shared out over the threads of rayon; `progress` is called after each of them.
+/// and a lobe narrower than a patch is spread over it. Incident patches are divided among the threads of rayon;
+/// `progress` is called after each of them.
 ///
 /// # Errors
 /// [`KlemsError::ValueNotFinite`] if the surface has a value that is not finite.
@@ -41,7 +40,7 @@ pub fn measure(
             let mut f = vec![0.0; viewers.len() * channels];
             let share = 1.0 / (lights.len() * ROWS * ROWS) as f64;
             for [x, y, z] in lights {
-                // A patch of incident light is that of the direction in which it travels.
+                // The patch of incident light is that of the direction in which it travels.
                 surface.f([-x, -y, above_i * z], &viewers, &mut f);
                 for (sum, patch) in sums.chunks_exact_mut(channels).zip(f.chunks_exact(ROWS * ROWS * channels)) {
                     for texel in patch.chunks_exact(channels) {
@@ -60,7 +59,7 @@ pub fn measure(
     (0..channels).map(of_channel).collect()
 }
 
-/// For each patch of the upper hemisphere the middles of equal parts of its projected solid angle.
+/// For each patch of the upper hemisphere, the middles of equal parts of its projected solid angle.
 fn patches(basis: &AngleBasis) -> Vec<Vec<Vec3>> {
     let middle = |i: usize| (i as f64 + 0.5) / ROWS as f64;
     let mut patches = Vec::with_capacity(basis.patches());
@@ -100,14 +99,14 @@ mod tests {
     }
 
     #[test]
-    fn the_flux_is_that_of_the_surface() {
+    fn the_flux_agrees_with_the_surface() {
         let silver = Conductor { ggx: Ggx { alpha: [0.4; 2] }, eta: [1.0; 3], k: [1e6; 3] };
         let basis = AngleBasis::full();
         let matrices = measure(&Rgb(silver), [&basis, &basis], Block::ReflectionBack, || {}).expect("matrices");
         assert_eq!(matrices.len(), 3);
         let (all, expected) = (matrices[1].albedo(0), albedo(&silver, [0.0, 0.0, 1.0], 200)[1]);
-        assert!((all - expected).abs() < 5e-3, "{all} of {expected} comes back from the zenith");
-        // Light from +x goes on to -x: it travels toward the patch that the viewers are in.
+        assert!((all - expected).abs() < 5e-3, "{all} of {expected} is reflected for light from the zenith");
+        // Light from +x continues to -x: it travels toward the patch of the viewers.
         let (s, c) = 0.7f64.sin_cos();
         let [mirror, back] = [-s, s].map(|x| matrices[0].eval([s, 0.0, c], [x, 0.0, c]));
         assert!(mirror > 5.0 * back, "{mirror} in the mirror direction, {back} back");

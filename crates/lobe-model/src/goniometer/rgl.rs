@@ -1,9 +1,9 @@
 //! Surfaces in the adaptive parameterisation of the EPFL database.
 //!
 //! J. Dupuy and W. Jakob, *An adaptive parameterization for efficient material acquisition and rendering*, ACM TOG 37(6),
-//! 2018. The surface is treated as a collection of small mirrors whose normals are found from the light that comes
-//!       straight back; the distribution of the normals that each light sees warps the unit square, so that equal steps
-//!       on it lead to viewers who receive about equal shares of the light. What is left in the images is smooth.
+//! 2018. The surface is treated as a collection of small mirrors whose normals are found from the retroreflected light;
+//!       the distribution of the normals visible from each light warps the unit square, so that equal steps on it lead
+//!       to viewers that receive about equal shares of the light. The images are then smooth.
 
 use std::f64::consts::{PI, TAU};
 
@@ -15,54 +15,54 @@ use super::lift;
 use crate::Surface;
 use crate::vec3::{Vec3, add, dot, normalize, reflect, spherical};
 
-/// How finely a surface is measured.
+/// The resolution of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Resolution {
     /// Zenith angles of the light, at least 2: evenly from 0 to 89 degrees.
     pub theta_i: usize,
-    /// Azimuths of the light: 1 for an isotropic surface, else at least 3, evenly over the whole turn with both its ends.
+    /// Azimuths of the light: 1 for an isotropic surface, otherwise at least 3, evenly over a full turn with both ends.
     pub phi_i: usize,
-    /// Columns of the distribution of microfacets, and rows for other than isotropic surfaces, at least 2. Values follow
-    /// it exactly only at its texels.
+    /// Columns of the distribution of microfacets, and rows for anisotropic surfaces, at least 2. Values follow it
+    /// exactly only at its texels.
     pub ndf: usize,
-    /// Rows and columns of the other images of microfacets, at least 2. They only say where values are kept.
+    /// Rows and columns of the other images of microfacets, at least 2. They only determine where values are stored.
     pub microfacets: usize,
     /// Rows and columns of the images of values, at least 2.
     pub spectra: usize,
 }
 
 impl Resolution {
-    /// What keeps most values of a smooth isotropic surface within a thousandth, in 6 megabytes.
+    /// Keeps most values of a smooth isotropic surface within a thousandth, in 6 megabytes.
     pub const ISOTROPIC: Resolution = Resolution { theta_i: 48, phi_i: 1, ndf: 512, microfacets: 128, spectra: 64 };
     /// A compromise between accuracy and the 18 megabytes of the file for other surfaces.
     pub const ANISOTROPIC: Resolution = Resolution { theta_i: 20, phi_i: 25, ndf: 192, microfacets: 48, spectra: 40 };
 
-    /// How often [`measure`] reports progress.
+    /// The number of progress reports of [`measure`].
     pub fn steps(&self) -> usize {
         self.theta_i * self.phi_i + if self.phi_i == 1 { 1 } else { self.ndf }
     }
 }
 
-/// The last zenith angle of the light: at 90 degrees none falls on the surface.
+/// The last zenith angle of the light: at 90 degrees, no light falls on the surface.
 const LAST_THETA: f64 = 89.0 * PI / 180.0;
 /// Iterations for the distribution of normals; four leave an error below that of the images.
 const ITERATIONS: usize = 8;
-/// The share of microfacets that are assumed to be oriented at random, so that no direction has none: little, as values
-/// are smooth only where they are divided by the microfacets that they come from.
+/// The share of microfacets that are assumed to be oriented at random, so that every direction has some: small, because
+/// values are smooth only if they are divided by the microfacets that they come from.
 const RANDOM: f64 = 1e-4;
-/// How much of a warp is even over the square of zenith and azimuth. The microfacets alone would leave the directions
-/// about the normal, of which there are few, to a single row of texels.
+/// The share of a warp that is uniform over the square of zenith and azimuth. The microfacets alone would leave a
+/// single row of texels for the few directions around the normal.
 const EVEN: f64 = 0.5;
 
 /// Measures a surface into a material that reproduces it at every node: at the knots of the light and the texels of its
 /// images. Values are those of [`rgl::Data`]: `f cos(theta_o)` over `ndf / (4 sigma)`.
 ///
-/// Texels whose viewer is below the surface hold 0. Directions of the light are shared out over the threads of
-/// rayon; `progress` is called after each of them, and for each row of the microfacets.
+/// Texels whose viewer is below the surface are 0. Directions of the light are divided among the threads of rayon;
+/// `progress` is called after each of them, and for each row of the microfacets.
 ///
 /// # Errors
-/// [`Invalid`] if the channels are neither RGB nor ascending wavelengths, the resolution is below its least, or a value
-/// is not finite.
+/// [`Invalid`] if the channels are neither RGB nor ascending wavelengths, the resolution is too low, or a value is not
+/// finite.
 pub fn measure(
     surface: &dyn Surface,
     resolution: Resolution,
@@ -116,17 +116,17 @@ pub fn measure(
     })
 }
 
-/// The small mirrors as which the surface is treated.
+/// The small mirrors that represent the surface.
 struct Microfacets {
     /// Their distribution over the normals, in 1/sr; the integral weighted with the cosine is 1.
     ndf: Images,
-    /// Their area seen from a direction, for each area of the surface.
+    /// Their area seen from a direction, per area of the surface.
     sigma: Images,
 }
 
 impl Microfacets {
-    /// Finds the microfacets from the light that comes straight back. With all of them mirrors of equal reflectance
-    /// `f(m, m) = c ndf(m) / (4 cos(m) sigma(m))`, and sigma is the integral of ndf: so ndf is an eigenvector, which power
+    /// Finds the microfacets from the retroreflected light. If all of them are mirrors of equal reflectance, `f(m, m) =
+    /// c ndf(m) / (4 cos(m) sigma(m))`, and sigma is the integral of ndf: so ndf is an eigenvector, which power
     /// iteration finds (Dupuy et al., *Extracting microfacet-based BRDF parameters from arbitrary materials with power
     /// iterations*, EGSR 2015).
     fn new(
@@ -135,7 +135,7 @@ impl Microfacets {
         [fine, side]: [usize; 2],
         progress: &(impl Fn() + Sync),
     ) -> Result<Self, Invalid> {
-        // An isotropic surface looks alike from all azimuths, and two rows suffice for its images.
+        // An isotropic surface looks the same from all azimuths, so two rows are enough for its images.
         let image = |part, side: usize, row_or_all: Vec<f64>| {
             let kept = if is_isotropic { 2 } else { side };
             Images::new(part, [1, kept, side], row_or_all.iter().cycle().take(kept * side).map(|&x| x as f32).collect())
@@ -166,7 +166,7 @@ impl Microfacets {
         for _ in 0..ITERATIONS {
             let next: Vec<f64> = area_seen(&ndf).iter().zip(&returned).map(|(sigma, back)| sigma * back).collect();
             total = areas.iter().zip(&normals).zip(next.iter().cycle()).map(|((area, m), d)| area * m[2] * d).sum();
-            // A surface that sends nothing back says nothing about its facets.
+            // A surface without retroreflection says nothing about its facets.
             if total <= 0.0 {
                 break;
             }
@@ -189,7 +189,7 @@ impl Microfacets {
         self.sigma.bilinear(0, [(wi[2].clamp(-1.0, 1.0).acos() * 2.0 / PI).sqrt(), (wi[1].atan2(wi[0]) + PI) / TAU])
     }
 
-    /// The density of the normals that light from `wi` meets, on the unit square.
+    /// The density of the normals visible from `wi`, on the unit square.
     fn visible(&self, wi: Vec3, side: usize) -> Vec<f32> {
         let density = |u: [f64; 2]| {
             let m = spherical(theta(u[0]), phi(u[1]));
@@ -205,7 +205,7 @@ impl Microfacets {
         let normals: Vec<[f64; 2]> = positions(side)
             .map(|s| {
                 let (u, _) = warp.sample(s, &blend);
-                // The sampler keeps a little away from the border, which is a node here.
+                // The sampler stays slightly away from the border, which is a node here.
                 [0, 1].map(|axis| if s[axis] == 0.0 || s[axis] == 1.0 { s[axis] } else { u[axis] })
             })
             .collect();
@@ -221,7 +221,7 @@ impl Microfacets {
         for ((&texel, wo), f) in lit.iter().zip(&above).zip(f.chunks_exact(channels)) {
             let (u, m) = (normals[texel], normalize(add(wi, *wo)));
             let mirrors = self.ndf.bilinear(0, u) / (4.0 * self.area(wi));
-            // Samples are drawn by the warp, which is not quite that of the visible normals, and by luminance.
+            // Samples are drawn by the warp, which is not exactly that of the visible normals, and by luminance.
             let drawn = 4.0 * dot(wi, m) * stretch(u) / warp.density(u, &blend);
             for (channel, f) in f.iter().enumerate() {
                 let shed = f * wo[2];

@@ -10,11 +10,11 @@ use crate::ink::Ink;
 use crate::scale::{Scaling, degrees, short};
 use crate::shown::Shown;
 
-/// Between measured points, something is said about a curve every so many degrees.
+/// The distance, in degrees, of hints on a curve between measured points.
 const EVERY: f64 = 5.0;
 
-/// Reflection above transmission, a curve per incidence; for several files, a panel per incidence, a curve per file.
-/// `curves` are those of each file.
+/// Reflection above transmission, with one curve per incidence; for several files, one panel per incidence and one
+/// curve per file. `curves` holds the curves of each file.
 pub(super) fn chart<'a>(shown: &[Shown<'a>], curves: &[Vec<Curve>], scaling: Option<Scaling>) -> Chart<'a> {
     let scaling = scaling.unwrap_or(Scaling::Log);
     let (panels, legend) = match curves {
@@ -53,7 +53,7 @@ pub(super) fn incidences<'a>(curves: impl IntoIterator<Item = &'a Curve>) -> Vec
     sigmas
 }
 
-/// What happens to the light, each once.
+/// The scatters of the curves, each once.
 fn scatters<'a>(curves: impl IntoIterator<Item = &'a Curve>) -> Vec<Scatter> {
     let mut found: Vec<Scatter> = curves.into_iter().map(|curve| curve.scatter).collect();
     found.sort_by_key(|scatter| *scatter == Scatter::Transmission);
@@ -96,7 +96,7 @@ fn of_files(shown: &[Shown<'_>], curves: &[Vec<Curve>], scaling: Scaling) -> (Ve
                 1 if scatter == Scatter::Reflection => format!("σ = {}", degrees(sigma)),
                 _ => format!("{}, σ = {}", scatter_name(scatter), degrees(sigma)),
             };
-            // On one linear axis, peaks at low light would leave nothing to see of the others.
+            // On a common linear axis, peaks for grazing light would make the other curves invisible.
             let group = if scaling == Scaling::Linear { panels.len() } else { group };
             panels.push(Panel { name, group, lines, mirrors: vec![Mirror { ink: None, x: sigma }] });
         }
@@ -106,8 +106,7 @@ fn of_files(shown: &[Shown<'_>], curves: &[Vec<Curve>], scaling: Scaling) -> (Ve
     (panels, ("file", shown.iter().enumerate().map(entry).collect()))
 }
 
-/// A curve with something to say about the measured points, if they are few, or else every few degrees; and about the
-/// largest value.
+/// A curve with hints at the measured points, if they are few, otherwise every few degrees; and at the largest value.
 pub(super) fn line(curve: &Curve, ink: Ink, name: &str) -> Line {
     let text = |at: usize| {
         let kind = if curve.is_measured[at] { "" } else { ", not measured" };

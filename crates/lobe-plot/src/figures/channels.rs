@@ -12,17 +12,17 @@ use crate::ink::Ink;
 use crate::scale::{Scaling, degrees};
 use crate::shown::Shown;
 
-/// More panels than this, one per incidence and kind of scattering, make the figure too long.
+/// More panels than this, one per incidence and scatter, make the figure too long.
 const PANELS: usize = 4;
 /// At most this many incidences.
 const INCIDENCES: usize = 3;
-/// A channel whose largest value is this share of that of all, or less, is dark.
+/// A channel is dark if its largest value is at most this share of the largest value of all.
 const DARK: f64 = 1e-6;
 
 /// The incidences to draw, each a panel.
 pub(super) fn sigmas(shown: Shown<'_>) -> Vec<f64> {
     let most = (PANELS / shown.subject.scatters(shown.view.side).len().max(1)).min(INCIDENCES);
-    // The last of one more is so low that it says more about the horizon than about the material.
+    // With one more, the last incidence is so low that it says more about the horizon than about the material.
     let mut sigmas = shown.view.incidences(shown.subject, most + 1);
     if shown.view.sigmas.is_empty() {
         sigmas.truncate(most);
@@ -30,8 +30,8 @@ pub(super) fn sigmas(shown: Shown<'_>) -> Vec<f64> {
     sigmas
 }
 
-/// A panel per incidence, a curve per channel. If there are many channels, some of them, evenly chosen. Dark ones have
-/// no curve, and a line below the figure.
+/// One panel per incidence, one curve per channel. If there are many channels, some of them are drawn, evenly chosen.
+/// Dark channels have no curve, but are named in a line below the figure.
 pub(super) fn chart<'a>(shown: Shown<'a>, progress: &dyn Progress) -> Chart<'a> {
     let Shown { subject, view } = shown;
     let channels = subject.material().channels();
@@ -68,7 +68,7 @@ pub(super) fn chart<'a>(shown: Shown<'a>, progress: &dyn Progress) -> Chart<'a> 
     let dark: Vec<&str> = (0..chosen.len()).filter(|&at| is_dark[at]).map(|at| names[chosen[at]].as_str()).collect();
     if !dark.is_empty() {
         notes.push(format!(
-            "Not drawn, as nothing of it is above a millionth of the largest value: {}.",
+            "Not drawn, because no value is above a millionth of the largest value: {}.",
             dark.join(", ")
         ));
     }
@@ -90,7 +90,7 @@ pub(super) fn chart<'a>(shown: Shown<'a>, progress: &dyn Progress) -> Chart<'a> 
     }
 }
 
-/// At most [`MOST`] channels, the first and the last among them.
+/// At most [`MOST`] channels, including the first and the last.
 fn chosen(count: usize) -> Vec<usize> {
     match count {
         0..=MOST => (0..count).collect(),

@@ -1,4 +1,4 @@
-//! Panels of lines over one axis: of viewing angles, or of wavelengths.
+//! Panels of lines over one axis: viewing angles or wavelengths.
 
 use super::legend::{Entry, Legend};
 use super::lines::runs;
@@ -9,16 +9,16 @@ use crate::scale::{Scale, Scaling, minus};
 use crate::shown::Shown;
 use crate::svg::{Anchor, Area, LABEL, Role, Svg, Text};
 
-/// How far a drawn line may deviate from the values, in units of the figure.
+/// The largest deviation of a drawn line from the values, in units of the figure.
 const TOLERANCE: f64 = 0.05;
 /// The distance between panels.
 const GAP: f64 = 30.0;
 /// Labels of more letters than this do not fit next to a plot.
 const SHORT: usize = 9;
-/// More dots than this hide the line that they are on.
+/// More dots than this would hide their line.
 pub(super) const DOTS: usize = 200;
 
-/// What lines are drawn over.
+/// The axis over which lines are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Axis {
     /// Viewing angles, from -90 to 90 degrees.
@@ -45,28 +45,28 @@ pub(super) struct Line {
     pub(super) x: Vec<f64>,
     pub(super) f: Vec<f32>,
     pub(super) is_measured: Vec<bool>,
-    /// What is shown about some of its points.
+    /// The hints at some of its points.
     pub(super) hints: Vec<Hint>,
 }
 
-/// What is shown about a point of a line when the pointer is on it.
+/// A hint that is shown when the pointer is on a point of a line.
 #[derive(Clone, Debug)]
 pub(super) struct Hint {
     /// The position in the line.
     pub(super) at: usize,
-    /// The value itself was measured there, which a dot shows.
+    /// The value was measured there, which a dot shows.
     pub(super) is_point: bool,
     pub(super) text: String,
 }
 
-/// The sign of a mirror direction, or of a straight ray, above a panel.
+/// The mark of a mirror direction, or of a straight ray, above a panel.
 #[derive(Clone, Debug)]
 pub(super) struct Mirror {
     pub(super) ink: Option<Ink>,
     pub(super) x: f64,
 }
 
-/// Lines with an axis of values of their own.
+/// Lines with their own axis of values.
 #[derive(Clone, Debug)]
 pub(super) struct Panel {
     pub(super) name: String,
@@ -81,16 +81,16 @@ pub(super) struct Panel {
 pub(super) struct Chart<'a> {
     pub(super) id: String,
     pub(super) shown: Vec<Shown<'a>>,
-    /// What is shown, below the names.
+    /// The contents of the figure, shown below the names.
     pub(super) what: String,
     /// A description for screen readers.
     pub(super) title: String,
     pub(super) axis: Axis,
     pub(super) scaling: Scaling,
     pub(super) panels: Vec<Panel>,
-    /// What the series are, and each of them.
+    /// The meaning of the series, and each of them.
     pub(super) legend: (&'static str, Vec<Entry>),
-    /// What is at the left and at the right of the axis.
+    /// The labels at the left and the right end of the axis.
     pub(super) ends: [&'static str; 2],
     pub(super) notes: Vec<String>,
 }
@@ -178,8 +178,8 @@ impl Chart<'_> {
         }
     }
 
-    /// The values that an axis has to cover. Values near the horizon are left out, and those that were not measured too
-    /// unless nothing was.
+    /// The values that an axis has to cover. Values near the horizon are left out, and so are unmeasured ones, unless
+    /// nothing was measured.
     fn counted(&self, lines: &[&Line]) -> impl Iterator<Item = f64> {
         let any = lines.iter().any(|line| line.is_measured.contains(&true));
         let is_near_horizon = |x: f64| self.axis == Axis::Angle && x.abs() >= 1.5;
@@ -194,7 +194,7 @@ impl Chart<'_> {
         values.into_iter()
     }
 
-    /// The upright grid lines and their numbers.
+    /// The vertical grid lines and their numbers.
     fn angles_or_wavelengths(&self, svg: &mut Svg<'_>, area: Area, is_last: bool) {
         let bottom = area.y + area.height;
         let mut tick = |x: f64, label: Option<String>, role: Role| {
@@ -223,14 +223,14 @@ impl Chart<'_> {
         }
     }
 
-    /// What the axis shows; returns the height below it.
+    /// The label of the axis; returns the height below it.
     fn below_axis(&self, svg: &mut Svg<'_>, [from, to]: [f64; 2], bottom: f64) -> f64 {
         let label = match self.axis {
             Axis::Angle => "viewing angle θ_{o} (degrees)",
             Axis::Wavelength(..) => "wavelength (nm)",
         };
         let note = Text { role: Role::Muted, size: 15.0, ..LABEL };
-        // What is at the ends goes below the label if the two would meet.
+        // The labels at the ends go below the axis label if they would overlap.
         let y = bottom + if svg.layout().is_narrow { 72.0 } else { 52.0 };
         svg.rich([0.5 * (from + to), bottom + 52.0], MIDDLE, label);
         let [start, end] = self.ends;
@@ -244,13 +244,13 @@ impl Chart<'_> {
 }
 
 impl Line {
-    /// Where it was measured.
+    /// The measured points.
     fn points(&self) -> impl Iterator<Item = &Hint> {
         self.hints.iter().filter(|hint| hint.is_point)
     }
 }
 
-/// The level grid lines and their numbers.
+/// The horizontal grid lines and their numbers.
 fn values(svg: &mut Svg<'_>, area: Area, scale: &Scale) {
     for tick in scale.ticks() {
         let y = area.y + area.height * (1.0 - scale.place(tick.value));

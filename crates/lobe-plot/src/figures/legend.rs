@@ -14,10 +14,10 @@ pub(super) struct Entry {
     pub(super) label: String,
 }
 
-/// The series of a figure, and what its lines and signs mean.
+/// The series of a figure, and the meaning of its lines and marks.
 #[derive(Debug)]
 pub(super) struct Legend<'a> {
-    /// What the series are.
+    /// The meaning of the series.
     pub(super) title: &'a str,
     pub(super) entries: &'a [Entry],
     pub(super) has_mirror: bool,
@@ -25,7 +25,7 @@ pub(super) struct Legend<'a> {
     pub(super) has_continued: bool,
 }
 
-/// A sign and what it means.
+/// A mark and its meaning.
 enum Sign<'a> {
     Series(&'a Entry),
     Mirror,
@@ -36,7 +36,7 @@ enum Sign<'a> {
 const NOTE: Text = Text { role: Role::Muted, size: 15.0, ..LABEL };
 
 impl Legend<'_> {
-    /// One entry per line, from `top` down.
+    /// One entry per line, downward from `top`.
     pub(super) fn beside(&self, svg: &mut Svg<'_>, [x, top]: [f64; 2]) {
         svg.rich([x, top], Text { size: 16.0, ..NOTE }, self.title);
         let mut y = top;
@@ -51,7 +51,7 @@ impl Legend<'_> {
         }
     }
 
-    /// In rows over the width of the figure, from `top` down; returns the height below them.
+    /// In rows over the width of the figure, downward from `top`; returns the height below them.
     pub(super) fn below(&self, svg: &mut Svg<'_>, top: f64) -> f64 {
         svg.rich([MARGIN, top], Text { size: 16.0, ..NOTE }, self.title);
         let mut y = self.rows(svg, top + STEP - 3.0, &self.series().collect::<Vec<_>>());
@@ -60,7 +60,7 @@ impl Legend<'_> {
     }
 
     fn rows(&self, svg: &mut Svg<'_>, top: f64, signs: &[Sign<'_>]) -> f64 {
-        // A sign, its label, and the distance to the next one.
+        // A mark, its label, and the distance to the next one.
         let width = |sign: &Sign<'_>| match sign {
             Sign::Series(entry) => 52.0 + 9.0 * entry.label.chars().count() as f64,
             Sign::Mirror | Sign::Point | Sign::Continued => 114.0,

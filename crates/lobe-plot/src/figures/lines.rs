@@ -1,8 +1,8 @@
-//! Lines that were measured in part.
+//! Lines of partly measured values.
 
 use crate::simplify::simplify;
 
-/// Splits a line into runs that were measured and runs that were not. Neighbouring runs share a point, so no gap shows.
+/// Splits a line into measured and unmeasured runs. Neighbouring runs share a point, so no gap shows.
 pub(super) fn runs(points: &[[f64; 2]], is_measured: &[bool], tolerance: f64) -> Vec<(bool, Vec<[f64; 2]>)> {
     let mut runs: Vec<(bool, Vec<[f64; 2]>)> = Vec::new();
     for (&point, &measured) in points.iter().zip(is_measured) {

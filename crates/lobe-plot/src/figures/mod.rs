@@ -37,7 +37,7 @@ pub enum Figure {
     Spectra,
     /// Values in the plane of incidence in polar coordinates, as lobes.
     Polar,
-    /// All outgoing directions, a disk for each incidence.
+    /// All outgoing directions, one disk per incidence.
     Slices,
     /// Spheres under lights.
     Sphere,
@@ -56,45 +56,45 @@ impl fmt::Display for Figure {
     }
 }
 
-/// Why a figure cannot be drawn of some materials.
+/// A figure that cannot be drawn of some materials.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum DrawError {
-    /// Figures that show one material only.
+    /// Several materials for a figure that shows only one.
     #[error("found {found} files; expected one for the figure {figure}")]
     Several {
         /// The figure.
         figure: Figure,
-        /// How many materials were given.
+        /// The number of given materials.
         found: usize,
     },
-    /// Spectra of a material without them.
+    /// Spectra of a material without wavelengths.
     #[error("found the channels {found}; expected at least two wavelengths")]
     NoSpectra {
-        /// The channels that there are.
+        /// The channels of the material.
         found: String,
     },
 }
 
-/// A figure, and what there is to say about it.
+/// A figure, and remarks about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Drawing {
     /// A self-contained SVG on white, readable at any size.
     pub svg: String,
-    /// What is shown, in a few words each: the incidences, the exposure.
+    /// The contents, in a few words each: the incidences, the exposure.
     pub said: Vec<String>,
 }
 
-/// One figure, as wide as the first view says. If that is less than 560 pixels, it is laid out for narrow paper.
+/// One figure, with the width of the first view. If that is less than 560 pixels, it is laid out for narrow columns.
 ///
 /// # Errors
-/// If the figure shows one material only and there are several, or if there are no spectra to draw.
+/// If there are several materials for a figure that shows only one, or if there are no spectra to draw.
 pub fn draw(shown: &[Shown<'_>], figure: Figure, progress: &dyn Progress) -> Result<Drawing, DrawError> {
     let pixels = shown.first().map_or(0, |first| first.view.width);
     let Plate { draw, said } = compose(shown, figure, progress)?;
     Ok(Drawing { svg: draw(Paper::alone(pixels)), said })
 }
 
-/// A figure whose values are known, to be drawn on any paper.
+/// A figure with computed values, to be drawn in any layout.
 pub(crate) struct Plate<'a> {
     pub(crate) draw: Box<dyn Fn(Paper<'_>) -> String + 'a>,
     pub(crate) said: Vec<String>,

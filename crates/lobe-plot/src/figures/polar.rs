@@ -18,14 +18,14 @@ const TOLERANCE: f64 = 0.05;
 /// If the largest value of one curve is this many times that of another, a linear radius shows only the first.
 const WIDE: f64 = 8.0;
 
-/// Where the lobes are on the paper.
+/// The position of the lobes in the figure.
 #[derive(Clone, Copy, Debug)]
 struct Disk {
     centre: [f64; 2],
     radius: f64,
 }
 
-/// Reflection above the surface, transmission below it. `curves` are those of each file.
+/// Reflection above the surface, transmission below it. `curves` holds the curves of each file.
 pub(super) fn draw(shown: &[Shown<'_>], curves: &[Vec<Curve>], asked: Option<Scaling>, paper: Paper<'_>) -> String {
     let Some(first) = shown.first() else { return String::new() };
     let layout = paper.layout;
@@ -108,7 +108,7 @@ pub(super) fn draw(shown: &[Shown<'_>], curves: &[Vec<Curve>], asked: Option<Sca
     svg.finish(bottom + 18.0, &title(shown, "lobes in the plane of incidence"))
 }
 
-/// Linear if all curves can be seen that way.
+/// Linear if all curves are visible with it.
 fn scale<'a>(curves: impl Iterator<Item = &'a Curve>, asked: Option<Scaling>) -> Scale {
     let inner = |curve: &Curve| -> Vec<f64> {
         let of = curve.theta.iter().zip(&curve.f).filter(|(theta, _)| theta.abs() < 1.5);
@@ -127,7 +127,7 @@ fn scale<'a>(curves: impl Iterator<Item = &'a Curve>, asked: Option<Scaling>) ->
             // A radius cannot be negative.
             Scale::around(all.iter().flatten().map(|value| value.max(0.0)), Scaling::Linear)
         }
-        // The centre lies below most values, so that noise does not inflate the lobes.
+        // The centre is below most values, so that noise does not inflate the lobes.
         Scaling::Log => Scale::around([most, (0.3 * quartile).max(1e-5 * most)].into_iter(), Scaling::Log),
     }
 }

@@ -1,4 +1,4 @@
-//! What all figures share: margins, headings and names.
+//! Code shared by all figures: margins, headings and names.
 
 use lobe::{Scatter, Side};
 
@@ -15,7 +15,7 @@ pub(super) fn id(figure: &str, view: &View) -> String {
     format!("{figure}-{}-{:.0}", side_name(view.side), view.psi.to_degrees())
 }
 
-/// The names of the files, and what is shown of them; returns the height at which plots begin.
+/// The names of the files, and the contents of the figure; returns the height at which plots begin.
 pub(super) fn heading(svg: &mut Svg<'_>, shown: &[Shown<'_>], what: &str) -> f64 {
     let room = svg.layout().width - 2.0 * MARGIN;
     let name = match shown {
@@ -32,7 +32,7 @@ pub(super) fn heading(svg: &mut Svg<'_>, shown: &[Shown<'_>], what: &str) -> f64
     56.0 + 20.0 * lines.len() as f64
 }
 
-/// Muted lines from `y` down; returns the height below them.
+/// Muted lines, downward from `y`; returns the height below them.
 pub(super) fn notes(svg: &mut Svg<'_>, y: f64, lines: &[String]) -> f64 {
     let letters = ((svg.layout().width - 2.0 * MARGIN) / 7.4) as usize;
     let mut y = y;
@@ -43,7 +43,7 @@ pub(super) fn notes(svg: &mut Svg<'_>, y: f64, lines: &[String]) -> f64 {
     y
 }
 
-/// A name that has at most so many letters; a longer one loses its middle.
+/// A name of at most this many letters; a longer one loses its middle.
 pub(super) fn shortened(name: &str, fits: usize) -> String {
     let count = name.chars().count();
     if count <= fits {
@@ -53,7 +53,7 @@ pub(super) fn shortened(name: &str, fits: usize) -> String {
     format!("{}…{}", part(0, fits / 2), part(count - (fits - fits / 2 - 1), count))
 }
 
-/// Lines of at most so many letters, unless a word is longer.
+/// Lines of at most this many letters, unless a word is longer.
 fn wrapped(text: &str, letters: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split(' ') {
@@ -68,7 +68,7 @@ fn wrapped(text: &str, letters: usize) -> Vec<String> {
     lines
 }
 
-/// What a figure shows: the position of the light and the quantity.
+/// A description of the contents: the position of the light and the quantity.
 pub(super) fn conditions(shown: &[Shown<'_>]) -> String {
     let Some(Shown { subject, view }) = shown.first() else { return String::new() };
     let mut words = vec![format!("ψ\u{a0}=\u{a0}{}", degrees(view.psi))];
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_are_as_long_as_they_may_be() {
+    fn lines_are_filled() {
         assert_eq!(wrapped("one two three", 7), ["one two", "three"]);
         assert_eq!(wrapped("unbreakable word", 4), ["unbreakable", "word"]);
     }

@@ -21,12 +21,12 @@ use crate::view::View;
 const MOST: usize = 6;
 /// The radius of a disk on wide paper.
 const RADIUS: f64 = 100.0;
-/// Above a disk, its incidence; below it, room.
+/// The space above a disk, for its incidence, and below it.
 const ABOVE: f64 = 24.0;
 const BELOW: f64 = 16.0;
 /// More marks than this would hide the values.
 const MARKS: usize = 1500;
-/// The colour, and its share, that values that were not measured are mixed with.
+/// The colour with which unmeasured values are mixed, and its share.
 const GREY: ([f32; 3], f32) = ([206.0, 209.0, 214.0], 0.74);
 
 /// The slices of one file, reflection before transmission, one per incidence.
@@ -35,7 +35,7 @@ pub(super) type OfFile = Vec<Slice>;
 /// The slices of each file.
 pub(super) fn slices(shown: &[Shown<'_>], progress: &dyn Progress) -> Vec<OfFile> {
     let sigmas = incidences(shown, MOST);
-    // More image pixels than pixels of the figure, as disks are looked at closely, unless each takes long.
+    // More image pixels than pixels of the figure, because disks are viewed closely, unless evaluation is slow.
     let density = if shown.iter().any(|shown| shown.subject.is_slow()) { 0.9 } else { 1.5 };
     let pixels = shown.first().map_or(0, |first| first.view.width);
     let size = (density * 2.0 * RADIUS * f64::from(pixels) / Layout::WIDE.width).round().clamp(96.0, 480.0) as usize;
@@ -136,7 +136,7 @@ fn picture(slice: &Slice, scale: &Scale) -> Image {
     Image { width: slice.size as u32, height: slice.size as u32, rgba }
 }
 
-/// Where a disk is.
+/// The position of a disk.
 #[derive(Clone, Copy)]
 pub(super) struct Place {
     pub(super) x: f64,
@@ -185,7 +185,7 @@ pub(super) fn rings(svg: &mut Svg<'_>, Place { x, y, radius }: Place) {
     svg.circle([x, y], radius, Role::Frame, 1.4);
 }
 
-/// The light, where it comes from, and the mirror direction or the straight-through ray.
+// The light, at the direction it comes from, and the mirror direction or the straight-through ray.
 pub(super) fn light_and_mirror(svg: &mut Svg<'_>, place: Place, view: &View, sigma: f64) {
     let [u, v] = to_disk(view.side, view.psi, incident(view.side, sigma, view.psi));
     svg.raw(&sun(place.at([u, v])));
@@ -288,7 +288,7 @@ fn bar(svg: &mut Svg<'_>, y: f64, scale: &Scale) {
     }
 }
 
-/// How to read the disks; returns the height at which the figure ends.
+/// The explanation of the disks; returns the height at which the figure ends.
 fn signs_and_notes(svg: &mut Svg<'_>, y: f64, slices: &[&Slice]) -> f64 {
     let style = Text { size: 15.0, role: Role::Muted, ..LABEL };
     let direction = match slices.iter().any(|slice| slice.scatter == Scatter::Transmission) {

@@ -13,10 +13,10 @@ use crate::scale::{Scaling, degrees, short};
 use crate::shown::Shown;
 use crate::spectra::{Spectrum, spectra};
 
-/// More wavelengths than this are not each a dot and a hint.
+/// If there are more wavelengths than this, not each has a dot and a hint.
 const FEW: usize = 48;
 
-/// A panel per incidence, a line per viewing angle; `None` if the channels are not wavelengths.
+/// One panel per incidence, one line per viewing angle; `None` if the channels are not wavelengths.
 pub(super) fn chart<'a>(shown: Shown<'a>, progress: &dyn Progress) -> Option<Chart<'a>> {
     let Shown { subject, view } = shown;
     let sigmas = channels::sigmas(shown);

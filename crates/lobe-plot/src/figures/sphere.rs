@@ -1,4 +1,4 @@
-//! Spheres under several lights: one large, and smaller ones next to it; or one of each of several files.
+//! Spheres under several lights: one large, and smaller ones next to it; or one sphere per file for several files.
 
 use super::cartesian::title;
 use super::shared::{MARGIN, MIDDLE, conditions, heading, id, notes, shortened};
@@ -13,10 +13,10 @@ use crate::svg::{Area, Role, Svg, Text};
 const PADDING: f64 = 12.0;
 /// The distance between backdrops.
 const GAP: f64 = 12.0;
-/// Room below a backdrop for its captions.
+/// The space below a backdrop for its captions.
 const CAPTION: f64 = 44.0;
 
-/// A sphere with what is said of it.
+/// A sphere with its caption.
 #[derive(Clone, Debug)]
 pub(super) struct Ball {
     sphere: Sphere,
@@ -25,7 +25,8 @@ pub(super) struct Ball {
     pub(super) exposure: f64,
 }
 
-/// The spheres of a figure: those of all lights of one file, or the first of each of several at one exposure.
+/// The spheres of a figure: one per light for a single file, or the first sphere of each of several files, at one
+/// exposure.
 pub(super) fn spheres(shown: &[Shown<'_>], progress: &dyn Progress) -> Vec<Ball> {
     let ball = |shown: &Shown<'_>, studio: Studio, units: f64, caption: String| {
         let density = if shown.subject.is_slow() { 0.8 } else { 1.25 };
@@ -45,7 +46,7 @@ pub(super) fn spheres(shown: &[Shown<'_>], progress: &dyn Progress) -> Vec<Ball>
             let first = |shown: &Shown<'_>| studios(shown.subject, shown.view.side).first().copied();
             let of_file = |shown: &Shown<'_>| Some(ball(shown, first(shown)?, units, shown.subject.name().into()));
             let mut balls: Vec<Ball> = several.iter().filter_map(of_file).collect();
-            // At one exposure, so that what is brighter looks brighter; the brightest decides.
+            // At one exposure, so that brighter materials look brighter; the brightest decides.
             let exposure = balls.iter().map(|ball| ball.exposure).fold(f64::INFINITY, f64::min);
             balls.iter_mut().for_each(|ball| ball.exposure = exposure);
             balls
@@ -53,7 +54,7 @@ pub(super) fn spheres(shown: &[Shown<'_>], progress: &dyn Progress) -> Vec<Ball>
     }
 }
 
-/// Where the spheres are.
+/// The positions of the spheres.
 struct Places {
     areas: Vec<Area>,
     /// The height below the last caption.
@@ -80,7 +81,7 @@ impl Places {
                 });
             }
         } else {
-            // The backdrops fill the width, and two rows of small ones the height of the large one.
+            // The backdrops fill the width, and two rows of small ones fill the height of the large one.
             let columns = if count > 3 { 2 } else { 1 };
             let small = (room - columns as f64 * GAP - CAPTION) / (columns as f64 + 2.0);
             let large = 2.0 * small + CAPTION;
@@ -99,7 +100,7 @@ impl Places {
         Places::new(areas, top)
     }
 
-    /// All of one size.
+    /// All of the same size.
     fn of_several(layout: Layout, top: f64, count: usize) -> Self {
         let columns = if layout.is_narrow || count == 2 { 2 } else { 3 };
         let side = (layout.width - 2.0 * MARGIN - (columns - 1) as f64 * GAP) / columns as f64;
@@ -140,8 +141,8 @@ pub(super) fn draw(shown: &[Shown<'_>], balls: &[Ball], paper: Paper<'_>) -> Str
         svg.text([x + 0.5 * side, y + side + 35.0], muted, &format!("exposure {}", ev(*stops)));
     }
     let note = match balls.is_empty() {
-        true => "Nothing has a value for a pair of directions.",
-        false => "At 0 EV a white Lambertian surface that faces the light is as bright as a pixel can be.",
+        true => "There are no values for pairs of directions.",
+        false => "At 0 EV, a white Lambertian surface that faces the light has the largest pixel value.",
     };
     let end = notes(&mut svg, bottom + 18.0, &[note.into()]);
     svg.finish(end - 4.0, &title(shown, &format!("spheres of the material under {} lights", balls.len())))

@@ -11,7 +11,7 @@ fn measured(model: &(impl Model + Sync), resolution: Resolution) -> rgl::Data {
     measure(&OfModel(model), resolution, || {}).expect("a material")
 }
 
-/// Pairs of directions spread in proportion to their cosines, and every other one near the mirror direction; none within
+/// Pairs of directions, half of them spread in proportion to their cosines, half near the mirror direction; none within
 /// six degrees of the horizon.
 fn pairs() -> impl Iterator<Item = (Vec3, Vec3)> {
     (1..4000).filter_map(|n| {
@@ -22,7 +22,7 @@ fn pairs() -> impl Iterator<Item = (Vec3, Vec3)> {
     })
 }
 
-/// The median of the errors relative to the value, and what 95 % of them are below.
+/// The median of the errors relative to the value, and their 95th percentile.
 fn errors(model: &(impl Model + Sync), resolution: Resolution) -> [f64; 2] {
     let reference = Reference::new(&measured(model, resolution));
     let mut errors = Vec::new();
@@ -49,7 +49,7 @@ fn every_texel_is_reproduced() {
             let (p, t) = (slice / parts.theta_i.len(), slice % parts.theta_i.len());
             let wi = spherical(f64::from(parts.theta_i[t]), f64::from(parts.phi_i[p]));
             let blend = Blend { terms: [(slice, 1.0), (slice, 0.0), (slice, 0.0), (slice, 0.0)] };
-            // At the zenith every azimuth is the first.
+            // At the zenith, every azimuth is the first.
             for s in positions(9).filter(|s| t > 0 && s.iter().all(|x| *x > 0.0 && *x < 1.0)) {
                 let (u, _) = warp.sample(s, &blend);
                 let wo = reflect(wi, spherical(theta(u[0]), phi(u[1])));
@@ -67,7 +67,7 @@ fn every_texel_is_reproduced() {
 }
 
 #[test]
-fn between_the_texels_it_is_close() {
+fn values_between_texels_are_close() {
     let iso = Resolution { microfacets: 64, ..Resolution::ISOTROPIC };
     let dusty = Mix { a: gold([0.25, 0.25]), b: Lambert { albedo: [0.35, 0.3, 0.28] }, share: 0.2 };
     let matte = Lambert { albedo: [0.5; 3] };
@@ -114,14 +114,14 @@ fn surfaces_without_retroreflection_have_facets_too() {
     let coarse = Resolution { theta_i: 4, phi_i: 1, ndf: 16, microfacets: 16, spectra: 8 };
     let black = measured(&Lambert { albedo: [0.0; 3] }, coarse);
     assert!(black.parts().spectra.texels().iter().all(|value| *value == 0.0));
-    // A narrow lobe sends nothing back but along the normal, and keeps its peak.
+    // A narrow lobe has retroreflection only along the normal, and keeps its peak.
     let narrow = Phong { specular: [1.0; 3], exponent: 400.0 };
     let [median, _] = errors(&Mix { a: narrow, b: Lambert { albedo: [0.1; 3] }, share: 0.5 }, Resolution::ISOTROPIC);
     assert!(median < 5e-3, "{median}");
 }
 
 #[test]
-fn what_makes_no_material_is_named() {
+fn errors_name_the_wrong_part() {
     let matte = OfModel(Lambert { albedo: [0.5; 3] });
     let refused = |resolution| measure(&matte, resolution, || {}).expect_err("too coarse").part;
     let least = Resolution { theta_i: 2, phi_i: 1, ndf: 2, microfacets: 2, spectra: 2 };
