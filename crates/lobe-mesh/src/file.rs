@@ -1,4 +1,4 @@
-//! What all readers share: getting a file whole, and saying what is wrong with it.
+//! Shared by all readers: reading a whole file, and reporting what is wrong with it.
 
 use std::path::Path;
 
@@ -13,13 +13,13 @@ pub(crate) fn wrong(path: &Path, found: impl Into<String>, expected: impl Into<S
     FormatError::new(path, Place::File, found, expected)
 }
 
-/// A mesh of what a file holds. Normals become unit vectors, and if a file has a normal without direction, a smooth one
-/// takes its place; tangents that make no frame are dropped, to be computed.
+/// Makes a mesh of the content of a file. Normals become unit vectors, and a smooth normal replaces one without
+/// direction; tangents that make no frame are dropped, to be computed later.
 pub(crate) fn geometry(path: &Path, mut parts: Parts) -> Result<Geometry, FormatError> {
     if parts.triangles.is_empty() {
         return Err(wrong(path, "no triangles", "a mesh with at least one"));
     }
-    // Taken out while positions and triangles are checked: what replaces them is computed from those.
+    // Taken out while positions and triangles are checked, because their replacements are computed from those.
     let (file_normals, file_tangents) = (parts.normals.take(), parts.tangents.take());
     let mut parts = Geometry::new(parts).map_err(|error| unsound(path, &error))?.into_parts();
     if let Some(file_normals) = file_normals {
@@ -33,20 +33,20 @@ pub(crate) fn geometry(path: &Path, mut parts: Parts) -> Result<Geometry, Format
     Geometry::new(parts).map_err(|error| unsound(path, &error))
 }
 
-/// The error of a mesh as an error of its file.
+/// Turns an error of a mesh into an error of its file.
 fn unsound(path: &Path, error: &crate::GeometryError) -> FormatError {
     let text = error.to_string();
     let (found, expected) = text.split_once("; expected ").unwrap_or((&text, "a sound mesh"));
     wrong(path, found.trim_start_matches("found "), expected)
 }
 
-/// A vector made of unit length, if it has a direction. One that is, up to rounding, stays as it is.
+/// Normalises a vector, if it has a direction. A vector that is already of unit length, up to rounding, stays as it is.
 fn unit(vector: [f32; 3]) -> Option<[f32; 3]> {
     let square = wide(vector).length_squared();
     if (square - 1.0).abs() < 1e-6 { Some(vector) } else { wide(vector).try_normalize().map(narrow) }
 }
 
-/// A tangent of unit length with its hand, if it is one.
+/// A tangent of unit length with its handedness, if it is a valid one.
 fn frame([x, y, z, w]: [f32; 4]) -> Option<[f32; 4]> {
     let [x, y, z] = unit([x, y, z])?;
     (w == 1.0 || w == -1.0).then_some([x, y, z, w])

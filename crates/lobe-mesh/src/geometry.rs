@@ -1,4 +1,4 @@
-//! A triangle mesh whose numbers can be relied on.
+//! A checked triangle mesh.
 
 use std::ops::{Deref, Range};
 
@@ -15,7 +15,7 @@ pub struct Group {
     pub triangles: Range<u32>,
 }
 
-/// The parts of a mesh, not checked yet: [`Geometry::new`] does.
+/// The parts of a mesh, not yet checked; [`Geometry::new`] checks them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Parts {
     /// Vertex positions.
@@ -33,14 +33,13 @@ pub struct Parts {
     pub groups: Vec<Group>,
 }
 
-/// A triangle mesh. What it holds is read through [`Parts`], which it dereferences to.
-///
-/// All indices are in range, all numbers finite, all attributes as long as the positions, normals and tangents of unit
-/// length, and the groups divide the triangles.
+/// A triangle mesh. It dereferences to [`Parts`], through which its content is read. All indices are in range, all
+/// numbers are finite, all attributes are as long as the positions, normals and tangents are of unit length, and the
+/// groups divide the triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Geometry(Parts);
 
-/// Why parts make no mesh.
+/// The reason why parts do not make a mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GeometryError {
     /// An attribute is not as long as the positions.
@@ -99,14 +98,14 @@ pub enum GeometryError {
         /// How many.
         found: usize,
     },
-    /// Groups with gaps or overlaps, or not in order.
+    /// Groups have gaps, overlap, or are not in order.
     #[error("found triangles {found:?} in group {group}; expected a range from {start} to at most {triangles}")]
     Group {
         /// Index of the group.
         group: usize,
         /// Its range.
         found: Range<u32>,
-        /// The triangle that it should begin with.
+        /// The triangle with which it should begin.
         start: u32,
         /// Number of triangles.
         triangles: usize,
@@ -121,7 +120,7 @@ pub enum GeometryError {
     },
 }
 
-/// How far from 1 the square of the length of a normal may be: what three bytes or half precision leave.
+/// How far from 1 the square of the length of a normal may be: the rounding error of three bytes or half precision.
 const UNIT: f64 = 4e-3;
 
 impl Deref for Geometry {
@@ -133,10 +132,10 @@ impl Deref for Geometry {
 }
 
 impl Geometry {
-    /// Checks parts and makes a mesh of them.
+    /// Checks parts and makes a mesh from them.
     ///
     /// # Errors
-    /// The first thing that is wrong.
+    /// The first fault found.
     pub fn new(mut parts: Parts) -> Result<Geometry, GeometryError> {
         let vertices = parts.positions.len();
         for (what, found) in [("vertices", vertices), ("triangles", parts.triangles.len())] {
@@ -171,12 +170,12 @@ impl Geometry {
         Ok(Geometry(parts))
     }
 
-    /// The parts again, to change them.
+    /// Returns the parts, to change them.
     pub fn into_parts(self) -> Parts {
         self.0
     }
 
-    /// Lowest and highest corner of the box around all positions; `None` without vertices.
+    /// Lowest and highest corner of the bounding box of all positions; `None` without vertices.
     pub fn bounds(&self) -> Option<([f32; 3], [f32; 3])> {
         let first = *self.positions.first()?;
         Some(self.positions.iter().fold((first, first), |(low, high), p| {
@@ -184,13 +183,13 @@ impl Geometry {
         }))
     }
 
-    /// Area of all triangles.
+    /// Total area of all triangles.
     pub fn area(&self) -> f64 {
         self.triangles.iter().map(|&corners| cross(&self.positions, corners).length() / 2.0).sum()
     }
 }
 
-/// Cross product of two edges of a triangle: its normal, twice its area long.
+/// Cross product of two edges of a triangle: its normal, with a length of twice its area.
 pub(crate) fn cross(positions: &[[f32; 3]], corners: [u32; 3]) -> DVec3 {
     let [a, b, c] = corners.map(|index| wide(positions[index as usize]));
     (b - a).cross(c - a)
@@ -264,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn every_fault_is_told_apart() {
+    fn every_fault_has_its_own_error() {
         let fault = |change: &dyn Fn(&mut Parts)| {
             let mut parts = square();
             change(&mut parts);

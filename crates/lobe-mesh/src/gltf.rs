@@ -1,11 +1,9 @@
-//! glTF 2.0, as text (`.gltf` with its buffers) and in one piece (`.glb`).
-//!
-//! All meshes of the scene become one, each where its node puts it; a group is one primitive of one node, named after
-//! the node. Triangles, strips and fans are read, with positions, normals, tangents and the first set of texture
-//! coordinates, whose v is turned to point up. Points and lines, skins and morph targets are left out. Integers in
-//! place of floats (`KHR_mesh_quantization`) are read; compressed meshes are refused.
-//!
-//! Section numbers in this module are those of the glTF 2.0 specification.
+//! Reads glTF 2.0, as text (`.gltf` with its buffers) and as a single binary file (`.glb`). All meshes of the scene
+//! become one mesh, each placed by its node; a group is one primitive of one node, named after the node. Triangles,
+//! strips and fans are read, with positions, normals, tangents and the first set of texture coordinates, whose v is
+//! turned to point up. Points and lines, skins and morph targets are left out. Integers in place of floats
+//! (`KHR_mesh_quantization`) are read; compressed meshes are refused. Section numbers in this module refer to the glTF
+//! 2.0 specification.
 
 mod accessor;
 mod buffers;
@@ -23,7 +21,7 @@ use crate::Geometry;
 use crate::file::{self, wrong};
 use document::Document;
 
-/// Extensions that say nothing about shapes, or that are read: a file may require them.
+/// Extensions that a file may require, because they say nothing about shapes or are supported.
 const KNOWN: [&str; 4] = ["KHR_materials_", "KHR_texture_", "KHR_lights_punctual", "KHR_mesh_quantization"];
 
 /// Reads the meshes of the scene of a glTF file, with the buffers that it names.
@@ -38,11 +36,11 @@ pub fn read(path: &Path) -> Result<Geometry, FormatError> {
 /// Reads the content of a glTF file; buffers outside it are looked for next to `path`.
 ///
 /// # Errors
-/// As those of [`read`].
+/// The same as for [`read`].
 pub fn parse(path: &Path, bytes: &[u8]) -> Result<Geometry, FormatError> {
     let (json, binary) = if bytes.starts_with(b"glTF") { chunks(path, bytes)? } else { (bytes, None) };
     let document: Document = serde_json::from_slice(json).map_err(|error| {
-        // In one piece, there are no lines that an editor would show.
+        // A binary file has no lines that an editor would show.
         let place =
             if json.len() == bytes.len() { Place::Line(error.line()) } else { Place::Byte(20 + error.column() as u64) };
         FormatError::new(path, place, error.to_string(), "glTF 2.0 as JSON")
@@ -52,7 +50,7 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<Geometry, FormatError> {
     }
     let unknown = |name: &&String| !KNOWN.iter().any(|known| name.starts_with(known));
     if let Some(extension) = document.extensions_required.iter().find(unknown) {
-        return Err(wrong(path, format!("the required extension {extension}"), "a file that does without"));
+        return Err(wrong(path, format!("the required extension {extension}"), "a file without it"));
     }
     let buffers = buffers::load(path, &document, binary)?;
     let distinct: HashMap<*const u8, usize> = buffers.iter().map(|bytes| (bytes.as_ptr(), bytes.len())).collect();
@@ -103,7 +101,7 @@ struct Source<'a> {
     buffers: &'a [Rc<[u8]>],
 }
 
-/// Memory that may still be used. Without it, a small file could place one mesh a million times.
+/// Memory that may still be used. Without this limit, a small file could place one mesh a million times.
 struct Budget<'a> {
     path: &'a Path,
     whole: usize,
@@ -111,13 +109,13 @@ struct Budget<'a> {
 }
 
 impl<'a> Budget<'a> {
-    /// What a file of `size` bytes justifies.
+    /// The memory that a file of `size` bytes justifies.
     fn of(path: &'a Path, size: usize) -> Self {
         let whole = size.saturating_mul(64).saturating_add(1 << 24);
         Budget { path, whole, left: whole }
     }
 
-    /// Takes `count` times `bytes`.
+    /// Takes `count` times `bytes` from what is left.
     fn take(&mut self, count: usize, bytes: usize) -> Result<(), FormatError> {
         match count.checked_mul(bytes).and_then(|bytes| self.left.checked_sub(bytes)) {
             Some(left) => {

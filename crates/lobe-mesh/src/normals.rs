@@ -1,4 +1,4 @@
-//! Normals for files without them.
+//! Computes normals for files without them.
 
 use std::collections::HashMap;
 
@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::Geometry;
 use crate::geometry::{Parts, cross, narrow, wide};
 
-/// What becomes of edges when normals are computed.
+/// How edges are treated when normals are computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shading {
     /// Edges are smoothed away: the normal of a vertex is the mean of its triangles' normals, each weighted by its
@@ -38,7 +38,7 @@ pub(crate) fn smooth(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<[f32
         .iter()
         .map(|position| {
             let next = places.len();
-            // Adding zero makes one zero of two.
+            // Adding zero turns -0 into +0.
             *places.entry(position.map(|x| (x + 0.0).to_bits())).or_insert(next)
         })
         .collect();
@@ -54,7 +54,7 @@ pub(crate) fn smooth(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<[f32
     place.into_iter().map(|index| narrow(unit(sums[index]))).collect()
 }
 
-/// Gives every triangle three vertices of its own, with its normal.
+/// Gives every triangle its own three vertices, with its normal.
 fn separate(parts: &mut Parts) {
     let corners: Vec<usize> = parts.triangles.iter().flatten().map(|&index| index as usize).collect();
     let normals = parts.triangles.iter().map(|&corners| narrow(unit(cross(&parts.positions, corners))));
@@ -69,7 +69,7 @@ fn direction(v: DVec3) -> DVec3 {
     v.try_normalize().unwrap_or(DVec3::ZERO)
 }
 
-/// Unit vector along `v`; a vertex without area has no normal, and gets +z.
+/// The unit vector along `v`; +z for a vertex without area, which has no normal.
 pub(crate) fn unit(v: DVec3) -> DVec3 {
     v.try_normalize().unwrap_or(DVec3::Z)
 }
@@ -93,7 +93,7 @@ mod tests {
 
     #[test]
     fn weights_are_angles() {
-        // A corner of a cube, one face cut in two: the cut must not pull the normal to its side.
+        // A corner of a cube with one face cut in two: the cut must not pull the normal towards that face.
         let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let triangles = vec![[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]];
         let normals = smooth(&positions, &triangles);
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn no_area_no_panic() {
+    fn triangles_without_area_do_not_panic() {
         let parts = Parts { positions: vec![[1.0; 3]; 3], triangles: vec![[0, 1, 2]], ..Parts::default() };
         let point = Geometry::new(parts).expect("a mesh").with_normals(Shading::Smooth);
         assert_eq!(point.normals, Some(vec![[0.0, 0.0, 1.0]; 3]));

@@ -1,8 +1,9 @@
-//! Wavefront OBJ, and the material libraries (MTL) next to it.
+//! Reads Wavefront OBJ, and the material libraries (MTL) next to it.
 //!
 //! `v`, `vt`, `vn`, `f`, `o`, `g`, `usemtl` and `mtllib` are read; lines, points, curves and smoothing groups are
-//! skipped. A line that ends in `\` goes on in the next, and lines may end in a line feed, a carriage return, or both.
-//! Polygons of any shape become triangles. A group of the mesh is a run of faces of one object or group and one material.
+//! skipped. A line that ends in `\` continues on the next line, and lines may end in a line feed, a carriage return, or
+//! both. Polygons of any shape become triangles. A group of the mesh is a run of faces of one object or group and one
+//! material.
 
 mod line;
 mod mtl;
@@ -28,7 +29,7 @@ pub fn read(path: &Path) -> Result<Geometry, FormatError> {
 /// Reads the mesh of an OBJ file and the libraries that it names, which lie next to it.
 ///
 /// # Errors
-/// As those of [`read`], for each of the files.
+/// The same as for [`read`], for each of the files.
 pub fn read_with_materials(path: &Path) -> Result<(Geometry, Vec<Material>), FormatError> {
     let bytes = file::bytes(path)?;
     let reader = read_lines(path, &bytes)?;
@@ -43,7 +44,7 @@ pub fn read_with_materials(path: &Path) -> Result<(Geometry, Vec<Material>), For
 /// Reads the content of an OBJ file; `path` is only for messages.
 ///
 /// # Errors
-/// As those of [`read`], but for the file system.
+/// The same as for [`read`], except those of the file system.
 pub fn parse(path: &Path, bytes: &[u8]) -> Result<Geometry, FormatError> {
     read_lines(path, bytes)?.finish(path)
 }
@@ -59,15 +60,15 @@ fn read_lines(path: &Path, bytes: &[u8]) -> Result<Reader, FormatError> {
 /// Corner of a face: indices of position, texture coordinates and normal.
 type Corner = (u32, Option<u32>, Option<u32>);
 
-/// What has been read so far.
+/// The content read so far.
 #[derive(Default)]
 struct Reader {
     positions: Vec<[f32; 3]>,
     uvs: Vec<[f32; 2]>,
     normals: Vec<[f32; 3]>,
-    /// Vertices of the mesh, one for each different corner, in order of appearance.
+    /// Vertices of the mesh, one for each distinct corner, in order of appearance.
     corners: Vec<Corner>,
-    /// Where they are.
+    /// Their indices.
     places: Vec<[f32; 3]>,
     known: HashMap<Corner, u32>,
     triangles: Vec<[u32; 3]>,
@@ -124,8 +125,8 @@ impl Reader {
         Ok(())
     }
 
-    /// The mesh. Corners without texture coordinates or normals in a file that has some get (0, 0), and the smooth
-    /// normal.
+    /// The finished mesh. If a file has texture coordinates or normals for some corners only, the others get (0, 0) or
+    /// the smooth normal.
     fn finish(self, path: &Path) -> Result<Geometry, FormatError> {
         let uv = |&(_, uv, _): &Corner| uv.map_or([0.0; 2], |index| self.uvs[index as usize]);
         let normal = |&(_, _, normal): &Corner| normal.map_or([0.0; 3], |index| self.normals[index as usize]);

@@ -1,4 +1,4 @@
-//! PLY, the Stanford polygon format: text and binary of both byte orders are read, little-endian binary is written.
+//! PLY, the Stanford polygon format: reads text and binary of both byte orders, writes little-endian binary.
 //!
 //! Vertices have `x y z`, and may have `nx ny nz`, texture coordinates (`u v`, `s t`, `texture_u texture_v` or
 //! `texture_s texture_t`) and tangents (`tx ty tz tw`); faces have `vertex_indices` or `vertex_index`. Polygons of any
@@ -34,7 +34,7 @@ pub fn read(path: &Path) -> Result<Geometry, FormatError> {
 /// Reads the content of a PLY file; `path` is only for messages.
 ///
 /// # Errors
-/// As those of [`read`], but for the file system.
+/// The same as for [`read`], except those of the file system.
 pub fn parse(path: &Path, bytes: &[u8]) -> Result<Geometry, FormatError> {
     let mut file = File { path, bytes, reader: Reader::new(bytes) };
     let header = Parser::<Skipped>::new()
@@ -67,12 +67,12 @@ struct File<'a> {
 }
 
 impl File<'_> {
-    /// Reads all elements of one kind, after a look whether the rest of the file can hold so many.
+    /// Reads all elements of one kind, after checking that the rest of the file can hold so many.
     fn elements<E: PropertyAccess>(&mut self, header: &Header, element: &ElementDef) -> Result<Vec<E>, FormatError> {
         let text = header.encoding == Encoding::Ascii;
         let rest = self.reader.get_ref().len();
         let least = element.properties.values().map(|property| if text { 2 } else { size(&property.data_type) }).sum();
-        // The last line of a text may end without a line feed.
+        // The last line of a text file may end without a line feed.
         let room = (rest + usize::from(text)).checked_div(least).unwrap_or(0);
         if element.count > room {
             let found = format!("{} of {} in the {rest} bytes after it", element.count, element.name);
@@ -93,7 +93,7 @@ impl File<'_> {
         self.bytes.split(|&byte| byte == b'\n').position(declares).map_or(1, |line| line + 1)
     }
 
-    /// What the parser says, with the place of it: a line of a text, a byte of anything else.
+    /// An error of the parser with its place: a line of a text file, a byte of a binary one.
     fn error(&self, error: &ParseError, text: bool, expected: &str) -> FormatError {
         let byte = (self.bytes.len() - self.reader.get_ref().len()) as u64;
         let place = match error.line() {
@@ -107,7 +107,7 @@ impl File<'_> {
     }
 }
 
-/// Bytes that a property takes at least.
+/// The least number of bytes that a property takes.
 fn size(property: &PropertyType) -> usize {
     let (PropertyType::Scalar(scalar) | PropertyType::List(scalar, _)) = property;
     match scalar {
@@ -133,13 +133,13 @@ fn attributes(path: &Path, element: &ElementDef, vertices: &[Vertex]) -> Result<
     Ok(Parts { positions, normals, uvs, tangents, ..Parts::default() })
 }
 
-/// Faces to triangles and groups.
+/// Turns faces into triangles and groups.
 fn connect(path: &Path, header: &Header, mut faces: Vec<Face>, parts: &mut Parts) -> Result<(), FormatError> {
     for (number, face) in faces.iter().enumerate() {
         let vertices = parts.positions.len();
         if face.corners.len() < 3 {
             let found = format!("{} usable vertices in face {number}", face.corners.len());
-            return Err(wrong(path, found, "3 or more indices that are whole and not negative"));
+            return Err(wrong(path, found, "3 or more whole indices that are not negative"));
         }
         if let Some(corner) = face.corners.iter().find(|&&corner| corner as usize >= vertices) {
             let found = format!("vertex {corner} in face {number}");

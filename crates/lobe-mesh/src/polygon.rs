@@ -1,22 +1,22 @@
-//! Triangles of the polygons that OBJ and PLY files have.
+//! Cuts the polygons of OBJ and PLY files into triangles.
 
 use crate::geometry::wide;
 
-/// Corners of the largest polygon that is not star-shaped about its first corner: cutting it takes their square.
+/// The most corners of a polygon that is not star-shaped about its first corner: the time to cut it grows with their
+/// square.
 pub(crate) const MOST: usize = 4096;
 
 /// How often all corners are looked at, at most: a polygon that needs it more often has edges that cross.
 const ROUNDS: u32 = 4;
 
-/// A polygon of too many corners.
+/// A polygon has too many corners.
 #[derive(Debug, PartialEq)]
 pub(crate) struct TooMany;
 
-/// Appends the triangles of a polygon, which are oriented as it is.
-///
-/// A convex polygon becomes a fan about its first corner, and so does any other that such a fan fills. The rest is cut at
-/// its ears, in the plane that it is nearest to. Corners at the place of the one before are left out. A polygon whose edges
-/// cross has no inside, and its triangles are any.
+/// Appends the triangles of a polygon, with the orientation of the polygon. A convex polygon becomes a fan about its
+/// first corner, and so does any other polygon that such a fan fills. All others are cut at their ears, in the plane
+/// nearest to them. A corner at the place of the one before is left out. A polygon whose edges cross has no inside, so
+/// its triangles are arbitrary.
 pub(crate) fn triangulate(
     positions: &[[f32; 3]],
     corners: &[u32],
@@ -102,7 +102,7 @@ fn turn([a, b, c]: [[f64; 2]; 3]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// Whether a point lies in a counterclockwise triangle or on its edge, and is none of its corners.
+/// `true` if a point lies in a counterclockwise triangle or on its edge, but is not one of its corners.
 fn is_inside(point: [f64; 2], triangle: [[f64; 2]; 3]) -> bool {
     let [a, b, c] = triangle;
     // Nearly all points are not even near it.
@@ -120,7 +120,7 @@ fn is_inside(point: [f64; 2], triangle: [[f64; 2]; 3]) -> bool {
 mod tests {
     use super::*;
 
-    /// The triangles of a polygon of these corners, in a plane that is turned and tilted.
+    /// The triangles of a polygon with these corners, in a rotated and tilted plane.
     fn cut(corners: &[[f32; 2]]) -> (Vec<[u32; 3]>, Vec<[f32; 3]>) {
         let positions: Vec<[f32; 3]> = corners.iter().map(|[x, y]| [0.5 * x, x - y, *y]).collect();
         let indices: Vec<u32> = (0..corners.len() as u32).collect();
@@ -133,7 +133,7 @@ mod tests {
         0.5 * turn(triangle.map(|corner| corners[corner as usize].map(f64::from)))
     }
 
-    /// The triangles fill the polygon once: all are oriented as it is, and their areas are its own.
+    /// Asserts that the triangles fill the polygon once: all have its orientation, and their areas add up to its area.
     fn fills(corners: &[[f32; 2]]) -> bool {
         let whole: f64 = (0..corners.len() as u32 - 2).map(|i| area(corners, [0, i + 1, i + 2])).sum();
         let (triangles, _) = cut(corners);
@@ -148,7 +148,7 @@ mod tests {
         let dart = [[0.0, 0.0], [2.0, 1.0], [0.0, 2.0], [0.5, 1.0]];
         // Corners in the middle of edges.
         let square = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.0, 2.0], [1.0, 1.0], [0.0, 1.0]];
-        // A ring, cut open: two of its corners occur twice.
+        // A ring that is cut open: two of its corners occur twice.
         let ring = [
             [0.0, 0.0],
             [4.0, 0.0],

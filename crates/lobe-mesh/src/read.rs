@@ -1,4 +1,4 @@
-//! Opening a mesh whatever its format.
+//! Opens a mesh of any supported format.
 
 use std::path::Path;
 
@@ -6,10 +6,9 @@ use lobe_files::{FormatError, Unpacked, beginning, content, is_web_page, unpacke
 
 use crate::{Geometry, file, gltf, obj, ply, serialized};
 
-/// Reads a mesh: PLY, binary glTF and meshes of Mitsuba (`.serialized`) by their first bytes, glTF and OBJ by the name of the
-/// file (`.gltf`, `.obj`). All of them may be packed with gzip.
-///
-/// Normals and tangents that the file has not are not added; [`Geometry::complete`] does.
+/// Reads a mesh. PLY, binary glTF and Mitsuba's meshes (`.serialized`) are recognised by their first bytes, glTF and
+/// OBJ by the name of the file (`.gltf`, `.obj`). All of them may be compressed with gzip. Missing normals and tangents
+/// are not added; [`Geometry::complete`] adds them.
 ///
 /// # Errors
 /// The file cannot be read, is of another format, or is wrong; the error says where and what was expected.
@@ -27,7 +26,7 @@ pub fn read(path: &Path) -> Result<Geometry, FormatError> {
     } else if extension == "obj" && !is_page && !bytes.starts_with(b"version https://git-lfs") {
         obj::parse(path, &bytes)
     } else {
-        const EXPECTED: &str = "a mesh: PLY, OBJ (.obj), glTF (.gltf, .glb) or of Mitsuba (.serialized)";
+        const EXPECTED: &str = "a mesh: PLY, OBJ (.obj), glTF (.gltf, .glb) or Mitsuba (.serialized)";
         Err(match content(&bytes, &name) {
             Some(content) => file::wrong(path, content.what.as_str(), content.expected(EXPECTED)),
             None => file::wrong(path, format!("a file of another kind, {}", beginning(&bytes)), EXPECTED),

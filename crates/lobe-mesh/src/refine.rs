@@ -1,7 +1,6 @@
-//! Triangles cut into smaller ones that follow the smooth surface implied by their normals.
-//!
-//! Vlachos, Peters, Boyd and Mitchell, "Curved PN Triangles", 2001: a cubic patch for each triangle, which meets those
-//! next to it because its border depends on nothing but the two corners there.
+//! Cuts triangles into smaller ones that follow the smooth surface implied by their normals. Vlachos, Peters, Boyd and
+//! Mitchell, "Curved PN Triangles", 2001: each triangle becomes a cubic patch, which meets its neighbours because each
+//! border depends only on the two corners at its ends.
 
 use std::collections::HashMap;
 
@@ -12,10 +11,9 @@ use crate::normals::unit;
 use crate::{Geometry, GeometryError, Group, Parts, Shading};
 
 impl Geometry {
-    /// Each triangle cut into `pieces * pieces`, curved as its normals are; a mesh without normals counts as smooth.
-    /// Normals, texture coordinates and tangents are interpolated.
-    ///
-    /// Two triangles that have different normals at a vertex they share, a hard edge, curve apart and leave a gap.
+    /// The mesh with each triangle cut into `pieces * pieces`, curved as its normals imply; a mesh without normals
+    /// counts as smooth. Normals, texture coordinates and tangents are interpolated. Two triangles with different
+    /// normals at a common vertex (a hard edge) curve apart and leave a gap.
     ///
     /// # Errors
     /// If there are more triangles than 32 bits can count, or a position becomes infinite.
@@ -42,12 +40,12 @@ impl Geometry {
     }
 }
 
-/// A mesh that grows out of another: the vertices of that one come first.
+/// A mesh that grows from another, whose vertices come first.
 struct Refined<'a> {
     mesh: &'a Parts,
     parts: Parts,
     pieces: u32,
-    /// The first of the vertices between two others, which come in the order of their places.
+    /// The first of the vertices between two others, which are in the order of their positions.
     edges: HashMap<[u32; 2], u32>,
 }
 
@@ -86,10 +84,10 @@ impl Refined<'_> {
         }
     }
 
-    /// The vertices between two others: the number of the first, and whether they go from `a` to `b`.
+    /// The vertices between two others: the index of the first, and `true` if they go from `a` to `b`.
     fn edge(&mut self, a: u32, b: u32) -> (u32, bool) {
-        // By position: at a seam of the texture coordinates two edges are at one position, and what is computed from
-        // the same end is the same bits.
+        // By position: at a seam of the texture coordinates two edges have the same position, and computing from the
+        // same end gives the same bits.
         let place = |end: u32| (self.mesh.positions[end as usize], end);
         let forward = place(a) <= place(b);
         let ends @ [from, to] = if forward { [a, b] } else { [b, a] };
@@ -97,7 +95,7 @@ impl Refined<'_> {
             return (first, forward);
         }
         let first = self.parts.positions.len() as u32;
-        // The border of any patch that has it.
+        // The common border of all patches at this edge.
         let corners = [from, to, to];
         let patch = Patch::new(corners.map(|end| self.corner(end)));
         for k in 1..self.pieces {
@@ -114,7 +112,7 @@ impl Refined<'_> {
         (wide(self.mesh.positions[index as usize]), wide(normals[index as usize]))
     }
 
-    /// Adds a vertex, whose attributes are those of three others, weighted.
+    /// Adds a vertex whose attributes are weighted means of those of three others.
     fn push(&mut self, position: DVec3, corners: [u32; 3], weights: [f64; 3]) {
         let Parts { positions, normals, uvs, tangents, .. } = &mut self.parts;
         let blend = |of: &dyn Fn(usize) -> DVec3| -> DVec3 {
@@ -140,7 +138,8 @@ impl Refined<'_> {
     }
 }
 
-/// The vertex `k` of `n` steps along an edge, whose vertices begin with that number and go this way or the other.
+/// The vertex at step `k` of `n` along an edge, given the index of the first vertex of the edge and the direction in
+/// which they go.
 fn along((first, forward): (u32, bool), k: u32, n: u32) -> u32 {
     first + if forward { k } else { n - k } - 1
 }
@@ -151,7 +150,7 @@ fn toward(from: (DVec3, DVec3), to: (DVec3, DVec3)) -> DVec3 {
     from.0 + (way - from.1 * way.dot(from.1)) / 3.0
 }
 
-/// The control points of a triangle: corners, two for each edge as seen from its first corner, and the middle.
+/// The control points of a triangle: its corners, two for each edge in order from its first corner, and the middle.
 struct Patch {
     corners: [DVec3; 3],
     edges: [[DVec3; 2]; 3],
@@ -186,7 +185,7 @@ mod tests {
     use super::*;
     use crate::shapes;
 
-    /// How far the middles of triangles are from the unit sphere, at most.
+    /// The largest distance between the centre of a triangle and the unit sphere.
     fn depth(mesh: &Geometry) -> f64 {
         let middle =
             |corners: &[u32; 3]| corners.iter().map(|&c| wide(mesh.positions[c as usize])).sum::<DVec3>() / 3.0;
@@ -216,9 +215,9 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_stay_together() {
-        // Every edge of a closed surface has two triangles, which pass it in opposite directions; vertices at one place
-        // count as one, as at the seam of texture coordinates.
+    fn neighbours_stay_connected() {
+        // Every edge of a closed surface has two triangles, which pass it in opposite directions; vertices at the same
+        // place count as one, such as those at the seam of texture coordinates.
         let fine = shapes::torus_knot(2, 3, 0.2, 40, 8).refined(4).expect("a knot");
         let place = |index: u32| fine.positions[index as usize].map(|x| (x + 0.0).to_bits());
         let mut edges = HashMap::new();
@@ -232,9 +231,9 @@ mod tests {
     }
 
     #[test]
-    fn copies_of_an_edge_are_the_same_bits() {
-        // As at a seam: two triangles that share no vertices, and number the ends of the edge they have in common in
-        // opposite orders.
+    fn copies_of_an_edge_have_the_same_bits() {
+        // As at a seam: two triangles that share no vertices and number the ends of their common edge in opposite
+        // orders.
         let ([a, b], [m, n]) = ([[0.13, 0.71, -0.29], [1.37, -0.23, 0.41]], [[0.6, 0.8, 0.0], [0.0, 0.6, 0.8]]);
         for pieces in 2..20 {
             let parts = Parts {
@@ -250,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_flat_stays_as_it_is() {
+    fn a_flat_mesh_stays_as_it_is() {
         let plane = shapes::plane(2.0, 2);
         let fine = plane.clone().refined(3).expect("a plane");
         assert!((fine.area() - plane.area()).abs() < 1e-6);
@@ -269,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn too_many_are_refused() {
+    fn too_many_triangles_are_refused() {
         let error = shapes::sphere(1.0, 64).refined(2000).expect_err("more than 32 bits can count");
         assert!(matches!(error, GeometryError::TooMany { what: "triangles", .. }), "{error}");
     }

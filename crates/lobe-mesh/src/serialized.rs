@@ -1,10 +1,9 @@
-//! Meshes of Mitsuba (`.serialized`): versions 3 and 4, any number of shapes in a file.
-//!
-//! Little-endian. Each shape begins with `0x041C` and the version as 16-bit integers; a stream of zlib follows with flags (32
-//! bits), the name in version 4, up to a zero byte, the numbers of vertices and triangles (64 bits), positions, normals,
-//! texture coordinates, colours, in `f32` or `f64`, and indices. The file ends with the place of each shape (64 bits, 32 in
-//! version 3) and their number (32 bits). Colours are passed over. If a shape asks for the normals of its faces, each triangle
-//! gets vertices of its own.
+//! Reads Mitsuba's meshes (`.serialized`): versions 3 and 4, any number of shapes in a file. The format is
+//! little-endian. Each shape begins with `0x041C` and the version as 16-bit integers. A zlib stream follows with flags
+//! (32 bits), in version 4 the name up to a zero byte, the numbers of vertices and triangles (64 bits), positions,
+//! normals, texture coordinates and colours as `f32` or `f64`, and indices. The file ends with the offset of each shape
+//! (64 bits; 32 in version 3) and the number of shapes (32 bits). Colours are skipped. If a shape asks for the normals
+//! of its faces, each triangle gets its own vertices.
 
 use std::path::Path;
 
@@ -35,7 +34,7 @@ pub fn read(path: &Path) -> Result<Geometry, FormatError> {
 /// Reads the content of a file; `path` is only for messages.
 ///
 /// # Errors
-/// As those of [`read`], but for the file system.
+/// The same as for [`read`], except those of the file system.
 pub fn parse(path: &Path, bytes: &[u8]) -> Result<Geometry, FormatError> {
     let mut mesh = Parts { normals: Some(Vec::new()), uvs: Some(Vec::new()), ..Parts::default() };
     let mut has = Attributes::default();
@@ -48,7 +47,7 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<Geometry, FormatError> {
         has.uvs |= shape.uvs.is_some();
         shape.add(path, start, &mut mesh)?;
     }
-    // What some shapes do not have is 0: such normals are computed.
+    // Attributes that some shapes lack are 0; such normals are computed.
     if !has.normals {
         mesh.normals = None;
     }
@@ -58,7 +57,7 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<Geometry, FormatError> {
     file::geometry(path, mesh)
 }
 
-/// What any shape of a file has.
+/// Attributes that any shape of a file has.
 #[derive(Default)]
 struct Attributes {
     normals: bool,
@@ -100,7 +99,7 @@ fn places(path: &Path, bytes: &[u8]) -> Result<Places, FormatError> {
     }
     // A hostile file may name a shape many times, each of which takes memory.
     if places.windows(2).any(|pair| pair[0] >= pair[1]) {
-        return Err(cut("shapes in no order".into()));
+        return Err(cut("shapes out of order".into()));
     }
     Ok(Places { shapes: places, end: rest.len() - list.len() })
 }
@@ -109,10 +108,10 @@ fn version(path: &Path, bytes: &[u8], start: usize) -> Result<u16, FormatError> 
     let error = |found: String, expected: &str| FormatError::new(path, Place::Byte(start as u64), found, expected);
     let head = bytes.get(start..).and_then(<[u8]>::first_chunk::<4>);
     let Some([a, b, c, d]) = head.copied() else {
-        return Err(error("the end of the file".into(), "a shape of Mitsuba"));
+        return Err(error("the end of the file".into(), "a Mitsuba shape"));
     };
     if [a, b] != MAGIC {
-        return Err(error(format!("{a:02x} {b:02x}"), "the signature 1c 04 of a shape of Mitsuba"));
+        return Err(error(format!("{a:02x} {b:02x}"), "the signature 1c 04 of a Mitsuba shape"));
     }
     match u16::from_le_bytes([c, d]) {
         version @ (3 | 4) => Ok(version),
@@ -137,7 +136,9 @@ impl Shape {
         let mut stream = Stream { path, start, content: &content, at: 0 };
         let flags = u32::from_le_bytes(stream.array("flags")?);
         if flags & !KNOWN != 0 {
-            return Err(stream.error(format!("flags {flags:#x}"), "those of normals, texture coordinates and colours"));
+            return Err(
+                stream.error(format!("flags {flags:#x}"), "only flags for normals, texture coordinates and colours")
+            );
         }
         let is_double = match flags & (IS_SINGLE | IS_DOUBLE) {
             IS_SINGLE => false,
@@ -204,7 +205,7 @@ impl Shape {
         Ok(())
     }
 
-    /// Gives each triangle vertices of its own, with its normal.
+    /// Gives each triangle its own vertices, with its normal.
     fn flatten(&mut self) {
         let corners: Vec<usize> = self.triangles.iter().flatten().map(|corner| *corner as usize).collect();
         let mut normals = Vec::with_capacity(corners.len());
@@ -220,7 +221,7 @@ impl Shape {
     }
 }
 
-/// The unpacked content of a shape.
+/// The decompressed content of a shape.
 struct Stream<'a> {
     path: &'a Path,
     /// Where the shape begins in the file.
@@ -231,7 +232,7 @@ struct Stream<'a> {
 
 impl<'a> Stream<'a> {
     fn error(&self, found: impl Into<String>, expected: impl Into<String>) -> FormatError {
-        let found = format!("{} (in the shape, byte {} unpacked)", found.into(), self.at);
+        let found = format!("{} (in the shape, byte {} after decompression)", found.into(), self.at);
         FormatError::new(self.path, Place::Byte(self.start as u64), found, expected)
     }
 
@@ -254,7 +255,7 @@ impl<'a> Stream<'a> {
     fn name(&mut self) -> Result<String, FormatError> {
         let rest = &self.content[self.at..];
         let Some(length) = rest.iter().position(|byte| *byte == 0) else {
-            return Err(self.error("a name without end", "a zero byte after it"));
+            return Err(self.error("an unterminated name", "a zero byte after it"));
         };
         self.at += length + 1;
         Ok(String::from_utf8_lossy(&rest[..length]).into_owned())

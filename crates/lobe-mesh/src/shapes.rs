@@ -1,7 +1,6 @@
-//! Shapes by formula, with exact normals, texture coordinates and tangents.
-//!
-//! All are centred at the origin; +y is up. `segments` is how finely a shape is cut, at least 3 if it closes a circle;
-//! fewer count as that.
+//! Shapes computed by formulas, with exact normals, texture coordinates and tangents. All are centred at the origin; +y
+//! is up. `segments` says how finely a shape is divided; a smaller number than the minimum, 3 if the shape closes a
+//! circle, counts as the minimum.
 
 mod builder;
 mod knot;
@@ -21,10 +20,10 @@ pub(crate) use lathe::{Piece, lathe};
 pub use ring::ring;
 pub use waves::waves;
 
-/// A sphere, `segments` around and half as many from pole to pole.
+/// A sphere with `segments` cells around and half as many from pole to pole.
 ///
 /// u grows eastward (counterclockwise seen from +y) from 0 to 1, starting at +z; v grows from the south pole, 0, to the
-/// north pole, 1. dp/du points east. At the poles, every triangle has a vertex of its own with the u of its middle.
+/// north pole, 1. dp/du points east. At the poles, every triangle has its own vertex with the u of its middle.
 pub fn sphere(radius: f32, segments: u32) -> Geometry {
     let (columns, rows) = (segments.max(3) as usize, (segments as usize / 2).max(2));
     let mut builder = Builder::default();
@@ -49,7 +48,8 @@ pub fn sphere(radius: f32, segments: u32) -> Geometry {
     builder.finish()
 }
 
-/// A square of side `size` in the plane y = 0 facing +y, `segments` by `segments` cells. u runs along +x, v along -z.
+/// A square of side `size` in the plane y = 0, facing +y, with `segments` by `segments` cells. u runs along +x, v along
+/// -z.
 pub fn plane(size: f32, segments: u32) -> Geometry {
     let mut builder = Builder::default();
     let half = f64::from(size) / 2.0;
@@ -57,8 +57,8 @@ pub fn plane(size: f32, segments: u32) -> Geometry {
     builder.finish()
 }
 
-/// A disk in the plane y = 0 facing +y, `segments` triangles. u runs along +x, v along -z; the disk touches the edges
-/// of the unit square.
+/// A disk in the plane y = 0, facing +y, with `segments` triangles. u runs along +x, v along -z; in texture
+/// coordinates, the disk touches the edges of the unit square.
 pub fn disk(radius: f32, segments: u32) -> Geometry {
     let columns = segments.max(3) as usize;
     let mut builder = Builder::default();
@@ -79,16 +79,16 @@ pub fn disk(radius: f32, segments: u32) -> Geometry {
 pub fn cuboid(size: [f32; 3], segments: u32) -> Geometry {
     let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| axis * crate::geometry::wide(size) / 2.0);
     let mut builder = Builder::default();
-    // Right, left, up, down, toward, away: out of the face, u, v.
+    // Right, left, up, down, front, back: the direction out of the face, u, v.
     for [out, u, v] in [[x, -z, y], [-x, z, y], [y, x, -z], [-y, x, z], [z, x, y], [-z, -x, y]] {
         square(&mut builder, out, u, v, segments.max(1) as usize);
     }
     builder.finish()
 }
 
-/// A photographer's backdrop: a floor that bends into a wall behind it, so that no horizon is seen. `size` is its width and
-/// the height of the wall; the floor begins at z = `size` / 2 and bends up from z = -`size` / 6 on. u runs along +x, v back
-/// and up.
+/// A photographer's backdrop: a floor that bends into a wall behind it, so that no horizon is visible. `size` is its
+/// width and the height of the wall; the floor begins at z = `size` / 2 and bends up from z = -`size` / 6 on. u runs
+/// along +x, v back and up.
 pub fn cove(size: f32, segments: u32) -> Geometry {
     let steps = segments.max(3) as usize;
     let size = f64::from(size);
@@ -98,7 +98,7 @@ pub fn cove(size: f32, segments: u32) -> Geometry {
     builder.patch(1, steps + 2, |i, j| {
         let share = j.saturating_sub(1).min(steps) as f64 / steps as f64;
         let [sine, cosine] = direction(share / 4.0);
-        // Floor, bend and wall; height, depth, and the way there.
+        // Floor, bend and wall: height, depth, and length of the profile up to there.
         let (y, z, way) = if j == 0 {
             (0.0, half, 0.0)
         } else if j == steps + 2 {
@@ -116,7 +116,7 @@ pub fn cove(size: f32, segments: u32) -> Geometry {
     builder.finish()
 }
 
-/// A square patch around `centre`, from there by `u` and `v` to both sides.
+/// A patch around `centre` that extends by `u` and `v` to both sides.
 fn square(builder: &mut Builder, centre: DVec3, u: DVec3, v: DVec3, cells: usize) {
     let share = |i: usize| i as f64 / cells as f64;
     builder.patch(cells, cells, |i, j| Vertex {
@@ -127,13 +127,13 @@ fn square(builder: &mut Builder, centre: DVec3, u: DVec3, v: DVec3, cells: usize
     });
 }
 
-/// Sine and cosine of the `i`-th of `n` equal steps around the circle. The last is the first again, bit for bit, so
-/// that closed surfaces are closed.
+/// Sine and cosine of the `i`-th of `n` equal steps around the circle. The last equals the first bit for bit, so that
+/// closed surfaces have no gap.
 pub(crate) fn turn(i: usize, n: usize) -> [f64; 2] {
     direction((i % n) as f64 / n as f64)
 }
 
-/// Sine and cosine of a share of a whole turn.
+/// Sine and cosine of a fraction of a full turn.
 fn direction(share: f64) -> [f64; 2] {
     [libm::sin(TAU * share), libm::cos(TAU * share)]
 }

@@ -1,4 +1,4 @@
-//! Tangents from texture coordinates, as everybody else computes them: MikkTSpace.
+//! Computes tangents from texture coordinates by MikkTSpace, as most other programs do.
 //!
 //! Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008; glTF 2.0 requires the same algorithm.
 
@@ -10,15 +10,14 @@ use crate::geometry::{Parts, narrow, wide};
 use crate::{Geometry, Shading};
 
 impl Geometry {
-    /// The mesh with what is missing: smooth normals, then tangents if there are texture coordinates.
+    /// The mesh with missing attributes added: smooth normals, then tangents if there are texture coordinates.
     pub fn complete(self) -> Geometry {
         let geometry = if self.normals.is_some() { self } else { self.with_normals(Shading::Smooth) };
         if geometry.tangents.is_some() || geometry.uvs.is_none() { geometry } else { geometry.with_tangents() }
     }
 
-    /// The mesh with tangents recomputed from its texture coordinates and normals (smooth ones if it has none).
-    ///
-    /// A vertex at which texture coordinates are mirrored has two tangents, and is doubled. Without texture coordinates
+    /// The mesh with tangents recomputed from its texture coordinates and normals (smooth ones if it has none). A
+    /// vertex at which texture coordinates are mirrored has two tangents and is duplicated. Without texture coordinates
     /// there are no tangents.
     pub fn with_tangents(self) -> Geometry {
         let geometry = if self.normals.is_some() { self } else { self.with_normals(Shading::Smooth) };
@@ -27,7 +26,7 @@ impl Geometry {
         if let Some(corners) = corners(&parts) {
             assign(&mut parts, &corners);
         }
-        Geometry::new(parts).expect("unit tangents, and vertices doubled with all their attributes")
+        Geometry::new(parts).expect("unit tangents, and vertices duplicated with all their attributes")
     }
 }
 
@@ -44,7 +43,7 @@ impl Ops for Portable {
     }
 }
 
-/// What MikkTSpace reads, and where it writes: a tangent for every corner of every triangle.
+/// The input of MikkTSpace, and its output: a tangent for every corner of every triangle.
 struct Corners<'a> {
     triangles: &'a [[u32; 3]],
     positions: &'a [[f32; 3]],
@@ -84,12 +83,12 @@ fn corners(parts: &Parts) -> Option<Vec<[Option<[f32; 4]>; 3]>> {
     let (normals, uvs) = (parts.normals.as_ref()?, parts.uvs.as_ref()?);
     let tangents = vec![[None; 3]; parts.triangles.len()];
     let mut corners = Corners { triangles: &parts.triangles, positions: &parts.positions, normals, uvs, tangents };
-    // The error has no values today; its type reserves the right to have some.
+    // The error type has no values today, but may have some in later versions.
     generate_tangents(&mut corners).ok()?;
     Some(corners.tangents)
 }
 
-/// Gives tangents of corners to vertices, and doubles vertices that have several.
+/// Assigns the tangents of corners to vertices, and duplicates vertices that have several.
 fn assign(parts: &mut Parts, corners: &[[Option<[f32; 4]>; 3]]) {
     let normals = parts.normals.as_mut().expect("with_tangents computes them first");
     let mut tangents: Vec<Option<[f32; 4]>> = vec![None; parts.positions.len()];
@@ -119,14 +118,14 @@ fn assign(parts: &mut Parts, corners: &[[Option<[f32; 4]>; 3]]) {
     parts.tangents = Some(tangents.into_iter().zip(&*normals).map(tangent).collect());
 }
 
-/// The tangent made exactly perpendicular to the normal, if there is one.
+/// The tangent made exactly perpendicular to the normal, if that is possible.
 fn upright([x, y, z, w]: [f32; 4], normal: [f32; 3]) -> Option<[f32; 4]> {
     let (tangent, normal) = (wide([x, y, z]), wide(normal));
     let [x, y, z] = narrow((tangent - normal * tangent.dot(normal)).try_normalize()?);
     Some([x, y, z, w])
 }
 
-/// Some tangent, for vertices whose texture coordinates say nothing.
+/// An arbitrary tangent, for vertices whose texture coordinates do not determine one.
 fn any(normal: [f32; 3]) -> [f32; 4] {
     let [x, y, z] = narrow(wide(normal).any_orthonormal_vector());
     [x, y, z, 1.0]
@@ -150,7 +149,7 @@ mod tests {
         let (exact, tangents) = (exact.tangents.as_ref().expect("tangents"), made.tangents.as_ref().expect("tangents"));
         assert_eq!(exact.len(), tangents.len(), "a sphere has no mirrored texture");
         for ((p, exact), made) in made.positions.iter().zip(exact).zip(tangents) {
-            // Toward the poles triangles get so thin that a mean of their tangents leaves the parallel.
+            // Toward the poles triangles get so thin that the mean of their tangents deviates from the parallel.
             if p[1].abs() < 0.9 {
                 let cosine = wide([exact[0], exact[1], exact[2]]).dot(wide([made[0], made[1], made[2]]));
                 assert!(cosine > 0.999, "{cosine} at {p:?}");
@@ -160,8 +159,8 @@ mod tests {
     }
 
     #[test]
-    fn mirrored_texture_turns_the_hand_and_doubles_the_seam() {
-        // Two unit squares side by side; u runs to the middle from both sides.
+    fn a_mirrored_texture_changes_handedness_and_duplicates_the_seam() {
+        // Two unit squares side by side; u runs from both sides to the middle.
         let parts = Parts {
             positions: vec![
                 [0.0, 0.0, 0.0],
@@ -197,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_at_the_edge_do_not_panic() {
+    fn extreme_numbers_do_not_panic() {
         let huge = f32::MAX;
         let parts = Parts {
             positions: vec![[huge, 0.0, -huge], [0.0, huge, 1.0], [-huge, 1e-40, huge], [1e-40; 3]],

@@ -1,4 +1,4 @@
-//! The ball that renderers show materials on.
+//! The ball on which renderers show materials.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -15,7 +15,7 @@ const GROOVE: f64 = 0.11;
 const RING: [f64; 2] = [0.5, 0.12];
 /// Height of the middle of the ring.
 const SEAT: f64 = 0.5;
-/// How far the ball leans toward +z, in radians, so that its groove and knob are seen.
+/// How far the ball leans toward +z, in radians, so that its groove and knob are visible.
 const LEAN: f64 = 0.45;
 
 /// A material ball: a sphere of radius 1 with a groove around it and a knob on top, leaning toward +z on a ring that
@@ -24,7 +24,8 @@ const LEAN: f64 = 0.45;
 /// Its groups, `ball`, `ring` and `pedestal`, carry materials of the same names. dp/du goes around every part.
 pub fn ball() -> Geometry {
     let mut builder = Builder::default();
-    // The sphere touches the ring: the centres of both circles in the profile are the sum of their radii apart.
+    // The sphere touches the ring: in the profile, the distance of the centres of both circles is the sum of their
+    // radii.
     let [across, radius] = RING;
     let height = SEAT + ((1.0 + radius) * (1.0 + radius) - across * across).sqrt();
     let (sine, cosine) = (libm::sin(LEAN), libm::cos(LEAN));
@@ -56,7 +57,7 @@ fn sphere() -> [Piece; 6] {
     ]
 }
 
-/// Profile of the pedestal: a plate with a rounded edge, and a fillet up to what the ring lies on.
+/// Profile of the pedestal: a plate with a rounded edge, and a fillet up to the surface that the ring lies on.
 fn pedestal() -> [Piece; 6] {
     let (plate, bevel, fillet, neck) = (0.18, 0.06, 0.2, 0.66);
     let top = SEAT - RING[1];

@@ -1,9 +1,9 @@
-//! A cloth as particles and the distances between them.
+//! Simulates a cloth as particles and the distances between them.
 //!
 //! Extended position-based dynamics with many small steps and one iteration each: Macklin, Müller and Chentanez, "XPBD:
 //! Position-Based Simulation of Compliant Constrained Dynamics", 2016, and Macklin et al., "Small Steps in Physics
 //! Simulation", 2019. Self-contact keeps particles apart, after Müller et al., "Detailed Rigid Body Simulation with
-//! Extended Position Based Dynamics", 2020, and what its authors say of cloth.
+//! Extended Position Based Dynamics", 2020, and its authors' remarks on cloth.
 
 mod contact;
 
@@ -11,26 +11,27 @@ use glam::DVec3;
 
 use contact::Contacts;
 
-/// Steps in a second.
+/// Steps per second.
 const RATE: f64 = 1200.0;
 /// Steps between two searches for particles that may touch.
 const SEARCH_EVERY: usize = 8;
 const GRAVITY: DVec3 = DVec3::new(0.0, -9.81, 0.0);
-/// Velocity lost to the air, in 1/s, and much more of it in the last part of the fall, when the cloth comes to rest.
+/// Damping by the air, in 1/s: first the usual one, then the much stronger one of the last part of the fall, when the
+/// cloth comes to rest.
 const AIR: [f64; 2] = [0.6, 6.0];
-/// The part of the fall after which it does.
+/// The share of the fall after which damping is stronger.
 const SETTLING: f64 = 0.7;
 /// Friction against the sphere and the ground.
 const FRICTION: f64 = 0.35;
 
-/// How threads give way to a force: hardly when stretched, easily when the weave is sheared (in s^2 over m^2, times the
-/// square of the spacing: particles of a finer cloth are lighter) and very easily when it is bent (s^2 over m^4, times the
-/// fourth power: a distance over two cells shrinks with the square of the angle between them).
+/// Compliance of the threads: hardly any when stretched, more when the weave is sheared (in s^2/m^2, times the square
+/// of the spacing, because particles of a finer cloth are lighter) and a great deal when it is bent (in s^2/m^4, times
+/// the fourth power, because a distance over two cells shrinks with the square of the angle between them).
 const STRETCH: f64 = 0.0;
 const SHEAR: f64 = 0.04;
 const BEND: f64 = 650.0;
 
-/// What the cloth falls on: the ground y = 0, and a sphere that lies on it above the origin.
+/// The obstacles that the cloth falls on: the ground y = 0, and a sphere that rests on it at the origin.
 pub(super) struct Obstacles {
     pub radius: f64,
 }
@@ -49,9 +50,9 @@ pub(super) struct Cloth {
     velocities: Vec<DVec3>,
     links: Vec<Link>,
     contacts: Contacts,
-    /// Half the thickness: how far the particles stay from an obstacle.
+    /// Half the thickness of the cloth: the distance that particles keep from an obstacle.
     skin: f64,
-    /// No particle may move farther in a step, or it might slip through the cloth.
+    /// The farthest that a particle may move in a step; if it moved farther, it might slip through the cloth.
     fastest: f64,
 }
 
@@ -115,7 +116,7 @@ impl Cloth {
             *former = *position;
             *position += (*velocity * h).clamp_length_max(self.fastest);
         }
-        // Each link sees what the links before it did. Turning the order keeps that from pulling to one side.
+        // Each link sees the effect of the links before it. Alternating the order keeps that from pulling to one side.
         let positions = &mut self.positions;
         let mut satisfy = |link: &Link| {
             let [a, b] = link.ends.map(|end| end as usize);
@@ -142,7 +143,7 @@ impl Cloth {
 }
 
 impl Obstacles {
-    /// Moves a particle out of the sphere and the ground, and takes from its sliding what friction takes.
+    /// Moves a particle out of the sphere and the ground, and slows its sliding by friction.
     fn keep_out(&self, position: &mut DVec3, former: DVec3, skin: f64) {
         let from_centre = *position - DVec3::Y * self.radius;
         let distance = from_centre.length();

@@ -1,4 +1,4 @@
-//! A cloth over a sphere.
+//! A cloth draped over a sphere.
 
 use glam::DVec3;
 use rand::{RngExt as _, SeedableRng as _};
@@ -7,16 +7,16 @@ use rand_pcg::Pcg32;
 use super::cloth::{Cloth, Obstacles};
 use crate::{Geometry, Parts};
 
-/// What falls on what. Lengths are in metres.
+/// The cloth and the sphere that it falls on. Lengths are in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drape {
-    /// Seed of the small unevenness that the cloth starts with, which decides where folds form.
+    /// Seed of the small initial unevenness of the cloth, which decides where folds form.
     pub seed: u64,
     /// Vertices along one side of the cloth.
     pub vertices: usize,
     /// Side of the cloth.
     pub side: f64,
-    /// Radius of the sphere, which lies on the ground y = 0 with its centre above the origin.
+    /// Radius of the sphere, which rests on the ground y = 0 with its centre above the origin.
     pub radius: f64,
     /// The point where the middle of the cloth comes down, x and z.
     pub offset: [f64; 2],
@@ -30,15 +30,13 @@ impl Default for Drape {
     }
 }
 
-/// A square cloth that has fallen on a sphere and the ground.
-///
-/// It has texture coordinates and no normals yet. At the start u ran along +x and v along -z, both from 0 to 1: the weft
-/// of a woven material lies along dp/du, the warp along dp/dv, and psi follows the weave.
-///
-/// This is a simulation and takes seconds. Steps, orders and numbers are fixed, so the bytes are too.
+/// A square cloth that has fallen on a sphere and the ground. It has texture coordinates but no normals yet. At the
+/// start u ran along +x and v along -z, both from 0 to 1: the weft of a woven material lies along dp/du, the warp along
+/// dp/dv, and psi follows the weave. This is a simulation and takes seconds. The steps, their order and all numbers are
+/// fixed, so the result is always the same, byte for byte.
 ///
 /// # Panics
-/// With less than 3 vertices along a side.
+/// If there are fewer than 3 vertices along a side.
 pub fn drape(drape: &Drape) -> Geometry {
     let n = drape.vertices;
     assert!(n >= 3, "a cloth of {n} x {n} vertices");
@@ -58,7 +56,7 @@ pub fn drape(drape: &Drape) -> Geometry {
     let cell = |k: usize| {
         let (i, j) = (k % (n - 1), k / (n - 1));
         let [a, b, c, d] = [index(i, j), index(i + 1, j), index(i + 1, j + 1), index(i, j + 1)];
-        // Diagonals alternate, or all folds would look combed to one side.
+        // Diagonals alternate, because otherwise all folds would look combed to one side.
         if (i + j) % 2 == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
     };
     Geometry::new(Parts {

@@ -1,4 +1,4 @@
-//! Numbers out of buffers (sections 3.6.1 and 3.6.2). Nothing here trusts an offset or a count.
+//! Reads numbers from buffers (sections 3.6.1 and 3.6.2). Nothing here trusts an offset or a count.
 
 use lobe_files::FormatError;
 
@@ -38,7 +38,8 @@ impl Component {
         }
     }
 
-    /// The number in the first bytes of a slice, which holds it; `normalized` integers are shares of the largest.
+    /// The number in the first bytes of a slice, which must be long enough; `normalized` integers are shares of the
+    /// largest.
     fn number(self, bytes: &[u8], normalized: bool) -> f64 {
         let (number, largest) = match self {
             Component::I8 => (f64::from(bytes[0] as i8), 127.0),
@@ -119,7 +120,7 @@ impl Source<'_> {
         Ok(())
     }
 
-    /// `count` vectors from a view on, all of which are there.
+    /// `count` vectors from a view, all of which are in range.
     fn run<const N: usize>(
         &self,
         view: usize,
@@ -147,7 +148,11 @@ impl Source<'_> {
             count.saturating_sub(1).checked_mul(stride).and_then(|last| last.checked_add(offset)?.checked_add(size));
         if count > 0 && needed.is_none_or(|needed| needed > bytes.len()) {
             let found = format!("{count} elements from byte {offset} on in accessor {accessor}");
-            return Err(wrong(self.path, found, format!("what fits in {} bytes of bufferView {number}", bytes.len())));
+            return Err(wrong(
+                self.path,
+                found,
+                format!("as many as fit in {} bytes of bufferView {number}", bytes.len()),
+            ));
         }
         let vector = |i: usize| {
             let start = offset + i * stride;

@@ -1,4 +1,4 @@
-//! The bytes of buffers: inside the file, in its text, or in files next to it.
+//! Loads the bytes of buffers: from the file itself, from its text, or from files next to it.
 
 use std::collections::HashMap;
 use std::path::{Component, Path, PathBuf};
@@ -14,7 +14,7 @@ use crate::file::{self, wrong};
 /// Loads all buffers. `binary` is the second chunk of a binary file.
 pub(super) fn load(path: &Path, document: &Document, binary: Option<&[u8]>) -> Result<Vec<Rc<[u8]>>, FormatError> {
     let mut buffers = Vec::new();
-    // Each file once: a thousand buffers may name the same one.
+    // Each file is read once: a thousand buffers may name the same one.
     let mut files: HashMap<PathBuf, Rc<[u8]>> = HashMap::new();
     for (number, buffer) in document.buffers.iter().enumerate() {
         let bytes: Rc<[u8]> = match (&buffer.uri, binary) {
@@ -41,14 +41,14 @@ pub(super) fn load(path: &Path, document: &Document, binary: Option<&[u8]>) -> R
     Ok(buffers)
 }
 
-/// Bytes of what follows `data:` in a uri.
+/// Decodes the part of a uri after `data:`.
 fn decode(path: &Path, number: usize, data: &str) -> Result<Vec<u8>, FormatError> {
     let text = data.split_once(";base64,").map(|(_, text)| text);
     let bytes = text.and_then(|text| STANDARD.decode(text).ok());
     bytes.ok_or_else(|| wrong(path, format!("the data uri of buffer {number}"), "base64"))
 }
 
-/// The file that a relative uri names. A scene must not open what lies elsewhere.
+/// The file that a relative uri names. A scene must not open files elsewhere.
 fn beside(path: &Path, uri: &str) -> Result<PathBuf, FormatError> {
     let decoded = percent_encoding::percent_decode_str(uri).decode_utf8().unwrap_or_default();
     let mut file = path.parent().unwrap_or(Path::new("")).to_path_buf();

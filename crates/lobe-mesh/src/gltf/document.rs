@@ -1,4 +1,4 @@
-//! The parts of glTF's JSON that shapes need.
+//! The parts of glTF's JSON that are needed for shapes.
 
 use serde::Deserialize;
 
@@ -108,7 +108,7 @@ pub(super) struct Region {
     pub buffer_view: usize,
     #[serde(default)]
     pub byte_offset: usize,
-    /// Of indices only; values have the type of the accessor.
+    /// Only for indices; values have the type of the accessor.
     pub component_type: Option<u32>,
 }
 

@@ -1,4 +1,4 @@
-//! One primitive of a mesh (section 3.7.2).
+//! Reads one primitive of a mesh (section 3.7.2).
 
 use lobe_files::FormatError;
 
@@ -45,7 +45,7 @@ impl Source<'_> {
         }))
     }
 
-    /// An attribute as long as the positions.
+    /// An attribute, checked to be as long as the positions.
     fn attribute<const N: usize>(
         &self,
         accessor: Option<usize>,
@@ -62,11 +62,11 @@ impl Source<'_> {
     }
 }
 
-/// Triangles of a list (mode 4), a strip (5) or a fan (6). Corners left over are ignored, as the specification asks.
+/// Triangles of a list (mode 4), a strip (5) or a fan (6). Leftover corners are ignored, as the specification requires.
 fn triangles(corners: &[u32], mode: u32) -> Vec<[u32; 3]> {
     let count = corners.len().saturating_sub(2);
     match mode {
-        // Every second triangle of a strip is the other way round.
+        // Every second triangle of a strip has the opposite orientation.
         5 => (0..count).map(|i| [corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]]).collect(),
         6 => (0..count).map(|i| [corners[i + 1], corners[i + 2], corners[0]]).collect(),
         _ => corners.as_chunks().0.to_vec(),

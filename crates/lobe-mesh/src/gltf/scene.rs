@@ -1,4 +1,4 @@
-//! The tree of nodes, and all its meshes as one (section 3.5).
+//! The tree of nodes, and the single mesh made from all of its meshes (section 3.5).
 
 use glam::{DMat3, DMat4, DQuat, DVec3};
 use lobe_files::FormatError;
@@ -37,7 +37,7 @@ fn name(node: &Node, mesh: &Mesh) -> String {
     node.name.clone().or_else(|| mesh.name.clone()).unwrap_or_default()
 }
 
-/// All nodes of the scene with their transforms to it, parents first.
+/// All nodes of the scene with their transforms to scene coordinates, parents first.
 fn placed<'a>(source: &Source<'a>) -> Result<Vec<(&'a Node, DMat4)>, FormatError> {
     let nodes = &source.document.nodes;
     let mut stack: Vec<(usize, DMat4)> = roots(source)?.into_iter().rev().map(|root| (root, DMat4::IDENTITY)).collect();
@@ -55,7 +55,7 @@ fn placed<'a>(source: &Source<'a>) -> Result<Vec<(&'a Node, DMat4)>, FormatError
     Ok(placed)
 }
 
-/// The nodes at the top of the scene; without scenes, those that are nobody's children.
+/// The nodes at the top of the scene; if the file has no scenes, the nodes without a parent.
 fn roots(source: &Source<'_>) -> Result<Vec<usize>, FormatError> {
     let document = source.document;
     if document.scenes.is_empty() {
@@ -74,20 +74,20 @@ fn local(node: &Node) -> DMat4 {
         return DMat4::from_cols_array(matrix);
     }
     let rotation = node.rotation.map_or(DQuat::IDENTITY, DQuat::from_array);
-    // Files round quaternions; one without a direction turns nothing.
+    // Quaternions in files are rounded; one of length zero rotates nothing.
     let rotation = if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY };
     let scale = node.scale.map_or(DVec3::ONE, DVec3::from_array);
     DMat4::from_scale_rotation_translation(scale, rotation, node.translation.map_or(DVec3::ZERO, DVec3::from_array))
 }
 
-/// Moves a mesh to its place. A mirror turns triangles and frames over.
+/// Transforms a mesh to its place. A reflection reverses the orientation of triangles and frames.
 fn transform(parts: &mut Parts, place: DMat4) {
     for position in &mut parts.positions {
         *position = narrow(place.transform_point3(wide(*position)));
     }
     let linear = DMat3::from_mat4(place);
     let mirrored = linear.determinant() < 0.0;
-    // The inverse transpose but for its length, which also exists if a mesh is squashed flat.
+    // The inverse transpose up to scale, which also exists if a mesh is squashed flat.
     let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis];
     let sign = if mirrored { -1.0 } else { 1.0 };
     let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign;
@@ -103,8 +103,8 @@ fn transform(parts: &mut Parts, place: DMat4) {
     }
 }
 
-/// Adds a group. What only one of the two has, the other gets: smooth normals, and (0, 0) as texture coordinates.
-/// Tangents must be everywhere, or are left to be computed.
+/// Adds a group. If only one of the two has normals or texture coordinates, the other gets smooth normals or (0, 0).
+/// Unless both have tangents, they are left to be computed.
 fn append(whole: &mut Parts, mut parts: Parts, name: String, material: Option<String>) {
     let (first, start) = (whole.positions.len() as u32, whole.triangles.len() as u32);
     if first == 0 {

@@ -1,4 +1,4 @@
-//! One line of an OBJ or MTL file, word by word.
+//! Reads one line of an OBJ or MTL file, word by word.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::str::SplitAsciiWhitespace;
 
 use lobe_files::{FormatError, Place};
 
-/// Bytes of the longest name.
+/// Length of the longest name, in bytes.
 const LONGEST_NAME: usize = 1024;
 
 /// The lines of a file with their numbers. A line feed, a carriage return or both end a line, unless the last byte is a
@@ -45,17 +45,17 @@ pub(super) fn whole(bytes: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, [u8]>)
     })
 }
 
-/// The words of a line that are still to be read.
+/// The words of a line that have not been read yet.
 pub(super) struct Line<'a> {
     path: &'a Path,
     number: usize,
     words: SplitAsciiWhitespace<'a>,
-    /// Whether bytes that are not text end it.
+    /// `true` if the line ended early, at bytes that are not text.
     is_cut: bool,
 }
 
 impl<'a> Line<'a> {
-    /// A line without its comment. Bytes that are not text end it: they can only be in names and comments.
+    /// A line without its comment. It ends at bytes that are not text, which can only occur in names and comments.
     pub fn new(path: &'a Path, number: usize, bytes: &'a [u8]) -> Self {
         let content = bytes.split(|&byte| byte == b'#').next().unwrap_or_default();
         let text = content.utf8_chunks().next().map_or("", |chunk| chunk.valid());
@@ -67,7 +67,7 @@ impl<'a> Line<'a> {
         self.words.next()
     }
 
-    /// All words that are left, with single spaces, as a name. Groups repeat names, so they must not be of any length.
+    /// All remaining words, with single spaces, as a name. Its length is limited because groups repeat names.
     pub fn name(&mut self) -> Result<String, FormatError> {
         let name = self.words.by_ref().collect::<Vec<_>>().join(" ");
         if name.len() > LONGEST_NAME {
@@ -76,7 +76,7 @@ impl<'a> Line<'a> {
         Ok(name)
     }
 
-    /// `N` finite numbers. More are left alone.
+    /// `N` finite numbers. Further numbers are ignored.
     pub fn numbers<const N: usize>(&mut self, expected: &str) -> Result<[f32; N], FormatError> {
         let mut numbers = [0.0; N];
         for number in &mut numbers {
@@ -124,7 +124,7 @@ impl<'a> Line<'a> {
         }
     }
 
-    /// An index: counted from 1, or backward from the last one.
+    /// An index, counted from 1, or backward from the last one.
     fn index(&self, text: &str, count: usize, name: &str) -> Result<u32, FormatError> {
         let index: Option<i64> = text.parse().ok();
         let from_zero = index.and_then(|index| match index {

@@ -1,4 +1,4 @@
-//! MTL, the material libraries of OBJ.
+//! Reads MTL, the material libraries of OBJ.
 
 use std::path::{Path, PathBuf};
 
@@ -7,10 +7,10 @@ use lobe_files::FormatError;
 use super::line::Line;
 use crate::file;
 
-/// A material of a library: what a renderer may take in place of a measured one.
+/// A material of a library, which a renderer may use in place of a measured one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Material {
-    /// Its name, as `usemtl` gives it.
+    /// Its name, to which `usemtl` refers.
     pub name: String,
     /// Diffuse reflectance, RGB (`Kd`).
     pub diffuse: Option<[f32; 3]>,

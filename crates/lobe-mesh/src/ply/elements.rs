@@ -26,7 +26,7 @@ fn slot(name: &str) -> Option<usize> {
 }
 
 impl Vertex {
-    /// Which slots are filled by properties of these names.
+    /// The slots filled by properties of these names.
     pub fn present<'a>(names: impl Iterator<Item = &'a str>) -> [bool; 12] {
         let mut present = [false; 12];
         names.filter_map(slot).for_each(|slot| present[slot] = true);
@@ -70,7 +70,7 @@ impl PropertyAccess for Face {
 
     fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
         match (name, property) {
-            // Indices that are not whole or negative leave a face without corners, which is reported with its number.
+            // Indices that are negative or not whole leave a face without corners, which is reported with its number.
             ("vertex_indices" | "vertex_index", property) => self.corners = property.to_u32_list().unwrap_or_default(),
             ("group", Property::UChar(group)) => self.group = group.into(),
             ("group", Property::UInt(group)) => self.group = group,

@@ -1,4 +1,4 @@
-//! Writing little-endian PLY.
+//! Writes little-endian PLY.
 
 use std::path::Path;
 
@@ -6,12 +6,11 @@ use lobe_files::{FormatError, write_whole};
 
 use crate::Geometry;
 
-/// Writes a mesh with all that it has. Indices take two bytes each if they fit.
-///
-/// The file appears whole or not at all. Line feeds in names of groups and materials become spaces.
+/// Writes a mesh with all of its attributes. Indices take two bytes each if they fit. The file is written completely or
+/// not at all. Line feeds in names of groups and materials become spaces.
 ///
 /// # Errors
-/// The file system refused.
+/// Those of the file system.
 pub fn write(path: &Path, geometry: &Geometry) -> Result<(), FormatError> {
     write_whole(path, &to_bytes(geometry))
 }
@@ -74,17 +73,17 @@ fn header(geometry: &Geometry) -> String {
     lines.join("\n")
 }
 
-/// Whether indices fit in two bytes.
+/// `true` if indices fit in two bytes.
 fn narrow(geometry: &Geometry) -> bool {
     geometry.positions.len() <= 1 << 16
 }
 
-/// Whether the number of a group fits in a byte.
+/// `true` if the number of a group fits in a byte.
 fn few(geometry: &Geometry) -> bool {
     geometry.groups.len() <= 1 << 8
 }
 
-/// Whether there is anything to say about groups.
+/// `true` if the groups carry any information.
 fn grouped(geometry: &Geometry) -> bool {
     geometry.groups.len() > 1 || geometry.groups.iter().any(|group| !group.name.is_empty() || group.material.is_some())
 }

@@ -1,4 +1,4 @@
-//! Meshes out of patches: grids of vertices over a rectangle of (u, v).
+//! Builds meshes from patches: grids of vertices over a rectangle of (u, v).
 
 use glam::DVec3;
 
@@ -26,8 +26,8 @@ pub(crate) struct Builder {
 }
 
 impl Builder {
-    /// Adds a grid of `columns` by `rows` cells, `vertex(i, j)` being its corners; i grows with u and j with v, and
-    /// dp/du x dp/dv points outward. Triangles without area, as at poles, are left out.
+    /// Adds a grid of `columns` by `rows` cells with corners `vertex(i, j)`; i grows with u and j with v, and dp/du x
+    /// dp/dv points outward. Triangles without area, such as those at poles, are left out.
     pub fn patch(&mut self, columns: usize, rows: usize, vertex: impl Fn(usize, usize) -> Vertex) {
         let first = self.positions.len();
         for j in 0..=rows {
@@ -54,14 +54,14 @@ impl Builder {
         }
     }
 
-    /// Ends a group: it gets all triangles since the last one.
+    /// Ends a group: it gets all triangles since the end of the last one.
     pub fn group(&mut self, name: &str) {
         let start = self.groups.last().map_or(0, |group| group.triangles.end);
         let triangles = start..self.triangles.len() as u32;
         self.groups.push(Group { name: name.into(), material: Some(name.into()), triangles });
     }
 
-    /// The mesh.
+    /// The finished mesh.
     pub fn finish(self) -> Geometry {
         Geometry::new(Parts {
             positions: self.positions,

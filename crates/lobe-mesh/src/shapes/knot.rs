@@ -7,11 +7,12 @@ use glam::DVec3;
 use super::{Builder, Vertex, direction, turn};
 use crate::Geometry;
 
-/// Radius of the circle that a torus knot winds around, and of the torus that it lies on.
+/// Radius of the circle that a torus knot winds around, and radius of the tube of the torus that it lies on.
 const RADII: [f64; 2] = [1.0, 0.42];
 
 /// A tube of the given radius around the (`p`, `q`) torus knot, which goes `p` times around the axis and `q` times
-/// through the hole of a torus with radii 1 and 0.42 around +y; `segments` along and `around` around.
+/// through the hole of a torus with radii 1 and 0.42 around +y; it has `segments` cells along the knot and `around`
+/// cells around the tube.
 ///
 /// u grows along the knot, v around the tube, both from 0 to 1; dp/du is the direction of the knot.
 pub fn torus_knot(p: u32, q: u32, radius: f32, segments: u32, around: u32) -> Geometry {
@@ -42,7 +43,7 @@ pub(crate) fn torus(builder: &mut Builder, [ring, radius]: [f64; 2], height: f64
     tube(builder, curve, radius, segments, around);
 }
 
-/// A tube around a closed curve, given as point and unit direction at a share of its length.
+/// A tube around a closed curve, given as a function from the share of its length to point and unit direction.
 fn tube(builder: &mut Builder, curve: impl Fn(f64) -> [DVec3; 2], radius: f64, segments: usize, around: usize) {
     let curve: Vec<[DVec3; 2]> = (0..segments).map(|i| curve(i as f64 / segments as f64)).collect();
     let sides = sides(&curve);
@@ -59,9 +60,9 @@ fn tube(builder: &mut Builder, curve: impl Fn(f64) -> [DVec3; 2], radius: f64, s
     });
 }
 
-/// Unit vectors across a closed curve that turn about it as little as they can and still meet at the end: carried along
-/// by double reflection (Wang, Jüttler, Zheng and Liu, "Computation of Rotation Minimizing Frames", 2008), what is
-/// missing at the end shared out evenly.
+/// Unit vectors across a closed curve that turn about it as little as possible and still meet at the end. They are
+/// carried along by double reflection (Wang, Jüttler, Zheng and Liu, "Computation of Rotation Minimizing Frames",
+/// 2008), and the angle missing at the end is distributed evenly.
 fn sides(curve: &[[DVec3; 2]]) -> Vec<DVec3> {
     let reflect = |v: DVec3, across: DVec3| match across.try_normalize() {
         Some(across) => v - across * (2.0 * across.dot(v)),

@@ -28,8 +28,8 @@ impl Piece {
     }
 }
 
-/// Turns a profile, from the bottom outward and up to the top, around +y in `segments` steps, and places it. u grows
-/// eastward, v by the length of the profile, both from 0 to 1.
+/// Rotates a profile, which runs from the bottom outward and up to the top, around +y in `segments` steps, and places
+/// the surface. u grows eastward, v with the length of the profile, both from 0 to 1.
 pub(crate) fn lathe(builder: &mut Builder, profile: &[Piece], segments: usize, place: DAffine3) {
     let points: Vec<[f64; 2]> =
         profile.iter().flat_map(|Piece(points)| points).map(|&[point, _]| snap(point)).collect();
@@ -59,6 +59,6 @@ pub(crate) fn lathe(builder: &mut Builder, profile: &[Piece], segments: usize, p
 /// Rounds to a grid, so that two pieces that end at the same point by different formulas leave no gap.
 fn snap(point: [f64; 2]) -> [f64; 2] {
     const GRID: f64 = (1u64 << 40) as f64;
-    // `+ 0.0` makes one zero of two.
+    // `+ 0.0` turns -0 into +0.
     point.map(|x| (x * GRID).round() / GRID + 0.0)
 }

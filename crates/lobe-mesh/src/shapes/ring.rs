@@ -1,18 +1,18 @@
-//! A ring with a flat inside, such as throws a caustic.
+//! A ring with a flat inside, which casts a caustic.
 
 use glam::DVec3;
 
 use super::{Builder, Vertex, turn};
 use crate::Geometry;
 
-/// A ring around the y axis with flat walls: its outer radius, how thick the wall is, at most the radius, and its
-/// height. u runs eastward once around on each of the four sides, v across them.
+/// A ring around the y axis with flat walls, given by its outer radius, the thickness of its wall, which is at most the
+/// radius, and its height. u runs eastward once around on each of the four sides, v across them.
 pub fn ring(radius: f32, thickness: f32, height: f32, segments: u32) -> Geometry {
     let columns = segments.max(3) as usize;
     let (outer, half) = (f64::from(radius), f64::from(height) / 2.0);
     let inner = outer - f64::from(thickness.min(radius));
     let mut builder = Builder::default();
-    // Outside, top, inside, bottom: radius and height where v is 0 and where it is 1.
+    // Outside, top, inside, bottom: radius and height at v = 0 and at v = 1.
     let sides = [
         [(outer, -half), (outer, half)],
         [(outer, half), (inner, half)],
@@ -23,7 +23,7 @@ pub fn ring(radius: f32, thickness: f32, height: f32, segments: u32) -> Geometry
         builder.patch(columns, 1, |i, j| {
             let [sine, cosine] = turn(i, columns);
             let (radius, height) = if j == 0 { from } else { to };
-            // A quarter turn from the way across, outward on the outside.
+            // A quarter turn from the direction across; on the outside it points outward.
             let [along, up] = [to.0 - from.0, to.1 - from.1];
             let normal = DVec3::new(up * sine, -along, up * cosine).normalize_or(DVec3::Y);
             Vertex {
@@ -42,7 +42,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn its_volume_is_that_of_a_ring_and_its_normals_point_outward() {
+    fn a_ring_has_its_volume_and_normals_point_outward() {
         let ring = ring(2.0, 0.5, 0.6, 512);
         let corner = |index: u32| DVec3::from(ring.positions[index as usize].map(f64::from));
         let mut volume = 0.0;

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::{Builder, Vertex, direction};
 use crate::Geometry;
 
-/// Directions in the plane, lengths and heights of the waves, of a square of side 1.
+/// Directions in the plane, lengths and heights of the waves, for a square of side 1.
 const WAVES: [[f64; 5]; 7] = [
     [0.94, 0.34, 0.31, 0.0042, 0.13],
     [-0.50, 0.87, 0.23, 0.0031, 0.71],
@@ -16,8 +16,8 @@ const WAVES: [[f64; 5]; 7] = [
     [0.99, -0.14, 0.061, 0.0004, 0.29],
 ];
 
-/// A square of side `size` about the plane y = 0 facing +y, its height that of a few waves, `segments` by `segments`
-/// cells. u runs along +x, v along -z.
+/// A square of side `size` around the plane y = 0, facing +y, whose height is the sum of a few waves, with `segments`
+/// by `segments` cells. u runs along +x, v along -z.
 pub fn waves(size: f32, segments: u32) -> Geometry {
     let (cells, size) = (segments.max(1) as usize, f64::from(size));
     let mut builder = Builder::default();
@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn normals_are_those_of_the_surface() {
+    fn normals_agree_with_the_surface() {
         let waves = waves(3.0, 200);
         let normals = waves.normals.as_ref().unwrap();
         for triangle in &waves.triangles {

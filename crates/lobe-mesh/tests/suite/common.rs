@@ -1,4 +1,4 @@
-//! What tests of meshes share.
+//! Shared by the tests of meshes.
 
 use std::collections::HashMap;
 
@@ -14,8 +14,8 @@ pub fn corners(geometry: &Geometry, triangle: [u32; 3]) -> [DVec3; 3] {
     triangle.map(|index| wide(geometry.positions[index as usize]))
 }
 
-/// Edges by their ends, vertices at the same place being one, that are not used exactly once in each direction: holes,
-/// and triangles the wrong way round.
+/// Edges that are not used exactly once in each direction: holes, and triangles of the wrong orientation. Vertices at
+/// the same place count as one.
 pub fn open_edges(geometry: &Geometry) -> usize {
     let place = |index: u32| geometry.positions[index as usize].map(|x| (x + 0.0).to_bits());
     let mut uses: HashMap<_, [u32; 2]> = HashMap::new();
@@ -29,8 +29,8 @@ pub fn open_edges(geometry: &Geometry) -> usize {
     uses.values().filter(|&&uses| uses != [1, 1]).count()
 }
 
-/// Asserts that every triangle agrees with the normals and tangents of its corners: its own normal, and the dp/du and
-/// dp/dv of its texture coordinates, point where they say. `cosine` is how closely.
+/// Asserts that every triangle agrees with the normals and tangents of its corners: its normal, and dp/du and dp/dv
+/// from its texture coordinates, point in their direction. `cosine` says how closely.
 pub fn assert_frames(geometry: &Geometry, cosine: f64) {
     let normals = geometry.normals.as_ref().expect("normals");
     let tangents = geometry.tangents.as_ref().expect("tangents");

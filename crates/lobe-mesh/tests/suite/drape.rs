@@ -1,4 +1,4 @@
-//! The simulated cloth.
+//! Tests of the simulated cloth.
 
 use std::sync::LazyLock;
 
@@ -76,7 +76,7 @@ fn folds_of_the_file_touch_and_do_not_cross() {
             }
         }
     }
-    // Vertices keep 0.9 of the spacing, up to what the last step left.
+    // Vertices keep 0.9 of the spacing, up to the error left by the last step.
     let closest = closest.sqrt() / spacing;
     assert!((0.85..1.0).contains(&closest), "vertices of two folds are {closest} spacings apart");
 }

@@ -1,4 +1,4 @@
-//! glTF, as text and in one piece.
+//! Tests of glTF, as text and as a single binary file.
 
 use std::path::Path;
 
@@ -17,7 +17,7 @@ fn buffer() -> Vec<u8> {
     bytes
 }
 
-/// The square twice: as it is, and below a parent, twice as large, mirrored in x and moved to z = 5.
+/// The square twice: as it is, and under a parent node, twice as large, mirrored in x and moved to z = 5.
 fn json(uri: Option<&str>) -> String {
     let uri = uri.map_or(String::new(), |uri| format!(r#""uri": "{uri}", "#));
     format!(
@@ -68,7 +68,7 @@ fn meshes_stand_where_their_nodes_put_them() {
     let mesh = parse(&text()).expect("a mesh");
     assert_eq!(mesh.positions[2], [1.0, 1.0, 0.0]);
     assert_eq!(mesh.positions[6], [-2.0, 2.0, 5.0]);
-    assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [4, 6, 5], [4, 7, 6]], "a mirror turns triangles round");
+    assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [4, 6, 5], [4, 7, 6]], "a reflection reverses triangles");
     assert_eq!(mesh.normals, Some(vec![[0.0, 0.0, 1.0]; 8]));
     assert_eq!(mesh.uvs.as_ref().expect("texture coordinates")[2], [1.0, 1.0], "v points up");
     let groups: Vec<_> = mesh.groups.iter().map(|group| (group.name.as_str(), group.material.as_deref())).collect();
@@ -80,7 +80,7 @@ fn meshes_stand_where_their_nodes_put_them() {
 }
 
 #[test]
-fn buffers_may_lie_beside() {
+fn buffers_may_be_files_next_to_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("a.gltf");
     std::fs::write(&path, json(Some("a%20buffer.bin"))).expect("a file");

@@ -1,4 +1,4 @@
-//! Readers of meshes, shapes, and the generated scenes.
+//! Tests of the readers of meshes, the shapes, and the generated meshes.
 
 mod common;
 mod drape;

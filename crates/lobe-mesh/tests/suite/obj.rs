@@ -1,4 +1,4 @@
-//! OBJ and MTL.
+//! Tests of OBJ and MTL.
 
 use std::path::Path;
 
@@ -31,18 +31,18 @@ fn faces_become_triangles_in_groups() {
 }
 
 #[test]
-fn lines_end_and_go_on_as_the_format_says() {
+fn lines_end_and_continue_as_the_format_says() {
     let mesh = parse(TEXT).expect("a mesh");
     assert_eq!(parse(&TEXT.replace('\n', "\r")).expect("carriage returns only"), mesh);
     let continued = TEXT.replace("f 1/1/1 2/2/1 3/3/1 4/4/1", "f \\\n1/1/1 2/2/1 \\\n  3/3/1\\\n4/4/1");
     assert_eq!(parse(&continued).expect("a continued line"), mesh);
     assert_eq!(parse(&continued.replace('\n', "\r\n")).expect("a continued line"), mesh);
-    // A comment ends with its line, whatever it ends in.
+    // A comment ends with its line, whatever its last character is.
     let comment = TEXT.replace("# corner", "# from C:\\models\\");
     assert_eq!(parse(&comment).expect("a comment"), mesh);
-    let error = parse("v 0 0 0\nv 1 0 \\\n0\nv 0 1 \\\nup\n").expect_err("a word that is no number");
+    let error = parse("v 0 0 0\nv 1 0 \\\n0\nv 0 1 \\\nup\n").expect_err("a word that is not a number");
     assert_eq!(error.place, Place::Line(4), "{error}");
-    assert!(parse("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 \\").is_ok(), "nothing to go on with");
+    assert!(parse("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 \\").is_ok(), "nothing to continue with");
     let bytes = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 \xff 4\n";
     let error = obj::parse(Path::new("a.obj"), bytes).expect_err("bytes that are not text");
     assert_eq!(error.place, Place::Line(5), "{error}");
@@ -55,7 +55,7 @@ fn faces_that_are_not_convex_are_filled() {
     assert_eq!((mesh.triangles.len(), mesh.area()), (4, 3.0));
     let mesh = parse(&format!("{vertices}f 6 5 4 3 2 1 6\ng next\nf 1 2 3\n")).expect("a mesh");
     assert_eq!((mesh.area(), mesh.groups[1].triangles.clone()), (3.5, 4..5));
-    // Corners of one place with other texture coordinates are one corner of the shape.
+    // Corners at the same place with different texture coordinates are one corner of the shape.
     let seam = "vt 0 0\nvt 1 1\nf 1/1 1/2 2/1 3/1 4/1 5/1 6/1\n";
     assert_eq!(parse(&format!("{vertices}{seam}")).expect("a mesh").area(), 3.0);
 }
@@ -110,7 +110,7 @@ fn errors_say_where_and_what() {
 }
 
 #[test]
-fn materials_come_from_the_library_beside() {
+fn materials_come_from_the_library_next_to_the_file() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("a.obj");
     std::fs::write(&path, TEXT).expect("a file");

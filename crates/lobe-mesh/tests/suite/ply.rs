@@ -1,4 +1,4 @@
-//! PLY, read and written.
+//! Tests of reading and writing PLY.
 
 use std::path::Path;
 
@@ -114,13 +114,13 @@ fn absurd_counts_are_refused_before_anything_is_allocated() {
     assert!(error(&TEXT.replace("4 0 1 2 3", "4000000000 0 1 2 3")).found.contains("4000000000 list elements"));
     let wrong = error(&TEXT.replace("element vertex 5", "element vertex 4000000000"));
     assert_eq!(wrong.place, Place::Line(4));
-    // Elements of no size could be of any number.
+    // There could be any number of elements without size.
     let nothing = TEXT.replace("format ascii 1.0", "format binary_little_endian 1.0\nelement nothing 4000000000");
     assert!(error(&nothing).to_string().contains("4000000000 of nothing"));
 }
 
 #[test]
-fn what_is_written_is_read() {
+fn a_written_mesh_is_read_back() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("mesh.ply");
     let plain = Geometry::new(Parts {
@@ -139,10 +139,10 @@ fn what_is_written_is_read() {
         [plain.expect("a mesh"), Geometry::new(grouped).expect("a mesh"), generate::ball(), shapes::sphere(1.0, 500)];
     for mesh in meshes {
         ply::write(&path, &mesh).expect("a file");
-        // Not assert_eq, which would print them.
+        // Not assert_eq, which would print the meshes.
         assert!(ply::read(&path).expect("the file") == mesh, "{} vertices", mesh.positions.len());
     }
-    assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 1, "no temporary files stay");
+    assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 1, "no temporary files remain");
     assert!(ply::write(&folder.path().join("no/folder.ply"), &shapes::plane(1.0, 1)).is_err());
 }
 

@@ -1,4 +1,4 @@
-//! Meshes of Mitsuba.
+//! Tests of Mitsuba's meshes.
 
 use std::io::Write as _;
 use std::path::Path;
@@ -8,7 +8,7 @@ use flate2::write::{GzEncoder, ZlibEncoder};
 use lobe_files::FormatError;
 use lobe_mesh::{Geometry, serialized};
 
-/// What a shape is made of.
+/// The content of a shape.
 #[derive(Clone, Copy)]
 struct Made {
     version: u16,
@@ -114,12 +114,12 @@ fn shapes_are_groups_and_flat_ones_keep_their_edges() {
         "{:?}",
         normals[7]
     );
-    // The first shape had none; its normals are smooth.
+    // The first shape had no normals; they are smooth.
     assert!(normals[..4].iter().all(|normal| normal.iter().any(|c| *c != 0.0)));
 }
 
 #[test]
-fn every_door_opens_them_packed_or_not() {
+fn every_reader_opens_them_compressed_or_not() {
     let folder = tempfile::tempdir().expect("a folder");
     let bytes = file(&[TWO]);
     for name in ["mesh.serialized", "mesh.bin"] {
@@ -181,7 +181,7 @@ fn damage_is_refused_with_its_place() {
     refused(&with(whole.len() - 4, &[0, 0, 0, 0]), "0 shapes");
     refused(&with(whole.len() - 4, &[0xff; 4]), "4294967295 shapes");
     refused(&with(whole.len() - 12, &[0xff; 8]), "a shape at byte 18446744073709551615");
-    refused(&with(whole.len() - 12, &[0; 8]), "shapes in no order");
+    refused(&with(whole.len() - 12, &[0; 8]), "shapes out of order");
     let shape = |change: &dyn Fn(&mut Vec<u8>)| {
         let mut content = content(TWO);
         change(&mut content);

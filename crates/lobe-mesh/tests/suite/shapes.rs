@@ -1,4 +1,5 @@
-//! Shapes and generated meshes: closed, facing outward, with frames that follow their texture coordinates.
+//! Asserts that shapes and generated meshes are closed, face outward, and have frames that follow their texture
+//! coordinates.
 
 use std::f64::consts::PI;
 
@@ -87,7 +88,7 @@ fn the_ball_stands_on_the_ground_in_three_closed_parts() {
 }
 
 #[test]
-fn the_files_of_the_project_hold_what_is_made() {
+fn the_files_of_the_project_hold_the_generated_meshes() {
     let file = |name: &str| lobe_mesh::read(&fixture("scenes").join(name)).unwrap_or_else(|error| panic!("{error}"));
     for (name, made) in [("ball.ply", generate::ball()), ("knot.ply", generate::knot())] {
         let read = file(name);

@@ -1,12 +1,12 @@
-//! Particles of one cloth that touch each other.
+//! Contact between particles of one cloth.
 
 use glam::DVec3;
 
-/// Distance that particles keep, in spacings: more than half the diagonal of a cell, or one would slip through it.
+/// Distance that particles keep, in spacings: more than half the diagonal of a cell, so that none can slip through it.
 const THICKNESS: f64 = 0.9;
-/// Distance up to which pairs are looked at until the next search, in spacings.
+/// Distance up to which pairs are considered until the next search, in spacings.
 const REACH: f64 = 1.9;
-/// Share of the sliding of two particles on each other that friction takes.
+/// Share by which friction reduces the sliding of two particles on each other.
 const FRICTION: f64 = 0.1;
 
 /// The pairs of particles that may touch before the next search.
@@ -22,7 +22,7 @@ impl Contacts {
         Contacts { n, spacing, pairs: Vec::new() }
     }
 
-    /// Finds all pairs within reach, but for those that the weave itself holds close.
+    /// Finds all pairs within reach, except for those that the weave itself holds close together.
     pub fn search(&mut self, positions: &[DVec3]) {
         let reach = REACH * self.spacing;
         let cell = |p: DVec3| (p / reach).floor().as_i64vec3();
@@ -31,7 +31,7 @@ impl Contacts {
         order.sort_unstable();
         self.pairs.clear();
         for (at, &([x, y, z], i)) in order.iter().enumerate() {
-            // Half of the cells around, and of its own row what comes later: each pair is seen once.
+            // Half of the neighbouring cells, and the later particles of its own row: each pair is seen once.
             let rows = [[x, y + 1], [x + 1, y - 1], [x + 1, y], [x + 1, y + 1]];
             let begins = rows.map(|[x, y]| order.partition_point(|&(cell, _)| cell < [x, y, z - 1]));
             for ([x, y], begin) in rows.into_iter().zip(begins).chain([([x, y], at + 1)]) {
@@ -51,7 +51,7 @@ impl Contacts {
         a.abs_diff(c) <= 2 && b.abs_diff(d) <= 2
     }
 
-    /// Moves pairs apart that are too close, and lets them drag each other along a little.
+    /// Moves apart pairs that are too close, and lets them drag each other along a little.
     pub fn separate(&self, positions: &mut [DVec3], former: &[DVec3]) {
         let thickness = THICKNESS * self.spacing;
         for &[a, b] in &self.pairs {
