@@ -1,12 +1,11 @@
-//! Renders a scene by several integrators for the same time each, and says how far each is from a reference.
+//! Renders a scene with several integrators for the same time each, and prints the error of each against a reference.
 //!
 //! ```sh
 //! cargo run --release -p lobe-render --example integrators -- SCENE SECONDS REFERENCE_SECONDS FOLDER path,bdpt,sppm,vcm
 //! ```
-//!
-//! The reference is the last integrator of the list, for REFERENCE_SECONDS, from other samples. Pictures go to FOLDER,
-//! if it is not `-`. One thread. The error is the root of the mean square of differences, of channels relative to the
-//! mean of the reference; the brightest pixels, a thousandth of them, are left out.
+//! The reference is rendered by the last integrator of the list, for REFERENCE_SECONDS, with different samples.
+//! Pictures are written to FOLDER, unless it is `-`. One thread is used. The error is the root mean square of the
+//! differences of channels, relative to the mean of the reference; the brightest thousandth of the pixels is left out.
 
 use std::path::Path;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! Cameras: the rays that they generate, and the importance of points that they see.
+//! Cameras: the rays that they generate, and the importance that they give to the points they see.
 
 use lobe::{Backend, Floats, Kernel, Lanes};
 use lobe_scalar::Reference;
@@ -11,31 +11,31 @@ use crate::vectors::{self, add, disk, unit_or};
 /// A thin-lens camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// The middle of the lens.
+    /// The centre of the lens.
     pub position: [f32; 3],
-    /// What is in the middle of the picture.
+    /// The point in the middle of the picture.
     pub target: [f32; 3],
-    /// What is up in the picture, not along the view.
+    /// The direction that is up in the picture; it must not be parallel to the view.
     pub up: [f32; 3],
     /// Angle of view from the bottom to the top of the picture, in radians, in `(0, pi)`.
     pub field_of_view: f32,
     /// Radius of the lens in the units of the scene; 0 for a pinhole.
     pub lens_radius: f32,
-    /// Distance along the axis at which points are in focus; that of `target` if it is `None`.
+    /// Distance along the axis at which points are in focus; the distance of `target` if it is `None`.
     pub focus_distance: Option<f32>,
 }
 
 /// How the samples of a pixel are spread. A sample counts in its own pixel only.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Filter {
-    /// Over the square of the pixel.
+    /// Uniformly over the square of the pixel.
     Box,
     /// With a density that falls linearly to 0 at the centres of the neighbours.
     #[default]
     Tent,
 }
 
-/// What is wrong with a camera.
+/// An error of a camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CameraError {
     /// The target is at the camera, or too far away for a direction.
@@ -46,11 +46,12 @@ pub enum CameraError {
     Up,
 }
 
-/// A camera and the film behind it, ready to make rays.
+/// A camera and its film, ready to generate rays.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
     position: Vec3,
-    /// From the camera to the middle of the picture, to its right edge from there, and to its top, at distance 1.
+    /// Vectors at distance 1: from the camera to the middle of the picture, and from there to its right and to its top
+    /// edge.
     forward: Vec3,
     right: Vec3,
     top: Vec3,
@@ -58,12 +59,12 @@ pub struct View {
     lens: [Vec3; 2],
     focus: f32,
     size: [f32; 2],
-    /// Of the picture at distance 1.
+    /// Area of the picture at distance 1.
     film_area: f32,
     filter: Filter,
 }
 
-/// A point of the lens in each lane, sampled as seen from points of the scene.
+/// A point of the lens in each lane, sampled from points of the scene.
 #[derive(Clone, Copy, Debug)]
 pub struct CameraSample<L: Lanes> {
     /// Toward the lens, unit length.
@@ -73,11 +74,11 @@ pub struct CameraSample<L: Lanes> {
     /// Importance of the ray that leaves the lens for the point. Its integral, times the cosine to the axis, over the
     /// lens and over all directions is 1.
     pub importance: L::F,
-    /// Density over solid angle at the point, 1/sr; of a pinhole, the squared distance over the cosine.
+    /// Density over solid angle at the point, 1/sr; for a pinhole, the squared distance over the cosine.
     pub pdf: L::F,
-    /// The position in the picture at which the point is seen: columns from the left and rows from the top, in pixels.
+    /// The position in the picture at which the point appears: columns from the left and rows from the top, in pixels.
     pub raster: [L::F; 2],
-    /// Whether the point is seen; if not, the other numbers are unspecified.
+    /// `true` if the point is seen; otherwise the other numbers are unspecified.
     pub valid: L::M,
 }
 
@@ -91,15 +92,15 @@ pub struct CameraPdf {
 }
 
 impl View {
-    /// To the right of the picture, of any length.
+    /// A vector to the right of the picture, of any length.
     pub(crate) fn right(&self) -> Vec3 {
         self.right
     }
 
-    /// The view of a camera on a film of that many columns and rows.
+    /// The view of a camera with a film of this many columns and rows.
     ///
     /// # Errors
-    /// If there is no direction to look in, or `up` is parallel to it.
+    /// If the camera has no viewing direction, or `up` is parallel to it.
     pub fn new(camera: &Camera, [width, height]: [u32; 2], filter: Filter) -> Result<Self, CameraError> {
         let toward = sub(camera.target, camera.position);
         let forward = unit(toward).ok_or(CameraError::Target)?;
@@ -107,7 +108,7 @@ impl View {
         let across = cross(forward, up);
         let right = unit(across).filter(|_| length(across) > 1e-4).ok_or(CameraError::Up)?;
         let top = cross(right, forward);
-        // All is sharp for a pinhole.
+        // A pinhole has everything in focus.
         let pinhole = camera.lens_radius == 0.0;
         let tangent = libm::tanf(0.5 * camera.field_of_view);
         let aspect = width as f32 / height as f32;
@@ -124,8 +125,8 @@ impl View {
         })
     }
 
-    /// Rays through the pixels of these columns and rows, one for each set of numbers; directions have length 1. The
-    /// columns, the rows and the rays are as many as fill the lanes.
+    /// Rays through the pixels of these columns and rows, one for each set of numbers; directions are of unit length.
+    /// There are enough columns, rows and rays to fill the lanes.
     pub(crate) fn rays(&self, backend: Backend, pixels: &[Vec<f32>; 2], numbers: &Numbers, out: &mut RaySoA) {
         backend.run(GenerateRays { view: self, pixels, numbers, out });
     }
@@ -156,7 +157,8 @@ impl View {
         }
     }
 
-    /// As [`sample_we`](View::sample_we), and `valid` also where only the filter reaches into the picture.
+    /// Like [`sample_we`](View::sample_we), but `valid` also for points from which only the filter reaches into the
+    /// picture.
     #[inline(always)]
     pub(crate) fn sample_we_filtered<L: Lanes>(&self, lanes: L, from: [L::F; 3], u: [L::F; 2]) -> CameraSample<L> {
         let sample = self.sample_we(lanes, from, u);
@@ -165,23 +167,23 @@ impl View {
         let [x, y] = sample.raster;
         let (width, height) = (lanes.splat(self.size[0] + margin), lanes.splat(self.size[1] + margin));
         let seen = least.le(x) & x.lt(width) & least.le(y) & y.lt(height);
-        // The importance has the sign of the cosine, to the fourth power: that of the density tells.
+        // The importance contains the cosine to the fourth power, so only the density shows its sign.
         CameraSample { valid: zero.lt(sample.distance) & zero.lt(sample.pdf) & seen, ..sample }
     }
 
-    /// The density over solid angle, 1/sr, of all rays together, as if the film went on beyond the edges of the
+    /// The density over solid angle, 1/sr, of all rays together, as if the film continued beyond the edges of the
     /// picture.
     pub(crate) fn density(&self, direction: Vec3) -> f32 {
         let cos = vec3::dot(direction, self.forward);
         if cos > 0.0 { 1.0 / (self.film_area * cos * cos * cos) } else { 0.0 }
     }
 
-    /// How contributions are spread over pixels.
+    /// The filter by which contributions are spread over pixels.
     pub(crate) fn filter(&self) -> Filter {
         self.filter
     }
 
-    /// The densities with which rays are generated, of a ray that begins on the lens.
+    /// The densities with which a ray that begins on the lens is generated.
     pub fn pdf_we(&self, origin: [f32; 3], direction: [f32; 3]) -> CameraPdf {
         let lanes = Reference::default();
         let aside = lanes.splat_xyz(sub(origin, self.position));
@@ -194,14 +196,14 @@ impl View {
     }
 
     /// The position in the picture of a ray from a point of the lens, in pixels from its upper left corner, and the
-    /// cosine to the axis. `aside` leads to the point from the middle of the lens. Unspecified for a ray that goes
+    /// cosine to the axis. `aside` leads from the centre of the lens to the point. Unspecified for a ray that goes
     /// backward.
     #[inline(always)]
     fn raster<L: Lanes>(&self, lanes: L, aside: [L::F; 3], direction: [L::F; 3]) -> ([L::F; 2], L::F) {
         let (one, half) = (lanes.splat(1.0), lanes.splat(0.5));
         let (right, top) = (lanes.splat_xyz(self.right), lanes.splat_xyz(self.top));
         let cos = vectors::dot::<L>(direction, lanes.splat_xyz(self.forward));
-        // From the middle of the lens to the same point of the plane that is in focus, scaled to distance 1.
+        // From the centre of the lens to the same point of the plane in focus, scaled to distance 1.
         let mut central = vectors::scale::<L>(direction, one / cos);
         if self.focus < f32::INFINITY {
             central = add::<L>(central, vectors::scale::<L>(aside, lanes.splat(1.0 / self.focus)));
@@ -260,7 +262,7 @@ impl Kernel for GenerateRays<'_> {
             if view.focus < f32::INFINITY {
                 let [lx, ly] = disk(lanes, [lens_u, lens_v]);
                 let aside = add::<L>(vectors::scale::<L>(lens[0], lx), vectors::scale::<L>(lens[1], ly));
-                // A focus that is not positive is refused before: the direction has a length.
+                // A focus that is not positive has been refused before, so the direction is not zero.
                 direction = vectors::sub::<L>(vectors::scale::<L>(direction, lanes.splat(view.focus)), aside);
                 origin = add::<L>(position, aside);
             }
@@ -299,7 +301,7 @@ mod tests {
         })
     }
 
-    /// Rays of a view, and where in the picture they go through.
+    /// Rays of a view, and the positions in the picture that they pass through.
     fn generated(view: &View) -> Vec<([f32; 3], [f32; 3], [f32; 2])> {
         let pixels: Vec<[u32; 2]> = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| [x, y])).collect();
         let mut numbers = Numbers::default();
@@ -349,10 +351,10 @@ mod tests {
     }
 
     #[test]
-    fn importance_over_the_lens_and_all_directions_is_one() {
+    fn importance_integrates_to_one_over_the_lens_and_all_directions() {
         let lanes = Reference::default();
         for view in views() {
-            // Directions over the cosine hemisphere about the axis, from points of the lens.
+            // Cosine-weighted directions about the axis, from points of the lens.
             let (n, mut density, mut importance) = (1 << 18, 0.0, 0.0);
             let frame = vectors::frame_of(lanes, lanes.splat_xyz(view.forward));
             for i in 0..n {

@@ -1,4 +1,4 @@
-//! Values per channel, and what they look like in lanes, in columns and in exact sums.
+//! Values per channel, and their forms in lanes, in columns and in exact sums.
 
 use std::fmt::Debug;
 
@@ -6,9 +6,8 @@ use lobe_lane::Lanes;
 
 use crate::columns::{Column, ZEROS};
 
-/// One float per channel: an array.
-///
-/// The associated types are what the renderer keeps such values in; an array of any length has all of them.
+/// One float per channel: an array. The renderer keeps such values in the associated types; an array of any length has
+/// all of them.
 pub trait Channels: Copy + Debug + PartialEq + Send + Sync + AsRef<[f32]> + AsMut<[f32]> + 'static {
     /// The number of channels.
     const COUNT: usize;
@@ -30,7 +29,7 @@ pub trait Channels: Copy + Debug + PartialEq + Send + Sync + AsRef<[f32]> + AsMu
     #[doc(hidden)]
     const ZERO_SUMS: Self::Sums;
 
-    /// The values, each replaced by what `f` makes of it.
+    /// The values with `f` applied to each.
     #[must_use]
     fn map(self, f: impl FnMut(f32) -> f32) -> Self;
 

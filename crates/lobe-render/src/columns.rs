@@ -1,19 +1,19 @@
-//! Numbers of 64 rays side by side: what lanes work on between scalar code that gathers and scalar code that scatters.
-//! There are enough of them that what scalar code wrote has reached the cache when lanes read it.
+//! Numbers of 64 rays side by side, on which lanes work between gathering and scattering by scalar code. Columns are
+//! long enough that the numbers written by scalar code have reached the cache when lanes read them.
 
 use lobe_lane::Lanes;
 
 use crate::vec3::Vec3;
 
-/// How many rays are side by side; every number of lanes divides it.
+/// Number of rays side by side; every number of lanes divides it.
 pub(crate) const RAYS: usize = 64;
 
-/// A number of each of them.
+/// One number for each of the rays.
 pub(crate) type Column = [f32; RAYS];
 
 pub(crate) const ZEROS: Column = [0.0; RAYS];
 
-/// Makes room for `n` entries; those that exist already keep their values.
+/// Makes room for `n` entries; existing entries keep their values.
 pub(crate) fn ensure_len<T: Clone>(entries: &mut Vec<T>, n: usize, nothing: T) {
     if entries.len() < n {
         entries.resize(n, nothing);

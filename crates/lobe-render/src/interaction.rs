@@ -1,5 +1,5 @@
-//! Surface interactions: points on surfaces that rays have hit, found in lanes. Nothing is fused, so the bits are the same
-//! on every machine.
+//! Surface interactions: points on surfaces that rays have hit, computed in lanes. No operations are fused, so the bits
+//! are the same on every machine.
 
 use lobe::{Backend, Floats, Kernel, Lanes};
 use lobe_lane::{Block, Mask};
@@ -12,7 +12,7 @@ use crate::vec3::Vec3;
 use crate::vectors::{add, blend, cross, dot, max_component, neg, perpendicular, scale, select, sub, unit_or};
 use crate::world::{Corner, MaterialGroup, World};
 
-/// The surface interactions of a wave, in the order of the sort by material.
+/// The surface interactions of a wave, sorted by material.
 #[derive(Debug, Default)]
 pub(crate) struct Interactions {
     blocks: Vec<InteractionBlock>,
@@ -26,46 +26,47 @@ pub(crate) struct Interactions {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfaceInteraction<L: Lanes> {
     pub position: [L::F; 3],
-    /// Where shadow rays begin: `position`, moved out of the facets that hide a smooth surface from itself.
+    /// The origin of shadow rays: `position`, moved out of the facets that hide a smooth surface from itself.
     pub lifted: [L::F; 3],
-    /// Normal of the triangle, unit length, on the side of the shading normal.
+    /// Unit normal of the triangle, on the side of the shading normal.
     pub geometric: [L::F; 3],
     /// The frame of the material: x along the tangent, z along the shading normal.
     pub frame: [[L::F; 3]; 3],
-    /// How far off the surface rays begin.
+    /// Distance from the surface at which rays begin.
     step: L::F,
 }
 
 impl<L: Lanes> SurfaceInteraction<L> {
-    /// A direction of the world in the frame.
+    /// Transforms a direction from the world to the frame.
     #[inline(always)]
     pub fn local(&self, world: [L::F; 3]) -> [L::F; 3] {
         [dot::<L>(self.frame[0], world), dot::<L>(self.frame[1], world), dot::<L>(self.frame[2], world)]
     }
 
-    /// A direction of the frame in the world.
+    /// Transforms a direction from the frame to the world.
     #[inline(always)]
     pub fn world(&self, local: [L::F; 3]) -> [L::F; 3] {
         blend::<L>(self.frame, local)
     }
 
-    /// Whether the direction is on the same side of the facet and of the smooth surface. If it is not, light would leak
-    /// through the surface.
+    /// `true` if the direction is on the same side of the facet and of the smooth surface. If it is not, light would
+    /// leak through the surface.
     #[inline(always)]
     pub fn same_side(&self, lanes: L, world: [L::F; 3], local: [L::F; 3]) -> L::M {
         let zero = lanes.splat(0.0);
         !(dot::<L>(self.geometric, world).gt(zero) ^ local[2].gt(zero))
     }
 
-    /// The origin of a ray at `from`, off the surface on the side that `direction` leads to.
+    /// The origin of a ray at `from`, moved off the surface to the side of `direction`.
     #[inline(always)]
     pub fn offset_origin(&self, lanes: L, from: [L::F; 3], direction: [L::F; 3]) -> [L::F; 3] {
         let below = dot::<L>(self.geometric, direction).lt(lanes.splat(0.0));
         add::<L>(from, scale::<L>(self.geometric, lanes.select(below, -self.step, self.step)))
     }
 
-    /// What importance is multiplied by because the shading normal is not that of the triangle (Veach 1997, section
-    /// 5.3.2), for a path that arrives from `wo` and continues to `wi`, both in the frame. 1 if the normals are equal.
+    /// The factor that corrects importance for the difference between the shading normal and the normal of the triangle
+    /// (Veach 1997, section 5.3.2), for a path that arrives from `wo` and continues to `wi`, both in the frame. It is 1
+    /// if the normals are equal.
     #[inline(always)]
     pub fn adjoint_correction(&self, lanes: L, wo: [L::F; 3], wi: [L::F; 3]) -> L::F {
         let from = dot::<L>(self.geometric, self.world(wo)).abs();
@@ -82,7 +83,7 @@ impl Interactions {
         self.groups.len()
     }
 
-    /// One of them.
+    /// One of the interactions.
     pub fn place(&self, hit: usize) -> Place {
         let (block, at) = (&self.blocks[hit / RAYS], hit % RAYS);
         Place {
@@ -130,7 +131,8 @@ impl Interactions {
         self.blocks[hit / RAYS].front[hit % RAYS]
     }
 
-    /// The interactions from `at` on, a multiple of the number of lanes. Lanes beyond the last one are unspecified.
+    /// The interactions from `at` on, which is a multiple of the number of lanes. Lanes beyond the last one are
+    /// unspecified.
     #[inline(always)]
     pub fn load<L: Lanes>(&self, lanes: L, at: usize) -> SurfaceInteraction<L> {
         let (block, at) = (&self.blocks[at / RAYS], at & (RAYS - L::LANES));
@@ -147,7 +149,7 @@ impl Interactions {
         }
     }
 
-    /// Finds the interactions of some of the rays, which are of unit length and have all hit something.
+    /// Finds the interactions of some of the rays, which must be of unit length and must all have hit something.
     pub fn find<T: Transport>(
         &mut self,
         backend: Backend,
@@ -187,17 +189,17 @@ struct FindInteractions<'a> {
     hits: &'a mut Interactions,
 }
 
-/// What the kernel reads of 64 hits.
+/// The input of the kernel for 64 hits.
 struct HitBlock {
     /// The offset of the first number of each corner.
     corners: [[i32; RAYS]; 3],
     direction: [Column; 3],
     uv: [Column; 2],
-    /// 1 if light may pass through.
+    /// 1 if light may pass through the surface.
     transmits: Column,
 }
 
-/// What it finds; see [`SurfaceInteraction`].
+/// The output of the kernel; see [`SurfaceInteraction`].
 #[derive(Clone, Debug)]
 struct InteractionBlock {
     position: [Column; 3],
@@ -238,7 +240,7 @@ impl Kernel for FindInteractions<'_> {
                 let [a, b, c, group] = all[found.primitive[ray] as usize];
                 let mut k = 0;
                 while k < 3 {
-                    // Vertices are anywhere in memory: all are prefetched before the first is needed.
+                    // Vertices are scattered in memory, so all are prefetched before the first is needed.
                     let corner = [a, b, c][k];
                     lanes.prefetch::<1, _>(corners, corner as usize);
                     known.corners[k][lane] = corner as i32 * NUMBERS as i32;
@@ -265,20 +267,20 @@ impl Kernel for FindInteractions<'_> {
     }
 }
 
-/// How many numbers a corner has.
+/// Numbers per corner.
 const NUMBERS: usize = size_of::<Corner>() / size_of::<f32>();
 
-/// A corner in each lane: its position, normal and tangent, and the handedness of the frame.
+/// One corner in each lane: its position, normal and tangent, and the handedness of the frame.
 #[inline(always)]
 fn corner<L: Lanes>(lanes: L, corners: &Block<'_, 3, 4>, at: &[i32]) -> ([[L::F; 3]; 3], L::F) {
     let [a, b, c] = lanes.gather_quads_at(corners, at);
     ([[a[0], a[1], a[2]], [a[3], b[0], b[1]], [b[2], b[3], c[0]]], c[1])
 }
 
-/// How far `wo` stays above the smooth surface, at least: the sine of the angle.
+/// How far `wo` stays above the smooth surface at least, as the sine of the angle.
 const GRAZING: f32 = 1e-3;
 
-/// Fills in `places`; returns the ways back along the rays, in the frames.
+/// Fills in `places`; returns the directions back along the rays, in the frames.
 #[inline(always)]
 fn find<L: Lanes>(
     lanes: L,
@@ -297,13 +299,13 @@ fn find<L: Lanes>(
     let toward = neg::<L>(load(lanes, &known.direction, at));
     let transmits = zero.lt(lanes.load(&known.transmits[at..]));
 
-    // A hundred units in the last place or so of the largest coordinate of the triangle: what finding the place, and
-    // meeting the triangle again, lose.
+    // About a hundred units in the last place of the largest coordinate of the triangle: the rounding errors of finding
+    // the place, and of hitting the triangle again.
     let reach = max_component::<L>(pa).max(max_component::<L>(pb)).max(max_component::<L>(pc));
     let step = (reach * lanes.splat(1.0 / 65_536.0)).max(lanes.splat(1e-9));
     let (ab, ac) = (sub::<L>(pb, pa), sub::<L>(pc, pa));
     let position = add::<L>(pa, add::<L>(scale::<L>(ab, u), scale::<L>(ac, v)));
-    // A triangle that was hit has an area; still, it may be too small for its square.
+    // A triangle that was hit has an area, but the square of the area may underflow.
     let mut geometric = unit_or(lanes, cross::<L>(ab, ac), toward);
     let front = dot::<L>(geometric, toward);
     let weights = [w, u, v];
@@ -314,14 +316,14 @@ fn find<L: Lanes>(
 
     let turned = dot::<L>(geometric, normal).lt(zero);
     geometric = select(lanes, turned, neg::<L>(geometric), geometric);
-    // What reflects only has two equal sides: the frame is turned about the tangent.
+    // A material that only reflects has two equal sides: the frame is rotated about the tangent.
     let behind = dot::<L>(geometric, toward).lt(zero);
     let turned = behind & !transmits;
     geometric = select(lanes, turned, neg::<L>(geometric), geometric);
     normal = select(lanes, turned, neg::<L>(normal), normal);
     let side = lanes.select(turned, -one, one);
     let above = lanes.select(behind & transmits, -one, one);
-    // A smooth normal that turns away from the viewer at the silhouette is turned back.
+    // A smooth normal that points away from the viewer at the silhouette is rotated back.
     let rise = above * dot::<L>(normal, toward);
     let grazing = lanes.splat(GRAZING);
     let low = rise.lt(grazing);
@@ -333,7 +335,7 @@ fn find<L: Lanes>(
     let tangent = unit_or(lanes, flat, perpendicular(lanes, normal));
     let frame = [tangent, scale::<L>(cross::<L>(normal, tangent), handedness), normal];
 
-    // The place moved to the smooth surface that the normals of the corners describe: Hanika 2021, "Hacking the Shadow
+    // Moves the place to the smooth surface that the normals of the corners describe: Hanika 2021, "Hacking the Shadow
     // Terminator" (Ray Tracing Gems II, chapter 4).
     let mut lifted = position;
     let positions = [pa, pb, pc];
@@ -383,7 +385,7 @@ mod tests {
         let bent = at([0.28, 0.0, 0.96]);
         let expected = 0.8 * (0.6 * 0.96) / ((0.6 * 0.28 + 0.8 * 0.96) * 0.6);
         assert!((of(&bent, wo, wi) - expected).abs() < 1e-6);
-        // The way back undoes it.
+        // The opposite direction undoes it.
         assert!((of(&bent, wo, wi) * of(&bent, wi, wo) - 1.0).abs() < 1e-6);
         assert_eq!(of(&bent, wo, splat([1.0, 0.0, 0.0])), 0.0);
     }

@@ -1,20 +1,18 @@
-//! Pictures of measured materials: a renderer whose tiles are waves of paths on SIMD lanes.
+//! A renderer for measured materials, which follows the paths of a tile as waves on SIMD lanes.
 //!
 //! A tile is rendered as a wave: all of its paths at the same depth. Camera rays are traced in packets, hits are sorted
 //! by material, each material is evaluated and sampled in full lanes for all of its hits at once, shadow rays are
 //! traced, and the paths that continue are the next wave.
 //!
 //! - [`World`] has triangles, materials ([`shader`]) and lights ([`light`]); [`scene`] reads it from a file.
-//! - [`render()`] makes a [`Film`] of it by an [integrator]; [`picture`] writes films as EXR and PNG.
-//! - Random numbers depend on pixel, sample and dimension only, and a film sums in integers. So the picture does not
-//!   depend on threads, tiles, machines or the order of work; on backends in strict form not on the backend either.
-//!
-//! What travels along a path is a parameter of nearly everything: a [`Transport`], [`Rgb`], [`Bands`] of wavelengths, or
-//! polarised light over either, [`Stokes`]. Colours in scenes come in linear sRGB, and become smooth spectra where wavelengths
-//! are followed; measured spectra are used as they are.
-//!
-//! Coordinates are right-handed with +y up. Lengths are in any unit, angles in radians; radiance in W/(m^2 sr) or any
-//! multiple of it.
+//! - [`render()`] makes a [`Film`] of it with an [integrator]; [`picture`] writes films as EXR and PNG.
+//! - Random numbers depend only on pixel, sample and dimension, and a film sums in integers. So the picture does not
+//!   depend on threads, tiles, machines or the order of work; backends in strict form all give the same picture. Nearly
+//!   everything has the kind of light that travels along a path as a parameter. It is a [`Transport`]: [`Rgb`],
+//!   [`Bands`] of wavelengths, or polarised light over either, [`Stokes`]. Colours in scenes are in linear sRGB, and
+//!   become smooth spectra if wavelengths are followed; measured spectra are used as they are. Coordinates are
+//!   right-handed with +y up. Lengths are in any unit, angles in radians, and radiance in W/(m^2 sr) or any multiple of
+//!   it.
 #![forbid(unsafe_code)]
 
 mod camera;

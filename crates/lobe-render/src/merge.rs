@@ -1,4 +1,4 @@
-//! Parts of a picture, rendered on many machines, back together.
+//! Merges parts of a picture that were rendered on many machines.
 
 use std::fmt;
 use std::ops::Range;
@@ -10,19 +10,19 @@ use crate::film::{Film, Rect};
 use crate::picture::{Difference, Inspected, Meta, PictureError, inspect, read_partial_in};
 use crate::transport::Transport;
 
-/// Why parts do not make a picture.
+/// The reason why parts do not make a picture.
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
     /// A part cannot be read.
     #[error(transparent)]
     Picture(#[from] PictureError),
-    /// No parts.
+    /// There are no parts.
     #[error("found no parts; expected at least one")]
     Nothing,
-    /// Parts of different pictures.
+    /// The parts belong to different pictures.
     #[error("{second}: found {found} of {value}; expected {expected} as in {first}")]
     Different {
-        /// What differs.
+        /// The property that differs.
         found: &'static str,
         /// The first part.
         first: PathBuf,
@@ -34,7 +34,7 @@ pub enum MergeError {
         expected: String,
     },
     /// Two parts have the same samples of the same pixels.
-    #[error("{second}: found samples {samples} of pixels that {first} has as well; expected every sample once")]
+    #[error("{second}: found samples {samples} of pixels that {first} also has; expected every sample once")]
     Twice {
         /// A part.
         first: PathBuf,
@@ -44,29 +44,29 @@ pub enum MergeError {
         samples: String,
     },
     /// The parts are not the whole picture.
-    #[error("found {found} of {expected} samples; expected all of them, but there are no {}", list(gaps))]
+    #[error("found {found} of {expected} samples; expected all of them, but these are missing: {}", list(gaps))]
     Gaps {
-        /// Samples of all parts.
+        /// Number of samples of all parts.
         found: u64,
-        /// Samples of the picture.
+        /// Number of samples of the picture.
         expected: u64,
         /// What is missing.
         gaps: Vec<Gap>,
     },
-    /// The picture is larger than memory.
-    #[error("found a picture of {0}; expected one that fits")]
+    /// The picture does not fit into memory.
+    #[error("found a picture of {0}; expected one that fits into memory")]
     Memory(NoRoom),
-    /// What lies between the parts is far more than the parts.
-    #[error("parts that cover too little of {0:?}, which spans them; expected adjacent parts")]
+    /// The parts are far apart, so that they cover too little of the window that spans them.
+    #[error("found parts that cover too little of {0:?}, which spans them; expected adjacent parts")]
     Sparse(Rect),
 }
 
-/// Samples of pixels that no part has.
+/// Samples of pixels that are in no part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Gap {
     /// Which pixels.
     pub pixels: Rect,
-    /// Whether they are whole rows of the picture.
+    /// `true` if they are whole rows of the picture.
     pub is_whole_rows: bool,
     /// Which samples.
     pub samples: Range<u32>,
@@ -90,7 +90,7 @@ fn list(gaps: &[Gap]) -> String {
     shown.join(", ")
 }
 
-/// What is known of a part that was added.
+/// Facts about a part that was added.
 struct Part {
     meta: Meta,
     /// The samples of each pixel of its window.
@@ -113,20 +113,20 @@ impl Part {
     }
 }
 
-/// Reads parts and adds them. The result is the same bits as the picture rendered at once. If time ended the rendering of a
-/// part, one sample of each pixel is enough.
+/// Reads parts and adds them. The result has the same bits as the picture rendered in one go. If a time limit ended the
+/// rendering of a part, one sample of each pixel is enough.
 ///
 /// # Errors
-/// If a part cannot be read, is of another picture, or has samples that another one has too; and if samples are
+/// If a part cannot be read, belongs to another picture, or has samples that another part also has; and if samples are
 /// missing, unless `gaps` are allowed.
 pub fn merge(paths: &[impl AsRef<Path>], gaps: bool) -> Result<(Film, Meta), MergeError> {
     merge_in(paths, gaps, &())
 }
 
-/// As [`merge`], of parts in these channels.
+/// Like [`merge`], for parts in these channels.
 ///
 /// # Errors
-/// As [`merge`].
+/// The same as for [`merge`].
 pub fn merge_in<T: Transport>(
     paths: &[impl AsRef<Path>],
     gaps: bool,
@@ -172,7 +172,7 @@ pub fn merge_in<T: Transport>(
 
 /// The samples below `wanted` that are missing, by rows from the top.
 fn missing(parts: &[Part], [width, height]: [u32; 2], wanted: u32) -> Vec<Gap> {
-    // Between neighbouring edges of windows, all pixels are in the same parts.
+    // Between two neighbouring edges of windows, all pixels belong to the same parts.
     let edges = |range: fn(&Rect) -> Range<u32>, end: u32| {
         let windows = parts.iter().map(|part| range(&part.meta.window));
         let mut edges: Vec<u32> = windows.flat_map(|range| [range.start, range.end]).chain([0, end]).collect();
@@ -201,7 +201,7 @@ fn missing(parts: &[Part], [width, height]: [u32; 2], wanted: u32) -> Vec<Gap> {
     gaps
 }
 
-/// Adds a gap, or makes one that it continues larger.
+/// Adds a gap, or extends one that it continues.
 fn add(gaps: &mut Vec<Gap>, pixels: Rect, samples: Range<u32>, width: u32) {
     let is_whole_rows = pixels.width == width;
     let continued = gaps.iter_mut().find(|gap| {
@@ -214,7 +214,7 @@ fn add(gaps: &mut Vec<Gap>, pixels: Rect, samples: Range<u32>, width: u32) {
     }
 }
 
-/// The smallest window around two.
+/// The smallest window around two windows.
 fn around(a: Rect, b: Rect) -> Rect {
     let (x, y) = (a.x.min(b.x), a.y.min(b.y));
     let right = a.columns().end.max(b.columns().end);
@@ -271,7 +271,7 @@ mod tests {
         );
         let most = [part([0, 0, 8, 3], 0..4, None), part([0, 3, 5, 3], 0..4, None)];
         assert_eq!(gaps(&most), "samples 0..4 of rows 3..6 in columns 5..8");
-        // A part that was ended early says how far it came by its pixels.
+        // The pixels of a part that ended early show how far it came.
         let mut counts = vec![4; 48];
         counts[47] = 3;
         assert_eq!(gaps(&[part([0, 0, 8, 6], 0..4, Some(counts))]), "samples 3..4 of rows 0..6");

@@ -1,4 +1,4 @@
-//! Passes over a picture: light paths first, then tiles that use them, on all threads.
+//! Renders passes over a picture on all threads: first light paths, then tiles that use them.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, PoisonError};
@@ -16,17 +16,17 @@ use crate::vec3;
 use crate::wavefront::PATHS;
 use crate::world::World;
 
-/// Tiles of a pass have this many columns and rows: as many pixels as make a wave.
+/// Columns and rows of a tile of a pass: its pixels make one wave.
 const TILE: [u32; 2] = [128, 64];
-/// The most light paths of a pass, unless more are requested.
+/// The largest number of light paths of a pass, unless more are requested.
 const MOST: u64 = 1 << 20;
-/// How many surfaces of a light path memory is asked for.
+/// The number of surfaces per light path for which memory is requested.
 const SURFACES: u64 = 4;
 
-/// What one thread works with.
+/// The state of one thread.
 pub(crate) type Worker<'w, T> = Box<dyn PassRenderer<T> + Send + 'w>;
 
-/// Renders pass after pass. A film that is continued has whole passes.
+/// Renders pass after pass. A film that is continued must have whole passes.
 pub(crate) fn render<'w, T: Transport>(
     world: &World<T>,
     settings: &Settings<T>,
@@ -73,7 +73,7 @@ pub(crate) fn render<'w, T: Transport>(
                 ended.store(true, Ordering::Relaxed);
             }
         };
-        // The whole picture's light paths, whatever the window.
+        // The light paths of the whole picture, whatever the window.
         let jobs = (paths as usize).div_ceil(PATHS);
         let parts: Vec<Mutex<LightPart<T>>> = (0..jobs).map(|_| Mutex::new(LightPart::default())).collect();
         let brought = Mutex::new((Film::<T>::new(window), 0u64));
@@ -125,7 +125,7 @@ pub(crate) fn render<'w, T: Transport>(
     Ok((film, stats))
 }
 
-/// Whether there is room for the light paths of a pass.
+/// Checks that there is enough memory for the light paths of a pass.
 fn room<T: Transport>(plan: &Plan, paths: u32, window: &Rect) -> Result<(), RenderError> {
     let film = window.area() as u64 * 200;
     let surfaces = u64::from(paths) * u64::from(plan.depth).min(SURFACES);
@@ -134,7 +134,7 @@ fn room<T: Transport>(plan: &Plan, paths: u32, window: &Rect) -> Result<(), Rend
     lobe_memory::require(film + vertices + photons).map_err(RenderError::Memory)
 }
 
-/// The size of two pixels at the point that the camera looks at.
+/// The size of two pixels at the target of the camera.
 fn two_pixels<T: Transport>(settings: &Settings<T>) -> f32 {
     let camera = &settings.camera;
     let distance = vec3::length(vec3::sub(camera.target, camera.position));
@@ -152,8 +152,8 @@ fn tiles(window: Rect) -> Vec<Rect> {
     tiles
 }
 
-/// Hands jobs out to workers, each on a thread of its own, until all are done or the work is `ended`. Calls `tick` from
-/// this thread every tenth of a second or so.
+/// Hands out jobs to workers, each on its own thread, until all are done or the work is `ended`. Calls `tick` from this
+/// thread about every tenth of a second.
 fn parallel<W: Send>(
     workers: &mut [W],
     jobs: usize,
@@ -185,7 +185,7 @@ fn parallel<W: Send>(
             });
             match spawned {
                 Ok(handle) => handles.push(handle),
-                // The system makes no more: those that there are do the work.
+                // The system cannot start more threads, so the existing ones do the work.
                 Err(_) => break,
             }
         }
@@ -204,14 +204,14 @@ fn parallel<W: Send>(
             handle.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         }
     });
-    // If no thread could be made, all is left.
+    // If no thread could be started, all jobs are left.
     if let Some(worker) = workers.first_mut() {
         run(worker);
     }
     tick();
 }
 
-/// Says that a thread has ended, also by a panic, or was never made.
+/// Reports that a thread has ended, even by a panic, or was never started.
 struct Leaving<'a> {
     running: &'a Mutex<usize>,
     finished: &'a Condvar,

@@ -1,4 +1,4 @@
-//! A point on one surface, by itself: what a [`SurfaceInteraction`](crate::interaction::SurfaceInteraction) is in lanes.
+//! A point on one surface: the scalar form of a [`SurfaceInteraction`](crate::interaction::SurfaceInteraction).
 
 use crate::vec3::{self, Vec3};
 
@@ -6,13 +6,13 @@ use crate::vec3::{self, Vec3};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Place {
     pub position: Vec3,
-    /// Where shadow rays begin: moved out of the facets that hide a smooth surface from itself.
+    /// The origin of shadow rays, moved out of the facets that hide a smooth surface from itself.
     pub lifted: Vec3,
-    /// Normal of the triangle, unit length, on the side of the shading normal.
+    /// Unit normal of the triangle, on the side of the shading normal.
     pub geometric: Vec3,
     /// The frame of the material: x along the tangent, z along the shading normal.
     pub frame: [Vec3; 3],
-    /// How far off the surface rays begin.
+    /// Distance from the surface at which rays begin.
     pub step: f32,
 }
 
@@ -20,23 +20,23 @@ impl Place {
     pub const ZERO: Self =
         Place { position: [0.0; 3], lifted: [0.0; 3], geometric: [0.0; 3], frame: [[0.0; 3]; 3], step: 0.0 };
 
-    /// A direction of the world in the frame.
+    /// Transforms a direction from the world to the frame.
     pub fn local(&self, world: Vec3) -> Vec3 {
         self.frame.map(|axis| vec3::dot(axis, world))
     }
 
-    /// A direction of the frame in the world.
+    /// Transforms a direction from the frame to the world.
     pub fn world(&self, local: Vec3) -> Vec3 {
         let [x, y, z] = self.frame;
         vec3::add(vec3::add(vec3::scale(x, local[0]), vec3::scale(y, local[1])), vec3::scale(z, local[2]))
     }
 
-    /// Whether the direction is on the same side of the facet and of the smooth surface.
+    /// `true` if the direction is on the same side of the facet and of the smooth surface.
     pub fn same_side(&self, world: Vec3, local: Vec3) -> bool {
         (vec3::dot(self.geometric, world) > 0.0) == (local[2] > 0.0)
     }
 
-    /// The origin of a shadow ray, off the surface on the side that `direction` leads to.
+    /// The origin of a shadow ray, moved off the surface to the side of `direction`.
     pub fn shadow_origin(&self, direction: Vec3) -> Vec3 {
         let below = vec3::dot(self.geometric, direction) < 0.0;
         vec3::add(self.lifted, vec3::scale(self.geometric, if below { -self.step } else { self.step }))
@@ -47,8 +47,8 @@ impl Place {
         vec3::dot(self.geometric, world).abs()
     }
 
-    /// What importance is multiplied by because the shading normal is not that of the triangle (Veach 1997, section
-    /// 5.3.2), for a path from `wo` to `wi`, in the frame and in the world.
+    /// The factor that corrects importance for the difference between the shading normal and the normal of the triangle
+    /// (Veach 1997, section 5.3.2), for a path from `wo` to `wi`, in the frame and in the world.
     pub fn adjoint_correction(&self, [wo, wi]: [Vec3; 2], [from, to]: [Vec3; 2]) -> f32 {
         let divisor = self.cos(from) * wi[2].abs();
         if divisor > 0.0 { wo[2].abs() * self.cos(to) / divisor } else { 0.0 }

@@ -1,4 +1,4 @@
-//! A material in a studio, with no scene to be written: on a ball and on a draped cloth.
+//! Previews of a material on a ball and on a draped cloth in a studio, without a scene file.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use crate::transform::Transform;
 use crate::vec3::{Vec3, add, cross, scale, sub, unit};
 use crate::world::{Shape, World, WorldBuilder, WorldError};
 
-/// What to show the material on.
+/// The objects that show the material.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Show {
     /// A ball next to a cloth.
@@ -24,7 +24,7 @@ pub enum Show {
     Cloth,
 }
 
-/// The studio with a material in it, and the camera. Everything other than the material runs on the backend.
+/// The studio with a material in it, and the camera. Everything except the material runs on the backend.
 ///
 /// # Errors
 /// Never: the shapes come with the program.
@@ -75,7 +75,8 @@ pub fn studio(material: Arc<dyn Shader>, show: Show, backend: Backend) -> Result
 /// Size of the cloth in the studio over that in its file.
 const CLOTH: f32 = 2.1;
 
-/// The number of pieces that each edge of the cloth is cut into: a fold that shadows itself would show facets.
+/// The number of pieces into which each edge of the cloth is cut; without that, a fold that shadows itself would show
+/// facets.
 const PIECES: u32 = 3;
 
 const LENS: Camera = Camera {
@@ -89,7 +90,7 @@ const LENS: Camera = Camera {
 
 /// A rectangle that faces a point.
 fn panel(at: Vec3, aim: Vec3, [width, height]: [f32; 2]) -> Shape {
-    let normal = unit(sub(aim, at)).expect("a panel is not where it aims");
+    let normal = unit(sub(aim, at)).expect("a panel is not at the point that it faces");
     let right = unit(cross([0.0, 1.0, 0.0], normal)).expect("a panel that is not overhead");
     let up = cross(normal, right);
     let corner = |x: f32, y: f32| add(at, add(scale(right, x * width / 2.0), scale(up, y * height / 2.0)));
@@ -109,9 +110,9 @@ pub(crate) fn cloth() -> Geometry {
 
 #[cfg(test)]
 mod tests {
-    /// A package has to have its own copy, and copies part ways.
+    /// A package must have its own copy of the file, and copies may become different.
     #[test]
-    fn the_cloth_is_that_of_the_fixtures() {
+    fn the_cloth_equals_the_fixture() {
         let fixture = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/scenes/drape.ply");
         match std::fs::read(fixture) {
             Ok(bytes) => assert!(bytes == include_bytes!("../assets/drape.ply"), "copy {fixture} to assets"),

@@ -1,22 +1,21 @@
-//! The numbers that a path is made of.
-//!
-//! They depend on the pixel, the number of the sample and the dimension, and on nothing else: not on threads, tiles or
-//! machines. Within a pixel they are an Owen-scrambled Sobol sequence (Burley 2020, "Practical Hash-based Owen
-//! Scrambling"), four dimensions at a time; pixels are scrambled apart. The bits are those of the crate `sobol_burley`,
-//! which computes the four dimensions of one sample at once; here many samples are, in lanes.
+//! The random numbers of a path. They depend only on the pixel, the index of the sample and the dimension, not on
+//! threads, tiles or machines. Within a pixel they are an Owen-scrambled Sobol sequence (Burley 2020, "Practical
+//! Hash-based Owen Scrambling"), four dimensions at a time; each pixel is scrambled differently. The bits are the same
+//! as those of the crate `sobol_burley`, which computes the four dimensions of one sample at once; here, lanes compute
+//! many samples at once.
 
 use lobe::{Backend, Floats, Ints, Kernel, Lanes};
 use lobe_lane::MAX_LANES;
 use sobol_burley::parts;
 
-/// Sets of four dimensions, by what they are used for.
+/// Sets of four dimensions, by their use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Dimensions {
-    /// Place in the pixel (2), place on the lens (2).
+    /// Position in the pixel (2) and on the lens (2).
     Camera,
-    /// Which light, the point on it (2); at the vertex of that depth.
+    /// The choice of a light and the point on it (2), at the vertex of this depth.
     Light(u32),
-    /// The direction (2), which of several lobes, whether the path continues; at the vertex of that depth.
+    /// The direction (2), the choice among several lobes, and whether the path continues, at the vertex of this depth.
     Scatter(u32),
 }
 
@@ -27,13 +26,13 @@ pub(crate) struct Sequence {
     seed: u32,
 }
 
-/// Sobol points are numbered with 16 bits; further samples begin another scrambling.
+/// Sobol points are numbered with 16 bits; further samples begin another scrambled sequence.
 const POINTS: u32 = 1 << 16;
-/// How many sets of four dimensions the sequence has.
+/// Number of sets of four dimensions of the sequence.
 const SETS: u32 = sobol_burley::NUM_DIMENSION_SETS_4D;
 
 impl Sequence {
-    /// The sequence of a pixel's sample.
+    /// The sequence of a sample of a pixel.
     pub fn new([x, y]: [u32; 2], sample: u32) -> Self {
         let seed = hash(x ^ hash(y ^ hash(sample / POINTS)));
         Sequence { index: sample % POINTS, seed }
@@ -41,8 +40,8 @@ impl Sequence {
 }
 
 impl Sequence {
-    /// The sequence of a light path. Those of one pass are the points of a sequence in order, so that they fill what the
-    /// lights emit evenly.
+    /// The sequence of a light path. The paths of one pass take the points of a sequence in order, so that they cover
+    /// the emitted light evenly.
     pub fn of_light(path: u32, pass: u32) -> Self {
         const LIGHT: u32 = 0x4c69_6768;
         let seed = hash(LIGHT ^ hash(pass ^ hash(path / POINTS)));
@@ -53,7 +52,7 @@ impl Sequence {
 /// Numbers in `[0, 1)` of many sequences, four for each.
 #[derive(Debug, Default)]
 pub(crate) struct Numbers {
-    /// Longer than there are sequences, so that all lanes are in the columns.
+    /// Longer than the number of sequences, so that all lanes are inside the columns.
     index: Vec<i32>,
     seed: Vec<i32>,
     numbers: [Vec<f32>; 4],
@@ -80,7 +79,7 @@ impl Numbers {
             Dimensions::Light(depth) => 1 + 2 * depth,
             Dimensions::Scatter(depth) => 2 + 2 * depth,
         };
-        // Beyond the last dimension the sequence begins again, scrambled otherwise.
+        // Beyond the last dimension the sequence begins again, scrambled differently.
         if set >= SETS {
             seed.iter_mut().for_each(|seed| *seed = hash(*seed as u32 ^ (set / SETS)) as i32);
         }
@@ -96,8 +95,8 @@ impl Numbers {
         self.numbers.each_ref().map(|column| column[sequence])
     }
 
-    /// The numbers of the sequences from `at` on, a multiple of the number of lanes. Lanes beyond the last sequence have
-    /// unspecified numbers in `[0, 1)`.
+    /// The numbers of the sequences from `at` on, which is a multiple of the number of lanes. Lanes beyond the last
+    /// sequence have unspecified numbers in `[0, 1)`.
     #[inline(always)]
     pub fn lanes<L: Lanes>(&self, lanes: L, at: usize) -> [L::F; 4] {
         let [a, b, c, d] = &self.numbers;
@@ -105,10 +104,10 @@ impl Numbers {
     }
 }
 
-/// What each bit of the index, the lowest first, contributes to each dimension, the order of the bits reversed.
+/// The contribution of each bit of the index, lowest bit first, to each dimension, with the order of bits reversed.
 type Vectors = [[i32; 4]; 16];
 
-/// What three bits of the index contribute to each dimension, as the bits of floats.
+/// The contribution of three bits of the index to each dimension, as the bits of floats.
 type Threes = [[[f32; 8]; 4]; 6];
 
 struct SampleSobol<'a> {
@@ -144,7 +143,7 @@ impl Kernel for SampleSobol<'_> {
     }
 }
 
-/// What the index, its lowest bit on top, contributes to each dimension.
+/// The contribution of the index, its lowest bit on top, to each dimension.
 #[inline(always)]
 fn by_bits<L: Lanes>(lanes: L, vectors: &Vectors, mut index: L::I) -> [L::I; 4] {
     let mut sobol = [lanes.splat_int(0); 4];
@@ -172,7 +171,8 @@ fn by_threes<L: Lanes>(lanes: L, threes: &Threes, mut index: L::I) -> [L::I; 4] 
     sobol
 }
 
-/// The contributions of three bits each, the first of them on top; of bits that the index has not, nothing.
+/// The contributions of three bits each, the first of them on top; bits that the index does not have contribute
+/// nothing.
 fn threes(vectors: &Vectors) -> Threes {
     let of = |place: usize, k: usize| vectors.get(place).map_or(0, |vector| vector[k]);
     std::array::from_fn(|three| {
@@ -185,11 +185,11 @@ fn threes(vectors: &Vectors) -> Threes {
     })
 }
 
-/// What distinguishes the four dimensions of a set.
+/// Seeds that distinguish the four dimensions of a set.
 const SCRAMBLES: [u32; 4] = [0x912f_69ba, 0x174f_18ab, 0x691e_72ca, 0xb40c_c1b8];
 
-/// Owen's scrambling of numbers whose bits are in reverse order: the hash of Vegdahl 2021 ("Building a Better LK Hash"),
-/// in which each bit depends on those below it.
+/// Owen scrambling of numbers whose bits are in reverse order: the hash of Vegdahl 2021 ("Building a Better LK Hash"),
+/// in which each bit depends on the bits below it.
 #[inline(always)]
 fn scrambled<L: Lanes>(lanes: L, x: L::I, seed: L::I) -> L::I {
     let x = x ^ (x * lanes.splat_int(0x3d20_adea));
@@ -217,7 +217,7 @@ fn mixed<L: Lanes>(lanes: L, x: L::I) -> L::I {
     x ^ x.shr::<16>()
 }
 
-/// The same mix of a number that is moved first, which sets seeds of pixels apart from what is done with them.
+/// The same mix of a number with an offset, so that seeds of pixels differ from later uses of the hash.
 fn hash(mut x: u32) -> u32 {
     x = x.wrapping_add(0x9e37_79b9);
     x = (x ^ (x >> 16)).wrapping_mul(0x7feb_352d);
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn lanes_sample_what_the_crate_samples() {
+    fn lanes_sample_the_same_numbers_as_the_crate() {
         let sequences: Vec<_> = (0..19).map(|i| Sequence::new([i, 3 * i], 3456 * i)).collect();
         for (of, set) in [(Dimensions::Camera, 0), (Dimensions::Scatter(1), 4), (Dimensions::Light(30), 61)] {
             let expected = |s: &Sequence| sobol_burley::sample_4d(s.index, set, s.seed);

@@ -1,4 +1,4 @@
-//! Tiles to threads: who renders what, when, and how far the whole is.
+//! Distributes tiles over threads, and reports progress.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
@@ -15,10 +15,10 @@ use crate::transport::Transport;
 use crate::wavefront::PATHS;
 use crate::world::World;
 
-/// Tiles are squares of this many pixels per side; a few samples of one are a wave.
+/// Pixels along the side of a tile; a few samples of its pixels make a wave.
 const TILE: u32 = 64;
 
-/// What the threads share.
+/// State shared by the threads.
 struct Shared<T: Transport> {
     state: Mutex<State<T>>,
     finished: Condvar,
@@ -30,12 +30,12 @@ struct State<T: Transport> {
     running: usize,
 }
 
-/// The pixels of a tile. Samples are added in order, so that a film which is written in between has the first ones.
+/// The pixels of a tile. Samples are added in order, so that a film written in between has the first ones.
 struct Tile<T: Transport> {
     rect: Rect,
     /// The next sample to be added.
     next: u32,
-    /// Samples that were done before those that come before them.
+    /// Samples that were finished before earlier ones.
     early: Vec<(Range<u32>, Film<T>)>,
 }
 

@@ -1,4 +1,4 @@
-//! Paths that meet: light paths are kept, and connected with or merged into paths from the camera.
+//! Light paths that are kept, and connected or merged with paths from the camera.
 
 mod mis;
 mod pass;
@@ -11,7 +11,7 @@ pub(crate) use vertex::{LightPart, LightVertex, SplatAt};
 use crate::channels::Channels;
 use crate::transport::Transport;
 
-/// A transport whose light, throughput and scattering are all one value per channel, so that a path may be followed
+/// A transport whose light, throughput and scattering are all one value per channel, so that a path can be followed
 /// from either end.
 pub(crate) trait Unpolarised:
     Transport<

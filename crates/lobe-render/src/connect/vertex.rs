@@ -1,28 +1,28 @@
-//! What is kept of light paths.
+//! The surfaces of light paths that are kept.
 
 use super::Mis;
 use crate::place::Place;
 use crate::transport::Transport;
 use crate::vec3::Vec3;
 
-/// A surface that a light path has met, and what it brings there.
+/// A surface that a light path has met, and the light that it brings there.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightVertex<T: Transport> {
     pub place: Place,
-    /// Back along the path, in the frame of the material.
+    /// The direction back along the path, in the frame of the material.
     pub wo: Vec3,
     /// The power that arrives, per path, in W.
     pub flux: T::Spectrum,
     pub mis: Mis,
     pub material: u32,
-    /// How many surfaces the path has met, this one included.
+    /// Number of surfaces that the path has met, including this one.
     pub surfaces: u32,
 }
 
-/// What a light path adds to the picture.
+/// The contribution of a light path to the picture.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SplatAt<T: Transport> {
-    /// Where, in pixels.
+    /// Its position, in pixels.
     pub raster: [f32; 2],
     pub radiance: T::Radiance,
 }
@@ -32,7 +32,7 @@ pub(crate) struct SplatAt<T: Transport> {
 pub(crate) struct LightPart<T: Transport> {
     /// The surfaces of one path after another, each in the order in which it met them.
     pub vertices: Vec<LightVertex<T>>,
-    /// Where those of each path begin; and the end.
+    /// Where the surfaces of each path begin, and the end.
     pub starts: Vec<u32>,
     pub splats: Vec<SplatAt<T>>,
 }
@@ -44,7 +44,8 @@ impl<T: Transport> Default for LightPart<T> {
 }
 
 impl<T: Transport> LightPart<T> {
-    /// Of `paths` paths, whose surfaces have been found one depth after another: `slots` says of which path each is.
+    /// Sorts the surfaces of `paths` paths, which have been found one depth after another; `slots` says to which path
+    /// each belongs.
     pub fn sorted(paths: usize, slots: &[u32], found: &[LightVertex<T>]) -> Self {
         let mut starts = vec![0u32; paths + 1];
         for &slot in slots {

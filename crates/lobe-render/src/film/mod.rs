@@ -1,7 +1,6 @@
-//! What has been measured so far, in sums that are exact.
-//!
-//! Sums are integers: a radiance counts in units of `2^-64`, so that adding is exact and its order leaves no trace in the
-//! result. That is what makes pictures of any number of threads, tiles and machines the same bits.
+//! Films: the samples taken so far, in exact sums. Sums are integers: a radiance counts in units of `2^-64`, so adding
+//! is exact and the order of adding does not change the result. This is why a picture has the same bits for any number
+//! of threads, tiles and machines.
 
 mod pixel;
 mod rect;
@@ -18,9 +17,8 @@ use crate::camera::Filter;
 use crate::channels::Channels;
 use crate::transport::{Rgb, Transport};
 
-/// The pixels of a window of a picture.
-///
-/// A pixel is the mean of the samples of its own paths, plus the mean over light paths of what they have splatted.
+/// The pixels in a window of a picture. A pixel is the mean of the samples of its own paths, plus the mean over light
+/// paths of their splats.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Film<T: Transport = Rgb> {
     window: Rect,
@@ -35,10 +33,11 @@ impl<T: Transport> Film<T> {
         Film { window, pixels: vec![Pixel::EMPTY; window.area()], splats: Vec::new() }
     }
 
-    /// As [`new`](Film::new), if there is the memory for it and for `more` bytes per pixel, which will be wanted with it.
+    /// Like [`new`](Film::new), if there is enough memory for the film and for `more` bytes per pixel, which will be
+    /// needed with it.
     ///
     /// # Errors
-    /// [`NoRoom`] says how much it would take.
+    /// [`NoRoom`] with the memory that it would take.
     pub fn try_new(window: Rect, more: usize) -> Result<Self, NoRoom> {
         let bytes = |each: usize| (window.area() as u64).saturating_mul(each as u64);
         lobe_memory::require(bytes(size_of::<Pixel<T>>() + more))?;
@@ -49,7 +48,7 @@ impl<T: Transport> Film<T> {
         Ok(Film { window, pixels, splats: Vec::new() })
     }
 
-    /// Which pixels of the picture it has.
+    /// The pixels of the picture that the film has.
     pub fn window(&self) -> Rect {
         self.window
     }
@@ -76,10 +75,10 @@ impl<T: Transport> Film<T> {
         self.merge_splats(other, shared);
     }
 
-    /// Where a pixel of the picture is among [`pixels`](Film::pixels).
+    /// The index of a pixel of the picture in [`pixels`](Film::pixels).
     ///
     /// # Panics
-    /// If it is left of or above the window.
+    /// If the pixel is left of or above the window.
     pub fn index(&self, x: u32, y: u32) -> usize {
         (y - self.window.y) as usize * self.window.width as usize + (x - self.window.x) as usize
     }
@@ -90,7 +89,7 @@ impl<T: Transport> Film<T> {
         (counts().min().unwrap_or(0), counts().max().unwrap_or(0))
     }
 
-    /// The radiance of a pixel: the mean of its samples and of what was splatted.
+    /// The radiance of a pixel: the mean of its samples plus the mean of its splats.
     pub fn radiance(&self, index: usize) -> T::Radiance {
         let mut radiance = self.pixels[index].mean_radiance();
         if let Some(splat) = self.splats.get(index) {

@@ -3,7 +3,7 @@
 use crate::channels::Channels;
 use crate::transport::{RadianceSums, Rgb, Transport};
 
-/// What one path brought to its pixel.
+/// The contribution of one path to its pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample<T: Transport = Rgb> {
     /// Radiance that arrived along it.
@@ -13,11 +13,11 @@ pub struct Sample<T: Transport = Rgb> {
 }
 
 impl<T: Transport> Sample<T> {
-    /// A path that hit nothing.
+    /// The sample of a path that hit nothing.
     pub const EMPTY: Self = Sample { radiance: T::Radiance::ZERO, first_hit: FirstHit::NONE };
 }
 
-/// What is recorded of the first surface of a path (arbitrary output variables), for denoisers and compositing.
+/// Properties of the first surface of a path (arbitrary output variables), for denoisers and compositing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstHit {
     /// Albedo in linear sRGB; 0 if there is no surface.
@@ -44,9 +44,9 @@ pub struct Pixel<T: Transport = Rgb> {
     pub albedo: [i64; 3],
     /// Normal in units of [`SURFACE_UNIT`].
     pub normal: [i64; 3],
-    /// How many samples were added.
+    /// Number of samples added.
     pub samples: u32,
-    /// The bits of the smallest distance, which for positive floats are in the order of the floats.
+    /// The bits of the smallest distance, which for positive floats have the same order as the floats.
     pub depth: u32,
     /// The material there.
     pub material: u32,
@@ -56,7 +56,7 @@ pub struct Pixel<T: Transport = Rgb> {
 pub const RADIANCE_UNIT: f64 = 1.0 / 18_446_744_073_709_551_616.0;
 /// The unit of the sums of albedos and normals, `2^-30`.
 pub const SURFACE_UNIT: f64 = 1.0 / 1_073_741_824.0;
-/// What the radiance of a sample is clamped to, so that no sum of `2^32` samples overflows.
+/// The limit to which the radiance of a sample is clamped, so that no sum of `2^32` samples overflows.
 pub(super) const BRIGHTEST: f32 = 1_073_741_824.0;
 /// That in units of [`RADIANCE_UNIT`].
 pub(crate) const BRIGHTEST_UNITS: u128 = 1 << (30 + 64);
@@ -74,7 +74,7 @@ impl<T: Transport> Pixel<T> {
         material: 0,
     };
 
-    /// Adds a sample. Returns `false` if its radiance was not finite and counted as 0.
+    /// Adds a sample. Returns `false` if its radiance was not finite and was counted as 0.
     pub fn add(&mut self, sample: &Sample<T>) -> bool {
         let finite = add_radiance::<T>(&mut self.radiance, &sample.radiance);
         let FirstHit { albedo, normal, depth, material } = sample.first_hit;
@@ -86,24 +86,25 @@ impl<T: Transport> Pixel<T> {
         finite
     }
 
-    /// Adds the sums of another part of the samples of the same pixel.
+    /// Adds the sums of other samples of the same pixel.
     pub fn merge(&mut self, other: &Self) {
         merge_sums::<T>(&mut self.radiance, &other.radiance);
-        // What was rendered does not overflow; the sums of a damaged file may.
+        // Rendered sums do not overflow, but the sums of a damaged file may.
         self.albedo.iter_mut().zip(other.albedo).for_each(|(sum, more)| *sum = sum.wrapping_add(more));
         self.normal.iter_mut().zip(other.normal).for_each(|(sum, more)| *sum = sum.wrapping_add(more));
         self.samples = self.samples.saturating_add(other.samples);
         self.nearest(other.depth, other.material);
     }
 
-    /// Of equally near surfaces the smaller number wins, so that the order of adding does not matter.
+    /// Keeps the nearer surface. Among equally near ones the smaller material number wins, so that the order of adding
+    /// does not matter.
     fn nearest(&mut self, depth: u32, material: u32) {
         if (depth, material) < (self.depth, self.material) || self.material == 0 && depth == self.depth {
             (self.depth, self.material) = (depth, material);
         }
     }
 
-    /// Mean radiance of the samples, without what was splatted; 0 before the first sample.
+    /// Mean radiance of the samples, without splats; 0 before the first sample.
     pub fn mean_radiance(&self) -> T::Radiance {
         mean_radiance::<T>(&self.radiance, u64::from(self.samples))
     }
@@ -155,7 +156,7 @@ fn mean(sum: f64, count: u64) -> f32 {
 fn fixed(value: f32) -> i128 {
     let bits = value.to_bits();
     let exponent = (bits >> 23 & 0xff) as i32;
-    // Below the smallest normal number there is nothing to be seen.
+    // Numbers below the smallest normal number are not visible.
     if exponent == 0 {
         return 0;
     }
@@ -171,7 +172,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_order_of_adding_cannot_be_told() {
+    fn the_order_of_adding_does_not_matter() {
         let samples: Vec<Sample> = (0..200)
             .map(|i| {
                 let x = (i * 7919 % 1000) as f32 / 7.0;
@@ -196,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn sums_are_of_what_a_number_is() {
+    fn sums_hold_the_exact_numbers() {
         let unit = RADIANCE_UNIT;
         for value in [0.0, 1.0, -1.0, 0.1, 1e-30, 3e-20, -7.3e-19, 5.421_011e-20, 1e-44, 1234.567, 1_073_741_824.0] {
             assert_eq!(fixed(value), (f64::from(value) / unit) as i128, "{value}");
@@ -205,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_is_reported_and_left_out() {
+    fn a_radiance_that_is_not_a_number_is_reported_and_left_out() {
         let mut pixel = Pixel::<Rgb>::EMPTY;
         let sample = Sample { radiance: [1.0, f32::NAN, 1.0], ..Sample::EMPTY };
         assert!(!pixel.add(&sample));

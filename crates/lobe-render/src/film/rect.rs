@@ -9,14 +9,14 @@ pub struct Rect {
     pub x: u32,
     /// The top row.
     pub y: u32,
-    /// How many columns.
+    /// Number of columns.
     pub width: u32,
-    /// How many rows.
+    /// Number of rows.
     pub height: u32,
 }
 
 impl Rect {
-    /// How many pixels.
+    /// Number of pixels.
     pub fn area(&self) -> usize {
         self.width as usize * self.height as usize
     }
@@ -31,7 +31,7 @@ impl Rect {
         self.y..self.y + self.height
     }
 
-    /// The pixels that both have; `None` if there are none.
+    /// The pixels that both rectangles contain; `None` if there are none.
     pub fn intersection(&self, other: &Rect) -> Option<Rect> {
         let (x, y) = (self.x.max(other.x), self.y.max(other.y));
         let right = self.columns().end.min(other.columns().end);
@@ -39,8 +39,8 @@ impl Rect {
         (x < right && y < bottom).then(|| Rect { x, y, width: right - x, height: bottom - y })
     }
 
-    /// Part `part` of `parts`, counted from 1: strips of whole rows, as equal as can be. `None` if there is no such part, or
-    /// there are not as many rows.
+    /// Part `part` of `parts`, counted from 1: strips of whole rows, as equal as possible. `None` if there is no such
+    /// part, or there are fewer rows than parts.
     pub fn strip(&self, part: u32, parts: u32) -> Option<Rect> {
         if !(1..=parts).contains(&part) || parts > self.height {
             return None;

@@ -1,4 +1,4 @@
-//! What light paths bring to any pixel, not only to one of their own.
+//! Splats: contributions of light paths, which may go to any pixel.
 
 use super::pixel::{add_radiance, mean_radiance, merge_sums};
 use super::{Channels, Film, Filter, Rect, Transport};
@@ -9,7 +9,7 @@ use crate::transport::RadianceSums;
 pub(crate) struct Splat<T: Transport> {
     /// In units of [`RADIANCE_UNIT`](super::RADIANCE_UNIT).
     pub sums: RadianceSums<T>,
-    /// Light paths that could have reached the pixel.
+    /// Number of light paths that could have reached the pixel.
     pub paths: u64,
 }
 
@@ -22,17 +22,17 @@ impl<T: Transport> Splat<T> {
 }
 
 impl<T: Transport> Film<T> {
-    /// Counts light paths that could have reached every pixel of the window, whether they have splatted or not.
+    /// Counts light paths that could have reached every pixel of the window, whether or not they have splatted.
     pub fn add_light_paths(&mut self, paths: u64) {
         self.splats_mut().iter_mut().for_each(|splat| splat.paths += paths);
     }
 
-    /// Adds the contribution of a light path at a place of the picture: columns from its left edge and rows from its top
-    /// edge, in pixels. The filter spreads it as it spreads the samples of pixels, so that both have equal means. Parts
-    /// outside the window are dropped. Returns `false` if the radiance was not finite and counted as 0.
-    ///
-    /// A pixel shows the mean over light paths. [Importance](crate::View::sample_we) integrates to 1 over the whole film;
-    /// a contribution is in terms of one pixel, so it is multiplied by the number of pixels of the picture.
+    /// Adds the contribution of a light path at a position in the picture: columns from its left edge and rows from its
+    /// top edge, in pixels. The filter spreads it in the same way as the samples of pixels, so that both have equal
+    /// means. Parts outside the window are dropped. Returns `false` if the radiance was not finite and was counted as
+    /// 0.
+    /// A pixel shows the mean over light paths. [Importance](crate::View::sample_we) integrates to 1 over the whole
+    /// film, but a contribution refers to one pixel, so it is multiplied by the number of pixels of the picture.
     pub fn splat(&mut self, at: [f32; 2], radiance: T::Radiance, filter: Filter) -> bool {
         match filter {
             Filter::Box => self.splat_pixel(at.map(|x| f64::from(x).floor()), &radiance, 1.0),
@@ -54,7 +54,7 @@ impl<T: Transport> Film<T> {
     fn splat_pixel(&mut self, [x, y]: [f64; 2], radiance: &T::Radiance, share: f32) -> bool {
         let Rect { x: left, y: top, width, height } = self.window;
         let (column, row) = (x - f64::from(left), y - f64::from(top));
-        // Neither is true of NaN.
+        // Both are false for NaN.
         let inside = column >= 0.0 && row >= 0.0 && column < f64::from(width) && row < f64::from(height);
         if !inside || share == 0.0 {
             return radiance.as_ref().iter().all(|value| value.is_finite());
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn splats_have_no_order_and_merge_to_the_same_bits() {
+    fn splats_merge_to_the_same_bits_in_any_order() {
         let splats = splats();
         for filter in [Filter::Box, Filter::Tent] {
             let whole = splatted(WINDOW, splats.iter(), filter);
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_splatted_is_what_is_seen() {
+    fn splats_have_the_mean_of_samples() {
         let mut film = Film::<Rgb>::new(WINDOW);
         film.add_light_paths(4);
         assert!(film.splat([5.7, 4.2], [8.0, 4.0, 0.0], Filter::Box));
@@ -152,7 +152,7 @@ mod tests {
         }
         assert!(film.splat([3.0, 3.5], [4.0; 3], Filter::Tent));
         assert_eq!(film.radiance(film.index(3, 3)), [2.0; 3]);
-        // Outside, and not a number.
+        // A position outside, and a radiance that is not a number.
         assert!(film.splat([-1e30, f32::NAN], [1.0; 3], Filter::Tent));
         assert!(!film.splat([5.5, 4.5], [f32::NAN; 3], Filter::Box));
         assert_eq!(film.radiance(film.index(5, 4)), [1.0; 3]);

@@ -13,7 +13,7 @@ use crate::vec3::Vec3;
 use crate::vectors::cosine_hemisphere;
 use crate::wavefront::{Keep, Origin, ShadowRay, Wavefront, spawn_rays};
 
-/// The share of directions, weighted with the cosine, in which there is no surface within a distance.
+/// Shows the share of directions, weighted with the cosine, in which there is no surface within a distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AmbientOcclusion {
     /// The distance; may be infinite.

@@ -7,12 +7,12 @@ use crate::scene::node::{Node, SceneError};
 use crate::wavefront::Wavefront;
 
 /// Paths from the camera and from the lights, connected in all ways, each weighted by its density among all (Veach and
-/// Guibas 1995; Lafortune and Willems 1993). Without bias.
+/// Guibas 1995; Lafortune and Willems 1993). Unbiased.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bdpt {
-    /// The most surfaces of a path.
+    /// The largest number of surfaces of a path.
     pub depth: u32,
-    /// Light paths per sample of all pixels; as many as there are pixels, up to 2^20, if it is `None`.
+    /// Number of light paths per sample of all pixels; if it is `None`, as many as there are pixels, up to 2^20.
     pub paths: Option<u32>,
 }
 
@@ -25,7 +25,7 @@ impl Default for Bdpt {
 impl LightStages for Bdpt {
     const NAME: &'static str = "bdpt";
     const SUMMARY: &'static str =
-        "Paths from camera and lights, connected: rooms lit indirectly, caustics; without bias";
+        "Paths from camera and lights, connected: rooms lit indirectly, caustics; unbiased";
 
     fn read(table: &Node<'_, '_>) -> Result<Self, SceneError> {
         let (depth, paths) = read_depth_and_paths(table, Bdpt::default().depth)?;

@@ -9,14 +9,14 @@ use crate::scene::node::{Node, SceneError};
 use crate::transport::TransportMode;
 use crate::wavefront::{DeltaChoice, Keep, Scatter, Wavefront};
 
-/// Paths from the lights, of which the camera sees every surface (Dutre and Willems 1994; Arvo 1986, "Backward Ray
-/// Tracing"). What the camera sees of lights in mirrors and through glass comes from paths of its own, and is all that
-/// there is to be seen there: no light path finds the camera over a mirror.
+/// Paths from the lights, connected to the camera from every surface (Dutre and Willems 1994; Arvo 1986, "Backward Ray
+/// Tracing"). No light path reaches the camera by way of a mirror or glass, so these show only the lights themselves,
+/// found by paths from the camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightTracing {
-    /// The most surfaces that a path may hit.
+    /// The largest number of surfaces that a path may hit.
     pub depth: u32,
-    /// Light paths per sample of all pixels; as many as there are pixels, up to 2^20, if it is `None`.
+    /// Number of light paths per sample of all pixels; if it is `None`, as many as there are pixels, up to 2^20.
     pub paths: Option<u32>,
 }
 
@@ -26,13 +26,13 @@ impl Default for LightTracing {
     }
 }
 
-/// From this depth on paths end by chance.
+/// From this depth on, paths end by Russian roulette.
 pub(super) const ROULETTE: u32 = 3;
 
 impl LightStages for LightTracing {
     const NAME: &'static str = "light";
     const SUMMARY: &'static str =
-        "Paths from the lights: caustics without noise, but nothing seen in mirrors or through glass";
+        "Paths from the lights: caustics without noise, but nothing visible in mirrors or through glass";
 
     fn read(table: &Node<'_, '_>) -> Result<Self, SceneError> {
         let (depth, paths) = read_depth_and_paths(table, LightTracing::default().depth)?;

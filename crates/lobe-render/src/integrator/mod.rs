@@ -1,6 +1,5 @@
-//! The ways to make a picture: each composes the stages of a wavefront in a file of its own.
-//!
-//! One line below makes an integrator known: to scene files, to the program and its help, and to programs that render.
+//! Integrators: ways to render a picture. Each composes the stages of a wavefront, in its own file. One line below
+//! registers an integrator for scene files, for the program and its help, and for programs that render.
 
 use std::fmt::Debug;
 use std::ops::Range;
@@ -17,8 +16,8 @@ use crate::transport::{Bands, Rgb, Stokes16, StokesRgb, Transport};
 use crate::wavefront::Wavefront;
 use crate::world::World;
 
-/// Declares the modules of integrators, lists them, and compiles each for every transport with this crate, so that
-/// programs that render do not compile kernels again. A transport is a line here.
+/// Declares the modules of integrators, lists them, and compiles each for every transport as part of this crate, so
+/// that programs that render do not compile kernels again. Each transport is one line here.
 macro_rules! integrators {
     ($($module:ident::$Name:ident,)+; $($light:ident::$Light:ident,)+) => {
         $(mod $module;)+
@@ -49,12 +48,12 @@ macro_rules! integrators {
     };
 }
 
-/// Compiles integrators for the transports of wavelengths and of polarised light, which few of them are wanted for.
+/// Compiles integrators for the transports of wavelengths and of polarised light, which only few of them need.
 macro_rules! spectral {
     ($($Name:ident),+) => {
         $(integrators!(@ $Name: Bands<8>, Bands<16>, Bands<32>, StokesRgb, Stokes16);)+
 
-        /// The integrators that follow wavelengths and polarised light: their names, and how each is read.
+        /// The integrators that follow wavelengths and polarised light: their names and readers.
         pub(crate) static SPECTRAL: &[SpectralSpec] = &[$(SpectralSpec {
             name: <$Name as Stages>::NAME,
             read: |table| Ok(Arc::new(<$Name as Stages>::read(table)?)),
@@ -80,7 +79,7 @@ impl<I> AnyTransport for I where
 {
 }
 
-/// An integrator that a name denotes, for wavelengths and polarised light.
+/// An integrator with a name, for wavelengths and polarised light.
 pub(crate) struct SpectralSpec {
     pub name: &'static str,
     pub read: fn(&Node<'_, '_>) -> Result<Arc<dyn AnyTransport>, SceneError>,
@@ -99,22 +98,21 @@ integrators! {
     vcm::Vcm,
 }
 
-/// A way to find the radiance that arrives at a camera.
-///
-/// Integrators are made of the stages of this crate, and compiled with it once for each transport.
+/// A way to find the radiance that arrives at a camera. Integrators are composed of the stages of this crate, and
+/// compiled with it once for each transport.
 pub trait Integrator<T: Transport = Rgb>: Debug + Send + Sync {
-    /// What one thread renders with.
+    /// The state of one rendering thread.
     #[doc(hidden)]
     fn renderer<'w>(&'w self, task: Task<'w, T>) -> Renderer<'w, T>;
 }
 
-/// What one thread renders with.
+/// The state of one rendering thread.
 #[doc(hidden)]
-#[expect(missing_debug_implementations, reason = "what it does is in the integrator")]
+#[expect(missing_debug_implementations, reason = "the integrator says what it does")]
 pub enum Renderer<'w, T: Transport> {
-    /// Tiles, in any order.
+    /// It renders tiles, in any order.
     Tiles(Box<dyn TileRenderer<T> + 'w>),
-    /// Passes, in each of them light paths before tiles.
+    /// It renders passes, and in each of them light paths before tiles.
     Passes(Box<dyn PassRenderer<T> + Send + 'w>),
 }
 
@@ -128,28 +126,28 @@ pub struct Task<'w, T: Transport> {
 
 /// Renders tiles on one thread.
 pub trait TileRenderer<T: Transport> {
-    /// Follows these samples of the pixels of a tile. Returns what they bring.
+    /// Follows these samples of the pixels of a tile and returns their contributions.
     fn render(&mut self, tile: Rect, samples: Range<u32>) -> Film<T>;
 
-    /// What has been done so far.
+    /// Statistics of the work done so far.
     fn stats(&self) -> Stats;
 }
 
 /// Renders tiles that need the light paths of all threads.
 #[doc(hidden)]
 pub trait PassRenderer<T: Transport> {
-    /// How many light paths there are, and what is kept of them.
+    /// How many light paths there are, and which of their surfaces are kept.
     fn plan(&self) -> Plan;
 
     /// Follows light paths.
     #[allow(private_interfaces, reason = "only this crate implements and calls it")]
     fn light(&mut self, paths: Range<u32>, pass: &Pass) -> LightPart<T>;
 
-    /// Follows a sample of the pixels of a tile. Returns what they bring.
+    /// Follows one sample of the pixels of a tile and returns the contributions.
     #[allow(private_interfaces, reason = "only this crate implements and calls it")]
     fn camera(&mut self, tile: Rect, pass: &Pass, map: &LightMap<T>) -> Film<T>;
 
-    /// What has been done so far.
+    /// Statistics of the work done so far.
     fn stats(&self) -> Stats;
 }
 
@@ -157,13 +155,13 @@ pub trait PassRenderer<T: Transport> {
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
-    /// The most surfaces of a path.
+    /// The largest number of surfaces of a path.
     pub(crate) depth: u32,
-    /// Light paths per pass; as many as pixels, up to a million, if it is `None`.
+    /// Number of light paths per pass; if it is `None`, as many as there are pixels, up to a million.
     pub(crate) paths: Option<u32>,
-    /// Whether the camera sees light paths.
+    /// `true` if the camera sees light paths.
     pub(crate) splats: bool,
-    /// Whether the surfaces of light paths are kept.
+    /// `true` if the surfaces of light paths are kept.
     pub(crate) keeps: bool,
     /// How photons are gathered, if they are.
     pub(crate) gathering: Option<Gathering>,
@@ -172,15 +170,15 @@ pub struct Plan {
 /// How photons are gathered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Gathering {
-    /// The radius of the first pass; two pixels where the camera looks at if it is `None`.
+    /// The radius of the first pass; if it is `None`, the size of two pixels at the target of the camera.
     pub radius: Option<f32>,
-    /// How it shrinks, from 0 to 1: quickly or not at all.
+    /// How fast it shrinks, from 0 (fast) to 1 (not at all).
     pub shrink: f32,
-    /// How many surfaces a path has met at least that is a photon.
+    /// The least number of surfaces that a path must have met to count as a photon.
     pub least: u32,
 }
 
-/// The keys that integrators with light paths share.
+/// The keys shared by integrators with light paths.
 pub(crate) fn read_depth_and_paths(table: &Node<'_, '_>, depth: u32) -> Result<(u32, Option<u32>), SceneError> {
     Ok((table.whole("depth", 1..=1000)?.unwrap_or(depth), table.whole("paths", 1..=u32::MAX)?))
 }
@@ -193,12 +191,12 @@ pub(crate) fn read_gathering(table: &Node<'_, '_>, default: Gathering) -> Result
 
 /// How an integrator with light paths composes the stages of a wavefront.
 pub(crate) trait LightStages: Clone + Debug + Default + Send + Sync + 'static {
-    /// The name in scene files and on the command line.
+    /// Its name in scene files and on the command line.
     const NAME: &'static str;
-    /// What it does, in a line.
+    /// A description in one line.
     const SUMMARY: &'static str;
 
-    /// Reads what its table in a scene file says.
+    /// Reads its table in a scene file.
     fn read(table: &Node<'_, '_>) -> Result<Self, SceneError>;
 
     /// How a pass uses light paths.
@@ -213,26 +211,26 @@ pub(crate) trait LightStages: Clone + Debug + Default + Send + Sync + 'static {
 
 /// How an integrator composes the stages of a wavefront.
 pub(crate) trait Stages: Clone + Debug + Default + Send + Sync + 'static {
-    /// The name in scene files and on the command line.
+    /// Its name in scene files and on the command line.
     const NAME: &'static str;
-    /// What it does, in a line.
+    /// A description in one line.
     const SUMMARY: &'static str;
 
-    /// Reads what its table in a scene file says.
+    /// Reads its table in a scene file.
     fn read(table: &Node<'_, '_>) -> Result<Self, SceneError>;
 
     /// Follows the camera rays of a wave to their ends.
     fn follow<T: Transport>(&self, wave: &mut Wavefront<'_, T>);
 }
 
-/// An integrator that a name denotes.
+/// An integrator with a name.
 #[derive(Clone, Copy, Debug)]
 pub struct IntegratorSpec {
-    /// The name in scene files and on the command line.
+    /// Its name in scene files and on the command line.
     pub name: &'static str,
-    /// What it does, in a line.
+    /// A description in one line.
     pub summary: &'static str,
-    /// With its default parameters.
+    /// The integrator with its default parameters.
     pub default: fn() -> Arc<dyn Integrator>,
     pub(crate) read: fn(&Node<'_, '_>) -> Result<Arc<dyn Integrator>, SceneError>,
 }

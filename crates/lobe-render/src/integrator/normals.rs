@@ -7,7 +7,7 @@ use crate::scene::node::{Node, SceneError};
 use crate::transport::Transport;
 use crate::wavefront::{Keep, Wavefront};
 
-/// The shading normals as colours, `(n + 1) / 2`.
+/// Shows the shading normals as colours, `(n + 1) / 2`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Normals;
 

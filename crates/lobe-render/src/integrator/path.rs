@@ -7,13 +7,13 @@ use crate::scene::node::{Node, SceneError};
 use crate::transport::{Transport, TransportMode};
 use crate::wavefront::{DeltaChoice, Keep, LightChoice, NextEvent, Scatter, Wavefront};
 
-/// Paths that light takes over many surfaces, without bias: lights and materials are sampled together (multiple
-/// importance sampling), and paths that carry little end by chance (Russian roulette).
+/// Follows light over many surfaces, without bias: lights and materials are sampled together (multiple importance
+/// sampling), and paths that carry little light end by chance (Russian roulette).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Path {
-    /// The most surfaces that a path may hit.
+    /// The largest number of surfaces that a path may hit.
     pub depth: u32,
-    /// The most that one sample may add after the first surface, per channel; infinite for no limit. A limit takes away
+    /// The most that one sample may add after the first surface, per channel; infinite for no limit. A limit removes
     /// bright dots, and a little light with them.
     pub limit: f32,
 }
@@ -24,11 +24,11 @@ impl Default for Path {
     }
 }
 
-/// From this depth on paths end by chance.
+/// From this depth on, paths end by Russian roulette.
 const ROULETTE: u32 = 3;
 
 impl Path {
-    /// The most that may be added by light that reaches the viewer over that many surfaces.
+    /// The most that light may add that reaches the viewer over this many surfaces.
     fn limit(&self, surfaces: u32) -> f32 {
         if surfaces > 1 { self.limit } else { f32::INFINITY }
     }
@@ -36,7 +36,7 @@ impl Path {
 
 impl Stages for Path {
     const NAME: &'static str = "path";
-    const SUMMARY: &'static str = "Light over many surfaces, without bias";
+    const SUMMARY: &'static str = "Light over many surfaces; unbiased";
 
     fn read(table: &Node<'_, '_>) -> Result<Self, SceneError> {
         let default = Path::default();
@@ -52,7 +52,7 @@ impl Stages for Path {
             if wave.rays.is_empty() {
                 break;
             }
-            // The last rays look for lights only.
+            // The last rays only look for lights.
             let last = depth == self.depth;
             wave.intersect(class, if last { Keep::Emitters } else { Keep::All });
             if depth == 0 {

@@ -10,16 +10,16 @@ use crate::scene::node::{Node, SceneError};
 use crate::transport::TransportMode;
 use crate::wavefront::{DeltaChoice, Keep, LightChoice, Merging, NextEvent, Scatter, Wavefront};
 
-/// Photons gathered at the first surface that is not a mirror or glass, in passes whose radius shrinks (Hachisuka and
-/// Jensen 2009; Knaus and Zwicker 2011). Light straight from lights is sampled. What is gathered is blurred, less with
-/// each pass.
+/// Gathers photons at the first surface that is not a mirror or glass, in passes whose radius shrinks (Hachisuka and
+/// Jensen 2009; Knaus and Zwicker 2011). Direct light is sampled. Gathered light is blurred, less with each pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sppm {
-    /// The most surfaces of a path.
+    /// The largest number of surfaces of a path.
     pub depth: u32,
-    /// Light paths per pass; as many as there are pixels, up to 2^20, if it is `None`.
+    /// Number of light paths per pass; if it is `None`, as many as there are pixels, up to 2^20.
     pub paths: Option<u32>,
-    /// Within which photons are gathered in the first pass; two pixels where the camera looks at if it is `None`.
+    /// Radius within which photons are gathered in the first pass; if it is `None`, the size of two pixels at the
+    /// target of the camera.
     pub radius: Option<f32>,
     /// How the radius shrinks from pass to pass, from 0.1 (fast) to 1 (not at all).
     pub shrink: f32,
@@ -32,7 +32,7 @@ impl Default for Sppm {
 }
 
 impl Sppm {
-    /// What has met one surface only is sampled as light that comes straight from lights.
+    /// Light that has met only one surface is sampled as direct light.
     fn gathering(&self) -> Gathering {
         Gathering { radius: self.radius, shrink: self.shrink, least: 2 }
     }
@@ -93,7 +93,7 @@ impl LightStages for Sppm {
             wave.merge_photons(depth, pass, map, Merging::Alone);
             let (mode, delta) = (TransportMode::Radiance, DeltaChoice::One);
             wave.scatter(Scatter { depth, mode, delta, roulette: Some(ROULETTE) });
-            // What was scattered looks for lights; photons have brought the rest.
+            // Scattered rays only look for lights; photons have brought the rest.
             let scattered = wave.part_mirrored();
             let mirrored = std::mem::replace(&mut wave.rays, scattered);
             if !wave.rays.is_empty() {

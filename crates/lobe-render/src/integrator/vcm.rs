@@ -11,15 +11,16 @@ use crate::transport::TransportMode;
 use crate::wavefront::{DeltaChoice, Keep, Merging, Scatter, Wavefront};
 
 /// Bidirectional path tracing and photon mapping as one method, each technique weighted by its density (Georgiev,
-/// Krivanek, Davidovic and Slusallek 2012). Light that a mirror shows of a caustic is found by merging only, which
-/// blurs it a little, less with each pass.
+/// Krivanek, Davidovic and Slusallek 2012). Caustics seen in a mirror are found only by merging, which blurs them a
+/// little, less with each pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vcm {
-    /// The most surfaces of a path.
+    /// The largest number of surfaces of a path.
     pub depth: u32,
-    /// Light paths per sample of all pixels; as many as there are pixels, up to 2^20, if it is `None`.
+    /// Number of light paths per sample of all pixels; if it is `None`, as many as there are pixels, up to 2^20.
     pub paths: Option<u32>,
-    /// Within which paths are merged in the first pass; two pixels where the camera looks at if it is `None`.
+    /// Radius within which paths are merged in the first pass; if it is `None`, the size of two pixels at the target of
+    /// the camera.
     pub radius: Option<f32>,
     /// How the radius shrinks from pass to pass, from 0.1 (fast) to 1 (not at all).
     pub shrink: f32,
@@ -89,7 +90,7 @@ pub(super) fn follow_camera<T: Unpolarised>(wave: &mut Wavefront<'_, T>, pass: &
         if wave.rays.is_empty() {
             break;
         }
-        // The last rays look for lights only.
+        // The last rays only look for lights.
         let last = depth == pass.depth;
         wave.intersect(class, if last { Keep::Emitters } else { Keep::All });
         if depth == 0 {

@@ -7,11 +7,11 @@ use crate::scene::node::{Node, SceneError};
 use crate::transport::{Transport, TransportMode};
 use crate::wavefront::{DeltaChoice, Keep, LightChoice, NextEvent, Scatter, Wavefront};
 
-/// Light that comes straight from lights, with shadows, and mirrored and refracted rays, all of them: Whitted 1980, "An
-/// Improved Illumination Model for Shaded Display".
+/// Direct light with shadows, and all mirrored and refracted rays: Whitted 1980, "An Improved Illumination Model for
+/// Shaded Display".
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Whitted {
-    /// The most surfaces that a ray may hit.
+    /// The largest number of surfaces that a ray may hit.
     pub depth: u32,
 }
 
@@ -39,7 +39,7 @@ impl Stages for Whitted {
             if wave.rays.is_empty() {
                 break;
             }
-            // The last rays look for lights only.
+            // The last rays only look for lights.
             let last = depth == self.depth;
             wave.intersect(class, if last { Keep::Emitters } else { Keep::All });
             if depth == 0 {

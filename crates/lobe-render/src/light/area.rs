@@ -1,4 +1,4 @@
-//! Triangles that radiate.
+//! Area lights: triangles that radiate.
 
 use lobe_lane::{Block, Floats, Lanes};
 
@@ -8,10 +8,10 @@ use crate::channels::Channels;
 use crate::vec3::{Vec3, cross, length, sub, unit};
 use crate::vectors::{self, add, cosine_hemisphere, dot, frame_of, to_world};
 
-/// Triangles that radiate the same into all directions in front of them.
+/// Triangles with the same radiance in all directions in front of them.
 #[derive(Clone, Debug)]
 pub struct AreaLight<S: Channels = [f32; 3]> {
-    /// For each triangle a corner, the edges from there to the others, and the unit normal.
+    /// For each triangle, one corner, the edges from there to the others, and the unit normal.
     triangles: Vec<[Vec3; 4]>,
     areas: Cdf,
     area: f64,
@@ -38,17 +38,17 @@ impl<S: Channels> AreaLight<S> {
         self.radiance
     }
 
-    /// Whether the backs of the triangles radiate as well.
+    /// `true` if the backs of the triangles radiate as well.
     pub fn is_two_sided(&self) -> bool {
         self.two_sided
     }
 
-    /// Area of all triangles.
+    /// Total area of the triangles.
     pub fn area(&self) -> f64 {
         self.area
     }
 
-    /// What leaves toward a viewer in front, or behind.
+    /// The radiance toward a viewer in front or behind.
     pub(crate) fn emitted(&self, front: bool) -> S {
         if self.two_sided || front { self.radiance } else { S::ZERO }
     }
@@ -59,7 +59,7 @@ impl<S: Channels> AreaLight<S> {
         distance * distance / (cos.abs().max(lanes.splat(1e-9)) * lanes.splat(self.area as f32))
     }
 
-    /// What the density of a direction that [`sample_le`](AreaLight::sample_le) samples is multiplied by to be its cosine.
+    /// The factor that turns the density of a direction sampled by [`sample_le`](AreaLight::sample_le) into its cosine.
     pub(crate) fn cosine_over_pdf(&self) -> f32 {
         if self.two_sided { std::f32::consts::TAU } else { std::f32::consts::PI }
     }
@@ -130,13 +130,13 @@ impl<S: Channels> AreaLight<S> {
     }
 }
 
-/// A corner, the edges from there to the others, and the unit normal; 0 if there is no area.
+/// One corner, the edges from there to the others, and the unit normal; 0 if there is no area.
 fn parts([a, b, c]: [Vec3; 3]) -> [Vec3; 4] {
     let normal = unit(normal([a, b, c])).unwrap_or([0.0; 3]);
     [a, sub(b, a), sub(c, a), normal]
 }
 
-/// Normal of a triangle, twice its area long.
+/// Normal of a triangle, with a length of twice its area.
 fn normal([a, b, c]: [Vec3; 3]) -> Vec3 {
     cross(sub(b, a), sub(c, a))
 }
@@ -149,7 +149,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn drawing_integrates_the_solid_angle() {
+    fn sampling_integrates_the_solid_angle() {
         // A square of side 2 at distance 1 seen from below its centre: 4 atan(1 / sqrt(3)) = 2 pi / 3 sr.
         let [a, b, c, d] = [[-1.0, 1.0, -1.0], [1.0, 1.0, -1.0], [1.0, 1.0, 1.0], [-1.0, 1.0, 1.0]];
         let light = AreaLight::new(vec![[a, b, c], [a, c, d]], [1.0], false).unwrap();
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn without_area_there_is_no_light() {
+    fn triangles_without_area_are_not_a_light() {
         assert!(AreaLight::new(vec![[[0.0; 3]; 3]], [1.0], false).is_none());
         assert!(AreaLight::new(vec![], [1.0], false).is_none());
     }

@@ -1,4 +1,4 @@
-//! Sampling from lists of weights.
+//! Samples from lists of weights.
 
 use lobe_lane::{Floats, Ints, Lanes, Mask};
 use lobe_memory::Storage;
@@ -7,15 +7,15 @@ use lobe_memory::Storage;
 #[derive(Clone, Debug)]
 pub(super) struct Cdf {
     n: usize,
-    /// The sums of the weights before and with each entry, from 0 to 1 in a list.
+    /// The running sums of the weights before and after each entry, from 0 to 1 in a list.
     sums: Storage<[f32; 2]>,
-    /// For each of `n` equal parts of the unit interval the first entry whose sum is above where the part begins. Whole
-    /// numbers, as floats: those are what lanes gather.
+    /// For each of `n` equal parts of the unit interval, the first entry whose sum is above the beginning of the part.
+    /// They are whole numbers kept as floats, because lanes gather floats.
     guide: Storage<f32>,
 }
 
 impl Cdf {
-    /// Lists of `n` weights, one after the other; those of a list are not all 0.
+    /// Prepares lists of `n` weights, one after the other; the weights of a list must not all be 0.
     pub fn new(n: usize, weights: &[f64]) -> Self {
         let mut sums = Storage::<[f32; 2]>::zeros(weights.len());
         let mut guide = Storage::<f32>::zeros(weights.len());
@@ -32,7 +32,7 @@ impl Cdf {
             }
             let mut entry = 0;
             for (part, guide) in guide.iter_mut().enumerate() {
-                // A little early: rounding may put a number into the part after its own.
+                // A little early, because rounding may put a number into the next part.
                 let begin = part as f32 / n as f32 * (1.0 - 4.0 * f32::EPSILON);
                 while entry + 1 < n && sums[entry][1] <= begin {
                     entry += 1;

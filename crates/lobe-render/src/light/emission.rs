@@ -1,4 +1,4 @@
-//! Rays that leave lights, for paths that begin there.
+//! Samples rays that leave lights, for paths that begin there.
 
 use std::f32::consts::{FRAC_1_PI, PI};
 
@@ -13,7 +13,8 @@ use crate::vec3::Vec3;
 use crate::vectors::{add, disk, frame_of, neg, sin_cos, to_world};
 
 impl<S: Channels> Light<S> {
-    /// Samples rays that leave the light, from four numbers in `[0, 1)` each: two for where, two for the direction.
+    /// Samples rays that leave the light, from four numbers in `[0, 1)` each: two for the position, two for the
+    /// direction.
     ///
     /// The mean of `emitted / (pdf.position * pdf.direction)` is the [`power`](Light::power).
     #[inline(always)]
@@ -56,10 +57,9 @@ impl<S: Channels> Light<S> {
         }
     }
 
-    /// The densities with which [`sample_le`](Light::sample_le) samples a ray in this unit direction. `cos` is that
-    /// between the direction and the normal of the triangle where the ray leaves an area light; other lights ignore it.
-    ///
-    /// The direction of a directional light has density 1, as no other can be sampled.
+    /// The densities with which [`sample_le`](Light::sample_le) samples a ray in this unit direction. `cos` is the
+    /// cosine between the direction and the normal of the triangle where the ray leaves an area light; other lights
+    /// ignore it. The direction of a directional light has density 1, because no other can be sampled.
     pub fn pdf_le(&self, bounds: &SceneBounds, direction: [f32; 3], cos: f32) -> EmissionPdf<f32> {
         match self {
             Light::Point { .. } => EmissionPdf { position: 1.0, direction: 0.25 * FRAC_1_PI },
@@ -81,7 +81,7 @@ impl<S: Channels> Light<S> {
     }
 }
 
-/// Directions uniform in the cone about +z whose cosines are at least `least`; -1 is the sphere.
+/// Uniform directions in the cone about +z with cosines of at least `least`; -1 means the whole sphere.
 #[inline(always)]
 fn cone<L: Lanes>(lanes: L, [u, v]: [L::F; 2], least: f32) -> [L::F; 3] {
     let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
@@ -95,7 +95,7 @@ fn cone_pdf(least: f32) -> f32 {
     1.0 / (2.0 * PI * (1.0 - least))
 }
 
-/// Points uniform on the disk that light from the direction `toward` enters the scene through.
+/// Uniform points on the disk through which light from the direction `toward` enters the scene.
 #[inline(always)]
 fn on_disk<L: Lanes>(lanes: L, bounds: &SceneBounds, toward: [L::F; 3], u: [L::F; 2]) -> [L::F; 3] {
     let radius = lanes.splat(bounds.radius as f32);

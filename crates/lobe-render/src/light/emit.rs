@@ -1,4 +1,4 @@
-//! Rays that leave any of the lights of a scene.
+//! Samples rays that leave any of the lights of a scene.
 
 use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
 use lobe_scalar::Reference;
@@ -9,12 +9,12 @@ use crate::channels::Channels;
 use crate::vec3::Vec3;
 use crate::vectors::select;
 
-/// Rays that leave lights chosen by chance, one per lane.
+/// Rays that leave randomly chosen lights, one per lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Emitting<L: Lanes, S: Channels> {
     /// The number of the light.
     pub light: L::I,
-    /// Its ray, whose densities are without the chance of the light.
+    /// Its ray, whose densities do not include the probability of the light.
     pub sample: EmissionSample<L, S>,
 }
 
@@ -26,7 +26,7 @@ impl<S: Channels> Lights<S> {
         lanes.extract_int(chosen, 0) as usize
     }
 
-    /// Samples rays that leave lights, which `choice` chooses. There must be a light.
+    /// Samples rays that leave lights, which are chosen by `choice`. There must be a light.
     #[inline(always)]
     pub fn sample_le<L: Lanes>(&self, lanes: L, choice: L::F, u: [L::F; 4]) -> Emitting<L, S> {
         let (chosen, _) = self.cdf.sample(lanes, lanes.splat_int(0), choice);
@@ -52,8 +52,8 @@ impl<S: Channels> Lights<S> {
     }
 
     /// The density over a surface with which a light that was sampled for it sends rays there, over the density with
-    /// which light paths begin at the same point of the light. `pdf` is that of the sample, 1/sr; the surface is at
-    /// that distance, in the unit direction `wi` from it, at the cosine `cos`.
+    /// which light paths begin at the same point of the light. `pdf` is the density of the sample, 1/sr; the light is
+    /// at the given distance from the surface, in the unit direction `wi`, at the cosine `cos`.
     pub fn back(&self, light: usize, wi: Vec3, distance: f32, pdf: f32, cos: f32) -> f32 {
         let direction = wi.map(|x| -x);
         match &self.all[light] {
@@ -70,12 +70,12 @@ impl<S: Channels> Lights<S> {
         }
     }
 
-    /// Per area of the disk that light from infinitely far away enters the scene through.
+    /// Density over the area of the disk through which light from infinitely far away enters the scene.
     pub fn disk(&self) -> f32 {
         (1.0 / (std::f64::consts::PI * self.bounds.radius * self.bounds.radius)) as f32
     }
 
-    /// Whether any light emits.
+    /// `true` if any light emits.
     pub fn emit(&self) -> bool {
         self.all.iter().any(|light| light.power(self.bounds.radius) > 0.0)
     }

@@ -1,4 +1,4 @@
-//! Radiance from all directions: an image of longitude and latitude.
+//! Environments: radiance from all directions, as an image of longitude and latitude.
 
 use std::f32::consts::{PI, TAU};
 use std::marker::PhantomData;
@@ -13,20 +13,20 @@ use crate::channels::Channels;
 use crate::vec3::Vec3;
 use crate::vectors::sin_cos;
 
-/// What is wrong with an environment.
+/// An error of an environment.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EnvironmentError {
-    /// The texels do not fill the image, or there are none.
-    #[error("{found} texels; expected {width} x {height} of them, at least one")]
+    /// The number of texels does not match the size of the image, or is zero.
+    #[error("{found} texels; expected {width} x {height}, at least one")]
     Size {
-        /// How many there are.
+        /// Number of texels found.
         found: usize,
         /// Columns.
         width: usize,
         /// Rows.
         height: usize,
     },
-    /// A radiance that is negative or not a finite number.
+    /// A radiance is negative or not a finite number.
     #[error("radiance {value} at column {x} of row {y}; expected a finite number that is not negative")]
     Radiance {
         /// Column, from the left.
@@ -38,7 +38,7 @@ pub enum EnvironmentError {
     },
 }
 
-/// Light from infinitely far away, interpolated linearly between the middles of texels.
+/// Light from infinitely far away, interpolated linearly between the centres of texels.
 ///
 /// Rows go from +y at the top to -y; the middle of the image is -z, its left quarter -x, its right quarter +x, as seen
 /// by a camera that looks along -z with +y up.
@@ -46,13 +46,13 @@ pub enum EnvironmentError {
 pub struct Environment<S: Channels = [f32; 3]> {
     width: usize,
     height: usize,
-    /// Channels of each texel, as many as fill quads.
+    /// Channels of each texel, padded to whole quads.
     texels: Storage<f32>,
-    /// Turn about +y, as a share of a whole one.
+    /// Rotation about +y, as a fraction of a full turn.
     turn: f32,
     mean: f64,
     rows: Cdf,
-    /// One list per row.
+    /// Weights of the texels, one list per row.
     columns: Cdf,
     /// Density of a texel over the unit square.
     density: Storage<f32>,
@@ -60,18 +60,18 @@ pub struct Environment<S: Channels = [f32; 3]> {
 }
 
 impl<S: Channels> Environment<S> {
-    /// Floats from one texel to the next.
+    /// Distance from one texel to the next, in floats.
     const STRIDE: usize = S::COUNT.next_multiple_of(4);
 
-    /// The same radiance from everywhere.
+    /// The same radiance from all directions.
     ///
     /// # Errors
-    /// If it is negative or not finite.
+    /// If the radiance is negative or not finite.
     pub fn constant(radiance: S) -> Result<Self, EnvironmentError> {
         Environment::image(1, 1, vec![radiance], 0.0)
     }
 
-    /// From the radiance straight up over that of the horizon to that straight down, smooth in the height.
+    /// A gradient of three radiances: straight up, at the horizon, and straight down, with a smooth transition.
     ///
     /// # Errors
     /// If a radiance is negative or not finite.
@@ -91,10 +91,10 @@ impl<S: Channels> Environment<S> {
         Environment::image(2, ROWS, texels, 0.0)
     }
 
-    /// An image of `height` rows from the top, turned about +y by an angle in radians.
+    /// An image of `height` rows from the top, rotated about +y by an angle in radians.
     ///
     /// # Errors
-    /// If the texels are not that many, negative or not finite.
+    /// If the number of texels does not match, or one is negative or not finite.
     pub fn image(width: usize, height: usize, texels: Vec<S>, turn: f32) -> Result<Self, EnvironmentError> {
         if texels.is_empty() || width.checked_mul(height) != Some(texels.len()) {
             return Err(EnvironmentError::Size { found: texels.len(), width, height });
@@ -156,14 +156,14 @@ impl<S: Channels> Environment<S> {
         self.width * self.height == 1
     }
 
-    /// Radiance at places of the unit square.
+    /// Radiance at points of the unit square.
     #[inline(always)]
     fn interpolated<L: Lanes>(&self, lanes: L, [u, v]: [L::F; 2]) -> S::InLanes<L> {
         let (zero, none, one) = (lanes.splat(0.0), lanes.splat_int(0), lanes.splat_int(1));
         let half = lanes.splat(0.5);
         let x = u * lanes.splat(self.width as f32) - half;
         let y = (v * lanes.splat(self.height as f32) - half).max(zero);
-        // The circle is closed; the poles are not crossed.
+        // Longitude wraps around; interpolation does not cross the poles.
         let (width, height) = (lanes.splat_int(self.width as i32), lanes.splat_int(self.height as i32));
         let before = x.lt(zero);
         let left = x.to_int();
@@ -236,13 +236,13 @@ impl<S: Channels> Environment<S> {
     }
 }
 
-/// Sine of the angle to the axis, never 0.
+/// Sine of the angle to the axis, limited so that it is never 0.
 fn sin_of([x, _, z]: Vec3) -> f32 {
     (x * x + z * z).sqrt().max(1e-6)
 }
 
-/// What texels are sampled by: the mean of a texel and its neighbours, which are what the interpolation reads, times the
-/// solid angle. Returns also the mean radiance over the sphere.
+/// The weights by which texels are sampled: the mean of a texel and its neighbours, which the interpolation reads,
+/// times the solid angle. Also returns the mean radiance over the sphere.
 fn weights<S: Channels>(width: usize, height: usize, texels: &[S]) -> (Vec<f64>, f64) {
     let grey: Vec<f64> = texels
         .iter()
@@ -255,7 +255,7 @@ fn weights<S: Channels>(width: usize, height: usize, texels: &[S]) -> (Vec<f64>,
         angle += sine(y) * width as f64;
     }
     let mean = sum / angle;
-    // A hundredth of the mean everywhere: no direction has no chance.
+    // A hundredth of the mean everywhere, so that every direction can be sampled.
     let floor = if mean > 0.0 { 0.01 * mean } else { 1.0 };
     let blurred = |at: usize| {
         let (x, y) = (at % width, at / width);
@@ -280,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn drawing_is_in_proportion_to_its_density() {
+    fn directions_are_sampled_in_proportion_to_their_density() {
         let light = sun();
         let lanes = Reference::default();
         let n = 400;
@@ -291,7 +291,7 @@ mod tests {
             assert!(sample.valid.all());
             let pdf = light.radiance_and_pdf(lanes.extract_xyz(sample.wi, 0)).1;
             let drawn = lanes.extract(sample.pdf, 0);
-            // Rounding puts a few directions of an edge into the next texel.
+            // Rounding puts a few directions at an edge into the next texel.
             angle += f64::from(((pdf - drawn).abs() > 1e-3 * drawn) as u8) / f64::from(n * n);
             radiance += f64::from(lanes.extract(sample.radiance[0], 0) / drawn) / f64::from(n * n);
             let y = 1.0 - 2.0 * u[0];
@@ -301,15 +301,15 @@ mod tests {
                 f64::from(light.radiance([r * cos, y, r * sin])[0]) * 4.0 * std::f64::consts::PI / f64::from(n * n);
         }
         assert!(angle < 2e-3, "{angle} of the densities differ");
-        assert!((radiance / exact - 1.0).abs() < 0.02, "{radiance} drawn, {exact} summed");
+        assert!((radiance / exact - 1.0).abs() < 0.02, "{radiance} sampled, {exact} summed");
     }
 
     #[test]
-    fn directions_are_where_a_camera_sees_them() {
+    fn directions_appear_where_a_camera_sees_them() {
         let mut texels = vec![[0.0f32]; 8 * 4];
         texels[8 + 5] = [1.0];
         let light = Environment::image(8, 4, texels, 0.0).unwrap();
-        // Column 5.5 of 8 is 3/16 of a turn right of -z; row 1.5 of 4 is pi/8 above the horizon.
+        // Column 5.5 of 8 is 3/16 of a turn to the right of -z; row 1.5 of 4 is pi/8 above the horizon.
         let (phi, theta) = (TAU * 3.0 / 16.0, PI * 3.0 / 8.0);
         let wi = [theta.sin() * phi.sin(), theta.cos(), -theta.sin() * phi.cos()];
         assert!((light.radiance(wi)[0] - 1.0).abs() < 1e-5, "{:?}", light.radiance(wi));

@@ -1,4 +1,4 @@
-//! All lights of a scene, and which of them is sampled.
+//! All lights of a scene, and the choice of the one to sample.
 
 use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
 
@@ -7,20 +7,20 @@ use super::cdf::Cdf;
 use super::sample::{Emitted, LightRay, LightSample, SceneBounds};
 use crate::channels::Channels;
 
-/// All lights of a scene and the chance of each to be chosen.
+/// All lights of a scene and their probabilities of being chosen.
 #[derive(Clone, Debug)]
 pub(crate) struct Lights<S: Channels> {
     pub all: Vec<Light<S>>,
-    /// The chance of each.
+    /// The probability of each light.
     pub(super) chances: Vec<f32>,
     pub(super) cdf: Cdf,
     pub bounds: SceneBounds,
-    /// Which one is the environment.
+    /// The index of the environment.
     pub environment: Option<usize>,
 }
 
 impl<S: Channels> Lights<S> {
-    /// Chances are by power, but half of them are equal: a light may be weak and near.
+    /// Half of the probability is proportional to power, and half is uniform, because a light may be weak and near.
     pub fn new(all: Vec<Light<S>>, bounds: SceneBounds) -> Self {
         let weights: Vec<f64> = all.iter().map(|light| light.weight(bounds.radius)).collect();
         let total: f64 = weights.iter().sum();
@@ -32,8 +32,8 @@ impl<S: Channels> Lights<S> {
         Lights { all, chances: chances.into_iter().map(|chance| chance as f32).collect(), cdf, bounds, environment }
     }
 
-    /// Samples that light, or lights chosen by the first number, as seen from the points `from`. The radiance is over the
-    /// density of the sample. There must be a light.
+    /// Samples the given light, or lights chosen by the first number, as seen from the points `from`. The radiance is
+    /// divided by the density of the sample. There must be a light.
     #[inline(always)]
     pub fn sample_li<L: Lanes>(
         &self,
@@ -58,7 +58,7 @@ impl<S: Channels> Lights<S> {
         LightSample { pdf: density, ..sample }
     }
 
-    /// Samples on as many lights as there are in the lanes.
+    /// Samples lights that differ between lanes.
     #[inline(always)]
     fn sample_chosen<L: Lanes>(&self, lanes: L, chosen: L::I, from: [L::F; 3], u: [L::F; 2]) -> LightSample<L, S> {
         let mut numbers = [0; MAX_LANES];
@@ -75,7 +75,7 @@ impl<S: Channels> Lights<S> {
         sample
     }
 
-    /// What arrives along a ray that has reached that light.
+    /// The light that arrives along a ray that has reached this light.
     #[inline]
     pub fn emitted(&self, light: usize, ray: &LightRay) -> Emitted<S> {
         let chance = self.chances[light];
@@ -94,7 +94,7 @@ impl<S: Channels> Lights<S> {
         }
     }
 
-    /// The chance of a light to be chosen.
+    /// The probability that a light is chosen.
     pub fn chance(&self, light: usize) -> f32 {
         self.chances[light]
     }
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn lanes_on_different_lights_draw_what_each_draws_alone() {
+    fn lanes_on_different_lights_sample_as_each_does_alone() {
         let (lights, lanes, alone) = (lights(), Scalar::<8>, Reference::default());
         let mut found = [0; 5];
         for round in 0..64 {

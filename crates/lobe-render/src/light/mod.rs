@@ -1,4 +1,4 @@
-//! What emits light, and how it is sampled: toward a light from points of surfaces, and along rays that leave it.
+//! Lights and their sampling: toward a light from points of surfaces, and along rays that leave it.
 
 mod area;
 mod cdf;
@@ -23,23 +23,23 @@ use crate::vectors::{dot, scale, sub};
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum Light<S: Channels = [f32; 3]> {
-    /// From one point into all directions.
+    /// A point light, which emits in all directions.
     Point {
-        /// Where.
+        /// Its position.
         position: [f32; 3],
         /// Radiant intensity in W/sr.
         intensity: S,
     },
-    /// From one point into a cone.
+    /// A spot light, which emits from a point into a cone.
     Spot {
-        /// Where.
+        /// Its position.
         position: [f32; 3],
         /// The axis, a unit vector away from the light.
         direction: [f32; 3],
         /// Radiant intensity along the axis in W/sr.
         intensity: S,
         /// Cosines of the angles from the axis at which the light begins to fall off and at which it ends, the larger
-        /// first.
+        /// cosine first.
         falloff: [f32; 2],
     },
     /// Parallel light from infinitely far away.
@@ -90,7 +90,7 @@ impl<S: Channels> Light<S> {
         }
     }
 
-    /// Whether it has no extent, so that no ray reaches it by chance.
+    /// `true` if the light has no extent, so that no ray reaches it by chance.
     pub fn is_delta(&self) -> bool {
         match self {
             Light::Point { .. } | Light::Spot { .. } | Light::Directional { .. } => true,
@@ -98,13 +98,13 @@ impl<S: Channels> Light<S> {
         }
     }
 
-    /// Whether its rays begin on triangles of the scene.
+    /// `true` if its rays begin on triangles of the scene.
     pub(crate) fn has_surface(&self) -> bool {
         matches!(self, Light::Area(_))
     }
 
-    /// Roughly the power that reaches a scene of this radius, by which lights are chosen. Two-sided lights count as one
-    /// side; [`power`](Light::power) counts both.
+    /// The approximate power that reaches a scene of this radius, by which lights are chosen. A two-sided light counts
+    /// with one side only; [`power`](Light::power) counts both.
     fn weight(&self, radius: f64) -> f64 {
         let one_sided = if let Light::Area(area) = self { if area.is_two_sided() { 0.5 } else { 1.0 } } else { 1.0 };
         one_sided * self.power(radius)
@@ -142,7 +142,7 @@ fn point<L: Lanes, S: Channels>(lanes: L, from: [L::F; 3], position: [f32; 3], i
     LightSample::new(lanes, wi, distance, intensity, infinite, valid).scaled(near)
 }
 
-/// The share of a spot's intensity at that cosine from its axis: smooth between the two angles.
+/// The share of a spot light's intensity at this cosine to its axis, smooth between the two angles.
 #[inline(always)]
 fn spot_share<L: Lanes>(lanes: L, [full, none]: [f32; 2], cos: L::F) -> L::F {
     let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));

@@ -1,4 +1,4 @@
-//! What sampling a light gives, a sample per lane.
+//! Samples of lights, one per lane.
 
 use lobe_lane::Lanes;
 
@@ -16,7 +16,7 @@ pub struct LightSample<L: Lanes, S: Channels> {
     pub radiance: S::InLanes<L>,
     /// Density over solid angle, 1/sr; infinite for a light without extent.
     pub pdf: L::F,
-    /// Whether any light arrives; if none does, the other numbers are unspecified.
+    /// `true` if any light arrives; otherwise the other numbers are unspecified.
     pub valid: L::M,
 }
 
@@ -27,7 +27,7 @@ impl<L: Lanes, S: Channels> LightSample<L, S> {
         LightSample { wi, distance, radiance: radiance.in_lanes(lanes), pdf, valid }
     }
 
-    /// The radiance multiplied.
+    /// The sample with its radiance multiplied.
     #[inline(always)]
     pub(crate) fn scaled(mut self, factor: L::F) -> Self {
         let radiance = self.radiance.as_mut();
@@ -61,13 +61,13 @@ impl<L: Lanes, S: Channels> LightSample<L, S> {
 pub struct LightRay {
     /// Its unit direction.
     pub wi: [f32; 3],
-    /// How far it went; infinite to the environment.
+    /// Its length; infinite to the environment.
     pub distance: f32,
-    /// The cosine between its reverse and the normal of the triangle, negative on the back.
+    /// The cosine between its reverse direction and the normal of the triangle, negative on the back.
     pub cos: f32,
 }
 
-/// What arrives along a [`LightRay`].
+/// The light that arrives along a [`LightRay`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Emitted<S> {
     pub radiance: S,
@@ -78,16 +78,16 @@ pub(crate) struct Emitted<S> {
 /// Rays that leave a light, one per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct EmissionSample<L: Lanes, S: Channels> {
-    /// Where they begin: on the light, or outside the scene for a light at infinity.
+    /// Their origins: on the light, or outside the scene for a light at infinity.
     pub origin: [L::F; 3],
-    /// Where they go, unit length.
+    /// Their directions, of unit length.
     pub direction: [L::F; 3],
-    /// What they carry times the cosine to the normal of the place where they begin: radiance for a light with extent,
-    /// radiant intensity for a point, irradiance for a direction.
+    /// The emitted light times the cosine to the normal at the origin: radiance for a light with extent, radiant
+    /// intensity for a point light, irradiance for a directional light.
     pub emitted: S::InLanes<L>,
     /// The densities with which they were sampled.
     pub pdf: EmissionPdf<L::F>,
-    /// Whether they carry anything; if not, the other numbers are unspecified.
+    /// `true` if they carry light; otherwise the other numbers are unspecified.
     pub valid: L::M,
 }
 
@@ -101,7 +101,7 @@ pub struct EmissionPdf<F> {
     pub direction: F,
 }
 
-/// A sphere around everything that can be lit: lights at infinity emit through its disk.
+/// A sphere around everything that can be lit; lights at infinity emit through a disk of its size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SceneBounds {
     /// Its centre.

@@ -1,4 +1,4 @@
-//! Which photons are near: a register of them against one place.
+//! Finds the photons near a place: compares a register of photons with one place at a time.
 
 use lobe::{Backend, Floats, Ints, Kernel, Lanes};
 use lobe_lane::Mask;
@@ -10,14 +10,15 @@ use crate::vec3::Vec3;
 /// A photon that is near a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Near {
-    /// The number of the place.
+    /// The index of the place.
     pub place: u32,
-    /// That of the photon.
+    /// The index of the photon.
     pub photon: u32,
 }
 
 /// Lists the photons within a radius of places, from place `from` on, until there are at least `most` or all places
-/// have been looked at. Returns the first place that has not. Within a place they are in the order of the map.
+/// have been searched. Returns the first place that has not been searched. The photons of a place are in the order of
+/// the map.
 pub(crate) fn gather<T: Transport>(
     backend: Backend,
     photons: &Photons<T>,
@@ -42,7 +43,7 @@ pub(crate) fn gather<T: Transport>(
     place
 }
 
-/// How many places are looked at before what they have found is used.
+/// Number of places searched before the photons found are used.
 const BLOCK: usize = 16;
 
 /// Not generic, so that its kernel is compiled with this crate.
@@ -141,7 +142,7 @@ mod tests {
     const BOUNDS: SceneBounds = SceneBounds { center: [0.0; 3], radius: 1.7 };
 
     #[test]
-    fn what_is_near_is_found_once_in_order_on_every_backend() {
+    fn near_photons_are_found_once_and_in_order_on_every_backend() {
         let parts = parts(4000);
         let all: Vec<_> = parts.iter().flat_map(|part| &part.vertices).collect();
         for radius in [0.004, 0.05, 0.3, 1.5] {

@@ -1,15 +1,15 @@
-//! All light paths of a pass.
+//! Collects all light paths of a pass.
 
 use super::map::Photons;
 use crate::connect::{LightPart, LightVertex};
 use crate::transport::Transport;
 
-/// The light paths of a pass, and where their light has arrived.
+/// The light paths of a pass, and the places where their light has arrived.
 #[derive(Clone, Debug)]
 pub(crate) struct LightMap<T: Transport> {
-    /// The same number of paths in each, but for the last.
+    /// Parts with the same number of paths in each, except for the last.
     pub parts: Vec<LightPart<T>>,
-    /// How many paths a part has.
+    /// Number of paths in a part.
     pub paths: usize,
     pub photons: Photons<T>,
 }

@@ -1,4 +1,4 @@
-//! The map of photons: a grid of cells that is hashed.
+//! The photon map: a hashed grid of cells.
 
 use lobe_lane::MAX_LANES;
 
@@ -11,39 +11,39 @@ use crate::vec3::Vec3;
 /// Light that has arrived at a surface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Photon<T: Transport> {
-    /// Where it came from, a unit vector in the world.
+    /// The direction from which it came, a unit vector in the world.
     pub wi: Vec3,
     /// The normal of the triangle.
     pub normal: Vec3,
-    /// In W, per light path.
+    /// Its power in W, per light path.
     pub flux: T::Spectrum,
     pub mis: Mis,
-    /// How many surfaces its path has met, this one included.
+    /// Number of surfaces that its path has met, including this one.
     pub surfaces: u32,
 }
 
-/// Photons sorted by cell, each cell with an edge of at least the diameter of what is gathered.
+/// Photons sorted by cell; the edge of a cell is at least the diameter within which photons are gathered.
 #[derive(Clone, Debug)]
 pub(crate) struct Photons<T: Transport> {
     grid: Grid,
-    /// Where the photons of each slot of the table begin; and the end.
+    /// Where the photons of each slot of the table begin, and the end.
     starts: Vec<u32>,
-    /// Longer than there are photons, so that all lanes are in the columns.
+    /// Longer than the number of photons, so that all lanes are inside the columns.
     position: [Vec<f32>; 3],
     row: Vec<i32>,
     photons: Vec<Photon<T>>,
 }
 
-/// Cells along each axis, at most: a row is two of these numbers in 32 bits.
+/// The largest number of cells along each axis: a row is two of these numbers in 32 bits.
 const CELLS: f32 = 32_000.0;
 
-/// Cubes in space, and the slots of a table that they share.
+/// Cubic cells in space, and the slots of a table to which they are hashed.
 #[derive(Clone, Copy, Debug)]
 struct Grid {
     origin: Vec3,
     /// Cells per unit of length.
     scale: f32,
-    /// One less than the slots, which are a power of two.
+    /// One less than the number of slots, which is a power of two.
     mask: u32,
 }
 
@@ -51,19 +51,19 @@ impl Grid {
     fn new(bounds: &SceneBounds, radius: f32, photons: usize) -> Self {
         let reach = bounds.radius as f32;
         let edge = (2.0 * radius).max(2.0 * reach / CELLS).max(f32::MIN_POSITIVE);
-        // A little larger, for rounding.
+        // A little larger, to allow for rounding.
         let edge = edge * 1.0001;
         let slots = photons.next_power_of_two().clamp(64, 1 << 28) as u32;
         Grid { origin: bounds.center.map(|x| x - reach), scale: 1.0 / edge, mask: slots - 1 }
     }
 
-    /// The number of a cell along an axis. Beyond the bounds there are photons only by rounding.
+    /// The index of a cell along an axis. Photons are outside the bounds only by rounding.
     fn along(&self, axis: usize, x: f32) -> i32 {
         ((x - self.origin[axis]) * self.scale).clamp(0.0, 32_767.0) as i32
     }
 
     fn slot(&self, x: i32, row: i32) -> u32 {
-        // Cells of a row are neighbours in the table too.
+        // Neighbouring cells of a row are also neighbours in the table.
         let hash = (row as u32).wrapping_mul(0x9e37_79b9);
         ((hash ^ hash >> 15).wrapping_add(x as u32)) & self.mask
     }
@@ -73,7 +73,7 @@ impl Grid {
     }
 }
 
-/// Photons that may be near a place: those between two numbers that are in that row of cells.
+/// Photons that may be near a place: those with indices between two numbers that are in a row of cells.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Candidates {
     pub begin: u32,
@@ -81,18 +81,17 @@ pub(super) struct Candidates {
     pub row: i32,
 }
 
-/// The candidates of a place, at most: two rows each in y and z, either of them in two parts if it reaches around the
-/// table.
+/// The most ranges of candidates of a place: two rows each in y and z, each in two parts if it wraps around the table.
 pub(super) const PARTS: usize = 8;
 
 impl<T: Transport> Photons<T> {
-    /// No photons.
+    /// A map without photons.
     pub fn none() -> Self {
         let grid = Grid { origin: [0.0; 3], scale: 1.0, mask: 63 };
         Photons { grid, starts: vec![0; 65], position: [const { Vec::new() }; 3], row: Vec::new(), photons: Vec::new() }
     }
 
-    /// The surfaces of light paths that have met at least so many, for gathering within a radius.
+    /// A map of the surfaces of light paths that have met at least this many, for gathering within a radius.
     pub fn new(parts: &[LightPart<T>], least: u32, bounds: &SceneBounds, radius: f32) -> Self {
         let counts = || parts.iter().flat_map(|part| &part.vertices).filter(|vertex| vertex.surfaces >= least);
         let count = counts().count();
@@ -140,7 +139,7 @@ impl<T: Transport> Photons<T> {
         Photons { grid, starts, position, row: rows, photons }
     }
 
-    /// How many there are.
+    /// Number of photons.
     pub fn len(&self) -> usize {
         self.photons.len()
     }
@@ -154,7 +153,7 @@ impl<T: Transport> Photons<T> {
         Columns { position: self.position.each_ref().map(Vec::as_slice), row: &self.row }
     }
 
-    /// What may be within a radius of a place.
+    /// The photons that may be within a radius of a place.
     pub(super) fn candidates(&self, from: Vec3, radius: f32) -> [Candidates; PARTS] {
         let mut parts = [Candidates::default(); PARTS];
         let mut count = 0;
@@ -181,7 +180,7 @@ impl<T: Transport> Photons<T> {
     }
 }
 
-/// What lanes compare.
+/// The columns that lanes compare.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Columns<'a> {
     pub position: [&'a [f32]; 3],

@@ -1,4 +1,4 @@
-//! Images of environments: OpenEXR and Radiance HDR.
+//! Reads images of environments: OpenEXR and Radiance HDR.
 
 mod open_exr;
 mod radiance;
@@ -12,26 +12,26 @@ use super::exr_file::content;
 use crate::channels::Channels;
 use crate::light::Environment;
 
-/// What the first bytes of an OpenEXR file are.
+/// The first bytes of an OpenEXR file.
 const EXR: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 
-/// Reads an image of longitude and latitude, turned about +y by an angle in radians, every radiance multiplied by
-/// `scale`. Negative radiances, which resampling leaves in such files, count as 0.
-///
-/// What the header of a file says of its radiances is honoured: the exposures and colour corrections of Radiance HDR, the
-/// order of its lines, the windows of OpenEXR, and the primaries of both. An image that the header says is anything but a
-/// view of all directions in longitude and latitude is refused.
+/// Reads an image of longitude and latitude, rotates it about +y by an angle in radians, and multiplies every radiance
+/// by `scale`. Negative radiances, which resampling leaves in such files, count as 0. The header of the file is taken
+/// into account: the exposures, colour corrections and order of lines of Radiance HDR, the windows of OpenEXR, and the
+/// primaries of both. An image is refused if its header says that it is not a view of all directions in longitude and
+/// latitude.
 ///
 /// # Errors
-/// If the file cannot be read, is damaged, has radiances that are not finite numbers, or says what cannot be honoured.
+/// If the file cannot be read, is damaged, has radiances that are not finite numbers, or has a header that is not
+/// supported.
 pub fn read_environment(path: &Path, turn: f32, scale: f32) -> Result<Environment, PictureError> {
     read_environment_as(path, turn, scale, |texel| texel)
 }
 
-/// As [`read_environment`], every radiance replaced by what `emission` makes of it.
+/// Like [`read_environment`], with `emission` applied to every radiance.
 ///
 /// # Errors
-/// As [`read_environment`].
+/// The same as for [`read_environment`].
 pub fn read_environment_as<S: Channels>(
     path: &Path,
     turn: f32,
@@ -40,11 +40,11 @@ pub fn read_environment_as<S: Channels>(
 ) -> Result<Environment<S>, PictureError> {
     let bytes = lobe_files::bytes(path).map_err(|error| PictureError::Io { file: path.into(), error })?;
     let picture = if bytes.starts_with(&EXR) { open_exr::read(path, &bytes)? } else { radiance::read(path, &bytes)? };
-    // What is not a number is left for the environment to refuse, with its place.
+    // The environment refuses values that are not numbers, with their place.
     let scaled = |x: f32| if x.is_finite() { (x * scale).max(0.0) } else { x };
     let wrong = |texel: &&[f32; 3]| !texel.iter().all(|x| x.is_finite());
     if let Some(texel) = picture.texels.iter().find(wrong) {
-        // Found again with its place.
+        // Searched for again to report its place.
         Environment::image(picture.width, picture.height, picture.texels.clone(), turn)
             .map_err(|error| content(path, error, "an image of an environment"))?;
         return Err(content(path, format!("{texel:?}"), "an image of an environment"));
@@ -62,7 +62,7 @@ struct Picture {
 }
 
 impl Picture {
-    /// The same in linear sRGB, if the colours are of other primaries.
+    /// The image in linear sRGB, if it has other primaries.
     fn of_primaries(mut self, path: &Path, primaries: &Primaries) -> Result<Picture, PictureError> {
         if primaries.is_srgb() {
             return Ok(self);

@@ -1,12 +1,12 @@
-//! OpenEXR: what was seen, and for parts of pictures the exact sums.
+//! OpenEXR files with pictures and, for parts of pictures, the exact sums.
 //!
 //! Channels: `R G B` (mean radiance, linear sRGB), `albedo.R G B`, `normal.X Y Z`, `depth.Z` (distance to the nearest
-//! surface in the pixel, infinite if there is none), `material.id` (the material there, counted from 1) and
-//! `samples`. A picture of wavelengths has `S0.<nm>nm` as well, with a comma in the place of a point, and one of polarised light
-//! `S1` to `S3` too, as in A. Fichet, R. Pacanowski, A. Wilkie, "An OpenEXR Layout for Spectral Images", JCGT 10(3), 2021; polarised
-//! light without wavelengths has `S0.R` and so on, and both have `dolp.Y` and `aolp.Y`, the degree and the angle of linear
-//! polarisation. A part of a picture also has `sum.*`, the words of the integers that [`Pixel`] sums in, low word first; and
-//! `splat.*`, those of what light paths have splatted, if there are any.
+//! surface in the pixel, infinite if there is none), `material.id` (the material there, counted from 1) and `samples`.
+//! A picture of wavelengths also has `S0.<nm>nm`, with a comma in place of the decimal point, and one of polarised
+//! light `S1` to `S3`, as in A. Fichet, R. Pacanowski, A. Wilkie, "An OpenEXR Layout for Spectral Images", JCGT 10(3),
+//! 2021; polarised light without wavelengths has `S0.R` and so on, and both have `dolp.Y` and `aolp.Y`, the degree and
+//! the angle of linear polarisation. A part of a picture also has `sum.*`, the words of the integer sums of [`Pixel`],
+//! low word first, and `splat.*`, the same for splats of light paths, if there are any.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -25,20 +25,19 @@ pub(super) const ATTRIBUTE: &str = "lobe";
 const RGB: [&str; 3] = ["R", "G", "B"];
 const XYZ: [&str; 3] = ["X", "Y", "Z"];
 
-/// Writes a film; with `partial` the exact sums as well, from which [`read_partial`] reads it back.
-///
-/// The bytes depend on the film and on `meta`, and on nothing else.
+/// Writes a film; with `partial` also the exact sums, from which [`read_partial`] reads it back. The bytes depend only
+/// on the film and on `meta`.
 ///
 /// # Errors
-/// If the system refuses.
+/// If the file cannot be written.
 pub fn write_exr(path: &Path, film: &Film, meta: &Meta, partial: bool) -> Result<(), PictureError> {
     write_exr_in(path, film, &(), meta, partial)
 }
 
-/// As [`write_exr`], of a film in these channels.
+/// Like [`write_exr`], for a film in these channels.
 ///
 /// # Errors
-/// As [`write_exr`].
+/// The same as for [`write_exr`].
 pub fn write_exr_in<T: Transport>(
     path: &Path,
     film: &Film<T>,
@@ -113,7 +112,7 @@ fn encode<T: Transport>(film: &Film<T>, basis: &T::Basis, meta: &Meta, partial: 
     let window = film.window();
     let mut attributes =
         LayerAttributes { layer_position: Vec2(window.x as i32, window.y as i32), ..LayerAttributes::default() };
-    // One attribute only: the library writes those that it does not know in any order.
+    // Only one attribute, because the library writes attributes that it does not know in any order.
     attributes.other.insert(Text::from(ATTRIBUTE), AttributeValue::Text(Text::from(meta.to_string().as_str())));
     // Parts are written often and read once.
     let encoding = if partial { Encoding::FAST_LOSSLESS } else { Encoding::SMALL_LOSSLESS };
@@ -131,7 +130,7 @@ fn encode<T: Transport>(film: &Film<T>, basis: &T::Basis, meta: &Meta, partial: 
     Ok(bytes.into_inner())
 }
 
-/// What the `sum.*` channels hold: a name, which word of 32 bits, and the sum.
+/// The contents of the `sum.*` channels: a name, the index of a word of 32 bits, and the sum.
 type Word<T> = (String, u32, Box<dyn Fn(&Pixel<T>) -> i128>);
 
 fn words<T: Transport>(basis: &T::Basis) -> Vec<Word<T>> {
@@ -151,7 +150,7 @@ fn words<T: Transport>(basis: &T::Basis) -> Vec<Word<T>> {
     words
 }
 
-/// What the `splat.*` channels hold, which are written only if light paths were added.
+/// The contents of the `splat.*` channels, which are written only if light paths were added.
 type SplatWord<T> = (String, u32, Box<dyn Fn(&Splat<T>) -> i128>);
 
 fn splat_words<T: Transport>(basis: &T::Basis) -> Vec<SplatWord<T>> {
@@ -167,7 +166,7 @@ fn splat_words<T: Transport>(basis: &T::Basis) -> Vec<SplatWord<T>> {
     words
 }
 
-/// Reads a part of a picture as [`write_exr`] has written it.
+/// Reads a part of a picture written by [`write_exr`].
 ///
 /// # Errors
 /// If the file cannot be read, is damaged, or is not a part of a picture.
@@ -175,12 +174,12 @@ pub fn read_partial(path: &Path) -> Result<(Film, Meta), PictureError> {
     read_partial_in(path, &())
 }
 
-/// As [`read_partial`], of a film in these channels.
+/// Like [`read_partial`], for a film in these channels.
 ///
 /// # Errors
-/// As [`read_partial`].
+/// The same as for [`read_partial`].
 pub fn read_partial_in<T: Transport>(path: &Path, basis: &T::Basis) -> Result<(Film<T>, Meta), PictureError> {
-    const EXPECTED: &str = "a part of a picture that lobe has written";
+    const EXPECTED: &str = "a part of a picture written by lobe";
     let wrong = |found: String| content(path, found, EXPECTED);
     let bytes = lobe_files::bytes(path).map_err(|error| PictureError::Io { file: path.into(), error })?;
     check_size(path, &bytes)?;
@@ -230,7 +229,7 @@ pub fn read_partial_in<T: Transport>(path: &Path, basis: &T::Basis) -> Result<(F
         for low in 0..4 {
             let values = whole(&format!("sum.{name}.{low}"))?;
             for (pixel, &value) in film.pixels_mut().iter_mut().zip(values) {
-                // The top word brings the sign, as all bits of an `i128` are written.
+                // The top word contains the sign, because all bits of an `i128` are written.
                 pixel.radiance.as_mut()[*index] |= i128::from(value) << (32 * low);
             }
         }
@@ -245,7 +244,7 @@ pub fn read_partial_in<T: Transport>(path: &Path, basis: &T::Basis) -> Result<(F
             }
         }
     }
-    // A part of a picture that no light path was added to has no such channels.
+    // A part of a picture to which no light path was added has no such channels.
     if column("splat.paths.0").is_ok() {
         let splats = film.splats_mut();
         for Named { index, name } in &named {
@@ -287,9 +286,9 @@ fn impossible<T: Transport>(film: &Film<T>) -> Option<String> {
     film.splats().iter().find(too_large).map(|splat| format!("sums of {} light paths that overflow", splat.paths))
 }
 
-/// Refuses files whose header promises far more pixels than their bytes can hold.
+/// Refuses files whose header claims far more pixels than their bytes can hold.
 pub(crate) fn check_size(path: &Path, bytes: &[u8]) -> Result<(), PictureError> {
-    /// Zip, the strongest of the compressions, makes a thousandth of zeros.
+    /// Zip, the strongest compression, shrinks zeros to a thousandth.
     const RATIO: u64 = 2048;
     let expected = "an EXR file";
     let meta = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false)
@@ -301,7 +300,7 @@ pub(crate) fn check_size(path: &Path, bytes: &[u8]) -> Result<(), PictureError> 
             let found = format!("{} x {} pixels in {} bytes", header.layer_size.0, header.layer_size.1, bytes.len());
             return Err(content(path, found, expected));
         }
-        // As they are stored, and as they are used.
+        // As stored, and as used.
         if let Err(no_room) = lobe_memory::require(promised.saturating_mul(2)) {
             let found = format!("{} x {} pixels, which take {no_room}", header.layer_size.0, header.layer_size.1);
             return Err(content(path, found, "a picture that fits into memory"));
@@ -323,7 +322,7 @@ mod tests {
     use crate::picture::{Inspected, Light, inspect};
 
     #[test]
-    fn splats_are_written_read_and_merged_exactly_and_only_if_there_are_any() {
+    fn splats_are_written_read_and_merged_exactly_if_there_are_any() {
         let folder = tempfile::tempdir().unwrap();
         let window = Rect { x: 0, y: 0, width: 5, height: 4 };
         let meta = |samples| Meta {
@@ -363,7 +362,7 @@ mod tests {
         let mut expected = films[0].clone();
         expected.merge(&films[1]);
         assert!(merged == expected);
-        // Without light paths, nothing of them is in the file.
+        // Without light paths, the file has no channels for them.
         write_exr(&path("none.exr"), &part(0.3), &meta(0..1), true).unwrap();
         let bytes = std::fs::read(path("none.exr")).unwrap();
         assert!(!bytes.windows(6).any(|six| six == b"splat."));

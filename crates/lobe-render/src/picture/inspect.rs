@@ -1,4 +1,4 @@
-//! What the header of an EXR file says.
+//! Reads the header of an EXR file.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -9,31 +9,31 @@ use exr::prelude::{AttributeValue, Text};
 use super::exr_file::{ATTRIBUTE, content};
 use super::{Meta, PictureError};
 
-/// What an EXR file that lobe has written says about itself.
+/// Facts about an EXR file written by lobe.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inspected {
-    /// What was rendered.
+    /// Description of the picture.
     pub meta: Meta,
-    /// Whether it has the exact sums, so that samples can be added.
+    /// `true` if it has the exact sums, so that samples can be added.
     pub has_sums: bool,
-    /// What was followed.
+    /// The kind of light that was followed.
     pub light: Light,
 }
 
-/// What was followed in a picture, as its channels tell.
+/// The kind of light that was followed in a picture, according to its channels.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Light {
     /// The wavelengths in nm, ascending; none for red, green and blue.
     pub wavelengths: Vec<f64>,
-    /// Whether light was polarised.
+    /// `true` if light was polarised.
     pub stokes: bool,
 }
 
 impl Light {
-    /// The wavelengths as what a picture of them is made in; `None` for red, green and blue.
+    /// The wavelengths as the bands of a picture; `None` for red, green and blue.
     ///
     /// # Errors
-    /// If there are none that can be seen, or more than a picture has: 32, or 16 of polarised light.
+    /// If none of them is visible.
     pub fn bands(&self) -> Result<Option<Arc<lobe_spectrum::Bands>>, lobe_spectrum::SpectrumError> {
         if self.wavelengths.is_empty() {
             return Ok(None);
@@ -60,9 +60,9 @@ impl Light {
 /// Reads the header of an EXR file.
 ///
 /// # Errors
-/// If the file cannot be read, is damaged, or is not a picture that lobe has written.
+/// If the file cannot be read, is damaged, or is not a picture written by lobe.
 pub fn inspect(path: &Path) -> Result<Inspected, PictureError> {
-    const EXPECTED: &str = "a picture that lobe has written";
+    const EXPECTED: &str = "a picture written by lobe";
     let bytes = lobe_files::bytes(path).map_err(|error| PictureError::Io { file: path.into(), error })?;
     let headers = exr::meta::MetaData::read_from_buffered(Cursor::new(&bytes), false)
         .map_err(|error| content(path, error, EXPECTED))?

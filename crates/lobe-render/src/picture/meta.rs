@@ -1,4 +1,4 @@
-//! What a picture says about itself: nothing that depends on the machine, the threads or the time.
+//! Metadata of a picture, none of which depends on the machine, the threads or the time.
 
 use std::fmt;
 use std::ops::Range;
@@ -6,7 +6,7 @@ use std::ops::Range;
 use crate::film::Rect;
 use crate::shader::Backend;
 
-/// What was rendered. Kept in the EXR attribute `lobe` as lines `name = value`.
+/// Description of a picture, kept in the EXR attribute `lobe` as lines `name = value`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Meta {
     /// Hash of everything that the value of a sample depends on: the scene, its files, the size and the integrator.
@@ -15,28 +15,28 @@ pub struct Meta {
     pub size: [u32; 2],
     /// The pixels that were rendered.
     pub window: Rect,
-    /// The numbers of the requested samples.
+    /// The indices of the requested samples.
     pub samples: Range<u32>,
-    /// How many samples the whole picture has.
+    /// Number of samples of the whole picture.
     pub total: u32,
-    /// Whether time ended the rendering, so that pixels may have fewer samples than requested.
+    /// `true` if a time limit ended the rendering, so that pixels may have fewer samples than requested.
     pub timed: bool,
     /// The exposure of the scene in stops, for files that are tone-mapped.
     pub exposure: f32,
-    /// The version of the program; empty in files of versions that did not say it.
+    /// The version of the program; empty in files from versions that did not record it.
     pub version: String,
-    /// How numbers were rounded, [`Meta::arithmetic_of`] the backend; empty as above.
+    /// How numbers were rounded: [`Meta::arithmetic_of`] the backend; empty in the same files as `version`.
     pub arithmetic: String,
 }
 
-/// What two pictures do not have in common.
+/// A difference between two pictures.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference {
-    /// What differs.
+    /// The property that differs.
     pub of: &'static str,
-    /// In the first.
+    /// Its value in the first picture.
     pub first: String,
-    /// In the second.
+    /// Its value in the second picture.
     pub second: String,
 }
 
@@ -59,7 +59,7 @@ impl Meta {
     /// The version of this program.
     pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-    /// How a backend rounds: all in strict form alike, each in its own way otherwise.
+    /// How a backend rounds: all backends in strict form alike, each in its own way otherwise.
     pub fn arithmetic_of(backend: Backend) -> String {
         match backend.has_fused_form() && !backend.is_strict() {
             true => format!("fused, {}", backend.name()),
@@ -67,7 +67,7 @@ impl Meta {
         }
     }
 
-    /// Why the samples of two files do not belong to one picture; `None` if they do.
+    /// The reason why the samples of two files do not belong to one picture; `None` if they do.
     pub fn difference(&self, other: &Meta) -> Option<Difference> {
         let size = |meta: &Meta| format!("{} x {} pixels", meta.size[0], meta.size[1]);
         let differing = |of, first: &str, second: &str| {
@@ -80,7 +80,7 @@ impl Meta {
             .or_else(|| differing("a size", &size(self), &size(other)))
     }
 
-    /// Reads what [`Display`](fmt::Display) has written. `None` if it is something else, or makes no sense.
+    /// Reads text written by [`Display`](fmt::Display). `None` for any other text, or if it makes no sense.
     pub fn parse(text: &str) -> Option<Self> {
         let table = toml::de::DeTable::parse(text).ok()?;
         let table = table.get_ref();
@@ -117,7 +117,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_written_is_read() {
+    fn written_metadata_is_read_back() {
         let window = Rect { x: 3, y: 4, width: 5, height: 6 };
         let meta = Meta {
             scene: "ab12".into(),
@@ -137,9 +137,9 @@ mod tests {
     }
 
     #[test]
-    fn what_makes_pictures_differ_is_named() {
+    fn the_difference_of_pictures_is_named() {
         let text = "scene = \"ab12\"\nsize = [2, 2]\nwindow = [0, 0, 2, 2]\nsamples = [0, 4]\ntotal = 4";
-        let old = Meta::parse(text).expect("a file of a version that said less");
+        let old = Meta::parse(text).expect("a file from a version that recorded less");
         assert_eq!(old.difference(&old), None);
         for (other, of) in [
             (Meta { version: "9".into(), ..old.clone() }, "the version"),

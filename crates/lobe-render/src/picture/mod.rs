@@ -1,4 +1,4 @@
-//! Films as files: EXR with everything, PNG to look at.
+//! Films as files: EXR with everything, PNG for viewing.
 
 mod environment_file;
 mod exr_file;
@@ -17,15 +17,15 @@ pub use lobe_colour::ToneMap;
 pub use meta::{Difference, Meta};
 pub use png_file::{Shown, encode_png, encode_png_in, encode_rgb, write_png, write_png_in};
 
-/// Why a picture cannot be read or written.
+/// The reason why a picture cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
-    /// The system refuses.
+    /// An error of the system.
     #[error("{file}: {error}")]
     Io {
         /// The file.
         file: PathBuf,
-        /// What the system says.
+        /// The error of the system.
         error: std::io::Error,
     },
     /// The file is damaged or of another kind.
@@ -33,9 +33,9 @@ pub enum PictureError {
     Content {
         /// The file.
         file: PathBuf,
-        /// What is there.
+        /// What was found.
         found: String,
-        /// What should be there.
+        /// What was expected.
         expected: &'static str,
     },
 }

@@ -1,4 +1,4 @@
-//! PNG, 8 bits per channel, tone-mapped.
+//! Writes PNG, tone-mapped, with 8 bits per channel.
 
 use std::path::Path;
 
@@ -6,20 +6,20 @@ use super::{PictureError, ToneMap, replace};
 use crate::film::Film;
 use crate::transport::Transport;
 
-/// The PNG file of pixels in sRGB: a byte each for red, green and blue, row by row from the top.
+/// Encodes pixels in sRGB as PNG: one byte each for red, green and blue, row by row from the top.
 ///
 /// # Panics
-/// If a side is 0, or `bytes` are not three per pixel.
+/// If a side is 0, or there are not three `bytes` per pixel.
 pub fn encode_rgb(width: u32, height: u32, bytes: &[u8]) -> Vec<u8> {
     let mut out = Vec::new();
     let mut encoder = png::Encoder::new(&mut out, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
-    // Pictures are written once and looked at often.
+    // Pictures are written once and viewed often.
     encoder.set_compression(png::Compression::High);
     let mut writer = encoder.write_header().expect("a picture with pixels");
-    writer.write_image_data(bytes).expect("three bytes a pixel");
+    writer.write_image_data(bytes).expect("three bytes per pixel");
     writer.finish().expect("writing to memory");
     out
 }
@@ -36,12 +36,12 @@ pub enum Shown {
     Angle,
 }
 
-/// The PNG file of a film.
+/// Encodes a film as PNG.
 pub fn encode_png(film: &Film, tone: ToneMap) -> Vec<u8> {
     encode_png_in(film, &(), tone, Shown::Colour)
 }
 
-/// As [`encode_png`], of a film in these channels. Light that is not polarised is black in what shows its polarisation.
+/// Like [`encode_png`], for a film in these channels. Unpolarised light is black in views of polarisation.
 pub fn encode_png_in<T: Transport>(film: &Film<T>, basis: &T::Basis, tone: ToneMap, shown: Shown) -> Vec<u8> {
     let plain = ToneMap { exposure: 0.0 };
     let polarisation = |pixel| T::linear_polarisation(basis, film.radiance(pixel)).unwrap_or_default();
@@ -61,7 +61,7 @@ pub fn encode_png_in<T: Transport>(film: &Film<T>, basis: &T::Basis, tone: ToneM
     encode_rgb(film.window().width, film.window().height, &bytes)
 }
 
-/// A colour of the circle, from red over green and blue to red.
+/// A colour of the colour wheel, from red through green and blue back to red.
 fn hue(turn: f32) -> [f32; 3] {
     [0.0, 1.0 / 3.0, 2.0 / 3.0].map(|at| {
         let away = (turn - at).rem_euclid(1.0);
@@ -72,15 +72,15 @@ fn hue(turn: f32) -> [f32; 3] {
 /// Writes a film as PNG.
 ///
 /// # Errors
-/// If the system refuses.
+/// If the file cannot be written.
 pub fn write_png(path: &Path, film: &Film, tone: ToneMap) -> Result<(), PictureError> {
     replace(path, &encode_png(film, tone))
 }
 
-/// As [`write_png`], of a film in these channels.
+/// Like [`write_png`], for a film in these channels.
 ///
 /// # Errors
-/// As [`write_png`].
+/// The same as for [`write_png`].
 pub fn write_png_in<T: Transport>(
     path: &Path,
     film: &Film<T>,

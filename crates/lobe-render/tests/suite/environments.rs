@@ -172,7 +172,7 @@ fn lines_are_flat_or_run_length_encoded_in_either_way() {
         }
     }
     let faulty: [(&[u8], &str); 4] = [
-        (&[1, 1, 1, 3], "a run of nothing"),
+        (&[1, 1, 1, 3], "a run of length 0"),
         (&[9, 9, 9, 130, 1, 1, 1, 200], "beyond the end"),
         (&[2, 2, 0, 9, 0, 0, 0, 0], "another length"),
         (&[2, 2, 0, 8, 128 + 9, 1, 0, 0], "beyond the end"),

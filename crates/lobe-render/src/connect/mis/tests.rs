@@ -1,11 +1,11 @@
 use super::*;
 
-/// A path of `k` surfaces between a light and a camera: everything that densities are made of.
+/// A path of `k` surfaces between a light and a camera, with everything that densities depend on.
 struct Known {
     light: Emission,
     /// The density of camera rays, summed over pixels.
     camera: f32,
-    /// Squared lengths of the segments from the light to the camera, one more than surfaces.
+    /// Squared lengths of the segments from the light to the camera, one more than there are surfaces.
     lengths: Vec<f32>,
     surfaces: Vec<Surface>,
 }
@@ -15,8 +15,8 @@ struct Surface {
     /// Cosines toward the light and toward the camera.
     to_light: f32,
     to_camera: f32,
-    /// Densities over solid angle of sampling the direction of the camera, of a light path, and of the light, of a
-    /// camera path.
+    /// Densities over solid angle of sampling the direction towards the camera (light path) and towards the light
+    /// (camera path).
     onward: f32,
     back: f32,
     smooth: bool,
@@ -53,17 +53,17 @@ fn path(k: usize, seed: u32, smooth: bool) -> Known {
     let surfaces = (0..k).map(|_| {
         let smooth = smooth && chance.next() < 0.4;
         let (onward, back) = (chance.between(0.02, 50.0), chance.between(0.02, 50.0));
-        // A smooth surface has the same density for both ways, any.
+        // A smooth surface has the same density, an arbitrary one, in both directions.
         let back = if smooth { onward } else { back };
         Surface { to_light: chance.between(0.1, 1.0), to_camera: chance.between(0.1, 1.0), onward, back, smooth }
     });
     Known { light, camera, surfaces: surfaces.collect(), lengths }
 }
 
-/// The density of a technique over that of all of its surfaces' areas, times the number of its samples: `s` surfaces
-/// from the light, the rest from the camera, of which the light itself is the last if `hit`.
+/// The density of a technique over the areas of all surfaces, times the number of its samples: `s` surfaces from the
+/// light and the rest from the camera, which ends at the light itself if `hit`.
 impl Known {
-    /// Over the area of surface `i`, of a light path.
+    /// Density over the area of surface `i` of a light path.
     fn onward(&self, i: usize) -> f64 {
         let (squared, cos) = (f64::from(self.lengths[i]), f64::from(self.surfaces[i].to_light));
         if i == 0 {
@@ -74,7 +74,7 @@ impl Known {
         f64::from(self.surfaces[i - 1].onward) * cos / squared
     }
 
-    /// Over the area of surface `i`, of a camera path.
+    /// Density over the area of surface `i` of a camera path.
     fn back(&self, i: usize) -> f64 {
         let (squared, cos) = (f64::from(self.lengths[i + 1]), f64::from(self.surfaces[i].to_camera));
         let over = match self.surfaces.get(i + 1) {
@@ -84,13 +84,13 @@ impl Known {
         over * cos / squared
     }
 
-    /// Of sampling the light alone.
+    /// Density of sampling the light alone.
     fn direct(&self) -> f64 {
         let Emission { position, direction, chance, finite, .. } = self.light;
         f64::from(chance) * f64::from(if finite { position } else { direction })
     }
 
-    /// Of finding the light from surface 0, in the same measure.
+    /// Density of finding the light from surface 0, in the same measure.
     fn found(&self) -> f64 {
         if self.light.delta {
             return 0.0;
@@ -101,7 +101,7 @@ impl Known {
 
     fn connection(&self, s: usize, factors: Factors) -> f64 {
         let k = self.surfaces.len();
-        // A smooth surface is no end of a connection.
+        // A smooth surface cannot be the end of a connection.
         if (s > 0 && self.surfaces[s - 1].smooth) || (s < k && self.surfaces[s].smooth) {
             return 0.0;
         }
@@ -124,7 +124,7 @@ impl Known {
         light * camera * f64::from(factors.merging)
     }
 
-    /// The sums of a light path at surface `i`, and of a camera path.
+    /// The sums of a light path and of a camera path at surface `i`.
     fn ends(&self, factors: Factors) -> (Vec<Mis>, Vec<Mis>) {
         let k = self.surfaces.len();
         let mut light = Vec::new();
@@ -151,7 +151,7 @@ impl Known {
         (light, camera)
     }
 
-    /// The weights of all techniques with what each should be.
+    /// The weights of all techniques, each with its expected value.
     fn weights(&self, factors: Factors) -> Vec<[f64; 2]> {
         let k = self.surfaces.len();
         let (light, camera) = self.ends(factors);
@@ -206,7 +206,7 @@ impl Known {
 }
 
 #[test]
-fn weights_are_those_of_the_densities_and_sum_to_one() {
+fn weights_follow_from_the_densities_and_sum_to_one() {
     for merging in [None, Some(0.02)] {
         let factors = Factors::new(500, merging);
         for k in 1..=7 {
@@ -215,7 +215,7 @@ fn weights_are_those_of_the_densities_and_sum_to_one() {
                     let path = path(k, seed, smooth);
                     let weights = path.weights(factors);
                     if weights.iter().all(|[_, expected]| expected.is_nan()) {
-                        // No technique makes a path of smooth surfaces between a point and a pinhole.
+                        // No technique generates a path of smooth surfaces between a point and a pinhole.
                         continue;
                     }
                     let sum: f64 = weights.iter().map(|[found, _]| found).sum();

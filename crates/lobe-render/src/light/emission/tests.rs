@@ -24,7 +24,7 @@ fn lights() -> Vec<(&'static str, Light)> {
         ("area", area(false)),
         ("two-sided area", area(true)),
         ("sky", Light::Environment(Environment::gradient([0.2, 0.3, 0.9], [0.8; 3], [0.1; 3]).unwrap())),
-        ("even sky", Light::Environment(Environment::constant([0.5; 3]).unwrap())),
+        ("uniform sky", Light::Environment(Environment::constant([0.5; 3]).unwrap())),
     ]
 }
 
@@ -38,7 +38,7 @@ fn numbers(i: usize) -> [f32; 4] {
 const N: usize = 1 << 16;
 
 #[test]
-fn the_mean_of_samples_over_their_densities_is_the_power() {
+fn samples_over_their_densities_average_to_the_power() {
     let lanes = Scalar::<4>;
     for (name, light) in lights() {
         let mut sum = 0.0;

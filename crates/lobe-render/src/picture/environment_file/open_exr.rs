@@ -1,4 +1,4 @@
-//! OpenEXR images of environments: which channels are radiance, and where they lie in the picture.
+//! Reads OpenEXR images of environments: finds the channels of radiance, and their place in the picture.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -13,16 +13,16 @@ use super::super::PictureError;
 use super::super::exr_file::{check_size, content};
 use super::{Picture, check_shape};
 
-/// Names of the channels that are one colour.
+/// Names of the channels that make up one colour.
 #[derive(Clone, Debug, PartialEq)]
 enum Colour {
     Rgb([String; 3]),
-    /// Luminance, of grey.
+    /// Luminance, for grey images.
     Grey(String),
 }
 
 pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<Picture, PictureError> {
-    const EXPECTED: &str = "an OpenEXR image of flat channels that all have a value per texel";
+    const EXPECTED: &str = "an OpenEXR image of flat channels with one value per texel";
     check_size(path, bytes)?;
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|e| content(path, e, EXPECTED))?;
     let (part, colour) = choose(path, &meta.headers)?;
@@ -30,13 +30,13 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<Picture, PictureError> {
     if header.own_attributes.environment_map == Some(EnvironmentMap::Cube) {
         return Err(content(path, "six sides of a cube (envmap)", "an image of longitude and latitude"));
     }
-    // Some programs write this attribute of other formats. 1 is as it is.
+    // Some programs write this attribute of other formats. The value 1 changes nothing.
     let is_turned = |name: &str| {
         let attribute = header.own_attributes.other.get(&Text::from(name));
         attribute.is_some_and(|value| !matches!(value, AttributeValue::I32(1)))
     };
     if let Some(name) = ["Orientation", "orientation"].into_iter().find(|name| is_turned(name)) {
-        return Err(content(path, format!("an attribute {name} other than 1"), "an image that is stored upright"));
+        return Err(content(path, format!("an attribute {name} other than 1"), "an image stored upright"));
     }
     let window = header.shared_attributes.display_window;
     check_shape(path, [window.size.0, window.size.1], f64::from(header.shared_attributes.pixel_aspect))?;
@@ -52,7 +52,7 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<Picture, PictureError> {
     }
 }
 
-/// The part with the radiance and its channels: R, G and B, or Y, or those of the only layer that has them.
+/// The part with the radiance, and its channels: R, G and B, or Y, or those of the only layer that has them.
 fn choose(path: &Path, headers: &[Header]) -> Result<(usize, Colour), PictureError> {
     let names = |header: &Header| header.channels.list.iter().map(|c| c.name.to_string()).collect::<Vec<String>>();
     let mut plain: Vec<(usize, Colour)> = Vec::new();
@@ -98,7 +98,7 @@ fn choose(path: &Path, headers: &[Header]) -> Result<(usize, Colour), PictureErr
     }
 }
 
-/// Columns and texels of the data window.
+/// Number of columns, and texels of the data window.
 fn texels(bytes: &[u8], colour: &Colour) -> exr::error::Result<(usize, Vec<[f32; 3]>)> {
     let flat = exr::prelude::read().no_deep_data().largest_resolution_level();
     match colour {
@@ -124,7 +124,7 @@ fn texels(bytes: &[u8], colour: &Colour) -> exr::error::Result<(usize, Vec<[f32;
     }
 }
 
-/// The picture is the display window; what the data window leaves of it has no light.
+/// The picture is the display window; it is black outside the data window.
 fn placed(
     path: &Path,
     bytes: &[u8],
@@ -132,7 +132,7 @@ fn placed(
     columns: usize,
     stored: &[[f32; 3]],
 ) -> Result<Picture, PictureError> {
-    /// Of a window around a small part that has data, how many texels may be empty, per byte of the file.
+    /// How many texels of a display window may be empty, per byte of the file.
     const EMPTY_PER_BYTE: usize = 170;
     let window = header.shared_attributes.display_window;
     let (width, height) = (window.size.0, window.size.1);
@@ -141,7 +141,7 @@ fn placed(
         .filter(|&count| count > 0 && count <= stored.len().saturating_add(bytes.len().saturating_mul(EMPTY_PER_BYTE)));
     let Some(count) = count else {
         let found = format!("a display window of {width} x {height} texels in {} bytes", bytes.len());
-        return Err(content(path, found, "one that the file justifies"));
+        return Err(content(path, found, "a size that the file justifies"));
     };
     let offset = |data: i32, display: i32| i64::from(data) - i64::from(display);
     let at = header.own_attributes.layer_position;

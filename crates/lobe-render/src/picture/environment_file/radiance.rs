@@ -1,5 +1,5 @@
-//! Radiance HDR, the pictures of the Radiance programs: a header of variables, a line that says in which order the texels
-//! are, and lines of texels of four bytes, as they are or run-length encoded in the old way or the new.
+//! Reads Radiance HDR, the pictures of the Radiance programs: a header of variables, a line with the order of the
+//! texels, and lines of texels of four bytes, plain or run-length encoded in the old or the new way.
 
 mod lines;
 
@@ -12,7 +12,7 @@ use super::super::exr_file::content;
 use super::{Picture, check_shape};
 
 const EXPECTED: &str = "an OpenEXR or Radiance HDR file";
-/// Texels per byte of the file, at most: many times as many as run lengths make of a sky of one colour.
+/// The most texels per byte of the file: many times more than run-length encoding needs for a sky of one colour.
 const TEXELS_PER_BYTE: usize = 128;
 
 pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<Picture, PictureError> {
@@ -50,7 +50,7 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<Picture, PictureError> {
     picture.of_primaries(path, &header.primaries)
 }
 
-/// Takes a line, without its end; `None` at the end of the file.
+/// Takes a line, without its line end; `None` at the end of the file.
 fn line(rest: &mut &[u8]) -> Option<String> {
     let end = rest.iter().position(|&byte| byte == b'\n')?;
     let line = String::from_utf8_lossy(&rest[..end]).trim_end_matches('\r').to_string();
@@ -58,7 +58,8 @@ fn line(rest: &mut &[u8]) -> Option<String> {
     Some(line)
 }
 
-/// Three mantissas and their common exponent. The quotient is that of other programs: 1 is written as 128, 129.
+/// Decodes three mantissas and their common exponent. The divisor is the one of other programs: 1 is written as 128,
+/// 129.
 fn radiance([r, g, b, e]: [u8; 4], factors: [f64; 3]) -> [f32; 3] {
     if e == 0 {
         return [0.0; 3];
@@ -68,16 +69,16 @@ fn radiance([r, g, b, e]: [u8; 4], factors: [f64; 3]) -> [f32; 3] {
     [f64::from(r) * unit * x, f64::from(g) * unit * y, f64::from(b) * unit * z].map(|value| value as f32)
 }
 
-/// What the variables of a header say.
+/// The variables of a header.
 struct Header {
-    /// What makes radiances of the numbers: one over the product of all exposures and corrections.
+    /// The factor from numbers to radiances: one over the product of all exposures and corrections.
     factors: [f64; 3],
     height_of_texel: f64,
     primaries: Primaries,
 }
 
 impl Header {
-    /// Reads up to the empty line. Only lines that begin with the name of a variable set it; what is indented are the
+    /// Reads up to the empty line. Only lines that begin with the name of a variable set it; indented lines are the
     /// commands that made the picture.
     fn read(path: &Path, rest: &mut &[u8]) -> Result<Header, PictureError> {
         let mut header = Header { factors: [1.0; 3], height_of_texel: 1.0, primaries: Primaries::SRGB };
@@ -149,15 +150,16 @@ struct Order {
 }
 
 struct Axis {
-    /// Whether it is that of columns.
+    /// `true` for the axis of columns.
     is_x: bool,
-    /// Whether it runs to the right, or down.
+    /// `true` if it runs to the right, or down.
     is_forward: bool,
     length: usize,
 }
 
 impl Order {
-    /// `-Y 512 +X 1024`: two axes with their lengths, the slower one first. Rows with a minus run downward.
+    /// Parses a line such as `-Y 512 +X 1024`: two axes with their lengths, the slower one first. Rows with a minus run
+    /// downward.
     fn parse(text: &str) -> Option<Order> {
         let words: Vec<&str> = text.split_whitespace().collect();
         let &[first, lines, second, along] = words.as_slice() else { return None };
@@ -181,7 +183,7 @@ impl Order {
         if self.lines.is_x { lengths } else { [lengths[1], lengths[0]] }
     }
 
-    /// Where the texel of a line belongs.
+    /// The place of a texel of a line.
     fn place(&self, line: usize, at: usize) -> usize {
         let along = |axis: &Axis, at: usize| if axis.is_forward { at } else { axis.length - 1 - at };
         let (line, at) = (along(&self.lines, line), along(&self.along, at));

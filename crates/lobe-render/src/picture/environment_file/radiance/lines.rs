@@ -1,16 +1,17 @@
-//! Lines of texels: flat, with runs of texels (the old way), or with runs of each of the four bytes (the new).
+//! Decodes lines of texels: flat, with runs of texels (the old way), or with runs of each of the four bytes (the new
+//! way).
 
-/// What is wrong with a line.
+/// An error of a line.
 pub(super) struct Fault {
     pub found: &'static str,
     pub expected: &'static str,
 }
 
 const END: Fault = Fault { found: "the end of the file", expected: "all lines of the picture" };
-/// Lines that are shorter or longer are never encoded in the new way.
+/// Shorter or longer lines are never encoded in the new way.
 const NEW: std::ops::RangeInclusive<usize> = 8..=0x7fff;
 
-/// Fills a line from the bytes, and takes those that it is made of.
+/// Fills a line from the bytes, and consumes them.
 pub(super) fn read(rest: &mut &[u8], line: &mut [[u8; 4]]) -> Result<(), Fault> {
     match rest {
         [2, 2, high, low, ..] if *high < 128 && NEW.contains(&line.len()) => {
@@ -31,7 +32,7 @@ fn take<const N: usize>(rest: &mut &[u8]) -> Result<[u8; N], Fault> {
     Ok(*bytes)
 }
 
-/// One byte of all texels. Counts above 128 repeat what follows; others copy.
+/// Decodes one byte of all texels. Counts above 128 repeat the next byte; others copy bytes.
 fn new(rest: &mut &[u8], line: &mut [[u8; 4]], byte: usize) -> Result<(), Fault> {
     let mut at = 0;
     while at < line.len() {
@@ -54,8 +55,8 @@ fn new(rest: &mut &[u8], line: &mut [[u8; 4]], byte: usize) -> Result<(), Fault>
     Ok(())
 }
 
-/// Texels as they are, but for those of 1, 1, 1, which repeat the one before; counts that follow each other are the bytes
-/// of one number, low byte first.
+/// Decodes plain texels, except for those of 1, 1, 1, which repeat the one before; consecutive counts are the bytes of
+/// one number, low byte first.
 fn old(rest: &mut &[u8], line: &mut [[u8; 4]]) -> Result<(), Fault> {
     let (mut at, mut shift) = (0, 0);
     while at < line.len() {
@@ -66,7 +67,7 @@ fn old(rest: &mut &[u8], line: &mut [[u8; 4]]) -> Result<(), Fault> {
             continue;
         };
         let Some(before) = at.checked_sub(1).filter(|_| shift < 32) else {
-            return Err(Fault { found: "a run of nothing", expected: "a texel before its repetitions" });
+            return Err(Fault { found: "a run of length 0", expected: "a texel before its repetitions" });
         };
         let (repeated, length) = (line[before], usize::from(count) << shift);
         let Some(texels) = line.get_mut(at..).and_then(|texels| texels.get_mut(..length)) else {
