@@ -40,7 +40,8 @@ struct Tile<T: Transport> {
 }
 
 impl<T: Transport> Shared<T> {
-    /// A thread that panicked leaves whole samples behind, and its panic is propagated when the threads are joined.
+    /// Locks a mutex even if a thread has panicked: it leaves whole samples behind, and its panic is propagated when
+    /// the threads are joined.
     fn lock(&self) -> MutexGuard<'_, State<T>> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -59,8 +60,8 @@ impl<T: Transport> State<T> {
     }
 }
 
-/// Renders, going on with a film that has some of the samples already. `watch` is called from this thread every
-/// tenth of a second or so, and ends the rendering when it returns `false`.
+/// Renders, continuing a film that already has some of the samples. `watch` is called from this thread about every
+/// tenth of a second, and ends the rendering when it returns `false`.
 ///
 /// # Errors
 /// [`RenderError`] if the settings make no sense.
@@ -91,7 +92,7 @@ pub fn render<T: Transport>(
         return passes::render(world, settings, &view, film, workers, &mut watch);
     }
     let tiles = tiles(&film, &samples)?;
-    // If time is limited, every pixel gets its first sample soon; else waves are as large as they can be.
+    // If time is limited, every pixel gets its first sample soon; otherwise waves are as large as possible.
     let first = if settings.time.is_some() { 1 } else { (PATHS as u32).div_ceil(TILE * TILE) };
     let jobs = Jobs::new(&tiles, samples.clone(), first);
     let begun = Instant::now();
@@ -122,7 +123,8 @@ pub fn render<T: Transport>(
         for started in 0..threads {
             match std::thread::Builder::new().spawn_scoped(scope, worker) {
                 Ok(handle) => handles.push(handle),
-                // The system makes no more: those that there are do the work, or this one if there are none.
+                // The system cannot start more threads, so the existing ones do the work, or this one if there are
+                // none.
                 Err(_) => {
                     shared.lock().running -= threads - started;
                     break;
@@ -158,14 +160,14 @@ pub fn render<T: Transport>(
     Ok((state.film, stats))
 }
 
-/// As many threads as there is memory for.
+/// The number of threads for which there is memory.
 fn affordable() -> usize {
-    /// Bytes of a thread: its stack, what the allocator keeps for it, and its waves.
+    /// Bytes of a thread: its stack, the memory that the allocator keeps for it, and its waves.
     const THREAD: u64 = 100 << 20;
     lobe_memory::available().map_or(usize::MAX, |bytes| (bytes / THREAD).max(1) as usize)
 }
 
-/// Says that a thread has ended, also by a panic.
+/// Reports that a thread has ended, even by a panic.
 struct Leaving<'a, T: Transport>(&'a Shared<T>);
 
 impl<T: Transport> Drop for Leaving<'_, T> {
@@ -175,7 +177,7 @@ impl<T: Transport> Drop for Leaving<'_, T> {
     }
 }
 
-/// The tiles of a window, and how many samples each has.
+/// The tiles of a window, and the number of samples that each has.
 fn tiles<T: Transport>(film: &Film<T>, samples: &Range<u32>) -> Result<Vec<Tile<T>>, RenderError> {
     let window = film.window();
     let mut tiles = Vec::new();
@@ -197,22 +199,22 @@ struct Job {
     tile: usize,
     rect: Rect,
     samples: Range<u32>,
-    /// Whether these are the first samples of its pixels.
+    /// `true` if these are the first samples of its pixels.
     first: bool,
 }
 
-/// The work in the order in which it is given out: few samples of all tiles, then more.
+/// The work in the order in which it is handed out: few samples of all tiles, then more.
 struct Jobs {
-    /// For each tile its pixels and the first sample that is left.
+    /// For each tile, its pixels and the first sample that is left.
     tiles: Vec<(Rect, u32)>,
-    /// The ends of passes, rising.
+    /// The ends of passes, ascending.
     passes: Vec<u32>,
     start: u32,
     next: AtomicUsize,
 }
 
 impl Jobs {
-    /// With so many samples in the first pass.
+    /// The work, with this many samples in the first pass.
     fn new<T: Transport>(tiles: &[Tile<T>], samples: Range<u32>, first: u32) -> Self {
         let mut passes = Vec::new();
         let (mut end, mut size) = (samples.start, first);
@@ -225,7 +227,7 @@ impl Jobs {
         Jobs { tiles, passes, start: samples.start, next: AtomicUsize::new(0) }
     }
 
-    /// At most how many there are.
+    /// An upper bound of the number of jobs.
     fn count(&self) -> usize {
         self.passes.len().saturating_mul(self.tiles.len())
     }

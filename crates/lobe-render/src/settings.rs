@@ -1,4 +1,4 @@
-//! What to render and how, how far it is, and why it is not done.
+//! Settings, progress and errors of a rendering.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -12,42 +12,42 @@ use crate::integrator::Integrator;
 use crate::shader::Backend;
 use crate::transport::{Rgb, Transport};
 
-/// What to render and how.
+/// The settings of a rendering.
 #[derive(Clone, Debug)]
 pub struct Settings<T: Transport = Rgb> {
-    /// What the picture is taken with.
+    /// The camera.
     pub camera: Camera,
     /// Columns and rows of the whole picture, each in `1 ..= 65536`.
     pub size: [u32; 2],
-    /// The pixels to render, inside of the picture.
+    /// The pixels to render, inside the picture.
     pub window: Rect,
-    /// How samples are spread around a pixel.
+    /// The filter that spreads samples around a pixel.
     pub filter: Filter,
-    /// How radiance is found.
+    /// The integrator.
     pub integrator: Arc<dyn Integrator<T>>,
-    /// The numbers of the samples to render.
+    /// The indices of the samples to render.
     pub samples: Range<u32>,
-    /// The lanes that rays are traced in; materials have theirs. With both in strict form the picture is the same bits
+    /// The backend that traces rays; materials have their own. With both in strict form, the picture has the same bits
     /// on every machine.
     pub backend: Backend,
-    /// How many threads; the picture does not depend on it.
+    /// Number of threads; the picture does not depend on it.
     pub threads: usize,
-    /// After this time no more samples are begun, but every pixel gets one.
+    /// After this time no more samples are started, but every pixel gets at least one.
     pub time: Option<Duration>,
 }
 
-/// Why nothing can be rendered.
+/// The reason why nothing can be rendered.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RenderError {
-    /// The camera makes no rays.
+    /// The camera cannot generate rays.
     #[error(transparent)]
     Camera(#[from] CameraError),
-    /// The window is empty or not inside of the picture.
+    /// The window is empty or not inside the picture.
     #[error("the window {window:?} of a picture of {} x {}; expected a non-empty window inside it", size[0], size[1])]
     Window {
-        /// What was requested.
+        /// The requested window.
         window: Rect,
-        /// The picture.
+        /// The size of the picture.
         size: [u32; 2],
     },
     /// The film to continue has another window.
@@ -55,33 +55,33 @@ pub enum RenderError {
     Film {
         /// Its window.
         found: Rect,
-        /// That of the settings.
+        /// The window of the settings.
         expected: Rect,
     },
-    /// The film to continue was not written by a rendering of this window.
-    #[error("a film whose samples differ within a tile; expected one that a rendering of the same window has begun")]
+    /// The film to continue does not come from a rendering of this window.
+    #[error("a film whose samples differ within a tile; expected one from a rendering of the same window")]
     Uneven,
-    /// An integrator that begins at the lights has none to begin at.
+    /// The integrator begins paths at lights, but there are none.
     #[error("no light emits anything; expected one that does, as this integrator follows light from the lights")]
     Dark,
-    /// The light paths of a pass are more than memory holds.
-    #[error("the light paths of a pass take {0}; expected `paths` that fit")]
+    /// The light paths of a pass do not fit into memory.
+    #[error("the light paths of a pass take {0}; expected a number of `paths` that fits into memory")]
     Memory(NoRoom),
 }
 
-/// How far a rendering is.
+/// Progress of a rendering.
 pub struct Progress<'a, T: Transport = Rgb> {
-    /// Samples done, including those of an earlier rendering that this one continues.
+    /// Number of finished samples, including those of an earlier rendering that this one continues.
     pub done: u64,
-    /// Samples to do, or as many as there would be without a time limit.
+    /// Number of samples to render, ignoring a time limit.
     pub total: u64,
-    /// Time since the beginning.
+    /// Time since the start.
     pub elapsed: Duration,
     pub(crate) film: &'a dyn Fn() -> Film<T>,
 }
 
 impl<T: Transport> Progress<'_, T> {
-    /// A copy of the film as it is: whole samples, the first ones of each pixel.
+    /// A copy of the film in its current state: whole samples, the first ones of each pixel.
     pub fn film(&self) -> Film<T> {
         (self.film)()
     }

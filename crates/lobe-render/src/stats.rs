@@ -1,16 +1,16 @@
-//! What time and lanes are spent on.
+//! Statistics of the use of time and lanes.
 
 use std::ops::AddAssign;
 use std::time::Duration;
 
-/// The queries of materials at one depth.
+/// Material queries at one depth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Shading {
-    /// Pairs of directions evaluated, and directions sampled.
+    /// Number of pairs of directions evaluated and of directions sampled.
     pub queries: u64,
-    /// Lanes that were occupied by them, full or not.
+    /// Number of lanes of the registers that they occupied, used or not.
     pub occupied: u64,
-    /// How long it took.
+    /// Time that it took.
     pub time: Duration,
 }
 
@@ -20,7 +20,7 @@ impl Shading {
         if self.occupied == 0 { 0.0 } else { self.queries as f64 / self.occupied as f64 }
     }
 
-    /// Counts a batch of `n` queries on that many lanes.
+    /// Counts a batch of `n` queries on this many lanes.
     pub(crate) fn count(&mut self, n: usize, lanes: usize) {
         self.queries += n as u64;
         self.occupied += n.next_multiple_of(lanes) as u64;
@@ -35,27 +35,27 @@ impl AddAssign for Shading {
     }
 }
 
-/// Depths that are counted separately; the last one includes all that are deeper.
+/// Number of depths that are counted separately; the last one includes all deeper ones.
 pub const DEPTHS: usize = 8;
 
-/// What a rendering took, summed over threads.
+/// Statistics of a rendering, summed over threads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stats {
-    /// Paths that left the camera.
+    /// Number of paths that left the camera.
     pub samples: u64,
-    /// Rays traced, shadow rays with them.
+    /// Number of rays traced, including shadow rays.
     pub rays: u64,
-    /// Paths that left a light.
+    /// Number of paths that left a light.
     pub light_paths: u64,
-    /// Those of them that met a surface.
+    /// Number of these that met a surface.
     pub landed: u64,
-    /// Photons that were near a surface that the camera sees.
+    /// Number of photons found near a surface that the camera sees.
     pub gathered: u64,
-    /// Samples whose radiance was not finite, and which count as black.
+    /// Number of samples whose radiance was not finite, which count as black.
     pub invalid: u64,
     /// Materials by the number of surfaces that the ray had hit before: values, densities and sampled directions.
     pub shading: [Shading; DEPTHS],
-    /// Everything.
+    /// Total time.
     pub total: Duration,
     /// Tracing rays.
     pub trace: Duration,
@@ -89,7 +89,7 @@ impl Stats {
         self.materials().time.as_secs_f64() / self.total.as_secs_f64().max(1e-9)
     }
 
-    /// What materials at a depth are counted in.
+    /// The counter for materials at a depth.
     pub(crate) fn at(&mut self, depth: u32) -> &mut Shading {
         &mut self.shading[(depth as usize).min(DEPTHS - 1)]
     }

@@ -5,7 +5,7 @@ use lobe_mesh::Geometry;
 use crate::vec3::{Vec3, add, dot, perpendicular, scale, sub, unit};
 use crate::world::Shape;
 
-/// Scaled and turned, then moved.
+/// Scales and rotates, then moves.
 pub(crate) struct Transform {
     /// Images of the axes, equally long and perpendicular.
     pub axes: [Vec3; 3],
@@ -13,7 +13,7 @@ pub(crate) struct Transform {
 }
 
 impl Transform {
-    /// The axes of something that is not transformed.
+    /// The identity.
     pub const IDENTITY: [Vec3; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
     fn direction(&self, [x, y, z]: Vec3) -> Vec3 {

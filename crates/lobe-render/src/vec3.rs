@@ -1,4 +1,4 @@
-//! Vectors of three floats. Nothing here is fused or reassociated, so the bits are the same on every machine.
+//! Vectors of three floats. No operations are fused or reassociated, so the bits are the same on every machine.
 
 /// A point, a direction or a normal.
 pub(crate) type Vec3 = [f32; 3];
@@ -31,7 +31,7 @@ pub(crate) fn length(a: Vec3) -> f32 {
     dot(a, a).sqrt()
 }
 
-/// The unit vector along `a`; `None` if it points nowhere.
+/// The unit vector along `a`; `None` if `a` has no direction.
 pub(crate) fn unit(a: Vec3) -> Option<Vec3> {
     // Scaled by the largest component first, so that no square overflows or vanishes.
     let largest = a.iter().fold(0.0f32, |largest, c| largest.max(c.abs()));
@@ -44,7 +44,7 @@ pub(crate) fn unit(a: Vec3) -> Option<Vec3> {
 
 /// A unit vector perpendicular to the unit vector `n`.
 pub(crate) fn perpendicular(n: Vec3) -> Vec3 {
-    // The axis that `n` has least of, so that the cross product is never short.
+    // The axis along which `n` is smallest, so that the cross product is never short.
     let [x, y, z] = n.map(f32::abs);
     let axis = if x <= y && x <= z {
         [1.0, 0.0, 0.0]

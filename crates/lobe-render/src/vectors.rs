@@ -1,4 +1,4 @@
-//! Vectors of three floats in lanes. Nothing is fused, so the bits are the same on every machine.
+//! Vectors of three floats in lanes. No operations are fused, so the bits are the same on every machine.
 
 use lobe_lane::{Floats, Ints, Lanes};
 
@@ -47,7 +47,7 @@ pub(crate) fn max_component<L: Lanes>(a: [L::F; 3]) -> L::F {
     a[0].abs().max(a[1].abs()).max(a[2].abs())
 }
 
-/// The unit vector along `a`, or `other` if it points nowhere.
+/// The unit vector along `a`, or `other` if `a` has no direction.
 #[inline(always)]
 pub(crate) fn unit_or<L: Lanes>(lanes: L, a: [L::F; 3], other: [L::F; 3]) -> [L::F; 3] {
     // Scaled by the largest component first, so that no square overflows or vanishes.
@@ -61,7 +61,7 @@ pub(crate) fn unit_or<L: Lanes>(lanes: L, a: [L::F; 3], other: [L::F; 3]) -> [L:
 /// A unit vector perpendicular to the unit vector `n`.
 #[inline(always)]
 pub(crate) fn perpendicular<L: Lanes>(lanes: L, n: [L::F; 3]) -> [L::F; 3] {
-    // Crossed with the axis that `n` has least of, so that the product is never short.
+    // Crossed with the axis along which `n` is smallest, so that the product is never short.
     let zero = lanes.splat(0.0);
     let [x, y, z] = [n[0].abs(), n[1].abs(), n[2].abs()];
     let with_y_or_z = select(lanes, y.le(z), [-n[2], zero, n[0]], [n[1], -n[0], zero]);
@@ -76,16 +76,17 @@ pub(crate) fn frame_of<L: Lanes>(lanes: L, n: [L::F; 3]) -> [[L::F; 3]; 3] {
     [tangent, cross::<L>(n, tangent), n]
 }
 
-/// A vector given in a frame, in the world.
+/// Transforms a vector from a frame to the world.
 #[inline(always)]
 pub(crate) fn to_world<L: Lanes>(frame: [[L::F; 3]; 3], local: [L::F; 3]) -> [L::F; 3] {
     blend::<L>(frame, local)
 }
 
-/// Sines and cosines of angles in turns, no more than a few of them. The error is below 3e-7.
+/// Sines and cosines of angles in turns, at most a few turns. The error is below 3e-7.
 #[inline(always)]
 pub(crate) fn sin_cos<L: Lanes>(lanes: L, turns: L::F) -> [L::F; 2] {
-    // The nearest quarter, by adding what leaves no place for a fraction; and what is left, at most an eighth.
+    // The nearest quarter, by adding a number so large that no place is left for a fraction; and the rest, at most an
+    // eighth.
     let (one, round) = (lanes.splat(1.0), lanes.splat(12_582_912.0));
     let quarter = (lanes.splat(4.0) * turns + round) - round;
     let x = (turns - lanes.splat(0.25) * quarter) * lanes.splat(std::f32::consts::TAU);
@@ -104,7 +105,7 @@ pub(crate) fn sin_cos<L: Lanes>(lanes: L, turns: L::F) -> [L::F; 2] {
     let quadrant = quarter.to_int();
     let odd = (quadrant & lanes.splat_int(1)).eq(lanes.splat_int(1));
     let (a, b) = (lanes.select(odd, cos, sin), lanes.select(odd, sin, cos));
-    // Bit 1 of the quadrant is the sign of the sine, that of the quadrant after it the sign of the cosine.
+    // Bit 1 of the quadrant is the sign of the sine; bit 1 of the next quadrant is the sign of the cosine.
     let next = quadrant + lanes.splat_int(1);
     [a.mul_sign(quadrant.shl::<30>().as_float()), b.mul_sign(next.shl::<30>().as_float())]
 }

@@ -1,4 +1,4 @@
-//! What is to be rendered: triangles, what they are made of, and lights.
+//! The world to be rendered: triangles, their materials, and lights.
 
 use std::sync::Arc;
 
@@ -12,8 +12,9 @@ use crate::vec3::{add, length, scale, sub};
 
 /// A mesh of one material.
 ///
-/// A tangent is the unit direction of dp/du, perpendicular to the normal, with the handedness of dp/dv (+1 or -1) in its
-/// fourth component, as in glTF: (t, w * cross(n, t), n) is the frame that psi of an anisotropic material is measured in.
+/// A tangent is the unit direction of dp/du, perpendicular to the normal, with the handedness of dp/dv (+1 or -1) in
+/// its fourth component, as in glTF: (t, w * cross(n, t), n) is the frame in which psi of an anisotropic material is
+/// measured.
 #[derive(Clone, Debug, Default)]
 pub struct Shape {
     /// Vertices in the world.
@@ -26,54 +27,54 @@ pub struct Shape {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// Why shapes make no world.
+/// The reason why shapes do not make a world.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum WorldError {
     /// A coordinate or an index is wrong.
     #[error(transparent)]
     Mesh(#[from] MeshError),
-    /// Normals or tangents are not as many as the vertices.
+    /// The number of normals or tangents differs from the number of vertices.
     #[error("{found} {attribute}; expected {expected}, one per vertex")]
     Attribute {
         /// `normals` or `tangents`.
         attribute: &'static str,
-        /// How many there are.
+        /// Number found.
         found: usize,
-        /// How many vertices.
+        /// Number of vertices.
         expected: usize,
     },
-    /// A normal or tangent that is not a finite number.
+    /// A normal or tangent is not finite.
     #[error("{attribute} of vertex {vertex} have {found}; expected finite numbers")]
     NotFinite {
         /// `normals` or `tangents`.
         attribute: &'static str,
-        /// Which vertex.
+        /// Index of the vertex.
         vertex: usize,
         /// What was found.
         found: f32,
     },
-    /// A shape without area was to emit light.
+    /// A shape without area should emit light.
     #[error("a light without area; expected triangles with an area")]
     NoArea,
-    /// A shape is of a material that does not exist.
+    /// A shape has a material that does not exist.
     #[error("material {found}; expected one below {materials}")]
     Material {
         /// The requested material.
         found: usize,
-        /// How many there are.
+        /// Number found.
         materials: usize,
     },
-    /// More vertices or triangles than lanes can find.
+    /// There are more vertices or triangles than lanes can address.
     #[error("found {vertices} vertices and {triangles} triangles; expected at most {MOST} and {}", i32::MAX)]
     TooMany {
-        /// How many vertices there would be.
+        /// Number of vertices.
         vertices: usize,
-        /// How many triangles.
+        /// Number of triangles.
         triangles: usize,
     },
 }
 
-/// Collects what makes a [`World`].
+/// Collects the parts of a [`World`].
 #[derive(Debug)]
 pub struct WorldBuilder<T: Transport = Rgb> {
     basis: T::Basis,
@@ -90,14 +91,14 @@ pub(crate) struct MaterialGroup {
     end: u32,
     pub material: u32,
     pub light: Option<u32>,
-    /// 1 if light may pass through, else 0.
+    /// 1 if light may pass through, otherwise 0.
     pub transmits: f32,
 }
 
-/// A vertex: its position, its normal and its tangent; and zeros that fill the last quad.
+/// A vertex: its position, normal and tangent, padded with zeros to whole quads.
 pub(crate) type Corner = [f32; 12];
 
-/// The most vertices of a world: lanes find their floats by 31 bits.
+/// The largest number of vertices of a world: lanes address their floats with 31 bits.
 const MOST: usize = i32::MAX as usize / size_of::<Corner>() * size_of::<f32>();
 
 impl<T: Transport<Basis = ()>> Default for WorldBuilder<T> {
@@ -107,24 +108,24 @@ impl<T: Transport<Basis = ()>> Default for WorldBuilder<T> {
 }
 
 impl<T: Transport<Basis = ()>> WorldBuilder<T> {
-    /// Nothing.
+    /// An empty world.
     pub fn new() -> Self {
         WorldBuilder::in_basis(())
     }
 }
 
 impl<T: Transport> WorldBuilder<T> {
-    /// Nothing, in these channels.
+    /// An empty world in these channels.
     pub fn in_basis(basis: T::Basis) -> Self {
         WorldBuilder { basis, shape: Shape::default(), groups: Vec::new(), materials: Vec::new(), lights: Vec::new() }
     }
 
-    /// What the channels are.
+    /// Description of the channels.
     pub fn basis(&self) -> &T::Basis {
         &self.basis
     }
 
-    /// Adds a material and returns its number.
+    /// Adds a material and returns its index.
     pub fn material(&mut self, shader: Arc<dyn Shader<T>>) -> usize {
         self.materials.push(shader);
         self.materials.len() - 1
@@ -135,7 +136,7 @@ impl<T: Transport> WorldBuilder<T> {
         self.lights.push(light);
     }
 
-    /// Adds a shape of a material. With `radiance` in W/(m^2 sr) it emits light as well, on both sides if `two_sided`.
+    /// Adds a shape with a material. With `radiance` in W/(m^2 sr) it also emits light, on both sides if `two_sided`.
     ///
     /// # Errors
     /// If its numbers do not fit together.
@@ -228,9 +229,9 @@ fn finite<const N: usize>(attribute: &'static str, values: &[[f32; N]]) -> Resul
 pub struct World<T: Transport = Rgb> {
     pub(crate) basis: T::Basis,
     pub(crate) scene: Scene,
-    /// What is known of each vertex, side by side: the cache brings it together.
+    /// The numbers of each vertex side by side, so that they are cached together.
     pub(crate) corners: Storage<Corner>,
-    /// For each triangle its corners and the group that it belongs to.
+    /// For each triangle, its corners and its group.
     pub(crate) triangles: Storage<[u32; 4]>,
     pub(crate) groups: Vec<MaterialGroup>,
     pub(crate) materials: Vec<Arc<dyn Shader<T>>>,
@@ -238,7 +239,7 @@ pub struct World<T: Transport = Rgb> {
 }
 
 impl<T: Transport> World<T> {
-    /// What the channels are.
+    /// Description of the channels.
     pub fn basis(&self) -> &T::Basis {
         &self.basis
     }
@@ -248,12 +249,12 @@ impl<T: Transport> World<T> {
         &self.lights.all
     }
 
-    /// A sphere around the triangles, which light from infinitely far away enters the scene through.
+    /// A sphere around the triangles, through which light from infinitely far away enters the scene.
     pub fn bounds(&self) -> SceneBounds {
         self.lights.bounds
     }
 
-    /// How many triangles there are.
+    /// Number of triangles.
     pub fn triangles(&self) -> usize {
         self.groups.last().map_or(0, |group| group.end as usize)
     }

@@ -1,4 +1,4 @@
-//! `[[light]]`: points, spots, directions and the environment. Shapes that shine are objects.
+//! `[[light]]`: points, spots, directions and the environment. Shapes that emit light are objects.
 
 use super::Reading;
 use super::node::{Node, SceneError};
@@ -47,7 +47,7 @@ fn spot<T: Transport>(node: &Node<'_, '_>, reading: &Reading<'_, T>) -> Result<L
     let position = node.required_vector("position")?;
     let target = node.required_vector("target")?;
     let direction = unit(sub(target, position))
-        .ok_or_else(|| node.error("target", "found the position of the light; expected another point"))?;
+        .ok_or_else(|| node.error("target", "found the position of the light itself; expected another point"))?;
     let half = "degrees above 0 and up to 180";
     let angle = node.number("angle", half, |x| x > 0.0 && x <= 180.0)?.unwrap_or(45.0);
     let inner = node.number("inner_angle", "degrees from 0 to `angle`", |x| (0.0..=angle).contains(&x))?;
@@ -56,7 +56,7 @@ fn spot<T: Transport>(node: &Node<'_, '_>, reading: &Reading<'_, T>) -> Result<L
     Ok(Light::Spot { position, direction, intensity: reading.required_light(node, "intensity")?, falloff })
 }
 
-/// An image, one radiance from everywhere, or a gradient from the zenith over the horizon to the ground.
+/// An image, one radiance from all directions, or a gradient from the zenith through the horizon to the ground.
 fn environment<T: Transport>(
     node: &Node<'_, '_>,
     reading: &mut Reading<'_, T>,

@@ -1,4 +1,4 @@
-//! `[material.NAME]`: a file of a measured material, or a model by its name.
+//! `[material.NAME]`: a file of a measured material, or a model by name.
 
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ pub(super) fn read<T: Transport>(root: &Node<'_, '_>, reading: &mut Reading<'_, 
     let names = all.keys();
     let count = names.len() as f64;
     for (index, name) in names.into_iter().enumerate() {
-        // Distributions of directions are what takes time.
+        // Building the distributions of directions takes most of the time.
         let done = |progress: &mut dyn FnMut(f64), done: usize, all: usize| {
             progress((index as f64 + done as f64 / all.max(1) as f64) / count);
         };
@@ -66,7 +66,7 @@ pub(super) fn read<T: Transport>(root: &Node<'_, '_>, reading: &mut Reading<'_, 
     Ok(())
 }
 
-/// A key that only some representations look at.
+/// A key that only some representations use.
 struct MaterialOption {
     key: &'static str,
     applies: fn(Uses) -> bool,
@@ -79,7 +79,7 @@ const OPTIONS: [MaterialOption; 3] = [
     MaterialOption { key: "indexed_by", applies: |uses| uses.indexed_by, expected: "a material of the EPFL database" },
 ];
 
-/// Refuses what would make no difference: whoever asks for it expects one.
+/// Refuses keys that would make no difference, because their author expects one.
 fn check_options(node: &Node<'_, '_>, documents: &[&Document]) -> Result<(), SceneError> {
     let uses = documents.iter().fold(Uses::default(), |uses, document| uses.or(document.uses()));
     let Some(option) = OPTIONS.iter().find(|option| node.has(option.key) && !(option.applies)(uses)) else {
@@ -89,7 +89,7 @@ fn check_options(node: &Node<'_, '_>, documents: &[&Document]) -> Result<(), Sce
     Err(node.error(option.key, format!("found {}; expected {}", kinds.join(", "), option.expected)))
 }
 
-/// What a file leaves open.
+/// Choices that a file leaves open.
 fn options(node: &Node<'_, '_>) -> Result<Options, SceneError> {
     let edges = match node.text("edge")? {
         None | Some("clamp") => Edges::default(),
@@ -208,7 +208,7 @@ fn of<S: Channels>(spectrum: &S, three: [usize; 3]) -> [f64; 3] {
     three.map(|channel| f64::from(spectrum.as_ref()[channel]))
 }
 
-/// The helium line d, at which catalogues have refractive indices, in nm.
+/// The helium line d, at which catalogues give refractive indices, in nm.
 const YELLOW: f64 = 587.561_8;
 
 /// The refractive index of glass.
@@ -251,7 +251,7 @@ fn index_at(node: &Node<'_, '_>, glass: &Glass, nm: f64) -> Result<f64, SceneErr
     Err(node.error("", format!("found the refractive index {index} at {nm} nm; expected one from 1 to 5")))
 }
 
-/// A metal by its name.
+/// A metal by name.
 fn metal(node: &Node<'_, '_>) -> Result<Option<Metal>, SceneError> {
     let Some(name) = node.text("metal")? else { return Ok(None) };
     Metal::named(name).map(Some).ok_or_else(|| {
@@ -281,7 +281,7 @@ fn alpha(node: &Node<'_, '_>) -> Result<[f64; 2], SceneError> {
     Ok([x, read("alpha_y")?.unwrap_or(x)])
 }
 
-/// A model whose parameters `make` gets for three channels at a time.
+/// A model; `make` gets its parameters for three channels at a time.
 fn modelled<T: Transport, M: Model + Debug + Send + Sync + 'static>(
     node: &Node<'_, '_>,
     reading: &Reading<'_, T>,

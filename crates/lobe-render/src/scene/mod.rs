@@ -23,38 +23,38 @@ use node::{Node, Source};
 
 pub use node::SceneError;
 
-/// What a scene file says.
+/// The content of a scene file.
 #[derive(Debug)]
 pub struct Scene<T: Transport = Rgb> {
     /// Shapes, materials and lights.
     pub world: World<T>,
-    /// What the picture is taken with.
+    /// The camera.
     pub camera: Camera,
     /// Columns and rows.
     pub size: [u32; 2],
-    /// How samples are spread around a pixel.
+    /// The filter that spreads samples around a pixel.
     pub filter: Filter,
-    /// For pictures that are tone-mapped, in stops.
+    /// Exposure of tone-mapped pictures, in stops.
     pub exposure: f32,
-    /// How radiance is found.
+    /// The integrator.
     pub integrator: Arc<dyn Integrator<T>>,
     /// Samples per pixel.
     pub samples: u32,
-    /// A hash of the scene file and of all files that were read for it, in hexadecimal.
+    /// A hash of the scene file and of all other files read for it, in hexadecimal.
     pub hash: String,
-    /// Which files those are, the scene itself first.
+    /// All of these files, the scene itself first.
     pub files: Vec<PathBuf>,
 }
 
-/// What is collected while a scene is read.
+/// State collected while a scene is read.
 struct Reading<'p, T: Transport> {
-    /// The folder that relative paths begin at.
+    /// The folder that paths are relative to.
     folder: &'p Path,
     world: WorldBuilder<T>,
-    /// What materials run on.
+    /// The backend that materials run on.
     backend: Backend,
     materials: BTreeMap<String, usize>,
-    /// Receives the share of the materials that are prepared.
+    /// Receives the share of the materials that are ready.
     progress: &'p mut dyn FnMut(f64),
 }
 
@@ -64,14 +64,15 @@ impl<T: Transport> Reading<'_, T> {
         Ok(node.text(key)?.map(|name| self.folder.join(name)))
     }
 
-    /// As [`file`](Self::file), of an array of names; empty if there is no such key.
+    /// Like [`file`](Self::file), for an array of names; empty if there is no such key.
     fn files(&self, node: &Node<'_, '_>, key: &str) -> Result<Vec<PathBuf>, SceneError> {
         Ok(node.texts(key)?.into_iter().map(|name| self.folder.join(name)).collect())
     }
 }
 
 impl Scene {
-    /// Reads a scene file and everything that it names; paths in it begin at its folder. Materials run on `backend`.
+    /// Reads a scene file and everything that it names; paths in it are relative to its folder. Materials run on
+    /// `backend`.
     ///
     /// # Errors
     /// [`SceneError`] names the file, the line and the key.
@@ -79,11 +80,11 @@ impl Scene {
         Scene::open_with_progress(path, backend, &mut |_| {})
     }
 
-    /// As [`open`](Scene::open), calling `progress` with the share of the materials that are prepared, which is what takes
-    /// time.
+    /// Like [`open`](Scene::open), but calls `progress` with the share of the materials that are ready, because
+    /// preparing them takes time.
     ///
     /// # Errors
-    /// As [`open`](Scene::open).
+    /// The same as for [`open`](Scene::open).
     pub fn open_with_progress(
         path: &Path,
         backend: Backend,
@@ -94,10 +95,10 @@ impl Scene {
         Scene::read(path, folder, &text, backend, progress)
     }
 
-    /// Reads the text of a scene; paths in it begin at `folder`, and `file` is what errors name.
+    /// Reads the text of a scene; paths in it are relative to `folder`, and errors name `file`.
     ///
     /// # Errors
-    /// As [`open`](Scene::open).
+    /// The same as for [`open`](Scene::open).
     pub fn parse(file: &Path, folder: &Path, text: &str, backend: Backend) -> Result<Self, SceneError> {
         Scene::read(file, folder, text, backend, &mut |_| {})
     }
@@ -143,7 +144,7 @@ fn read_in<T: Transport>(
     let mut reading = Reading { folder, world, backend, materials: BTreeMap::new(), progress };
     let camera = view::camera(root)?;
     let (size, filter, exposure) = view::film(root)?;
-    // Files may name further ones: all that is read counts.
+    // Files may name further files: all of them count.
     let (done, reads) = lobe_files::recorded(|| {
         material::read(root, &mut reading)?;
         object::read(root, &mut reading)?;
@@ -165,7 +166,7 @@ fn read_in<T: Transport>(
     Ok(Scene { world, camera, size, filter, exposure, integrator, samples, hash, files })
 }
 
-/// A scene in the channels that it asks for.
+/// A scene in the channels that it requests.
 #[derive(Debug)]
 pub enum AnyScene {
     /// Linear sRGB.
@@ -183,11 +184,11 @@ pub enum AnyScene {
 }
 
 impl AnyScene {
-    /// As [`Scene::open_with_progress`], in the channels that the table `[spectrum]` asks for, and by the integrator of this
-    /// name instead of that in the file, if one is given.
+    /// Like [`Scene::open_with_progress`], in the channels that the table `[spectrum]` requests, and with the
+    /// integrator of this name, if one is given, instead of the one in the file.
     ///
     /// # Errors
-    /// As [`Scene::open`], and if the integrator does not follow such light.
+    /// The same as for [`Scene::open`], and if the integrator does not follow such light.
     pub fn open_with_progress(
         path: &Path,
         backend: Backend,
@@ -198,10 +199,10 @@ impl AnyScene {
         AnyScene::read(path, path.parent().unwrap_or(Path::new("")), &text, backend, integrator, progress)
     }
 
-    /// As [`Scene::parse`], in the channels that the table `[spectrum]` asks for.
+    /// Like [`Scene::parse`], in the channels that the table `[spectrum]` requests.
     ///
     /// # Errors
-    /// As [`open_with_progress`](Self::open_with_progress).
+    /// The same as for [`open_with_progress`](Self::open_with_progress).
     pub fn parse(file: &Path, folder: &Path, text: &str, backend: Backend) -> Result<Self, SceneError> {
         AnyScene::read(file, folder, text, backend, None, &mut |_| {})
     }

@@ -1,4 +1,4 @@
-//! A TOML document whose tables are queried for the keys that they may have, so that every mistake is reported at its
+//! A TOML document whose tables are queried for the keys that they may have, so that every mistake is reported with its
 //! place.
 
 use std::cell::RefCell;
@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// What is wrong with a scene, and where.
+/// An error of a scene, and its place.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}:{line}: {key}{}{message}", file.display(), if key.is_empty() { "" } else { ": " })]
 pub struct SceneError {
     /// The scene file.
     pub file: PathBuf,
-    /// The line, counted from 1; also 1 if it is about the file as a whole.
+    /// The line, counted from 1; also 1 if the error is about the file as a whole.
     pub line: usize,
     /// The key, with dots between its parts; empty if there is none.
     pub key: String,
@@ -70,7 +70,7 @@ impl<'s, 't> Node<'s, 't> {
         self.table.get(key)
     }
 
-    /// Whether there is such a key.
+    /// `true` if there is such a key.
     pub fn has(&self, key: &str) -> bool {
         self.table.get(key).is_some()
     }
@@ -133,7 +133,7 @@ impl<'s, 't> Node<'s, 't> {
         array.iter().enumerate().map(node).collect()
     }
 
-    /// Text.
+    /// A text.
     pub fn text(&self, key: &str) -> Result<Option<&'s str>, SceneError> {
         let Some(value) = self.get(key) else { return Ok(None) };
         match value.get_ref().as_str() {
@@ -142,7 +142,7 @@ impl<'s, 't> Node<'s, 't> {
         }
     }
 
-    /// Text that is required.
+    /// A text that is required.
     pub fn required_text(&self, key: &str, expected: &str) -> Result<&'s str, SceneError> {
         self.text(key)?.ok_or_else(|| self.missing(key, expected))
     }
@@ -206,7 +206,7 @@ impl<'s, 't> Node<'s, 't> {
         numbers.map_or_else(|| self.wrong(key, value, expected), |numbers| Ok(Some(numbers)))
     }
 
-    /// Whether the value of a key is text.
+    /// `true` if the value of a key is text.
     pub fn is_text(&self, key: &str) -> bool {
         self.get(key).is_some_and(|value| value.get_ref().is_str())
     }
@@ -242,7 +242,7 @@ impl<'s, 't> Node<'s, 't> {
     }
 }
 
-/// The word that is most like another, if it is like it at all.
+/// The most similar of several words, if it is similar enough.
 fn similar<'w>(word: &str, known: &[&'w str]) -> Option<&'w str> {
     let likeness = |known: &&str| strsim::normalized_damerau_levenshtein(&word.to_lowercase(), known);
     let found = known.iter().copied().max_by(|a, b| likeness(a).total_cmp(&likeness(b)))?;
@@ -258,7 +258,7 @@ fn number(value: &DeValue<'_>) -> Option<f64> {
     parsed.filter(|x: &f64| x.is_finite())
 }
 
-/// A value as an error shows it.
+/// A value as shown in an error.
 fn shown(value: &DeValue<'_>) -> String {
     let number = value.as_integer().map(|i| i.as_str()).or_else(|| value.as_float().map(|f| f.as_str()));
     match (number, value.as_str(), value.as_bool(), value.as_array()) {
@@ -279,7 +279,7 @@ mod tests {
     use super::similar;
 
     #[test]
-    fn a_slip_finds_the_word_that_was_meant() {
+    fn a_typo_finds_the_intended_word() {
         let known = ["material", "materials", "radius", "rotate", "shading", "two_sided"];
         for (word, meant) in
             [("raduis", "radius"), ("Radius", "radius"), ("two-sided", "two_sided"), ("matrial", "material")]

@@ -1,4 +1,4 @@
-//! `[[object]]`: a mesh file or a shape by its name, of a material, somewhere in the world.
+//! `[[object]]`: a mesh file or a named shape with a material and a place in the world.
 
 use std::collections::BTreeMap;
 
@@ -28,7 +28,7 @@ pub(super) fn read<T: Transport>(root: &Node<'_, '_>, reading: &mut Reading<'_, 
         let material = named(&node, reading, "material")?;
         let by_group = groups(&node, reading, &geometry)?;
         node.finish()?;
-        // One shape a group of triangles with another material.
+        // One shape for each group of triangles with a different material.
         let mut shapes: BTreeMap<usize, Vec<[u32; 3]>> = BTreeMap::new();
         for (group, number) in geometry.groups.iter().zip(by_group) {
             let range = group.triangles.start as usize..group.triangles.end as usize;
@@ -52,7 +52,7 @@ fn geometry<T: Transport>(node: &Node<'_, '_>, reading: &mut Reading<'_, T>) -> 
         (Some(path), None) => lobe_mesh::read(&path).map_err(|error| node.error("file", error.to_string())),
         (None, Some(shape)) => {
             let segments = node.whole("segments", 3..=2048)?;
-            // Triangles for each pair of segments; what is not listed has few.
+            // Triangles for each pair of segments; shapes not listed have few.
             let each = [("sphere", 1), ("plane", 2), ("waves", 2), ("cuboid", 12)]
                 .into_iter()
                 .find(|(name, _)| *name == shape);
@@ -86,10 +86,10 @@ fn geometry<T: Transport>(node: &Node<'_, '_>, reading: &mut Reading<'_, T>) -> 
     }
 }
 
-/// The most triangles that `refine` makes of a mesh: a scene of few words must not fill the memory.
+/// The most triangles that `refine` may make from a mesh: a short scene must not fill the memory.
 const MOST: u64 = 1 << 26;
 
-/// The mesh, its triangles cut as finely as `refine` requires.
+/// The mesh, with its triangles cut as finely as `refine` requires.
 fn refined(node: &Node<'_, '_>, geometry: Geometry) -> Result<Geometry, SceneError> {
     let Some(pieces) = node.whole("refine", 1..=32)? else { return Ok(geometry) };
     let triangles = geometry.triangles.len() as u64 * u64::from(pieces).pow(2);
@@ -100,16 +100,19 @@ fn refined(node: &Node<'_, '_>, geometry: Geometry) -> Result<Geometry, SceneErr
     geometry.refined(pieces).map_err(|error| node.error("refine", error.to_string()))
 }
 
-/// Fails if there is no memory for so many triangles more.
+/// Fails if there is no memory for this many more triangles.
 fn room(node: &Node<'_, '_>, key: &str, triangles: u64) -> Result<(), SceneError> {
-    /// Bytes of a triangle: half a vertex, indices and its part of the tree, and copies while those are made.
+    /// Bytes of a triangle: half a vertex, indices and its part of the tree, and copies made during construction.
     const TRIANGLE: u64 = 400;
     lobe_memory::require(triangles * TRIANGLE).map_err(|no_room| {
-        node.error(key, format!("found {triangles} triangles, which take {no_room}; expected what fits into memory"))
+        node.error(
+            key,
+            format!("found {triangles} triangles, which take {no_room}; expected as many as fit into memory"),
+        )
     })
 }
 
-/// The number of a material that a key names.
+/// The index of the material that a key names.
 fn named<T: Transport>(node: &Node<'_, '_>, reading: &Reading<'_, T>, key: &str) -> Result<usize, SceneError> {
     let name = node.required_text(key, "the name of a material")?;
     reading.materials.get(name).copied().ok_or_else(|| {
@@ -118,7 +121,7 @@ fn named<T: Transport>(node: &Node<'_, '_>, reading: &Reading<'_, T>, key: &str)
     })
 }
 
-/// For each group of triangles the material that `materials` has for the name of its material or its own.
+/// For each group of triangles, the material that `materials` gives for the name of its material or its own name.
 fn groups<T: Transport>(
     node: &Node<'_, '_>,
     reading: &Reading<'_, T>,
@@ -143,7 +146,7 @@ fn groups<T: Transport>(
     Ok(found)
 }
 
-/// Scaled, then turned about x, y and z in this order, then moved.
+/// A transform that scales, then rotates about x, y and z in this order, then moves.
 fn place(node: &Node<'_, '_>) -> Result<Transform, SceneError> {
     let size = |x: f64| (1e-6..=1e6).contains(&x);
     let scale = node.number("scale", "a number from 1e-6 to 1e6", size)?.unwrap_or(1.0);

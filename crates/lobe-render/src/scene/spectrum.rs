@@ -1,4 +1,4 @@
-//! `[spectrum]`: which wavelengths a picture has, and whether light is polarised; and spectra wherever colours may be.
+//! `[spectrum]`: the wavelengths of a picture, and whether light is polarised. Also reads spectra in place of colours.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -10,18 +10,18 @@ use super::node::{Node, SceneError};
 use crate::integrator::{AnyTransport, SPECTRAL};
 use crate::transport::Transport;
 
-/// What is followed.
+/// The kind of light that is followed.
 pub(super) struct Wanted {
     /// The wavelengths; `None` for red, green and blue.
     pub bands: Option<Arc<Bands>>,
-    /// Whether light is polarised.
+    /// `true` if light is polarised.
     pub stokes: bool,
 }
 
-/// The most wavelengths of polarised light.
+/// The largest number of wavelengths of polarised light.
 const POLARISED: usize = 16;
 
-/// Reads the table; `None` if there is none, and red, green and blue are followed.
+/// Reads the table; `None` if there is none, so that red, green and blue are followed.
 pub(super) fn read(root: &Node<'_, '_>) -> Result<Option<Wanted>, SceneError> {
     let Some(node) = root.child("spectrum")? else { return Ok(None) };
     let stokes = node.flag("stokes")?;
@@ -36,7 +36,7 @@ pub(super) fn read(root: &Node<'_, '_>) -> Result<Option<Wanted>, SceneError> {
     };
     let bands = bands.transpose().map_err(|error| node.error(key, error.to_string()))?;
     if let Some(bands) = bands.as_ref().filter(|bands| stokes && bands.count() > POLARISED) {
-        let message = format!("found {} wavelengths; expected at most {POLARISED} of polarised light", bands.count());
+        let message = format!("found {} wavelengths; expected at most {POLARISED} for polarised light", bands.count());
         return Err(node.error(key, message));
     }
     node.finish()?;
@@ -69,8 +69,8 @@ pub(super) fn integrator(root: &Node<'_, '_>, named: Option<&str>) -> Result<(Ar
 }
 
 impl<T: Transport> Reading<'_, T> {
-    /// Light: a colour; or, with `spectrum` or `temperature`, a number that a spectrum is scaled by. A standard illuminant or a
-    /// black body has that luminance; the numbers of a file are multiplied by it.
+    /// Light: a colour; or, with `spectrum` or `temperature`, a number that scales a spectrum. A standard illuminant or
+    /// a black body gets this luminance; the numbers of a file are multiplied by it.
     pub(super) fn light(&self, node: &Node<'_, '_>, key: &str) -> Result<Option<T::Spectrum>, SceneError> {
         let basis = self.world.basis();
         let kelvin =
@@ -108,7 +108,7 @@ impl<T: Transport> Reading<'_, T> {
         light.ok_or_else(|| node.error(key, "found nothing; expected a colour, three numbers or one"))
     }
 
-    /// A share of the light: a colour, or the name of a file with a spectrum from 0 to 1.
+    /// A share of light: a colour, or the name of a file with a spectrum from 0 to 1.
     pub(super) fn share(&self, node: &Node<'_, '_>, key: &str) -> Result<Option<T::Spectrum>, SceneError> {
         let basis = self.world.basis();
         if !node.is_text(key) {
@@ -124,7 +124,7 @@ impl<T: Transport> Reading<'_, T> {
         }
     }
 
-    /// A share of the light that is required.
+    /// A share of light that is required.
     pub(super) fn required_share(&self, node: &Node<'_, '_>, key: &str) -> Result<T::Spectrum, SceneError> {
         let share = self.share(node, key)?;
         share.ok_or_else(|| node.error(key, "found nothing; expected a colour, three numbers or one, or a file"))

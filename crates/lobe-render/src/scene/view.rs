@@ -8,7 +8,7 @@ use crate::integrator::{self, INTEGRATORS, Integrator};
 
 /// The largest side of a picture.
 const SIDE: u32 = 65_536;
-/// The most pixels of a picture: what its sums take in memory is a hundred and fifty times that.
+/// The largest number of pixels of a picture: its sums take a hundred and fifty times as many bytes.
 const AREA: u64 = 1 << 27;
 
 pub(super) fn camera(root: &Node<'_, '_>) -> Result<Camera, SceneError> {
@@ -38,7 +38,7 @@ pub(super) fn film(root: &Node<'_, '_>) -> Result<([u32; 2], Filter, f32), Scene
     let Some(node) = root.child("film")? else { return Ok(([800, 600], Filter::default(), 0.0)) };
     let size = [node.whole("width", 1..=SIDE)?.unwrap_or(800), node.whole("height", 1..=SIDE)?.unwrap_or(600)];
     if u64::from(size[0]) * u64::from(size[1]) > AREA {
-        let message = format!("found {} x {} pixels; expected {AREA} at most", size[0], size[1]);
+        let message = format!("found {} x {} pixels; expected at most {AREA}", size[0], size[1]);
         return Err(node.error("width", message));
     }
     let filter = match node.text("filter")? {

@@ -1,4 +1,4 @@
-//! Any [`Bsdf`] as a material of pictures: a measured one, an analytic model, a function of a program's own.
+//! Uses any [`Bsdf`] as a material of pictures: a measured one, an analytic model, or a program's own function.
 
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -12,19 +12,19 @@ use super::{Backend, Evaluated, Lobes, Sampled, Scratch, Shader, albedo_of, time
 use crate::transport::{Conversion, Rgb, Transport, TransportMode};
 use crate::vec3::Vec3;
 
-/// A function of pairs of directions, in what the transport applies.
+/// A function of pairs of directions, converted to the scattering of the transport.
 #[derive(Debug)]
 pub struct BsdfShader<T: Transport = Rgb> {
     bsdf: Arc<dyn Bsdf>,
     backend: Backend,
     conversion: T::Conversion,
     lobes: Lobes,
-    /// Whether there are matrices, and they are wanted.
+    /// `true` if there are matrices, and they are needed.
     is_polarised: bool,
     albedo: [f32; 3],
 }
 
-/// The most memory that the histograms of a model take: the sharpest peaks of `alpha` = 0.01 are followed.
+/// The most memory that the histograms of a model take: enough to follow the sharpest peaks, of `alpha` = 0.01.
 const BYTES: usize = 4 << 20;
 
 impl<T: Transport> BsdfShader<T> {
@@ -39,10 +39,10 @@ impl<T: Transport> BsdfShader<T> {
         shader
     }
 
-    /// As [`measured_with`](Self::measured_with), in the channels of a picture.
+    /// Like [`measured_with`](Self::measured_with), in the channels of a picture.
     ///
     /// # Errors
-    /// As [`measured`](Self::measured).
+    /// The same as for [`measured`](Self::measured).
     pub fn measured_in(
         basis: &T::Basis,
         material: Material,
@@ -54,10 +54,10 @@ impl<T: Transport> BsdfShader<T> {
         Ok(BsdfShader::new_in(basis, Arc::new(sampler), backend))
     }
 
-    /// A model that reflects, in as many channels as it has, and histograms of what it answers.
+    /// A reflecting model, in as many channels as it has, with histograms of its values.
     ///
     /// # Errors
-    /// As [`model`](Self::model).
+    /// The same as for [`model`](Self::model).
     pub(crate) fn model_in(
         basis: &T::Basis,
         model: impl Bsdf + 'static,
@@ -84,7 +84,7 @@ impl<T: Transport<Basis = ()>> BsdfShader<T> {
         BsdfShader::new_in(&(), bsdf, backend)
     }
 
-    /// A material and the distributions that its directions are sampled from, on the backend of the material.
+    /// A material and the distributions from which its directions are sampled, on the backend of the material.
     ///
     /// # Errors
     /// If there is no sampler for the material.
@@ -92,10 +92,10 @@ impl<T: Transport<Basis = ()>> BsdfShader<T> {
         BsdfShader::measured_with(material, &SamplerOptions::default(), &mut |_, _| {})
     }
 
-    /// As [`measured`](Self::measured), calling `progress(done, all)` after each slice of a distribution.
+    /// Like [`measured`](Self::measured), but calls `progress(done, all)` after each slice of a distribution.
     ///
     /// # Errors
-    /// As [`measured`](Self::measured).
+    /// The same as for [`measured`](Self::measured).
     pub fn measured_with(
         material: Material,
         options: &SamplerOptions,
@@ -104,10 +104,10 @@ impl<T: Transport<Basis = ()>> BsdfShader<T> {
         BsdfShader::measured_in(&(), material, options, progress)
     }
 
-    /// A model that reflects, and histograms of what it answers, which directions are sampled from.
+    /// A reflecting model, with histograms of its values, from which directions are sampled.
     ///
     /// # Errors
-    /// If no distribution can be made of the model's answers.
+    /// If no distribution can be built from the values of the model.
     pub fn model(
         model: impl Model + Debug + Send + Sync + 'static,
         backend: Backend,
@@ -164,7 +164,7 @@ impl<T: Transport> Shader<T> for BsdfShader<T> {
         self.bsdf.pdf_batch(self.backend, given(mode), light, viewer, pdf);
     }
 
-    /// Mirrors that were measured in addition to the values are sampled too: their density is infinite.
+    /// Separately measured mirrors are sampled too: their density is infinite.
     fn sample(&self, mode: TransportMode, wo: &[Vec3], u: &[[f32; 2]], out: Sampled<'_, T>, scratch: &mut Scratch) {
         let Sampled { wi, weight, pdf } = out;
         if let Some(values) = self.conversion.in_place(weight) {
@@ -180,7 +180,7 @@ impl<T: Transport> Shader<T> for BsdfShader<T> {
             let mut matrices = vec![T::ABSORBED; wo.len()];
             self.matrices([wi, wo], |at| wi[at][2].abs() / pdf[at].max(f32::MIN_POSITIVE), &mut matrices);
             for ((weight, matrix), pdf) in weight.iter_mut().zip(matrices).zip(&*pdf) {
-                // A mirror that was measured in addition has no matrix.
+                // A separately measured mirror has no matrix.
                 if *pdf > 0.0 && pdf.is_finite() {
                     *weight = matrix;
                 }
@@ -199,7 +199,7 @@ mod tests {
 
     const CLOTH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/cloth-17x7x17x13.ddr");
 
-    /// For known directions in both modes: samples, whose weights and densities are those of the pairs.
+    /// Asserts for known directions in both modes that samples have the weights and densities of the pairs.
     fn assert_samples_agree(name: &str, shader: &BsdfShader, value: &dyn Fn([Vec3; 2]) -> [f32; 3]) {
         const SIDE: usize = 12;
         let n = SIDE * SIDE;
@@ -224,13 +224,13 @@ mod tests {
                 apart += usize::from(!near(drawn[i], pdf[i], 1e-2));
                 lit += 1;
             }
-            // At the edge of a cell rounding leads to the other one.
+            // At the edge of a cell, rounding may lead into the other cell.
             assert!(lit > n / 2 && apart <= lit / 50, "{name}, {mode:?}: {apart} apart of {lit}");
         }
     }
 
     #[test]
-    fn samples_for_a_given_viewer_and_for_given_light_weigh_what_pairs_do() {
+    fn samples_for_given_viewers_and_for_given_lights_have_the_weights_of_pairs() {
         let backend = Backend::best();
         let open = || Material::open(CLOTH).unwrap().with_backend(backend);
         let (material, shader) = (open(), BsdfShader::measured(open()).unwrap());

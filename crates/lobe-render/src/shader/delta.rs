@@ -7,28 +7,28 @@ use crate::channels::Channels;
 use crate::transport::{Polarisation, Transport, TransportMode};
 use crate::vec3::{Vec3, dot, scale, sub, unit};
 
-/// One of the exact directions that a path may take, and what that does to it.
+/// One of the exact directions that a path may take, and its effect on the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DeltaSample<S> {
     /// The direction in which the path continues.
     pub wi: [f32; 3],
-    /// What radiance, or importance, is multiplied by.
+    /// The factor for radiance or importance.
     pub weight: S,
-    /// What it does to polarised light; `None` if that is not wanted, or it makes unpolarised light of it.
+    /// The effect on polarised light; `None` if that was not requested, or if the light becomes unpolarised.
     pub polarisation: Option<Polarisation<S>>,
 }
 
-/// What is wanted of a sample.
+/// The contents requested of a sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Choice {
-    /// Whether it is to say what it does to polarised light.
+    /// `true` to include the effect on polarised light.
     pub is_polarised: bool,
-    /// If channels go different ways: the one that is followed, and what it counts for all of them. Without one, all go the way
-    /// of the middle one.
+    /// If channels take different directions: the channel that is followed, and its weight for all of them. If it is
+    /// `None`, all take the direction of the middle one.
     pub lone: Option<(usize, f32)>,
 }
 
-/// The exact directions for a known one.
+/// The exact directions for a known direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DeltaSamples<S> {
     /// The mirrored direction.
@@ -37,26 +37,27 @@ pub struct DeltaSamples<S> {
     pub transmission: Option<DeltaSample<S>>,
 }
 
-/// What a smooth surface does to a ray.
+/// The effect of a smooth surface on a ray.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Delta<S: Channels = [f32; 3]> {
     /// Mirrors a constant share of the light.
     Mirror(S),
-    /// Mirrors a share of the light that depends on the angle to the normal: rising angles in radians with a share each.
+    /// Mirrors a share of the light that depends on the angle to the normal: ascending angles in radians, each with a
+    /// share.
     Measured(Vec<(f32, S)>),
     /// Mirrors and refracts by the equations of Fresnel.
     Glass {
         /// Refractive index inside (the side that the normal points away from) over that outside.
         eta: f32,
-        /// What mirrored and refracted light are multiplied by.
+        /// The factors for mirrored and for refracted light.
         tint: S,
     },
-    /// Glass whose refractive index is another one in each channel.
+    /// Glass with a different refractive index in each channel.
     Dispersive {
-        /// As that of glass, by channel.
+        /// The relative refractive index by channel, as for glass.
         eta: S,
-        /// What mirrored and refracted light are multiplied by.
+        /// The factors for mirrored and for refracted light.
         tint: S,
     },
     /// A smooth metal, by the equations of Fresnel.
@@ -66,24 +67,24 @@ pub enum Delta<S: Channels = [f32; 3]> {
         /// Its imaginary part.
         k: S,
     },
-    /// A thin sheet that light goes straight through, only as much of it as is polarised along an axis.
+    /// A thin sheet through which light goes straight; only the part polarised along an axis passes.
     Polariser {
         /// The angle of the axis from the x axis of the surface, in radians.
         angle: f32,
-        /// The share of such light that passes.
+        /// The share of this part that passes.
         tint: S,
     },
-    /// A thin sheet that light goes straight through, and that delays it across an axis.
+    /// A thin sheet through which light goes straight, and which delays the part polarised across an axis.
     Retarder {
         /// The angle of the fast axis from the x axis of the surface, in radians.
         angle: f32,
-        /// By how much, in radians.
+        /// The delay, in radians.
         retardance: f32,
     },
 }
 
 impl<S: Channels> Delta<S> {
-    /// The direction in which a path with the known direction `wo` continues.
+    /// The directions in which a path with the known direction `wo` may continue.
     pub fn samples(&self, mode: TransportMode, wo: [f32; 3]) -> DeltaSamples<S> {
         let mirrored = [-wo[0], -wo[1], wo[2]];
         let mirror = |weight| DeltaSamples { reflection: DeltaSample::new(mirrored, weight), transmission: None };
@@ -94,7 +95,7 @@ impl<S: Channels> Delta<S> {
                 let ratio = if wo[2] > 0.0 { 1.0 / eta } else { *eta };
                 let (share, refracted) = refract(wo, ratio);
                 let transmission = refracted.map(|wi| {
-                    // Radiance, but not importance, is squeezed into the smaller cone of the denser medium.
+                    // Radiance, but not importance, is compressed into the smaller cone of the denser medium.
                     let squeezed = match mode {
                         TransportMode::Radiance => ratio * ratio,
                         TransportMode::Importance => 1.0,
@@ -107,12 +108,12 @@ impl<S: Channels> Delta<S> {
         }
     }
 
-    /// Whether channels may go different ways.
+    /// `true` if channels may take different directions.
     pub fn disperses(&self) -> bool {
         matches!(self, Delta::Dispersive { .. })
     }
 
-    /// As [`samples`](Self::samples), with what is wanted of them.
+    /// Like [`samples`](Self::samples), with the contents requested of them.
     pub fn samples_of(&self, mode: TransportMode, wo: [f32; 3], choice: Choice) -> DeltaSamples<S> {
         let mirrored = [-wo[0], -wo[1], wo[2]];
         match self {
@@ -126,7 +127,7 @@ impl<S: Channels> Delta<S> {
                 let (mut weight, mut elements) = (S::ZERO, [S::ZERO; 3]);
                 for channel in 0..S::COUNT {
                     let (eta, k) = (f64::from(eta.as_ref()[channel]), f64::from(k.as_ref()[channel]));
-                    // Channels that are not in use have no index.
+                    // Unused channels have no index.
                     if eta == 0.0 && k == 0.0 {
                         continue;
                     }
@@ -152,7 +153,7 @@ impl<S: Channels> Delta<S> {
 }
 
 impl<S> DeltaSample<S> {
-    /// A direction, and a weight of unpolarised light.
+    /// A sample of a direction, with a weight for unpolarised light.
     pub fn new(wi: [f32; 3], weight: S) -> Self {
         DeltaSample { wi, weight, polarisation: None }
     }
@@ -174,13 +175,13 @@ fn polarisation<S>(wo: Vec3, [b, c, s]: [S; 3]) -> Polarisation<S> {
     Polarisation { axis, b, c, s }
 }
 
-/// What goes straight through a sheet with an axis.
+/// Light that goes straight through a sheet with an axis.
 fn straight<S: Channels>(wo: Vec3, angle: f32, weight: S, [b, c, s]: [S; 3], choice: Choice) -> DeltaSamples<S> {
     let (sin, cos) = libm::sincosf(angle);
     let along = [cos, sin, 0.0];
     let away = dot(along, wo);
     let axis = unit(sub(along, scale(wo, away)));
-    // Light along the axis itself has no part across it.
+    // Light that travels along the axis has no part across it.
     let polarisation = axis.filter(|_| choice.is_polarised).map(|axis| Polarisation { axis, b, c, s });
     let wi = wo.map(|x| -x);
     DeltaSamples {
@@ -201,7 +202,7 @@ fn refractive<S: Channels>(mode: TransportMode, wo: Vec3, eta: &S, tint: &S, cho
     let guide = eta.as_ref()[lone.min(S::COUNT - 1)];
     for channel in 0..S::COUNT {
         let (eta, tint) = (eta.as_ref()[channel], tint.as_ref()[channel]);
-        // Channels that are not in use have no index.
+        // Unused channels have no index.
         if eta == 0.0 {
             continue;
         }
@@ -223,8 +224,8 @@ fn refractive<S: Channels>(mode: TransportMode, wo: Vec3, eta: &S, tint: &S, cho
     DeltaSamples { reflection, transmission }
 }
 
-/// The share that is mirrored, and the refracted direction unless all is; `ratio` is the index on the side of `wo` over
-/// that of the other side.
+/// The mirrored share, and the refracted direction unless all light is mirrored; `ratio` is the index on the side of
+/// `wo` over the index on the other side.
 fn refract(wo: Vec3, ratio: f32) -> (f32, Option<Vec3>) {
     let cos = wo[2].abs().min(1.0);
     let sin2 = ratio * ratio * (1.0 - cos * cos);
@@ -239,7 +240,7 @@ fn refract(wo: Vec3, ratio: f32) -> (f32, Option<Vec3>) {
     (share, Some([-ratio * wo[0], -ratio * wo[1], z]))
 }
 
-/// Linear between the angles, constant beyond them.
+/// Interpolates linearly between the angles; constant beyond them.
 fn share_at<S: Channels>(shares: &[(f32, S)], wo: Vec3) -> S {
     let theta = libm::acosf(wo[2].abs().min(1.0));
     let after = shares.partition_point(|(angle, _)| *angle <= theta);
@@ -257,7 +258,7 @@ fn share_at<S: Channels>(shares: &[(f32, S)], wo: Vec3) -> S {
     }
 }
 
-/// A material that is a [`Delta`] and nothing else.
+/// A material that consists only of a [`Delta`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct DeltaShader<S: Channels = [f32; 3]>(pub Delta<S>);
 
@@ -271,7 +272,7 @@ impl<T: Transport> Shader<T> for DeltaShader<T::Spectrum> {
         Some(&self.0)
     }
 
-    /// White, as denoisers want smooth surfaces to be.
+    /// White, as denoisers expect of smooth surfaces.
     fn albedo(&self) -> [f32; 3] {
         [1.0; 3]
     }
@@ -299,21 +300,21 @@ mod tests {
         let through = transmission.unwrap();
         assert_eq!(mirror.wi, [-0.6, 0.0, 0.8]);
         assert!((through.wi[0] + 0.6 / 1.5).abs() < 1e-6 && through.wi[2] < 0.0);
-        // Without the factor of the cones, what is not mirrored goes through.
+        // Without the factor of the cones, all light that is not mirrored passes through.
         assert!((mirror.weight[0] + through.weight[0] * 1.5 * 1.5 - 1.0).abs() < 1e-6);
-        // And the way back is the same way.
+        // The reverse path takes the same directions.
         let back = glass.samples(TransportMode::Radiance, through.wi).transmission.unwrap().wi;
         assert!(wo.iter().zip(back).all(|(a, b)| (a - b).abs() < 1e-6), "{back:?}");
-        // From inside at a flat angle all is mirrored.
+        // From inside at a grazing angle, all light is mirrored.
         assert!(glass.samples(TransportMode::Radiance, [0.9, 0.0, -0.43589]).transmission.is_none());
         // At the normal: ((n - 1) / (n + 1))^2.
         assert!((glass.samples(TransportMode::Radiance, [0.0, 0.0, 1.0]).reflection.weight[0] - 0.04).abs() < 1e-6);
     }
 
-    /// Radiance along a path and importance along its reverse are scaled alike but for eta^2, which cancels where a
+    /// Radiance along a path and importance along its reverse are scaled alike except for eta^2, which cancels when a
     /// path enters a medium and leaves it again.
     #[test]
-    fn glass_scales_radiance_by_the_index_and_importance_not() {
+    fn glass_scales_radiance_but_not_importance_by_the_index() {
         let glass = Delta::Glass { eta: 1.5, tint: [1.0, 0.5] };
         for wo in [[0.6, 0.0, 0.8], [0.3, 0.2, -0.933]] {
             let of = |mode| glass.samples(mode, wo);
@@ -325,7 +326,7 @@ mod tests {
             for k in 0..2 {
                 assert!((radiance.weight[k] / importance.weight[k] - ratio * ratio).abs() < 1e-6);
             }
-            // What importance carries in, radiance carries back, for one side of the surface and the other.
+            // Importance one way and radiance the other way are scaled alike, on both sides of the surface.
             let back = glass.samples(TransportMode::Importance, importance.wi).transmission.unwrap();
             assert!((back.weight[0] - importance.weight[0]).abs() < 1e-5);
         }

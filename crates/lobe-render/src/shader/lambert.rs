@@ -11,11 +11,11 @@ use crate::transport::{Transport, TransportMode};
 use crate::vec3::Vec3;
 use crate::vectors::cosine_hemisphere;
 
-/// A surface that looks equally bright from everywhere.
+/// A surface that looks equally bright from all directions.
 #[derive(Clone, Copy, Debug)]
 pub struct Lambert<S: Channels = [f32; 3]> {
     albedo: S,
-    /// In linear sRGB, for the albedo image.
+    /// Albedo in linear sRGB, for the albedo image.
     colour: [f32; 3],
     backend: Backend,
 }
@@ -30,14 +30,14 @@ impl<S: Channels> Lambert<S> {
         Lambert { albedo, colour, backend }
     }
 
-    /// The same with a colour for the albedo image.
+    /// The same, with a colour for the albedo image.
     #[must_use]
     pub fn with_colour(self, colour: [f32; 3]) -> Self {
         Lambert { colour, ..self }
     }
 }
 
-/// Of the light on the front; the backend is that of the call.
+/// Values for light on the front, on the backend given.
 impl Bsdf for Lambert {
     fn channels(&self) -> &Names {
         &Names::Rgb
@@ -83,12 +83,12 @@ impl Bsdf for Lambert {
     }
 }
 
-/// The density with which a direction is sampled for a known one.
+/// The density with which a direction is sampled for a known direction.
 fn density(known: Vec3, sampled: Vec3) -> f32 {
     if known[2] > 0.0 { sampled[2].max(0.0) / PI } else { 0.0 }
 }
 
-/// As the [`Bsdf`], in the channels of any transport.
+/// Like the [`Bsdf`], in the channels of any transport.
 impl<T: Transport> Shader<T> for Lambert<T::Spectrum> {
     fn albedo(&self) -> [f32; 3] {
         self.colour
@@ -124,7 +124,7 @@ fn sample_cosine(backend: Backend, u: &[[f32; 2]], wi: &mut [Vec3]) {
     backend.run(SampleCosine { u, wi });
 }
 
-/// Directions by the cosine.
+/// Samples directions in proportion to the cosine.
 struct SampleCosine<'a> {
     u: &'a [[f32; 2]],
     wi: &'a mut [[f32; 3]],

@@ -1,8 +1,8 @@
-//! Materials as a renderer needs them: batches of values with densities, and batches of drawn directions.
+//! Materials as a renderer needs them: batches of values with densities, and batches of sampled directions.
 //!
 //! Directions are unit vectors in the frame of the surface, normal on +z; `wo` is known (for a path from the camera it
-//! leads to the viewer), `wi` is sampled. A batch is of one material and as long as can be, so that all lanes are in use. Materials run
-//! on the backend that they were made with.
+//! leads to the viewer), `wi` is sampled. A batch belongs to one material and is as long as possible, so that all lanes
+//! are in use. Materials run on the backend that they were made with.
 
 mod bsdf;
 mod delta;
@@ -24,7 +24,7 @@ pub use open::{
 
 use crate::transport::{Rgb, Transport, TransportMode};
 
-/// Where values go, one entry per pair of directions.
+/// Output for values, one entry per pair of directions.
 #[derive(Debug)]
 pub struct Evaluated<'a, T: Transport> {
     /// `f` times `|cos theta_i|` in 1/sr.
@@ -33,7 +33,7 @@ pub struct Evaluated<'a, T: Transport> {
     pub pdf: &'a mut [f32],
 }
 
-/// Where sampled directions go, one entry per `wo`.
+/// Output for sampled directions, one entry per `wo`.
 #[derive(Debug)]
 pub struct Sampled<'a, T: Transport> {
     /// The directions.
@@ -44,10 +44,10 @@ pub struct Sampled<'a, T: Transport> {
     pub pdf: &'a mut [f32],
 }
 
-/// What kinds of lobes a material has.
+/// The kinds of lobes of a material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Lobes {
-    /// It has values for pairs of directions: [`Shader::eval`] and [`Shader::sample`] answer for it.
+    /// It has values for pairs of directions, from [`Shader::eval`] and [`Shader::sample`].
     pub values: bool,
     /// It sends light into exact directions: [`Shader::delta`], or samples of infinite density.
     pub delta: bool,
@@ -61,7 +61,7 @@ impl Lobes {
     pub const REFLECTION: Self = Lobes { values: true, delta: false, transmits: false };
 }
 
-/// Memory for channels on their way to a picture, kept from batch to batch.
+/// Memory for the conversion of channels, kept from batch to batch.
 #[derive(Debug, Default)]
 pub struct Scratch {
     values: Vec<f32>,
@@ -76,12 +76,12 @@ impl Scratch {
     }
 }
 
-/// A material as a renderer of the transport `T` sees it.
+/// A material for a renderer of the transport `T`.
 ///
-/// In [`TransportMode::Importance`] the path comes from a light: the known direction `wo` leads to the light, and `wi` is
-/// where it continues. Values are those of the pair that light takes, times the cosine of `wi` in either mode.
+/// In [`TransportMode::Importance`] the path comes from a light: the known direction `wo` leads to the light, and `wi`
+/// is where it continues. Values belong to the pair that light takes, times the cosine of `wi` in either mode.
 pub trait Shader<T: Transport = Rgb>: Debug + Send + Sync {
-    /// What kinds of lobes it has.
+    /// The kinds of lobes of the material.
     fn lobes(&self) -> Lobes {
         Lobes::REFLECTION
     }
@@ -91,7 +91,7 @@ pub trait Shader<T: Transport = Rgb>: Debug + Send + Sync {
         None
     }
 
-    /// Roughly the share of light that comes back, in linear sRGB, for the albedo image.
+    /// The approximate share of reflected light, in linear sRGB, for the albedo image.
     fn albedo(&self) -> [f32; 3];
 
     /// Values and densities of pairs of directions. All slices are equally long. Not called without
@@ -109,7 +109,8 @@ pub trait Shader<T: Transport = Rgb>: Debug + Send + Sync {
     fn sample(&self, mode: TransportMode, wo: &[[f32; 3]], u: &[[f32; 2]], out: Sampled<'_, T>, scratch: &mut Scratch);
 }
 
-/// The mean weight of directions that a shader samples for a viewer 30 degrees from the normal: its albedo there.
+/// The mean weight of the directions that a shader samples for a viewer 30 degrees from the normal: its albedo for this
+/// viewer.
 fn albedo_of<T: Transport>(shader: &impl Shader<T>, basis: &T::Basis) -> [f32; 3] {
     const SIDE: usize = 24;
     let n = SIDE * SIDE;
@@ -125,8 +126,8 @@ fn albedo_of<T: Transport>(shader: &impl Shader<T>, basis: &T::Basis) -> [f32; 3
     std::array::from_fn(|k| (colours.iter().map(|c| f64::from(c[k])).sum::<f64>() / n as f64).clamp(0.0, 1.0) as f32)
 }
 
-/// Values times the cosine. Negative values stay: they are of colours that the channels cannot show, or noise, and
-/// without them the sums of many values would be too bright.
+/// Values times the cosine. Negative values are kept: they come from colours that the channels cannot represent, or
+/// from noise, and without them the sums of many values would be too bright.
 fn times_cosine<T: Transport>(f: &mut [T::Scattering], wi: &[[f32; 3]]) {
     for (f, wi) in f.iter_mut().zip(wi) {
         *f = T::scale(*f, wi[2].abs());

@@ -9,7 +9,7 @@ use lobe_table::mueller::{Matrix, plane_normal, stokes_basis};
 
 use super::Backend;
 
-/// Models of three channels each, one after another: as many channels as are wanted.
+/// Models of three channels each, one after another, for any number of channels.
 #[derive(Debug)]
 pub(crate) struct Together<M> {
     models: Vec<M>,
@@ -17,7 +17,7 @@ pub(crate) struct Together<M> {
 }
 
 impl<M> Together<M> {
-    /// Models for these channels: `make` gets three of their numbers, of which the last may be repeated.
+    /// Models for these channels: `make` gets three channel numbers at a time, of which the last may be repeated.
     pub fn new(channels: Channels, make: impl Fn([usize; 3]) -> M) -> Self {
         let count = channels.count();
         let last = count - 1;
@@ -86,7 +86,7 @@ impl Bsdf for RoughMetal {
     }
 }
 
-/// Cosine and sine of twice the angle from the normal of the plane to the x axis of each direction.
+/// Cosine and sine of twice the angle from the normal of the plane of incidence to the x axis of each direction.
 fn turns(wi: [f64; 3], wo: [f64; 3]) -> ([f64; 2], [f64; 2]) {
     let normal = plane_normal(wi, wo);
     let toward = wi.map(|x| -x);
@@ -106,7 +106,8 @@ fn turns(wi: [f64; 3], wo: [f64; 3]) -> ([f64; 2], [f64; 2]) {
 
 /// A matrix about the normal of the plane, in the frames of the directions.
 fn turned(plane: Matrix, [ci, si]: [f64; 2], [co, so]: [f64; 2]) -> Matrix {
-    // Columns by the transposed turn of the light, then rows by that of what leaves.
+    // First the columns by the transposed rotation of the incoming light, then the rows by the rotation of the outgoing
+    // light.
     let mut columns = plane;
     for row in &mut columns {
         let (x, y) = (row[1], row[2]);

@@ -1,4 +1,4 @@
-//! Materials from files of any format.
+//! Opens materials from files of any format.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -12,13 +12,13 @@ use super::{Backend, BsdfShader, Delta, DeltaShader, Shader};
 use crate::channels::Channels as _;
 use crate::transport::{Rgb, Transport};
 
-/// Why a file makes no material.
+/// The reason why a file does not give a material.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MaterialError {
     /// The file cannot be read.
     #[error(transparent)]
     Format(#[from] FormatError),
-    /// What it holds cannot be evaluated.
+    /// Its content cannot be evaluated.
     #[error(transparent)]
     Open(#[from] OpenError),
     /// Directions cannot be sampled for it.
@@ -31,7 +31,7 @@ pub enum MaterialError {
     },
 }
 
-/// Opens any file that [`lobe`] opens as a material of a picture.
+/// Opens any file that [`lobe`] can open as a material of a picture.
 ///
 /// # Errors
 /// [`MaterialError`] names the file.
@@ -39,11 +39,11 @@ pub fn open(path: &Path, options: &Options, backend: Backend) -> Result<Arc<dyn 
     open_with(path, options, backend, None, &mut |_, _| {})
 }
 
-/// As [`open`], calling `progress(done, all)` after each slice of the distributions that directions are sampled from. If they
-/// would take much longer than `limit` to build, coarser ones are built, and there is more noise.
+/// Like [`open`], but calls `progress(done, all)` after each slice of the distributions from which directions are
+/// sampled. If they would take much longer than `limit` to build, coarser ones are built, which gives more noise.
 ///
 /// # Errors
-/// As [`open`].
+/// The same as for [`open`].
 pub fn open_with(
     path: &Path,
     options: &Options,
@@ -54,10 +54,10 @@ pub fn open_with(
     from_document(&lobe::formats::open(path)?.1, path, options, backend, limit, progress)
 }
 
-/// As [`open_with`], of a file that was read; `path` only names it in errors.
+/// Like [`open_with`], for a file that was already read; `path` is only used in errors.
 ///
 /// # Errors
-/// As [`open`].
+/// The same as for [`open`].
 pub fn from_document(
     document: &Document,
     path: &Path,
@@ -69,10 +69,10 @@ pub fn from_document(
     from_document_in(&(), document, path, options, backend, limit, progress)
 }
 
-/// As [`from_document`], in the channels of a picture.
+/// Like [`from_document`], in the channels of a picture.
 ///
 /// # Errors
-/// As [`open`].
+/// The same as for [`open`].
 pub fn from_document_in<T: Transport>(
     basis: &T::Basis,
     document: &Document,
@@ -105,10 +105,10 @@ pub fn open_sheet(
     open_sheet_with_progress(front, back, options, backend, &mut |_, _| {})
 }
 
-/// As [`open_sheet`], with `progress` as in [`open_with`].
+/// Like [`open_sheet`], with `progress` as in [`open_with`].
 ///
 /// # Errors
-/// As [`open_sheet`].
+/// The same as for [`open_sheet`].
 pub fn open_sheet_with_progress(
     front: &[PathBuf],
     back: &[PathBuf],
@@ -119,10 +119,10 @@ pub fn open_sheet_with_progress(
     open_sheet_in(&(), front, back, options, backend, progress)
 }
 
-/// As [`open_sheet_with_progress`], in the channels of a picture.
+/// Like [`open_sheet_with_progress`], in the channels of a picture.
 ///
 /// # Errors
-/// As [`open_sheet`].
+/// The same as for [`open_sheet`].
 pub fn open_sheet_in<T: Transport>(
     basis: &T::Basis,
     front: &[PathBuf],
@@ -150,7 +150,7 @@ fn prepare<T: Transport>(
     Ok(Arc::new(shader.map_err(|why| MaterialError::Sampler { file: path.into(), why })?))
 }
 
-/// Bytes of histograms that are built in about so much time.
+/// Bytes of histograms that are built in about this time.
 fn affordable(material: &Material, limit: Duration) -> usize {
     const TRIALS: usize = 512;
     let direction = |k: usize| {
@@ -166,7 +166,7 @@ fn affordable(material: &Material, limit: Duration) -> usize {
     (0.5 * evaluations) as usize
 }
 
-/// Reflectance by the angle of the light, averaged over its azimuths.
+/// Reflectance by the polar angle of the light, averaged over its azimuths.
 fn mirror<T: Transport>(basis: &T::Basis, specular: &mirror::Data) -> Delta<T::Spectrum> {
     let [sigma, psi] = specular.knots();
     let spectra = T::measured(basis, specular.channels(), specular.values());

@@ -1,4 +1,4 @@
-//! A value per wavelength.
+//! Transport of one value per wavelength.
 
 use std::sync::Arc;
 
@@ -128,21 +128,21 @@ fn padded<const N: usize>(values: &[f32]) -> [f32; N] {
     all
 }
 
-/// To the wavelengths of a picture.
+/// Conversion to the wavelengths of a picture.
 #[derive(Clone, Debug)]
 pub struct BandConversion<const N: usize> {
     channels: usize,
     parts: Parts<N>,
 }
 
-/// What bands are made of.
+/// How bands are computed.
 #[derive(Clone, Debug)]
 enum Parts<const N: usize> {
     /// The channels are the bands.
     Same,
     /// A spectrum for each channel.
     Colours(Vec<[f32; N]>),
-    /// For each band two channels, and how much each counts.
+    /// For each band, two channels and their weights.
     Between { from: [[usize; 2]; N], weights: [[f32; 2]; N] },
 }
 

@@ -1,16 +1,16 @@
-//! Mueller matrices of each channel of a picture.
+//! Mueller matrices for each channel of a picture.
 
-/// A Mueller matrix of each channel, `[row][column][channel]`.
+/// A Mueller matrix for each channel, `[row][column][channel]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mueller<const N: usize> {
     /// The elements.
     pub elements: [[[f32; N]; 4]; 4],
-    /// Whether only the first element is not 0: the light that leaves is unpolarised.
+    /// `true` if only the first element is not 0, so that outgoing light is unpolarised.
     pub depolarises: bool,
 }
 
 impl<const N: usize> Mueller<N> {
-    /// What passes all light on as it is.
+    /// The identity, which does not change light.
     pub(super) const IDENTITY: Self = {
         let mut elements = [[[0.0; N]; 4]; 4];
         let mut k = 0;
@@ -21,7 +21,7 @@ impl<const N: usize> Mueller<N> {
         Mueller { elements, depolarises: false }
     };
 
-    /// What makes unpolarised light of all light.
+    /// An ideal depolariser, which makes all light unpolarised.
     pub fn depolarising(first: [f32; N]) -> Self {
         let mut elements = [[[0.0; N]; 4]; 4];
         elements[0][0] = first;
@@ -37,7 +37,7 @@ impl<const N: usize> Mueller<N> {
         self
     }
 
-    /// This one after another one.
+    /// This matrix applied after another one.
     pub(super) fn after(&self, first: &Self) -> Self {
         let mut elements = [[[0.0; N]; 4]; 4];
         let columns = if first.depolarises { 1 } else { 4 };
@@ -53,7 +53,7 @@ impl<const N: usize> Mueller<N> {
         Mueller { elements, depolarises: false }
     }
 
-    /// The x axis before turned by half of an angle, given by its cosine and sine.
+    /// The matrix with the incoming x axis rotated by half an angle, given by the cosine and sine of the angle.
     pub(super) fn turned_before(mut self, [cos, sin]: [f32; 2]) -> Self {
         for row in &mut self.elements {
             let (a, b) = (row[1], row[2]);
@@ -65,7 +65,7 @@ impl<const N: usize> Mueller<N> {
         self
     }
 
-    /// The x axis after turned by half of an angle, given by its cosine and sine.
+    /// The matrix with the outgoing x axis rotated by half an angle, given by the cosine and sine of the angle.
     pub(super) fn turned_after(mut self, [cos, sin]: [f32; 2]) -> Self {
         let (a, b) = (self.elements[1], self.elements[2]);
         for column in 0..4 {

@@ -1,4 +1,4 @@
-//! Pictures in linear sRGB.
+//! Transport in linear sRGB.
 
 use std::sync::OnceLock;
 
@@ -111,7 +111,7 @@ impl Transport for Rgb {
     }
 }
 
-/// To linear sRGB, as everything that is displayed.
+/// Conversion to linear sRGB, as for everything that is displayed.
 impl Conversion<Rgb> for Reduction {
     fn of(channels: &lobe::Channels, (): &()) -> Self {
         Reduction::for_display(channels)
@@ -130,13 +130,13 @@ impl Conversion<Rgb> for Reduction {
     }
 }
 
-/// What spectra are integrated over.
+/// The bands over which spectra are integrated.
 fn fine() -> &'static Bands {
     static FINE: OnceLock<Bands> = OnceLock::new();
-    FINE.get_or_init(|| Bands::uniform(31).expect("bands that can be seen"))
+    FINE.get_or_init(|| Bands::uniform(31).expect("visible bands"))
 }
 
-/// Wavelengths at which an index has the values that red, green and blue get, in nm.
+/// Wavelengths at which the refractive index is taken for red, green and blue, in nm.
 const PLACES: [f64; 3] = [610.0, 550.0, 465.0];
 
 /// The colour of light.

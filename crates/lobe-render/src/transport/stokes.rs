@@ -1,9 +1,9 @@
 //! Polarised light: four Stokes components of each channel.
 //!
-//! A Stokes vector refers to an x axis across the direction in which light travels, which for directions of the world and of
-//! materials is [`stokes_basis`] of that direction; at the film it is the right of the camera. S1 is light along the x axis
-//! less light across it, S2 that along the diagonal from the x to the y axis less that across it, and S3 counts circular light,
-//! with the signs of [`fresnel`](lobe_model::fresnel).
+//! A Stokes vector refers to an x axis across the direction in which light travels, which for directions of the world
+//! and of materials is [`stokes_basis`] of that direction; at the film it is the right of the camera. S1 is light along
+//! the x axis minus light across it, S2 light along the diagonal from the x to the y axis minus light across that, and
+//! S3 measures circular light, with the signs of [`fresnel`](lobe_model::fresnel).
 
 use std::fmt::Debug;
 use std::marker::PhantomData;
@@ -25,7 +25,7 @@ pub type StokesRgb = Stokes<Rgb, 3>;
 /// Polarised light of up to 16 wavelengths.
 pub type Stokes16 = Stokes<Bands<16>, 16>;
 
-/// Values of four Stokes components, `[component][channel]`.
+/// Values of the four Stokes components, `[component][channel]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Components<V, const N: usize>(pub [[V; N]; 4]);
 
@@ -62,17 +62,17 @@ impl<const N: usize> Channels for Components<f32, N> {
     }
 }
 
-/// What a smooth surface does to polarised light: the Mueller matrix `[[1, b, 0, 0], [b, 1, 0, 0], [0, 0, c, s], [0, 0, -s, c]]`
-/// times the weight of a sample.
+/// The effect of a smooth surface on polarised light: the Mueller matrix `[[1, b, 0, 0], [b, 1, 0, 0], [0, 0, c, s],
+/// [0, 0, -s, c]]` times the weight of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Polarisation<S> {
-    /// The x axis of the Stokes frames, before and after, in the frame of the surface.
+    /// The x axes of the Stokes frames of incoming and outgoing light, in the frame of the surface.
     pub axis: [f32; 3],
-    /// Light along the axis less light across it, of unpolarised light.
+    /// Light along the axis minus light across it, for unpolarised light.
     pub b: S,
-    /// What is left of diagonal and of circular light.
+    /// The share of diagonal and of circular light that is left.
     pub c: S,
-    /// What is turned from one of these into the other.
+    /// The share of one of these that is converted into the other.
     pub s: S,
 }
 
@@ -84,7 +84,7 @@ pub(crate) fn stokes_basis([x, y, z]: Vec3) -> Vec3 {
     [1.0 + sign * x * x * a, sign * x * y * a, -sign * x]
 }
 
-/// Cosine and sine of twice the angle, about the direction in which light travels, from one x axis to another.
+/// Cosine and sine of twice the angle from one x axis to another, about the direction in which light travels.
 fn doubled(forward: Vec3, from: Vec3, to: Vec3) -> [f32; 2] {
     let (cos, sin) = (dot(from, to), dot(forward, cross(from, to)));
     let size = cos * cos + sin * sin;
@@ -255,7 +255,7 @@ where
     }
 }
 
-/// Of polarised light: by the conversion of the transport that it is carried over.
+/// Conversion for polarised light, by the conversion of the underlying transport.
 #[derive(Clone, Debug)]
 pub struct StokesConversion<C>(C);
 
@@ -306,7 +306,7 @@ mod tests {
         matrix.elements.map(|row| row.iter().zip(light).map(|(m, s)| m[0] * s).sum())
     }
 
-    /// The element of `lobe_table` is the reference for turns of frames.
+    /// `lobe_table` is the reference for rotations of frames.
     #[test]
     fn frames_of_the_world_do_not_change_what_happens() {
         let mut elements = [[[0.0f32; 1]; 4]; 4];
@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn turns_there_and_back_are_none() {
+    fn opposite_rotations_cancel() {
         let (forward, from) = ([0.0, 0.6, 0.8], stokes_basis([0.0, 0.6, 0.8]));
         let to = add(scale(from, 0.8), scale(cross(forward, from), 0.6));
         let turned = Mueller::<1>::IDENTITY.turned_after(doubled(forward, from, to));

@@ -1,4 +1,4 @@
-//! Camera rays: the first wave of a tile, and the sums of all of its waves.
+//! The stage of camera rays: begins the first wave of a tile, and sums all of its waves.
 
 use std::ops::Range;
 use std::time::Instant;
@@ -14,7 +14,7 @@ use crate::random::{Dimensions, Sequence};
 use crate::transport::Transport;
 
 impl<T: Transport> Wavefront<'_, T> {
-    /// Follows the paths of these samples of a tile by an integrator. Returns what they brought.
+    /// Follows the paths of these samples of a tile with an integrator and returns their contributions.
     pub fn render(&mut self, integrator: &impl Stages, tile: Rect, samples: Range<u32>) -> Film<T> {
         let begun = Instant::now();
         let mut film = Film::new(tile);
@@ -32,7 +32,7 @@ impl<T: Transport> Wavefront<'_, T> {
         film
     }
 
-    /// Adds what the paths have brought to their pixels.
+    /// Adds the contributions of the paths to their pixels.
     pub(super) fn add_samples(&mut self, film: &mut Film<T>) {
         for slot in &self.slots {
             let at = film.index(slot.pixel[0], slot.pixel[1]);
@@ -41,7 +41,7 @@ impl<T: Transport> Wavefront<'_, T> {
         }
     }
 
-    /// Camera rays, packets of neighbours.
+    /// Generates camera rays, in packets of neighbours.
     pub(super) fn begin(&mut self, pixels: &[[u32; 2]], samples: Range<u32>) {
         self.slots.clear();
         self.rays.clear();

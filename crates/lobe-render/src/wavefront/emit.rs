@@ -25,7 +25,7 @@ impl<T: Transport> Wavefront<'_, T> {
         self.stats.interactions += begun.elapsed();
     }
 
-    /// Adds the radiance of surfaces that emit to the paths that have hit them, weighted against sampling them as
+    /// Adds the radiance of emitting surfaces to the paths that have hit them, weighted against sampling them as
     /// lights; no channel of a path gets more than `limit`.
     pub fn emit(&mut self, limit: f32) {
         let begun = Instant::now();

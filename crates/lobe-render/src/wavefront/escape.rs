@@ -8,8 +8,8 @@ use crate::light::LightRay;
 use crate::transport::Transport;
 
 impl<T: Transport> Wavefront<'_, T> {
-    /// Adds the environment's radiance to the paths of rays that have hit nothing, weighted against sampling it as a
-    /// light; no channel of a path gets more than `limit`.
+    /// Adds the radiance of the environment to the paths of rays that have hit nothing, weighted against sampling it as
+    /// a light; no channel of a path gets more than `limit`.
     pub fn escape(&mut self, limit: f32) {
         let lights = &self.world.lights;
         let Some(environment) = lights.environment else { return };

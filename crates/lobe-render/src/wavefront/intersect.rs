@@ -7,12 +7,12 @@ use lobe_trace::{MISS, RayClass};
 use super::{Wavefront, rays};
 use crate::transport::Transport;
 
-/// Which hits are kept.
+/// The hits that are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Keep {
     /// All of them.
     All,
-    /// Those on surfaces that emit light: paths end there.
+    /// Only those on surfaces that emit light, because paths end there.
     Emitters,
 }
 

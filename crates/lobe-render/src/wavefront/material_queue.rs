@@ -5,7 +5,7 @@ use std::ops::Range;
 /// The rays of a wave that have hit something, one material after another, in their order within each.
 #[derive(Debug, Default)]
 pub(crate) struct MaterialQueue {
-    /// Numbers of rays.
+    /// Indices of rays.
     pub order: Vec<u32>,
     /// The hits of each material.
     pub groups: Vec<MaterialHits>,
@@ -21,7 +21,7 @@ pub(crate) struct MaterialQueue {
 #[derive(Clone, Debug)]
 pub(crate) struct MaterialHits {
     pub material: usize,
-    /// Their places in the order of the sort.
+    /// Their range in the sorted order.
     pub hits: Range<usize>,
 }
 
@@ -34,7 +34,7 @@ struct RayOfMaterial {
 impl MaterialQueue {
     /// Separates rays that have hit something from those that have not.
     pub fn split(&mut self, hit: impl ExactSizeIterator<Item = bool>) {
-        // Each is written to both lists, and overwritten in the one where it does not belong: a branch would be
+        // Each is written to both lists, and overwritten in the one to which it does not belong: a branch would be
         // unpredictable.
         let room = hit.len() + 1;
         self.hit.resize(room, 0);
@@ -50,8 +50,8 @@ impl MaterialQueue {
         self.missed.truncate(misses);
     }
 
-    /// A counting sort of the rays that have hit something by which of `materials` it was; without those that are
-    /// followed no further.
+    /// A counting sort by material of the rays that have hit something; rays that are not followed further are left
+    /// out.
     pub fn sort(&mut self, materials: usize, material: impl Fn(usize) -> Option<u32>) {
         let MaterialQueue { order, groups, hit, met, counts, .. } = self;
         met.clear();

@@ -1,9 +1,8 @@
-//! A wave: the paths of a tile, all at the same depth, their state in the cache.
-//!
-//! The stages of a wave are in modules of their own, and integrators compose them: rays are [intersected](intersect) and
-//! their hits sorted by material; rays that [escape] see the environment; surfaces that [emit] are seen; lights are
-//! sampled for the hits ([next_event]), and [shadow] rays resolved; materials [scatter] the rays of the next wave. What is
-//! known of hits lies in columns, in the order of the sort.
+//! A wave: the paths of a tile, all at the same depth, with their state in the cache. Each stage of a wave has its own
+//! module, and integrators compose them: rays are [intersected](intersect) and their hits sorted by material; rays that
+//! [escape] reach the environment; surfaces that [emit] add light; lights are sampled for the hits ([next_event]), and
+//! [shadow] rays are resolved; materials [scatter] the rays of the next wave. The properties of hits are kept in
+//! columns, in sorted order.
 
 mod begin;
 mod emit;
@@ -41,11 +40,11 @@ pub(crate) use spawn::{Origin, spawn_rays};
 pub(crate) use walk::Merging;
 use walk::Walks;
 
-/// About how many paths are under way at once: a material that covers a hundredth of them still fills its lanes, and
-/// their state, a few hundred bytes each, stays in the cache.
+/// Approximate number of paths of a wave: a material that covers a hundredth of them still fills its lanes, and their
+/// state, a few hundred bytes each, stays in the cache.
 pub(crate) const PATHS: usize = 8192;
 
-/// Where a path came from and what it has brought.
+/// The origin of a path and its contribution.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PathSlot<T: Transport> {
     pub pixel: [u32; 2],
@@ -53,13 +52,13 @@ pub(crate) struct PathSlot<T: Transport> {
     pub sample: Sample<T>,
 }
 
-/// The state of a path along a ray. Several rays may have the same slot, if an integrator branches.
+/// The state of a path along a ray. If an integrator branches, several rays may have the same slot.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PathState<T: Transport> {
     pub slot: u32,
-    /// What is applied to light that arrives along the ray.
+    /// The throughput that is applied to light that arrives along the ray.
     pub throughput: T::Throughput,
-    /// The density with which the direction was sampled; infinite if it could be no other.
+    /// The density with which the direction was sampled; infinite if it was the only possible one.
     pub pdf: f32,
 }
 
@@ -74,7 +73,7 @@ pub(crate) struct Wavefront<'w, T: Transport> {
     /// The rays of the wave.
     pub rays: RayQueue<PathState<T>>,
     found: HitSoA,
-    /// Those that have hit something, sorted; where; and the states of their paths.
+    /// The rays that have hit something, sorted; their interactions; and the states of their paths.
     queue: MaterialQueue,
     pub hits: Interactions,
     pub arrived: Vec<PathState<T>>,
@@ -83,7 +82,7 @@ pub(crate) struct Wavefront<'w, T: Transport> {
     bsdf_samples: BsdfSamples<T>,
     pub numbers: Numbers,
     scratch: Scratch,
-    /// What paths that are met by others, or meet them, have in addition.
+    /// Additional state of paths that are connected or merged with others.
     walks: Walks<T>,
     pub stats: Stats,
 }
@@ -118,9 +117,8 @@ impl<'w, T: Transport> Wavefront<'w, T> {
     }
 }
 
-/// The share of a sample that was sampled with density `pdf` if another technique would have sampled it with density
-/// `other`: the power heuristic of Veach 1997 ("Robust Monte Carlo Methods for Light Transport Simulation", section
-/// 9.2.4).
+/// The weight of a sample with density `pdf` if another technique would have sampled it with density `other`: the power
+/// heuristic of Veach 1997 ("Robust Monte Carlo Methods for Light Transport Simulation", section 9.2.4).
 fn power_heuristic(pdf: f32, other: f32) -> f32 {
     if pdf == f32::INFINITY {
         return 1.0;

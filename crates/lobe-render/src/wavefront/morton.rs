@@ -2,7 +2,7 @@
 
 use crate::film::Rect;
 
-/// The pixels of a tile, neighbours close to each other: Morton's order.
+/// The pixels of a tile in Morton order, which keeps neighbours close to each other.
 pub(super) fn morton(tile: Rect) -> Vec<[u32; 2]> {
     let side = tile.width.max(tile.height).next_power_of_two();
     let mut pixels = Vec::with_capacity(tile.area());
@@ -34,7 +34,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_pixel_of_a_tile_once_and_neighbours_together() {
+    fn every_pixel_of_a_tile_occurs_once_and_neighbours_are_close() {
         let tile = Rect { x: 10, y: 20, width: 13, height: 7 };
         let pixels = morton(tile);
         assert_eq!(pixels.len(), 13 * 7);

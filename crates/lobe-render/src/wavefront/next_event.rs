@@ -26,19 +26,19 @@ use crate::vectors::{add, dot, scale, select, sub};
 pub(crate) struct NextEvent {
     /// The class of the rays that have arrived.
     pub class: RayClass,
-    /// How many surfaces the paths have hit before this one.
+    /// Number of surfaces that the paths have hit before this one.
     pub depth: u32,
     pub lights: LightChoice,
-    /// Whether samples are weighted against directions that materials sample (multiple importance sampling).
+    /// `true` if samples are weighted against directions sampled by materials (multiple importance sampling).
     pub weighted: bool,
-    /// The most that a channel of a path gets.
+    /// The largest contribution to a channel of a path.
     pub limit: f32,
 }
 
-/// Which lights are sampled.
+/// The lights that are sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LightChoice {
-    /// One by chance.
+    /// A randomly chosen one.
     One,
     /// Each in turn.
     Each,
@@ -48,13 +48,13 @@ pub(crate) enum LightChoice {
 #[derive(Debug)]
 pub(super) struct NextEventBuffers<T: Transport> {
     pub light_samples: Vec<LightSampleBlock<T>>,
-    /// The hits that light may reach, and their pairs of directions.
+    /// The hits that light may reach, with their pairs of directions.
     pub reached: Vec<u32>,
     pub wi: Vec<Vec3>,
     pub wo: Vec<Vec3>,
     pub f: Vec<T::Scattering>,
     pub pdf: Vec<f32>,
-    /// Where those of each material are.
+    /// The range of each material.
     pub groups: Vec<MaterialHits>,
 }
 
@@ -83,7 +83,7 @@ pub(super) struct LightSampleBlock<T: Transport> {
     pub t_max: Column,
     /// Radiance over the density of the sample.
     radiance: <T::Spectrum as Channels>::Columns,
-    /// That density; infinite for lights without extent.
+    /// The density of the sample; infinite for lights without extent.
     pub pdf: Column,
 }
 
@@ -108,7 +108,7 @@ impl<T: Transport> LightSampleBlock<T> {
 }
 
 impl<T: Transport> Wavefront<'_, T> {
-    /// Adds the light that reaches the hits straight from lights.
+    /// Adds direct light at the hits.
     pub fn next_event(&mut self, event: NextEvent) {
         let lights = self.world.lights.all.len();
         match event.lights {
@@ -135,7 +135,7 @@ impl<T: Transport> Wavefront<'_, T> {
 
     /// Samples a light for each hit whose material has values for pairs of directions.
     pub(super) fn sample_lights(&mut self, depth: u32, light: Option<usize>) {
-        // Each light has numbers of its own.
+        // Each light has its own random numbers.
         self.sample_numbers(Dimensions::Light(depth + 64 * light.unwrap_or(0) as u32));
         let NextEventBuffers { light_samples, reached, wi, wo, groups, .. } = &mut self.next_event;
         let n = self.hits.len();
@@ -169,7 +169,7 @@ impl<T: Transport> Wavefront<'_, T> {
         reached.truncate(count);
     }
 
-    /// Material by material, in full lanes.
+    /// Evaluates the pairs material by material, in full lanes.
     pub(super) fn evaluate_bsdfs(&mut self, depth: u32) {
         let begun = Instant::now();
         let NextEventBuffers { reached, wi, wo, f, pdf, groups, .. } = &mut self.next_event;
@@ -184,7 +184,7 @@ impl<T: Transport> Wavefront<'_, T> {
         self.stats.at(depth).time += begun.elapsed();
     }
 
-    /// Shadow rays for the light that the materials send on.
+    /// Shadow rays for the light that the materials scatter.
     fn enqueue_shadow_rays(&mut self, event: NextEvent) {
         let NextEventBuffers { light_samples, reached, f, pdf, wi, .. } = &self.next_event;
         let queue = &mut self.shadow.queue;
@@ -210,7 +210,7 @@ impl<T: Transport> Wavefront<'_, T> {
     }
 }
 
-/// Samples lights for some of the hits. Returns how many of them light may reach.
+/// Samples lights for some of the hits. Returns the number of hits that light may reach.
 struct SampleLights<'a, T: Transport> {
     lights: &'a Lights<T::Spectrum>,
     light: Option<usize>,
@@ -239,14 +239,14 @@ impl<T: Transport> Kernel for SampleLights<'_, T> {
             let local = surface.local(sample.wi);
             let reaches = (sample.valid & surface.same_side(lanes, sample.wi, local)).bits() as usize;
 
-            // From where the ray begins to the same point on the light, which is not as far.
+            // From the origin of the ray to the same point on the light, which is slightly nearer.
             let origin = surface.offset_origin(lanes, surface.lifted, sample.wi);
             let way = sub::<L>(add::<L>(surface.position, scale::<L>(sample.wi, sample.distance)), origin);
             let length = dot::<L>(way, way).sqrt();
             let (zero, one, infinite) = (lanes.splat(0.0), lanes.splat(1.0), lanes.splat(f32::INFINITY));
             let near = sample.distance.lt(infinite);
             let direction = select(lanes, near & zero.lt(length), scale::<L>(way, one / length), sample.wi);
-            // Just short of the light, which is a surface itself.
+            // Ends just before the light, which is itself a surface.
             let t_max = lanes.select(near, length, infinite) * lanes.splat(0.9999);
 
             let (out, first) = (&mut samples[at / RAYS], at & (RAYS - L::LANES));
@@ -263,7 +263,7 @@ impl<T: Transport> Kernel for SampleLights<'_, T> {
             }
             let mut hit = at.max(range.start);
             while hit < range.end.min(at + L::LANES) {
-                // Written in any case, and overwritten if it is not kept: a branch would be unpredictable.
+                // Always written, and overwritten if it is not kept: a branch would be unpredictable.
                 let lane = hit - at;
                 reached[count] = hit as u32;
                 wi[count] = vector(&out.wi, first + lane);

@@ -4,7 +4,7 @@ use lobe_trace::{HitSoA, MISS, RaySoA};
 
 use crate::vec3::Vec3;
 
-/// Where a ray begins and where it goes.
+/// Origin and direction of a ray.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ray {
     pub origin: Vec3,
@@ -25,7 +25,7 @@ impl<T> Default for RayQueue<T> {
 }
 
 impl<T: Copy> RayQueue<T> {
-    /// No rays; memory is kept.
+    /// Removes all rays but keeps the memory.
     pub fn clear(&mut self) {
         fill(&mut self.rays, 0);
         self.states.clear();
@@ -55,7 +55,7 @@ impl<T: Copy> RayQueue<T> {
         self.states.push(state);
     }
 
-    /// Adds those of at most `more` rays that `write` keeps.
+    /// Adds at most `more` rays: those that `write` keeps.
     #[inline(always)]
     pub fn extend(&mut self, more: usize, write: impl FnOnce(&mut Room<'_, T>)) {
         let begin = self.len();
@@ -103,7 +103,7 @@ impl<T: Copy> Room<'_, T> {
     }
 }
 
-/// Makes it `n` rays; those that are added have no end, whatever their origins and directions are.
+/// Resizes to `n` rays; added rays have no end, and arbitrary origins and directions.
 pub(super) fn fill(rays: &mut RaySoA, n: usize) {
     let RaySoA { origin, direction, t_min, t_max } = rays;
     origin.iter_mut().chain(direction).chain([t_min]).for_each(|column| column.resize(n, 0.0));

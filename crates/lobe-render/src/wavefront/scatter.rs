@@ -1,4 +1,4 @@
-//! The stage that scatters paths: the rays of the next wave.
+//! The stage that scatters paths, which gives the rays of the next wave.
 
 use std::time::Instant;
 
@@ -20,22 +20,22 @@ use crate::vectors::{dot, scale, sub};
 /// How paths are scattered.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scatter {
-    /// How many surfaces the path has hit before this one.
+    /// Number of surfaces that the path has hit before this one.
     pub depth: u32,
-    /// What the path carries.
+    /// The quantity that the path carries.
     pub mode: TransportMode,
-    /// Which of the exact directions of mirrors and glass are followed.
+    /// The exact directions of mirrors and glass that are followed.
     pub delta: DeltaChoice,
-    /// From which depth on paths end by chance (Russian roulette); `None` if paths end at materials that have values.
+    /// The depth from which paths end by Russian roulette; `None` if paths end at materials that have values.
     pub roulette: Option<u32>,
 }
 
-/// Which exact directions are followed.
+/// The exact directions that are followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum DeltaChoice {
-    /// One of them by chance.
+    /// A randomly chosen one.
     One,
-    /// All that carry more than this.
+    /// All directions that carry more than this.
     Branch(f32),
 }
 
@@ -56,7 +56,8 @@ impl<T: Transport> Default for BsdfSamples<T> {
 }
 
 impl<T: Transport> Wavefront<'_, T> {
-    /// Replaces the rays of the wave by those that its hits scatter. Returns whether all of them have exact directions.
+    /// Replaces the rays of the wave by those that its hits scatter. Returns `true` if all of them have exact
+    /// directions.
     pub fn scatter(&mut self, scatter: Scatter) -> bool {
         self.rays.clear();
         let begun = Instant::now();
@@ -87,7 +88,7 @@ impl<T: Transport> Wavefront<'_, T> {
         specular
     }
 
-    /// Rays along the exact directions of a smooth surface: one of them by chance, or all.
+    /// Rays along the exact directions of a smooth surface: a randomly chosen one, or all.
     fn scatter_delta(&mut self, group: usize, delta: &Delta<T::Spectrum>, scatter: Scatter) {
         let begun = Instant::now();
         for hit in self.queue.groups[group].hits.clone() {
@@ -142,7 +143,7 @@ impl<T: Transport> Wavefront<'_, T> {
         let local = lanes.splat_xyz(sample.wi);
         let mut wi = surface.world(local);
         if !surface.same_side(lanes, wi, local).any() {
-            // At the silhouette of facets that a smooth normal hides, the direction is turned back out of the facet.
+            // At the silhouette of facets hidden by a smooth normal, the direction is rotated back out of the facet.
             let (normal, two) = (surface.geometric, lanes.splat(2.0));
             wi = sub::<Reference>(wi, scale::<Reference>(normal, two * dot::<Reference>(normal, wi)));
         }
@@ -154,7 +155,7 @@ impl<T: Transport> Wavefront<'_, T> {
         self.rays.push(ray, f32::INFINITY, PathState { slot, throughput, pdf: f32::INFINITY });
     }
 
-    /// One material's hits, in full lanes.
+    /// Samples directions for the hits of one material, in full lanes.
     fn sample_bsdf(&mut self, group: usize, scatter: Scatter) {
         let begun = Instant::now();
         let hits = self.queue.groups[group].hits.clone();
@@ -190,7 +191,7 @@ impl<T: Transport> Wavefront<'_, T> {
                         throughput = T::weigh(throughput, adjoint_correction(hits, hit, wi[hit]));
                     }
                     let most = T::magnitude(&throughput);
-                    // NaN is not above 0 either.
+                    // This also drops NaN.
                     let mut goes = (pdf[hit] > 0.0) & (most > 0.0) & ray.goes(hit % RAYS);
                     if depth >= roulette {
                         let chance = most.min(0.95);
@@ -206,7 +207,7 @@ impl<T: Transport> Wavefront<'_, T> {
     }
 }
 
-/// What importance is multiplied by at a hit because of its shading normal.
+/// The correction of importance at a hit for its shading normal.
 fn adjoint_correction(hits: &Interactions, hit: usize, wi: Vec3) -> f32 {
     let lanes = Reference::default();
     let [wo, wi] = [hits.wo()[hit], wi].map(|local| lanes.splat_xyz(local));

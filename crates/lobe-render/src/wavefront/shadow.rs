@@ -1,4 +1,4 @@
-//! The stage that resolves shadow rays: light that arrives unless something is in its way.
+//! The stage that resolves shadow rays: light arrives unless something blocks it.
 
 use std::time::Instant;
 
@@ -8,12 +8,12 @@ use super::Wavefront;
 use super::rays::RayQueue;
 use crate::transport::Transport;
 
-/// What a shadow ray decides about.
+/// The light that a shadow ray decides about.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShadowRay<T: Transport> {
-    /// Whose path it is.
+    /// The slot of its path.
     pub slot: u32,
-    /// What arrives if nothing is in the way.
+    /// The light that arrives if nothing is in the way.
     pub radiance: T::Radiance,
 }
 
@@ -31,7 +31,7 @@ impl<T: Transport> Default for ShadowRays<T> {
 }
 
 impl<T: Transport> Wavefront<'_, T> {
-    /// Traces the shadow rays of the queue and adds what arrives to their paths.
+    /// Traces the shadow rays of the queue and adds the arriving light to their paths.
     pub fn resolve_shadow_rays(&mut self, class: RayClass) {
         let begun = Instant::now();
         let ShadowRays { queue, hidden } = &mut self.shadow;

@@ -1,4 +1,4 @@
-//! Rays from surfaces into directions that are given in the frames of their materials.
+//! Generates rays from surfaces in directions given in the frames of their materials.
 
 use lobe::{Backend, Kernel, Lanes};
 
@@ -7,12 +7,12 @@ use crate::columns::{Column, RAYS, ZEROS, ensure_len, store, vector};
 use crate::interaction::Interactions;
 use crate::vec3::Vec3;
 
-/// Where rays begin.
+/// The origins of rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Origin {
     /// On the triangles.
     Surface,
-    /// On the smooth surface that the triangles approximate, as shadow rays do.
+    /// On the smooth surface that the triangles approximate, as for shadow rays.
     Lifted,
 }
 
@@ -21,14 +21,14 @@ pub(crate) enum Origin {
 pub(crate) struct SpawnedRays {
     origin: [Column; 3],
     direction: [Column; 3],
-    /// 1 if the ray is on the same side of the triangle and of the smooth surface, else 0.
+    /// 1 if the ray is on the same side of the triangle and of the smooth surface, otherwise 0.
     goes: Column,
 }
 
 impl SpawnedRays {
     const ZEROS: Self = SpawnedRays { origin: [ZEROS; 3], direction: [ZEROS; 3], goes: ZEROS };
 
-    /// Whether a ray is on the same side of the triangle and of the smooth surface.
+    /// `true` if a ray is on the same side of the triangle and of the smooth surface.
     pub fn goes(&self, at: usize) -> bool {
         self.goes[at] > 0.0
     }
@@ -39,7 +39,7 @@ impl SpawnedRays {
     }
 }
 
-/// The rays from hits into the directions `local`, of which there are as many as fill the lanes.
+/// The rays from hits in the directions `local`, which must fill the lanes.
 pub(crate) fn spawn_rays(
     backend: Backend,
     hits: &Interactions,

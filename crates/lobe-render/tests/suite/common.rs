@@ -1,4 +1,4 @@
-//! Small worlds.
+//! Small worlds for tests.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -14,22 +14,22 @@ pub fn path_tracing() -> Arc<dyn Integrator> {
     path_of(8)
 }
 
-/// Paths of up to that many surfaces.
+/// Paths of up to this many surfaces.
 pub fn path_of(depth: u32) -> Arc<dyn Integrator> {
     Arc::new(PathTracing { depth, limit: f32::INFINITY })
 }
 
-/// Direct light, and up to that many surfaces.
+/// Direct light, and rays over up to this many surfaces.
 pub fn whitted(depth: u32) -> Arc<dyn Integrator> {
     Arc::new(Whitted { depth })
 }
 
-/// Surfaces up to a distance occlude.
+/// Occlusion by surfaces up to a distance.
 pub fn ambient(distance: f32) -> Arc<dyn Integrator> {
     Arc::new(AmbientOcclusion { distance })
 }
 
-/// A square of side 2 in the plane y = 0 that faces +y; its tangent is turned about +y.
+/// A square of side 2 in the plane y = 0 that faces +y, with its tangent rotated about +y.
 pub fn plane(turn: f32) -> Shape {
     let (sin, cos) = turn.sin_cos();
     Shape {
@@ -74,7 +74,7 @@ pub fn lambert(albedo: f32, backend: Backend) -> Arc<dyn Shader> {
     Arc::new(Lambert::new([albedo; 3], backend))
 }
 
-/// Something of everything: cloth, glass, a mirror, a lamp, a sky, a point light.
+/// A bit of everything: cloth, glass, a mirror, a lamp, a sky, a point light.
 pub fn mixed() -> World {
     mixed_on(Backend::best())
 }

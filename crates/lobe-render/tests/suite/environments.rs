@@ -1,4 +1,5 @@
-//! Images of environments: every field of a header that changes radiances is honoured, or the file is refused.
+//! Tests of environment images: every field of a header that changes radiances is taken into account, or the file is
+//! refused.
 
 use std::f32::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
@@ -78,14 +79,14 @@ fn a_picture_is_the_same_in_every_order_of_its_texels() {
 }
 
 #[test]
-fn variables_of_a_header_are_honoured() {
+fn variables_of_a_header_are_applied() {
     for (header, factor) in [
         ("FORMAT=32-bit_rle_rgbe\n", [1.0; 3]),
         ("EXPOSURE=4.0\n", [0.25; 3]),
         ("EXPOSURE= 2\nEXPOSURE=2e0\n", [0.25; 3]),
         ("COLORCORR=2 1 0.5\n", [0.5, 1.0, 2.0]),
         ("EXPOSURE=0.5\nCOLORCORR=2 1 0.5\nCOLORCORR=1 2 1\r\n", [1.0, 1.0, 4.0]),
-        // Only variables at the beginning of a line are those of the picture.
+        // Only variables at the beginning of a line belong to the picture.
         ("# EXPOSURE=4\n\tEXPOSURE=4\npfilt -e 4\n", [1.0; 3]),
         ("SOFTWARE=a camera\nCAPDATE=2026:01:01 EXPOSURE=4\n", [1.0; 3]),
         ("PIXASPECT=1\nGAMMA=1\nPRIMARIES=0 0 0 0 0 0 0 0\n", [1.0; 3]),
@@ -101,7 +102,7 @@ fn variables_of_a_header_are_honoured() {
 }
 
 #[test]
-fn what_cannot_be_honoured_is_refused() {
+fn unsupported_headers_are_refused() {
     for (header, word) in [
         ("FORMAT=32-bit_rle_xyze\n", "ra_xyze"),
         ("FORMAT=Radiance_spectra\n", "32-bit_rle_rgbe"),
@@ -133,7 +134,7 @@ fn other_primaries_become_srgb_and_white_stays_white() {
     let white = [128, 128, 128, 129].repeat(8);
     let sky = read("sky.hdr", &hdr(p3, "-Y 2 +X 4", &white)).unwrap();
     assert!(is_close(at(&sky, SIZE, 1, 1), [1.0; 3]));
-    // Red of a wider space is outside of sRGB, and what is negative counts as 0.
+    // Red of a wider space is outside sRGB, and negative values count as 0.
     let red = [128, 0, 0, 129].repeat(8);
     let [r, g, b] = at(&read("sky.hdr", &hdr(p3, "-Y 2 +X 4", &red)).unwrap(), SIZE, 1, 1);
     assert!((r - 1.225).abs() < 3e-3 && g == 0.0 && b == 0.0, "{r} {g} {b}");
@@ -224,7 +225,7 @@ mod open_exr {
     }
 
     #[test]
-    fn colour_comes_from_the_channels_that_are_radiance() {
+    fn colour_comes_from_the_channels_of_radiance() {
         assert_picture(&written(&picture(colour(""))).unwrap(), "R G B", [1.0; 3]);
         assert_picture(&written(&picture(colour("env."))).unwrap(), "one layer", [1.0; 3]);
         assert_picture(
@@ -251,14 +252,14 @@ mod open_exr {
         let sky = written(&cropped).unwrap();
         assert!(is_close(at(&sky, [4, 4], 2, 1), expected(2, 1)));
         assert_eq!(at(&sky, [4, 4], 2, 3), [0.0; 3]);
-        // More is stored than is shown.
+        // More pixels are stored than are displayed.
         let mut wide = picture(colour(""));
         wide.attributes.display_window = IntegerBounds::new((1, 0), (2, 1));
         wide.layer_data.attributes.layer_position = Vec2(0, -1);
         let sky = written(&wide).unwrap();
         assert!(is_close(at(&sky, [2, 1], 0, 0), expected(1, 1)));
         assert!(is_close(at(&sky, [2, 1], 1, 0), expected(2, 1)));
-        // Nothing of what is stored is shown.
+        // None of the stored pixels are displayed.
         wide.layer_data.attributes.layer_position = Vec2(100, -100);
         assert_eq!(written(&wide).unwrap().mean(), 0.0);
         // A window that the file does not justify.
@@ -267,7 +268,7 @@ mod open_exr {
     }
 
     #[test]
-    fn attributes_are_honoured_or_refused() {
+    fn attributes_are_applied_or_refused() {
         let mut cube = picture(colour(""));
         cube.layer_data.attributes.environment_map = Some(EnvironmentMap::Cube);
         refused(&cube, "cube");
@@ -295,7 +296,7 @@ mod open_exr {
     }
 
     #[test]
-    fn what_is_not_a_number_is_refused_with_its_place() {
+    fn values_that_are_not_numbers_are_refused_with_their_place() {
         for wrong in [f32::INFINITY, f32::NEG_INFINITY, f32::NAN] {
             let mut channels = colour("");
             channels[1] = channel("G", |at| if at == 6 { wrong } else { 0.25 });
@@ -304,7 +305,7 @@ mod open_exr {
     }
 
     #[test]
-    fn parts_that_both_have_colour_are_refused_by_name() {
+    fn several_parts_with_colour_are_refused_by_name() {
         let named = |name: &str, channels| {
             let mut layer = layer(channels);
             layer.attributes.layer_name = Some(name.into());

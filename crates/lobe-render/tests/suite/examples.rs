@@ -1,4 +1,4 @@
-//! The example runs, and checks what it renders.
+//! Runs the example, which checks its own result.
 
 #[path = "../../examples/render.rs"]
 mod render;

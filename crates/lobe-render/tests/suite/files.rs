@@ -1,4 +1,4 @@
-//! EXR and PNG: what is written is read, the same pictures are the same bytes, damage is reported.
+//! Tests of EXR and PNG: written files can be read back, equal pictures give equal bytes, and damage is reported.
 
 use std::path::Path;
 
@@ -140,12 +140,12 @@ fn environments_come_from_exr_and_hdr() {
         assert!(error.contains("sky.hdr"), "{error}");
     }
     std::fs::write(&path, b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\n").unwrap();
-    assert!(read_environment(&path, 0.0, 1.0).is_err(), "no memory for a header that promises too much");
+    assert!(read_environment(&path, 0.0, 1.0).is_err(), "no memory for a header that claims too much");
 
     let path = folder.path().join("sky.exr");
     let settings = settings([16, 8], 2, path_tracing());
     let film = picture(&mixed(), &settings);
-    // Of a picture of this size; a part of a larger one has no light around it.
+    // The whole picture has this size; a part of a larger one would have black around it.
     let whole = Meta { size: [16, 8], ..meta(settings.window, 0..2) };
     write_exr(&path, &film, &whole, false).unwrap();
     let sky = read_environment(&path, 0.0, 1.0).unwrap();
@@ -153,7 +153,7 @@ fn environments_come_from_exr_and_hdr() {
 }
 
 #[test]
-fn a_png_is_what_the_tone_map_says() {
+fn a_png_follows_the_tone_map() {
     let settings = settings([20, 10], 1, path_tracing());
     let film = picture(&mixed(), &settings);
     let tone = ToneMap { exposure: 0.5 };

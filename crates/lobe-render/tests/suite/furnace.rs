@@ -1,4 +1,4 @@
-//! Inside of an even white sky, what loses no light cannot be seen.
+//! Furnace tests: under a uniform white sky, an object that loses no light is invisible.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -22,7 +22,7 @@ fn furnace(shader: Arc<dyn Shader>) -> World {
 
 /// A file whose every value is `albedo / pi`.
 fn even(folder: &Path, scatter: Scatter, albedo: f32) -> PathBuf {
-    // As many nodes as a small measurement has: directions are drawn by histograms of the size of the table.
+    // As many nodes as a small measurement has: directions are sampled from histograms of the size of the table.
     let steps = |n: usize, step: f64| (0..n).map(|i| (step * i as f64).to_radians()).collect::<Vec<_>>();
     let knots = [steps(10, 10.0), steps(3, 120.0), steps(19, 10.0), steps(12, 30.0)];
     let values = vec![albedo * std::f32::consts::FRAC_1_PI; 10 * 3 * 19 * 12];
@@ -32,7 +32,7 @@ fn even(folder: &Path, scatter: Scatter, albedo: f32) -> PathBuf {
     path
 }
 
-/// The largest difference of a pixel from 1, and that of the mean.
+/// The largest difference of a pixel from 1, and the difference of the mean.
 fn from_white(world: &World, integrator: Arc<dyn Integrator>) -> (f64, f64) {
     let film = picture(world, &settings([48, 40], 64, integrator));
     let pixels = film.pixels().iter().flat_map(|pixel| pixel.mean_radiance());
@@ -56,15 +56,15 @@ fn white_surfaces_vanish_in_a_white_sky() {
         let world = furnace(shader);
         let (largest, mean) = from_white(&world, path_tracing());
         assert!(largest < pixel && mean < whole, "path, {name}: a pixel is {largest} off, the mean {mean}");
-        // Convex things have direct light only.
+        // Convex objects receive only direct light.
         let (largest, mean) = from_white(&world, whitted(4));
         assert!(largest < 2.0 * pixel && mean < 6e-3, "whitted, {name}: a pixel is {largest} off, the mean {mean}");
     }
 }
 
-/// Colours that the channels cannot show have such values, and noise around 0 has.
+/// Colours that the channels cannot represent have negative values, and so does noise around 0.
 #[test]
-fn values_below_zero_are_seen() {
+fn negative_values_are_kept() {
     let folder = tempfile::tempdir().unwrap();
     let file = even(folder.path(), Scatter::Reflection, -0.25);
     let edges = Edges { non_negative: false, ..Edges::default() };
@@ -86,7 +86,7 @@ fn glass_loses_nothing_when_all_of_its_rays_are_followed() {
 }
 
 #[test]
-fn a_sheet_that_reflects_half_and_lets_half_through_vanishes() {
+fn a_sheet_that_reflects_half_and_transmits_half_vanishes() {
     let folder = tempfile::tempdir().unwrap();
     let files = [Scatter::Reflection, Scatter::Transmission].map(|scatter| even(folder.path(), scatter, 0.5));
     let sheet = open_sheet(&files, &files, &Options::default(), Backend::best()).unwrap();
@@ -96,16 +96,16 @@ fn a_sheet_that_reflects_half_and_lets_half_through_vanishes() {
 }
 
 #[test]
-fn nothing_occludes_a_convex_thing() {
+fn nothing_occludes_a_convex_object() {
     let (largest, _) = from_white(&furnace(lambert(1.0, Backend::best())), ambient(f32::INFINITY));
-    // Pixels next to the sphere are black, as there is no surface.
+    // Pixels next to the sphere are black, because there is no surface.
     assert_eq!(largest, 1.0);
     let film = picture(&furnace(lambert(1.0, Backend::best())), &settings([48, 40], 16, ambient(f32::INFINITY)));
     let middle = film.pixels()[film.index(24, 20)];
     assert!((middle.mean_radiance()[0] - 1.0).abs() < 1e-6, "{:?}", middle.mean_radiance());
 }
 
-/// A lamp above a square, by its lights alone, and by lights and materials together.
+/// A lamp above a square: sampling lights alone, and lights and materials together.
 fn assert_the_same_light(name: &str, material: Arc<dyn Shader>) {
     let mut world = WorldBuilder::new();
     let material = world.material(material);
@@ -121,7 +121,7 @@ fn assert_the_same_light(name: &str, material: Arc<dyn Shader>) {
 }
 
 #[test]
-fn drawing_lights_and_drawing_materials_find_the_same_light() {
+fn sampling_lights_and_sampling_materials_find_the_same_light() {
     assert!(AreaLight::<[f32; 3]>::new(vec![], [1.0; 3], false).is_none());
     assert_the_same_light("cloth", cloth(Backend::best()));
     let gold = Ggx { alpha: [0.1, 0.3] };

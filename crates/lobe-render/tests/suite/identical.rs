@@ -1,4 +1,4 @@
-//! Pictures that have to be the same bits, however they are made.
+//! Tests that pictures have the same bits, however they are rendered.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use super::common::*;
 const SIZE: [u32; 2] = [100, 70];
 const SAMPLES: u32 = 7;
 
-/// All integrators, and some with other parameters.
+/// All integrators, some of them also with other parameters.
 fn kinds() -> Vec<Arc<dyn Integrator>> {
     let defaults = INTEGRATORS.iter().map(|spec| (spec.default)());
     defaults.chain([whitted(5), ambient(1.0)]).collect()
@@ -50,11 +50,11 @@ fn parts_of_the_picture_and_of_the_samples_add_up() {
 }
 
 #[test]
-fn what_was_stopped_goes_on() {
+fn a_stopped_rendering_continues() {
     let world = mixed();
     let settings = settings(SIZE, 100, path_tracing());
     let whole = picture(&world, &settings);
-    // Stopped at the first look, and then again at the third.
+    // Stopped at the first call of `watch`, and then again at the third.
     let mut film = Film::new(settings.window);
     for looks in [1, 3] {
         let mut seen = 0;
@@ -69,7 +69,7 @@ fn what_was_stopped_goes_on() {
 }
 
 #[test]
-fn copies_made_on_the_way_have_the_first_samples() {
+fn copies_made_while_rendering_have_the_first_samples() {
     let world = mixed();
     let settings = settings(SIZE, 100, path_tracing());
     let mut copies = Vec::new();

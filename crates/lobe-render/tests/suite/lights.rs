@@ -1,4 +1,4 @@
-//! Integrators that begin at the lights: all of them see the same.
+//! Tests of integrators that begin paths at lights: all of them find the same light.
 
 use std::slice;
 use std::sync::Arc;
@@ -65,7 +65,7 @@ fn assert_equal(name: &str, expected: &[[f64; 2]], found: &[[f64; 2]], bias: f64
     }
 }
 
-/// Cloth, a sheet that is lit through, gold, a glass ball above the cloth, and one kind of light.
+/// Cloth, a translucent sheet, gold, a glass ball above the cloth, and one kind of light.
 fn scene(lights: &[Light], lamp: Option<bool>, glass: bool) -> World {
     let backend = Backend::best();
     let mut world = WorldBuilder::new();
@@ -89,7 +89,7 @@ fn scene(lights: &[Light], lamp: Option<bool>, glass: bool) -> World {
     if glass {
         world.shape(&sphere([0.9, 0.6, 0.3], 0.5), glass_of, None, false).unwrap();
     }
-    // Upright, lit from both sides.
+    // It stands upright and is lit from both sides.
     let turned = |p: [f32; 3]| [0.5 * p[0], 0.55 + 0.5 * p[2], -0.9 - p[1]];
     let plane = plane(0.2);
     let up = Shape {
@@ -111,7 +111,7 @@ fn scene(lights: &[Light], lamp: Option<bool>, glass: bool) -> World {
     world.build().unwrap()
 }
 
-/// A sheet that reflects and lets light through, more of it straight on, otherwise from its back.
+/// A sheet that reflects and transmits light, more of it straight through, with a different back.
 fn sheet_of(backend: Backend) -> Arc<dyn Shader> {
     let folder = tempfile::tempdir().unwrap();
     let steps = |n: usize, step: f64| (0..n).map(|i| (step * i as f64).to_radians()).collect::<Vec<_>>();
@@ -155,7 +155,7 @@ fn from_above(size: [u32; 2], samples: u32, integrator: Arc<dyn Integrator>) -> 
 }
 
 #[test]
-fn every_integrator_finds_the_same_light_of_every_light() {
+fn every_integrator_finds_the_same_light_from_every_light() {
     let [point, spot, directional, sky] = <[Light; 4]>::try_from(all_lights()).unwrap();
     let all = || vec![point.clone(), spot.clone(), directional.clone(), sky.clone()];
     let scenes = [
@@ -187,7 +187,7 @@ fn light_through_glass_is_the_same_from_either_end() {
     }
 }
 
-/// Light that no other integrator finds: what a mirror shows of a caustic of a point.
+/// Light that no other integrator finds: the caustic of a point light, seen in a mirror.
 #[test]
 fn mirrors_show_caustics_of_points() {
     let world = scene(&all_lights()[..1], None, true);
@@ -249,7 +249,7 @@ fn without_light_or_memory_there_is_an_error() {
     let settings = from_above([16, 12], 1, many);
     let error = render(&lit, &settings, Film::new(settings.window), |_| true).unwrap_err();
     assert!(matches!(error, RenderError::Memory(_)), "{error}");
-    // A light that no surface is in front of.
+    // A light with no surface in front of it.
     let mut world = WorldBuilder::new();
     let white = world.material(lambert(0.5, Backend::best()));
     world.shape(&plane(0.0), white, None, false).unwrap();
@@ -274,7 +274,7 @@ fn fewer_light_paths_than_pixels_and_more_see_the_same() {
     }
 }
 
-/// Light that goes from a lamp over a mirror to a wall, and is seen in the mirror again.
+/// Light that goes from a lamp by way of a mirror to a wall, and is seen in the mirror again.
 #[test]
 fn a_mirror_in_a_closed_box() {
     let mut world = WorldBuilder::new();
@@ -304,7 +304,7 @@ fn a_mirror_in_a_closed_box() {
 }
 
 #[test]
-fn passes_that_were_stopped_go_on() {
+fn stopped_passes_continue() {
     let world = mixed();
     for integrator in [light(4), bdpt(4), sppm(4), vcm(4)] {
         let settings = from_above([48, 32], 12, integrator.clone());
@@ -315,7 +315,7 @@ fn passes_that_were_stopped_go_on() {
             let mut copy = None;
             film = render(&world, &settings, film, |progress| {
                 copy = Some(progress.film());
-                // What is there at any time is whole passes.
+                // At any time, the film has whole passes.
                 progress.film().samples().0 == progress.film().samples().1 && progress.film().samples().0 < done + 5
             })
             .unwrap()
@@ -328,7 +328,7 @@ fn passes_that_were_stopped_go_on() {
 }
 
 #[test]
-fn scenes_say_how_light_is_followed() {
+fn scenes_choose_the_integrator() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("scene.toml");
     let open = |keys: &str| {

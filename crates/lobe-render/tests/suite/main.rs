@@ -1,4 +1,4 @@
-//! Pictures whose values are known, and pictures that have to be the same bits.
+//! Tests with pictures whose values are known, and with pictures that must have the same bits.
 
 mod common;
 mod direct;

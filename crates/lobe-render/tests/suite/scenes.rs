@@ -1,4 +1,4 @@
-//! Scene files: what they mean, and what is said about wrong ones.
+//! Tests of scene files: their meaning, and the errors of wrong ones.
 
 use std::path::{Path, PathBuf};
 
@@ -67,7 +67,7 @@ fn a_scene_renders() {
     assert!(mean(&picture(&scene.world, &settings)) > 0.05);
 }
 
-/// Each mistake with the line and the words that its error has.
+/// Each mistake with the line and the words of its error.
 #[test]
 fn mistakes_are_named_with_their_line_and_key() {
     let cases: &[(&str, &str, usize, &str)] = &[
@@ -171,7 +171,7 @@ fn meshes_with_bad_numbers_are_errors() {
 }
 
 #[test]
-fn files_that_are_no_text() {
+fn files_that_are_not_text() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, [b'[', 0xff, 0xfe]).unwrap();

@@ -1,4 +1,4 @@
-//! Pictures of wavelengths, and of polarised light.
+//! Tests of pictures of wavelengths and of polarised light.
 
 use std::path::Path;
 
@@ -93,8 +93,8 @@ fn mixed(head: &str) -> String {
 }
 
 #[test]
-fn colours_are_those_of_red_green_and_blue() {
-    // One surface between the lamp and the eye: nothing but the upsampling makes a difference.
+fn colours_agree_with_red_green_and_blue() {
+    // With one surface between the lamp and the eye, only the upsampling makes a difference.
     let text = |head: &str| {
         format!(
             "{CAMERA}{head}[integrator]\ndepth = 1\nsamples = 16\n[material.floor]\nmodel = \"lambert\"\nalbedo = [0.6, 0.3, 0.1]\n\
@@ -110,7 +110,7 @@ fn colours_are_those_of_red_green_and_blue() {
     let scene = bands16(&text("[spectrum]\nbands = 16\n"), Backend::best());
     let found = mean_colour(&scene, &picture(&scene, &settings(&scene, 16, Backend::best())));
     for (found, expected) in found.into_iter().zip(expected) {
-        // Under white light, spectra multiply as colours do.
+        // Under white light, spectra multiply like colours.
         assert!((found - expected).abs() < 1e-3, "{found}, not {expected}");
     }
     // Polarised or not, it is the same light.
@@ -194,7 +194,7 @@ fn parts_are_written_read_and_merged_exactly() {
         paths.push(path);
     }
     assert!(merge_in::<StokesRgb>(&paths, false, basis).unwrap().0 == whole);
-    // A part of a picture of another kind of light is no part of this one.
+    // A part of a picture with another kind of light does not belong to this one.
     assert!(merge_in::<Rgb>(&paths, false, &()).is_err());
 }
 
@@ -231,7 +231,7 @@ fn files_say_which_wavelengths_they_have() {
     assert!(bytes == std::fs::read(folder.path().join("again.exr")).unwrap());
 }
 
-/// Sheets across the view, each a plane turned to face the camera, before a white sky.
+/// Sheets across the view, each a plane that faces the camera, in front of a white sky.
 fn sheets(sheets: &str) -> String {
     format!(
         "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\nfield_of_view = 1\n[film]\nwidth = 4\nheight = 4\n\
@@ -262,13 +262,13 @@ fn two_polarisers_pass_light_by_the_law_of_malus() {
         let [s0, s1, s2, s3] = seen(&sheets(&(near + &far)));
         let expected = 0.5 * f64::to_radians(degrees).cos().powi(2);
         assert!((s0 - expected).abs() < 1e-5, "{degrees} degrees: {s0}, not {expected}");
-        // What the nearer one passes is polarised along its axis, the right of the picture.
+        // Light that passes the nearer one is polarised along its axis, the right of the picture.
         assert!((s1 - s0).abs() < 1e-5 && s2.abs() < 1e-5 && s3.abs() < 1e-5, "{s0} {s1} {s2} {s3}");
     }
 }
 
 #[test]
-fn a_quarter_of_a_wave_makes_circular_light() {
+fn a_quarter_wave_plate_makes_circular_light() {
     let quarter = sheet("quarter", "model = \"retarder\"\nangle = 0\nretardance = 90", 1.0);
     let polariser = sheet("polariser", "model = \"polariser\"\nangle = 45", 0.0);
     let [s0, s1, s2, s3] = seen(&sheets(&(quarter + &polariser)));
@@ -289,14 +289,15 @@ fn a_pane_at_brewsters_angle_mirrors_light_of_one_plane() {
         [[light]]\nkind = \"environment\"\nradiance = 1\n"
     );
     let [s0, s1, s2, s3] = seen(&text);
-    // The reflectance there, half of ((n^2 - 1) / (n^2 + 1))^2, with the noise of which way paths go.
+    // The reflectance there, half of ((n^2 - 1) / (n^2 + 1))^2, with noise from the choice between reflection and
+    // refraction.
     assert!(s0 > 0.02 && s0 < 0.2, "{s0}");
-    // Across the plane of incidence is the right of the picture.
+    // The direction across the plane of incidence is the right of the picture.
     assert!((s1 / s0 - 1.0).abs() < 1e-5 && (s2 / s0).abs() < 1e-4 && (s3 / s0).abs() < 1e-4, "{s0} {s1} {s2} {s3}");
 }
 
 #[test]
-fn no_light_is_more_than_wholly_polarised() {
+fn the_degree_of_polarisation_is_at_most_one() {
     let scene = stokes(&mixed("[spectrum]\nstokes = true\n"), Backend::best());
     let film = picture(&scene, &settings(&scene, 16, Backend::best()));
     let mut polarised = 0;

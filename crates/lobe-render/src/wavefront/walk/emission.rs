@@ -25,7 +25,7 @@ pub(super) struct EmittedBlock<T: Transport> {
     emitted: <T::Spectrum as Channels>::Columns,
     pdf: [Column; 2],
     light: [i32; RAYS],
-    /// 1 if it carries anything, else 0.
+    /// 1 if it carries light, otherwise 0.
     valid: Column,
 }
 
@@ -83,7 +83,7 @@ impl<T: Transport> Wavefront<'_, T> {
                 let mut origin = vector(&block.origin, at);
                 let way = vector(&block.direction, at);
                 if light.has_surface() {
-                    // Off the surface, as far as rays that leave others begin.
+                    // Off the surface, by the same distance as rays from other surfaces.
                     let reach = origin.iter().fold(0.0f32, |most, x| most.max(x.abs()));
                     let step = (reach / 65_536.0).max(1e-9) / cos.max(1e-3);
                     origin = vec3::add(origin, vec3::scale(way, step));

@@ -9,19 +9,19 @@ use crate::photon::{LightMap, gather};
 use crate::transport::TransportMode;
 use crate::vec3::{Vec3, dot};
 
-/// What is gathered.
+/// The part of the light that is gathered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Merging {
-    /// All of it, as there is no other technique.
+    /// All of it, because there is no other technique.
     Alone,
     /// The share that is not left to other techniques.
     Weighted,
 }
 
-/// About how many photons are gathered before materials are asked.
+/// Approximate number of photons gathered before materials are evaluated.
 const TOGETHER: usize = 8192;
 
-/// The least cosine between the normals of the place and of a photon: light does not come around corners.
+/// The least cosine between the normals of the place and of a photon, so that light does not come around corners.
 const ALONG: f32 = 0.5;
 
 impl<T: Unpolarised> Wavefront<'_, T> {

@@ -1,4 +1,5 @@
-//! Stages of paths that are met by others: from lights and from the camera, each with what weights need.
+//! Stages of paths that are connected or merged with others: paths from lights and from the camera, each with the
+//! numbers needed for weights.
 //!
 //! [`emission`] begins light paths; they are [kept](keep), and seen by the [camera](to_camera). Paths from the camera
 //! sample and find [lights](to_lights), are [connected](to_vertices) with light paths and [gather](merge) photons.
@@ -30,15 +31,15 @@ pub(crate) use merge::Merging;
 use pairs::Pairs;
 use to_camera::CameraBlock;
 
-/// What a path has in addition to its [`PathState`], by slot: these paths do not branch.
+/// State of a path in addition to its [`PathState`], by slot, because these paths do not branch.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Walk<T: Transport> {
     pub mis: Mis,
-    /// What left the light, over the density of the ray, in W.
+    /// The power that left the light, over the density of the ray, in W.
     pub flux: T::Spectrum,
-    /// The number of the last hit.
+    /// The index of the last hit.
     hit: u32,
-    /// Whether the ray comes from a light that has no place.
+    /// `true` if the ray comes from a light without a position.
     from_afar: bool,
 }
 
@@ -49,13 +50,13 @@ pub(super) struct Walks<T: Transport> {
     choices: Numbers,
     emitted: Vec<EmittedBlock<T>>,
     cameras: Vec<CameraBlock>,
-    /// By hit: the density of the reverse of a sampled direction.
+    /// The density of the reverse of a sampled direction, by hit.
     reverse: Vec<f32>,
     pairs: Pairs<T>,
     others: Pairs<T>,
     near: Vec<Near>,
     places: Vec<Vec3>,
-    /// Rays between two ends, with what passes along them.
+    /// Rays between two ends, with the light that passes along them.
     between: RayQueue<SplatAt<T>>,
     hidden: Vec<bool>,
     found: Vec<LightVertex<T>>,
@@ -85,7 +86,7 @@ impl<T: Transport> Default for Walks<T> {
     }
 }
 
-/// The other mode: that of the reverse path.
+/// The other mode, which is the mode of the reverse path.
 fn reversed(mode: TransportMode) -> TransportMode {
     match mode {
         TransportMode::Radiance => TransportMode::Importance,
@@ -94,14 +95,14 @@ fn reversed(mode: TransportMode) -> TransportMode {
 }
 
 impl<T: Transport> Wavefront<'_, T> {
-    /// Follows one sample of the pixels of a tile. Returns what it brought.
+    /// Follows one sample of the pixels of a tile and returns the contributions.
     pub fn camera_paths(&mut self, tile: Rect, pass: &Pass, follow: impl FnOnce(&mut Self)) -> Film<T> {
         let begun = Instant::now();
         let mut film = Film::new(tile);
         self.begin(&morton(tile), pass.number..pass.number + 1);
         self.walks.walks.clear();
         for ray in 0..self.rays.len() {
-            // Other places of the lens have the same density.
+            // Other points of the lens have the same density.
             let density = pass.pixels * self.view.density(self.rays.direction(ray));
             let mis = Mis::of_camera(density, pass.factors);
             self.walks.walks.push(Walk { mis, flux: T::Spectrum::ONE, hit: 0, from_afar: false });
@@ -112,7 +113,7 @@ impl<T: Transport> Wavefront<'_, T> {
         film
     }
 
-    /// Follows light paths. Returns what is left of them.
+    /// Follows light paths and returns their surfaces.
     pub fn light_paths(
         &mut self,
         paths: std::ops::Range<u32>,
@@ -132,7 +133,7 @@ impl<T: Transport> Wavefront<'_, T> {
         part
     }
 
-    /// Brings the weights of paths to the surfaces that they have hit.
+    /// Advances the weights of paths to the surfaces that they have hit.
     pub fn arrive(&mut self) {
         let begun = Instant::now();
         for hit in 0..self.hits.len() {
@@ -145,7 +146,7 @@ impl<T: Transport> Wavefront<'_, T> {
         self.stats.interactions += begun.elapsed();
     }
 
-    /// As [`scatter`](Wavefront::scatter), with what weights need.
+    /// Like [`scatter`](Wavefront::scatter), with the numbers needed for weights.
     pub fn scatter_on(&mut self, scatter: Scatter, factors: Factors) {
         self.scatter(scatter);
         let begun = Instant::now();
@@ -174,7 +175,7 @@ impl<T: Transport> Wavefront<'_, T> {
         self.stats.scatter += begun.elapsed();
     }
 
-    /// Keeps the rays that have met mirrors and glass only. Returns the others.
+    /// Keeps the rays that have met only mirrors and glass. Returns the others.
     pub fn part_mirrored(&mut self) -> RayQueue<PathState<T>> {
         let (mut mirrored, mut others) = (RayQueue::default(), RayQueue::default());
         for (ray, state) in self.rays.states.iter().enumerate() {
@@ -185,7 +186,7 @@ impl<T: Transport> Wavefront<'_, T> {
         others
     }
 
-    /// Traces the rays between ends; those that arrive are passed to `arrives`.
+    /// Traces the rays between ends, and passes those that arrive to `arrives`.
     fn resolve_between(&mut self, class: RayClass, mut arrives: impl FnMut(&mut Self, SplatAt<T>)) {
         let begun = Instant::now();
         let mut between = std::mem::take(&mut self.walks.between);

@@ -7,8 +7,8 @@ use crate::vec3::Vec3;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Columns of pairs of directions, both in the frame of the material: `wo` is where a path has come from, `wi` where it
-/// may go on.
+/// Columns of pairs of directions, both in the frame of the material: `wo` is the direction from which a path has come,
+/// `wi` the one in which it may continue.
 #[derive(Debug)]
 pub(super) struct Pairs<T: Transport> {
     pub wi: Vec<Vec3>,
@@ -52,7 +52,7 @@ impl<T: Transport> Pairs<T> {
         self.wo.push(wo);
     }
 
-    /// Says that all pairs since the last call are of a material.
+    /// Assigns all pairs since the last call to a material.
     pub fn end_group(&mut self, material: usize) {
         let begin = self.groups.last().map_or(0, |(_, pairs)| pairs.end);
         if begin < self.len() {
@@ -60,7 +60,7 @@ impl<T: Transport> Pairs<T> {
         }
     }
 
-    /// Evaluates all pairs, and the densities both ways if they are wanted.
+    /// Evaluates all pairs, and if requested the densities both ways.
     pub fn evaluate(
         &mut self,
         materials: &[Arc<dyn Shader<T>>],

@@ -23,7 +23,7 @@ pub(super) struct CameraBlock {
     /// Toward the camera, in the world and in the frame.
     toward: [Column; 3],
     local: [Column; 3],
-    /// The ray there.
+    /// The ray to the camera.
     origin: [Column; 3],
     direction: [Column; 3],
     t_max: Column,
@@ -31,7 +31,7 @@ pub(super) struct CameraBlock {
     /// Importance over the density of the point of the lens.
     importance: Column,
     raster: [Column; 2],
-    /// 1 if it is seen, else 0.
+    /// 1 if it is seen, otherwise 0.
     seen: Column,
 }
 
@@ -50,7 +50,7 @@ impl CameraBlock {
 }
 
 impl<T: Unpolarised> Wavefront<'_, T> {
-    /// Splats what the camera sees of the hits of light paths, weighted against the other techniques if these are used.
+    /// Splats the hits of light paths that the camera sees, weighted against the other techniques if these are used.
     pub fn connect_to_camera(&mut self, depth: u32, pass: &Pass, weighted: bool) {
         let begun = Instant::now();
         self.sample_numbers(Dimensions::Light(depth + 1));

@@ -14,7 +14,7 @@ use crate::wavefront::rays::Ray;
 use crate::wavefront::shadow::ShadowRay;
 
 impl<T: Unpolarised> Wavefront<'_, T> {
-    /// Adds the light that reaches the hits straight from lights.
+    /// Adds direct light at the hits.
     pub fn sample_lights_weighted(&mut self, depth: u32, class: RayClass, pass: &Pass) {
         if self.world.lights.all.is_empty() {
             return;
@@ -54,7 +54,7 @@ impl<T: Unpolarised> Wavefront<'_, T> {
         self.resolve_shadow_rays(class.shadow(delta));
     }
 
-    /// The densities with which light paths would go back along those that have reached the hits.
+    /// The densities with which light paths would go back along the paths that have reached the hits.
     fn reverse_densities(&mut self, depth: u32) {
         let begun = Instant::now();
         let next = &self.next_event;
@@ -69,7 +69,7 @@ impl<T: Unpolarised> Wavefront<'_, T> {
         self.stats.at(depth).time += begun.elapsed();
     }
 
-    /// Adds the radiance of surfaces that emit to the paths that have hit them.
+    /// Adds the radiance of emitting surfaces to the paths that have hit them.
     pub fn emit_weighted(&mut self, depth: u32) {
         let begun = Instant::now();
         let lights = &self.world.lights;
@@ -93,7 +93,7 @@ impl<T: Unpolarised> Wavefront<'_, T> {
         self.stats.interactions += begun.elapsed();
     }
 
-    /// Adds the environment's radiance to the paths of rays that have hit nothing.
+    /// Adds the radiance of the environment to the paths of rays that have hit nothing.
     pub fn escape_weighted(&mut self, depth: u32) {
         let lights = &self.world.lights;
         let Some(environment) = lights.environment else { return };

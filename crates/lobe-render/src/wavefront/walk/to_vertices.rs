@@ -12,11 +12,11 @@ use crate::transport::TransportMode;
 use crate::vec3::{dot, length, neg, scale, sub};
 use crate::wavefront::rays::Ray;
 
-/// A hit and a surface that it is connected with.
+/// A hit and a surface with which it is connected.
 struct Connection<'a, T: Unpolarised> {
     hit: usize,
     vertex: &'a LightVertex<T>,
-    /// From the hit, a unit vector, and how far.
+    /// Unit vector from the hit, and the distance.
     wi: [f32; 3],
     distance: f32,
 }
@@ -114,7 +114,7 @@ impl<T: Unpolarised> Wavefront<'_, T> {
                 let reach = length(way);
                 if reach > 0.0 {
                     let ray = Ray { origin: from, direction: scale(way, 1.0 / reach) };
-                    // The slot goes where others say where they are in the picture.
+                    // The slot takes the place of the position in the picture.
                     let raster = [f32::from_bits(state.slot), 0.0];
                     between.push(ray, 0.9999 * reach, SplatAt { raster, radiance });
                 }
