@@ -1,4 +1,4 @@
-//! Records the compiler that builds the kernels that the report measures.
+//! Records the compiler that builds the kernels measured by the report.
 
 use std::process::Command;
 

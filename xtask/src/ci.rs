@@ -1,4 +1,4 @@
-//! `cargo xtask ci`: what a change must pass.
+//! `cargo xtask ci`: runs the checks that a change must pass.
 
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use super::cargo;
 
-pub const ABOUT: &str = "Run what a change must pass: format, lints, documentation, checks, and the tests, last";
+pub const ABOUT: &str = "Run the checks that a change must pass: format, lints, documentation, and last the tests";
 
 /// A step before the tests.
 struct Step {
@@ -63,7 +63,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
     test()
 }
 
-/// Looks at every file: `cargo fmt` does not see modules that a macro declares.
+/// Checks every file, because `cargo fmt` does not see modules that a macro declares.
 fn is_formatted() -> bool {
     let Ok(listed) = Command::new("git").args(["ls-files", "-z", "*.rs"]).output() else { return false };
     let files = String::from_utf8_lossy(&listed.stdout);
@@ -72,7 +72,7 @@ fn is_formatted() -> bool {
     !files.is_empty() && checked.is_ok_and(|status| status.success())
 }
 
-/// Cargo without incremental compilation, as nothing is compiled twice here.
+/// Cargo without incremental compilation, because nothing is compiled twice here.
 fn quiet() -> Command {
     let mut cargo = cargo();
     cargo.env("CARGO_INCREMENTAL", "0");

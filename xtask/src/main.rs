@@ -1,4 +1,4 @@
-//! `cargo xtask COMMAND`: the workspace's own commands.
+//! `cargo xtask COMMAND`: the commands of the workspace.
 //!
 //! Each is a program in its own package, which is built when it is used, so that no command compiles what another
 //! needs. This one has no dependencies and starts at once.
@@ -10,7 +10,7 @@ mod wheel;
 
 use std::process::{Command, ExitCode};
 
-/// A command: its name, what it does, and the programs that do it, one after the other with the same arguments.
+/// A command: its name, its description, and its programs, which run one after the other with the same arguments.
 struct Task {
     name: &'static str,
     about: &'static str,
@@ -51,12 +51,12 @@ const TASKS: [Task; 10] = [
     },
     Task {
         name: "outside",
-        about: "Compare kernels that a crate outside of the workspace instantiates with those of the workspace",
+        about: "Compare kernels instantiated by a crate outside the workspace with those of the workspace",
         packages: &["xtask-outside"],
     },
     Task {
         name: "fixtures",
-        about: "Make the tables and meshes in fixtures/ from their seeds, or check those that are there",
+        about: "Compute the tables and meshes in fixtures/ from their seeds, or check the existing ones",
         packages: &["xtask-fixtures"],
     },
     Task {
@@ -104,7 +104,7 @@ fn cargo() -> Command {
 }
 
 fn help() {
-    println!("The workspace's own commands\n\nUsage: cargo xtask COMMAND [OPTIONS]\n\nCommands:");
+    println!("The commands of the workspace\n\nUsage: cargo xtask COMMAND [OPTIONS]\n\nCommands:");
     for Task { name, about, .. } in &TASKS {
         println!("  {name:12} {about}");
     }

@@ -1,4 +1,4 @@
-//! `cargo xtask python`: the package for Python, installed as a user does and tested.
+//! `cargo xtask python`: installs the Python package as a user does, and tests it.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ Examples:
   cargo xtask python --wheel
   cargo xtask python -k arrays";
 
-/// Prints `True` if this interpreter can make environments, and is new enough.
+/// Prints `True` if this interpreter can create environments, and is new enough.
 const PROBE: &str = "import sys, venv, ensurepip; print(sys.version_info >= (3, 10))";
 
 pub fn run(arguments: &[String]) -> ExitCode {
@@ -31,7 +31,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
     match check(!options.is_empty(), &arguments) {
         Ok(Outcome::Passed) => ExitCode::SUCCESS,
         Ok(Outcome::Skipped(why)) => {
-            println!("SKIP the package for Python: {why}");
+            println!("SKIP the Python package: {why}");
             ExitCode::SUCCESS
         }
         Err(failed) => {
@@ -48,9 +48,9 @@ enum Outcome {
 
 fn check(is_wheel: bool, arguments: &[String]) -> Result<Outcome, String> {
     let Some(python) = ["python3", "python"].into_iter().find(|python| is_usable(python)) else {
-        return Ok(Outcome::Skipped("there is no Python 3.10 or newer that can make virtual environments"));
+        return Ok(Outcome::Skipped("there is no Python 3.10 or newer that can create virtual environments"));
     };
-    // Environments that were made by another Python do not work.
+    // Environments created by another Python do not work.
     let environment = std::path::absolute("target/python").map_err(|error| error.to_string())?;
     done(Command::new(python).args(["-m", "venv", "--clear"]).arg(&environment))?;
     let python = interpreter(&environment);
@@ -60,13 +60,13 @@ fn check(is_wheel: bool, arguments: &[String]) -> Result<Outcome, String> {
     if done(Command::new(&python).args(pip).args(tools).args(of_wheels)).is_err() {
         return Ok(Outcome::Skipped("pip cannot install maturin, numpy and pytest"));
     }
-    // Not every Python has them; the tests that need them say that they are skipped.
+    // They are not available for every Python; tests that need them report that they are skipped.
     for engine in [["openjd-cli"].as_slice(), &["ray", "colorama"]] {
         if done(Command::new(&python).args(pip).args(engine)).is_err() {
-            println!("SKIP what needs {}: pip cannot install it", engine[0]);
+            println!("SKIP tests that need {}: pip cannot install it", engine[0]);
         }
     }
-    // Where pip finds maturin.
+    // So that pip finds maturin.
     let mut path = vec![environment.join(BIN)];
     path.extend(std::env::split_paths(&std::env::var_os("PATH").unwrap_or_default()));
     let path = std::env::join_paths(path).map_err(|error| error.to_string())?;
@@ -76,7 +76,7 @@ fn check(is_wheel: bool, arguments: &[String]) -> Result<Outcome, String> {
     };
     let install = ["--no-build-isolation", "--no-deps", "--force-reinstall"];
     done(Command::new(&python).args(pip).args(install).arg(package).env("PATH", path))?;
-    // What is compared with the program needs it as it is now. The tests of the workspace use the same build.
+    // Some tests compare with the program, so it must be up to date. The tests of the workspace use the same build.
     done(super::cargo().args(["build", "--quiet", "--workspace", "--bin", "lobe"]))?;
     done(
         Command::new(&python)

@@ -1,4 +1,4 @@
-//! `cargo xtask asm`: checks that no intrinsic is left as a function of its own in the release binaries.
+//! `cargo xtask asm`: checks that every intrinsic is inlined in the release binaries.
 //!
 //! A helper that is generic over the lanes but not `#[inline(always)]` is compiled without the backend's features, so
 //! each intrinsic in it becomes a call to a function of one instruction. That costs up to a factor of 75. No compiler
@@ -12,7 +12,7 @@ use anyhow::{Context, bail, ensure};
 use clap::Parser;
 use object::{Architecture, Object, ObjectSymbol, SymbolKind};
 
-/// The package that calls kernels in every way, and the one that users run.
+/// The package that calls kernels in every way, and the package that users run.
 const PACKAGES: [&str; 2] = ["xtask-report", "lobe-cli"];
 
 /// Check that no SIMD intrinsic is called out of line in the release binaries
@@ -30,7 +30,7 @@ struct Args {
 /// Builds the binaries in release mode and searches their symbols.
 ///
 /// # Errors
-/// If the build fails, a binary has no symbols to look at, or an intrinsic is a function of its own.
+/// If the build fails, a binary has no symbols, or an intrinsic is out of line.
 fn main() -> anyhow::Result<()> {
     let args = Args::parse();
     let mut found = Vec::new();
@@ -64,16 +64,16 @@ fn build(packages: &[String]) -> anyhow::Result<Vec<PathBuf>> {
     for package in packages {
         let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.args(["build", "--release", "--bins", "--message-format=json-render-diagnostics", "--package", package]);
-        let output = cargo.stderr(std::process::Stdio::inherit()).output().context("cargo cannot be run")?;
+        let output = cargo.stderr(std::process::Stdio::inherit()).output().context("cannot run cargo")?;
         ensure!(output.status.success(), "the release build of {package} failed");
         let built = executables(&output.stdout)?;
-        ensure!(built.len() == 1, "the build of {package} made {built:?}; expected one binary");
+        ensure!(built.len() == 1, "the build of {package} produced {built:?}; expected one binary");
         binaries.extend(built);
     }
     Ok(binaries)
 }
 
-/// The executables that cargo's messages name.
+/// The executables named in cargo's messages.
 fn executables(messages: &[u8]) -> anyhow::Result<Vec<PathBuf>> {
     let mut binaries = Vec::new();
     for line in messages.split(|&byte| byte == b'\n').filter(|line| !line.is_empty()) {
@@ -83,11 +83,11 @@ fn executables(messages: &[u8]) -> anyhow::Result<Vec<PathBuf>> {
     Ok(binaries)
 }
 
-/// What the symbols of a binary show.
+/// Findings in the symbols of a binary.
 #[derive(Debug, Default)]
 struct Symbols {
     functions: usize,
-    /// Functions of `core::arch` that ask the CPU what it can do.
+    /// Functions of `core::arch` that detect the features of the CPU.
     detection: Vec<String>,
     /// Intrinsics that should have been inlined.
     out_of_line: Vec<String>,
@@ -113,14 +113,15 @@ impl Symbols {
         Ok(symbols)
     }
 
-    /// Sorts in the name of a function.
+    /// Classifies the name of a function.
     fn sort_in(&mut self, mangled: &str) {
         let name = format!("{:#}", rustc_demangle::demangle(mangled));
         if !name.contains("core_arch::") {
             return;
         }
         let function = name.rsplit("::").next().unwrap_or_default();
-        // On Arm and in WebAssembly, names begin with a letter: what is one of a trait is not an intrinsic, and begins with `<`.
+        // On Arm and in WebAssembly, names of intrinsics begin with a letter; the name of a trait's function begins
+        // with `<`.
         let is_elsewhere = ["aarch64::", "arm_shared::", "wasm32::"].iter().any(|part| name.contains(part));
         if function.starts_with("_mm") || (is_elsewhere && !name.starts_with('<')) {
             self.out_of_line.push(name);
@@ -130,7 +131,8 @@ impl Symbols {
     }
 }
 
-/// What a multiply-add of floats becomes where the processor is not known to have one: a function that computes it bit by bit.
+/// The function that a multiply-add of floats becomes if the processor is not known to have the instruction: it
+/// computes the result bit by bit.
 fn is_slow_multiply_add(name: &str) -> bool {
     // Linkers add the version of the library.
     name.split('@').next() == Some("fmaf")
@@ -154,14 +156,14 @@ mod tests {
     }
 
     #[test]
-    fn multiply_adds_by_a_function_are_found() {
+    fn multiply_adds_by_function_call_are_found() {
         for (name, found) in [("fmaf", true), ("fmaf@GLIBC_2.2.5", true), ("fma", false), ("xfmaf", false)] {
             assert_eq!(is_slow_multiply_add(name), found, "{name}");
         }
     }
 
     #[test]
-    fn the_functions_of_an_executable_are_seen() {
+    fn the_functions_of_an_executable_are_found() {
         let symbols = Symbols::read(&std::env::current_exe().unwrap()).unwrap();
         assert!(symbols.functions > 1000, "{symbols:?}");
     }

@@ -1,6 +1,6 @@
-//! How figures are formatted.
+//! Formats figures.
 
-/// A ratio with as many digits as it deserves.
+/// A ratio with a suitable number of digits.
 pub fn times(ratio: f64) -> String {
     if ratio >= 100.0 {
         format!("{ratio:.0}×")

@@ -1,4 +1,4 @@
-//! Tables of figures that are not ratios of speeds, as text in cells: the same on the terminal and on pages.
+//! Tables of figures that are not ratios of speeds, as text in cells, for both the terminal and pages.
 
 use comfy_table::{CellAlignment, Table, presets};
 
@@ -47,7 +47,7 @@ impl Grid {
         self.notes.iter().for_each(|note| println!("{note}"));
     }
 
-    /// As a section of a page of the documentation.
+    /// Formats it as a section of a page of the documentation.
     pub fn markdown(&self) -> String {
         let line = |cells: &Vec<String>| format!("| {} |\n", cells.join(" | "));
         let mut text = format!("\n## {}\n\n{}\n", self.title, self.reading);
@@ -60,7 +60,7 @@ impl Grid {
         text
     }
 
-    /// As a section of the report's page.
+    /// Formats it as a section of the report's page.
     pub fn html(&self) -> String {
         let cells = |tag: &str, texts: &[String]| -> String {
             texts.iter().map(|text| format!("<{tag}>{}</{tag}>", escape(text))).collect()

@@ -1,4 +1,4 @@
-//! What the commands of the workspace share.
+//! Shared by the commands of the workspace.
 #![forbid(unsafe_code)]
 
 mod figures;

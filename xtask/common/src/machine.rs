@@ -1,4 +1,4 @@
-//! Where the figures come from.
+//! Describes the machine that the figures come from.
 
 use std::process::Command;
 use std::time::SystemTime;
@@ -14,7 +14,7 @@ pub struct Machine {
     pub cores: usize,
     /// SIMD extensions, as detected by the program.
     pub features: Vec<String>,
-    /// Processes that wanted a core during the minute before the run began: above 1, figures are noisy.
+    /// Mean number of processes that wanted a core during the minute before the run began: above 1, figures are noisy.
     pub load: Option<f64>,
     /// Compiler and its target.
     pub compiler: String,

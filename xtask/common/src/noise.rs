@@ -44,7 +44,7 @@ pub fn by_samples(sampler: &Sampler, given: Given, known: [f32; 3], uniforms: &[
     of_weights(sampler.material(), &weights)
 }
 
-/// The noise of directions drawn in proportion to their cosine, for one direction above the surface.
+/// The noise of directions sampled in proportion to their cosine, for one direction above the surface.
 pub fn by_cosine(material: &Material, given: Given, known: [f32; 3], uniforms: &[[f32; 2]]) -> Moments {
     let draw = |&[u, w]: &[f32; 2]| {
         let (sin, cos) = (f64::from(w) * TAU).sin_cos();

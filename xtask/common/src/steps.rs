@@ -1,10 +1,10 @@
-//! Progress of long work: a bar on a terminal, or else a line as each part begins.
+//! Progress of long work: a bar on a terminal, otherwise a line at the beginning of each part.
 
 use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Work of several steps, done in parts that have names.
+/// Work of several steps, done in named parts.
 pub struct Steps {
     bar: ProgressBar,
     begun: Instant,
@@ -39,7 +39,7 @@ impl Steps {
         self.bar.inc(steps);
     }
 
-    /// For work whose size is known only once it is under way: this many steps are done, of that many.
+    /// For work whose size is known only after it has started: sets the number of finished steps and of all steps.
     pub fn are(&self, done: u64, of: u64) {
         self.bar.set_length(of);
         self.bar.set_position(done);

@@ -1,9 +1,9 @@
-//! Just enough of SVG for the pictures of the page. Colours are classes, which the page's style sheet defines for light
-//! and dark.
+//! Just enough SVG for the pictures of the page. Colours are classes, which the style sheet of the page defines for
+//! light and dark.
 
 use std::fmt::Write;
 
-/// A picture under construction. Units are pixels of a narrow phone; the page scales it.
+/// A picture under construction. Units are pixels of a narrow phone; the page scales the picture.
 pub struct Svg {
     width: f64,
     height: f64,
@@ -11,7 +11,7 @@ pub struct Svg {
     body: String,
 }
 
-/// Which point of a text is anchored.
+/// The point at which a text is anchored.
 #[derive(Clone, Copy)]
 pub enum Anchor {
     /// Its beginning.
@@ -46,7 +46,7 @@ impl Svg {
         self.push(format_args!(r#"<polygon class="{class}" points="{}"/>"#, points.join(" ")));
     }
 
-    /// A line of text on the base line at `y`.
+    /// A line of text with its base line at `y`.
     pub fn text(&mut self, class: &str, [x, y]: [f64; 2], anchor: Anchor, text: &str) {
         let anchor = match anchor {
             Anchor::Start => "start",

@@ -1,4 +1,4 @@
-//! Files that are either complete or absent.
+//! Writes files so that they are either complete or absent.
 
 use std::path::Path;
 

@@ -1,11 +1,11 @@
-//! What the targets need: found on this machine, or installed below `target/cross`.
+//! The tools that the targets need: found on this machine, or installed in `target/cross`.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use anyhow::{Context, bail, ensure};
 
-/// Where what is missing is installed.
+/// The folder in which missing tools are installed.
 fn folder() -> PathBuf {
     let target = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
     target.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target")).join("cross")
@@ -27,12 +27,12 @@ pub fn rust_target(triple: &str) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The emulator of another processor for programs of Linux: from the machine, or from Debian's packages.
+/// The emulator of another processor for Linux programs: from this machine, or from Debian's packages.
 ///
 /// # Errors
 /// If it is missing and cannot be installed.
 pub fn qemu(processor: &str) -> anyhow::Result<PathBuf> {
-    ensure!(cfg!(target_os = "linux"), "qemu runs programs on Linux only");
+    ensure!(cfg!(target_os = "linux"), "qemu runs programs only on Linux");
     let names = [format!("qemu-{processor}"), format!("qemu-{processor}-static")];
     if let Some(found) = names.iter().find_map(|name| on_path(name)) {
         return Ok(found);
@@ -62,17 +62,18 @@ pub fn node() -> anyhow::Result<PathBuf> {
 /// Unpacks one of Debian's packages, without installing it.
 fn debian(package: &str) -> anyhow::Result<()> {
     let into = folder().join(package);
-    std::fs::create_dir_all(&into).with_context(|| format!("{}: cannot be made", into.display()))?;
+    std::fs::create_dir_all(&into).with_context(|| format!("{}: cannot be created", into.display()))?;
     let download = || output(Command::new("apt-get").args(["download", "--quiet", package]).current_dir(&into));
     if download().is_err() {
-        // The list of packages is missing or old.
+        // The list of packages is missing or outdated.
         output(Command::new("apt-get").args(["update", "--quiet"]))?;
         download()?;
     }
     let entries = std::fs::read_dir(&into).with_context(|| format!("{}: cannot be read", into.display()))?;
     let mut files = entries.map_while(Result::ok).map(|entry| entry.path());
     let archive = files.find(|file| file.extension().is_some_and(|extension| extension == "deb"));
-    let archive = archive.with_context(|| format!("apt-get left no package of {package} in {}", into.display()))?;
+    let archive =
+        archive.with_context(|| format!("apt-get did not download the package {package} to {}", into.display()))?;
     output(Command::new("dpkg-deb").arg("--extract").arg(&archive).arg(&into))?;
     std::fs::remove_file(&archive).with_context(|| format!("{}: cannot be removed", archive.display()))
 }
@@ -83,16 +84,16 @@ fn on_path(name: &str) -> Option<PathBuf> {
     std::env::split_paths(&folders).map(|folder| folder.join(name)).find(|file| file.is_file())
 }
 
-/// Runs a program to its end.
+/// Runs a program and waits for its end.
 ///
 /// # Errors
-/// If it cannot be run or fails, with the last line that it says about that.
+/// If it cannot be run or fails, with the last line of its output.
 fn output(command: &mut Command) -> anyhow::Result<Output> {
     let name = command.get_program().to_string_lossy().into_owned();
     let output = command.output().with_context(|| format!("{name} cannot be run"))?;
     if !output.status.success() {
         let said = String::from_utf8_lossy(&output.stderr);
-        let said = said.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("it says nothing");
+        let said = said.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("it printed nothing");
         bail!("{name} failed: {}", said.trim());
     }
     Ok(output)

@@ -1,7 +1,5 @@
-//! `cargo xtask cross`: the backends of other processors, built for them and tested on emulators.
-//!
-//! What is needed and missing is installed below `target/cross`. A target that cannot be run here is skipped, and the reason
-//! is printed.
+//! `cargo xtask cross`: builds the backends of other processors, and tests them on emulators. Missing tools are
+//! installed in `target/cross`. A target that cannot be run here is skipped, and the reason is printed.
 #![forbid(unsafe_code)]
 
 mod install;
@@ -15,13 +13,13 @@ use clap::Parser;
 
 use target::{Setup, Target};
 
-/// What is tested on each target, besides the crate of the backend: lanes, functions, tables, the facade, rays and pictures.
+/// The packages tested on each target, besides the crate of the backend: lanes, functions, tables, the facade, rays and
+/// pictures.
 const PACKAGES: [&str; 6] = ["lobe-backend", "lobe-math", "lobe-table", "lobe", "lobe-trace", "lobe-render"];
 
-/// Test the backends of other processors, on emulators of these
-///
-/// aarch64 runs in qemu, wasm in node, sse2 in qemu as a processor that has nothing else; avx512 runs where the processor has
-/// it. Needed tools that are missing are installed below target/cross: a target of rustup, qemu from Debian's packages.
+/// Test the backends of other processors, on emulators of these aarch64 runs in qemu, wasm in node, sse2 in qemu as a
+/// processor that has nothing newer; avx512 runs if this processor has it. Missing tools are installed in target/cross:
+/// a target of rustup, qemu from Debian's packages.
 #[derive(Parser, Debug)]
 #[command(bin_name = "cargo xtask cross")]
 struct Args {
@@ -76,8 +74,8 @@ fn main() -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The backend by itself first, then what is made of it, then its equivalence with the reference: that fails if the backend
-/// did not run.
+/// Tests the backend by itself first, then the packages that use it, then its equivalence with the reference, which
+/// fails if the backend did not run.
 fn test(target: Target, setup: &Setup, packages: &[String]) -> anyhow::Result<()> {
     let [backend_crate, backend] = [target.backend_crate(), target.backend()];
     let mut failed = Vec::new();
@@ -102,8 +100,8 @@ fn test(target: Target, setup: &Setup, packages: &[String]) -> anyhow::Result<()
     Ok(())
 }
 
-/// Whether every access of the backend refuses a slice that is too short, and no other, where a panic ends the program: the
-/// tests of the backend then try one access in each process.
+/// Checks that every access of the backend refuses slices that are too short, and no others, on a target where a panic
+/// ends the program: the tests of the backend then try one access per process.
 fn refuses_short_slices(target: Target, setup: &Setup) -> anyhow::Result<bool> {
     /// The accesses that `lobe_testing::conformance` numbers.
     const ACCESSES: usize = 11;
@@ -119,7 +117,7 @@ fn refuses_short_slices(target: Target, setup: &Setup) -> anyhow::Result<bool> {
             let refused = said.contains("panicked at");
             let as_it_should = if more < 0 { refused } else { output.status.success() && said.contains("is accepted") };
             if !as_it_should {
-                println!("{said}\naccess {access} of {more} elements more than it needs: refused = {refused}");
+                println!("{said}\naccess {access} with {more} elements more than it needs: refused = {refused}");
                 return Ok(false);
             }
         }
@@ -127,7 +125,7 @@ fn refuses_short_slices(target: Target, setup: &Setup) -> anyhow::Result<bool> {
     Ok(true)
 }
 
-/// Whether cargo succeeds.
+/// Runs cargo; returns `true` if it succeeds.
 fn cargo(setup: &Setup, arguments: &[&str]) -> anyhow::Result<bool> {
     println!("\n== cargo {}", arguments.join(" "));
     Ok(command(setup).args(arguments).status().context("cargo cannot be run")?.success())

@@ -1,4 +1,4 @@
-//! What is tested, and how it runs here.
+//! The targets that are tested, and how they run here.
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -8,7 +8,7 @@ use clap::ValueEnum;
 
 use super::install;
 
-/// A set of instructions.
+/// An instruction set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Target {
     /// NEON
@@ -26,7 +26,7 @@ pub enum Target {
 pub struct Setup {
     /// Environment variables of cargo.
     pub environment: Vec<(String, OsString)>,
-    /// Whether a panic ends the program.
+    /// `true` if a panic ends the program.
     pub panics_end: bool,
     /// Arguments to test programs.
     pub harness: &'static [&'static str],
@@ -37,7 +37,7 @@ impl Setup {
         self.environment.push((name.into(), value.into()));
     }
 
-    /// Sets what cargo has a variable for on each target of rustc.
+    /// Sets a variable that cargo has for each target of rustc.
     fn set_of(&mut self, triple: &str, key: &str, value: impl Into<OsString>) {
         self.set(format!("CARGO_TARGET_{}_{key}", triple.to_uppercase().replace('-', "_")), value);
     }
@@ -77,7 +77,7 @@ impl Target {
         }
     }
 
-    /// What runs its programs here, with all that is needed.
+    /// How its programs are run here, with all tools that they need.
     ///
     /// # Errors
     /// The reason why they cannot be run.
@@ -86,7 +86,8 @@ impl Target {
         match self {
             Target::Aarch64 if HOST == "aarch64" => {}
             Target::Aarch64 => {
-                // Without a library of the system: rustc brings all that it is linked with, and qemu needs no files of it.
+                // Without a system library: rustc provides everything that programs are linked with, and qemu needs no
+                // files.
                 let triple = "aarch64-unknown-linux-musl";
                 install::rust_target(triple)?;
                 setup.set("CARGO_BUILD_TARGET", triple);
@@ -98,19 +99,22 @@ impl Target {
                 let node = install::node()?;
                 install::rust_target(triple)?;
                 setup.set("CARGO_BUILD_TARGET", triple);
-                // As much stack as a main thread has elsewhere.
+                // The stack size of a main thread on other systems.
                 setup.set_of(triple, "RUSTFLAGS", "-C target-feature=+simd128 -C link-arg=-zstack-size=8388608");
                 let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/wasi.mjs");
                 let mut runner = node.into_os_string();
                 runner.push(" --no-warnings ");
                 runner.push(script);
                 setup.set_of(triple, "RUNNER", runner);
-                // A panic ends the program, and with it what was captured.
+                // A panic ends the program, and captured output is lost.
                 setup.panics_end = true;
                 setup.harness = &["--nocapture"];
             }
             Target::Sse2 => {
-                ensure!(HOST == "x86_64" && cfg!(target_os = "linux"), "qemu runs programs of Linux on x86-64 here");
+                ensure!(
+                    HOST == "x86_64" && cfg!(target_os = "linux"),
+                    "qemu can run the programs only on Linux on x86-64"
+                );
                 let mut runner = install::qemu("x86_64")?.into_os_string();
                 runner.push(" -cpu core2duo");
                 setup.set_of("x86_64-unknown-linux-gnu", "RUNNER", runner);
@@ -145,5 +149,5 @@ fn has_avx512() -> anyhow::Result<()> {
 
 #[cfg(not(target_arch = "x86_64"))]
 fn has_avx512() -> anyhow::Result<()> {
-    bail!("this is no x86-64 processor");
+    bail!("this is not an x86-64 processor");
 }

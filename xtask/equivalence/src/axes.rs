@@ -64,7 +64,7 @@ fn knots() -> Vec<(&'static str, Vec<f64>)> {
     all
 }
 
-/// Queries at the knots and one step to either side, between them, just outside and far outside, and on adversarial
+/// Queries at the knots and one step to either side, between them, just outside and far outside, and with adversarial
 /// bits.
 fn queries(axis: &Axis) -> Vec<f32> {
     let knots = axis.knots();
@@ -107,8 +107,8 @@ fn search<L: Lanes>(lanes: L, kind: &str, function: &Function, records: &mut Vec
     records.push(Record::bounded(format!("{kind}: function"), values, Bound::Each(bounds)));
 }
 
-/// Whether `cell` contains `x`: exactly, or up to the rounding of a cell if the position is computed rather than
-/// searched for. Queries outside belong to the outermost cells.
+/// `true` if `cell` contains `x`: exactly, or up to the rounding of a cell if the position is computed and not searched
+/// for. Queries outside belong to the outermost cells.
 fn is_cell_of(axis: &Axis, kind: &str, x: f32, cell: u32) -> bool {
     let knots = axis.knots();
     let last = knots.len().saturating_sub(2);

@@ -1,4 +1,4 @@
-//! How far a fused evaluation may differ from a strict one. `docs/accuracy.md` derives the figures.
+//! Bounds of the difference between a fused and a strict evaluation. `docs/accuracy.md` derives the figures.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -23,7 +23,7 @@ pub(super) const SUM: f64 = 44.0 * UNIT;
 /// How far outside an axis a query counts as inside, as in the table.
 const INSIDE: f64 = 1e-6;
 
-/// What the bound needs to know about a table.
+/// The properties of a table on which the bound depends.
 pub(super) struct FusedBound<'a> {
     samples: &'a specular::Data,
     edges: &'a Edges,
@@ -89,7 +89,7 @@ impl<'a> FusedBound<'a> {
         largest
     }
 
-    /// Whether a bound allows any value of the table, as it does at a step: it then says nothing.
+    /// `true` if a bound allows any value of the table, as at a step; it is then meaningless.
     pub(super) fn is_void(&self, bound: f64) -> bool {
         bound >= 2.0 * self.largest
     }
@@ -121,7 +121,7 @@ impl<'a> FusedBound<'a> {
         bound
     }
 
-    /// How far apart sigma, psi, theta and phi may be.
+    /// The largest differences of sigma, psi, theta and phi.
     fn angle_errors(&self, theta: f64) -> [f64; 4] {
         // The zenith is exact unless refraction moves it.
         let zenith = match self.samples.refraction() {
@@ -149,7 +149,7 @@ impl<'a> FusedBound<'a> {
             return 1.0;
         }
         let (mut lowest, mut highest) = (x - error, x + error);
-        // What reaches across the seam of a circle may reappear at its other end.
+        // An angle that crosses the seam of a circle may reappear at its other end.
         if axis % 2 == 1 && (lowest <= 0.0 || highest >= TAU) {
             (lowest, highest) = (0.0, TAU);
         }
@@ -158,7 +158,7 @@ impl<'a> FusedBound<'a> {
         1.0 + 2.0 * below.max(above).max(0.0)
     }
 
-    /// Whether the two forms may read on different sides of a step.
+    /// `true` if the two forms may read on different sides of a step.
     fn is_near_step(&self, axis: usize, x: f64, error: f64) -> bool {
         let knots = &self.samples.knots()[axis];
         if knots.len() == 1 {

@@ -1,4 +1,4 @@
-//! Whole evaluations of tables, called in every way.
+//! Complete evaluations of tables, called in every way.
 
 use lobe_lane::{Ints, Kernel, Lanes};
 use lobe_table::{Directions, Scatter, specular};
@@ -8,9 +8,8 @@ use super::machine::Machine;
 use super::record::{Bound, Record};
 use super::tables::{Case, Queries, cases};
 
-/// What every case records.
-///
-/// A function and not a kernel: each call enters the backend by itself, as a user's would.
+/// Records the results of a case. It is a function and not a kernel, so that each call enters the backend like the call
+/// of a user.
 pub(super) fn record(machine: impl Machine) -> Vec<Record> {
     cases().iter().flat_map(|case| evaluate(machine, case)).collect()
 }
@@ -64,7 +63,7 @@ fn evaluate(machine: impl Machine, case: &Case) -> Vec<Record> {
     records
 }
 
-/// Whether [`specular::Table`] promises that a pair of directions has no value.
+/// `true` if [`specular::Table`] promises that a pair of directions has no value.
 fn is_nothing(table: &specular::Table, wi: [f32; 3], wo: [f32; 3]) -> bool {
     let above = |z: f32| match table.scatter() {
         Scatter::Reflection => z > 0.0,
@@ -88,7 +87,7 @@ impl Kernel for Masked<'_> {
     fn run<L: Lanes>(self, lanes: L) -> Vec<f32> {
         let Masked { table, queries: Queries { wi, wo }, keep } = self;
         let channels = table.channel_count();
-        // Lanes beyond the last query are masked as well, whatever directions they hold.
+        // Lanes beyond the last query are also masked, whatever directions they hold.
         let whole = wi.len().next_multiple_of(L::LANES);
         let (mut wi, mut wo, mut keep) = (wi.clone(), wo.clone(), keep.to_vec());
         wi.resize(whole, [f32::NAN; 3]);

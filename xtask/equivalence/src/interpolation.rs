@@ -1,4 +1,4 @@
-//! Tables at known angles.
+//! Interpolates tables at known angles.
 
 use lobe_table::Edges;
 use rand::{RngExt, SeedableRng};
@@ -24,8 +24,8 @@ fn interpolate(machine: impl Machine, case: &Case, seed: u64) -> Record {
     let angles = angles(seed);
     let mut values = vec![f32::NAN; QUERIES * table.channel_count()];
     machine.interpolate(table, angles.each_ref().map(Vec::as_slice), &mut values);
-    // Cells and fractions of the same angles are the same bits in both forms, so only the sums differ; beyond the knots
-    // of a table that continues in straight lines, weights may have any size.
+    // Cells and fractions of the same angles have the same bits in both forms, so only the sums differ; beyond the
+    // knots of a table that is extrapolated linearly, weights may have any size.
     let bound = if *table.edges() == Edges::extrapolate() {
         Bound::StrictOnly
     } else {

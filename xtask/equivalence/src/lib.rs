@@ -1,8 +1,8 @@
-//! `cargo xtask equivalence`: every backend against the scalar reference.
+//! `cargo xtask equivalence`: checks every backend against the scalar reference.
 //!
 //! A [`Property`] records, generic over the lanes, rows of results that must not depend on the backend. In strict form
-//! they must be the same bits as those of [`Scalar<1>`](lobe_scalar::Scalar), with all NaNs treated as equal; in fused
-//! form floats may differ within a stated bound.
+//! they must have the same bits as those of [`Scalar<1>`](lobe_scalar::Scalar), with all NaNs treated as equal; in
+//! fused form floats may differ within a stated bound.
 #![forbid(unsafe_code)]
 
 mod axes;
@@ -49,7 +49,7 @@ pub enum Property {
     Evaluation,
     /// Interpolation at known angles.
     Interpolation,
-    /// Materials of the EPFL database: values, densities, samples.
+    /// Materials of the EPFL database: values, densities and samples.
     Rgl,
     /// Samples of tables and their densities.
     Sampling,
@@ -113,7 +113,7 @@ impl Property {
 
 /// Compares what a backend recorded with the reference, record by record; records of the same name become one check.
 pub fn compare(found: &[Record], reference: &[Record], backend: &str, form: Form) -> Vec<Check> {
-    assert_eq!(found.len(), reference.len(), "{backend}: its records are not those of the reference");
+    assert_eq!(found.len(), reference.len(), "{backend}: its records differ from those of the reference");
     let mut checks: Vec<Check> = Vec::new();
     for (found, reference) in found.iter().zip(reference) {
         let Some(check) = found.compare(reference, backend, form) else { continue };
@@ -129,7 +129,7 @@ pub fn compare(found: &[Record], reference: &[Record], backend: &str, form: Form
 #[derive(clap::Parser, Debug)]
 #[command(bin_name = "cargo xtask equivalence")]
 pub struct Args {
-    /// Check only this backend, which must be there
+    /// Check only this backend, which must be available
     #[arg(long = "backend", value_name = "NAME")]
     backends: Vec<String>,
     /// Write all checks to this file, as JSON
@@ -143,7 +143,8 @@ pub struct Args {
 /// Runs everything, prints a table, and writes the requested file.
 ///
 /// # Errors
-/// If a check fails, a backend that was asked for or that this CPU should have does not run, or the file cannot be written.
+/// If a check fails, a backend does not run that was requested or that this CPU should have, or the file cannot be
+/// written.
 pub fn run(args: &Args) -> anyhow::Result<()> {
     let outcome = report::Outcome::measure(&args.backends);
     if let Some(path) = &args.summary {

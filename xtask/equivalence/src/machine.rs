@@ -1,4 +1,5 @@
-//! What is checked: backends, through the public functions, and emulated widths, which only these checks compile.
+//! The subjects of the checks: backends, through the public functions, and emulated widths, which only these checks
+//! compile.
 
 use std::sync::Arc;
 
@@ -18,7 +19,7 @@ use lobe_table::{
 /// Pairs of directions.
 pub(crate) type Pairs<'a> = [Directions<'a>; 2];
 
-/// A way of running everything that is checked. Each call enters the backend by itself, as a user's would.
+/// A way of running everything that is checked. Each call enters the backend like the call of a user.
 pub(crate) trait Machine: Copy {
     fn run<K: Kernel>(self, kernel: K) -> K::Out;
     fn eval(self, table: &specular::Table, wi: [f32; 3], wo: [f32; 3], out: &mut [f32]);

@@ -36,8 +36,8 @@ impl Kernel for Functions {
     }
 }
 
-/// Applies functions of two slices; inside the domain both forms are within `abs` of the truth, and so within twice
-/// that of each other.
+/// Applies functions of two slices; inside the domain both forms are within `abs` of the exact value, and so within
+/// twice that of each other.
 macro_rules! record {
     ($lanes:ident, $records:ident, $domain:ident, $xs:ident, $ys:ident; $($what:literal $abs:expr, |$a:pat_param, $b:pat_param| $value:expr;)*) => {$({
         let mut out = Vec::with_capacity($xs.len());
@@ -61,8 +61,8 @@ fn one_argument<L: Lanes>(lanes: L, xs: &[f32], rests: &[f32], domain: bool, rec
         "acos" bounds::ACOS.abs, |x, _| lobe_math::acos(lanes, x);
         "acos_from" bounds::ACOS.abs, |x, rest| lobe_math::acos_from(lanes, x, rest);
         "asin" bounds::ASIN.abs, |x, _| lobe_math::asin(lanes, x);
-        // The error of the paper's formula is that of its polynomial, which both forms share. What remains is the
-        // rounding of fewer terms than those of `acos`.
+        // Most of the error of the paper's formula comes from its polynomial, which both forms share. The rest is the
+        // rounding of fewer terms than in `acos`.
         "paper acos" bounds::ACOS.abs, |x, _| lobe_math::paper::acos(lanes, x);
         "paper asin" bounds::ACOS.abs, |x, _| lobe_math::paper::asin(lanes, x);
     }
@@ -91,7 +91,7 @@ fn roots<L: Lanes>(lanes: L, xs: &[f32], domain: bool, records: &mut Vec<Record>
     }
 }
 
-/// `[-1, 1]` evenly, and densely near -1, 0 and 1.
+/// Numbers that cover `[-1, 1]` evenly, and densely near -1, 0 and 1.
 fn unit_interval() -> Vec<f32> {
     let mut xs: Vec<f32> = (0..=1 << 14).map(|i| i as f32 / (1 << 13) as f32 - 1.0).collect();
     for i in 0..1 << 12 {

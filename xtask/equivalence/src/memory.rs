@@ -6,7 +6,7 @@ use super::Record;
 use super::lanes::{floats, ints};
 use lobe_testing::patterns;
 
-/// A float that no test writes, to see what a store leaves untouched.
+/// A float that no test writes, to detect the elements that a store leaves untouched.
 const UNTOUCHED: f32 = -12345.5;
 
 /// Every operation of [`Lanes`] that touches memory.
@@ -129,7 +129,7 @@ fn gathers<L: Lanes>(lanes: L, records: &mut Vec<Record>) {
     records.push(Record::exact("look_up 4", look_up::<L, 4>(lanes, &indices)));
 }
 
-/// Whether each look-up finds its entry of a table as long as the lanes make it.
+/// Checks that each look-up finds its entry in a table whose length depends on the lanes.
 #[inline(always)]
 fn look_up<L: Lanes, const N: usize>(lanes: L, indices: &[i32]) -> Vec<bool> {
     let entries: [f32; 4 * MAX_LANES] = std::array::from_fn(|i| i as f32 + 0.5);

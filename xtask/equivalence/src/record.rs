@@ -1,4 +1,4 @@
-//! What a property computes on one backend, and how that is compared with the reference.
+//! Records of the results of a property on one backend, and their comparison with the reference.
 
 use serde::Serialize;
 
@@ -11,7 +11,7 @@ pub struct Record {
     pub what: String,
     /// The results.
     pub values: Values,
-    /// How far the fused form may be from the reference.
+    /// The bound of the difference between the fused form and the reference.
     pub bound: Bound,
 }
 
@@ -26,14 +26,14 @@ pub enum Values {
     Holds(Vec<bool>),
 }
 
-/// How far floats in fused form may be from the reference.
+/// The bound of the difference between floats in fused form and the reference.
 #[derive(Clone, Debug)]
 pub enum Bound {
-    /// Not at all: nothing here multiplies and adds.
+    /// No difference, because nothing here multiplies and adds.
     Same,
-    /// By an absolute difference.
+    /// An absolute difference.
     Within(f64),
-    /// By an absolute difference for each item.
+    /// An absolute difference for each item.
     Each(Vec<f64>),
     /// Nothing is promised, because the input is outside the domain.
     StrictOnly,
@@ -48,15 +48,15 @@ pub struct Check {
     pub what: String,
     /// `strict` or `fused`.
     pub form: Form,
-    /// How many results were compared.
+    /// Number of results compared.
     pub items: usize,
-    /// How many of them differ in any bit.
+    /// Number of results that differ in any bit.
     pub differing: usize,
     /// The difference of the item that comes nearest to its bound, or exceeds it most.
     pub max_abs: f64,
     /// The bound of that item.
     pub bound: f64,
-    /// Whether every item is within its bound.
+    /// `true` if every item is within its bound.
     pub ok: bool,
     /// The first item out of bounds, found and expected.
     #[serde(skip)]
@@ -82,20 +82,20 @@ impl From<Vec<bool>> for Values {
 }
 
 impl Record {
-    /// Results that are the same in both forms.
+    /// Results that must be the same in both forms.
     pub fn exact(what: impl Into<String>, values: impl Into<Values>) -> Self {
         Record { what: what.into(), values: values.into(), bound: Bound::Same }
     }
 
-    /// Floats whose fused form is held to `bound`.
+    /// Floats whose fused form must be within `bound`.
     pub fn bounded(what: impl Into<String>, values: Vec<f32>, bound: Bound) -> Self {
         Record { what: what.into(), values: Values::Floats(values), bound }
     }
 
-    /// Compares `self` with what the reference recorded; `None` if nothing is promised in this form.
+    /// Compares `self` with the record of the reference; `None` if nothing is promised in this form.
     ///
     /// # Panics
-    /// If the two are not records of the same thing.
+    /// If the two records are of different computations.
     pub fn compare(&self, reference: &Record, backend: &str, form: Form) -> Option<Check> {
         assert_eq!(self.what, reference.what, "records in another order");
         let fused = form == Form::Fused;
@@ -125,8 +125,8 @@ impl Record {
                     };
                     let same = found.to_bits() == expected.to_bits() || (found.is_nan() && expected.is_nan());
                     let difference = if same { 0.0 } else { difference(found, expected) };
-                    // A zero of the other sign is a fault although the difference is 0, except in fused sums: there the
-                    // product of a zero weight and a negative value keeps its sign.
+                    // A zero with the wrong sign is a fault although the difference is 0, except in fused sums, where
+                    // the product of a zero weight and a negative value keeps its sign.
                     let fused_sum = fused && matches!(reference.bound, Bound::Each(_));
                     let fault = !same && (difference > bound || (bound == 0.0 && !fused_sum));
                     let show = |x: f32| format!("{x:e} ({:#010x})", x.to_bits());
@@ -155,7 +155,7 @@ impl Record {
 }
 
 impl Check {
-    /// Merges a check of the same thing on other input.
+    /// Merges a check of the same computation on other input.
     pub fn merge(&mut self, other: Check) {
         self.items += other.items;
         self.differing += other.differing;
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn what_holds_by_definition_is_asked_of_every_backend() {
+    fn definitions_are_checked_on_every_backend() {
         let holds = |values: Vec<bool>| Record::exact("x", values);
         let check = holds(vec![true, false]).compare(&holds(vec![true, false]), "b", Form::Fused).unwrap();
         assert!(!check.ok && check.differing == 1);

@@ -1,4 +1,4 @@
-//! The outcome of all checks: a table for the reader and JSON for programs.
+//! Reports the outcome of all checks, as a table for the reader and as JSON for programs.
 
 use std::io::Write;
 use std::path::Path;
@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::{Check, Form, Property, Subject, compare, facade_agrees, reference};
 
-/// A line for each backend and form, in words, and whether everything holds.
+/// A line for each backend and form, and `true` if all checks passed.
 #[derive(Serialize)]
 pub(super) struct Summary {
     rows: Vec<[String; 2]>,
@@ -36,7 +36,7 @@ pub(super) struct Outcome {
     ok: bool,
     #[serde(skip)]
     rows: Vec<Row>,
-    /// What failed, in words.
+    /// Descriptions of failures.
     #[serde(skip)]
     faults: Vec<String>,
 }
@@ -56,13 +56,13 @@ struct Row {
     checks: usize,
     items: usize,
     differing: usize,
-    /// The check nearest to its bound, in fused form, except at steps, where the bound says nothing.
+    /// The check nearest to its bound, in fused form, except at steps, where the bound is meaningless.
     nearest: Option<Check>,
     ok: bool,
 }
 
 impl Outcome {
-    /// Of the backends with these names, or of all if there are none.
+    /// The report of the backends with these names, or of all if there are none.
     pub(super) fn measure(names: &[String]) -> Self {
         let mut outcome =
             Outcome { backends: Vec::new(), checks: Vec::new(), ok: true, rows: Vec::new(), faults: Vec::new() };
@@ -71,7 +71,7 @@ impl Outcome {
         let mut ran = vec![false; subjects.len()];
         for property in Property::ALL {
             let expected = reference(property);
-            // What must hold by definition is checked on the reference too.
+            // Definitions are also checked on the reference.
             outcome.add("scalar", Form::Strict, property, compare(&expected, &expected, "scalar", Form::Strict));
             for (subject, ran) in subjects.iter().copied().zip(&mut ran) {
                 for &form in subject.forms() {
@@ -81,7 +81,7 @@ impl Outcome {
                 }
             }
         }
-        // The reference runs wherever this does.
+        // The reference runs on every machine.
         outcome.backends.push(BackendRow { name: "scalar", lanes: Some(1), available: true });
         for (subject, ran) in subjects.into_iter().zip(ran) {
             outcome.backends.push(BackendRow { name: subject.name(), lanes: subject.lanes(), available: ran });
@@ -115,7 +115,7 @@ impl Outcome {
             let [items, differing] = [items, differing].map(|count| HumanCount(count as u64));
             let verdict = match (form, ok) {
                 (_, false) => "FAILED".to_string(),
-                (Form::Strict, _) => format!("{items} results, all the same bits"),
+                (Form::Strict, _) => format!("{items} results, all with the same bits"),
                 (Form::Fused, _) => format!("{items} results, {differing} differ, all within their bounds"),
             };
             [format!("{backend}, {}", format!("{form:?}").to_lowercase()), verdict]

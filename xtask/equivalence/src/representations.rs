@@ -1,4 +1,4 @@
-//! Whole evaluations of all representations except specular tables.
+//! Complete evaluations of all representations except specular tables.
 
 use std::sync::OnceLock;
 
@@ -20,7 +20,7 @@ struct Case {
     name: &'static str,
     representation: Representation,
     width: usize,
-    /// How far the lanes may be from the truth, or else which values they may choose from.
+    /// The bound of the difference between lanes and the exact value, or the values from which they may choose.
     reference: Box<dyn Fn([f64; 3], [f64; 3]) -> f64 + Send + Sync>,
 }
 
@@ -48,7 +48,7 @@ impl Representation {
     }
 }
 
-/// What every case records.
+/// Records the results of a case.
 pub(super) fn record(machine: impl Machine) -> Vec<Record> {
     let mut records = Vec::new();
     for case in cases() {
@@ -60,11 +60,11 @@ pub(super) fn record(machine: impl Machine) -> Vec<Record> {
 }
 
 impl Case {
-    /// Named queries, and for each how far the fused form may differ; `None` if nothing is promised.
+    /// Named queries, and for each the bound of the fused form's difference; `None` if nothing is promised.
     fn sets(&self) -> [(&'static str, Queries, Option<Vec<f64>>); 4] {
         let bounded = |queries: Queries| {
             let pairs = queries.wi.iter().zip(&queries.wo);
-            // Both forms are that near to the truth.
+            // Both forms are this close to the exact value.
             let bound = |(&wi, &wo): (&[f32; 3], &[f32; 3])| {
                 unit(wi).zip(unit(wo)).map_or(0.0, |(wi, wo)| 2.0 * (self.reference)(wi, wo))
             };
@@ -117,7 +117,7 @@ fn evaluate(
     records.push(Record::bounded(format!("{name}, {set}: values"), vectors, bound));
 }
 
-/// All cases, made once. The tables of the benchmarks have values of at most 1, all different from each other.
+/// All cases, created once. The tables of the benchmarks have values of at most 1, all different from each other.
 fn cases() -> &'static [Case] {
     static CASES: OnceLock<Vec<Case>> = OnceLock::new();
     CASES.get_or_init(|| {
@@ -194,14 +194,14 @@ fn cases() -> &'static [Case] {
     })
 }
 
-/// Half the spread of the values that lanes may choose from: 0 if they have no choice.
+/// Half the range of the values from which lanes may choose: 0 if they have no choice.
 fn spread(candidates: impl Iterator<Item = f64>) -> f64 {
     let (least, most) =
         candidates.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| (least.min(value), most.max(value)));
     0.5 * (most - least)
 }
 
-/// Some of the queries from below, and some to below.
+/// Makes some of the queries come from below the horizon, and some go below it.
 fn on_all_sides(mut queries: Queries) -> Queries {
     for (query, (wi, wo)) in queries.wi.iter_mut().zip(&mut queries.wo).enumerate() {
         wi[2] *= if query % 5 == 3 { -1.0 } else { 1.0 };

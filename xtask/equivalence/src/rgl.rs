@@ -11,8 +11,8 @@ use super::record::{Bound, Record};
 use super::sampling::numbers;
 use super::tables::{Queries, adversarial, workload};
 
-/// How far either form is from `f64` at most: values and densities, relative to the larger of the value and one, and
-/// directions; densities and weights of samples. `docs/accuracy.md` says which tests check that.
+/// The largest difference between either form and `f64`: of values and densities, relative to the larger of the value
+/// and one, and of directions; of densities and weights of samples. `docs/accuracy.md` says which tests check this.
 const VALUE: f64 = 2e-5;
 const DIRECTION: f64 = 2e-5;
 const SAMPLE: f64 = 1e-4;
@@ -53,7 +53,7 @@ fn evaluate(machine: impl Machine, name: &str, table: &rgl::Table, Queries { wi,
         let bound = |(at, value): (usize, &f32)| 2.0 * VALUE * f64::from(value.abs()).max(unit(at / each));
         Bound::Each(values.iter().enumerate().map(bound).collect())
     };
-    // A value without the cosine is the one with it, divided by it.
+    // A value without the cosine is the value with it, divided by the cosine.
     let f_bound = bounds(&f, &|query| 1.0 / f64::from(wo[query][2].abs()));
     let (cos_bound, pdf_bound) = (bounds(&cos, &|_| 1.0), bounds(&pdf, &|_| 1.0));
     [

@@ -1,4 +1,4 @@
-//! Samples of tables, and their densities.
+//! Samples tables, and evaluates the densities of samples.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use super::machine::Machine;
 use super::record::{Bound, Record};
 use super::tables::{Case, Queries, adversarial, cases};
 
-/// Every table once, with a sampler that this backend built.
+/// Every table once, with a sampler built by this backend.
 pub(super) fn record(machine: impl Machine) -> Vec<Record> {
     let is_wanted = |case: &&Case| case.name.ends_with("incoherent") && *case.table.edges() == Edges::default();
     let mut records: Vec<Record> = cases().iter().filter(is_wanted).flat_map(|case| sample(machine, case)).collect();
@@ -20,7 +20,7 @@ pub(super) fn record(machine: impl Machine) -> Vec<Record> {
     records
 }
 
-/// Draws from the patches of Klems matrices, and their densities.
+/// Samples the patches of Klems matrices, and evaluates their densities.
 fn patches(machine: impl Machine) -> Vec<Record> {
     let (window, Queries { wi, wo }) = (klems(), adversarial());
     let (count, u) = (wi.len(), numbers(wi.len()));
@@ -43,8 +43,8 @@ fn patches(machine: impl Machine) -> Vec<Record> {
     records
 }
 
-/// A histogram has steps, and a draw next to one may fall on either side, so nothing is promised of the fused form
-/// here: statistical tests show that its samples have their density.
+/// A histogram has steps, and a sample next to one may fall on either side, so nothing is promised for the fused form
+/// here: statistical tests show that its samples have the right density.
 fn sample(machine: impl Machine, case: &Case) -> Vec<Record> {
     let channels = case.table.channel_count();
     let sampler = machine.sampler(Arc::new(case.table.clone()));

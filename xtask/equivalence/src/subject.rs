@@ -1,4 +1,4 @@
-//! The backends that are checked, and in which forms.
+//! The backends that are checked, and their forms.
 
 use lobe::Backend;
 use serde::Serialize;
@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::machine::Emulated;
 use super::{Property, Record};
 
-/// Whether multiply-adds round twice or, if the hardware can, once.
+/// Rounding of multiply-adds: twice, or once if the hardware supports it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Form {
@@ -17,7 +17,7 @@ pub enum Form {
     Fused,
 }
 
-/// What is checked against the reference, the scalar backend.
+/// A subject that is checked against the reference, the scalar backend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
     /// Four lanes in plain Rust.
@@ -26,12 +26,12 @@ pub enum Subject {
     Emulated8,
     /// Sixteen lanes in plain Rust.
     Emulated16,
-    /// A backend by its name.
+    /// A backend by name.
     Native(&'static str),
 }
 
 impl Subject {
-    /// All of them, on any machine.
+    /// All subjects, on any machine.
     pub fn all() -> Vec<Subject> {
         let emulated: &[Subject] =
             if cfg!(feature = "emulated") { &[Self::Emulated4, Self::Emulated8, Self::Emulated16] } else { &[] };
@@ -74,8 +74,8 @@ impl Subject {
         }
     }
 
-    /// Whether this CPU should be able to run it. Asks the CPU rather than the backends, whose own detection is checked
-    /// against this.
+    /// `true` if this CPU should be able to run it. It asks the CPU and not the backends, whose own detection is
+    /// checked against this.
     pub fn expected(self) -> bool {
         match self {
             Subject::Native(name) => Backend::reported().contains(&name),
@@ -83,7 +83,7 @@ impl Subject {
         }
     }
 
-    /// What `property` records in this form; `None` if the backend says that this CPU cannot run it.
+    /// The records of `property` in this form; `None` if the backend says that this CPU cannot run it.
     pub fn record(self, form: Form, property: Property) -> Option<Vec<Record>> {
         match self {
             #[cfg(feature = "emulated")]
@@ -101,12 +101,12 @@ impl Subject {
     }
 }
 
-/// What everything else is compared with.
+/// The reference, with which everything else is compared.
 pub fn reference(property: Property) -> Vec<Record> {
     property.record(Backend::scalar().strict())
 }
 
-/// Whether exactly those backends are available that this CPU should have.
+/// Checks that exactly those backends are available that this CPU should have.
 ///
 /// # Errors
 /// The two lists, if they differ.

@@ -16,21 +16,21 @@ const QUERIES: usize = 64 * 4 + 3;
 
 /// A table and its queries.
 pub(super) struct Case {
-    /// What the results are called; several cases share a name.
+    /// The name of the results; several cases share a name.
     pub(super) name: String,
     pub(super) table: specular::Table,
     /// The largest magnitude of a value of the table.
     pub(super) largest: f64,
     pub(super) queries: Queries,
-    /// For each query how far the fused form may differ; `None` for queries that are not unit vectors.
+    /// For each query, the bound of the fused form's difference; `None` for queries that are not unit vectors.
     pub(super) bounds: Option<Vec<Allowed>>,
 }
 
-/// How far the fused form may differ.
+/// The bound of the fused form's difference.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Allowed {
     pub(super) difference: f64,
-    /// Whether the query is at a step of the table.
+    /// `true` if the query is at a step of the table.
     pub(super) at_step: bool,
 }
 
@@ -40,7 +40,7 @@ pub(super) struct Queries {
     pub(super) wo: Vec<[f32; 3]>,
 }
 
-/// All cases, made once: random tables and, where they exist, the files of `fixtures/`.
+/// All cases, created once: random tables and, if they exist, the files of `fixtures/`.
 pub(super) fn cases() -> &'static [Case] {
     static CASES: OnceLock<Vec<Case>> = OnceLock::new();
     CASES.get_or_init(|| {

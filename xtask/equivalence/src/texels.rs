@@ -7,7 +7,7 @@ use lobe_testing::patterns;
 
 pub(super) struct QuadsAndOcts;
 
-/// Whether two floats are the same value: the same bits, or both NaN.
+/// `true` if two floats are the same value: the same bits, or both NaN.
 fn same(a: f32, b: f32) -> bool {
     a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan())
 }
@@ -87,7 +87,7 @@ fn octs<L: Lanes>(lanes: L, xs: &[f32], ys: &[f32], records: &mut Vec<Record>) {
     records.push(Record::exact("oct_count_le", counts));
 }
 
-/// By the definition of the current form.
+/// The result by the definition of the current form.
 #[inline(always)]
 fn mul_adds<L: Lanes>(lanes: L, xs: &[f32], ys: &[f32], records: &mut Vec<Record>) {
     let (mut quad, mut oct, mut scalar) = (Vec::new(), Vec::new(), Vec::new());

@@ -1,4 +1,4 @@
-//! Every backend agrees with the scalar reference on every property, with one test for each.
+//! Tests that every backend agrees with the scalar reference on every property, with one test for each.
 //!
 //! A test of a backend that this CPU does not have prints SKIP; `the_expected_backends_ran` counts those and fails if
 //! one was skipped that this CPU has.
@@ -61,7 +61,7 @@ macro_rules! tests_of_backends {
 lobe_backend::each_backend! { tests_of_backends }
 
 #[test]
-fn the_reference_holds_what_its_definition_says() {
+fn the_reference_satisfies_its_definitions() {
     for property in Property::ALL {
         let records = reference(property);
         for check in compare(&records, &records, "scalar", Form::Strict) {

@@ -1,4 +1,4 @@
-//! `xtask gallery`: pictures of the scenes in fixtures/scenes, and a page with them.
+//! `xtask gallery`: renders the scenes in fixtures/scenes, and writes a page with the pictures.
 #![forbid(unsafe_code)]
 
 use std::fmt::Write as _;
@@ -36,7 +36,7 @@ struct Picture {
     /// File name of the scene in fixtures/scenes and of the picture, without the extensions.
     name: &'static str,
     title: &'static str,
-    /// A description of what it shows.
+    /// A description of the picture.
     caption: &'static str,
 }
 
@@ -103,7 +103,7 @@ fn main() -> anyhow::Result<()> {
 }
 
 impl Picture {
-    /// In strict form, so that the pictures are the same bytes on every machine.
+    /// Renders in strict form, so that the pictures have the same bytes on every machine.
     fn scene(&self) -> Result<Scene> {
         let path = Path::new(SCENES).join(self.name).with_extension("toml");
         Ok(Scene::open(&path, Backend::detect()?.strict())?)

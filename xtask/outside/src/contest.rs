@@ -1,4 +1,4 @@
-//! Processes that take turns at questions.
+//! Lets processes take turns at questions.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
@@ -11,7 +11,7 @@ use anyhow::{Context, ensure};
 /// # Errors
 /// If it cannot be run.
 pub fn questions(program: &Path) -> anyhow::Result<Vec<String>> {
-    let failed = || format!("{} cannot be run", program.display());
+    let failed = || format!("cannot run {}", program.display());
     let output = Command::new(program).stdin(Stdio::null()).output().with_context(failed)?;
     ensure!(output.status.success(), failed());
     Ok(String::from_utf8(output.stdout)?.lines().map(String::from).collect())
@@ -32,7 +32,7 @@ impl Contender {
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
-            .with_context(|| format!("{} cannot be run", program.display()))?;
+            .with_context(|| format!("cannot run {}", program.display()))?;
         let questions = process.stdin.take().context("an input")?;
         let answers = BufReader::new(process.stdout.take().context("an output")?);
         Ok(Contender { process, questions, answers })
@@ -49,13 +49,13 @@ impl Contender {
 
 impl Drop for Contender {
     fn drop(&mut self) {
-        // It waits for another question.
+        // The program waits for another question.
         let _ = self.process.kill();
         let _ = self.process.wait();
     }
 }
 
-/// The shortest time of every question in every program; the last one is what the others are compared with.
+/// The shortest time of every question in every program; the others are compared with the last program.
 pub struct Timings {
     questions: Vec<String>,
     shortest: Vec<Vec<f64>>,
@@ -75,7 +75,7 @@ impl Timings {
         &self.questions[question]
     }
 
-    /// Has all programs answer a question, in turns.
+    /// Lets all programs answer a question, in turns.
     ///
     /// # Errors
     /// If a program ends.
@@ -89,14 +89,14 @@ impl Timings {
         Ok(())
     }
 
-    /// The time of the reference, and the speed of the others as part of its own.
+    /// The time of the reference, and the speeds of the others relative to it.
     pub fn ratios(&self, question: usize) -> (f64, Vec<f64>) {
         let (reference, others) = self.shortest[question].split_last().expect("a reference");
         (*reference, others.iter().map(|time| reference / time).collect())
     }
 
-    /// The questions at which some program has less than this part of the speed of the reference, and those that were not
-    /// asked yet.
+    /// The questions at which some program has less than this share of the speed of the reference, and those not asked
+    /// yet.
     pub fn slower_than(&self, least: f64) -> Vec<usize> {
         let is_slow = |&question: &usize| !self.ratios(question).1.iter().all(|ratio| *ratio >= least);
         (0..self.len()).filter(is_slow).collect()
@@ -108,7 +108,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_not_asked_or_is_slow_is_asked_again() {
+    fn questions_not_asked_or_slow_are_asked_again() {
         let mut timings = Timings::new(vec!["a".into(), "b".into(), "c".into()], 3);
         assert_eq!(timings.slower_than(0.95), [0, 1, 2]);
         timings.shortest = vec![vec![100.0, 90.0, 96.0], vec![100.0, 102.0, 96.0], vec![50.0, 90.0, f64::INFINITY]];

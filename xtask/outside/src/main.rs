@@ -1,8 +1,7 @@
-//! `cargo xtask outside`: what users get.
-//!
-//! A kernel that a user's crate instantiates is compiled with the user's profile, in which functions are inlined that are
-//! not in others, and the other way round. `user/` is such a crate, outside of the workspace. It is built with Cargo's default
-//! profile and others, looked through for intrinsics out of line, and compared with its build in the profile of the workspace.
+//! `cargo xtask outside`: checks the speed of kernels compiled in a user's crate. A kernel that a user's crate
+//! instantiates is compiled with the user's profile, in which other functions may be inlined than in the profile of the
+//! workspace. `user/` is such a crate, outside the workspace. It is built with Cargo's default profile and others,
+//! searched for intrinsics out of line, and compared with its build in the profile of the workspace.
 #![forbid(unsafe_code)]
 
 mod contest;
@@ -16,31 +15,30 @@ use comfy_table::{CellAlignment, Table, presets};
 
 use contest::{Contender, Timings};
 
-/// The profile of the workspace, which the others are compared with.
+/// The profile of the workspace, with which the others are compared.
 const REFERENCE: &str = "workspace";
-/// Cargo's own; `opt-level = 2`; thin LTO; 256 units.
+/// Cargo's default; `opt-level = 2`; thin LTO; 256 codegen units.
 const PROFILES: [&str; 4] = ["release", "two", "thin", "units"];
 
-/// How often the questions that are too slow are asked again, of new processes.
+/// How often questions that are too slow are asked again, with new processes.
 const REPEATS: usize = 4;
-/// Turns of each process at a question, each time.
+/// Number of turns of each process at a question, each time.
 const ROUNDS: usize = 40;
 
-/// Compare kernels that a crate outside of the workspace instantiates with those of the workspace
-///
-/// The crate is built with Cargo's default release profile, with opt-level 2, with thin LTO and with 256 units. No intrinsic may
-/// be out of line in any of them, and no question may take longer than in a build with the profile of the workspace, by more
-/// than is allowed. Processes take turns at each question, and what is too slow is measured again before it counts.
+/// Compare kernels instantiated by a crate outside the workspace with those of the workspace The crate is built with
+/// Cargo's default release profile, with opt-level 2, with thin LTO and with 256 codegen units. No intrinsic may be out
+/// of line in any of them, and no question may be slower by more than is allowed than in a build with the profile of
+/// the workspace. Processes take turns at each question, and slow questions are measured again before they count.
 #[derive(Parser, Debug)]
 #[command(bin_name = "cargo xtask outside")]
 struct Args {
     /// Profiles to compare with the workspace's
     #[arg(long = "profile", value_name = "NAME", value_delimiter = ',', default_values = PROFILES)]
     profiles: Vec<String>,
-    /// The least speed, as part of that in the profile of the workspace
+    /// The least speed, as a fraction of the speed in the profile of the workspace
     #[arg(long, value_name = "RATIO", default_value_t = 0.95)]
     least: f64,
-    /// Time nothing, only look for intrinsics out of line
+    /// Measure no times, only search for intrinsics out of line
     #[arg(long)]
     no_contest: bool,
 }
@@ -59,9 +57,9 @@ fn main() -> anyhow::Result<()> {
         return Ok(());
     }
 
-    // Other cores have other caches, and may have another speed.
+    // Other cores have other caches, and may run at another speed.
     if pin().is_none() {
-        eprintln!("the processes cannot be kept on one core, so times vary more");
+        eprintln!("cannot keep the processes on one core, so times vary more");
     }
     let questions = contest::questions(&programs[0])?;
     let mut timings = Timings::new(questions, programs.len());
@@ -70,7 +68,7 @@ fn main() -> anyhow::Result<()> {
         if slow.is_empty() {
             break;
         }
-        // Another process has its memory elsewhere.
+        // Another process has its memory at other addresses.
         let mut contenders = programs.iter().map(|program| Contender::start(program)).collect::<Result<Vec<_>, _>>()?;
         for question in slow {
             timings.measure(question, &mut contenders, ROUNDS)?;
@@ -79,7 +77,7 @@ fn main() -> anyhow::Result<()> {
     print(&args.profiles, &timings);
     let slow = timings.slower_than(args.least);
     let names: Vec<&str> = slow.iter().map(|&question| timings.name(question)).collect();
-    ensure!(slow.is_empty(), "slower than {} of the speed in the workspace: {}", args.least, names.join(", "));
+    ensure!(slow.is_empty(), "slower than {} times the speed in the workspace: {}", args.least, names.join(", "));
     Ok(())
 }
 
@@ -91,7 +89,7 @@ fn build(profile: &str) -> anyhow::Result<PathBuf> {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.args(["build", "--profile", profile, "--manifest-path"]).arg(here.join("user/Cargo.toml"));
     let status = cargo.arg("--target-dir").arg(&target).status().context("cargo cannot be run")?;
-    ensure!(status.success(), "the crate outside of the workspace cannot be built with the profile `{profile}`");
+    ensure!(status.success(), "the crate outside the workspace cannot be built with the profile `{profile}`");
     let program = target.join(profile).join(format!("lobe-user{}", std::env::consts::EXE_SUFFIX));
     ensure!(program.is_file(), "cargo built no {}", program.display());
     Ok(program)
@@ -105,11 +103,11 @@ fn look_for_intrinsics(programs: &[PathBuf]) -> anyhow::Result<()> {
         cargo.arg("--binary").arg(program);
     }
     let status = cargo.status().context("cargo cannot be run")?;
-    ensure!(status.success(), "intrinsics are out of line in the crate outside of the workspace");
+    ensure!(status.success(), "intrinsics are out of line in the crate outside the workspace");
     Ok(())
 }
 
-/// Keeps this process and those that it starts on one core.
+/// Keeps this process and its children on one core.
 #[cfg(target_os = "linux")]
 fn pin() -> Option<()> {
     use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity};
@@ -139,5 +137,5 @@ fn print(profiles: &[String], timings: &Timings) {
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(CellAlignment::Right);
     }
-    println!("{table}\nSpeed in each profile, as part of that in the profile of the workspace.");
+    println!("{table}\nSpeed in each profile, as a fraction of the speed in the profile of the workspace.");
 }

@@ -1,4 +1,4 @@
-//! A measured table against an analytic model: what measured materials cost.
+//! A measured table compared with an analytic model: the cost of measured materials.
 
 use lobe::{Backend, Buffer, Directions, Edges, specular};
 use lobe_benches::contest::Contender;

@@ -1,15 +1,15 @@
-//! Whether the values of a peer agree with those of this library, and which is right if they do not.
+//! Checks that the values of a peer agree with those of this library, and decides which is right if they do not.
 
 use std::collections::BTreeSet;
 
 use anyhow::bail;
 
-/// How far values may differ.
+/// The allowed difference of values.
 #[derive(Clone, Copy, Debug)]
 pub struct Agreement {
     /// The largest difference, relative to the peer's value.
     pub relative: f64,
-    /// The value that it is relative to if the peer's is smaller.
+    /// The least value that the difference is relative to.
     pub floor: f64,
     /// The share of values that may differ by more.
     pub outliers: f64,
@@ -29,23 +29,23 @@ impl Agreement {
 pub struct Difference {
     /// The largest relative difference, except for allowed outliers and those in which only the peer may be wrong.
     pub largest: f64,
-    /// How many answers of the peer the judge finds wrong.
+    /// Number of answers of the peer that are wrong according to the judge.
     pub wrong: usize,
 }
 
-/// What decides if values differ: slow, and exact.
+/// A judge that decides if values differ. It is slow and exact.
 pub trait Judge {
-    /// How many questions there are. The values at `question`, `question + questions`, ... are the answer to that one.
+    /// Number of questions. The values at `question`, `question + questions`, ... are the answer to a question.
     fn questions(&self) -> usize;
 
-    /// Whether values are a correct answer to a question.
+    /// `true` if values are a correct answer to a question.
     fn is_right(&self, question: usize, answer: &[f32]) -> bool;
 }
 
-/// The number of answers that a judge is asked about. If more differ, rounding is not the cause, and all of them count.
+/// The most answers that a judge is asked about. If more differ, rounding is not the cause, and all of them count.
 const MOST: usize = 100;
 
-/// Removes the differences above `limit` of correct answers. Returns how many of the peer's are wrong.
+/// Removes the differences above `limit` of correct answers. Returns the number of wrong answers of the peer.
 fn decide(judge: &dyn Judge, limit: f64, differences: &mut [f64], ours: &[f32], theirs: &[f32]) -> usize {
     let (count, questions) = (differences.len(), judge.questions());
     let asked: BTreeSet<usize> = (0..count).filter(|at| differences[*at] > limit).map(|at| at % questions).collect();
@@ -72,7 +72,7 @@ fn decide(judge: &dyn Judge, limit: f64, differences: &mut [f64], ours: &[f32], 
 /// Without an agreement they are of different materials, and only need to be finite.
 ///
 /// # Errors
-/// If they differ by more than is allowed.
+/// If they differ by more than allowed.
 pub fn compare(
     agreement: Option<Agreement>,
     judge: Option<&dyn Judge>,
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn only_wrong_answers_of_this_library_count_and_those_of_the_peer_are_told() {
+    fn only_wrong_answers_of_this_library_count_and_those_of_the_peer_are_reported() {
         let judge = Sevens(1000);
         let right = judge.answers();
         let with = |changes: &[(usize, f32)]| {

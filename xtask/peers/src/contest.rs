@@ -17,9 +17,9 @@ const TIMES: usize = 3;
 pub struct Outside {
     /// Its displayed name.
     pub name: &'static str,
-    /// Which program.
+    /// The program.
     pub program: &'static str,
-    /// Which of the program's tasks.
+    /// The task of the program.
     pub task: String,
     /// It uses wider vectors than this library has: it is shown, but not compared with a goal.
     pub wider: bool,
@@ -30,7 +30,7 @@ impl Outside {
         Outside { name, program, task: task.into(), wider: false }
     }
 
-    /// One that uses vectors of sixteen floats, which this library has on some processors.
+    /// It uses vectors of sixteen floats, which this library has on some processors.
     pub fn of_sixteen(name: &'static str, program: &'static str, task: impl Into<String>) -> Self {
         Outside { wider: Backend::best().lanes() < 16, ..Self::new(name, program, task) }
     }
@@ -44,7 +44,7 @@ pub struct Contest {
     pub on: String,
     /// What is counted, as in "nanoseconds per lookup".
     pub unit: &'static str,
-    /// How many of them one run does.
+    /// How many of them one run performs.
     pub count: usize,
     /// This library.
     pub lobe: Contender,
@@ -52,9 +52,9 @@ pub struct Contest {
     pub inside: Vec<Contender>,
     /// Peers in others.
     pub outside: Vec<Outside>,
-    /// How closely the values of all must agree; `None` if they are not of the same material.
+    /// How closely all values must agree; `None` if they are not of the same material.
     pub agreement: Option<Agreement>,
-    /// Who decides if they differ by more; `None` if all differences count.
+    /// The judge that decides if they differ by more; `None` if all differences count.
     pub judge: Option<Box<dyn Judge>>,
     /// The goal: how many times as fast as the fastest peer whose vectors are no wider.
     pub goal: Option<f64>,
@@ -75,7 +75,7 @@ impl Contest {
     /// Runs all contestants once and compares the values: one difference for each peer, those in this process first.
     ///
     /// # Errors
-    /// If values differ by more than is allowed.
+    /// If values differ by more than allowed.
     pub fn check(&mut self, programs: &mut Programs, exchange: &Exchange) -> anyhow::Result<Vec<Option<Difference>>> {
         self.lobe.run();
         let ours = self.lobe.values();
@@ -141,7 +141,7 @@ impl Contest {
 #[derive(Clone, Debug)]
 pub struct Least {
     lobe: f64,
-    /// Those in this process first.
+    /// The peers in this process first.
     peers: Vec<f64>,
 }
 

@@ -6,7 +6,7 @@ use super::contest::Contest;
 use super::exchange::Exchange;
 use super::{analytic, frames, interpolation, material, tracing, trigonometry};
 
-/// Those whose names begin with one of `only`, or all. Files and tasks go to `exchange`.
+/// The contests whose names begin with one of `only`, or all. Files and tasks go to `exchange`.
 ///
 /// # Errors
 /// If a measured material cannot be read, or a file cannot be written.

@@ -1,4 +1,4 @@
-//! Files between the programs: floats in binary, tasks in JSON.
+//! Files exchanged between the programs: floats in binary, tasks in JSON.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -35,7 +35,7 @@ impl Exchange {
         Ok(path)
     }
 
-    /// The path where a program is to write what a task computes.
+    /// The path to which a program must write the result of a task.
     pub fn answer(&self, program: &str, task: &str) -> PathBuf {
         self.directory.join(format!("{program}-{task}.f32"))
     }
@@ -53,7 +53,7 @@ impl Exchange {
         Ok(floats.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect())
     }
 
-    /// Adds a task for the programs that read theirs from a file.
+    /// Adds a task for the programs that read their tasks from a file.
     pub fn task(&mut self, name: &str, task: Value) {
         self.tasks.insert(name.to_owned(), task);
     }

@@ -1,4 +1,4 @@
-//! Where the peers come from: wheels in a virtual environment, SLEEF and Embree with the system's C compiler.
+//! Installs the peers: wheels in a virtual environment, SLEEF and Embree with the system's C compiler.
 
 use std::path::Path;
 use std::process::Command;
@@ -10,18 +10,18 @@ use super::exchange::Exchange;
 /// The wheels: package and version, so that figures from different days can be compared.
 const WHEELS: [(&str, &str); 3] = [("interpn", "0.11.2"), ("mitsuba", "3.9.1"), ("scipy", "1.17.1")];
 
-/// What runs peers of one kind: its name and text.
+/// A script that runs peers of one kind: its name and text.
 type Script = (&'static str, &'static str);
 
 const PEERS: Script = ("peers.py", include_str!("peers.py"));
 const FRAMES: Script = ("frames.py", include_str!("frames.py"));
 
-/// The programs by name, ready to be started, or why they cannot be. `tasks` is for those that read their tasks from a
-/// file, `exchange` has the files of the others.
+/// The programs by name, ready to be started, or the reason why they cannot be. `tasks` is for those that read their
+/// tasks from a file, `exchange` has the files of the others.
 pub fn all(out: &Path, tasks: &Path, exchange: &Exchange) -> Vec<(&'static str, anyhow::Result<Command>)> {
     let environment = environment(out).map_err(|error| format!("{error:#}"));
     let python = || environment.clone().map_err(anyhow::Error::msg);
-    // `wide` asks for vectors of sixteen floats, if the processor has them.
+    // `wide` requests vectors of sixteen floats, if the processor has them.
     let run = |script: Script, what: &str, wide: bool| -> anyhow::Result<Command> {
         let mut command = command(out, &python()?, script)?;
         command.arg(what).arg(tasks).args(wide.then_some("wide"));
@@ -71,7 +71,7 @@ fn environment(out: &Path) -> anyhow::Result<std::path::PathBuf> {
     Ok(python)
 }
 
-/// Installs a wheel unless that version is already installed.
+/// Installs a wheel unless this version is already installed.
 fn install(python: &Path, package: &str, version: &str) -> anyhow::Result<()> {
     let check = format!("import importlib.metadata as m; assert m.version('{package}') == '{version}'");
     if finish(Command::new(python).args(["-c", &check])).is_ok() {

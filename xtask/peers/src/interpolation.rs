@@ -1,4 +1,4 @@
-//! Interpolation on rectilinear grids, at known angles.
+//! Interpolation on rectilinear grids at known angles, compared with peers.
 
 use std::rc::Rc;
 
@@ -73,7 +73,7 @@ fn contest(
         lobe: Contender::new("lobe", Contender::UNCHECKED, vec![f32::NAN; 3 * COUNT], run, Vec::clone),
         inside: vec![Contender::new("interpn, crate", Contender::UNCHECKED, planes, peer, interleaved)],
         outside,
-        // Values of about 1; positions are rounded to 1e-6 of a table whose values change by all of that in a cell.
+        // Values are about 1; positions are rounded to 1e-6 of a table whose values change by about 1 in a cell.
         agreement: Some(Agreement { relative: 1e-4, floor: 1.0, outliers: 0.0 }),
         judge: None,
         goal: Some(12.0),

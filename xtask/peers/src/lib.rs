@@ -1,8 +1,7 @@
-//! `cargo xtask peers`: other people's programs next to this library, on the same tables and queries, in turns.
-//!
-//! What a package registry serves as wheels is installed into a virtual environment, SLEEF is taken from the system.
-//! Each peer runs in a separate process, which answers one request per line; a peer that is unavailable is left out
-//! with a line that says why. All values are compared before anything is timed.
+//! `cargo xtask peers`: compares other libraries with this one, on the same tables and queries, in turns.
+//! Peers available as wheels are installed into a virtual environment; SLEEF and Embree are taken from the system. Each
+//! peer runs in a separate process, which answers one request per line; an unavailable peer is left out, and the reason
+//! is printed. All values are compared before anything is timed.
 #![cfg(target_os = "linux")]
 #![forbid(unsafe_code)]
 
@@ -50,7 +49,7 @@ pub struct Options {
     /// Number of turns of every contestant
     #[arg(long, value_name = "COUNT", default_value_t = 12)]
     turns: usize,
-    /// Only the contests whose names begin with this
+    /// Run only the contests whose names begin with this
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     only: Vec<String>,
     /// Directory of the environment, of exchanged files and of peers.json
@@ -109,7 +108,7 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
     let mut taking_part = Vec::new();
     for mut contest in contests {
         steps.begin(contest.name());
-        // One that differs must not keep the others from being measured.
+        // A contest whose values differ must not keep the others from being measured.
         match contest.check(&mut programs, &exchange) {
             Ok(differences) => taking_part.push((contest, differences, Least::default())),
             Err(error) => {
@@ -119,8 +118,8 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
         }
         steps.done(1);
     }
-    // All contests have a turn before any has its next one, so that what else the machine does for a while spoils a turn of
-    // many and not all turns of one.
+    // All contests have a turn before any has its next one, so that a short disturbance spoils one turn of many
+    // contests and not all turns of one.
     for _ in 0..options.turns {
         for (contest, _, least) in &mut taking_part {
             steps.begin(contest.name());

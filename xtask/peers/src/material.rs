@@ -1,4 +1,4 @@
-//! Materials of the EPFL database, the same files, against Mitsuba's `measured`.
+//! Materials of the EPFL database, compared with Mitsuba's `measured` on the same files.
 
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -162,7 +162,7 @@ impl<'a> Subject<'a> {
                 Outside::new("Mitsuba measured", "mitsuba", &name),
                 Outside::of_sixteen("Mitsuba measured, AVX-512", "mitsuba-wide", name),
             ],
-            // Both draw in single precision, whose rounding moves a direction far within a dark cell.
+            // Both sample in single precision, whose rounding moves a direction far within a dark cell.
             agreement: Some(Agreement {
                 relative: if id == "rgl-sample" { 1e-3 } else { 1e-4 },
                 floor: 1e-2,

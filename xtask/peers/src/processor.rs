@@ -1,10 +1,10 @@
-//! The processor: one core for all contestants, and its processor time.
+//! Keeps all contestants on one core, and measures processor time.
 
 use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity};
 use rustix::time::{ClockId, clock_gettime};
 
-/// Keeps this thread, and what it starts or has started with it as a pattern, on the last core that it may use. Returns
-/// that core, or `None` if the system refuses.
+/// Keeps this thread, and the threads and processes that inherit from it, on the last core that it may use. Returns
+/// this core, or `None` if the system refuses.
 pub fn pin() -> Option<usize> {
     let allowed = sched_getaffinity(None).ok()?;
     let core = (0..CpuSet::MAX_CPU).rev().find(|&core| allowed.is_set(core))?;
@@ -14,7 +14,7 @@ pub fn pin() -> Option<usize> {
     Some(core)
 }
 
-/// Seconds that this process has been on a processor.
+/// Seconds for which this process has run on a processor.
 ///
 /// Unlike a wall clock, this does not count the time of other programs on the core, so long runs can be timed on a
 /// machine that is not idle.

@@ -1,4 +1,4 @@
-//! A peer in a separate process, which answers one request per line; `serve.py` says how.
+//! A peer in a separate process, which answers one request per line; `serve.py` describes the protocol.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -18,7 +18,7 @@ pub struct Program {
 }
 
 impl Program {
-    /// Starts a program and waits until it is ready. What it writes to standard error goes to `log`.
+    /// Starts a program and waits until it is ready. Its standard error goes to `log`.
     ///
     /// # Errors
     /// If it does not become ready; the error contains the last line of its log.
@@ -68,13 +68,13 @@ impl Program {
 
 impl Drop for Program {
     fn drop(&mut self) {
-        // It may have ended already, which is just as well.
+        // It may already have ended, which is fine.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
 }
 
-/// The programs by name: those that could be started, and why the others could not.
+/// The programs by name: those that could be started, and the reasons why the others could not.
 #[derive(Debug, Default)]
 pub struct Programs(BTreeMap<&'static str, anyhow::Result<Program>>);
 
@@ -84,17 +84,17 @@ impl Programs {
         self.0.insert(name, program.map_err(|error| anyhow!("{error:#}")));
     }
 
-    /// Whether it runs.
+    /// `true` if it runs.
     pub fn has(&self, name: &str) -> bool {
         self.0.get(name).is_some_and(Result::is_ok)
     }
 
-    /// Why some do not run.
+    /// The reasons why some do not run.
     pub fn missing(&self) -> impl Iterator<Item = (&'static str, String)> {
         self.0.iter().filter_map(|(name, program)| Some((*name, program.as_ref().err()?.to_string())))
     }
 
-    /// The versions of those that run.
+    /// The versions of the running programs.
     pub fn versions(&self) -> BTreeMap<&'static str, String> {
         self.0.iter().filter_map(|(name, program)| Some((*name, program.as_ref().ok()?.version.clone()))).collect()
     }

@@ -1,4 +1,4 @@
-//! The results: on the terminal, as JSON, and as the page in the documentation.
+//! Writes the results: on the terminal, as JSON, and as the page in the documentation.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -27,7 +27,7 @@ pub struct Record {
     pub turns: usize,
     /// The peers that took part.
     pub versions: BTreeMap<&'static str, String>,
-    /// The peers that did not, and why.
+    /// The peers that did not take part, and the reasons.
     pub missing: Vec<[String; 2]>,
     /// The figures.
     pub rows: Vec<Row>,
@@ -54,7 +54,7 @@ impl Record {
         self.grids().iter().for_each(Grid::print);
     }
 
-    /// What is not about speed.
+    /// The results that are not about speed.
     fn grids(&self) -> Vec<Grid> {
         variance::grid(&self.variances).into_iter().chain(frames::grid(&self.pictures)).collect()
     }

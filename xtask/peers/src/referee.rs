@@ -1,4 +1,4 @@
-//! Rays against all triangles of a mesh in double precision, for rays whose answers in single precision differ.
+//! Tests rays against all triangles of a mesh in double precision, if answers in single precision differ.
 
 use std::rc::Rc;
 
@@ -49,11 +49,9 @@ fn meet(origin: V, direction: V, corners: [[f32; 3]; 3]) -> Meeting {
     Meeting { t, inside: if sum == 0.0 { f64::NEG_INFINITY } else { u.min(v).min(w) }, doubt }
 }
 
-/// Decides about answers to rays: t and the two halves of the triangle's number, -1 for a miss; if any hit is enough, 1
-/// or 0.
-///
-/// A correct one names a triangle that is hit, if only at its edge, and whose t is within `agreement` of the nearest
-/// hit's; its t is that of the triangle within the accuracy of single precision.
+/// Decides about answers to rays: t and the two halves of the triangle's index, -1 for a miss; or 1 or 0 if any hit is
+/// enough. A correct answer names a triangle that is hit, at least at its edge, and whose t is within `agreement` of
+/// the t of the nearest hit; the t of the answer agrees with the triangle within the accuracy of single precision.
 pub struct Referee {
     /// All triangles.
     pub mesh: Rc<Mesh>,
@@ -137,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn at_an_edge_both_triangles_are_right_and_what_lies_behind_is_not() {
+    fn at_an_edge_both_triangles_are_right_and_those_behind_are_not() {
         let referee = square(false, &[[0.5, 0.5], [0.300_01, 0.3]]);
         for ray in [0, 1] {
             assert!(referee.is_right(ray, &[1.0, 0.0, 0.0]) && referee.is_right(ray, &[1.0, 1.0, 0.0]));
@@ -154,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn where_any_hit_is_enough_those_up_to_the_end_count() {
+    fn if_any_hit_is_enough_those_up_to_the_end_count() {
         let referee = square(true, &[[0.7, 0.2], [1.5, 0.2]]);
         assert!(referee.is_right(0, &[1.0]) && !referee.is_right(0, &[0.0]));
         assert!(referee.is_right(1, &[0.0]) && !referee.is_right(1, &[1.0]), "the large triangle lies beyond the end");

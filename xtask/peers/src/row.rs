@@ -16,7 +16,7 @@ pub struct Row {
     pub peer: &'static str,
     /// This library's processor time, in nanoseconds.
     pub ns: f64,
-    /// The peer's, in nanoseconds.
+    /// The peer's processor time, in nanoseconds.
     pub peer_ns: f64,
     /// How many times as fast as the peer.
     pub ratio: f64,
@@ -24,12 +24,12 @@ pub struct Row {
     pub goal: Option<f64>,
     /// The largest relative difference of the values, if they are of the same material.
     pub difference: Option<f64>,
-    /// How many disputed answers of the peer are wrong.
+    /// Number of disputed answers of the peer that are wrong.
     pub peer_wrong: usize,
 }
 
 impl Row {
-    /// What stands in the columns of the table.
+    /// The text of the columns of the table.
     pub fn cells(&self) -> [String; 8] {
         let goal = self.goal.map(|goal| format!("{}{}", times(goal), if self.ratio < goal { ", short" } else { "" }));
         let wrong = if self.peer_wrong > 0 { format!(", {} wrong", self.peer_wrong) } else { String::new() };

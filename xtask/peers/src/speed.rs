@@ -1,4 +1,4 @@
-//! Whether the machine runs as fast as it usually does.
+//! Checks that the machine runs as fast as usual.
 
 use std::collections::BTreeMap;
 use std::hint::black_box;
@@ -7,26 +7,27 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-/// Multiplications in a chain, each of which waits for the one before: some fifty microseconds.
+/// Number of multiplications in a chain, each of which waits for the one before; a chain takes about fifty
+/// microseconds.
 const CHAIN: usize = 50_000;
-/// Chains, of which the shortest counts, as other work makes them longer.
+/// Number of chains, of which the shortest counts, because other work makes them longer.
 const TIMES: usize = 400;
-/// Slower than the fastest run on this processor by more than this, a record is of a slow machine.
+/// If a run is slower than the fastest run on this processor by more than this, the machine was slow.
 const SLOWER: f64 = 1.05;
 
-/// Nanoseconds that a multiplication takes which waits for another one, a few cycles of any processor.
+/// Nanoseconds of a multiplication that waits for another one, a few cycles on any processor.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Speed {
     /// Before the first contest.
     pub start: f64,
     /// After the last one.
     pub end: f64,
-    /// The least ever measured on this processor.
+    /// The shortest time ever measured on this processor.
     pub usual: f64,
 }
 
 impl Speed {
-    /// What is said of it, and of runs that are slow.
+    /// A description of it, which mentions slow runs.
     pub fn text(&self) -> String {
         let Speed { start, end, usual } = self;
         let verdict = if start.max(*end) > SLOWER * usual { ": the machine was slow" } else { "" };
@@ -51,7 +52,7 @@ pub fn measure() -> f64 {
 /// The speed of a run, with the best of all runs on such a processor, which is kept in a file.
 ///
 /// # Errors
-/// If the file cannot be written. One that cannot be read counts as none.
+/// If the file cannot be written. A file that cannot be read counts as missing.
 pub fn kept(file: &Path, cpu: &str, [start, end]: [f64; 2]) -> anyhow::Result<Speed> {
     let mut known: BTreeMap<String, f64> =
         std::fs::read_to_string(file).ok().and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();

@@ -23,7 +23,7 @@ const PIXELS: usize = 512;
 /// A scene with more triangles does not fit into the caches, and goals are lower.
 const LARGE: usize = 200_000;
 
-/// `t` and the number of the triangle. A ray that passes close to an edge may hit either of its two triangles, and a
+/// `t` and the index of the triangle. A ray that passes close to an edge may hit either of its two triangles, and a
 /// peer may find neither; the [`Referee`] decides, and this library must always be right.
 const HITS: Agreement = Agreement { relative: 1e-5, floor: 0.1, outliers: 0.0 };
 
@@ -57,12 +57,12 @@ fn statue(data: &Path) -> anyhow::Result<Option<Parts>> {
     Ok(Some((parts.positions, parts.triangles)))
 }
 
-/// The path of that scan.
+/// The path of the scan.
 pub fn statue_file(data: &Path) -> std::path::PathBuf {
     data.join("geometry/lionstatue.obj")
 }
 
-/// A scene that rays are traced through.
+/// A scene through which rays are traced.
 struct Subject {
     name: &'static str,
     triangles: usize,
@@ -116,7 +116,7 @@ impl Subject {
         Ok(contests)
     }
 
-    /// A set of rays against Embree with that instruction set and kind of tree.
+    /// A set of rays compared with Embree with this instruction set and kind of tree.
     fn rays(&self, set: &Rc<RaySet>, backend: Backend, tree: &str, goal: f64) -> Contest {
         let hits = if set.any { "any" } else { "nearest" };
         Contest {
@@ -137,7 +137,7 @@ impl Subject {
         }
     }
 
-    /// Packets of four rays against the same code with one lane.
+    /// Packets of four rays compared with the same code with one lane.
     fn lanes(&self, set: &Rc<RaySet>, sse2: Backend) -> anyhow::Result<Contest> {
         Ok(Contest {
             id: "trace-lanes",
@@ -193,8 +193,8 @@ fn tracer(name: &'static str, scene: &Rc<Scene>, set: &Rc<RaySet>, backend: Back
     Contender::new(name, Contender::UNCHECKED, HitSoA::new(count), run, values)
 }
 
-/// `t` of all, then the lower twelve bits and the others of the triangles' numbers; -1 for what hits nothing. Halves are
-/// small enough that no two of them are equal within a tolerance.
+/// `t` of all rays, then the lower twelve bits and the other bits of the triangles' indices; -1 for a ray that hits
+/// nothing. The halves are small enough that different ones are never equal within a tolerance.
 fn values(hits: &HitSoA) -> Vec<f32> {
     let there = |(&found, &value): (&i32, &f32)| if found == MISS { -1.0 } else { value };
     let t = hits.primitive.iter().zip(&hits.t).map(there);

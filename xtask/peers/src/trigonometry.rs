@@ -1,4 +1,4 @@
-//! The arc cosine of eight lanes compared with that of SLEEF.
+//! The arc cosine of eight lanes, compared with SLEEF.
 
 use std::rc::Rc;
 
@@ -18,7 +18,7 @@ const PASSES: usize = 64;
 /// The contest; its cosines are in a separate file.
 ///
 /// # Errors
-/// If that cannot be written.
+/// If this file cannot be written.
 pub fn acos(exchange: &Exchange) -> anyhow::Result<Contest> {
     let cosines: Rc<[f32]> = Input::Incoherent.thetas(COUNT).iter().map(|theta| theta.cos() as f32).collect();
     exchange.floats("cosines", &[&cosines])?;

@@ -1,5 +1,5 @@
-//! How noisy samples are: the variance of the albedo from one sample, `f cos / pdf`, over the square of its mean; with
-//! Mitsuba's sampler, with this library's, and with directions drawn by their cosine, on the same files and numbers.
+//! The noise of samples: the variance of the albedo from one sample, `f cos / pdf`, over the square of its mean, for
+//! Mitsuba's sampler, for this library's, and for cosine-weighted directions, with the same files and numbers.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -34,9 +34,9 @@ pub struct Variance {
     pub degrees: f64,
     /// With Mitsuba's sampler.
     pub mitsuba: f64,
-    /// With this library's, the file being indexed by the viewer, the known direction, as in Mitsuba.
+    /// With this library's sampler, if the file is indexed by the viewer, the known direction, as in Mitsuba.
     pub lobe: f64,
-    /// With this library's, the file being indexed by the sampled light direction.
+    /// With this library's sampler, if the file is indexed by the sampled light direction.
     pub by_light: f64,
     /// With a cosine distribution.
     pub cosine: f64,
@@ -86,7 +86,7 @@ impl Question {
     /// The name by which it can be selected.
     pub const NAME: &str = "variance";
 
-    /// Asks for samples of all files.
+    /// Requests samples of all files.
     ///
     /// # Errors
     /// If a file cannot be read or written.
@@ -147,7 +147,7 @@ impl Question {
 }
 
 impl Subject {
-    /// For one known direction; `theirs` are the weights that Mitsuba found.
+    /// The variances for one known direction; `theirs` are Mitsuba's weights.
     fn compare(
         &self,
         (degrees, known): (f64, [f32; 3]),

@@ -1,4 +1,4 @@
-//! Ratios as bars: how many times the speed of each baseline, backend by backend.
+//! Draws ratios as bars: how many times the speed of each baseline, backend by backend.
 
 use xtask_common::svg::{Anchor, Svg, step};
 use xtask_common::times;
@@ -45,7 +45,7 @@ pub fn bars(all: &[Row], id: &str, input: &str, most: f64, paper: Option<f64>) -
             }
         }
     }
-    // Above the bars, so that it is visible whether a bar ends before or after a line, and below the figures.
+    // Above the bars, so that one can see whether a bar ends before or after a line, and below the figures.
     svg.line("base", [x(1.0), TOP], [x(1.0), bottom]);
     if let Some(ratio) = paper {
         svg.line("paper", [x(ratio), TOP - 4.0], [x(ratio), bottom]);

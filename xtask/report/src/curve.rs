@@ -44,12 +44,12 @@ pub fn curve(title: &str, terms: Terms) -> String {
     svg.finish()
 }
 
-/// Which polynomial.
+/// The polynomials.
 #[derive(Clone, Copy, Debug)]
 pub enum Terms {
-    /// The paper's.
+    /// The polynomial of the paper.
     Four,
-    /// The library's.
+    /// The polynomial of the library.
     Eight,
 }
 

@@ -1,4 +1,4 @@
-//! Whether energy is conserved: albedos by quadrature and by samples, the integrals of densities, reciprocity.
+//! Checks conservation of energy: albedos by quadrature and by samples, integrals of densities, and reciprocity.
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -20,7 +20,7 @@ use xtask_common::{Grid, noise, times};
 /// The name by which it can be selected.
 pub const ID: &str = "energy";
 
-/// Polar angles of the light in degrees, and its azimuths if those matter.
+/// Polar angles of the light in degrees, and its azimuths if they matter.
 const SIGMAS: [f64; 5] = [0.0, 30.0, 60.0, 80.0, 85.0];
 const PSIS: [f64; 2] = [0.0, 80.0];
 
@@ -42,11 +42,11 @@ pub struct Energy {
     pub material: String,
     /// The largest albedo of a channel at the incidences below.
     pub largest: f64,
-    /// The root of the mean squared difference of exchanged pairs, relative to that of the values.
+    /// The root mean square of the difference of exchanged pairs, relative to the root mean square of the values.
     pub reciprocity_rms: f64,
     /// The median of the relative differences of exchanged pairs.
     pub reciprocity_median: f64,
-    /// By the direction of the light.
+    /// The energy by direction of the light.
     pub incidences: Vec<Incidence>,
 }
 
@@ -57,15 +57,15 @@ pub struct Incidence {
     pub light: [f64; 2],
     /// Luminance of the albedo by quadrature.
     pub albedo: f64,
-    /// The same as the mean of the weights of samples, and the standard error of that.
+    /// The same as the mean of the weights of samples, and its standard error.
     pub by_samples: f64,
     /// The standard error.
     pub error: f64,
     /// The integral of the density of samples.
     pub density: f64,
-    /// The variance of one weight divided by the square of the mean, and the same with directions drawn by the cosine.
+    /// The variance of one weight divided by the square of the mean, and the same for cosine-weighted directions.
     pub variance: f64,
-    /// By the cosine.
+    /// For cosine-weighted directions.
     pub variance_by_cosine: f64,
 }
 
@@ -130,10 +130,9 @@ fn direction([theta, phi]: [f64; 2]) -> [f32; 3] {
     [sin * cos_phi, sin * sin_phi, cos].map(|x| x as f32)
 }
 
-/// The integral of the density over the hemisphere, in polar coordinates about the mirror direction.
-///
-/// A density of histograms has steps at which no panel ends, so it is summed over points of which no two share an
-/// angle: the additive recurrence of the plastic number (Roberts 2018).
+/// The integral of the density over the hemisphere, in polar coordinates about the mirror direction. The density of a
+/// histogram has steps that do not coincide with panels of a quadrature, so it is summed over points of which no two
+/// share an angle: the additive recurrence of the plastic number (Roberts 2018).
 fn density(sampler: &Sampler, [sigma, psi]: [f64; 2]) -> f64 {
     let place = |point: usize| {
         let [u, w] = [0.754_877_666_246_693, 0.569_840_290_998_053].map(|step| (point as f64 * step).fract());
@@ -198,11 +197,11 @@ pub fn grids(energies: &[Energy]) -> Vec<Grid> {
     ]
 }
 
-const BY_LIGHT: &str = "In a white furnace a surface is as bright as its albedo: here its luminance by quadrature, and as \
-the mean weight of 262,144 samples with its standard error. The density of samples has to integrate to 1. The variance is \
-that of the albedo from one sample, over the square of its mean, with samples and with directions drawn by their cosine.";
+const BY_LIGHT: &str = "In a white furnace a surface is as bright as its albedo: here is its luminance by quadrature, \
+and as the mean weight of 262,144 samples with its standard error. The density of samples must integrate to 1. The \
+variance is the variance of the albedo from one sample, over the square of its mean, with the sampler and with cosine-weighted directions.";
 
-const WHOLE: &str = "The largest albedo of any channel at these angles: above 1 no passive surface is. Reciprocity is how \
-far values change when light and viewer, up to 80° from the normal, are exchanged: the root of the mean squared \
-difference as a part of that of the values, and the relative difference that half of all pairs stay below. A table is not \
-quite reciprocal, since it interpolates between directions of the light otherwise than between those of the viewer.";
+const WHOLE: &str = "The largest albedo of any channel at these angles: it is at most 1 for a passive surface. \
+Reciprocity is measured by the change of values when light and viewer, up to 80° from the normal, are exchanged: the \
+root mean square of the difference relative to that of the values, and the median of the relative differences. A table \
+is not quite reciprocal, because it interpolates differently between directions of the light and of the viewer.";

@@ -1,4 +1,4 @@
-//! Whether all backends give the same bits, as one table of the page.
+//! Checks that all backends give the same bits, and shows the result as one table of the page.
 
 use std::fs::File;
 use std::path::Path;
@@ -7,15 +7,15 @@ use std::process::Command;
 use anyhow::{Context, ensure};
 use serde::{Deserialize, Serialize};
 
-/// Its name.
+/// The name of the section.
 pub const ID: &str = "equivalence";
 
-/// What the equivalence check found.
+/// The result of the equivalence check.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct EquivalenceSummary {
     /// One line per check: what was compared, and the outcome.
     pub rows: Vec<[String; 2]>,
-    /// `true` if everything held.
+    /// `true` if all checks passed.
     pub ok: bool,
 }
 
@@ -39,5 +39,5 @@ pub fn print(summary: &EquivalenceSummary) {
     for [what, found] in &summary.rows {
         println!("{what}: {found}");
     }
-    println!("{}", if summary.ok { "Everything holds." } else { "Something does not hold." });
+    println!("{}", if summary.ok { "All checks passed." } else { "Some checks failed." });
 }

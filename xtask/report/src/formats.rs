@@ -1,4 +1,4 @@
-//! How far the values of every format are from those of the programs that define it.
+//! Compares the values of every format with the programs that define it.
 
 use lobe::Backend;
 
@@ -12,7 +12,7 @@ pub const ID: &str = "formats";
 /// Compares all files for which there are answers, in the lanes of the best backend.
 ///
 /// # Errors
-/// As [`golden::compare`].
+/// The same as for [`golden::compare`].
 pub fn compare() -> anyhow::Result<Vec<Comparison>> {
     golden::compare(Backend::best().fused())
 }

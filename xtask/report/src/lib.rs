@@ -1,5 +1,5 @@
-//! What the report has in addition to the tables of the paper: formats, energy, samplers, pictures, equivalence, and
-//! the page.
+//! The parts of the report beyond the tables of the paper: formats, energy, samplers, pictures, equivalence, and the
+//! page.
 #![forbid(unsafe_code)]
 
 mod bars;
@@ -39,7 +39,7 @@ struct Report {
 }
 
 impl Report {
-    /// What is not about speed.
+    /// The sections that are not about speed.
     fn grids(&self) -> Vec<Grid> {
         let mut grids = formats::grids(self.formats.as_deref());
         grids.extend(energy::grids(&self.energy));
@@ -49,8 +49,8 @@ impl Report {
     }
 }
 
-/// Measures everything except the tables, prints it, has the backends compared, and writes the page with the tables
-/// that were measured before.
+/// Measures everything except the tables, prints it, compares the backends, and writes the page with the tables
+/// measured before.
 ///
 /// # Errors
 /// If there are no tables, a contender's values are wrong, or a file cannot be read or written.
@@ -72,7 +72,7 @@ pub fn run(options: &Options) -> anyhow::Result<()> {
     let mut report =
         Report { machine, quick: options.quick, rows, equivalence: None, formats, energy, samplers, pictures };
     report.grids().iter().for_each(Grid::print);
-    // Compiling that takes as long as measuring all figures, so it comes after them.
+    // Compiling this takes as long as measuring all figures, so it comes last.
     report.equivalence = options.is_asked(equivalence::ID).then(|| equivalence::summary(&options.out)).transpose()?;
     if let Some(summary) = &report.equivalence {
         equivalence::print(summary);

@@ -1,4 +1,4 @@
-//! The page: self-contained, no scripts.
+//! The page, self-contained and without scripts.
 
 use std::fmt::Write;
 
@@ -50,7 +50,7 @@ fn heading(report: &Report) -> String {
         escape(date)
     );
     if report.quick {
-        text += r#"<p class="note">A quick run: few rounds, ratios within some 10&nbsp;%.</p>"#;
+        text += r#"<p class="note">A quick run: few rounds, ratios accurate to about 10&nbsp;%.</p>"#;
     }
     if let Some(load) = report.machine.load.filter(|load| *load > 1.0) {
         write!(text, r#"<p class="note">The machine was busy when the run began (load {load:.1}): times are too long and ratios uncertain.</p>"#)
@@ -80,17 +80,17 @@ fn cards(all: &[Row]) -> String {
 }
 
 const READING: &str = r#"<p>Every figure is a ratio of one run: <b>12×</b> means twelve times the speed of the baseline, one twelfth of its
-time for the same values. Baselines are scalar code for one query at a time. <b>libm</b> is what one writes today: the standard
-library's arc cosine and binary search. <b>x87</b> is what the paper compared with in 2005: the arc cosine of the x87 unit and a
+time for the same values. Baselines are scalar code for one query at a time. <b>libm</b> is code as one writes it today: the standard
+library's arc cosine and binary search. <b>x87</b> is the code with which the paper compared in 2005: the arc cosine of the x87 unit and a
 search that branches. All contenders take turns, the shortest time of each counts, and all values were compared with a
-double-precision reference first. <b>Incoherent</b> input is unrelated directions; <b>coherent</b> input is the pixels of a picture of a
-sphere, neighbours together.</p>"#;
+double-precision reference first. <b>Incoherent</b> input consists of unrelated directions; <b>coherent</b> input comes from the pixels of a picture of a
+sphere, with neighbours next to each other.</p>"#;
 
 fn equivalence(summary: &EquivalenceSummary) -> String {
     let verdict = if summary.ok {
-        r#"<p class="good">Everything holds.</p>"#
+        r#"<p class="good">All checks passed.</p>"#
     } else {
-        r#"<p class="bad">Something does not hold.</p>"#
+        r#"<p class="bad">Some checks failed.</p>"#
     };
     let lines: String = summary
         .rows

@@ -1,4 +1,4 @@
-//! What the lanes gain in whole pictures: frames of a scene of many measured materials, and the rays alone.
+//! The gain from lanes in whole pictures: frames of a scene of many measured materials, and the rays alone.
 
 mod light;
 mod packets;
@@ -26,11 +26,12 @@ pub struct Pictures {
     triangles: usize,
     /// One per backend, scalar first.
     frames: Vec<Frame>,
-    /// Time of a frame on one thread divided by that on two, on the last backend; `None` on a machine of one core.
+    /// Time of a frame on one thread divided by the time on two, on the last backend; `None` on a machine with one
+    /// core.
     threads: Option<f64>,
-    /// Four-ray packets against the scalar instance of the same code; empty on a machine without SSE2.
+    /// Four-ray packets compared with the scalar instance of the same code; empty on a machine without SSE2.
     packets: Vec<Packets>,
-    /// Rays from the lights on the last backend, by how many surfaces they have met.
+    /// Rays from the lights on the last backend, by the number of surfaces that they have met.
     light: Vec<LightRays>,
 }
 
@@ -41,7 +42,7 @@ struct Frame {
     milliseconds: f64,
     /// The share of the frame that was spent in materials.
     material_share: f64,
-    /// Nanoseconds in a material for each pair of directions or drawing, after at least one bounce.
+    /// Nanoseconds in a material per pair of directions or sample, after at least one bounce.
     bounced_nanoseconds: f64,
     /// The share of lanes in use while materials were evaluated, by the number of surfaces hit before.
     lanes_in_use: Vec<f64>,
@@ -90,10 +91,10 @@ pub fn measure(quick: bool) -> anyhow::Result<Pictures> {
     Ok(Pictures { materials: scene::MATERIALS, triangles, frames, threads, packets, light })
 }
 
-/// Samples of the frames that threads share: enough work that the last tile of each is a small part of it.
+/// Samples of the frames that threads share: so many that the last tile of each thread is a small part of the work.
 const SHARED: u32 = 8;
 
-/// How long a frame took, and where the time went.
+/// The time of a frame, and how it was spent.
 fn picture(world: &World, settings: Settings) -> (Duration, Stats) {
     let begun = Instant::now();
     let (_, stats) = render(world, &settings, Film::new(settings.window), |_| true).expect("a camera and a window");

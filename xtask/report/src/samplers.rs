@@ -1,4 +1,4 @@
-//! What samplers cost before the first sample: memory and the time to build them.
+//! The cost of samplers before the first sample: memory and the time to build them.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -20,10 +20,10 @@ pub const ID: &str = "samplers";
 /// Bins of the MERL database: half angle, difference angle, azimuth of the difference.
 const MERL: [usize; 3] = [90, 90, 180];
 
-/// What the sampler of a material costs.
+/// The cost of the sampler of a material.
 #[derive(Clone, Debug, Serialize)]
 pub struct SamplerCost {
-    /// Which material.
+    /// The material.
     pub material: &'static str,
     /// Bytes of the material.
     pub material_bytes: usize,
@@ -69,7 +69,7 @@ fn cost(material: &'static str, document: Document, (goal, rounds): (f64, usize)
     Ok(SamplerCost { material, material_bytes: made.bytes(), sampler_bytes: bytes, seconds, goal })
 }
 
-/// What is shown.
+/// The table.
 pub fn grids(costs: &[SamplerCost]) -> Vec<Grid> {
     let row = |cost: &SamplerCost| {
         let &SamplerCost { material, material_bytes, sampler_bytes, seconds, goal } = cost;
@@ -94,5 +94,5 @@ pub fn grids(costs: &[SamplerCost]) -> Vec<Grid> {
     )]
 }
 
-const READING: &str = "What a sampler takes in addition to its material, at most one and a half times as much unless the material is tiny, and how long it \
-takes to build.";
+const READING: &str = "The memory that a sampler takes in addition to its material, at most one and a half times as \
+much unless the material is tiny, and the time to build it.";

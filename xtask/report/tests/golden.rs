@@ -1,4 +1,4 @@
-//! Files of every format in the lanes of every backend, compared with the programs that define the formats.
+//! Compares files of every format in the lanes of every backend with the programs that define the formats.
 
 use std::io::Write as _;
 
@@ -10,7 +10,7 @@ fn all_formats_agree_with_the_programs_that_define_them() {
     for backend in Backend::available().into_iter().flat_map(|backend| [backend.fused(), backend.strict()]) {
         let comparisons = compare(backend).unwrap_or_else(|error| panic!("{error:#}"));
         if comparisons.is_empty() {
-            // Written past the test harness, which hides the output of passing tests.
+            // Bypasses the test harness, which hides the output of passing tests.
             let _ = writeln!(std::io::stderr(), "SKIPPED: no answers in {}; set LOBE_SHARED", folder().display());
             return;
         }

@@ -1,4 +1,4 @@
-//! `cargo xtask sweep`: the inverse trigonometry of every backend over every `f32` of `[-1, 1]`.
+//! `cargo xtask sweep`: checks the inverse trigonometry of every backend over every `f32` of `[-1, 1]`.
 #![forbid(unsafe_code)]
 
 use std::f64::consts::PI;
@@ -25,7 +25,7 @@ const ONE: u32 = 1f32.to_bits();
 /// Arguments per chunk.
 const CHUNK: usize = 1 << 14;
 
-/// The functions that are swept, with what is stated about each.
+/// The functions that are swept, with the stated bounds of each.
 const FUNCTIONS: [(&str, Bound); 4] = [
     ("acos", bounds::ACOS),
     ("asin", bounds::ASIN),
@@ -114,7 +114,7 @@ fn sweep(backends: &[Backend], step: u32) -> Vec<Errors> {
     })
 }
 
-/// Arguments, the true results, and room for those of a backend.
+/// Arguments, the exact results, and room for those of a backend.
 struct Chunk {
     xs: Vec<f32>,
     acos: Vec<Truth>,
@@ -122,7 +122,7 @@ struct Chunk {
     out: Vec<f32>,
 }
 
-/// A true result, and the number of `f32` steps per unit there, 0 if no ULP bound is given.
+/// An exact result, and the number of `f32` steps per unit there, 0 if no ULP bound is given.
 #[derive(Clone, Copy)]
 struct Truth {
     value: f64,
@@ -166,7 +166,7 @@ impl Chunk {
             let truths = if function % 2 == 0 { &self.acos } else { &self.asin };
             for (&found, truth) in self.out.iter().zip(truths) {
                 let abs = (f64::from(found) - truth.value).abs();
-                // A NaN must not be lost in a maximum.
+                // A NaN must not get lost in a maximum.
                 let abs = if abs.is_nan() { f64::INFINITY } else { abs };
                 error.abs = error.abs.max(abs);
                 error.ulp = error.ulp.max(abs * truth.steps_a_unit);
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_result_is_seen() {
+    fn a_wrong_result_is_detected() {
         let mut chunk = Chunk::new();
         chunk.fill([0.0, 0.5, 1.0].into_iter().cycle().take(CHUNK));
         let mut errors = NONE;

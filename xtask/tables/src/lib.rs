@@ -1,5 +1,5 @@
-//! The tables of the paper on this machine, and every other question about speed: measured one after the other, and
-//! printed as soon as each is.
+//! Measures the tables of the paper on this machine, and every other question about speed, and prints each as soon as
+//! it is measured.
 #![forbid(unsafe_code)]
 
 mod measure;
@@ -29,7 +29,7 @@ use rows::Row;
   cargo xtask report --only formats --json formats.json"
 )]
 pub struct Options {
-    /// Fewer queries and rounds: under a minute, ratios within some 10 %
+    /// Fewer queries and rounds: under a minute, ratios accurate to about 10 %
     #[arg(long)]
     pub quick: bool,
     /// Only these questions, by their ids in report.json, or `formats`, `energy`, `samplers`, `pictures` or `equivalence`
@@ -47,7 +47,7 @@ pub struct Options {
 pub const SECTIONS: [&str; 5] = ["formats", "energy", "samplers", "pictures", "equivalence"];
 
 impl Options {
-    /// Whether a section is requested.
+    /// `true` if a section is requested.
     pub fn is_asked(&self, section: &str) -> bool {
         self.only.is_empty() || self.only.iter().any(|asked| asked == section)
     }
@@ -59,16 +59,16 @@ impl Options {
     }
 }
 
-/// What is measured here and shown on the page.
+/// The results measured here and shown on the page.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Tables {
-    /// Where it was measured.
+    /// The machine on which it was measured.
     pub machine: Machine,
     /// The figures.
     pub rows: Vec<Row>,
 }
 
-/// The file that hands the tables on to the rest of the report.
+/// The file that passes the tables on to the rest of the report.
 fn file(out: &Path) -> PathBuf {
     out.join("tables.json")
 }

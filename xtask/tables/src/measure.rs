@@ -1,4 +1,4 @@
-//! From contests to rows.
+//! Measures contests and turns them into rows.
 
 use std::time::Duration;
 
@@ -11,10 +11,8 @@ use xtask_common::Steps;
 use super::rows::Row;
 use super::sections::{self, Section};
 
-/// Queries per run, unless a question has its own number.
-///
-/// A run of the slowest contender must fit between two interruptions, some milliseconds apart, for its shortest time to
-/// mean anything. More rounds do the rest.
+/// Queries per run, unless a question has its own number. A run of the slowest contender must fit between two
+/// interruptions, a few milliseconds apart, so that its shortest time is meaningful. More rounds do the rest.
 const COUNT: usize = 1 << 13;
 
 /// For figures to be kept.
@@ -26,7 +24,7 @@ pub const QUICK: Rounds = Rounds { most: 40, least: 3, time: Duration::from_mill
 /// paper come first. Each section is `shown` as soon as it is measured.
 ///
 /// # Errors
-/// If a name is not that of a question, or values are wrong; nothing of that section is then timed.
+/// If there is no question of a given name, or values are wrong; nothing of the section is then timed.
 pub fn all(rounds: Rounds, only: Option<&[&str]>, shown: impl Fn(&Section, &[Row])) -> anyhow::Result<Vec<Row>> {
     if let Some(unknown) = only.into_iter().flatten().find(|id| Question::named(id).is_none()) {
         let ids: Vec<_> = QUESTIONS.iter().map(|question| question.id).collect();

@@ -7,7 +7,7 @@ pub struct PaperTable {
     pub number: u8,
     /// What is counted.
     pub counted: &'static str,
-    /// How often, as printed.
+    /// The counts, as printed.
     pub counts: [&'static str; 3],
     /// The largest of them.
     pub most: f64,
@@ -15,7 +15,7 @@ pub struct PaperTable {
     pub scalar: [&'static str; 3],
     /// Seconds with SSE, as printed.
     pub sse: [&'static str; 3],
-    /// Times the speed, as printed.
+    /// The speed-up, as printed.
     pub speed_up: [&'static str; 3],
 }
 
@@ -83,7 +83,7 @@ pub const ANISOTROPIC: PaperTable = PaperTable {
 mod tests {
     use super::*;
 
-    /// The printed speed-ups are the ratios of the printed times, so a typing error above would show.
+    /// The printed speed-ups are the ratios of the printed times, so a typing error above would be found.
     #[test]
     fn speed_ups_follow_from_the_times() {
         for table in [ACOS, SEARCH, ISOTROPIC, ANISOTROPIC] {

@@ -5,13 +5,13 @@ use serde::{Deserialize, Serialize};
 /// One ratio.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Row {
-    /// Of the question, as in `lobe_benches::contest::QUESTIONS`.
+    /// Id of the question, as in `lobe_benches::contest::QUESTIONS`.
     pub id: String,
-    /// Which backend, with `-strict` if that is a separate form.
+    /// The backend, with `-strict` if that is a separate form.
     pub backend: String,
     /// `coherent` or `incoherent`.
     pub input: String,
-    /// What it is compared with.
+    /// The baseline with which it is compared.
     pub baseline: String,
     /// Nanoseconds per query.
     pub ns: f64,

@@ -1,4 +1,4 @@
-//! Which questions are shown together on the page, and with which table of the paper.
+//! Groups the questions into sections of the page, with tables of the paper.
 
 use lobe_benches::contest::{QUESTIONS, Question};
 
@@ -12,7 +12,7 @@ pub struct Section {
     pub title: &'static str,
     /// A table of the paper.
     pub paper: Option<PaperTable>,
-    /// What is measured for it.
+    /// The questions measured for it.
     pub questions: Vec<Question>,
 }
 
@@ -29,7 +29,7 @@ pub fn all(rows: &[Row]) -> Vec<Section> {
     of(|question| rows.iter().any(|row| row.id == question.id))
 }
 
-/// The sections with the questions that are wanted; those that belong to no table of the paper come last, together.
+/// The sections with the requested questions; those that belong to no table of the paper come last, in one section.
 pub(crate) fn of(is_wanted: impl Fn(&Question) -> bool) -> Vec<Section> {
     let wanted: Vec<_> = QUESTIONS.into_iter().filter(is_wanted).collect();
     let of = |ids: &[&str]| wanted.iter().copied().filter(|question| ids.contains(&question.id)).collect();

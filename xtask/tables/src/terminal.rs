@@ -1,4 +1,4 @@
-//! The tables on the terminal.
+//! Prints the tables on the terminal.
 
 use comfy_table::{CellAlignment, Table, presets};
 use lobe_benches::workload::Input;
@@ -7,7 +7,7 @@ use xtask_common::{Machine, nanoseconds, times};
 use super::rows::{self, Row};
 use super::sections::Section;
 
-/// Prints where the figures come from.
+/// Prints the machine that the figures come from.
 pub fn heading(machine: &Machine) {
     println!("{}, {} cores, {}", machine.cpu, machine.cores, machine.compiler);
     if let Some(load) = machine.load.filter(|load| *load > 1.0) {
@@ -29,7 +29,7 @@ pub fn print(section: &Section, rows: &[Row]) {
     }
 }
 
-/// Backends down; for each input the time and the ratio to each baseline across.
+/// One row per backend; for each input, columns with the time and the ratio to each baseline.
 fn table(all: &[Row], id: &str) -> Table {
     let rows_of = || all.iter().filter(|row| row.id == id);
     let baselines = rows::distinct(rows_of(), |row| &row.baseline);

@@ -1,4 +1,4 @@
-//! What a renderer writes: kernels of its own, and the library's.
+//! Kernels as in a renderer: its own, and those of the library.
 
 use lobe::table::{Given, Sampled, Sampler};
 use lobe::{Axis, Kernel, Lanes, math, specular};
@@ -66,7 +66,7 @@ impl Kernel for Search<'_> {
     }
 }
 
-/// RGB of each pair, inside of a loop of the caller's.
+/// RGB of each pair, inside a loop of the caller.
 pub struct InLanes<'a> {
     pub table: &'a specular::Table,
     pub wi: &'a [[f32; 3]],
@@ -94,7 +94,7 @@ impl Kernel for InLanes<'_> {
     }
 }
 
-/// A direction drawn for each of those that are known.
+/// A direction sampled for each known direction.
 pub struct Sample<'a> {
     pub sampler: &'a Sampler,
     pub known: &'a [[f32; 3]],

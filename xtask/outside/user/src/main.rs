@@ -1,4 +1,4 @@
-//! Kernels of lobe, instantiated by a crate of somebody else.
+//! Instantiates kernels of lobe in a crate outside its workspace.
 //!
 //! `lobe-user` reads a question from each line of its input, answers it a few times, and writes the shortest time of a call in
 //! nanoseconds. Without input, it lists its questions.
@@ -13,7 +13,7 @@ use std::time::Instant;
 
 use questions::{QUESTIONS, Run};
 
-/// Calls in a row: the first finds the caches as other programs left them.
+/// Calls in a row: the first one finds the caches as other programs left them.
 const CALLS: usize = 4;
 
 fn main() -> std::io::Result<()> {

@@ -1,4 +1,4 @@
-//! What is timed: every kernel that the library offers to lanes that are not a backend.
+//! The timed questions: every kernel that the library offers for lanes that are not a backend.
 
 use std::sync::Arc;
 
@@ -21,9 +21,9 @@ use crate::kernels::{Acos, Azimuth, InLanes, Sample, Search};
 /// Answers a question for all queries.
 pub type Run = Box<dyn FnMut()>;
 
-/// Queries of a call: some microseconds to some hundreds.
+/// Queries per call: they take a few to a few hundred microseconds.
 const COUNT: usize = 4096;
-/// Calls with a query each.
+/// Calls with one query each.
 const SINGLES: usize = 1024;
 
 pub const QUESTIONS: &[(&str, fn() -> Run)] = &[

@@ -1,4 +1,4 @@
-//! Whether both renderers make the same picture: their difference compared with the noise of both.
+//! Checks that both renderers make the same picture, by comparing the difference with the noise of both.
 
 use std::path::Path;
 
@@ -19,7 +19,7 @@ const SIZE: [u32; 2] = [320, 320];
 const SAMPLES: u32 = 48;
 /// Differences of a pixel that is darker than this count as if it had this radiance.
 const FLOOR: f64 = 0.02;
-/// By how much the difference may exceed what noise explains. Its own error is half a per cent.
+/// By how much the difference may exceed the noise. Its own error is half a per cent.
 const LIMIT: f64 = 1.03;
 
 /// How much the pictures differ. All figures are root mean squares over pixels and channels, relative to the pixel.
@@ -33,9 +33,9 @@ pub struct Agreement {
     pub noise: f64,
     /// The noise of the other's.
     pub peer_noise: f64,
-    /// The mean of this renderer's picture divided by that of the other's.
+    /// The mean of this renderer's picture divided by the mean of the other's.
     pub mean: f64,
-    /// The mean if measured materials are indexed by the light, divided by that of the other's.
+    /// The mean if measured materials are indexed by the light, divided by the mean of the other's.
     pub mean_by_light: f64,
 }
 
@@ -83,7 +83,7 @@ impl Question {
     /// The name by which it can be selected.
     pub const NAME: &str = "picture";
 
-    /// Asks for pictures of all rooms.
+    /// Requests pictures of all rooms.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -137,7 +137,7 @@ fn task(name: &str) -> String {
     format!("{}-{name}", Question::NAME)
 }
 
-/// A picture by this renderer, beginning with the sample of that number.
+/// A picture by this renderer, beginning with the sample of this index.
 fn frame(room: &Room, known: Given, from: u32) -> anyhow::Result<Vec<f32>> {
     let backend = Backend::best().fused();
     let world = room.world(known, backend)?;
@@ -149,7 +149,7 @@ fn frame(room: &Room, known: Given, from: u32) -> anyhow::Result<Vec<f32>> {
 /// Two pictures with independent noise.
 struct Pair {
     mean: Vec<f64>,
-    /// The variance of the mean, as estimated from one difference.
+    /// The variance of the mean, estimated from one difference.
     variance: Vec<f64>,
 }
 
@@ -184,7 +184,7 @@ fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
 }
 
 /// The difference of each pixel, in standard deviations; variances are averaged over squares of seven by seven pixels,
-/// as a single pixel says little about its own.
+/// because a single pixel says little about its own variance.
 fn deviations(ours: &Pair, theirs: &Pair) -> Vec<f64> {
     let [width, height] = SIZE.map(|side| side as i64);
     let sum = |values: &[f64], at: usize| values[3 * at..][..3].iter().sum::<f64>();

@@ -1,4 +1,5 @@
-//! Whole pictures, path-traced, against Mitsuba 3: the same meshes, materials, lights and camera, and as many samples.
+//! Whole path-traced pictures compared with Mitsuba 3: the same meshes, materials, lights, camera and number of
+//! samples.
 
 mod agreement;
 mod picture;
@@ -29,14 +30,14 @@ const VARIANTS: [(&str, &str); 2] = [("mitsuba-llvm", "Mitsuba llvm_ad_rgb"), ("
 /// The first of these with vectors of sixteen floats, if the processor has them.
 const WIDER: (&str, &str) = ("mitsuba-llvm-wide", "Mitsuba llvm_ad_rgb, AVX-512");
 
-/// What a room is made of, and the goal against each variant: how many times as fast.
+/// The materials of a room, and the goal against each variant: how many times as fast.
 struct Subject {
     name: &'static str,
     surfaces: [Surface; scene::SURFACES],
     goals: [f64; 2],
 }
 
-/// The room of diffuse surfaces, and that of measured ones if there are files.
+/// The room of diffuse surfaces, and the room of measured ones if there are files.
 fn subjects(data: &Path) -> Vec<Subject> {
     let colours = [[0.7, 0.3, 0.2], [0.7, 0.6, 0.2], [0.4, 0.2, 0.6], [0.6; 3], [0.7; 3], [0.6, 0.55, 0.5]];
     let mut subjects = vec![Subject { name: "diffuse", surfaces: colours.map(Surface::Diffuse), goals: [1.3, 2.4] }];
@@ -83,7 +84,7 @@ pub fn all(data: &Path, exchange: &mut Exchange) -> anyhow::Result<Vec<Contest>>
     Ok(contests)
 }
 
-/// This renderer. A peer that is asked for values returns two pictures, so this does too.
+/// This renderer. A peer returns two pictures as values, so this does too.
 fn contender(room: &Room) -> anyhow::Result<Contender> {
     let backend = Backend::best().fused();
     let world = room.world(Given::Viewer, backend)?;

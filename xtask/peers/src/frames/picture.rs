@@ -1,4 +1,4 @@
-//! Pictures side by side, and how much they differ.
+//! Shows pictures side by side with their difference.
 
 use lobe_render::Film;
 use lobe_render::picture::{ToneMap, encode_rgb};

@@ -1,4 +1,4 @@
-//! A room with a torus knot, a material ball and a sphere in it, for this renderer and as a task for another.
+//! A room with a torus knot, a material ball and a sphere, for this renderer and as a task for another.
 
 use std::f32::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
@@ -13,10 +13,10 @@ use lobe_render::shader::{self, Lambert, Shader};
 use lobe_render::{Camera, Filter, Rect, Settings, Shape, World, WorldBuilder};
 use serde_json::{Value, json};
 
-/// What things are made of.
+/// The material of a surface.
 #[derive(Clone, Debug)]
 pub enum Surface {
-    /// Reflects this share, equally into all directions.
+    /// Reflects this share equally in all directions.
     Diffuse([f32; 3]),
     /// A file of the EPFL database.
     Measured(PathBuf),
@@ -26,21 +26,21 @@ pub enum Surface {
 struct Part {
     name: &'static str,
     mesh: Geometry,
-    /// Which of the surfaces; `None` for one that emits and does not reflect.
+    /// The index of the surface; `None` for one that emits and does not reflect.
     surface: Option<usize>,
 }
 
-/// The room and what its surfaces are made of.
+/// The room and the materials of its surfaces.
 pub struct Room {
     parts: Vec<Part>,
     surfaces: Vec<Surface>,
 }
 
-/// How many surfaces a room has.
+/// Number of surfaces of a room.
 pub const SURFACES: usize = 6;
 /// The radiance of the panel under the ceiling.
 const RADIANCE: [f32; 3] = [17.0, 16.0, 14.0];
-/// The most surfaces that a path may hit.
+/// The largest number of surfaces that a path may hit.
 const DEPTH: u32 = 5;
 /// Width and height of the sky.
 const SKY: [usize; 2] = [128, 64];
@@ -55,7 +55,7 @@ const CAMERA: Camera = Camera {
 };
 
 impl Room {
-    /// Of these surfaces: knot, ball, its ring, sphere, walls, floor.
+    /// A room with materials for knot, ball, its ring, sphere, walls and floor.
     pub fn new(surfaces: [Surface; SURFACES]) -> Self {
         let mut parts = Vec::new();
         let mut add = |name, mesh, surface| parts.push(Part { name, mesh, surface });
@@ -80,7 +80,7 @@ impl Room {
         Room { parts, surfaces: surfaces.into() }
     }
 
-    /// For this renderer, with measured materials indexed by one of the directions.
+    /// The room for this renderer, with measured materials indexed by one of the directions.
     ///
     /// # Errors
     /// If a file cannot be read.
@@ -104,7 +104,7 @@ impl Room {
         Ok(world.build()?)
     }
 
-    /// For Mitsuba: files in a directory, and a description that refers to them.
+    /// The room for Mitsuba: files in a directory, and a description that refers to them.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -175,8 +175,8 @@ pub fn whole([width, height]: [u32; 2]) -> Rect {
     Rect { x: 0, y: 0, width, height }
 }
 
-/// A smooth sky with a wide glow that shines into the room. The height of a row is a fraction of the whole; `turn` is
-/// the direction of the middle of the picture, in turns from -z.
+/// A smooth sky with a wide glow that shines into the room. The position of a row is a fraction of the height; `turn`
+/// is the direction of the middle of the picture, in turns from -z.
 fn sky(height: impl Fn(usize, usize) -> f32, turn: f32) -> Vec<[f32; 3]> {
     let [columns, rows] = SKY;
     let glow = [-0.41, 0.52, 0.75];
@@ -200,7 +200,7 @@ fn group(mesh: &Geometry, name: &str) -> Geometry {
     Geometry::new(parts).expect("part of a good mesh")
 }
 
-/// Scaled and moved.
+/// The mesh scaled and moved.
 fn placed(mesh: &Geometry, scale: f32, to: [f32; 3]) -> Geometry {
     let mut parts = mesh.clone().complete().into_parts();
     parts.positions.iter_mut().for_each(|p| *p = [0, 1, 2].map(|k| scale * p[k] + to[k]));

@@ -1,4 +1,4 @@
-//! The files of answers: a line is `inputs -> outputs`, all of them numbers.
+//! Reads files of answers: each line is `inputs -> outputs`, all of them numbers.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ pub(super) struct Answer {
 }
 
 impl Answer {
-    /// The three inputs from `at` on as a unit vector: some programs printed single precision.
+    /// The three inputs from `at` on, normalised because some programs printed single precision.
     pub(super) fn direction(&self, at: usize) -> [f32; 3] {
         let v: [f64; 3] = std::array::from_fn(|k| self.inputs[at + k]);
         let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -1,4 +1,4 @@
-//! What each kind of file of answers contains, and which differences are allowed.
+//! The contents of each kind of file of answers, and the allowed differences.
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,7 @@ use super::answers::{self, Answer, direction};
 use super::{Comparison, Measure};
 use lobe_testing::made::{merl_formula, utia_numbers};
 
-/// The file of answers `name`; `None` if it is not such a file.
+/// Compares the file of answers `name`; `None` if it is not such a file.
 pub(super) fn compare(backend: Backend, shared: &Path, answers: &Path, name: &str) -> anyhow::Result<Vec<Comparison>> {
     let one = match name {
         "merl_formula.txt" => merl(backend, answers)?,
@@ -36,7 +36,7 @@ pub(super) fn compare(backend: Backend, shared: &Path, answers: &Path, name: &st
     Ok(vec![one])
 }
 
-/// The file that answers are about: `real_` names one among the measured files, everything else is next to its answers.
+/// The file that answers are about: the prefix `real_` denotes a measured file, all others are next to their answers.
 fn source(shared: &Path, stem: &str) -> anyhow::Result<PathBuf> {
     let candidates: Vec<PathBuf> = match stem.strip_prefix("real_") {
         Some(file) => {
@@ -48,7 +48,7 @@ fn source(shared: &Path, stem: &str) -> anyhow::Result<PathBuf> {
     candidates.into_iter().find(|path| path.is_file()).with_context(|| format!("the file {stem} is missing"))
 }
 
-/// A material on the backend, and what must be known about its file.
+/// A material on the backend, and facts about its file.
 struct Subject {
     file: String,
     format: Format,
@@ -78,7 +78,7 @@ impl Subject {
         Ok(Subject { file, format, material, largest })
     }
 
-    /// Values of all pairs, each times `scale` of its viewer.
+    /// Values of all pairs, each times the `scale` for its viewer.
     fn values(&self, pairs: &[([f32; 3], [f32; 3])], scale: impl Fn([f32; 3]) -> f64) -> Vec<Vec<f64>> {
         let (wi, wo): (Vec<_>, Vec<_>) = pairs.iter().copied().unzip();
         let channels = self.material.channel_count();
@@ -111,7 +111,7 @@ impl Subject {
         };
         let each = found.iter().zip(answers).flat_map(|(found, answer)| found.iter().zip(&answer.outputs));
         let error = each.map(|(found, expected)| difference(*found, *expected)).fold(0.0, |most: f64, x| {
-            // A NaN must not be lost.
+            // A NaN must not get lost.
             if x > most || x.is_nan() { x } else { most }
         });
         Comparison {
@@ -138,7 +138,7 @@ fn cosine(wo: [f32; 3]) -> f64 {
     f64::from(wo[2])
 }
 
-/// Specular tables, continued in straight lines beyond their knots.
+/// Specular tables, extrapolated linearly beyond their knots.
 fn libbsdf(backend: Backend, file: &Path, path: &Path) -> anyhow::Result<Comparison> {
     let subject = Subject::open(backend, file, &Options { edges: Edges::extrapolate(), ..Options::default() })?;
     let answers = answers::read(path, [6, subject.material.channel_count()])?;
@@ -177,11 +177,10 @@ fn mitsuba_mueller(backend: Backend, file: &Path, path: &Path) -> anyhow::Result
     Ok(subject.against("Mitsuba 3", &answers, &found, (Measure::Absolute, 0.0, 2e-6)))
 }
 
-/// Materials of the EPFL database at a few angles: `theta_i`, `theta_o` and `phi` in degrees, and `f`.
-///
-/// A pair in mirror directions has the normal for its half vector, and around that an azimuth in the rounding of the
-/// directions alone; the tables are not the same from all azimuths. Such pairs, which are mirror directions to the last
-/// digit in `f64`, have no defined value in lanes; the `f64` reference is held to them by the tests of `lobe-formats`.
+/// Materials of the EPFL database at a few angles: `theta_i`, `theta_o` and `phi` in degrees, and `f`. If two
+/// directions are mirror images, their half vector is the normal, and its azimuth is determined only by rounding,
+/// although the tables differ between azimuths. Pairs that are mirror directions to the last digit in `f64` have no
+/// defined value in lanes; the tests of `lobe-formats` compare them with the `f64` reference.
 fn mitsuba_values(backend: Backend, shared: &Path, path: &Path) -> anyhow::Result<Vec<Comparison>> {
     let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
     let files: serde_json::Map<String, serde_json::Value> =
@@ -229,13 +228,13 @@ fn merl(backend: Backend, path: &Path) -> anyhow::Result<Comparison> {
     angles(backend, path, made, "BRDFRead", (Measure::Absolute, 0.0, 0.0))
 }
 
-/// Numbers of a generator, as the file of answers defines it.
+/// Numbers of a generator that the file of answers defines.
 fn utia(backend: Backend, path: &Path) -> anyhow::Result<Comparison> {
     let made = ("pseudo-random numbers", Format::Utia, &*utia_numbers());
     angles(backend, path, made, "UTIA-brdf", (Measure::Largest, 0.0, 2e-5))
 }
 
-/// A table that is made here, queried by zenith angles and azimuths.
+/// A table that is constructed here, queried by zenith angles and azimuths.
 fn angles(
     backend: Backend,
     path: &Path,

@@ -1,7 +1,6 @@
-//! Materials in lanes compared with the answers of the programs that define their formats.
-//!
-//! The answers and the measured files are not part of the project: they are in the folder that the environment variable
-//! `LOBE_SHARED` names, or else in `shared` next to the workspace.
+//! Compares materials in lanes with the answers of the programs that define their formats. The answers and the measured
+//! files are not part of the project: they are in the folder named by the environment variable `LOBE_SHARED`, or in
+//! `shared` next to the workspace.
 
 mod answers;
 mod cases;
@@ -16,11 +15,11 @@ use serde::Serialize;
 pub struct Comparison {
     /// The file.
     pub file: String,
-    /// What read it.
+    /// The reader of the file.
     pub reader: String,
     /// The program that answered.
     pub against: &'static str,
-    /// How many pairs of directions were compared.
+    /// Number of pairs of directions compared.
     pub pairs: usize,
     /// The largest difference found.
     pub error: f64,
@@ -43,7 +42,7 @@ pub enum Measure {
 }
 
 impl Measure {
-    /// In words.
+    /// As words.
     pub fn name(self) -> &'static str {
         match self {
             Measure::Largest => "of the largest value",
@@ -54,7 +53,7 @@ impl Measure {
 }
 
 impl Comparison {
-    /// Whether all values agree.
+    /// `true` if all values agree.
     pub fn ok(&self) -> bool {
         self.error <= self.bound
     }

@@ -1,4 +1,4 @@
-//! Rays from the lights: what packets bring to them, generation by generation, and how full lanes are.
+//! Rays from the lights: the gain from packets, generation by generation, and the use of lanes.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -15,13 +15,13 @@ use super::scene;
 /// One generation of light rays.
 #[derive(Clone, Debug, Serialize)]
 pub struct LightRays {
-    /// How many surfaces they have met.
+    /// Number of surfaces that they have met.
     pub generation: usize,
     /// Millions of rays per second, one by one.
     pub single: f64,
-    /// The same in packets as wide as a register.
+    /// Millions of rays per second, in packets as wide as a register.
     pub packet: f64,
-    /// The same in packets of 64.
+    /// Millions of rays per second, in packets of 64.
     pub large: f64,
     /// The share of lanes in use while materials of the `light` integrator were evaluated.
     pub lanes: f64,
@@ -84,7 +84,7 @@ fn numbers(i: usize, turn: usize) -> [f32; 4] {
         .map(|step| (x * step).fract() as f32)
 }
 
-/// In proportion to the cosine with a normal.
+/// Directions in proportion to the cosine with a normal.
 fn about(normal: [f32; 3], [u, v]: [f32; 2]) -> [f32; 3] {
     let (z, turn) = (1.0 - 2.0 * u, std::f32::consts::TAU * v);
     let ring = (1.0 - z * z).max(0.0).sqrt();
@@ -92,7 +92,7 @@ fn about(normal: [f32; 3], [u, v]: [f32; 2]) -> [f32; 3] {
     unit(std::array::from_fn(|k| 0.9999 * sphere[k] + normal[k]))
 }
 
-/// From a square lamp under the ceiling.
+/// Rays from a square lamp under the ceiling.
 fn emitted() -> RaySoA {
     let mut rays = RaySoA::with_capacity(RAYS);
     for i in 0..RAYS {
@@ -102,7 +102,7 @@ fn emitted() -> RaySoA {
     rays
 }
 
-/// From what they hit, as from a diffuse surface.
+/// Rays from their hits, as from a diffuse surface.
 fn scattered(scene: &Scene, normals: &[[f32; 3]], rays: &RaySoA, backend: Backend, turn: usize) -> RaySoA {
     let mut hits = HitSoA::new(rays.len());
     scene.intersect(backend, RayClass::Diffuse, rays.view(), hits.view());

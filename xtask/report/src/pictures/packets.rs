@@ -1,4 +1,4 @@
-//! Coherent rays: packets of four against the scalar instance of the same code.
+//! Coherent rays: packets of four compared with the scalar instance of the same code.
 
 use std::time::Instant;
 
@@ -10,7 +10,7 @@ use serde::Serialize;
 /// One set of rays.
 #[derive(Clone, Debug, Serialize)]
 pub struct Packets {
-    /// What kind of rays.
+    /// The kind of rays.
     pub rays: &'static str,
     /// Millions of rays per second, one lane.
     pub scalar: f64,
@@ -50,7 +50,7 @@ fn camera() -> RaySoA {
     rays
 }
 
-/// From what the camera sees, or from as far away if it sees nothing, toward a point light.
+/// Rays toward a point light from the points that the camera sees, or from the same distance if it sees nothing.
 fn shadows(scene: &Scene, camera: &RaySoA, backend: Backend) -> RaySoA {
     let mut hits = HitSoA::new(camera.len());
     scene.intersect(backend, RayClass::Camera, camera.view(), hits.view());

@@ -1,4 +1,4 @@
-//! Balls and tiles in a room, each of a different material, so that what neighbouring rays hit is unrelated after a
+//! Balls and tiles in a room, each of a different material, so that the hits of neighbouring rays are unrelated after a
 //! bounce.
 
 use std::path::Path;
@@ -11,13 +11,13 @@ use lobe_render::light::{Environment, Light};
 use lobe_render::shader::{BsdfShader, Lambert};
 use lobe_render::{Camera, Filter, Rect, Settings, Shape, World, WorldBuilder};
 
-/// A table of its own for each of them, the size of the paper's anisotropic one.
+/// A separate table for each of them, with the size of the paper's anisotropic table.
 pub const MATERIALS: usize = 36;
 /// Balls and tiles per side of the floor.
 const SIDE: usize = 6;
 const CLOTH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/cloth-17x7x17x13.ddr");
 
-/// The scene with materials on that backend.
+/// The scene with materials on this backend.
 pub fn world(backend: Backend) -> anyhow::Result<World> {
     let (_, document) = lobe::formats::open(Path::new(CLOTH))?;
     let Some(Data::Specular(cloth)) = document.only() else { anyhow::bail!("{CLOTH}: no specular table") };
@@ -30,7 +30,7 @@ pub fn world(backend: Backend) -> anyhow::Result<World> {
     for (number, &material) in materials.iter().enumerate() {
         let [x, z] = [number % SIDE, number / SIDE].map(|i| i as f32 - 0.5 * (SIDE - 1) as f32);
         world.shape(&moved(&ball, [x, 0.36, z]), material, None, false)?;
-        // Below it is a material other than its own.
+        // The tile below it has another material.
         world.shape(&moved(&tile, [x, 0.0, z]), materials[(number * 7 + 11) % MATERIALS], None, false)?;
     }
     // A low ceiling sends much of the light back.

@@ -1,4 +1,4 @@
-//! The section in words and cells.
+//! Formats the section as a table and sentences.
 
 use super::Pictures;
 use xtask_common::{Grid, nanoseconds, times};
@@ -15,9 +15,9 @@ impl Pictures {
 
     fn sentence(&self) -> String {
         format!(
-            "Frames of {} triangles in {} materials, a measured table of 17 × 7 × 17 × 13 each, on one thread. Hits are \
-             queued by material, so that lanes are in use also where neighbouring rays hit different things: the last \
-             columns. After a bounce a material takes that long for a pair of directions or a drawing.",
+            "Frames of {} triangles in {} materials, a measured table of 17 × 7 × 17 × 13 each, on one thread. Hits \
+             are queued by material, so that lanes are also in use if neighbouring rays hit different objects, as the \
+             last columns show. The column after a bounce is the time of a material per pair of directions or sample.",
             self.triangles, self.materials
         )
     }
@@ -66,7 +66,7 @@ impl Pictures {
         }
         for packets in &self.packets {
             notes.push(format!(
-                "Packets of four {} rays with SSE2: {:.1} million rays a second, {} the scalar instance of the same code.",
+                "Packets of four {} rays with SSE2: {:.1} million rays per second, {} the scalar instance of the same code.",
                 packets.rays,
                 packets.sse2,
                 times(packets.sse2 / packets.scalar)
@@ -79,8 +79,8 @@ impl Pictures {
                 n => format!("after {n} surfaces"),
             };
             notes.push(format!(
-                "Light rays {met}: {:.1} million a second one by one; packets as wide as a register {} that, of 64 {}. \
-                 {} of the lanes are in use in the materials they meet.",
+                "Light rays {met}: {:.1} million per second one by one; packets as wide as a register give {} that, \
+                 packets of 64 {}. {} of the lanes are in use in the materials that they meet.",
                 rays.single,
                 times(rays.packet / rays.single),
                 times(rays.large / rays.single),
