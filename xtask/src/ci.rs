@@ -54,7 +54,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
             Ok(status) if status.success() => {}
             Ok(_) => return ExitCode::FAILURE,
             Err(error) => {
-                eprintln!("cargo cannot be run: {error}");
+                eprintln!("cannot run cargo: {error}");
                 return ExitCode::FAILURE;
             }
         }
@@ -112,7 +112,7 @@ fn test() -> ExitCode {
     let mut running = match cargo.spawn() {
         Ok(running) => running,
         Err(error) => {
-            eprintln!("cargo cannot be run: {error}");
+            eprintln!("cannot run cargo: {error}");
             return ExitCode::FAILURE;
         }
     };

@@ -90,7 +90,7 @@ fn main() -> ExitCode {
             Ok(status) if status.success() => {}
             Ok(status) => return ExitCode::from(status.code().and_then(|code| code.try_into().ok()).unwrap_or(1)),
             Err(error) => {
-                eprintln!("cargo cannot be run: {error}");
+                eprintln!("cannot run cargo: {error}");
                 return ExitCode::FAILURE;
             }
         }

@@ -112,7 +112,7 @@ fn refuses_short_slices(target: Target, setup: &Setup) -> anyhow::Result<bool> {
             let mut cargo = command(setup);
             cargo.args(["test", "--quiet", "--package", target.backend_crate(), "--test", "suite", "--"]);
             cargo.args(["--exact", &name, "--nocapture"]).env("LOBE_SHORT", format!("{access}:{more}"));
-            let output = cargo.output().context("cargo cannot be run")?;
+            let output = cargo.output().context("cannot run cargo")?;
             let said = String::from_utf8_lossy(&output.stderr);
             let refused = said.contains("panicked at");
             let as_it_should = if more < 0 { refused } else { output.status.success() && said.contains("is accepted") };
@@ -128,7 +128,7 @@ fn refuses_short_slices(target: Target, setup: &Setup) -> anyhow::Result<bool> {
 /// Runs cargo; returns `true` if it succeeds.
 fn cargo(setup: &Setup, arguments: &[&str]) -> anyhow::Result<bool> {
     println!("\n== cargo {}", arguments.join(" "));
-    Ok(command(setup).args(arguments).status().context("cargo cannot be run")?.success())
+    Ok(command(setup).args(arguments).status().context("cannot run cargo")?.success())
 }
 
 fn command(setup: &Setup) -> Command {

@@ -65,14 +65,15 @@ const PICTURES: [Picture; 5] = [
     Picture {
         name: "caustics",
         title: "Caustics on cloth",
-        caption: "A glass ball and a ring of gold on the woven cloth, which is measured, by `vcm`: light that the ball \
-                  focuses and the ring mirrors is found from the lamp, and weighed with what is found from the camera.",
+        caption: "A glass ball and a gold ring on the woven cloth, a measured table, rendered by `vcm`: paths from the \
+                  lamp find the light that the ball focuses and the ring mirrors, and it is weighted against what paths \
+                  from the camera find.",
     },
     Picture {
         name: "pool",
         title: "Pool",
-        caption: "The sun shines through waves onto tiles and a ball of the gold table, and is seen through the same \
-                  waves, by `sppm`: paths from the camera alone never find it.",
+        caption: "The sun shines through waves onto tiles and a ball with the gold table, seen through the same waves \
+                  and rendered by `sppm`: paths from the camera alone never find this light.",
     },
 ];
 
@@ -142,7 +143,7 @@ impl Picture {
 fn page() -> Result<String> {
     let mut text = String::from(
         "# Gallery\n\n\
-         The scenes are in [fixtures/scenes](../fixtures/scenes), and everything in them comes from this project: the \
+         The scenes are in [fixtures/scenes](../fixtures/scenes), and everything in them was made by this project: the \
          falling\ncloth and the weave were simulated, and the tables were computed. `cargo xtask gallery` renders the \
          pictures and\nwrites this page.\n",
     );

@@ -88,7 +88,7 @@ fn build(profile: &str) -> anyhow::Result<PathBuf> {
     println!("== building with the profile `{profile}`");
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.args(["build", "--profile", profile, "--manifest-path"]).arg(here.join("user/Cargo.toml"));
-    let status = cargo.arg("--target-dir").arg(&target).status().context("cargo cannot be run")?;
+    let status = cargo.arg("--target-dir").arg(&target).status().context("cannot run cargo")?;
     ensure!(status.success(), "the crate outside the workspace cannot be built with the profile `{profile}`");
     let program = target.join(profile).join(format!("lobe-user{}", std::env::consts::EXE_SUFFIX));
     ensure!(program.is_file(), "cargo built no {}", program.display());
@@ -102,7 +102,7 @@ fn look_for_intrinsics(programs: &[PathBuf]) -> anyhow::Result<()> {
     for program in programs {
         cargo.arg("--binary").arg(program);
     }
-    let status = cargo.status().context("cargo cannot be run")?;
+    let status = cargo.status().context("cannot run cargo")?;
     ensure!(status.success(), "intrinsics are out of line in the crate outside the workspace");
     Ok(())
 }

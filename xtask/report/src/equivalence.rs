@@ -27,7 +27,7 @@ pub fn summary(out: &Path) -> anyhow::Result<EquivalenceSummary> {
     let path = out.join("equivalence.json");
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.args(["run", "--release", "--quiet", "--package", "xtask-equivalence", "--", "--summary"]).arg(&path);
-    let status = cargo.status().context("cargo cannot be run")?;
+    let status = cargo.status().context("cannot run cargo")?;
     ensure!(status.success(), "the equivalence check did not run");
     let file = File::open(&path).with_context(|| format!("cannot read {}", path.display()))?;
     serde_json::from_reader(file).with_context(|| format!("{}: not a summary", path.display()))
