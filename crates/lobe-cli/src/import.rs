@@ -87,7 +87,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
                 if !may_ask {
                     break found;
                 }
-                show(&mut stderr(), &found.1)?;
+                let mut shown = Vec::new();
+                show(&mut shown, &found.1)?;
+                say(String::from_utf8_lossy(&shown).trim_end());
                 match ask("Right? Press Enter, or type a correction such as `values luminance-factor`: ", &mut options)?
                 {
                     true => {}

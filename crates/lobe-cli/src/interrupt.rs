@@ -14,7 +14,9 @@ pub fn listen() {
         if ASKED.fetch_add(1, Ordering::Relaxed) > 0 {
             std::process::exit(INTERRUPTED.into());
         }
-        say("interrupted: saving the samples so far; interrupt again to end at once");
+        // On a separate thread: it blocks if nobody reads the output, and the next signal must still be handled.
+        let _ = std::thread::Builder::new()
+            .spawn(|| say("interrupted: saving the samples so far; interrupt again to end at once"));
     });
 }
 

@@ -21,10 +21,10 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Compares a surface and a material of the same channels, in turn on the sides of each of the measurements. Half of the probes are
-    /// spread over both hemispheres in proportion to their cosines, half are near the mirror direction or what continues
-    /// the light straight on. None is within a degree of the horizon.
-    pub fn between(expected: &dyn Surface, found: &dyn Surface, aspects: &[Aspect]) -> Self {
+    /// Compares two surfaces with the same channels, in turn on the sides of each measurement. Half of the probes are
+    /// spread over both hemispheres in proportion to their cosines, half are near the mirror or straight-through
+    /// direction. None is within a degree of the horizon.
+    pub fn between(expected: &dyn Surface, found: &Material, aspects: &[Aspect]) -> Self {
         let channels = expected.channels().count();
         let (mut exact, mut lights, mut viewers) = (Vec::new(), Vec::new(), Vec::new());
         let narrow = |direction: [f64; 3]| direction.map(|c| c as f32);

@@ -1,8 +1,8 @@
 //! Huge pages that storages share, because a storage smaller than a huge page would waste a whole one.
 //!
-//! What is given back is joined with what is free next to it, so that storages of any size can take it again. A mapping
-//! that nothing is left in goes back to the system, except for one that is kept as long as there are others in use. Of others,
-//! pages that nobody has go back if there are many of them: one small table that stays must not keep what lay around it.
+//! Returned ranges are joined with free neighbours, so that storages of any size can use them again. An empty mapping
+//! is returned to the system, except for one that is kept as long as others are in use. Idle pages of other mappings are
+//! returned once there are many, so that one small remaining table does not keep everything around it.
 
 use std::collections::BTreeMap;
 use std::ops::{Deref, DerefMut};
@@ -39,7 +39,7 @@ unsafe impl Send for Share {}
 // SAFETY: as above; a shared reference to it only reads the lines.
 unsafe impl Sync for Share {}
 
-/// What lines lie in. It is kept for its memory only: after `first` has been found, nothing is read or written through it.
+/// The owner of the lines, kept only for its memory: after `first` has been found, nothing accesses it any more.
 enum Memory {
     Map(MmapMut),
     /// For Miri, which does not support mappings.
@@ -49,9 +49,9 @@ enum Memory {
 /// A mapping from which shares are cut.
 struct Chunk {
     first: NonNull<Line>,
-    /// Free ranges of lines, by their starts. No two of them touch.
-    free: BTreeMap<usize, usize>,
-    /// From this line on, nothing has been written: there are zeros.
+    /// Free ranges of lines, by their starts. No two are adjacent.
+    free: BTreeMap<usize, Free>,
+    /// Nothing has been written from this line on, so all of these are zero.
     fresh: usize,
     #[cfg_attr(not(unix), allow(dead_code, reason = "pages go back on Unix only"))]
     memory: Memory,
@@ -108,8 +108,10 @@ impl Chunk {
         (offset < CHUNK_LINES).then_some(offset)
     }
 
-    /// Takes a range back, and joins it with its neighbours. Returns where the range that it is part of then begins.
-    fn give_back(&mut self, mut start: usize, mut len: usize) {
+    /// Takes a range back, and joins it with its free neighbours.
+    fn give_back(&mut self, mut start: usize, len: usize) -> usize {
+        let mut range = Free { len, idle: len };
+        let mut join = |other: Free| range = Free { len: range.len + other.len, idle: range.idle + other.idle };
         if let Some(after) = self.free.remove(&(start + len)) {
             join(after);
         }

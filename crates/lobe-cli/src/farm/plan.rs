@@ -18,8 +18,8 @@ use crate::failure::Failure;
 pub struct Wanted {
     /// The scene, a TOML file.
     pub scene: PathBuf,
-    /// Into how many parts the picture is cut.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    /// The number of parts of the picture.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST)))]
     parts: u32,
     /// Divide the picture into strips of rows, or its samples into ranges.
     #[arg(long, value_enum, default_value = "rows")]
@@ -179,7 +179,24 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_add_up_to_the_whole_picture() {
+    fn a_plan_of_any_numbers_is_cut_or_refused() {
+        let sound = Plan { parts: 3, by: By::Samples, size: [5, 9], samples: 7 };
+        assert!(sound.is_sound());
+        for wrong in [
+            Plan { parts: 0, ..sound.clone() },
+            Plan { parts: 8, ..sound.clone() },
+            Plan { parts: 10, by: By::Rows, ..sound.clone() },
+            Plan { parts: u32::MAX, samples: u32::MAX, ..sound.clone() },
+            Plan { size: [u32::MAX; 2], samples: u32::MAX, ..sound.clone() },
+            Plan { size: [0, 9], ..sound.clone() },
+            Plan { samples: 0, ..sound },
+        ] {
+            assert!(!wrong.is_sound(), "{wrong:?}");
+        }
+    }
+
+    #[test]
+    fn parts_are_the_whole_picture() {
         for by in [By::Rows, By::Samples] {
             for parts in 1..=7 {
                 let plan = Plan { parts, by, size: [5, 9], samples: 7 };

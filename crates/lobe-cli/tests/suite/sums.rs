@@ -179,7 +179,7 @@ fn interrupted_twice() {
         let mut lines = BufReader::new(reader);
         if is_read {
             lines.read_line(&mut said).expect("a line");
-            assert!(said.contains("once more ends at once"), "{said}");
+            assert!(said.contains("interrupt again to end at once"), "{said}");
         } else {
             std::thread::sleep(Duration::from_millis(1000));
         }
