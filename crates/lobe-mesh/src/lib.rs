@@ -10,9 +10,9 @@
 //! - Triangles are counterclockwise seen from outside.
 //! - Texture coordinates are (u, v) with v **up**: (0, 0) is the lower left corner of an image. glTF counts v downward,
 //!   so its reader turns v into `1 - v`.
-//! - A tangent is the unit direction of dp/du made perpendicular to the normal `n`; dp/dv points to the side of `w *
-//! cross(n, t)`, where w is the fourth component, +1 or -1. So (t, w * cross(n, t), n) is the frame in which psi of an
-//! anisotropic material is measured.
+//! - A tangent `t` is the unit direction of dp/du made perpendicular to the normal `n`; dp/dv points to the side of
+//!   `w * cross(n, t)`, where w is the fourth component, +1 or -1. So (t, w * cross(n, t), n) is the frame in which psi of
+//!   an anisotropic material is measured.
 //!
 //! Everything is computed in an order that does not depend on threads, in IEEE arithmetic and with the elementary
 //! functions of `libm`, so that the same input gives the same bytes on any machine.
