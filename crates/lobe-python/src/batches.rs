@@ -254,3 +254,16 @@ impl Source<'_, 3> {
         }
     }
 }
+
+impl Source<'_, 2> {
+    /// Pairs `range`, in `room` if they do not lie in rows. What is below 1 stays so, whatever it would be rounded to.
+    pub fn draws<'r>(&'r self, range: Range<usize>, room: &'r mut Vec<[f32; 2]>) -> &'r [[f32; 2]] {
+        let Source::Double(pairs) = self else { return self.rows(range, room) };
+        room.resize(range.len(), [0.0; 2]);
+        pairs.convert(range.start, room, |number| {
+            let rounded = number as f32;
+            if number < 1.0 && rounded == 1.0 { 1.0_f32.next_down() } else { rounded }
+        });
+        room
+    }
+}

@@ -50,7 +50,15 @@ impl<'a, T: Component> Strided<'a, T> {
     ///
     /// # Panics
     /// If there are not so many, or they have fewer components.
-    pub fn copy<const N: usize>(&self, from: usize, mut out: &mut [[f32; N]]) {
+    pub fn copy<const N: usize>(&self, from: usize, out: &mut [[f32; N]]) {
+        self.convert(from, out, T::single);
+    }
+
+    /// As [`copy`](Self::copy), with a rounding of its own.
+    ///
+    /// # Panics
+    /// As [`copy`](Self::copy).
+    pub fn convert<const N: usize>(&self, from: usize, mut out: &mut [[f32; N]], single: impl Fn(T) -> f32 + Copy) {
         let innermost = self.view.ndim() - 2;
         let length = self.view.len_of(Axis(innermost));
         let mut at = from;
@@ -70,15 +78,15 @@ impl<'a, T: Component> Strided<'a, T> {
                 Some(values) => {
                     let vectors = &values.as_chunks::<N>().0[start..start + count];
                     for (to, vector) in now.iter_mut().zip(vectors) {
-                        *to = vector.map(T::single);
+                        *to = vector.map(single);
                     }
                 }
                 None if run.strides()[0] == 0 => {
-                    now.fill(std::array::from_fn(|k| run[[0, k]].single()));
+                    now.fill(std::array::from_fn(|k| single(run[[0, k]])));
                 }
                 None => {
                     for (index, to) in now.iter_mut().enumerate() {
-                        *to = std::array::from_fn(|k| run[[start + index, k]].single());
+                        *to = std::array::from_fn(|k| single(run[[start + index, k]]));
                     }
                 }
             }

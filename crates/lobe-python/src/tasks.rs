@@ -56,7 +56,7 @@ pub fn sample(
     let unfit = AtomicUsize::new(usize::MAX);
     let run = |(room_w, room_u): &mut (Vec<[f32; 3]>, Vec<[f32; 2]>), from: usize, out: Sampled<'_>| {
         let range = from..from + out.pdfs.len();
-        let u = u.rows(range.clone(), room_u);
+        let u = u.draws(range.clone(), room_u);
         match u.iter().position(|u| !u.iter().all(|u| (0.0..1.0).contains(u))) {
             Some(index) => drop(unfit.fetch_min(from + index, Ordering::Relaxed)),
             None => sampler.sample_batch(given, known.rows(range, room_w), u, out),

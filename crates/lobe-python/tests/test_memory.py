@@ -97,6 +97,17 @@ def test_the_first_number_that_cannot_be_drawn_with_is_named(conductor, where):
         conductor.sampler().sample([0, 0, 1], u)
 
 
+@pytest.mark.parametrize("count", [1, COUNT])
+def test_numbers_just_below_one_are_drawn_with(conductor, count):
+    u = np.full((count, 2), np.nextafter(1, 0))
+    sampler = conductor.sampler()
+    w, pdf, _ = sampler.sample([0, 0, 1], u)
+    expected = sampler.sample([0, 0, 1], np.nextafter(np.float32(1), np.float32(0), dtype=np.float32) * np.ones(2, np.float32))
+    assert (w == expected[0]).all() and (pdf == expected[1]).all()
+    with pytest.raises(ValueError, match="expected numbers"):
+        sampler.sample([0, 0, 1], u + 1e-9)
+
+
 def test_results_have_memory_of_their_own_while_anything_uses_them(conductor, pairs):
     wi, wo = pairs
     first = conductor.eval(wi, wo)
