@@ -7,6 +7,7 @@
 
 mod content;
 mod error;
+mod memory;
 mod printable;
 mod read;
 mod unpack;
@@ -14,6 +15,7 @@ mod write;
 
 pub use content::{Content, beginning, content, is_web_page};
 pub use error::{FormatError, Place, excerpt, sentence};
+pub use memory::{Files, exists, files_of, in_memory, is_folder};
 pub use printable::printable;
 pub use read::{Reads, bytes, is_standard_input, name_standard_input, read, recorded};
 pub use unpack::{Unpacked, inflated, is_gzip, unpacked};

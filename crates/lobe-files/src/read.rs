@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use sha2::{Digest as _, Sha256};
 
-use crate::{FormatError, Place};
+use crate::{FormatError, Place, memory};
 
 /// Reads a whole file. Devices, pipes and sockets, which may be endless or never answer, are refused before they are
 /// opened.
@@ -23,6 +23,11 @@ pub fn read(path: &Path) -> Result<Vec<u8>, FormatError> {
         return Ok(bytes);
     }
     let unreadable = |found: String, expected: &str| FormatError::new(path, Place::File, found, expected);
+    if let Some(content) = memory::content(path) {
+        let bytes = content.map_err(|error| unreadable(error.to_string(), READABLE))?;
+        note(path, &bytes);
+        return Ok(bytes);
+    }
     let metadata = path.metadata().map_err(|error| unreadable(error.to_string(), READABLE))?;
     if let Some(kind) = not_a_file(&metadata) {
         return Err(unreadable(kind.into(), "a file"));

@@ -1,5 +1,6 @@
 //! Writing a file so that it is never half-written.
 
+#[cfg(unix)]
 use std::fs::File;
 use std::io::{self, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
@@ -7,13 +8,16 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 use crate::read::{is_standard_input, not_a_file};
-use crate::{FormatError, Place};
+use crate::{FormatError, Place, memory};
 
 /// Writes `content` to a temporary file next to `path` and renames it, so that no half-written file is ever visible.
 ///
 /// # Errors
 /// [`FormatError`] if the folder or the file cannot be written.
 pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), FormatError> {
+    if memory::keep(path, content) {
+        return Ok(());
+    }
     replace(path, content).map_err(|error| unwritable(path, &error))
 }
 

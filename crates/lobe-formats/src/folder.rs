@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lobe_files::unpacked;
+use lobe_files::{files_of, unpacked};
 
 use crate::{Document, Format, FormatError, Place, plain, sniff};
 
@@ -16,16 +16,10 @@ type Files = Vec<(PathBuf, Vec<u8>)>;
 /// [`FormatError`] if the folder or a file cannot be read, if there is no such file, or if there are files of several such
 /// formats.
 pub(crate) fn open(folder: &Path) -> Result<(Format, Document), FormatError> {
-    let failed = |path: &Path, error: std::io::Error| {
-        FormatError::new(path, Place::File, error.to_string(), "files that can be read")
-    };
-    let mut paths = Vec::new();
-    for entry in folder.read_dir().map_err(|error| failed(folder, error))? {
-        paths.push(entry.map_err(|error| failed(folder, error))?.path());
-    }
-    paths.sort();
+    let paths = files_of(folder)
+        .map_err(|error| FormatError::new(folder, Place::File, error.to_string(), "files that can be read"))?;
     let mut found: Option<(Format, Files)> = None;
-    for path in paths.into_iter().filter(|path| path.is_file()) {
+    for path in paths {
         let bytes = lobe_files::read(&path)?;
         let bytes = plain::text(&unpacked(&bytes, &path)?.bytes).into_owned();
         let Some(format) = sniff(&bytes).filter(|format| format.spec().read_set.is_some()) else { continue };

@@ -165,12 +165,10 @@ pub fn read_rpc_folder(folder: &Path) -> Result<scattered::Data, FormatError> {
 
 /// The RPC files of a folder, by name.
 fn folder_files(folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, FormatError> {
-    let failed = |path: &Path, error: std::io::Error| {
-        FormatError::new(path, Place::File, error.to_string(), "files that can be read")
-    };
+    let paths = lobe_files::files_of(folder)
+        .map_err(|error| FormatError::new(folder, Place::File, error.to_string(), "files that can be read"))?;
     let mut files = Vec::new();
-    for entry in folder.read_dir().map_err(|error| failed(folder, error))? {
-        let path = entry.map_err(|error| failed(folder, error))?.path();
+    for path in paths {
         if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("txt")) {
             let bytes = lobe_files::read(&path)?;
             if matches_rpc(&bytes) {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lobe_files::{Unpacked, is_gzip, is_web_page, unpacked};
+use lobe_files::{Unpacked, is_folder, is_gzip, is_web_page, unpacked};
 
 use crate::adjust::adjust;
 use crate::registry::{Format, sniff};
@@ -29,7 +29,7 @@ pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
 /// As [`open`], and if the options do not apply to the file.
 pub fn open_with(path: &Path, options: &ReadOptions) -> Result<(Format, Document), FormatError> {
     let options = options.clone().or(sidecar::find(path)?);
-    if path.is_dir() {
+    if is_folder(path) {
         let (format, document) = folder::open(path)?;
         let document = adjusted(document, format, path, &options)?;
         return Ok((format, Document { format: Some(format.name()), ..document }.printable()));

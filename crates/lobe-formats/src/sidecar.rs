@@ -38,7 +38,7 @@ pub fn path_of(file: &Path) -> PathBuf {
 /// [`FormatError`] with the line if the sidecar cannot be read or understood.
 pub fn find(file: &Path) -> Result<ReadOptions, FormatError> {
     let path = path_of(file);
-    if !path.exists() {
+    if !lobe_files::exists(&path) {
         return Ok(ReadOptions::default());
     }
     let bytes = lobe_files::read(&path)?;
