@@ -9,10 +9,10 @@ use lobe_files::check_output;
 use lobe_formats::{Document, Format, FormatError, Place, ReadOptions, open_with, sidecar, write_whole};
 use lobe_ops::Subject;
 use lobe_ops::check::{Finding, Status, Thoroughness, check};
+use lobe_ops::describe::{Part, describe};
 use serde::Serialize;
 
 use crate::angles::progress;
-use crate::describe::{Part, describe};
 use crate::failure::Failure;
 use crate::message::{self, say};
 use crate::reading::Reading;

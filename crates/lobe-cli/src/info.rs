@@ -4,9 +4,9 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use lobe_files::printable;
+use lobe_ops::describe::{Part, describe, range};
 use serde::Serialize;
 
-use crate::describe::{Part, describe, range};
 use crate::failure::Failure;
 use crate::message;
 use crate::reading::Reading;

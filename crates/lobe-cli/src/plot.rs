@@ -9,12 +9,12 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lobe::{Bsdf as _, Side};
 use lobe_files::check_output;
 use lobe_formats::{Document, Format, write_whole};
+use lobe_ops::describe::{Part, describe};
 use lobe_plot::{
     DrawError, Facts, Figure, Fitted, Page, Progress, Quantity, Scaling, Shown, Subject, View, ViewError, draw,
     page_with_fit, rasterise,
 };
 
-use crate::describe::{Part, describe};
 use crate::failure::Failure;
 use crate::guesses::warn_of_guesses;
 use crate::message;

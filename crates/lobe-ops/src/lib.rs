@@ -8,6 +8,7 @@
 //!   asks for, and the error that was made;
 //! - [`remeasure`]: any material at the nodes of another representation;
 //! - [`colour`]: from spectra to CIE XYZ and RGB;
+//! - [`describe`](mod@describe): the contents of a file, in names, numbers and words;
 //! - [`compare`]: the difference of two materials, in numbers and in appearance.
 //!
 //! Operations evaluate any [`Bsdf`](lobe_table::Bsdf) on a backend, such as a [`lobe::Material`]. A [`Subject`] is an
@@ -21,6 +22,7 @@ pub mod check;
 pub mod colour;
 pub mod compare;
 pub mod daylight;
+pub mod describe;
 mod directions;
 pub mod energy;
 pub mod fill;

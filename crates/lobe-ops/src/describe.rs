@@ -1,4 +1,4 @@
-//! Descriptions of each representation, for people and as JSON.
+//! Descriptions of the contents of a file, in names, numbers and words: what `lobe info` shows.
 
 use lobe_formats::{self as formats, Document};
 use lobe_table::data::Section;
@@ -6,38 +6,55 @@ use lobe_table::{Aspect, Scatter};
 use serde::Serialize;
 
 /// A block of values.
-#[derive(Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Part {
+    /// What the file calls it, and which light it is of; may be empty.
     pub name: String,
     /// The representation.
     pub kind: &'static str,
+    /// `reflection` or `transmission`.
     pub scatter: &'static str,
+    /// The names of the channels.
     pub channels: Vec<String>,
+    /// The coordinates, if it is a grid.
     pub axes: Vec<Axis>,
     /// Further facts.
     pub facts: Vec<(&'static str, String)>,
+    /// The values as a whole.
     pub values: Values,
 }
 
-#[derive(Serialize)]
+/// A coordinate of a grid.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Axis {
+    /// What it is.
     pub name: &'static str,
+    /// The unit of its knots.
     pub unit: &'static str,
+    /// How many knots there are.
     pub count: usize,
+    /// The first of them.
     pub first: f32,
+    /// The last.
     pub last: f32,
+    /// All of them.
     pub knots: Vec<f32>,
 }
 
-#[derive(Serialize)]
+/// The values of a part as a whole.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Values {
     /// The meaning of the values.
     pub of: &'static str,
+    /// How many there are.
     pub count: usize,
     /// Size in memory.
     pub bytes: usize,
+    /// The smallest.
     pub smallest: f32,
+    /// The largest.
     pub largest: f32,
+    /// How many are below 0.
     pub negative: usize,
 }
 
