@@ -17,6 +17,7 @@
 
 mod camera;
 mod channels;
+mod clock;
 mod columns;
 mod connect;
 mod film;
@@ -34,7 +35,9 @@ mod render;
 pub mod scene;
 mod settings;
 pub mod shader;
+pub mod stage;
 mod stats;
+mod steps;
 mod transform;
 mod transport;
 mod vec3;
@@ -50,6 +53,7 @@ pub use merge::{Gap, MergeError, merge, merge_in};
 pub use render::render;
 pub use settings::{Progress, RenderError, Settings};
 pub use stats::{DEPTHS, Shading, Stats};
+pub use steps::{Step, render_until};
 pub use transport::{
     BandConversion, Bands, Components, Conversion, Mueller, Polarisation, RadianceSums, Rgb, Stokes, Stokes16,
     StokesConversion, StokesRgb, Transport, TransportMode,

@@ -2,9 +2,10 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::camera::View;
+use crate::clock::Instant;
 use crate::connect::{Factors, LightPart, LightVertex, Pass, radius_of};
 use crate::film::{Film, Rect};
 use crate::integrator::{PassRenderer, Plan};

@@ -73,13 +73,13 @@ pub fn studio(material: Arc<dyn Shader>, show: Show, backend: Backend) -> Result
 }
 
 /// Size of the cloth in the studio over that in its file.
-const CLOTH: f32 = 2.1;
+pub(crate) const CLOTH: f32 = 2.1;
 
 /// The number of pieces into which each edge of the cloth is cut; without that, a fold that shadows itself would show
 /// facets.
 const PIECES: u32 = 3;
 
-const LENS: Camera = Camera {
+pub(crate) const LENS: Camera = Camera {
     position: [0.0; 3],
     target: [0.0; 3],
     up: [0.0, 1.0, 0.0],

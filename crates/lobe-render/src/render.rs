@@ -3,9 +3,10 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::camera::View;
+use crate::clock::Instant;
 use crate::film::{Film, Rect};
 use crate::integrator::{Renderer, Task};
 use crate::passes;
@@ -31,8 +32,8 @@ struct State<T: Transport> {
 }
 
 /// The pixels of a tile. Samples are added in order, so that a film written in between has the first ones.
-struct Tile<T: Transport> {
-    rect: Rect,
+pub(crate) struct Tile<T: Transport> {
+    pub(crate) rect: Rect,
     /// The next sample to be added.
     next: u32,
     /// Samples that were finished before earlier ones.
@@ -178,7 +179,7 @@ impl<T: Transport> Drop for Leaving<'_, T> {
 }
 
 /// The tiles of a window, and the number of samples that each has.
-fn tiles<T: Transport>(film: &Film<T>, samples: &Range<u32>) -> Result<Vec<Tile<T>>, RenderError> {
+pub(crate) fn tiles<T: Transport>(film: &Film<T>, samples: &Range<u32>) -> Result<Vec<Tile<T>>, RenderError> {
     let window = film.window();
     let mut tiles = Vec::new();
     for y in window.rows().step_by(TILE as usize) {
@@ -195,16 +196,16 @@ fn tiles<T: Transport>(film: &Film<T>, samples: &Range<u32>) -> Result<Vec<Tile<
 }
 
 /// Part of the work.
-struct Job {
+pub(crate) struct Job {
     tile: usize,
-    rect: Rect,
-    samples: Range<u32>,
+    pub(crate) rect: Rect,
+    pub(crate) samples: Range<u32>,
     /// `true` if these are the first samples of its pixels.
     first: bool,
 }
 
 /// The work in the order in which it is handed out: few samples of all tiles, then more.
-struct Jobs {
+pub(crate) struct Jobs {
     /// For each tile, its pixels and the first sample that is left.
     tiles: Vec<(Rect, u32)>,
     /// The ends of passes, ascending.
@@ -215,7 +216,7 @@ struct Jobs {
 
 impl Jobs {
     /// The work, with this many samples in the first pass.
-    fn new<T: Transport>(tiles: &[Tile<T>], samples: Range<u32>, first: u32) -> Self {
+    pub(crate) fn new<T: Transport>(tiles: &[Tile<T>], samples: Range<u32>, first: u32) -> Self {
         let mut passes = Vec::new();
         let (mut end, mut size) = (samples.start, first);
         while end < samples.end {
@@ -233,7 +234,7 @@ impl Jobs {
     }
 
     /// The next job that has not been done before.
-    fn next(&self) -> Option<Job> {
+    pub(crate) fn next(&self) -> Option<Job> {
         loop {
             let number = self.next.fetch_add(1, Ordering::Relaxed);
             let (pass, tile) = (number / self.tiles.len(), number % self.tiles.len());

@@ -249,6 +249,15 @@ impl<T: Transport> World<T> {
         &self.lights.all
     }
 
+    /// The same shapes under other lights, without building their tree again.
+    ///
+    /// # Panics
+    /// If a shape emits light.
+    pub fn lit_by(self, lights: Vec<Light<T::Spectrum>>) -> Self {
+        assert!(self.groups.iter().all(|group| group.light.is_none()), "a shape emits light");
+        World { lights: Lights::new(lights, self.lights.bounds), ..self }
+    }
+
     /// A sphere around the triangles, through which light from infinitely far away enters the scene.
     pub fn bounds(&self) -> SceneBounds {
         self.lights.bounds

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use lobe::formats::{Document, FormatError};
 use lobe::table::{Data, mirror};
@@ -10,6 +10,7 @@ use lobe::{Material, OpenError, Options, SamplerError, SamplerOptions, Scatter};
 
 use super::{Backend, BsdfShader, Delta, DeltaShader, Shader};
 use crate::channels::Channels as _;
+use crate::clock::Instant;
 use crate::transport::{Rgb, Transport};
 
 /// The reason why a file does not give a material.

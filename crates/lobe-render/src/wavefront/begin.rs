@@ -1,13 +1,13 @@
 //! The stage of camera rays: begins the first wave of a tile, and sums all of its waves.
 
 use std::ops::Range;
-use std::time::Instant;
 
 use lobe_lane::MAX_LANES;
 
 use super::morton::morton;
 use super::rays::{self, RayQueue};
 use super::{PATHS, PathSlot, PathState, Wavefront};
+use crate::clock::Instant;
 use crate::film::{Film, Rect, Sample};
 use crate::integrator::Stages;
 use crate::random::{Dimensions, Sequence};

@@ -1,9 +1,8 @@
 //! The stages that record the first surface of a path, and take the light of surfaces that emit.
 
-use std::time::Instant;
-
 use super::{Wavefront, accumulate, power_heuristic};
 use crate::channels::Channels;
+use crate::clock::Instant;
 use crate::film::FirstHit;
 use crate::light::LightRay;
 use crate::transport::Transport;

@@ -1,9 +1,8 @@
 //! The stage that takes the light of the environment for rays that leave the scene.
 
-use std::time::Instant;
-
 use super::{Wavefront, accumulate, power_heuristic};
 use crate::channels::Channels;
+use crate::clock::Instant;
 use crate::light::LightRay;
 use crate::transport::Transport;
 

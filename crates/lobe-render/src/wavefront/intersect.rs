@@ -1,10 +1,9 @@
 //! The stage that traces rays, sorts their hits by material, and finds the interactions.
 
-use std::time::Instant;
-
 use lobe_trace::{MISS, RayClass};
 
 use super::{Wavefront, rays};
+use crate::clock::Instant;
 use crate::transport::Transport;
 
 /// The hits that are kept.

@@ -1,7 +1,6 @@
 //! The stage that samples lights for the hits of a wave: next-event estimation.
 
 use std::ops::Range;
-use std::time::Instant;
 
 use lobe::{Floats, Kernel, Lanes};
 use lobe_lane::Mask;
@@ -12,6 +11,7 @@ use super::rays::Ray;
 use super::shadow::ShadowRay;
 use super::{Wavefront, clamped, power_heuristic};
 use crate::channels::Channels;
+use crate::clock::Instant;
 use crate::columns::{Column, RAYS, ZEROS, ensure_len, store, vector};
 use crate::interaction::Interactions;
 use crate::light::Lights;

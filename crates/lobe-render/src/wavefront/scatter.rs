@@ -1,7 +1,5 @@
 //! The stage that scatters paths, which gives the rays of the next wave.
 
-use std::time::Instant;
-
 use lobe_lane::{Lanes, MAX_LANES, Mask};
 use lobe_scalar::Reference;
 
@@ -9,6 +7,7 @@ use super::rays::Ray;
 use super::spawn::{Origin, SpawnedRays, spawn_rays};
 use super::{PathState, Wavefront};
 use crate::channels::Channels;
+use crate::clock::Instant;
 use crate::columns::RAYS;
 use crate::interaction::Interactions;
 use crate::random::Dimensions;

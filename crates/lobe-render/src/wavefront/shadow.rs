@@ -1,11 +1,10 @@
 //! The stage that resolves shadow rays: light arrives unless something blocks it.
 
-use std::time::Instant;
-
 use lobe_trace::RayClass;
 
 use super::Wavefront;
 use super::rays::RayQueue;
+use crate::clock::Instant;
 use crate::transport::Transport;
 
 /// The light that a shadow ray decides about.

@@ -1,12 +1,12 @@
 //! The stage that begins light paths.
 
 use std::ops::Range;
-use std::time::Instant;
 
 use lobe::{Kernel, Lanes};
 
 use super::{Walk, Wavefront};
 use crate::channels::Channels;
+use crate::clock::Instant;
 use crate::columns::{Column, RAYS, ZEROS, ensure_len, store, vector};
 use crate::connect::{Emission, Mis, Pass};
 use crate::film::Sample;

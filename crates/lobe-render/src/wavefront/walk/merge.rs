@@ -1,9 +1,8 @@
 //! The stage in which camera paths gather photons.
 
-use std::time::Instant;
-
 use super::to_lights::add;
 use super::{Walks, Wavefront};
+use crate::clock::Instant;
 use crate::connect::{Mis, Pass, Unpolarised};
 use crate::photon::{LightMap, gather};
 use crate::transport::TransportMode;

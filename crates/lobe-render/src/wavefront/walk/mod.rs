@@ -12,14 +12,13 @@ mod to_camera;
 mod to_lights;
 mod to_vertices;
 
-use std::time::Instant;
-
 use lobe_trace::RayClass;
 
 use super::morton::morton;
 use super::rays::RayQueue;
 use super::{PathState, Scatter, Wavefront};
 use crate::channels::Channels;
+use crate::clock::Instant;
 use crate::connect::{Factors, LightPart, LightVertex, Mis, Pass, SplatAt};
 use crate::film::{Film, Rect};
 use crate::photon::Near;

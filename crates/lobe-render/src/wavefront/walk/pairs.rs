@@ -70,7 +70,7 @@ impl<T: Transport> Pairs<T> {
         scratch: &mut Scratch,
         shading: &mut Shading,
     ) {
-        let begun = std::time::Instant::now();
+        let begun = crate::clock::Instant::now();
         let n = self.len();
         let Pairs { wi, wo, f, forward, reverse, groups } = self;
         f.resize(n, T::ABSORBED);

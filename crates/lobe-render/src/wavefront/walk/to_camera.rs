@@ -1,13 +1,13 @@
 //! The stage that connects light paths to the camera.
 
 use std::ops::Range;
-use std::time::Instant;
 
 use lobe::{Floats, Kernel, Lanes};
 use lobe_trace::RayClass;
 
 use super::{Walks, Wavefront};
 use crate::camera::View;
+use crate::clock::Instant;
 use crate::columns::{Column, RAYS, ZEROS, ensure_len, store, vector};
 use crate::connect::{Pass, SplatAt, Unpolarised};
 use crate::interaction::Interactions;

@@ -1,11 +1,10 @@
 //! The stages in which camera paths sample lights and find them, weighted against all other techniques.
 
-use std::time::Instant;
-
 use lobe_trace::RayClass;
 
 use super::Wavefront;
 use crate::channels::Channels;
+use crate::clock::Instant;
 use crate::columns::{RAYS, vector};
 use crate::connect::{Pass, Unpolarised};
 use crate::light::LightRay;

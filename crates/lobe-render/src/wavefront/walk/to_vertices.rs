@@ -1,11 +1,10 @@
 //! The stage that connects camera paths with the surfaces of a light path.
 
-use std::time::Instant;
-
 use lobe_trace::RayClass;
 
 use super::to_lights::add;
 use super::{Walks, Wavefront};
+use crate::clock::Instant;
 use crate::connect::{LightVertex, Meeting, Mis, Pass, SplatAt, Unpolarised};
 use crate::photon::LightMap;
 use crate::transport::TransportMode;
