@@ -37,7 +37,7 @@ pub fn in_plane(side: Side, scatter: Scatter, theta: f64, psi: f64) -> [f64; 3] 
 ///
 /// `r = sqrt(2) sin(theta / 2)`: equal areas are equal solid angles (J. P. Snyder, "Map Projections: A Working Manual",
 /// 1987, equation 24-3).
-pub(crate) fn from_disk(side: Side, scatter: Scatter, psi: f64, x: f64, y: f64) -> Option<[f64; 3]> {
+pub fn from_disk(side: Side, scatter: Scatter, psi: f64, x: f64, y: f64) -> Option<[f64; 3]> {
     let square = x * x + y * y;
     if square >= 1.0 {
         return None;
@@ -50,8 +50,8 @@ pub(crate) fn from_disk(side: Side, scatter: Scatter, psi: f64, x: f64, y: f64) 
     Some([-along * cos + across * sin, -along * sin - across * cos, outgoing_sign(side, scatter) * (1.0 - square)])
 }
 
-/// The point of a direction on the unit disk: the inverse of [`from_disk`].
-pub(crate) fn to_disk(side: Side, psi: f64, direction: [f64; 3]) -> [f64; 2] {
+/// The point of a direction on the unit disk: the inverse of [`from_disk`]. `psi` is the azimuth of the light in radians.
+pub fn to_disk(side: Side, psi: f64, direction: [f64; 3]) -> [f64; 2] {
     let [x, y, z] = direction;
     let (sin, cos) = psi.sin_cos();
     let scale = 1.0 / (1.0 + z.abs()).sqrt();

@@ -10,6 +10,7 @@
 #![forbid(unsafe_code)]
 
 mod albedo;
+mod ball;
 mod evaluate;
 mod figures;
 mod geometry;
@@ -20,6 +21,7 @@ mod layout;
 mod measured;
 mod page;
 mod quantity;
+#[cfg(feature = "raster")]
 mod raster;
 mod residual;
 mod scale;
@@ -34,16 +36,17 @@ mod tables;
 mod view;
 
 pub use albedo::{Albedo, albedos};
+pub use ball::Ball;
 pub use evaluate::{Progress, Silent};
 pub use figures::{DrawError, Drawing, Figure, draw};
-pub use geometry::{in_plane, incident};
+pub use geometry::{from_disk, in_plane, incident, to_disk};
 pub use image::Image;
 pub use in_plane::{Curve, curves};
 pub use page::{Page, page, page_with_fit};
 pub use quantity::Quantity;
+#[cfg(feature = "raster")]
 pub use raster::{RasterError, rasterise};
-pub use residual::{Fitted, Values};
-pub use scale::Scaling;
+pub use scale::{Scale, Scaling};
 pub use shade::{Sphere, Studio, shade};
 pub use shown::Shown;
 pub use slice::{Slice, slice};

@@ -25,15 +25,18 @@ pub(crate) struct Tick {
 
 /// An axis of values from `low` to `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Scale {
-    pub(crate) scaling: Scaling,
-    pub(crate) low: f64,
-    pub(crate) high: f64,
+pub struct Scale {
+    /// How values are spread along it.
+    pub scaling: Scaling,
+    /// The value at its low end; above 0 on a logarithmic axis.
+    pub low: f64,
+    /// The value at its high end.
+    pub high: f64,
 }
 
 impl Scale {
     /// An axis that covers all values, with ends at round numbers.
-    pub(crate) fn around(values: impl Iterator<Item = f64>, scaling: Scaling) -> Self {
+    pub fn around(values: impl Iterator<Item = f64>, scaling: Scaling) -> Self {
         let (mut least, mut most, mut least_positive) = (0.0_f64, 0.0_f64, f64::INFINITY);
         for value in values.filter(|value| value.is_finite()) {
             least = least.min(value);
@@ -75,7 +78,7 @@ impl Scale {
     }
 
     /// The position of a value: 0 at the low end, 1 at the high end. Values without a logarithm are far below 0.
-    pub(crate) fn place(&self, value: f64) -> f64 {
+    pub fn place(&self, value: f64) -> f64 {
         match self.scaling {
             Scaling::Linear => (value - self.low) / (self.high - self.low),
             Scaling::Log if value > 0.0 => ((value / self.low).ln() / (self.high / self.low).ln()).max(-1.0),

@@ -57,7 +57,7 @@ impl Subject {
     }
 
     /// The file as a subject of `lobe-ops`.
-    pub(crate) fn measured(&self) -> &lobe_ops::Subject {
+    pub fn measured(&self) -> &lobe_ops::Subject {
         &self.measured
     }
 
@@ -88,6 +88,13 @@ impl Subject {
     /// The sides from which light was measured.
     pub fn sides(&self) -> Vec<Side> {
         [Side::Front, Side::Back].into_iter().filter(|&side| !self.scatters(side).is_empty()).collect()
+    }
+
+    /// Whether the value of a pair of directions in the given hemispheres is one of the measurement, rather than of its
+    /// continuation; `sigma` and `psi` of the light are in radians. A test of outgoing directions of either sign of z.
+    pub fn coverage(&self, side: Side, scatter: Scatter, sigma: f64, psi: f64) -> impl Fn([f64; 3]) -> bool {
+        let is_covered = self.part(side, scatter).map(|part| part.coverage(sigma, psi));
+        move |[x, y, z]| is_covered.as_ref().is_some_and(|is_covered| is_covered([x, y, z.abs()]))
     }
 
     pub(crate) fn part(&self, side: Side, scatter: Scatter) -> Option<Part<'_>> {
