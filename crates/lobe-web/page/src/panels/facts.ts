@@ -1,0 +1,64 @@
+// What the file holds, and what the checks find.
+import { h, panel, size } from "../dom";
+import type { Finding, State } from "../state";
+
+const ORDER: Finding["status"][] = ["fail", "warn", "note", "pass"];
+
+function rows(pairs: [string, string][]): HTMLElement {
+    const list = h("dl", {});
+    for (const [name, value] of pairs) {
+        const isLong = value.length > 120;
+        const detail = isLong ? h("details", {}, h("summary", {}, `${value.slice(0, 60)}…`), value) : value;
+        list.append(h("dt", {}, name), h("dd", {}, detail));
+    }
+    return list;
+}
+
+/** Replaces what is in a box; `false` and empty text are left out. */
+function fill(box: HTMLElement, ...children: (Node | string | false)[]): void {
+    box.replaceChildren(...children.filter((child): child is Node | string => child !== false && child !== ""));
+}
+
+export class FactsPanel {
+    readonly facts = h("div", { class: "facts" });
+    readonly checks = h("div", { class: "checks", "aria-live": "polite" });
+    readonly elements: HTMLElement[];
+
+    constructor(private readonly state: State) {
+        this.elements = [panel("findings", "Checks", [], this.checks), panel("facts", "The file", [], this.facts)];
+    }
+
+    update(): void {
+        const { a } = this.state;
+        if (!a) return;
+        const { facts } = a;
+        fill(
+            this.facts,
+            rows([["format", facts.format], ["size", size(facts.bytes)]]),
+            ...facts.parts.map((part) => h("div", {}, part.name && h("h3", {}, part.name), rows(part.rows))),
+            facts.source.length > 0 && h("details", {}, h("summary", {}, `Header: ${facts.source.length} entries`), rows(facts.source)),
+            ...facts.notes.map((note) => h("p", { class: "note" }, `Read as: ${note}`)),
+            ...facts.doubts.map((doubt) => h("p", { class: "warn" }, `Doubtful: ${doubt}`)),
+        );
+        this.updateFindings();
+    }
+
+    updateFindings(): void {
+        const findings = this.state.a?.findings;
+        if (!findings) {
+            this.checks.replaceChildren(h("p", { class: "hint" }, "Checking…"));
+            return;
+        }
+        const sorted = ORDER.flatMap((status) => findings.filter((finding) => finding.status === status));
+        const row = ({ status, check, part, text }: Finding) =>
+            h("li", {}, h("span", { class: `badge ${status}` }, status), h("p", {}, h("strong", {}, part ? `${check}, ${part}: ` : `${check}: `), text));
+        const said = sorted.filter(({ status }) => status !== "pass");
+        const passed = sorted.filter(({ status }) => status === "pass");
+        fill(
+            this.checks,
+            said.length === 0 ? h("p", {}, "Everything is as it should be.") : h("ul", { class: "findings" }, ...said.map(row)),
+            passed.length > 0 &&
+                h("details", {}, h("summary", {}, passed.length === 1 ? "1 check passed" : `${passed.length} checks passed`), h("ul", { class: "findings" }, ...passed.map(row))),
+        );
+    }
+}

@@ -1,0 +1,191 @@
+// What the page shows, and the link that restores it.
+
+export interface SideFacts {
+    side: string;
+    scatters: string[];
+    psi: number;
+    sigmas: number[];
+}
+
+export interface FileFacts {
+    name: string;
+    path: string;
+    format: string;
+    bytes: number;
+    kind: string;
+    channels: string[];
+    wavelengths: number[] | null;
+    quantity: string;
+    has_colour: boolean;
+    is_polarised: boolean;
+    is_isotropic: boolean;
+    sides: SideFacts[];
+    parts: { name: string; rows: [string, string][] }[];
+    source: [string, string][];
+    notes: string[];
+    doubts: string[];
+}
+
+export interface Finding {
+    check: string;
+    part: string;
+    status: "pass" | "note" | "warn" | "fail";
+    text: string;
+}
+
+export interface Material {
+    /** Its number in the worker of the views, and in that of pictures and checks once it is there. */
+    desk: number;
+    studio: number | undefined;
+    path: string;
+    /** What is sent to the second worker. */
+    files: { path: string; bytes: Uint8Array }[];
+    facts: FileFacts;
+    findings: Finding[] | undefined;
+}
+
+export interface View {
+    side: string;
+    scatter: string;
+    channel: string;
+    scale: "log" | "linear";
+    /** In radians, as everywhere. */
+    sigma: number;
+    psi: number;
+    chart: "curve" | "polar";
+    map: "values" | "colours" | "dolp" | "difference";
+    form: "ball" | "cloth" | "flat";
+    sky: "studio" | "overcast" | "dusk" | "dark";
+    lamp: [number, number, number];
+    exposure: number;
+}
+
+export const DEGREE = Math.PI / 180;
+/** Light at a larger polar angle says more about the horizon than about a material. */
+export const LOWEST = 88 * DEGREE;
+
+export class State {
+    materials: Material[] = [];
+    /** The material that is shown, and the one that it is compared with. */
+    a: Material | undefined;
+    b: Material | undefined;
+    view: View = {
+        side: "front",
+        scatter: "reflection",
+        channel: "",
+        scale: "log",
+        sigma: 30 * DEGREE,
+        psi: 0,
+        chart: "curve",
+        map: "values",
+        form: "ball",
+        sky: "studio",
+        lamp: [-0.55, 0.62, 0.56],
+        exposure: 0,
+    };
+    /** Whether somebody has put the light where it is; if not, it is where the material was measured. */
+    chosen = { sigma: false, psi: false };
+    private listeners: ((what: string) => void)[] = [];
+
+    /** Calls back after changes: `light`, `view`, `picture`, `materials`. */
+    listen(listener: (what: string) => void): void {
+        this.listeners.push(listener);
+    }
+
+    changed(what: string): void {
+        for (const listener of this.listeners) listener(what);
+        saveLink(this);
+    }
+
+    set(change: Partial<View>, what = "view"): void {
+        Object.assign(this.view, change);
+        if (change.sigma !== undefined) this.chosen.sigma = true;
+        if (change.psi !== undefined) this.chosen.psi = true;
+        this.changed(what);
+    }
+
+    /** What is asked of the module. */
+    request(material: Material | undefined = this.a): string {
+        const { side, scatter, psi, scale, channel } = this.view;
+        const hasChannel = material?.facts.channels.includes(channel) ?? false;
+        return JSON.stringify({ side, scatter, psi, scale, channel: hasChannel ? channel : "" });
+    }
+
+    /** Shows a material, with what there is of it nearest to what was shown before. */
+    show(material: Material | undefined): void {
+        this.a = material;
+        if (this.b === material) this.b = undefined;
+        if (material) {
+            const { view } = this;
+            const sides = material.facts.sides;
+            const side = sides.find((side) => side.side === view.side) ?? sides[0];
+            if (side) {
+                if (side.side !== view.side || !this.chosen.psi) view.psi = side.psi;
+                if (!this.chosen.sigma && side.sigmas.length > 0) {
+                    const start = 35 * DEGREE;
+                    view.sigma = side.sigmas.reduce((best, at) => (Math.abs(at - start) < Math.abs(best - start) ? at : best));
+                }
+                view.side = side.side;
+                if (!side.scatters.includes(view.scatter)) view.scatter = side.scatters[0];
+            }
+            if (!material.facts.channels.includes(view.channel)) view.channel = "";
+            if (view.map === "dolp" && !material.facts.is_polarised) view.map = "values";
+        }
+        if (!this.b && this.view.map === "difference") this.view.map = "values";
+        this.changed("materials");
+    }
+}
+
+const WORDS: Partial<Record<keyof View, readonly string[]>> = {
+    side: ["front", "back"],
+    scatter: ["reflection", "transmission"],
+    scale: ["log", "linear"],
+    chart: ["curve", "polar"],
+    map: ["values", "colours", "dolp", "difference"],
+    form: ["ball", "cloth", "flat"],
+    sky: ["studio", "overcast", "dusk", "dark"],
+};
+
+let timer = 0;
+function saveLink(state: State): void {
+    clearTimeout(timer);
+    timer = window.setTimeout(() => history.replaceState(null, "", `#${link(state)}`), 200);
+}
+
+/** The view and the names of the files; their contents are not in it. */
+export function link(state: State): string {
+    const { view } = state;
+    const words = new URLSearchParams();
+    for (const key of Object.keys(WORDS) as (keyof View)[]) words.set(key, String(view[key]));
+    words.set("channel", view.channel);
+    words.set("sigma", (view.sigma / DEGREE).toFixed(2));
+    words.set("psi", (view.psi / DEGREE).toFixed(2));
+    words.set("lamp", view.lamp.map((c) => c.toFixed(3)).join(","));
+    words.set("exposure", String(view.exposure));
+    if (state.a) words.set("a", state.a.path);
+    if (state.b) words.set("b", state.b.path);
+    return words.toString();
+}
+
+/** Restores a view; what a link says wrongly is left as it is. Returns the paths of the files that it was of. */
+export function restore(state: State, hash: string): { a: string; b: string } {
+    const words = new URLSearchParams(hash.replace(/^#/, ""));
+    const view = state.view as unknown as Record<string, unknown>;
+    for (const [key, known] of Object.entries(WORDS)) {
+        const word = words.get(key);
+        if (word !== null && known.includes(word)) view[key] = word;
+    }
+    state.view.channel = words.get("channel") ?? "";
+    const number = (key: string, least: number, most: number): number | undefined => {
+        const value = Number(words.get(key) ?? NaN);
+        return value >= least && value <= most ? value : undefined;
+    };
+    const sigma = number("sigma", 0, 88);
+    const psi = number("psi", -360, 360);
+    if (sigma !== undefined) [state.view.sigma, state.chosen.sigma] = [sigma * DEGREE, true];
+    if (psi !== undefined) [state.view.psi, state.chosen.psi] = [psi * DEGREE, true];
+    state.view.exposure = number("exposure", -8, 8) ?? 0;
+    const lamp = (words.get("lamp") ?? "").split(",").map(Number);
+    if (lamp.length === 3 && lamp.every(Number.isFinite) && Math.hypot(...lamp) > 0) state.view.lamp = lamp as [number, number, number];
+    return { a: words.get("a") ?? "", b: words.get("b") ?? "" };
+}

@@ -1,0 +1,185 @@
+// The module in node, against the program.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync, writeFileSync } from "node:fs";
+import path from "node:path";
+import { before, test } from "node:test";
+import { pathToFileURL } from "node:url";
+
+import { bytes, differing, expected, files, lobe, pairs, rounded, run, scratch, shared } from "./common.mjs";
+
+const folder = process.env.LOBE_WEB_MODULE;
+let explorer;
+let Explorer;
+
+before(async () => {
+    const module = await import(pathToFileURL(path.join(folder, "lobe_web.js")).href);
+    await module.default({ module_or_path: readFileSync(path.join(folder, "lobe_web_bg.wasm")) });
+    ({ Explorer } = module);
+    explorer = new Explorer();
+});
+
+function open(name, content) {
+    explorer.add(name, content);
+    try {
+        return explorer.open(name);
+    } finally {
+        explorer.remove(name);
+    }
+}
+
+const PAIRS = 100_000;
+
+test("values are those of the program, bit by bit", () => {
+    const all = pairs(PAIRS);
+    const { wi, wo } = rounded(all);
+    for (const { name, file } of files()) {
+        const material = open(name, bytes(file));
+        const answer = expected(file, all);
+        for (const backend of Explorer.backends().split(",")) {
+            const found = explorer.eval(material, wi, wo, backend, true);
+            assert.equal(differing(found, answer), 0, `${name} on ${backend}`);
+        }
+        assert.ok(answer.some((f) => f > 0), name);
+        explorer.close(material);
+    }
+});
+
+test("what the program reads opens, with its values, and what it refuses is refused in its words", (context) => {
+    const all = pairs(300, 7);
+    const { wi, wo } = rounded(all);
+    const counts = { same: 0, refused: 0 };
+    const near = [];
+    const found = shared();
+    if (found.length === 0) return context.skip("the files of others are not here");
+    for (const { name, file } of found) {
+        let answer;
+        let refusal = "";
+        try {
+            answer = expected(file, all);
+        } catch (error) {
+            refusal = String(error.stderr);
+        }
+        let material;
+        try {
+            material = open(name, bytes(file));
+        } catch (error) {
+            // The program names the whole path.
+            assert.ok(refusal.includes(error.message.slice(name.length, name.length + 60)), `${file}: ${error.message} but ${refusal}`);
+            counts.refused++;
+            continue;
+        }
+        assert.equal(refusal, "", `${file} opens here`);
+        const values = explorer.eval(material, wi, wo, "", true);
+        const { kind } = JSON.parse(explorer.facts(material));
+        explorer.close(material);
+        if (differing(values, answer) === 0) {
+            counts.same++;
+            continue;
+        }
+        // Samples without a grid lie where sines of the system put them. Those of systems differ in the last place, which
+        // decides between equal triangles.
+        const largest = answer.reduce((a, b) => Math.max(a, Math.abs(b)), 0);
+        const error = values.reduce((most, value, at) => Math.max(most, Math.abs(value - answer[at]) / largest), 0);
+        near.push(`${name} (${kind}) ${error.toExponential(1)}`);
+        assert.ok(kind === "scattered samples" && error < 0.02, `${file}: ${kind}, ${error}`);
+    }
+    context.diagnostic(`${counts.same} files with the same bits, ${counts.refused} refused alike, of ${found.length}; others ${near.join(", ")}`);
+});
+
+test("damage is told in the words of the program", () => {
+    const [{ name, file }] = files();
+    const whole = bytes(file);
+    let refused = 0;
+    for (const share of [0.05, 0.4, 0.77, 0.999]) {
+        const damaged = whole.slice(0, Math.floor(share * whole.length));
+        writeFileSync(path.join(scratch, name), damaged);
+        let said = "";
+        try {
+            execFileSync(lobe, ["info", name], { cwd: scratch, stdio: "pipe" });
+        } catch (error) {
+            said = String(error.stderr).trim();
+        }
+        if (!said) continue;
+        refused++;
+        assert.throws(() => open(name, damaged), (error) => `error: ${error.message}` === said);
+    }
+    assert.ok(refused >= 2);
+});
+
+test("curves, maps, probes and facts agree with values", () => {
+    const { name, file } = files().find(({ name }) => name.startsWith("cloth"));
+    const material = open(name, bytes(file));
+    const facts = JSON.parse(explorer.facts(material));
+    assert.equal(facts.format, "Integra DDR/DDT");
+    const request = JSON.stringify({ side: "front", psi: 0.3, channel: facts.channels[0] });
+    const curve = explorer.curve(material, request, 0.5);
+    assert.ok(curve.length > 3000 && curve.length % 3 === 0);
+    const size = 32;
+    const map = explorer.map(material, request, 0.5, size, "values", 0);
+    const [x, y] = [20, 9];
+    const probe = JSON.parse(explorer.probe(material, request, 0.5, (2 * (x + 0.5)) / size - 1, 1 - (2 * (y + 0.5)) / size));
+    assert.equal(Math.fround(probe.value), map.values[y * size + x]);
+    const [value] = explorer.eval(material, Float32Array.from(probe.wi), Float32Array.from(probe.wo), "", false);
+    assert.equal(Math.fround(probe.channels[0]), value);
+    assert.throws(() => explorer.curve(material, '{"side": "back"}', 0.5), /found no values for light from the back/);
+    assert.throws(() => explorer.curve(material, "{", 0.5), /expected JSON/);
+    assert.throws(() => explorer.facts(99), /found no material 99/);
+    explorer.close(material);
+});
+
+test("findings of the checks are those of the program", () => {
+    const { name, file } = files().find(({ name }) => name.startsWith("conductor"));
+    const material = open(name, bytes(file));
+    const found = JSON.parse(explorer.findings(material, false));
+    let json;
+    try {
+        json = run("check", "--json", file);
+    } catch (error) {
+        json = error.stdout;
+    }
+    const [{ findings }] = JSON.parse(json);
+    assert.deepEqual(found.map(({ check, status }) => [check, status]), findings.map(({ check, status }) => [check, status]));
+    explorer.close(material);
+});
+
+test("a picture is rendered in steps, and a converted file has the same values", () => {
+    const { name, file } = files().find(({ name }) => name.startsWith("paint-"));
+    const material = open(name, bytes(file));
+    explorer.stage(material, JSON.stringify({ form: "flat", sky: "dusk", toward: [0, 1, 0.3], size: [48, 48], samples: 2 }));
+    let calls = 0;
+    while (!explorer.rendered() && calls < 100) {
+        explorer.render(5);
+        calls++;
+    }
+    const picture = explorer.picture(0);
+    assert.equal(picture.length, 4 * 48 * 48);
+    assert.ok(picture.some((byte, at) => at % 4 < 3 && byte > 60));
+    const ball = explorer.ball(material, "{}", 64, Float32Array.of(-0.5, 0.5, 0.7), 0);
+    assert.ok(ball[4 * (64 * 20 + 20)] > 0);
+    const target = JSON.parse(explorer.targets(material)).find(({ word, is_exact }) => is_exact && word === "ssdd");
+    const written = explorer.convert(material, target.word, "");
+    const again = open(written.name, written.bytes);
+    const { wi, wo } = rounded(pairs(500));
+    assert.equal(differing(explorer.eval(material, wi, wo, "", true), explorer.eval(again, wi, wo, "", true)), 0);
+    assert.throws(() => explorer.convert(material, "rgl", ""), /lobe convert/);
+});
+
+test("simd128 against scalar", (context) => {
+    const { wi, wo } = rounded(pairs(1 << 15, 3));
+    for (const { name, file } of files()) {
+        const material = open(name, bytes(file));
+        const least = { scalar: Infinity, simd128: Infinity };
+        // The shortest of interleaved turns.
+        for (let turn = 0; turn < 7; turn++) {
+            for (const backend of Object.keys(least)) {
+                const begun = performance.now();
+                explorer.eval(material, wi, wo, backend, true);
+                least[backend] = Math.min(least[backend], performance.now() - begun);
+            }
+        }
+        const ns = (1e6 * least.simd128) / (wi.length / 3);
+        context.diagnostic(`${name}: ${(least.scalar / least.simd128).toFixed(2)} times, ${ns.toFixed(0)} ns per pair`);
+        explorer.close(material);
+    }
+});

@@ -1,0 +1,300 @@
+//! What JavaScript calls: numbers, typed arrays, text and JSON in and out, and errors as text.
+
+use serde::Serialize;
+use wasm_bindgen::prelude::*;
+
+use crate::{
+    Ball, Evaluator, Map, Opened, Quantities, Request, Session, Studio, StudioRequest, albedo_rows, backends, compare,
+    converted, curve, difference_map, evaluate, facts, figure, findings, map, probe, spectra, surface, table, targets,
+};
+
+#[wasm_bindgen]
+extern "C" {
+    #[wasm_bindgen(js_namespace = console)]
+    fn error(text: &str);
+    #[wasm_bindgen(js_namespace = performance)]
+    fn now() -> f64;
+}
+
+/// The files of a page, the materials opened of them, and a picture.
+#[wasm_bindgen]
+#[derive(Debug, Default)]
+pub struct Explorer {
+    session: Session,
+    ball: Option<Ball>,
+    studio: Option<Studio>,
+}
+
+type Answer<T> = Result<T, JsError>;
+
+fn said(error: String) -> JsError {
+    JsError::new(&error)
+}
+
+fn json<T: Serialize>(value: &T) -> Answer<String> {
+    serde_json::to_string(value).map_err(|error| said(error.to_string()))
+}
+
+fn triple(values: &[f32]) -> Answer<[f32; 3]> {
+    values.try_into().map_err(|_| said(format!("found {} components; expected 3", values.len())))
+}
+
+impl Explorer {
+    fn opened(&self, material: u32) -> Answer<&Opened> {
+        self.session.opened(material).map_err(said)
+    }
+}
+
+/// Methods take the number of a material, and a request as JSON (`side`, `scatter`, `psi`, `channel`, `scale`).
+#[wasm_bindgen]
+impl Explorer {
+    /// Nothing.
+    #[wasm_bindgen(constructor)]
+    pub fn new() -> Self {
+        std::panic::set_hook(Box::new(|panic| error(&panic.to_string())));
+        Explorer::default()
+    }
+
+    /// The version of the libraries.
+    pub fn version() -> String {
+        env!("CARGO_PKG_VERSION").into()
+    }
+
+    /// The names of the backends, separated by commas, slowest first.
+    pub fn backends() -> String {
+        backends().join(",")
+    }
+
+    /// Adds a file.
+    pub fn add(&mut self, path: &str, bytes: Vec<u8>) {
+        self.session.add(path, bytes);
+    }
+
+    /// Forgets a file.
+    pub fn remove(&mut self, path: &str) {
+        self.session.remove(path);
+    }
+
+    /// Opens a file or a folder of those that were added.
+    pub fn open(&mut self, path: &str) -> Answer<u32> {
+        self.session.open(path).map_err(said)
+    }
+
+    /// Forgets a material.
+    pub fn close(&mut self, material: u32) {
+        self.session.close(material);
+    }
+
+    /// What it is, as JSON.
+    pub fn facts(&self, material: u32) -> Answer<String> {
+        json(&facts(self.opened(material)?))
+    }
+
+    /// What the checks find, as JSON.
+    pub fn findings(&self, material: u32, quickly: bool) -> Answer<String> {
+        json(&findings(self.opened(material)?, quickly))
+    }
+
+    /// Values of pairs of directions, three components each, on the backend of that name (the best if it is empty).
+    pub fn eval(&self, material: u32, wi: &[f32], wo: &[f32], backend: &str, strict: bool) -> Answer<Vec<f32>> {
+        let on = Evaluator::new(backend, strict).map_err(said)?;
+        evaluate(self.opened(material)?, wi, wo, on).map_err(said)
+    }
+
+    /// The curve in the plane of incidence: angle, value, and whether it was measured, for each point.
+    pub fn curve(&self, material: u32, request: &str, sigma: f64) -> Answer<Vec<f64>> {
+        curve(self.opened(material)?, &Request::parse(request).map_err(said)?, sigma).map_err(said)
+    }
+
+    /// Spectra as JSON.
+    pub fn spectra(&self, material: u32, request: &str, sigma: f64, thetas: &[f64]) -> Answer<String> {
+        let request = Request::parse(request).map_err(said)?;
+        json(&spectra(self.opened(material)?, &request, sigma, thetas).map_err(said)?)
+    }
+
+    /// Albedos: polar angle, value, red, green and blue for each incidence.
+    pub fn albedos(&self, material: u32, request: &str, sigmas: &[f64]) -> Answer<Vec<f64>> {
+        albedo_rows(self.opened(material)?, &Request::parse(request).map_err(said)?, sigmas).map_err(said)
+    }
+
+    /// The curve of all channels as CSV.
+    pub fn table(&self, material: u32, request: &str, sigma: f64) -> Answer<String> {
+        table(self.opened(material)?, &Request::parse(request).map_err(said)?, sigma).map_err(said)
+    }
+
+    /// A figure of several materials as SVG, with a JSON array of requests.
+    pub fn figure(&self, materials: &[u32], requests: &str, kind: &str, sigmas: &[f64]) -> Answer<String> {
+        let requests: Vec<Request> = serde_json::from_str(requests).map_err(|error| said(error.to_string()))?;
+        let opened: Vec<&Opened> = materials.iter().map(|&number| self.opened(number)).collect::<Answer<_>>()?;
+        figure(&opened, &requests, kind, sigmas).map_err(said)
+    }
+
+    /// The hemisphere: `values`, `colours` or `dolp`.
+    pub fn map(
+        &self,
+        material: u32,
+        request: &str,
+        sigma: f64,
+        size: usize,
+        what: &str,
+        exposure: f32,
+    ) -> Answer<Picture> {
+        let (request, what) = (Request::parse(request).map_err(said)?, Quantities::parse(what).map_err(said)?);
+        map(self.opened(material)?, &request, sigma, size, what, exposure).map(Picture).map_err(said)
+    }
+
+    /// What there is at a point of a map, as JSON; `null` outside of the disk.
+    pub fn probe(&self, material: u32, request: &str, sigma: f64, x: f64, y: f64) -> Answer<String> {
+        let request = Request::parse(request).map_err(said)?;
+        json(&probe(self.opened(material)?, &request, sigma, [x, y]).map_err(said)?)
+    }
+
+    /// The lobe in space: x, y, z and the value for each vertex of a grid.
+    pub fn surface(&self, material: u32, request: &str, sigma: f64, rows: usize, columns: usize) -> Answer<Vec<f32>> {
+        surface(self.opened(material)?, &Request::parse(request).map_err(said)?, sigma, [rows, columns]).map_err(said)
+    }
+
+    /// How far two materials are apart, as JSON.
+    pub fn compare(&self, a: u32, b: u32, request: &str) -> Answer<String> {
+        let request = Request::parse(request).map_err(said)?;
+        json(&compare(self.opened(a)?, self.opened(b)?, &request).map_err(said)?)
+    }
+
+    /// How far they are apart to the eye in each direction.
+    pub fn difference(&self, a: u32, b: u32, request: &str, sigma: f64, size: usize) -> Answer<Picture> {
+        let request = Request::parse(request).map_err(said)?;
+        difference_map(self.opened(a)?, self.opened(b)?, &request, sigma, size).map(Picture).map_err(said)
+    }
+
+    /// The formats that a material can be written in, as JSON.
+    pub fn targets(&self, material: u32) -> Answer<String> {
+        json(&targets(self.opened(material)?))
+    }
+
+    /// The material as a file of another format.
+    pub fn convert(&self, material: u32, word: &str, channel: &str) -> Answer<File> {
+        let written = converted(self.opened(material)?, word, channel).map_err(said)?;
+        Ok(File { name: written.name, bytes: written.bytes, note: written.note })
+    }
+
+    /// A ball under a lamp, at once: four bytes per pixel of a square.
+    pub fn ball(
+        &mut self,
+        material: u32,
+        request: &str,
+        size: usize,
+        toward: &[f32],
+        exposure: f32,
+    ) -> Answer<Vec<u8>> {
+        let request = Request::parse(request).map_err(said)?;
+        if self.ball.as_ref().is_none_or(|ball| ball.size() != size) {
+            self.ball = Some(Ball::new(size));
+        }
+        let ball = self.ball.as_ref().ok_or_else(|| said("no ball".into()))?;
+        ball.picture(self.session.opened(material).map_err(said)?, &request, triple(toward)?, exposure).map_err(said)
+    }
+
+    /// Puts a material on the stage; the request is JSON (`form`, `sky`, `toward`, `size`, `samples`).
+    pub fn stage(&mut self, material: u32, request: &str) -> Answer<()> {
+        let request = StudioRequest::parse(request).map_err(said)?;
+        self.studio = None;
+        self.studio = Some(Studio::new(self.opened(material)?, &request).map_err(said)?);
+        Ok(())
+    }
+
+    /// Begins the picture again with another lamp, sky or size; `false` if it takes another stage.
+    pub fn relight(&mut self, request: &str) -> Answer<bool> {
+        let request = StudioRequest::parse(request).map_err(said)?;
+        self.studio.as_mut().map_or(Ok(false), |studio| studio.change(&request)).map_err(said)
+    }
+
+    /// Renders for about so many milliseconds. Returns how many samples every pixel has.
+    pub fn render(&mut self, milliseconds: f64) -> Answer<u32> {
+        let end = now() + milliseconds;
+        self.studio.as_mut().map_or(Ok(0), |studio| studio.step(|| now() < end)).map_err(said)
+    }
+
+    /// Whether the picture has all of its samples.
+    pub fn rendered(&self) -> bool {
+        self.studio.as_ref().is_none_or(Studio::is_done)
+    }
+
+    /// The picture as it is: four bytes per pixel.
+    pub fn picture(&self, exposure: f32) -> Vec<u8> {
+        self.studio.as_ref().map(|studio| studio.picture(exposure)).unwrap_or_default()
+    }
+}
+
+/// A map.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct Picture(Map);
+
+#[wasm_bindgen]
+impl Picture {
+    /// Pixels along each side.
+    #[wasm_bindgen(getter)]
+    pub fn size(&self) -> usize {
+        self.0.size
+    }
+
+    /// The number of each pixel, NaN outside of the disk.
+    #[wasm_bindgen(getter)]
+    pub fn values(&self) -> Vec<f32> {
+        self.0.values.clone()
+    }
+
+    /// Four bytes per pixel.
+    #[wasm_bindgen(getter)]
+    pub fn rgba(&self) -> Vec<u8> {
+        self.0.rgba.clone()
+    }
+
+    /// The values at both ends of the false colours.
+    #[wasm_bindgen(getter)]
+    pub fn range(&self) -> Vec<f64> {
+        self.0.range.into()
+    }
+
+    /// Where the light and the mirror direction are: x and y of both.
+    #[wasm_bindgen(getter)]
+    pub fn marks(&self) -> Vec<f64> {
+        self.0.marks.as_flattened().into()
+    }
+
+    /// 1 for each pixel within the measurement.
+    #[wasm_bindgen(getter)]
+    pub fn measured(&self) -> Vec<u8> {
+        self.0.measured.clone()
+    }
+}
+
+/// A file that was written.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct File {
+    name: String,
+    bytes: Vec<u8>,
+    note: String,
+}
+
+#[wasm_bindgen]
+impl File {
+    /// Its name.
+    #[wasm_bindgen(getter)]
+    pub fn name(&self) -> String {
+        self.name.clone()
+    }
+
+    /// What it holds.
+    #[wasm_bindgen(getter)]
+    pub fn bytes(&self) -> Vec<u8> {
+        self.bytes.clone()
+    }
+
+    /// What happened to the channels.
+    #[wasm_bindgen(getter)]
+    pub fn note(&self) -> String {
+        self.note.clone()
+    }
+}

@@ -1,0 +1,123 @@
+//! The files of a page, and the materials opened of them.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use lobe_files::{Files, in_memory};
+use lobe_plot::Subject;
+
+/// A material of a page.
+#[derive(Debug)]
+pub struct Opened {
+    /// The path of its file or folder among those of the page.
+    pub path: PathBuf,
+    /// How large that is.
+    pub bytes: u64,
+    /// What it holds.
+    pub subject: Subject,
+}
+
+/// The files of a page, and the materials opened of them, by number.
+#[derive(Debug, Default)]
+pub struct Session {
+    files: Files,
+    opened: BTreeMap<u32, Opened>,
+    next: u32,
+}
+
+impl Session {
+    /// Nothing.
+    pub fn new() -> Self {
+        Session::default()
+    }
+
+    /// Adds a file, or replaces that of the same path. What is open stays as it is.
+    pub fn add(&mut self, path: &str, bytes: Vec<u8>) {
+        self.files.insert(path.into(), bytes);
+    }
+
+    /// Forgets a file.
+    pub fn remove(&mut self, path: &str) {
+        self.files.remove(Path::new(path));
+    }
+
+    /// Opens a file, or a folder of files that are one material, as `lobe` does on disk: packed files, files next to it that
+    /// say how it is read, and all formats included. Returns its number.
+    ///
+    /// # Errors
+    /// The sentence that the program would say.
+    pub fn open(&mut self, path: &str) -> Result<u32, String> {
+        let path = PathBuf::from(path);
+        let files = std::mem::take(&mut self.files);
+        let (opened, files) = in_memory(files, || lobe_formats::open(&path));
+        self.files = files;
+        let (format, document) = opened.map_err(|error| error.to_string())?;
+        let subject = Subject::new(&path, format, document).map_err(|error| error.to_string())?;
+        let inside = self.files.iter().filter(|(file, _)| file.starts_with(&path));
+        let bytes = inside.map(|(_, bytes)| bytes.len() as u64).sum();
+        let number = self.next;
+        self.next += 1;
+        self.opened.insert(number, Opened { path, bytes, subject });
+        Ok(number)
+    }
+
+    /// The material of a number.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn opened(&self, number: u32) -> Result<&Opened, String> {
+        self.opened.get(&number).ok_or_else(|| format!("found no material {number}; expected one that is open"))
+    }
+
+    /// Forgets a material.
+    pub fn close(&mut self, number: u32) {
+        self.opened.remove(&number);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_open_by_their_content_and_damage_is_told_in_the_words_of_the_program() {
+        let mut session = Session::new();
+        for (format, bytes) in lobe_testing::examples::all() {
+            let name = format!("example.{}", format.spec().extensions.first().unwrap_or(&"txt"));
+            session.add(&name, bytes.clone());
+            match session.open(&name) {
+                Ok(number) => {
+                    let opened = session.opened(number).unwrap();
+                    assert_eq!(opened.bytes, bytes.len() as u64, "{format}");
+                    session.close(number);
+                    assert!(session.opened(number).is_err());
+                }
+                // Mirrors have no value for a pair of directions.
+                Err(error) => assert!(error.contains("mirror"), "{format}: {error}"),
+            }
+            session.add(&name, bytes[..bytes.len() / 2].to_vec());
+            if let Err(error) = session.open(&name) {
+                assert!(error.starts_with("example.") && error.contains("expected"), "{error}");
+            }
+        }
+        let error = session.open("none.ddr").unwrap_err();
+        assert_eq!(error, "none.ddr: found no such file; expected a file that can be read");
+    }
+
+    #[test]
+    fn a_folder_is_one_material_and_a_file_next_to_another_says_how_it_is_read() {
+        let mut session = Session::new();
+        session.add("scan/a.txt", lobe_testing::examples::RPC.into());
+        session.add("scan/b.txt", lobe_testing::examples::RPC.replace("5.000", "35.000").into());
+        let number = session.open("scan").unwrap();
+        assert_eq!(session.opened(number).unwrap().subject.measured().format, lobe_formats::Format::Rpc);
+
+        let table = "theta_i,phi_i,theta_o,phi_o,f\n0,0,0,0,1\n0,0,60,0,1\n0,0,60,120,1\n0,0,60,240,1\n";
+        session.add("t.csv", table.into());
+        session.add("t.csv.lobe.toml", "unit = \"deg\"\nscale = 0.5\n".into());
+        let number = session.open("t.csv").unwrap();
+        let mut value = [0.0];
+        session.opened(number).unwrap().subject.material().eval([0.0, 0.0, 1.0], [0.0, 0.0, 1.0], &mut value);
+        assert!((value[0] - 0.5).abs() < 1e-6, "{value:?}");
+    }
+}
