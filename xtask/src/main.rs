@@ -6,7 +6,7 @@
 
 mod ci;
 mod python;
-mod wheel;
+mod web;
 
 use std::process::{Command, ExitCode};
 
@@ -76,6 +76,9 @@ fn main() -> ExitCode {
     if name == "python" {
         return python::run(&arguments);
     }
+    if name == "web" {
+        return web::run(&arguments);
+    }
     let Some(task) = TASKS.iter().find(|task| task.name == name) else {
         help();
         return if ["", "-h", "--help"].contains(&name.as_str()) { ExitCode::SUCCESS } else { ExitCode::from(2) };
@@ -109,6 +112,7 @@ fn help() {
         println!("  {name:12} {about}");
     }
     println!("  {:12} {}", "python", python::ABOUT);
+    println!("  {:12} {}", "web", web::ABOUT);
     println!("  {:12} {}", "ci", ci::ABOUT);
     println!("\n`cargo xtask COMMAND --help` explains the options of a command.");
 }

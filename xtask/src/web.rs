@@ -1,0 +1,232 @@
+//! `cargo xtask web`: the explorer as static files in `target/web`, and its tests.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+pub const ABOUT: &str = "Build the explorer, a page for browsers, into target/web; --test runs its tests";
+
+const USAGE: &str = "Usage: cargo xtask web [--test] [--embed]
+
+  --test   run the tests of the module in node, and of the page in Chromium
+  --embed  also copy the page to crates/lobe-cli/page, so that `lobe view` is built with it
+
+It needs the target wasm32-unknown-unknown (`rustup target add wasm32-unknown-unknown`), node 20.19 or newer with npm, and for
+the tests of the page Chromium, which CHROMIUM may name.";
+
+const TRIPLE: &str = "wasm32-unknown-unknown";
+
+pub fn run(arguments: &[String]) -> ExitCode {
+    if let Some(unknown) = arguments.iter().find(|argument| !["--test", "--embed"].contains(&argument.as_str())) {
+        println!("{ABOUT}\n\n{USAGE}");
+        return if ["-h", "--help"].contains(&unknown.as_str()) { ExitCode::SUCCESS } else { ExitCode::from(2) };
+    }
+    let has = |option: &str| arguments.iter().any(|argument| argument == option);
+    match build(has("--test"), has("--embed")) {
+        Ok(Outcome::Done) => ExitCode::SUCCESS,
+        // Only the tests may be left out: whoever asks for the page wants one.
+        Ok(Outcome::Skipped(why)) if has("--test") => {
+            println!("SKIP the explorer: {why}");
+            ExitCode::SUCCESS
+        }
+        Ok(Outcome::Skipped(why)) => {
+            eprintln!("the explorer was not built: {why}");
+            ExitCode::FAILURE
+        }
+        Err(failed) => {
+            eprintln!("{failed}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+enum Outcome {
+    Done,
+    Skipped(String),
+}
+
+/// Where everything is.
+struct Places {
+    /// The sources of the page.
+    page: PathBuf,
+    /// What wasm-bindgen makes of the module.
+    module: PathBuf,
+    /// The static files.
+    out: PathBuf,
+}
+
+fn build(tests: bool, embeds: bool) -> Result<Outcome, String> {
+    let absolute = |path: &str| std::path::absolute(path).map_err(|error| error.to_string());
+    let places = Places {
+        page: absolute("crates/lobe-web/page")?,
+        module: absolute("target/web-module")?,
+        out: absolute("target/web")?,
+    };
+    if !has_target() {
+        return Ok(Outcome::Skipped(format!("the target is missing; `rustup target add {TRIPLE}` installs it")));
+    }
+    for program in ["node", "npm"] {
+        if !answers(program) {
+            return Ok(Outcome::Skipped(format!("there is no {program}")));
+        }
+    }
+    let bindgen = bindgen()?;
+    let target = absolute("target/wasm")?;
+    done(
+        super::cargo()
+            .args(["build", "--release", "--quiet", "--package", "lobe-web", "--target", TRIPLE, "--target-dir"])
+            .arg(&target)
+            .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS", "-C target-feature=+simd128"),
+    )?;
+    let module = target.join(TRIPLE).join("release/lobe_web.wasm");
+    done(
+        Command::new(bindgen)
+            .args(["--target", "web", "--remove-name-section", "--remove-producers-section", "--out-dir"])
+            .arg(&places.module)
+            .arg(module),
+    )?;
+    let mut npm = npm(&places);
+    if done(npm.args(["ci", "--no-audit", "--no-fund", "--loglevel", "error"])).is_err() {
+        return Ok(Outcome::Skipped("npm cannot install what the page is made with".into()));
+    }
+    done(with_places(npm_run(&places), &places))?;
+    println!("{}: {}", places.out.display(), sizes(&places.out)?);
+    if embeds {
+        let page = absolute("crates/lobe-cli/page")?;
+        let _ = std::fs::remove_dir_all(&page);
+        copy(&places.out, &page)?;
+        println!("{}: `lobe view` has it when it is built next", page.display());
+    }
+    if tests { test(&places) } else { Ok(Outcome::Done) }
+}
+
+/// Whether there is a standard library for the target.
+fn has_target() -> bool {
+    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let found = Command::new(rustc).args(["--print", "target-libdir", "--target", TRIPLE]).output();
+    let path = found.ok().filter(|found| found.status.success()).map(|found| found.stdout);
+    path.is_some_and(|path| Path::new(String::from_utf8_lossy(&path).trim()).is_dir())
+}
+
+fn answers(program: &str) -> bool {
+    let asked = Command::new(program).arg("--version").output();
+    asked.is_ok_and(|answer| answer.status.success())
+}
+
+/// The program that belongs to the version of wasm-bindgen in the lock file: that of the path, or one of our own.
+fn bindgen() -> Result<PathBuf, String> {
+    let lock = std::fs::read_to_string("Cargo.lock").map_err(|error| format!("Cargo.lock: {error}"))?;
+    let version = locked(&lock, "wasm-bindgen").ok_or("Cargo.lock has no wasm-bindgen")?;
+    let is_it = |program: &Path| {
+        let answer = Command::new(program).arg("--version").output();
+        answer.is_ok_and(|answer| String::from_utf8_lossy(&answer.stdout).trim() == format!("wasm-bindgen {version}"))
+    };
+    let root = std::path::absolute("target/web-tools").map_err(|error| error.to_string())?;
+    let own = root.join("bin").join(if cfg!(windows) { "wasm-bindgen.exe" } else { "wasm-bindgen" });
+    if let Some(found) = [PathBuf::from("wasm-bindgen"), own.clone()].into_iter().find(|program| is_it(program)) {
+        return Ok(found);
+    }
+    println!("installing wasm-bindgen {version} into {}", root.display());
+    done(super::cargo().args(["install", "wasm-bindgen-cli", "--version", version, "--quiet", "--root"]).arg(&root))?;
+    Ok(own)
+}
+
+/// The version of a package in the text of a lock file.
+fn locked<'a>(lock: &'a str, package: &str) -> Option<&'a str> {
+    let mut lines = lock.lines();
+    let name = format!("name = \"{package}\"");
+    lines.by_ref().find(|line| *line == name)?;
+    lines.next()?.strip_prefix("version = \"")?.strip_suffix('"')
+}
+
+fn npm(places: &Places) -> Command {
+    let mut npm = Command::new(if cfg!(windows) { "npm.cmd" } else { "npm" });
+    npm.current_dir(&places.page);
+    npm
+}
+
+fn npm_run(places: &Places) -> Command {
+    let mut npm = npm(places);
+    npm.args(["run", "--silent", "build", "--", "--logLevel", "warn"]);
+    npm
+}
+
+/// The command, told where everything is.
+fn with_places(mut command: Command, places: &Places) -> Command {
+    command.env("LOBE_WEB_MODULE", &places.module).env("LOBE_WEB_OUT", &places.out);
+    command
+}
+
+/// How large the files of a page are.
+fn sizes(folder: &Path) -> Result<String, String> {
+    let mut files = Vec::new();
+    collect(folder, &mut files)?;
+    let size = |path: &PathBuf| std::fs::metadata(path).map_or(0, |metadata| metadata.len());
+    Ok(format!("{} files, {} bytes", files.len(), files.iter().map(size).sum::<u64>()))
+}
+
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), String> {
+    let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
+    for entry in folder.read_dir().map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        if path.is_dir() { collect(&path, files)? } else { files.push(path) }
+    }
+    Ok(())
+}
+
+fn copy(from: &Path, to: &Path) -> Result<(), String> {
+    let mut files = Vec::new();
+    collect(from, &mut files)?;
+    for file in files {
+        let target = to.join(file.strip_prefix(from).map_err(|error| error.to_string())?);
+        let copied =
+            target.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| std::fs::copy(&file, &target));
+        copied.map_err(|error| format!("{}: {error}", target.display()))?;
+    }
+    Ok(())
+}
+
+/// The module in node, then the page in Chromium.
+fn test(places: &Places) -> Result<Outcome, String> {
+    // What is compared with the program needs it as it is now. The tests of the workspace use the same build.
+    done(super::cargo().args(["build", "--quiet", "--workspace", "--bin", "lobe"]))?;
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
+    let lobe = target.join("debug").join(if cfg!(windows) { "lobe.exe" } else { "lobe" });
+    let lobe = std::path::absolute(lobe).map_err(|error| error.to_string())?;
+    let node = |file: &str| {
+        let mut node = Command::new("node");
+        node.current_dir(&places.page).args(["--test", "--test-reporter=spec", file]).env("LOBE", &lobe);
+        with_places(node, places)
+    };
+    done(node("tests/module.test.mjs"))?;
+    let named = std::env::var("CHROMIUM").ok();
+    let browsers = named.iter().map(String::as_str).chain(["chromium", "chromium-browser", "google-chrome"]);
+    let Some(browser) = browsers.into_iter().find(|browser| answers(browser)) else {
+        return Ok(Outcome::Skipped(
+            "there is no Chromium for the tests of the page; those of the module passed".into(),
+        ));
+    };
+    let mut tests = node("tests/page.test.mjs");
+    done(tests.env("CHROMIUM", browser))?;
+    Ok(Outcome::Done)
+}
+
+fn done(mut command: impl std::borrow::BorrowMut<Command>) -> Result<(), String> {
+    let command: &mut Command = command.borrow_mut();
+    match command.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(format!("{command:?}: {status}")),
+        Err(error) => Err(format!("{command:?}: {error}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn versions_are_those_of_the_lock_file() {
+        let lock = "[[package]]\nname = \"wasm-bindgen-shared\"\nversion = \"1.0\"\n\n[[package]]\nname = \"wasm-bindgen\"\nversion = \"0.2.130\"\n";
+        assert_eq!(locked(lock, "wasm-bindgen"), Some("0.2.130"));
+        assert_eq!(locked(lock, "bindgen"), None);
+    }
+}
