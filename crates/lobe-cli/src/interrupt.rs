@@ -20,6 +20,15 @@ pub fn listen() {
     });
 }
 
+/// From now on a signal ends what the program waits for, and nothing is said about it.
+pub fn listen_quietly() {
+    let _ = ctrlc::set_handler(|| {
+        if ASKED.fetch_add(1, Ordering::Relaxed) > 0 {
+            std::process::exit(INTERRUPTED.into());
+        }
+    });
+}
+
 /// Whether the program was asked to end.
 pub fn is_asked() -> bool {
     ASKED.load(Ordering::Relaxed) > 0

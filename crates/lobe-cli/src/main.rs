@@ -9,7 +9,6 @@ mod certificate;
 mod check;
 mod compare;
 mod convert;
-mod describe;
 mod draft;
 mod eval;
 mod failure;
@@ -39,6 +38,7 @@ mod shell;
 mod summary;
 mod target;
 mod threads;
+mod view;
 
 use std::process::ExitCode;
 
@@ -74,6 +74,7 @@ enum Command {
     Fit(Box<fit::Args>),
     Plot(Box<plot::Args>),
     Preview(preview::Args),
+    View(view::Args),
     Render(render::Args),
     Matrix(matrix::Args),
     Merge(merge::Args),
@@ -101,7 +102,7 @@ fn main() -> ExitCode {
         Err(error) => error.exit(),
     };
     lobe_files::name_standard_input();
-    if !matches!(cli.command, Command::Info(_) | Command::Completions(_) | Command::Man(_)) {
+    if !matches!(cli.command, Command::Info(_) | Command::View(_) | Command::Completions(_) | Command::Man(_)) {
         threads::start();
     }
     let done = match cli.command {
@@ -114,6 +115,7 @@ fn main() -> ExitCode {
         Command::Fit(args) => fit::run(&args),
         Command::Plot(args) => plot::run(&args),
         Command::Preview(args) => preview::run(&args),
+        Command::View(args) => view::run(&args),
         Command::Render(args) => render::run(&args),
         Command::Matrix(args) => matrix::run(&args),
         Command::Merge(args) => merge::run(&args),

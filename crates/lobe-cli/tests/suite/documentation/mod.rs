@@ -23,7 +23,7 @@ use rayon::prelude::*;
 use scratch::Scratch;
 
 /// The documents with commands.
-const DOCUMENTS: [&str; 15] = [
+const DOCUMENTS: [&str; 16] = [
     "README.md",
     "CONTRIBUTING.md",
     "docs/accuracy.md",
@@ -32,6 +32,7 @@ const DOCUMENTS: [&str; 15] = [
     "docs/benchmarking.md",
     "docs/building.md",
     "docs/c.md",
+    "docs/explorer.md",
     "docs/farm.md",
     "docs/fuzzing.md",
     "docs/gallery.md",
@@ -83,7 +84,13 @@ fn help_texts() -> &'static [(String, String)] {
 
 /// Runs a line in the shell; the error says what went wrong.
 fn run(scratch: &Scratch, line: &str) -> Result<(), String> {
-    let output = scratch.shell(line).output().expect("a shell");
+    // It would open a browser, and wait for Ctrl-C.
+    let ending = match line.starts_with("lobe view") {
+        true if line.contains("--no-open") => " --for 100ms",
+        true => " --no-open --for 100ms",
+        false => "",
+    };
+    let output = scratch.shell(&format!("{line}{ending}")).output().expect("a shell");
     // The status of a pipe is that of its last program.
     let has_failed = text(&output.stderr).lines().any(|line| line.starts_with("error: "));
     // An imported file is checked, and may fail as long as the quantity of its values is not given.

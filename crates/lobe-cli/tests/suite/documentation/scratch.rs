@@ -21,6 +21,9 @@ impl Scratch {
         {
             fs::create_dir_all(scratch.path("home").join(folder)).expect("a folder");
         }
+        // The explorer is built by other means.
+        fs::create_dir(scratch.path("home/page")).expect("a folder");
+        scratch.write("home/page/index.html", "<!doctype html>");
         scratch
     }
 
@@ -45,6 +48,7 @@ impl Scratch {
             .env("PATH", std::env::join_paths(folders).expect("a list of folders"))
             .env("HOME", self.path("home"))
             .env("LOBE_DRAFT", "64")
+            .env("LOBE_PAGE", self.path("home/page"))
             .stdin(Stdio::null());
         shell
     }
