@@ -7,6 +7,7 @@
 mod ci;
 mod python;
 mod web;
+mod wheel;
 
 use std::process::{Command, ExitCode};
 

@@ -46,6 +46,7 @@ pub use page::{Page, page, page_with_fit};
 pub use quantity::Quantity;
 #[cfg(feature = "raster")]
 pub use raster::{RasterError, rasterise};
+pub use residual::{Fitted, Values};
 pub use scale::{Scale, Scaling};
 pub use shade::{Sphere, Studio, shade};
 pub use shown::Shown;
