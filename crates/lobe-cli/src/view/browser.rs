@@ -23,5 +23,5 @@ pub fn open(url: &str) -> bool {
         // Whether it succeeds is not waited for: some of them run as long as the browser does.
         started.is_ok()
     };
-    commands.iter().any(|command| opens(&command))
+    commands.iter().any(opens)
 }

@@ -97,7 +97,8 @@ fn sums_of_more_than_their_samples_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("part.exr");
     let said = Meta { size: [2, 1], ..meta(window, 0..6) };
-    let read = |change: &dyn Fn(&mut Film)| {
+    type Change<'a> = &'a dyn Fn(&mut Film);
+    let read = |change: Change<'_>| {
         let mut film = Film::new(window);
         for pixel in film.pixels_mut() {
             pixel.add(&Sample { radiance: [f32::MAX; 3], ..Sample::EMPTY });
@@ -108,7 +109,7 @@ fn sums_of_more_than_their_samples_are_refused() {
         read_partial(&path).map(|_| ()).map_err(|error| error.to_string())
     };
     assert_eq!(read(&|_| {}), Ok(()));
-    let changes: [(&dyn Fn(&mut Film), &str); 5] = [
+    let changes: [(Change<'_>, &str); 5] = [
         (&|film| film.pixels_mut()[1].radiance[2] += 1, "a sum of more than 1 samples of radiance"),
         (&|film| film.pixels_mut()[0].radiance[0] = i128::MIN, "a sum of more than 1 samples of radiance"),
         (&|film| film.pixels_mut()[0].samples = 0, "a sum of more than 0 samples of radiance"),
