@@ -128,7 +128,7 @@ fn data_that_a_format_cannot_hold_are_refused() {
         "{said}"
     );
     let said = folder.refused(&["convert", "glass.ddt", "x.txt"], "x.txt");
-    assert!(said.contains("the extension .txt, which no format that lobe writes has"), "{said}");
+    assert!(said.contains("the extension .txt, which belongs to no format that lobe writes"), "{said}");
     let said = folder.refused(&["convert", "glass.ddt", "x.sdt"], "x.sdt");
     assert!(said.contains("expected mirror reflectances"), "{said}");
     let said = folder.refused(&["convert", "glass.ddt", "x.ssdd", "--channel", "R"], "x.ssdd");
