@@ -98,7 +98,8 @@ def main():
                 compared += 1
                 error = largest(stated["error"])
                 is_found = found.returncode == 0 and largest(json.loads(found.stdout)) == error
-                words = f"{stated['error'][0]['difference']['max']:.3e}".encode()
+                mantissa, exponent = f"{stated['error'][0]['difference']['max']:.3e}".split("e")
+                words = f"{mantissa}e{int(exponent)}".encode()
                 is_kept = not keeps or stated["resampled"] is None or words in target.read_bytes()
                 failed |= not (is_found and is_kept)
                 row.append(f"{100 * error:.2f} %" + ("" if is_found else " NOT FOUND") + ("" if is_kept else " NOT KEPT"))
