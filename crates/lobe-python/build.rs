@@ -1,4 +1,4 @@
-//! Lets the linker of macOS leave the functions of the interpreter open, which Linux does anyway.
+//! Lets the linker of macOS leave the functions of the interpreter undefined, as the one of Linux does anyway.
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");

@@ -32,7 +32,7 @@ const TASKS: [Task; 10] = [
     },
     Task {
         name: "cross",
-        about: "Test the backends of other processors, on emulators of these",
+        about: "Test the backends of other processors on emulators",
         packages: &["xtask-cross"],
     },
     Task {

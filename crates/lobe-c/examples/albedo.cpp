@@ -1,4 +1,4 @@
-// The albedo of a material by importance sampling: albedo FILE.
+// Prints the albedo of a material, found by importance sampling: albedo FILE.
 #include <cmath>
 #include <cstdio>
 #include <vector>

@@ -1,4 +1,4 @@
-/* Values of a material for one direction to the light and many to the viewer: eval FILE. */
+/* Prints values of a material for one direction to the light and many to the viewer: eval FILE. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,7 +32,7 @@ int main(int argc, char **argv) {
     wo[i][2] = cosf(angle);
   }
   float *f = malloc(VIEWERS * channels * sizeof *f);
-  const lobe_directions light = {wi, wi + 1, wi + 2, 0}; /* the same for all */
+  const lobe_directions light = {wi, wi + 1, wi + 2, 0}; /* the same light for all */
   const lobe_directions viewers = {wo[0], wo[0] + 1, wo[0] + 2, 3};
   const lobe_values values = {f, channels, 1};
   const lobe_status status = lobe_eval(material, VIEWERS, light, viewers, values, &error);

@@ -1,8 +1,8 @@
-// Measured BRDFs and BSDFs from C++17: a thin layer over lobe.h, in this header only.
+// Measured BRDFs and BSDFs for C++17: a thin layer over lobe.h, in this header alone.
 //
 // Directions are unit vectors away from the surface, whose normal is +z: wi points to the light, wo to the viewer. Values are f
-// in 1/sr, without the cosine, one per channel. Errors are exceptions of the class lobe::Error. Materials and samplers do not
-// change: threads may share them.
+// in 1/sr, without the cosine, one per channel. Errors are exceptions of the class lobe::Error. Materials and samplers are
+// immutable: threads may share them.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace lobe {
 
-/// Why something was not done.
+/// The error of a function that failed.
 class Error : public std::runtime_error {
  public:
   explicit Error(const lobe_error &error) : std::runtime_error(error.message), error_(error) {}
@@ -43,7 +43,7 @@ class Error : public std::runtime_error {
 
 namespace detail {
 
-/// Calls a function of lobe.h, whose last argument is where it says what is wrong.
+/// Calls a function of lobe.h, whose last argument receives the error.
 template <class Function, class... Arguments>
 void call(Function function, Arguments... arguments) {
   lobe_error error;
@@ -57,19 +57,19 @@ inline std::string text(const char *text) { return text == nullptr ? std::string
 /// A direction.
 using Vector = std::array<float, 3>;
 
-/// Vectors one after the other, three numbers each.
+/// Consecutive vectors, three numbers each.
 inline lobe_directions vectors(const float *numbers) { return {numbers, numbers + 1, numbers + 2, 3}; }
 
-/// Vectors one after the other.
+/// Consecutive vectors.
 inline lobe_directions vectors(const std::vector<Vector> &list) {
   static_assert(sizeof(Vector) == 3 * sizeof(float), "vectors have no padding");
   return list.empty() ? lobe_directions{nullptr, nullptr, nullptr, 3} : vectors(list.front().data());
 }
 
-/// Components in columns of their own.
+/// Components in separate columns.
 inline lobe_directions columns(const float *x, const float *y, const float *z) { return {x, y, z, 1}; }
 
-/// Vectors with other numbers between them: `stride` numbers from one to the next.
+/// Vectors with other numbers between them; `stride` is the distance from one to the next, in numbers.
 inline lobe_directions strided(const float *numbers, std::size_t stride) {
   return {numbers, numbers + 1, numbers + 2, stride};
 }
@@ -77,11 +77,11 @@ inline lobe_directions strided(const float *numbers, std::size_t stride) {
 /// The same vector for all queries; it must live as long as the call.
 inline lobe_directions same(const Vector &vector) { return strided(vector.data(), 0); }
 
-/// How a material is opened.
+/// Options for opening a material.
 struct Options {
-  /// The instructions, one of backends(); empty is the best that this machine has.
+  /// The instruction set, one of backends(); empty means the best that this machine has.
   std::string backend;
-  /// Round the same way on all machines.
+  /// Round in the same way on all machines.
   bool strict = false;
   /// Keep each call on the thread that makes it.
   bool serial = false;
@@ -92,7 +92,7 @@ struct Options {
   /// One of LOBE_GIVEN_...
   int indexed_by = LOBE_GIVEN_LIGHT;
 
-  /// The same for lobe.h, which lives as long as this.
+  /// The options for lobe.h, which live as long as this object.
   lobe_options get() const {
     lobe_options options = lobe_options_default();
     options.backend = backend.empty() ? nullptr : backend.c_str();
@@ -114,7 +114,7 @@ inline std::vector<std::string> backends() {
 
 class Sampler;
 
-/// A measured material, in the form in which it was measured. Copies share it.
+/// A measured material, in the representation in which it was measured. Copies share it.
 class Material {
  public:
   /// Opens a file of any format.
@@ -125,7 +125,7 @@ class Material {
     return Material(material);
   }
 
-  /// Opens the content of a file in memory, which is not used any more afterwards.
+  /// Opens the content of a file in memory, which is not used after the call.
   static Material from_bytes(const void *data, std::size_t size, const std::string &name = "memory",
                              const Options &options = {}) {
     lobe_material *material = nullptr;
@@ -134,12 +134,12 @@ class Material {
     return Material(material);
   }
 
-  /// f in 1/sr of `count` pairs, to wherever the values are wanted.
+  /// f in 1/sr of `count` pairs, written to any layout of values.
   void eval(std::size_t count, lobe_directions wi, lobe_directions wo, lobe_values values) const {
     detail::call(lobe_eval, get(), count, wi, wo, values);
   }
 
-  /// f in 1/sr, one pair after the other: `[pair * channel_count() + channel]`.
+  /// f in 1/sr, pair by pair: `[pair * channel_count() + channel]`.
   std::vector<float> eval(std::size_t count, lobe_directions wi, lobe_directions wo) const {
     std::vector<float> values(count * channel_count());
     eval(count, wi, wo, lobe_values{values.data(), channel_count(), 1});
@@ -162,7 +162,7 @@ class Material {
     return matrix;
   }
 
-  /// What draws directions; building it takes a while.
+  /// A sampler of directions; building it takes a while.
   Sampler sampler(float defensive = 0.05f) const;
 
   std::size_t channel_count() const { return lobe_channel_count(get()); }
@@ -175,7 +175,7 @@ class Material {
     return names;
   }
 
-  /// In nm; empty if channels are no wavelengths.
+  /// In nm; empty if channels are not wavelengths.
   std::vector<double> wavelengths() const {
     const double *list = lobe_wavelengths(get());
     return list == nullptr ? std::vector<double>() : std::vector<double>(list, list + channel_count());
@@ -197,10 +197,10 @@ class Material {
   std::string backend() const { return detail::text(lobe_material_backend(get())); }
   bool is_isotropic() const { return lobe_is_isotropic(get()); }
 
-  /// Whether there are values for light from a side (LOBE_SIDE_...) that is reflected or transmitted.
+  /// True if there are values for light from a side (LOBE_SIDE_...) that is reflected or transmitted.
   bool holds(int scatter, int side = LOBE_SIDE_FRONT) const { return lobe_holds(get(), scatter, side); }
 
-  /// The handle of lobe.h, which belongs to this.
+  /// The handle of lobe.h, which this object owns.
   const lobe_material *get() const { return handle_.get(); }
 
  private:
@@ -209,16 +209,16 @@ class Material {
   std::shared_ptr<lobe_material> handle_;
 };
 
-/// A direction that was drawn.
+/// A sampled direction.
 struct Sample {
   Vector direction;
-  /// Per steradian; 0 if the draw leads nowhere, infinite for a mirror.
+  /// Density per steradian; 0 if no direction was sampled, infinite for a mirror.
   float pdf;
   /// f times cosine over the density, one value per channel.
   std::vector<float> weight;
 };
 
-/// Draws directions in proportion to luminance times f times cosine. Copies share it.
+/// Samples directions in proportion to luminance times f times cosine. Copies share it.
 class Sampler {
  public:
   explicit Sampler(Material material, float defensive = 0.05f) : material_(std::move(material)) {
@@ -227,13 +227,13 @@ class Sampler {
     handle_ = std::shared_ptr<lobe_sampler>(sampler, lobe_sampler_free);
   }
 
-  /// Draws many; see lobe_sample.
+  /// Samples many directions; see lobe_sample.
   void sample(std::size_t count, lobe_directions directions, const float *u, lobe_values drawn, float *pdf,
               lobe_values weight = {nullptr, 0, 0}, int given = LOBE_GIVEN_LIGHT) const {
     detail::call(lobe_sample, get(), given, count, directions, u, drawn, pdf, weight);
   }
 
-  /// Draws one.
+  /// Samples one direction.
   Sample sample(const Vector &direction, const std::array<float, 2> &u, int given = LOBE_GIVEN_LIGHT) const {
     Sample found{{}, 0.0f, std::vector<float>(material_.channel_count())};
     sample(1, same(direction), u.data(), lobe_values{found.direction.data(), 3, 1}, &found.pdf,
@@ -255,7 +255,7 @@ class Sampler {
 
   const Material &material() const { return material_; }
 
-  /// The handle of lobe.h, which belongs to this.
+  /// The handle of lobe.h, which this object owns.
   const lobe_sampler *get() const { return handle_.get(); }
 
  private:

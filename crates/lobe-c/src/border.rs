@@ -1,4 +1,4 @@
-//! What is between C and Rust: pointers become references, errors codes, and panics errors.
+//! The border between C and Rust: pointers become references, errors become codes, and panics become errors.
 
 use std::any::Any;
 use std::ffi::{CStr, c_char};
@@ -6,17 +6,19 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use crate::error::{Error, LOBE_ERROR_INTERNAL, LOBE_OK, lobe_error, lobe_status};
 
-/// Runs the body of a function that can fail. Nothing unwinds further.
+/// Runs the body of a function that can fail. Panics are caught here.
 ///
 /// # Safety
-/// `error` is null, or points to memory that a `lobe_error` can be written to and nothing else uses during the call.
+/// `error` is null, or points to memory to which a `lobe_error` can be written and that nothing else uses during the
+/// call.
 pub unsafe fn guarded(error: *mut lobe_error, body: impl FnOnce() -> Result<(), Error>) -> lobe_status {
     let done = catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|panic| Err(panicked(&*panic)));
     match done {
         Ok(()) => LOBE_OK,
         Err(found) => {
             if !error.is_null() && error.is_aligned() {
-                // SAFETY: not null, and by the promise of the caller it can be written to. What was in it has no destructor.
+                // SAFETY: not null, and by the promise of the caller it can be written to. The old value has no
+                // destructor.
                 unsafe { error.write(found.shown()) };
             }
             found.status()
@@ -24,7 +26,7 @@ pub unsafe fn guarded(error: *mut lobe_error, body: impl FnOnce() -> Result<(), 
     }
 }
 
-/// Runs the body of a function that cannot fail, but might panic if there is a mistake in it: then it answers `fallback`.
+/// Runs the body of a function that cannot fail, but might panic because of a bug: then it returns `fallback`.
 pub fn infallible<T>(fallback: T, body: impl FnOnce() -> T) -> T {
     catch_unwind(AssertUnwindSafe(body)).unwrap_or(fallback)
 }
@@ -35,20 +37,20 @@ fn panicked(panic: &(dyn Any + Send)) -> Error {
     Error::new(LOBE_ERROR_INTERNAL, format!("an error in lobe, please report it: {words}"))
 }
 
-/// What an argument points to.
+/// The value that an argument points to.
 ///
 /// # Errors
 /// If it is null or misaligned.
 ///
 /// # Safety
-/// If it is not null, it points to a `T` that lives, and that nothing writes to, as long as `'a`.
+/// If it is not null, it points to a `T` that lives for `'a`, and that nothing writes to.
 pub unsafe fn borrowed<'a, T>(pointer: *const T, name: &str) -> Result<&'a T, Error> {
     check(pointer, name)?;
     // SAFETY: neither null nor misaligned; the rest is the promise of the caller.
     Ok(unsafe { &*pointer })
 }
 
-/// Writes to where an argument points.
+/// Writes to the memory that an argument points to.
 ///
 /// # Errors
 /// If it is null or misaligned; then nothing is written.
@@ -62,30 +64,30 @@ pub unsafe fn write<T>(pointer: *mut T, value: T, name: &str) -> Result<(), Erro
     Ok(())
 }
 
-/// Numbers that an argument points to.
+/// The numbers that an argument points to.
 ///
 /// # Errors
 /// If it is null or misaligned.
 ///
 /// # Safety
-/// If it is not null, it points to `count` values that live, and that nothing writes to, as long as `'a`.
+/// If it is not null, it points to `count` values that live for `'a`, and that nothing writes to.
 pub unsafe fn slice<'a, T>(pointer: *const T, count: usize, name: &str) -> Result<&'a [T], Error> {
     if count == 0 {
         return Ok(&[]);
     }
     check(pointer, name)?;
     fits::<T>(count, name)?;
-    // SAFETY: neither null nor misaligned, and no larger than memory can be; the rest is the promise of the caller.
+    // SAFETY: neither null nor misaligned, and not larger than memory can be; the rest is the promise of the caller.
     Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
 }
 
 /// The same, to write to.
 ///
 /// # Errors
-/// As [`slice`].
+/// The same as for [`slice`].
 ///
 /// # Safety
-/// If it is not null, it points to `count` values that live, and that nothing else uses, as long as `'a`.
+/// If it is not null, it points to `count` values that live for `'a`, and that nothing else uses.
 pub unsafe fn slice_mut<'a, T>(pointer: *mut T, count: usize, name: &str) -> Result<&'a mut [T], Error> {
     if count == 0 {
         return Ok(&mut []);
@@ -96,21 +98,21 @@ pub unsafe fn slice_mut<'a, T>(pointer: *mut T, count: usize, name: &str) -> Res
     Ok(unsafe { std::slice::from_raw_parts_mut(pointer, count) })
 }
 
-/// Text that an argument points to.
+/// The text that an argument points to.
 ///
 /// # Errors
 /// If it is null, or not UTF-8.
 ///
 /// # Safety
-/// If it is not null, it points to text that ends with a zero, lives, and is not written to, as long as `'a`.
+/// If it is not null, it points to text that ends with a zero, lives for `'a`, and is not written to.
 pub unsafe fn text<'a>(pointer: *const c_char, name: &str) -> Result<&'a str, Error> {
     check(pointer, name)?;
     // SAFETY: not null; the rest is the promise of the caller.
     let text = unsafe { CStr::from_ptr(pointer) };
-    text.to_str().map_err(|error| Error::invalid(format!("{name}: found bytes that are no UTF-8: {error}")))
+    text.to_str().map_err(|error| Error::invalid(format!("{name}: found bytes that are not UTF-8: {error}")))
 }
 
-/// Checks where something is going to be written, before the work is done.
+/// Checks a pointer for output before the work is done.
 ///
 /// # Errors
 /// If it is null or misaligned.
@@ -126,7 +128,7 @@ fn fits<T>(count: usize, name: &str) -> Result<(), Error> {
     let bytes = count.checked_mul(size_of::<T>()).filter(|bytes| isize::try_from(*bytes).is_ok());
     bytes
         .map(|_| ())
-        .ok_or_else(|| Error::invalid(format!("{name}: found {count} values; expected what fits into memory")))
+        .ok_or_else(|| Error::invalid(format!("{name}: found {count} values; expected as many as fit into memory")))
 }
 
 #[cfg(test)]
@@ -135,7 +137,7 @@ mod tests {
     use crate::error::LOBE_ERROR_INVALID;
 
     #[test]
-    fn panics_are_errors() {
+    fn panics_become_errors() {
         let mut error = Error::invalid("").shown();
         // SAFETY: a local variable.
         let status = unsafe { guarded(&mut error, || panic!("at the disco")) };

@@ -1,47 +1,48 @@
-//! Batches in memory, in any layout: components with a step between queries.
+//! Batches in memory, in any layout: components with strides between queries.
 
 use lobe::Directions;
 
 use crate::border;
 use crate::error::Error;
 
-/// Directions in memory: `x[i * stride]`, `y[i * stride]` and `z[i * stride]` is direction `i`. Vectors one after the other
-/// are `{p, p + 1, p + 2, 3}`, columns `{x, y, z, 1}`; these two are read where they are. With a stride of 0, all are the same.
+/// Directions in memory: `x[i * stride]`, `y[i * stride]` and `z[i * stride]` are the components of direction `i`.
+/// Consecutive vectors are `{p, p + 1, p + 2, 3}`, columns `{x, y, z, 1}`; these two are read in place. With a stride
+/// of 0, all directions are the same.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct lobe_directions {
-    /// x of the first.
+    /// x of the first direction.
     pub x: *const f32,
-    /// y of the first.
+    /// y of the first direction.
     pub y: *const f32,
-    /// z of the first.
+    /// z of the first direction.
     pub z: *const f32,
-    /// Numbers from one direction to the next.
+    /// Distance from one direction to the next, in numbers.
     pub stride: usize,
 }
 
-/// Where values are written to: value `c` of query `i` at `data[i * query_stride + c * channel_stride]`. Queries one after the
-/// other are `{p, channels, 1}`, which is the fastest.
+/// Output of values: value `c` of query `i` is written to `data[i * query_stride + c * channel_stride]`. Consecutive
+/// queries are `{p, channels, 1}`, which is the fastest layout.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct lobe_values {
     /// The first value.
     pub data: *mut f32,
-    /// Numbers from one query to the next.
+    /// Distance from one query to the next, in numbers.
     pub query_stride: usize,
-    /// Numbers from one channel to the next.
+    /// Distance from one channel to the next, in numbers.
     pub channel_stride: usize,
 }
 
-/// Queries that are copied at once if their layout is no kernel's.
+/// Number of queries that are copied at once if kernels cannot read their layout.
 pub(crate) const AT_ONCE: usize = 4096;
 
-/// Directions that can be read, wherever they are.
+/// Directions that can be read, in any layout.
 #[derive(Clone, Copy)]
 pub enum Readable<'a> {
-    /// In a layout of the kernels.
+    /// In a layout that kernels can read.
     Placed(Directions<'a>),
-    /// With other steps.
+    /// With other strides.
     Strided { columns: [&'a [f32]; 3], stride: usize },
 }
 
@@ -49,10 +50,10 @@ impl lobe_directions {
     /// The same as slices.
     ///
     /// # Errors
-    /// If a pointer is null or misaligned, or the last direction is beyond what memory can hold.
+    /// If a pointer is null or misaligned, or the last direction would be beyond memory.
     ///
     /// # Safety
-    /// The pointers are those of `count` directions, which live, and are not written to, as long as `'a`.
+    /// The pointers belong to `count` directions, which live for `'a` and are not written to.
     pub unsafe fn readable<'a>(&self, count: usize, name: &str) -> Result<Readable<'a>, Error> {
         let follow = self.y == self.x.wrapping_add(1) && self.z == self.x.wrapping_add(2);
         if self.stride == 3 && follow {
@@ -61,7 +62,8 @@ impl lobe_directions {
             return Ok(Readable::Placed(Directions::Vectors(vectors)));
         }
         let length = extent(count, self.stride, 1, 0).ok_or_else(|| too_far(name))?;
-        // SAFETY: by the promise of the caller, there is a number at every step up to the last one, in one piece of memory.
+        // SAFETY: by the promise of the caller, there is a number at every stride up to the last one, in one piece of
+        // memory.
         let column = |pointer| unsafe { border::slice::<f32>(pointer, length, name) };
         let columns = [column(self.x)?, column(self.y)?, column(self.z)?];
         match self.stride {
@@ -71,7 +73,7 @@ impl lobe_directions {
     }
 }
 
-/// How many numbers lie from the first to the last of a batch.
+/// Number of floats from the first to the last of a batch.
 fn extent(count: usize, stride: usize, channels: usize, channel_stride: usize) -> Option<usize> {
     match (count, channels) {
         (0, _) | (_, 0) => Some(0),
@@ -123,15 +125,15 @@ impl lobe_values {
     /// The same as a slice.
     ///
     /// # Errors
-    /// If the pointer is null or misaligned, or values of different queries or channels would be in the same place.
+    /// If the pointer is null or misaligned, or values of different queries or channels would be at the same place.
     ///
     /// # Safety
-    /// There is room for the values of `count` queries, which lives, and which nothing else uses, as long as `'a`. What is
-    /// between them is numbers too, which are left as they are.
+    /// There is room for the values of `count` queries, which lives for `'a`, and which nothing else uses. Numbers
+    /// between them are not changed.
     pub unsafe fn writable<'a>(&self, count: usize, channels: usize, name: &str) -> Result<Writable<'a>, Error> {
         let &lobe_values { data, query_stride, channel_stride } = self;
         let length = extent(count, query_stride, channels, channel_stride).ok_or_else(|| too_far(name))?;
-        // One of the two steps goes over all that the other one spans.
+        // One of the two strides steps over everything that the other one spans.
         let queries_apart = extent(1, 0, channels, channel_stride).is_some_and(|span| query_stride >= span);
         let channels_apart = extent(count, query_stride, 1, 0).is_some_and(|span| channel_stride >= span);
         let is_apart = match (count, channels) {
@@ -143,7 +145,7 @@ impl lobe_values {
         if !is_apart {
             return Err(Error::invalid(format!(
                 "{name}: found strides of {query_stride} and {channel_stride} for {count} queries of {channels} channels; \
-                 expected each value in a place of its own"
+                 expected a separate place for each value"
             )));
         }
         // SAFETY: by the promise of the caller.
@@ -184,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn every_value_has_a_place_of_its_own() {
+    fn every_value_has_a_separate_place() {
         assert_eq!(values(3, 1, 10, 3).unwrap(), 30);
         assert_eq!(values(4, 1, 10, 3).unwrap(), 39);
         assert_eq!(values(1, 10, 10, 3).unwrap(), 30);

@@ -1,38 +1,39 @@
-//! What a function answers, and where it says why.
+//! Return codes of functions, and descriptions of errors.
 
 use std::ffi::{c_char, c_int};
 
 use lobe::{BackendError, OpenError, SamplerError};
 use lobe_formats::{FormatError, Place};
 
-/// Whether a function did what it was asked for: `LOBE_OK`, or one of `LOBE_ERROR_...`.
+/// The return code of a function: `LOBE_OK`, or one of `LOBE_ERROR_...`.
 pub type lobe_status = c_int;
 
-/// Done.
+/// Success.
 pub const LOBE_OK: lobe_status = 0;
 /// An argument makes no sense.
 pub const LOBE_ERROR_INVALID: lobe_status = 1;
 /// A file cannot be read, is damaged, or is of no known format.
 pub const LOBE_ERROR_FORMAT: lobe_status = 2;
-/// The material has nothing of the kind that was asked for.
+/// The material does not support the request.
 pub const LOBE_ERROR_UNSUPPORTED: lobe_status = 3;
-/// A mistake in lobe; please report it.
+/// A bug in lobe; please report it.
 pub const LOBE_ERROR_INTERNAL: lobe_status = 4;
 
-/// How many bytes a message has at most, with the zero at its end.
+/// The largest number of bytes of a message, including the zero at its end.
 pub const LOBE_MESSAGE_LENGTH: usize = 1024;
 
-/// Where a function says what is wrong. It belongs to the caller; several threads must not use the same one.
+/// The description of an error, written by a function that fails. It belongs to the caller; several threads must not
+/// use the same one.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct lobe_error {
-    /// The same that the function returns.
+    /// The same code that the function returns.
     pub status: lobe_status,
-    /// The line of the file, counted from 1, or 0.
+    /// The line of the file, counted from 1; 0 if there is none.
     pub line: u64,
-    /// The offset in the file in bytes, or `UINT64_MAX`.
+    /// The offset in the file in bytes; `UINT64_MAX` if there is none.
     pub byte: u64,
-    /// What is wrong, in words that name the file; ends with a zero, and may be cut.
+    /// A description of the error that names the file; it ends with a zero, and may be truncated.
     pub message: [c_char; LOBE_MESSAGE_LENGTH],
 }
 
@@ -50,7 +51,7 @@ impl Error {
         Error { status, message: message.into(), line: 0, byte: u64::MAX }
     }
 
-    /// What is wrong with an argument.
+    /// An error of an argument.
     pub fn invalid(message: impl Into<String>) -> Self {
         Error::new(LOBE_ERROR_INVALID, message)
     }
@@ -59,7 +60,7 @@ impl Error {
         self.status
     }
 
-    /// The same for the caller.
+    /// The error for the caller.
     pub fn shown(&self) -> lobe_error {
         let mut message = [0; LOBE_MESSAGE_LENGTH];
         let mut end = self.message.len().min(LOBE_MESSAGE_LENGTH - 1);
@@ -117,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn messages_are_cut_between_characters_and_end() {
+    fn messages_are_truncated_between_characters_and_terminated() {
         for length in [0, 1, 510, 511, 512, 2000] {
             let message = "é".repeat(length);
             let shown = Error::invalid(message.clone()).shown();

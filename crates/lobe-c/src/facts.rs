@@ -1,4 +1,4 @@
-//! What there is to know of materials and of this library.
+//! Facts about materials and about this library.
 
 use std::ffi::{CString, c_char, c_int};
 use std::ptr;
@@ -10,10 +10,10 @@ use crate::border;
 use crate::material::{c_string, lobe_material};
 use crate::options::aspect;
 
-/// The answer of a material, or `fallback` for NULL.
+/// A property of a material, or `fallback` for NULL.
 ///
 /// # Safety
-/// `material` is null or a material that lives as long as `'a`.
+/// `material` is null or a material that lives for `'a`.
 unsafe fn of<'a, T>(material: *const lobe_material, fallback: T, ask: impl FnOnce(&'a lobe_material) -> T) -> T {
     // SAFETY: by the promise of the caller.
     match unsafe { border::borrowed(material, "material") } {
@@ -29,25 +29,25 @@ pub extern "C" fn lobe_version() -> *const c_char {
     VERSION.as_ptr().cast()
 }
 
-/// The names of the backends, made once.
+/// The names of the backends, created once.
 fn backends() -> &'static [CString] {
     static NAMES: OnceLock<Vec<CString>> = OnceLock::new();
     NAMES.get_or_init(|| Backend::available().iter().map(|backend| c_string(backend.name())).collect())
 }
 
-/// How many backends this machine can run.
+/// The number of backends that this machine can run.
 #[unsafe(no_mangle)]
 pub extern "C" fn lobe_backend_count() -> usize {
     border::infallible(0, || backends().len())
 }
 
-/// The name of a backend, the slowest first; NULL if there are not so many.
+/// The name of a backend, the slowest first; NULL if the index is too large.
 #[unsafe(no_mangle)]
 pub extern "C" fn lobe_backend_name(index: usize) -> *const c_char {
     border::infallible(ptr::null(), || backends().get(index).map_or(ptr::null(), |name| name.as_ptr()))
 }
 
-/// The name of the backend that evaluates a material; NULL of NULL.
+/// The name of the backend that evaluates a material; NULL for NULL.
 ///
 /// # Safety
 /// `material` is NULL or not freed.
@@ -62,7 +62,7 @@ pub unsafe extern "C" fn lobe_material_backend(material: *const lobe_material) -
     unsafe { of(material, ptr::null(), name) }
 }
 
-/// How many channels a value has; 0 of NULL.
+/// The number of channels of a value; 0 for NULL.
 ///
 /// # Safety
 /// `material` is NULL or not freed.
@@ -72,7 +72,7 @@ pub unsafe extern "C" fn lobe_channel_count(material: *const lobe_material) -> u
     unsafe { of(material, 0, |material| material.texts.channels.len()) }
 }
 
-/// The name of a channel, which lives as long as the material; NULL if there are not so many.
+/// The name of a channel, which lives as long as the material; NULL if the index is too large.
 ///
 /// # Safety
 /// `material` is NULL or not freed.
@@ -82,7 +82,7 @@ pub unsafe extern "C" fn lobe_channel_name(material: *const lobe_material, chann
     unsafe { of(material, ptr::null(), |of| of.texts.channels.get(channel).map_or(ptr::null(), |name| name.as_ptr())) }
 }
 
-/// The wavelength of each channel in nm, which live as long as the material; NULL if channels are no wavelengths.
+/// The wavelengths of the channels in nm, which live as long as the material; NULL if channels are not wavelengths.
 ///
 /// # Safety
 /// `material` is NULL or not freed.
@@ -92,7 +92,7 @@ pub unsafe extern "C" fn lobe_wavelengths(material: *const lobe_material) -> *co
     unsafe { of(material, ptr::null(), |of| of.texts.wavelengths.as_ref().map_or(ptr::null(), |list| list.as_ptr())) }
 }
 
-/// The representation, such as "specular table", which lives as long as the material; NULL of NULL.
+/// The representation, such as "specular table", which lives as long as the material; NULL for NULL.
 ///
 /// # Safety
 /// `material` is NULL or not freed.
@@ -102,7 +102,7 @@ pub unsafe extern "C" fn lobe_kind(material: *const lobe_material) -> *const c_c
     unsafe { of(material, ptr::null(), |material| material.texts.kind.as_ptr()) }
 }
 
-/// The name of the format of the file, which lives as long as the material; NULL of NULL.
+/// The name of the format of the file, which lives as long as the material; NULL for NULL.
 ///
 /// # Safety
 /// `material` is NULL or not freed.
@@ -112,7 +112,7 @@ pub unsafe extern "C" fn lobe_format(material: *const lobe_material) -> *const c
     unsafe { of(material, ptr::null(), |of| of.texts.format.as_ref().map_or(ptr::null(), |name| name.as_ptr())) }
 }
 
-/// How many facts the header of the file states.
+/// The number of facts in the header of the file.
 ///
 /// # Safety
 /// `material` is NULL or not freed.
@@ -122,7 +122,8 @@ pub unsafe extern "C" fn lobe_fact_count(material: *const lobe_material) -> usiz
     unsafe { of(material, 0, |material| material.texts.facts.len()) }
 }
 
-/// A fact of the header: its name, and its value in `*value`, which live as long as the material. NULL if there are not so many.
+/// A fact in the header: returns its name and writes its value to `*value`; both live as long as the material. NULL if
+/// the index is too large.
 ///
 /// # Safety
 /// `material` is NULL or not freed; `value` points to a pointer or is NULL.
@@ -135,12 +136,12 @@ pub unsafe extern "C" fn lobe_fact(
     // SAFETY: by the promise of the caller.
     let fact = unsafe { of(material, None, |material| material.texts.facts.get(index)) };
     let Some([name, found]) = fact else { return ptr::null() };
-    // SAFETY: by the promise of the caller. If it is null, nobody wants the value.
+    // SAFETY: by the promise of the caller. If it is null, the value is not needed.
     let _ = unsafe { border::write(value, found.as_ptr(), "value") };
     name.as_ptr()
 }
 
-/// Whether values do not depend on the rotation of the sample.
+/// True if values do not depend on the rotation of the sample.
 ///
 /// # Safety
 /// `material` is NULL or not freed.
@@ -150,8 +151,8 @@ pub unsafe extern "C" fn lobe_is_isotropic(material: *const lobe_material) -> bo
     unsafe { of(material, false, |material| material.material.is_isotropic()) }
 }
 
-/// Whether there are values for light from a side (`LOBE_SIDE_...`) that is reflected or transmitted (`LOBE_REFLECTION`,
-/// `LOBE_TRANSMISSION`).
+/// True if there are values for light from a side (`LOBE_SIDE_...`) that is reflected or transmitted
+/// (`LOBE_REFLECTION`, `LOBE_TRANSMISSION`).
 ///
 /// # Safety
 /// `material` is NULL or not freed.
@@ -162,7 +163,7 @@ pub unsafe extern "C" fn lobe_holds(material: *const lobe_material, scatter: c_i
     unsafe { of(material, false, |material| material.material.holds(aspect)) }
 }
 
-/// Bytes of memory that the data take.
+/// The size of the data in memory, in bytes.
 ///
 /// # Safety
 /// `material` is NULL or not freed.

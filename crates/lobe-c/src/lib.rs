@@ -1,8 +1,7 @@
-//! Measured materials from C and C++: what `include/lobe.h` declares.
-//!
-//! Handles are opaque and shared by counting; functions that can fail return a code and describe the error in a struct of the
-//! caller ([`lobe_error`]); no panic leaves this crate, because every function runs inside of `border::guarded`. What is
-//! evaluated is the facade's.
+//! Measured materials for C and C++: implements the functions that `include/lobe.h` declares. Handles are opaque and
+//! reference-counted. Functions that can fail return a code and describe the error in a struct of the caller
+//! ([`lobe_error`]). No panic leaves this crate, because every function runs inside `border::guarded`. The facade
+//! evaluates materials.
 #![allow(non_camel_case_types, reason = "names of C")]
 
 mod border;

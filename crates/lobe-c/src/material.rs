@@ -1,4 +1,4 @@
-//! Materials: opened, shared, evaluated.
+//! Opens, shares and evaluates materials.
 
 use std::ffi::{CString, c_char};
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use crate::directions::{AT_ONCE, Readable, Writable, lobe_directions, lobe_value
 use crate::error::{Error, LOBE_ERROR_UNSUPPORTED, lobe_error, lobe_status};
 use crate::options::{Chosen, chosen, lobe_options};
 
-/// A measured material, in the form in which it was measured. Threads may share it.
+/// A measured material, in the representation in which it was measured. Threads may share it.
 #[derive(Clone, Debug)]
 pub struct lobe_material {
     pub(crate) material: Arc<Material>,
@@ -19,7 +19,7 @@ pub struct lobe_material {
     pub(crate) serial: bool,
 }
 
-/// Text that C can read, as long as there is a handle.
+/// Texts that C can read as long as there is a handle.
 #[derive(Debug)]
 pub struct Texts {
     pub kind: CString,
@@ -29,7 +29,7 @@ pub struct Texts {
     pub wavelengths: Option<Vec<f64>>,
 }
 
-/// Text that ends with its first zero; that of files has none, as readers show them escaped.
+/// Text up to its first zero; text from files has none, because readers escape them.
 pub fn c_string(text: &str) -> CString {
     CString::new(text.replace('\0', " ")).unwrap_or_default()
 }
@@ -54,8 +54,8 @@ impl lobe_material {
     }
 }
 
-/// Opens the file of a measured material, of any format; the content says which. `options` may be NULL. `*material` is set
-/// only if this returns LOBE_OK, and is freed with `lobe_material_free`.
+/// Opens the file of a measured material, of any format, which is detected from the content. `options` may be NULL.
+/// `*material` is set only if this returns LOBE_OK; free it with `lobe_material_free`.
 ///
 /// # Safety
 /// `path` is text; `options` is NULL or points to options; `material` points to a pointer, and `error` to an error or is NULL.
@@ -66,7 +66,7 @@ pub unsafe extern "C" fn lobe_open(
     material: *mut *mut lobe_material,
     error: *mut lobe_error,
 ) -> lobe_status {
-    // SAFETY: by the promises of the caller, which are those of what is called.
+    // SAFETY: by the promises of the caller, which are those that the called functions require.
     unsafe {
         border::guarded(error, || {
             let path = border::text(path, "path")?;
@@ -79,11 +79,12 @@ pub unsafe extern "C" fn lobe_open(
     }
 }
 
-/// A material from the content of a file in memory, which is not used any more afterwards. `name` is what the file is called
-/// in errors; its extension counts only if the content says too little. All else is as in `lobe_open`.
+/// Opens a material from the content of a file in memory, which is not used after the call. `name` is the name of the
+/// file in errors; its extension matters only if the format is not clear from the content. Everything else is as in
+/// `lobe_open`.
 ///
 /// # Safety
-/// `data` points to `size` bytes; all else is as in `lobe_open`.
+/// `data` points to `size` bytes; everything else is as in `lobe_open`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lobe_open_bytes(
     data: *const u8,
@@ -93,7 +94,7 @@ pub unsafe extern "C" fn lobe_open_bytes(
     material: *mut *mut lobe_material,
     error: *mut lobe_error,
 ) -> lobe_status {
-    // SAFETY: by the promises of the caller, which are those of what is called.
+    // SAFETY: by the promises of the caller, which are those that the called functions require.
     unsafe {
         border::guarded(error, || {
             let bytes = border::slice(data, size, "data")?;
@@ -107,7 +108,7 @@ pub unsafe extern "C" fn lobe_open_bytes(
     }
 }
 
-/// Another handle to the same material, to be freed as well; NULL of NULL.
+/// Another handle to the same material, which must also be freed; NULL for NULL.
 ///
 /// # Safety
 /// `material` is NULL or a material that is not freed.
@@ -121,7 +122,7 @@ pub unsafe extern "C" fn lobe_material_share(material: *const lobe_material) -> 
     })
 }
 
-/// Frees a handle; nothing happens to NULL. Samplers of the material, and other handles, can still be used.
+/// Frees a handle; does nothing for NULL. Samplers of the material and other handles stay valid.
 ///
 /// # Safety
 /// `material` is NULL or a handle that is not freed, and no other thread uses it.
@@ -129,13 +130,13 @@ pub unsafe extern "C" fn lobe_material_share(material: *const lobe_material) -> 
 pub unsafe extern "C" fn lobe_material_free(material: *mut lobe_material) {
     border::infallible((), || {
         if !material.is_null() {
-            // SAFETY: a handle was made of a box, and by the promise of the caller it is freed once.
+            // SAFETY: a handle was made from a box, and by the promise of the caller it is freed once.
             drop(unsafe { Box::from_raw(material) });
         }
     });
 }
 
-/// f in 1/sr, without the cosine, of `count` pairs of directions.
+/// Evaluates f in 1/sr, without the cosine, for `count` pairs of directions.
 ///
 /// # Safety
 /// `material` is not freed; `wi` and `wo` are `count` directions, and `values` has room for as many queries of all channels,
@@ -149,7 +150,7 @@ pub unsafe extern "C" fn lobe_eval(
     values: lobe_values,
     error: *mut lobe_error,
 ) -> lobe_status {
-    // SAFETY: by the promises of the caller, which are those of what is called.
+    // SAFETY: by the promises of the caller, which are those that the called functions require.
     unsafe {
         border::guarded(error, || {
             let material = border::borrowed(material, "material")?;
@@ -170,7 +171,7 @@ fn eval(of: &lobe_material, count: usize, [wi, wo]: [Readable<'_>; 2], mut value
     if let (Some(wi), Some(wo), Some(out)) = (wi.placed(), wo.placed(), values.placed()) {
         return run(wi, wo, out);
     }
-    // Enough for threads to share.
+    // Enough to share among threads.
     let at_once = if of.serial { AT_ONCE } else { 16 * AT_ONCE }.min(count);
     let mut rows = [vec![[0.0; 3]; at_once], vec![[0.0; 3]; at_once]];
     let mut out = vec![0.0; at_once * material.channel_count()];
@@ -187,8 +188,8 @@ fn eval(of: &lobe_material, count: usize, [wi, wo]: [Readable<'_>; 2], mut value
     }
 }
 
-/// The Mueller matrix in 1/sr for light from `wi` to `wo` at a wavelength in nm: 16 numbers, row by row. LOBE_ERROR_UNSUPPORTED
-/// if the material knows no polarisation.
+/// The Mueller matrix in 1/sr for light from `wi` to `wo` at a wavelength in nm: 16 numbers, row by row. Returns
+/// LOBE_ERROR_UNSUPPORTED if the material has no polarisation.
 ///
 /// # Safety
 /// `material` is not freed; `wi` and `wo` point to 3 numbers and `matrix` to room for 16; `error` points to an error or is NULL.
@@ -201,7 +202,7 @@ pub unsafe extern "C" fn lobe_mueller(
     matrix: *mut f64,
     error: *mut lobe_error,
 ) -> lobe_status {
-    // SAFETY: by the promises of the caller, which are those of what is called.
+    // SAFETY: by the promises of the caller, which are those that the called functions require.
     unsafe {
         border::guarded(error, || {
             let material = border::borrowed(material, "material")?;
@@ -210,7 +211,7 @@ pub unsafe extern "C" fn lobe_mueller(
             let out = border::slice_mut(matrix, 16, "matrix")?;
             let found = material.material.mueller(*wi, *wo, wavelength).ok_or_else(|| {
                 let kind = material.material.kind();
-                Error::new(LOBE_ERROR_UNSUPPORTED, format!("found {kind}; expected a material that knows polarisation"))
+                Error::new(LOBE_ERROR_UNSUPPORTED, format!("found {kind}; expected a material with polarisation"))
             })?;
             out.copy_from_slice(found.as_flattened());
             Ok(())

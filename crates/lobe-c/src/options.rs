@@ -1,4 +1,4 @@
-//! How a material is opened, and words as numbers.
+//! Options for opening a material, and constants.
 
 use std::ffi::{c_char, c_int};
 use std::ptr;
@@ -10,9 +10,9 @@ use crate::error::Error;
 
 /// Beyond the outermost angles of a table in specular coordinates, the value at the nearest one.
 pub const LOBE_EDGES_CLAMP: c_int = 0;
-/// Straight lines beyond the ends of all axes; negative values are kept.
+/// Linear extrapolation beyond the ends of all axes; negative values are kept.
 pub const LOBE_EDGES_EXTRAPOLATE: c_int = 1;
-/// 0 beyond sigma and theta.
+/// 0 beyond the ends of sigma and theta.
 pub const LOBE_EDGES_ZERO: c_int = 2;
 
 /// Grids of half and difference angles (MERL): the value of the bin.
@@ -35,27 +35,27 @@ pub const LOBE_SIDE_FRONT: c_int = 0;
 /// Light from z < 0.
 pub const LOBE_SIDE_BACK: c_int = 1;
 
-/// How a material is opened. `lobe_options_default` makes one in which all is left to lobe.
+/// Options for opening a material. `lobe_options_default` gives the defaults.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct lobe_options {
-    /// The instructions, by the name that `lobe_backend_name` gives; NULL is the best that this machine has, or what the
-    /// environment variable LOBE_BACKEND names.
+    /// The instruction set, by a name from `lobe_backend_name`; NULL means the best that this machine has, or the one
+    /// named by the environment variable LOBE_BACKEND.
     pub backend: *const c_char,
-    /// Round the same way on all machines and instructions.
+    /// Round in the same way on all machines and instruction sets.
     pub strict: bool,
-    /// Keep each call on the thread that makes it, as renderers with threads of their own want. Otherwise batches of 16,384
-    /// queries or more are shared among threads, with the same bits.
+    /// Keep each call on the thread that makes it, as renderers with their own threads need. Otherwise batches of
+    /// 16,384 or more queries are shared among threads, with the same bits.
     pub serial: bool,
     /// One of `LOBE_EDGES_...`.
     pub edges: c_int,
     /// One of `LOBE_LOOKUP_...`.
     pub lookup: c_int,
-    /// Which direction finds the slice of a material of the EPFL database: one of `LOBE_GIVEN_...`.
+    /// The direction that selects the slice of a material of the EPFL database: one of `LOBE_GIVEN_...`.
     pub indexed_by: c_int,
 }
 
-/// Options in which all is left to lobe.
+/// The default options.
 #[unsafe(no_mangle)]
 pub extern "C" fn lobe_options_default() -> lobe_options {
     lobe_options {
@@ -68,7 +68,7 @@ pub extern "C" fn lobe_options_default() -> lobe_options {
     }
 }
 
-/// The same, understood.
+/// The same, parsed.
 #[derive(Debug)]
 pub struct Chosen {
     pub options: Options,
@@ -76,10 +76,10 @@ pub struct Chosen {
     pub serial: bool,
 }
 
-/// The meaning of options; null stands for the default.
+/// Parses options; null means the default.
 ///
 /// # Errors
-/// For a number that stands for nothing, or a backend that this machine does not have.
+/// For a number without a meaning, or a backend that this machine does not have.
 ///
 /// # Safety
 /// `options` is null or points to options, whose backend is null or points to text.
@@ -115,10 +115,10 @@ fn unknown(name: &str, found: c_int) -> Error {
     Error::invalid(format!("{name}: found {found}; expected one of its constants"))
 }
 
-/// The direction that is given.
+/// The given direction.
 ///
 /// # Errors
-/// If the number stands for neither.
+/// If the number has no meaning.
 pub fn given(number: c_int, name: &str) -> Result<Given, Error> {
     match number {
         LOBE_GIVEN_LIGHT => Ok(Given::Light),
@@ -127,7 +127,7 @@ pub fn given(number: c_int, name: &str) -> Result<Given, Error> {
     }
 }
 
-/// The kind of scatter and the side of the light; `None` if a number stands for nothing.
+/// The kind of scatter and the side of the light; `None` if a number has no meaning.
 pub fn aspect(scatter: c_int, side: c_int) -> Option<lobe::Aspect> {
     let scatter = match scatter {
         LOBE_REFLECTION => Scatter::Reflection,

@@ -10,14 +10,15 @@ use crate::error::{Error, lobe_error, lobe_status};
 use crate::material::lobe_material;
 use crate::options::given;
 
-/// Draws directions for a material in proportion to luminance times f times cosine. Threads may share it.
+/// Samples directions for a material in proportion to luminance times f times cosine. Threads may share it.
 #[derive(Debug)]
 pub struct lobe_sampler {
     sampler: Sampler,
 }
 
-/// Builds what samples a material, which takes a while. `defensive`, in (0, 1], is the part of every distribution that is a
-/// cosine; 0.05 suits most. `*sampler` is set only if this returns LOBE_OK, and is freed with `lobe_sampler_free`.
+/// Builds a sampler for a material, which takes a while. `defensive`, in (0, 1], is the cosine-weighted share of every
+/// distribution; 0.05 suits most materials. `*sampler` is set only if this returns LOBE_OK; free it with
+/// `lobe_sampler_free`.
 ///
 /// # Safety
 /// `material` is not freed; `sampler` points to a pointer, and `error` to an error or is NULL.
@@ -28,7 +29,7 @@ pub unsafe extern "C" fn lobe_sampler_new(
     sampler: *mut *mut lobe_sampler,
     error: *mut lobe_error,
 ) -> lobe_status {
-    // SAFETY: by the promises of the caller, which are those of what is called.
+    // SAFETY: by the promises of the caller, which are those that the called functions require.
     unsafe {
         border::guarded(error, || {
             let material = border::borrowed(material, "material")?;
@@ -40,7 +41,7 @@ pub unsafe extern "C" fn lobe_sampler_new(
     }
 }
 
-/// Frees a sampler; nothing happens to NULL.
+/// Frees a sampler; does nothing for NULL.
 ///
 /// # Safety
 /// `sampler` is NULL or not freed, and no other thread uses it.
@@ -48,20 +49,20 @@ pub unsafe extern "C" fn lobe_sampler_new(
 pub unsafe extern "C" fn lobe_sampler_free(sampler: *mut lobe_sampler) {
     border::infallible((), || {
         if !sampler.is_null() {
-            // SAFETY: a handle was made of a box, and by the promise of the caller it is freed once.
+            // SAFETY: a handle was made from a box, and by the promise of the caller it is freed once.
             drop(unsafe { Box::from_raw(sampler) });
         }
     });
 }
 
-/// Draws a direction for each of `count` directions, those to the light or to the viewer (`LOBE_GIVEN_...`), by two numbers in
-/// [0, 1) each, `u[2 * i]` and `u[2 * i + 1]`. `drawn` has room for three numbers each, `pdf` for the density per steradian, and
-/// `weight`, unless its data is NULL, for f times cosine over the density, one value per channel. If a draw leads nowhere, all
-/// are 0; a mirror has an infinite density.
+/// Samples a direction for each of `count` given directions, to the light or to the viewer (`LOBE_GIVEN_...`), from two
+/// numbers in [0, 1) each, `u[2 * i]` and `u[2 * i + 1]`. `drawn` has room for three numbers each, `pdf` for the
+/// density per steradian, and `weight`, unless its data is NULL, for f times cosine over the density, one value per
+/// channel. If no direction was sampled, all are 0; a mirror has an infinite density.
 ///
 /// # Safety
-/// `sampler` is not freed; all pointers are those of `count` queries, and what is written overlaps nothing; `error` points to an
-/// error or is NULL.
+/// `sampler` is not freed; all pointers belong to `count` queries, and outputs do not overlap anything; `error` points
+/// to an error or is NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lobe_sample(
     sampler: *const lobe_sampler,
@@ -74,7 +75,7 @@ pub unsafe extern "C" fn lobe_sample(
     weight: lobe_values,
     error: *mut lobe_error,
 ) -> lobe_status {
-    // SAFETY: by the promises of the caller, which are those of what is called.
+    // SAFETY: by the promises of the caller, which are those that the called functions require.
     unsafe {
         border::guarded(error, || {
             let sampler = &border::borrowed(sampler, "sampler")?.sampler;
@@ -138,7 +139,7 @@ pub unsafe extern "C" fn lobe_pdf(
     pdf: *mut f32,
     error: *mut lobe_error,
 ) -> lobe_status {
-    // SAFETY: by the promises of the caller, which are those of what is called.
+    // SAFETY: by the promises of the caller, which are those that the called functions require.
     unsafe {
         border::guarded(error, || {
             let sampler = &border::borrowed(sampler, "sampler")?.sampler;

@@ -24,7 +24,7 @@ pub fn floats<'py>(value: &Bound<'py, PyAny>, name: &str) -> PyResult<Bound<'py,
 /// The same as `float64`, for angles.
 ///
 /// # Errors
-/// As [`floats`].
+/// The same as for [`floats`].
 pub fn doubles<'py>(value: &Bound<'py, PyAny>, name: &str) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     Ok(numbers(value, name)?.call_method1("astype", ("float64",))?.cast_into()?)
 }
@@ -38,7 +38,7 @@ pub fn numbers<'py>(value: &Bound<'py, PyAny>, name: &str) -> PyResult<Bound<'py
     let numpy = py.import("numpy")?;
     if value.hasattr("mask")? && value.hasattr("filled")? {
         return Err(PyTypeError::new_err(format!(
-            "{name}: found an array with a mask; expected one whose values all count (its compressed(), for example)"
+            "{name}: found an array with a mask; expected one without masked values (its compressed(), for example)"
         )));
     }
     let is_foreign = !value.hasattr("__array__")? && !value.hasattr("__array_interface__")?;
@@ -54,10 +54,10 @@ pub fn numbers<'py>(value: &Bound<'py, PyAny>, name: &str) -> PyResult<Bound<'py
     }
 }
 
-/// The shape that two broadcast to.
+/// The shape to which two shapes broadcast.
 ///
 /// # Errors
-/// `ValueError` if they do not.
+/// `ValueError` if they do not broadcast.
 pub fn broadcast(names: [&str; 2], a: &[usize], b: &[usize]) -> PyResult<Vec<usize>> {
     let count = a.len().max(b.len());
     let at = |shape: &[usize], axis: usize| (axis + shape.len()).checked_sub(count).map_or(1, |axis| shape[axis]);
@@ -76,7 +76,7 @@ pub fn broadcast(names: [&str; 2], a: &[usize], b: &[usize]) -> PyResult<Vec<usi
     })
 }
 
-/// A shape as Python writes it.
+/// A shape in Python's notation.
 pub fn shown(shape: &[usize]) -> String {
     match shape {
         [one] => format!("({one},)"),
@@ -106,7 +106,7 @@ pub fn normalize<'py>(v: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f
         let largest = vector.iter().fold(0.0_f64, |largest, c| largest.max(c.abs()));
         if largest == 0.0 || !vector.iter().all(|c| c.is_finite()) {
             return Err(PyValueError::new_err(format!(
-                "v: found vector {index}, {vector:?}; expected a finite vector of any length but 0"
+                "v: found vector {index}, {vector:?}; expected a finite vector of any length except 0"
             )));
         }
         // Scaled by the largest component first, so that no square overflows or vanishes.

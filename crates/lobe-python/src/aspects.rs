@@ -1,4 +1,4 @@
-//! Which measurement of a sheet is meant.
+//! Selects a measurement of a sheet.
 
 use lobe::{Aspect, Scatter, Side};
 use lobe_ops::Subject;
@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 
 use crate::options::word;
 
-/// What was asked for.
+/// The selection.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked {
     scatter: Option<Scatter>,
@@ -23,16 +23,16 @@ pub fn scatter(found: &str) -> PyResult<Scatter> {
 }
 
 impl Asked {
-    /// What the keyword arguments ask for.
+    /// The selection by keyword arguments.
     ///
     /// # Errors
-    /// `ValueError` if they are none of the words for it.
+    /// `ValueError` if they are not among the words allowed.
     pub fn new(scatter_word: Option<&str>, side: Option<&str>) -> PyResult<Self> {
         let side = side.map(|side| word("side", side, &[("front", Side::Front), ("back", Side::Back)])).transpose()?;
         Ok(Asked { scatter: scatter_word.map(scatter).transpose()?, side })
     }
 
-    /// The one measurement of `all` that is meant.
+    /// The only measurement of `all` that matches.
     ///
     /// # Errors
     /// `ValueError` if there is none, or several.
@@ -44,18 +44,18 @@ impl Asked {
         let chosen: Vec<Aspect> = all.iter().filter(fits).copied().collect();
         match chosen.as_slice() {
             [one] => Ok(*one),
-            [] => Err(PyValueError::new_err(format!("found {}; expected the scatter and side asked for", shown(all)))),
+            [] => Err(PyValueError::new_err(format!("found {}; expected the requested scatter and side", shown(all)))),
             several => Err(PyValueError::new_err(format!(
-                "found {}; expected scatter= or side= with the one that is meant",
+                "found {}; expected scatter= or side= to select one",
                 shown(several)
             ))),
         }
     }
 
-    /// The one measurement of a file that is meant.
+    /// The only measurement of a file that matches.
     ///
     /// # Errors
-    /// As [`one`](Self::one).
+    /// The same as for [`one`](Self::one).
     pub fn of(self, subject: &Subject) -> PyResult<Aspect> {
         self.one(&subject.aspects())
     }

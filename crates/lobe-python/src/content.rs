@@ -1,4 +1,4 @@
-//! What a material is made of, so that a copy of it can be made in another process.
+//! The content of a material, from which a copy can be made in another process.
 
 use std::path::PathBuf;
 use std::time::SystemTime;
@@ -16,29 +16,29 @@ use crate::labels::{channels, scatter};
 use crate::options::{Choices, reading_keywords};
 use crate::scattered::Scattered;
 
-/// Where the values of a material are found again.
+/// The source of the values of a material.
 pub enum Content {
-    /// A file, as it was when it was read.
+    /// A file, in the state in which it was read.
     File {
-        /// Which.
+        /// Its path.
         path: PathBuf,
         /// Its size and time.
         version: Version,
-        /// What it leaves open, and its sidecar says.
+        /// Facts missing in the file, including those from its sidecar.
         reading: ReadOptions,
     },
     /// Bytes in memory.
     Bytes {
-        /// Those of the file.
+        /// The bytes of the file.
         bytes: Py<PyBytes>,
-        /// What the file is called.
+        /// The name of the file.
         name: PathBuf,
-        /// What it leaves open.
+        /// Facts missing in the file.
         reading: ReadOptions,
     },
     /// The data themselves.
     Data,
-    /// Samples on no grid, as they were given.
+    /// Scattered samples, as they were given.
     Scattered(Scattered),
 }
 
@@ -50,26 +50,26 @@ pub struct Version {
 }
 
 impl Version {
-    /// That of a file now.
+    /// The current version of a file.
     ///
     /// # Errors
-    /// If there is none.
+    /// If there is no such file.
     pub fn of(path: &std::path::Path) -> std::io::Result<Self> {
         let metadata = path.metadata()?;
         Ok(Version { size: metadata.len(), modified: metadata.modified().ok() })
     }
 }
 
-/// How to make an object again: the function that does, and what it is called with.
+/// How to recreate an object: a function and its arguments.
 pub type Reduced<'py> = (Bound<'py, PyAny>, Arguments<'py>);
 
-/// The kind of content, and the rest by keywords.
+/// The kind of content, and keyword arguments.
 pub type Arguments<'py> = (&'static str, Bound<'py, PyDict>);
 
-/// The function of `lobe_bsdf` that makes the material again, and its keyword arguments.
+/// The function of `lobe_bsdf` that recreates the material, and its keyword arguments.
 ///
 /// # Errors
-/// If the file it was made of has changed, or is a folder.
+/// If the file of the material has changed, or is a folder.
 pub fn remake<'py>(
     py: Python<'py>,
     content: &Content,
@@ -82,7 +82,7 @@ pub fn remake<'py>(
         Content::File { path, version, reading } => {
             let unread = |why: String| {
                 PyValueError::new_err(format!(
-                    "{}: {why}; expected the file that the material was made of, whose content is pickled",
+                    "{}: {why}; expected the file from which the material was read, because pickling refers to it",
                     path.display()
                 ))
             };
@@ -90,7 +90,7 @@ pub fn remake<'py>(
                 return Err(unread("found a folder".into()));
             }
             if Version::of(path).map_err(|error| unread(error.to_string()))? != *version {
-                return Err(unread("found a file that was written later".into()));
+                return Err(unread("found a file that has changed since".into()));
             }
             let bytes = lobe_files::read(path).map_err(|error| unread(error.to_string()))?;
             keywords.set_item("data", PyBytes::new(py, &bytes))?;
@@ -109,7 +109,7 @@ pub fn remake<'py>(
                 Content::Scattered(samples) => samples.arrays(py, &keywords)?,
                 _ => {
                     let known = arrays(py, &subject.document, &keywords)?;
-                    known.then_some(()).ok_or_else(|| PyValueError::new_err("found data that are no arrays"))?;
+                    known.then_some(()).ok_or_else(|| PyValueError::new_err("found data that are not arrays"))?;
                 }
             }
             let facts = PyTuple::new(py, subject.document.source.iter().map(|(name, value)| (name, value)))?;
@@ -122,7 +122,7 @@ pub fn remake<'py>(
 /// The data as the arguments of `from_samples`; `false` if they are neither a grid of four angles nor scattered samples.
 ///
 /// # Errors
-/// If memory is short.
+/// If there is not enough memory.
 pub fn arrays(py: Python<'_>, document: &Document, into: &Bound<'_, PyDict>) -> PyResult<bool> {
     match document.only() {
         Some(Data::Specular(table)) => {

@@ -9,19 +9,19 @@ use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-/// Why something was not done, found without the lock of the interpreter.
+/// An error that occurred while the lock of the interpreter was not held.
 #[derive(Debug)]
 pub enum Failure {
-    /// A file that cannot be read or written.
+    /// A file cannot be read or written.
     Format(FormatError),
-    /// A scene with a mistake in it.
+    /// A scene has a mistake.
     Scene(SceneError),
-    /// An argument that makes no sense.
+    /// An argument makes no sense.
     Value(String),
 }
 
 impl Failure {
-    /// What is wrong with an argument.
+    /// Describes an error of an argument.
     pub fn value(message: impl std::fmt::Display) -> Self {
         Failure::Value(message.to_string())
     }
@@ -37,7 +37,7 @@ impl From<OpenError> for Failure {
     fn from(error: OpenError) -> Self {
         match error {
             OpenError::Format(error) => Failure::Format(error),
-            // What is in the file is not what was expected of it.
+            // The content of the file is not as expected.
             OpenError::NotAMaterial { file: Some(file), found, expected } => {
                 Failure::Format(FormatError::new(&file, Place::File, found, expected))
             }
@@ -80,7 +80,7 @@ fn made(class: &str, arguments: impl for<'py> FnOnce(Python<'py>) -> PyResult<Bo
     })
 }
 
-/// The exception of the system for a file that is missing or may not be read, such as `FileNotFoundError`.
+/// The exception of the system for a file that is missing or must not be read, such as `FileNotFoundError`.
 ///
 /// # Errors
 /// If there is nothing to read.

@@ -1,4 +1,4 @@
-//! Materials from files and from bytes; what there is of formats and backends.
+//! Materials from files and from bytes, and lists of formats and backends.
 
 use std::path::{Path, PathBuf};
 
@@ -13,19 +13,16 @@ use crate::opened::Opened;
 use crate::options::{Choices, Factor, Reading};
 use crate::threads;
 
-/// Opens the file of a measured material, of any format; the content says which.
-///
-/// `backend` names the instructions (see backends()), by default the best that this machine has; `strict` rounds the same way
-/// on all machines. `edges` is what a table in specular coordinates answers beyond its outermost angles: "clamp",
-/// "extrapolate" or "zero". `lookup`, "nearest" or "linear", is how grids of half and difference angles (MERL) are looked up.
-/// `indexed_by`, "light" or "viewer", is the direction that finds the slice of a material of the EPFL database, and `decode`,
-/// "raw" or "srgb", what becomes of the numbers of the UTIA database.
-///
-/// The others say what a file leaves open, as the options of `lobe import` do and a file NAME.lobe.toml may: columns, unit,
-/// values, scale (a number, or "tis"), holds, in_plane, azimuth_from, decimal_comma.
-///
-/// Raises OSError if the file cannot be read, FormatError with file and line if it is damaged or no such file, and ValueError
-/// for an option that is wrong or would change nothing. Warns with GuessWarning of what is guessed rather than measured.
+/// Opens the file of a measured material, of any format, which is detected from the content. `backend` names the
+/// instruction set (see backends()), by default the best that this machine has; `strict` rounds in the same way on all
+/// machines. `edges` says how a table in specular coordinates continues beyond its outermost angles: "clamp",
+/// "extrapolate" or "zero". `lookup`, "nearest" or "linear", says how grids of half and difference angles (MERL) are
+/// looked up. `indexed_by`, "light" or "viewer", is the direction that selects the slice of a material of the EPFL
+/// database, and `decode`, "raw" or "srgb", says how the numbers of the UTIA database are decoded. The other arguments
+/// give facts that are missing in a file, like the options of `lobe import` or a file NAME.lobe.toml: columns, unit,
+/// values, scale (a number, or "tis"), holds, in_plane, azimuth_from, decimal_comma. Raises OSError if the file cannot
+/// be read, FormatError with file and line if it is damaged or of no known format, and ValueError for an option that is
+/// wrong or would change nothing. Warns with GuessWarning about values that are guessed and not measured.
 #[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
 #[pyfunction]
 #[pyo3(signature = (path, *, backend=None, strict=false, edges="clamp", lookup="nearest", indexed_by="light", decode="raw",
@@ -63,8 +60,9 @@ pub fn open(
     Opened::new(py, Some(&path), format, document, choices, content).map(Material::from)
 }
 
-/// A material from the content of a file in memory. `name` is what the file is called in errors; its extension counts only if
-/// the content says too little. All else is as in open(), but no file NAME.lobe.toml is looked for.
+/// A material from the content of a file in memory. `name` is the name of the file in errors; its extension matters
+/// only if the format is not clear from the content. Everything else is as in open(), except that no file
+/// NAME.lobe.toml is read.
 #[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
 #[pyfunction]
 #[pyo3(signature = (data, name=PathBuf::from("memory"), *, backend=None, strict=false, edges="clamp", lookup="nearest",
@@ -92,7 +90,7 @@ pub fn from_bytes(
     let choices = Choices::new(backend, strict, edges, lookup, indexed_by, decode);
     let words = Reading { columns, unit, values, scale, holds, in_plane, azimuth_from, decimal_comma };
     let reading = words.understood()?;
-    // What others may write to is copied; bytes nobody can.
+    // Memory that others may write to is copied; nobody can write to bytes.
     let bytes = match data.cast::<PyBytes>() {
         Ok(bytes) => bytes.clone(),
         Err(_) => {
@@ -115,8 +113,8 @@ pub fn backends() -> Vec<&'static str> {
     lobe::Backend::available().iter().map(lobe::Backend::name).collect()
 }
 
-/// The formats that are known, as tuples of a word for it, its name, the extensions of its files, whether it is read and
-/// whether it is written.
+/// The known formats, as tuples of the short name of the format, its full name, the extensions of its files, whether it
+/// can be read and whether it can be written.
 #[pyfunction]
 pub fn formats(py: Python<'_>) -> PyResult<Bound<'_, PyList>> {
     let class = py.import("lobe_bsdf._results")?.getattr("FormatInfo")?;

@@ -1,14 +1,14 @@
-//! What values mean, as the arguments of `from_samples`.
+//! The meaning of values, as arguments of `from_samples`.
 
 use lobe::{Channels, Scatter};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-/// What the channels mean, as the arguments of `from_samples`.
+/// The meaning of the channels, as arguments of `from_samples`.
 ///
 /// # Errors
-/// If memory is short.
+/// If there is not enough memory.
 pub fn channels(py: Python<'_>, of: &Channels, into: &Bound<'_, PyDict>) -> PyResult<()> {
     match of {
         Channels::Spectral(wavelengths) => into.set_item("wavelengths", PyArray1::from_slice(py, wavelengths)),
@@ -22,7 +22,7 @@ pub fn channels(py: Python<'_>, of: &Channels, into: &Bound<'_, PyDict>) -> PyRe
 /// The kind of scatter, as an argument of `from_samples`.
 ///
 /// # Errors
-/// If memory is short.
+/// If there is not enough memory.
 pub fn scatter(scatter: Scatter, into: &Bound<'_, PyDict>) -> PyResult<()> {
     into.set_item("scatter", if scatter == Scatter::Reflection { "reflection" } else { "transmission" })
 }

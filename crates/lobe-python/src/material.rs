@@ -19,12 +19,11 @@ use crate::saving;
 use crate::tasks;
 use crate::threads;
 
-/// A measured material, in the form in which it was measured: nothing is resampled.
+/// A measured material, in the representation in which it was measured: nothing is resampled.
 ///
-/// Directions are unit vectors away from the surface, normal on +z: wi to the light, wo to the viewer. Values are f in 1/sr,
-/// without the cosine, one per channel. Materials do not change, and threads may share one.
-///
-/// open(), from_bytes() and from_samples() make them.
+/// Directions are unit vectors away from the surface, normal on +z: wi to the light, wo to the viewer. Values are f in
+/// 1/sr, without the cosine, one per channel. Materials do not change, and threads may share one. Use open(),
+/// from_bytes() or from_samples() to get one.
 #[pyclass(frozen, module = "lobe_bsdf")]
 pub struct Material {
     opened: Opened,
@@ -44,7 +43,7 @@ impl Material {
         PyTuple::new(py, self.opened.material.channels().names())
     }
 
-    /// The wavelength of each channel in nm, as an array, or None if channels are no wavelengths.
+    /// The wavelength of each channel in nm, as an array, or None if channels are not wavelengths.
     #[getter]
     fn wavelengths<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
         self.opened.material.wavelengths().map(|wavelengths| PyArray1::from_slice(py, wavelengths))
@@ -62,56 +61,56 @@ impl Material {
         self.opened.material.format()
     }
 
-    /// What the header of the file says: pairs of names and values in its order.
+    /// The facts in the header of the file: pairs of names and values, in the order of the file.
     #[getter]
     fn facts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         PyTuple::new(py, self.opened.material.source().iter().map(|(name, value)| (name, value)))
     }
 
-    /// What the reader made of a file that leaves something open, in sentences.
+    /// The assumptions that the reader made because facts were missing in the file, in sentences.
     #[getter]
     fn notes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         PyTuple::new(py, &self.opened.subject.document.notes)
     }
 
-    /// What was measured: some of "reflection front", "transmission front", "reflection back" and "transmission back".
+    /// The measurements: some of "reflection front", "transmission front", "reflection back" and "transmission back".
     #[getter]
     fn aspects<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         PyTuple::new(py, self.opened.subject.aspects().iter().map(ToString::to_string))
     }
 
-    /// Whether values do not depend on the rotation of the sample.
+    /// True if values do not depend on the rotation of the sample.
     #[getter]
     fn is_isotropic(&self) -> bool {
         self.opened.material.is_isotropic()
     }
 
-    /// The name of the backend that evaluates.
+    /// The name of the backend that evaluates the material.
     #[getter]
     fn backend(&self) -> &'static str {
         self.opened.material.backend().name()
     }
 
-    /// Whether values are the same bits on all machines.
+    /// True if values have the same bits on all machines.
     #[getter]
     fn strict(&self) -> bool {
         self.opened.material.backend().is_strict()
     }
 
-    /// Bytes of memory that the prepared data take.
+    /// Bytes of memory of the prepared data.
     #[getter]
     fn nbytes(&self) -> usize {
         self.opened.material.bytes()
     }
 
-    /// How far it is from the material that it was resampled from; None if it was not.
+    /// The difference from the material from which this one was resampled; None if it was not resampled.
     #[getter]
     fn resampling<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         self.opened.resampling.as_ref().map(|found| resampling::shown(py, found)).transpose()
     }
 
-    /// The measured values as arrays, under the names of the arguments of from_samples(). ValueError if the representation is
-    /// neither a grid of four angles nor scattered samples.
+    /// The measured values as arrays, under the names of the arguments of from_samples(). Raises ValueError if the
+    /// representation is neither a grid of four angles nor scattered samples.
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let found = PyDict::new(py);
         match arrays(py, &self.opened.subject.document, &found)? {
@@ -152,8 +151,8 @@ impl Material {
         Ok(result)
     }
 
-    /// The Mueller matrices in 1/sr for light from wi to wo at a wavelength in nm, as float64 of shape (..., 4, 4), in the
-    /// Stokes frames of the Kaist database. ValueError if the material knows no polarisation.
+    /// The Mueller matrices in 1/sr for light from wi to wo at a wavelength in nm, as float64 of shape (..., 4, 4), in
+    /// the Stokes frames of the Kaist database. Raises ValueError if the material has no polarisation.
     fn mueller<'py>(
         &self,
         py: Python<'py>,
@@ -167,7 +166,7 @@ impl Material {
         let (wi, wo) = (wi.directions()?, wo.directions()?);
         if self.opened.material.mueller([0.0, 0.0, 1.0], [0.0, 0.0, 1.0], wavelength).is_none() {
             let found = self.opened.material.kind();
-            return Err(PyValueError::new_err(format!("found {found}; expected a material that knows polarisation")));
+            return Err(PyValueError::new_err(format!("found {found}; expected a material with polarisation")));
         }
         let mut values = Vec::new();
         let material = &self.opened.material;
@@ -181,17 +180,16 @@ impl Material {
         PyArray1::from_vec(py, values).reshape(shape)
     }
 
-    /// What draws directions in proportion to luminance times f times cosine. Building it takes a while.
-    ///
-    /// `defensive` is the part of every distribution that is a cosine; `luminance` is how much each channel counts, by default
-    /// by what it means.
+    /// A sampler, which samples directions in proportion to luminance times f times cosine. Building it takes a while.
+    /// `defensive` is the cosine-weighted share of every distribution; `luminance` is the weight of each channel, by
+    /// default according to its meaning.
     #[pyo3(signature = (*, defensive=0.05, luminance=None))]
     fn sampler(slf: Bound<'_, Self>, defensive: f32, luminance: Option<Vec<f32>>) -> PyResult<Sampler> {
         let material = slf.get().opened.material.clone();
         Sampler::build(slf.into_any(), material, defensive, luminance)
     }
 
-    /// The directions of the light that were measured: an array of shape (n, 2) of polar angles and azimuths in radians.
+    /// The measured directions of the light: an array of shape (n, 2) of polar angles and azimuths in radians.
     #[pyo3(signature = (*, scatter=None, side=None))]
     fn incidences<'py>(
         &self,
@@ -208,8 +206,8 @@ impl Material {
     /// The albedo for light at polar angles theta and azimuths phi in radians, arrays that broadcast: the integral of f times
     /// cosine over the hemisphere, as float64 of shape (..., channels).
     ///
-    /// `tolerance` is the absolute error to aim for. With `errors`, the result is a pair, and its second part is the estimated
-    /// error of each integral, of shape (...). `scatter` and `side` say which measurement of a sheet is meant.
+    /// `tolerance` is the absolute error to aim for. With `errors`, the result is a pair, and its second part is the
+    /// estimated error of each integral, of shape (...). `scatter` and `side` select a measurement of a sheet.
     #[pyo3(signature = (theta, phi=None, *, scatter=None, side=None, tolerance=1e-4, errors=false))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
     fn albedo<'py>(
@@ -226,13 +224,14 @@ impl Material {
         operations::albedo(py, &self.opened.subject, aspect, [Some(theta), phi], tolerance, errors)
     }
 
-    /// Checks the measurement: values, knots, coverage, energy, reciprocity and more. A list of Finding.
+    /// Checks the measurement: values, knots, coverage, energy, reciprocity and more. Returns a list of Finding.
     fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         operations::check(py, &self.opened.subject)
     }
 
-    /// How far another material is from this one, over `pairs` pairs of directions with polar angles up to `limit` in radians:
-    /// a Difference. Materials with the same channels are compared in these, others in CIE XYZ.
+    /// Compares another material with this one, over `pairs` pairs of directions with polar angles up to `limit` in
+    /// radians. Returns a Difference. Materials with the same channels are compared in these channels, others in CIE
+    /// XYZ.
     #[pyo3(signature = (other, *, scatter=None, side=None, pairs=100_000, limit=operations::LIMIT))]
     fn compare<'py>(
         &self,
@@ -255,11 +254,11 @@ impl Material {
         )
     }
 
-    /// A table in specular coordinates of this material, whose attribute `resampling` says how far it is from it.
+    /// Resamples this material to a table in specular coordinates, whose attribute `resampling` is the difference.
     ///
-    /// Axes that are not given, in radians, get the knots that keep the interpolation error below `error`, relative to the
-    /// largest value, or with `per_value` to each value above a thousandth of that. Without `error`, 0.01 is aimed at. Errors
-    /// count up to polar angles of `limit`. ValueError if an `error` that is given cannot be met.
+    /// Axes that are not given, in radians, get the knots that keep the interpolation error below `error`, relative to
+    /// the largest value, or with `per_value` to each value above a thousandth of that. The default of `error` is 0.01,
+    /// as an aim. Errors count up to polar angles of `limit`. Raises ValueError if a given `error` cannot be met.
     #[pyo3(signature = (error=None, *, sigma=None, psi=None, theta=None, phi=None, per_value=false, limit=resampling::LIMIT,
         scatter=None, side=None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
@@ -281,12 +280,11 @@ impl Material {
         resampling::resample(py, &self.opened, aspect, wanted).map(Material::from)
     }
 
-    /// Writes a file of the format, which the name of the file says if `format` does not (see formats()): the values and knots as
-    /// they are, if the format has such. Otherwise that is an error, unless `resample` is true: then the material is measured at the
-    /// nodes of the format, and compare() says how far what was written is from it.
-    ///
-    /// `channel` is the one to write, if the format has one only, and `scatter`, "reflection" or "transmission", what to write of a
-    /// material that has both.
+    /// Writes a file. Its format is `format` (see formats()), or given by the extension of the file name. The values
+    /// and knots are written unchanged if the format has their representation. Otherwise this is an error, unless
+    /// `resample` is true: then the material is evaluated at the nodes of the format, and compare() gives the
+    /// difference. `channel` is the channel to write if the format has only one, and `scatter`, "reflection" or
+    /// "transmission", the measurement to write of a material that has both.
     #[pyo3(signature = (path, format=None, *, channel=None, resample=false, scatter=None))]
     fn save(
         &self,
@@ -302,7 +300,7 @@ impl Material {
         saving::save(py, &self.opened.subject, &path, &wanted)
     }
 
-    /// Nothing about it can change, so that it is its own copy.
+    /// It is immutable, so it is its own copy.
     fn __copy__(slf: Py<Self>) -> Py<Self> {
         slf
     }

@@ -1,4 +1,4 @@
-//! A material with all that it was made of, prepared without the lock of the interpreter.
+//! A material with its origin, prepared without the lock of the interpreter.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -14,25 +14,25 @@ use crate::errors::Failure;
 use crate::options::{Choices, Chosen};
 use crate::threads;
 
-/// A material, and what is needed to know of its origin.
+/// A material and its origin.
 pub struct Opened {
     /// The data, and the material for the operations.
     pub subject: Arc<Subject>,
     /// The same material.
     pub material: Arc<lobe::Material>,
-    /// Where the data are found again.
+    /// The source of the data.
     pub content: Content,
     /// How it is evaluated.
     pub choices: Choices,
-    /// How far it is from what it was resampled from.
+    /// The difference from the material from which it was resampled.
     pub resampling: Option<Resampling>,
 }
 
 impl Opened {
-    /// The material of a document, and of the file that it was read from, if there is one. Says what is guessed of it.
+    /// The material of a document, and of the file from which it was read, if there is one. Warns about guesses.
     ///
     /// # Errors
-    /// If the document is no material, or does not go with the choices.
+    /// If the document is not a material, or does not fit the options.
     pub fn new(
         py: Python<'_>,
         file: Option<&Path>,

@@ -20,7 +20,7 @@ use crate::threads;
 /// The polar angle up to which materials are compared: 85 degrees.
 pub const LIMIT: f64 = 85.0 * std::f64::consts::PI / 180.0;
 
-/// Pixels across the spheres that are compared to the eye.
+/// Pixels across the spheres that are compared visually.
 const PIXELS: usize = 128;
 
 /// A class of `lobe_bsdf/_results.py`.
@@ -47,8 +47,9 @@ pub fn albedo<'py>(
         return Err(PyValueError::new_err(format!("tolerance: found {tolerance}; expected a number above 0")));
     }
     if subject.is_in_plane(aspect) {
-        let message =
-            format!("found {aspect} in the plane of incidence only; expected a hemisphere, which an albedo needs");
+        let message = format!(
+            "found {aspect} measured only in the plane of incidence; expected a hemisphere, which an albedo needs"
+        );
         return Err(PyValueError::new_err(message));
     }
     let angles = |given: Option<&Bound<'py, PyAny>>, name| match given {
@@ -90,7 +91,7 @@ pub fn albedo<'py>(
     }
 }
 
-/// What a check finds.
+/// The findings of a check.
 ///
 /// # Errors
 /// `KeyboardInterrupt`.
@@ -113,7 +114,7 @@ pub fn check<'py>(py: Python<'py>, subject: &Arc<Subject>) -> PyResult<Bound<'py
     Ok(list.into_any())
 }
 
-/// How far two materials are apart.
+/// The difference between two materials.
 ///
 /// # Errors
 /// `ValueError` if the channels differ and have no colour, or the limit makes no sense.
@@ -127,7 +128,7 @@ pub fn compare<'py>(
     let is_sound = limit > 0.0 && limit < FRAC_PI_2;
     if !is_sound || pairs == 0 {
         return Err(PyValueError::new_err(format!(
-            "found a limit of {limit} rad and {pairs} pairs; expected a limit between 0 and pi/2, and at least a pair"
+            "found a limit of {limit} rad and {pairs} pairs; expected a limit between 0 and pi/2, and at least one pair"
         )));
     }
     let (a, b) = (&first.material, &second.material);
@@ -155,7 +156,7 @@ pub fn compare<'py>(
 /// A pair of directions.
 ///
 /// # Errors
-/// If memory is short.
+/// If there is not enough memory.
 pub fn directions<'py>(py: Python<'py>, [wi, wo]: [[f64; 3]; 2]) -> PyResult<Bound<'py, PyTuple>> {
     PyTuple::new(py, [PyTuple::new(py, wi)?, PyTuple::new(py, wo)?])
 }

@@ -1,4 +1,4 @@
-//! What a file leaves open, and the backend, from keyword arguments.
+//! Keyword arguments for the backend, and for facts that are missing in a file.
 
 use lobe::{Backend, Decode, Edges, Given, Lookup, Options};
 use lobe_formats::reading::parse_columns;
@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 
 use crate::errors::Failure;
 
-/// The words for each of some choices.
+/// The words for each of several choices.
 type Words<T> = &'static [(&'static str, T)];
 
 const EDGES: Words<fn() -> Edges> =
@@ -20,7 +20,7 @@ const GIVEN: Words<Given> = &[("light", Given::Light), ("viewer", Given::Viewer)
 /// The choice that a word stands for.
 ///
 /// # Errors
-/// `ValueError` with the words that there are.
+/// `ValueError` with the allowed words.
 pub fn word<T: Copy>(argument: &str, found: &str, words: &[(&'static str, T)]) -> PyResult<T> {
     let known = words.iter().find(|(word, _)| *word == found).map(|(_, choice)| *choice);
     known.ok_or_else(|| {
@@ -29,7 +29,7 @@ pub fn word<T: Copy>(argument: &str, found: &str, words: &[(&'static str, T)]) -
     })
 }
 
-/// The direction that is given.
+/// The given direction.
 ///
 /// # Errors
 /// `ValueError` if it is neither.
@@ -40,7 +40,7 @@ pub fn given(found: &str) -> PyResult<Given> {
 /// The backend of this name, or the detected one.
 ///
 /// # Errors
-/// `ValueError` if this machine has none of that name.
+/// `ValueError` if this machine has no backend of this name.
 pub fn backend(name: Option<&str>, strict: bool) -> PyResult<Backend> {
     let found = match name {
         Some(name) => Backend::named(name),
@@ -50,7 +50,7 @@ pub fn backend(name: Option<&str>, strict: bool) -> PyResult<Backend> {
     Ok(if strict { found.strict() } else { found })
 }
 
-/// How a material is evaluated: as it was asked for, so that a copy of it can be.
+/// How a material is evaluated, as given by the caller, so that a copy can use the same.
 #[derive(Clone, Debug)]
 pub struct Choices {
     backend: Option<String>,
@@ -61,12 +61,12 @@ pub struct Choices {
     decode: String,
 }
 
-/// The same, understood.
+/// The same, parsed.
 #[derive(Clone, Debug)]
 pub struct Chosen {
     /// How data are prepared.
     pub options: Options,
-    /// What evaluates.
+    /// The backend.
     pub backend: Backend,
 }
 
@@ -90,10 +90,10 @@ impl Choices {
         Choices { edges, ..Choices::new(self.backend.clone(), self.strict, "clamp", "nearest", "light", "raw") }
     }
 
-    /// What the words mean.
+    /// Parses the words.
     ///
     /// # Errors
-    /// `ValueError` for a word that is none of those expected.
+    /// `ValueError` for an unexpected word.
     pub fn chosen(&self) -> PyResult<Chosen> {
         let options = Options {
             edges: word("edges", &self.edges, EDGES)?(),
@@ -104,10 +104,10 @@ impl Choices {
         Ok(Chosen { options, backend: backend(self.backend.as_deref(), self.strict)? })
     }
 
-    /// Refuses what would make no difference: whoever asks for it expects one.
+    /// Refuses options that would make no difference, because the caller expects one.
     ///
     /// # Errors
-    /// If no part of the document looks at an option that is not the default.
+    /// If no part of the document uses an option that is not the default.
     pub fn check(&self, document: &Document) -> Result<(), Failure> {
         let uses = document.uses();
         let check = |option: &str, is_given: bool, applies: bool, expected: &str| match is_given && !applies {
@@ -120,10 +120,10 @@ impl Choices {
         check("decode", self.decode != "raw", uses.decode, "a material of the UTIA database")
     }
 
-    /// The keyword arguments again, those that are not the default.
+    /// The keyword arguments that are not the default.
     ///
     /// # Errors
-    /// If memory is short.
+    /// If there is not enough memory.
     pub fn keywords<'py>(&self, keywords: &Bound<'py, pyo3::types::PyDict>) -> PyResult<()> {
         if let Some(backend) = &self.backend {
             keywords.set_item("backend", backend)?;
@@ -144,7 +144,7 @@ impl Choices {
     }
 }
 
-/// What a file leaves open, as on the command line.
+/// Facts missing in a file, as on the command line.
 #[derive(FromPyObject)]
 pub enum Factor {
     /// A number.
@@ -153,7 +153,7 @@ pub enum Factor {
     Word(String),
 }
 
-/// The keyword arguments that say what a file leaves open.
+/// The keyword arguments that give facts missing in a file.
 #[derive(Default)]
 pub struct Reading {
     pub columns: Option<String>,
@@ -167,7 +167,7 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// What they mean.
+    /// Parses them.
     ///
     /// # Errors
     /// `ValueError` with what was expected.
@@ -197,7 +197,7 @@ impl Reading {
 /// The keyword arguments for options of reading.
 ///
 /// # Errors
-/// If memory is short.
+/// If there is not enough memory.
 pub fn reading_keywords(options: &ReadOptions, keywords: &Bound<'_, pyo3::types::PyDict>) -> PyResult<()> {
     if !options.columns.is_empty() {
         let columns: Vec<String> = options.columns.iter().map(ToString::to_string).collect();

@@ -66,13 +66,13 @@ impl Picture {
         self.vectors(py, self.film.pixels().iter().map(Pixel::mean_normal))
     }
 
-    /// The distance to the nearest surface in the pixel, infinite if there is none, (height, width).
+    /// The distance to the nearest surface in the pixel, (height, width); infinite if there is none.
     #[getter]
     fn depth<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
         self.plane(py, Pixel::depth)
     }
 
-    /// The number of the material there, counted from 1, (height, width).
+    /// The index of its material, counted from 1, (height, width).
     #[getter]
     fn material<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u32>>> {
         self.plane(py, |pixel| pixel.material)
@@ -84,7 +84,7 @@ impl Picture {
         self.plane(py, |pixel| pixel.samples)
     }
 
-    /// The pixels of the whole picture that these are: x, y, width and height.
+    /// The window of the whole picture that this is: x, y, width and height.
     #[getter]
     fn window(&self) -> (u32, u32, u32, u32) {
         let Rect { x, y, width, height } = self.film.window();
@@ -97,14 +97,15 @@ impl Picture {
         (self.meta.size[0], self.meta.size[1])
     }
 
-    /// Whether every pixel has all the samples that were asked for.
+    /// True if every pixel has all the requested samples.
     #[getter]
     fn is_finished(&self) -> bool {
         self.film.samples().0 >= self.meta.samples.end - self.meta.samples.start
     }
 
-    /// Writes an EXR or PNG file, the same as lobe render does. With `partial`, an EXR file has the exact sums too, from which
-    /// merge() and `lobe merge` put pictures together. `exposure` is for PNG, in stops; that of the scene is the default.
+    /// Writes an EXR or PNG file, like `lobe render`. With `partial`, an EXR file also has the exact sums, from which
+    /// merge() and `lobe merge` put pictures together. `exposure` is for PNG, in stops; the default is the exposure of
+    /// the scene.
     #[pyo3(signature = (path, *, partial=false, exposure=None))]
     fn save(&self, py: Python<'_>, path: PathBuf, partial: bool, exposure: Option<f32>) -> PyResult<()> {
         let is = |extension: &str| path.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension));
@@ -112,7 +113,7 @@ impl Picture {
         check_output::<&Path>(&path, &[]).map_err(Failure::from)?;
         let written = match (is("exr"), is("png")) {
             (true, _) if exposure.is_some() => {
-                return wrong("found an exposure, but EXR holds radiances as they are; expected .png");
+                return wrong("found an exposure, but EXR holds unchanged radiances; expected .png");
             }
             (true, _) => py.detach(|| write_exr(&path, &self.film, &self.meta, partial)),
             (_, true) if partial => return wrong("found a PNG file; expected .exr, which holds exact sums"),
@@ -132,7 +133,7 @@ impl Picture {
     }
 }
 
-/// What of a scene is rendered.
+/// The part of a scene to render.
 #[derive(Clone, Debug, Default)]
 struct Wanted {
     samples: Option<u32>,
@@ -143,10 +144,10 @@ struct Wanted {
     is_timed: bool,
 }
 
-/// With a time limit only, there is no other limit.
+/// If only a time limit is given, there is no other limit.
 const UNLIMITED: u32 = 1 << 20;
 
-/// What a rendering of a scene is, as its files say.
+/// The description of a rendering of a scene, as in its files.
 fn planned(scene: &Scene, wanted: &Wanted, backend: lobe::Backend) -> Result<Meta, Failure> {
     let range = wanted.samples_range.clone();
     let total = match wanted.samples {
@@ -157,7 +158,7 @@ fn planned(scene: &Scene, wanted: &Wanted, backend: lobe::Backend) -> Result<Met
     let samples = range.unwrap_or(0..total);
     if samples.is_empty() || samples.end > total {
         return Err(Failure::Value(format!(
-            "samples_range: found {} to {}; expected a range that is not empty, up to {total} at most",
+            "samples_range: found {} to {}; expected a range that is not empty, up to at most {total}",
             samples.start, samples.end
         )));
     }
@@ -217,12 +218,11 @@ fn opened(py: Python<'_>, scene: &Path, backend: lobe::Backend) -> PyResult<Scen
     Ok(threads::watched(py, open)?.map_err(Failure::Scene)?)
 }
 
-/// Renders a scene file: a Picture.
-///
-/// `samples` per pixel, the pixels `crop` = (x0, y0, x1, y1) and the `integrator` are those of the scene unless they are given.
-/// For parts of pictures, `tile` = (i, n) renders part i of n, counted from 1, and `samples_range` = (a, b) only those samples.
-/// `time` in seconds ends the rendering, but every pixel gets a sample in any case. The picture does not depend on `threads`, and
-/// with `strict` not on the machine.
+/// Renders a scene file and returns a Picture. `samples` per pixel, the pixels `crop` = (x0, y0, x1, y1) and the
+/// `integrator` are taken from the scene unless given. For parts of pictures, `tile` = (i, n) renders part i of n,
+/// counted from 1, and `samples_range` = (a, b) only these samples. `time` in seconds ends the rendering, but every
+/// pixel gets at least one sample. The picture does not depend on `threads`, and with `strict` it does not depend on
+/// the machine.
 ///
 /// `progress(done, total)` is called about ten times a second; if it returns False, the picture so far is returned. Ctrl-C raises
 /// KeyboardInterrupt.
@@ -302,9 +302,9 @@ fn false_of(py: Python<'_>) -> Bound<'_, PyAny> {
     pyo3::types::PyBool::new(py, false).to_owned().into_any()
 }
 
-/// Puts the files of parts of a picture together, the same bits as if it were rendered at once: a Picture.
-///
-/// ValueError if parts are of different pictures, or if samples are missing, unless `allow_gaps`, or there twice.
+/// Puts the files of parts of a picture together and returns a Picture, with the same bits as if it had been rendered
+/// in one go. Raises ValueError if parts belong to different pictures, if samples occur twice, or if samples are
+/// missing, unless `allow_gaps` is true.
 #[pyfunction]
 #[pyo3(signature = (parts, *, allow_gaps=false))]
 pub fn merge(py: Python<'_>, parts: Vec<PathBuf>, allow_gaps: bool) -> PyResult<Picture> {
@@ -313,8 +313,8 @@ pub fn merge(py: Python<'_>, parts: Vec<PathBuf>, allow_gaps: bool) -> PyResult<
     Ok(Picture { film, meta })
 }
 
-/// Which files are finished parts of the picture that render() makes of the scene with these arguments: file i of n, counted from 1,
-/// is to be part `tile` = (i, n), saved with `partial`. A list of as many truth values.
+/// Checks which files are finished parts of the picture that render() makes of the scene with these arguments: file i
+/// of n, counted from 1, must be part `tile` = (i, n), saved with `partial`. Returns a list with one bool per file.
 #[pyfunction]
 #[pyo3(signature = (paths, scene, *, samples=None, integrator=None, backend=None, strict=false))]
 pub fn finished_parts(
@@ -334,7 +334,7 @@ pub fn finished_parts(
     for (part, path) in (1..).zip(&paths) {
         let wanted = Wanted { samples, tile: Some((part, parts)), integrator: integrator.clone(), ..Wanted::default() };
         let meta = planned(&scene, &wanted, backend)?;
-        // What an interrupted rendering leaves has the same description, but not all samples.
+        // The file of an interrupted rendering has the same description, but not all samples.
         let is_whole = |film: &Film| film.samples().0 >= meta.samples.end - meta.samples.start;
         let is_part = inspect(path).is_ok_and(|found| found.has_sums && found.meta == meta)
             && read_partial(path).is_ok_and(|(film, _)| is_whole(&film));

@@ -1,4 +1,4 @@
-//! Any material into a table in specular coordinates.
+//! Resamples any material to a table in specular coordinates.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
@@ -19,10 +19,10 @@ use crate::threads::{self, Watch};
 
 /// The polar angle up to which errors count: 80 degrees.
 pub const LIMIT: f64 = 80.0 * PI / 180.0;
-/// The error that is aimed at.
+/// The default bound of the error.
 const ERROR: f64 = 0.01;
 
-/// What table is wanted.
+/// The requested table.
 pub struct Wanted {
     pub error: Option<f64>,
     pub per_value: bool,
@@ -31,10 +31,10 @@ pub struct Wanted {
     pub axes: [Option<Vec<f64>>; 4],
 }
 
-/// Makes a table of a material.
+/// Resamples a material to a table.
 ///
 /// # Errors
-/// `ValueError` if the bound makes no sense or cannot be met, or the knots make no table.
+/// `ValueError` if the bound makes no sense or cannot be met, or the knots do not make a table.
 pub fn resample(py: Python<'_>, material: &Opened, aspect: Aspect, wanted: Wanted) -> PyResult<Opened> {
     let is_sound = wanted.limit > 0.0 && wanted.limit <= FRAC_PI_2;
     if !is_sound || wanted.error.is_some_and(|error| error.is_nan() || error <= 0.0) {
@@ -50,7 +50,7 @@ pub fn resample(py: Python<'_>, material: &Opened, aspect: Aspect, wanted: Wante
     let subject = &material.subject;
     let (table, found) = threads::watched(py, |watch| table(subject, aspect, wanted, watch))??;
     let document = Document { source: subject.document.source.clone(), ..Document::new(table) };
-    // What was asked for of the file does not concern the table.
+    // Options for the file do not apply to the table.
     let choices = material.choices.of_table();
     let made = Opened::new(py, None, Format::Ddr, document, choices, Content::Data)?;
     Ok(Opened { resampling: Some(found), ..made })
@@ -78,10 +78,10 @@ fn table(
         is_aim: wanted.error.is_none(),
     };
     let chosen = choose(&subject.material, aspect, &axes, bound, |_| watch.check()).map_err(Failure::value)?;
-    // Knots that are all given are what was wanted, whatever the error.
+    // If all knots are given, they are used whatever the error.
     if chosen.error > bound.error && wanted.error.is_some() && !is_all_given {
         return Err(Failure::Value(format!(
-            "error: the smallest that was reached is {:.4}; expected {} or less",
+            "error: the smallest one reached is {:.4}; expected {} or less",
             chosen.least, bound.error
         )));
     }
@@ -92,7 +92,7 @@ fn table(
 /// The error as an object of the package.
 ///
 /// # Errors
-/// If memory is short.
+/// If there is not enough memory.
 pub fn shown<'py>(py: Python<'py>, found: &Resampling) -> PyResult<Bound<'py, PyAny>> {
     let keywords = PyDict::new(py);
     keywords.set_item("probes", found.probes)?;

@@ -18,10 +18,9 @@ use crate::threads;
 
 type Floats<'py> = Bound<'py, PyArrayDyn<f32>>;
 
-/// Draws directions for a material in proportion to luminance times f times cosine.
-///
-/// Directions are unit vectors away from the surface, normal on +z; densities are per steradian. Material.sampler() makes
-/// them; threads may share one.
+/// Samples directions for a material in proportion to luminance times f times cosine. Directions are unit vectors away
+/// from the surface, normal on +z; densities are per steradian. Material.sampler() creates samplers; threads may share
+/// one.
 #[pyclass(frozen, module = "lobe_bsdf")]
 pub struct Sampler {
     sampler: lobe::Sampler,
@@ -31,7 +30,7 @@ pub struct Sampler {
 }
 
 impl Sampler {
-    /// Builds the distributions of a material, whose object is `owner`.
+    /// Builds the distributions of a material, whose Python object is `owner`.
     ///
     /// # Errors
     /// `ValueError` if the options make no sense for it.
@@ -58,17 +57,18 @@ impl Sampler {
         self.material.clone_ref(py)
     }
 
-    /// Bytes of memory that the distributions take in addition to the material.
+    /// Bytes of memory of the distributions, in addition to the material.
     #[getter]
     fn nbytes(&self) -> usize {
         self.sampler.bytes()
     }
 
-    /// Draws a direction for each direction w, which is that of the light if `given` is "light", or of the "viewer".
+    /// Samples a direction for each direction w, which is the direction of the light if `given` is "light", or of the
+    /// viewer if it is "viewer".
     ///
-    /// w is an array of unit vectors of shape (..., 3), u of numbers in [0, 1) of shape (..., 2); they broadcast. The result is
-    /// the directions (..., 3), their densities (...), and the weights (..., channels): f times cosine over the density. If a
-    /// draw leads nowhere, all three are 0; a mirror has an infinite density.
+    /// w is an array of unit vectors of shape (..., 3), u of numbers in [0, 1) of shape (..., 2); they broadcast. The
+    /// result is the directions (..., 3), their densities (...), and the weights (..., channels): f times cosine over
+    /// the density. If no direction was sampled, all three are 0; a mirror has an infinite density.
     #[pyo3(signature = (w, u, *, given="light"))]
     fn sample<'py>(
         &self,
@@ -98,8 +98,8 @@ impl Sampler {
         Ok((directions, pdfs, weights))
     }
 
-    /// The density per steradian with which sample() finds the direction that is not given, without mirrors: float32 of the
-    /// shape (...) that wi and wo, of shapes (..., 3), broadcast to.
+    /// The density per steradian with which sample() finds the direction that is not given, without mirrors. wi and wo
+    /// have shapes (..., 3) that broadcast; the result is float32 of shape (...).
     #[pyo3(signature = (wi, wo, *, given="light"))]
     fn pdf<'py>(
         &self,
@@ -123,7 +123,7 @@ impl Sampler {
         Ok(result)
     }
 
-    /// Nothing about it can change, so that it is its own copy.
+    /// It is immutable, so it is its own copy.
     fn __copy__(slf: Py<Self>) -> Py<Self> {
         slf
     }

@@ -18,7 +18,7 @@ use crate::opened::Opened;
 use crate::options::Choices;
 use crate::scattered::Scattered;
 
-/// What channels mean, as it is said.
+/// The meaning of channels, as given by the caller.
 #[derive(FromPyObject)]
 pub enum Meaning {
     /// `mono`, `rgb` or `xyz`.
@@ -27,7 +27,7 @@ pub enum Meaning {
     Names(Vec<String>),
 }
 
-/// The axes that were given, by their names.
+/// The given axes, by name.
 struct Axes<'py> {
     names: [&'static str; 4],
     given: [Option<Bound<'py, PyAny>>; 4],
@@ -39,7 +39,7 @@ impl Axes<'_> {
         self.given.iter().any(Option::is_some)
     }
 
-    /// An axis in radians; `None` if it was not given, which only azimuths need not be.
+    /// An axis in radians; `None` if it was not given, which is allowed only for azimuths.
     fn axis(&self, axis: usize) -> PyResult<Option<Vec<f64>>> {
         let name = self.names[axis];
         let Some(given) = &self.given[axis] else {
@@ -59,25 +59,23 @@ impl Axes<'_> {
     }
 }
 
-/// An angle in radians; the common ones exactly.
+/// An angle in radians; common ones are exact.
 fn degrees(angle: f64) -> f64 {
     if angle == 360.0 { TAU } else { angle.to_radians() }
 }
 
-/// A material of values f in 1/sr, without the cosine, at angles.
-///
-/// The axes that are given distinguish three kinds of data:
+/// A material from values f in 1/sr, without the cosine, at given angles. The given axes distinguish three kinds of
+/// data:
 ///
 /// - a table in specular coordinates: sigma, theta and phi, and psi unless the material is isotropic; values of shape
 ///   (sigma, psi, theta, phi[, channel]), or (sigma, theta, phi[, channel]) without psi;
-/// - a grid in spherical coordinates: theta_i, theta_o and phi_o, and phi_i unless the material is isotropic, when phi_o is the
-///   angle between the azimuths; values of shape (theta_i, phi_i, theta_o, phi_o[, channel]), or without phi_i;
-/// - scattered samples: theta_i, theta_o, phi_o, and phi_i unless it is 0, one of each per sample; values of shape (n,) or
-///   (n, channel).
-///
-/// Angles are in radians, or in degrees if `degrees` is true; the axes of grids ascend. Polar angles count from the normal on
-/// the side of their direction. `channels` is "mono", "rgb", "xyz" or a name per channel; or `wavelengths` has one in nm per
-/// channel. `facts` are pairs of names and values for people to read.
+/// - a grid in spherical coordinates: theta_i, theta_o and phi_o, and phi_i unless the material is isotropic; without
+///   phi_i, phi_o is the angle between the azimuths; values of shape (theta_i, phi_i, theta_o, phi_o[, channel]), or
+///   without phi_i;
+/// - scattered samples: theta_i, theta_o, phi_o, and phi_i unless it is 0, one of each per sample; values of shape (n,)
+///   or (n, channel). Angles are in radians, or in degrees if `degrees` is true; the axes of grids must ascend. Polar
+///   angles count from the normal on the side of their direction. `channels` is "mono", "rgb", "xyz" or one name per
+///   channel; or `wavelengths` has one wavelength in nm per channel. `facts` are pairs of names and values for readers.
 ///
 /// Raises ValueError if shapes, angles or values do not fit together, and names the axis and the position.
 #[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
@@ -120,11 +118,11 @@ pub fn from_samples<'py>(
     if specular.any() == spherical.any() {
         let found =
             if specular.any() { "both sigma, psi, theta, phi and theta_i, phi_i, theta_o, phi_o" } else { "no axes" };
-        return Err(PyTypeError::new_err(format!("found {found}; expected those of one system of coordinates")));
+        return Err(PyTypeError::new_err(format!("found {found}; expected the axes of one system of coordinates")));
     }
     let is_scattered = spherical.any() && shape.len() <= 2;
     if refraction.is_some() && !specular.any() {
-        return Err(PyTypeError::new_err("found refraction; expected it for tables in specular coordinates only"));
+        return Err(PyTypeError::new_err("found refraction; expected it only for tables in specular coordinates"));
     }
     let label = |channel_axis: Option<usize>| meaning(channels, wavelengths, channel_axis);
     let (data, content): (Data, Content) = if is_scattered {
@@ -216,7 +214,7 @@ fn scattered_samples(
     Ok(Scattered { scatter, channels: label(channel.first().copied())?, angles, values })
 }
 
-/// What the channels mean; without an axis of them there is one.
+/// The meaning of the channels; without an axis of channels there is one.
 fn meaning(channels: Option<Meaning>, wavelengths: Option<Vec<f64>>, axis: Option<usize>) -> PyResult<Channels> {
     let found = axis.unwrap_or(1);
     let meant = match (channels, wavelengths) {
@@ -226,7 +224,7 @@ fn meaning(channels: Option<Meaning>, wavelengths: Option<Vec<f64>>, axis: Optio
         (None, None) if found == 1 => Channels::Mono,
         (None, None) => {
             return Err(PyTypeError::new_err(format!(
-                "found {found} channels; expected channels= or wavelengths= with what they mean"
+                "found {found} channels; expected channels= or wavelengths= with their meaning"
             )));
         }
         (None, Some(wavelengths)) => Channels::Spectral(wavelengths),
@@ -247,8 +245,8 @@ fn meaning(channels: Option<Meaning>, wavelengths: Option<Vec<f64>>, axis: Optio
     };
     match meant.count() {
         expected if expected == found => Ok(meant),
-        expected => {
-            Err(PyValueError::new_err(format!("found {found} channels; expected {expected}, as they are named")))
-        }
+        expected => Err(PyValueError::new_err(format!(
+            "found {found} channels; expected {expected}, the number of their names"
+        ))),
     }
 }

@@ -1,4 +1,4 @@
-//! Materials into files.
+//! Writes materials to files.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -16,10 +16,10 @@ use pyo3::prelude::*;
 use crate::errors::Failure;
 use crate::threads::{self, Watch};
 
-/// The format to write: the one that is named, or that the extension says.
+/// The format to write: the given one, or the one of the extension.
 fn target(path: &Path, word: Option<&str>) -> Result<Format, Failure> {
     let wrong =
-        |why: String| Failure::Value(format!("{}: {why}; expected format= with the one to write", path.display()));
+        |why: String| Failure::Value(format!("{}: {why}; expected format= with the format to write", path.display()));
     if let Some(word) = word {
         let found = Format::writable().find(|format| format.spec().word == word);
         return found.ok_or_else(|| {
@@ -32,27 +32,27 @@ fn target(path: &Path, word: Option<&str>) -> Result<Format, Failure> {
     match Format::writable().filter(fits).collect::<Vec<_>>().as_slice() {
         [one] => Ok(*one),
         [] if extension.is_empty() => Err(wrong("found no extension".into())),
-        [] => Err(wrong(format!("found the extension .{extension}, which no format that lobe writes has"))),
+        [] => Err(wrong(format!("found the extension .{extension}, which belongs to no format that lobe writes"))),
         several => {
             let words: Vec<&str> = several.iter().map(|format| format.spec().word).collect();
-            Err(wrong(format!("found the extension .{extension}, which {} share", words.join(" and "))))
+            Err(wrong(format!("found the extension .{extension}, which is shared by {}", words.join(" and "))))
         }
     }
 }
 
-/// What is written.
+/// Options of writing.
 pub struct Wanted<'a> {
     /// The word for the format, if the name of the file does not say it.
     pub format: Option<&'a str>,
-    /// The channel of a format that has one only.
+    /// The channel for a format that has only one.
     pub channel: Option<&'a str>,
-    /// Whether values may be measured anew.
+    /// `true` if the material may be resampled.
     pub resample: bool,
-    /// What is measured of a sheet, for a format that has one of the two.
+    /// The measurement of a sheet, for a format that has only one of the two.
     pub scatter: Option<Scatter>,
 }
 
-/// Writes the values and knots as they are, or, if that is wanted, measured at the nodes of the format.
+/// Writes the values and knots unchanged or, if requested, resampled at the nodes of the format.
 ///
 /// # Errors
 /// `ValueError` if the format does not have their representation; `FormatError` if the file cannot be written.
@@ -61,7 +61,7 @@ pub fn save(py: Python<'_>, subject: &Arc<Subject>, path: &Path, wanted: &Wanted
     let sidecar = sidecar::path_of(path);
     if sidecar.exists() {
         return Err(PyValueError::new_err(format!(
-            "{}: found a file that says how another {} is read; expected none",
+            "{}: found a file that says how another {} is read; expected no such file",
             sidecar.display(),
             path.display()
         )));
@@ -88,12 +88,12 @@ fn written(subject: &Subject, format: Format, path: &Path, wanted: &Wanted<'_>, 
     };
     if !wanted.resample {
         return Err(Failure::Value(format!(
-            "{}: found {kind}, whose values {format} does not hold as they are; expected resample=True, which measures them \
-             at its nodes",
+            "{}: found {kind}, whose values {format} cannot hold unchanged; expected resample=True, which resamples \
+             them at its nodes",
             path.display()
         )));
     }
-    // Files interpolate between their nodes, and so does what they are made of.
+    // Files interpolate between their nodes, and so do the materials from which they are made.
     let options = Options { lookup: Lookup::Linear, ..Options::default() };
     let material = Material::from_document(&subject.document, &options)?.with_backend(subject.material.backend());
     let of_one_side = subject.document.only().filter(|data| !data.representation().is_two_sided());
@@ -106,8 +106,8 @@ fn written(subject: &Subject, format: Format, path: &Path, wanted: &Wanted<'_>, 
             match wanted.scatter.or((writer.scatter)(path)) {
                 Some(scatter) if held.contains(&Aspect::front(scatter)) => Sides::One(scatter),
                 None if held.len() == 1 => Sides::One(held[0].scatter),
-                Some(_) => return refuse("no such light from the front", "the scatter asked for"),
-                None => return refuse("reflection and transmission", "scatter= with one of them"),
+                Some(_) => return refuse("no such light from the front", "the requested scatter"),
+                None => return refuse("reflection and transmission", "scatter= with one of the two"),
             }
         }
     };

@@ -1,4 +1,4 @@
-//! Samples on no grid, as they were given.
+//! Scattered samples, as they were given.
 
 use lobe::{Channels, Scatter};
 use numpy::prelude::*;
@@ -23,7 +23,7 @@ impl Scattered {
     /// The arguments of `from_samples`.
     ///
     /// # Errors
-    /// If memory is short.
+    /// If there is not enough memory.
     pub fn arrays(&self, py: Python<'_>, into: &Bound<'_, PyDict>) -> PyResult<()> {
         for (axis, name) in lobe_table::spherical::AXIS_NAMES.into_iter().enumerate() {
             let angles: Vec<f64> = self.angles.iter().map(|angles| angles[axis]).collect();

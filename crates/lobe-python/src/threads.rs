@@ -1,4 +1,4 @@
-//! Work without the lock of the interpreter: on which threads, and how Ctrl-C ends it.
+//! Runs work on threads without the lock of the interpreter, so that Ctrl-C can end it.
 
 use std::any::Any;
 use std::ops::Range;
@@ -13,17 +13,15 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// Queries after which Ctrl-C is looked for.
+/// Number of queries between two checks for Ctrl-C.
 const CHUNK: usize = 1 << 22;
 
-/// How long Ctrl-C may go unnoticed.
+/// Longest time between two checks for Ctrl-C.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// The threads of this process.
-///
-/// A process that was forked, as those of `multiprocessing` may be, has none of the threads of its parent, so that a pool
-/// belongs to one process. The lock is taken and given back with that of the interpreter held, which a thread needs to fork:
-/// so it is never found taken in a new process.
+/// The threads of this process. A forked process, such as those of `multiprocessing` may be, has none of the threads of
+/// its parent, so a pool belongs to one process. The lock is only taken and released while the lock of the interpreter
+/// is held, which a thread also needs to fork, so it is never locked in a new process.
 static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
 
 fn pool(_py: Python<'_>) -> PyResult<Arc<ThreadPool>> {
@@ -37,19 +35,19 @@ fn pool(_py: Python<'_>) -> PyResult<Arc<ThreadPool>> {
     let made = ThreadPoolBuilder::new().build();
     let made = Arc::new(made.map_err(|error| PyRuntimeError::new_err(format!("no threads: {error}")))?);
     if let Some(of_parent) = pool.replace((process, made.clone())) {
-        // Its threads are not there to be joined.
+        // Its threads do not exist here, so they cannot be joined.
         std::mem::forget(of_parent);
     }
     Ok(made)
 }
 
-/// Why work has no result.
+/// The reason why work has no result.
 enum Ended {
     Raised(PyErr),
     Panicked(Box<dyn Any + Send>),
 }
 
-/// A mistake of ours, which must not end the interpreter.
+/// A bug in lobe, which must not end the interpreter.
 fn raised(ended: Ended) -> PyErr {
     match ended {
         Ended::Raised(error) => error,
@@ -64,9 +62,9 @@ fn raised(ended: Ended) -> PyErr {
 /// Runs `work` for consecutive ranges of `count` queries, which it may share among threads, without the lock.
 ///
 /// # Errors
-/// `KeyboardInterrupt` between two ranges, and if something panics.
+/// `KeyboardInterrupt` between two ranges, and an error if something panics.
 pub fn batches(py: Python<'_>, count: usize, mut work: impl FnMut(Range<usize>) + Send) -> PyResult<()> {
-    // What is not shared needs no threads.
+    // Work that is not shared needs no threads.
     let pool = if count >= PARALLEL_FROM { Some(pool(py)?) } else { None };
     let done = py.detach(|| {
         let mut at = 0;
@@ -87,16 +85,16 @@ pub fn batches(py: Python<'_>, count: usize, mut work: impl FnMut(Range<usize>) 
     done.map_err(raised)
 }
 
-/// Whether work is still wanted.
+/// Tells work whether it should continue.
 #[derive(Debug)]
 pub struct Watch(AtomicBool);
 
-/// What work unwinds with if it is not wanted any more.
+/// The payload with which cancelled work unwinds.
 struct Unwanted;
 
 impl Watch {
-    /// Ends the work if it is not wanted any more: to be called from time to time, for example as progress. It unwinds as a
-    /// panic does, through code that knows nothing of it, but says nothing.
+    /// Ends the work if it was cancelled. It must be called from time to time, for example as progress. It unwinds like
+    /// a panic, through code that knows nothing about it, but prints nothing.
     pub fn check(&self) {
         if self.0.load(Ordering::Relaxed) {
             resume_unwind(Box::new(Unwanted));
@@ -104,10 +102,10 @@ impl Watch {
     }
 }
 
-/// Runs work that takes a while on other threads, without the lock, while this one looks for Ctrl-C.
+/// Runs long work on other threads, without the lock, while this thread checks for Ctrl-C.
 ///
 /// # Errors
-/// `KeyboardInterrupt`, as soon as the work looks at its [`Watch`]; and if something panics.
+/// `KeyboardInterrupt`, as soon as the work checks its [`Watch`], and an error if something panics.
 pub fn watched<T: Send>(py: Python<'_>, work: impl FnOnce(&Watch) -> T + Send) -> PyResult<T> {
     let pool = pool(py)?;
     let watch = Watch(AtomicBool::new(false));
@@ -117,7 +115,7 @@ pub fn watched<T: Send>(py: Python<'_>, work: impl FnOnce(&Watch) -> T + Send) -
             let (pool, watch) = (&pool, &watch);
             let thread = std::thread::Builder::new().spawn_scoped(scope, move || {
                 let done = catch_unwind(AssertUnwindSafe(|| pool.install(|| work(watch))));
-                // Whoever waits for it waits until it is sent.
+                // The receiver waits until it is sent.
                 let _ = sender.send(done);
             });
             if let Err(error) = thread {

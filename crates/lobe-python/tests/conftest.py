@@ -1,4 +1,4 @@
-"""What the tests share: files of the repository, measured files that are not part of it, and the program."""
+"""Shared by the tests: files of the repository, measured files that are not part of it, and the program."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def shared():
 
 @pytest.fixture(scope="session")
 def program() -> str:
-    """The program `lobe`, which LOBE_PROGRAM names, or a build of it."""
+    """The program `lobe`: the one named by LOBE_PROGRAM, or a build of it."""
     builds = [REPOSITORY / "target" / profile / "lobe" for profile in ("release", "debug")]
     builds = sorted((build for build in builds if build.exists()), key=lambda build: -build.stat().st_mtime)
     found = os.environ.get("LOBE_PROGRAM") or (str(builds[0]) if builds else shutil.which("lobe"))
@@ -53,7 +53,7 @@ def program() -> str:
 
 
 def directions(count: int, seed: int = 0, up: bool = True) -> np.ndarray:
-    """Unit vectors, evenly over the sphere or over its upper half."""
+    """Unit vectors, distributed evenly over the sphere or over its upper half."""
     v = np.random.default_rng(seed).normal(size=(count, 3))
     if up:
         v[:, 2] = np.abs(v[:, 2]) + 1e-3

@@ -125,7 +125,7 @@ def test_out_must_fit(conductor):
         ([0, 0, 2], ValueError, "of length 2; expected unit vectors"),
     ],
 )
-def test_what_are_no_directions_is_refused(conductor, value, error, words):
+def test_arrays_that_are_not_directions_are_refused(conductor, value, error, words):
     with pytest.raises(error, match=words):
         conductor.eval(value, [0, 0, 1])
 
@@ -142,13 +142,13 @@ def test_lengths_are_checked_far_into_a_batch(conductor):
         conductor.eval(wi, wi * np.float32(1.1))
 
 
-def test_no_direction_and_nan_are_no_errors(conductor):
+def test_zero_vectors_and_nan_are_accepted(conductor):
     wi = np.array([[0, 0, 0], [np.nan, 0, 1], [0, 0, 1]], np.float32)
     f = conductor.eval(wi, [0, 0, 1])
     assert (f[0] == 0).all() and (f[2] > 0).all()
 
 
-def test_integers_are_numbers(conductor):
+def test_integers_are_accepted(conductor):
     assert (conductor.eval([0, 0, 1], np.array([0, 0, 1], np.int8)) > 0).all()
 
 

@@ -1,4 +1,4 @@
-"""Strict values are the bits of the program, on every representation that there is a file of."""
+"""Strict values have the bits of the program, for every representation with a file."""
 
 import subprocess
 
@@ -24,7 +24,7 @@ FILES = [
 
 @pytest.mark.filterwarnings("ignore::lobe_bsdf.GuessWarning")
 @pytest.mark.parametrize("name", FILES)
-def test_values_are_those_of_the_program(fixtures, shared, program, tmp_path, name):
+def test_values_agree_with_the_program(fixtures, shared, program, tmp_path, name):
     file = fixtures.parent / name if name.startswith("fixtures") else shared(name)
     v = np.random.default_rng(11).normal(size=(2, 20_000, 3))
     pairs = tmp_path / "pairs.csv"

@@ -1,4 +1,4 @@
-"""Pickles, and the processes that they are sent to."""
+"""Pickles, and the processes to which they are sent."""
 
 import copy
 import multiprocessing
@@ -30,9 +30,9 @@ def test_a_pickle_has_the_content_of_the_file(fixtures, tmp_path):
     file.unlink()
     again = pickle.loads(pickled)
     assert same(material, again) and again.backend == "scalar" and again.format == material.format
-    # From memory, it is pickled again.
+    # A material from memory can be pickled again.
     assert same(pickle.loads(pickle.dumps(again)), material)
-    with pytest.raises(ValueError, match="expected the file that the material was made of"):
+    with pytest.raises(ValueError, match="expected the file from which the material was read"):
         pickle.dumps(material)
 
 
@@ -41,7 +41,7 @@ def test_a_file_that_has_changed_is_not_pickled(fixtures, tmp_path):
     file.write_bytes((fixtures / "paint-12x21x13.ddr").read_bytes())
     material = lobe_bsdf.open(file)
     file.write_bytes((fixtures / "conductor-7x8x13.ddr").read_bytes())
-    with pytest.raises(ValueError, match="written later"):
+    with pytest.raises(ValueError, match="changed since"):
         pickle.dumps(material)
 
 
@@ -84,7 +84,7 @@ def evaluated(material):
 
 @pytest.mark.parametrize("method", multiprocessing.get_all_start_methods())
 def test_other_processes_evaluate_large_batches(conductor, method):
-    # This one has threads by now, which those that are forked do not get.
+    # This process has threads by now, which forked processes do not get.
     expected = evaluated(conductor)
     with warnings.catch_warnings():
         # Newer versions of Python warn of forks in processes with threads.

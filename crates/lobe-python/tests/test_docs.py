@@ -1,4 +1,4 @@
-"""What the documents show runs."""
+"""Runs the code shown in the documents."""
 
 import importlib.util
 import os

@@ -1,4 +1,4 @@
-"""Errors are exceptions that say where."""
+"""Errors are exceptions that say where they occurred."""
 
 import pickle
 
@@ -29,7 +29,7 @@ def test_a_damaged_file_is_named_with_its_line(fixtures, tmp_path):
     assert (str(again), again.file, again.line) == (str(error), error.file, error.line)
 
 
-def test_what_is_no_material_is_said(tmp_path):
+def test_files_that_are_not_materials_are_reported(tmp_path):
     with pytest.raises(lobe_bsdf.FormatError, match="memory"):
         lobe_bsdf.from_bytes(b"")
     with pytest.raises(lobe_bsdf.FormatError, match="page.xml.*web page"):

@@ -1,4 +1,4 @@
-"""Pictures on engines that run jobs: a picture of theirs is the one of a single process, bit by bit."""
+"""Pictures rendered by job engines: they equal the picture of a single process, bit by bit."""
 
 import hashlib
 import importlib.util
@@ -68,7 +68,7 @@ def test_ray_renders_the_picture_though_a_machine_dies(scene, whole, tmp_path):
     import ray
     from ray.cluster_utils import Cluster
 
-    # The head has no processors, so that the parts are on the others.
+    # The head has no processors, so the parts run on the other machines.
     cluster = Cluster(initialize_head=True, head_node_args={"num_cpus": 0})
     nodes = [cluster.add_node(num_cpus=1) for _ in range(3)]
     ray.init(address=cluster.address, log_to_driver=False)
@@ -88,7 +88,7 @@ def test_ray_renders_the_picture_though_a_machine_dies(scene, whole, tmp_path):
         farm.render(scene, output, 12, quiet=True)
         killer.join()
         assert digest(output) == whole
-        # What is there is kept.
+        # Existing parts are kept.
         files = sorted(parts.iterdir())
         assert len(files) == 12
         files[3].unlink()

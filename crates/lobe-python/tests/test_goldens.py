@@ -1,4 +1,4 @@
-"""Values against the answers of other programs."""
+"""Compares values with the answers of other programs."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,7 @@ import lobe_bsdf
 
 
 def answers(path):
-    """The directions wi and wo of each line, and the first numbers that another program answered."""
+    """The directions wi and wo of each line, and the first numbers of the answer of another program."""
     lines = [line for line in path.read_text().splitlines() if line.strip() and not line.startswith("#")]
     asked, answered = zip(*(line.split("|")[0].split("->") for line in lines))
     asked = np.array([line.split() for line in asked], float)
@@ -27,7 +27,7 @@ def test_tables_agree_with_libbsdf(shared, name):
 def test_the_epfl_database_agrees_with_its_reader(shared, name):
     wi, wo, expected = answers(shared(f"golden/real_{name}.bsdf.powitacq.txt"))
     material = lobe_bsdf.open(shared(f"data/rgl_bsdf/{name}.bsdf"))
-    # The reader answers 0 where the table between its nodes is below.
+    # The reader returns 0 if the table is negative between its nodes.
     found = np.maximum(material.eval(wi, wo), 0) * wo[:, 2:]
     expected = expected[:, :3]
     relative = np.abs(found - expected) / np.maximum(np.abs(expected), 1e-3)
@@ -52,5 +52,5 @@ def test_polarised_matrices_have_the_unpolarised_value(shared):
 
 
 def test_polarisation_is_not_made_up(conductor):
-    with pytest.raises(ValueError, match="found specular table; expected a material that knows polarisation"):
+    with pytest.raises(ValueError, match="found specular table; expected a material with polarisation"):
         conductor.mueller([0, 0, 1], [0, 0, 1], 550.0)

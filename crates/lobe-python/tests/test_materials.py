@@ -1,4 +1,4 @@
-"""What materials say of themselves, and where they come from."""
+"""Properties of materials, and their sources."""
 
 import gc
 import inspect
@@ -202,7 +202,7 @@ def test_everything_public_is_documented():
                     assert value.__doc__, f"{name}.{member}"
 
 
-def test_the_stubs_name_what_there_is():
+def test_the_stubs_match_the_module():
     import ast
     import pathlib
 

@@ -11,7 +11,7 @@ import lobe_bsdf
 
 @pytest.fixture(scope="module")
 def scene(fixtures, tmp_path_factory):
-    """A small version of a scene, next to the files that it names."""
+    """A small version of a scene, next to the files that it refers to."""
     text = (fixtures / "scenes" / "cloth-metal-paint.toml").read_text()
     for key, value in (("width", 96), ("height", 54), ("samples", 4)):
         lines = [f"{key} = {value}" if line.startswith(f"{key} = ") else line for line in text.splitlines()]
@@ -37,11 +37,11 @@ def test_pictures_are_arrays(picture):
     assert picture.depth.shape == picture.material.shape == picture.samples.shape == (54, 96)
     assert picture.color.dtype == np.float32 and (picture.samples == 4).all()
     assert np.isfinite(picture.color).all() and picture.color.mean() > 0
-    # The upper row comes first: there is more to be seen below.
+    # The upper row comes first: more is visible further down.
     assert np.isfinite(picture.depth[-1]).mean() >= np.isfinite(picture.depth[0]).mean()
 
 
-def test_files_are_those_of_the_program(picture, scene, program, tmp_path):
+def test_files_equal_those_of_the_program(picture, scene, program, tmp_path):
     picture.save(tmp_path / "here.exr")
     picture.save(tmp_path / "here.png")
     for name in ("there.exr", "there.png"):
@@ -63,7 +63,7 @@ def test_parts_are_merged_to_the_same_bits(picture, scene, tmp_path):
     begun = lobe_bsdf.render(scene, tile=(1, 3), samples=5000, threads=1, progress=lambda done, total: False)
     begun.save(tmp_path / "begun.exr", partial=True)
     assert lobe_bsdf.finished_parts([tmp_path / "begun.exr", *parts[1:]], scene, samples=5000)[0] is False
-    with pytest.raises(ValueError, match="there are no samples 0..4 of rows 18..36"):
+    with pytest.raises(ValueError, match="these are missing: samples 0..4 of rows 18..36"):
         lobe_bsdf.merge([parts[0], parts[2]])
     with pytest.raises(ValueError, match="expected every sample once"):
         lobe_bsdf.merge([*parts, parts[0]])

@@ -10,7 +10,7 @@ def sampler(conductor):
     return conductor.sampler()
 
 
-def test_samples_are_drawn_with_their_density(conductor, sampler):
+def test_samples_have_their_density(conductor, sampler):
     wi = directions(1, 4)[0]
     u = np.random.default_rng(1).random((4000, 2), np.float32)
     w, pdf, weight = sampler.sample(wi, u)
@@ -53,7 +53,7 @@ def test_shapes_broadcast(sampler):
 
 
 @pytest.mark.parametrize("u", [[1.0, 0.5], [-0.1, 0.5], [0.5, np.nan]])
-def test_numbers_outside_of_the_square_are_refused(sampler, u):
+def test_numbers_outside_the_square_are_refused(sampler, u):
     with pytest.raises(ValueError, match=r"expected numbers in \[0, 1\)"):
         sampler.sample([0, 0, 1], u)
 

@@ -94,7 +94,7 @@ def test_ctrl_c_ends_work(fixtures, work):
     assert time.monotonic() - begun < 30
 
 
-def test_signals_in_other_threads_are_none_of_theirs(conductor):
+def test_signals_do_not_concern_other_threads(conductor):
     found = []
     thread = threading.Thread(target=lambda: found.append(conductor.albedo(0.5)))
     thread.start()

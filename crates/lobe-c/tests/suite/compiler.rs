@@ -1,4 +1,4 @@
-//! The compilers of this machine, and the library that programs are linked with.
+//! The compilers of this machine, and the library with which programs are linked.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -26,7 +26,7 @@ impl Language {
     }
 }
 
-/// Whether a program is there; says so if not.
+/// `true` if a program is available; prints a note if not.
 pub fn has(program: &str) -> bool {
     let is_there = Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success());
     if !is_there {
@@ -52,21 +52,21 @@ fn library() -> PathBuf {
     newest.unwrap_or_else(|| panic!("no static library in {}", deps.display()))
 }
 
-/// Compiles a program, warnings being errors; `None`, and a note, if there is no compiler, or none that knows a flag.
+/// Compiles a program with warnings as errors; `None`, and a note, if there is no compiler, or it does not know a flag.
 pub fn compiled(language: Language, source: &Path, flags: &[&str], out: &Path) -> Option<PathBuf> {
     let compiler = language.compiler();
     if cfg!(windows) || !has(compiler) {
         return None;
     }
     if !flags.is_empty() && !knows(compiler, flags, out) {
-        eprintln!("SKIPPED: {compiler} cannot make programs with {}", flags.join(" "));
+        eprintln!("SKIPPED: {compiler} cannot build programs with {}", flags.join(" "));
         return None;
     }
     let program = out.join(source.file_stem().expect("a name")).with_extension("program");
     let mut command = Command::new(compiler);
     command.args(language.flags()).args(["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-g", "-O1"]).args(flags);
     command.arg("-I").arg(root().join("include")).arg(source).arg(library()).arg("-o").arg(&program);
-    // What Rust needs of the system.
+    // System libraries that Rust needs.
     let system: &[&str] = match cfg!(target_os = "macos") {
         true => &["-framework", "CoreFoundation", "-lm"],
         false => &["-lpthread", "-ldl", "-lm", "-lrt", "-lgcc_s", "-lutil"],
@@ -76,7 +76,7 @@ pub fn compiled(language: Language, source: &Path, flags: &[&str], out: &Path) -
     Some(program)
 }
 
-/// Whether the compiler makes programs with these flags that run.
+/// `true` if programs that the compiler builds with these flags run.
 fn knows(compiler: &str, flags: &[&str], out: &Path) -> bool {
     let (source, program) = (out.join("probe.c"), out.join("probe"));
     std::fs::write(&source, "int main(void) { return 0; }\n").expect("a folder to write to");

@@ -1,9 +1,9 @@
-//! `include/lobe.h` is what cbindgen makes of the code.
+//! Checks that `include/lobe.h` is the output of cbindgen for the code.
 
 use std::path::Path;
 
 #[test]
-fn the_header_is_that_of_the_code() {
+fn the_header_matches_the_code() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let config = cbindgen::Config::from_file(root.join("cbindgen.toml")).expect("a configuration");
     let made = cbindgen::Builder::new().with_crate(root).with_config(config).generate().expect("bindings");
@@ -18,7 +18,7 @@ fn the_header_is_that_of_the_code() {
     let differs = there.lines().zip(header.lines()).position(|(there, made)| there != made);
     assert!(
         there == header,
-        "include/lobe.h is not that of the code, from line {:?} on: LOBE_WRITE_HEADER=1 cargo test -p lobe-c header writes it",
+        "include/lobe.h does not match the code, from line {:?} on: LOBE_WRITE_HEADER=1 cargo test -p lobe-c header writes it",
         differs.map(|line| line + 1)
     );
 }

@@ -1,4 +1,4 @@
-//! The header, and programs in C and C++ that use it.
+//! Tests of the header, and of programs in C and C++ that use it.
 
 mod compiler;
 mod header;

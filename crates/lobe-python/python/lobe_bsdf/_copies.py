@@ -1,4 +1,4 @@
-"""How pickles are read. What is named here must stay."""
+"""Functions that read pickles. Their names must not change."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def remade(function: str, keywords: dict[str, Any]) -> _lobe.Material:
     }
     make = functions[function]
     with warnings.catch_warnings():
-        # That was said when the original was made.
+        # The warning was given when the original was opened.
         warnings.simplefilter("ignore", GuessWarning)
         return make(**keywords)
 

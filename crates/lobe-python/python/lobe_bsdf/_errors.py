@@ -1,4 +1,4 @@
-"""What goes wrong with files and scenes."""
+"""Errors and warnings of files and scenes."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import warnings
 
 
 class FormatError(ValueError):
-    """A file that is damaged, of no known format, or cannot be written.
+    """A file is damaged, of no known format, or cannot be written.
 
-    ``file`` is its name; ``line`` or ``byte`` the place in it, if there is one, the line counted from 1; ``found`` and
-    ``expected`` are what is there and what should be.
+    ``file`` is its name; ``line``, counted from 1, or ``byte`` is the place in it, if there is one; ``found`` and
+    ``expected`` describe the actual and the expected content.
     """
 
     def __init__(
@@ -33,7 +33,7 @@ class FormatError(ValueError):
 
 
 class SceneError(ValueError):
-    """A mistake in a scene: ``file``, ``line``, counted from 1, and ``key`` say where."""
+    """A mistake in a scene; ``file``, ``line``, counted from 1, and ``key`` are its place."""
 
     def __init__(self, message: str, file: str = "", line: int | None = None, key: str = "") -> None:
         super().__init__(message, file, line, key)
@@ -46,9 +46,9 @@ class SceneError(ValueError):
 
 
 class GuessWarning(UserWarning):
-    """Some of the answers of a material are guessed rather than measured."""
+    """Some values of a material are guessed and not measured."""
 
 
 def warn_of_guess(message: str) -> None:
-    """Called by the native module, whose functions have no frames."""
+    """Warns; called by the native module, whose functions have no stack frames."""
     warnings.warn(message, GuessWarning, stacklevel=2)

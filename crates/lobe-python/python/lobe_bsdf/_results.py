@@ -1,4 +1,4 @@
-"""What operations answer."""
+"""Results of operations."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ Vector = tuple[float, float, float]
 
 
 class Finding(NamedTuple):
-    """One thing that a check found."""
+    """A finding of a check."""
 
     status: str
     """"pass", "note", "warn" or "fail"."""
@@ -23,7 +23,7 @@ class Finding(NamedTuple):
 
 
 class Difference(NamedTuple):
-    """How far the second material is from the first, over many pairs of directions, all channels together."""
+    """The difference of the second material from the first, over many pairs of directions, all channels together."""
 
     aspect: str
     """What was compared, such as "reflection front"."""
@@ -32,15 +32,15 @@ class Difference(NamedTuple):
     pairs: int
     """The number of pairs of directions."""
     peak: float
-    """The largest value of the first material among them, in 1/sr."""
+    """The largest value of the first material at these pairs, in 1/sr."""
     max: float
     """The largest difference, in 1/sr."""
     rms: float
-    """The root of the mean squared difference, in 1/sr."""
+    """The root mean square of the difference, in 1/sr."""
     bias: float
-    """The mean of the second less the first, in 1/sr."""
+    """The mean of the second minus the first, in 1/sr."""
     relative_rms: float
-    """``rms`` relative to the root of the mean squared value of the first."""
+    """``rms`` relative to the root mean square of the first material."""
     worst: tuple[Vector, Vector]
     """``wi`` and ``wo`` of the largest difference, with z > 0."""
     delta_e: float | None
@@ -50,16 +50,16 @@ class Difference(NamedTuple):
 
 
 class Resampling(NamedTuple):
-    """How far a table is from the material that it was made from."""
+    """The difference between a table and the material from which it was resampled."""
 
     probes: int
     """The number of pairs of directions that were compared."""
     peak: float
-    """The largest value of the material among them, in 1/sr."""
+    """The largest value of the material at these pairs, in 1/sr."""
     max: float
     """The largest difference, in 1/sr."""
     rms: float
-    """The root of the mean squared difference, in 1/sr."""
+    """The root mean square of the difference, in 1/sr."""
     relative_to_peak: float
     """``max`` relative to ``peak``."""
     relative_to_value: float
@@ -69,15 +69,15 @@ class Resampling(NamedTuple):
 
 
 class FormatInfo(NamedTuple):
-    """A format of files."""
+    """A file format."""
 
     word: str
-    """The word for it, as in ``Material.save(path, format)``."""
+    """Its short name, as in ``Material.save(path, format)``."""
     name: str
-    """What it is called."""
+    """Its full name."""
     extensions: tuple[str, ...]
-    """Extensions that its files have; they are never trusted."""
+    """The extensions of its files; they are never trusted."""
     is_read: bool
-    """Whether files of it can be opened."""
+    """True if its files can be opened."""
     is_written: bool
-    """Whether files of it can be written."""
+    """True if its files can be written."""

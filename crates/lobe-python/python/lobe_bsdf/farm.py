@@ -1,8 +1,9 @@
-"""A picture on the machines of a Ray cluster: ``python -m lobe_bsdf.farm SCENE -o OUT --parts N``.
+"""Renders a picture on the machines of a Ray cluster: ``python -m lobe_bsdf.farm SCENE -o OUT --parts N``.
 
-Each part is a task. A part that fails, or whose machine dies, is rendered again; those that are there already, in the folder
-OUT.parts, are kept. The parts are then merged into the picture, the same bits as if it had been rendered at once, if the
-machines have the same instructions, or with ``--strict`` on any. All machines must see the scene and have this package.
+Each part is a task. A part that fails, or whose machine dies, is rendered again; existing parts in the folder OUT.parts are
+kept. The parts are then merged into the picture. It has the same bits as if it had been rendered in one go, if the machines
+have the same instruction set, or with ``--strict`` on any machines. All machines must have access to the scene and have this
+package.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ RETRIES = 5
 
 
 def rendered(scene: str, part: int, parts: int, options: dict[str, Any]) -> bytes:
-    """The file of a part, with its exact sums: the task."""
+    """The task: renders a part and returns its file, with exact sums."""
     picture = lobe_bsdf.render(scene, tile=(part, parts), **options)
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder, "part.exr")
@@ -47,11 +48,11 @@ def render(
     quiet: bool = False,
     **options: Any,
 ) -> None:
-    """Renders a scene into a picture, .exr or .png, in that many parts.
+    """Renders a scene into a picture, .exr or .png, in the given number of parts.
 
-    ``address`` is that of a cluster; without it, one is started here, or the one that the variable RAY_ADDRESS names is taken.
-    ``cpus`` is how many processors a task takes, and so its threads. The other options are those of lobe_bsdf.render():
-    samples, integrator, backend, strict.
+    ``address`` is the address of a cluster; without it, the cluster named by the variable RAY_ADDRESS is used, or else one is
+    started on this machine. ``cpus`` is the number of processors of a task, and so of its threads. The other options are those
+    of lobe_bsdf.render(): samples, integrator, backend, strict.
     """
     import ray
 
@@ -62,7 +63,7 @@ def render(
     folder = output.with_name(output.name + ".parts")
     folder.mkdir(parents=True, exist_ok=True)
     files = [folder / f"part-{part}-of-{parts}.exr" for part in range(1, parts + 1)]
-    # This reads the scene, so that no machine finds a mistake in it.
+    # This reads the scene, so mistakes in it are found before any machine starts.
     finished = lobe_bsdf.finished_parts(files, scene, **options)
     missing = [part for part in range(1, parts + 1) if not finished[part - 1]]
 
@@ -70,7 +71,7 @@ def render(
         if not quiet:
             print(text, file=sys.stderr, flush=True)
 
-    say(f"{parts - len(missing)} of {parts} parts are there")
+    say(f"{parts - len(missing)} of {parts} parts exist already")
     if missing:
         started_here = not ray.is_initialized()
         if started_here:
@@ -91,7 +92,7 @@ def render(
         finally:
             if started_here:
                 ray.shutdown()
-    # Refuses gaps and doubles.
+    # Refuses missing and duplicate samples.
     lobe_bsdf.merge(files).save(output)
     say(f"{output}: merged")
 
@@ -102,15 +103,15 @@ def main(arguments: list[str] | None = None) -> int:
         description="Render a scene on the machines of a Ray cluster.",
         epilog="Example: python -m lobe_bsdf.farm scene.toml -o picture.exr --parts 16 --address auto",
     )
-    parser.add_argument("scene", help="the scene, a TOML file that all machines see")
+    parser.add_argument("scene", help="the scene, a TOML file to which all machines have access")
     parser.add_argument("-o", "--output", required=True, help="the picture, .exr or .png")
-    parser.add_argument("--parts", type=int, required=True, help="into how many strips of rows the picture is cut")
+    parser.add_argument("--parts", type=int, required=True, help="number of parts, which are strips of rows")
     parser.add_argument("--address", help="the cluster, such as auto or ray://host:10001; by default one on this machine")
-    parser.add_argument("--cpus", type=int, default=1, help="processors for a part (default: 1)")
+    parser.add_argument("--cpus", type=int, default=1, help="processors per part (default: 1)")
     parser.add_argument("--samples", type=int, help="samples per pixel, instead of those in the scene")
     parser.add_argument("--integrator", help="the integrator, instead of the one in the scene")
-    parser.add_argument("--backend", help="the instructions, which all machines must have")
-    parser.add_argument("--strict", action="store_true", help="the same bits on machines with other instructions")
+    parser.add_argument("--backend", help="the instruction set, which all machines must have")
+    parser.add_argument("--strict", action="store_true", help="get the same bits on machines with different instruction sets")
     parser.add_argument("--quiet", action="store_true", help="show no progress")
     asked = parser.parse_args(arguments)
     if asked.parts < 1 or asked.cpus < 1:

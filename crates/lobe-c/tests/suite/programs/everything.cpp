@@ -1,4 +1,4 @@
-// The layer of lobe.hpp: everything FILE.
+// Uses everything in lobe.hpp: everything FILE.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>

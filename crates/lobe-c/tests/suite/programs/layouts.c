@@ -1,4 +1,4 @@
-/* Every layout gives the same bits, errors are codes, threads share a material: layouts FILE. */
+/* Checks that every layout gives the same bits, that errors are codes, and that threads share a material: layouts FILE. */
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -94,7 +94,7 @@ static void check_layouts(const lobe_material *material, uint64_t expected) {
   free(padded);
   free(planes);
 
-  /* The same light for all, which is read once; what is between values stays. */
+  /* The same light for all, which is read once; numbers between values stay unchanged. */
   float *wide = malloc(COUNT * (channels + 1) * sizeof *wide);
   for (size_t i = 0; i < COUNT * (channels + 1); ++i) wide[i] = 7.0f;
   const lobe_values with_gaps = {wide, channels + 1, 1};
@@ -160,7 +160,7 @@ static void check_sampler(lobe_material *material) {
   lobe_error error;
   lobe_sampler *sampler = NULL;
   assert(lobe_sampler_new(material, 0.05f, &sampler, &error) == LOBE_OK);
-  /* A sampler keeps what it needs. */
+  /* A sampler keeps its material alive. */
   lobe_material_free(material);
   enum { DRAWS = 500 };
   float u[DRAWS][2], drawn[DRAWS][3], pdf[DRAWS], again[DRAWS];
@@ -208,7 +208,7 @@ int main(int argc, char **argv) {
   check_layouts(material, jobs[0].hash);
   check_errors(argv[1], material);
 
-  /* On the thread that calls, and on every backend, the bits are the same. */
+  /* The bits are the same on the calling thread alone, and on every backend. */
   for (size_t i = 0; i < lobe_backend_count(); ++i) {
     options.serial = i % 2 == 0;
     options.backend = lobe_backend_name(i);

@@ -1,4 +1,5 @@
-//! Programs in C and C++: compiled, run alone, with sanitizers and under valgrind, and their values compared with the facade's.
+//! Compiles programs in C and C++, runs them alone, with sanitizers and under valgrind, and compares their values with
+//! the facade's.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -22,7 +23,7 @@ fn text(output: &Output) -> String {
     out
 }
 
-/// Numbers of each line but the first few.
+/// The numbers of each line except the first few.
 fn numbers(text: &str) -> Vec<Vec<f32>> {
     let lines = text.lines().filter(|line| !line.starts_with('#'));
     lines.map(|line| line.split(' ').map(|word| word.parse().expect("a number")).collect()).collect()
@@ -67,7 +68,7 @@ fn the_example_in_cpp_finds_the_albedo() {
     assert_eq!(printed, expected.collect::<String>());
 }
 
-/// What `layouts.c` and `everything.cpp` print: the bits of values.
+/// The output of `layouts.c` and `everything.cpp`: the bits of values.
 fn expected(file: &Path) -> Vec<String> {
     let material = Material::open_with(file, &Options::default()).expect("a material");
     let backend = material.backend().strict();
