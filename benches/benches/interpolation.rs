@@ -1,4 +1,4 @@
-//! What does interpolation cost if the angles are known?
+//! How long does interpolation take if the angles are known?
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! How fast are directions drawn in proportion to a table?
+//! How fast are directions sampled in proportion to a table?
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! What does a call for one query cost, isotropic and anisotropic?
+//! How long does a call for one query take, isotropic and anisotropic?
 
 mod common;
 

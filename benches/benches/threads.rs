@@ -1,4 +1,4 @@
-//! What do two threads gain over one?
+//! How much faster are two threads than one?
 
 mod common;
 

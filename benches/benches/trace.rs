@@ -1,8 +1,7 @@
-//! How fast are rays of each class traced, by each form, on each backend?
-//!
-//! A torus knot of 70 thousand triangles in a closed room, made here, so that the figures can be reproduced anywhere.
-//! Before criterion's own figures comes a table for which all contestants take turns at small pieces and the best of
-//! several runs of each counts: its ratios hold on a busy machine too.
+//! How fast are rays of each class traced in each form on each backend? The scene is a torus knot of 70 thousand
+//! triangles in a closed room, generated here so that the figures can be reproduced anywhere. Before criterion's own
+//! figures, a table is printed for which all contestants take turns at small pieces and the best of several runs of
+//! each counts, so its ratios are also valid on a busy machine.
 
 use std::time::Instant;
 
@@ -45,7 +44,7 @@ fn contestant(scene: &Scene, backend: Backend, form: Form) -> Contestant<'_> {
 /// Rays per piece: a few milliseconds, which often pass without an interruption.
 const PIECE: usize = 1 << 14;
 
-/// How long each contestant takes for each set: the sum of the best times of its pieces.
+/// The time of each contestant for each set: the sum of the best times of its pieces.
 fn best_times(sets: &[RaySet], contestants: &[Contestant<'_>]) -> Vec<Vec<f64>> {
     let mut best = vec![vec![0.0; sets.len()]; contestants.len()];
     for (column, RaySet { rays, any, .. }) in sets.iter().enumerate() {

@@ -1,8 +1,8 @@
-//! Ratios that can be trusted on a machine that is not idle.
+//! Measures ratios of times that are reliable on a machine that is not idle.
 
 use std::time::{Duration, Instant};
 
-/// How many turns every contender gets.
+/// Number of turns of every contender.
 #[derive(Clone, Copy, Debug)]
 pub struct Rounds {
     /// At most this many.
@@ -13,13 +13,12 @@ pub struct Rounds {
     pub time: Duration,
 }
 
-/// Calls of a contender in a row: the first finds the caches as the contender before it left them.
+/// Calls of a contender in a row: the first one finds the caches as the previous contender left them.
 const TURN: usize = 3;
 
-/// Times several contenders in turn, `A A A B B B C C C A A A ...`, and returns the least nanoseconds of a call for each.
-///
-/// The minimum of many rounds is what the code can do; whatever else the machine does can only add. Taking turns gives
-/// every contender the same clock speed and the same neighbours.
+/// Times several contenders in turn, `A A A B B B C C C A A A ...`, and returns the least nanoseconds of a call for
+/// each. The minimum of many rounds is the time of the code itself, because other work on the machine can only add to
+/// it. Taking turns gives every contender the same clock speed and the same disturbances.
 pub fn interleaved(rounds: Rounds, contenders: &mut [&mut dyn FnMut()]) -> Vec<f64> {
     let begun = Instant::now();
     let mut shortest = vec![f64::INFINITY; contenders.len()];
@@ -43,7 +42,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rounds_end_when_time_is_over_but_not_before_there_are_enough() {
+    fn rounds_end_when_time_is_over_but_not_before_the_minimum() {
         let count = |time: u64| {
             let rounds = Rounds { most: 20, least: 3, time: Duration::from_secs(time) };
             let (mut first, mut second) = (0, 0);

@@ -1,4 +1,4 @@
-//! What the benchmarks and the report share: workloads, baselines, contests, and the clock.
+//! Shared by the benchmarks and the report: workloads, baselines, contests, and the clock.
 
 pub mod baseline;
 pub mod clock;

@@ -1,4 +1,4 @@
-//! Tables to measure on, of the paper's sizes and larger.
+//! Tables for measurements, of the paper's sizes and larger.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -12,9 +12,8 @@ use lobe::{Channels, Scatter, specular};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
-/// A table of random positive values with knots that are finer near 0, as near a mirror peak; the poles agree.
-///
-/// Speed does not depend on the values, so the sizes of real tables are all that counts here.
+/// A table of random positive values with knots that are closer together near 0, as near a mirror peak; values at poles
+/// agree. Speed does not depend on the values, so only the sizes of real tables matter here.
 pub fn random(nodes: [usize; 4], channels: Channels) -> specular::Data {
     let mut rng = Pcg32::seed_from_u64(7);
     let count = channels.count() * nodes.iter().product::<usize>();
@@ -27,7 +26,7 @@ fn knots(nodes: [usize; 4]) -> [Vec<f64>; 4] {
     [graded(nodes[0], FRAC_PI_2, 1.2), graded(nodes[1], TAU, 1.1), theta_knots(nodes[2]), graded(nodes[3], TAU, 1.1)]
 }
 
-/// So many knots of the angle from the mirror direction, in radians.
+/// This many knots of the angle from the mirror direction, in radians.
 pub fn theta_knots(count: usize) -> Vec<f64> {
     graded(count, PI, 2.0)
 }
@@ -46,7 +45,8 @@ pub fn smooth(nodes: [usize; 4]) -> specular::Data {
         for (_, cos_psi) in &waves[1] {
             for (sin_theta, cos_theta) in &waves[2] {
                 for (sin_phi, cos_phi) in &waves[3] {
-                    // Independent of psi at the normal and of phi at the poles of theta, where they mean nothing.
+                    // Independent of psi at the normal and of phi at the poles of theta, where these angles have no
+                    // meaning.
                     let base = 1.0 + 0.3 * sin_sigma * cos_psi + 0.4 * cos_theta;
                     let around = 0.2 * sin_theta;
                     values.extend([base, base + around * cos_phi, base + around * sin_phi].map(|x| x as f32));
@@ -67,17 +67,17 @@ pub fn anisotropic() -> specular::Data {
     random([17, 7, 17, 13], Channels::Rgb)
 }
 
-/// An isotropic table beyond the second cache: 90 x 90 x 180, RGB, 17 MB.
+/// An isotropic table larger than the second cache: 90 x 90 x 180, RGB, 17 MB.
 pub fn large() -> specular::Data {
     smooth([90, 1, 90, 180])
 }
 
-/// An anisotropic table beyond the third: 16 x 36 x 90 x 108, RGB, 67 MB.
+/// An anisotropic table larger than the third cache: 16 x 36 x 90 x 108, RGB, 67 MB.
 pub fn large_anisotropic() -> specular::Data {
     smooth([16, 36, 90, 108])
 }
 
-/// A material of the sizes that the RGB files of the EPFL database have, of smooth values.
+/// A material with smooth values, of the size of the RGB files of the EPFL database.
 pub fn rgl() -> rgl::Data {
     smooth_rgl(vec![0.0], 8, [128, 32], Channels::Rgb, true)
 }
@@ -130,11 +130,11 @@ fn waves(part: &'static str, [slices, height, width]: [usize; 3], low: f32) -> I
 
 /// A number in `(0, 1]` for each index, different for neighbouring indices.
 fn value(index: usize) -> f32 {
-    // In this order, products fit 32 bits.
+    // In this order, products fit in 32 bits.
     (1 + index % 10_007 * 7919 % 10_007) as f32 / 10_007.0
 }
 
-/// A grid with that many bins; those of the MERL database have `[90, 90, 180]`.
+/// A grid with this many bins; grids of the MERL database have `[90, 90, 180]`.
 pub fn half_difference(bins: [usize; 3]) -> half_diff::Data {
     half_diff::Data::new(bins, (0..3 * bins.iter().product::<usize>()).map(value).collect()).expect("a valid grid")
 }
@@ -158,7 +158,7 @@ pub fn spherical_anisotropic() -> spherical::Data {
     spherical::Data::new(Scatter::Reflection, knots, Channels::Mono, values).expect("a valid grid")
 }
 
-/// Scattered samples of an isotropic material: rings about the peak that are closer to each other there, for each of nine
+/// Scattered samples of an isotropic material: rings about the peak, closer to each other near it, for each of nine
 /// directions of light.
 pub fn scattered() -> scattered::Data {
     let mut angles = Vec::new();
@@ -187,7 +187,7 @@ pub fn mueller() -> mueller::Data {
     mueller_over(5)
 }
 
-/// The same over four wavelengths, as many as a path of Mitsuba has.
+/// The same over four wavelengths, as many as a path in Mitsuba has.
 pub fn matrices() -> mueller::Data {
     mueller_over(4)
 }
@@ -218,7 +218,7 @@ pub fn tensor_tree(rank: Rank) -> window::Blocks {
     let dimensions = rank.dimensions();
     let children = 1 << dimensions;
     let (mut nodes, mut count) = (vec![Node::Branch(1)], 0_usize);
-    // The children of the root, every third of which is divided again.
+    // The children of the root; every third is divided again.
     let divided = |child: usize| child.is_multiple_of(3);
     let mut next = 1 + children;
     for child in 0..children {

@@ -98,7 +98,7 @@ pub struct RaySet {
     pub rays: RaySoA,
 }
 
-/// Rays in the room: a picture of some pixels, and the rays that follow from each of its rays.
+/// Rays in the room: the rays of a picture with this many pixels, and the rays that follow from each of them.
 pub fn sets(scene: &Scene, pixels: usize) -> Vec<RaySet> {
     let mut rng = Pcg64Mcg::seed_from_u64(1);
     let camera = camera(pixels);
@@ -136,7 +136,7 @@ fn camera(pixels: usize) -> RaySoA {
     rays
 }
 
-/// Secondary rays: a function of the direction, position and normal of a hit gives what happens there.
+/// Secondary rays: a function of the direction, position and normal of a hit gives the ray.
 fn next(scene: &Scene, rays: &RaySoA, mut turn: impl FnMut(V, V, V) -> (V, f32)) -> RaySoA {
     let mut hits = HitSoA::new(rays.len());
     scene.intersect(Backend::scalar(), RayClass::Diffuse, rays.view(), hits.view());

@@ -64,7 +64,7 @@ impl Input {
 }
 
 impl Pairs {
-    /// How many pairs there are.
+    /// Number of pairs.
     pub fn len(&self) -> usize {
         self.wi[0].len()
     }
@@ -80,7 +80,7 @@ impl Pairs {
         (at(&self.wi), at(&self.wo))
     }
 
-    /// As two lists of vectors.
+    /// The pairs as two lists of vectors.
     pub fn vectors(&self) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
         (0..self.len()).map(|at| self.get(at)).unzip()
     }
@@ -104,7 +104,8 @@ impl Pairs {
         const TILE: u32 = 8 * 8;
         // The tiles of a square whose side is the next power of two.
         const TILES: u32 = SIZE.next_power_of_two().pow(2) / TILE;
-        // Odd, and near the golden section of the number of tiles: every tile comes once, far from the previous one.
+        // Odd, and near the golden section of the number of tiles, so that every tile comes once, far from the previous
+        // one.
         const STEP: u32 = (TILES as f64 * 0.618) as u32 | 1;
         let light = [2.0f32, 3.0, 4.0];
         let mut pairs = Vec::new();

@@ -1,5 +1,5 @@
-//! Fills `fuzz/corpus`; with the feature `pictures`, that of parts of pictures too. Each target gets small files of its format, our own ones, and those in the folder that
-//! `LOBE_SHARED` names, or else in `shared` next to the workspace.
+//! Fills `fuzz/corpus`: each target gets small files of its format, both generated ones and those in the folder named
+//! by `LOBE_SHARED`, or in `shared` next to the workspace.
 #![forbid(unsafe_code)]
 
 use std::path::{Path, PathBuf};
@@ -20,7 +20,7 @@ fn main() -> io::Result<()> {
     }
     for (index, (format, bytes)) in seeds.iter().enumerate() {
         let mut targets = vec![target(*format)];
-        // Recognised by nothing but its size, which mutations change.
+        // Recognised only by its size, which mutations change.
         if *format != Format::Utia {
             targets.push("sniff".into());
         }
@@ -39,7 +39,7 @@ fn main() -> io::Result<()> {
             fs::write(folder.join(format!("seed-{index}")), bytes)?;
         }
     }
-    // What is said about a table comes before it.
+    // The options of a table come before it.
     for (index, (said, table)) in SAID.iter().enumerate() {
         let folder = corpus.join("import");
         fs::create_dir_all(&folder)?;

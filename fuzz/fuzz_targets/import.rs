@@ -1,4 +1,4 @@
-//! A table with what is said about it: the text of a sidecar up to a zero byte, then the table.
+//! A table with its options: the text of a sidecar up to a zero byte, then the table.
 #![no_main]
 
 use std::path::Path;
@@ -13,7 +13,7 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let at = bytes.iter().position(|byte| *byte == 0).unwrap_or(0);
     let (said, table) = bytes.split_at(at);
     let Ok(options) = sidecar::parse(&String::from_utf8_lossy(said), Path::new("said")) else { return };
-    // What is written about options has to say the same.
+    // The written options must mean the same.
     let text = sidecar::to_text(&options, "fuzz");
     assert_eq!(sidecar::parse(&text, Path::new("said")).as_ref(), Ok(&options), "{text}");
     let _ = probe_with(Format::Goniometer, table.strip_prefix(b"\0").unwrap_or(table), Path::new("fuzz"), &options);

@@ -1,4 +1,4 @@
-//! Meshes of Mitsuba: the bytes as a file, and as the unpacked content of a shape.
+//! Meshes of Mitsuba: the bytes as a file, and as the decompressed content of a shape.
 #![no_main]
 
 use std::io::Write as _;
@@ -9,7 +9,7 @@ use flate2::write::ZlibEncoder;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let path = Path::new("fuzz");
-    // Whether it is a valid file does not matter here.
+    // It does not matter here if the file is valid.
     let _ = lobe_mesh::serialized::parse(path, bytes);
     let mut encoder = ZlibEncoder::new(vec![0x1c, 4, 4, 0], Compression::none());
     if encoder.write_all(bytes).is_ok()

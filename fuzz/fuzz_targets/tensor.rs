@@ -1,4 +1,4 @@
-//! Tensor files with any fields; what is read and written must come back the same.
+//! Tensor files with any fields; a file that is read and written again must be the same.
 #![no_main]
 
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! What all fuzz targets do: read, check the memory used, evaluate.
+//! Shared by all fuzz targets: reads, checks the memory used, evaluates.
 //!
 //! `docs/fuzzing.md` says how to run them.
 #![forbid(unsafe_code)]
@@ -11,12 +11,12 @@ use lobe_testing::probe::probe;
 
 lobe_testing::count_memory!();
 
-/// Reads `bytes` as a file of `format` and evaluates what is in it.
+/// Reads `bytes` as a file of `format` and evaluates its content.
 ///
 /// # Panics
 /// If a reader or an evaluation does, or a reader used more memory than the size of the file justifies.
 pub fn read(format: Format, bytes: &[u8]) {
-    // Whether it is a valid file does not matter here.
+    // It does not matter here if the file is valid.
     let _ = probe(format, bytes, Path::new("fuzz"));
 }
 

@@ -30,11 +30,7 @@ const TASKS: [Task; 10] = [
         about: "Check every backend of this CPU against the scalar reference, bit by bit",
         packages: &["xtask-equivalence"],
     },
-    Task {
-        name: "cross",
-        about: "Test the backends of other processors on emulators",
-        packages: &["xtask-cross"],
-    },
+    Task { name: "cross", about: "Test the backends of other processors on emulators", packages: &["xtask-cross"] },
     Task {
         name: "damage",
         about: "Give damaged files to every command of the program, under limits of memory and time",

@@ -1,4 +1,4 @@
-//! What every benchmark does: build a contest, check its values, and hand its contenders to criterion.
+//! Shared by all benchmarks: builds a contest, checks its values, and passes its contenders to criterion.
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use lobe_benches::contest::Question;
@@ -10,7 +10,7 @@ const COUNT: usize = 1 << 14;
 /// Benchmarks all contenders of the questions with these ids, on both inputs.
 ///
 /// # Panics
-/// If the values of a contender are not those of the reference.
+/// If the values of a contender differ from the reference.
 pub fn bench(criterion: &mut Criterion, ids: &[&str]) {
     for id in ids {
         let question = Question::named(id).expect("a question of the contests");

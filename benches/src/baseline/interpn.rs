@@ -1,9 +1,9 @@
-//! The `interpn` crate, a peer for interpolation alone: one channel per call, no coordinates.
+//! The `interpn` crate, a peer for interpolation only: one channel per call, no coordinates.
 
 use interpn::multilinear::rectilinear;
 use lobe::specular;
 
-/// A table in the form that `interpn` takes: the axes that have cells, and each channel by itself.
+/// A table in the form that `interpn` needs: the axes that have cells, and each channel separately.
 #[derive(Clone, Debug)]
 pub struct Grid {
     axes: Vec<usize>,
@@ -12,7 +12,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// From samples of three channels.
+    /// Makes it from samples of three channels.
     ///
     /// # Panics
     /// If there are not three channels.

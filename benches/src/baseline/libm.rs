@@ -1,4 +1,4 @@
-//! Today's ordinary scalar code: the standard library's `acos` and `partition_point`, and a loop over the corners.
+//! Ordinary scalar code of today: the standard library's `acos` and `partition_point`, and a loop over the corners.
 
 use std::f32::consts::TAU;
 
@@ -38,7 +38,7 @@ fn azimuth(x: f32, y: f32) -> f32 {
     if y < 0.0 { TAU - half_turn } else { half_turn }
 }
 
-/// The cell of an angle and how far into it, by the standard library's binary search; clamped at the ends.
+/// The cell of an angle and the fraction into it, by the standard library's binary search; clamped at the ends.
 pub fn locate(knots: &[f32], angle: f32) -> (usize, f32) {
     let angle = angle.clamp(knots[0], knots[knots.len() - 1]);
     let cell = knots[1..knots.len() - 1].partition_point(|&knot| knot <= angle);

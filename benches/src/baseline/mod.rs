@@ -1,8 +1,6 @@
-//! What the lanes are compared with: the same evaluation one query at a time.
-//!
-//! Both baselines use the specular coordinates of the library and give its values to rounding. They differ in what a
-//! programmer of their time would have written: [`libm`] today, [`x87`] in 2005. [`interpn`] is a library that
-//! interpolates.
+//! Baselines for the lanes: the same evaluation, one query at a time. Both baselines use the specular coordinates of
+//! the library and give its values up to rounding. Each is code as a programmer of its time would write it: [`libm`]
+//! today, [`x87`] in 2005. [`interpn`] is a library that interpolates.
 
 pub mod interpn;
 pub mod libm;
@@ -21,7 +19,7 @@ pub struct ScalarTable {
 }
 
 impl ScalarTable {
-    /// From samples of three channels whose phi and psi close the circle.
+    /// Makes it from samples of three channels whose phi and psi close the circle.
     ///
     /// # Panics
     /// If there are not three channels.

@@ -5,7 +5,7 @@ use std::f32::consts::TAU;
 
 use super::ScalarTable;
 
-/// Arc cosine as the x87 unit does it: `fpatan(sqrt(1 - x^2), x)`.
+/// Arc cosine on the x87 unit: `fpatan(sqrt(1 - x^2), x)`.
 #[inline(always)]
 pub fn acos(x: f32) -> f32 {
     let mut angle = 0.0f32;
@@ -38,8 +38,8 @@ pub fn bisect(knots: &[f32], angle: f32) -> usize {
     while high - low > 1 {
         let middle = (low + high) / 2;
         if knots[middle] <= angle {
-            // SAFETY: no instruction at all. It keeps the compiler from turning the branch into a conditional move, since
-            // it must run in this arm only.
+            // SAFETY: it has no instructions. It keeps the compiler from turning the branch into a conditional move,
+            // because it must run only in this arm.
             unsafe { asm!("", options(nomem, nostack, preserves_flags)) };
             low = middle;
         } else {
@@ -49,7 +49,7 @@ pub fn bisect(knots: &[f32], angle: f32) -> usize {
     low
 }
 
-/// The cell of an angle and how far into it; clamped at the ends.
+/// The cell of an angle and the fraction into it; clamped at the ends.
 pub fn locate(knots: &[f32], angle: f32) -> (usize, f32) {
     let angle = angle.clamp(knots[0], knots[knots.len() - 1]);
     let cell = bisect(knots, angle);

@@ -16,7 +16,7 @@ pub fn eight_terms(input: Input, count: usize) -> Contest {
     contest::<8>(input, count, Tolerance { max: math::bounds::ACOS.abs, rms: 2e-7 })
 }
 
-/// The paper's.
+/// The paper's arc cosine.
 pub fn four_terms(input: Input, count: usize) -> Contest {
     contest::<4>(input, count, Tolerance { max: math::bounds::PAPER_ACOS.abs, rms: 1e-4 })
 }

@@ -11,14 +11,14 @@ pub struct Named {
     pub backend: Backend,
 }
 
-/// Every backend of this machine, slowest first; those that fuse multiply-adds in both forms.
+/// Every backend of this machine, slowest first; those that fuse multiply-adds occur in both forms.
 pub fn backends() -> Vec<Named> {
     let mut found = Vec::new();
     for backend in Backend::available() {
         let backend = backend.fused();
         found.push(Named { name: backend.name(), backend });
         if backend.has_fused_form() {
-            // Names last as long as the program, and are few.
+            // The names are few, and live as long as the program.
             let name = format!("{}-strict", backend.name()).leak();
             found.push(Named { name, backend: backend.strict() });
         }

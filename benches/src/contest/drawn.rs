@@ -1,5 +1,5 @@
-//! Samples of representations other than specular tables, with their densities and weights, as materials give them: against
-//! the same one at a time on the scalar backend, and against a specular table.
+//! Samples of representations other than specular tables, with their densities and weights, from materials. They are
+//! compared with single samples on the scalar backend, and with a specular table.
 
 use std::rc::Rc;
 use std::sync::Arc;
@@ -14,10 +14,11 @@ use super::{Contender, Contest, Tolerance, backends};
 use crate::tables;
 use crate::workload::Input;
 
-/// Of directions. A histogram has steps, and so has a choice of lobes: fused forms may decide otherwise for a few.
+/// Tolerance of directions. A histogram has steps, and so has the choice of a lobe, so fused forms may decide
+/// differently for a few.
 const TOLERANCE: Tolerance = Tolerance { max: 2.5, rms: 3e-2 };
 
-/// What is drawn: directions, densities, weights.
+/// The samples: directions, densities, weights.
 struct Drawn {
     directions: Vec<[f32; 3]>,
     pdfs: Vec<f32>,
@@ -39,7 +40,7 @@ pub fn spherical(input: Input, count: usize) -> Contest {
     contest(tables::spherical().into(), input, count)
 }
 
-/// From samples on no grid.
+/// From scattered samples.
 pub fn scattered(input: Input, count: usize) -> Contest {
     contest(tables::scattered().into(), input, count)
 }
@@ -107,7 +108,7 @@ fn empty(sampler: &Sampler, count: usize) -> Drawn {
     Drawn { directions: vec![[f32::NAN; 3]; count], pdfs: vec![f32::NAN; count], weights }
 }
 
-/// All at once, in batches that are not shared among threads.
+/// All samples at once, in batches that are not shared among threads.
 fn draw(
     sampler: &Sampler,
     backend: Backend,

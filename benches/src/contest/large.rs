@@ -1,4 +1,4 @@
-//! Whole evaluations of tables beyond the caches, in single and in half precision.
+//! Complete evaluations of tables larger than the caches, in single and in half precision.
 
 use std::rc::Rc;
 
@@ -48,7 +48,7 @@ fn contest(samples: &specular::Data, input: Input, count: usize) -> Contest {
     Contest { count, baselines: vec![baseline], contenders: single.into_iter().chain(half).collect(), expected }
 }
 
-/// The backends in their fastest forms, with one table in that precision.
+/// The backends in their fastest forms, with one table in this precision.
 fn batches(samples: &specular::Data, precision: Precision, pairs: &Rc<Pairs>) -> Vec<Contender> {
     let table =
         specular::Table::with_precision(samples, &Edges::default(), precision).expect("a table that can be indexed");
@@ -70,7 +70,7 @@ fn batches(samples: &specular::Data, precision: Precision, pairs: &Rc<Pairs>) ->
     fastest.map(contender).collect()
 }
 
-/// The name of a backend over values in half precision. Names last as long as the program, and are few.
+/// The name of a backend with values in half precision. The names are few, and live as long as the program.
 fn half(backend: &'static str) -> &'static str {
     format!("{backend}-f16").leak()
 }

@@ -1,4 +1,4 @@
-//! Contests: one question, asked of baselines and of every backend, on the same input and in the same run.
+//! Contests: a question for baselines and every backend, on the same input and in the same run.
 //!
 //! [`QUESTIONS`] lists them; a new one is a file and a line there. A contest is built, [verified](Contest::verify)
 //! against the `f64` reference, and only then [timed](Contest::time).
@@ -28,11 +28,11 @@ pub use questions::{QUESTIONS, Question};
 pub trait Task {
     /// Does the whole work once.
     fn run(&mut self);
-    /// What the last run wrote, in the order of the contest's expected values.
+    /// The output of the last run, in the order of the contest's expected values.
     fn values(&self) -> Vec<f32>;
 }
 
-/// A [`Task`] of an output, a function that fills it and one that puts it in order.
+/// A [`Task`] made of an output, a function that fills it and one that puts it in order.
 struct Job<O, R, V> {
     out: O,
     run: R,
@@ -50,7 +50,7 @@ impl<O, R: FnMut(&mut O), V: Fn(&O) -> Vec<f32>> Task for Job<O, R, V> {
     }
 }
 
-/// How far values may be from the reference, relative to the largest expected one.
+/// The allowed difference from the reference, relative to the largest expected value.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerance {
     /// The largest error.
@@ -69,7 +69,7 @@ pub struct Contender {
 }
 
 impl Contender {
-    /// For values that are compared elsewhere.
+    /// No requirement, for values that are compared elsewhere.
     pub const UNCHECKED: Tolerance = Tolerance { max: f64::INFINITY, rms: f64::INFINITY };
 
     /// Runs `run` on `out`, whose values are in the order of the expected ones.
@@ -88,7 +88,7 @@ impl Contender {
         self.task.run();
     }
 
-    /// What the last run wrote.
+    /// The output of the last run.
     pub fn values(&self) -> Vec<f32> {
         self.task.values()
     }
@@ -96,9 +96,9 @@ impl Contender {
 
 /// One question on one input: baselines, and the contenders that are compared with each of them.
 pub struct Contest {
-    /// How many queries a run answers.
+    /// Number of queries per run.
     pub count: usize,
-    /// What the contenders are compared with.
+    /// The baselines with which the contenders are compared.
     pub baselines: Vec<Contender>,
     /// One per backend.
     pub contenders: Vec<Contender>,
@@ -106,7 +106,7 @@ pub struct Contest {
     expected: Vec<f64>,
 }
 
-/// A contender whose values are not those of the reference.
+/// A contender whose values differ from the reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WrongValues {
     /// Its name.
@@ -120,7 +120,7 @@ pub struct WrongValues {
 impl fmt::Display for WrongValues {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let WrongValues { name, max, rms } = self;
-        write!(f, "{name} is off the reference by {max:.1e} at most and {rms:.1e} on average (rms)")
+        write!(f, "{name} differs from the reference by at most {max:.1e} and by {rms:.1e} on average (rms)")
     }
 }
 
@@ -139,7 +139,7 @@ impl Contest {
     /// Runs all contenders once and compares all values with the reference.
     ///
     /// # Errors
-    /// Names the first whose values are wrong.
+    /// The first contender whose values are wrong.
     pub fn verify(&mut self) -> Result<(), WrongValues> {
         let scale = self.expected.iter().fold(0.0f64, |scale, value| scale.max(value.abs()));
         for contender in self.baselines.iter_mut().chain(&mut self.contenders) {
@@ -150,7 +150,7 @@ impl Contest {
             let (max, sum) =
                 errors.fold((0.0f64, 0.0), |(max, sum), error| (max.max(error.abs()), sum + error * error));
             let rms = (sum / values.len() as f64).sqrt();
-            // The maximum ignores a NaN, the mean does not.
+            // The maximum ignores NaN, the mean does not.
             if !(max <= contender.tolerance.max && rms <= contender.tolerance.rms) {
                 return Err(WrongValues { name: contender.name, max, rms });
             }
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn every_question_has_an_id_of_its_own() {
+    fn every_question_has_a_unique_id() {
         for question in QUESTIONS {
             assert_eq!(QUESTIONS.iter().filter(|other| other.id == question.id).count(), 1, "{}", question.id);
         }

@@ -8,11 +8,11 @@ use crate::workload::Input;
 pub struct Question {
     /// Short name, as in `report.json`.
     pub id: &'static str,
-    /// What is timed, in a few words.
+    /// A short description of what is timed.
     pub title: &'static str,
-    /// What one answer is, as in "nanoseconds per search".
+    /// The unit of one answer, as in "nanoseconds per search".
     pub unit: &'static str,
-    /// The least number of queries per run, for effects that only long runs show.
+    /// The least number of queries per run, for effects that only appear in long runs.
     pub least: usize,
     build: fn(Input, usize) -> Contest,
 }
@@ -146,7 +146,7 @@ pub const QUESTIONS: [Question; 40] = [
     },
     Question {
         id: "scattered",
-        title: "Samples on no grid",
+        title: "Scattered samples",
         unit: "evaluation",
         least: 1,
         build: representations::scattered,
@@ -197,7 +197,7 @@ pub const QUESTIONS: [Question; 40] = [
     },
     Question {
         id: "scattered-sample",
-        title: "Samples on no grid, directions with their weights",
+        title: "Scattered samples, directions with their weights",
         unit: "sample",
         least: 1,
         build: drawn::scattered,

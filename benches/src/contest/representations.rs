@@ -1,4 +1,4 @@
-//! Representations other than specular tables, in lanes compared with their `f64` reference one pair at a time.
+//! Representations other than specular tables, in lanes, compared with their `f64` reference one pair at a time.
 
 use std::rc::Rc;
 
@@ -11,15 +11,15 @@ use super::{Contender, Contest, Tolerance, backends};
 use crate::tables;
 use crate::workload::{Input, Pairs};
 
-/// For cells that are selected rather than interpolated: the stored value.
+/// Tolerance for cells that are selected and not interpolated: the stored value.
 const STORED: Tolerance = Tolerance { max: 1e-7, rms: 1e-7 };
-/// For interpolated values, of queries whose bound is at most this.
+/// Tolerance for interpolated values, of queries whose bound is at most this.
 const LINEAR: Tolerance = Tolerance { max: SURE, rms: 2e-5 };
 const SURE: f64 = 5e-4;
 
-/// What answers a query in `f64`.
+/// The function that answers a query in `f64`.
 type One = dyn Fn([f64; 3], [f64; 3], &mut [f64]);
-/// What answers all of them on a backend.
+/// The function that answers all queries on a backend.
 type All = dyn Fn(Backend, [Directions<'_>; 2], &mut [f32]);
 
 /// RGB of the nearest bin of a table of the size of the MERL database.
@@ -61,7 +61,7 @@ pub fn spherical(input: Input, count: usize) -> Contest {
     )
 }
 
-/// RGB of samples on no grid.
+/// RGB of scattered samples.
 pub fn scattered(input: Input, count: usize) -> Contest {
     let data = Rc::new(tables::scattered());
     let table = scattered::Table::new(&data).expect("few samples");
@@ -91,7 +91,7 @@ pub fn utia(input: Input, count: usize) -> Contest {
     )
 }
 
-/// Five wavelengths of Mueller matrices, as unpolarised light sees them.
+/// Five wavelengths of Mueller matrices, for unpolarised light.
 pub fn mueller(input: Input, count: usize) -> Contest {
     let data = Rc::new(tables::mueller());
     let table = mueller::Table::new(&data).expect("a small table");
@@ -153,8 +153,8 @@ fn sheet(window: window::Blocks, input: Input, count: usize) -> Contest {
     )
 }
 
-/// Queries for which it is not `sure` what lanes give, next to the border of two cells, are replaced by the preceding
-/// one.
+/// Replaces queries next to the border of two cells, for which the result of lanes is not `sure`, by the preceding
+/// query.
 fn contest(
     (input, count, width, tolerance): (Input, usize, usize, Tolerance),
     sure: impl Fn([f64; 3], [f64; 3]) -> bool,

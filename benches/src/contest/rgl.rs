@@ -1,4 +1,5 @@
-//! Materials of the EPFL database: values, densities and samples, against the `f64` reference one query at a time.
+//! Materials of the EPFL database: values, densities and samples, compared with the `f64` reference one query at a
+//! time.
 
 use std::rc::Rc;
 
@@ -14,9 +15,9 @@ use crate::workload::{Input, Pairs};
 // A direction is rounded to 6e-8, which moves the half vector of grazing pairs, and with it the texels, by some 1e-5 of
 // the square.
 
-/// For the lanes.
+/// Tolerances of the lanes.
 const TOLERANCE: Tolerance = Tolerance { max: 1e-4, rms: 1e-6 };
-/// For the reference, which is rounded to `f32` in the end.
+/// Tolerances of the reference, which is finally rounded to `f32`.
 const EXACT: Tolerance = Tolerance { max: 1e-7, rms: 1e-7 };
 
 struct Setup {
@@ -78,7 +79,7 @@ pub fn pdf(input: Input, count: usize) -> Contest {
     })
 }
 
-/// Directions drawn, with their densities and weights.
+/// Sampled directions, with their densities and weights.
 pub fn sample(input: Input, count: usize) -> Contest {
     let one = |setup: &Setup, query: usize, out: &mut [f64]| {
         let uniform = setup.uniforms[query].map(f64::from);

@@ -1,4 +1,5 @@
-//! Directions drawn in proportion to a table, with their densities and weights, against one draw at a time in `f64`.
+//! Directions sampled in proportion to a table, with their densities and weights, compared with single samples in
+//! `f64`.
 
 use std::rc::Rc;
 use std::sync::Arc;
@@ -13,7 +14,7 @@ use crate::baseline::{self, ScalarTable};
 use crate::tables;
 use crate::workload::Input;
 
-/// For directions. If a cell is dark, few numbers lead into it, and rounding moves a draw far within it.
+/// Tolerance of directions. If a cell is dark, few numbers lead into it, and rounding moves a sample far within it.
 const TOLERANCE: Tolerance = Tolerance { max: 5e-2, rms: 5e-4 };
 
 /// From an isotropic table.
@@ -33,7 +34,7 @@ struct Setup {
     scalar: ScalarTable,
 }
 
-/// What is drawn: directions, densities, weights.
+/// The samples: directions, densities, weights.
 type Drawn = (Vec<[f32; 3]>, Vec<f32>, Vec<f32>);
 
 fn contest(samples: specular::Data, input: Input, count: usize) -> Contest {
@@ -66,7 +67,7 @@ fn empty(count: usize) -> Drawn {
     (vec![[f32::NAN; 3]; count], vec![f32::NAN; count], vec![f32::NAN; 3 * count])
 }
 
-/// A draw at a time, its value by the scalar evaluation.
+/// One sample at a time, with its value from the scalar evaluation.
 fn one_by_one(setup: Rc<Setup>, count: usize) -> Contender {
     let run = move |(directions, pdfs, weights): &mut Drawn| {
         let (weights, _) = weights.as_chunks_mut::<3>();

@@ -1,4 +1,4 @@
-//! The cell of an angle on the theta axis of the anisotropic table, and on longer ones, and how far into it.
+//! The cell of an angle on the theta axis of the anisotropic table, and on longer axes, and the fraction into it.
 
 use std::rc::Rc;
 
@@ -9,7 +9,8 @@ use super::{Contender, Contest, Tolerance, backends};
 use crate::workload::Input;
 use crate::{baseline, tables};
 
-/// Relative to the number of cells: positions up to 16 are rounded to 1e-6, and as much again for knots and widths.
+/// Tolerance relative to the number of cells: positions up to 16 are rounded to 1e-6, with the same again for knots and
+/// widths.
 const TOLERANCE: Tolerance = Tolerance { max: 3e-7, rms: 1e-7 };
 
 /// Cells, and fractions into them.
@@ -23,13 +24,13 @@ impl<I: Copy + Default> Cells<I> {
         Cells { cell: vec![I::default(); count], fraction: vec![f32::NAN; count] }
     }
 
-    /// Cell and fraction in one number, which does not jump at a knot as the two do.
+    /// Cell and fraction in one number, which unlike the two does not jump at a knot.
     fn positions(&self, as_f32: impl Fn(I) -> f32) -> Vec<f32> {
         self.cell.iter().zip(&self.fraction).map(|(&cell, fraction)| as_f32(cell) + fraction).collect()
     }
 }
 
-/// What all contenders share.
+/// The input shared by all contenders.
 struct Setup {
     angles: Vec<f32>,
     axis: Axis,
@@ -42,12 +43,12 @@ pub fn library(input: Input, count: usize) -> Contest {
     among(&tables::anisotropic().knots()[2], input, count)
 }
 
-/// The same among 33 knots, the most that AVX2 searches inside registers.
+/// The same search among 33 knots, the most that AVX2 searches in registers.
 pub fn among_33(input: Input, count: usize) -> Contest {
     among(&tables::theta_knots(33), input, count)
 }
 
-/// The same among 65 knots, the most that AVX-512 searches inside registers.
+/// The same search among 65 knots, the most that AVX-512 searches in registers.
 pub fn among_65(input: Input, count: usize) -> Contest {
     among(&tables::theta_knots(65), input, count)
 }

@@ -1,4 +1,4 @@
-//! Large batches: shared among threads, and compared with small ones.
+//! Large batches, shared among threads and compared with small ones.
 
 use std::rc::Rc;
 
@@ -10,11 +10,11 @@ use super::{Contender, Contest, Tolerance};
 use crate::tables;
 use crate::workload::{Input, Pairs};
 
-/// On average as for a short batch. The nearest of a million pairs is ten times as near to the mirror peak as that of
-/// ten thousand, and the error of phi there is ten times as large.
+/// The mean tolerance is the same as for a short batch. The nearest of a million pairs is ten times as close to the
+/// mirror peak as the nearest of ten thousand, and the error of phi there is ten times as large.
 const TOLERANCE: Tolerance = Tolerance { max: 2e-2, rms: 2e-5 };
 
-/// Isotropic, two threads compared with one; no contender on a machine with one core.
+/// An isotropic table, two threads compared with one; there is no contender on a machine with one core.
 pub fn iso(input: Input, count: usize) -> Contest {
     let samples = tables::isotropic();
     let pairs = Rc::new(input.pairs(count));
@@ -33,8 +33,8 @@ pub fn iso(input: Input, count: usize) -> Contest {
     }
 }
 
-/// Isotropic, on one thread: a batch beyond the caches on huge pages and on those of 4 KB, compared with as many pairs in
-/// batches that stay in the caches, the same ones again and again.
+/// An isotropic table on one thread: a batch larger than the caches on huge pages and on pages of 4 KB, compared with
+/// the same number of pairs in batches that stay in the caches, the same ones again and again.
 pub fn pages(input: Input, count: usize) -> Contest {
     const SMALL: usize = 1 << 13;
     let samples = tables::isotropic();

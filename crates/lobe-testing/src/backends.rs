@@ -1,4 +1,4 @@
-//! Running a test on every backend of this CPU, in every form that it has, and on widths that no hardware here has.
+//! Runs tests on every backend of this CPU in each of its forms, and on emulated widths.
 
 use std::fmt;
 use std::io::Write as _;
@@ -8,7 +8,8 @@ use lobe_scalar::Scalar;
 
 pub use lobe_backend::Backend;
 
-/// Defines tests whose body runs on every backend of this CPU, in strict and in fused form: a failure names both.
+/// Defines tests whose body runs on every backend of this CPU, in strict and in fused form; a failure names both the
+/// backend and the form.
 ///
 /// ```
 /// # use lobe_lane::Lanes;
@@ -62,8 +63,8 @@ macro_rules! on_all_lanes {
     )*};
 }
 
-/// Runs `body` on every backend of this CPU, in strict form and, if it differs, in fused form. Reports which backends
-/// this CPU lacks, and on which one a failure happened.
+/// Runs `body` on every backend of this CPU, in strict form and, if it differs, in fused form. Reports the backends
+/// that this CPU lacks, and the one on which a failure happened.
 pub fn each(mut body: impl FnMut(Backend)) {
     report_missing();
     for backend in Backend::forms() {
@@ -73,7 +74,7 @@ pub fn each(mut body: impl FnMut(Backend)) {
     }
 }
 
-/// Runs a kernel as [`each`] does, and on emulated widths of 2, 4, 8 and 16 lanes.
+/// Runs a kernel like [`each`], and also on emulated widths of 2, 4, 8 and 16 lanes.
 pub fn each_lanes<K: Kernel<Out = ()> + Copy>(kernel: K) {
     each(|backend| backend.run(kernel));
     on(Scalar::<2>, kernel);
@@ -87,7 +88,7 @@ fn on<L: Lanes>(lanes: L, kernel: impl Kernel<Out = ()>) {
     lanes.vectorize(kernel);
 }
 
-/// Writes past the test harness, which hides the output of passing tests.
+/// Bypasses the test harness, which hides the output of passing tests.
 fn report_missing() {
     let available = Backend::available();
     for name in Backend::ALL.iter().filter(|name| available.iter().all(|backend| backend.name() != **name)) {
@@ -127,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn kernels_see_every_width() {
+    fn kernels_run_on_every_width() {
         static WIDTHS: Mutex<Vec<usize>> = Mutex::new(Vec::new());
 
         #[derive(Clone, Copy)]

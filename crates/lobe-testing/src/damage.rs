@@ -1,11 +1,12 @@
-//! Damage to files: what every reader must survive.
+//! Damage to files that every reader must survive.
 
 use std::path::Path;
 
 use rand::seq::IndexedRandom;
 use rand::{Rng, RngExt};
 
-/// Replacements for a number: text that is not one, numbers that are too large, and counts that nothing follows.
+/// Replacements for a number: text that is not a number, numbers that are too large, and counts without following
+/// values.
 const NUMBERS: [&str; 14] = [
     "NaN",
     "inf",
@@ -22,10 +23,10 @@ const NUMBERS: [&str; 14] = [
     "99999999999999",
     "",
 ];
-/// Bytes that have a meaning in some format.
+/// Bytes with a special meaning in some format.
 const MARKS: [&[u8]; 12] = [b"{", b"}", b"[", b"\"", b",", b"#", b"&b;", b"<a>", b"</a>", b"\n", b"\0", b"\xff\xfe"];
 
-/// `file` with one to four changes: bits, numbers, lines, pieces of itself or of `other`, or its end.
+/// `file` with one to four changes: to bits, numbers, lines, pieces of itself or of `other`, or its end.
 pub fn mutant(random: &mut impl Rng, file: &[u8], other: &[u8]) -> Vec<u8> {
     let mut bytes = file.to_vec();
     for _ in 0..random.random_range(1..5) {
@@ -55,8 +56,8 @@ pub fn mutant(random: &mut impl Rng, file: &[u8], other: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// Reads every prefix of `bytes`. `read` returns whether it found a whole file, which no prefix of up to half the
-/// length may be.
+/// Reads every prefix of `bytes`. `read` returns `true` if it found a whole file, which it must not for a prefix of up
+/// to half the length.
 ///
 /// # Panics
 /// If the whole file is not accepted, or such a short prefix is.
@@ -68,8 +69,8 @@ pub fn truncations(bytes: &[u8], read: impl Fn(&[u8]) -> bool) {
     }
 }
 
-/// Parses every prefix of a file. Each must give an error that names the file, but prefixes of at least `sound` bytes
-/// may also be accepted.
+/// Parses every prefix of a file. Each must give an error that names the file; prefixes of at least `sound` bytes may
+/// also be accepted.
 ///
 /// # Panics
 /// If a prefix does neither.
@@ -90,7 +91,7 @@ pub fn truncate<T, E: std::fmt::Display>(
     }
 }
 
-/// Parses a file with every byte changed in turn to each of a few others: nothing may panic.
+/// Parses a file with every byte changed in turn to each of a few others; nothing may panic.
 pub fn corrupt<T, E>(bytes: &[u8], parse: impl Fn(&Path, &[u8]) -> Result<T, E>) {
     let mut bytes = bytes.to_vec();
     for i in 0..bytes.len() {

@@ -71,7 +71,7 @@ pub const NIST: &str = "lambda,thetai,phi,thetar,phir,f_r11,a,b,c,d,e,f,g,h,i,j,
 pub const ZERNIKE: &str = "1, 1, 0, 0, 0, 0, 0, 2.1\n1, 1, 1, 1, 1, 1, 0, -0.3\n1, 1, 2, 0, 0, 0, 1, 0.2\n\
         1, 1, 4, 2, 2, 2, 0, 0.05\n2, 2, 1, 1, -1, 1, 0, 0.3\n";
 
-/// A grid in either kind of coordinates, with its rows in no particular order.
+/// A grid in either kind of coordinates, with its rows in arbitrary order.
 pub fn csv(head: &str, unit: f64) -> String {
     let mut rows = Vec::new();
     for (i, (sigma, theta)) in [(10.0, 0.0), (40.0, 0.0), (40.0, 30.0), (10.0, 30.0)].into_iter().enumerate() {
@@ -104,7 +104,7 @@ pub fn sheet(structure: &str, data: &str) -> String {
 /// A table with named columns in JSON.
 pub const JSON: &str = "{\"theta_i_deg\": [10, 10, 10], \"theta_o\": [0, 20, 20], \"phi_o\": [0, 0, 90],\n\
     \"R\": [1, 2, 3], \"G\": [4, 5, 6], \"B\": [7, 8, 9]}";
-/// A table as a spreadsheet in German writes it, with an angle of incidence in a line of its own.
+/// A table as written by a German spreadsheet, with an angle of incidence on a separate line.
 pub const OWN: &str = "Sample;blue\r\nAngle of incidence: 30 deg\r\n\r\ntheta_o;phi_o [deg];BRDF [1/sr];std\r\n0;0;0,5;0,1\r\n\
     20;0;0,25;-\r\n20;90;0,25;0\r\n40;180;;0\r\nAOI: 50\r\n0;0;0,5;0\r\n20;10;0,75;0\r\nend\r\n";
 /// A table with a wavelength per row, names in a comment, and blanks between columns.
@@ -202,7 +202,7 @@ pub fn tiny_fourier() -> Vec<u8> {
     floats(&mut bytes, &mu);
     floats(&mut bytes, &vec![0.0; knots * knots]);
     for at in 0..knots * knots {
-        // Light that travels down and is reflected, and some that passes.
+        // Light that travels down and is reflected, and some that is transmitted.
         let series = match (mu[at / knots] > 0.0, mu[at % knots] < 0.0) {
             (true, true) => [0_i32, 3],
             (false, true) => [9, 2],
@@ -227,7 +227,7 @@ pub fn tiny_mbsdf() -> Vec<u8> {
     mbsdf::to_bytes(&Sides { reflection, transmission: side(Scatter::Transmission, &[0.0]) }).expect("bytes")
 }
 
-/// At least one file of every format except UTIA, whose files are all two million bytes long.
+/// At least one file of every format except UTIA, whose files are all two megabytes long.
 pub fn all() -> Vec<(Format, Vec<u8>)> {
     let texts = [
         (Format::Ddr, DDR.into()),

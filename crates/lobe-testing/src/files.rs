@@ -1,8 +1,7 @@
-//! Paths of test files: fixtures in the repository, and measured files next to it.
-//!
-//! Measured files and the answers of other programs are not part of the project. They are in the folder that the
-//! environment variable `LOBE_SHARED` names, or else in `shared` next to the repository. A test that needs one that is
-//! missing passes, and says on standard error that it was skipped.
+//! Paths of test files: fixtures in the repository, and measured files next to it. Measured files and the answers of
+//! other programs are not part of the project. They are in the folder named by the environment variable `LOBE_SHARED`,
+//! or in `shared` next to the repository. A test that needs a missing file passes, and reports on standard error that
+//! it was skipped.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -47,9 +46,10 @@ fn shared_folder() -> PathBuf {
         .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared"), PathBuf::from)
 }
 
-/// Reports that a test, or part of one, is skipped: past the test harness, which hides the output of passing tests.
+/// Reports that a test, or part of one, is skipped. It bypasses the test harness, which hides the output of passing
+/// tests.
 fn skipped(why: &str) {
-    // A closed standard error is no reason for a test to fail.
+    // A test must not fail because standard error is closed.
     let _ = writeln!(std::io::stderr(), "SKIPPED: {why}; set LOBE_SHARED to the folder with `golden` and `data`");
 }
 

@@ -1,4 +1,4 @@
-//! The answers of other programs: text files with one query and one answer per line, `query -> answer`.
+//! Reads the answers of other programs: text files with one query and one answer per line, `query -> answer`.
 
 use std::path::{Path, PathBuf};
 
@@ -17,17 +17,17 @@ pub fn direction(numbers: &[f64], at: usize) -> [f64; 3] {
     [numbers[at], numbers[at + 1], numbers[at + 2]]
 }
 
-/// The same as a unit vector in `f64`: some references printed single precision.
+/// The same, normalised in `f64`, because some references printed single precision.
 pub fn unit(numbers: &[f64], at: usize) -> [f64; 3] {
     let d = direction(numbers, at);
     let length = d.iter().map(|x| x * x).sum::<f64>().sqrt();
     d.map(|x| x / length)
 }
 
-/// The largest deviation seen, and where.
+/// The largest deviation found, and its query.
 #[derive(Default, Debug)]
 pub struct Worst {
-    /// The deviation; NaN once any deviation was.
+    /// The deviation; NaN if any deviation was NaN.
     pub error: f64,
     /// The query that it belongs to.
     pub at: usize,

@@ -1,7 +1,6 @@
-//! What the tests of the workspace share. It is never published: other crates depend on it by path, for their tests
-//! only.
-//!
-//! | module | what it has |
+//! Shared code for the tests of the workspace. It is never published: other crates depend on it by path, only for their
+//! tests.
+//! | module | content |
 //! |---|---|
 //! | [`backends`] | running a test on every backend, in every form, and on emulated widths |
 //! | [`conformance`](mod@conformance) | every method of a backend against plain scalar arithmetic |

@@ -1,6 +1,6 @@
 //! Values on which implementations differ.
 
-/// How many patterns there are of each type; all pairs fill whole vectors of 16 lanes.
+/// Number of patterns of each type; all pairs fill whole vectors of 16 lanes.
 const COUNT: usize = 60;
 
 /// Bits of floats: zeros, denormals, infinities, NaNs of all kinds, the ends of the ranges of `i32` and of whole

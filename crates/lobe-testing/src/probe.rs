@@ -1,4 +1,4 @@
-//! Reads a file and evaluates its contents, which must not go wrong whatever the bytes are. The program that uses it
+//! Reads a file and evaluates its content, which must never fail badly, whatever the bytes are. A program that uses it
 //! must count memory: see [`count_memory`](crate::count_memory).
 
 use std::path::Path;
@@ -11,7 +11,8 @@ use lobe_table::{Data, Edges, specular, specular::reference};
 
 use crate::memory::peak;
 
-/// To the light and to the viewer: at the normal, at the mirror direction, oblique, grazing, and through the surface.
+/// Directions to the light and to the viewer: at the normal, at the mirror direction, oblique, grazing, and through the
+/// surface.
 const PAIRS: [[[f64; 3]; 2]; 6] = [
     [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0]],
     [[0.6, 0.0, 0.8], [-0.6, 0.0, 0.8]],
@@ -38,7 +39,7 @@ fn bytes_per_byte(format: Format) -> usize {
     }
 }
 
-/// Reads `bytes`, evaluates what was found at some directions and drops it. Returns the peak memory use of reading.
+/// Reads `bytes`, evaluates the material at some directions and drops it. Returns the peak memory use of reading.
 ///
 /// # Panics
 /// If the reader used more memory than the size of the file justifies, or an error does not name the file.
@@ -46,10 +47,10 @@ pub fn probe(format: Format, bytes: &[u8], path: &Path) -> (Result<(), FormatErr
     probe_with(format, bytes, path, &ReadOptions::default())
 }
 
-/// As [`probe`], with options for the reader.
+/// Like [`probe`], with options for the reader.
 ///
 /// # Panics
-/// As [`probe`].
+/// The same as for [`probe`].
 pub fn probe_with(
     format: Format,
     bytes: &[u8],
@@ -123,7 +124,7 @@ fn each(mut eval: impl FnMut([f64; 3], [f64; 3])) {
     PAIRS.iter().for_each(|&[wi, wo]| eval(wi, wo));
 }
 
-/// By the reference, and in lanes.
+/// Evaluates with the reference, and in lanes.
 fn table(samples: &specular::Data) {
     let edges = Edges::default();
     let channels = samples.channels().count();

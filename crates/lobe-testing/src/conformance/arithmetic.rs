@@ -5,7 +5,8 @@ use lobe_lane::{Floats, Ints, Kernel, Lanes};
 use super::{assert_same, floats, ints, truths};
 use crate::patterns;
 
-/// Compares expressions of lanes with the same expressions of numbers: name, how the result is read, lanes, numbers.
+/// Compares expressions of lanes with the same expressions of numbers. The arguments are a name, how to read the
+/// result, the lanes and the numbers.
 macro_rules! check {
     ($lanes:ident, $xs:ident, $ys:ident, $load:ident; $($what:literal $read:ident |$a:pat_param, $b:pat_param| $value:expr, |$x:pat_param, $y:pat_param| $expected:expr;)*) => {$({
         let mut at = 0;
@@ -71,9 +72,9 @@ impl Kernel for FloatArithmetic {
     }
 }
 
-/// Toward zero; `i32::MIN` for NaN and whatever does not fit.
+/// Rounds toward zero; `i32::MIN` for NaN and numbers out of range.
 fn truncated(x: f32) -> i32 {
-    // Both ends are powers of two, and so exact.
+    // Both ends are powers of two, so they are exact.
     if (-2_147_483_648.0..2_147_483_648.0).contains(&x) { x as i32 } else { i32::MIN }
 }
 

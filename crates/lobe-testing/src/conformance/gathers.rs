@@ -45,7 +45,7 @@ impl Kernel for Gathers {
     }
 }
 
-/// Tables in registers: of an index only the bits that count so far matter.
+/// Tables in registers: only the low bits of an index matter, as many as the table needs.
 #[inline(always)]
 fn look_ups<L: Lanes, const N: usize>(lanes: L, indices: &[i32]) {
     let entries: [f32; 4 * MAX_LANES] = std::array::from_fn(|i| i as f32 + 0.5);
@@ -67,7 +67,7 @@ fn look_ups<L: Lanes, const N: usize>(lanes: L, indices: &[i32]) {
     }
 }
 
-/// Steps down a tree: the sign bit alone decides, also that of zeros and NaN.
+/// Steps down a tree: only the sign bit decides, even for zeros and NaN.
 #[inline(always)]
 fn descents<L: Lanes>(lanes: L, indices: &[i32]) {
     for &bits in &patterns::FLOATS {

@@ -16,7 +16,7 @@ impl Kernel for Masks {
     fn run<L: Lanes>(self, lanes: L) {
         assert!(L::LANES.is_power_of_two() && L::LANES <= MAX_LANES, "{} lanes", L::LANES);
         assert!(L::Narrow::LANES <= L::LANES, "{} of {} lanes", L::Narrow::LANES, L::LANES);
-        assert_eq!(L::Narrow::FUSED, L::FUSED, "one query rounds as many do");
+        assert_eq!(L::Narrow::FUSED, L::FUSED, "one query rounds like many");
         logic(lanes);
         first_lanes(lanes);
         splats(lanes);
@@ -25,7 +25,7 @@ impl Kernel for Masks {
     }
 }
 
-/// A mask whose lane `i` is set if bit `i` of `bits` is.
+/// A mask whose lane `i` is set if bit `i` of `bits` is set.
 #[inline(always)]
 fn mask<L: Lanes>(lanes: L, bits: u32) -> L::M {
     let mut flags = [0; MAX_LANES];
@@ -104,7 +104,7 @@ fn extractions<L: Lanes>(lanes: L) {
     }
 }
 
-/// For every mask, over lanes that all agree and over lanes of which one differs.
+/// Checks `uniform` for every mask, with lanes that all agree and with one lane that differs.
 #[inline(always)]
 fn uniform<L: Lanes>(lanes: L) {
     for odd in 0..=L::LANES {

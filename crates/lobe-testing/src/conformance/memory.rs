@@ -5,9 +5,9 @@ use lobe_lane::{Floats as _, Kernel, Lanes, MAX_LANES};
 use super::{floats, ints};
 use crate::patterns;
 
-/// A float that no test writes, to see what a store leaves untouched.
+/// A float that no test writes, to detect the elements that a store leaves untouched.
 const UNTOUCHED: f32 = -12345.5;
-/// The same for integers.
+/// An integer that no test writes.
 const UNTOUCHED_INT: i32 = 0x0bad_cafe;
 
 /// Every load and store of `Lanes`.
@@ -23,7 +23,7 @@ impl Kernel for Memory {
         partial(lanes);
         keeps_bits(lanes);
         vectors(lanes);
-        // There is no effect to see, but it must leave its argument untouched.
+        // It has no visible effect, but it must leave its argument untouched.
         for at in [0, 1, 63, 1 << 20, usize::MAX] {
             lanes.prefetch::<4, f32>(&[1.0; 3], at);
             lanes.prefetch::<1, [u64; 9]>(&[], at);

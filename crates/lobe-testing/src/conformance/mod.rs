@@ -1,7 +1,6 @@
-//! Every method of a backend against plain scalar arithmetic, for values on which implementations differ.
-//!
-//! A backend crate calls [`conformance!`](crate::conformance!) with its tokens, which makes tests of them, and of their
-//! strict form.
+//! Compares every method of a backend with plain scalar arithmetic, for values on which implementations differ.
+//! A backend crate calls [`conformance!`](crate::conformance!) with its tokens, which defines tests for them and for
+//! their strict form.
 
 mod arithmetic;
 mod gathers;
@@ -19,8 +18,8 @@ pub use memory::Memory;
 pub use short::refuses_short_slices;
 pub use texels::Texels;
 
-/// Defines the tests of a backend: a module per token, which is an `Option` as returned by detection. A backend that
-/// this CPU lacks is reported as skipped.
+/// Defines the tests of a backend, with one module per token. A token is an `Option` as returned by detection; a
+/// backend that this CPU lacks is reported as skipped.
 ///
 /// ```
 /// lobe_testing::conformance! {
@@ -56,7 +55,7 @@ macro_rules! conformance {
     )*};
 }
 
-/// What [`conformance!`](crate::conformance!) does with a token.
+/// The operations of [`conformance!`](crate::conformance!) on a token.
 #[doc(hidden)]
 pub trait Check {
     fn check<L: Lanes>(self, lanes: L);
@@ -119,7 +118,7 @@ fn truths<L: Lanes>(_lanes: L, mask: L::M) -> [bool; MAX_LANES] {
     std::array::from_fn(|lane| bits >> lane & 1 == 1)
 }
 
-/// Whether a result is the expected one.
+/// `true` if a result is the expected one.
 trait Same: Copy + std::fmt::Debug {
     fn same(self, expected: Self) -> bool;
 }
@@ -144,7 +143,7 @@ impl Same for bool {
 }
 
 /// # Panics
-/// If the two are not the same.
+/// If the two differ.
 fn assert_same<T: Same>(what: &str, operands: &[&dyn std::fmt::Debug], found: T, expected: T) {
     assert!(found.same(expected), "{what} of {operands:?}: {found:?}, not {expected:?}");
 }

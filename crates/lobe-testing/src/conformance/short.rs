@@ -1,4 +1,4 @@
-//! Slices that are too short, which every operation on memory must refuse.
+//! Checks that every operation on memory refuses slices that are too short.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -79,8 +79,9 @@ impl Kernel for Touch {
     }
 }
 
-/// Where a panic ends the program, each access needs a process of its own: the environment variable `LOBE_SHORT` has the
-/// number of the access, and how many elements the slice has more or less than it needs. `cargo xtask cross` sets it.
+/// On a target where a panic ends the program, each access needs a separate process: the environment variable
+/// `LOBE_SHORT`, set by `cargo xtask cross`, has the number of the access, and how many elements the slice has more or
+/// less than needed.
 fn one_access<L: Lanes>(lanes: L) {
     let Ok(wanted) = std::env::var("LOBE_SHORT") else {
         eprintln!("SKIPPED: a panic ends the program on this target");
@@ -94,7 +95,7 @@ fn one_access<L: Lanes>(lanes: L) {
 }
 
 /// # Panics
-/// If a slice that is too short is not refused, or one that is long enough is.
+/// If a slice that is too short is accepted, or one that is long enough is refused.
 pub fn refuses_short_slices<L: Lanes>(lanes: L) {
     if cfg!(not(panic = "unwind")) {
         return one_access(lanes);
