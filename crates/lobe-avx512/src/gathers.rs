@@ -106,7 +106,7 @@ pub(crate) fn quads<const N: usize>(proof: Avx512, block: &Block<'_, N, 4>, base
     corners
 }
 
-/// As [`quads`], from bases in memory. If each has several quads, these are loaded whole and transposed.
+/// Like [`quads`], from bases in memory. If each has several quads, these are loaded whole and transposed.
 #[inline(always)]
 pub(crate) fn quads_at<const N: usize>(proof: Avx512, block: &Block<'_, N, 4>, bases: &[i32]) -> [[Floats; 4]; N] {
     if N < 3 {
@@ -161,7 +161,7 @@ fn load_quad<const N: usize>(_proof: Avx512, block: &Block<'_, N, 4>, base: usiz
     unsafe { _mm_loadu_ps(block.data().as_ptr().add(at)) }
 }
 
-/// As [`quads`], from half-precision floats.
+/// Like [`quads`], from half-precision floats.
 #[inline(always)]
 pub(crate) fn half_quads<const N: usize>(
     proof: Avx512,

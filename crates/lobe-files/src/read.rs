@@ -73,7 +73,7 @@ const READABLE: &str = "a file that can be read";
 /// Reads like [`read`], with a system error, for callers whose errors name the file themselves.
 ///
 /// # Errors
-/// As [`read`].
+/// The same as for [`read`].
 pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
     read(path).map_err(|FormatError { found, expected, .. }| {
         io::Error::other(if expected == READABLE { found } else { format!("found {found}; expected {expected}") })

@@ -58,7 +58,7 @@ pub fn unpacked<'a>(bytes: &'a [u8], path: &'a Path) -> Result<Unpacked<'a>, For
 /// Unpacks a zlib stream that begins at byte `at` of the file `path`; bytes that follow it are ignored.
 ///
 /// # Errors
-/// As [`unpacked`].
+/// The same as for [`unpacked`].
 pub fn inflated(bytes: &[u8], at: u64, path: &Path) -> Result<Vec<u8>, FormatError> {
     let most = ALWAYS.max((bytes.len() as u64).saturating_mul(RATIO));
     let mut content = Vec::new();

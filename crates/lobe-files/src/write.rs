@@ -21,7 +21,7 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), FormatError> {
     replace(path, content).map_err(|error| unwritable(path, &error))
 }
 
-/// As [`write_whole`], with a system error. A file that is replaced keeps its permissions; a new one has those of the
+/// Like [`write_whole`], with a system error. A file that is replaced keeps its permissions; a new one has those of the
 /// user's umask. A link is followed: its target is replaced.
 ///
 /// # Errors

@@ -140,9 +140,9 @@ impl Document {
 pub struct Measured<T> {
     /// The data.
     pub data: T,
-    /// As [`Document::source`].
+    /// The same as [`Document::source`].
     pub source: Vec<(String, String)>,
-    /// As [`Document::tis`].
+    /// The same as [`Document::tis`].
     pub tis: Vec<f32>,
 }
 

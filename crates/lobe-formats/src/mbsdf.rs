@@ -81,7 +81,7 @@ impl Nodes {
 /// Reads both sides, with zenith angles as [`Nodes::LowerEdge`] and azimuths as [`Nodes::Closed`].
 ///
 /// # Errors
-/// As [`read_with`].
+/// The same as for [`read_with`].
 pub fn read(bytes: &[u8], file: &Path) -> Result<Sides<spherical::Data>, FormatError> {
     read_with(bytes, file, [Nodes::LowerEdge, Nodes::Closed])
 }

@@ -23,10 +23,10 @@ pub fn open(path: &Path) -> Result<(Format, Document), FormatError> {
     open_with(path, &ReadOptions::default())
 }
 
-/// As [`open`], with options, which take precedence over those of a [sidecar].
+/// Like [`open`], with options, which take precedence over those of a [sidecar].
 ///
 /// # Errors
-/// As [`open`], and if the options do not apply to the file.
+/// The same as for [`open`], and if the options do not apply to the file.
 pub fn open_with(path: &Path, options: &ReadOptions) -> Result<(Format, Document), FormatError> {
     let options = options.clone().or(sidecar::find(path)?);
     if is_folder(path) {
@@ -42,15 +42,15 @@ pub fn open_with(path: &Path, options: &ReadOptions) -> Result<(Format, Document
 /// [`open`].
 ///
 /// # Errors
-/// As [`open`].
+/// The same as for [`open`].
 pub fn from_bytes(bytes: &[u8], path: &Path) -> Result<Document, FormatError> {
     from_bytes_with(bytes, path, &ReadOptions::default())
 }
 
-/// As [`from_bytes`], with options; a sidecar is not read.
+/// Like [`from_bytes`], with options; a sidecar is not read.
 ///
 /// # Errors
-/// As [`open_with`].
+/// The same as for [`open_with`].
 pub fn from_bytes_with(bytes: &[u8], path: &Path, options: &ReadOptions) -> Result<Document, FormatError> {
     Ok(read_any(bytes, path, options)?.1)
 }
@@ -102,10 +102,10 @@ pub fn read(format: Format, bytes: &[u8], path: &Path) -> Result<Document, Forma
     read_with(format, bytes, path, &ReadOptions::default())
 }
 
-/// As [`read`], with options.
+/// Like [`read`], with options.
 ///
 /// # Errors
-/// As [`read`], and if the options do not apply to the file.
+/// The same as for [`read`], and if the options do not apply to the file.
 pub fn read_with(format: Format, bytes: &[u8], path: &Path, options: &ReadOptions) -> Result<Document, FormatError> {
     let spec = format.spec();
     let Some(read) = spec.read else {

@@ -19,7 +19,7 @@ pub(crate) struct Records {
 }
 
 impl Records {
-    /// As [`push`](Self::push), for a line of a text.
+    /// Like [`push`](Self::push), for a line of a text.
     pub(crate) fn push_line(&mut self, line: usize, angles: [f64; 4], values: impl IntoIterator<Item = f64>) {
         self.lines.push(line);
         self.push(angles, values);

@@ -178,7 +178,7 @@ impl<'a> TensorFile<'a> {
     /// The elements of a field of 32-bit floats with this number of dimensions, and its shape.
     ///
     /// # Errors
-    /// As [`require`](Self::require).
+    /// The same as for [`require`](Self::require).
     pub fn floats(&self, name: &str, dimensions: usize) -> Result<(Vec<f32>, &[usize]), FormatError> {
         let field = self.require(name, DType::F32, dimensions)?;
         let (elements, _) = field.data.as_chunks();

@@ -166,7 +166,7 @@ backend_trait! {
         /// large is clamped to the block's last base. The result is transposed: `[corner][k]` holds float `k` of that
         /// corner in all lanes.
         fn gather_quads<const N: usize>(self, block: &Block<'_, N, 4>, base: Self::I) -> [[Self::F; 4]; N];
-        /// As [`gather_quads`](Lanes::gather_quads), from the first `LANES` bases of a slice. It is faster if they were
+        /// Like [`gather_quads`](Lanes::gather_quads), from the first `LANES` bases of a slice. It is faster if they were
         /// stored long before, because the indices need not be extracted from a vector.
         ///
         /// # Panics
@@ -175,7 +175,7 @@ backend_trait! {
         fn gather_quads_at<const N: usize>(self, block: &Block<'_, N, 4>, bases: &[i32]) -> [[Self::F; 4]; N] {
             self.gather_quads(block, self.load_int(bases))
         }
-        /// As [`gather_quads`](Lanes::gather_quads), from half-precision floats.
+        /// Like [`gather_quads`](Lanes::gather_quads), from half-precision floats.
         fn gather_quads_half<const N: usize>(self, block: &Block<'_, N, 4, u16>, base: Self::I) -> [[Self::F; 4]; N];
         /// In each lane, float `index & 7` of the eight in `table`.
         fn oct_lookup(self, table: Self::Oct, index: Self::I) -> Self::F;

@@ -43,7 +43,7 @@ backend_trait! {
         /// The four floats at `base + offset` of the block, for each of its offsets; `base` is clamped to the block's
         /// last base.
         fn quad_corners<const N: usize>(self, block: &Block<'_, N, 4>, base: usize) -> [Self::Quad; N];
-        /// As [`quad_corners`](Texels::quad_corners), from half-precision floats.
+        /// Like [`quad_corners`](Texels::quad_corners), from half-precision floats.
         fn quad_corners_half<const N: usize>(self, block: &Block<'_, N, 4, u16>, base: usize) -> [Self::Quad; N];
         /// `x` four times.
         fn quad_splat(self, x: f32) -> Self::Quad;
@@ -64,7 +64,7 @@ backend_trait! {
         fn oct_splat(self, x: f32) -> Self::Oct;
         /// The floats at `base + offset` of the block, for each of its offsets; `base` is clamped to the block's last base.
         fn oct_corners<const N: usize>(self, block: &Block<'_, N, 8>, base: usize) -> [Self::Oct; N];
-        /// As [`oct_corners`](Texels::oct_corners), from half-precision floats.
+        /// Like [`oct_corners`](Texels::oct_corners), from half-precision floats.
         fn oct_corners_half<const N: usize>(self, block: &Block<'_, N, 8, u16>, base: usize) -> [Self::Oct; N];
         /// `if a > b { a } else { b }`, float by float, so `b` if either is NaN.
         fn oct_max(self, a: Self::Oct, b: Self::Oct) -> Self::Oct;

@@ -37,10 +37,10 @@ pub fn measure(
     measure_surface(&Rgb(model), Scatter::Reflection, knots, progress)
 }
 
-/// As [`measure`], for any surface, and on either side of it: for transmission, viewers are below.
+/// Like [`measure`], for any surface, and on either side of it: for transmission, viewers are below.
 ///
 /// # Errors
-/// As [`measure`].
+/// The same as for [`measure`].
 pub fn measure_surface(
     surface: &dyn Surface,
     scatter: Scatter,

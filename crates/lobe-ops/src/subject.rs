@@ -30,7 +30,7 @@ impl Subject {
     /// Opens a file of any format.
     ///
     /// # Errors
-    /// As [`Material::open_with`].
+    /// The same as for [`Material::open_with`].
     pub fn open(path: &Path, options: &Options) -> Result<Self, OpenError> {
         let (format, document) = lobe_formats::open(path)?;
         let material = Material::from_document(&document, options).map_err(|error| error.in_file(path))?;

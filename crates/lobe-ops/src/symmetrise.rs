@@ -29,7 +29,7 @@ pub fn mirror(samples: &specular::Data) -> Result<specular::Data, GridError> {
 /// reciprocity, but not exactly reciprocal.
 ///
 /// # Errors
-/// As [`mirror`].
+/// The same as for [`mirror`].
 pub fn reciprocal(samples: &specular::Data) -> Result<specular::Data, GridError> {
     let sigmas = &samples.knots()[0];
     let measured = sigmas[0] - 1e-9..=sigmas[sigmas.len() - 1] + 1e-9;

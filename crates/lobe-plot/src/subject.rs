@@ -24,7 +24,7 @@ impl Subject {
     /// Opens a file of any format that `lobe` reads.
     ///
     /// # Errors
-    /// As [`Material::open`].
+    /// The same as for [`Material::open`].
     pub fn open(path: &Path) -> Result<Self, OpenError> {
         let (format, document) = lobe::formats::open(path)?;
         Subject::new(path, format, document)
@@ -33,7 +33,7 @@ impl Subject {
     /// A document that was read from `path`, whose last component is the name in figures.
     ///
     /// # Errors
-    /// As [`Material::from_document`].
+    /// The same as for [`Material::from_document`].
     pub fn new(path: &Path, format: Format, document: Document) -> Result<Self, OpenError> {
         let name = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into());
         let options = Options::default();

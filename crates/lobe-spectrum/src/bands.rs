@@ -192,7 +192,7 @@ impl Bands {
         out
     }
 
-    /// As [`emission`](Self::emission), into the first numbers of `out`; the others are unchanged.
+    /// Like [`emission`](Self::emission), into the first numbers of `out`; the others are unchanged.
     pub fn emission_into(&self, rgb: [f32; 3], out: &mut [f32]) {
         let rgb = rgb.map(|c| if c > 0.0 { c } else { 0.0 });
         let largest = (0..3).fold(0, |most, k| if rgb[k] > rgb[most] { k } else { most });

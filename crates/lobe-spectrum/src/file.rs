@@ -17,10 +17,10 @@ impl Spectrum {
         Spectrum::parse(&String::from_utf8_lossy(&bytes), path)
     }
 
-    /// As [`open`](Self::open), for a text that was already read; `path` is only its name in errors.
+    /// Like [`open`](Self::open), for a text that was already read; `path` is only its name in errors.
     ///
     /// # Errors
-    /// As [`open`](Self::open).
+    /// The same as for [`open`](Self::open).
     pub fn parse(text: &str, path: &Path) -> Result<Self, FormatError> {
         let (mut wavelengths, mut values) = (Vec::new(), Vec::new());
         let mut named = false;

@@ -38,7 +38,7 @@ impl Metal {
     /// A metal from rows of wavelength in nm, `n` and `k`.
     ///
     /// # Errors
-    /// As [`Spectrum::new`].
+    /// The same as for [`Spectrum::new`].
     pub fn of_rows(rows: &[[f64; 3]]) -> Result<Self, SpectrumError> {
         let column = |k: usize| rows.iter().map(|row| row[k]).collect::<Vec<f64>>();
         Ok(Metal { n: Spectrum::new(column(0), column(1))?, k: Spectrum::new(column(0), column(2))? })

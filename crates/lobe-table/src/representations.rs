@@ -24,7 +24,7 @@ macro_rules! representations {
                 }
             }
 
-            /// As [`representation`](Data::representation), but mutable.
+            /// Like [`representation`](Data::representation), but mutable.
             pub fn representation_mut(&mut self) -> &mut dyn Representation {
                 match self {
                     $(Data::$variant(data) => data),*

@@ -51,7 +51,7 @@ impl<L: Lanes> SlabRay<L> {
         [enter_x.max(enter_y).max(enter_z), leave_x.min(leave_y).min(leave_z)]
     }
 
-    /// As [`interval`](SlabRay::interval) for the box between two corners, for rays of any octants.
+    /// Like [`interval`](SlabRay::interval), for the box between two corners, for rays of any octants.
     #[inline(always)]
     pub fn interval_any(&self, lanes: L, lower: [L::F; 3], upper: [L::F; 3]) -> [L::F; 2] {
         let (mut near, mut far) = (lower, upper);

@@ -35,7 +35,7 @@ pub(crate) fn fill<T: Send>(width: usize, out: &mut [T], run: &(dyn Fn(Range<usi
 /// Fills two outputs for a range of queries.
 type BothTask<'a, T, U> = dyn Fn(Range<usize>, &mut [T], &mut [U]) + Sync + 'a;
 
-/// As [`fill`], with two outputs, the first with `width` elements per query, and the second with one.
+/// Like [`fill`], with two outputs, the first with `width` elements per query, and the second with one.
 pub(crate) fn fill_both<T: Send, U: Send>(width: usize, first: &mut [T], second: &mut [U], run: &BothTask<'_, T, U>) {
     #[cfg(feature = "rayon")]
     if second.len() >= PARALLEL_FROM {
@@ -51,7 +51,7 @@ pub(crate) fn fill_both<T: Send, U: Send>(width: usize, first: &mut [T], second:
     run(0..second.len(), first, second);
 }
 
-/// As [`fill`], with samples of `channels` channels.
+/// Like [`fill`], with samples of `channels` channels.
 pub(crate) fn sample(channels: usize, out: Sampled<'_>, run: &(dyn Fn(Range<usize>, Sampled<'_>) + Sync)) {
     let count = out.directions.len();
     #[cfg(feature = "rayon")]

@@ -203,7 +203,7 @@ pub fn write(samples: &specular::Data, path: &Path) -> Result<(), FormatError> {
 /// The content that [`write()`] writes.
 ///
 /// # Errors
-/// As [`write()`] to `path`.
+/// The same as for [`write()`] to `path`.
 pub fn text(samples: &specular::Data, path: &Path) -> Result<String, FormatError> {
     check_extension(path, samples.scatter(), ["ddr", "ddt"])?;
     let (model, names) = block_names(path, samples.channels())?;

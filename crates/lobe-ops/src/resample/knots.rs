@@ -75,7 +75,7 @@ pub const PROBES: usize = 100_000;
 /// the bound is an aim.
 ///
 /// # Errors
-/// As [`measure`].
+/// The same as for [`measure`].
 pub fn choose<'a>(
     scattering: impl Into<OnBackend<'a>>,
     aspect: Aspect,

@@ -97,7 +97,7 @@ pub trait Bsdf: Debug + Send + Sync {
     /// Values and densities of many pairs: computing both at once may take less time than one after the other.
     ///
     /// # Panics
-    /// As [`eval_batch`](Self::eval_batch) and [`pdf_batch`](Self::pdf_batch).
+    /// The same as for [`eval_batch`](Self::eval_batch) and [`pdf_batch`](Self::pdf_batch).
     fn eval_pdf_batch(
         &self,
         backend: Backend,
@@ -202,7 +202,7 @@ impl<'a> OnBackend<'a> {
     /// Values of many pairs, as [`Bsdf::eval_batch`].
     ///
     /// # Panics
-    /// As [`Bsdf::eval_batch`].
+    /// The same as for [`Bsdf::eval_batch`].
     pub fn eval_batch<'b>(&self, wi: impl Into<Directions<'b>>, wo: impl Into<Directions<'b>>, out: &mut [f32]) {
         self.bsdf.eval_batch(self.backend, wi.into(), wo.into(), out);
     }

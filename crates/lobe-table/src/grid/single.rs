@@ -88,7 +88,7 @@ impl Axis {
         OneCell { index, fraction, contained }
     }
 
-    /// As [`Find::find`](super::search::Find), for one angle.
+    /// Like [`Find::find`](super::search::Find), for one angle.
     #[inline(always)]
     fn find_one<L: Lanes>(&self, lanes: L, x: f32) -> (u32, f32) {
         let cell = match self.search() {

@@ -52,7 +52,7 @@ pub(crate) fn rgb<L: Lanes, T: Stored, const CORNERS: usize, const B: usize>(
     }
 }
 
-/// As [`rgb`], with texels whose fourth float says whether there is a value: texels without one are all 0 and are left
+/// Like [`rgb`], with texels whose fourth float says whether there is a value: texels without one are all 0 and are left
 /// out of the average. 0 if no texel has a value.
 #[inline(always)]
 pub(crate) fn measured<L: Lanes, T: Stored, const CORNERS: usize, const B: usize>(

@@ -74,7 +74,7 @@ impl Table {
     /// Evaluates `f` in 1/sr of many pairs on a backend: `out[3 * query + channel]`.
     ///
     /// # Panics
-    /// As [`batch`](Self::batch).
+    /// The same as for [`batch`](Self::batch).
     pub fn eval_batch(
         &self,
         backend: Backend,

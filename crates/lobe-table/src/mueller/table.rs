@@ -60,7 +60,7 @@ impl Table {
     /// Evaluates `f` in 1/sr of many pairs on a backend: `out[query * channels + channel]`.
     ///
     /// # Panics
-    /// As [`batch`](Self::batch).
+    /// The same as for [`batch`](Self::batch).
     pub fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
         backend.run(self.batch(wi, wo, out));
     }

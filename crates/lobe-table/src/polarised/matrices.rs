@@ -52,7 +52,7 @@ impl Matrices {
     /// The matrices of many pairs on a backend: `out[query][wavelength][row][column]`.
     ///
     /// # Panics
-    /// As [`batch`](Self::batch).
+    /// The same as for [`batch`](Self::batch).
     pub fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
         backend.run(self.batch(wi, wo, out));
     }

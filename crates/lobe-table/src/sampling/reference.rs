@@ -10,7 +10,7 @@ use crate::grid::neighbours::Neighbours;
 use crate::specular::coords;
 
 impl Distribution {
-    /// As [`draw_lanes`](Distribution::draw_lanes), in `f64`; `None` if `known` is not above the surface. Sums and
+    /// Like [`draw_lanes`](Distribution::draw_lanes), in `f64`; `None` if `known` is not above the surface. Sums and
     /// knots are those of the lanes, rounded to `f32`; everything else is exact.
     pub fn draw_reference(&self, known: [f64; 3], u: [f64; 2]) -> Option<([f64; 3], f64)> {
         let [x, y, z] = known;

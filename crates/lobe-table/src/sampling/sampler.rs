@@ -72,10 +72,10 @@ impl Sampler {
         Sampler::with_progress(backend, table, options, &mut |_, _| {})
     }
 
-    /// As [`new`](Sampler::new), calling `progress(done, all)` after each slice.
+    /// Like [`new`](Sampler::new), calling `progress(done, all)` after each slice.
     ///
     /// # Errors
-    /// As [`new`](Sampler::new).
+    /// The same as for [`new`](Sampler::new).
     pub fn with_progress(
         backend: Backend,
         table: Arc<specular::Table>,
@@ -91,10 +91,10 @@ impl Sampler {
         Ok(Sampler { table, distribution })
     }
 
-    /// As [`new`](Sampler::new), on lanes that are not a [`Backend`].
+    /// Like [`new`](Sampler::new), on lanes that are not a [`Backend`].
     ///
     /// # Errors
-    /// As [`new`](Sampler::new).
+    /// The same as for [`new`](Sampler::new).
     pub fn on_lanes<L: Lanes>(
         lanes: L,
         table: Arc<specular::Table>,
@@ -178,10 +178,10 @@ impl Sampler {
         sample(&draw, &values, given, directions, u, out);
     }
 
-    /// As [`sample_batch`](Self::sample_batch), on lanes that are not a [`Backend`].
+    /// Like [`sample_batch`](Self::sample_batch), on lanes that are not a [`Backend`].
     ///
     /// # Panics
-    /// As [`sample_batch`](Self::sample_batch).
+    /// The same as for [`sample_batch`](Self::sample_batch).
     pub fn sample_on_lanes<L: Lanes>(
         &self,
         lanes: L,

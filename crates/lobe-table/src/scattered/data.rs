@@ -188,7 +188,7 @@ impl Data {
         out
     }
 
-    /// As [`eval`](Self::eval), into `out`; `sum` is scratch memory for the channels. Both can be reused for many
+    /// Like [`eval`](Self::eval), into `out`; `sum` is scratch memory for the channels. Both can be reused for many
     /// pairs.
     ///
     /// # Panics

@@ -52,7 +52,7 @@ impl Table {
     /// The work of [`eval_batch`](Table::eval_batch) as a kernel, for lanes that are not a [`Backend`].
     ///
     /// # Panics
-    /// As [`eval_batch`](Table::eval_batch).
+    /// The same as for [`eval_batch`](Table::eval_batch).
     pub fn batch<'a>(
         &'a self,
         wi: Directions<'a>,

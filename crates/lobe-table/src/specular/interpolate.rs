@@ -26,7 +26,7 @@ impl Table {
     /// [`Backend`].
     ///
     /// # Panics
-    /// As [`interpolate_batch`](Table::interpolate_batch).
+    /// The same as for [`interpolate_batch`](Table::interpolate_batch).
     pub fn interpolation<'a>(&'a self, angles: [&'a [f32]; 4], out: &'a mut [f32]) -> impl Kernel<Out = ()> + 'a {
         let count = angles[0].len();
         for (axis, angles) in angles.iter().enumerate() {

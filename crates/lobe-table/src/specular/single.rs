@@ -74,7 +74,7 @@ fn angles<L: Lanes>(lanes: L, table: &Table, wi: [f32; 3], wo: [f32; 3]) -> ([f3
     (azimuths(lanes, halves, [1.0, cos_psi, along, x]), valid)
 }
 
-/// As [`lobe_math::azimuth_from`], for four angles.
+/// Like [`lobe_math::azimuth_from`], for four angles.
 #[inline(always)]
 fn azimuths<L: Lanes>(lanes: L, t: [f32; 4], x: [f32; 4]) -> [f32; 4] {
     let mut angles = [0.0; MAX_LANES];

@@ -33,10 +33,10 @@ impl Table {
         Table::with_precision(samples, edges, Precision::Single)
     }
 
-    /// As [`new`](Table::new), with a choice of the storage format of the values.
+    /// Like [`new`](Table::new), with a choice of the storage format of the values.
     ///
     /// # Errors
-    /// As [`new`](Table::new).
+    /// The same as for [`new`](Table::new).
     pub fn with_precision(samples: &Data, edges: &Edges, precision: Precision) -> Result<Self, TableError> {
         let source = Source {
             names: &AXIS_NAMES,

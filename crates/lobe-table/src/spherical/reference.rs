@@ -22,7 +22,7 @@ impl Data {
         out
     }
 
-    /// As [`eval`](Self::eval), into `out`, one value per channel.
+    /// Like [`eval`](Self::eval), into `out`, one value per channel.
     ///
     /// # Panics
     /// If the length of `out` is not the number of channels.

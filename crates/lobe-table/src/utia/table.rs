@@ -55,7 +55,7 @@ impl Table {
     /// Evaluates many pairs on a backend: `out[3 * query + channel]`.
     ///
     /// # Panics
-    /// As [`batch`](Self::batch).
+    /// The same as for [`batch`](Self::batch).
     pub fn eval_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
         backend.run(self.batch(wi, wo, out));
     }

@@ -147,7 +147,7 @@ impl Material {
         fitting(self.try_eval(wi, wo, out));
     }
 
-    /// As [`eval`](Material::eval), with an error instead of a panic.
+    /// Like [`eval`](Material::eval), with an error instead of a panic.
     ///
     /// # Errors
     /// If the length of `out` is not the number of channels.
@@ -166,7 +166,7 @@ impl Material {
         fitting(self.try_eval_batch(wi, wo, out));
     }
 
-    /// As [`eval_batch`](Material::eval_batch), with an error instead of a panic.
+    /// Like [`eval_batch`](Material::eval_batch), with an error instead of a panic.
     ///
     /// # Errors
     /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times the number of channels.
@@ -179,11 +179,11 @@ impl Material {
         self.try_eval_on(self.backend, wi.into(), wo.into(), out)
     }
 
-    /// As [`eval_batch`](Material::eval_batch), but on the given backend: for a renderer that chooses one backend for a
+    /// Like [`eval_batch`](Material::eval_batch), but on the given backend: for a renderer that chooses one backend for a
     /// whole picture.
     ///
     /// # Panics
-    /// As [`eval_batch`](Material::eval_batch).
+    /// The same as for [`eval_batch`](Material::eval_batch).
     pub fn eval_batch_on<'a>(
         &self,
         backend: Backend,
@@ -240,7 +240,7 @@ impl Material {
         fitting(self.try_mueller_on(self.backend, wi.into(), wo.into(), out))
     }
 
-    /// As [`mueller_batch`](Material::mueller_batch), with an error instead of a panic.
+    /// Like [`mueller_batch`](Material::mueller_batch), with an error instead of a panic.
     ///
     /// # Errors
     /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times 16 times the number of

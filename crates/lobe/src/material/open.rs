@@ -53,10 +53,10 @@ impl Material {
         Material::open_with(path, &Options::default())
     }
 
-    /// As [`open`](Material::open), with options for what the file leaves open.
+    /// Like [`open`](Material::open), with options for what the file leaves open.
     ///
     /// # Errors
-    /// As [`open`](Material::open).
+    /// The same as for [`open`](Material::open).
     pub fn open_with(path: impl AsRef<Path>, options: &Options) -> Result<Self, OpenError> {
         let path = path.as_ref();
         let (_, document) = lobe_formats::open(path)?;
@@ -67,7 +67,7 @@ impl Material {
     /// only if the content is ambiguous, as in [`formats::open`](lobe_formats::open).
     ///
     /// # Errors
-    /// As [`open`](Material::open).
+    /// The same as for [`open`](Material::open).
     pub fn from_bytes(bytes: &[u8], name: impl AsRef<Path>, options: &Options) -> Result<Self, OpenError> {
         let name = name.as_ref();
         let document = lobe_formats::from_bytes(bytes, name)?;
@@ -77,7 +77,7 @@ impl Material {
     /// A material from a document that was read or created.
     ///
     /// # Errors
-    /// As [`open`](Material::open); the error names no file.
+    /// The same as for [`open`](Material::open); the error names no file.
     pub fn from_document(document: &Document, options: &Options) -> Result<Self, OpenError> {
         let origin = Origin { format: document.format, source: document.source.clone(), kind: SHEET };
         if let Some(data) = document.only() {
@@ -95,7 +95,7 @@ impl Material {
     /// A material from samples in any representation, such as [`specular::Data`](lobe_table::specular::Data).
     ///
     /// # Errors
-    /// As [`from_document`](Material::from_document).
+    /// The same as for [`from_document`](Material::from_document).
     pub fn from_samples(samples: impl Into<Data>, options: &Options) -> Result<Self, OpenError> {
         Material::from_document(&Document::new(samples), options)
     }
@@ -108,7 +108,7 @@ impl Material {
     /// reflection is black.
     ///
     /// # Errors
-    /// As [`open`](Material::open), and if the files have different channels, or one of them is itself a sheet.
+    /// The same as for [`open`](Material::open), and if the files have different channels, or one of them is itself a sheet.
     pub fn open_sheet<P: AsRef<Path>>(front: &[P], back: &[P], options: &Options) -> Result<Self, OpenError> {
         let mut parts = Parts::default();
         let mut last = None;

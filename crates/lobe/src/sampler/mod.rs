@@ -57,10 +57,10 @@ impl Sampler {
         Sampler::with_progress(material, options, &mut |_, _| {})
     }
 
-    /// As [`new`](Sampler::new), calling `progress(done, all)` after each slice of a distribution.
+    /// Like [`new`](Sampler::new), calling `progress(done, all)` after each slice of a distribution.
     ///
     /// # Errors
-    /// As [`new`](Sampler::new).
+    /// The same as for [`new`](Sampler::new).
     pub fn with_progress(
         material: Arc<Material>,
         options: &SamplerOptions,
@@ -107,7 +107,7 @@ impl Sampler {
         fitting(self.try_sample(given, direction, u, weight))
     }
 
-    /// As [`sample`](Sampler::sample), with an error instead of a panic.
+    /// Like [`sample`](Sampler::sample), with an error instead of a panic.
     ///
     /// # Errors
     /// If the length of `weight` is not the number of channels.
@@ -140,7 +140,7 @@ impl Sampler {
         fitting(self.try_sample_batch(given, directions, u, out));
     }
 
-    /// As [`sample_batch`](Sampler::sample_batch), with an error instead of a panic.
+    /// Like [`sample_batch`](Sampler::sample_batch), with an error instead of a panic.
     ///
     /// # Errors
     /// If `u` or a field of `out` does not have one entry per direction, or the weights do not have one per direction
@@ -180,7 +180,7 @@ impl Sampler {
         fitting(self.try_draw_batch(known, u, directions, pdfs));
     }
 
-    /// As [`draw_batch`](Sampler::draw_batch), with an error instead of a panic.
+    /// Like [`draw_batch`](Sampler::draw_batch), with an error instead of a panic.
     ///
     /// # Errors
     /// If the slices do not have the same length.
@@ -225,7 +225,7 @@ impl Sampler {
         fitting(self.try_pdf_batch(given, wi, wo, pdfs));
     }
 
-    /// As [`pdf_batch`](Sampler::pdf_batch), with an error instead of a panic.
+    /// Like [`pdf_batch`](Sampler::pdf_batch), with an error instead of a panic.
     ///
     /// # Errors
     /// If the numbers of `wi`, `wo` and `pdfs` differ.
@@ -265,7 +265,7 @@ impl Sampler {
         fitting(self.try_eval_pdf_batch(given, wi, wo, values, pdfs));
     }
 
-    /// As [`eval_pdf_batch`](Sampler::eval_pdf_batch), with an error instead of a panic.
+    /// Like [`eval_pdf_batch`](Sampler::eval_pdf_batch), with an error instead of a panic.
     ///
     /// # Errors
     /// If the numbers of `wi`, `wo` and `pdfs` differ, or there is not one value per pair and channel.

@@ -76,7 +76,7 @@ impl Table {
     /// time than one after the other.
     ///
     /// # Panics
-    /// As [`batch`](Self::batch).
+    /// The same as for [`batch`](Self::batch).
     pub fn evaluate(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, wanted: Wanted<'_>) {
         backend.run(self.batch(wi, wo, wanted));
     }

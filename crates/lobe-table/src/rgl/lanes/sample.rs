@@ -45,7 +45,7 @@ impl Table {
     /// The sampling of many directions as a kernel, for lanes that are not a [`Backend`].
     ///
     /// # Panics
-    /// As [`sample_batch`](Table::sample_batch).
+    /// The same as for [`sample_batch`](Table::sample_batch).
     pub fn sampling<'a>(
         &'a self,
         wi: Directions<'a>,

@@ -84,7 +84,7 @@ impl PatchSampler {
     /// The sampling of many directions as a kernel, for lanes that are not a [`Backend`].
     ///
     /// # Panics
-    /// As [`draw_batch`](Self::draw_batch).
+    /// The same as for [`draw_batch`](Self::draw_batch).
     pub fn drawing<'a>(
         &'a self,
         known: &'a [[f32; 3]],
@@ -108,7 +108,7 @@ impl PatchSampler {
     /// The densities of many pairs as a kernel, for lanes that are not a [`Backend`].
     ///
     /// # Panics
-    /// As [`pdf_batch`](Self::pdf_batch).
+    /// The same as for [`pdf_batch`](Self::pdf_batch).
     pub fn densities<'a>(
         &'a self,
         known: &'a [[f32; 3]],

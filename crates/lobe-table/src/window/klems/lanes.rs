@@ -50,7 +50,7 @@ impl Patches {
     /// The patches through which light leaves.
     ///
     /// # Errors
-    /// As [`arriving`](Self::arriving).
+    /// The same as for [`arriving`](Self::arriving).
     pub(crate) fn leaving(basis: &AngleBasis) -> Result<Self, Invalid> {
         Patches::new(basis, 1.0)
     }
