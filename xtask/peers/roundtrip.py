@@ -1,4 +1,4 @@
-"""Evaluates files that lobe writes with the programs that they are written for.
+"""Evaluates files written by lobe with the programs for which they are written.
 
     python -m venv venv && venv/bin/pip install -r xtask/peers/requirements.txt
     cargo build --release -p lobe-cli
@@ -24,7 +24,7 @@ FIXTURES = pathlib.Path(__file__).parents[2] / "fixtures"
 MITSUBA = 1e-3
 # Radiance changes its values by up to 3.5e-4 on purpose, to break ties in sampling.
 RADIANCE = 4e-4
-# Radiance keeps the colour of a patch as u' and v' in steps of 1/410, randomly rounded: two steps at most.
+# Radiance keeps the colour of a patch as u' and v' in steps of 1/410, randomly rounded: at most two steps.
 RADIANCE_COLOUR = 2 / 410
 
 # dctimestep multiplies in single precision, and prints seven digits; colours of patches are kept in steps.
@@ -47,7 +47,7 @@ class Lobe:
         return done
 
     def write(self, name, *arguments):
-        """Runs a command that writes a file of this name; prints what it says about it."""
+        """Runs a command that writes a file of this name, and prints its output."""
         path = self.folder / name
         command, *rest = arguments
         source = [rest.pop(0)] if command in ("generate", "convert") else []
@@ -62,14 +62,14 @@ class Lobe:
 
 
 def directions(count, seed):
-    """Unit vectors above the surface, in proportion to the cosine, none within a degree of the horizon."""
+    """Cosine-weighted unit vectors above the surface, none within a degree of the horizon."""
     rng = np.random.default_rng(seed)
     radius, turn = np.sqrt(0.9997 * rng.random(count)), 2 * np.pi * rng.random(count)
     return np.stack([radius * np.cos(turn), radius * np.sin(turn), np.sqrt(1 - radius**2)], axis=1)
 
 
 def near_mirror(wi, seed):
-    """Viewers of which half are near the mirror direction."""
+    """Directions to the viewer, half of them near the mirror direction."""
     wo = directions(len(wi), seed)
     mirrored = wi * [-1, -1, 1] + 0.15 * np.random.default_rng(seed + 1).standard_normal(wi.shape)
     mirrored /= np.linalg.norm(mirrored, axis=1)[:, None]
@@ -84,20 +84,20 @@ def errors(expected, found):
 
 
 class Verdict:
-    """What has agreed so far."""
+    """The result of all comparisons so far."""
 
     def __init__(self):
         self.agrees = True
 
     def compare_steps(self, what, expected, found, tolerance):
-        """Prints the largest difference; fails where it is over the tolerance."""
+        """Prints the largest difference; fails if it is above the tolerance."""
         largest = np.abs(found - expected).max()
         passed = bool(largest <= tolerance)
         self.agrees &= passed
         print(f"  {what}: largest difference {largest:.1e} ({'within' if passed else 'NOT WITHIN'} {tolerance:g})")
 
     def compare(self, what, expected, found, tolerance=None):
-        """Prints the differences; fails where the largest is over the tolerance, if there is one."""
+        """Prints the differences; fails if the largest is above the tolerance, if there is one."""
         error = errors(expected, found)
         largest = error.max()
         print(f"  {what}: median {np.median(error):.1e}, 95 % {np.quantile(error, 0.95):.1e}, largest {largest:.1e}", end="")
@@ -136,7 +136,7 @@ def mitsuba_peer(lobe, verdict):
         if source is not None:
             cosine = wo[:, 2:]
             verdict.compare("f cos against lobe on the source", lobe.eval(source, wi, wo, "--cosine"), values)
-        # Sampling: the mean weight is the albedo, which the values have too.
+        # Sampling: the mean weight must be the albedo of the values.
         rng = np.random.default_rng(3)
         one = dr.zeros(mi.SurfaceInteraction3f, 200_000)
         one.wi = mi.Vector3f(0.5, 0.3, math.sqrt(1 - 0.34))

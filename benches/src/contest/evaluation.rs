@@ -60,7 +60,7 @@ pub fn iso_strict(input: Input, count: usize) -> Contest {
     Contest { contenders: strict, ..whole }
 }
 
-/// What all contenders share.
+/// The input shared by all contenders.
 struct Setup {
     pairs: Pairs,
     wi: Vec<[f32; 3]>,

@@ -1,4 +1,4 @@
-//! `lobe check`: whether a measurement is sound, and what it covers.
+//! `lobe check`: checks whether a measurement is sound, and reports what it covers.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -232,7 +232,7 @@ fn side_of(target: Target, sides: Sides, scatter: Scatter) -> &'static str {
     }
 }
 
-/// Fails if there is no memory for values of so many nodes.
+/// Fails if there is no memory for values of this many nodes.
 pub fn fits(out: &Path, nodes: &[usize], channels: usize) -> Result<(), Failure> {
     /// Bytes per value: the value, temporary copies, and its text in a file.
     const VALUE: u64 = 40;

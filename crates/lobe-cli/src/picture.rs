@@ -56,12 +56,12 @@ pub struct Output<'a> {
     kind: Kind,
     /// The tone mapping of a PNG.
     pub tone: ToneMap,
-    /// What a PNG shows.
+    /// The quantity that a PNG shows.
     pub shown: Shown,
     keep_sums: bool,
 }
 
-/// What an earlier rendering left.
+/// The result of an earlier rendering.
 pub enum Begun<T: Transport> {
     /// The sums of some samples.
     Sums(Film<T>),
@@ -75,7 +75,7 @@ impl<'a> Output<'a> {
         Output { path, kind, tone: ToneMap { exposure: 0.0 }, shown: Shown::Colour, keep_sums }
     }
 
-    /// Whether all output files can be written, and none of them is an input.
+    /// Checks that all output files can be written, and that none of them is an input.
     pub fn check<P: AsRef<Path>>(&self, inputs: &[P]) -> Result<(), Failure> {
         check_output(self.path, inputs)?;
         Ok(check_output(&self.part(), inputs)?)
@@ -93,7 +93,7 @@ impl<'a> Output<'a> {
         }
     }
 
-    /// What an earlier rendering left; `None` if there is no file, or lobe did not write it.
+    /// The result of an earlier rendering; `None` if there is no file, or lobe did not write it.
     pub fn earlier(&self) -> Result<Option<Inspected>, Failure> {
         match inspect(&self.part()) {
             Ok(earlier) => Ok(Some(earlier)),
@@ -112,7 +112,7 @@ impl<'a> Output<'a> {
         ))
     }
 
-    /// What an earlier rendering of the same picture left.
+    /// The result of an earlier rendering of the same picture.
     pub fn resume<T: Transport>(
         &self,
         basis: &T::Basis,

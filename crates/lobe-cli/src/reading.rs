@@ -1,4 +1,4 @@
-//! The options that supply what a file leaves open.
+//! The options that supply facts that a file leaves open.
 
 use std::path::Path;
 

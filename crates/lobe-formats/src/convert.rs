@@ -130,10 +130,10 @@ impl ChannelMap {
     }
 }
 
-/// What was written.
+/// A summary of the written file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Written {
-    /// What happened to the channels, in words; `None` if they are unchanged.
+    /// A description of the change of channels; `None` if they are unchanged.
     pub note: Option<String>,
 }
 

@@ -3,7 +3,7 @@
 //! Columns of angles are `theta_i`, `phi_i`, `theta_o`, `phi_o`, or in specular coordinates `sigma`, `psi`, `theta`,
 //! `phi`; other common names are understood too, and so are tabs, semicolons or blanks between cells, decimal commas,
 //! lines above the names and below the rows, and cells without a value. `docs/formats.md` lists everything.
-//! [`ReadOptions`] supply what a table does not say, and [`Document::notes`] says how it was understood.
+//! [`ReadOptions`] supply facts that a table leaves open, and [`Document::notes`] says how it was understood.
 //!
 //! A comment `# scatter: transmission` before the names says that the table is a BTDF, and a comment `# rows: samples`,
 //! `# rows: nodes of a grid` or `# rows: nodes of a mirrored grid` says what the rows are. JSON files contain an object

@@ -11,7 +11,7 @@ use crate::{Document, FormatError, Place, ReadOptions, folder, goniometer, plain
 
 /// Reads a file of any supported format, which is recognised by its content. Formats that do not say whether they hold
 /// reflection or transmission are assumed to hold reflection, except that the extension decides for those of Integra:
-/// `.ddt` and `.sdt` are transmission. A [sidecar], if there is one, supplies what the file leaves open.
+/// `.ddt` and `.sdt` are transmission. A [sidecar], if there is one, supplies facts that the file leaves open.
 ///
 /// A file compressed with gzip is unpacked. In a folder, the files with one incident direction each (RPC Photonics,
 /// pab) are read as one material.

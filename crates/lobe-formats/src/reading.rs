@@ -1,4 +1,4 @@
-//! Options for what a file does not say.
+//! Options for facts that a file leaves open.
 
 use std::fmt;
 use std::path::Path;
@@ -8,7 +8,7 @@ use crate::angle::{Angle, Unit};
 use crate::words::words;
 use crate::{FormatError, Place};
 
-/// Options for what a file leaves open. Each may be `None`: then the file, its sidecar or the rule of its format
+/// Options for facts that a file leaves open. Each may be `None`: then the file, its sidecar or the rule of its format
 /// decides.
 ///
 /// On the command line each field is an option of the same name; in a [sidecar](crate::sidecar) it is a key.

@@ -8,7 +8,7 @@ pub const MAX_LANES: usize = 16;
 
 /// Work to be compiled for a backend's instruction set.
 pub trait Kernel {
-    /// What the work returns.
+    /// The result of the work.
     type Out;
 
     /// Does the work. Every implementation must be `#[inline(always)]`, and so must everything generic that it calls.

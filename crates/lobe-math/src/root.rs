@@ -1,4 +1,4 @@
-//! Roots for which there is no instruction.
+//! Roots that have no instruction.
 
 use lobe_lane::{Floats, Ints, Lanes};
 

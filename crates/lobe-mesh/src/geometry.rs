@@ -93,7 +93,7 @@ pub enum GeometryError {
     /// More vertices or triangles than 32 bits can count.
     #[error("found {found} {what}; expected less than 2^32")]
     TooMany {
-        /// What there are too many of.
+        /// `vertices` or `triangles`.
         what: &'static str,
         /// How many.
         found: usize,

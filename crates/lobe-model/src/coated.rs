@@ -5,15 +5,16 @@ use crate::{Ggx, Model, fresnel_conductor};
 
 /// A clear coat on a base: car paint, plastic, varnished wood.
 ///
-/// `f = coat + (1 - F(cos_i)) (1 - F(cos_o)) base`: the coat is a rough dielectric, and the base gets what passes the coat
-/// on the way in and out. After Weidlich and Wilkie, *Arbitrarily layered micro-facet surfaces*, GRAPHITE 2007, section 4,
-/// for a thin coat that absorbs nothing and does not bend what the base sees. Reciprocal if the base is.
+/// `f = coat + (1 - F(cos_i)) (1 - F(cos_o)) base`: the coat is a rough dielectric, and the base gets what passes the
+/// coat on the way in and out. After Weidlich and Wilkie, *Arbitrarily layered micro-facet surfaces*, GRAPHITE 2007,
+/// section 4, for a thin coat that absorbs nothing and does not bend the directions at the base. It is reciprocal if
+/// the base is.
 ///
-/// What passes is that of a smooth coat, while facets reflect less than a smooth one at grazing angles: beyond 60 degrees
-/// light is lost there, more than a quarter of it at 80 degrees with `alpha = 0.2`.
+/// The transmitted share is that of a smooth coat, while facets reflect less than a smooth one at grazing angles:
+/// beyond 60 degrees light is lost there, more than a quarter of it at 80 degrees with `alpha = 0.2`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coated<B> {
-    /// What lies under the coat.
+    /// The material under the coat.
     pub base: B,
     /// The facets of the coat.
     pub ggx: Ggx,

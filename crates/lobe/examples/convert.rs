@@ -18,7 +18,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::temp_dir().join(format!("lobe-example-{}.csv", std::process::id()));
     goniometer::write(data, &path)?;
 
-    // Nothing is resampled: what is read back has the same values at the same angles.
+    // Nothing is resampled: the file that is read back has the same values at the same angles.
     let (_, written) = formats::open(&path)?;
     std::fs::remove_file(&path)?;
     let count = |document: &formats::Document| document.only().map(|data| data.representation().channels().count());

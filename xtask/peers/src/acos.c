@@ -1,4 +1,4 @@
-/* Runs the arc cosine of SLEEF on request: `sleef COSINES`, a file of f32. Answers as serve.py does. */
+/* Runs the arc cosine of SLEEF on request: `sleef COSINES`, a file of f32. Answers as described in serve.py. */
 
 #include <immintrin.h>
 #include <sleef.h>

@@ -1,7 +1,8 @@
-/* Traces rays with Embree 3 on request: `embree DIRECTORY`. Answers as serve.py does.
+/* Traces rays with Embree 3 on request: `embree DIRECTORY`. Answers as described in serve.py.
 
    A task is SCENE.RAYS.HITS.ISA.TREE: rays of DIRECTORY/SCENE-RAYS.f32 (rows origin, direction, t_min, t_max) through
-   the mesh of SCENE-positions.f32 and SCENE-triangles.f32. HITS is `nearest` or `any`, TREE is `fast` or `robust`. A run uses the fastest of Embree's calls: 1, 4, 8, 16 rays and streams, each with and without its flag for
+   the mesh of SCENE-positions.f32 and SCENE-triangles.f32. HITS is `nearest` or `any`, TREE is `fast` or
+   `robust`. A run uses the fastest of Embree's calls: 1, 4, 8, 16 rays and streams, each with and without its flag for
    coherent rays. SCENE.build.ISA.TREE builds the tree instead. */
 
 #include <embree3/rtcore.h>
@@ -270,7 +271,7 @@ static struct task *task_named(const char *name) {
     return task;
 }
 
-/* The least time of runs, in seconds, in those modes that can still be the fastest. */
+/* The least time of runs, in seconds, among the modes that can still be the fastest. */
 static double least(const struct task *task, int times) {
     int modes = task->build ? 1 : MODES;
     double best = DBL_MAX, fastest = DBL_MAX;
@@ -304,7 +305,7 @@ static int write_values(const struct task *task, FILE *out) {
 int main(int argc, char **argv) {
     if (argc != 2) return 1;
     directory = argv[1];
-    /* As its manual recommends. */
+    /* As recommended by its manual. */
     _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
     _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
     printf("ready %s\n", RTC_VERSION_STRING);

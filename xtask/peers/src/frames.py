@@ -1,6 +1,6 @@
-"""Frames by Mitsuba 3 on request: `python frames.py VARIANT TASKS [wide]`.
+"""Renders frames with Mitsuba 3 on request: `python frames.py VARIANT TASKS [wide]`.
 
-Answers as `serve.py` does, with path-traced frames of scenes: `values` writes the linear RGB of two frames with
+Answers as described in `serve.py`, with path-traced frames of scenes: `values` writes the linear RGB of two frames with
 different random numbers, rows from the top.
 """
 
@@ -9,7 +9,7 @@ import json
 import os
 import sys
 
-# One core for all threads of Mitsuba; it counts cores when it is imported.
+# One core for all threads of Mitsuba, which counts cores when it is imported.
 os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
 
 import drjit as dr
@@ -78,9 +78,9 @@ class Frame:
 def main():
     variant, tasks = sys.argv[1], json.load(open(sys.argv[2]))
     mi.set_variant(variant)
-    # Negative measured values come from the files, and are no reason to print a warning among the answers.
+    # Negative measured values come from the files; warnings about them must not be printed among the answers.
     mi.set_log_level(mi.LogLevel.Error)
-    # Without a usable LLVM this ends the process, so do it before saying that all is well.
+    # Without a usable LLVM this ends the process, so it comes before reporting that the peer is ready.
     str(mi.Float(1) + 1)
     if variant.startswith("llvm"):
         choose_lanes("wide" in sys.argv[3:])

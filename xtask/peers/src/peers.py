@@ -1,6 +1,6 @@
-"""Runs peers of lobe on request: `python peers.py PACKAGE TASKS [wide]`, answering as `serve.py` does.
+"""Runs peers of lobe on request: `python peers.py PACKAGE TASKS [wide]`. Answers as described in `serve.py`.
 
-TASKS is a JSON file, an object that maps names to tasks. Arrays come from files of little-endian f32.
+TASKS is a JSON file with an object that maps names to tasks. Arrays come from files of little-endian f32.
 """
 
 import importlib.metadata
@@ -35,7 +35,7 @@ class Scipy:
 
 
 class Interpn:
-    """The same by interpn, one channel per call."""
+    """Linear interpolation by interpn, one channel per call."""
 
     def __init__(self, task):
         from interpn import raw
@@ -98,7 +98,7 @@ class Mitsuba:
     def values(self):
         parts = [np.atleast_2d(np.array(part)) for part in self.out]
         if len(parts) > 1:
-            # In Mitsuba a draw that leads below the surface keeps its direction and density; in lobe it has neither.
+            # In Mitsuba a sample below the surface keeps its direction and density; in lobe it has neither.
             (_, _, z), pdf, weight = parts
             leads = (z > 0) & np.any(weight != 0, axis=0)
             parts = [part * leads for part in parts]
@@ -111,13 +111,13 @@ KINDS = {"scipy": Scipy, "interpn": Interpn, "mitsuba": Mitsuba}
 def main():
     package, tasks = sys.argv[1], json.load(open(sys.argv[2]))
     if package == "mitsuba":
-        # Without a usable LLVM this ends the process, so do it before saying that all is well.
+        # Without a usable LLVM this ends the process, so it comes before reporting that the peer is ready.
         import mitsuba as mi
 
         mi.set_variant("llvm_ad_rgb")
         str(mi.Float([1, 2]) + 1)
         choose_lanes("wide" in sys.argv[3:])
-    # The first run compiles kernels, the second finds them.
+    # The first run compiles kernels, the second one finds them in the cache.
     serve(importlib.metadata.version(package), lambda name: KINDS[package](tasks[name]), warm_runs=2)
 
 

@@ -1,7 +1,7 @@
-"""How a peer answers. It says `ready VERSION` once, then answers each line of its input:
+"""The protocol of peers. A peer prints `ready VERSION` once, then answers each line of its input:
 
-    run TASK TIMES      the least processor time of that many runs, in seconds
-    values TASK FILE    `written`, after writing what a run computes to FILE, as little-endian f32
+    run TASK TIMES      the least processor time of this many runs, in seconds
+    values TASK FILE    `written`, after writing the results of a run to FILE, as little-endian f32
 
 Preparing a task is not timed.
 """
@@ -16,8 +16,8 @@ import numpy as np
 
 
 def choose_lanes(wide):
-    """Makes Dr.Jit compile for AVX2, which is what the compared library uses; or, if `wide`, leaves the choice to it and
-    ends the program if that is no wider. Call it once a variant that needs LLVM has been chosen."""
+    """Makes Dr.Jit compile for AVX2, which the compared library uses; or, if `wide`, leaves the choice to it and ends the
+    program if its vectors are not wider. Call it after a variant that needs LLVM has been chosen."""
     import drjit
 
     # Functions that its header declares, by their mangled C++ names.
@@ -29,14 +29,14 @@ def choose_lanes(wide):
     if wide and lanes() <= 8:
         sys.exit("this processor has no vectors wider than those of AVX2")
     if not wide and lanes() > 8:
-        # AVX2 with gathers that LLVM considers fast, as it does on all processors with AVX-512: for older ones it splits
-        # them, and `measured` takes four times as long.
+        # AVX2 with gathers that LLVM considers fast, as on all processors with AVX-512. For older ones it splits gathers,
+        # and `measured` takes four times as long.
         target(b"skylake", None, 8)
         assert lanes() == 8
 
 
 def serve(version, make, warm_runs):
-    """Answers with `make(TASK)`, which has `run()` and `values()`, and is run `warm_runs` times before it is first timed."""
+    """Answers requests with `make(TASK)`, which has `run()` and `values()`, and runs `warm_runs` times before it is timed."""
     ready = {}
 
     def prepared(name):

@@ -46,7 +46,7 @@ fn integrators() -> PossibleValuesParser {
     PossibleValuesParser::new(values)
 }
 
-/// What is divided.
+/// The picture that is divided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum By {
@@ -61,7 +61,7 @@ pub enum By {
 pub struct Plan {
     /// The number of parts.
     pub parts: u32,
-    /// What is divided.
+    /// The picture that is divided.
     pub by: By,
     /// Columns and rows.
     pub size: [u32; 2],

@@ -1,4 +1,4 @@
-//! `lobe import`, and in every command the options for what a file leaves open.
+//! `lobe import`, and in every command the options for facts that a file leaves open.
 
 use std::f64::consts::PI;
 

@@ -8,7 +8,7 @@ use lobe_table::{Channels, Scatter};
 use crate::text::{Text, Token, nine_digits};
 use crate::{FormatError, Place};
 
-/// What opens a comment.
+/// The beginning of a comment.
 pub(crate) const COMMENT: &str = ";;";
 
 const RGB: [[&str; 2]; 3] = [["red", "red"], ["gre", "green"], ["blu", "blue"]];

@@ -1,4 +1,4 @@
-//! Checks whether a measurement is sound, and what it covers.
+//! Checks whether a measurement is sound, and reports what it covers.
 //!
 //! [`check`] runs every check that applies to a file and reports a list of [`Finding`]s: sentences with numbers.
 //! Impossible values, such as an albedo above 1, fail. Suspicious ones are warnings. Facts that a user of the data

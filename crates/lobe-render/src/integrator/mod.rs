@@ -116,7 +116,7 @@ pub enum Renderer<'w, T: Transport> {
     Passes(Box<dyn PassRenderer<T> + Send + 'w>),
 }
 
-/// What to render, and on which lanes.
+/// The scene to render, and the lanes to render on.
 #[derive(Debug)]
 pub struct Task<'w, T: Transport> {
     pub(crate) world: &'w World<T>,

@@ -24,7 +24,7 @@ pub fn encode_rgb(width: u32, height: u32, bytes: &[u8]) -> Vec<u8> {
     out
 }
 
-/// What a PNG shows.
+/// The quantity that a PNG shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shown {
     /// The colour of light.

@@ -1,10 +1,10 @@
-//! Options for what a file leaves open.
+//! Options for choices that a file leaves open.
 
 use crate::half_diff::Lookup;
 use crate::utia::Decode;
 use crate::{Edges, Given};
 
-/// Options for what a file leaves open. Each representation uses those that concern it.
+/// Options for choices that a file leaves open. Each representation uses those that concern it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// The values outside the measured angles of specular tables. The other representations follow the rule of the

@@ -92,7 +92,7 @@ pub struct Gaps {
     pub missing: usize,
     /// The number if nothing were missing.
     pub all: usize,
-    /// What is counted, such as `bins`.
+    /// The unit that is counted, such as `bins`.
     pub of: &'static str,
     /// Whether evaluation treats them as gaps; a mask that no program uses is only mentioned.
     pub is_used: bool,

@@ -53,7 +53,7 @@ impl Material {
         Material::open_with(path, &Options::default())
     }
 
-    /// Like [`open`](Material::open), with options for what the file leaves open.
+    /// Like [`open`](Material::open), with options for facts that the file leaves open.
     ///
     /// # Errors
     /// The same as for [`open`](Material::open).
