@@ -6,7 +6,7 @@ use std::process::{Command, ExitCode};
 
 use super::wheel;
 
-pub const ABOUT: &str = "Install the package for Python into an environment of its own, and run its tests";
+pub const ABOUT: &str = "Install the Python package into a separate environment, and run its tests";
 
 const HELP: &str = "
 Usage: cargo xtask python [--wheel] [ARGUMENTS OF PYTEST]

@@ -212,9 +212,7 @@ fn kept(source: Option<&Source<'_>>) -> Vec<(&'static str, String)> {
 fn advice(nodes: &Nodes) -> &'static str {
     match nodes {
         Nodes::Rgl(_) => "for a smaller error: more --zeniths, --azimuths or --texels",
-        Nodes::Klems(_) => {
-            "these are means over patches, which are the smallest with --basis full; trees divide further"
-        }
+        Nodes::Klems(_) => "these are means over patches, which are smallest with --basis full; trees divide further",
         Nodes::Tree(_) => "for a smaller error: a larger --depth, and a smaller --leaf-error",
         Nodes::HalfDiff(_) => "the grid of this format cannot be refined; --to rgl and specular tables can",
         Nodes::Spherical { is_half: true, .. } => "for a smaller error: convert with --error",

@@ -220,7 +220,7 @@ pub fn write(sides: &Sides<spherical::Data>, path: &Path) -> Result<(), FormatEr
     write_with(sides, None, path)
 }
 
-/// As [`write`], with a line of metadata.
+/// Like [`write`], with a line of metadata.
 fn write_with(sides: &Sides<spherical::Data>, metadata: Option<String>, path: &Path) -> Result<(), FormatError> {
     let mut bytes = to_bytes(sides).map_err(|error| unwritable(path, &error))?;
     if let Some(metadata) = metadata {

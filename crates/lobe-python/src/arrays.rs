@@ -32,7 +32,7 @@ pub fn doubles<'py>(value: &Bound<'py, PyAny>, name: &str) -> PyResult<Bound<'py
 /// An array of real numbers of any type.
 ///
 /// # Errors
-/// As [`floats`].
+/// The same as for [`floats`].
 pub fn numbers<'py>(value: &Bound<'py, PyAny>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     let py = value.py();
     let numpy = py.import("numpy")?;
@@ -84,10 +84,9 @@ pub fn shown(shape: &[usize]) -> String {
     }
 }
 
-/// Unit vectors with the directions of v, an array of shape (..., 3), as float32.
-///
-/// They are rounded once, and are the same bits as those that the program lobe makes of its arguments. ValueError if a vector
-/// is zero or not finite.
+/// Unit vectors with the directions of v, an array of shape (..., 3), as float32. They are rounded once, and have the
+/// same bits as those that the program lobe computes from its arguments. Raises ValueError if a vector is zero or not
+/// finite.
 #[pyo3::pyfunction]
 pub fn normalize<'py>(v: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
     let array = doubles(v, "v")?;

@@ -154,10 +154,10 @@ impl Batch<'_, 3> {
         self.of_unit_length(columns.map_or_else(|| self.rows(), Source::Columns))
     }
 
-    /// As [`directions`](Self::directions), each direction in one piece.
+    /// Like [`directions`](Self::directions), each direction in one piece.
     ///
     /// # Errors
-    /// As [`directions`](Self::directions).
+    /// The same as for [`directions`](Self::directions).
     pub fn rows_of_directions(&self) -> PyResult<Source<'_, 3>> {
         self.of_unit_length(self.rows())
     }

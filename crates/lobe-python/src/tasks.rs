@@ -15,7 +15,7 @@ const TASK: usize = 4096;
 /// Fills `out`, which has `width` numbers per query, with what `work` makes of pairs of directions.
 ///
 /// # Errors
-/// As [`threads::batches`].
+/// The same as for [`threads::batches`].
 pub fn evaluate(
     py: Python<'_>,
     [wi, wo]: [&Source<'_, 3>; 2],
@@ -42,7 +42,7 @@ pub fn evaluate(
 /// of the first pair of them, and nothing is drawn near it.
 ///
 /// # Errors
-/// As [`threads::batches`].
+/// The same as for [`threads::batches`].
 pub fn sample(
     py: Python<'_>,
     sampler: &Sampler,

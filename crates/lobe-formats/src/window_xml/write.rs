@@ -25,10 +25,10 @@ pub fn write(sheet: &Data, source: &[(String, String)], path: &Path) -> Result<(
 /// What was kept of a file, by the names of the elements.
 type Kept = [(&'static str, String)];
 
-/// As [`write()`], with the elements that were kept of another file: its material and its geometry.
+/// Like [`write()`], with the elements that were kept of another file: its material and its geometry.
 ///
 /// # Errors
-/// As [`write()`].
+/// The same as for [`write()`].
 pub(super) fn write_with(
     sheet: &Data,
     source: &[(String, String)],

@@ -185,7 +185,7 @@ pub(super) fn rings(svg: &mut Svg<'_>, Place { x, y, radius }: Place) {
     svg.circle([x, y], radius, Role::Frame, 1.4);
 }
 
-// The light, at the direction it comes from, and the mirror direction or the straight-through ray.
+/// The light, at the direction it comes from, and the mirror direction or the straight-through ray.
 pub(super) fn light_and_mirror(svg: &mut Svg<'_>, place: Place, view: &View, sigma: f64) {
     let [u, v] = to_disk(view.side, view.psi, incident(view.side, sigma, view.psi));
     svg.raw(&sun(place.at([u, v])));
@@ -249,7 +249,7 @@ pub(super) fn frame_of_bar(svg: &mut Svg<'_>, [left, y]: [f64; 2], length: f64) 
     }
 }
 
-/// The colour bar: what it measures at its right end, or above it if there is no room.
+/// The colour bar, with its quantity at the right end, or above it if there is no room.
 fn bar(svg: &mut Svg<'_>, y: f64, scale: &Scale) {
     const STEPS: usize = 256;
     let width = svg.layout().width;
