@@ -1,8 +1,5 @@
-//! A wheel for most distributions of Linux.
-//!
-//! Zig links it, which has the symbols of every glibc: the wheel then loads with the one that the platform tag names, and with
-//! later ones. Only the module itself is linked by Zig, so that everything below it is the build that `pip install` makes too;
-//! `maturin build --zig` would compile all of it once more. `auditwheel` says whether the tag is true.
+//! Builds a wheel for most Linux distributions. It is linked by Zig, which has the symbols of every glibc: the wheel
+//! then loads with the glibc that the platform tag names, and with later ones. `auditwheel` checks this.
 
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -10,20 +7,20 @@ use std::process::Command;
 
 use super::python::done;
 
-/// What pip installs for it.
+/// The packages that pip installs for it.
 pub const TOOLS: [&str; 2] = ["maturin[zig]>=1.9.4,<2", "auditwheel"];
 
 /// The oldest glibc that Rust supports.
 const GLIBC: &str = "2.17";
-/// What wheels for it are called, the distributions of 2014 being the first that have it.
+/// The tag of glibc 2.17, the oldest that Rust supports, which covers distributions since 2014.
 const PLATFORM: &str = "manylinux2014";
-/// What auditwheel calls it.
+/// The name that auditwheel gives it.
 const AUDITED: &str = "manylinux_2_17";
 
-/// Makes the wheel in `target/wheels`, with the interpreter of an environment that has the tools, and `path` to find them.
+/// Builds the wheel in `target/wheels`, with the interpreter of an environment that has the tools.
 ///
 /// # Errors
-/// If it cannot be made, or does not run where it says.
+/// If it cannot be built, or needs a newer system than its name says.
 pub fn build(python: &Path, path: &OsStr) -> Result<PathBuf, String> {
     let folder = Path::new("target/wheels");
     if folder.exists() {
@@ -84,7 +81,7 @@ fn audit(python: &Path, wheel: &Path) -> Result<(), String> {
     }
 }
 
-/// Whether the tag that auditwheel finds consistent is the platform or an older one.
+/// `true` if the tag that auditwheel finds consistent is the platform or an older one.
 fn is_consistent(said: &str) -> bool {
     let words = said.split_whitespace().collect::<Vec<_>>().join(" ");
     let found = words.split("is consistent with the following platform tag: \"").nth(1);

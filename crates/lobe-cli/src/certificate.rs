@@ -1,4 +1,4 @@
-//! By how much a written file is wrong, as `lobe compare` finds.
+//! The error of a written file, as `lobe compare` finds it.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -25,11 +25,12 @@ pub struct Source<'a> {
 pub struct Certificate(Vec<Certified>);
 
 impl<'a> Source<'a> {
-    /// The document of a file, of which one channel may be written only. `None` if it has no values for pairs of directions.
+    /// The document of a file, of which only one channel may be written. `None` if it has no values for pairs of
+    /// directions.
     pub fn new(file: &'a Path, document: &Document, target: Target, channel: Option<&'a str>) -> Option<Self> {
         let options = Options::default();
         let material = Material::from_document(document, &options).ok()?;
-        // A subject is of the format that it was read from, which nothing here asks for.
+        // A subject has the format from which it was read, which is not used here.
         let subject = Subject::new(target.format, document.clone(), material, &options);
         Some(Source { subject, file, channel })
     }
@@ -50,8 +51,8 @@ impl<'a> Source<'a> {
         Ok(certified.filter(|certified| !certified.is_empty()).map(Certificate))
     }
 
-    /// Writes a document where nobody sees it, under the name of the file that it is for, and compares it as it is read
-    /// back. `None` as in [`certify`](Self::certify), and of formats that are only written.
+    /// Writes a document to a temporary folder, under the name of its file, reads it back, and compares it. `None` as
+    /// in [`certify`](Self::certify), and of formats that are only written.
     pub fn certify_written(
         &self,
         document: &Document,
@@ -72,7 +73,7 @@ impl<'a> Source<'a> {
         self.certify(&draft)
     }
 
-    /// Why an error cannot be bounded.
+    /// The reason why an error cannot be bounded.
     pub fn no_bound(&self, out: &Path) -> Failure {
         let expected = "a format that lobe reads, with a side, and channels or colours, that the source has too";
         Failure::Usage(format!("{}: found nothing to compare with the source; expected {expected}", out.display()))
@@ -85,7 +86,7 @@ impl Certificate {
         worst(&self.0)
     }
 
-    /// A line for people for each measurement.
+    /// A line of text for each measurement.
     pub fn lines(&self) -> impl Iterator<Item = String> {
         let is_one = self.0.len() == 1;
         self.0.iter().map(move |Certified { aspect, difference }| {
@@ -99,7 +100,7 @@ impl Certificate {
         })
     }
 
-    /// All of it on one line.
+    /// All measurements on one line.
     pub fn line(&self) -> String {
         self.lines().collect::<Vec<_>>().join("; ")
     }

@@ -50,10 +50,10 @@ pub struct Args {
     /// The measurement to write, if the file has both and the format holds one, or only one is wanted.
     #[arg(long, value_enum)]
     scatter: Option<ScatterKind>,
-    /// The largest relative error (root mean square) of a file that is resampled: nodes are refined until it holds.
+    /// The largest relative error (root mean square) of a resampled file: nodes are refined until it is met.
     #[arg(long, value_name = "SHARE", value_parser = bound)]
     error: Option<f64>,
-    /// Print JSON: an object that says what was written, and by how much it is off the source.
+    /// Print JSON: an object that describes the written file and its error.
     #[arg(long)]
     json: bool,
 }
@@ -63,7 +63,7 @@ fn bound(text: &str) -> Result<f64, String> {
     share.ok_or_else(|| format!("found `{text}`; expected a number above 0"))
 }
 
-/// What `--json` prints.
+/// The output of `--json`.
 #[derive(Serialize)]
 struct Answer {
     output: String,
@@ -168,8 +168,8 @@ fn written(document: Document, args: &Args) -> Result<Answer, Failure> {
     Ok(answer(Some(nodes), note, certificate))
 }
 
-/// The values at the nodes are those of the file; if the format makes another representation of them, values between the
-/// nodes are others, and by how much is said.
+/// The values at the nodes are those of the file. If the format turns them into another representation, values between
+/// the nodes differ, and the difference is reported.
 fn interpolated(document: &Document, target: Target, args: &Args) -> Result<Option<Certificate>, Failure> {
     let out = args.output.out.as_path();
     if target.format.spec().read.is_none() {

@@ -33,7 +33,7 @@ pub struct Args {
     /// How numbers are written.
     #[arg(long, value_enum, default_value = "ascii", requires = "out")]
     format: NumberFormat,
-    /// Add another product, of files with commas between them.
+    /// Add another product, of files separated by commas.
     #[arg(long, value_name = "LIST")]
     plus: Vec<String>,
     /// Subtract another product.

@@ -23,15 +23,15 @@ use crate::probe::Errors;
 use crate::progress::Progress;
 use crate::target::Target;
 
-/// A surface that is to be written.
+/// A surface to write.
 pub struct Job<'a> {
     pub surface: &'a dyn Surface,
     pub sides: Sides,
-    /// A material from a file may have any value within a degree of the horizon, where many formats store what has to be
-    /// divided by the cosine, so that it is never looked at there. Models are exact.
+    /// A material from a file may have any value within a degree of the horizon, where many formats store values that
+    /// must be divided by the cosine, so it is never evaluated there. Models are exact.
     pub is_from_file: bool,
     pub output: &'a Output,
-    /// The file that the surface is from, with which the written one is compared.
+    /// The file of the surface, with which the written one is compared.
     pub source: Option<&'a Source<'a>>,
     /// The largest relative error (root mean square) that is accepted.
     pub bound: Option<f64>,
@@ -43,7 +43,7 @@ pub struct Resampled {
     pub nodes: String,
     /// What happened to the channels.
     pub note: Option<String>,
-    /// By how much the file is wrong, if that is known.
+    /// The error of the file, if it is known.
     pub certificate: Option<Certificate>,
 }
 
@@ -143,7 +143,7 @@ fn scatter(target: Target, sides: Sides, out: &Path) -> Result<Scatter, Failure>
     }
 }
 
-/// The nodes that are asked for, and what their progress counts.
+/// The requested nodes, and the unit of their progress.
 fn nodes(target: Target, output: &Output, isotropic: bool) -> Result<(Nodes, &'static str), Failure> {
     let (format, out) = (target.format, output.out.display());
     let refuse = |found: &str, expected: &str| {
@@ -191,7 +191,7 @@ fn nodes(target: Target, output: &Output, isotropic: bool) -> Result<(Nodes, &'s
     })
 }
 
-/// The facts of the file: those of the source if it is of the same format, or its name.
+/// The facts of the file: those of the source if it has the same format, otherwise its name.
 fn facts(source: Option<&Source<'_>>, nodes: &Nodes, out: &Path) -> Vec<(String, String)> {
     let (Nodes::Klems(_) | Nodes::Tree(_)) = nodes else { return Vec::new() };
     let of_source = source.filter(|source| !source.document().kept.is_empty());
@@ -279,7 +279,7 @@ fn errors(surface: &dyn Surface, target: Target, aspects: &[Aspect], out: &Path)
     Ok(Some(Errors::between(surface, &Material::open_with(out, &options)?, aspects)))
 }
 
-/// Whether a kind of nodes has the sides of a sheet.
+/// `true` if a kind of nodes has the sides of a sheet.
 pub fn is_of_sheets(kind: Result<Kind, &str>) -> bool {
     kind == Ok(klems::KIND)
 }

@@ -53,7 +53,8 @@ pub struct Output {
     /// How often trees may halve each dimension. By default 6 in tree3 and 5 in tree4.
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u8).range(1..=10), help_heading = "Resampling")]
     pub depth: Option<u8>,
-    /// How far values in a leaf of a tree may be from their mean, relative to it or to the mean of all if that is larger. By default 0.05.
+    /// How far values in a leaf of a tree may be from their mean, relative to it or to the mean of all values if that
+    /// is larger. By default 0.05.
     #[arg(long, value_name = "SHARE", value_parser = leaf_error, help_heading = "Resampling")]
     pub leaf_error: Option<f64>,
 }
@@ -164,7 +165,7 @@ impl Output {
         self.or_default(knots(is_isotropic))
     }
 
-    /// The requested knots, and others for the axes without.
+    /// The requested knots, and default ones for the other axes.
     fn or_default(&self, knots: [Vec<f64>; 4]) -> [Vec<f64>; 4] {
         let asked = [&self.sigma, &self.psi, &self.theta, &self.phi];
         let mut chosen = asked.into_iter().zip(knots).map(|(asked, default)| match asked.as_slice() {
@@ -199,7 +200,7 @@ impl Output {
         }
     }
 
-    /// The knots of a grid in spherical coordinates in radians: the requested ones, or else some that suit most materials.
+    /// The knots of a grid in spherical coordinates in radians: the requested ones, or ones that suit most materials.
     pub fn spherical(&self, is_isotropic: bool) -> [Vec<f64>; 4] {
         self.or_default(spherical_knots(is_isotropic))
     }

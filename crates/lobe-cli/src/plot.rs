@@ -68,7 +68,7 @@ pub struct Args {
     /// Draw this channel, by the name that `lobe info` shows; by default the luminance, and spheres in colour.
     #[arg(long, value_name = "NAME")]
     channel: Option<String>,
-    /// A fit of the file, as `lobe fit -o FIT.json` writes it: a page shows where it fails.
+    /// A fit of the file, written by `lobe fit -o FIT.json`: the page shows where it fails.
     #[arg(long, value_name = "FIT")]
     fit: Option<PathBuf>,
     /// The width of a figure in pixels. Below 560, it is laid out for a narrow column.
@@ -195,7 +195,7 @@ fn content(
     Ok(Ok(Content { bytes, what: format!("{figure}, {width} pixels wide"), said: drawing.said }))
 }
 
-/// The fit to be shown with the only file.
+/// The fit to show with the only file.
 fn fitted<'a>(args: &Args, target: Target, shown: &[Shown<'_>]) -> Result<Option<Fitted<'a>>, Failure> {
     let Some(file) = &args.fit else { return Ok(None) };
     let refuse = |found: String, expected: &str| {

@@ -18,7 +18,7 @@ pub fn parser() -> impl TypedValueParser<Value = Format> {
         .try_map(|word| Format::writable().find(|format| format.spec().word == word).ok_or("no format of this name"))
 }
 
-/// What a format can hold, in words.
+/// A description of what a format can hold.
 fn holds(writer: &Writer) -> String {
     let nodes = match writer.resampled_as {
         Ok(klems::KIND) => "Klems matrices, tensor trees",

@@ -47,8 +47,8 @@ impl Unit {
     }
 }
 
-/// Radians in degrees, to a billionth: 15 degrees are to be written as 15, though they are 14.999999999999998 after a way
-/// through radians.
+/// Radians in degrees, rounded to a billionth: 15 degrees must be written as 15, although they are 14.999999999999998
+/// after conversion to radians and back.
 pub(crate) fn degrees(radians: f64) -> f64 {
     (radians.to_degrees() * 1e9).round() / 1e9
 }

@@ -70,7 +70,7 @@ impl ChannelMap {
             Channels::Mono if holds(&Channels::Rgb) => {
                 (Channels::Rgb, vec![&[1.0][..]; 3], "one channel as equal R, G and B")
             }
-            // A format with nothing but wavelengths: the ends of the visible range, and so every one between.
+            // The format has only wavelengths: writes the ends of the visible range, and so every wavelength between.
             Channels::Mono if holds(&Channels::Spectral(ENDS.into())) => {
                 (Channels::Spectral(ENDS.into()), vec![&[1.0][..]; 2], "one channel as equal values at 360 and 830 nm")
             }

@@ -28,8 +28,8 @@ pub struct Document {
     pub notes: Vec<String>,
     /// Possible misunderstandings.
     pub doubts: Vec<String>,
-    /// What a file says besides its values, as it stands there, for a writer of the same format to put it back: the name of
-    /// each piece, and its text.
+    /// The content of a file besides its values, verbatim, so that a writer of the same format can restore it: the name
+    /// of each piece, and its text.
     pub kept: Vec<(&'static str, String)>,
 }
 

@@ -1,4 +1,4 @@
-//! Data as a list of samples, for formats that hold nothing else.
+//! Data as a list of samples, for formats that can hold only samples.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +13,7 @@ pub(crate) struct Sample<'a> {
     pub values: &'a [f32],
 }
 
-/// Whether a document is a reflectance whose samples, or nodes in specular or spherical coordinates, can be listed.
+/// `true` if a document is a reflectance whose samples, or nodes in specular or spherical coordinates, can be listed.
 pub(crate) fn is_listed(document: &Document) -> bool {
     document.only().is_some_and(|data| match data {
         Data::Scattered(data) => data.scatter() == Scatter::Reflection,
@@ -23,7 +23,7 @@ pub(crate) fn is_listed(document: &Document) -> bool {
     })
 }
 
-/// The samples of a document that [`is_listed`], by incident direction; `None` of another.
+/// The samples of a document that [`is_listed`], by incident direction; `None` for any other document.
 pub(crate) fn samples(document: &Document) -> Option<Vec<Sample<'_>>> {
     match document.only().filter(|_| is_listed(document))? {
         Data::Scattered(data) => Some(data.samples().map(|(angles, values)| Sample { angles, values }).collect()),
@@ -33,17 +33,17 @@ pub(crate) fn samples(document: &Document) -> Option<Vec<Sample<'_>>> {
     }
 }
 
-/// The least height of the directions of nodes: lower ones are continuations of those above.
+/// The least height of the directions of nodes: the values of lower nodes are extrapolated from those above.
 const LOWEST: f64 = 1e-3;
-/// Angles that are this near to each other, in radians, are one.
+/// Angles closer than this, in radians, are the same.
 const SAME: f64 = 1e-6;
 
-/// Whether a knot is the first one again, after a whole turn.
+/// `true` if a knot equals the first one after a full turn.
 fn is_again(knots: &[f64], index: usize) -> bool {
     index > 0 && knots[index] - knots[0] > TAU - SAME
 }
 
-/// The nodes above the horizon, each direction once: a pole has no azimuth, and a turn ends where it begins.
+/// The nodes above the horizon, each direction once: a pole has no azimuth, and a full turn ends where it begins.
 fn of_specular(data: &specular::Data) -> Vec<Sample<'_>> {
     let [sigmas, psis, thetas, phis] = data.knots();
     let mut samples = Vec::new();
@@ -66,7 +66,7 @@ fn of_specular(data: &specular::Data) -> Vec<Sample<'_>> {
     samples
 }
 
-/// The nodes of a grid, each direction once; those of half a grid are the samples of one side.
+/// The nodes of a grid, each direction once; the nodes of half a grid are the samples of one side.
 fn of_spherical(data: &spherical::Data) -> Vec<Sample<'_>> {
     let [theta_i, phi_i, theta_o, phi_o] = data.knots();
     let count = data.channels().count();
@@ -75,7 +75,7 @@ fn of_spherical(data: &spherical::Data) -> Vec<Sample<'_>> {
         for (p, &phi) in phi_i.iter().enumerate().filter(|(p, _)| !is_again(phi_i, *p)) {
             for (o, &exit) in theta_o.iter().enumerate() {
                 for (a, &azimuth) in phi_o.iter().enumerate().filter(|(a, _)| !is_again(phi_o, *a)) {
-                    // Perpendicular light has one azimuth, and so has the pole.
+                    // Perpendicular light has only one azimuth, and so has the pole.
                     if theta < SAME && p > 0 || exit < SAME && a > 0 {
                         continue;
                     }

@@ -74,16 +74,16 @@ pub(crate) fn unfit(document: &Document, path: &Path, expected: &'static str) ->
     FormatError::new(path, Place::File, found, expected)
 }
 
-/// The name of the fact that says how a file was resampled, and by how much it is wrong.
+/// The name of the fact that says how a file was resampled, and gives its error.
 pub const RESAMPLED: &str = "resampled";
 
-/// What a file should say about how it was resampled, on one line.
+/// A description of how a file was resampled, on one line.
 pub(crate) fn resampled(document: &Document) -> Option<String> {
     let (name, value) = document.source.iter().find(|(name, _)| name == RESAMPLED)?;
     Some(format!("{name} {}", value.split_whitespace().collect::<Vec<_>>().join(" ")))
 }
 
-/// Writes a text, with a first line, after the mark of a comment, that says how it was resampled.
+/// Writes a text whose first line is a comment that says how it was resampled.
 pub(crate) fn commented(
     mark: &str,
     document: &Document,

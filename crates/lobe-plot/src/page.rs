@@ -41,7 +41,7 @@ pub fn page(shown: &[Shown<'_>], facts: &[Vec<Facts>], progress: &dyn Progress) 
     page_with_fit(shown, facts, None, progress)
 }
 
-/// Like [`page()`], with a model that was fitted to the first of the files: what is known of the fit, and where it fails.
+/// Like [`page()`], with a model that was fitted to the first of the files: facts about the fit, and where it fails.
 pub fn page_with_fit(
     shown: &[Shown<'_>],
     facts: &[Vec<Facts>],

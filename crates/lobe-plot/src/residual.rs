@@ -1,4 +1,4 @@
-//! Where a model is above and below what was measured.
+//! Computes where a model is above and below the measurement.
 
 use lobe::Scatter;
 
@@ -14,7 +14,7 @@ use crate::view::View;
 /// channel.
 pub type Values<'a> = dyn Fn([f64; 3], [f64; 3], &mut [f64]) + Sync + 'a;
 
-/// A model that was fitted to a material, to be compared with it on a page.
+/// A model that was fitted to a material, for comparison on a page.
 pub struct Fitted<'a> {
     /// Reflection or transmission of light from the side that is shown.
     pub scatter: Scatter,
@@ -26,17 +26,17 @@ pub struct Fitted<'a> {
     pub measured: Quantity,
     /// The values.
     pub f: Box<Values<'a>>,
-    /// What is known of the fit, for people.
+    /// Facts about the fit, for readers.
     pub facts: Vec<Facts>,
 }
 
-/// The disk of an incidence, with what the model has on it.
+/// The disk of an incidence, with the values of the model on it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Residual {
     /// What was measured.
     pub slice: Slice,
-    /// The model less the measurement, relative to the measurement or to the mean of the disk, whichever is larger; `None`
-    /// outside the disk and where nothing was measured.
+    /// The model less the measurement, relative to the measurement or to the mean of the disk, whichever is larger;
+    /// `None` outside the disk and at directions that were not measured.
     pub difference: Vec<Option<f32>>,
 }
 

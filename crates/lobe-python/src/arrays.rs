@@ -1,4 +1,4 @@
-//! Arrays of numbers: anything that NumPy understands.
+//! Arrays of numbers from anything that NumPy understands.
 
 use numpy::PyArrayDyn;
 use numpy::prelude::*;

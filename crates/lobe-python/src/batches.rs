@@ -1,8 +1,6 @@
-//! Batches of vectors, wherever they lie in memory.
-//!
-//! `float32` whose vectors, or whose columns of components, lie next to each other is read where it is. What does not
-//! (`float64`, slices, vectors that are repeated) is copied piece by piece, by the thread that works on the piece: a copy of the
-//! whole batch would cost as much as evaluating it.
+//! Batches of vectors in any memory layout. `float32` arrays whose vectors or whose columns of components are
+//! contiguous are read in place. All others (`float64`, slices, repeated vectors) are copied piece by piece, by the
+//! thread that works on the piece: a copy of the whole batch would take as long as evaluating it.
 
 use std::ops::Range;
 
@@ -17,9 +15,10 @@ use pyo3::types::PyTuple;
 use crate::arrays::{numbers, shown};
 use crate::strided::Strided;
 
-/// How far the square of the length of a unit vector may be from 1: vectors with three digits pass.
+/// How far the square of the length of a unit vector may be from 1: vectors with three digits are accepted.
 const LENGTH: f32 = 5e-3;
-/// At most as many vectors of a batch are checked, evenly chosen: whoever forgets to normalise forgets it for most.
+/// The most vectors of a batch that are checked, evenly chosen: a caller who forgets to normalise forgets it for most
+/// of them.
 const CHECKED: usize = 1024;
 
 /// An array of one of the types that are read without conversion of the whole.
@@ -56,7 +55,7 @@ impl<'py> Array<'py> {
         }
     }
 
-    /// The same, with the values repeated as far as the shape says, without a copy.
+    /// The same, broadcast to the shape without a copy.
     fn repeated(self, shape: &[usize]) -> PyResult<Self> {
         fn wide<'py, T: Element>(
             array: Bound<'py, PyArrayDyn<T>>,
@@ -73,17 +72,17 @@ impl<'py> Array<'py> {
     }
 }
 
-/// Vectors of `N` components, in an array that lives as long as this.
+/// Vectors of `N` components, in an array that this value keeps alive.
 pub struct Vectors<'py, const N: usize> {
     name: &'static str,
     array: Array<'py>,
 }
 
 impl<'py, const N: usize> Vectors<'py, N> {
-    /// Takes an array of shape `(..., N)`.
+    /// Wraps an array of shape `(..., N)`.
     ///
     /// # Errors
-    /// `ValueError` if its last axis has another length; `TypeError` if it holds no real numbers.
+    /// `ValueError` if its last axis has another length; `TypeError` if it does not hold real numbers.
     pub fn new(value: &Bound<'py, PyAny>, name: &'static str) -> PyResult<Self> {
         let array = Array::new(value, name)?;
         match array.shape().last() {
@@ -100,10 +99,10 @@ impl<'py, const N: usize> Vectors<'py, N> {
         &self.array.shape()[..self.array.shape().len() - 1]
     }
 
-    /// The vectors of a batch of this shape, which they are repeated to.
+    /// The vectors of a batch of this shape, to which they are broadcast.
     ///
     /// # Errors
-    /// If something writes to the array.
+    /// If other code writes to the array.
     pub fn batch(self, shape: &[usize]) -> PyResult<Batch<'py, N>> {
         let Vectors { name, array } = self;
         let full = [shape, &[N]].concat();
@@ -129,7 +128,7 @@ pub struct Batch<'py, const N: usize> {
 }
 
 impl<const N: usize> Batch<'_, N> {
-    /// The vectors, of which those that lie next to each other are read where they are.
+    /// The vectors; contiguous ones are read in place.
     pub fn rows(&self) -> Source<'_, N> {
         match &self.read {
             Read::Single(array) => match array.as_array().to_slice() {
@@ -145,7 +144,7 @@ impl Batch<'_, 3> {
     /// The directions, in rows or columns.
     ///
     /// # Errors
-    /// `ValueError` if they are not of unit length; vectors of zero length are no directions, and pass.
+    /// `ValueError` if they are not of unit length; vectors of zero length are accepted, as missing directions.
     pub fn directions(&self) -> PyResult<Source<'_, 3>> {
         let columns = match &self.read {
             Read::Single(array) => columns(&array.as_array()),
@@ -179,7 +178,7 @@ impl Batch<'_, 3> {
     }
 }
 
-/// All components of the same name, if they lie next to each other, as in the transpose of an array of columns.
+/// The columns of components, if each is contiguous, as in the transpose of an array of columns.
 fn columns<'a>(view: &ArrayViewD<'a, f32>) -> Option<[&'a [f32]; 3]> {
     let last = Axis(view.ndim() - 1);
     let column = |k| view.clone().index_axis_move(last, k).to_slice();
@@ -190,7 +189,7 @@ fn columns<'a>(view: &ArrayViewD<'a, f32>) -> Option<[&'a [f32]; 3]> {
     Some([column(0)?, column(1)?, column(2)?])
 }
 
-/// Vectors as they lie in memory.
+/// Vectors in their memory layout.
 pub enum Source<'a, const N: usize> {
     Rows(&'a [[f32; N]]),
     Columns([&'a [f32]; N]),
@@ -216,7 +215,7 @@ impl<const N: usize> Source<'_, N> {
         one[0]
     }
 
-    /// Vectors `range`, in `room` if they do not lie in rows.
+    /// Vectors `range`, copied to `room` if they are not contiguous rows.
     pub fn rows<'r>(&'r self, range: Range<usize>, room: &'r mut Vec<[f32; N]>) -> &'r [[f32; N]] {
         if let Source::Rows(rows) = self {
             return &rows[range];
@@ -226,7 +225,7 @@ impl<const N: usize> Source<'_, N> {
         room
     }
 
-    /// Whether kernels can read them where they are.
+    /// `true` if kernels can read them in place.
     pub fn is_near(&self) -> bool {
         matches!(self, Source::Rows(_) | Source::Columns(_))
     }
@@ -246,7 +245,7 @@ impl<const N: usize> Source<'_, N> {
 }
 
 impl Source<'_, 3> {
-    /// Directions `range`, in `room` if kernels cannot read them where they are.
+    /// Directions `range`, copied to `room` if kernels cannot read them in place.
     pub fn directions<'r>(&'r self, range: Range<usize>, room: &'r mut Vec<[f32; 3]>) -> Directions<'r> {
         match self {
             Source::Columns(columns) => Directions::Columns(columns.map(|column| &column[range.clone()])),

@@ -1,7 +1,6 @@
-//! Arrays for results, whose memory is used again.
-//!
-//! New memory comes from the system page by page, and each page is cleared: for a million pairs that takes as long as a quarter
-//! of the evaluation. What results no longer need is kept for the next ones instead.
+//! Arrays for results, whose memory is reused. The system provides new memory page by page and clears each page: for a
+//! million pairs this takes as long as a quarter of the evaluation. So memory that results no longer need is kept for
+//! the next ones.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -15,23 +14,23 @@ use crate::arrays::shown;
 
 /// Results of fewer numbers are left to NumPy: memory for them does not come from the system each time.
 const FROM: usize = (128 << 10) / size_of::<f32>();
-/// How many numbers are kept at most.
+/// The most numbers that are kept.
 const KEPT: usize = (128 << 20) / size_of::<f32>();
-/// Bytes of a cache line. Results begin with one, as kernels write a whole line at a time.
+/// Bytes of a cache line. Results are aligned to cache lines, because kernels write a whole line at a time.
 const LINE: usize = 64;
 
-/// An array of NumPy that results lie in.
+/// A NumPy array that holds results.
 struct Block {
     array: Py<PyArray1<f32>>,
-    /// How many numbers of a result fit.
+    /// The number of numbers that fit.
     room: usize,
 }
 
-/// What nothing uses, the oldest first. The lock is taken and given back with that of the interpreter held, which a thread needs
-/// to fork: so it is never found taken in a new process. No code of Python runs while it is held.
+/// Unused blocks, the oldest first. The lock is only taken and released while the lock of the interpreter is held,
+/// which a thread also needs to fork, so it is never locked in a new process. No Python code runs while it is held.
 static SPARE: Mutex<Vec<Block>> = Mutex::new(Vec::new());
 
-/// The memory of a result. The result keeps it alive, and so do all views of that.
+/// The memory of a result. The result and all of its views keep it alive.
 #[pyclass(frozen, module = "lobe_bsdf")]
 struct Memory {
     block: Option<Block>,
@@ -74,8 +73,8 @@ impl Drop for Memory {
     }
 }
 
-/// The smallest spare block that `count` numbers fit into, if they take at least half of it: the last one that was used, which
-/// may still be in a cache.
+/// The smallest spare block into which `count` numbers fit, if they take at least half of it; among equal ones the last
+/// one used, which may still be in a cache.
 fn spare(count: usize) -> Option<Block> {
     let mut spare = SPARE.lock().unwrap_or_else(PoisonError::into_inner);
     let fitting = spare.iter().enumerate().rev().filter(|(_, block)| (count..=2 * count).contains(&block.room));
@@ -83,7 +82,7 @@ fn spare(count: usize) -> Option<Block> {
     Some(spare.remove(index))
 }
 
-/// Keeps a block, in place of what has been spare for longest.
+/// Keeps a block, in place of the one that has been spare for longest.
 fn keep(block: Block) {
     let mut spare = SPARE.lock().unwrap_or_else(PoisonError::into_inner);
     spare.push(block);
@@ -97,10 +96,10 @@ fn keep(block: Block) {
     drop(spare);
 }
 
-/// A new array, or the one to write to. What is in it is left over: everything must be written.
+/// A new array, or the array to write to. It contains old numbers, so all of it must be written.
 ///
 /// # Errors
-/// `MemoryError`; `ValueError` if the array is of another shape or type, or cannot be written to.
+/// `MemoryError`; `ValueError` if the array has another shape or type, or cannot be written to.
 pub fn output<'py>(
     py: Python<'py>,
     out: Option<&Bound<'py, PyAny>>,
@@ -138,7 +137,7 @@ fn described(value: &Bound<'_, PyAny>) -> String {
 /// The values to write to.
 ///
 /// # Errors
-/// `ValueError` if something else uses the array, or it is read-only.
+/// `ValueError` if other code uses the array, or if it is read-only.
 pub fn written<'py>(array: &Bound<'py, PyArrayDyn<f32>>) -> PyResult<PyReadwriteArrayDyn<'py, f32>> {
     array.try_readwrite().map_err(|error| PyValueError::new_err(format!("out: {error}")))
 }

@@ -1,4 +1,4 @@
-//! Vectors that do not lie next to each other in `float32`: with gaps, backward, repeated, or in `float64`.
+//! Vectors that are not contiguous `float32`: with gaps, backward, repeated, or in `float64`.
 
 use numpy::ndarray::{ArrayViewD, Axis, Ix2};
 
@@ -21,7 +21,7 @@ impl Component for f64 {
 
 /// Vectors along the last axis of a view.
 pub struct Strided<'a, T> {
-    /// At least two axes; those that can be walked as one are one.
+    /// At least two axes; axes that can be walked as one are merged.
     view: ArrayViewD<'a, T>,
     count: usize,
 }

@@ -1,4 +1,4 @@
-//! Batches cut into tasks, for the threads of this process.
+//! Splits batches into tasks for the threads of this process.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -12,7 +12,7 @@ use crate::threads;
 /// Queries per task: copies of their directions stay in the second cache.
 const TASK: usize = 4096;
 
-/// Fills `out`, which has `width` numbers per query, with what `work` makes of pairs of directions.
+/// Fills `out`, which has `width` numbers per query, with the results of `work` for pairs of directions.
 ///
 /// # Errors
 /// The same as for [`threads::batches`].
@@ -29,7 +29,7 @@ pub fn evaluate(
     };
     threads::batches(py, wi.count(), |part| {
         let out = &mut out[part.start * width..part.end * width];
-        // What is read where it is needs no tasks of ours: evaluation has its own.
+        // Vectors that are read in place need no tasks here, because evaluation has its own.
         if part.len() < PARALLEL_FROM || wi.is_near() && wo.is_near() {
             return run(&mut Default::default(), part.start, out);
         }
@@ -38,8 +38,8 @@ pub fn evaluate(
     })
 }
 
-/// Draws a direction for each of `known` with the numbers `u`, into `out`. If numbers are not in [0, 1), the answer is the index
-/// of the first pair of them, and nothing is drawn near it.
+/// Samples a direction for each of `known` from the numbers `u`, into `out`. If numbers are not in [0, 1), returns the
+/// index of the first such pair, and samples nothing near it.
 ///
 /// # Errors
 /// The same as for [`threads::batches`].

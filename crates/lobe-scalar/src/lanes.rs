@@ -186,8 +186,8 @@ impl<const N: usize> Lanes for Scalar<N> {
     }
 }
 
-/// The four floats of a corner. None of a [`Block`] lies outside; zeros instead of a panic let the compiler drop a load that
-/// nothing uses.
+/// The four floats of a corner. No corner of a [`Block`] lies outside; returning zeros and not panicking lets the
+/// compiler drop an unused load.
 #[inline(always)]
 fn corner_at(table: &[f32], at: usize) -> [f32; 4] {
     match table.get(at..) {
@@ -199,7 +199,7 @@ fn corner_at(table: &[f32], at: usize) -> [f32; 4] {
     }
 }
 
-/// From the four floats of each lane to four times one float per lane.
+/// Transposes the four floats of each lane to four registers with one float per lane.
 #[inline(always)]
 fn transposed<const N: usize>(found: [[f32; 4]; N]) -> [Floats<N>; 4] {
     let mut out = [Floats([0.0; N]); 4];

@@ -198,7 +198,7 @@ fn every_command_has_an_example() {
     }
 }
 
-/// The numbers that a conversion states are those that `lobe compare` finds, and the file keeps them.
+/// A conversion reports the numbers that `lobe compare` finds, and the file keeps them.
 #[test]
 fn what_a_conversion_states_is_what_compare_finds() {
     let folder = Folder::new();
@@ -233,7 +233,7 @@ fn what_a_conversion_states_is_what_compare_finds() {
     }
 }
 
-/// Nodes are refined until the bound holds; where it cannot, nothing is written.
+/// Nodes are refined until the bound is met; if it cannot be met, nothing is written.
 #[test]
 fn a_bound_is_met_or_the_conversion_fails() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! `lobe farm slurm` on Slurm itself, if it is installed: three nodes on this machine.
+//! Tests `lobe farm slurm` on Slurm itself, if it is installed, with three nodes on this machine.
 
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
@@ -8,10 +8,10 @@ use std::time::{Duration, Instant};
 use crate::common::{Files, json, printed, text};
 use crate::hardening::SCENE;
 
-/// How long all of it may take on a busy machine.
+/// How long the whole test may take on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// Daemons, which end with this.
+/// Daemons, which end when this value is dropped.
 struct Slurm {
     config: PathBuf,
     daemons: Vec<Child>,
@@ -27,7 +27,7 @@ impl Drop for Slurm {
 }
 
 impl Slurm {
-    /// Starts a controller and three nodes; says why not if it cannot.
+    /// Starts a controller and three nodes; gives the reason if it cannot.
     fn start(folder: &Path) -> Result<Slurm, String> {
         let [controller, node] = ["slurmctld", "slurmd"].map(daemon);
         let (Some(controller), Some(node)) = (controller, node) else {
@@ -82,7 +82,7 @@ fn said(program: &str, arguments: &[&str]) -> String {
 fn configuration(folder: &Path) -> String {
     let host = said("uname", &["-n"]);
     let folder = text(folder);
-    // Held together, so that they differ.
+    // Held at the same time, so that they differ.
     let listeners: Vec<TcpListener> = (0..4).map(|_| TcpListener::bind("127.0.0.1:0").expect("a port")).collect();
     let ports: Vec<u16> = listeners.iter().map(|listener| listener.local_addr().expect("an address").port()).collect();
     let nodes = NODES.iter().zip(&ports[1..]).map(|(name, port)| {

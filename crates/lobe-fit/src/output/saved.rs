@@ -1,4 +1,4 @@
-//! Fits that were saved as JSON.
+//! Reads fits that were saved as JSON.
 
 use std::collections::BTreeMap;
 
@@ -10,13 +10,13 @@ use thiserror::Error;
 use crate::fitted::Fitted;
 use crate::model::Model;
 
-/// Why a text is no fit.
+/// The reason why a text is not a fit.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum SavedError {
-    /// No JSON with the entries of a fit.
+    /// The text is not JSON with the entries of a fit.
     #[error("{0}; expected JSON that `lobe fit -o FIT.json` has written")]
     Json(String),
-    /// A name that is not known here, or numbers that are missing.
+    /// A name is unknown, or numbers are missing.
     #[error("found {found}; expected {expected}")]
     Entry {
         /// What was found.
@@ -40,7 +40,7 @@ pub struct Saved {
     pub fitted: Fitted,
     /// The names of the channels that it was fitted to.
     pub channels: Vec<String>,
-    /// Names and values for people: the parameters with their uncertainties, and the residuals.
+    /// Names and values for readers: the parameters with their uncertainties, and the residuals.
     pub facts: Vec<(String, String)>,
 }
 
@@ -91,7 +91,7 @@ struct Sizes {
 /// Reads a fit from JSON.
 ///
 /// # Errors
-/// [`SavedError`] if it is none.
+/// [`SavedError`] if the text is not a fit.
 pub fn read(text: &str) -> Result<Saved, SavedError> {
     let whole: Whole = serde_json::from_str(text).map_err(|error| SavedError::Json(error.to_string()))?;
     let refuse = |found: String, expected: &str| SavedError::Entry { found, expected: expected.into() };
@@ -130,7 +130,7 @@ pub fn read(text: &str) -> Result<Saved, SavedError> {
     Ok(Saved { fitted, facts: facts(&whole, model), channels: whole.channels })
 }
 
-/// What the names of channels mean.
+/// The meaning of the names of channels.
 fn channels(names: &[String]) -> Channels {
     let is = |wanted: &[&str]| names.iter().map(String::as_str).eq(wanted.iter().copied());
     let wavelength = |name: &String| name.strip_suffix("nm").and_then(|digits| digits.trim().parse().ok());

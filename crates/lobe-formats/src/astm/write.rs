@@ -10,11 +10,11 @@ use crate::listed::samples;
 use crate::spec::unfit;
 use crate::{Document, FormatError};
 
-/// Writes `path` whole or not at all: a record per sample, or per node above the horizon. Values come back to the bit, angles
-/// within the rounding of a sum.
+/// Writes `path` completely or not at all: one record per sample, or per node above the horizon. Values are read back
+/// bit for bit, angles within the rounding of a sum.
 ///
 /// # Errors
-/// [`FormatError`] if the file cannot be written, or the document is no list of samples of a reflectance.
+/// [`FormatError`] if the file cannot be written, or the document is not a list of samples of a reflectance.
 pub(super) fn write(document: &Document, path: &Path) -> Result<(), FormatError> {
     let (Some(samples), Some(data)) = (samples(document), document.only()) else {
         return Err(unfit(document, path, "samples, or nodes in specular or spherical coordinates, of a reflectance"));
@@ -22,7 +22,7 @@ pub(super) fn write(document: &Document, path: &Path) -> Result<(), FormatError>
     let channels = data.representation().channels();
     let mut out = String::new();
     for (key, value) in &document.source {
-        // A line of its own for each, whose first word the reader takes for the keyword.
+        // A separate line for each, whose first word the reader takes for the keyword.
         let key = key.split_whitespace().collect::<Vec<_>>().join("_");
         if !key.is_empty() && !["VARS", "NUM_POINTS"].contains(&key.as_str()) {
             let _ = writeln!(out, "{key} {}", value.split_whitespace().collect::<Vec<_>>().join(" "));

@@ -10,11 +10,12 @@ use crate::listed::samples;
 use crate::spec::unfit;
 use crate::{Document, FormatError, Place};
 
-/// Writes `path` whole or not at all: for each incident direction, a line per sample or node above the horizon. Angles are in
-/// degrees; values come back to the bit.
+/// Writes `path` completely or not at all: for each incident direction, one line per sample or node above the horizon.
+/// Angles are in degrees; values are read back bit for bit.
 ///
 /// # Errors
-/// [`FormatError`] if the file cannot be written, the document is no list of samples of a reflectance, or has several channels.
+/// [`FormatError`] if the file cannot be written, or the document is not a list of samples of a reflectance or has
+/// several channels.
 pub(super) fn write(document: &Document, path: &Path) -> Result<(), FormatError> {
     let (Some(samples), Some(data)) = (samples(document), document.only()) else {
         return Err(unfit(document, path, "samples, or nodes in specular or spherical coordinates, of a reflectance"));
@@ -33,7 +34,7 @@ pub(super) fn write(document: &Document, path: &Path) -> Result<(), FormatError>
     for sample in samples {
         let [theta_i, phi_i, theta_o, phi_o] = sample.angles;
         if incident != Some([theta_i, phi_i]) {
-            // Where the light goes on to, not where it comes from.
+            // The direction in which the light continues, not the one from which it comes.
             let travels = (phi_i.to_degrees() + 180.0).rem_euclid(360.0);
             let _ = writeln!(out, "{} {travels}", theta_i.to_degrees());
             incident = Some([theta_i, phi_i]);

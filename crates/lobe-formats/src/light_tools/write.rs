@@ -12,11 +12,11 @@ use crate::text::push_row;
 use crate::totals::integrals;
 use crate::{Document, FormatError, Place};
 
-/// A measurement, and the side that its light comes from.
+/// A measurement, and the side from which its light comes.
 type Measured<'a> = (Side, &'a spherical::Data);
 
-/// The parts, if they are grids that a file can hold, each of another side or kind of scatter. What is of no particular side
-/// is of the front.
+/// The parts, if they are grids that a file can hold, each with a different side or kind of scatter. A part without a
+/// side belongs to the front.
 pub(super) fn grids(document: &Document) -> Option<Vec<Measured<'_>>> {
     let mut grids: Vec<Measured<'_>> = Vec::new();
     for part in &document.parts {
@@ -43,12 +43,13 @@ struct Column {
     index: usize,
 }
 
-/// Writes `path` whole or not at all. Values come back to the bit, angles to a billionth of a degree. The total integrated
-/// scatter of each table is the integral of its interpolated values.
+/// Writes `path` completely or not at all. Values are read back bit for bit, angles to a billionth of a degree. The
+/// total integrated scatter of each table is the integral of its interpolated values.
 ///
 /// # Errors
-/// [`FormatError`] if the file cannot be written; if the parts are no grids of the same outgoing directions and channels, the
-/// channels are neither one, X Y Z nor wavelengths of 50 nm and more, or half a turn is without a value.
+/// [`FormatError`] if the file cannot be written; if the parts are not grids with the same outgoing directions and
+/// channels; if the channels are not a single one, X Y Z or wavelengths of at least 50 nm; or if half a turn has no
+/// value.
 pub(super) fn write(document: &Document, path: &Path) -> Result<(), FormatError> {
     let refuse = |found: String, expected: &str| Err(FormatError::new(path, Place::File, found, expected));
     let Some(grids) = grids(document) else {
@@ -91,7 +92,7 @@ fn push_degrees(out: &mut String, angles: impl Iterator<Item = f64>) {
     out.push('\n');
 }
 
-/// The columns by ascending azimuth in the file, where the light at POI 0 is at 90 degrees.
+/// The columns by ascending azimuth in the file, in which the light at POI 0 is at 90 degrees.
 fn columns(grids: &[Measured<'_>], path: &Path) -> Result<Vec<Column>, FormatError> {
     const SAME: f64 = 1e-4;
     let first = grids[0].1;
@@ -116,7 +117,7 @@ fn columns(grids: &[Measured<'_>], path: &Path) -> Result<Vec<Column>, FormatErr
     Ok(columns)
 }
 
-/// Whether the first and the last azimuth have the same values.
+/// `true` if the first and the last azimuth have the same values.
 fn is_closed(grid: &spherical::Data) -> bool {
     let phis = grid.knots()[3].len();
     let mut rows = grid.values().chunks_exact(phis * grid.channels().count());
@@ -155,7 +156,7 @@ fn tables(out: &mut String, document: &Document, side: Side, grid: &spherical::D
     }
 }
 
-/// Whether a fact is a wavelength that the format can state.
+/// `true` if a fact is a wavelength that the format can hold.
 fn is_wavelength(fact: &str) -> bool {
     let number = fact.strip_suffix("nm").unwrap_or(fact).trim().parse::<f64>();
     number.is_ok_and(|nm| nm.is_finite() && nm > 0.0)

@@ -1,16 +1,17 @@
-//! What was measured of one incident direction, as a table of polar angle by azimuth.
+//! The measurement of one incident direction, as a table of polar angle by azimuth.
 
 use lobe_table::{scattered, spherical};
 
 use crate::angle::degrees;
 
-/// Azimuths nearer to each other than this, in degrees, are one.
+/// Azimuths closer than this, in degrees, are the same.
 const SAME: f64 = 1e-6;
-/// The widest gap between azimuths of a grid, in degrees: readers of such tables may interpolate across it by other rules.
+/// The widest gap between azimuths of a grid, in degrees: readers of such tables may interpolate across wider gaps
+/// differently.
 const GAP: f64 = 15.0;
 
-/// A table of an incident direction. Angles are in degrees; azimuths count from where the light goes on to, ascend, and are 0
-/// to 360, or 0 to 180 for one half of a symmetric table.
+/// A table of an incident direction. Angles are in degrees; azimuths count from the direction in which the light
+/// continues, ascend, and run from 0 to 360, or from 0 to 180 for one half of a symmetric table.
 pub(super) struct Incident {
     pub theta: f64,
     /// The azimuth of the light.
@@ -21,7 +22,8 @@ pub(super) struct Incident {
     pub values: Vec<f32>,
 }
 
-/// The azimuth in the file of one in the coordinates of the surface, for light at `light`; both in degrees.
+/// Converts an azimuth in the coordinates of the surface to the azimuth in the file, for light at `light`; both in
+/// degrees.
 fn from_forward(azimuth: f64, light: f64) -> f64 {
     let turned = degrees((azimuth - light - 180.0).rem_euclid(360.0).to_radians());
     if turned > 360.0 - SAME { 0.0 } else { turned }
@@ -41,7 +43,7 @@ struct Column {
     share: f64,
 }
 
-/// The tables of a grid. Azimuths that are missing at the ends and in gaps are interpolated as the grid is.
+/// The tables of a grid. Azimuths missing at the ends and in gaps are interpolated like the grid.
 pub(super) fn of_spherical(grid: &spherical::Data) -> Vec<Incident> {
     let [theta_i, phi_i, theta_o, phi_o] = grid.knots();
     let count = grid.channels().count();
@@ -71,7 +73,7 @@ pub(super) fn of_spherical(grid: &spherical::Data) -> Vec<Incident> {
     slices.zip(rows).map(table).collect()
 }
 
-/// The columns of a table: those of the grid, the ends, and more where these are further apart than [`GAP`].
+/// The columns of a table: those of the grid, the ends, and more if these are further apart than [`GAP`].
 fn columns(azimuths: &[f64], light: f64, is_half: bool) -> Vec<Column> {
     let place = |azimuth: f64| if is_half { (180.0 - azimuth).max(0.0) } else { from_forward(azimuth, light) };
     let mut knots: Vec<Knot> =
@@ -89,7 +91,7 @@ fn columns(azimuths: &[f64], light: f64, is_half: bool) -> Vec<Column> {
     phis.into_iter().map(|phi| column(&knots, phi, is_half)).collect()
 }
 
-/// The column at an azimuth: between the knots around it, which go round or, of a half, are held at its ends.
+/// The column at an azimuth: between the knots around it, which are periodic or, for half a grid, clamped at the ends.
 fn column(knots: &[Knot], phi: f64, is_half: bool) -> Column {
     let upper = knots.partition_point(|knot| knot.phi <= phi + SAME);
     let (first, last) = (knots[0], knots[knots.len() - 1]);
@@ -109,8 +111,8 @@ fn column(knots: &[Knot], phi: f64, is_half: bool) -> Column {
     }
 }
 
-/// The tables of samples, if those of each incident direction are a grid of polar angles and azimuths, of which a pole may
-/// have one for all azimuths.
+/// The tables of samples, if the samples of each incident direction form a grid of polar angles and azimuths, in which
+/// a pole may have one sample for all azimuths.
 pub(super) fn of_scattered(data: &scattered::Data) -> Option<Vec<Incident>> {
     let mut tables = Vec::new();
     let mut samples = data.relative_samples().peekable();
@@ -120,7 +122,7 @@ pub(super) fn of_scattered(data: &scattered::Data) -> Option<Vec<Incident>> {
         {
             of_table.push((degrees(theta_o), from_forward(degrees(relative), 0.0), values));
         }
-        // What was measured on one side of the plane of incidence is that of the other.
+        // Values measured on one side of the plane of incidence also apply to the other.
         let is_beyond = |(theta_o, phi, _): &(f64, f64, _)| *theta_o < SAME || *phi < SAME || *phi > 180.0 - SAME;
         if data.is_isotropic() && of_table.iter().all(is_beyond) {
             of_table.iter_mut().filter(|sample| sample.1 >= SAME).for_each(|sample| sample.1 = 360.0 - sample.1);
@@ -155,7 +157,7 @@ fn of_samples([theta, phi]: [f64; 2], samples: &[(f64, f64, &[f32])]) -> Option<
     let places: Vec<&[f32]> = places.into_iter().collect::<Option<_>>()?;
     let is_half = phis.last().is_some_and(|last| (*last - 180.0).abs() < SAME) && phis[0] < SAME;
     let is_whole = phis.first().is_some_and(|first| *first < SAME) && !is_half;
-    // Without an azimuth at 0 there is none at the end of the turn either.
+    // Without an azimuth at 0, there is none at the end of the turn either.
     if !is_half && !is_whole {
         return None;
     }

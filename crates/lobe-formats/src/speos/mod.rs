@@ -52,7 +52,7 @@ pub fn matches(bytes: &[u8]) -> bool {
         && (head.contains("brdf surface file") || head.contains("anisotropic bsdf surface file"))
 }
 
-/// The comment of a file of text.
+/// The comment of a text file.
 fn facts(bytes: &[u8]) -> Facts {
     let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
     let comment = head.lines().nth(2).map(str::trim).filter(|comment| !comment.is_empty());

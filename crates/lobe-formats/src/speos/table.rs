@@ -120,7 +120,7 @@ impl Table {
         Table { thetas, phis, values, is_intensity: false }
     }
 
-    /// Whether all values are 0.
+    /// `true` if all values are 0.
     pub(super) fn is_black(&self) -> bool {
         self.values.iter().all(|value| *value == 0.0)
     }

@@ -26,7 +26,7 @@ enum Kind {
     Anisotropic,
 }
 
-/// The data of a document that has at most one measurement of either kind of scatter, of no particular side.
+/// The data of a document with at most one measurement of each kind of scatter, without a particular side.
 fn parts(document: &Document) -> Option<Sides<&Data>> {
     let mut sides = Sides { reflection: None, transmission: None };
     for part in &document.parts {
@@ -41,7 +41,7 @@ fn parts(document: &Document) -> Option<Sides<&Data>> {
     Some(sides)
 }
 
-/// The tables of a document: grids, and samples that are on some.
+/// The tables of a document: grids, and samples that lie on grids.
 fn sides(document: &Document) -> Option<Vec<Side>> {
     let Sides { reflection, transmission } = parts(document)?;
     let side = |(scatter, data): (Scatter, &Data)| {
@@ -56,18 +56,18 @@ fn sides(document: &Document) -> Option<Vec<Side>> {
     parts.into_iter().filter_map(|(scatter, data)| Some(side((scatter, data?)))).collect()
 }
 
-/// Whether a document is on tables of polar angle by azimuth.
+/// `true` if a document consists of tables of polar angle by azimuth.
 pub(super) fn holds(document: &Document) -> bool {
     sides(document).is_some_and(|sides| !sides.is_empty())
 }
 
-/// Writes `path` whole or not at all, as its extension says, or else as `.brdf` if the material is isotropic. Values come back
-/// to the bit, angles to a billionth of a degree.
+/// Writes `path` completely or not at all, in the format of its extension, or as `.brdf` if the material is isotropic.
+/// Values are read back bit for bit, angles to a billionth of a degree.
 ///
 /// # Errors
-/// [`FormatError`] if the file cannot be written; if the document is on no tables, has no wavelengths, or is anisotropic and
-/// the file a `.brdf`; if a table that is not black has no positive integral; and if the spectrum of an `.anisotropicbsdf`
-/// would not be the same for all directions.
+/// [`FormatError`] if the file cannot be written; if the document does not consist of tables, has no wavelengths, or is
+/// anisotropic while the file is a `.brdf`; if a table that is not black has no positive integral; and if the spectrum
+/// of an `.anisotropicbsdf` would not be the same for all directions.
 pub(super) fn write(document: &Document, path: &Path) -> Result<(), FormatError> {
     let refuse = |found: String, expected: &str| Err(FormatError::new(path, Place::File, found, expected));
     let Some(sides) = sides(document).filter(|sides| !sides.is_empty()) else {

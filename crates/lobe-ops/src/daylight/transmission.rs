@@ -51,7 +51,7 @@ pub fn transmission(data: &Data) -> Result<Matrix, Unfit> {
     let mut elements = Vec::with_capacity(3 * columns.len() * rows.len());
     for [x, y, z] in &rows {
         for (patch, [u, v, w]) in columns.iter().enumerate() {
-            // Light arrives from where it travels away from.
+            // Light arrives from the direction opposite to its travel.
             let (wi, wo) = ([-u, -v, -w], [*x, *y, *z]);
             let area = incident.projected_solid_angle(patch);
             let visible = value(&visible, wi, wo) * area;
@@ -65,7 +65,7 @@ pub fn transmission(data: &Data) -> Result<Matrix, Unfit> {
     Ok(Matrix::new([rows.len(), columns.len(), 3], &elements))
 }
 
-/// The transmission of a band, and whether its directions are to be exchanged.
+/// The transmission of a band, and `true` if its directions must be exchanged.
 struct Transmission<'a> {
     matrix: &'a KlemsMatrix,
     is_exchanged: bool,

@@ -47,7 +47,7 @@ pub enum Nodes {
     Spherical {
         /// The knots.
         knots: [Vec<f64>; 4],
-        /// Whether the other half, across the plane of incidence, is the mirror image: see
+        /// `true` if the other half, across the plane of incidence, is the mirror image: see
         /// [`spherical::Data::mirrored`].
         is_half: bool,
     },

@@ -1,4 +1,4 @@
-//! Finer nodes, until an error is small enough.
+//! Refines nodes until an error is small enough.
 
 use lobe_model::goniometer::rgl::Resolution;
 use lobe_model::goniometer::spherical::uniform_half;
@@ -8,15 +8,15 @@ use lobe_table::window::klems::AngleBasis;
 use super::Nodes;
 
 impl Nodes {
-    /// Nodes that are finer in one respect each: one axis with a knot between all knots, or half as many knots or texels
-    /// more, or smaller patches. None if there is nothing finer.
+    /// Nodes that are each finer in one respect: one axis with a knot between all knots, or half as many more knots or
+    /// texels, or smaller patches. Empty if there is nothing finer.
     pub fn refined(&self) -> Vec<Nodes> {
         match self {
             Nodes::Specular(knots) => denser(knots).into_iter().map(Nodes::Specular).collect(),
             Nodes::Spherical { knots, is_half: false } => {
                 denser(knots).into_iter().map(|knots| Nodes::Spherical { knots, is_half: false }).collect()
             }
-            // These are uniform, or no format has them.
+            // These must be uniform, because no format has others.
             Nodes::Spherical { knots: [thetas, _, _, phis], is_half: true } => {
                 let (zeniths, azimuths) = (thetas.len(), phis.len());
                 let finer = [[half_more(zeniths), azimuths], [zeniths, half_more(azimuths)]];
@@ -61,7 +61,7 @@ fn half_more(count: usize) -> usize {
     count + count.div_ceil(2)
 }
 
-/// The knots with those between them, along one axis at a time.
+/// The knots with additional ones between them, along one axis at a time.
 fn denser(knots: &[Vec<f64>; 4]) -> Vec<[Vec<f64>; 4]> {
     let is_axis = |axis: &usize| knots[*axis].len() > 1;
     let along = |axis: usize| {
@@ -73,27 +73,27 @@ fn denser(knots: &[Vec<f64>; 4]) -> Vec<[Vec<f64>; 4]> {
     (0..4).filter(is_axis).map(along).collect()
 }
 
-/// How the search for nodes has ended.
+/// The result of the search for nodes.
 #[derive(Clone, Debug)]
 pub struct Refined<T> {
     /// The nodes.
     pub nodes: Nodes,
-    /// What was measured at them.
+    /// The measurement at the nodes.
     pub measured: T,
     /// Its error.
     pub error: f64,
-    /// Whether the error is as small as was asked for.
+    /// `true` if the error is as small as requested.
     pub is_met: bool,
 }
 
 /// The most values that a search takes for one file.
 const MOST: usize = 1 << 26;
-/// A step has to bring the error below this share of what it was.
+/// A step must bring the error below this share of the previous error.
 const PROGRESS: f64 = 0.98;
 
 /// Looks for nodes with an error of at most `bound`, from `start` on: each step takes the finer nodes with the smallest
-/// error. It ends where no step helps, or where there would be too many values; then what has the smallest error is
-/// returned. `measure` gives what is at nodes, and its error.
+/// error. It ends if no step helps, or if there would be too many values; then the result with the smallest error is
+/// returned. `measure` gives the measurement at nodes, and its error.
 ///
 /// # Errors
 /// Those of `measure`.

@@ -5,7 +5,7 @@ use lobe_table::window::{Band, Block, Blocks, Component, Data};
 
 use super::Sides;
 
-/// The blocks of a sheet that are not dark, of which `measure` gives those of all channels.
+/// The blocks of a sheet that are not dark; `measure` gives the blocks of all channels.
 pub(super) fn measure<E>(
     channels: &Channels,
     sides: Sides,

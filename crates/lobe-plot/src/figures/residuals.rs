@@ -1,4 +1,4 @@
-//! Where a model that was fitted is above and below what was measured, a disk for each incidence.
+//! Shows where a fitted model is above and below the measurement, with one disk for each incidence.
 
 use super::cartesian::title;
 use super::shared::{MARGIN, MIDDLE, conditions, heading, id, notes};

@@ -6,8 +6,8 @@ use lobe_lane::Lanes;
 /// cache.
 pub(crate) const BLOCK: usize = 128;
 
-/// So many queries of a block in whole registers. There are never more than a block holds; saying so keeps the compiler
-/// from masking positions, and lets it join the single lanes of the scalar backend.
+/// The number of queries of a block in whole registers. It is never more than a block holds; stating this keeps the
+/// compiler from masking positions, and lets it join the single lanes of the scalar backend.
 #[inline(always)]
 pub(crate) fn registers<L: Lanes>(_lanes: L, queries: usize) -> usize {
     queries.next_multiple_of(L::LANES).min(BLOCK)

@@ -19,7 +19,7 @@ struct Room {
     parts: [Part; 2],
 }
 
-/// Where the draws of a chunk go.
+/// The output for the samples of a chunk.
 struct Drawn<'a> {
     directions: &'a mut [[f32; 3]],
     pdfs: &'a mut [f32],
@@ -78,7 +78,7 @@ impl Lobes {
         }
     }
 
-    /// Draws the directions of a chunk. Returns what each was drawn from if there are mirrors.
+    /// Samples the directions of a chunk. If there are mirrors, returns the lobe of each sample.
     fn draw_chunk(
         &self,
         material: &Material,

@@ -1,4 +1,4 @@
-//! Mixtures of which mirrors are a part: each direction has up to four lobes.
+//! Mixtures with mirrors: each direction has up to four lobes.
 
 use lobe_table::Scatter;
 
@@ -7,7 +7,7 @@ use super::{Lobes, SCATTERS, dot};
 use crate::material::{flipped, mirrored};
 use crate::{Backend, Material};
 
-/// How likely the lobes of a direction are, and which was drawn.
+/// The probabilities of the lobes of a direction, and the lobe that was sampled.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Choice {
     /// Reflection, transmission, and the mirrors of both.
@@ -26,7 +26,7 @@ fn pick(directions: &[[f32; 3]], queries: &[usize], front: bool) -> Vec<[f32; 3]
 }
 
 impl Lobes {
-    /// How likely each lobe is for each direction of a chunk: reflection, transmission, and the mirrors of both.
+    /// The probability of each lobe for each direction of a chunk: reflection, transmission, and the mirrors of both.
     fn shares_with_mirrors(&self, material: &Material, backend: Backend, known: &[[f32; 3]]) -> Vec<[f32; 4]> {
         let mut shares = vec![[0.0; 4]; known.len()];
         for (front, way, lobe) in self.each() {
@@ -52,7 +52,7 @@ impl Lobes {
         shares
     }
 
-    /// Draws directions of a chunk; mirrors have a density of infinity. Returns what each was drawn from.
+    /// Samples directions of a chunk; mirrors have infinite density. Returns the lobe of each sample.
     pub(super) fn draw_with_mirrors(
         &self,
         material: &Material,
@@ -63,7 +63,7 @@ impl Lobes {
         pdfs: &mut [f32],
     ) -> Vec<Choice> {
         let shares = self.shares_with_mirrors(material, backend, known);
-        // The first number chooses the lobe, and what is left of it is as even as it was.
+        // The first number chooses the lobe, and the rescaled rest of it is again uniform.
         let chosen: Vec<(usize, [f32; 2])> = shares.iter().zip(u).map(|(shares, &u)| choose(shares, u)).collect();
         for (front, way, lobe) in self.each() {
             let mut queries = of_side(known, front);
@@ -104,7 +104,7 @@ impl Lobes {
     }
 }
 
-/// The lobe that the first number falls on, and two numbers to draw from it with.
+/// The lobe that the first number selects, and two numbers to sample it with.
 pub(super) fn choose(shares: &[f32; 4], [u, w]: [f32; 2]) -> (usize, [f32; 2]) {
     let mut below = 0.0;
     let mut last = (0, [u, w]);

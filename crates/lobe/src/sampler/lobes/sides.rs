@@ -1,13 +1,13 @@
-//! A chunk of directions by their sides, and those of a side by the lobe that each is drawn from.
+//! Splits a chunk of directions by side, and the directions of a side by the lobe that samples each.
 
 use super::Lobe;
 use crate::Backend;
 use crate::material::flipped;
 
-/// Directions of one side, with that side up.
+/// Directions of one side, with this side up.
 #[derive(Debug, Default)]
 pub(super) struct Lit {
-    /// Which of the chunk they are.
+    /// Their indices in the chunk.
     pub(super) at: Vec<u16>,
     known: Vec<[f32; 3]>,
     other: Vec<[f32; 3]>,
@@ -15,13 +15,13 @@ pub(super) struct Lit {
     brightness: [Vec<f32>; 2],
 }
 
-/// Directions that one lobe draws from or has densities of.
+/// Directions for which one lobe samples or evaluates densities.
 #[derive(Debug, Default)]
 pub(super) struct Part {
     count: usize,
-    /// Which of those of the side they are.
+    /// Their indices among the directions of the side.
     at: Vec<u16>,
-    /// How likely the lobe is for each.
+    /// The probability of the lobe for each.
     share: Vec<f32>,
     known: Vec<[f32; 3]>,
     other: Vec<[f32; 3]>,
@@ -30,7 +30,7 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// Room for that many directions.
+    /// Room for this many directions.
     fn make_room(&mut self, count: usize) {
         self.count = 0;
         if self.at.len() < count {
@@ -43,7 +43,7 @@ impl Part {
         }
     }
 
-    /// Draws all directions.
+    /// Samples all directions.
     pub(super) fn draw(&mut self, lobe: &Lobe, backend: Backend) {
         let Part { count, known, other, u, pdfs, .. } = self;
         let count = *count;
@@ -57,7 +57,8 @@ impl Part {
         lobe.pdf(backend, &known[..count], &other[..count], &mut pdfs[..count]);
     }
 
-    /// What was drawn or found, of each: which of the side it is, the direction, the density, and how likely the lobe is.
+    /// The result for each: its index among the directions of the side, the direction, the density, and the probability
+    /// of the lobe.
     pub(super) fn results(&self) -> impl Iterator<Item = (usize, [f32; 3], f32, f32)> {
         let Part { count, at, share, other, pdfs, .. } = self;
         let results = at.iter().zip(other).zip(pdfs).zip(share).take(*count);
@@ -65,13 +66,13 @@ impl Part {
     }
 }
 
-/// How bright a lobe counts as: it is never left out, as what is dark between two slices may be bright in one place, and does
-/// not exceed all numbers, as the brightness of values near the largest does.
+/// The brightness of a lobe, limited so that the lobe is never left out, because a lobe that is dark between two slices
+/// may be bright in one direction, and so that it stays finite, even for values near the largest number.
 pub(super) fn counted(brightness: f32) -> f32 {
     if brightness > 1e-6 { brightness.min(1e30) } else { 1e-6 }
 }
 
-/// Whether a direction lies on that side.
+/// `true` if a direction lies on this side.
 pub(super) fn is_on(direction: [f32; 3], front: bool) -> bool {
     if front { direction[2] > 0.0 } else { direction[2] < 0.0 }
 }
@@ -95,7 +96,7 @@ impl Lit {
         !at.is_empty()
     }
 
-    /// The numbers of the directions that are chosen.
+    /// The indices of the chosen directions.
     pub(super) fn take_numbers(&mut self, from: &[[f32; 2]]) {
         self.u.clear();
         self.u.extend(self.at.iter().map(|&query| from[usize::from(query)]));
@@ -116,8 +117,8 @@ impl Lit {
         }
     }
 
-    /// Splits numbers, with their directions, among two lobes by how bright these are: what is left of the first number is as
-    /// even as it was.
+    /// Splits numbers, with their directions, among two lobes by their brightness: the rescaled rest of the first
+    /// number is again uniform.
     pub(super) fn split(&mut self, lobes: [&Lobe; 2], backend: Backend, [first, second]: &mut [Part; 2]) {
         self.find_brightness(lobes, backend);
         let Lit { known, u, brightness: [bright, others], .. } = self;
@@ -128,7 +129,7 @@ impl Lit {
         for (at, ((known, [number, other]), (bright, other_bright))) in queries.enumerate() {
             let shares = shares([*bright, *other_bright]);
             let (is_second, share, number) = choose(shares, *number);
-            // Written to both, and kept in one: the processor has nothing to guess.
+            // Written to both and kept in one, so that there is no branch to mispredict.
             for (part, count) in [(&mut *first, firsts), (&mut *second, seconds)] {
                 part.at[count] = at as u16;
                 part.known[count] = *known;
@@ -182,14 +183,15 @@ impl Lit {
     }
 }
 
-/// How likely two lobes are.
+/// The probabilities of two lobes.
 fn shares(brightness: [f32; 2]) -> [f32; 2] {
     let [first, second] = brightness.map(counted);
     let total = first + second;
     [first / total, second / total]
 }
 
-/// Whether a number falls on the second of two lobes, how likely the lobe is, and the number that is left for it.
+/// `true` if a number selects the second of two lobes, the probability of the selected lobe, and the rescaled rest of
+/// the number.
 fn choose([first, second]: [f32; 2], number: f32) -> (bool, f32, f32) {
     let is_first = number < first;
     let (below, share) = if is_first { (0.0, first) } else { (first, second) };
