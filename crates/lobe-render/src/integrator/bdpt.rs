@@ -24,8 +24,7 @@ impl Default for Bdpt {
 
 impl LightStages for Bdpt {
     const NAME: &'static str = "bdpt";
-    const SUMMARY: &'static str =
-        "Paths from camera and lights, connected: rooms lit indirectly, caustics; unbiased";
+    const SUMMARY: &'static str = "Paths from camera and lights, connected: rooms lit indirectly, caustics; unbiased";
 
     fn read(table: &Node<'_, '_>) -> Result<Self, SceneError> {
         let (depth, paths) = read_depth_and_paths(table, Bdpt::default().depth)?;
