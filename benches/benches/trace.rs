@@ -1,7 +1,8 @@
-//! How fast are rays of each class traced in each form on each backend? The scene is a torus knot of 70 thousand
-//! triangles in a closed room, generated here so that the figures can be reproduced anywhere. Before criterion's own
-//! figures, a table is printed for which all contestants take turns at small pieces and the best of several runs of
-//! each counts, so its ratios are also valid on a busy machine.
+//! How fast are rays of each class traced in each form on each backend?
+//!
+//! The scene is a torus knot of 70 thousand triangles in a closed room, generated here so that the figures can be
+//! reproduced anywhere. Before criterion's own figures, a table is printed for which all contestants take turns at
+//! small pieces and the best of several runs of each counts, so its ratios are also valid on a busy machine.
 
 use std::time::Instant;
 

@@ -17,8 +17,10 @@ pub struct Rounds {
 const TURN: usize = 3;
 
 /// Times several contenders in turn, `A A A B B B C C C A A A ...`, and returns the least nanoseconds of a call for
-/// each. The minimum of many rounds is the time of the code itself, because other work on the machine can only add to
-/// it. Taking turns gives every contender the same clock speed and the same disturbances.
+/// each.
+///
+/// The minimum of many rounds is the time of the code itself, because other work on the machine can only add to it.
+/// Taking turns gives every contender the same clock speed and the same disturbances.
 pub fn interleaved(rounds: Rounds, contenders: &mut [&mut dyn FnMut()]) -> Vec<f64> {
     let begun = Instant::now();
     let mut shortest = vec![f64::INFINITY; contenders.len()];

@@ -13,7 +13,9 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
 /// A table of random positive values with knots that are closer together near 0, as near a mirror peak; values at poles
-/// agree. Speed does not depend on the values, so only the sizes of real tables matter here.
+/// agree.
+///
+/// Speed does not depend on the values, so only the sizes of real tables matter here.
 pub fn random(nodes: [usize; 4], channels: Channels) -> specular::Data {
     let mut rng = Pcg32::seed_from_u64(7);
     let count = channels.count() * nodes.iter().product::<usize>();

@@ -1,5 +1,7 @@
-//! Builds a wheel for most Linux distributions. It is linked by Zig, which has the symbols of every glibc: the wheel
-//! then loads with the glibc that the platform tag names, and with later ones. `auditwheel` checks this.
+//! Builds a wheel for most Linux distributions.
+//!
+//! It is linked by Zig, which has the symbols of every glibc: the wheel then loads with the glibc that the platform tag
+//! names, and with later ones. `auditwheel` checks this.
 
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};

@@ -1,6 +1,7 @@
-//! Baselines for the lanes: the same evaluation, one query at a time. Both baselines use the specular coordinates of
-//! the library and give its values up to rounding. Each is code as a programmer of its time would write it: [`libm`]
-//! today, [`x87`] in 2005. [`interpn`] is a library that interpolates.
+//! Baselines for the lanes: the same evaluation, one query at a time.
+//!
+//! Both baselines use the specular coordinates of the library and give its values up to rounding. Each is code as a
+//! programmer of its time would write it: [`libm`] today, [`x87`] in 2005. [`interpn`] is a library that interpolates.
 
 pub mod interpn;
 pub mod libm;

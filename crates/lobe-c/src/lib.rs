@@ -1,7 +1,8 @@
-//! Measured materials for C and C++: implements the functions that `include/lobe.h` declares. Handles are opaque and
-//! reference-counted. Functions that can fail return a code and describe the error in a struct of the caller
-//! ([`lobe_error`]). No panic leaves this crate, because every function runs inside `border::guarded`. The facade
-//! evaluates materials.
+//! Measured materials for C and C++: implements the functions that `include/lobe.h` declares.
+//!
+//! Handles are opaque and reference-counted. Functions that can fail return a code and describe the error in a struct
+//! of the caller ([`lobe_error`]). No panic leaves this crate, because every function runs inside `border::guarded`.
+//! The facade evaluates materials.
 #![allow(non_camel_case_types, reason = "names of C")]
 
 mod border;

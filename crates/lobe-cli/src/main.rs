@@ -50,8 +50,9 @@ use crate::failure::Failure;
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 a file cannot be read or written or is damaged, or there is not enough memory, \
 2 wrong usage, 3 a check failed or a bound was not met, 130 interrupted.";
 
-/// Inspect, check, evaluate, convert and draw measured BRDFs and BTDFs. If the name of a file to read is `-`, standard
-/// input is read.
+/// Inspect, check, evaluate, convert and draw measured BRDFs and BTDFs.
+///
+/// If the name of a file to read is `-`, standard input is read.
 #[derive(Parser)]
 #[command(
     name = "lobe",

@@ -5,6 +5,7 @@ use crate::{Channels, LUMINANCE};
 
 /// The weight of each channel in luminance: Y of XYZ, the weights of Rec. 709 for RGB, and Y of the spectrum that has
 /// the value 1 at one wavelength, as [`Reduction`](crate::Reduction) interpolates it. The weights sum to 1.
+///
 /// Named bands have equal weights, because any of them may be requested, and so do wavelengths if none of them is
 /// visible.
 pub fn luminance(channels: &Channels) -> Vec<f32> {

@@ -33,9 +33,10 @@ pub struct Parts {
     pub groups: Vec<Group>,
 }
 
-/// A triangle mesh. It dereferences to [`Parts`], through which its content is read. All indices are in range, all
-/// numbers are finite, all attributes are as long as the positions, normals and tangents are of unit length, and the
-/// groups divide the triangles.
+/// A triangle mesh. It dereferences to [`Parts`], through which its content is read.
+///
+/// All indices are in range, all numbers are finite, all attributes are as long as the positions, normals and tangents
+/// are of unit length, and the groups divide the triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Geometry(Parts);
 

@@ -1,9 +1,11 @@
-//! Reads glTF 2.0, as text (`.gltf` with its buffers) and as a single binary file (`.glb`). All meshes of the scene
-//! become one mesh, each placed by its node; a group is one primitive of one node, named after the node. Triangles,
-//! strips and fans are read, with positions, normals, tangents and the first set of texture coordinates, whose v is
-//! turned to point up. Points and lines, skins and morph targets are left out. Integers in place of floats
-//! (`KHR_mesh_quantization`) are read; compressed meshes are refused. Section numbers in this module refer to the glTF
-//! 2.0 specification.
+//! Reads glTF 2.0, as text (`.gltf` with its buffers) and as a single binary file (`.glb`).
+//!
+//! All meshes of the scene become one mesh, each placed by its node; a group is one primitive of one node, named after
+//! the node. Triangles, strips and fans are read, with positions, normals, tangents and the first set of texture
+//! coordinates, whose v is turned to point up. Points and lines, skins and morph targets are left out. Integers in
+//! place of floats (`KHR_mesh_quantization`) are read; compressed meshes are refused.
+//!
+//! Section numbers in this module refer to the glTF 2.0 specification.
 
 mod accessor;
 mod buffers;

@@ -6,6 +6,7 @@
 //! [`refined`](Geometry::refined) cuts coarse triangles into finer ones.
 //!
 //! # Conventions
+//!
 //! - Coordinates are right-handed, and +y is up in every mesh made here. Files keep their own axes.
 //! - Triangles are counterclockwise seen from outside.
 //! - Texture coordinates are (u, v) with v **up**: (0, 0) is the lower left corner of an image. glTF counts v downward,

@@ -13,10 +13,11 @@ const ROUNDS: u32 = 4;
 #[derive(Debug, PartialEq)]
 pub(crate) struct TooMany;
 
-/// Appends the triangles of a polygon, with the orientation of the polygon. A convex polygon becomes a fan about its
-/// first corner, and so does any other polygon that such a fan fills. All others are cut at their ears, in the plane
-/// nearest to them. A corner at the place of the one before is left out. A polygon whose edges cross has no inside, so
-/// its triangles are arbitrary.
+/// Appends the triangles of a polygon, with the orientation of the polygon.
+///
+/// A convex polygon becomes a fan about its first corner, and so does any other polygon that such a fan fills. All
+/// others are cut at their ears, in the plane nearest to them. A corner at the place of the one before is left out. A
+/// polygon whose edges cross has no inside, so its triangles are arbitrary.
 pub(crate) fn triangulate(
     positions: &[[f32; 3]],
     corners: &[u32],

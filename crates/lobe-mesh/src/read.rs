@@ -7,8 +7,9 @@ use lobe_files::{FormatError, Unpacked, beginning, content, is_web_page, unpacke
 use crate::{Geometry, file, gltf, obj, ply, serialized};
 
 /// Reads a mesh. PLY, binary glTF and Mitsuba's meshes (`.serialized`) are recognised by their first bytes, glTF and
-/// OBJ by the name of the file (`.gltf`, `.obj`). All of them may be compressed with gzip. Missing normals and tangents
-/// are not added; [`Geometry::complete`] adds them.
+/// OBJ by the name of the file (`.gltf`, `.obj`). All of them may be compressed with gzip.
+///
+/// Missing normals and tangents are not added; [`Geometry::complete`] adds them.
 ///
 /// # Errors
 /// The file cannot be read, is of another format, or is wrong; the error says where and what was expected.

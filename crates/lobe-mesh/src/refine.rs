@@ -1,6 +1,7 @@
-//! Cuts triangles into smaller ones that follow the smooth surface implied by their normals. Vlachos, Peters, Boyd and
-//! Mitchell, "Curved PN Triangles", 2001: each triangle becomes a cubic patch, which meets its neighbours because each
-//! border depends only on the two corners at its ends.
+//! Cuts triangles into smaller ones that follow the smooth surface implied by their normals.
+//!
+//! Vlachos, Peters, Boyd and Mitchell, "Curved PN Triangles", 2001: each triangle becomes a cubic patch, which meets
+//! its neighbours because each border depends only on the two corners at its ends.
 
 use std::collections::HashMap;
 
@@ -12,8 +13,9 @@ use crate::{Geometry, GeometryError, Group, Parts, Shading};
 
 impl Geometry {
     /// The mesh with each triangle cut into `pieces * pieces`, curved as its normals imply; a mesh without normals
-    /// counts as smooth. Normals, texture coordinates and tangents are interpolated. Two triangles with different
-    /// normals at a common vertex (a hard edge) curve apart and leave a gap.
+    /// counts as smooth. Normals, texture coordinates and tangents are interpolated.
+    ///
+    /// Two triangles with different normals at a common vertex (a hard edge) curve apart and leave a gap.
     ///
     /// # Errors
     /// If there are more triangles than 32 bits can count, or a position becomes infinite.

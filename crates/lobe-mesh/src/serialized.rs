@@ -1,9 +1,10 @@
-//! Reads Mitsuba's meshes (`.serialized`): versions 3 and 4, any number of shapes in a file. The format is
-//! little-endian. Each shape begins with `0x041C` and the version as 16-bit integers. A zlib stream follows with flags
-//! (32 bits), in version 4 the name up to a zero byte, the numbers of vertices and triangles (64 bits), positions,
-//! normals, texture coordinates and colours as `f32` or `f64`, and indices. The file ends with the offset of each shape
-//! (64 bits; 32 in version 3) and the number of shapes (32 bits). Colours are skipped. If a shape asks for the normals
-//! of its faces, each triangle gets its own vertices.
+//! Reads Mitsuba's meshes (`.serialized`): versions 3 and 4, any number of shapes in a file.
+//!
+//! The format is little-endian. Each shape begins with `0x041C` and the version as 16-bit integers. A zlib stream
+//! follows with flags (32 bits), in version 4 the name up to a zero byte, the numbers of vertices and triangles (64
+//! bits), positions, normals, texture coordinates and colours as `f32` or `f64`, and indices. The file ends with the
+//! offset of each shape (64 bits; 32 in version 3) and the number of shapes (32 bits). Colours are skipped. If a shape
+//! asks for the normals of its faces, each triangle gets its own vertices.
 
 use std::path::Path;
 

@@ -1,6 +1,7 @@
-//! Shapes computed by formulas, with exact normals, texture coordinates and tangents. All are centred at the origin; +y
-//! is up. `segments` says how finely a shape is divided; a smaller number than the minimum, 3 if the shape closes a
-//! circle, counts as the minimum.
+//! Shapes computed by formulas, with exact normals, texture coordinates and tangents.
+//!
+//! All are centred at the origin; +y is up. `segments` says how finely a shape is divided; a smaller number than the
+//! minimum, 3 if the shape closes a circle, counts as the minimum.
 
 mod builder;
 mod knot;

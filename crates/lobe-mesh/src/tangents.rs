@@ -16,9 +16,10 @@ impl Geometry {
         if geometry.tangents.is_some() || geometry.uvs.is_none() { geometry } else { geometry.with_tangents() }
     }
 
-    /// The mesh with tangents recomputed from its texture coordinates and normals (smooth ones if it has none). A
-    /// vertex at which texture coordinates are mirrored has two tangents and is duplicated. Without texture coordinates
-    /// there are no tangents.
+    /// The mesh with tangents recomputed from its texture coordinates and normals (smooth ones if it has none).
+    ///
+    /// A vertex at which texture coordinates are mirrored has two tangents and is duplicated. Without texture
+    /// coordinates there are no tangents.
     pub fn with_tangents(self) -> Geometry {
         let geometry = if self.normals.is_some() { self } else { self.with_normals(Shading::Smooth) };
         let mut parts = geometry.into_parts();

@@ -2,8 +2,9 @@
 
 use crate::Model;
 
-/// A surface of invisibly small patches, a `share` of which is `b` and the rest `a`. Reciprocal and energy conserving
-/// if both parts are, unlike the plain sum of a diffuse and a glossy model.
+/// A surface of invisibly small patches, a `share` of which is `b` and the rest `a`.
+///
+/// Reciprocal and energy conserving if both parts are, unlike the plain sum of a diffuse and a glossy model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mix<A, B> {
     /// The material of the rest of the area.

@@ -5,8 +5,9 @@ pub trait Model {
     /// The BRDF at one pair of directions, in 1/sr, without the cosine. Zero if `wi` or `wo` is not above the surface.
     fn f(&self, wi: [f64; 3], wo: [f64; 3]) -> [f64; 3];
 
-    /// [`Model::f`] for one direction of the light and many viewers, in their order. A model that simulates light does
-    /// so once for all viewers; other models gain nothing.
+    /// [`Model::f`] for one direction of the light and many viewers, in their order.
+    ///
+    /// A model that simulates light does so once for all viewers; other models gain nothing.
     fn f_many(&self, wi: [f64; 3], viewers: &[[f64; 3]]) -> Vec<[f64; 3]> {
         viewers.iter().map(|&wo| self.f(wi, wo)).collect()
     }

@@ -8,6 +8,7 @@ use crate::vec3::{dot, reflect};
 /// The lobe of B. T. Phong, *Illumination for computer generated pictures*, CACM 18(6), 1975, in the reciprocal and
 /// energy conserving form of E. P. Lafortune and Y. D. Willems, *Using the modified Phong reflectance model for
 /// physically based rendering*, 1994: `f = specular (n + 2) / (2 pi) cos^n(angle between wo and the mirror direction)`.
+///
 /// The whole lobe is above the surface only for light from the zenith, of which it reflects exactly `specular`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Phong {

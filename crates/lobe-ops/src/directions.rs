@@ -19,6 +19,7 @@ pub(crate) fn quasi_random<const N: usize>(index: usize) -> [f64; N] {
 }
 
 /// Up to `count` pairs of directions with z > 0 and polar angles up to `limit`, the same ones at every call.
+///
 /// Half of the `wo` are near the mirror direction, where measured materials change most. The others, and all `wi`, are
 /// spread evenly over the projected hemisphere.
 pub fn pairs(count: usize, limit: f64) -> Vec<([f64; 3], [f64; 3])> {

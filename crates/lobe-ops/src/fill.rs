@@ -23,8 +23,9 @@ pub struct Filled {
     pub mask: Vec<bool>,
 }
 
-/// The nodes that look as if nothing was measured there: all channels are exactly 0. Files have no better way to
-/// express it, and a measured value is seldom exactly 0.
+/// The nodes that look as if nothing was measured there: all channels are exactly 0.
+///
+/// Files have no better way to express it, and a measured value is seldom exactly 0.
 pub fn zeros(samples: &specular::Data) -> Vec<bool> {
     missing(samples, |texel| texel.iter().all(|&value| value == 0.0))
 }

@@ -36,7 +36,9 @@ pub struct Page {
 
 /// A self-contained HTML page: the facts about the files, the findings of the checks in `lobe-ops`, the albedo at each
 /// incidence, and all figures. An anisotropic material is shown from two azimuths, a sheet from both sides. Several
-/// materials are drawn into the same figures. `facts` holds the facts of each file.
+/// materials are drawn into the same figures.
+///
+/// `facts` holds the facts of each file.
 pub fn page(shown: &[Shown<'_>], facts: &[Vec<Facts>], progress: &dyn Progress) -> Page {
     page_with_fit(shown, facts, None, progress)
 }

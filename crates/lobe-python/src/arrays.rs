@@ -84,9 +84,10 @@ pub fn shown(shape: &[usize]) -> String {
     }
 }
 
-/// Unit vectors with the directions of v, an array of shape (..., 3), as float32. They are rounded once, and have the
-/// same bits as those that the program lobe computes from its arguments. Raises ValueError if a vector is zero or not
-/// finite.
+/// Unit vectors with the directions of v, an array of shape (..., 3), as float32.
+///
+/// They are rounded once, and have the same bits as those that the program lobe computes from its arguments. Raises
+/// ValueError if a vector is zero or not finite.
 #[pyo3::pyfunction]
 pub fn normalize<'py>(v: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
     let array = doubles(v, "v")?;

@@ -1,6 +1,8 @@
-//! Batches of vectors in any memory layout. `float32` arrays whose vectors or whose columns of components are
-//! contiguous are read in place. All others (`float64`, slices, repeated vectors) are copied piece by piece, by the
-//! thread that works on the piece: a copy of the whole batch would take as long as evaluating it.
+//! Batches of vectors in any memory layout.
+//!
+//! `float32` arrays whose vectors or whose columns of components are contiguous are read in place. All others
+//! (`float64`, slices, repeated vectors) are copied piece by piece, by the thread that works on the piece: a copy of
+//! the whole batch would take as long as evaluating it.
 
 use std::ops::Range;
 

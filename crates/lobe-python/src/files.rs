@@ -13,16 +13,18 @@ use crate::opened::Opened;
 use crate::options::{Choices, Factor, Reading};
 use crate::threads;
 
-/// Opens the file of a measured material, of any format, which is detected from the content. `backend` names the
-/// instruction set (see backends()), by default the best that this machine has; `strict` rounds in the same way on all
-/// machines. `edges` says how a table in specular coordinates continues beyond its outermost angles: "clamp",
-/// "extrapolate" or "zero". `lookup`, "nearest" or "linear", says how grids of half and difference angles (MERL) are
-/// looked up. `indexed_by`, "light" or "viewer", is the direction that selects the slice of a material of the EPFL
-/// database, and `decode`, "raw" or "srgb", says how the numbers of the UTIA database are decoded. The other arguments
-/// give facts that are missing in a file, like the options of `lobe import` or a file NAME.lobe.toml: columns, unit,
-/// values, scale (a number, or "tis"), holds, in_plane, azimuth_from, decimal_comma. Raises OSError if the file cannot
-/// be read, FormatError with file and line if it is damaged or of no known format, and ValueError for an option that is
-/// wrong or would change nothing. Warns with GuessWarning about values that are guessed and not measured.
+/// Opens the file of a measured material, of any format, which is detected from the content.
+///
+/// `backend` names the instruction set (see backends()), by default the best that this machine has; `strict` rounds in
+/// the same way on all machines. `edges` says how a table in specular coordinates continues beyond its outermost
+/// angles: "clamp", "extrapolate" or "zero". `lookup`, "nearest" or "linear", says how grids of half and difference
+/// angles (MERL) are looked up. `indexed_by`, "light" or "viewer", is the direction that selects the slice of a
+/// material of the EPFL database, and `decode`, "raw" or "srgb", says how the numbers of the UTIA database are decoded.
+/// The other arguments give facts that are missing in a file, like the options of `lobe import` or a file
+/// NAME.lobe.toml: columns, unit, values, scale (a number, or "tis"), holds, in_plane, azimuth_from, decimal_comma.
+/// Raises OSError if the file cannot be read, FormatError with file and line if it is damaged or of no known format,
+/// and ValueError for an option that is wrong or would change nothing. Warns with GuessWarning about values that are
+/// guessed and not measured.
 #[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
 #[pyfunction]
 #[pyo3(signature = (path, *, backend=None, strict=false, edges="clamp", lookup="nearest", indexed_by="light", decode="raw",

@@ -1,6 +1,8 @@
 //! Measured materials for Python: the module `lobe_bsdf._lobe`, whose names the package in `python/lobe_bsdf`
-//! re-exports. Arrays become batches (`batches`), errors become exceptions (`errors`), and work runs without the lock
-//! of the interpreter, in a way that Ctrl-C can end (`threads`). What is computed is in the crates below.
+//! re-exports.
+//!
+//! Arrays become batches (`batches`), errors become exceptions (`errors`), and work runs without the lock of the
+//! interpreter, in a way that Ctrl-C can end (`threads`). What is computed is in the crates below.
 #![forbid(unsafe_code)]
 
 mod arrays;

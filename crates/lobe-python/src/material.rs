@@ -22,8 +22,9 @@ use crate::threads;
 /// A measured material, in the representation in which it was measured: nothing is resampled.
 ///
 /// Directions are unit vectors away from the surface, normal on +z: wi to the light, wo to the viewer. Values are f in
-/// 1/sr, without the cosine, one per channel. Materials do not change, and threads may share one. Use open(),
-/// from_bytes() or from_samples() to get one.
+/// 1/sr, without the cosine, one per channel. Materials do not change, and threads may share one.
+///
+/// Use open(), from_bytes() or from_samples() to get one.
 #[pyclass(frozen, module = "lobe_bsdf")]
 pub struct Material {
     opened: Opened,
@@ -181,6 +182,7 @@ impl Material {
     }
 
     /// A sampler, which samples directions in proportion to luminance times f times cosine. Building it takes a while.
+    ///
     /// `defensive` is the cosine-weighted share of every distribution; `luminance` is the weight of each channel, by
     /// default according to its meaning.
     #[pyo3(signature = (*, defensive=0.05, luminance=None))]
@@ -283,8 +285,10 @@ impl Material {
     /// Writes a file. Its format is `format` (see formats()), or given by the extension of the file name. The values
     /// and knots are written unchanged if the format has their representation. Otherwise this is an error, unless
     /// `resample` is true: then the material is evaluated at the nodes of the format, and compare() gives the
-    /// difference. `channel` is the channel to write if the format has only one, and `scatter`, "reflection" or
-    /// "transmission", the measurement to write of a material that has both.
+    /// difference.
+    ///
+    /// `channel` is the channel to write if the format has only one, and `scatter`, "reflection" or "transmission", the
+    /// measurement to write of a material that has both.
     #[pyo3(signature = (path, format=None, *, channel=None, resample=false, scatter=None))]
     fn save(
         &self,

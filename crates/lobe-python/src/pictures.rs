@@ -218,11 +218,12 @@ fn opened(py: Python<'_>, scene: &Path, backend: lobe::Backend) -> PyResult<Scen
     Ok(threads::watched(py, open)?.map_err(Failure::Scene)?)
 }
 
-/// Renders a scene file and returns a Picture. `samples` per pixel, the pixels `crop` = (x0, y0, x1, y1) and the
-/// `integrator` are taken from the scene unless given. For parts of pictures, `tile` = (i, n) renders part i of n,
-/// counted from 1, and `samples_range` = (a, b) only these samples. `time` in seconds ends the rendering, but every
-/// pixel gets at least one sample. The picture does not depend on `threads`, and with `strict` it does not depend on
-/// the machine.
+/// Renders a scene file and returns a Picture.
+///
+/// `samples` per pixel, the pixels `crop` = (x0, y0, x1, y1) and the `integrator` are taken from the scene unless
+/// given. For parts of pictures, `tile` = (i, n) renders part i of n, counted from 1, and `samples_range` = (a, b) only
+/// these samples. `time` in seconds ends the rendering, but every pixel gets at least one sample. The picture does not
+/// depend on `threads`, and with `strict` it does not depend on the machine.
 ///
 /// `progress(done, total)` is called about ten times a second; if it returns False, the picture so far is returned. Ctrl-C raises
 /// KeyboardInterrupt.
@@ -303,8 +304,10 @@ fn false_of(py: Python<'_>) -> Bound<'_, PyAny> {
 }
 
 /// Puts the files of parts of a picture together and returns a Picture, with the same bits as if it had been rendered
-/// in one go. Raises ValueError if parts belong to different pictures, if samples occur twice, or if samples are
-/// missing, unless `allow_gaps` is true.
+/// in one go.
+///
+/// Raises ValueError if parts belong to different pictures, if samples occur twice, or if samples are missing, unless
+/// `allow_gaps` is true.
 #[pyfunction]
 #[pyo3(signature = (parts, *, allow_gaps=false))]
 pub fn merge(py: Python<'_>, parts: Vec<PathBuf>, allow_gaps: bool) -> PyResult<Picture> {

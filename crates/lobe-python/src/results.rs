@@ -1,6 +1,7 @@
-//! Arrays for results, whose memory is reused. The system provides new memory page by page and clears each page: for a
-//! million pairs this takes as long as a quarter of the evaluation. So memory that results no longer need is kept for
-//! the next ones.
+//! Arrays for results, whose memory is reused.
+//!
+//! The system provides new memory page by page and clears each page: for a million pairs this takes as long as a
+//! quarter of the evaluation. So memory that results no longer need is kept for the next ones.
 
 use std::sync::{Mutex, PoisonError};
 

@@ -18,9 +18,10 @@ use crate::threads;
 
 type Floats<'py> = Bound<'py, PyArrayDyn<f32>>;
 
-/// Samples directions for a material in proportion to luminance times f times cosine. Directions are unit vectors away
-/// from the surface, normal on +z; densities are per steradian. Material.sampler() creates samplers; threads may share
-/// one.
+/// Samples directions for a material in proportion to luminance times f times cosine.
+///
+/// Directions are unit vectors away from the surface, normal on +z; densities are per steradian. Material.sampler()
+/// creates samplers; threads may share one.
 #[pyclass(frozen, module = "lobe_bsdf")]
 pub struct Sampler {
     sampler: lobe::Sampler,

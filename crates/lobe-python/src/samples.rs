@@ -64,8 +64,9 @@ fn degrees(angle: f64) -> f64 {
     if angle == 360.0 { TAU } else { angle.to_radians() }
 }
 
-/// A material from values f in 1/sr, without the cosine, at given angles. The given axes distinguish three kinds of
-/// data:
+/// A material from values f in 1/sr, without the cosine, at given angles.
+///
+/// The given axes distinguish three kinds of data:
 ///
 /// - a table in specular coordinates: sigma, theta and phi, and psi unless the material is isotropic; values of shape
 ///   (sigma, psi, theta, phi[, channel]), or (sigma, theta, phi[, channel]) without psi;
@@ -73,9 +74,11 @@ fn degrees(angle: f64) -> f64 {
 ///   phi_i, phi_o is the angle between the azimuths; values of shape (theta_i, phi_i, theta_o, phi_o[, channel]), or
 ///   without phi_i;
 /// - scattered samples: theta_i, theta_o, phi_o, and phi_i unless it is 0, one of each per sample; values of shape (n,)
-///   or (n, channel). Angles are in radians, or in degrees if `degrees` is true; the axes of grids must ascend. Polar
-///   angles count from the normal on the side of their direction. `channels` is "mono", "rgb", "xyz" or one name per
-///   channel; or `wavelengths` has one wavelength in nm per channel. `facts` are pairs of names and values for readers.
+///   or (n, channel).
+///
+/// Angles are in radians, or in degrees if `degrees` is true; the axes of grids must ascend. Polar   angles count from
+/// the normal on the side of their direction. `channels` is "mono", "rgb", "xyz" or one name per   channel; or
+/// `wavelengths` has one wavelength in nm per channel. `facts` are pairs of names and values for readers.
 ///
 /// Raises ValueError if shapes, angles or values do not fit together, and names the axis and the position.
 #[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]

@@ -19,9 +19,11 @@ const CHUNK: usize = 1 << 22;
 /// Longest time between two checks for Ctrl-C.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// The threads of this process. A forked process, such as those of `multiprocessing` may be, has none of the threads of
-/// its parent, so a pool belongs to one process. The lock is only taken and released while the lock of the interpreter
-/// is held, which a thread also needs to fork, so it is never locked in a new process.
+/// The threads of this process.
+///
+/// A forked process, such as those of `multiprocessing` may be, has none of the threads of its parent, so a pool
+/// belongs to one process. The lock is only taken and released while the lock of the interpreter is held, which a
+/// thread also needs to fork, so it is never locked in a new process.
 static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
 
 fn pool(_py: Python<'_>) -> PyResult<Arc<ThreadPool>> {

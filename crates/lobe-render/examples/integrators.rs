@@ -3,6 +3,7 @@
 //! ```sh
 //! cargo run --release -p lobe-render --example integrators -- SCENE SECONDS REFERENCE_SECONDS FOLDER path,bdpt,sppm,vcm
 //! ```
+//!
 //! The reference is rendered by the last integrator of the list, for REFERENCE_SECONDS, with different samples.
 //! Pictures are written to FOLDER, unless it is `-`. One thread is used. The error is the root mean square of the
 //! differences of channels, relative to the mean of the reference; the brightest thousandth of the pixels is left out.

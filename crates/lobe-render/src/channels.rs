@@ -6,8 +6,9 @@ use lobe_lane::Lanes;
 
 use crate::columns::{Column, ZEROS};
 
-/// One float per channel: an array. The renderer keeps such values in the associated types; an array of any length has
-/// all of them.
+/// One float per channel: an array.
+///
+/// The renderer keeps such values in the associated types; an array of any length has all of them.
 pub trait Channels: Copy + Debug + PartialEq + Send + Sync + AsRef<[f32]> + AsMut<[f32]> + 'static {
     /// The number of channels.
     const COUNT: usize;

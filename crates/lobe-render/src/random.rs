@@ -1,8 +1,9 @@
-//! The random numbers of a path. They depend only on the pixel, the index of the sample and the dimension, not on
-//! threads, tiles or machines. Within a pixel they are an Owen-scrambled Sobol sequence (Burley 2020, "Practical
-//! Hash-based Owen Scrambling"), four dimensions at a time; each pixel is scrambled differently. The bits are the same
-//! as those of the crate `sobol_burley`, which computes the four dimensions of one sample at once; here, lanes compute
-//! many samples at once.
+//! The random numbers of a path.
+//!
+//! They depend only on the pixel, the index of the sample and the dimension, not on threads, tiles or machines. Within
+//! a pixel they are an Owen-scrambled Sobol sequence (Burley 2020, "Practical Hash-based Owen Scrambling"), four
+//! dimensions at a time; each pixel is scrambled differently. The bits are the same as those of the crate
+//! `sobol_burley`, which computes the four dimensions of one sample at once; here, lanes compute many samples at once.
 
 use lobe::{Backend, Floats, Ints, Kernel, Lanes};
 use lobe_lane::MAX_LANES;

@@ -12,8 +12,9 @@ mod values;
 pub use texels::Texel;
 pub use values::{Floats, Ints, Mask};
 
-/// A backend of `N` lanes in plain Rust; `N` is 1, 2, 4, 8 or 16. It needs no CPU feature, so anyone can create the
-/// token.
+/// A backend of `N` lanes in plain Rust; `N` is 1, 2, 4, 8 or 16.
+///
+/// It needs no CPU feature, so anyone can create the token.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Scalar<const N: usize>;
 

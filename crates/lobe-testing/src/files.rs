@@ -1,7 +1,8 @@
-//! Paths of test files: fixtures in the repository, and measured files next to it. Measured files and the answers of
-//! other programs are not part of the project. They are in the folder named by the environment variable `LOBE_SHARED`,
-//! or in `shared` next to the repository. A test that needs a missing file passes, and reports on standard error that
-//! it was skipped.
+//! Paths of test files: fixtures in the repository, and measured files next to it.
+//!
+//! Measured files and the answers of other programs are not part of the project. They are in the folder named by the
+//! environment variable `LOBE_SHARED`, or in `shared` next to the repository. A test that needs a missing file passes,
+//! and reports on standard error that it was skipped.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,6 @@
 //! Shared code for the tests of the workspace. It is never published: other crates depend on it by path, only for their
 //! tests.
+//!
 //! | module | content |
 //! |---|---|
 //! | [`backends`] | running a test on every backend, in every form, and on emulated widths |

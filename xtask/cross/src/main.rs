@@ -1,5 +1,7 @@
-//! `cargo xtask cross`: builds the backends of other processors, and tests them on emulators. Missing tools are
-//! installed in `target/cross`. A target that cannot be run here is skipped, and the reason is printed.
+//! `cargo xtask cross`: builds the backends of other processors, and tests them on emulators.
+//!
+//! Missing tools are installed in `target/cross`. A target that cannot be run here is skipped, and the reason is
+//! printed.
 #![forbid(unsafe_code)]
 
 mod install;

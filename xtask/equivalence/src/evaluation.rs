@@ -8,8 +8,9 @@ use super::machine::Machine;
 use super::record::{Bound, Record};
 use super::tables::{Case, Queries, cases};
 
-/// Records the results of a case. It is a function and not a kernel, so that each call enters the backend like the call
-/// of a user.
+/// Records the results of a case.
+///
+/// It is a function and not a kernel, so that each call enters the backend like the call of a user.
 pub(super) fn record(machine: impl Machine) -> Vec<Record> {
     cases().iter().flat_map(|case| evaluate(machine, case)).collect()
 }

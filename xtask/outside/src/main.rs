@@ -1,7 +1,9 @@
-//! `cargo xtask outside`: checks the speed of kernels compiled in a user's crate. A kernel that a user's crate
-//! instantiates is compiled with the user's profile, in which other functions may be inlined than in the profile of the
-//! workspace. `user/` is such a crate, outside the workspace. It is built with Cargo's default profile and others,
-//! searched for intrinsics out of line, and compared with its build in the profile of the workspace.
+//! `cargo xtask outside`: checks the speed of kernels compiled in a user's crate.
+//!
+//! A kernel that a user's crate instantiates is compiled with the user's profile, in which other functions may be
+//! inlined than in the profile of the workspace. `user/` is such a crate, outside the workspace. It is built with
+//! Cargo's default profile and others, searched for intrinsics out of line, and compared with its build in the profile
+//! of the workspace.
 #![forbid(unsafe_code)]
 
 mod contest;

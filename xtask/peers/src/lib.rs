@@ -1,4 +1,5 @@
 //! `cargo xtask peers`: compares other libraries with this one, on the same tables and queries, in turns.
+//!
 //! Peers available as wheels are installed into a virtual environment; SLEEF and Embree are taken from the system. Each
 //! peer runs in a separate process, which answers one request per line; an unavailable peer is left out, and the reason
 //! is printed. All values are compared before anything is timed.

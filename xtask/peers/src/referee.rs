@@ -50,8 +50,10 @@ fn meet(origin: V, direction: V, corners: [[f32; 3]; 3]) -> Meeting {
 }
 
 /// Decides about answers to rays: t and the two halves of the triangle's index, -1 for a miss; or 1 or 0 if any hit is
-/// enough. A correct answer names a triangle that is hit, at least at its edge, and whose t is within `agreement` of
-/// the t of the nearest hit; the t of the answer agrees with the triangle within the accuracy of single precision.
+/// enough.
+///
+/// A correct answer names a triangle that is hit, at least at its edge, and whose t is within `agreement` of the t of
+/// the nearest hit; the t of the answer agrees with the triangle within the accuracy of single precision.
 pub struct Referee {
     /// All triangles.
     pub mesh: Rc<Mesh>,

@@ -130,9 +130,10 @@ fn direction([theta, phi]: [f64; 2]) -> [f32; 3] {
     [sin * cos_phi, sin * sin_phi, cos].map(|x| x as f32)
 }
 
-/// The integral of the density over the hemisphere, in polar coordinates about the mirror direction. The density of a
-/// histogram has steps that do not coincide with panels of a quadrature, so it is summed over points of which no two
-/// share an angle: the additive recurrence of the plastic number (Roberts 2018).
+/// The integral of the density over the hemisphere, in polar coordinates about the mirror direction.
+///
+/// The density of a histogram has steps that do not coincide with panels of a quadrature, so it is summed over points
+/// of which no two share an angle: the additive recurrence of the plastic number (Roberts 2018).
 fn density(sampler: &Sampler, [sigma, psi]: [f64; 2]) -> f64 {
     let place = |point: usize| {
         let [u, w] = [0.754_877_666_246_693, 0.569_840_290_998_053].map(|step| (point as f64 * step).fract());

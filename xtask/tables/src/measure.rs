@@ -11,8 +11,10 @@ use xtask_common::Steps;
 use super::rows::Row;
 use super::sections::{self, Section};
 
-/// Queries per run, unless a question has its own number. A run of the slowest contender must fit between two
-/// interruptions, a few milliseconds apart, so that its shortest time is meaningful. More rounds do the rest.
+/// Queries per run, unless a question has its own number.
+///
+/// A run of the slowest contender must fit between two interruptions, a few milliseconds apart, so that its shortest
+/// time is meaningful. More rounds do the rest.
 const COUNT: usize = 1 << 13;
 
 /// For figures to be kept.

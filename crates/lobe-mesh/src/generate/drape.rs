@@ -30,10 +30,13 @@ impl Default for Drape {
     }
 }
 
-/// A square cloth that has fallen on a sphere and the ground. It has texture coordinates but no normals yet. At the
-/// start u ran along +x and v along -z, both from 0 to 1: the weft of a woven material lies along dp/du, the warp along
-/// dp/dv, and psi follows the weave. This is a simulation and takes seconds. The steps, their order and all numbers are
-/// fixed, so the result is always the same, byte for byte.
+/// A square cloth that has fallen on a sphere and the ground.
+///
+/// It has texture coordinates but no normals yet. At the start u ran along +x and v along -z, both from 0 to 1: the
+/// weft of a woven material lies along dp/du, the warp along dp/dv, and psi follows the weave.
+///
+/// This is a simulation and takes seconds. The steps, their order and all numbers are fixed, so the result is always
+/// the same, byte for byte.
 ///
 /// # Panics
 /// If there are fewer than 3 vertices along a side.

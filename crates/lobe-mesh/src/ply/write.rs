@@ -6,8 +6,9 @@ use lobe_files::{FormatError, write_whole};
 
 use crate::Geometry;
 
-/// Writes a mesh with all of its attributes. Indices take two bytes each if they fit. The file is written completely or
-/// not at all. Line feeds in names of groups and materials become spaces.
+/// Writes a mesh with all of its attributes. Indices take two bytes each if they fit.
+///
+/// The file is written completely or not at all. Line feeds in names of groups and materials become spaces.
 ///
 /// # Errors
 /// Those of the file system.

@@ -4,6 +4,7 @@ use super::weave::{Thread, Weave};
 use crate::vec3::{Frame, Vec3, cross, normalize};
 
 /// A grid of square cells, each of two triangles that meet on the diagonal from its lower left corner.
+///
 /// Lengths are in cells; the field repeats after `side` cells. Neighbouring triangles share their corners, so the
 /// surface has no holes: a ray that is above it at one end of an interval and below it at the other has hit it.
 pub(super) struct HeightField {

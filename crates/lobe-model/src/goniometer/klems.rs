@@ -14,8 +14,9 @@ const ROWS: usize = 4;
 
 /// Measures a block of a sheet, one matrix per channel: each value is the mean of `f` over 16 directions of the one
 /// patch and 16 of the other, which represent equal projected solid angles. So the flux from patch to patch is right,
-/// and a lobe narrower than a patch is spread over it. Incident patches are divided among the threads of rayon;
-/// `progress` is called after each of them.
+/// and a lobe narrower than a patch is spread over it.
+///
+/// Incident patches are divided among the threads of rayon; `progress` is called after each of them.
 ///
 /// # Errors
 /// [`KlemsError::ValueNotFinite`] if the surface has a value that is not finite.

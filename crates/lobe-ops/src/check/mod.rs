@@ -25,8 +25,9 @@ use grid::Grid;
 pub use finding::{Finding, Status, Thoroughness};
 pub use guesses::guesses;
 
-/// Checks a file. `progress` is called from time to time with the finished share. Knots that do not ascend and values
-/// that are NaN do not occur here: readers refuse such files and name the line.
+/// Checks a file. `progress` is called from time to time with the finished share.
+///
+/// Knots that do not ascend and values that are NaN do not occur here: readers refuse such files and name the line.
 pub fn check(subject: &Subject, thoroughness: &Thoroughness, progress: impl Fn(f64)) -> Vec<Finding> {
     let mut findings = values::check(&subject.document);
     for (part, grid) in grids(&subject.document) {

@@ -1,6 +1,7 @@
-//! Films: the samples taken so far, in exact sums. Sums are integers: a radiance counts in units of `2^-64`, so adding
-//! is exact and the order of adding does not change the result. This is why a picture has the same bits for any number
-//! of threads, tiles and machines.
+//! Films: the samples taken so far, in exact sums.
+//!
+//! Sums are integers: a radiance counts in units of `2^-64`, so adding is exact and the order of adding does not change
+//! the result. This is why a picture has the same bits for any number of threads, tiles and machines.
 
 mod pixel;
 mod rect;
@@ -17,8 +18,9 @@ use crate::camera::Filter;
 use crate::channels::Channels;
 use crate::transport::{Rgb, Transport};
 
-/// The pixels in a window of a picture. A pixel is the mean of the samples of its own paths, plus the mean over light
-/// paths of their splats.
+/// The pixels in a window of a picture.
+///
+/// A pixel is the mean of the samples of its own paths, plus the mean over light paths of their splats.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Film<T: Transport = Rgb> {
     window: Rect,

@@ -29,8 +29,9 @@ impl<T: Transport> Film<T> {
 
     /// Adds the contribution of a light path at a position in the picture: columns from its left edge and rows from its
     /// top edge, in pixels. The filter spreads it in the same way as the samples of pixels, so that both have equal
-    /// means. Parts outside the window are dropped. Returns `false` if the radiance was not finite and was counted as
-    /// 0.
+    /// means. Parts outside the window are dropped. Returns `false` if the radiance was not finite: it then counts
+    /// as 0.
+    ///
     /// A pixel shows the mean over light paths. [Importance](crate::View::sample_we) integrates to 1 over the whole
     /// film, but a contribution refers to one pixel, so it is multiplied by the number of pixels of the picture.
     pub fn splat(&mut self, at: [f32; 2], radiance: T::Radiance, filter: Filter) -> bool {

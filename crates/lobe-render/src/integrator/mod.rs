@@ -1,5 +1,6 @@
-//! Integrators: ways to render a picture. Each composes the stages of a wavefront, in its own file. One line below
-//! registers an integrator for scene files, for the program and its help, and for programs that render.
+//! Integrators: ways to render a picture. Each composes the stages of a wavefront, in its own file.
+//!
+//! One line below registers an integrator for scene files, for the program and its help, and for programs that render.
 
 use std::fmt::Debug;
 use std::ops::Range;
@@ -98,8 +99,9 @@ integrators! {
     vcm::Vcm,
 }
 
-/// A way to find the radiance that arrives at a camera. Integrators are composed of the stages of this crate, and
-/// compiled with it once for each transport.
+/// A way to find the radiance that arrives at a camera.
+///
+/// Integrators are composed of the stages of this crate, and compiled with it once for each transport.
 pub trait Integrator<T: Transport = Rgb>: Debug + Send + Sync {
     /// The state of one rendering thread.
     #[doc(hidden)]

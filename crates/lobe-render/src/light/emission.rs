@@ -59,7 +59,9 @@ impl<S: Channels> Light<S> {
 
     /// The densities with which [`sample_le`](Light::sample_le) samples a ray in this unit direction. `cos` is the
     /// cosine between the direction and the normal of the triangle where the ray leaves an area light; other lights
-    /// ignore it. The direction of a directional light has density 1, because no other can be sampled.
+    /// ignore it.
+    ///
+    /// The direction of a directional light has density 1, because no other can be sampled.
     pub fn pdf_le(&self, bounds: &SceneBounds, direction: [f32; 3], cos: f32) -> EmissionPdf<f32> {
         match self {
             Light::Point { .. } => EmissionPdf { position: 1.0, direction: 0.25 * FRAC_1_PI },

@@ -16,10 +16,11 @@ use crate::light::Environment;
 const EXR: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 
 /// Reads an image of longitude and latitude, rotates it about +y by an angle in radians, and multiplies every radiance
-/// by `scale`. Negative radiances, which resampling leaves in such files, count as 0. The header of the file is taken
-/// into account: the exposures, colour corrections and order of lines of Radiance HDR, the windows of OpenEXR, and the
-/// primaries of both. An image is refused if its header says that it is not a view of all directions in longitude and
-/// latitude.
+/// by `scale`. Negative radiances, which resampling leaves in such files, count as 0.
+///
+/// The header of the file is taken into account: the exposures, colour corrections and order of lines of Radiance HDR,
+/// the windows of OpenEXR, and the primaries of both. An image is refused if its header says that it is not a view of
+/// all directions in longitude and latitude.
 ///
 /// # Errors
 /// If the file cannot be read, is damaged, has radiances that are not finite numbers, or has a header that is not

@@ -25,8 +25,9 @@ pub(super) const ATTRIBUTE: &str = "lobe";
 const RGB: [&str; 3] = ["R", "G", "B"];
 const XYZ: [&str; 3] = ["X", "Y", "Z"];
 
-/// Writes a film; with `partial` also the exact sums, from which [`read_partial`] reads it back. The bytes depend only
-/// on the film and on `meta`.
+/// Writes a film; with `partial` also the exact sums, from which [`read_partial`] reads it back.
+///
+/// The bytes depend only on the film and on `meta`.
 ///
 /// # Errors
 /// If the file cannot be written.

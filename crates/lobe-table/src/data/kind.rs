@@ -2,8 +2,9 @@
 
 use std::fmt;
 
-/// The name of a representation, which is the same in the library, in files and on the command line. Each
-/// representation defines its own as the constant `KIND` of its module.
+/// The name of a representation, which is the same in the library, in files and on the command line.
+///
+/// Each representation defines its own as the constant `KIND` of its module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Kind(&'static str);
 

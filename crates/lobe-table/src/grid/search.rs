@@ -12,8 +12,9 @@ use super::descend::Descend;
 use super::find::{Cell, Find, Visitor};
 
 impl Axis {
-    /// The cell of each lane of `x`, in radians, without the edge policy. For lanes inside a caller's own kernel; a
-    /// loop over many angles should look up the searcher once.
+    /// The cell of each lane of `x`, in radians, without the edge policy.
+    ///
+    /// For lanes inside a caller's own kernel; a loop over many angles should look up the searcher once.
     #[inline(always)]
     pub fn cell<L: Lanes>(&self, lanes: L, x: L::F) -> Cell<L> {
         struct One<L: Lanes>(L, L::F);
@@ -132,6 +133,7 @@ impl<L: Lanes> Find<L> for Uniform<L> {
 }
 
 /// Up to `KNOTS` inner knots, each compared with the query, and `OCTS` times eight cells, all in registers.
+///
 /// This takes more instructions than a tree of lookups, but none of them waits for another.
 #[derive(Clone, Copy)]
 struct Compare<L: Lanes, const KNOTS: usize, const OCTS: usize> {

@@ -96,8 +96,9 @@ impl Warp {
         bilinear(&self.images, u, |texel| self.texel(texel, blend)) * self.cells()
     }
 
-    /// The uniform position that [`sample`](Self::sample) turns into `u`, and the density at `u`. If a whole row has no
-    /// density, the position in it is undefined, and set to 0.
+    /// The uniform position that [`sample`](Self::sample) turns into `u`, and the density at `u`.
+    ///
+    /// If a whole row has no density, the position in it is undefined, and set to 0.
     pub fn invert(&self, u: [f64; 2], blend: &Blend) -> ([f64; 2], f64) {
         let [height, width] = self.images.size();
         let ((col, fx), (row, fy)) = (place(u[0], width), place(u[1], height));

@@ -64,7 +64,9 @@ pub struct Sampler {
 }
 
 impl Sampler {
-    /// Builds the distributions of a table on a backend. They have the same bits whichever backend builds them.
+    /// Builds the distributions of a table on a backend.
+    ///
+    /// They have the same bits whichever backend builds them.
     ///
     /// # Errors
     /// If the options do not apply to this table.

@@ -4,8 +4,9 @@ use super::data::{AXIS_NAMES, Data};
 use crate::grid::interpolation::{Interpolator, Source};
 use crate::{Axis, Channels, Edge, Edges, Function, Precision, Scatter, TableError};
 
-/// A measured BRDF or BTDF in specular coordinates, laid out for evaluation in SIMD lanes. There are three ways to
-/// evaluate it. All give the same bits on one backend and, in strict form, on all backends:
+/// A measured BRDF or BTDF in specular coordinates, laid out for evaluation in SIMD lanes.
+///
+/// There are three ways to evaluate it. All give the same bits on one backend and, in strict form, on all backends:
 /// - [`eval`](Table::eval): one pair of directions;
 /// - [`eval_batch`](Table::eval_batch): many pairs, as arrays of vectors or as separate components;
 /// - [`eval_lanes`](Table::eval_lanes): one pair per lane, under a mask, inside a caller's own kernel.

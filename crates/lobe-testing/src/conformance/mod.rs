@@ -1,4 +1,5 @@
 //! Compares every method of a backend with plain scalar arithmetic, for values on which implementations differ.
+//!
 //! A backend crate calls [`conformance!`](crate::conformance!) with its tokens, which defines tests for them and for
 //! their strict form.
 

@@ -42,6 +42,7 @@ struct Origin {
 /// material.eval_batch(&wi, &wo, &mut f);
 /// # Ok::<(), lobe::OpenError>(())
 /// ```
+///
 /// Clones share the prepared tables.
 #[derive(Clone, Debug)]
 pub struct Material {

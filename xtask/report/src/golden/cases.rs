@@ -177,10 +177,11 @@ fn mitsuba_mueller(backend: Backend, file: &Path, path: &Path) -> anyhow::Result
     Ok(subject.against("Mitsuba 3", &answers, &found, (Measure::Absolute, 0.0, 2e-6)))
 }
 
-/// Materials of the EPFL database at a few angles: `theta_i`, `theta_o` and `phi` in degrees, and `f`. If two
-/// directions are mirror images, their half vector is the normal, and its azimuth is determined only by rounding,
-/// although the tables differ between azimuths. Pairs that are mirror directions to the last digit in `f64` have no
-/// defined value in lanes; the tests of `lobe-formats` compare them with the `f64` reference.
+/// Materials of the EPFL database at a few angles: `theta_i`, `theta_o` and `phi` in degrees, and `f`.
+///
+/// If two directions are mirror images, their half vector is the normal, and its azimuth is determined only by
+/// rounding, although the tables differ between azimuths. Pairs that are mirror directions to the last digit in `f64`
+/// have no defined value in lanes; the tests of `lobe-formats` compare them with the `f64` reference.
 fn mitsuba_values(backend: Backend, shared: &Path, path: &Path) -> anyhow::Result<Vec<Comparison>> {
     let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
     let files: serde_json::Map<String, serde_json::Value> =

@@ -1,6 +1,7 @@
-//! Compares materials in lanes with the answers of the programs that define their formats. The answers and the measured
-//! files are not part of the project: they are in the folder named by the environment variable `LOBE_SHARED`, or in
-//! `shared` next to the workspace.
+//! Compares materials in lanes with the answers of the programs that define their formats.
+//!
+//! The answers and the measured files are not part of the project: they are in the folder named by the environment
+//! variable `LOBE_SHARED`, or in `shared` next to the workspace.
 
 mod answers;
 mod cases;

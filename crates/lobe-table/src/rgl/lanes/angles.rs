@@ -27,6 +27,7 @@ impl Incident {
 }
 
 /// Zenith angle and azimuth of `wi` in radians, and its position on the unit square, from the frame of queries `0..n`.
+///
 /// If not `azimuthal`, the azimuth is not computed, and nothing may depend on it.
 #[inline(always)]
 pub(super) fn incident<L: Lanes>(lanes: L, n: usize, azimuthal: bool, frame: &Frame, incident: &mut Incident) {

@@ -89,8 +89,9 @@ fn every<L: Lanes>(lanes: L, wanted: bool) -> L::M {
     lanes.first_n(if wanted { L::LANES } else { 0 })
 }
 
-/// Fills the frame of queries `0..n` of a block. `n` is a multiple of the lanes. `cosine` keeps the cosine of `wo` in
-/// the values.
+/// Fills the frame of queries `0..n` of a block. `n` is a multiple of the lanes.
+///
+/// `cosine` keeps the cosine of `wo` in the values.
 #[inline(always)]
 pub(super) fn run<L: Lanes>(
     lanes: L,
