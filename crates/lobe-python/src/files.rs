@@ -20,8 +20,10 @@ use crate::threads;
 /// angles: "clamp", "extrapolate" or "zero". `lookup`, "nearest" or "linear", says how grids of half and difference
 /// angles (MERL) are looked up. `indexed_by`, "light" or "viewer", is the direction that selects the slice of a
 /// material of the EPFL database, and `decode`, "raw" or "srgb", says how the numbers of the UTIA database are decoded.
+///
 /// The other arguments give facts that are missing in a file, like the options of `lobe import` or a file
 /// NAME.lobe.toml: columns, unit, values, scale (a number, or "tis"), holds, in_plane, azimuth_from, decimal_comma.
+///
 /// Raises OSError if the file cannot be read, FormatError with file and line if it is damaged or of no known format,
 /// and ValueError for an option that is wrong or would change nothing. Warns with GuessWarning about values that are
 /// guessed and not measured.

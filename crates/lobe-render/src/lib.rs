@@ -7,12 +7,14 @@
 //! - [`World`] has triangles, materials ([`shader`]) and lights ([`light`]); [`scene`] reads it from a file.
 //! - [`render()`] makes a [`Film`] of it with an [integrator]; [`picture`] writes films as EXR and PNG.
 //! - Random numbers depend only on pixel, sample and dimension, and a film sums in integers. So the picture does not
-//!   depend on threads, tiles, machines or the order of work; backends in strict form all give the same picture. Nearly
-//!   everything has the kind of light that travels along a path as a parameter. It is a [`Transport`]: [`Rgb`],
-//!   [`Bands`] of wavelengths, or polarised light over either, [`Stokes`]. Colours in scenes are in linear sRGB, and
-//!   become smooth spectra if wavelengths are followed; measured spectra are used as they are. Coordinates are
-//!   right-handed with +y up. Lengths are in any unit, angles in radians, and radiance in W/(m^2 sr) or any multiple of
-//!   it.
+//!   depend on threads, tiles, machines or the order of work; backends in strict form all give the same picture.
+//!
+//! Nearly everything has the kind of light that travels along a path as a parameter. It is a [`Transport`]: [`Rgb`],
+//! [`Bands`] of wavelengths, or polarised light over either, [`Stokes`]. Colours in scenes are in linear sRGB, and
+//! become smooth spectra if wavelengths are followed; measured spectra are used as they are.
+//!
+//! Coordinates are right-handed with +y up. Lengths are in any unit, angles in radians, and radiance in W/(m^2 sr) or
+//! any multiple of it.
 #![forbid(unsafe_code)]
 
 mod camera;

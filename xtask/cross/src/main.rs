@@ -19,9 +19,10 @@ use target::{Setup, Target};
 /// pictures.
 const PACKAGES: [&str; 6] = ["lobe-backend", "lobe-math", "lobe-table", "lobe", "lobe-trace", "lobe-render"];
 
-/// Test the backends of other processors on emulators aarch64 runs in qemu, wasm in node, sse2 in qemu as a
-/// processor that has nothing newer; avx512 runs if this processor has it. Missing tools are installed in target/cross:
-/// a target of rustup, qemu from Debian's packages.
+/// Test the backends of other processors on emulators
+///
+/// aarch64 runs in qemu, wasm in node, sse2 in qemu as a processor that has nothing newer; avx512 runs if this
+/// processor has it. Missing tools are installed in target/cross: a target of rustup, qemu from Debian's packages.
 #[derive(Parser, Debug)]
 #[command(bin_name = "cargo xtask cross")]
 struct Args {

@@ -27,10 +27,12 @@ const REPEATS: usize = 4;
 /// Number of turns of each process at a question, each time.
 const ROUNDS: usize = 40;
 
-/// Compare kernels instantiated by a crate outside the workspace with those of the workspace The crate is built with
-/// Cargo's default release profile, with opt-level 2, with thin LTO and with 256 codegen units. No intrinsic may be out
-/// of line in any of them, and no question may be slower by more than is allowed than in a build with the profile of
-/// the workspace. Processes take turns at each question, and slow questions are measured again before they count.
+/// Compare kernels instantiated by a crate outside the workspace with those of the workspace
+///
+/// The crate is built with Cargo's default release profile, with opt-level 2, with thin LTO and with 256 codegen units.
+/// No intrinsic may be out of line in any of them, and no question may be slower by more than is allowed than in a
+/// build with the profile of the workspace. Processes take turns at each question, and slow questions are measured
+/// again before they count.
 #[derive(Parser, Debug)]
 #[command(bin_name = "cargo xtask outside")]
 struct Args {
