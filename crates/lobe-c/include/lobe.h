@@ -293,9 +293,7 @@ size_t lobe_fact_count(const lobe_material *material);
  * # Safety
  * `material` is NULL or not freed; `value` points to a pointer or is NULL.
  */
-const char *lobe_fact(const lobe_material *material,
-                      size_t index,
-                      const char **value);
+const char *lobe_fact(const lobe_material *material, size_t index, const char **value);
 
 /**
  * True if values do not depend on the rotation of the sample.
@@ -406,10 +404,7 @@ lobe_options lobe_options_default(void);
  * # Safety
  * `material` is not freed; `sampler` points to a pointer, and `error` to an error or is NULL.
  */
-lobe_status lobe_sampler_new(const lobe_material *material,
-                             float defensive,
-                             lobe_sampler **sampler,
-                             lobe_error *error);
+lobe_status lobe_sampler_new(const lobe_material *material, float defensive, lobe_sampler **sampler, lobe_error *error);
 
 /**
  * Frees a sampler; does nothing for NULL.
