@@ -31,7 +31,7 @@ use crate::reading::Reading;
   lobe plot film.csv -o film.svg --kind spectra --sigma 20,60 --theta 20,0,-20
   lobe plot screen.xml -o slices.svg --kind slices --sigma 0,40,60 --channel Visible --side back
   lobe plot cloth.ddr -o warp.png --kind sphere --psi 90
-  lobe plot paint.ddr --fit fit.json -o fit.html            with what `lobe fit -o fit.json` found, and where it fails
+  lobe plot paint.ddr --fit fit.json -o fit.html            where a fit of `lobe fit` fails
 
 The extension of OUT determines what is written: .html is a page, .svg or .png a figure. In every figure, the light is on the left, viewing angles are positive on the side of the mirror direction, and f is in 1/sr, without the cosine. Dots are measured points; dashed lines are extrapolated. Browsers show the value at the pointer.")]
 pub struct Args {

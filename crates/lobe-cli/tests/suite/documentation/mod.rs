@@ -85,12 +85,12 @@ fn help_texts() -> &'static [(String, String)] {
 /// Runs a line in the shell; the error says what went wrong.
 fn run(scratch: &Scratch, line: &str) -> Result<(), String> {
     // It would open a browser, and wait for Ctrl-C.
-    let ending = match line.starts_with("lobe view") {
-        true if line.contains("--no-open") => " --for 100ms",
-        true => " --no-open --for 100ms",
-        false => "",
+    let ended = match line.split(" #").next() {
+        Some(view) if view.starts_with("lobe view") && view.contains("--no-open") => format!("{view} --for 100ms"),
+        Some(view) if view.starts_with("lobe view") => format!("{view} --no-open --for 100ms"),
+        _ => line.into(),
     };
-    let output = scratch.shell(&format!("{line}{ending}")).output().expect("a shell");
+    let output = scratch.shell(&ended).output().expect("a shell");
     // The status of a pipe is that of its last program.
     let has_failed = text(&output.stderr).lines().any(|line| line.starts_with("error: "));
     // An imported file is checked, and may fail as long as the quantity of its values is not given.

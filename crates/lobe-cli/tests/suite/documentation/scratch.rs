@@ -109,13 +109,13 @@ impl Scratch {
         self.write("blinds.xml", sheet.replace("Reflection Back", "Transmission Back"));
         self.write("screen.xml", sheet.replace("Reflection Back", "Reflection Front"));
         for (name, rows, columns) in [
-            ("view.mtx", 2, 3),
-            ("direct.mtx", 2, 3),
-            ("daylight.mtx", 3, 4),
-            ("suns.mtx", 3, 4),
-            ("sky.mtx", 4, 2),
-            ("sun.mtx", 2, 5),
-            ("discs.mtx", 5, 2),
+            ("v.mtx", 2, 3),
+            ("vd.mtx", 2, 3),
+            ("d.mtx", 3, 4),
+            ("dd.mtx", 3, 4),
+            ("s.mtx", 4, 2),
+            ("c.mtx", 2, 5),
+            ("sun.mtx", 5, 2),
         ] {
             let elements = "0.5 0.5 0.5\n".repeat(rows * columns);
             self.write(name, format!("#?RADIANCE\nNROWS={rows}\nNCOLS={columns}\nNCOMP=3\nFORMAT=ascii\n\n{elements}"));
