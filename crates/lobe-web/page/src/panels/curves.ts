@@ -75,6 +75,8 @@ export class Curves {
         const shape = `${scale} ${this.curves.map(({ material }) => material.path).join("|")}`;
         if (anew || shape !== this.shape || !this.plot) this.make(shape);
         this.plot?.setData(this.data());
+        // The pointer may rest, or be elsewhere.
+        if (this.plot) this.say(this.plot);
     }
 
     private data(): uPlot.AlignedData {
