@@ -19,9 +19,9 @@ use crate::message::{self, say};
 A WINDOW file counts with its Visible band, or in colour with CIE-X and CIE-Z too, for light that arrives at its front; trees become matrices with `lobe convert --to klems --basis full`.
 
 Examples:
-  lobe matrix v.mtx blinds.xml d.mtx s.mtx              three phases, for every hour of the sky
+  lobe matrix v.mtx t.xml d.mtx s.mtx                   three phases, for every hour of the sky
   lobe matrix d.mtx s.mtx -o lit.mtx --format float     two phases
-  lobe matrix v.mtx blinds.xml d.mtx s.mtx --minus vd.mtx,blinds.xml,dd.mtx,s.mtx --plus c.mtx,sun.mtx
+  lobe matrix v.mtx t.xml d.mtx s.mtx --minus vd.mtx,t.xml,dd.mtx,s.mtx --plus c.mtx,sun.mtx
 
 The last example has five phases."
 )]

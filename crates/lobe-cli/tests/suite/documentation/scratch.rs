@@ -106,7 +106,9 @@ impl Scratch {
         self.write("gold.binary", examples::tiny_merl());
         let sheet = examples::sheet("Columns", "0.1 0.1 0.1 0.1 0.1 0.1 0.1 0.1 0.1");
         // Light through the sheet from its front, and light reflected by its back, as this format calls them.
-        self.write("blinds.xml", sheet.replace("Reflection Back", "Transmission Back"));
+        for name in ["blinds.xml", "t.xml"] {
+            self.write(name, sheet.replace("Reflection Back", "Transmission Back"));
+        }
         self.write("screen.xml", sheet.replace("Reflection Back", "Reflection Front"));
         for (name, rows, columns) in [
             ("v.mtx", 2, 3),
