@@ -26,12 +26,11 @@ mod scattered;
 mod strided;
 mod tasks;
 mod threads;
+mod unit;
 
 /// The native part of `lobe_bsdf`.
 #[pyo3::pymodule]
 mod _lobe {
-    #[pymodule_export]
-    use crate::arrays::normalize;
     #[pymodule_export]
     use crate::files::{backends, formats, from_bytes, open};
     #[pymodule_export]
@@ -42,4 +41,6 @@ mod _lobe {
     use crate::sampler::Sampler;
     #[pymodule_export]
     use crate::samples::from_samples;
+    #[pymodule_export]
+    use crate::unit::normalize;
 }
