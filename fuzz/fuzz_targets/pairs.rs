@@ -1,8 +1,8 @@
 //! Pairs of directions, as `lobe eval --pairs` reads them.
 #![no_main]
 
-/// Of the program, which is no library: only its errors are not wanted here.
-#[allow(dead_code)]
+/// The program's own reader, included as a file because the program is not a library.
+#[allow(dead_code, reason = "only the program uses all of it")]
 #[path = "../../crates/lobe-cli/src/pairs.rs"]
 mod pairs;
 

@@ -1,4 +1,4 @@
-//! Files in memory that stand in for those of the disk, where there is none, as in a browser.
+//! Files in memory that replace those on disk if there is no disk, as in a browser.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;

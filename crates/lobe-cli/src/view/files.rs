@@ -19,7 +19,7 @@ struct Entry {
     path: String,
     #[serde(rename = "isFolder")]
     is_folder: bool,
-    /// Another one if a file has changed.
+    /// Changes whenever a file does.
     stamp: String,
     files: Vec<Part>,
 }
@@ -37,7 +37,7 @@ impl Shown {
             if file.is_dir() {
                 continue;
             }
-            // The error of a file that is missing, or is none, before the browser opens.
+            // A missing file, or something that is not a file, is an error before the browser opens.
             let metadata = std::fs::metadata(file).map_err(|error| {
                 Failure::File(format!("{}: found {error}; expected a file that can be read", file.display()))
             })?;
@@ -89,7 +89,7 @@ impl Shown {
         serde_json::to_vec(&entries).map_err(|error| error.to_string())
     }
 
-    /// The content of a file; `None` if there is none of that number.
+    /// The content of a file; `None` if no file has that number.
     pub fn read(&self, number: usize) -> Option<Result<Vec<u8>, String>> {
         let (_, file) = self.all().into_iter().nth(number)?;
         Some(lobe_files::read(&file).map_err(|error| error.to_string()))
