@@ -6,6 +6,7 @@
 
 use lobe_formats::{Document, Part};
 use lobe_table::Data;
+use nalgebra::{Complex, Matrix2, Matrix4, Vector4};
 
 use super::finding::{Finding, Status, part_name, percent};
 
@@ -36,7 +37,7 @@ fn of_part(document: &Document, part: &Part) -> Option<Finding> {
         }
         looked_at += 1;
         let relative = matrix.map(|element| f64::from(element) / f64::from(matrix[0]));
-        let lowest = eigenvalues(&relative).into_iter().fold(f64::INFINITY, f64::min);
+        let lowest = eigenvalues(&relative).min();
         // For fully polarised light in either state, and for unpolarised light.
         let size = |elements: [usize; 3]| elements.iter().map(|k| relative[*k].powi(2)).sum::<f64>().sqrt();
         let polarised = size([1, 2, 3]).max(size([4, 8, 12]));
@@ -67,72 +68,22 @@ fn of_part(document: &Document, part: &Part) -> Option<Finding> {
 }
 
 /// The eigenvalues of Cloude's coherency matrix of a matrix with the first element 1. Their sum is 1.
-fn eigenvalues(m: &[f64; 16]) -> [f64; 4] {
-    // `[row][column]` of the real and the imaginary part of each of Pauli's matrices, in the order of Stokes components.
-    const PAULI: [[[[f64; 2]; 2]; 2]; 4] = [
-        [[[1.0, 0.0], [0.0, 0.0]], [[0.0, 0.0], [1.0, 0.0]]],
-        [[[1.0, 0.0], [0.0, 0.0]], [[0.0, 0.0], [-1.0, 0.0]]],
-        [[[0.0, 0.0], [1.0, 0.0]], [[1.0, 0.0], [0.0, 0.0]]],
-        [[[0.0, 0.0], [0.0, -1.0]], [[0.0, 1.0], [0.0, 0.0]]],
+fn eigenvalues(m: &[f64; 16]) -> Vector4<f64> {
+    let [zero, one, i] = [Complex::ZERO, Complex::ONE, Complex::I];
+    // Pauli's matrices, in the order of Stokes components.
+    let pauli = [
+        Matrix2::new(one, zero, zero, one),
+        Matrix2::new(one, zero, zero, -one),
+        Matrix2::new(zero, one, one, zero),
+        Matrix2::new(zero, -i, i, zero),
     ];
-    let (mut re, mut im) = ([[0.0; 4]; 4], [[0.0; 4]; 4]);
-    for (i, a) in PAULI.iter().enumerate() {
-        for (j, b) in PAULI.iter().enumerate() {
-            let weight = 0.25 * m[4 * i + j];
-            for row in 0..4 {
-                for column in 0..4 {
-                    let [x, y] = a[row / 2][column / 2];
-                    // The other factor is conjugated.
-                    let [u, v] = [b[row % 2][column % 2][0], -b[row % 2][column % 2][1]];
-                    re[row][column] += weight * (x * u - y * v);
-                    im[row][column] += weight * (x * v + y * u);
-                }
-            }
+    let mut coherency = Matrix4::zeros();
+    for (row, a) in pauli.iter().enumerate() {
+        for (column, b) in pauli.iter().enumerate() {
+            coherency += a.kronecker(&b.conjugate()) * Complex::from(0.25 * m[4 * row + column]);
         }
     }
-    // A Hermitian matrix as a symmetric one of twice the size, which has every eigenvalue twice.
-    let mut symmetric = [[0.0; 8]; 8];
-    for row in 0..4 {
-        for column in 0..4 {
-            symmetric[row][column] = re[row][column];
-            symmetric[row + 4][column + 4] = re[row][column];
-            symmetric[row][column + 4] = -im[row][column];
-            symmetric[row + 4][column] = im[row][column];
-        }
-    }
-    let mut all = jacobi(symmetric);
-    all.sort_by(f64::total_cmp);
-    [all[0], all[2], all[4], all[6]]
-}
-
-/// The eigenvalues of a symmetric matrix, by rotations of pairs (Jacobi).
-fn jacobi<const N: usize>(mut a: [[f64; N]; N]) -> [f64; N] {
-    for _ in 0..30 {
-        let off: f64 = (0..N).flat_map(|p| (0..p).map(move |q| (p, q))).map(|(p, q)| a[p][q] * a[p][q]).sum();
-        if off < 1e-24 {
-            break;
-        }
-        for p in 0..N {
-            for q in 0..p {
-                if a[p][q] == 0.0 {
-                    continue;
-                }
-                let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-                let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
-                let t = if theta == 0.0 { 1.0 } else { t };
-                let c = 1.0 / (t * t + 1.0).sqrt();
-                let s = t * c;
-                for row in &mut a {
-                    let (x, y) = (row[p], row[q]);
-                    (row[p], row[q]) = (c * x - s * y, s * x + c * y);
-                }
-                let (x, y) = (a[p], a[q]);
-                a[p] = std::array::from_fn(|k| c * x[k] - s * y[k]);
-                a[q] = std::array::from_fn(|k| s * x[k] + c * y[k]);
-            }
-        }
-    }
-    std::array::from_fn(|k| a[k][k])
+    coherency.symmetric_eigenvalues()
 }
 
 #[cfg(test)]
@@ -154,7 +105,8 @@ mod tests {
             // Reversing only circular light is impossible.
             (diagonal([1.0, 1.0, 1.0, -1.0]), [-0.5, 0.5, 0.5, 0.5]),
         ] {
-            let found = eigenvalues(&matrix);
+            let mut found = eigenvalues(&matrix);
+            found.as_mut_slice().sort_by(f64::total_cmp);
             assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?}, not {expected:?}");
         }
     }
