@@ -9,7 +9,8 @@ use super::block;
 use super::distribution::Distribution;
 use super::incident::Incident;
 use super::places::{Places, place};
-use crate::directions::{DirectionBlock, Directions, PADDING, Padding};
+use super::queries::{Brightnesses, Densities, Draws};
+use crate::directions::{DirectionBlock, PADDING, Padding};
 use crate::passes::block::{BLOCK, registers};
 use crate::passes::blocks::{Blocks, Blockwise};
 use crate::passes::pairs::{PairPadding, Pairs};
@@ -43,9 +44,7 @@ impl Distribution {
         directions: &'a mut [[f32; 3]],
         pdfs: &'a mut [f32],
     ) -> impl Kernel<Out = ()> + 'a {
-        let count = known.len();
-        assert_eq!((u.len(), directions.len(), pdfs.len()), (count, count, count), "one of each per direction");
-        Blocks(Draws { distribution: self, known: known.into(), u, directions, pdfs })
+        Blocks(Draws::new(self, known, u, directions, pdfs))
     }
 
     /// The density of each of the `other` directions given the known one; 0 if one of them is not above the surface.
@@ -66,8 +65,7 @@ impl Distribution {
         other: &'a [[f32; 3]],
         pdfs: &'a mut [f32],
     ) -> impl Kernel<Out = ()> + 'a {
-        assert_eq!((known.len(), other.len()), (pdfs.len(), pdfs.len()), "as many known as other and densities");
-        Blocks(Densities { distribution: self, known: known.into(), other: other.into(), pdfs })
+        Blocks(Densities::new(self, known, other, pdfs))
     }
 
     /// The brightness of the surface for light from each known direction: the integral of luminance times `f` times
@@ -85,28 +83,18 @@ impl Distribution {
     /// # Panics
     /// If the slices do not have the same length.
     pub fn brightnesses<'a>(&'a self, known: &'a [[f32; 3]], out: &'a mut [f32]) -> impl Kernel<Out = ()> + 'a {
-        assert_eq!(known.len(), out.len(), "a result per direction");
-        Blocks(Brightnesses { distribution: self, known: known.into(), out })
+        Blocks(Brightnesses::new(self, known, out))
     }
 }
 
-/// All samples of a batch.
-struct Draws<'a> {
-    distribution: &'a Distribution,
-    known: Directions<'a>,
-    u: &'a [[f32; 2]],
-    directions: &'a mut [[f32; 3]],
-    pdfs: &'a mut [f32],
-}
-
 /// The intermediate values of sampling.
-struct DrawScratch {
+pub(super) struct DrawScratch {
     passes: block::Scratch,
     places: Places,
     padding: Padding,
 }
 
-impl Blockwise for Draws<'_> {
+impl Blockwise for Draws<'_, Distribution> {
     type Scratch = DrawScratch;
     const SCRATCH: DrawScratch = DrawScratch { passes: block::Scratch::ZERO, places: Places::ZERO, padding: PADDING };
 
@@ -116,7 +104,7 @@ impl Blockwise for Draws<'_> {
 
     #[inline(always)]
     fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut DrawScratch) {
-        let Draws { distribution, known, u, directions, pdfs } = self;
+        let Draws { sampler: distribution, known, u, directions, pdfs } = self;
         let DrawScratch { passes, places, padding } = scratch;
         let known = known.block(lanes, queries.start, padding);
         call(lanes, Locate { distribution, known, count: queries.len(), places: &mut *places });
@@ -129,15 +117,7 @@ impl Blockwise for Draws<'_> {
     }
 }
 
-/// All densities of a batch.
-struct Densities<'a> {
-    distribution: &'a Distribution,
-    known: Directions<'a>,
-    other: Directions<'a>,
-    pdfs: &'a mut [f32],
-}
-
-impl Blockwise for Densities<'_> {
+impl Blockwise for Densities<'_, Distribution> {
     type Scratch = PairPadding;
     const SCRATCH: PairPadding = PairPadding::ZERO;
 
@@ -147,7 +127,7 @@ impl Blockwise for Densities<'_> {
 
     #[inline(always)]
     fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, padding: &mut PairPadding) {
-        let Densities { distribution, known, other, pdfs } = self;
+        let Densities { sampler: distribution, known, other, pdfs } = self;
         let Distribution { surface, sigma, psi, .. } = distribution;
         let Pairs { wi: known, wo: other } = padding.block(lanes, known, other, queries.start);
         let (at, count) = (queries.start, queries.len().min(BLOCK));
@@ -163,20 +143,13 @@ impl Blockwise for Densities<'_> {
     }
 }
 
-/// The brightness of the surface for many directions.
-struct Brightnesses<'a> {
-    distribution: &'a Distribution,
-    known: Directions<'a>,
-    out: &'a mut [f32],
-}
-
 /// The intermediate values of brightnesses.
-struct BrightnessScratch {
+pub(super) struct BrightnessScratch {
     places: Places,
     padding: Padding,
 }
 
-impl Blockwise for Brightnesses<'_> {
+impl Blockwise for Brightnesses<'_, Distribution> {
     type Scratch = BrightnessScratch;
     const SCRATCH: BrightnessScratch = BrightnessScratch { places: Places::ZERO, padding: PADDING };
 
@@ -186,7 +159,7 @@ impl Blockwise for Brightnesses<'_> {
 
     #[inline(always)]
     fn block<L: Lanes>(&mut self, lanes: L, queries: Range<usize>, scratch: &mut BrightnessScratch) {
-        let Brightnesses { distribution, known, out } = self;
+        let Brightnesses { sampler: distribution, known, out } = self;
         let BrightnessScratch { places, padding } = scratch;
         let known = known.block(lanes, queries.start, padding);
         call(lanes, Locate { distribution, known, count: queries.len(), places: &mut *places });

@@ -25,6 +25,7 @@ mod kernels;
 mod options;
 mod patches;
 mod places;
+mod queries;
 mod reference;
 mod sampler;
 mod slices;

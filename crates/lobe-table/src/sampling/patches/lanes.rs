@@ -11,12 +11,13 @@ use lobe_lane::{Block, Floats, Ints, Kernel, Lanes, call};
 
 use super::PatchSampler;
 use crate::Scatter;
-use crate::directions::{DirectionBlock, Directions, PADDING, Padding};
+use crate::directions::{DirectionBlock, PADDING, Padding};
 use crate::passes::block::{Column, registers};
 use crate::passes::blocks::{Blocks, Blockwise};
 use crate::passes::pairs::{PairPadding, Pairs};
 use crate::passes::unit::unit;
 use crate::sampling::block::store;
+use crate::sampling::queries::{Brightnesses, Densities, Draws};
 use crate::window::klems::AngleBasis;
 use crate::window::klems::lanes::{PatchScratch, Patches};
 
@@ -92,9 +93,7 @@ impl PatchSampler {
         directions: &'a mut [[f32; 3]],
         pdfs: &'a mut [f32],
     ) -> impl Kernel<Out = ()> + 'a {
-        let count = known.len();
-        assert_eq!((u.len(), directions.len(), pdfs.len()), (count, count, count), "one of each per direction");
-        Blocks(Draws { sampler: self, known: known.into(), u, directions, pdfs })
+        Blocks(Draws::new(self, known, u, directions, pdfs))
     }
 
     /// The density, 1/sr, with which each of the `other` directions is drawn for light from the known one.
@@ -115,8 +114,7 @@ impl PatchSampler {
         other: &'a [[f32; 3]],
         pdfs: &'a mut [f32],
     ) -> impl Kernel<Out = ()> + 'a {
-        assert_eq!((known.len(), other.len()), (pdfs.len(), pdfs.len()), "as many known as other and densities");
-        Blocks(Densities { sampler: self, known: known.into(), other: other.into(), pdfs })
+        Blocks(Densities::new(self, known, other, pdfs))
     }
 
     /// The integral of luminance times `f` times cosine for light from each direction; 0 if it is in no patch.
@@ -124,8 +122,7 @@ impl PatchSampler {
     /// # Panics
     /// If the slices do not have the same length.
     pub fn brightness_batch(&self, backend: Backend, known: &[[f32; 3]], out: &mut [f32]) {
-        assert_eq!(known.len(), out.len(), "a result per direction");
-        backend.run(Blocks(Brightnesses { sampler: self, known: known.into(), out }));
+        backend.run(Blocks(Brightnesses::new(self, known, out)));
     }
 }
 
@@ -179,17 +176,8 @@ impl Kernel for Find<'_> {
     }
 }
 
-/// All draws of a batch.
-struct Draws<'a> {
-    sampler: &'a PatchSampler,
-    known: Directions<'a>,
-    u: &'a [[f32; 2]],
-    directions: &'a mut [[f32; 3]],
-    pdfs: &'a mut [f32],
-}
-
 /// The intermediate values of sampling.
-struct DrawScratch {
+pub(in crate::sampling) struct DrawScratch {
     light: Place,
     /// The first sum of a row, and the number of patches below the number that is searched for.
     first: Column<i32>,
@@ -199,7 +187,7 @@ struct DrawScratch {
     padding: Padding,
 }
 
-impl Blockwise for Draws<'_> {
+impl Blockwise for Draws<'_, PatchSampler> {
     type Scratch = DrawScratch;
     const SCRATCH: DrawScratch = DrawScratch {
         light: Place::ZERO,
@@ -278,22 +266,14 @@ impl Blockwise for Draws<'_> {
     }
 }
 
-/// All densities of a batch.
-struct Densities<'a> {
-    sampler: &'a PatchSampler,
-    known: Directions<'a>,
-    other: Directions<'a>,
-    pdfs: &'a mut [f32],
-}
-
 /// The intermediate values of densities.
-struct DensityScratch {
+pub(in crate::sampling) struct DensityScratch {
     light: Place,
     viewer: Place,
     padding: PairPadding,
 }
 
-impl Blockwise for Densities<'_> {
+impl Blockwise for Densities<'_, PatchSampler> {
     type Scratch = DensityScratch;
     const SCRATCH: DensityScratch =
         DensityScratch { light: Place::ZERO, viewer: Place::ZERO, padding: PairPadding::ZERO };
@@ -331,20 +311,13 @@ impl Blockwise for Densities<'_> {
     }
 }
 
-/// The brightness of the surface for many directions.
-struct Brightnesses<'a> {
-    sampler: &'a PatchSampler,
-    known: Directions<'a>,
-    out: &'a mut [f32],
-}
-
 /// The intermediate values of brightnesses.
-struct BrightnessScratch {
+pub(in crate::sampling) struct BrightnessScratch {
     light: Place,
     padding: Padding,
 }
 
-impl Blockwise for Brightnesses<'_> {
+impl Blockwise for Brightnesses<'_, PatchSampler> {
     type Scratch = BrightnessScratch;
     const SCRATCH: BrightnessScratch = BrightnessScratch { light: Place::ZERO, padding: PADDING };
 

@@ -3,6 +3,7 @@
 use lobe_backend::Backend;
 
 use super::PatchSampler;
+use crate::sampling::queries::{Brightnesses, Densities, Draws};
 
 impl PatchSampler {
     /// A direction and its density, 1/sr, for light from each of the `known` directions; zeros if the known direction
@@ -18,9 +19,8 @@ impl PatchSampler {
         directions: &mut [[f32; 3]],
         pdfs: &mut [f32],
     ) {
-        let count = known.len();
-        assert_eq!((u.len(), directions.len(), pdfs.len()), (count, count, count), "one of each per direction");
-        for query in 0..count {
+        let Draws { directions, pdfs, .. } = Draws::new(self, known, u, directions, pdfs);
+        for query in 0..known.len() {
             (directions[query], pdfs[query]) = self.draw_reference(known[query], u[query]);
         }
     }
@@ -30,7 +30,7 @@ impl PatchSampler {
     /// # Panics
     /// If the slices do not have the same length.
     pub fn pdf_batch(&self, _: Backend, known: &[[f32; 3]], other: &[[f32; 3]], pdfs: &mut [f32]) {
-        assert_eq!((known.len(), other.len()), (pdfs.len(), pdfs.len()), "as many known as other and densities");
+        let Densities { pdfs, .. } = Densities::new(self, known, other, pdfs);
         for query in 0..known.len() {
             pdfs[query] = self.pdf_reference(known[query], other[query]);
         }
@@ -41,7 +41,7 @@ impl PatchSampler {
     /// # Panics
     /// If the slices do not have the same length.
     pub fn brightness_batch(&self, _: Backend, known: &[[f32; 3]], out: &mut [f32]) {
-        assert_eq!(known.len(), out.len(), "a result per direction");
+        let Brightnesses { out, .. } = Brightnesses::new(self, known, out);
         for (out, known) in out.iter_mut().zip(known) {
             *out = self.brightness_reference(*known);
         }
