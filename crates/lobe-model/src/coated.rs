@@ -1,7 +1,7 @@
 //! A clear coat on a base.
 
 use crate::vec3::{add, dot, normalize};
-use crate::{Ggx, Model, fresnel_conductor};
+use crate::{Ggx, Model, fresnel_dielectric};
 
 /// A clear coat on a base: car paint, plastic, varnished wood.
 ///
@@ -27,8 +27,7 @@ impl<B: Model> Model for Coated<B> {
         if wi[2] <= 0.0 || wo[2] <= 0.0 {
             return [0.0; 3];
         }
-        // A dielectric is a conductor that absorbs nothing.
-        let mirrored = |cos: f64| fresnel_conductor(cos, self.eta, 0.0);
+        let mirrored = |cos: f64| fresnel_dielectric(cos, self.eta);
         let coat = self.ggx.mirrors(wi, wo) * mirrored(dot(wi, normalize(add(wi, wo))));
         let passed = (1.0 - mirrored(wi[2])) * (1.0 - mirrored(wo[2]));
         self.base.f(wi, wo).map(|base| coat + passed * base)

@@ -32,17 +32,34 @@ impl Model for Conductor {
 ///
 /// The exact Fresnel equations for a complex refractive index `eta + i k`: M. Born and E. Wolf, *Principles of optics*,
 /// section 14.2 (7th edition).
+#[inline]
 pub fn fresnel_conductor(cos: f64, eta: f64, k: f64) -> f64 {
+    let difference = eta * eta - k * k - (1.0 - cos * cos);
+    let imaginary = 2.0 * eta * k;
+    // Indices are far from where squares overflow, against which `hypot` would guard at several times the cost.
+    let modulus = (difference * difference + imaginary * imaginary).sqrt();
+    average(cos, modulus, (0.5 * (modulus + difference)).max(0.0).sqrt())
+}
+
+/// The reflectance of a smooth dielectric in vacuum for unpolarised light: that of a conductor that absorbs nothing.
+///
+/// `eta` is the refractive index; beyond the critical angle of an index below 1, all light is reflected.
+#[inline]
+pub fn fresnel_dielectric(cos: f64, eta: f64) -> f64 {
+    let difference = eta * eta - (1.0 - cos * cos);
+    average(cos, difference.abs(), difference.max(0.0).sqrt())
+}
+
+/// The mean of both reflectances: of `a + ib`, the square root of (eta + ik)^2 - sin^2, it takes the squared modulus and
+/// the real part.
+#[inline]
+fn average(cos: f64, modulus: f64, a: f64) -> f64 {
     let (cos2, sin2) = (cos * cos, 1.0 - cos * cos);
-    let difference = eta * eta - k * k - sin2;
-    // a + ib is the square root of (eta + ik)^2 - sin^2.
-    let modulus = difference.hypot(2.0 * eta * k);
-    let a = (0.5 * (modulus + difference)).max(0.0).sqrt();
-    let perpendicular = (modulus + cos2 - 2.0 * a * cos) / (modulus + cos2 + 2.0 * a * cos);
-    // The parallel reflectance over the perpendicular one, with numerator and denominator multiplied by cos^2 to avoid
-    // a division by zero.
+    // The perpendicular reflectance is `less / more`. Half the sum with the parallel one, whose ratio to it is
+    // `(even - odd) / (even + odd)`, both multiplied by cos^2 to avoid a division by zero.
+    let [less, more] = [modulus + cos2 - 2.0 * a * cos, modulus + cos2 + 2.0 * a * cos];
     let (even, odd) = (modulus * cos2 + sin2 * sin2, 2.0 * a * cos * sin2);
-    0.5 * perpendicular * (1.0 + (even - odd) / (even + odd))
+    less * even / (more * (even + odd))
 }
 
 #[cfg(test)]
@@ -66,6 +83,11 @@ mod tests {
             let normal = ((eta - 1.0f64).powi(2) + k * k) / ((eta + 1.0f64).powi(2) + k * k);
             assert!((fresnel_conductor(1.0, eta, k) - normal).abs() < 1e-14);
             assert_eq!(fresnel_conductor(0.0, eta, k), 1.0);
+        }
+        for cos in [1.0, 0.7, 0.2, 0.0] {
+            for eta in [1.5, 0.7] {
+                assert_eq!(fresnel_dielectric(cos, eta), fresnel_conductor(cos, eta, 0.0), "{cos}, {eta}");
+            }
         }
         // Glass at Brewster's angle reflects only the perpendicular half: ((n^2 - 1) / (n^2 + 1))^2 / 2.
         let brewster = 1.0 / (1.0 + 1.5f64 * 1.5).sqrt();

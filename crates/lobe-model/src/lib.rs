@@ -30,7 +30,7 @@ mod ward;
 pub use albedo::albedo;
 pub use blinn::Blinn;
 pub use coated::Coated;
-pub use conductor::{Conductor, fresnel_conductor};
+pub use conductor::{Conductor, fresnel_conductor, fresnel_dielectric};
 pub use fresnel::{Elements, fresnel};
 pub use halton::halton;
 pub use lambert::Lambert;

@@ -17,6 +17,7 @@ pub struct Ggx {
 
 impl Ggx {
     /// Density of the microfacet normal `h`, in 1/sr: its integral weighted with `h.z` is 1.
+    #[inline]
     pub fn distribution(&self, h: [f64; 3]) -> f64 {
         if h[2] <= 0.0 {
             return 0.0;
@@ -27,6 +28,7 @@ impl Ggx {
     }
 
     /// Smith's auxiliary function: the hidden facets per facet visible from `w`.
+    #[inline]
     pub fn lambda(&self, w: [f64; 3]) -> f64 {
         let [ax, ay] = self.alpha;
         let tan2 = ((ax * w[0]).powi(2) + (ay * w[1]).powi(2)) / (w[2] * w[2]);
@@ -34,6 +36,7 @@ impl Ggx {
     }
 
     /// The BRDF in 1/sr if every facet were a perfect mirror, with height-correlated masking. Zero below the surface.
+    #[inline]
     pub fn mirrors(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
         if wi[2] <= 0.0 || wo[2] <= 0.0 {
             return 0.0;

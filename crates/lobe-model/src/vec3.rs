@@ -3,27 +3,33 @@
 /// A direction or point.
 pub(crate) type Vec3 = [f64; 3];
 
+#[inline]
 pub(crate) fn dot(a: Vec3, b: Vec3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+#[inline]
 pub(crate) fn cross(a: Vec3, b: Vec3) -> Vec3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
+#[inline]
 pub(crate) fn add(a: Vec3, b: Vec3) -> Vec3 {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
+#[inline]
 pub(crate) fn scale(a: Vec3, s: f64) -> Vec3 {
     a.map(|x| x * s)
 }
 
+#[inline]
 pub(crate) fn normalize(a: Vec3) -> Vec3 {
     scale(a, 1.0 / dot(a, a).sqrt())
 }
 
 /// The mirror image of `d` about the unit vector `n`, both pointing away from the surface.
+#[inline]
 pub(crate) fn reflect(d: Vec3, n: Vec3) -> Vec3 {
     add(scale(n, 2.0 * dot(d, n)), scale(d, -1.0))
 }
