@@ -157,18 +157,11 @@ fn shared(measurement: &Measurement, request: &Request, nm: &[f64]) -> Result<Fi
     let more = measurement.thinned(COARSE[1]);
     let shapes = model.shapes();
     let second = |(_, values): &(f64, Vec<f64>)| {
-        // Slightly away from the bounds, where the derivatives vanish.
-        let inner = |(parameter, value): (&Parameter, &f64)| {
-            let inset = 0.02 * (parameter.high - parameter.low);
-            match parameter.spacing {
-                Spacing::Linear => value.clamp(parameter.low + inset, parameter.high - inset),
-                Spacing::Log | Spacing::Amplitude => value.clamp(1.1 * parameter.low, parameter.high / 1.1),
-            }
-        };
-        let values: Vec<f64> = model.parameters().iter().zip(values).map(inner).collect();
+        let values: Vec<f64> =
+            model.parameters().iter().zip(values).map(|(parameter, value)| parameter.inner(*value)).collect();
         let mut start = values[..shapes].to_vec();
         (0..count).for_each(|_| start.extend_from_slice(&values[shapes..]));
-        let problem = Problem::new(model, &more, nm, weights, &start).minimise(1e-8, 40).0;
+        let problem = Problem::new(model, &more, nm, weights, &start).settle(1e-8, 20).0;
         (problem.cost(), problem.values())
     };
     let fits: Vec<_> = grey_fits.par_iter().map(second).collect();
@@ -181,7 +174,7 @@ fn shared(measurement: &Measurement, request: &Request, nm: &[f64]) -> Result<Fi
 /// The last steps, on all pairs.
 fn polished<'a>(problem: Problem<'a>, request: &Request) -> (Problem<'a>, bool) {
     const TOLERANCE: f64 = 1e-12;
-    let (mut problem, mut has_converged) = problem.minimise(TOLERANCE, 60);
+    let (mut problem, mut has_converged) = problem.settle(TOLERANCE, 60);
     if request.weights == Weights::Relative {
         for _ in 0..ROUNDS {
             problem.make_relative();

@@ -39,6 +39,8 @@ pub struct Parameter {
 
 /// Closer to a bound than this share of the range, a parameter is at it.
 const AT_BOUND: f64 = 1e-6;
+/// Closer to a bound than this share of the range, a parameter is on the way to it.
+const NEAR_BOUND: f64 = 1e-3;
 
 impl Parameter {
     pub(crate) const fn new(
@@ -91,6 +93,21 @@ impl Parameter {
     /// The number for a value: the inverse of [`value`](Self::value).
     pub(crate) fn free(&self, value: f64) -> f64 {
         (2.0 * self.share(value) - 1.0).asin()
+    }
+
+    /// The bound that a value is near.
+    pub(crate) fn near_bound(&self, value: f64) -> Option<f64> {
+        let share = self.share(value);
+        if share < NEAR_BOUND { Some(self.low) } else { (share > 1.0 - NEAR_BOUND).then_some(self.high) }
+    }
+
+    /// The value, moved slightly away from the bounds, where the derivatives vanish.
+    pub(crate) fn inner(&self, value: f64) -> f64 {
+        let inset = 0.02 * (self.high - self.low);
+        match self.spacing {
+            Spacing::Linear => value.clamp(self.low + inset, self.high - inset),
+            Spacing::Log | Spacing::Amplitude => value.clamp(1.1 * self.low, self.high / 1.1),
+        }
     }
 
     /// Whether a value is at a bound.

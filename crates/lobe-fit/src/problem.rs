@@ -32,10 +32,15 @@ pub(crate) struct Problem<'a> {
     robust: Option<f64>,
     /// The free numbers: those of the shape, then those of each channel.
     free: DVector<f64>,
+    /// `true` for numbers that stay as they are, because their parameters are at a bound.
+    pinned: Vec<bool>,
 }
 
 /// More residuals than this are worth several threads.
 const MANY: usize = 4096;
+/// The tolerance and the patience with which parameters are brought near their bounds.
+const LOOSE: f64 = 1e-6;
+const LOOSE_PATIENCE: usize = 8;
 /// The share of the median value that logarithms and relative differences use as a floor.
 const FLOOR: f64 = 1e-3;
 
@@ -63,6 +68,7 @@ impl<'a> Problem<'a> {
             scale,
             robust: None,
             free: DVector::zeros(start.len()),
+            pinned: vec![false; start.len()],
         };
         problem.place(start);
         problem
@@ -105,9 +111,58 @@ impl<'a> Problem<'a> {
         if cost.is_finite() { cost } else { f64::INFINITY }
     }
 
+    /// Minimises the cost, starting with the current parameters, of which those that end at a bound are pinned there;
+    /// returns whether it converged.
+    ///
+    /// Near a bound the free number hardly moves its parameter, so that the search would take ever smaller steps.
+    pub fn settle(self, tolerance: f64, patience: usize) -> (Self, bool) {
+        let (mut problem, _) = self.minimise(LOOSE, patience.min(LOOSE_PATIENCE));
+        problem.pin();
+        let (mut problem, has_converged) = problem.minimise(tolerance, patience);
+        if problem.release() { problem.minimise(tolerance, patience) } else { (problem, has_converged) }
+    }
+
+    /// Pins the parameters that are near a bound to it.
+    fn pin(&mut self) {
+        let columns: Vec<_> = self.columns().collect();
+        for (column, parameter) in columns.into_iter().enumerate() {
+            if let Some(bound) = parameter.near_bound(parameter.value(self.free[column])) {
+                self.free[column] = parameter.free(bound);
+                self.pinned[column] = true;
+            }
+        }
+    }
+
+    /// Releases the pinned parameters for which the cost falls away from the bound; `false` if there are none.
+    fn release(&mut self) -> bool {
+        let (rows, slopes) = (self.rows(), self.slopes());
+        let columns: Vec<_> = self.columns().collect();
+        let mut any = false;
+        for (column, parameter) in columns.into_iter().enumerate() {
+            let inner = parameter.inner(parameter.value(self.free[column]));
+            let inward = inner - parameter.value(self.free[column]);
+            let slope: f64 =
+                rows.iter().zip(slopes.chunks_exact(self.free.len())).map(|(row, by)| row * by[column]).sum();
+            if self.pinned[column] && slope * inward < 0.0 {
+                self.free[column] = parameter.free(inner);
+                self.pinned[column] = false;
+                any = true;
+            }
+        }
+        any
+    }
+
     /// Minimises the cost, starting with the current parameters; returns whether it converged.
     pub fn minimise(self, tolerance: f64, patience: usize) -> (Self, bool) {
-        let method = LevenbergMarquardt::new().with_tol(tolerance).with_patience(patience);
+        if self.pinned.iter().all(|is_pinned| *is_pinned) {
+            return (self, true);
+        }
+        // A step is small long before the cost stops falling if another number is large.
+        let method = LevenbergMarquardt::new()
+            .with_ftol(tolerance)
+            .with_xtol(1e-3 * tolerance)
+            .with_gtol(1e-12)
+            .with_patience(patience);
         let (problem, report) = method.minimize(self);
         (problem, report.termination.was_successful())
     }
@@ -235,11 +290,13 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     type ParameterStorage = Owned<f64, Dyn>;
 
     fn set_params(&mut self, free: &DVector<f64>) {
-        self.free.copy_from(free);
+        let moving = self.free.iter_mut().zip(&self.pinned).filter(|(_, is_pinned)| !**is_pinned);
+        moving.zip(free.iter()).for_each(|((old, _), new)| *old = *new);
     }
 
     fn params(&self) -> DVector<f64> {
-        self.free.clone()
+        let moving = self.free.iter().zip(&self.pinned).filter(|(_, is_pinned)| !**is_pinned);
+        DVector::from_vec(moving.map(|(free, _)| *free).collect())
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
@@ -248,11 +305,13 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
-        let slopes = self.slopes();
-        let mut matrix = DMatrix::from_row_slice(self.measurement.values.len(), self.free.len(), &slopes);
-        for (index, parameter) in self.columns().enumerate() {
-            matrix.column_mut(index).scale_mut(parameter.slope(self.free[index]));
-        }
+        let (slopes, width) = (self.slopes(), self.free.len());
+        let scales: Vec<f64> = self.columns().zip(self.free.iter()).map(|(column, free)| column.slope(*free)).collect();
+        let moving: Vec<usize> = (0..width).filter(|column| !self.pinned[*column]).collect();
+        let matrix = DMatrix::from_fn(self.measurement.values.len(), moving.len(), |row, index| {
+            let column = moving[index];
+            slopes[row * width + column] * scales[column]
+        });
         matrix.iter().all(|slope| slope.is_finite()).then_some(matrix)
     }
 }
