@@ -86,5 +86,6 @@ fn shared() -> Vec<(String, Material)> {
         Material::open(path).ok().map(|material| (name, material))
     };
     let files = folders.chain([root.join("golden")]).flat_map(|folder| lobe_testing::files::files(&folder));
-    files.filter(|path| path.is_file()).filter_map(open).collect()
+    let files: Vec<PathBuf> = files.filter(|path| path.is_file()).collect();
+    files.into_par_iter().filter_map(open).collect()
 }
