@@ -1,5 +1,6 @@
 //! Readers and writers against rules, damage and the answers of other programs.
 
+mod channels;
 mod golden_libbsdf;
 mod hostile_binary;
 mod hostile_text;
@@ -8,6 +9,7 @@ mod light_tools;
 mod native;
 mod own_tables;
 mod pab;
+mod polarised;
 mod rgl;
 mod rgl_lanes;
 mod round_trip;

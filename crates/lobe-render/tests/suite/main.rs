@@ -1,5 +1,6 @@
 //! Tests with pictures whose values are known, and with pictures that must have the same bits.
 
+mod bsdf;
 mod common;
 mod direct;
 mod environments;
@@ -10,3 +11,4 @@ mod identical;
 mod lights;
 mod scenes;
 mod spectra;
+mod steps;

@@ -10,8 +10,6 @@ mod lanes;
 #[cfg(not(feature = "window"))]
 mod one_by_one;
 mod reference;
-#[cfg(all(test, feature = "window"))]
-mod tests;
 
 use crate::window::klems::{AngleBasis, KlemsMatrix};
 use crate::{DistributionError, Scatter};

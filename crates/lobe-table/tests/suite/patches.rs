@@ -1,11 +1,12 @@
+//! Sampling of the patches of Klems matrices in lanes, against sampling one at a time in `f64`.
+
 use std::f64::consts::TAU;
 
 use lobe_backend::Backend;
+use lobe_table::window::klems::{AngleBasis, KlemsMatrix, Ring};
+use lobe_table::{PatchSampler, Scatter};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
-
-use super::*;
-use crate::window::klems::Ring;
 
 const COUNT: usize = 5003;
 
