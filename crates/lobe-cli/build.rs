@@ -1,5 +1,8 @@
 //! Puts the explorer into the program, if `cargo xtask web --embed` has put it next to this file; `lobe view` looks for it
 //! elsewhere if not.
+//!
+//! The folder is in the repository, empty but for a hidden file: if it were missing, cargo would take it for changed, and build
+//! the program anew with every command.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -24,8 +27,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
     for entry in folder.read_dir()? {
-        let path = entry?.path();
-        if path.is_dir() { collect(&path, files)? } else { files.push(path) }
+        let entry = entry?;
+        let (path, is_hidden) = (entry.path(), entry.file_name().as_encoded_bytes().starts_with(b"."));
+        if path.is_dir() {
+            collect(&path, files)?;
+        } else if !is_hidden {
+            files.push(path);
+        }
     }
     Ok(())
 }

@@ -94,6 +94,8 @@ fn build(tests: bool, embeds: bool) -> Result<Outcome, String> {
         let page = absolute("crates/lobe-cli/page")?;
         let _ = std::fs::remove_dir_all(&page);
         copy(&places.out, &page)?;
+        // The file that keeps the folder in the repository; see crates/lobe-cli/build.rs.
+        std::fs::write(page.join(".gitkeep"), "").map_err(|error| error.to_string())?;
         println!("{}: `lobe view` has it when it is built next", page.display());
     }
     if tests { test(&places) } else { Ok(Outcome::Done) }
