@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::contest::Contest;
 use super::exchange::Exchange;
-use super::{analytic, frames, interpolation, material, tracing, trigonometry};
+use super::{analytic, frames, interpolation, material, python, tracing, trigonometry};
 
 /// The contests whose names begin with one of `only`, or all. Files and tasks go to `exchange`.
 ///
@@ -15,6 +15,7 @@ pub fn all(data: &Path, exchange: &mut Exchange, only: &[String]) -> anyhow::Res
     contests.extend(interpolation::all(exchange)?);
     contests.extend(analytic::all(exchange)?);
     contests.extend(material::all(data, exchange)?);
+    contests.extend(python::all(data, exchange)?);
     // Scenes are large, so they are made only if they are needed.
     let wants = |prefix: &str| {
         only.is_empty() || only.iter().any(|start| start.starts_with(prefix) || prefix.starts_with(start.as_str()))

@@ -6,6 +6,7 @@ use std::process::Command;
 use anyhow::{Context, bail};
 
 use super::exchange::Exchange;
+use super::python;
 
 /// The wheels: package and version, so that figures from different days can be compared.
 const WHEELS: [(&str, &str); 3] = [("interpn", "0.11.2"), ("mitsuba", "3.9.1"), ("scipy", "1.17.1")];
@@ -20,15 +21,15 @@ const FRAMES: Script = ("frames.py", include_str!("frames.py"));
 /// tasks from a file, `exchange` has the files of the others.
 pub fn all(out: &Path, tasks: &Path, exchange: &Exchange) -> Vec<(&'static str, anyhow::Result<Command>)> {
     let environment = environment(out).map_err(|error| format!("{error:#}"));
-    let python = || environment.clone().map_err(anyhow::Error::msg);
+    let interpreter = || environment.clone().map_err(anyhow::Error::msg);
     // `wide` requests vectors of sixteen floats, if the processor has them.
     let run = |script: Script, what: &str, wide: bool| -> anyhow::Result<Command> {
-        let mut command = command(out, &python()?, script)?;
+        let mut command = command(out, &interpreter()?, script)?;
         command.arg(what).arg(tasks).args(wide.then_some("wide"));
         Ok(command)
     };
     let wheel = |(package, version): (&'static str, &str)| {
-        let installed = python().and_then(|python| install(&python, package, version));
+        let installed = interpreter().and_then(|python| install(&python, package, version));
         (package, installed.and_then(|()| run(PEERS, package, false)))
     };
     let mut programs: Vec<_> = WHEELS.into_iter().map(wheel).collect();
@@ -38,6 +39,12 @@ pub fn all(out: &Path, tasks: &Path, exchange: &Exchange) -> Vec<(&'static str, 
         ("mitsuba-llvm-wide", run(FRAMES, "llvm_ad_rgb", true)),
         ("mitsuba-scalar", run(FRAMES, "scalar_rgb", false)),
     ]);
+    let package = command(out, &python::interpreter(), PEERS).map(|mut command| {
+        // Those of one core.
+        command.arg(python::PROGRAM).arg(tasks).env("RAYON_NUM_THREADS", "1");
+        command
+    });
+    programs.push((python::PROGRAM, package));
     let sleef = Source { name: "acos", text: include_str!("acos.c"), libraries: &["sleef"], package: "libsleef-dev" };
     programs.push(("sleef", sleef.compiled(out, &exchange.cosines())));
     let embree = Source {

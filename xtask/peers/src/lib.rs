@@ -17,6 +17,7 @@ mod interpolation;
 mod material;
 mod processor;
 mod program;
+mod python;
 mod record;
 mod referee;
 mod row;

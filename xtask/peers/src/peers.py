@@ -105,7 +105,58 @@ class Mitsuba:
         return np.concatenate([np.ravel(part, order="F") for part in parts])
 
 
-KINDS = {"scipy": Scipy, "interpn": Interpn, "mitsuba": Mitsuba}
+class MitsubaArrays:
+    """A BSDF of Mitsuba 3 from NumPy arrays to a NumPy array, as a program in Python has them."""
+
+    def __init__(self, task):
+        import drjit as dr
+        import mitsuba as mi
+
+        mi.set_variant("llvm_ad_rgb")
+        dr.set_thread_count(1)
+        self.dr, self.mi = dr, mi
+        self.context = mi.BSDFContext()
+        self.bsdf = mi.load_dict(task["bsdf"])
+        self.wi, self.wo = directions(task)
+
+    def run(self):
+        si = self.dr.zeros(self.mi.SurfaceInteraction3f, len(self.wi))
+        si.wi = self.mi.Vector3f(self.wi.T)
+        self.out = np.array(self.bsdf.eval(self.context, si, self.mi.Vector3f(self.wo.T)))
+
+    def values(self):
+        return self.out.T / self.wo[:, 2:]
+
+
+class Lobe:
+    """A material of this library from NumPy arrays to a NumPy array."""
+
+    def __init__(self, task):
+        import lobe_bsdf
+
+        self.material = lobe_bsdf.open(task["file"], backend=task["backend"])
+        self.wi, self.wo = directions(task)
+        self.given = np.zeros((len(self.wi), 3), "f4") if task["out"] else None
+
+    def run(self):
+        self.out = self.material.eval(self.wi, self.wo, out=self.given)
+
+    def values(self):
+        return self.out
+
+
+def directions(task):
+    """wi and wo, of shape (n, 3), in the memory layout of the task."""
+    pairs = floats(task["pairs"], 6)
+    columns = pairs[:3], pairs[3:]
+    return [w.T if task["layout"] == "columns" else np.ascontiguousarray(w.T) for w in columns]
+
+
+def mitsuba(task):
+    return MitsubaArrays(task) if task["what"] == "arrays" else Mitsuba(task)
+
+
+KINDS = {"scipy": Scipy, "interpn": Interpn, "mitsuba": mitsuba, "lobe-bsdf": Lobe}
 
 
 def main():
