@@ -159,7 +159,8 @@ def of_every_format(conductor, fixtures, tmp_path_factory):
     found = sorted(fixtures.glob("*.ddr"))
     for format in lobe_bsdf.formats():
         if format.is_written and format.is_read:
-            path = folder / f"{format.word}.{format.extensions[0]}"
+            # Some formats have no extension of their own.
+            path = folder / ".".join((format.word, *format.extensions[:1]))
             try:
                 conductor.save(path, format.word, resample=True, channel="G")
             except ValueError:
