@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
 use std::time::Instant;
 
-use super::cargo;
+use super::{cargo, python};
 
 pub const ABOUT: &str = "Run the checks that a change must pass: format, lints, documentation, and last the tests";
 
@@ -21,8 +21,8 @@ const fn step(arguments: &'static [&'static str]) -> Step {
     Step { arguments, doc_flags: "" }
 }
 
-/// The quick report comes before `asm`, which checks the same programs. `cargo xtask python`, which needs packages of Python,
-/// is a step of the public workflow.
+/// The quick report comes before `asm`, which checks the same programs. The tests in Python run on the module that is built
+/// with the other tests; `cargo xtask python`, which builds it as users do, takes minutes and is a step of the public workflow.
 const STEPS: [Step; 6] = [
     step(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]),
     Step { arguments: &["doc", "--workspace", "--no-deps", "--quiet"], doc_flags: "-D warnings" },
@@ -38,6 +38,8 @@ pub fn run(arguments: &[String]) -> ExitCode {
         return if ["-h", "--help"].contains(&unknown.as_str()) { ExitCode::SUCCESS } else { ExitCode::from(2) };
     }
     let begun = Instant::now();
+    // It is ready long before the tests that need it.
+    let environment = std::thread::spawn(python::for_tests);
     println!("\n== rustfmt --check");
     if !is_formatted() {
         eprintln!("not every file is formatted, or git or rustfmt cannot be run");
@@ -60,7 +62,14 @@ pub fn run(arguments: &[String]) -> ExitCode {
         }
     }
     println!("\n== cargo test --workspace ({:.0} s)", begun.elapsed().as_secs_f64());
-    test()
+    match environment.join() {
+        Ok(Ok(python)) => test(Some(&python)),
+        Ok(Err(why)) => {
+            println!("no environment for the tests in Python: {why}");
+            test(None)
+        }
+        Err(_) => ExitCode::FAILURE,
+    }
 }
 
 /// Checks every file, because `cargo fmt` does not see modules that a macro declares.
@@ -105,10 +114,13 @@ impl Counts {
     }
 }
 
-/// Runs all tests, shows their output, and ends with the totals.
-fn test() -> ExitCode {
+/// Runs all tests, those in Python with this interpreter, shows their output, and ends with the totals.
+fn test(python: Option<&Path>) -> ExitCode {
     let mut cargo = quiet();
     cargo.args(["test", "--workspace"]).stdout(Stdio::piped());
+    if let Some(python) = python {
+        cargo.env("LOBE_PYTHON", python);
+    }
     let mut running = match cargo.spawn() {
         Ok(running) => running,
         Err(error) => {
