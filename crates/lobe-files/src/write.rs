@@ -43,7 +43,8 @@ pub fn replace(path: &Path, content: &[u8]) -> io::Result<()> {
 }
 
 /// Checks that `path` could be written now, for programs that work for hours before they write. Also fails if it is one
-/// of `inputs`, or a file in an input folder: inputs must not be replaced by accident.
+/// of `inputs`, or a file in an input folder: inputs must not be replaced by accident. Names of sidecars, which say how
+/// another file is read, are refused.
 ///
 /// # Errors
 /// [`FormatError`] names `path`, what is there, and what is expected.
@@ -60,6 +61,10 @@ pub fn check_output<P: AsRef<Path>>(path: &Path, inputs: &[P]) -> Result<(), For
         return Err(read(input.as_ref()));
     }
     let target = target(path).map_err(refuse)?;
+    if [path, &target].iter().any(|path| is_sidecar(path)) {
+        let found = "the name of a sidecar, which says how another file is read";
+        return Err(FormatError::new(path, Place::File, found, "another file to write"));
+    }
     if let Ok(output) = target.canonicalize() {
         let same = |input: &&P| {
             let input = input.as_ref().canonicalize().ok();
@@ -70,6 +75,14 @@ pub fn check_output<P: AsRef<Path>>(path: &Path, inputs: &[P]) -> Result<(), For
         }
     }
     temporary(folder(&target)).map_err(refuse).map(drop)
+}
+
+/// The end of the name of a sidecar, which follows the name of the file that it describes.
+pub const SIDECAR: &str = ".lobe.toml";
+
+/// Whether this is the name of a sidecar, on systems that do not distinguish the case of letters as well.
+fn is_sidecar(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| name.to_string_lossy().to_ascii_lowercase().ends_with(SIDECAR))
 }
 
 /// Follows links, and checks that there is nothing or a writable file.
@@ -196,6 +209,12 @@ mod tests {
             let error = check_output(output, &[&b, &a]).unwrap_err();
             assert!(error.expected == "another file to write" && error.found.ends_with("used otherwise"), "{error}");
         }
+        // Sidecars are inputs of every reader, whether they exist or not.
+        for sidecar in ["a.lobe.toml", "new.csv.LOBE.toml", ".lobe.toml"] {
+            let error = check_output::<PathBuf>(&folder.path().join(sidecar), &[]).unwrap_err();
+            assert!(error.expected == "another file to write" && error.found.contains("sidecar"), "{error}");
+        }
+        check_output::<PathBuf>(&folder.path().join("lobe.toml"), &[]).unwrap();
         // An existing file of an input folder is refused; a new one is allowed.
         assert!(check_output(&a, &[folder.path()]).is_err());
         check_output(&b, &[folder.path()]).unwrap();
@@ -238,6 +257,8 @@ mod tests {
             assert_eq!(std::fs::read(path(file)).unwrap(), b"new");
         }
         assert!(write_whole(&path("circle"), b"").is_err());
+        symlink("scan.csv.lobe.toml", path("other")).unwrap();
+        assert!(check_output::<PathBuf>(&path("other"), &[]).unwrap_err().found.contains("sidecar"));
         // A link to an input counts as the input.
         assert!(check_output(&path("chain"), &[path("below/file")]).is_err());
     }

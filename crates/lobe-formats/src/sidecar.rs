@@ -14,21 +14,19 @@ use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use lobe_files::SIDECAR;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::reading::{ReadOptions, parse_columns};
 use crate::{FormatError, Place, plain};
 
-/// The suffix of the name of a sidecar, after the name of the file.
-const EXTENSION: &str = ".lobe.toml";
-
 const KEYS: &str = "columns, unit, values, scale, holds, in-plane, azimuth-from or decimal-comma";
 
 /// The sidecar of a file, whether it exists or not.
 pub fn path_of(file: &Path) -> PathBuf {
     let mut name = file.file_name().map(OsString::from).unwrap_or_default();
-    name.push(EXTENSION);
+    name.push(SIDECAR);
     file.with_file_name(name)
 }
 

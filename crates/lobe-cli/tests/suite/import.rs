@@ -150,10 +150,15 @@ fn the_measurement_is_not_overwritten() {
     let csv = files.write("own.csv", table);
     let page = files.write("own.html", table);
     let sidecar = files.write("own.csv.lobe.toml", "unit = \"deg\"\n");
+    let table_out = files.path("out.ddr");
     let mut runs = vec![
         vec!["import", text(&csv), "-o", text(&csv)],
         vec!["import", text(&page), "--plot", text(&page), "--no-sidecar"],
         vec!["import", text(&csv), "-o", text(&sidecar), "--to", "csv"],
+        vec!["convert", text(&csv), text(&sidecar), "--to", "csv"],
+        vec!["resample", text(&csv), text(&table_out), "--fill", "zeros", "--mask", text(&sidecar)],
+        vec!["generate", "lambert", text(&sidecar), "--to", "csv"],
+        vec!["fit", text(&csv), "--model", "lambert", "-o", text(&sidecar)],
     ];
     let link = files.path("link.csv");
     #[cfg(unix)]
@@ -166,6 +171,7 @@ fn the_measurement_is_not_overwritten() {
         assert!(code == 1 && message.contains("expected another file to write"), "{args:?}: {code} {message}");
     }
     assert_eq!(std::fs::read_to_string(&csv).expect("a file"), table);
+    assert_eq!(std::fs::read_to_string(&sidecar).expect("a file"), "unit = \"deg\"\n");
     // What cannot be written is said before the work.
     let nowhere = files.path("nowhere").join("a.csv");
     let (code, printed, message) = run(&["import", text(&csv), "-o", text(&nowhere)]);
