@@ -181,3 +181,36 @@ fn narrow_figures_are_legible() {
         }
     }
 }
+
+/// The number of an attribute of the first element of a line.
+fn attribute(line: &str, name: &str) -> f64 {
+    let rest = line.split_once(&format!(" {name}=\"")).unwrap_or_else(|| panic!("no {name} in {line}")).1;
+    rest.split('"').next().and_then(|number| number.parse().ok()).unwrap_or_else(|| panic!("{name} in {line}"))
+}
+
+#[test]
+fn names_of_panels_and_legends_cover_no_line() {
+    let subject = flat("flat.ddr", Channels::Rgb, &[0.25, 0.5, 0.75]);
+    for width in [400, 720] {
+        let view = View { sigmas: vec![0.0, 0.5], width, ..View::new(&subject) };
+        let svg = one(&subject, &view, Figure::Channels);
+        let panels: Vec<&str> = svg.lines().filter(|line| line.starts_with("<clipPath")).collect();
+        let names: Vec<&str> =
+            svg.lines().filter(|line| line.ends_with(">σ = 0°</text>") || line.contains(">σ = 28.6°<")).collect();
+        assert_eq!((panels.len(), names.len()), (2, 2), "{svg}");
+        let mut above = 0.0;
+        for (panel, name) in panels.iter().zip(names) {
+            let rect = panel.split_once("<rect").expect("a rectangle").1;
+            let (top, y) = (attribute(rect, "y"), attribute(name, "y"));
+            // Between the panel above and the marks of the mirror direction, which are ten units high.
+            assert!(above + 16.0 < y && y < top - 10.0, "{name} at {y}, above a panel from {top}");
+            above = top + attribute(rect, "height");
+        }
+        for figure in [Figure::Curves, Figure::Channels, Figure::Polar] {
+            let svg = one(&subject, &view, figure);
+            let legend = svg.lines().find(|line| line.ends_with(">not measured</text>")).expect("a legend");
+            // Letters are about half as wide as high.
+            assert!(attribute(legend, "x") + 12.0 * 7.7 < f64::from(width), "{figure}: {legend}");
+        }
+    }
+}

@@ -13,6 +13,8 @@ use crate::svg::{Anchor, Area, LABEL, Role, Svg, Text};
 const TOLERANCE: f64 = 0.05;
 /// The distance between panels.
 const GAP: f64 = 30.0;
+/// The room above a panel for its name, in addition to that distance and to the one below the heading.
+const NAME: [f64; 2] = [10.0, 22.0];
 /// Labels of more letters than this do not fit next to a plot.
 const SHORT: usize = 9;
 /// More dots than this would hide their line.
@@ -101,7 +103,7 @@ impl Chart<'_> {
         let (legend, entries) = &self.legend;
         let is_below = layout.is_narrow || entries.iter().any(|entry| entry.label.chars().count() > SHORT);
         let left = if layout.is_narrow { 66.0 } else { 92.0 };
-        let right = if is_below { MARGIN } else { 138.0 };
+        let right = if is_below { MARGIN } else { 156.0 };
         let height = match (self.panels.len(), layout.is_narrow) {
             (..=1, false) => 380.0,
             (..=1, true) | (2, false) => 300.0,
@@ -110,13 +112,16 @@ impl Chart<'_> {
             (_, true) => 190.0,
         };
         let mut svg = Svg::new(self.id.as_str(), paper);
-        let top = heading(&mut svg, &self.shown, &self.what) + 6.0;
+        let has_names = self.panels.iter().any(|panel| !panel.name.is_empty());
+        let [between, first] = if has_names { NAME } else { [0.0; 2] };
+        let top = heading(&mut svg, &self.shown, &self.what) + 6.0 + first;
+        let step = height + GAP + between;
         for (index, panel) in self.panels.iter().enumerate() {
-            let y = top + index as f64 * (height + GAP);
+            let y = top + index as f64 * step;
             let area = Area { x: left, y, width: layout.width - left - right, height };
             self.panel(&mut svg, area, panel, index + 1 == self.panels.len());
         }
-        let bottom = top + self.panels.len().max(1) as f64 * (height + GAP) - GAP;
+        let bottom = top + (self.panels.len().max(1) - 1) as f64 * step + height;
         let mut y = self.below_axis(&mut svg, [left, layout.width - right], bottom);
         let legend = Legend {
             title: legend,
@@ -170,8 +175,11 @@ impl Chart<'_> {
             }
         }
         frame(svg, area);
-        let name = Text { is_heavy: true, size: 16.0, has_halo: true, ..LABEL };
-        svg.text([area.x + 10.0, area.y + 22.0], name, &panel.name);
+        // Above the marks of the mirror directions; in the panel it would cover lines.
+        let name = Text { is_heavy: true, size: 16.0, ..LABEL };
+        if !panel.name.is_empty() {
+            svg.text([area.x, area.y - 14.0], name, &panel.name);
+        }
         if self.scaling == Scaling::Log && !lines.iter().any(|line| line.f.iter().any(|f| *f > 0.0)) {
             let middle = [area.x + 0.5 * area.width, area.y + 0.5 * area.height];
             svg.text(middle, Text { role: Role::Muted, has_halo: true, ..MIDDLE }, "no value is above 0");

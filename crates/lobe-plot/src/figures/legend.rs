@@ -63,7 +63,8 @@ impl Legend<'_> {
         // A mark, its label, and the distance to the next one.
         let width = |sign: &Sign<'_>| match sign {
             Sign::Series(entry) => 52.0 + 9.0 * entry.label.chars().count() as f64,
-            Sign::Mirror | Sign::Point | Sign::Continued => 114.0,
+            Sign::Mirror | Sign::Point => 114.0,
+            Sign::Continued => 140.0,
         };
         let room = svg.layout().width - 2.0 * MARGIN;
         let widest = signs.iter().map(width).fold(1.0, f64::max);
@@ -108,7 +109,7 @@ fn draw(svg: &mut Svg<'_>, [x, y]: [f64; 2], sign: &Sign<'_>, letters: usize) {
                  stroke-dasharray=\"2.5 4\" stroke-linecap=\"round\" fill=\"none\"/>",
                 y - 5.0
             ));
-            svg.text([x + 36.0, y], NOTE, "not meas.");
+            svg.text([x + 36.0, y], NOTE, "not measured");
         }
     }
 }

@@ -103,7 +103,7 @@ pub(super) fn draw(shown: &[Shown<'_>], curves: &[Vec<Curve>], asked: Option<Sca
     svg.rich([across, bottom - 4.0], MIDDLE, "viewing angle θ_{o} around, f (1/sr) outward");
     match is_below {
         true => bottom = legend.below(&mut svg, bottom + 26.0) - 18.0,
-        false => legend.beside(&mut svg, [layout.width - 118.0, top + 20.0]),
+        false => legend.beside(&mut svg, [layout.width - 138.0, top + 20.0]),
     }
     svg.finish(bottom + 18.0, &title(shown, "lobes in the plane of incidence"))
 }
