@@ -92,16 +92,36 @@ fn clamped(index: i32, last: usize) -> usize {
 #[inline(always)]
 fn singles<L: Lanes>(lanes: L, indices: &[i32], len: usize) {
     let table: Vec<f32> = (0..len).map(|i| i as f32 + 0.5).collect();
-    let pairs: Vec<[f32; 2]> = (0..len).map(|i| [i as f32, -(i as f32) - 0.5]).collect();
     let mut at = 0;
     while at < indices.len() {
-        let index = lanes.load_int(&indices[at..]);
-        let found = floats(lanes, lanes.gather(&table, index));
-        let [first, second] = lanes.gather_pair(&pairs, index);
-        let (first, second) = (floats(lanes, first), floats(lanes, second));
+        let found = floats(lanes, lanes.gather(&table, lanes.load_int(&indices[at..])));
         for lane in 0..L::LANES {
             let entry = clamped(indices[at + lane], len - 1);
             assert_eq!(found[lane], table[entry], "gather at {} of {len}", indices[at + lane]);
+        }
+        at += L::LANES;
+    }
+    // Behind no float and behind one: in one of these tables pairs are not aligned to their size, and need not be.
+    let mut pairs = vec![0.5_f32; 2 * len + 1];
+    for start in [0, 1] {
+        for entry in 0..len {
+            pairs[start + 2 * entry] = entry as f32;
+            pairs[start + 2 * entry + 1] = -(entry as f32) - 0.5;
+        }
+        let (pairs, _) = pairs[start..].as_chunks::<2>();
+        pairs_of(lanes, indices, &pairs[..len]);
+    }
+}
+
+#[inline(always)]
+fn pairs_of<L: Lanes>(lanes: L, indices: &[i32], pairs: &[[f32; 2]]) {
+    let len = pairs.len();
+    let mut at = 0;
+    while at < indices.len() {
+        let [first, second] = lanes.gather_pair(pairs, lanes.load_int(&indices[at..]));
+        let (first, second) = (floats(lanes, first), floats(lanes, second));
+        for lane in 0..L::LANES {
+            let entry = clamped(indices[at + lane], len - 1);
             assert_eq!([first[lane], second[lane]], pairs[entry], "gather_pair at {} of {len}", indices[at + lane]);
         }
         at += L::LANES;
