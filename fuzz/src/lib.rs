@@ -45,6 +45,41 @@ pub fn folder() -> &'static Path {
     })
 }
 
+/// Blocks of deflate that hold `bytes` as they are: an encoder would take longer than the reader that is tested.
+fn stored(bytes: &[u8]) -> Vec<u8> {
+    /// The most that a block holds.
+    const BLOCK: usize = 0xffff;
+    let count = bytes.len().div_ceil(BLOCK).max(1);
+    let mut blocks = Vec::with_capacity(bytes.len() + 5 * count);
+    for block in 0..count {
+        let piece = &bytes[block * BLOCK..bytes.len().min((block + 1) * BLOCK)];
+        let length = piece.len() as u16;
+        blocks.push(u8::from(block + 1 == count));
+        blocks.extend(length.to_le_bytes());
+        blocks.extend((!length).to_le_bytes());
+        blocks.extend(piece);
+    }
+    blocks
+}
+
+/// A stream of zlib that unpacks to `bytes`.
+pub fn zlib(bytes: &[u8]) -> Vec<u8> {
+    let adler = |(a, b): (u32, u32), byte: &u8| {
+        let a = (a + u32::from(*byte)) % 65521;
+        (a, (b + a) % 65521)
+    };
+    let (a, b) = bytes.iter().fold((1, 0), adler);
+    [&[0x78, 0x01], stored(bytes).as_slice(), &((b << 16) | a).to_be_bytes()].concat()
+}
+
+/// A file of gzip that unpacks to `bytes`.
+pub fn gzip(bytes: &[u8]) -> Vec<u8> {
+    let mut crc = flate2::Crc::new();
+    crc.update(bytes);
+    let head = [0x1f, 0x8b, 8, 0, 0, 0, 0, 0, 0, 255];
+    [&head, stored(bytes).as_slice(), &crc.sum().to_le_bytes(), &(bytes.len() as u32).to_le_bytes()].concat()
+}
+
 /// The target of a reader, which is named by its variant of [`Format`].
 #[macro_export]
 macro_rules! reader {
