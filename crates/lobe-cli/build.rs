@@ -9,7 +9,8 @@ use std::path::{Path, PathBuf};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let page = PathBuf::from(std::env::var("CARGO_MANIFEST_DIR")?).join("page");
-    println!("cargo::rerun-if-changed=page");
+    // Cargo takes a path that does not exist for one that changes at every build.
+    println!("cargo::rerun-if-changed={}", if page.is_dir() { "page" } else { "." });
     let mut files = Vec::new();
     if page.is_dir() {
         collect(&page, &mut files)?;
