@@ -80,6 +80,11 @@ impl Explorer {
         self.session.open(path).map_err(said)
     }
 
+    /// What a file holds that is no material, as JSON.
+    pub fn held(&mut self, path: &str) -> Answer<String> {
+        json(&self.session.held(path).map_err(said)?)
+    }
+
     /// Forgets a material.
     pub fn close(&mut self, material: u32) {
         self.session.close(material);

@@ -1,6 +1,7 @@
 //! What a file holds and what is wrong with it, in words.
 
 use lobe::{Scatter, Side};
+use lobe_formats::Document;
 use lobe_ops::check::{Thoroughness, check};
 use lobe_ops::describe::{Part, describe};
 use serde::Serialize;
@@ -80,6 +81,12 @@ pub(crate) fn scatter_word(scatter: Scatter) -> &'static str {
     }
 }
 
+/// The blocks of values of a document.
+pub(crate) fn blocks(document: &Document) -> Vec<Block> {
+    let block = |part: &Part| Block { name: part.name.clone(), rows: part.rows() };
+    describe(document).iter().map(block).collect()
+}
+
 /// What a material is.
 pub fn facts(opened: &Opened) -> Facts {
     let subject = &opened.subject;
@@ -94,7 +101,6 @@ pub fn facts(opened: &Opened) -> Facts {
         psi: subject.psi(side),
         sigmas: subject.incidences(side, MOST),
     };
-    let block = |part: &Part| Block { name: part.name.clone(), rows: part.rows() };
     let quantity = lobe_plot::Quantity::of(material.channels()).name;
     Facts {
         name: subject.name().into(),
@@ -109,7 +115,7 @@ pub fn facts(opened: &Opened) -> Facts {
         is_polarised: material.is_polarised(),
         is_isotropic: measured.is_isotropic(),
         sides: subject.sides().into_iter().map(side).collect(),
-        parts: describe(document).iter().map(block).collect(),
+        parts: blocks(document),
         source: document.source.clone(),
         notes: document.notes.clone(),
         doubts: document.doubts.clone(),

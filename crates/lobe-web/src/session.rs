@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 use lobe_files::{Files, in_memory};
 use lobe_plot::Subject;
 
+use crate::Held;
+use crate::held::held;
+
 /// A material of a page.
 #[derive(Debug)]
 pub struct Opened {
@@ -53,12 +56,30 @@ impl Session {
         self.files = files;
         let (format, document) = opened.map_err(|error| error.to_string())?;
         let subject = Subject::new(&path, format, document).map_err(|error| error.to_string())?;
-        let inside = self.files.iter().filter(|(file, _)| file.starts_with(&path));
-        let bytes = inside.map(|(_, bytes)| bytes.len() as u64).sum();
+        let bytes = self.bytes(&path);
         let number = self.next;
         self.next += 1;
         self.opened.insert(number, Opened { path, bytes, subject });
         Ok(number)
+    }
+
+    /// What a file holds that can be read although it is no material: that of a mirror has no values for pairs of directions.
+    ///
+    /// # Errors
+    /// If it cannot be read either.
+    pub fn held(&mut self, path: &str) -> Result<Held, String> {
+        let path = PathBuf::from(path);
+        let files = std::mem::take(&mut self.files);
+        let (opened, files) = in_memory(files, || lobe_formats::open(&path));
+        self.files = files;
+        let (format, document) = opened.map_err(|error| error.to_string())?;
+        Ok(held(&path, self.bytes(&path), format, &document))
+    }
+
+    /// How large a file or the files of a folder are.
+    fn bytes(&self, path: &Path) -> u64 {
+        let inside = self.files.iter().filter(|(file, _)| file.starts_with(path));
+        inside.map(|(_, bytes)| bytes.len() as u64).sum()
     }
 
     /// The material of a number.
@@ -93,17 +114,25 @@ mod tests {
                     assert!(session.opened(number).is_err());
                 }
                 // Mirrors have no value for a pair of directions, and this SSDD file has sides with different channels.
-                Err(error) => assert!(
-                    error.contains("mirror") || error.contains("parts with different channels"),
-                    "{format}: {error}"
-                ),
+                Err(error) => {
+                    let is_known = error.contains("mirror") || error.contains("parts with different channels");
+                    assert!(is_known, "{format}: {error}");
+                    let held = session.held(&name).unwrap();
+                    assert_eq!((held.format, held.bytes), (format.name(), bytes.len() as u64));
+                    assert!(!held.parts.is_empty() && !held.mirrors.is_empty());
+                }
             }
             session.add(&name, bytes[..bytes.len() / 2].to_vec());
             if let Err(error) = session.open(&name) {
                 assert!(error.starts_with("example.") && error.contains("expected"), "{error}");
             }
         }
+        session.add("m.sdr", lobe_testing::examples::SDR.into());
+        let [mirror] = session.held("m.sdr").unwrap().mirrors.try_into().unwrap();
+        assert_eq!((mirror.psi, mirror.channels.len()), (None, 2));
+        assert_eq!(mirror.rows[1], (std::f64::consts::FRAC_PI_4, vec![0.2, 0.0]));
         let error = session.open("none.ddr").unwrap_err();
+        assert_eq!(session.held("none.ddr").unwrap_err(), error);
         assert_eq!(error, "none.ddr: found no such file; expected a file that can be read");
     }
 

@@ -44,6 +44,14 @@ export function short(value: number): string {
     return text.replace("-", "−");
 }
 
+/** Replaces what is in a box; the focus stays at its place there. */
+export function refill(box: Element, ...children: Node[]): void {
+    const stops = () => [...box.querySelectorAll<HTMLElement>("button, select, input")];
+    const at = stops().indexOf(document.activeElement as HTMLElement);
+    box.replaceChildren(...children);
+    if (at >= 0) stops()[Math.min(at, stops().length - 1)]?.focus();
+}
+
 export function degrees(radians: number): string {
     const rounded = Math.round((radians * 1800) / Math.PI) / 10;
     return `${String(Object.is(rounded, -0) ? 0 : rounded).replace("-", "−")}°`;

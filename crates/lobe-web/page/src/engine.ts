@@ -66,6 +66,7 @@ export class Engine {
     about = () => this.call<Facts>("about", []);
     add = (path: string, bytes: Uint8Array) => this.call<void>("add", [path, bytes]);
     remove = (path: string) => this.call<void>("remove", [path]);
+    held = (path: string) => this.call<string>("held", [path]);
     open = (path: string) => this.call<number>("open", [path]);
     close = (material: number) => this.call<void>("close", [material]);
     facts = (material: number) => this.call<string>("facts", [material]);

@@ -1,7 +1,8 @@
 // Opening files in the workers, and the list of what is open.
-import { h } from "./dom";
+import { h, refill } from "./dom";
 import type { Engine } from "./engine";
 import type { Group } from "./files";
+import { type Held, NoMaterial } from "./panels/held";
 import type { FileFacts, Finding, Material, State } from "./state";
 
 export class Library {
@@ -84,6 +85,10 @@ export class Library {
         for (const file of files) await engine.add(file.path, file.bytes);
         try {
             return await engine.open(path);
+        } catch (error) {
+            // It may be of use although it is no material.
+            const held = await engine.held(path).catch(() => undefined);
+            throw held === undefined ? error : new NoMaterial((error as Error).message, JSON.parse(held) as Held);
         } finally {
             for (const file of files) void engine.remove(file.path);
         }
@@ -142,6 +147,6 @@ export class Library {
             const close = h("button", { type: "button", class: "small", title: `Close ${material.facts.name}`, "aria-label": `Close ${material.facts.name}`, onclick: () => this.close(material) }, "×");
             return h("li", {}, name, materials.length > 1 && compare, close);
         };
-        this.element.replaceChildren(...materials.map(item));
+        refill(this.element, ...materials.map(item));
     }
 }

@@ -24,6 +24,7 @@ declare module "lobe-web" {
         remove(path: string): void;
         open(path: string): number;
         close(material: number): void;
+        held(path: string): string;
         facts(material: number): string;
         findings(material: number, quickly: boolean): string;
         eval(material: number, wi: Float32Array, wo: Float32Array, backend: string, strict: boolean): Float32Array;

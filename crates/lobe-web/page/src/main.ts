@@ -1,7 +1,7 @@
 // Puts the page together.
 import "uplot/dist/uPlot.min.css";
 
-import { choice, degrees, h } from "./dom";
+import { choice, degrees, h, refill } from "./dom";
 import { Engine } from "./engine";
 import { exports } from "./export";
 import { chosen, dropped, type Group, served } from "./files";
@@ -10,6 +10,7 @@ import { Library } from "./library";
 import { Curves } from "./panels/curves";
 import { Details } from "./panels/details";
 import { FactsPanel } from "./panels/facts";
+import { NoMaterial, present } from "./panels/held";
 import { Lobe3D } from "./panels/lobe3d";
 import { HemisphereMap } from "./panels/map";
 import { PicturePanel } from "./panels/picture";
@@ -20,13 +21,16 @@ const wanted = restore(state, location.hash);
 const [desk, studio] = [new Engine(), new Engine()];
 
 const messages = h("div", { class: "messages", role: "alert" });
-function say(text: string, kind: "error" | "word"): void {
-    const message = h("div", { class: `message ${kind}` }, h("p", {}, text), h("button", { type: "button", "aria-label": "Dismiss", onclick: () => message.remove() }, "×"));
+function say(text: string, kind: "error" | "word", more?: HTMLElement): void {
+    const message = h("div", { class: `message ${kind}` }, h("p", {}, text), more, h("button", { type: "button", "aria-label": "Dismiss", onclick: () => message.remove() }, "×"));
     messages.append(message);
     while (messages.childElementCount > 5) messages.firstElementChild?.remove();
     if (kind === "word") setTimeout(() => message.remove(), 8000);
 }
-const onError = (error: Error) => say(error.message, "error");
+const onError = (error: Error) => {
+    const show = () => error instanceof NoMaterial && present(error);
+    say(error.message, "error", error instanceof NoMaterial ? h("button", { type: "button", class: "more", onclick: show }, "What it holds") : undefined);
+};
 
 const library = new Library(desk, studio, state, () => picture.forget(), onError);
 const curves = new Curves(desk, state, onError);
@@ -152,7 +156,8 @@ function updateBar(): void {
     channel.replaceChildren(h("option", { value: "" }, all), ...a.facts.channels.map((name) => h("option", { value: name, selected: name === view.channel }, name)));
     channel.hidden = a.facts.channels.length < 2;
     const sigmas = a.facts.sides.find(({ side }) => side === view.side)?.sigmas ?? [];
-    knots.replaceChildren(
+    refill(
+        knots,
         ...sigmas.map((at) => h("button", { type: "button", class: "small", title: `Light at ${degrees(at)}`, "aria-pressed": String(Math.abs(at - view.sigma) < 1e-4), onclick: () => state.set({ sigma: Math.min(at, LOWEST) }, "light") }, degrees(at))),
     );
 }

@@ -1,6 +1,6 @@
 // What the file holds, and what the checks find.
 import { h, panel, size } from "../dom";
-import type { Finding, State } from "../state";
+import type { FileFacts, Finding, State } from "../state";
 
 const ORDER: Finding["status"][] = ["fail", "warn", "note", "pass"];
 
@@ -14,8 +14,19 @@ function rows(pairs: [string, string][]): HTMLElement {
     return list;
 }
 
+/** What a file says of itself, and what was made of it. */
+export function said({ format, bytes, parts, source, notes, doubts }: Pick<FileFacts, "format" | "bytes" | "parts" | "source" | "notes" | "doubts">): (Node | false)[] {
+    return [
+        rows([["format", format], ["size", size(bytes)]]),
+        ...parts.map((part) => h("div", {}, part.name && h("h3", {}, part.name), rows(part.rows))),
+        source.length > 0 && h("details", {}, h("summary", {}, `Header: ${source.length} entries`), rows(source)),
+        ...notes.map((note) => h("p", { class: "note" }, `Read as: ${note}`)),
+        ...doubts.map((doubt) => h("p", { class: "warn" }, `Doubtful: ${doubt}`)),
+    ];
+}
+
 /** Replaces what is in a box; `false` and empty text are left out. */
-function fill(box: HTMLElement, ...children: (Node | string | false)[]): void {
+export function fill(box: HTMLElement, ...children: (Node | string | false)[]): void {
     box.replaceChildren(...children.filter((child): child is Node | string => child !== false && child !== ""));
 }
 
@@ -31,15 +42,7 @@ export class FactsPanel {
     update(): void {
         const { a } = this.state;
         if (!a) return;
-        const { facts } = a;
-        fill(
-            this.facts,
-            rows([["format", facts.format], ["size", size(facts.bytes)]]),
-            ...facts.parts.map((part) => h("div", {}, part.name && h("h3", {}, part.name), rows(part.rows))),
-            facts.source.length > 0 && h("details", {}, h("summary", {}, `Header: ${facts.source.length} entries`), rows(facts.source)),
-            ...facts.notes.map((note) => h("p", { class: "note" }, `Read as: ${note}`)),
-            ...facts.doubts.map((doubt) => h("p", { class: "warn" }, `Doubtful: ${doubt}`)),
-        );
+        fill(this.facts, ...said(a.facts));
         this.updateFindings();
     }
 
