@@ -2,12 +2,12 @@ import { fileURLToPath } from "node:url";
 
 import { defineConfig } from "vite";
 
-// `cargo xtask web` says where the module of wasm-bindgen is, and where the page goes.
+// `cargo xtask web` sets where the module is that wasm-bindgen has made, and where the page is written.
 declare const process: { env: Record<string, string | undefined> };
 const module = process.env.LOBE_WEB_MODULE ?? fileURLToPath(new URL("../../../target/web-module", import.meta.url));
 
 export default defineConfig({
-    // Works from any folder of any server.
+    // The page works in any folder of any server.
     base: "./",
     resolve: {
         alias: [

@@ -1,9 +1,9 @@
-// Making elements, and words for numbers.
+// Creating elements, and formatting numbers.
 
 type Child = Node | string | undefined | false;
 type Attributes = Record<string, string | number | boolean | undefined | ((event: never) => void)>;
 
-/** An element with attributes (functions are listeners of `onNAME`) and children. */
+/** Creates an element with children and attributes; a function as `onNAME` listens for the event `NAME`. */
 export function h<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: Attributes = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
     const element = document.createElement(tag);
     for (const [name, value] of Object.entries(attributes)) {
@@ -15,7 +15,7 @@ export function h<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: Att
     return element;
 }
 
-/** Buttons of which one is pressed. */
+/** A group of buttons, one of which is pressed. */
 export function choice<T extends string>(
     label: string,
     options: readonly { value: T; text: string; title?: string }[],
@@ -35,7 +35,7 @@ export function choice<T extends string>(
     return Object.assign(group, { update });
 }
 
-/** Three significant digits; powers of ten if the number is very large or small. */
+/** A number with up to four significant digits; in scientific notation, with three, if it is very large or small. */
 export function short(value: number): string {
     if (!Number.isFinite(value)) return "–";
     if (value === 0) return "0";
@@ -62,7 +62,7 @@ export function size(bytes: number): string {
     return bytes < 1e6 ? `${(bytes / 1e3).toFixed(0)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
 }
 
-/** A colour of the style sheet. */
+/** A colour from the style sheet. */
 export function colour(name: string): string {
     return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }
@@ -87,7 +87,7 @@ export function fit(canvas: HTMLCanvasElement): boolean {
     return true;
 }
 
-/** A panel with a heading, tools beside it and a body. */
+/** A panel with a heading, tools next to it, and a body. */
 export function panel(id: string, title: string, tools: Child[], ...body: Child[]): HTMLElement {
     return h(
         "section",

@@ -1,4 +1,4 @@
-// Calls to the module in its worker, one after the other.
+// Calls the module in its worker.
 import type { Call, Facts, Reply } from "./worker";
 
 export interface MapPicture {
@@ -22,7 +22,7 @@ export class Engine {
     private worker: Worker;
     private next = 0;
     private waiting = new Map<number, Waiting>();
-    /** Called when the module has stopped; a new one is in its place, without materials. */
+    /** Called when the module has stopped and a new one, without materials, has taken its place. */
     onDeath: (why: string) => void = () => {};
 
     constructor() {
@@ -101,7 +101,7 @@ export class Engine {
     picture = (exposure: number) => this.call<Uint8Array>("picture", [exposure]);
 }
 
-/** Runs the latest of the tasks that it is given, one at a time: what was overtaken is left out. */
+/** Runs tasks one at a time. Of the tasks that arrive while one is running, only the latest is run. */
 export class Latest {
     private next: (() => Promise<void>) | undefined;
     private isBusy = false;

@@ -1,4 +1,4 @@
-// Pictures, values and converted files.
+// The dialog that exports values, figures, pictures and converted files.
 import { h, save } from "./dom";
 import type { Engine } from "./engine";
 import type { PicturePanel } from "./panels/picture";
@@ -14,7 +14,7 @@ interface Target {
 
 const stem = (name: string) => name.replace(/\.[^.]*$/, "");
 
-/** A PNG of an SVG, twice as large. */
+/** Converts an SVG to a PNG of twice its size. */
 async function rasterised(svg: string): Promise<Blob | null> {
     const url = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
     try {
@@ -58,7 +58,7 @@ export function exports(engine: Engine, state: State, picture: PicturePanel, map
         if (!a) return;
         const written = await engine.convert(a.desk, formats.value, view.channel);
         save(written.name, written.bytes as BlobPart, "application/octet-stream");
-        tell(`${written.name}: the values and nodes of the file${written.note ? `; ${written.note}` : ""}`);
+        tell(`${written.name}, with the values and nodes of the file${written.note ? `; ${written.note}` : ""}`);
     });
     const figures = ["curves", "polar", "slices", "channels", "sphere"].map((kind) =>
         h("div", { class: "row" }, h("span", {}, kind), button(`svg-${kind}`, "SVG", svg(kind)), button(`png-${kind}`, "PNG", png(kind))),
@@ -69,9 +69,9 @@ export function exports(engine: Engine, state: State, picture: PicturePanel, map
         h("div", { class: "row" }, h("span", {}, "curve, all channels"), button("csv", "CSV", attempt(async () => {
             if (state.a) save(`${name()}.csv`, await engine.table(state.a.desk, state.request(), state.view.sigma), "text/csv");
         }))),
-        h("h3", {}, "Figures, as lobe plot draws them"),
+        h("h3", {}, "Figures, as drawn by lobe plot"),
         ...figures,
-        h("h3", {}, "Pictures, as they are shown"),
+        h("h3", {}, "Pictures, as shown"),
         h("div", { class: "row" }, h("span", {}, "material"), button("png-picture", "PNG", canvas("picture", picture))),
         h("div", { class: "row" }, h("span", {}, "hemisphere"), button("png-map", "PNG", canvas("hemisphere", map))),
         h("h3", {}, "The file in another format"),
@@ -79,7 +79,7 @@ export function exports(engine: Engine, state: State, picture: PicturePanel, map
         h("h3", {}, "A link to this view"),
         h("div", { class: "row" }, h("span", {}, "without the files"), button("copy-link", "Copy", attempt(async () => {
             await navigator.clipboard.writeText(`${location.href.split("#")[0]}#${link(state)}`);
-            tell("The link is on the clipboard. Whoever follows it drops the files again.");
+            tell("The link was copied. It does not contain the files, which must be opened again.");
         }))),
         h("form", { method: "dialog" }, h("button", { class: "primary" }, "Close")),
     );
@@ -88,7 +88,7 @@ export function exports(engine: Engine, state: State, picture: PicturePanel, map
         dialog.showModal();
         const targets = JSON.parse(await engine.targets(state.a.desk)) as Target[];
         const option = ({ word, name: title, extension, is_exact }: Target) =>
-            h("option", { value: word, disabled: !is_exact }, is_exact ? `${title} (.${extension})` : `${title}: only resampled, by lobe convert`);
+            h("option", { value: word, disabled: !is_exact }, is_exact ? `${title} (.${extension})` : `${title}: needs resampling with lobe convert`);
         formats.replaceChildren(...targets.map(option));
     });
     dialog.addEventListener("click", (event) => {

@@ -1,11 +1,11 @@
-// Files that are dropped, chosen or served.
+// Files that are dropped, chosen in a dialog, or served by `lobe view`.
 
 export interface Given {
     path: string;
     bytes: Uint8Array;
 }
 
-/** What to open: a file, or a folder whose files are tried as one material first if `isFolder`. */
+/** Files to open together: a file with its sidecar, or a folder, whose files are first tried as one material. */
 export interface Group {
     path: string;
     isFolder: boolean;
@@ -21,7 +21,7 @@ function entryFile(entry: FileSystemFileEntry): Promise<File> {
 async function entries(folder: FileSystemDirectoryEntry): Promise<FileSystemEntry[]> {
     const reader = folder.createReader();
     const all: FileSystemEntry[] = [];
-    // A reader hands out a part at a time, and nothing at the end.
+    // A reader returns some entries at a time, and none at the end.
     for (;;) {
         const some = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
         if (some.length === 0) return all;
@@ -36,7 +36,7 @@ async function walk(entry: FileSystemEntry, path: string): Promise<Given[]> {
     return files.flat();
 }
 
-/** What was dropped. Must be called within the event. */
+/** The dropped files. Must be called while the event is handled. */
 export async function dropped(transfer: DataTransfer): Promise<Group[]> {
     const items = [...transfer.items].filter((item) => item.kind === "file");
     const found = items.map((item) => ({ entry: item.webkitGetAsEntry?.() ?? null, file: item.getAsFile() }));
@@ -49,7 +49,7 @@ export async function dropped(transfer: DataTransfer): Promise<Group[]> {
     return together(groups.filter((group) => group !== undefined));
 }
 
-/** What was chosen in a dialogue: of files, or of a folder. */
+/** The files, or the folder, chosen in a dialog. */
 export async function chosen(list: FileList): Promise<Group[]> {
     const files = [...list];
     const folder = files[0]?.webkitRelativePath.split("/")[0] ?? "";
@@ -62,7 +62,7 @@ export async function chosen(list: FileList): Promise<Group[]> {
 
 const SIDECAR = ".lobe.toml";
 
-/** Files that say how another is read go with that, if it is among them. */
+/** Groups sidecars with the files that they belong to. */
 export function together(groups: Group[]): Group[] {
     const sidecars = groups.filter((group) => group.path.endsWith(SIDECAR));
     for (const sidecar of sidecars) {
@@ -75,12 +75,12 @@ interface Served {
     path: string;
     url: string;
     isFolder: boolean;
-    /** Changes if the file does. */
+    /** Changes whenever one of the files changes. */
     stamp: string;
     files: { path: string; url: string }[];
 }
 
-/** Calls back with the files of `lobe view`, and again with those that have changed. */
+/** Shows the files that `lobe view` serves, and shows them again when they change. */
 export async function served(show: (groups: Group[]) => Promise<void>, lost: (isLost: boolean) => void): Promise<void> {
     const stamps = new Map<string, string>();
     const look = async () => {

@@ -1,4 +1,4 @@
-// Opening files in the workers, and the list of what is open.
+// Opens files in the workers, and lists the open materials.
 import { h, refill } from "./dom";
 import type { Engine } from "./engine";
 import type { Group } from "./files";
@@ -17,7 +17,7 @@ export class Library {
         private readonly onError: (error: Error) => void,
     ) {}
 
-    /** Opens groups of files; a folder is one material if its files are, and else each of them. */
+    /** Opens groups of files. A folder is opened as one material if possible, and otherwise file by file. */
     async open(groups: Group[], wanted: { a: string; b: string } = { a: "", b: "" }): Promise<void> {
         let first: Material | undefined;
         for (const group of groups) {
@@ -35,7 +35,7 @@ export class Library {
             try {
                 return [await this.one(group.path, group.files)];
             } catch (error) {
-                // Files that are materials of their own: each with those next to it that say how it is read.
+                // The files are separate materials; each is opened with its sidecar.
                 const groups = group.files.filter(({ path }) => !path.endsWith(".lobe.toml"));
                 const found: Material[] = [];
                 const failed: Error[] = [];
@@ -94,7 +94,7 @@ export class Library {
         }
     }
 
-    /** The number of a material in the worker of pictures and checks, where it is opened when it is first needed. */
+    /** The number of a material in the worker for pictures and checks, which opens it when it is first needed. */
     ready(material: Material): Promise<number> {
         if (material.studio !== undefined) return Promise.resolve(material.studio);
         let opening = this.opening.get(material);
@@ -109,7 +109,7 @@ export class Library {
         return opening;
     }
 
-    /** Checks what is shown, if that was not done. */
+    /** Checks a material, unless it has been checked or is no longer shown. */
     async check(material: Material): Promise<void> {
         if (material.findings) return;
         const number = await this.ready(material);
@@ -117,7 +117,7 @@ export class Library {
         material.findings = JSON.parse(await this.studio.findings(number, true)) as Finding[];
     }
 
-    /** Opens everything again in workers that have begun anew. */
+    /** Opens all materials again after a worker was restarted. */
     async revive(): Promise<void> {
         for (const material of this.state.materials) {
             material.studio = undefined;

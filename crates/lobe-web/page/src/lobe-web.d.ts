@@ -1,4 +1,4 @@
-// What the module offers; wasm-bindgen writes the same next to it.
+// The types of the module; wasm-bindgen writes the same declarations next to it.
 declare module "lobe-web" {
     export default function init(options?: { module_or_path: string | URL | BufferSource }): Promise<{ memory: WebAssembly.Memory }>;
     export class Picture {

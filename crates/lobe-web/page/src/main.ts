@@ -1,4 +1,4 @@
-// Puts the page together.
+// Assembles the page.
 import "uplot/dist/uPlot.min.css";
 
 import { choice, degrees, h, refill } from "./dom";
@@ -40,7 +40,7 @@ const picture = new PicturePanel(desk, studio, state, (material) => library.read
 const details = new Details(desk, studio, state, (material) => library.ready(material), onError);
 const facts = new FactsPanel(state);
 
-// What is shown of the material.
+// The controls for what is shown of the material.
 const side = h("select", { "aria-label": "Light from", id: "side" });
 const channel = h("select", { "aria-label": "Channel", id: "channel" });
 const sigma = h("input", { type: "range", min: 0, max: 88, step: 0.1, id: "sigma", "aria-label": "Polar angle of the light in degrees" });
@@ -114,7 +114,7 @@ const welcome = h(
     { class: "welcome" },
     h("div", { class: "drop" },
         h("h2", {}, "Drop measured materials here"),
-        h("p", {}, "BRDFs, BTDFs and BSDFs of any format that lobe reads: MERL, EPFL (RGL), UTIA, Klems matrices and tensor trees, Zemax, LightTools, Speos, ASTM, Integra, goniometer tables and more. Files or folders, one or several."),
+        h("p", {}, "BRDFs, BTDFs and BSDFs in any format that lobe reads: MERL, EPFL (RGL), UTIA, Klems matrices and tensor trees, Zemax, LightTools, Speos, ASTM, Integra, goniometer tables and more. Files or folders, one or several."),
         h("div", { class: "row" },
             h("button", { type: "button", class: "primary", onclick: () => input.click() }, "Choose files"),
             h("button", { type: "button", onclick: () => folder.click() }, "Choose a folder")),
@@ -198,7 +198,7 @@ state.listen((what) => {
     }
 });
 
-// Files, wherever they are dropped.
+// Files can be dropped anywhere on the page.
 for (const name of ["dragenter", "dragover"] as const) {
     window.addEventListener(name, (event) => {
         event.preventDefault();
@@ -252,7 +252,7 @@ window.addEventListener("hashchange", () => {
 
 for (const engine of [desk, studio]) {
     engine.onDeath = (why) => {
-        onError(new Error(`${why}; it was started again`));
+        onError(new Error(`${why}; it has been restarted`));
         picture.forget();
         void library.revive().then(() => state.changed("view"));
     };
@@ -268,7 +268,7 @@ if (new URLSearchParams(location.search).has("served")) {
 }
 updateBar();
 
-// For tests: what is shown, what it took, and the workers.
+// For tests: the state, the workers, and how long things took.
 declare global {
     interface Window {
         explorer: { state: State; desk: Engine; studio: Engine; took(): Record<string, number> };

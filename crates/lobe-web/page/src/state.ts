@@ -1,4 +1,4 @@
-// What the page shows, and the link that restores it.
+// The state of the page, and the link that restores it.
 
 export interface SideFacts {
     side: string;
@@ -34,11 +34,11 @@ export interface Finding {
 }
 
 export interface Material {
-    /** Its number in the worker of the views, and in that of pictures and checks once it is there. */
+    /** The number of the material in the worker for the views, and in the one for pictures and checks, if open there. */
     desk: number;
     studio: number | undefined;
     path: string;
-    /** What is sent to the second worker. */
+    /** Kept to open the material in the second worker, or in a worker that was restarted. */
     files: { path: string; bytes: Uint8Array }[];
     facts: FileFacts;
     findings: Finding[] | undefined;
@@ -49,7 +49,7 @@ export interface View {
     scatter: string;
     channel: string;
     scale: "log" | "linear";
-    /** In radians, as everywhere. */
+    /** The direction of the light, in radians. */
     sigma: number;
     psi: number;
     chart: "curve" | "polar";
@@ -61,7 +61,7 @@ export interface View {
 }
 
 export const DEGREE = Math.PI / 180;
-/** Light at a larger polar angle says more about the horizon than about a material. */
+/** The largest polar angle of the light; beyond it, the horizon matters more than the material. */
 export const LOWEST = 88 * DEGREE;
 
 export class State {
@@ -83,11 +83,11 @@ export class State {
         lamp: [-0.55, 0.62, 0.56],
         exposure: 0,
     };
-    /** Whether somebody has put the light where it is; if not, it is where the material was measured. */
+    /** `true` if the user has set the angle; otherwise it is one at which the material was measured. */
     chosen = { sigma: false, psi: false };
     private listeners: ((what: string) => void)[] = [];
 
-    /** Calls back after changes: `light`, `view`, `picture`, `materials`. */
+    /** Registers a callback for changes: `light`, `lamp`, `exposure`, `view`, `picture` or `materials`. */
     listen(listener: (what: string) => void): void {
         this.listeners.push(listener);
     }
@@ -104,14 +104,14 @@ export class State {
         this.changed(what);
     }
 
-    /** What is asked of the module. */
+    /** The request to the module, as JSON. */
     request(material: Material | undefined = this.a): string {
         const { side, scatter, psi, scale, channel } = this.view;
         const hasChannel = material?.facts.channels.includes(channel) ?? false;
         return JSON.stringify({ side, scatter, psi, scale, channel: hasChannel ? channel : "" });
     }
 
-    /** Shows a material, with what there is of it nearest to what was shown before. */
+    /** Shows a material, and keeps as much of the view as it has data for. */
     show(material: Material | undefined): void {
         this.a = material;
         if (this.b === material) this.b = undefined;
@@ -152,7 +152,7 @@ function saveLink(state: State): void {
     timer = window.setTimeout(() => history.replaceState(null, "", `#${link(state)}`), 200);
 }
 
-/** The view and the names of the files; their contents are not in it. */
+/** The view and the paths of the files, without their contents. */
 export function link(state: State): string {
     const { view } = state;
     const words = new URLSearchParams();
@@ -167,7 +167,7 @@ export function link(state: State): string {
     return words.toString();
 }
 
-/** Restores a view; what a link says wrongly is left as it is. Returns the paths of the files that it was of. */
+/** Restores the view of a link, ignoring invalid values. Returns the paths of the files that it showed. */
 export function restore(state: State, hash: string): { a: string; b: string } {
     const words = new URLSearchParams(hash.replace(/^#/, ""));
     const view = state.view as unknown as Record<string, unknown>;

@@ -1,4 +1,4 @@
-// Holds the module: everything that is computed is computed here.
+// The worker that holds the module, which does all computations.
 import init, { Explorer, File as Written, Picture } from "lobe-web";
 import wasm from "lobe-web/wasm?url";
 
@@ -30,7 +30,7 @@ console.error = (...words: unknown[]) => {
 
 const ready = init({ module_or_path: new URL(wasm, self.location.href) }).then(() => new Explorer());
 
-/** Plain values of what the module returns, with the buffers that are handed over. */
+/** Converts a result of the module to plain values, with the buffers to transfer. */
 function plain(value: unknown): { value: unknown; buffers: Transferable[] } {
     if (value instanceof Picture) {
         const { size, values, rgba, range, measured, marks } = value;

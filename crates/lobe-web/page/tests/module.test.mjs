@@ -45,7 +45,7 @@ test("values are those of the program, bit by bit", () => {
     }
 });
 
-test("what the program reads opens, with its values, and what it refuses is refused in its words", (context) => {
+test("files have the values of the program, or are refused with its messages", (context) => {
     const all = pairs(300, 7);
     const { wi, wo } = rounded(all);
     const counts = { same: 0, refused: 0 };
@@ -77,8 +77,8 @@ test("what the program reads opens, with its values, and what it refuses is refu
             counts.same++;
             continue;
         }
-        // Samples without a grid lie where sines of the system put them. Those of systems differ in the last place, which
-        // decides between equal triangles.
+        // The positions of samples without a grid depend on the sines of the system, which differ between systems in the
+        // last place. That decides between equally good triangles.
         const largest = answer.reduce((a, b) => Math.max(a, Math.abs(b)), 0);
         const error = values.reduce((most, value, at) => Math.max(most, Math.abs(value - answer[at]) / largest), 0);
         near.push(`${name} (${kind}) ${error.toExponential(1)}`);
@@ -87,7 +87,7 @@ test("what the program reads opens, with its values, and what it refuses is refu
     context.diagnostic(`${counts.same} files with the same bits, ${counts.refused} refused alike, of ${found.length}; others ${near.join(", ")}`);
 });
 
-test("damage is told in the words of the program", () => {
+test("damaged files are refused with the messages of the program", () => {
     const [{ name, file }] = files();
     const whole = bytes(file);
     let refused = 0;

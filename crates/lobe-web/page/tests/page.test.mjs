@@ -1,4 +1,4 @@
-// The page in Chromium, end to end: files are dropped, values read, the light dragged, files exported, damage told.
+// The page in Chromium, end to end: files are dropped, values read, the light dragged, files exported, damaged files refused.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { createReadStream, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
@@ -150,7 +150,7 @@ test("dragging moves the light, in the curve and in the map, and keys do", async
     assert.ok(Math.abs((await sigma()) - before - 1) < 1e-6);
 });
 
-test("the lamp is dragged with a quick preview, and the picture becomes better", async () => {
+test("the lamp is dragged with a quick preview, and the picture is refined", async () => {
     const scene = page.locator("canvas.scene");
     await scene.scrollIntoViewIfNeeded();
     await page.waitForFunction(() => /samples per pixel/.test(document.querySelector("#picture-samples").textContent), undefined, { timeout: 60_000 });
@@ -197,12 +197,12 @@ test("two materials are compared", async () => {
     await drop(page, list);
     await page.locator("h1").click();
     await page.keyboard.press("c");
-    await page.waitForFunction(() => /ΔE mean/.test(document.querySelector("#compared")?.textContent ?? ""), undefined, { timeout: 60_000 });
+    await page.waitForFunction(() => /ΔE, mean/.test(document.querySelector("#compared")?.textContent ?? ""), undefined, { timeout: 60_000 });
     await page.locator("#map-kind").selectOption("difference");
     await page.waitForFunction(() => /mean ΔE/.test(document.querySelector("#map-value").textContent));
 });
 
-test("damaged files are refused in the words of the program, and a link restores the view", async () => {
+test("damaged files are refused with the messages of the program, and a link restores the view", async () => {
     const { name, file } = files().find(({ name }) => name.startsWith("paint-"));
     const damaged = bytes(file).slice(0, 30_000);
     writeFileSync(path.join(scratch, "damaged.ddr"), damaged);
@@ -222,7 +222,7 @@ test("damaged files are refused in the words of the program, and a link restores
     await again.close();
 });
 
-test("the page asks nobody else, and every control has a name", async () => {
+test("the page makes no requests to other servers, and every control has a name", async () => {
     assert.deepEqual(asked.filter((url) => !url.startsWith(base) && !url.startsWith("blob:") && !url.startsWith("data:")), []);
     const nameless = await page.evaluate(() =>
         [...document.querySelectorAll("button, select, input, canvas[tabindex], dialog")]
@@ -236,7 +236,7 @@ test("the page asks nobody else, and every control has a name", async () => {
 test("text has contrast in both themes", async () => {
     for (const theme of ["light", "dark"]) {
         await page.evaluate((theme) => (document.documentElement.dataset.theme = theme), theme);
-        // Buttons change their colour gently.
+        // Buttons change their colour in a transition.
         await page.waitForTimeout(500);
         const poor = await page.evaluate(() => {
             const luminance = (text) => {
@@ -322,7 +322,7 @@ test("what is downloaded is small", () => {
     assert.ok(sum < 4e6, String(sum));
 });
 
-test("pictures of the page, to be looked at", async () => {
+test("pictures of the page, for inspection", async () => {
     await close(page);
     const by = (start) => files().find(({ name }) => name.startsWith(start));
     for (const [width, height, theme] of [[1280, 1000, "light"], [390, 844, "dark"], [1280, 1000, "dark"], [390, 844, "light"]]) {

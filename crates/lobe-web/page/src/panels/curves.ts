@@ -61,7 +61,7 @@ export class Curves {
         });
     }
 
-    /** Draws again, from nothing if something other than the values has changed. */
+    /** Redraws the curves. The chart is rebuilt if something other than the values has changed, or if `anew`. */
     redraw(anew = false): void {
         const { chart, scale } = this.state.view;
         const isPolar = chart === "polar";
@@ -75,7 +75,7 @@ export class Curves {
         const shape = `${scale} ${this.curves.map(({ material }) => material.path).join("|")}`;
         if (anew || shape !== this.shape || !this.plot) this.make(shape);
         this.plot?.setData(this.data());
-        // The pointer may rest, or be elsewhere.
+        // The readout must follow the new values even if the pointer does not move.
         if (this.plot) this.say(this.plot);
     }
 
@@ -127,7 +127,7 @@ export class Curves {
         });
     }
 
-    /** Lines at the light and at the mirror direction. */
+    /** Draws lines at the light and at the mirror direction. */
     private marks(plot: uPlot): void {
         const { sigma, scatter } = this.state.view;
         const { ctx, bbox } = plot;
@@ -151,7 +151,7 @@ export class Curves {
         line(sigma, scatter === "reflection" ? "mirror" : "straight through", "quiet");
     }
 
-    /** Values under the pointer. */
+    /** Shows the values under the pointer, or the peaks if the pointer is elsewhere. */
     private say(plot: uPlot): void {
         const at = plot.cursor.idx;
         if (at === null || at === undefined || at < 0) {
@@ -177,7 +177,7 @@ export class Curves {
         return words.join(", ");
     }
 
-    /** While a pointer is pressed, the light is where it is. */
+    /** Moves the light with the pointer while a button is pressed. */
     private follow(target: HTMLElement, angle: (event: PointerEvent) => number | undefined): void {
         target.style.touchAction = "none";
         const move = (event: PointerEvent) => {
@@ -279,7 +279,7 @@ export class Curves {
     }
 }
 
-/** Whole decades around positive values, six at most. */
+/** The smallest range of whole decades around positive values, six at most. */
 function decades(low: number | null, high: number | null): [number, number] {
     const top = high && high > 0 ? high : 1;
     const bottom = Math.max(low && low > 0 ? low : top / 10, top * 1e-6);

@@ -1,4 +1,4 @@
-// Albedo, spectra, and how far two materials are apart.
+// Albedos, spectra, and the difference between two materials.
 import uPlot from "uplot";
 
 import { colour, degrees, h, panel, short } from "../dom";
@@ -28,7 +28,7 @@ export class Details {
     private chart: uPlot | undefined;
     private readonly latest: { albedo: Latest; spectrum: Latest; compare: Latest };
 
-    /** Integrals take long, so that they are left to the second worker; `ready` opens a material there. */
+    /** Integrals take long, so they are left to the second worker, `slow`; `ready` opens a material there. */
     constructor(
         private readonly engine: Engine,
         private readonly slow: Engine,
@@ -43,7 +43,7 @@ export class Details {
         this.compare = panel("compare", "Difference", [], this.numbers, h("p", { class: "hint" }, "ΔE is CIE delta E 2000 of two spheres under one light; about 1 is just noticeable."));
     }
 
-    /** Albedos and differences do not depend on the light. */
+    /** Updates everything, including albedos and differences, which do not depend on the light. */
     update(): void {
         const { a, b } = this.state;
         this.spectrum.hidden = (a?.facts.wavelengths?.length ?? 0) < 2;
@@ -61,9 +61,9 @@ export class Details {
             this.numbers.replaceChildren(h("dt", {}, "Comparing…"));
             const { difference, visible } = JSON.parse(await this.engine.compare(a.desk, b.desk, this.state.request(a))) as Compared;
             const rows: [string, string][] = [
-                ["ΔE mean", short(visible.mean)],
-                ["ΔE of 95 %", `below ${short(visible.percentile_95)}`],
-                ["ΔE largest", short(visible.max)],
+                ["ΔE, mean", short(visible.mean)],
+                ["ΔE, 95th percentile", short(visible.percentile_95)],
+                ["ΔE, largest", short(visible.max)],
                 ["rms", `${short(difference.rms)} 1/sr, ${short(100 * difference.relative_rms)} % of the values of A`],
                 ["largest", `${short(difference.max)} 1/sr, where the peak of A is ${short(difference.peak)}`],
                 ["bias", `${short(difference.bias)} 1/sr (B minus A)`],
@@ -76,7 +76,7 @@ export class Details {
     private showAlbedos(rows: Float64Array): void {
         const ROW = 5;
         if (rows.length === 0) {
-            this.table.replaceChildren(h("tbody", {}, h("tr", {}, h("td", {}, "There is none, as nothing but the plane of incidence was measured."))));
+            this.table.replaceChildren(h("tbody", {}, h("tr", {}, h("td", {}, "No albedo: only the plane of incidence was measured."))));
             return;
         }
         const row = (at: number) => {
@@ -92,7 +92,7 @@ export class Details {
         );
     }
 
-    /** What follows the light. */
+    /** Updates what depends on the light. */
     light(): void {
         const { a } = this.state;
         if (!a || this.spectrum.hidden) return;

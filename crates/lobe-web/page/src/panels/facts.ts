@@ -1,4 +1,4 @@
-// What the file holds, and what the checks find.
+// The contents of the file, and the findings of the checks.
 import { h, panel, size } from "../dom";
 import type { FileFacts, Finding, State } from "../state";
 
@@ -14,7 +14,7 @@ function rows(pairs: [string, string][]): HTMLElement {
     return list;
 }
 
-/** What a file says of itself, and what was made of it. */
+/** The header of a file, and how it was read. */
 export function said({ format, bytes, parts, source, notes, doubts }: Pick<FileFacts, "format" | "bytes" | "parts" | "source" | "notes" | "doubts">): (Node | false)[] {
     return [
         rows([["format", format], ["size", size(bytes)]]),
@@ -25,7 +25,7 @@ export function said({ format, bytes, parts, source, notes, doubts }: Pick<FileF
     ];
 }
 
-/** Replaces what is in a box; `false` and empty text are left out. */
+/** Replaces the contents of a box; `false` and empty strings are left out. */
 export function fill(box: HTMLElement, ...children: (Node | string | false)[]): void {
     box.replaceChildren(...children.filter((child): child is Node | string => child !== false && child !== ""));
 }
@@ -59,7 +59,7 @@ export class FactsPanel {
         const passed = sorted.filter(({ status }) => status === "pass");
         fill(
             this.checks,
-            said.length === 0 ? h("p", {}, "Everything is as it should be.") : h("ul", { class: "findings" }, ...said.map(row)),
+            said.length === 0 ? h("p", {}, "No problems were found.") : h("ul", { class: "findings" }, ...said.map(row)),
             passed.length > 0 &&
                 h("details", {}, h("summary", {}, passed.length === 1 ? "1 check passed" : `${passed.length} checks passed`), h("ul", { class: "findings" }, ...passed.map(row))),
         );

@@ -1,11 +1,11 @@
-// The lobe as a surface in space, drawn by WebGL2. Dragging turns the view.
+// The lobe as a surface in space, drawn with WebGL2. Dragging turns the view.
 import { colour, h, fit, panel } from "../dom";
 import { type Engine, Latest } from "../engine";
 import type { State } from "../state";
 
 const ROWS = 96;
 const COLUMNS = 96;
-/** Numbers per vertex that the module returns, and that are drawn: a place and a normal. */
+/** Numbers per vertex: the module returns a position and a value, and a position and a normal are drawn. */
 const GIVEN = 4;
 const DRAWN = 6;
 
@@ -52,7 +52,7 @@ export class Lobe3D {
     constructor(private readonly engine: Engine, private readonly state: State, onError: (error: Error) => void) {
         this.latest = new Latest(onError);
         this.indices = triangles();
-        const hint = h("p", { class: "hint" }, this.gl ? "Distance from the origin is the value. Drag to turn, double-click to begin again." : "This browser has no WebGL2, which the surface is drawn by.");
+        const hint = h("p", { class: "hint" }, this.gl ? "The distance from the origin is the value. Drag to turn the view; double-click to reset it." : "The surface cannot be drawn, because this browser has no WebGL2.");
         this.element = panel("space", "Lobe in space", [], this.canvas, hint);
         if (this.gl) this.prepare(this.gl);
         this.canvas.style.touchAction = "none";
@@ -193,7 +193,7 @@ function triangles(): Uint32Array {
     return indices;
 }
 
-/** Places with the sums of the normals of their triangles, for the shading. */
+/** Positions with the sums of the normals of their triangles, for shading. */
 function withNormals(surface: Float32Array, indices: Uint32Array): Float32Array {
     const count = surface.length / GIVEN;
     const out = new Float32Array(DRAWN * count);
@@ -205,7 +205,7 @@ function withNormals(surface: Float32Array, indices: Uint32Array): Float32Array 
         const normal = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
         for (const corner of [i, j, k]) for (const c of [0, 1, 2]) out[corner + 3 + c] += normal[c];
     }
-    // The seam of the azimuths is one line.
+    // The first and the last azimuth are the same direction, so they share their normals.
     for (let row = 0; row <= ROWS; row++) {
         const [first, last] = [row * (COLUMNS + 1), row * (COLUMNS + 1) + COLUMNS].map((index) => DRAWN * index + 3);
         for (const c of [0, 1, 2]) out[first + c] = out[last + c] = out[first + c] + out[last + c];
@@ -213,7 +213,7 @@ function withNormals(surface: Float32Array, indices: Uint32Array): Float32Array 
     return out;
 }
 
-/** Orthographic, z up, seen from `eye`. */
+/** The matrix of an orthographic view from `eye`, with z up. */
 function view(eye: Vector, aspect: number, isDown: boolean): Float32Array {
     const right: Vector = [-eye[1], eye[0], 0];
     const length = Math.hypot(...right) || 1;
@@ -222,7 +222,7 @@ function view(eye: Vector, aspect: number, isDown: boolean): Float32Array {
     const zoom = 0.8;
     const [sx, sy] = aspect > 1 ? [zoom / aspect, zoom] : [zoom, zoom * aspect];
     const shift = isDown ? 0.3 : -0.38;
-    // Columns.
+    // Column by column.
     return new Float32Array([
         sx * rx, sy * up[0], -0.3 * eye[0], 0,
         sx * ry, sy * up[1], -0.3 * eye[1], 0,

@@ -13,7 +13,7 @@ interface Probe {
 
 export class HemisphereMap {
     readonly element: HTMLElement;
-    private readonly canvas = h("canvas", { class: "disk", tabindex: 0, role: "img", "aria-label": "Values of all outgoing directions" });
+    private readonly canvas = h("canvas", { class: "disk", tabindex: 0, role: "img", "aria-label": "Values for all outgoing directions" });
     private readonly readout = h("output", { class: "readout", id: "map-value" });
     private readonly bar = h("div", { class: "bar", "aria-hidden": "true" });
     private readonly low = h("span");
@@ -28,7 +28,7 @@ export class HemisphereMap {
         this.latest = new Latest(onError);
         this.probes = new Latest(onError);
         this.select.addEventListener("change", () => state.set({ map: this.select.value as typeof state.view.map }));
-        const hint = h("p", { class: "hint" }, "Equal areas are equal solid angles. The light is on the left; drag to move it. What is pale was not measured.");
+        const hint = h("p", { class: "hint" }, "Equal areas are equal solid angles. The light is on the left; drag to move it. Pale areas were not measured.");
         this.element = panel("map", "Hemisphere", [this.select], this.canvas, this.legend, this.readout, hint);
         this.canvas.style.touchAction = "none";
         this.canvas.addEventListener("pointerdown", (event) => {
@@ -53,7 +53,7 @@ export class HemisphereMap {
             ...kinds.filter(([, , is]) => is).map(([value, text]) => h("option", { value, selected: value === view.map }, text)),
         );
         this.latest.run(async () => {
-            // Three per CSS pixel of the disk are enough; fewer while a light is dragged would jump.
+            // One per CSS pixel is enough. A lower resolution while the light is dragged would make the map jump.
             const size = Math.min(320, Math.max(120, Math.round(this.canvas.clientWidth)));
             const { sigma, map, exposure } = this.state.view;
             const request = this.state.request(a);

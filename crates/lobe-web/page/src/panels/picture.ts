@@ -1,15 +1,15 @@
-// The material under a lamp that is dragged, path-traced while one looks.
+// The material under a lamp that can be dragged, path-traced while it is shown.
 import { choice, h, panel } from "../dom";
 import { type Engine, Latest } from "../engine";
 import type { Material, State } from "../state";
 
-/** Milliseconds that the renderer works between two pictures. */
+/** Milliseconds of rendering between two updates of the picture. */
 const SLICE = 120;
 const SAMPLES = 256;
 
 export class PicturePanel {
     readonly element: HTMLElement;
-    /** Milliseconds per preview while the lamp was dragged last. */
+    /** How long the last preview took, in milliseconds. */
     took = 0;
     private readonly canvas = h("canvas", { class: "scene", width: 512, height: 512, tabindex: 0, role: "img", "aria-label": "The material under the lamp; arrow keys move the lamp" });
     private readonly readout = h("output", { class: "readout", id: "picture-samples" });
@@ -22,7 +22,7 @@ export class PicturePanel {
     private readonly latest: Latest;
     private readonly context = this.canvas.getContext("2d");
 
-    /** `studio` holds the stage, `desk` the quick ball. `ready` opens a material in the studio. */
+    /** `studio` renders the picture, `desk` the preview of a ball. `ready` opens a material in the studio. */
     constructor(
         private readonly desk: Engine,
         private readonly studio: Engine,
@@ -41,7 +41,7 @@ export class PicturePanel {
             void this.show();
         });
         const exposure = h("label", { class: "inline" }, "EV", this.exposure);
-        const hint = h("p", { class: "hint" }, "Drag to move the lamp. The picture is path-traced in this page; it becomes cleaner while you look.");
+        const hint = h("p", { class: "hint" }, "Drag to move the lamp. The picture is path-traced in this page, and becomes cleaner with time.");
         this.element = panel("picture", "Picture", [this.forms, this.skies], this.canvas, h("div", { class: "row" }, this.readout, exposure), hint);
         this.canvas.style.touchAction = "none";
         this.canvas.addEventListener("pointerdown", (event) => {
@@ -63,7 +63,7 @@ export class PicturePanel {
         this.canvas.addEventListener("keydown", (event) => this.key(event));
     }
 
-    /** Puts the lamp where the ball's reflection of the pointer would be: the normal there, twice as far from the middle. */
+    /** Moves the lamp so that its reflection in the ball is near the pointer. */
     private drag(event: PointerEvent): void {
         const box = this.canvas.getBoundingClientRect();
         const x = (2 * (event.clientX - box.left)) / box.width - 1;
@@ -73,7 +73,7 @@ export class PicturePanel {
 
     private aim(x: number, y: number): void {
         const length = Math.hypot(x, y);
-        // From straight behind the viewer in the middle to the side at the edge, and a little beyond.
+        // From behind the viewer (pointer in the middle) to the side (pointer at the edge), and a little beyond.
         const angle = Math.min(length, 1.15) * 0.5 * Math.PI;
         const [ux, uy] = length > 1e-6 ? [x / length, y / length] : [0, 1];
         this.state.view.lamp = [ux * Math.sin(angle), uy * Math.sin(angle), Math.cos(angle)];
@@ -95,7 +95,7 @@ export class PicturePanel {
         this.update();
     }
 
-    /** The ball under the lamp alone, at once; shapes that are not a ball are path-traced coarsely. */
+    /** Shows a quick picture: a ball lit by the lamp alone, or other shapes path-traced at a low resolution. */
     private preview(): void {
         const { a } = this.state;
         if (!a) return;
@@ -124,7 +124,7 @@ export class PicturePanel {
         return JSON.stringify({ form, sky, toward: lamp, size: [size, size], samples });
     }
 
-    /** Begins the picture again. */
+    /** Restarts the picture. */
     update(): void {
         this.forms.update();
         const { view, a } = this.state;
@@ -175,7 +175,7 @@ export class PicturePanel {
         this.canvas.classList.toggle("preview", isBall);
     }
 
-    /** Forgets the stage: its worker has begun again, or its material has changed. */
+    /** Forgets the stage, because its worker was restarted or its material has changed. */
     forget(): void {
         this.staged = undefined;
     }
