@@ -1,4 +1,4 @@
-//! What JavaScript calls: numbers, typed arrays, text and JSON in and out, and errors as text.
+//! The interface for JavaScript: numbers, typed arrays, text and JSON in and out, and errors as text.
 
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
@@ -16,7 +16,7 @@ extern "C" {
     fn now() -> f64;
 }
 
-/// The files of a page, the materials opened of them, and a picture.
+/// The files of a page, the materials opened from them, and a picture.
 #[wasm_bindgen]
 #[derive(Debug, Default)]
 pub struct Explorer {
@@ -48,7 +48,7 @@ impl Explorer {
 /// Methods take the number of a material, and a request as JSON (`side`, `scatter`, `psi`, `channel`, `scale`).
 #[wasm_bindgen]
 impl Explorer {
-    /// Nothing.
+    /// Creates an explorer without files.
     #[wasm_bindgen(constructor)]
     pub fn new() -> Self {
         std::panic::set_hook(Box::new(|panic| error(&panic.to_string())));
@@ -65,17 +65,17 @@ impl Explorer {
         backends().join(",")
     }
 
-    /// Adds a file.
+    /// Adds a file, or replaces the one at the same path.
     pub fn add(&mut self, path: &str, bytes: Vec<u8>) {
         self.session.add(path, bytes);
     }
 
-    /// Forgets a file.
+    /// Removes a file.
     pub fn remove(&mut self, path: &str) {
         self.session.remove(path);
     }
 
-    /// Opens a file or a folder of those that were added.
+    /// Opens a file or a folder among the added files. Returns the number of the material.
     pub fn open(&mut self, path: &str) -> Answer<u32> {
         self.session.open(path).map_err(said)
     }
@@ -85,33 +85,34 @@ impl Explorer {
         json(&self.session.held(path).map_err(said)?)
     }
 
-    /// Forgets a material.
+    /// Closes a material.
     pub fn close(&mut self, material: u32) {
         self.session.close(material);
     }
 
-    /// What it is, as JSON.
+    /// The facts of a material, as JSON.
     pub fn facts(&self, material: u32) -> Answer<String> {
         json(&facts(self.opened(material)?))
     }
 
-    /// What the checks find, as JSON.
+    /// The findings of the checks, as JSON.
     pub fn findings(&self, material: u32, quickly: bool) -> Answer<String> {
         json(&findings(self.opened(material)?, quickly))
     }
 
-    /// Values of pairs of directions, three components each, on the backend of that name (the best if it is empty).
+    /// The values of pairs of directions, with three components each, on the backend of this name, or the best one if
+    /// it is empty.
     pub fn eval(&self, material: u32, wi: &[f32], wo: &[f32], backend: &str, strict: bool) -> Answer<Vec<f32>> {
         let on = Evaluator::new(backend, strict).map_err(said)?;
         evaluate(self.opened(material)?, wi, wo, on).map_err(said)
     }
 
-    /// The curve in the plane of incidence: angle, value, and whether it was measured, for each point.
+    /// The curve in the plane of incidence: the angle, the value and a flag for each point, see [`curve`].
     pub fn curve(&self, material: u32, request: &str, sigma: f64) -> Answer<Vec<f64>> {
         curve(self.opened(material)?, &Request::parse(request).map_err(said)?, sigma).map_err(said)
     }
 
-    /// Spectra as JSON.
+    /// Spectra at several viewing angles, as JSON.
     pub fn spectra(&self, material: u32, request: &str, sigma: f64, thetas: &[f64]) -> Answer<String> {
         let request = Request::parse(request).map_err(said)?;
         json(&spectra(self.opened(material)?, &request, sigma, thetas).map_err(said)?)
@@ -127,14 +128,14 @@ impl Explorer {
         table(self.opened(material)?, &Request::parse(request).map_err(said)?, sigma).map_err(said)
     }
 
-    /// A figure of several materials as SVG, with a JSON array of requests.
+    /// A figure of one or more materials as SVG, with a JSON array of one request per material.
     pub fn figure(&self, materials: &[u32], requests: &str, kind: &str, sigmas: &[f64]) -> Answer<String> {
         let requests: Vec<Request> = serde_json::from_str(requests).map_err(|error| said(error.to_string()))?;
         let opened: Vec<&Opened> = materials.iter().map(|&number| self.opened(number)).collect::<Answer<_>>()?;
         figure(&opened, &requests, kind, sigmas).map_err(said)
     }
 
-    /// The hemisphere: `values`, `colours` or `dolp`.
+    /// A map of the hemisphere that shows `values`, `colours` or `dolp`.
     pub fn map(
         &self,
         material: u32,
@@ -148,41 +149,41 @@ impl Explorer {
         map(self.opened(material)?, &request, sigma, size, what, exposure).map(Picture).map_err(said)
     }
 
-    /// What there is at a point of a map, as JSON; `null` outside of the disk.
+    /// The direction and the values at a point of a map, as JSON; `null` outside the disk.
     pub fn probe(&self, material: u32, request: &str, sigma: f64, x: f64, y: f64) -> Answer<String> {
         let request = Request::parse(request).map_err(said)?;
         json(&probe(self.opened(material)?, &request, sigma, [x, y]).map_err(said)?)
     }
 
-    /// The lobe in space: x, y, z and the value for each vertex of a grid.
+    /// The lobe in space: x, y, z and the value of each vertex of a grid.
     pub fn surface(&self, material: u32, request: &str, sigma: f64, rows: usize, columns: usize) -> Answer<Vec<f32>> {
         surface(self.opened(material)?, &Request::parse(request).map_err(said)?, sigma, [rows, columns]).map_err(said)
     }
 
-    /// How far two materials are apart, as JSON.
+    /// The difference between two materials, as JSON.
     pub fn compare(&self, a: u32, b: u32, request: &str) -> Answer<String> {
         let request = Request::parse(request).map_err(said)?;
         json(&compare(self.opened(a)?, self.opened(b)?, &request).map_err(said)?)
     }
 
-    /// How far they are apart to the eye in each direction.
+    /// A map of the visible difference between two materials in each direction.
     pub fn difference(&self, a: u32, b: u32, request: &str, sigma: f64, size: usize) -> Answer<Picture> {
         let request = Request::parse(request).map_err(said)?;
         difference_map(self.opened(a)?, self.opened(b)?, &request, sigma, size).map(Picture).map_err(said)
     }
 
-    /// The formats that a material can be written in, as JSON.
+    /// The formats in which files can be written, as JSON.
     pub fn targets(&self, material: u32) -> Answer<String> {
         json(&targets(self.opened(material)?))
     }
 
-    /// The material as a file of another format.
+    /// Converts a material to a file in another format.
     pub fn convert(&self, material: u32, word: &str, channel: &str) -> Answer<File> {
         let written = converted(self.opened(material)?, word, channel).map_err(said)?;
         Ok(File { name: written.name, bytes: written.bytes, note: written.note })
     }
 
-    /// A ball under a lamp, at once: four bytes per pixel of a square.
+    /// A quick picture of a ball under a lamp: a square with four bytes per pixel.
     pub fn ball(
         &mut self,
         material: u32,
@@ -207,30 +208,30 @@ impl Explorer {
         Ok(())
     }
 
-    /// Begins the picture again with another lamp, sky or size; `false` if it takes another stage.
+    /// Restarts the picture with another lamp, sky or size. Returns `false` if that takes another stage.
     pub fn relight(&mut self, request: &str) -> Answer<bool> {
         let request = StudioRequest::parse(request).map_err(said)?;
         self.studio.as_mut().map_or(Ok(false), |studio| studio.change(&request)).map_err(said)
     }
 
-    /// Renders for about so many milliseconds. Returns how many samples every pixel has.
+    /// Renders for about this many milliseconds. Returns the number of samples that every pixel has.
     pub fn render(&mut self, milliseconds: f64) -> Answer<u32> {
         let end = now() + milliseconds;
         self.studio.as_mut().map_or(Ok(0), |studio| studio.step(|| now() < end)).map_err(said)
     }
 
-    /// Whether the picture has all of its samples.
+    /// Returns `true` if the picture has all of its samples, or if there is no picture.
     pub fn rendered(&self) -> bool {
         self.studio.as_ref().is_none_or(Studio::is_done)
     }
 
-    /// The picture as it is: four bytes per pixel.
+    /// The picture so far, with four bytes per pixel.
     pub fn picture(&self, exposure: f32) -> Vec<u8> {
         self.studio.as_ref().map(|studio| studio.picture(exposure)).unwrap_or_default()
     }
 }
 
-/// A map.
+/// A map of the outgoing hemisphere.
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct Picture(Map);
@@ -243,7 +244,7 @@ impl Picture {
         self.0.size
     }
 
-    /// The number of each pixel, NaN outside of the disk.
+    /// The value of each pixel; NaN outside the disk.
     #[wasm_bindgen(getter)]
     pub fn values(&self) -> Vec<f32> {
         self.0.values.clone()
@@ -255,19 +256,19 @@ impl Picture {
         self.0.rgba.clone()
     }
 
-    /// The values at both ends of the false colours.
+    /// The values at the two ends of the false colours.
     #[wasm_bindgen(getter)]
     pub fn range(&self) -> Vec<f64> {
         self.0.range.into()
     }
 
-    /// Where the light and the mirror direction are: x and y of both.
+    /// The positions of the light and of the mirror direction: x and y of both.
     #[wasm_bindgen(getter)]
     pub fn marks(&self) -> Vec<f64> {
         self.0.marks.as_flattened().into()
     }
 
-    /// 1 for each pixel within the measurement.
+    /// 1 for each pixel within the measurement, and 0 elsewhere.
     #[wasm_bindgen(getter)]
     pub fn measured(&self) -> Vec<u8> {
         self.0.measured.clone()
@@ -285,19 +286,19 @@ pub struct File {
 
 #[wasm_bindgen]
 impl File {
-    /// Its name.
+    /// The name of the file.
     #[wasm_bindgen(getter)]
     pub fn name(&self) -> String {
         self.name.clone()
     }
 
-    /// What it holds.
+    /// The contents of the file.
     #[wasm_bindgen(getter)]
     pub fn bytes(&self) -> Vec<u8> {
         self.bytes.clone()
     }
 
-    /// What happened to the channels.
+    /// How the channels were changed; empty if they were not.
     #[wasm_bindgen(getter)]
     pub fn note(&self) -> String {
         self.note.clone()

@@ -10,16 +10,16 @@ use serde::Serialize;
 use crate::hemisphere::{each, false_colours, marks, places};
 use crate::{Map, Opened, Request};
 
-/// How far two materials are apart, as `lobe compare` says it.
+/// The difference between two materials, as `lobe compare` reports it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Compared {
-    /// The difference in numbers, at pairs of directions up to 80 degrees from the normal.
+    /// The difference between values, at pairs of directions up to 80 degrees from the normal.
     pub difference: Difference,
-    /// The difference to the eye: of two spheres under one light.
+    /// The visible difference, between two spheres under one light.
     pub visible: Visible,
 }
 
-/// Pairs of directions; and pixels along each side of a sphere.
+/// The number of pairs of directions, and of pixels along each side of the picture of a sphere.
 const PAIRS: usize = 20_000;
 const SPHERE: usize = 128;
 /// The largest polar angle of a pair, in radians.
@@ -28,7 +28,7 @@ const LIMIT: f64 = 80.0 * PI / 180.0;
 /// Compares two materials.
 ///
 /// # Errors
-/// If the request does not fit both of them, or one has no colour.
+/// If the request does not fit both materials, or one of them has no colour.
 pub fn compare(a: &Opened, b: &Opened, request: &Request) -> Result<Compared, String> {
     let aspect = request.of(a)?.aspect();
     request.of(b)?;
@@ -42,11 +42,11 @@ pub fn compare(a: &Opened, b: &Opened, request: &Request) -> Result<Compared, St
 /// The largest difference that false colours distinguish.
 const MOST: f64 = 10.0;
 
-/// The difference of two materials to the eye for light at `sigma` and every outgoing direction: CIE delta E 2000 of their colours
-/// relative to a perfect white; brighter ones are dimmed to its luminance.
+/// The visible difference between two materials for light at `sigma` and every outgoing direction: CIE delta E 2000 of
+/// their colours relative to a perfect white. Brighter colours are dimmed to its luminance.
 ///
 /// # Errors
-/// As [`compare`].
+/// The same as for [`compare`].
 pub fn difference_map(a: &Opened, b: &Opened, request: &Request, sigma: f64, size: usize) -> Result<Map, String> {
     let showing = request.of(a)?;
     request.of(b)?;
@@ -88,7 +88,7 @@ mod tests {
     use crate::Session;
 
     #[test]
-    fn a_material_is_like_itself_and_unlike_another() {
+    fn a_material_equals_itself_and_differs_from_another() {
         let mut session = Session::new();
         for name in ["paint-12x21x13.ddr", "cloth-17x7x17x13.ddr"] {
             session.add(name, std::fs::read(lobe_testing::files::fixture(name)).unwrap());

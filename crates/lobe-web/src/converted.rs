@@ -1,4 +1,4 @@
-//! Files in other formats.
+//! Converts materials to files in other formats.
 
 use std::path::{Path, PathBuf};
 
@@ -8,31 +8,31 @@ use serde::Serialize;
 
 use crate::Opened;
 
-/// A format that a material can be written in.
+/// A format in which files can be written.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Target {
-    /// The word for it on the command line.
+    /// The word for the format on the command line.
     pub word: &'static str,
-    /// Its name.
+    /// The name of the format.
     pub name: &'static str,
     /// The extension of its files.
     pub extension: &'static str,
-    /// Whether it has the representation of the material, so that nodes and values are written as they are.
+    /// `true` if the format has the representation of the material, so that nodes and values are written unchanged.
     pub is_exact: bool,
 }
 
 /// A file that was written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Converted {
-    /// Its name.
+    /// The name of the file.
     pub name: String,
-    /// What it holds.
+    /// The contents of the file.
     pub bytes: Vec<u8>,
-    /// What happened to the channels; empty if they are what they were.
+    /// How the channels were changed; empty if they were not.
     pub note: String,
 }
 
-/// The formats that can be written; those that have the representation of the material first.
+/// The formats in which files can be written; those with the representation of the material come first.
 pub fn targets(opened: &Opened) -> Vec<Target> {
     let document = &opened.subject.measured().document;
     let target = |format: Format| {
@@ -45,11 +45,11 @@ pub fn targets(opened: &Opened) -> Vec<Target> {
     targets
 }
 
-/// The material as a file of another format, with the nodes and the values that it has; the channel of that name only, if there
-/// is one.
+/// Converts the material to a file in another format, with the same nodes and values. If `channel` is not empty, only
+/// the channel of that name is written.
 ///
 /// # Errors
-/// If the format does not have the representation or the channels of the material, in the words of the program.
+/// If the format does not have the representation or the channels of the material. The message is that of the program.
 pub fn converted(opened: &Opened, word: &str, channel: &str) -> Result<Converted, String> {
     let format = Format::writable().find(|format| format.spec().word == word);
     let format = format.ok_or_else(|| format!("found the format {word}; expected one that can be written"))?;
@@ -62,7 +62,8 @@ pub fn converted(opened: &Opened, word: &str, channel: &str) -> Result<Converted
     let Some(written) = written.map_err(|error| error.to_string())? else {
         let kinds = document.kinds();
         return Err(format!(
-            "{format}: found {kinds}; expected a representation that it has. To resample: lobe convert {} {} --to {word}",
+            "{format}: found {kinds}; expected a representation that the format has. To resample: lobe convert {} {} \
+             --to {word}",
             opened.subject.name(),
             path.display()
         ));

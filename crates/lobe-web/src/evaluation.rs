@@ -1,18 +1,19 @@
-//! Values of many pairs of directions.
+//! Evaluates many pairs of directions.
 
 use lobe::{Backend, Directions};
 
 use crate::Opened;
 
-/// The instructions to evaluate with.
+/// The backend to evaluate with.
 #[derive(Clone, Copy, Debug)]
 pub struct Evaluator(Backend);
 
 impl Evaluator {
-    /// The backend of a name, or the one that materials are on if there is none; rounding the same way everywhere if `strict`.
+    /// The backend of this name, or the default one if the name is empty. If `strict`, results have the same bits on
+    /// every backend.
     ///
     /// # Errors
-    /// If there is no such backend here; the error lists those that there are.
+    /// If this machine has no such backend; the error lists those that it has.
     pub fn new(name: &str, strict: bool) -> Result<Self, String> {
         let backend = match name {
             "" => Backend::detect(),
@@ -31,13 +32,13 @@ pub fn backends() -> Vec<&'static str> {
 /// The values of pairs of directions, `[pair][channel]`; `wi` and `wo` have three components per pair.
 ///
 /// # Errors
-/// If there are not as many `wi` as `wo`, or a direction has fewer than three components.
+/// If the lengths of `wi` and `wo` differ, or are not multiples of three.
 pub fn evaluate(opened: &Opened, wi: &[f32], wo: &[f32], on: Evaluator) -> Result<Vec<f32>, String> {
     let (vectors_in, rest) = wi.as_chunks::<3>();
     let (vectors_out, rest_out) = wo.as_chunks::<3>();
     if wi.len() != wo.len() || !rest.is_empty() || !rest_out.is_empty() {
         return Err(format!(
-            "found {} components of wi and {} of wo; expected as many, three per direction",
+            "found {} components of wi and {} of wo; expected equal numbers, three per direction",
             wi.len(),
             wo.len()
         ));

@@ -1,4 +1,4 @@
-//! What a file holds and what is wrong with it, in words.
+//! The facts of a file and its problems, in words.
 
 use lobe::{Scatter, Side};
 use lobe_formats::Document;
@@ -8,16 +8,16 @@ use serde::Serialize;
 
 use crate::Opened;
 
-/// What a file holds, for people, and what a page can ask about it.
+/// The contents of a file, in words for readers, and what a page can request of it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Facts {
     /// The name of the file.
     pub name: String,
-    /// Its path among the files of the page.
+    /// The path of the file among the files of the page.
     pub path: String,
-    /// Its format.
+    /// The format of the file.
     pub format: &'static str,
-    /// Its size.
+    /// The size of the file in bytes.
     pub bytes: u64,
     /// The representation.
     pub kind: &'static str,
@@ -25,27 +25,27 @@ pub struct Facts {
     pub channels: Vec<String>,
     /// The wavelength of each channel in nm, if they are wavelengths.
     pub wavelengths: Option<Vec<f64>>,
-    /// What the luminance of the channels is called; empty if there is one channel.
+    /// The name of the quantity to which channels are reduced; empty if there is one channel.
     pub quantity: String,
-    /// Whether colours of the channels are more than grey.
+    /// `true` if the channels have colours other than grey.
     pub has_colour: bool,
-    /// Whether there are Mueller matrices.
+    /// `true` if the values are Mueller matrices.
     pub is_polarised: bool,
-    /// Whether rotating the sample changes nothing.
+    /// `true` if the material is isotropic.
     pub is_isotropic: bool,
     /// The sides from which light was measured.
     pub sides: Vec<SideFacts>,
-    /// Names and values of each block of values.
+    /// The properties of each part.
     pub parts: Vec<Block>,
-    /// What the header says.
+    /// The facts of the header: names and values.
     pub source: Vec<(String, String)>,
-    /// What the reader made of what the file leaves open.
+    /// How the reader has interpreted what the file leaves open.
     pub notes: Vec<String>,
-    /// What may be wrong with that.
+    /// What may be wrong with this interpretation.
     pub doubts: Vec<String>,
 }
 
-/// Light from one side.
+/// What was measured with light from one side.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SideFacts {
     /// `front` or `back`.
@@ -58,22 +58,22 @@ pub struct SideFacts {
     pub sigmas: Vec<f64>,
 }
 
-/// A block of values.
+/// The properties of a part.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Block {
-    /// What the file calls it.
+    /// The name of the part in the file.
     pub name: String,
-    /// Names and values.
+    /// The names and values of the properties.
     pub rows: Vec<(&'static str, String)>,
 }
 
 /// A finding of the checks.
 pub use lobe_ops::check::Finding;
 
-/// How many incidences are worth a button.
+/// The largest number of incidences with a button in the page.
 const MOST: usize = 8;
 
-/// The word of a kind of scatter.
+/// The word for a kind of scatter.
 pub(crate) fn scatter_word(scatter: Scatter) -> &'static str {
     match scatter {
         Scatter::Reflection => "reflection",
@@ -87,7 +87,7 @@ pub(crate) fn blocks(document: &Document) -> Vec<Block> {
     describe(document).iter().map(block).collect()
 }
 
-/// What a material is.
+/// The facts of a material.
 pub fn facts(opened: &Opened) -> Facts {
     let subject = &opened.subject;
     let (measured, material) = (subject.measured(), subject.material());
@@ -122,7 +122,8 @@ pub fn facts(opened: &Opened) -> Facts {
     }
 }
 
-/// What `lobe check` finds. With `quickly`, integrals are over fewer incidences and as many directions as take seconds.
+/// The findings of `lobe check`. If `quickly`, integrals are over fewer incidences and directions, so that they take
+/// seconds.
 pub fn findings(opened: &Opened, quickly: bool) -> Vec<Finding> {
     let thoroughness = match quickly {
         true => Thoroughness { incidences: 12, evaluations: 40_000, pairs: 4_000, ..Thoroughness::default() },

@@ -11,8 +11,9 @@ use crate::{Opened, Request};
 /// Numbers per point of [`curve`].
 pub const CURVE_ROW: usize = 3;
 
-/// The curve in the plane of incidence for light at `sigma`: for each viewing angle the angle in radians, positive away from
-/// the light; the value; and 1 if it lies within the measurement, plus 2 if it was measured at this very angle.
+/// The curve in the plane of incidence for light at `sigma`. Each point has three numbers: the viewing angle in
+/// radians, positive away from the light; the value; and a flag, which is 1 if the angle lies within the measurement,
+/// plus 2 if it was itself measured.
 ///
 /// # Errors
 /// If the request does not fit the material.
@@ -38,14 +39,14 @@ pub struct Spectrum {
     pub theta: f64,
     /// Wavelengths in nm, ascending.
     pub nm: Vec<f64>,
-    /// The value at each.
+    /// The value at each wavelength.
     pub f: Vec<f32>,
-    /// Whether they lie within the measurement.
+    /// `true` if the pair of directions lies within the measurement.
     pub is_measured: bool,
 }
 
-/// Spectra for light at `sigma` at the viewing angles given, or at some about the mirror direction; none of a material without
-/// wavelengths.
+/// Spectra for light at `sigma` and the viewing angles `thetas`, or some around the mirror direction if `thetas` is
+/// empty. A material without wavelengths has none.
 ///
 /// # Errors
 /// If the request does not fit the material.
@@ -67,7 +68,8 @@ pub fn spectra(opened: &Opened, request: &Request, sigma: f64, thetas: &[f64]) -
     Ok(of_scatter.map(ascending).collect())
 }
 
-/// Directional albedos: for each incidence its polar angle in radians, the value of the quantity, and linear sRGB.
+/// Directional albedos. Each incidence has five numbers: its polar angle in radians, the albedo of the quantity, and
+/// the albedo as linear sRGB.
 ///
 /// # Errors
 /// If the request does not fit the material.
@@ -78,7 +80,7 @@ pub fn albedo_rows(opened: &Opened, request: &Request, sigmas: &[f64]) -> Result
     Ok(found.flat_map(|albedo| [albedo.sigma, albedo.value].into_iter().chain(albedo.rgb)).collect())
 }
 
-/// The curve of all channels as a table: CSV with a line that says what the columns are.
+/// The curve of all channels as CSV with a header line.
 ///
 /// # Errors
 /// If the request does not fit the material.
@@ -111,10 +113,11 @@ pub fn table(opened: &Opened, request: &Request, sigma: f64) -> Result<String, S
     Ok(out)
 }
 
-/// A figure of `lobe plot` of one or more materials as SVG: `curves`, `polar`, `channels`, `spectra`, `slices` or `sphere`.
+/// A figure of one or more materials as SVG, as drawn by `lobe plot`: `curves`, `polar`, `channels`, `spectra`,
+/// `slices` or `sphere`.
 ///
 /// # Errors
-/// If there is no such figure, or the materials have none.
+/// If there is no such figure, a request does not fit its material, or the figure cannot show the materials.
 pub fn figure(opened: &[&Opened], requests: &[Request], kind: &str, sigmas: &[f64]) -> Result<String, String> {
     let kinds = [Figure::Curves, Figure::Polar, Figure::Channels, Figure::Spectra, Figure::Slices, Figure::Sphere];
     let names: Vec<(String, Figure)> = kinds.into_iter().map(|kind| (kind.to_string(), kind)).collect();

@@ -1,4 +1,4 @@
-//! The hemisphere as a map.
+//! Maps of the outgoing hemisphere.
 
 use lobe_colour::ToneMap;
 use lobe_plot::{Scale, Scaling, Silent, from_disk, incident, slice, to_disk};
@@ -14,15 +14,15 @@ pub enum Quantities {
     Values,
     /// The colours of the material, relative to a perfect white.
     Colours,
-    /// The degree of linear polarisation of what unpolarised light becomes, in false colours.
+    /// The degree of linear polarisation of scattered light if the incident light is unpolarised, in false colours.
     Polarisation,
 }
 
 impl Quantities {
-    /// From `values`, `colours` or `dolp`.
+    /// Parses `values`, `colours` or `dolp`; an empty text is `values`.
     ///
     /// # Errors
-    /// If it is another word.
+    /// If `text` is another word.
     pub fn parse(text: &str) -> Result<Self, String> {
         let words =
             [("values", Quantities::Values), ("colours", Quantities::Colours), ("dolp", Quantities::Polarisation)];
@@ -30,22 +30,22 @@ impl Quantities {
     }
 }
 
-/// All outgoing directions of one incidence: a square around the disk of Lambert's equal-area projection, rows from the top, the
-/// light on the left.
+/// A map of all outgoing directions for one incidence: a square around the disk of Lambert's equal-area projection,
+/// with rows from the top and the light on the left.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Map {
     /// Pixels along each side.
     pub size: usize,
-    /// The number of each pixel: in 1/sr, a degree from 0 to 1, or a difference. NaN outside of the disk, and in maps of colours
-    /// the quantity of the request.
+    /// The value of each pixel: the quantity of the request in 1/sr (also in maps of colours), a degree of polarisation
+    /// from 0 to 1, or a difference. NaN outside the disk.
     pub values: Vec<f32>,
     /// Four bytes per pixel: red, green, blue and opacity.
     pub rgba: Vec<u8>,
-    /// The values at both ends of the false colours.
+    /// The values at the two ends of the false colours.
     pub range: [f64; 2],
-    /// 1 for each pixel that lies within the measurement.
+    /// 1 for each pixel that lies within the measurement, and 0 elsewhere.
     pub measured: Vec<u8>,
-    /// Where the light and the mirror direction, or the straight-through ray, are in the square `[-1, 1]`, y up.
+    /// The positions of the light and of the mirror or straight-through direction, in the square `[-1, 1]` with y up.
     pub marks: [[f64; 2]; 2],
 }
 
@@ -54,7 +54,7 @@ pub(crate) fn marks(Showing { view, .. }: &Showing, sigma: f64) -> [[f64; 2]; 2]
     [view.psi, view.psi + std::f64::consts::PI].map(|psi| to_disk(view.side, view.psi, incident(view.side, sigma, psi)))
 }
 
-/// A direction of a map and what the material does there.
+/// A direction in a map, and the values of the material there.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Probe {
     /// Toward the light.
@@ -69,14 +69,14 @@ pub struct Probe {
     pub value: f32,
     /// All channels, in 1/sr; the first 64 if there are more.
     pub channels: Vec<f32>,
-    /// Whether it lies within the measurement.
+    /// `true` if the direction lies within the measurement.
     pub is_measured: bool,
 }
 
-/// The most channels that are worth showing next to a pointer.
+/// The largest number of channels shown next to a pointer.
 const SHOWN: usize = 64;
 
-/// What there is at a point of the square `[-1, 1]` of a map, y up; nothing outside of the disk.
+/// The direction and the values at a point of a map, in the square `[-1, 1]` with y up; `None` outside the disk.
 ///
 /// # Errors
 /// If the request does not fit the material.
@@ -93,10 +93,10 @@ pub fn probe(opened: &Opened, request: &Request, sigma: f64, [x, y]: [f64; 2]) -
     Ok(Some(Probe { wi, wo, theta, phi, value, channels: texel, is_measured }))
 }
 
-/// The map for light at `sigma`. Pixels that are only continued are half as opaque.
+/// The map for light at `sigma`. Pixels outside the measurement are half as opaque.
 ///
 /// # Errors
-/// If the request does not fit the material, or it has no polarisation.
+/// If the request does not fit the material, or `what` is the polarisation and the material is not polarised.
 pub fn map(
     opened: &Opened,
     request: &Request,
@@ -129,7 +129,7 @@ pub fn map(
             let material = opened.subject.material();
             if !material.is_polarised() {
                 return Err(format!(
-                    "{}: found no Mueller matrices; expected some for a degree of polarisation",
+                    "{}: found no Mueller matrices; expected them for a degree of polarisation",
                     opened.subject.name()
                 ));
             }
@@ -144,7 +144,7 @@ pub fn map(
                 let mut matrices = vec![0.0; wo.len() * 16 * channels];
                 material.mueller_batch(&vec![wi; wo.len()], &wo, &mut matrices);
                 for (place, matrices) in places.iter().zip(matrices.chunks_exact(16 * channels)) {
-                    // Row by row: what S1 and S2 become of unpolarised light, over what S0 becomes.
+                    // Matrices are stored row by row. For unpolarised light: scattered S1 and S2 over scattered S0.
                     let [m00, m10, m20] = [0, 4, 8].map(|row| matrices[16 * channel + row]);
                     values[place.at] = if m00 > 0.0 { (m10.hypot(m20) / m00).min(1.0) } else { 0.0 };
                 }
@@ -164,7 +164,7 @@ pub(crate) struct Place {
     pub wo: [f32; 3],
 }
 
-/// The pixels inside of the disk.
+/// The pixels inside the disk.
 pub(crate) fn places(Showing { view, scatter, .. }: &Showing, size: usize) -> Vec<Place> {
     let centre = |pixel: usize| 2.0 * (pixel as f64 + 0.5) / size as f64 - 1.0;
     let place = |at: usize| {
@@ -174,10 +174,10 @@ pub(crate) fn places(Showing { view, scatter, .. }: &Showing, size: usize) -> Ve
     (0..size * size).filter_map(place).collect()
 }
 
-/// Pairs that are evaluated at once.
+/// The number of pairs that are evaluated at once.
 const AT_ONCE: usize = 2048;
 
-/// Calls `see` with each pixel and the value there.
+/// Calls `see` with the index and the channels of each pixel.
 pub(crate) fn each(
     opened: &Opened,
     wi: [f32; 3],
@@ -196,7 +196,7 @@ pub(crate) fn each(
     }
 }
 
-/// The ramp of the figures of `lobe plot`.
+/// The false colours of the figures of `lobe plot`; NaN is transparent.
 pub(crate) fn false_colours(values: &[f32], scale: &Scale, opacity: impl Fn(usize) -> u8) -> Vec<u8> {
     let colour = |(at, value): (usize, &f32)| match value.is_nan() {
         true => [0; 4],

@@ -1,12 +1,13 @@
 //! The explorer: measured materials in a browser, on the same kernels and with the same bits as the program.
 //!
-//! A [`Session`] holds the files of a page and the materials opened of them. Everything that the page shows is asked of it:
-//! facts, findings, curves, maps, pictures, differences, converted files. `border.rs` hands that on to JavaScript as numbers,
-//! typed arrays and JSON; it is the only file that is compiled for browsers only, so that the rest is tested like any library.
-//! The page itself is in `page/`, and computes nothing that is asked here.
+//! A [`Session`] holds the files of a page and the materials opened from them. From these materials the other functions
+//! compute everything that the page shows: facts, findings, curves, maps, pictures, differences and converted files.
+//! `border.rs` passes the results to JavaScript as numbers, typed arrays and JSON. It is the only file that is compiled
+//! for browsers only, so the rest can be tested like any other library. The page itself, in `page/`, leaves these
+//! computations to the library.
 //!
-//! Conventions are those of the other crates: directions point away from the surface, normal on +z; angles are radians; values
-//! are `f` in 1/sr, without the cosine. Errors are sentences of the libraries.
+//! The conventions are those of the other crates: directions point away from the surface, whose normal is +z; angles
+//! are in radians; values are `f` in 1/sr, without the cosine. Errors are the messages of the libraries.
 #![cfg_attr(not(target_arch = "wasm32"), forbid(unsafe_code))]
 
 #[cfg(target_arch = "wasm32")]

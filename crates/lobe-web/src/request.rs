@@ -1,4 +1,4 @@
-//! What a page asks to see, in words.
+//! The requests of a page: what to show of a material, in words.
 
 use lobe::{Aspect, Scatter, Side};
 use lobe_colour::Reduction;
@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use crate::Opened;
 
-/// What to show of a material, as a page says it; what it leaves out is chosen.
+/// What a page asks to see of a material. Missing entries have defaults that depend on the material.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Request {
@@ -17,36 +17,36 @@ pub struct Request {
     pub scatter: String,
     /// The azimuth of the light in radians.
     pub psi: Option<f64>,
-    /// The name of a channel; all of them as one number if it is empty.
+    /// The name of a channel. If it is empty, all channels are reduced to one value.
     pub channel: String,
     /// `linear` or `log`.
     pub scale: String,
 }
 
-/// A request that a material can answer.
+/// A request resolved for a material.
 #[derive(Clone, Debug)]
 pub struct Showing {
     /// The view of `lobe-plot`.
     pub view: View,
     /// Reflection or transmission.
     pub scatter: Scatter,
-    /// How values are spread.
+    /// The scale of values, linear or logarithmic.
     pub scaling: Scaling,
 }
 
 impl Request {
-    /// From JSON.
+    /// Parses JSON.
     ///
     /// # Errors
-    /// If it is none, or of other keys.
+    /// If `json` is not valid JSON, or has unknown keys.
     pub fn parse(json: &str) -> Result<Self, String> {
-        serde_json::from_str(json).map_err(|error| format!("found a request that is none ({error}); expected JSON"))
+        serde_json::from_str(json).map_err(|error| format!("found an invalid request ({error}); expected JSON"))
     }
 
-    /// What it means for a material.
+    /// Resolves the request for a material.
     ///
     /// # Errors
-    /// If a word is unknown, or the material has nothing like it.
+    /// If a word is unknown, or the material was not measured in the requested way.
     pub fn of(&self, opened: &Opened) -> Result<Showing, String> {
         let subject = &opened.subject;
         let mut view = View::new(subject);
@@ -64,7 +64,7 @@ impl Request {
         let words = [("reflection", Scatter::Reflection), ("transmission", Scatter::Transmission)];
         let scatter = match word(&self.scatter, &words)? {
             Some(scatter) if scatters.contains(&scatter) => scatter,
-            Some(_) => return Err(format!("found no {}; expected what was measured", self.scatter)),
+            Some(_) => return Err(format!("found no {}; expected a kind of scatter that was measured", self.scatter)),
             None => scatters.first().copied().unwrap_or(Scatter::Reflection),
         };
         Ok(Showing { scaling: view.scaling.unwrap_or(Scaling::Log), view, scatter })
@@ -77,13 +77,13 @@ impl Showing {
         Aspect { scatter: self.scatter, light: self.view.side }
     }
 
-    /// The colours that are shown.
+    /// The reduction of channels to the colours that are shown.
     pub fn colour(&self) -> &Reduction {
         &self.view.colour
     }
 }
 
-/// What a word means; nothing if it is empty.
+/// Looks up a word among `words`; `None` if it is empty.
 pub(crate) fn word<T: Copy>(word: &str, words: &[(&str, T)]) -> Result<Option<T>, String> {
     if word.is_empty() {
         return Ok(None);

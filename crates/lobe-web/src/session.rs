@@ -1,4 +1,4 @@
-//! The files of a page, and the materials opened of them.
+//! The files of a page, and the materials opened from them.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -12,15 +12,15 @@ use crate::held::held;
 /// A material of a page.
 #[derive(Debug)]
 pub struct Opened {
-    /// The path of its file or folder among those of the page.
+    /// The path of its file or folder among the files of the page.
     pub path: PathBuf,
-    /// How large that is.
+    /// The size of its files in bytes.
     pub bytes: u64,
-    /// What it holds.
+    /// The document and the material, prepared for figures.
     pub subject: Subject,
 }
 
-/// The files of a page, and the materials opened of them, by number.
+/// The files of a page, and the materials opened from them, by number.
 #[derive(Debug, Default)]
 pub struct Session {
     files: Files,
@@ -29,26 +29,26 @@ pub struct Session {
 }
 
 impl Session {
-    /// Nothing.
+    /// Creates a session without files.
     pub fn new() -> Self {
         Session::default()
     }
 
-    /// Adds a file, or replaces that of the same path. What is open stays as it is.
+    /// Adds a file, or replaces the one at the same path. Materials that are open do not change.
     pub fn add(&mut self, path: &str, bytes: Vec<u8>) {
         self.files.insert(path.into(), bytes);
     }
 
-    /// Forgets a file.
+    /// Removes a file.
     pub fn remove(&mut self, path: &str) {
         self.files.remove(Path::new(path));
     }
 
-    /// Opens a file, or a folder of files that are one material, as `lobe` does on disk: packed files, files next to it that
-    /// say how it is read, and all formats included. Returns its number.
+    /// Opens a file, or a folder of files that form one material, as `lobe` does on disk: packed files, sidecars and
+    /// all formats work. Returns the number of the material.
     ///
     /// # Errors
-    /// The sentence that the program would say.
+    /// The message that the program would report.
     pub fn open(&mut self, path: &str) -> Result<u32, String> {
         let path = PathBuf::from(path);
         let files = std::mem::take(&mut self.files);
@@ -82,7 +82,7 @@ impl Session {
         inside.map(|(_, bytes)| bytes.len() as u64).sum()
     }
 
-    /// The material of a number.
+    /// The material with this number.
     ///
     /// # Errors
     /// If there is none.
@@ -90,7 +90,7 @@ impl Session {
         self.opened.get(&number).ok_or_else(|| format!("found no material {number}; expected one that is open"))
     }
 
-    /// Forgets a material.
+    /// Closes a material.
     pub fn close(&mut self, number: u32) {
         self.opened.remove(&number);
     }
@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn files_open_by_their_content_and_damage_is_told_in_the_words_of_the_program() {
+    fn files_open_by_their_content_and_errors_are_those_of_the_program() {
         let mut session = Session::new();
         for (format, bytes) in lobe_testing::examples::all() {
             let name = format!("example.{}", format.spec().extensions.first().unwrap_or(&"txt"));
@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_is_one_material_and_a_file_next_to_another_says_how_it_is_read() {
+    fn a_folder_is_one_material_and_a_file_is_read_with_its_sidecar() {
         let mut session = Session::new();
         session.add("scan/a.txt", lobe_testing::examples::RPC.into());
         session.add("scan/b.txt", lobe_testing::examples::RPC.replace("5.000", "35.000").into());

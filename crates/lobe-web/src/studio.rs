@@ -1,4 +1,4 @@
-//! Pictures of a material, path-traced while one looks, and a quick one while something is dragged.
+//! Pictures of a material: path-traced while they are shown, and a quick one while the lamp is dragged.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use serde::Deserialize;
 use crate::request::word;
 use crate::{Opened, Request};
 
-/// What a picture is to show, as a page says it.
+/// What a page asks a picture to show.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct StudioRequest {
@@ -21,21 +21,21 @@ pub struct StudioRequest {
     pub form: String,
     /// `studio`, `overcast`, `dusk` or `dark`.
     pub sky: String,
-    /// Toward the lamp: right, up, toward the viewer.
+    /// The direction toward the lamp: right, up, toward the viewer.
     pub toward: [f32; 3],
-    /// Columns and rows.
+    /// The columns and rows of pixels.
     pub size: [u32; 2],
     /// Samples per pixel.
     pub samples: u32,
 }
 
 impl StudioRequest {
-    /// From JSON.
+    /// Parses JSON.
     ///
     /// # Errors
-    /// If it is none, or of other keys.
+    /// If `json` is not valid JSON, or has unknown keys.
     pub fn parse(json: &str) -> Result<Self, String> {
-        serde_json::from_str(json).map_err(|error| format!("found a request that is none ({error}); expected JSON"))
+        serde_json::from_str(json).map_err(|error| format!("found an invalid request ({error}); expected JSON"))
     }
 
     fn form(&self) -> Result<Form, String> {
@@ -48,11 +48,11 @@ impl StudioRequest {
     }
 }
 
-/// The most columns and rows, and samples per pixel.
+/// The largest number of columns or rows, and of samples per pixel.
 const LARGEST: u32 = 2048;
 const MOST: u32 = 4096;
 
-/// A picture that becomes better with time.
+/// A picture that is rendered in steps.
 #[derive(Debug)]
 pub struct Studio {
     world: Option<World>,
@@ -64,17 +64,18 @@ pub struct Studio {
     is_done: bool,
 }
 
-/// Bytes of the distributions that directions are sampled from: enough for sharp lobes, and built in a second.
+/// The size in bytes of the distributions that directions are sampled from: enough for sharp lobes, and built within a
+/// second.
 const DISTRIBUTIONS: usize = 4 << 20;
 
 impl Studio {
-    /// The stage with a material on it.
+    /// Puts a material on the stage.
     ///
     /// # Errors
-    /// If the material cannot be sampled, or the request makes no sense.
+    /// If the material cannot be sampled, or the request is invalid.
     pub fn new(opened: &Opened, request: &StudioRequest) -> Result<Self, String> {
         let backend = Backend::detect().map_err(|error| error.to_string())?;
-        // As in `lobe preview`: bins are interpolated, and light is looked for from the camera.
+        // As in `lobe preview`: bins are interpolated, and paths begin at the camera.
         let options = Options { lookup: Lookup::Linear, indexed_by: lobe::Given::Viewer, ..Options::default() };
         let document = &opened.subject.measured().document;
         let material = Material::from_document(document, &options).map_err(|error| error.to_string())?;
@@ -89,10 +90,11 @@ impl Studio {
         Ok(Studio { world: Some(world), camera, form, lighting, settings, film, is_done: false })
     }
 
-    /// Begins the picture again with another lamp, sky or size. `false` if the shape is another, which takes a new studio.
+    /// Restarts the picture with another lamp, sky or size. Returns `false` if the shape differs, which takes a new
+    /// studio.
     ///
     /// # Errors
-    /// If the request makes no sense.
+    /// If the request is invalid.
     pub fn change(&mut self, request: &StudioRequest) -> Result<bool, String> {
         if request.form()? != self.form {
             return Ok(false);
@@ -109,10 +111,10 @@ impl Studio {
         Ok(true)
     }
 
-    /// Adds samples as long as `goes_on` says so. Returns how many samples every pixel has.
+    /// Adds samples as long as `goes_on` returns `true`. Returns the number of samples that every pixel has.
     ///
     /// # Errors
-    /// If nothing can be rendered.
+    /// If the picture cannot be rendered.
     pub fn step(&mut self, goes_on: impl FnMut() -> bool) -> Result<u32, String> {
         let (Some(world), Some(film)) = (&self.world, self.film.take()) else { return Ok(0) };
         let step = render_until(world, &self.settings, film, goes_on).map_err(|error| error.to_string())?;
@@ -122,12 +124,12 @@ impl Studio {
         Ok(samples)
     }
 
-    /// Whether every pixel has all of its samples.
+    /// Returns `true` if every pixel has all of its samples.
     pub fn is_done(&self) -> bool {
         self.is_done
     }
 
-    /// The picture as it is, at an exposure in stops: four bytes per pixel, rows from the top; those without a sample are
+    /// The picture so far, at an exposure in stops: four bytes per pixel, rows from the top. Pixels without samples are
     /// transparent.
     pub fn picture(&self, exposure: f32) -> Vec<u8> {
         let tone = ToneMap { exposure };
@@ -139,7 +141,7 @@ impl Studio {
         film.colours().zip(film.pixels()).flat_map(pixel).collect()
     }
 
-    /// Columns and rows.
+    /// The columns and rows of pixels.
     pub fn size(&self) -> [u32; 2] {
         self.settings.size
     }
@@ -150,7 +152,7 @@ fn settings(camera: Camera, request: &StudioRequest, backend: Backend) -> Result
     if !size.iter().all(|n| (1..=LARGEST).contains(n)) || !(1..=MOST).contains(&samples) {
         let [width, height] = size;
         return Err(format!(
-            "found {width} x {height} pixels of {samples} samples; expected up to {LARGEST} x {LARGEST} of 1 to {MOST}"
+            "found {width} x {height} pixels, {samples} samples; expected 1 to {LARGEST} per side, 1 to {MOST} samples"
         ));
     }
     Ok(Settings {
@@ -166,18 +168,18 @@ fn settings(camera: Camera, request: &StudioRequest, backend: Backend) -> Result
     })
 }
 
-/// A ball that is drawn anew for every place of the lamp.
+/// A ball that is redrawn for every position of the lamp.
 #[derive(Clone, Debug)]
 pub struct Ball {
     size: usize,
     ball: lobe_plot::Ball,
 }
 
-/// The radius of the ball over half of the height of the picture: that of the ball on the stage, roughly.
+/// The radius of the ball over half the height of the picture, roughly that of the ball on the stage.
 const SHARE: f32 = 0.6;
 
 impl Ball {
-    /// A ball in a square of that many pixels.
+    /// A ball in a square picture with `size` pixels along each side.
     pub fn new(size: usize) -> Self {
         let size = size.clamp(1, LARGEST as usize);
         Ball { size, ball: lobe_plot::Ball::new(size, SHARE) }
@@ -188,10 +190,10 @@ impl Ball {
         self.size
     }
 
-    /// Four bytes per pixel, rows from the top, transparent around the ball.
+    /// The picture of the ball: four bytes per pixel, rows from the top, transparent around the ball.
     ///
     /// # Errors
-    /// If the request does not fit the material, or the lamp is nowhere.
+    /// If the request does not fit the material, or the lamp has no direction.
     pub fn picture(
         &self,
         opened: &Opened,
@@ -202,7 +204,7 @@ impl Ball {
         let view = request.of(opened)?.view;
         let length = toward.iter().map(|c| c * c).sum::<f32>().sqrt();
         if !(length.is_finite() && length > 0.0) {
-            return Err(format!("found the lamp toward {toward:?}; expected a direction of a length other than 0"));
+            return Err(format!("found the lamp toward {toward:?}; expected a finite direction other than 0"));
         }
         Ok(self.ball.picture(&opened.subject, &view, toward.map(|c| c / length), exposure).rgba)
     }
@@ -214,7 +216,7 @@ mod tests {
     use crate::Session;
 
     #[test]
-    fn a_picture_becomes_better_and_follows_the_lamp() {
+    fn a_picture_is_refined_and_follows_the_lamp() {
         let mut session = Session::new();
         session.add("paint.ddr", std::fs::read(lobe_testing::files::fixture("paint-12x21x13.ddr")).unwrap());
         let number = session.open("paint.ddr").unwrap();

@@ -11,10 +11,10 @@ use crate::{Opened, Request};
 /// Numbers per vertex of [`surface`]: x, y, z and the value.
 pub const SURFACE_ROW: usize = 4;
 
-/// The surface whose distance from the origin is the value for light at `sigma`, over the largest value, or the place of the value
-/// on a logarithmic axis: a grid of `rows + 1` rings from the pole to the horizon by `columns + 1` azimuths, `[ring][azimuth]`.
-/// The pole of the rings is the mirror direction, or the straight-through ray, about which they are densest; the horizon of the
-/// last ring is that of the surface.
+/// The lobe for light at `sigma` as a surface, whose distance from the origin is the value relative to the largest one,
+/// or the position of the value on a logarithmic axis. It is a grid of `rows + 1` rings by `columns + 1` azimuths,
+/// `[ring][azimuth]`. The rings begin at the mirror or straight-through direction, around which they are densest, and
+/// end at the horizon.
 ///
 /// # Errors
 /// If the request does not fit the material.
@@ -31,7 +31,7 @@ pub fn surface(
         _ => -1.0,
     };
     let wi = incident(view.side, sigma, view.psi);
-    // The pole, and two directions across it.
+    // The pole of the rings, and two directions perpendicular to it.
     let pole = [-wi[0], -wi[1], up * wi[2].abs()];
     let along = [-(view.psi.cos()) * sigma.cos(), -(view.psi.sin()) * sigma.cos(), -up * sigma.sin()];
     let across = [-view.psi.sin(), view.psi.cos(), 0.0];
@@ -45,7 +45,7 @@ pub fn surface(
             let end = (pole[2] * up).atan2(-away[2] * up).clamp(0.0, PI);
             let end = if pole[2].abs() < 1e-9 { FRAC_PI_2 } else { end };
             let t = ring as f64 / rows as f64;
-            // Squares of the share: a tenth of the rings is within a hundredth of the way.
+            // Quadratic spacing: a tenth of the rings lie within a hundredth of the way.
             let theta = end * t * t;
             let (sin, cos) = theta.sin_cos();
             let wo: [f64; 3] = std::array::from_fn(|k| cos * pole[k] + sin * away[k]);
@@ -60,7 +60,7 @@ pub fn surface(
     let scale = match showing.scaling {
         Scaling::Log => {
             let scale = Scale::around(values.iter().map(|f| f64::from(*f)), Scaling::Log);
-            // Four decades of radius show a lobe; more make a ball of it.
+            // Four decades show the shape of a lobe; with more, it would look like a ball.
             Scale { low: scale.low.max(scale.high * 1e-4), ..scale }
         }
         Scaling::Linear => {
