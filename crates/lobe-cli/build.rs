@@ -1,8 +1,5 @@
-//! Puts the explorer into the program, if `cargo xtask web --embed` has put it next to this file; `lobe view` looks for it
-//! elsewhere if not.
-//!
-//! The folder is in the repository, empty but for a hidden file: if it were missing, cargo would take it for changed, and build
-//! the program anew with every command.
+//! Embeds the explorer in the program if `cargo xtask web --embed` has put it next to this file; otherwise `lobe view`
+//! looks for it elsewhere.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

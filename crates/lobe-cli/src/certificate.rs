@@ -1,4 +1,4 @@
-//! The error of a written file, as `lobe compare` finds it.
+//! The error of a written file, measured as by `lobe compare`.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -12,21 +12,21 @@ use serde::Serialize;
 use crate::failure::Failure;
 use crate::target::Target;
 
-/// The file that is converted.
+/// The file that is being converted.
 pub struct Source<'a> {
     subject: Subject,
     file: &'a Path,
     channel: Option<&'a str>,
 }
 
-/// What was found.
+/// The errors found, one per measurement.
 #[derive(Serialize)]
 #[serde(transparent)]
 pub struct Certificate(Vec<Certified>);
 
 impl<'a> Source<'a> {
-    /// The document of a file, of which only one channel may be written. `None` if it has no values for pairs of
-    /// directions.
+    /// Takes the document of a file, of which only `channel` is written if there is one. `None` if the document has no
+    /// values for pairs of directions.
     pub fn new(file: &'a Path, document: &Document, target: Target, channel: Option<&'a str>) -> Option<Self> {
         let options = Options::default();
         let material = Material::from_document(document, &options).ok()?;
@@ -44,7 +44,7 @@ impl<'a> Source<'a> {
         self.file.file_name().unwrap_or_default().to_string_lossy()
     }
 
-    /// Compares a file with this one. `None` if they have no channels, no colours or no side in common.
+    /// Compares a written file with the source. `None` if they have no channels, no colours or no side in common.
     pub fn certify(&self, written: &Path) -> Result<Option<Certificate>, Failure> {
         let written = Subject::open(written, &Options::default())?;
         let certified = certify(&self.subject, &written, self.channel, PAIRS).ok();
@@ -75,7 +75,7 @@ impl<'a> Source<'a> {
 
     /// The reason why an error cannot be bounded.
     pub fn no_bound(&self, out: &Path) -> Failure {
-        let expected = "a format that lobe reads, with a side, and channels or colours, that the source has too";
+        let expected = "a format that lobe reads, and a side and channels or colours that the source also has";
         Failure::Usage(format!("{}: found nothing to compare with the source; expected {expected}", out.display()))
     }
 }
@@ -86,15 +86,15 @@ impl Certificate {
         worst(&self.0)
     }
 
-    /// A line of text for each measurement.
+    /// One line of text per measurement.
     pub fn lines(&self) -> impl Iterator<Item = String> {
         let is_one = self.0.len() == 1;
         self.0.iter().map(move |Certified { aspect, difference }| {
             let (pairs, max, rms) = (difference.pairs, difference.max, difference.rms);
             let prefix = if is_one { String::new() } else { format!("{aspect}: ") };
             format!(
-                "{prefix}off the source by at most {max:.3e} 1/sr, rms {rms:.3e} 1/sr ({:.3} %), at {pairs} pairs up to \
-                 {LIMIT} degrees",
+                "{prefix}differs from the source by at most {max:.3e} 1/sr, rms {rms:.3e} 1/sr ({:.3} %), at {pairs} \
+                 pairs up to {LIMIT} degrees",
                 100.0 * difference.relative_rms
             )
         })

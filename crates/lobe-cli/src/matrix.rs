@@ -14,16 +14,16 @@ use crate::message::{self, say};
 /// Multiply matrices of a view, transmission and daylight for a sky, as Radiance's dctimestep does.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Each matrix is a file of Radiance (NROWS, NCOLS and NCOMP in its header; ascii, float or double), or of the transmission a WINDOW XML file with Klems matrices. A sky without a header has a row per patch. Components are multiplied each by itself.
+    after_help = "Each matrix is a Radiance matrix file (NROWS, NCOLS and NCOMP in its header; ascii, float or double). The transmission may also be a WINDOW XML file with Klems matrices. A sky without a header has one row per patch. Each component is multiplied separately.
 
-A WINDOW file counts with its Visible band, or in colour with CIE-X and CIE-Z too, for light that arrives at its front; trees become matrices with `lobe convert --to klems --basis full`.
+Of a WINDOW file, the Visible band is used for light that arrives at its front, with CIE-X and CIE-Z for colour if it has them. Convert tensor trees with `lobe convert --to klems --basis full` first.
 
 Examples:
-  lobe matrix v.mtx t.xml d.mtx s.mtx                   three phases, for every hour of the sky
-  lobe matrix d.mtx s.mtx -o lit.mtx --format float     two phases
+  lobe matrix v.mtx t.xml d.mtx s.mtx                   three-phase method, for every hour of the sky
+  lobe matrix d.mtx s.mtx -o lit.mtx --format float     two-phase method
   lobe matrix v.mtx t.xml d.mtx s.mtx --minus vd.mtx,t.xml,dd.mtx,s.mtx --plus c.mtx,sun.mtx
 
-The last example has five phases."
+The last example is the five-phase method."
 )]
 pub struct Args {
     /// The factors, from left to right.
@@ -70,7 +70,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let [a, b] = [&result, &other].map(shape);
         result = result.plus(&other, *sign).ok_or_else(|| {
             let (first, second) = (names(&args.factors), names(files));
-            Failure::Usage(format!("{second}: found {b}; expected {a}, as the product of {first} has"))
+            Failure::Usage(format!("{second}: found {b}; expected {a}, like the product of {first}"))
         })?;
     }
     let format = match args.format {
@@ -108,18 +108,18 @@ fn multiplied(files: &[PathBuf]) -> Result<Matrix, Failure> {
     product(&matrices).map_err(|error| {
         let shown = |index: usize| format!("{} ({})", files[index].display(), shape(&matrices[index]));
         Failure::Usage(match error {
-            Shapes::Inner { index, columns, .. } => {
-                format!("{}: found after it {}; expected {columns} rows", shown(index), shown(index + 1))
+            Shapes::Inner { index, columns, rows } => {
+                format!("{}, after {}: found {rows} rows; expected {columns}", shown(index + 1), shown(index))
             }
-            Shapes::Components { index, expected, .. } => {
-                format!("{}: expected 1 or {expected} components, as before", shown(index))
+            Shapes::Components { index, found, expected } => {
+                format!("{}: found {found} components; expected 1 or {expected}, as before", shown(index))
             }
             Shapes::Empty => error.to_string(),
         })
     })
 }
 
-/// A matrix of Radiance, or the transmission of a WINDOW file.
+/// Reads a Radiance matrix, or the transmission of a WINDOW file.
 fn matrix(file: &Path) -> Result<Matrix, Failure> {
     let bytes = lobe_files::read(file)?;
     if !window_xml::matches(&bytes) {

@@ -1,8 +1,8 @@
-//! Opening the browser that the user has chosen.
+//! Opens the user's default browser.
 
 use std::process::{Command, Stdio};
 
-/// Opens an address in the browser; `false` if there is no program that does.
+/// Opens a URL in the default browser. Returns `false` if no program for that could be started.
 pub fn open(url: &str) -> bool {
     let commands: &[&[&str]] = if cfg!(target_os = "macos") {
         &[&["open"]]
@@ -20,7 +20,7 @@ pub fn open(url: &str) -> bool {
             .stdout(Stdio::null())
             .stderr(Stdio::null())
             .spawn();
-        // Whether it succeeds is not waited for: some of them run as long as the browser does.
+        // Not waited for: some of these programs run as long as the browser.
         started.is_ok()
     };
     commands.iter().any(opens)

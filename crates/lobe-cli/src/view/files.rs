@@ -1,4 +1,4 @@
-//! The files that are shown, and whether they have changed.
+//! The files to show, with stamps that change when the files do.
 
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
@@ -8,18 +8,18 @@ use serde::Serialize;
 
 use crate::failure::Failure;
 
-/// What was asked for: files and folders.
+/// The files and folders named on the command line.
 pub struct Shown {
     entries: Vec<PathBuf>,
 }
 
-/// A file or a folder, as the page is told of it.
+/// A file or a folder, as it is listed for the page.
 #[derive(Serialize)]
 struct Entry {
     path: String,
     #[serde(rename = "isFolder")]
     is_folder: bool,
-    /// Changes whenever a file does.
+    /// Changes whenever one of the files changes.
     stamp: String,
     files: Vec<Part>,
 }
@@ -31,13 +31,13 @@ struct Part {
 }
 
 impl Shown {
-    /// Files and folders, which must exist.
+    /// Checks that the files and folders exist.
     pub fn new(files: &[PathBuf]) -> Result<Self, Failure> {
         for file in files {
             if file.is_dir() {
                 continue;
             }
-            // A missing file, or something that is not a file, is an error before the browser opens.
+            // A missing file, or something that is not a file, is reported before the browser opens.
             let metadata = std::fs::metadata(file).map_err(|error| {
                 Failure::File(format!("{}: found {error}; expected a file that can be read", file.display()))
             })?;
@@ -49,7 +49,8 @@ impl Shown {
         Ok(Shown { entries: files.to_vec() })
     }
 
-    /// All files of all entries, in the order of their numbers: those of a folder, and files that say how another is read.
+    /// All files, each with the index of its entry: the files of a folder, or a file and its sidecar. The position of a
+    /// file in this list is its number in URLs.
     fn all(&self) -> Vec<(usize, PathBuf)> {
         let of = |(number, entry): (usize, &PathBuf)| {
             let files = match entry.is_dir() {
@@ -64,13 +65,13 @@ impl Shown {
         self.entries.iter().enumerate().flat_map(of).collect()
     }
 
-    /// The list as JSON.
+    /// The entries as JSON.
     pub fn list(&self) -> Result<Vec<u8>, String> {
         let all = self.all();
         let entry = |(number, path): (usize, &PathBuf)| {
             let is_folder = path.is_dir();
             let of_entry = || all.iter().enumerate().filter(|(_, (entry, _))| *entry == number);
-            // Entries of the same name in different folders are told apart by their numbers.
+            // Entries with the same name, from different folders, are numbered.
             let name = name(path);
             let again = self.entries.iter().take(number).filter(|other| self::name(other) == name).count();
             let shown = if again > 0 { format!("{name} ({})", again + 1) } else { name };
@@ -89,14 +90,14 @@ impl Shown {
         serde_json::to_vec(&entries).map_err(|error| error.to_string())
     }
 
-    /// The content of a file; `None` if no file has that number.
+    /// The contents of the file with this number; `None` if there is none.
     pub fn read(&self, number: usize) -> Option<Result<Vec<u8>, String>> {
         let (_, file) = self.all().into_iter().nth(number)?;
         Some(lobe_files::read(&file).map_err(|error| error.to_string()))
     }
 }
 
-/// The last part of a path.
+/// The last component of a path.
 fn name(path: &Path) -> String {
     let absolute = || std::path::absolute(path).ok()?.file_name().map(|name| name.to_string_lossy().into_owned());
     match path.file_name() {
@@ -105,7 +106,7 @@ fn name(path: &Path) -> String {
     }
 }
 
-/// What differs if a file was written: its name, its size and its time.
+/// A text that changes when the file is written: its name, size and modification time.
 fn stamp(file: &Path) -> String {
     let metadata = std::fs::metadata(file).ok();
     let size = metadata.as_ref().map_or(0, std::fs::Metadata::len);
@@ -118,7 +119,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn files_are_listed_with_what_belongs_to_them_and_stamps_change() {
+    fn files_are_listed_with_their_sidecars_and_stamps_change() {
         let folder = tempfile::tempdir().unwrap();
         let write = |name: &str, text: &str| {
             let path = folder.path().join(name);

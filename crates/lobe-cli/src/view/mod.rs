@@ -1,4 +1,4 @@
-//! `lobe view`: the explorer in a browser, with files of this computer.
+//! `lobe view`: shows local files in the explorer, in a browser.
 
 mod browser;
 mod files;
@@ -16,28 +16,28 @@ use crate::message;
 use files::Shown;
 use page::Page;
 
-/// Look at materials in the browser: curves, lobes, pictures, checks. The page follows the files when they change.
+/// Look at materials in the browser: curves, lobes, pictures, checks. The page is updated when the files change.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   lobe view cloth.ddr                       opens the browser
   lobe view paint.bsdf paint.ddr            two materials side by side
   lobe view scans --no-open --port 8087     a folder; the address is printed
 
-The page and the files are served on this computer only (127.0.0.1), until Ctrl-C. The files are read again when they change. The page needs no connection to anywhere else.")]
+The page and the files are served on this computer only (127.0.0.1), until Ctrl-C. Files are read again when they change. The page makes no other connections.")]
 pub struct Args {
-    /// Files of measured materials, of any format that lobe opens, or folders.
+    /// Files of measured materials, in any format that lobe reads, or folders.
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Do not open the browser.
     #[arg(long)]
     no_open: bool,
-    /// The port to listen on; 0 is any that is free.
+    /// The port to listen on; 0 means any free port.
     #[arg(long, value_name = "N", default_value_t = 0)]
     port: u16,
-    /// End after this time, such as 30m, rather than at Ctrl-C.
+    /// Stop after this time, such as 30m, rather than at Ctrl-C.
     #[arg(long = "for", value_name = "TIME", value_parser = humantime::parse_duration)]
     time: Option<Duration>,
-    /// A folder with the explorer, as `cargo xtask web` makes it [default: the one that this program was built with].
+    /// A folder with the explorer, as built by `cargo xtask web` [default: the explorer built into this program].
     #[arg(long, value_name = "FOLDER")]
     page: Option<PathBuf>,
 }
@@ -46,7 +46,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let page = Page::find(args.page.as_deref())?;
     let shown = Shown::new(&args.files)?;
-    // Nobody but this computer may ask for files of it.
+    // The loopback address only: other computers must not read files of this one.
     let server = Server::http(("127.0.0.1", args.port))
         .map_err(|error| Failure::File(format!("127.0.0.1:{}: {error}", args.port)))?;
     let Some(address) = server.server_addr().to_ip() else {
@@ -58,7 +58,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     out.flush()?;
     drop(out);
     if !args.no_open && !browser::open(&url) {
-        message::say(format_args!("found no browser to open; open {url}"));
+        message::say(format_args!("found no browser; open {url} in one"));
     }
     crate::interrupt::listen_quietly();
     let host = [format!("127.0.0.1:{}", address.port()), format!("localhost:{}", address.port())];
@@ -73,7 +73,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What is sent back.
+/// A response.
 struct Answer {
     code: u16,
     kind: &'static str,
@@ -86,12 +86,14 @@ impl Answer {
     }
 }
 
-/// Answers a request. Whoever has gone away in the meantime is not waited for.
+/// Answers a request. Errors are ignored, since they only mean that the client has disconnected.
 fn answer(request: Request, page: &Page, shown: &Shown, host: &[String]) {
     let answer = match () {
-        // A page of elsewhere may give this address a name of its own, and would read the files by it.
+        // A foreign page may point a host name of its own at this address to read the files (DNS rebinding).
         () if !is_from(&request, host) => Answer::text(403, "found another host; expected 127.0.0.1"),
-        () if !matches!(request.method(), Method::Get | Method::Head) => Answer::text(405, "expected GET"),
+        () if !matches!(request.method(), Method::Get | Method::Head) => {
+            Answer::text(405, "found another method; expected GET")
+        }
         () => content(request.url(), page, shown),
     };
     let mut response = Response::from_data(answer.bytes).with_status_code(answer.code);
@@ -109,13 +111,13 @@ fn answer(request: Request, page: &Page, shown: &Shown, host: &[String]) {
     let _ = request.respond(response);
 }
 
-/// Whether a request names this computer as its host.
+/// `true` if a request has exactly one `Host` header and it names this computer.
 fn is_from(request: &Request, host: &[String]) -> bool {
     let mut named = request.headers().iter().filter(|header| header.field.equiv("Host"));
     named.next().is_some_and(|header| host.iter().any(|host| header.value.as_str() == host)) && named.next().is_none()
 }
 
-/// What there is at an address: the list of files, one of them, or a part of the page.
+/// The response for a URL: the list of files, one of the files, or a part of the page.
 fn content(url: &str, page: &Page, shown: &Shown) -> Answer {
     let path = url.split(['?', '#']).next().unwrap_or_default().trim_start_matches('/');
     if path == "files.json" {

@@ -1,10 +1,10 @@
-//! Where the page is: in the program, or in a folder.
+//! The page of the explorer, which is built into the program or read from a folder.
 
 use std::path::{Component, Path, PathBuf};
 
 use crate::failure::Failure;
 
-/// The page that the program was built with; nothing if there was none.
+/// The parts of the page built into the program; empty if it was built without the page.
 static EMBEDDED: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/page.rs"));
 
 /// The environment variable that names a folder with the page.
@@ -17,15 +17,15 @@ pub enum Page {
 }
 
 impl Page {
-    /// The page of a folder that was asked for; or the one in the program; or that of a folder next to the program or of the
-    /// sources that it was built from.
+    /// Finds the page: in the folder that is asked for, or else that the environment variable names, or else in the
+    /// program, in a folder next to it, or in the sources that it was built from.
     pub fn find(asked: Option<&Path>) -> Result<Self, Failure> {
         let named = asked.map(Path::to_path_buf).or_else(|| std::env::var_os(VARIABLE).map(PathBuf::from));
         if let Some(folder) = named {
             return match is_page(&folder) {
                 true => Ok(Page::Folder(folder)),
                 false => Err(Failure::File(format!(
-                    "{}: found no index.html; expected the folder of a page that `cargo xtask web` made",
+                    "{}: found no index.html; expected a folder that `cargo xtask web` has made",
                     folder.display()
                 ))),
             };
@@ -42,20 +42,20 @@ impl Page {
         let candidates: Vec<PathBuf> = beside.into_iter().flatten().chain([built]).collect();
         candidates.into_iter().find(|folder| is_page(folder)).map(Page::Folder).ok_or_else(|| {
             Failure::File(format!(
-                "found no page: this program was built without the explorer; expected one. In the sources, `cargo xtask web` \
-                 builds it into target/web, and `cargo xtask web --embed` before `cargo install --path crates/lobe-cli` puts \
-                 it into the program; --page or {VARIABLE} name a folder that has it"
+                "found a program that was built without the explorer; expected one with it, or --page or {VARIABLE} with \
+                 a folder that has it. In the sources, `cargo xtask web` builds it into target/web, and `cargo xtask web \
+                 --embed` before `cargo install --path crates/lobe-cli` builds it into the program"
             ))
         })
     }
 
-    /// The type and the content of a part of it.
+    /// The media type and the contents of a part of the page; `None` if there is no such part.
     pub fn part(&self, path: &str) -> Option<(&'static str, Vec<u8>)> {
         let kind = kind(path)?;
         let bytes = match self {
             Page::Embedded => EMBEDDED.iter().find(|(name, _)| *name == path)?.1.to_vec(),
             Page::Folder(folder) => {
-                // Nothing outside of the folder.
+                // Files outside the folder are not served.
                 let is_inside = Path::new(path).components().all(|part| matches!(part, Component::Normal(_)));
                 is_inside.then(|| lobe_files::read(&folder.join(path)).ok())??
             }
@@ -68,7 +68,7 @@ fn is_page(folder: &Path) -> bool {
     folder.join("index.html").is_file()
 }
 
-/// What a file of the page is; nothing else is served.
+/// The media type of a part of the page; files of other types are not served.
 fn kind(path: &str) -> Option<&'static str> {
     let extension = Path::new(path).extension()?.to_str()?;
     Some(match extension {
@@ -86,7 +86,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_are_those_of_the_folder_and_nothing_else() {
+    fn only_parts_of_the_page_are_served() {
         let folder = tempfile::tempdir().unwrap();
         let page = folder.path().join("page");
         std::fs::create_dir_all(page.join("assets")).unwrap();

@@ -28,7 +28,7 @@ impl Drop for Slurm {
 }
 
 impl Slurm {
-    /// Starts a controller and three nodes; gives the reason if it cannot.
+    /// Starts a controller and three nodes; returns the reason if it cannot.
     fn start(folder: &Path) -> Result<Slurm, String> {
         let [controller, node] = ["slurmctld", "slurmd"].map(daemon);
         let (Some(controller), Some(node)) = (controller, node) else {
@@ -67,7 +67,7 @@ impl Slurm {
 
 const NODES: [&str; 3] = ["w1", "w2", "w3"];
 
-/// A daemon, which users do not have on their path.
+/// Finds a daemon, whose folder is usually not on the path of users.
 fn daemon(name: &str) -> Option<PathBuf> {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let folders = std::env::split_paths(&path).chain(["/usr/sbin", "/usr/local/sbin"].map(PathBuf::from));
@@ -83,7 +83,7 @@ fn said(program: &str, arguments: &[&str]) -> String {
 fn configuration(folder: &Path) -> String {
     let host = said("uname", &["-n"]);
     let folder = text(folder);
-    // Held at the same time, so that they differ.
+    // Bound at the same time, so that the ports differ.
     let listeners: Vec<TcpListener> = (0..4).map(|_| TcpListener::bind("127.0.0.1:0").expect("a port")).collect();
     let ports: Vec<u16> = listeners.iter().map(|listener| listener.local_addr().expect("an address").port()).collect();
     let nodes = NODES.iter().zip(&ports[1..]).map(|(name, port)| {
