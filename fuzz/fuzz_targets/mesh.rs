@@ -1,4 +1,4 @@
-//! Meshes in PLY, OBJ and glTF, and what is computed of them. Those of Mitsuba have a target of their own.
+//! Meshes in PLY, OBJ and glTF, and what is computed from them. Mitsuba meshes have their own target.
 #![no_main]
 
 use std::path::Path;

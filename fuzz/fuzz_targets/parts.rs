@@ -1,4 +1,4 @@
-//! Parts of pictures: their headers, their sums, and what becomes of them when they are merged and written.
+//! Parts of pictures: reads their headers and sums, merges them, and writes the result.
 #![no_main]
 
 use std::path::Path;

@@ -29,7 +29,7 @@ libfuzzer_sys::fuzz_target!(|text: &str| {
     let _ = AnyScene::parse(Path::new("fuzz"), folder, text, Backend::scalar());
 });
 
-/// Whether it asks for more than can be made thousands of times a second: meshes of many triangles.
+/// `true` if a scene asks for meshes with too many triangles to build thousands of times per second.
 fn is_large(text: &str) -> bool {
     let after = |key: &str, most: f64| {
         text.match_indices(key).any(|(at, _)| {

@@ -1,4 +1,5 @@
-//! What a sidecar says; what is written about it has to say the same. The target `import` reads tables by it.
+//! Sidecars: if one is valid, writing and parsing it again must give the same options. The target `import` reads tables
+//! with them.
 #![no_main]
 
 use std::path::Path;

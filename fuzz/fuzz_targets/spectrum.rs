@@ -1,4 +1,4 @@
-//! Spectra in text files, and what bands make of them.
+//! Spectra in text files, and their values in bands.
 #![no_main]
 
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Anything packed with gzip, what it is, and readers of what was in it.
+//! Files packed with gzip: unpacking, the recognition of their contents, and the readers.
 #![no_main]
 
 use std::path::Path;

@@ -1,11 +1,11 @@
-"""Converts a material from every format to every other one, and checks what is stated of each conversion.
+"""Converts a material from every format to every other one, and checks the error that is stated for each conversion.
 
     cargo build --release -p lobe-cli
     python3 xtask/peers/conversions.py target/release/lobe [--markdown TABLE.md]
 
-A fixture is written in each format first; then each of these files is converted to each format. What `lobe convert` states
-(the root mean square of the difference, relative to that of the values) must be what `lobe compare` finds, to the bit, and a
-file that has a place for a comment must have the number in it. The exit code is 1 if not.
+First a fixture is written in each format; then each of these files is converted to each format. The error that `lobe
+convert` states (the root mean square of the difference, relative to that of the values) must be what `lobe compare`
+finds, bit for bit, and a file of a format with comments must contain the number. Otherwise the exit code is 1.
 """
 
 import argparse
@@ -17,7 +17,7 @@ import tempfile
 
 FIXTURE = pathlib.Path(__file__).parents[2] / "fixtures" / "conductor-7x8x13.ddr"
 
-# Name, extension, options, and whether files of the format keep what is stated of them.
+# Name, extension, options, and True if files of the format contain the stated error.
 FORMATS = [
     ("DDR", "ddr", [], True),
     ("SSDD", "ssdd", [], True),
@@ -33,7 +33,7 @@ FORMATS = [
     ("Klems", "xml", ["--to", "klems", "--basis", "full"], True),
     ("tree", "xml", ["--to", "klems", "--basis", "tree3", "--depth", "5"], True),
 ]
-# Formats of one channel: the one of these that a source has.
+# Formats with one channel, which is the one of these that a source has.
 SINGLE = {"FRED", "Speos"}
 CHANNELS = ["G", "Y", "Visible"]
 
@@ -43,7 +43,7 @@ def run(lobe, *arguments):
 
 
 def convert(lobe, source, target, options, channels):
-    """What was stated of a conversion and the channel that was written; a reason if there was none."""
+    """The JSON output of a conversion and the channel that was written, or the reason for a refusal and None."""
     reasons = []
     for channel in channels:
         picked = ["--channel", channel] if channel else []
@@ -88,7 +88,7 @@ def main():
                 picked = ["--channel", channel] if channel else []
                 found = run(lobe, "compare", "--json", "--pixels", "8", file, target, *picked)
                 if stated["error"] is None:
-                    # Nothing was computed anew.
+                    # The values were kept, so no error is stated.
                     values = json.loads(found.stdout) if found.returncode == 0 else []
                     worst = largest(values) if values else 0.0
                     same = worst < 2e-6

@@ -10,8 +10,8 @@ const USAGE: &str = "Usage: cargo xtask web [--test] [--embed]
   --test   run the tests of the module in node, and of the page in Chromium
   --embed  also copy the page to crates/lobe-cli/page, so that `lobe view` is built with it
 
-It needs the target wasm32-unknown-unknown (`rustup target add wasm32-unknown-unknown`), node 20.19 or newer with npm, and for
-the tests of the page Chromium, which CHROMIUM may name.";
+It needs the target wasm32-unknown-unknown (`rustup target add wasm32-unknown-unknown`), node 20.19
+or newer with npm, and Chromium for the tests of the page; the variable CHROMIUM may name it.";
 
 const TRIPLE: &str = "wasm32-unknown-unknown";
 
@@ -23,7 +23,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
     let has = |option: &str| arguments.iter().any(|argument| argument == option);
     match build(has("--test"), has("--embed")) {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
-        // Only the tests may be left out: whoever asks for the page wants one.
+        // Only tests may be skipped; if the page was requested, it must be built.
         Ok(Outcome::Skipped(why)) if has("--test") => {
             println!("SKIP the explorer: {why}");
             ExitCode::SUCCESS
@@ -44,13 +44,13 @@ enum Outcome {
     Skipped(String),
 }
 
-/// Where everything is.
+/// The folders of the build.
 struct Places {
     /// The sources of the page.
     page: PathBuf,
-    /// What wasm-bindgen makes of the module.
+    /// The output of wasm-bindgen.
     module: PathBuf,
-    /// The static files.
+    /// The static files that are built.
     out: PathBuf,
 }
 
@@ -86,7 +86,7 @@ fn build(tests: bool, embeds: bool) -> Result<Outcome, String> {
     )?;
     let mut npm = npm(&places);
     if done(npm.args(["ci", "--no-audit", "--no-fund", "--loglevel", "error"])).is_err() {
-        return Ok(Outcome::Skipped("npm cannot install what the page is made with".into()));
+        return Ok(Outcome::Skipped("npm cannot install the packages of the page".into()));
     }
     done(with_places(npm_run(&places), &places))?;
     println!("{}: {}", places.out.display(), sizes(&places.out)?);
@@ -96,12 +96,12 @@ fn build(tests: bool, embeds: bool) -> Result<Outcome, String> {
         copy(&places.out, &page)?;
         // The file that keeps the folder in the repository; see crates/lobe-cli/build.rs.
         std::fs::write(page.join(".gitkeep"), "").map_err(|error| error.to_string())?;
-        println!("{}: `lobe view` has it when it is built next", page.display());
+        println!("{}: the next build of `lobe` contains it", page.display());
     }
     if tests { test(&places) } else { Ok(Outcome::Done) }
 }
 
-/// Whether there is a standard library for the target.
+/// `true` if there is a standard library for the target.
 fn has_target() -> bool {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let found = Command::new(rustc).args(["--print", "target-libdir", "--target", TRIPLE]).output();
@@ -114,7 +114,7 @@ fn answers(program: &str) -> bool {
     asked.is_ok_and(|answer| answer.status.success())
 }
 
-/// The program that belongs to the version of wasm-bindgen in the lock file: that of the path, or one of our own.
+/// The program wasm-bindgen in the version of the lock file: the one on the path, or one installed in `target`.
 fn bindgen() -> Result<PathBuf, String> {
     let lock = std::fs::read_to_string("Cargo.lock").map_err(|error| format!("Cargo.lock: {error}"))?;
     let version = locked(&lock, "wasm-bindgen").ok_or("Cargo.lock has no wasm-bindgen")?;
@@ -152,13 +152,13 @@ fn npm_run(places: &Places) -> Command {
     npm
 }
 
-/// The command, told where everything is.
+/// Tells a command the folders of the build by environment variables.
 fn with_places(mut command: Command, places: &Places) -> Command {
     command.env("LOBE_WEB_MODULE", &places.module).env("LOBE_WEB_OUT", &places.out);
     command
 }
 
-/// How large the files of a page are.
+/// The number and the total size of the files of the page.
 fn sizes(folder: &Path) -> Result<String, String> {
     let mut files = Vec::new();
     collect(folder, &mut files)?;
@@ -187,9 +187,9 @@ fn copy(from: &Path, to: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// The module in node, then the page in Chromium.
+/// Tests the module in node, then the page in Chromium.
 fn test(places: &Places) -> Result<Outcome, String> {
-    // What is compared with the program needs it as it is now. The tests of the workspace use the same build.
+    // The tests compare with the current program. The tests of the workspace use the same build of it.
     done(super::cargo().args(["build", "--quiet", "--workspace", "--bin", "lobe"]))?;
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
     let lobe = target.join("debug").join(if cfg!(windows) { "lobe.exe" } else { "lobe" });

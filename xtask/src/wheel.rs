@@ -1,6 +1,6 @@
 //! Builds a wheel for most Linux distributions.
 //!
-//! It is linked by Zig, which has the symbols of every glibc: the wheel then loads with the glibc that the platform tag
+//! Zig links it, because it has the symbols of every glibc: the wheel then loads with the glibc that the platform tag
 //! names, and with later ones. `auditwheel` checks this.
 
 use std::ffi::{OsStr, OsString};
@@ -9,14 +9,14 @@ use std::process::Command;
 
 use super::python::done;
 
-/// The packages that pip installs for it.
+/// The packages that pip installs to build the wheel.
 pub const TOOLS: [&str; 2] = ["maturin[zig]>=1.9.4,<2", "auditwheel"];
 
 /// The oldest glibc that Rust supports.
 const GLIBC: &str = "2.17";
-/// The tag of glibc 2.17, the oldest that Rust supports, which covers distributions since 2014.
+/// The platform tag for this glibc, which covers distributions since 2014.
 const PLATFORM: &str = "manylinux2014";
-/// The name that auditwheel gives it.
+/// The name of this tag in the output of auditwheel.
 const AUDITED: &str = "manylinux_2_17";
 
 /// Builds the wheel in `target/wheels`, with the interpreter of an environment that has the tools.
@@ -46,7 +46,8 @@ pub fn build(python: &Path, path: &OsStr) -> Result<PathBuf, String> {
     Ok(wheel)
 }
 
-/// A program next to the interpreter that links as `cc` does, for the oldest glibc: maturin's, which knows what Zig does not.
+/// Writes a program next to the interpreter that links like `cc`, for the oldest glibc, through maturin, which handles
+/// options that Zig does not know.
 fn linker(python: &Path) -> Result<PathBuf, String> {
     let program = python.with_file_name("zig-cc");
     let target = format!("{}-linux-gnu.{GLIBC}", std::env::consts::ARCH);

@@ -1,15 +1,15 @@
-//! The commands that damaged files are given to.
+//! The commands that are run on damaged files.
 
 use crate::inputs::Kind;
 
 /// A command line: `{in}` is the damaged file, `{out}` a path without an extension for what is written, and other files are
 /// those of [`crate::inputs::sound`].
 pub struct Command {
-    /// What is damaged.
+    /// The kind of file that is damaged.
     pub kind: Kind,
-    /// How often it is run, compared with the others: what takes long is run less often.
+    /// How often the command is run relative to the others; slow ones are run less often.
     pub share: u32,
-    /// The arguments, with a blank between them.
+    /// The arguments, separated by spaces.
     pub line: &'static str,
 }
 
@@ -21,7 +21,7 @@ const fn of(kind: Kind, share: u32, line: &'static str) -> Command {
     Command { kind, share, line }
 }
 
-/// All of them.
+/// All commands.
 pub const COMMANDS: &[Command] = &[
     material(14, "info {in}"),
     material(6, "info {in} --json"),

@@ -1,14 +1,14 @@
-//! Damage that a reader may not notice: other numbers in the place of numbers, so that commands have to live with them.
+//! Damage that a reader may not notice: numbers are replaced by others, which the commands then have to cope with.
 
 use rand::seq::IndexedRandom as _;
 use rand::{Rng, RngExt as _};
 
-/// What numbers of a text become: none is anything but a number.
+/// The replacements for numbers in a text.
 const NUMBERS: [&str; 12] = ["0", "1", "-1", "0.5", "90", "180", "360", "1e-30", "1e30", "3.4e38", "-0.001", "1000000"];
-/// What floats of a binary file become.
+/// The replacements for floats in a binary file.
 const FLOATS: [f32; 10] = [0.0, 1.0, -1.0, 0.5, 1e-30, 1e30, f32::MAX, f32::NAN, f32::INFINITY, -1e-3];
 
-/// `file` with one to four other numbers.
+/// Returns `file` with one to four numbers replaced.
 pub fn mutant(random: &mut impl Rng, file: &[u8]) -> Vec<u8> {
     let mut bytes = file.to_vec();
     for _ in 0..random.random_range(1..5) {
@@ -20,7 +20,7 @@ pub fn mutant(random: &mut impl Rng, file: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// Replaces a whole number of a text, or a digit of it.
+/// Replaces a complete number in a text, or one of its digits.
 fn number(random: &mut impl Rng, bytes: &mut Vec<u8>) {
     let from = random.random_range(0..=bytes.len());
     let Some(at) = bytes[from..].iter().position(u8::is_ascii_digit).map(|at| from + at) else { return };
@@ -39,7 +39,7 @@ fn number(random: &mut impl Rng, bytes: &mut Vec<u8>) {
     bytes.splice(start..end, number.bytes());
 }
 
-/// Overwrites a float; most of them are behind the header.
+/// Overwrites a float, mostly one after the header.
 fn float(random: &mut impl Rng, bytes: &mut [u8]) {
     let Some(last) = (bytes.len() / 4).checked_sub(1) else { return };
     let first = if random.random_bool(0.9) { last / 2 } else { 0 };

@@ -1,4 +1,4 @@
-//! What is damaged, and the sound files around it.
+//! The files to damage, and the sound files next to them.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -7,11 +7,11 @@ use anyhow::{Context, Result, ensure};
 use lobe_formats::{Format, sniff};
 use lobe_testing::{examples, files};
 
-/// What a damaged file would have been.
+/// What a file was before it was damaged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     Material,
-    /// The same, as a scene names it.
+    /// A material that a scene names.
     MaterialOfScene,
     Scene,
     Mesh,
@@ -26,7 +26,7 @@ pub enum Kind {
 /// A sound file.
 pub struct Input {
     pub kind: Kind,
-    /// What it is, for the record.
+    /// The name of the input in the record.
     pub name: String,
     pub extension: String,
     pub bytes: Vec<u8>,
@@ -37,7 +37,7 @@ impl Input {
         Input { kind, name: extension.into(), extension: extension.into(), bytes: bytes.into() }
     }
 
-    /// What it is called when it is damaged.
+    /// The name of the damaged file.
     pub fn file(&self) -> String {
         match self.kind {
             Kind::Sidecar => "table.csv.lobe.toml".into(),
@@ -46,7 +46,7 @@ impl Input {
         }
     }
 
-    /// The scene that names it, if it is not an argument.
+    /// The scene that names the damaged file, if the file is not an argument itself.
     pub fn scene(&self) -> Option<String> {
         let file = self.file();
         let plane = "[[object]]\nshape = \"sphere\"\nsegments = 16\nmaterial = \"floor\"\n";
@@ -91,7 +91,7 @@ const SCENE: &str = "[material.floor]\nmodel = \"lambert\"\nalbedo = [0.5, 0.4, 
     shape = \"sphere\"\nsegments = 16\nradius = 0.5\ntranslate = [0, 0.5, 0]\nmaterial = \"glass\"\n[[object]]\nshape = \"disk\"\nscale = 2\n\
     material = \"floor\"\nradiance = [2, 1, 1]\ntwo_sided = true\n[[light]]\nkind = \"point\"\nposition = [0, 3, 0]\nintensity = 3\n";
 
-/// Everything that can be damaged: small files of our own, and those in the folder `LOBE_SHARED` if there is one.
+/// All inputs: our own small files, and those in the folder `LOBE_SHARED` if there is one.
 pub fn all() -> Vec<Input> {
     let mut inputs = Vec::new();
     let mut materials = examples::all();
@@ -129,8 +129,8 @@ fn extension(format: Format) -> &'static str {
     format.spec().extensions.first().copied().unwrap_or("dat")
 }
 
-/// Writes the sound files that commands read next to the damaged one, and returns those that the program itself makes, to be
-/// damaged as well.
+/// Writes the sound files that commands read next to the damaged one, and returns those that the program itself writes,
+/// to be damaged as well.
 ///
 /// # Errors
 /// If a file cannot be written, or the program refuses a sound one.

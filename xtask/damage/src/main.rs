@@ -1,8 +1,8 @@
-//! `xtask damage`: every command of the program with damaged files, thousands of times, under limits of memory and time. None
-//! may panic, be ended by a signal, or take longer than the limit.
+//! `xtask damage`: runs every command of the program on damaged files, thousands of times, under limits of memory and
+//! time. No run may panic, be ended by a signal, or take longer than the limit.
 //!
-//! Run `n` is the same on every machine: its command, its file and the damage follow from its number. What happened is kept in a
-//! file, a line a run, so that the next call goes on where the last one ended.
+//! Run `n` is the same on every machine: its command, its file and the damage follow from its number. The outcomes are
+//! recorded in a file, one line per run, so that the next call continues where the last one ended.
 #![forbid(unsafe_code)]
 
 mod commands;
@@ -27,38 +27,38 @@ use commands::{COMMANDS, Command};
 use inputs::Input;
 use run::{Limits, Outcome, run};
 
-/// Give damaged files to every command of the program, under limits of memory and time.
+/// Run every command of the program on damaged files, under limits of memory and time.
 #[derive(Parser)]
 #[command(
     bin_name = "cargo xtask damage",
     after_help = "Examples:
   cargo build --bin lobe && cargo xtask damage --runs 1000
-  cargo xtask damage --program target/release/lobe --runs 20000     goes on where the last call ended
-  cargo xtask damage --again 1234                                   one run, with what the program says
+  cargo xtask damage --program target/release/lobe --runs 20000     continues where the last call ended
+  cargo xtask damage --again 1234                                   one run, with its messages
   cargo xtask damage --summary
 
 Files of runs that went wrong are kept in folders next to the record. Needs sh."
 )]
 struct Args {
-    /// How many runs there shall be in all, those of earlier calls included
+    /// The total number of runs, including those of earlier calls
     #[arg(long, default_value_t = 1000)]
     runs: u64,
     /// The program
     #[arg(long, default_value = "target/debug/lobe")]
     program: PathBuf,
-    /// The most memory of a run, in MB of address space
+    /// The memory limit of a run, in MB of address space
     #[arg(long, default_value_t = 4000)]
     memory: u64,
-    /// The most processor time of a run, in seconds
+    /// The limit of processor time of a run, in seconds
     #[arg(long, default_value_t = 30)]
     seconds: u64,
-    /// Where it is recorded what happened
+    /// The file that records the outcomes
     #[arg(long, default_value = "target/damage/record.tsv")]
     record: PathBuf,
-    /// Make one run again, and record nothing
+    /// Repeat one run, without recording it
     #[arg(long, value_name = "N")]
     again: Option<u64>,
-    /// Count what is in the record, and run nothing
+    /// Summarise the record, without running anything
     #[arg(long)]
     summary: bool,
 }
@@ -116,16 +116,16 @@ struct Runs {
     sound: PathBuf,
 }
 
-/// A run that is ready.
+/// A prepared run.
 struct Made {
     line: Vec<String>,
-    /// What the damaged file was.
+    /// The name of the input that was damaged.
     input: String,
     command: &'static Command,
 }
 
 impl Runs {
-    /// Makes the files of a run.
+    /// Prepares the files of a run.
     fn make(&self, number: u64, place: &Path) -> Result<Made> {
         let mut random = Pcg64Mcg::seed_from_u64(number);
         let total: u32 = COMMANDS.iter().map(|command| command.share).sum();
@@ -145,7 +145,7 @@ impl Runs {
         let input = of_name.choose(&mut random).context("a file of the name")?;
         let other = of_name.choose(&mut random).context("a file of the name")?;
         copy(&self.sound, place)?;
-        // Most files that are damaged anyhow are refused, so that what comes after reading sees few of them.
+        // Readers refuse most files with arbitrary damage, so the code after reading sees few of them.
         let damaged = match random.random_bool(GENTLE) {
             true => gentle::mutant(&mut random, &input.bytes),
             false => mutant(&mut random, &input.bytes, &other.bytes),
@@ -184,7 +184,7 @@ fn done(record: &Path) -> Result<u64> {
     Ok(last.map_or(0, |last| last + 1))
 }
 
-/// What is known of a command.
+/// The outcomes of a command.
 #[derive(Default)]
 struct Count {
     runs: u64,

@@ -1,4 +1,4 @@
-//! One run of the program: under limits, and what came of it.
+//! Runs the program under limits, and judges the outcome.
 
 use std::fmt;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 
-/// What a run may take.
+/// The limits of a run.
 #[derive(Clone, Copy)]
 pub struct Limits {
     /// Address space in MB.
@@ -22,19 +22,19 @@ pub enum Outcome {
     /// With this exit code, which is one of those in the help of the program.
     Code(i32),
     Panic,
-    /// By a signal.
+    /// Ended by a signal.
     Abort,
     /// Longer than the limit.
     Hang,
 }
 
 impl Outcome {
-    /// Whether the program did what it must not.
+    /// `true` if the program did something that it must not do.
     pub fn is_finding(self) -> bool {
         !matches!(self, Outcome::Code(_))
     }
 
-    /// What [`Display`](fmt::Display) has written.
+    /// Parses what [`Display`](fmt::Display) writes.
     pub fn parse(word: &str) -> Option<Self> {
         Some(match word {
             "panic" => Outcome::Panic,
@@ -59,10 +59,10 @@ impl fmt::Display for Outcome {
 /// How many times longer than its processor time a run may last: other programs run too.
 const PATIENCE: u64 = 40;
 
-/// Runs the program in a folder. Returns how that ended, how long it took, and what it said.
+/// Runs the program in a folder. Returns the outcome, the duration and the messages.
 ///
 /// # Errors
-/// If it cannot be started.
+/// If the program cannot be started.
 pub fn run(program: &Path, arguments: &[String], folder: &Path, limits: Limits) -> Result<(Outcome, Duration, String)> {
     let Limits { memory, seconds } = limits;
     // The shell sets limits that the standard library cannot.
@@ -109,7 +109,7 @@ fn judged(status: ExitStatus, message: &str) -> Outcome {
 #[cfg(unix)]
 fn is_out_of_time(status: ExitStatus) -> bool {
     use std::os::unix::process::ExitStatusExt as _;
-    /// That the limit of processor time has passed, and the end if that is ignored.
+    /// Sent when the limit of processor time is exceeded, and followed by SIGKILL if it is ignored.
     const SIGXCPU: i32 = 24;
     const SIGKILL: i32 = 9;
     matches!(status.signal(), Some(SIGXCPU | SIGKILL))
