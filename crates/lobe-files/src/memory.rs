@@ -9,14 +9,14 @@ use std::path::{Path, PathBuf};
 pub type Files = BTreeMap<PathBuf, Vec<u8>>;
 
 thread_local! {
-    /// What [`in_memory`] has put in place of the disk, on this thread.
+    /// The files that [`in_memory`] has put in place of the disk on this thread.
     static FILES: RefCell<Option<Files>> = const { RefCell::new(None) };
 }
 
-/// Runs `work` with `files` in place of the disk: what it reads, looks for, lists and writes by the functions of this crate on
-/// this thread is these and nothing else. Returns what it returns, and the files as they are afterwards.
+/// Runs `work` with `files` in place of the disk: on this thread, the functions of this crate read, find, list and
+/// write only these files. Returns the result of `work`, and the files afterwards.
 pub fn in_memory<R>(files: Files, work: impl FnOnce() -> R) -> (R, Files) {
-    /// Puts back what was there before, also if `work` panics.
+    /// Restores the previous files, even if `work` panics.
     struct Outer(Option<Files>);
     impl Drop for Outer {
         fn drop(&mut self) {
@@ -30,20 +30,20 @@ pub fn in_memory<R>(files: Files, work: impl FnOnce() -> R) -> (R, Files) {
     (result, files)
 }
 
-/// Whether there is a file or a folder of this name.
+/// Returns `true` if there is a file or a folder at this path.
 pub fn exists(path: &Path) -> bool {
     kept(|files| files.contains_key(path) || has_folder(files, path)).unwrap_or_else(|| path.exists())
 }
 
-/// Whether there is a folder of this name.
+/// Returns `true` if there is a folder at this path.
 pub fn is_folder(path: &Path) -> bool {
     kept(|files| has_folder(files, path)).unwrap_or_else(|| path.is_dir())
 }
 
-/// The files of a folder, without those of folders in it, by name.
+/// The files in a folder, sorted by name, without those in its subfolders.
 ///
 /// # Errors
-/// If it cannot be read.
+/// If the folder cannot be read.
 pub fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let in_memory = kept(|files| match has_folder(files, folder) {
         true => Ok(files.keys().filter(|path| path.parent() == Some(folder)).cloned().collect()),
@@ -60,7 +60,7 @@ pub fn files_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
     })
 }
 
-/// The content of a file in memory; `None` if the disk is in its place.
+/// The contents of a file in memory; `None` outside [`in_memory`].
 pub(crate) fn content(path: &Path) -> Option<io::Result<Vec<u8>>> {
     kept(|files| match files.get(path) {
         Some(bytes) => Ok(bytes.clone()),
@@ -69,7 +69,7 @@ pub(crate) fn content(path: &Path) -> Option<io::Result<Vec<u8>>> {
     })
 }
 
-/// Keeps a file in memory; `false` if the disk is in its place.
+/// Stores a file in memory; returns `false` outside [`in_memory`].
 pub(crate) fn keep(path: &Path, content: &[u8]) -> bool {
     FILES.with_borrow_mut(|files| match files {
         Some(files) => {

@@ -33,7 +33,7 @@ pub(crate) fn samples(document: &Document) -> Option<Vec<Sample<'_>>> {
     }
 }
 
-/// The least height of the directions of nodes: the values of lower nodes are extrapolated from those above.
+/// The smallest z of the directions of listed nodes: the values of lower nodes are extrapolated from those above.
 const LOWEST: f64 = 1e-3;
 /// Angles closer than this, in radians, are the same.
 const SAME: f64 = 1e-6;
@@ -66,7 +66,8 @@ fn of_specular(data: &specular::Data) -> Vec<Sample<'_>> {
     samples
 }
 
-/// The nodes of a grid, each direction once; the nodes of half a grid are the samples of one side.
+/// The nodes of a grid, each direction once; the nodes of half a grid are the samples on one side of the plane of
+/// incidence.
 fn of_spherical(data: &spherical::Data) -> Vec<Sample<'_>> {
     let [theta_i, phi_i, theta_o, phi_o] = data.knots();
     let count = data.channels().count();

@@ -14,7 +14,7 @@ use crate::model::Model;
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum SavedError {
     /// The text is not JSON with the entries of a fit.
-    #[error("{0}; expected JSON that `lobe fit -o FIT.json` has written")]
+    #[error("found other text ({0}); expected JSON written by `lobe fit -o FIT.json`")]
     Json(String),
     /// A name is unknown, or numbers are missing.
     #[error("found {found}; expected {expected}")]
@@ -33,7 +33,7 @@ impl Saved {
     }
 }
 
-/// A fit as it was saved.
+/// A saved fit.
 #[derive(Clone, Debug)]
 pub struct Saved {
     /// The model with its parameters.
@@ -44,7 +44,7 @@ pub struct Saved {
     pub facts: Vec<(String, String)>,
 }
 
-/// A number, or one per channel; null if it is not known.
+/// A number, or one per channel; null if it is unknown.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Entry {
@@ -101,7 +101,7 @@ pub fn read(text: &str) -> Result<Saved, SavedError> {
     })?;
     let aspect = Aspect::ALL.into_iter().find(|aspect| aspect.to_string() == whole.aspect);
     let aspect =
-        aspect.ok_or_else(|| refuse(format!("the aspect {:?}", whole.aspect), "reflection front or the like"))?;
+        aspect.ok_or_else(|| refuse(format!("the aspect {:?}", whole.aspect), "an aspect such as reflection front"))?;
     let count = whole.channels.len();
     if count == 0 {
         return Err(refuse("no channels".into(), "at least one"));
@@ -118,7 +118,7 @@ pub fn read(text: &str) -> Result<Saved, SavedError> {
     }
     let wavelengths = whole.wavelengths.as_deref();
     if wavelengths.is_some_and(|wavelengths| wavelengths.len() != count) {
-        return Err(refuse("wavelengths of other channels".into(), "one for each"));
+        return Err(refuse("a number of wavelengths other than that of channels".into(), "one per channel"));
     }
     let fitted = Fitted {
         model,

@@ -22,7 +22,7 @@ pub(super) fn write(document: &Document, path: &Path) -> Result<(), FormatError>
     let channels = data.representation().channels();
     let mut out = String::new();
     for (key, value) in &document.source {
-        // A separate line for each, whose first word the reader takes for the keyword.
+        // One line per fact; readers take its first word as the keyword.
         let key = key.split_whitespace().collect::<Vec<_>>().join("_");
         if !key.is_empty() && !["VARS", "NUM_POINTS"].contains(&key.as_str()) {
             let _ = writeln!(out, "{key} {}", value.split_whitespace().collect::<Vec<_>>().join(" "));

@@ -15,7 +15,7 @@ use crate::{Document, FormatError, Place};
 /// A measurement, and the side from which its light comes.
 type Measured<'a> = (Side, &'a spherical::Data);
 
-/// The parts, if they are grids that a file can hold, each with a different side or kind of scatter. A part without a
+/// The parts, if they are grids that fit into one file, each with a different side or kind of scatter. A part without a
 /// side belongs to the front.
 pub(super) fn grids(document: &Document) -> Option<Vec<Measured<'_>>> {
     let mut grids: Vec<Measured<'_>> = Vec::new();
@@ -37,7 +37,7 @@ pub(super) fn grids(document: &Document) -> Option<Vec<Measured<'_>>> {
     grids.iter().all(|(_, grid)| is_alike(grid)).then_some(grids)
 }
 
-/// A column of the tables: its azimuth in the file, in degrees, and its place in the grid.
+/// A column of the tables: its azimuth in the file, in degrees, and its index in the grid.
 struct Column {
     azimuth: f64,
     index: usize,
@@ -48,8 +48,8 @@ struct Column {
 ///
 /// # Errors
 /// [`FormatError`] if the file cannot be written; if the parts are not grids with the same outgoing directions and
-/// channels; if the channels are not a single one, X Y Z or wavelengths of at least 50 nm; or if half a turn has no
-/// value.
+/// channels; if the channels are not a single one, X Y Z or wavelengths of at least 50 nm; or if neighbouring azimuths
+/// are half a turn or more apart.
 pub(super) fn write(document: &Document, path: &Path) -> Result<(), FormatError> {
     let refuse = |found: String, expected: &str| Err(FormatError::new(path, Place::File, found, expected));
     let Some(grids) = grids(document) else {
@@ -101,14 +101,15 @@ fn columns(grids: &[Measured<'_>], path: &Path) -> Result<Vec<Column>, FormatErr
     let mut kept = knots.len();
     if !first.is_mirrored() && kept > 1 && knots[kept - 1] - knots[0] > 360.0 - SAME {
         if !grids.iter().all(|(_, grid)| is_closed(grid)) {
-            return refuse("two values at the ends of a whole turn".into(), "the same value at both in this format");
+            let found = "different values at the ends of a whole turn".into();
+            return refuse(found, "the same value at both in this format");
         }
         kept -= 1;
     }
     let knots = &knots[..kept];
     let nexts = knots.iter().skip(1).copied().chain([knots[0] + 360.0]);
     if !first.is_mirrored() && kept > 1 && knots.iter().zip(nexts).any(|(knot, next)| next - knot >= 180.0 - SAME) {
-        return refuse(format!("azimuths {knots:?}"), "no half turn without a value in this format");
+        return refuse(format!("azimuths {knots:?}"), "steps of less than half a turn in this format");
     }
     let azimuth = |phi: f64| degrees((phi + 90.0).rem_euclid(360.0).to_radians());
     let mut columns: Vec<Column> =
@@ -125,7 +126,7 @@ fn is_closed(grid: &spherical::Data) -> bool {
     rows.all(|row| row[..count] == row[(phis - 1) * count..])
 }
 
-/// A table for each incident direction and channel.
+/// Writes a table for each incident direction and channel.
 fn tables(out: &mut String, document: &Document, side: Side, grid: &spherical::Data, columns: &[Column]) {
     let [aois, pois, radials, phis] = grid.knots();
     let side = if side == Side::Front { "Front" } else { "Back" };

@@ -36,7 +36,7 @@ struct Knot {
     index: usize,
 }
 
-/// A column of a table: between two knots of a grid, with the share of the second.
+/// A column of a table: the two knots of a grid around it, with the share of the second.
 struct Column {
     phi: f64,
     between: [usize; 2],

@@ -79,7 +79,7 @@ pub(super) fn write(document: &Document, path: &Path) -> Result<(), FormatError>
         return refuse(format!("the channels {}", channels.names().join(" ")), "wavelengths in this format");
     };
     if document.parts.iter().any(|part| part.data.representation().channels() != channels) {
-        return refuse("reflection and transmission of different wavelengths".into(), "the same in this format");
+        return refuse("reflection and transmission at different wavelengths".into(), "the same ones in this format");
     }
     let is_isotropic = sides.iter().all(|side| side.is_isotropic);
     let kind = match path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase()) {
@@ -108,7 +108,7 @@ pub(super) fn write(document: &Document, path: &Path) -> Result<(), FormatError>
     write_whole(path, out.as_bytes())
 }
 
-/// Why tables have no room in a file.
+/// The reason why tables do not fit into a file.
 struct Refusal {
     found: String,
     expected: &'static str,
@@ -172,7 +172,7 @@ fn anisotropic(out: &mut String, sides: &[Side], wavelengths: &[f64]) -> Result<
     let mut shapes = Vec::new();
     for (side, rotations) in sides.iter().zip(&by_rotation) {
         let shape = Shape::of(side, wavelengths.len())?;
-        // The spectrum holds at the first table that has light: readers take the first rotation of those that are as near.
+        // The spectrum is stated for the first table with light: of equally near rotations, readers take the first.
         let (rotation, tables) = &rotations[0];
         let mut printed = tables.iter().map(|table| {
             let printed = Printed::new(side.scatter, table, wavelengths.len(), shape.channel);
@@ -296,7 +296,7 @@ impl Printed {
         Printed { table: Table::of_bsdf(&thetas, &table.phis, numbers), thetas, phis: table.phis.clone(), values }
     }
 
-    /// What a reader divides the values by.
+    /// The integral that readers divide the values by.
     fn integral(&self) -> Result<f64, Refusal> {
         let integral = self.table.integral();
         if integral > 0.0 || self.table.is_black() {

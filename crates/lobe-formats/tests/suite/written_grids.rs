@@ -6,7 +6,7 @@ use lobe_formats::{Document, Format, Part, RESAMPLED, open};
 use lobe_table::{Channels, Data, Scatter, Side, spherical};
 use lobe_testing::files::{files, shared};
 
-/// Writes a document under a name, and what reading gives, or why it was not written.
+/// Writes a document under a name and reads it again. The error is the reason why it was not written.
 fn round_trip(document: &Document, format: Format, name: &str) -> Result<Document, String> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join(name);
@@ -46,7 +46,7 @@ fn direction(theta: f64, phi: f64) -> [f64; 3] {
     [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
 }
 
-/// The first part, as it answers for a pair of polar angles and azimuths in degrees.
+/// The value for a pair of directions, given by polar angle and azimuth in degrees.
 fn value(data: &Data, wi: [f64; 2], wo: [f64; 2]) -> Vec<f64> {
     let (wi, mut wo) = (direction(wi[0], wi[1]), direction(wo[0], wo[1]));
     if data.representation().scatter() == Scatter::Transmission {
@@ -59,7 +59,7 @@ fn value(data: &Data, wi: [f64; 2], wo: [f64; 2]) -> Vec<f64> {
     }
 }
 
-/// At pairs of directions, up to a part of the value.
+/// Compares values at pairs of directions, up to a bound relative to the value.
 #[track_caller]
 fn assert_alike(found: &Data, expected: &Data, pairs: &[([f64; 2], [f64; 2])], bound: f64) {
     for (wi, wo) in pairs {
@@ -93,7 +93,7 @@ fn light_tools_grids_come_back() {
     }
 }
 
-/// The integral that is stated is that of the values: pi times a constant.
+/// The stated total is the integral of the values: pi times a constant.
 #[test]
 fn light_tools_files_state_their_totals() {
     let grid = grid(Scatter::Reflection, &[0.0], &TURN, Channels::Mono);
@@ -125,13 +125,13 @@ fn light_tools_halves_and_sheets_come_back() {
 }
 
 #[test]
-fn what_light_tools_cannot_say_is_refused() {
+fn what_light_tools_cannot_express_is_refused() {
     let message =
         |grid: spherical::Data| round_trip(&Document::new(grid), Format::LightTools, "x.bsdf").expect_err("an error");
     let rgb = grid(Scatter::Reflection, &[0.0], &TURN, Channels::Rgb);
     assert!(message(rgb).contains("the channels R G B"));
     let sparse = grid(Scatter::Reflection, &[0.0], &[0.0, 180.0], Channels::Mono);
-    assert!(message(sparse).contains("no half turn without a value"));
+    assert!(message(sparse).contains("steps of less than half a turn"));
     let short = grid(Scatter::Reflection, &[0.0], &TURN, Channels::Spectral(vec![0.5, 0.6]));
     assert!(message(short).contains("wavelengths of 50 nm"));
     let mut open = grid(Scatter::Reflection, &[0.0], &TURN, Channels::Mono);
@@ -141,7 +141,7 @@ fn what_light_tools_cannot_say_is_refused() {
     assert!(message(open).contains("the ends of a whole turn"));
 }
 
-/// Nodes come back to the bit; between them samples are interpolated in another way, by little where the grid is dense.
+/// Nodes keep their values. Between them, samples are interpolated differently, though not by much on a dense grid.
 #[test]
 fn speos_tables_come_back() {
     let nm = Channels::Spectral(vec![400.0, 633.0]);
@@ -192,7 +192,7 @@ fn halves_and_both_kinds_of_scatter_fit_into_a_speos_file() {
 }
 
 #[test]
-fn what_speos_cannot_say_is_refused() {
+fn what_speos_cannot_express_is_refused() {
     let message = |grid: spherical::Data, name: &str| {
         round_trip(&Document::new(grid), Format::Speos, name).expect_err("an error")
     };
@@ -211,7 +211,7 @@ fn what_speos_cannot_say_is_refused() {
     assert!(message(dark, "x.brdf").contains("expected a positive one"));
 }
 
-/// What a program has written comes back the same, sample by sample.
+/// Files written by another program come back the same, sample by sample.
 #[test]
 fn real_speos_files_come_back() {
     let Some(shared) = shared() else { return };
@@ -237,7 +237,7 @@ fn real_speos_files_come_back() {
 }
 
 #[test]
-fn mdl_files_have_the_line_that_says_how_they_were_made() {
+fn mdl_files_state_how_they_were_made() {
     let thetas: Vec<f64> = (0..6).map(|i| std::f64::consts::FRAC_PI_2 * f64::from(i) / 6.0).collect();
     let phis: Vec<f64> = (0..5).map(|i| std::f64::consts::PI * f64::from(i) / 4.0).collect();
     let values: Vec<f32> = (0..6 * 6 * 5).map(|index| index as f32 * 0.01).collect();

@@ -54,7 +54,7 @@ fn samples_come_back() {
     assert_same(&fred::read(&bytes, Path::new("x")).expect("the same"), &expected);
 }
 
-/// Between the nodes another interpolation is at work; at the nodes the values are the same.
+/// Between the nodes, samples are interpolated differently; at the nodes, the values are the same.
 #[test]
 fn tables_are_listed_by_their_nodes() {
     let degrees = |list: &[f64]| list.iter().map(|angle| angle.to_radians()).collect::<Vec<_>>();
@@ -98,7 +98,7 @@ fn tables_are_listed_by_their_nodes() {
 }
 
 #[test]
-fn what_these_formats_cannot_say_is_refused() {
+fn what_these_formats_cannot_express_is_refused() {
     let message = |data: Data, format| written(&Document::new(data), format).expect_err("an error");
     assert!(message(samples(Channels::Rgb).into(), Format::Fred).contains("the channels R G B"));
     let passing = scattered::Data::new(Scatter::Transmission, Channels::Mono, &[[0.0; 4]], &[1.0]).expect("a sample");
