@@ -1,19 +1,19 @@
-//! What a host that drops its tables gets back, as the system counts it. One test in a program of its own: other tests would
-//! take memory meanwhile.
+//! The memory that the system gets back when a host drops its tables. This test has its own program, because other
+//! tests would take memory at the same time.
 #![cfg(target_os = "linux")]
 
 use lobe_memory::Storage;
 
 const MB: usize = 1 << 20;
 
-/// Bytes of memory that this process has.
+/// The resident memory of this process in bytes.
 fn resident() -> usize {
     let status = std::fs::read_to_string("/proc/self/status").expect("the status of this process");
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).expect("a size");
     line.trim().trim_end_matches(" kB").parse::<usize>().expect("a number") * 1024
 }
 
-/// A table of so many bytes, all of them written.
+/// A table of this many bytes, all of them written.
 fn table(bytes: usize) -> Storage<u8> {
     let mut table = Storage::<u8>::zeros(bytes);
     assert!(table.as_slice().iter().all(|&byte| byte == 0));
@@ -21,7 +21,7 @@ fn table(bytes: usize) -> Storage<u8> {
     table
 }
 
-/// More than the tables that are held, and what the program itself takes.
+/// The bound on resident memory while tables of `held` bytes are in use: these and the program itself take less.
 fn most(held: usize) -> usize {
     held + 72 * MB
 }
@@ -36,7 +36,7 @@ fn memory_goes_back_to_the_system() {
         found
     };
 
-    // Materials are opened and closed, in other sizes every time; one small one of each round stays.
+    // Tables are allocated and dropped, in different sizes each time; one small table of each round stays.
     let (mut kept, mut peak) = (Vec::new(), 0);
     for round in 0..40 {
         let tables: Vec<_> = sizes(round).map(table).collect();
@@ -60,7 +60,7 @@ fn memory_goes_back_to_the_system() {
     }
     assert!(say("24 small tables of it") <= most(24 * (64 << 10)));
     assert!(scene.iter().flatten().all(|table| table.as_slice().iter().all(|&byte| byte == 7)));
-    // What went back is zeros when it is taken again.
+    // Memory that went back is zero when it is allocated again.
     let again: Vec<_> = (0..200).map(|_| table(MB)).collect();
     assert!(again.iter().all(|table| table.as_slice().iter().all(|&byte| byte == 7)));
     drop(again);

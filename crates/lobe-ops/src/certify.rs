@@ -1,4 +1,4 @@
-//! By how much a file is wrong that was made of another one.
+//! The error of a file that was converted from another one.
 
 use lobe::Backend;
 use lobe_colour::NoColour;
@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::compare::{Difference, difference};
 use crate::{Aspect, OnBackend, Subject};
 
-/// The number of pairs of directions of [`certify`], and of `lobe compare` if it is not told another one.
+/// The number of pairs of directions of [`certify`], and the default of `lobe compare`.
 pub const PAIRS: usize = 100_000;
 /// The largest polar angle of both directions in degrees, likewise.
 pub const LIMIT: f64 = 85.0;
@@ -17,7 +17,7 @@ pub const LIMIT: f64 = 85.0;
 /// The difference of one measurement.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Certified {
-    /// Which measurement.
+    /// The measurement that was compared.
     #[serde(serialize_with = "in_words")]
     pub aspect: Aspect,
     /// The difference between source and file.
@@ -28,9 +28,10 @@ fn in_words<S: serde::Serializer>(aspect: &Aspect, serializer: S) -> Result<S::O
     serializer.collect_str(aspect)
 }
 
-/// Compares the measurements that both files have at `pairs` pairs of directions up to [`LIMIT`]: the first ones of a fixed
-/// sequence ([`direction_pairs`](crate::direction_pairs)), which no grid has for its nodes. With the name of a channel of the
-/// source, only this one is compared, as [`Channel::of`] finds it in both; nothing if one of them has none.
+/// Compares the measurements that both files have, at `pairs` pairs of directions up to [`LIMIT`]: the first ones of a
+/// fixed sequence ([`direction_pairs`](crate::direction_pairs)), which are the nodes of no grid. If `channel` names a
+/// channel of the source, only this one is compared, as [`Channel::of`] finds it in both; the result is empty if one of
+/// them does not have it.
 ///
 /// # Errors
 /// [`NoColour`] if the channels differ and those of one file have no colour.
@@ -75,8 +76,8 @@ pub struct Channel<'a> {
 }
 
 impl<'a> Channel<'a> {
-    /// The channel of this name, in any case of letters, or the only one, which may have been written as [`ENDS`]; `None` if
-    /// there is none of these.
+    /// The channel of this name, ignoring case, or the only one, which may have been written as [`ENDS`]; `None` if
+    /// there is neither.
     pub fn of(scattering: impl Into<OnBackend<'a>>, name: &str) -> Option<Self> {
         let scattering = scattering.into();
         let names = scattering.channels().names();

@@ -1,4 +1,4 @@
-//! A ball under one lamp, drawn anew for every place of the lamp: what people see while they drag it.
+//! A ball under one lamp, redrawn for every position of the lamp while it is dragged.
 
 use std::f32::consts::PI;
 
@@ -21,11 +21,11 @@ pub struct Ball {
     frames: Vec<[[f32; 3]; 3]>,
 }
 
-/// Points that are evaluated at once: their directions and values stay in the cache.
+/// The number of points that are evaluated at once: their directions and values stay in the cache.
 const AT_ONCE: usize = 2048;
 
 impl Ball {
-    /// A ball in the middle of a square picture, `size` pixels wide, whose radius is that share of half of it.
+    /// A ball in the middle of a square picture, `size` pixels wide. Its radius is `share` times half that width.
     pub fn new(size: usize, share: f32) -> Self {
         let (mut pixels, mut frames) = (Vec::new(), Vec::new());
         for pixel in 0..size * size {
@@ -43,9 +43,9 @@ impl Ball {
         Ball { size, pixels, frames }
     }
 
-    /// The picture under a lamp toward `toward`, a unit vector, whose irradiance on a white surface that faces it makes the
-    /// radiance 1, at an exposure in stops; transparent around the ball. The colours are those of the view, and the lit side is
-    /// that of the view too.
+    /// The picture at an exposure in stops, transparent around the ball. The lamp is in the direction of the unit
+    /// vector `toward`, and makes a white surface that faces it have radiance 1. The colours and the lit side are those
+    /// of the view.
     pub fn picture(&self, subject: &Subject, view: &View, toward: [f32; 3], exposure: f32) -> Image {
         let material = subject.material();
         let channels = material.channel_count();
@@ -72,7 +72,7 @@ impl Ball {
                 if !is_lit {
                     continue;
                 }
-                // The sample turned by psi, its lit side outward; the viewer is along +z.
+                // The sample is turned by psi, with its lit side outward; the viewer is along +z.
                 let local = |[u, v, w]: [f32; 3]| [cos * u + sin * v, flip * (cos * v - sin * u), flip * w];
                 let wi = local([dot(*tangent, toward), dot(*bitangent, toward), height]);
                 let wo = local([tangent[2], bitangent[2], normal[2]]);
@@ -95,15 +95,15 @@ impl Ball {
     }
 }
 
-/// A tone map by a table: three bytes per pixel cost more than the material if each takes a power.
+/// A tone map as a table: if every byte took a power, the bytes of a pixel would cost more than the material.
 struct Toned {
     tone: ToneMap,
     bytes: Vec<u8>,
 }
 
-/// Bits of the mantissa that the table distinguishes, a fifth of a step of a byte at most.
+/// The bits of the mantissa that the table distinguishes; an interval is at most a fifth of a step of a byte.
 const MANTISSA: u32 = 9;
-/// The exponents of the table: from 2^-12, below which there is no power to be taken, to 2^5.
+/// The exponents of the table: from 2^-12, below which the tone map takes no power, to 2^5.
 const FIRST: u32 = (127 - 12) << MANTISSA;
 const LAST: u32 = (127 + 5) << MANTISSA;
 
@@ -115,7 +115,7 @@ impl Toned {
     }
 
     fn byte(&self, radiance: f32) -> u8 {
-        // Negative numbers are beyond the last index, and NaN too.
+        // Negative numbers and NaN are beyond the last index.
         let index = (radiance.to_bits() >> (23 - MANTISSA)).wrapping_sub(FIRST) as usize;
         self.bytes.get(index).copied().unwrap_or_else(|| self.tone.byte(radiance))
     }
@@ -137,7 +137,7 @@ mod tests {
             for k in 0..40_000 {
                 let radiance = 1e-5 * 1.0004_f32.powi(k);
                 let (found, expected) = (toned.byte(radiance), tone.byte(radiance));
-                assert!(found.abs_diff(expected) <= 1, "{found} is not {expected} of {radiance}");
+                assert!(found.abs_diff(expected) <= 1, "{found} is not {expected} for {radiance}");
             }
             for radiance in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e-30] {
                 assert_eq!(toned.byte(radiance), tone.byte(radiance), "{radiance}");

@@ -10,8 +10,8 @@ use crate::slice::{Slice, slice};
 use crate::tables::Facts;
 use crate::view::View;
 
-/// Values of a model for light from `wi` to `wo`, unit vectors that point away from the surface, into one number per
-/// channel.
+/// Evaluates a model for light from `wi` to `wo`, unit vectors that point away from the surface, and writes one value
+/// per channel.
 pub type Values<'a> = dyn Fn([f64; 3], [f64; 3], &mut [f64]) + Sync + 'a;
 
 /// A model that was fitted to a material, for comparison on a page.
@@ -20,22 +20,22 @@ pub struct Fitted<'a> {
     pub scatter: Scatter,
     /// The number of channels of the model.
     pub channels: usize,
-    /// The number that is compared, of the model and of the material.
+    /// The quantity of the model that is compared.
     pub modelled: Quantity,
-    /// See `modelled`.
+    /// The quantity of the material that it is compared with.
     pub measured: Quantity,
-    /// The values.
+    /// The values of the model.
     pub f: Box<Values<'a>>,
     /// Facts about the fit, for readers.
     pub facts: Vec<Facts>,
 }
 
-/// The disk of an incidence, with the values of the model on it.
+/// The disk of an incidence, with the differences between a model and the measurement.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Residual {
-    /// What was measured.
+    /// The measurement.
     pub slice: Slice,
-    /// The model less the measurement, relative to the measurement or to the mean of the disk, whichever is larger;
+    /// The model minus the measurement, relative to the measurement or to the mean of the disk, whichever is larger;
     /// `None` outside the disk and at directions that were not measured.
     pub difference: Vec<Option<f32>>,
 }

@@ -19,11 +19,11 @@ use crate::strided::Strided;
 
 /// How far the square of the length of a unit vector may be from 1: vectors with three digits are accepted.
 const LENGTH: f32 = 5e-3;
-/// The most vectors of a batch that are checked, evenly chosen: a caller who forgets to normalise forgets it for most
-/// of them.
+/// The largest number of vectors of a batch that are checked, at equal steps: a caller who forgets to normalise does so
+/// for most of them.
 const CHECKED: usize = 1024;
 
-/// An array of one of the types that are read without conversion of the whole.
+/// An array of one of the types that are read without converting the whole array.
 enum Array<'py> {
     Single(Bound<'py, PyArrayDyn<f32>>),
     Double(Bound<'py, PyArrayDyn<f64>>),
@@ -38,7 +38,7 @@ impl<'py> Array<'py> {
         plain(value).map(Array::Single).or_else(|| plain(value).map(Array::Double))
     }
 
-    /// Any array of real numbers, converted if it must be.
+    /// Any array of real numbers, converted if necessary.
     fn new(value: &Bound<'py, PyAny>, name: &str) -> PyResult<Self> {
         if let Some(array) = Array::of(value) {
             return Ok(array);
@@ -155,7 +155,7 @@ impl Batch<'_, 3> {
         self.of_unit_length(columns.map_or_else(|| self.rows(), Source::Columns))
     }
 
-    /// Like [`directions`](Self::directions), each direction in one piece.
+    /// Like [`directions`](Self::directions), but with the components of each direction contiguous.
     ///
     /// # Errors
     /// The same as for [`directions`](Self::directions).
@@ -184,7 +184,7 @@ impl Batch<'_, 3> {
 fn columns<'a>(view: &ArrayViewD<'a, f32>) -> Option<[&'a [f32]; 3]> {
     let last = Axis(view.ndim() - 1);
     let column = |k| view.clone().index_axis_move(last, k).to_slice();
-    // Rows of one vector each are both.
+    // A single vector is both a row and three columns.
     if view.len_of(last) != 3 || view.len() == 3 {
         return None;
     }
@@ -200,7 +200,7 @@ pub enum Source<'a, const N: usize> {
 }
 
 impl<const N: usize> Source<'_, N> {
-    /// How many there are.
+    /// The number of vectors.
     pub fn count(&self) -> usize {
         match self {
             Source::Rows(rows) => rows.len(),
@@ -210,7 +210,7 @@ impl<const N: usize> Source<'_, N> {
         }
     }
 
-    /// One of them.
+    /// The vector at an index.
     pub fn get(&self, index: usize) -> [f32; N] {
         let mut one = [[0.0; N]];
         self.copy(index, &mut one);
@@ -257,7 +257,8 @@ impl Source<'_, 3> {
 }
 
 impl Source<'_, 2> {
-    /// Pairs `range`, in `room` if they do not lie in rows. What is below 1 stays so, whatever it would be rounded to.
+    /// Pairs `range`, copied to `room` if they are not contiguous rows. Numbers below 1 stay below 1 when they are
+    /// rounded.
     pub fn draws<'r>(&'r self, range: Range<usize>, room: &'r mut Vec<[f32; 2]>) -> &'r [[f32; 2]] {
         let Source::Double(pairs) = self else { return self.rows(range, room) };
         room.resize(range.len(), [0.0; 2]);

@@ -13,9 +13,9 @@ use pyo3::types::{PyDict, PyTuple};
 
 use crate::arrays::shown;
 
-/// Results of fewer numbers are left to NumPy: memory for them does not come from the system each time.
+/// Results with fewer numbers are left to NumPy, whose memory for them does not come from the system each time.
 const FROM: usize = (128 << 10) / size_of::<f32>();
-/// The most numbers that are kept.
+/// The largest number of numbers that are kept.
 const KEPT: usize = (128 << 20) / size_of::<f32>();
 /// Bytes of a cache line. Results are aligned to cache lines, because kernels write a whole line at a time.
 const LINE: usize = 64;
@@ -74,8 +74,8 @@ impl Drop for Memory {
     }
 }
 
-/// The smallest spare block into which `count` numbers fit, if they take at least half of it; among equal ones the last
-/// one used, which may still be in a cache.
+/// The smallest spare block into which `count` numbers fit, if they take at least half of it; among blocks of the same
+/// size, the one used last, which may still be in a cache.
 fn spare(count: usize) -> Option<Block> {
     let mut spare = SPARE.lock().unwrap_or_else(PoisonError::into_inner);
     let fitting = spare.iter().enumerate().rev().filter(|(_, block)| (count..=2 * count).contains(&block.room));
@@ -83,7 +83,7 @@ fn spare(count: usize) -> Option<Block> {
     Some(spare.remove(index))
 }
 
-/// Keeps a block, in place of the one that has been spare for longest.
+/// Keeps a block, and frees the ones that have been spare for longest if there are too many.
 fn keep(block: Block) {
     let mut spare = SPARE.lock().unwrap_or_else(PoisonError::into_inner);
     spare.push(block);

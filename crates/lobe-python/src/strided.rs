@@ -41,23 +41,23 @@ impl<'a, T: Component> Strided<'a, T> {
         Strided { view, count }
     }
 
-    /// How many there are.
+    /// The number of vectors.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// Copies vectors from `from` on.
+    /// Copies vectors to `out`, beginning with vector `from`.
     ///
     /// # Panics
-    /// If there are not so many, or they have fewer components.
+    /// If there are too few vectors, or they have fewer components.
     pub fn copy<const N: usize>(&self, from: usize, out: &mut [[f32; N]]) {
         self.convert(from, out, T::single);
     }
 
-    /// As [`copy`](Self::copy), with a rounding of its own.
+    /// Like [`copy`](Self::copy), but converts components with `single`.
     ///
     /// # Panics
-    /// As [`copy`](Self::copy).
+    /// The same as for [`copy`](Self::copy).
     pub fn convert<const N: usize>(&self, from: usize, mut out: &mut [[f32; N]], single: impl Fn(T) -> f32 + Copy) {
         let innermost = self.view.ndim() - 2;
         let length = self.view.len_of(Axis(innermost));

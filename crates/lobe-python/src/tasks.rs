@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use crate::batches::Source;
 use crate::threads;
 
-/// Queries per task: copies of their directions stay in the second cache.
+/// Queries per task: copies of their directions stay in the second-level cache.
 const TASK: usize = 4096;
 
 /// Fills `out`, which has `width` numbers per query, with the results of `work` for pairs of directions.

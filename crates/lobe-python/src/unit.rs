@@ -1,4 +1,4 @@
-//! Unit vectors of arrays of directions.
+//! Normalises arrays of directions.
 
 use numpy::PyArrayDyn;
 use numpy::prelude::*;

@@ -1,4 +1,4 @@
-"""Where large batches lie: what is copied piece by piece, and results whose memory is used again."""
+"""The memory of large batches: inputs that are copied piece by piece, and results whose memory is reused."""
 
 import gc
 import itertools
@@ -9,7 +9,7 @@ from conftest import directions
 
 import lobe_bsdf
 
-# More than a task of every thread, and no whole number of them.
+# More than one task per thread, and not a whole number of tasks.
 COUNT = 20_011
 
 
@@ -23,7 +23,7 @@ def outer(rows: int, columns: int):
 
 
 def laid_out(vectors: np.ndarray) -> dict[str, np.ndarray]:
-    """The same vectors in layouts that are not read where they are."""
+    """The same vectors in layouts that are not read in place."""
     padded = np.zeros((len(vectors), 5), np.float32)
     padded[:, 1:4] = vectors
     every_second = np.repeat(vectors, 2, axis=0)[::2]
@@ -112,7 +112,7 @@ def test_results_have_memory_of_their_own_while_anything_uses_them(conductor, pa
     wi, wo = pairs
     first = conductor.eval(wi, wo)
     expected = first.tobytes()
-    # Views of views, and what other libraries make of arrays.
+    # Views of views, and views that other libraries make of arrays.
     kept = [first[7:9], memoryview(first), np.from_dlpack(first[:2]), first.T.reshape(-1, order="F")[:5]]
     contents = [np.array(view).tobytes() for view in kept]
     del first
@@ -123,7 +123,7 @@ def test_results_have_memory_of_their_own_while_anything_uses_them(conductor, pa
     assert conductor.eval(wi, wo).tobytes() == expected
 
 
-def test_memory_of_results_is_used_again(conductor, pairs):
+def test_memory_of_results_is_reused(conductor, pairs):
     def address():
         return conductor.eval(*pairs).__array_interface__["data"][0]
 
@@ -133,7 +133,7 @@ def test_memory_of_results_is_used_again(conductor, pairs):
     assert addresses[0] % 64 == 0
 
 
-def test_what_results_leave_is_bounded(conductor):
+def test_memory_kept_of_results_is_bounded(conductor):
     count = 3_000_000
     wi, wo = directions(count, 1), directions(count, 2)
     results = [conductor.eval(wi, wo) for _ in range(6)]
@@ -144,7 +144,7 @@ def test_what_results_leave_is_bounded(conductor):
 
 
 def memory() -> float:
-    """Bytes that this process has."""
+    """The resident memory of this process in bytes."""
     try:
         with open("/proc/self/statm") as file:
             return int(file.read().split()[1]) * 4096
@@ -154,7 +154,7 @@ def memory() -> float:
 
 @pytest.fixture(scope="module")
 def of_every_format(conductor, fixtures, tmp_path_factory):
-    """A material in every form in which it can be written."""
+    """Materials in every format in which they can be written."""
     folder = tmp_path_factory.mktemp("formats")
     found = sorted(fixtures.glob("*.ddr"))
     for format in lobe_bsdf.formats():
@@ -176,7 +176,7 @@ def of_every_format(conductor, fixtures, tmp_path_factory):
 def test_every_number_of_a_result_is_written(of_every_format, pairs):
     assert len({material.kind for material in of_every_format}) >= 4
     wi, wo = pairs
-    # Directions of both sides, and none.
+    # Directions on both sides, and missing ones.
     wi, wo = wi.copy(), wo.copy()
     wi[::7] *= -1
     wo[::5] *= -1

@@ -1,4 +1,4 @@
-//! The clock that renderings are measured by. That of the standard library does not run in a browser.
+//! The clock that measures renderings. The one in the standard library does not work in browsers.
 
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
 pub(crate) use std::time::Instant;

@@ -1,4 +1,4 @@
-//! A material on one shape, under a lamp that can be moved and a sky: what people turn about before they decide.
+//! A material on one shape, under a movable lamp and a sky, for looking at it interactively.
 //!
 //! The camera stands on the +z axis and looks along -z, a little down; +y is up.
 
@@ -14,13 +14,13 @@ use crate::transform::Transform;
 use crate::vec3::{Vec3, dot, scale, unit};
 use crate::world::{World, WorldBuilder, WorldError};
 
-/// What the material is on.
+/// The shape that has the material.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Form {
     /// A ball on a stand.
     #[default]
     Ball,
-    /// A draped cloth, along whose weft psi is counted.
+    /// A draped cloth, with psi measured from its weft.
     Cloth,
     /// A flat sample that lies before the camera, its x axis to the right.
     Flat,
@@ -36,14 +36,14 @@ pub enum Sky {
     Overcast,
     /// Blue above, orange at the horizon.
     Dusk,
-    /// Nothing but the lamp.
+    /// No light except the lamp.
     Dark,
 }
 
 /// A lamp and a sky.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lighting {
-    /// Toward the lamp, which is far away; of any length but 0.
+    /// The direction toward the lamp, which is far away; of any length except 0.
     pub toward: [f32; 3],
     /// The surroundings.
     pub sky: Sky,
@@ -54,8 +54,8 @@ const LAMP: f32 = 0.105;
 /// The irradiance of a surface that faces the lamp.
 const IRRADIANCE: f32 = 2.6;
 
-/// The shape, a floor that bends into a wall, and the camera, under a lighting. Everything other than the material runs on the
-/// backend.
+/// Builds a scene of the shape and a floor that bends into a wall, with its lights and its camera. Everything except
+/// the material runs on `backend`.
 ///
 /// # Errors
 /// If the lamp is nowhere.
@@ -103,19 +103,19 @@ pub fn stage(
     Ok((world.build()?.lit_by(lights(lighting)?), camera))
 }
 
-/// Why there is no stage.
+/// The reason why a stage cannot be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StageError {
     /// The lamp has no direction.
-    #[error("found the lamp toward {toward:?}; expected a direction of a length other than 0")]
+    #[error("found the lamp toward {toward:?}; expected a finite direction other than 0")]
     Lamp {
-        /// What was requested.
+        /// The requested direction.
         toward: [f32; 3],
     },
-    /// The shapes make no world.
+    /// The shapes do not form a world.
     #[error(transparent)]
     World(#[from] WorldError),
-    /// The surroundings are no environment.
+    /// The surroundings do not form an environment.
     #[error(transparent)]
     Environment(#[from] EnvironmentError),
 }
@@ -129,7 +129,7 @@ pub fn lights(lighting: &Lighting) -> Result<Vec<Light>, StageError> {
     const HEIGHT: usize = 128;
     let Lighting { toward, sky } = *lighting;
     let lamp = unit(toward).filter(|lamp| lamp.iter().all(|c| c.is_finite())).ok_or(StageError::Lamp { toward })?;
-    // A disk of this radiance brings the irradiance; its rim is as soft as a texel.
+    // A disk of this radiance gives the irradiance; its rim is as soft as a texel.
     let radiance = IRRADIANCE / (std::f32::consts::PI * LAMP * LAMP);
     let softness = std::f32::consts::PI / HEIGHT as f32;
     let mut texels = Vec::with_capacity(WIDTH * HEIGHT);
@@ -150,7 +150,7 @@ pub fn lights(lighting: &Lighting) -> Result<Vec<Light>, StageError> {
 }
 
 impl Sky {
-    /// The radiance at a height, the cosine of the angle to straight up.
+    /// The radiance in a direction; `height` is the cosine of its angle from the zenith.
     fn radiance(self, height: f32) -> Vec3 {
         let between = |from: Vec3, to: Vec3, t: f32| [0, 1, 2].map(|k| from[k] + t * (to[k] - from[k]));
         let (up, t) = (height > 0.0, libm::sqrtf(height.abs()));
@@ -169,11 +169,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_lamp_is_where_it_was_put_and_as_bright_as_it_should_be() {
+    fn the_lamp_has_its_direction_and_its_irradiance() {
         for toward in [[-0.5, 0.7, 0.6], [0.0, 2.0, 0.1], [0.9, 0.1, -0.4]] {
             let lights = lights(&Lighting { toward, sky: Sky::Dark }).unwrap();
             let [Light::Environment(environment)] = lights.as_slice() else { panic!("{lights:?}") };
-            // All that there is comes from the lamp: the mean over the sphere is its irradiance over 4 pi, nearly.
+            // All light comes from the lamp, so the mean over the sphere is about its irradiance over 4 pi.
             let mean = environment.mean() as f32 * 4.0 * std::f32::consts::PI;
             assert!((mean / (0.973 * IRRADIANCE) - 1.0).abs() < 0.06, "{mean} from {toward:?}");
             let lamp = unit(toward).unwrap();
@@ -183,9 +183,9 @@ mod tests {
     }
 
     #[test]
-    fn a_lamp_nowhere_is_refused() {
+    fn a_lamp_without_a_direction_is_refused() {
         let error = lights(&Lighting { toward: [0.0; 3], sky: Sky::Studio }).unwrap_err();
-        assert!(error.to_string().contains("expected a direction"), "{error}");
+        assert!(error.to_string().contains("expected a finite direction"), "{error}");
         assert!(lights(&Lighting { toward: [f32::NAN, 0.0, 0.0], sky: Sky::Studio }).is_err());
     }
 }

@@ -1,4 +1,4 @@
-//! Rendering on the thread of the caller, a piece at a time: for programs that have no other, such as pages in a browser.
+//! Rendering in steps on the caller's thread, for programs that have no other threads, such as pages in a browser.
 
 use crate::camera::View;
 use crate::film::{Film, Rect};
@@ -8,23 +8,23 @@ use crate::settings::{RenderError, Settings};
 use crate::transport::Transport;
 use crate::world::World;
 
-/// What a call of [`render_until`] leaves.
+/// The result of a call to [`render_until`].
 #[derive(Debug)]
 pub struct Step<T: Transport> {
-    /// The film with the samples that were added.
+    /// The film with the additional samples.
     pub film: Film<T>,
-    /// Whether every pixel has all of its samples.
+    /// `true` if every pixel has all of its samples.
     pub is_done: bool,
 }
 
-/// Adds samples to a film as [`render()`](crate::render()) does, but on this thread and no longer than `goes_on`, which is
-/// asked after every tile, or after every pass of integrators that follow light from the lights. What a film gets does not
-/// depend on how it is divided into calls. `settings.threads` and `settings.time` are not looked at.
+/// Adds samples to a film as [`render()`](crate::render()) does, but on this thread, and only until `goes_on` returns
+/// `false`. It is called after every tile, or after every pass of an integrator with light paths. The samples do not
+/// depend on how they are divided into calls. `settings.threads` and `settings.time` are ignored.
 ///
-/// Small windows have few tiles, so a call of a window of at most a tile ends after a few samples of each pixel.
+/// Tiles get a few samples per pixel at a time, so even a call for a window of one tile can end early.
 ///
 /// # Errors
-/// [`RenderError`] as of [`render()`](crate::render()).
+/// [`RenderError`], as for [`render()`](crate::render()).
 pub fn render_until<T: Transport>(
     world: &World<T>,
     settings: &Settings<T>,

@@ -1,4 +1,4 @@
-//! Surfaces on grids of spherical coordinates.
+//! Measures surfaces on grids of spherical coordinates.
 
 use std::f64::consts::PI;
 
@@ -13,11 +13,11 @@ use crate::vec3::spherical as direction;
 /// [`spherical::Data`]. With `is_half` the grid is one half of an isotropic material, and its last axis is the angle between
 /// the azimuths, from 0 to half a turn.
 ///
-/// Directions near the horizon are lifted, see [`lift`]. Directions of the light are shared out over the threads of rayon;
-/// `progress` is called after each of them; there are as many as `theta_i` knots times `phi_i` knots.
+/// Directions near the horizon are lifted, see [`lift`]. The incident directions are distributed over the threads of
+/// rayon. `progress` is called after each of them, so as many times as there are `theta_i` knots times `phi_i` knots.
 ///
 /// # Errors
-/// [`GridError`] if the knots make no grid.
+/// [`GridError`] if the knots do not form a grid.
 pub fn measure(
     surface: &dyn Surface,
     scatter: Scatter,
@@ -40,7 +40,7 @@ pub fn measure(
     if is_half { grid.mirrored() } else { Ok(grid) }
 }
 
-/// All viewers of one light, `[theta_o][phi_o][channel]`.
+/// The values for all viewers of one light, `[theta_o][phi_o][channel]`.
 fn viewers(
     surface: &dyn Surface,
     scatter: Scatter,
@@ -69,8 +69,8 @@ fn viewers(
     viewer_of_node.into_iter().flat_map(texel).collect()
 }
 
-/// Knots of half a grid as the MDL format has them: `zeniths` polar angles of both directions, without the horizon, and
-/// `azimuths` from 0 to half a turn with both ends, all at equal steps.
+/// The knots of half a grid in the MDL format: `zeniths` polar angles of both directions, without the horizon, and
+/// `azimuths` azimuths from 0 to half a turn, including both ends, all in equal steps.
 pub fn uniform_half(zeniths: usize, azimuths: usize) -> [Vec<f64>; 4] {
     let thetas: Vec<f64> = (0..zeniths).map(|i| 0.5 * PI * (i as f64) / zeniths as f64).collect();
     let steps = azimuths.max(2) - 1;

@@ -1,4 +1,4 @@
-//! Surfaces as tensor trees.
+//! Measures surfaces as tensor trees.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -12,25 +12,26 @@ use crate::vec3::Vec3;
 /// How finely a tree divides the directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Refinement {
-    /// Of the incident direction a radius, for isotropic surfaces, or a square.
+    /// Rank 3 divides incident directions by their radius, for isotropic surfaces; rank 4 by both coordinates.
     pub rank: Rank,
-    /// The most halvings of each dimension.
+    /// The largest number of times that each dimension is halved.
     pub depth: u32,
-    /// A cell is a leaf if no value that was looked at in it is further from their mean than this share of the mean, or of
-    /// [`measure`]'s mean over all directions if that is larger.
+    /// A cell is a leaf if none of its samples differs from their mean by more than this share of the mean, or of the
+    /// mean over all directions if that is larger.
     pub error: f64,
 }
 
 /// How far below the middle the radii of a tree of rank 3 begin, as in Radiance.
 const INSET: f64 = 1e-6;
 
-/// Measures a block of a sheet, one tree per channel, all with the same leaves. A leaf has the mean of `f` at the middles of
-/// equal parts of its cell, three (rank 3) or two (rank 4) along each dimension. Cells are halved until they keep to
-/// [`Refinement::error`], or to the depth; all are halved 3 times (rank 4) or 4 times (rank 3), so that narrow lobes are met,
-/// and where the mirrored or straight-through direction is in a cell it is looked at as well.
+/// Measures a block of a sheet as one tree per channel, all with the same leaves. The value of a leaf is the mean of
+/// `f` at the centres of equal parts of its cell, three (rank 3) or two (rank 4) along each dimension. Cells are halved
+/// until they meet [`Refinement::error`] or reach the depth. So that narrow lobes are not missed, every cell is halved
+/// at least 4 times (rank 3) or 3 times (rank 4), and a mirror or straight-through direction in a cell is sampled as
+/// well.
 ///
 /// # Errors
-/// [`TreeError`] if the surface has a value that is not finite, or the depth is beyond that of trees.
+/// [`TreeError`] if the surface has a value that is not finite, or the depth is larger than a tree may have.
 pub fn measure(
     surface: &dyn Surface,
     refinement: Refinement,
@@ -58,7 +59,7 @@ pub fn measure(
     (0..channels).map(|channel| flat(refinement.rank, &tree, channel)).collect()
 }
 
-/// How often [`measure`] calls its `progress`.
+/// The number of times that [`measure`] calls `progress`.
 pub fn steps(refinement: Refinement) -> usize {
     if refinement.depth == 0 { 0 } else { 1 << refinement.rank.dimensions() }
 }
@@ -150,7 +151,7 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    /// A cell that is not the root. The upper half of the radii is not in use.
+    /// Builds a cell other than the root. The upper half of the radii is not used.
     fn child(&self, cell: Cell) -> Tree {
         match self.refinement.rank {
             Rank::Three if cell.low[0] >= 0.5 => Tree::Leaf(vec![0.0; self.channels]),
@@ -175,7 +176,7 @@ impl Builder<'_> {
         Tree::Branch((0..1_usize << dimensions).map(|n| self.child(cell.child(n, dimensions))).collect())
     }
 
-    /// The values in a cell.
+    /// Samples a cell.
     fn look(&self, cell: Cell) -> Seen {
         let mut sums = vec![0.0; self.channels];
         let (mut low, mut high) = (vec![f64::INFINITY; self.channels], vec![f64::NEG_INFINITY; self.channels]);
@@ -193,7 +194,7 @@ impl Builder<'_> {
         let squares = squares(cell, first, parts);
         let count = (lights.len() * squares.len()) as f64;
         for [x, y] in lights {
-            // What goes on straight or is mirrored has the x and y of the light's travel.
+            // Straight-through and mirrored light has the x and y of the direction in which the light travels.
             let travel = square(x, y);
             let is_within = (0..2).all(|axis| {
                 let low = cell.low[first + axis];
@@ -221,7 +222,7 @@ impl Builder<'_> {
         Seen { mean: mean.into_iter().map(|f| f as f32).collect(), is_even }
     }
 
-    /// Where light travels, as points of the disk, for the middles of parts of a cell.
+    /// The directions in which light travels, as points of the disk, at the centres of the parts of a cell.
     fn lights(&self, cell: Cell) -> Vec<[f64; 2]> {
         match self.refinement.rank {
             Rank::Three => {
@@ -234,14 +235,14 @@ impl Builder<'_> {
     }
 }
 
-/// The points of the disk for the middles of parts of two dimensions of a cell.
+/// The points of the disk at the centres of the parts of two dimensions of a cell.
 fn squares(cell: Cell, first: usize, parts: usize) -> Vec<[f64; 2]> {
     let middle = |axis: usize, part: usize| cell.low[axis] + cell.width * (part as f64 + 0.5) / parts as f64;
     let point = |at: usize| disk(middle(first, at % parts), middle(first + 1, at / parts));
     (0..parts * parts).map(point).collect()
 }
 
-/// What was seen in a cell.
+/// The samples of a cell.
 struct Seen {
     mean: Vec<f32>,
     is_even: bool,
@@ -265,7 +266,7 @@ fn flat(rank: Rank, tree: &Tree, channel: usize) -> Result<TensorTree, TreeError
                 match leaves {
                     Some(leaves) => {
                         nodes[node] = Node::Leaf { first: position, level: 1 };
-                        // Of a grid dimension 0 varies slowest, of children fastest.
+                        // Dimension 0 varies slowest in a grid, but fastest among children.
                         values.extend((0..leaves.len()).map(|at| leaves[reversed(at, dimensions)]));
                     }
                     None => {
@@ -342,7 +343,7 @@ mod tests {
                 gold.f(wi, &[wo], &mut expected);
                 let found = trees[0].eval(wi, wo);
                 count += 1;
-                // Twice: values between those that were looked at may be further off.
+                // Twice the error, because values between the samples may be further off.
                 beyond += usize::from((found - expected[0]).abs() > 2.0 * error * expected[0].max(mean));
             }
             assert!(beyond * 50 < count, "{beyond} of {count}");

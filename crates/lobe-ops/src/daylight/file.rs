@@ -1,9 +1,9 @@
-//! Radiance's matrix files.
+//! Radiance matrix files.
 //!
-//! A header of lines, the first `#?` and a word, up to an empty line: `NROWS=`, `NCOLS=` and `NCOMP=` give the shape,
-//! `FORMAT=` is `ascii`, `float` or `double`, and `BigEndian=1` says that numbers have their bytes the other way. Then the
-//! elements, row by row, each with its components. A text without a header is a row per line of three components per
-//! column, as older programs write sky vectors.
+//! The header begins with a line of `#?` and a word, and ends with an empty line: `NROWS=`, `NCOLS=` and `NCOMP=` give
+//! the shape, `FORMAT=` is `ascii`, `float` or `double`, and `BigEndian=1` says that numbers are big-endian. The
+//! elements follow, row by row, each with its components. A text without a header has one row per line, with three
+//! components per column; older programs write sky vectors like this.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -24,7 +24,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// Its name in the header.
+    /// The name of the format in the header.
     pub fn name(self) -> &'static str {
         match self {
             Format::Ascii => "ascii",
@@ -34,7 +34,7 @@ impl Format {
     }
 }
 
-/// What the header says.
+/// The entries of the header.
 #[derive(Default)]
 struct Header {
     rows: Option<usize>,
@@ -47,8 +47,8 @@ struct Header {
 /// Reads a matrix. `file` only names it in errors.
 ///
 /// # Errors
-/// [`FormatError`] if the header lacks a size or has another format, as pictures do, if there are more or fewer elements than
-/// it says, or one that is not a finite number.
+/// [`FormatError`] if the header lacks a size or names another format, as pictures do; if there are more or fewer
+/// elements than it says; or if an element is not a finite number.
 pub fn read(bytes: &[u8], file: &Path) -> Result<Matrix, FormatError> {
     if !bytes.starts_with(b"#?") {
         return without_header(bytes, file);
@@ -76,7 +76,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Matrix, FormatError> {
     let components = header.components.unwrap_or(3);
     let format = header.format.unwrap_or(Format::Ascii);
     let rest = &bytes[at..];
-    // Checked before memory is taken: a number and a space, or its bytes.
+    // Checked before memory is allocated: a number takes at least this many bytes, as text with a space.
     let width = match format {
         Format::Ascii => 2,
         Format::Float => 4,
@@ -86,7 +86,7 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Matrix, FormatError> {
     let room = rest.len() / width + usize::from(format == Format::Ascii);
     let Some(count) = count.filter(|count| *count <= room) else {
         let found = format!("{rows} x {columns} elements of {components} components");
-        let expected = format!("at most {room} numbers in what is left of the file");
+        let expected = format!("at most {room} numbers in the rest of the file");
         return Err(FormatError::new(file, Place::File, found, expected));
     };
     let elements = match format {
@@ -129,7 +129,7 @@ fn number(word: &str, file: &Path, line: usize) -> Result<f64, FormatError> {
     number.ok_or_else(|| FormatError::new(file, Place::Line(line), excerpt(word, 40), "a finite number"))
 }
 
-/// `count` numbers in a text that starts after a line.
+/// Reads `count` numbers from a text that starts after line `after`.
 fn numbers(bytes: &[u8], file: &Path, after: usize, count: usize) -> Result<Vec<f64>, FormatError> {
     let mut found = Vec::new();
     for (index, line) in bytes.split(|&byte| byte == b'\n').enumerate() {
@@ -160,7 +160,7 @@ fn binary(
     let width = if format == Format::Float { 4 } else { 8 };
     if bytes.len() != count * width {
         let found = format!("{} bytes after the header", bytes.len());
-        return Err(FormatError::new(file, Place::File, found, format!("{}, as it says", count * width)));
+        return Err(FormatError::new(file, Place::File, found, format!("{}, as the header says", count * width)));
     }
     let value = |bytes: &[u8]| -> f64 {
         let mut word = [0; 8];
@@ -185,9 +185,9 @@ fn binary(
     }
 }
 
-/// A row per line, each with three numbers per column.
+/// Reads one row per line, with three numbers per column.
 fn without_header(bytes: &[u8], file: &Path) -> Result<Matrix, FormatError> {
-    let expected = "a matrix of Radiance: `#?RADIANCE` and its header, or lines of numbers";
+    let expected = "a Radiance matrix: `#?RADIANCE` and a header, or lines of numbers";
     if bytes.contains(&0) {
         return Err(FormatError::new(file, Place::File, "bytes without a header", expected));
     }
@@ -202,7 +202,7 @@ fn without_header(bytes: &[u8], file: &Path) -> Result<Matrix, FormatError> {
             continue;
         }
         if rows > 0 && found != width || found % 3 != 0 {
-            let expected = if rows > 0 { format!("{width}, as before") } else { "3 for each column".into() };
+            let expected = if rows > 0 { format!("{width}, as in earlier lines") } else { "3 for each column".into() };
             return Err(FormatError::new(file, Place::Line(index + 1), format!("{found} numbers"), expected));
         }
         (rows, width) = (rows + 1, found);
@@ -245,7 +245,7 @@ pub fn to_bytes(matrix: &Matrix, format: Format, made_by: &str) -> Vec<u8> {
     bytes
 }
 
-/// Writes a matrix, whole or not at all. `made_by` is a line of the header that says how it was made.
+/// Writes a matrix completely or not at all. `made_by` is a line of the header that says how it was made.
 ///
 /// # Errors
 /// [`FormatError`] if the file cannot be written.

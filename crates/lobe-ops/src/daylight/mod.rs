@@ -1,9 +1,10 @@
-//! Matrices of views, transmission, daylight and skies, as the three-phase and the five-phase method multiply them.
+//! Matrices of views, transmission, daylight and skies, as the three-phase and five-phase methods multiply them.
 //!
-//! A view matrix says what each sensor receives from each patch of light that leaves a window, a transmission matrix how
-//! light of each incident patch leaves by each other, a daylight matrix what arrives of each patch of the sky, and a sky
-//! vector, or a matrix with a column per hour, how bright these are. Their product is what the sensors receive. Files are
-//! Radiance's; transmission may also be a WINDOW file with Klems matrices.
+//! A view matrix states what each sensor receives from each patch of directions in which light leaves a window; a
+//! transmission matrix, how light from each incident patch leaves in each outgoing patch; a daylight matrix, what
+//! arrives in each incident patch from each patch of the sky; and a sky vector, or a matrix with a column per hour, how
+//! bright the patches of the sky are. Their product is what the sensors receive. Files are Radiance matrix files; the
+//! transmission may also be a WINDOW file with Klems matrices.
 
 mod file;
 mod product;
@@ -15,7 +16,7 @@ pub use transmission::{Unfit, transmission};
 
 use nalgebra::DMatrix;
 
-/// A matrix of which each element has as many components, such as red, green and blue.
+/// A matrix whose elements all have the same components, such as red, green and blue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Matrix {
     components: Vec<DMatrix<f64>>,
@@ -25,7 +26,7 @@ impl Matrix {
     /// A matrix of `elements`, `[row][column][component]`.
     ///
     /// # Panics
-    /// If there is no component, or `elements` is not as long as that.
+    /// If there are no components, or the number of `elements` does not match the shape.
     pub fn new([rows, columns, components]: [usize; 3], elements: &[f64]) -> Self {
         assert!(components > 0, "at least one component");
         assert_eq!(elements.len(), rows * columns * components, "rows times columns times components");
@@ -41,7 +42,7 @@ impl Matrix {
         [self.components[0].nrows(), self.components[0].ncols(), self.components.len()]
     }
 
-    /// An element.
+    /// The component of an element.
     ///
     /// # Panics
     /// If there is no such element.

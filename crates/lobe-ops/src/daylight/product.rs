@@ -1,39 +1,40 @@
-//! Products of matrices, in the order that takes the fewest steps.
+//! Products of matrices, in the order that takes the fewest operations.
 
 use nalgebra::DMatrix;
 use thiserror::Error;
 
 use super::Matrix;
 
-/// Matrices that have no product.
+/// The reason why matrices have no product.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum Shapes {
-    /// No matrix.
+    /// There are no matrices.
     #[error("no matrices; expected at least one")]
     Empty,
-    /// The columns of one are not the rows of the next.
-    #[error("{columns} columns of matrix {index}, and {rows} rows of the next; expected as many")]
+    /// A matrix does not have as many columns as the next one has rows.
+    #[error("{columns} columns in matrix {index} and {rows} rows in the next; expected equal numbers")]
     Inner {
-        /// Position of the first of the two, from 0.
+        /// The index of the first of the two.
         index: usize,
-        /// Its columns.
+        /// The number of its columns.
         columns: usize,
-        /// The rows of the next.
+        /// The number of rows of the next.
         rows: usize,
     },
-    /// Components that cannot be matched: one goes with any number.
-    #[error("{found} components of matrix {index}; expected 1 or {expected}, as before")]
+    /// Two matrices differ in the number of components, and neither has only one.
+    #[error("{found} components in matrix {index}; expected 1 or {expected}, as before")]
     Components {
-        /// Position of the matrix, from 0.
+        /// The index of the matrix.
         index: usize,
-        /// Its components.
+        /// The number of its components.
         found: usize,
-        /// Those of the ones before it.
+        /// The number of components of the matrices before it.
         expected: usize,
     },
 }
 
-/// The product of matrices, component by component. A matrix of one component is the same for all components of the others.
+/// The product of matrices, component by component. A matrix with one component is used for all components of the
+/// others.
 ///
 /// # Errors
 /// [`Shapes`] if they have no product.
@@ -66,7 +67,7 @@ pub fn product(matrices: &[Matrix]) -> Result<Matrix, Shapes> {
     Ok(Matrix { components: (0..components).map(of_component).collect() })
 }
 
-/// Where to split the factors from `first` up to `end`: `[first][end]`.
+/// Where to split the product of the factors from `first` up to `end`, as `[first][end]`.
 fn order(sizes: &[usize]) -> Vec<Vec<usize>> {
     let count = sizes.len() - 1;
     let (mut costs, mut splits) = (vec![vec![0.0; count + 1]; count + 1], vec![vec![0; count + 1]; count + 1]);
@@ -103,7 +104,7 @@ mod tests {
         Matrix::new([rows, columns, components], &(0..rows * columns * components).map(element).collect::<Vec<_>>())
     }
 
-    /// Against sums written out, with one of the matrices the same for all components.
+    /// Compares with explicit sums; one of the matrices has only one component.
     #[test]
     fn products_are_sums_of_products() {
         let [v, t, s] = [matrix(3, 5, 3, 1), matrix(5, 4, 1, 2), matrix(4, 2, 3, 3)];

@@ -8,28 +8,28 @@ use thiserror::Error;
 
 use super::Matrix;
 
-/// Why a WINDOW file has no transmission matrix.
+/// The reason why a WINDOW file has no transmission matrix.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum Unfit {
-    /// No visible band.
+    /// There is no visible band.
     #[error("the bands {0}; expected one called Visible")]
     Band(String),
-    /// Neither block of transmission.
+    /// There is no block of transmission.
     #[error("no transmission; expected that of the front or of the back")]
     Transmission,
-    /// A tree, or bands with different patches.
+    /// The data is a tensor tree, or the bands have different patches.
     #[error(
         "{0}; expected Klems matrices on the same patches in all bands: `lobe convert --to klems --basis full` makes them"
     )]
     Patches(&'static str),
 }
 
-/// How light of each incident patch of the front of a WINDOW file, its outside, leaves by each patch on the other side:
-/// `f` times the projected solid angle of the incident patch, a row per patch of exit. If there is the transmission of the
-/// back only, it is that with the directions exchanged.
+/// The transmission matrix of a WINDOW file for light that arrives at its front, the outside: `f` times the projected
+/// solid angle of the incident patch, with a column per incident patch and a row per outgoing patch. If the file has
+/// only the transmission of the back, that is used with the directions exchanged.
 ///
-/// The visible band makes three equal components. With the bands `CIE-X` and `CIE-Z` they are red, green and blue with
-/// Radiance's primaries and its white of equal energy.
+/// The visible band alone gives three equal components. Together with the bands `CIE-X` and `CIE-Z` it gives red, green
+/// and blue, with Radiance's primaries and equal-energy white.
 ///
 /// # Errors
 /// [`Unfit`] if there is no such matrix.
@@ -105,8 +105,8 @@ fn centres(basis: &AngleBasis) -> Vec<[f64; 3]> {
     centres
 }
 
-/// Red, green and blue of Radiance, whose primaries are at (0.640, 0.330), (0.290, 0.600) and (0.150, 0.060), with white at
-/// (1/3, 1/3).
+/// Converts to red, green and blue as in Radiance, whose primaries are at (0.640, 0.330), (0.290, 0.600) and (0.150,
+/// 0.060), with white at (1/3, 1/3).
 fn radiance_rgb([x, y, z]: [f64; 3]) -> [f64; 3] {
     const FROM_XYZ: [[f64; 3]; 3] = [
         [2.565_312_8, -1.166_849_62, -0.398_463_17],
@@ -142,7 +142,7 @@ mod tests {
         let data = sheet(Block::TransmissionFront, &["Visible"]);
         let found = transmission(&data).expect("a matrix");
         let Some(Component::Klems(matrix)) = data.bands[0].window.block(Block::TransmissionFront) else {
-            panic!("none")
+            panic!("no matrix")
         };
         assert_eq!(found.shape(), [41, 41, 3]);
         for patch in [0, 3, 40] {
@@ -166,9 +166,9 @@ mod tests {
         assert_ne!(transmission(&front).expect("a matrix"), found);
     }
 
-    /// A white of equal energy is grey.
+    /// Equal-energy white is grey.
     #[test]
-    fn colours_are_radiance_s() {
+    fn colours_are_those_of_radiance() {
         for (found, expected) in radiance_rgb([0.5; 3]).into_iter().zip([0.5; 3]) {
             assert!((found - expected).abs() < 1e-6);
         }

@@ -8,15 +8,15 @@ use lobe_table::window::klems::AngleBasis;
 use super::Nodes;
 
 impl Nodes {
-    /// Nodes that are each finer in one respect: one axis with a knot between all knots, or half as many more knots or
-    /// texels, or smaller patches. Empty if there is nothing finer.
+    /// The next finer nodes, each in one respect: an axis with additional knots between its knots, half as many knots
+    /// or texels again, or smaller patches. Empty if there is nothing finer.
     pub fn refined(&self) -> Vec<Nodes> {
         match self {
             Nodes::Specular(knots) => denser(knots).into_iter().map(Nodes::Specular).collect(),
             Nodes::Spherical { knots, is_half: false } => {
                 denser(knots).into_iter().map(|knots| Nodes::Spherical { knots, is_half: false }).collect()
             }
-            // These must be uniform, because no format has others.
+            // Half grids must be uniform, because no format has others.
             Nodes::Spherical { knots: [thetas, _, _, phis], is_half: true } => {
                 let (zeniths, azimuths) = (thetas.len(), phis.len());
                 let finer = [[half_more(zeniths), azimuths], [zeniths, half_more(azimuths)]];
@@ -80,20 +80,20 @@ pub struct Refined<T> {
     pub nodes: Nodes,
     /// The measurement at the nodes.
     pub measured: T,
-    /// Its error.
+    /// The error of the measurement.
     pub error: f64,
     /// `true` if the error is as small as requested.
     pub is_met: bool,
 }
 
-/// The most values that a search takes for one file.
+/// The largest number of values that a search takes for one file.
 const MOST: usize = 1 << 26;
 /// A step must bring the error below this share of the previous error.
 const PROGRESS: f64 = 0.98;
 
-/// Looks for nodes with an error of at most `bound`, from `start` on: each step takes the finer nodes with the smallest
-/// error. It ends if no step helps, or if there would be too many values; then the result with the smallest error is
-/// returned. `measure` gives the measurement at nodes, and its error.
+/// Searches for nodes with an error of at most `bound`, beginning at `start`: each step takes the finer nodes with the
+/// smallest error. If no step helps, or if there would be too many values, the result with the smallest error is
+/// returned. `measure` returns the measurement at nodes, and its error.
 ///
 /// # Errors
 /// Those of `measure`.

@@ -35,7 +35,7 @@ pub(super) fn draw(shown: Shown<'_>, disks: &[Residual], paper: Paper<'_>) -> St
     let radius = RADIUS.min(0.5 * cell - 8.0);
     let row = 2.0 * radius + ABOVE + BELOW;
     let mut svg = Svg::new(id("residuals", shown.view), paper);
-    let what = format!("The fit less the measurement at each incidence σ, {}", conditions(&[shown]));
+    let what = format!("The fit minus the measurement at each incidence σ, {}", conditions(&[shown]));
     let top = heading(&mut svg, &[shown], &what);
     for (at, disk) in disks.iter().enumerate() {
         let in_row = (disks.len() - at / columns * columns).min(columns);
@@ -60,7 +60,7 @@ pub(super) fn draw(shown: Shown<'_>, disks: &[Residual], paper: Paper<'_>) -> St
         "Red: the fit is above the measurement. Blue: below. Empty: not measured.".to_string(),
     ];
     let bottom = notes(&mut svg, y + 72.0, &lines);
-    svg.finish(bottom, &title(&[shown], "the fit less the measurement over the outgoing hemisphere"))
+    svg.finish(bottom, &title(&[shown], "the fit minus the measurement over the outgoing hemisphere"))
 }
 
 /// Blue, white and red for -1, 0 and 1.

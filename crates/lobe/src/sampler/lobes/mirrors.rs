@@ -15,12 +15,12 @@ pub(super) struct Choice {
     pub(super) lobe: usize,
 }
 
-/// Directions of a chunk that belong together.
+/// The indices of the directions of a chunk that lie on one side.
 fn of_side(known: &[[f32; 3]], front: bool) -> Vec<usize> {
     (0..known.len()).filter(|&query| is_on(known[query], front)).collect()
 }
 
-/// Some of the directions, with their side up.
+/// The directions of some queries, with their side up.
 fn pick(directions: &[[f32; 3]], queries: &[usize], front: bool) -> Vec<[f32; 3]> {
     queries.iter().map(|&query| if front { directions[query] } else { flipped(directions[query]) }).collect()
 }
@@ -63,7 +63,7 @@ impl Lobes {
         pdfs: &mut [f32],
     ) -> Vec<Choice> {
         let shares = self.shares_with_mirrors(material, backend, known);
-        // The first number chooses the lobe, and the rescaled rest of it is again uniform.
+        // The first number chooses the lobe; what is left of it, rescaled, is again uniform.
         let chosen: Vec<(usize, [f32; 2])> = shares.iter().zip(u).map(|(shares, &u)| choose(shares, u)).collect();
         for (front, way, lobe) in self.each() {
             let mut queries = of_side(known, front);
@@ -123,7 +123,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_left_of_the_first_number_is_a_number_again() {
+    fn what_is_left_of_the_first_number_is_rescaled() {
         let shares = [0.2, 0.0, 0.5, 0.3];
         for (u, lobe, expected) in [(0.1, 0, 0.5), (0.2, 2, 0.0), (0.45, 2, 0.5), (0.85, 3, 0.5)] {
             let (found, [number, _]) = choose(&shares, [u, 0.0]);

@@ -96,13 +96,13 @@ impl Lit {
         !at.is_empty()
     }
 
-    /// The indices of the chosen directions.
+    /// Takes the random numbers of the chosen directions.
     pub(super) fn take_numbers(&mut self, from: &[[f32; 2]]) {
         self.u.clear();
         self.u.extend(self.at.iter().map(|&query| from[usize::from(query)]));
     }
 
-    /// The other directions of pairs, with the side of the known ones up.
+    /// Takes the other directions of pairs, with the side of the known ones up.
     pub(super) fn take_other(&mut self, from: &[[f32; 3]], front: bool) {
         self.other.clear();
         let other = self.at.iter().map(|&query| from[usize::from(query)]);
@@ -117,8 +117,8 @@ impl Lit {
         }
     }
 
-    /// Splits numbers, with their directions, among two lobes by their brightness: the rescaled rest of the first
-    /// number is again uniform.
+    /// Splits numbers, with their directions, between two lobes by their brightness. What is left of the first number,
+    /// rescaled, is again uniform.
     pub(super) fn split(&mut self, lobes: [&Lobe; 2], backend: Backend, [first, second]: &mut [Part; 2]) {
         self.find_brightness(lobes, backend);
         let Lit { known, u, brightness: [bright, others], .. } = self;
@@ -142,7 +142,7 @@ impl Lit {
         (first.count, second.count) = (firsts, seconds);
     }
 
-    /// Splits pairs among reflection and transmission by the side of the other direction.
+    /// Splits pairs between reflection and transmission by the side of the other direction.
     pub(super) fn split_pairs(&mut self, lobes: [&Lobe; 2], backend: Backend, [first, second]: &mut [Part; 2]) {
         self.find_brightness(lobes, backend);
         let Lit { known, other, brightness: [bright, others], .. } = self;
@@ -190,8 +190,8 @@ fn shares(brightness: [f32; 2]) -> [f32; 2] {
     [first / total, second / total]
 }
 
-/// `true` if a number selects the second of two lobes, the probability of the selected lobe, and the rescaled rest of
-/// the number.
+/// `true` if a number selects the second of two lobes, the probability of the selected lobe, and what is left of the
+/// number, rescaled.
 fn choose([first, second]: [f32; 2], number: f32) -> (bool, f32, f32) {
     let is_first = number < first;
     let (below, share) = if is_first { (0.0, first) } else { (first, second) };
