@@ -36,7 +36,8 @@ pub(crate) fn spherical(theta: f64, phi: f64) -> Vector {
     [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
 }
 
-/// The zenith angle of a unit vector: `2 asin(|d - n| / 2)`, which keeps its digits near the pole where `acos` loses them.
+/// The zenith angle of a unit vector: `2 asin(|d - n| / 2)`, which keeps its digits near the pole where `acos` loses
+/// them.
 pub(crate) fn theta(d: Vector) -> f64 {
     let chord = (d[0] * d[0] + d[1] * d[1] + (d[2] - 1.0) * (d[2] - 1.0)).sqrt();
     2.0 * (0.5 * chord).min(1.0).asin()

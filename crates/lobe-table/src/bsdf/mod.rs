@@ -31,7 +31,7 @@ pub trait Bsdf: Debug + Send + Sync {
     /// The meaning of the channels of a value.
     fn channels(&self) -> &Channels;
 
-    /// Whether there are values for light from this side and this scatter: by default, for reflection on the front.
+    /// `true` if there are values for light from this side and this scatter: by default, for reflection on the front.
     fn holds(&self, aspect: Aspect) -> bool {
         aspect == Aspect::REFLECTION
     }
@@ -41,7 +41,7 @@ pub trait Bsdf: Debug + Send + Sync {
         false
     }
 
-    /// Whether sampled directions may be those of mirrors, which have an infinite density.
+    /// `true` if sampled directions may be those of mirrors, which have an infinite density.
     fn samples_mirrors(&self) -> bool {
         false
     }
@@ -147,7 +147,7 @@ pub trait Bsdf: Debug + Send + Sync {
         None
     }
 
-    /// Whether there are Mueller matrices for pairs of directions.
+    /// `true` if there are Mueller matrices for pairs of directions.
     fn is_polarised(&self) -> bool {
         false
     }

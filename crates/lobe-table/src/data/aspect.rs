@@ -31,7 +31,7 @@ impl Side {
 /// One of the up to four measurements of a sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Aspect {
-    /// Whether the light stays on its side.
+    /// `true` if the light stays on its side.
     pub scatter: Scatter,
     /// The side that the light comes from; the front is the side of z > 0.
     pub light: Side,

@@ -10,7 +10,7 @@ pub(crate) fn direction(theta: f64, phi: f64) -> [f64; 3] {
     [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
 }
 
-/// Whether light at this polar angle is between the measured angles, or at one of them. If there is only one, every
+/// `true` if light at this polar angle is between the measured angles, or at one of them. If there is only one, every
 /// other angle is extrapolated.
 pub(crate) fn spans(thetas: &[f64], theta: f64) -> bool {
     let first = thetas.first().copied().unwrap_or(0.0);

@@ -23,13 +23,13 @@ pub struct Options {
 /// The [`Options`] that affect a representation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Uses {
-    /// Whether [`Options::edges`] makes a difference.
+    /// `true` if [`Options::edges`] makes a difference.
     pub edges: bool,
-    /// Whether [`Options::lookup`] does.
+    /// `true` if [`Options::lookup`] makes a difference.
     pub lookup: bool,
-    /// Whether [`Options::decode`] does.
+    /// `true` if [`Options::decode`] makes a difference.
     pub decode: bool,
-    /// Whether [`Options::indexed_by`] does.
+    /// `true` if [`Options::indexed_by`] makes a difference.
     pub indexed_by: bool,
 }
 

@@ -94,7 +94,7 @@ pub struct Gaps {
     pub all: usize,
     /// The unit that is counted, such as `bins`.
     pub of: &'static str,
-    /// Whether evaluation treats them as gaps; a mask that no program uses is only mentioned.
+    /// `true` if evaluation treats them as gaps; a mask that no program uses is only mentioned.
     pub is_used: bool,
 }
 

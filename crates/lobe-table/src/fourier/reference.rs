@@ -4,11 +4,11 @@ use super::data::Data;
 use super::place::{Place, colours};
 
 impl Data {
-    /// The channels of `f` in 1/sr for light from `wi` to `wo`, unit vectors that point away from the surface, on either side
-    /// of it.
+    /// The channels of `f` in 1/sr for light from `wi` to `wo`, unit vectors that point away from the surface, on
+    /// either side of it.
     ///
-    /// Radiance that passes into another medium changes with the square of the refractive index, and `f` with it. Zero for
-    /// directions that graze the surface, and where series are negative.
+    /// Radiance that passes into another medium changes with the square of the refractive index, and `f` with it. Zero
+    /// for directions that graze the surface, and where series are negative.
     pub fn eval(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f64> {
         let channels = self.parts().channels.count();
         let mut out = vec![0.0; channels];

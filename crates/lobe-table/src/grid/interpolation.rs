@@ -16,7 +16,8 @@ use crate::passes::block::{BLOCK, Column, registers};
 
 /// Values at the nodes of four axes, laid out for evaluation in SIMD lanes.
 ///
-/// A grid with one knot on the axis [`TURN`] does not depend on the rotation of the sample, and does not read that angle.
+/// A grid with one knot on the axis [`TURN`] does not depend on the rotation of the sample, and does not read that
+/// angle.
 #[derive(Clone, Debug)]
 pub(crate) struct Interpolator {
     axes: [Axis; 4],

@@ -70,7 +70,7 @@ struct OneCell {
     index: u32,
     /// The fraction into the cell.
     fraction: f32,
-    /// Whether the table has a value there.
+    /// `true` if the table has a value there.
     contained: bool,
 }
 

@@ -8,7 +8,8 @@ use super::texel::Stored;
 use super::weights::MAX_CORNERS;
 use crate::passes::block::{BLOCK, Column};
 
-/// Space for up to three channels of each query of a block, one after the other, and for the fourth float that the last store writes.
+/// Space for up to three channels of each query of a block, one after the other, and for the fourth float that the last
+/// store writes.
 pub(crate) type Tile<const B: usize = BLOCK> = [[f32; B]; 4];
 
 /// Queries per iteration of the loop over texels, if there are as many lanes.
@@ -52,8 +53,8 @@ pub(crate) fn rgb<L: Lanes, T: Stored, const CORNERS: usize, const B: usize>(
     }
 }
 
-/// Like [`rgb`], with texels whose fourth float says whether there is a value: texels without one are all 0 and are left
-/// out of the average. 0 if no texel has a value.
+/// Like [`rgb`], with texels whose fourth float says whether there is a value: texels without one are all 0 and are
+/// left out of the average. 0 if no texel has a value.
 #[inline(always)]
 pub(crate) fn measured<L: Lanes, T: Stored, const CORNERS: usize, const B: usize>(
     lanes: L,

@@ -25,8 +25,9 @@ pub struct Data {
 }
 
 impl Data {
-    /// Checks that there are `[channel][theta_h][theta_d][phi_d]` values, with three channels, and that they are finite.
-    /// `bins` counts `theta_h`, `theta_d`, `phi_d`. Values are `f` in 1/sr, linear RGB; negative ones were not measured.
+    /// Checks that there are `[channel][theta_h][theta_d][phi_d]` values, with three channels, and that they are
+    /// finite. `bins` counts `theta_h`, `theta_d`, `phi_d`. Values are `f` in 1/sr, linear RGB; negative ones were not
+    /// measured.
     ///
     /// # Errors
     /// [`Invalid`] names `dims` or `values`.
@@ -72,7 +73,7 @@ impl Data {
         (0..h * d * p).map(move |index| [index / (d * p), index / p % d, index % p])
     }
 
-    /// Whether a bin was measured: the file has negative numbers below the horizon, and where a measurement failed.
+    /// `true` if a bin was measured: the file has negative numbers below the horizon, and where a measurement failed.
     pub fn is_measured(&self, bin: [usize; 3]) -> bool {
         self.texel(bin).iter().all(|value| *value >= 0.0)
     }

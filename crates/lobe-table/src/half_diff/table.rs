@@ -86,7 +86,8 @@ impl Table {
         backend.run(self.batch(lookup, wi, wo, out));
     }
 
-    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[3 * query + channel]`, in 1/sr.
+    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[3 * query + channel]`, in
+    /// 1/sr.
     ///
     /// # Panics
     /// If the numbers of `wi` and `wo` differ, or `out` is not three times as long.

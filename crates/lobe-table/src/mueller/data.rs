@@ -19,8 +19,8 @@ pub struct Data {
 pub const AXES: [&str; 4] = ["phi_d", "theta_d", "theta_h", "wvls"];
 
 impl Data {
-    /// Checks the knots of `phi_d`, `theta_d`, `theta_h`, in radians, and the wavelengths in nm, all ascending, and that
-    /// there is a matrix for each combination: `[phi_d][theta_d][theta_h][wavelength][row][column]`.
+    /// Checks the knots of `phi_d`, `theta_d`, `theta_h`, in radians, and the wavelengths in nm, all ascending, and
+    /// that there is a matrix for each combination: `[phi_d][theta_d][theta_h][wavelength][row][column]`.
     ///
     /// A matrix whose first element is NaN was not measured.
     ///

@@ -1,7 +1,7 @@
 //! Polarised reflection: a 4 x 4 Mueller matrix for every pair of directions and wavelength.
 //!
-//! Baek et al., "Image-Based Acquisition and Modeling of Polarimetric Reflectance", ACM TOG 39(4), 2020. The material is
-//! isotropic; matrices are tabulated over the coordinates of Rusinkiewicz, in Stokes frames that follow the plane of
+//! Baek et al., "Image-Based Acquisition and Modeling of Polarimetric Reflectance", ACM TOG 39(4), 2020. The material
+//! is isotropic; matrices are tabulated over the coordinates of Rusinkiewicz, in Stokes frames that follow the plane of
 //! the two directions.
 //!
 //! [`Data`] are the matrices as measured, with an evaluation in `f64`. A [`Table`] holds the element that applies to

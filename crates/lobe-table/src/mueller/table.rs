@@ -17,8 +17,8 @@ pub(super) const UNMEASURED: f32 = f32::MIN;
 /// The values for unpolarised light, laid out for evaluation in SIMD lanes: the first element of the matrix, at each
 /// wavelength of the table.
 ///
-/// The values are those of [`Data::in_plane`], in `f32`: `f` in 1/sr, without the cosine. The directions need not be unit
-/// vectors, but their lengths have to be between 1e-15 and 1e15. In strict form
+/// The values are those of [`Data::in_plane`], in `f32`: `f` in 1/sr, without the cosine. The directions need not be
+/// unit vectors, but their lengths have to be between 1e-15 and 1e15. In strict form
 /// ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
 #[derive(Clone, Debug)]
 pub struct Table {
@@ -65,8 +65,8 @@ impl Table {
         backend.run(self.batch(wi, wo, out));
     }
 
-    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[query * channels + channel]`,
-    /// in 1/sr.
+    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]:
+    /// `out[query * channels + channel]`, in 1/sr.
     ///
     /// # Panics
     /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times the number of

@@ -4,7 +4,8 @@ use std::f32::consts::TAU;
 
 use lobe_lane::{Floats, Lanes};
 
-/// Sigma, psi (0 unless `anisotropic`), theta and phi in radians; see [`coords`](crate::specular::coords) for the geometry.
+/// Sigma, psi (0 unless `anisotropic`), theta and phi in radians; see [`coords`](crate::specular::coords) for the
+/// geometry.
 #[inline(always)]
 pub(super) fn angles<L: Lanes>(lanes: L, wi: [L::F; 3], wo: [L::F; 3], anisotropic: bool) -> [L::F; 4] {
     let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));

@@ -10,8 +10,8 @@
 
 use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
 
-/// The cell of each lane of `x` as a float; 0 in lanes outside the mask. Queries outside the knots belong to the outermost
-/// cells.
+/// The cell of each lane of `x` as a float; 0 in lanes outside the mask. Queries outside the knots belong to the
+/// outermost cells.
 ///
 /// # Panics
 /// If there are fewer than two knots.

@@ -7,8 +7,8 @@ use crate::{Channels, GridError, Scatter, specular};
 
 /// Mueller matrices on a grid in specular coordinates.
 ///
-/// Axes as in [`specular::Data`], in radians; an isotropic table has one psi knot. Elements are in 1/sr, without the cosine,
-/// in the order `[sigma][psi][theta][phi][wavelength][row][column]`.
+/// Axes as in [`specular::Data`], in radians; an isotropic table has one psi knot. Elements are in 1/sr, without the
+/// cosine, in the order `[sigma][psi][theta][phi][wavelength][row][column]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Data {
     /// The values for unpolarised light: the first elements.

@@ -15,8 +15,8 @@ use crate::{Edges, Precision, Scatter, TableError};
 
 /// Whole Mueller matrices on a grid of specular coordinates, laid out for evaluation in SIMD lanes.
 ///
-/// The matrices are those of [`Data::eval`], in `f32`: `out[query][wavelength][row][column]`, in 1/sr, without the cosine.
-/// In strict form ([`Lanes::strict`]) all backends give the same bits.
+/// The matrices are those of [`Data::eval`], in `f32`: `out[query][wavelength][row][column]`, in 1/sr, without the
+/// cosine. In strict form ([`Lanes::strict`]) all backends give the same bits.
 #[derive(Clone, Debug)]
 pub struct Matrices {
     wavelengths: usize,

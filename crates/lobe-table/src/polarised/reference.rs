@@ -7,8 +7,8 @@ use crate::mueller::{ELEMENTS, Matrix, in_frames};
 use crate::specular::coords::directions_to_angles;
 
 impl Data {
-    /// The Mueller matrix in 1/sr, without the cosine, for light that comes from `wi` and leaves along `wo`, with the policy
-    /// of each axis outside its knots.
+    /// The Mueller matrix in 1/sr, without the cosine, for light that comes from `wi` and leaves along `wo`, with the
+    /// policy of each axis outside its knots.
     ///
     /// It maps Stokes vectors with the x axis [`stokes_basis`](crate::mueller::stokes_basis)`(-wi)` to Stokes vectors
     /// with the x axis `stokes_basis(wo)`. Zero if a direction is not above the surface.

@@ -32,7 +32,7 @@ pub struct Parts {
     pub channels: Channels,
     /// `P x T x C` images: `f cos(theta_o)` without the microfacet factor if [`jacobian`](Self::jacobian) is set.
     pub spectra: Images,
-    /// Whether values are to be multiplied by `ndf / (4 sigma)`.
+    /// `true` if values are to be multiplied by `ndf / (4 sigma)`.
     pub jacobian: bool,
     /// Which texels of the spectra were measured, one bit each, as in the file. For display; no evaluation uses it.
     pub valid: Option<Vec<u8>>,

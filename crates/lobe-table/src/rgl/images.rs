@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use crate::invalid::{Invalid, count, finite};
 
-/// Images on the unit square, `[slice][row][column]`: the row is `u.y`, an azimuth; the column is `u.x`, a zenith angle.
+/// Images on the unit square, `[slice][row][column]`: the row is `u.y`, an azimuth; the column is `u.x`, a zenith
+/// angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Images {
     pub(super) slices: usize,

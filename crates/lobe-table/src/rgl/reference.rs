@@ -59,7 +59,7 @@ impl Reference {
         Reference { rgl: rgl.clone(), vndf, luminance, clamp_negative: false }
     }
 
-    /// Whether negative values, which the measurements contain, become zero. Off unless set.
+    /// `true` if negative values, which the measurements contain, become zero. The default is `false`.
     pub fn clamp_negative(mut self, clamp: bool) -> Self {
         self.clamp_negative = clamp;
         self

@@ -55,7 +55,8 @@ impl Distribution {
         backend.run(self.densities(known, other, pdfs));
     }
 
-    /// The densities of many pairs as a kernel, for lanes that are not a [`Backend`] (see [`pdf_batch`](Self::pdf_batch)).
+    /// The densities of many pairs as a kernel, for lanes that are not a [`Backend`] (see
+    /// [`pdf_batch`](Self::pdf_batch)).
     ///
     /// # Panics
     /// If the slices do not have the same length.

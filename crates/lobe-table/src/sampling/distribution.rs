@@ -80,7 +80,7 @@ impl Distribution {
         Ok(Distribution { surface, sigma, psi, slices, brightest: brightest as f32 })
     }
 
-    /// Whether scattered directions are on the side of the incident one, or on the other.
+    /// The kind of scatter: scattered directions are on the side of the incident one, or on the other.
     pub fn scatter(&self) -> Scatter {
         self.surface.scatter
     }
@@ -104,8 +104,7 @@ impl Distribution {
         leave(lanes, &incident, draw, mask)
     }
 
-    /// The density of `other` given `known`, inside a caller's own kernel; 0 if one of them is not above
-    /// the surface.
+    /// The density of `other` given `known`, inside a caller's own kernel; 0 if one of them is not above the surface.
     #[inline(always)]
     pub fn pdf_lanes<L: Lanes>(&self, lanes: L, known: [L::F; 3], other: [L::F; 3]) -> L::F {
         let incident = Incident::new(lanes, &self.surface, known);

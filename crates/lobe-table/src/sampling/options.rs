@@ -9,7 +9,7 @@ use crate::{Axis, AxisError, Scatter};
 /// The options for laying out a [`Distribution`](super::Distribution).
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistributionOptions {
-    /// Whether scattered directions are on the side of the incident one, or on the other.
+    /// The kind of scatter: scattered directions are on the side of the incident one, or on the other.
     pub scatter: Scatter,
     /// Polar angles of incidence in radians, ascending in `[0, pi/2]`: at each there is a slice.
     pub sigma: Vec<f64>,

@@ -121,8 +121,8 @@ impl Sampler {
         &self.distribution
     }
 
-    /// Bytes of memory that the distributions take in addition to the table: at most one and a half times what the table takes,
-    /// except for the tiniest tables.
+    /// Bytes of memory that the distributions take in addition to the table: at most one and a half times what the
+    /// table takes, except for the tiniest tables.
     pub fn bytes(&self) -> usize {
         self.distribution.bytes()
     }
@@ -220,8 +220,8 @@ impl Sampler {
         self.distribution.pdf_batch(backend, known, other, pdfs);
     }
 
-    /// Samples a direction in each lane inside a caller's own kernel, as [`sample`](Sampler::sample); 0 in the lanes that
-    /// `mask` leaves out.
+    /// Samples a direction in each lane inside a caller's own kernel, as [`sample`](Sampler::sample); 0 in the lanes
+    /// that `mask` leaves out.
     ///
     /// # Panics
     /// If the length of `weight` is not the number of channels.
@@ -247,8 +247,8 @@ impl Sampler {
         (sampled, pdf)
     }
 
-    /// The density of a pair per lane inside a caller's own kernel, as [`pdf`](Sampler::pdf); 0 in the lanes that `mask`
-    /// leaves out.
+    /// The density of a pair per lane inside a caller's own kernel, as [`pdf`](Sampler::pdf); 0 in the lanes that
+    /// `mask` leaves out.
     #[inline(always)]
     pub fn pdf_lanes<L: Lanes>(&self, lanes: L, given: Given, wi: [L::F; 3], wo: [L::F; 3], mask: L::M) -> L::F {
         let (known, other) = pair(given, wi, wo);

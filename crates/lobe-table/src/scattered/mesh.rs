@@ -158,7 +158,7 @@ impl Triangles {
         self.triangles.vertex(vertex).data().index
     }
 
-    /// Whether a triangle within the rim has this edge.
+    /// `true` if a triangle within the rim has this edge.
     fn is_inside(&self, edge: FixedDirectedEdgeHandle) -> bool {
         let edge = self.triangles.directed_edge(edge);
         [edge, edge.rev()].iter().any(|side| side.face().as_inner().is_some_and(|f| !self.is_outside[f.fix().index()]))

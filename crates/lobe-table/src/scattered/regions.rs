@@ -21,7 +21,7 @@ pub(super) struct Region {
     pub(super) corners: [usize; 3],
     /// The factors from the distances inside the first and second side to the weights of the second and third corner.
     pub(super) scale: [f64; 2],
-    /// Whether double precision is needed.
+    /// `true` if double precision is needed.
     pub(super) is_narrow: bool,
 }
 
@@ -34,7 +34,7 @@ impl Region {
         self.inside.iter().map(|[a, b, c]| a * x + b * y + c).fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether a part of a square may be in it.
+    /// `true` if a part of a square may be in it.
     pub(super) fn may_reach(&self, [x, y]: [f64; 2], half: f64) -> bool {
         self.inside.iter().all(|[a, b, c]| a * x + b * y + c + half * (a.abs() + b.abs()) >= 0.0)
     }

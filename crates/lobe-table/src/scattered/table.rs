@@ -106,8 +106,8 @@ impl Table {
         backend.run(self.batch(wi, wo, out));
     }
 
-    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[query * channels + channel]`, in
-    /// 1/sr.
+    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]:
+    /// `out[query * channels + channel]`, in 1/sr.
     ///
     /// # Panics
     /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times the number of channels.

@@ -36,8 +36,8 @@ pub fn angles_to_directions(angles: [f64; 4], zenith: impl Fn(f64) -> f64) -> ([
 /// Converts two unit vectors to four angles, sigma, psi, theta and phi in radians; psi and phi are in `[0, 2 pi)`.
 ///
 /// `zenith` as in [`angles_to_directions`]. The difference of `wo` and the zenith, not their dot product, gives theta
-/// and phi, so that both keep their accuracy at the mirror peak. An undefined angle is 0: psi with `wi` at
-/// the normal, phi with `wo` at the zenith or opposite to it.
+/// and phi, so that both keep their accuracy at the mirror peak. An undefined angle is 0: psi with `wi` at the normal,
+/// phi with `wo` at the zenith or opposite to it.
 pub fn directions_to_angles(wi: [f64; 3], wo: [f64; 3], zenith: impl Fn(f64) -> f64) -> [f64; 4] {
     let across = wi[0].hypot(wi[1]);
     let sigma = across.atan2(wi[2]);

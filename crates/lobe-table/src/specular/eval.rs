@@ -62,8 +62,8 @@ impl Table {
         evaluation(self, wi, wo, out)
     }
 
-    /// Evaluates one pair per lane inside a caller's own kernel: `out[channel]` holds that channel in all lanes, 0 in the
-    /// lanes that `mask` leaves out.
+    /// Evaluates one pair per lane inside a caller's own kernel: `out[channel]` holds that channel in all lanes, 0 in
+    /// the lanes that `mask` leaves out.
     ///
     /// # Panics
     /// If the length of `out` is not the number of channels.

@@ -1,7 +1,7 @@
 //! BRDFs and BTDFs on a grid in specular coordinates, whose axes follow the peak.
 //!
-//! [`Data`] is a material as measured, and a [`Table`] is prepared for evaluation in SIMD lanes.
-//! [`mod@reference`] is the same evaluation in readable `f64`; [`coords`] explains the four angles.
+//! [`Data`] is a material as measured, and a [`Table`] is prepared for evaluation in SIMD lanes. [`mod@reference`] is
+//! the same evaluation in readable `f64`; [`coords`] explains the four angles.
 
 pub(crate) mod angles;
 pub mod coords;

@@ -32,8 +32,8 @@ pub fn eval(samples: &Data, edges: &Edges, wi: [f64; 3], wo: [f64; 3], out: &mut
     eval_angles(samples, edges, angles, out);
 }
 
-/// The table at sigma, psi, theta and phi in radians, in 1/sr, ignoring the horizon: multilinear in the
-/// angles, with the policy of each axis outside its knots.
+/// The table at sigma, psi, theta and phi in radians, in 1/sr, ignoring the horizon: multilinear in the angles, with
+/// the policy of each axis outside its knots.
 ///
 /// # Panics
 /// If the length of `out` is not the number of channels.

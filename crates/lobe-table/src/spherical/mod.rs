@@ -1,7 +1,7 @@
 //! BRDFs and BTDFs on a grid in spherical coordinates of both directions.
 //!
-//! [`Data`] are the values as measured, with an evaluation in `f64`; a [`Table`] is made ready for
-//! evaluation in SIMD lanes.
+//! [`Data`] are the values as measured, with an evaluation in `f64`; a [`Table`] is made ready for evaluation in SIMD
+//! lanes.
 
 pub(crate) mod coordinates;
 mod data;

@@ -84,7 +84,8 @@ impl Table {
         backend.run(self.batch(wi, wo, out));
     }
 
-    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[query * channels + channel]`.
+    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]:
+    /// `out[query * channels + channel]`.
     ///
     /// # Panics
     /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times the number of channels.
@@ -97,8 +98,8 @@ impl Table {
         evaluation(self, wi, wo, out)
     }
 
-    /// Evaluates one pair per lane inside a caller's own kernel: `out[channel]` holds that channel in all lanes, 0 in the
-    /// lanes that `mask` leaves out.
+    /// Evaluates one pair per lane inside a caller's own kernel: `out[channel]` holds that channel in all lanes, 0 in
+    /// the lanes that `mask` leaves out.
     ///
     /// # Panics
     /// If the length of `out` is not the number of channels.

@@ -14,8 +14,9 @@ use crate::{Edge, Edges, Precision};
 
 /// [`Data`] laid out for evaluation in SIMD lanes.
 ///
-/// The values are those of [`Data::eval`], in `f32`. The directions need not be unit vectors, but their lengths have to be
-/// between 1e-15 and 1e15. In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same bits.
+/// The values are those of [`Data::eval`], in `f32`. The directions need not be unit vectors, but their lengths have to
+/// be between 1e-15 and 1e15. In strict form ([`Lanes::strict`](lobe_lane::Lanes::strict)) all backends give the same
+/// bits.
 #[derive(Clone, Debug)]
 pub struct Table {
     grid: Interpolator,

@@ -130,8 +130,8 @@ impl Blocks {
         self.answer(wi, wo).map_or(0.0, |(component, wi, wo)| component.eval(wi, wo))
     }
 
-    /// All values that [`eval`](Self::eval) may have in the lanes of a [`Table`](super::Table): if directions are within rounding of
-    /// the border of two patches or cells, those of both.
+    /// All values that [`eval`](Self::eval) may have in the lanes of a [`Table`](super::Table): if directions are
+    /// within rounding of the border of two patches or cells, those of both.
     pub fn candidates(&self, wi: [f64; 3], wo: [f64; 3]) -> Vec<f64> {
         self.answer(wi, wo).map_or(vec![0.0], |(component, wi, wo)| component.candidates(wi, wo))
     }

@@ -38,9 +38,9 @@ struct Group {
 /// The source of the values of a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Source {
-    /// Its own block, or the reverse one.
+    /// The block itself, or the reverse one.
     block: Block,
-    /// Whether it is the reverse one, with the directions exchanged.
+    /// `true` if this is the reverse one, with the directions exchanged.
     exchanged: bool,
 }
 
@@ -100,7 +100,8 @@ impl Table {
         backend.run(self.batch(wi, wo, out));
     }
 
-    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[query * bands + band]`, in 1/sr.
+    /// The evaluation of many pairs as a kernel, for lanes that are not a [`Backend`]: `out[query * bands + band]`, in
+    /// 1/sr.
     ///
     /// # Panics
     /// If the numbers of `wi` and `wo` differ, or the length of `out` is not that number times the number of bands.

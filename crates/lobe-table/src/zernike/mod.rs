@@ -1,7 +1,8 @@
 //! Isotropic reflection as an expansion in Zernike polynomials of both directions, reciprocal term by term.
 //!
-//! J. J. Koenderink and A. J. van Doorn, "Phenomenological description of bidirectional surface reflection", JOSA A 15(11),
-//! 1998; the unpolarised part of the model that T. A. Germer fitted to sintered PTFE, Applied Optics 56(33), 2017.
+//! J. J. Koenderink and A. J. van Doorn, "Phenomenological description of bidirectional surface reflection", JOSA A
+//! 15(11), 1998; the unpolarised part of the model that T. A. Germer fitted to sintered PTFE, Applied Optics 56(33),
+//! 2017.
 //!
 //! A direction with polar angle `theta` is at the radius `rho = sqrt(2) sin(theta / 2)` of the unit disk. With the
 //! radial polynomials `R`, a term of the orders n, m and l with the coefficient `a` adds

@@ -42,7 +42,7 @@ impl<'a> Wanted<'a> {
 /// The requested quantities, one by one.
 struct Parts<'a> {
     values: Option<&'a mut [f32]>,
-    /// Whether values keep the cosine.
+    /// `true` if values keep the cosine.
     cosine: bool,
     pdf: Option<&'a mut [f32]>,
 }

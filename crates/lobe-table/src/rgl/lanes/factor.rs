@@ -42,7 +42,7 @@ impl Cells {
 pub(super) struct Factor {
     ndf: Cells,
     sigma: Cells,
-    /// Whether the area depends on the azimuth of `wi`.
+    /// `true` if the area depends on the azimuth of `wi`.
     pub(super) azimuthal: bool,
 }
 

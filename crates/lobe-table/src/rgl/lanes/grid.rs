@@ -123,8 +123,8 @@ impl Places {
     }
 }
 
-/// The offsets of the corners of a cell: those of the slices, azimuth slowest, times those of `within`, the last fastest.
-/// An axis of one knot has no upper neighbour.
+/// The offsets of the corners of a cell: those of the slices, azimuth slowest, times those of `within`, the last
+/// fastest. An axis of one knot has no upper neighbour.
 pub(super) fn offsets<const CORNERS: usize>(slices: [usize; 2], stride: usize, within: &[usize]) -> [usize; CORNERS] {
     let [azimuths, zeniths] = slices;
     let steps = [(azimuths > 1, zeniths * stride), (zeniths > 1, stride)].map(|(two, step)| if two { step } else { 0 });

@@ -9,8 +9,8 @@
 //! 5. `factor`: `ndf / (4 sigma)`, if the material requires it;
 //! 6. `spectra`: the texels at the uniform position, weighted and summed.
 //!
-//! Sampling goes the other way: `draw` warps uniform numbers by the luminance and then by the visible normals, `reflect`
-//! turns the half vector into a direction, and the last two passes are the same.
+//! Sampling goes the other way: `draw` warps uniform numbers by the luminance and then by the visible normals,
+//! `reflect` turns the half vector into a direction, and the last two passes are the same.
 
 mod angles;
 mod batch;

@@ -13,7 +13,7 @@ use crate::rgl::Data;
 /// Options for the evaluation of a [`Table`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// Whether negative values, which the measurements contain, become zero. Off by default.
+    /// `true` if negative values, which the measurements contain, become zero. The default is `false`.
     pub clamp_negative: bool,
 }
 
@@ -35,13 +35,13 @@ pub struct Table {
     pub(super) luminance: Warp,
     pub(super) factor: Option<Factor>,
     pub(super) spectra: Spectra,
-    /// Whether anything depends on the azimuth of `wi`.
+    /// `true` if anything depends on the azimuth of `wi`.
     pub(super) azimuthal: bool,
 }
 
 impl Table {
-    /// Normalises the distributions and lays everything out: about 34 bytes per texel of the distributions, and 16 bytes per
-    /// texel of RGB.
+    /// Normalises the distributions and lays everything out: about 34 bytes per texel of the distributions, and 16
+    /// bytes per texel of RGB.
     ///
     /// # Errors
     /// [`Invalid`] names the part of the material that is too large for a 32-bit index.
@@ -90,7 +90,7 @@ impl Table {
         axes + self.vndf.bytes() + self.luminance.bytes() + factor + self.spectra.bytes()
     }
 
-    /// Whether slices differ in azimuth, so that a blend has four slices instead of two.
+    /// `true` if slices differ in azimuth, so that a blend has four slices instead of two.
     pub(super) fn blends_azimuths(&self) -> bool {
         self.phi_i.knots().len() > 1
     }
