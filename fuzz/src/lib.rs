@@ -20,7 +20,8 @@ pub fn read(format: Format, bytes: &[u8]) {
     let _ = probe(format, bytes, Path::new("fuzz"));
 }
 
-/// What `run` makes of a file that holds `bytes`, for what opens files itself. Where there is one, the file is in memory.
+/// Calls `run` with the path of a file that contains `bytes`, for code that opens files itself. The file is in memory
+/// if the system has a folder for that.
 ///
 /// # Panics
 /// If `run` does, or the file cannot be written.

@@ -21,8 +21,8 @@ const fn step(arguments: &'static [&'static str]) -> Step {
     Step { arguments, doc_flags: "" }
 }
 
-/// The quick report comes before `asm`, which checks the same programs. The tests in Python run on the module that is built
-/// with the other tests; `cargo xtask python`, which builds it as users do, takes minutes and is a step of the public workflow.
+/// The quick report comes before `asm`, which checks the same programs. `cargo xtask python`, which needs packages of
+/// Python, is a step of the public workflow.
 const STEPS: [Step; 6] = [
     step(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]),
     Step { arguments: &["doc", "--workspace", "--no-deps", "--quiet"], doc_flags: "-D warnings" },

@@ -11,8 +11,8 @@ use crate::baseline::{self, ScalarTable};
 use crate::tables;
 use crate::workload::{Input, Pairs};
 
-// The tables of the contests hold random values, so that the steepest cells change by their largest value over 0.012 rad
-// of theta, and by as much over any phi at the mirror peak, where phi means nothing. The largest errors come from
+// The tables of the contests hold random values, so that the steepest cells change by their largest value over 0.012
+// rad of theta, and by as much over any phi at the mirror peak, where phi means nothing. The largest errors come from
 // there; the mean ones reveal a wrong kernel, which would be off by about a third.
 
 /// Angles from differences of vectors, within 4e-7 rad.

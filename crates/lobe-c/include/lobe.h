@@ -192,7 +192,7 @@ typedef struct {
 #define LOBE_OK 0
 
 /**
- * An argument makes no sense.
+ * An argument is invalid.
  */
 #define LOBE_ERROR_INVALID 1
 

@@ -10,7 +10,7 @@ pub type lobe_status = c_int;
 
 /// Success.
 pub const LOBE_OK: lobe_status = 0;
-/// An argument makes no sense.
+/// An argument is invalid.
 pub const LOBE_ERROR_INVALID: lobe_status = 1;
 /// A file cannot be read, is damaged, or is of no known format.
 pub const LOBE_ERROR_FORMAT: lobe_status = 2;

@@ -35,8 +35,8 @@ pub struct Args {
     /// Light from one side only, if the files have both.
     #[arg(long, value_enum)]
     side: Option<SideRule>,
-    /// Compare this channel of the first material with that of the same name, or the only one, of the second. Equal values
-    /// at 360 and 830 nm are one channel.
+    /// Compare this channel of the first material with that of the same name, or the only one, of the second. Equal
+    /// values at 360 and 830 nm are one channel.
     #[arg(long, value_name = "NAME")]
     channel: Option<String>,
     /// The number of pairs of directions.

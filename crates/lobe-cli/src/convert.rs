@@ -70,9 +70,9 @@ struct Answer {
     format: &'static str,
     /// The nodes in words; `None` if those of the file were written.
     resampled: Option<String>,
-    /// What happened to the channels.
+    /// How the channels were changed; `None` if they were not.
     note: Option<String>,
-    /// As `lobe compare` prints it; `None` if nothing was resampled, or there is nothing to compare with.
+    /// The error as `lobe compare` prints it; `None` if nothing was resampled, or there is nothing to compare with.
     error: Option<Certificate>,
 }
 
@@ -181,7 +181,7 @@ fn interpolated(document: &Document, target: Target, args: &Args) -> Result<Opti
         _ => None,
     };
     if let Some(error) = &error {
-        say("  between the nodes this format is interpolated in another way");
+        say("  between the nodes, this format is interpolated differently");
         error.lines().for_each(|line| say(format_args!("  {line}")));
     }
     match (&error, args.error) {
@@ -208,7 +208,7 @@ fn loss(document: &Document, written: Option<Scatter>) -> Option<String> {
     Some(format!("a sheet with two sides; the {} of light from the front is written", side(written)))
 }
 
-/// Whether trees of a WINDOW file are to be written as matrices, or matrices on other patches.
+/// `true` if trees of a WINDOW file should be written as matrices, or matrices on other patches.
 fn asks_for_matrices(document: &Document, args: &Args) -> bool {
     let Some(Data::Window(window)) = document.only() else { return false };
     let mut components =

@@ -7,7 +7,7 @@ use crate::message::say;
 
 static ASKED: AtomicUsize = AtomicUsize::new(0);
 
-/// From now on, signals are counted, and the second one ends the program. Without this, the first one does.
+/// Counts signals from now on; the second one ends the program. Without this, the first one does.
 pub fn listen() {
     // If no handler can be installed, signals end the program as usual.
     let _ = ctrlc::set_handler(|| {
@@ -20,7 +20,7 @@ pub fn listen() {
     });
 }
 
-/// From now on a signal ends what the program waits for, and nothing is said about it.
+/// Counts signals from now on without a message, so that the first one can end a wait; the second one ends the program.
 pub fn listen_quietly() {
     let _ = ctrlc::set_handler(|| {
         if ASKED.fetch_add(1, Ordering::Relaxed) > 0 {
@@ -29,7 +29,7 @@ pub fn listen_quietly() {
     });
 }
 
-/// Whether the program was asked to end.
+/// Returns `true` if the program was asked to end.
 pub fn is_asked() -> bool {
     ASKED.load(Ordering::Relaxed) > 0
 }

@@ -37,11 +37,11 @@ pub struct Job<'a> {
     pub bound: Option<f64>,
 }
 
-/// What was written.
+/// A resampled file that was written.
 pub struct Resampled {
     /// The nodes, in words.
     pub nodes: String,
-    /// What happened to the channels.
+    /// How the channels were changed; `None` if they were not.
     pub note: Option<String>,
     /// The error of the file, if it is known.
     pub certificate: Option<Certificate>,

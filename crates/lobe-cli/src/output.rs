@@ -32,10 +32,12 @@ pub struct Output {
     /// difference.
     #[arg(long, value_name = "DEGREES", value_delimiter = ',', help_heading = "Resampling")]
     pub psi: Vec<f64>,
-    /// Angle to the mirror direction, by default 30 from 0 to 180, dense near 0; of grids in spherical coordinates the polar angle of the viewer.
+    /// Angle to the mirror direction, by default 30 from 0 to 180, dense near 0; of grids in spherical coordinates the
+    /// polar angle of the viewer.
     #[arg(long, value_name = "DEGREES", value_delimiter = ',', help_heading = "Resampling")]
     pub theta: Vec<f64>,
-    /// Azimuth about the mirror direction, by default every 15 degrees; of grids in spherical coordinates that of the viewer.
+    /// Azimuth about the mirror direction, by default every 15 degrees; of grids in spherical coordinates that of the
+    /// viewer.
     #[arg(long, value_name = "DEGREES", value_delimiter = ',', help_heading = "Resampling")]
     pub phi: Vec<f64>,
     /// Number of polar angles of the light in RGL files. By default 48, or 20 if the material is anisotropic.

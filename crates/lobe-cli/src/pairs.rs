@@ -65,7 +65,7 @@ const LONGEST: u64 = 1 << 16;
 pub struct Pairs {
     path: PathBuf,
     input: BufReader<Box<dyn Read>>,
-    /// Whether the sender may wait for an answer before it sends the next pair.
+    /// `true` if the sender may wait for an answer before it sends the next pair.
     is_stream: bool,
     line: usize,
     columns: Option<Columns>,

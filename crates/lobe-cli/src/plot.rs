@@ -20,8 +20,8 @@ use crate::guesses::warn_of_guesses;
 use crate::message;
 use crate::reading::Reading;
 
-/// Draw materials: curves in the plane of incidence, channels, spectra, slices of the hemisphere, lit spheres, or a page
-/// of them all.
+/// Draw materials: curves in the plane of incidence, channels, spectra, slices of the hemisphere, lit spheres, or a
+/// page of them all.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   lobe plot cloth.ddr -o cloth.html                         a page with everything, in one file

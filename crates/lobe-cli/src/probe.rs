@@ -62,7 +62,7 @@ impl Errors {
 }
 
 impl Errors {
-    /// Whether one value in twenty is wrong by more than a twentieth.
+    /// `true` if one value in twenty is wrong by more than a twentieth.
     pub fn is_large(&self) -> bool {
         self.most > 0.05
     }

@@ -31,8 +31,8 @@ pub struct Reading {
     /// The scatter that a table holds: reflection, transmission, or both if values beyond 90 degrees are transmission.
     #[arg(long, value_parser = str::parse::<Holds>)]
     holds: Option<Holds>,
-    /// A table without azimuths is in the plane of incidence: same-sign if the mirror direction is at theta_o = theta_i,
-    /// opposite-sign if it is at -theta_i.
+    /// A table without azimuths is in the plane of incidence: same-sign if the mirror direction is at theta_o =
+    /// theta_i, opposite-sign if it is at -theta_i.
     #[arg(long, value_name = "SIGN", value_parser = str::parse::<InPlane>)]
     in_plane: Option<InPlane>,
     /// The direction from which azimuths of the viewer are counted, if there are none of the light: light or mirror.

@@ -128,7 +128,7 @@ impl Machine {
         self.threads.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
     }
 
-    /// Whether no progress is wanted.
+    /// `true` if no progress should be shown.
     pub fn is_quiet(&self) -> bool {
         self.quiet
     }
@@ -198,7 +198,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 struct Beginning {
     begun: Instant,
     backend: Backend,
-    /// Whether other parts are rendered elsewhere.
+    /// `true` if other parts are rendered elsewhere.
     partial: bool,
 }
 
@@ -349,7 +349,7 @@ fn window(args: &Args, size: [u32; 2]) -> Result<Rect, Failure> {
     let whole = Rect { x: 0, y: 0, width: size[0], height: size[1] };
     if let Some((tile, tiles)) = args.tile {
         return whole.strip(tile, tiles).ok_or_else(|| {
-            Failure::Usage(format!("--tile: found {tiles} parts of {} rows; expected at most as many", size[1]))
+            Failure::Usage(format!("--tile: found {tiles} parts; expected at most {}, the number of rows", size[1]))
         });
     }
     let crop = args.crop.unwrap_or(whole);

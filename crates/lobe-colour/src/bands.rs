@@ -33,7 +33,7 @@ impl NamedBands {
     }
 }
 
-/// Whether a name contains these words in this order, one after the other.
+/// `true` if a name contains these words in this order, one after the other.
 fn has_words(name: &str, wanted: &[&str]) -> bool {
     let name = name.to_lowercase();
     let words: Vec<&str> = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();

@@ -26,7 +26,7 @@ impl Primaries {
     pub const SRGB: Primaries =
         Primaries { red: [0.64, 0.33], green: [0.3, 0.6], blue: [0.15, 0.06], white: [0.3127, 0.329] };
 
-    /// Whether these are the primaries of sRGB, to the precision of files.
+    /// `true` if these are the primaries of sRGB, to the precision of files.
     pub fn is_srgb(&self) -> bool {
         let all = |p: &Primaries| [p.red, p.green, p.blue, p.white];
         all(self).as_flattened().iter().zip(all(&Primaries::SRGB).as_flattened()).all(|(a, b)| (a - b).abs() <= SAME)

@@ -103,12 +103,12 @@ impl Reduction {
         self.weights.len()
     }
 
-    /// Whether the channels are already the wanted ones.
+    /// `true` if the channels are already the wanted ones.
     pub fn is_identity(&self) -> bool {
         self.is_identity
     }
 
-    /// Whether the three numbers are always equal.
+    /// `true` if the three numbers are always equal.
     pub fn is_grey(&self) -> bool {
         self.weights.iter().all(|[r, g, b]| r == g && g == b)
     }
@@ -195,7 +195,7 @@ pub(crate) fn of_wavelengths(wavelengths: &[f64]) -> Vec<[f64; 3]> {
     weights.into_iter().map(|weight| weight.map(|c| c / luminance)).collect()
 }
 
-/// Whether any of these wavelengths is visible.
+/// `true` if any of these wavelengths is visible.
 pub(crate) fn any_visible(wavelengths: &[f64]) -> bool {
     wavelengths.iter().any(|nm| (FIRST..=LAST).contains(nm))
 }

@@ -47,7 +47,7 @@ pub fn name_standard_input() {
     IS_DASH_STANDARD_INPUT.store(true, Ordering::Relaxed);
 }
 
-/// Whether a file with this name is standard input.
+/// `true` if a file with this name is standard input.
 pub fn is_standard_input(path: &Path) -> bool {
     path == Path::new(DASH) && IS_DASH_STANDARD_INPUT.load(Ordering::Relaxed)
 }

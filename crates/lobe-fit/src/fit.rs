@@ -19,9 +19,9 @@ pub struct Request {
     pub model: Model,
     /// The weights of differences.
     pub weights: Weights,
-    /// Whether outliers count linearly instead of quadratically.
+    /// `true` if outliers count linearly instead of quadratically.
     pub robust: bool,
-    /// Whether each channel has its own shape.
+    /// `true` if each channel has its own shape.
     pub per_channel: bool,
     /// The number of starting points.
     pub starts: usize,
@@ -46,9 +46,9 @@ pub struct Estimate {
     pub channel: Option<usize>,
     /// The estimate.
     pub value: f64,
-    /// Its standard deviation; `None` if it is at a bound, or not determined by the measurement.
+    /// The standard deviation; `None` if the parameter is at a bound, or is not determined by the measurement.
     pub uncertainty: Option<f64>,
-    /// Whether it is at a bound.
+    /// `true` if the estimate is at a bound.
     pub is_at_bound: bool,
 }
 
@@ -65,7 +65,7 @@ pub struct Fit {
     pub pairs: usize,
     /// The number of pairs that are 0 in all channels, which are not used.
     pub left_out: usize,
-    /// Whether the search converged.
+    /// `true` if the search converged.
     pub has_converged: bool,
     /// The model with these parameters.
     pub fitted: Fitted,

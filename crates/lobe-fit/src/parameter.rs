@@ -110,7 +110,7 @@ impl Parameter {
         }
     }
 
-    /// Whether a value is at a bound.
+    /// `true` if a value is at a bound.
     pub(crate) fn is_at_bound(&self, value: f64) -> bool {
         let share = self.share(value);
         !(AT_BOUND..=1.0 - AT_BOUND).contains(&share)

@@ -6,8 +6,8 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 use crate::geometry::Geometry;
 
-/// A direction of the parameters that changes the residuals by less than this, relative to the one that changes them most,
-/// is not determined by them.
+/// A direction of the parameters that changes the residuals by less than this, relative to the one that changes them
+/// most, is not determined by them.
 const UNDETERMINED: f64 = 1e-12;
 
 /// The standard deviations of the parameters that are `free` to move; `None` for those that are not, or that the
@@ -78,7 +78,8 @@ pub(crate) fn deviations(pairs: &[Geometry], rows: &[f64], slopes: &[f64], free:
     deviations
 }
 
-/// The cluster of each pair: those of neighbouring directions of the light and of the viewer about the mirror direction.
+/// The cluster of each pair: those of neighbouring directions of the light and of the viewer about the mirror
+/// direction.
 fn clusters(pairs: &[Geometry]) -> Vec<usize> {
     const DISTANCES: usize = 8;
     const RINGS: usize = 4;

@@ -21,8 +21,8 @@ pub enum ConvertError {
     Write(#[from] FormatError),
 }
 
-/// The wavelengths in nm, the ends of the visible range, at which a single channel is written, with equal values, in formats
-/// that have nothing but wavelengths.
+/// The wavelengths in nm, the ends of the visible range, at which a single channel is written, with equal values, in
+/// formats that have nothing but wavelengths.
 pub const ENDS: [f64; 2] = [360.0, 830.0];
 
 /// A linear map of channels.
@@ -111,7 +111,7 @@ impl ChannelMap {
         self
     }
 
-    /// Whether nothing changes.
+    /// `true` if nothing changes.
     pub fn is_identity(&self) -> bool {
         self.note.is_none()
     }

@@ -13,8 +13,8 @@ type Files = Vec<(PathBuf, Vec<u8>)>;
 /// subfolders are ignored.
 ///
 /// # Errors
-/// [`FormatError`] if the folder or a file cannot be read, if there is no such file, or if there are files of several such
-/// formats.
+/// [`FormatError`] if the folder or a file cannot be read, if there is no such file, or if there are files of several
+/// such formats.
 pub(crate) fn open(folder: &Path) -> Result<(Format, Document), FormatError> {
     let paths = files_of(folder)
         .map_err(|error| FormatError::new(folder, Place::File, error.to_string(), "files that can be read"))?;

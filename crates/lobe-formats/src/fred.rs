@@ -1,8 +1,8 @@
 //! Tables of scattered light from FRED, and from RPC Photonics (now VIAVI) for engineered diffusers.
 //!
-//! Both have lines of two angles, the polar angle and azimuth in which light *travels* toward the surface, each followed
-//! by lines of polar angle, azimuth and `f` in 1/sr. So the mirrored and the straight-through ray have the azimuth of
-//! the incident one, and the direction toward the light has the opposite azimuth. A FRED table starts with
+//! Both have lines of two angles, the polar angle and azimuth in which light *travels* toward the surface, each
+//! followed by lines of polar angle, azimuth and `f` in 1/sr. So the mirrored and the straight-through ray have the
+//! azimuth of the incident one, and the direction toward the light has the opposite azimuth. A FRED table starts with
 //! `type bsdf_data` and a `format` line; an RPC file starts with comments (`!!`) and holds one incident direction of a
 //! transmitting sheet, so that a material is a set of files.
 
@@ -96,8 +96,8 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
 /// Reads a FRED table. `file` is only its name in errors.
 ///
 /// # Errors
-/// [`FormatError`] with the line: a format other than values at angles in degrees or radians, lines that are neither two
-/// angles nor three numbers, or a value before the first incident direction.
+/// [`FormatError`] with the line: a format other than values at angles in degrees or radians, lines that are neither
+/// two angles nor three numbers, or a value before the first incident direction.
 pub fn read_as(bytes: &[u8], file: &Path, scatter: Scatter) -> Result<scattered::Data, FormatError> {
     let text = String::from_utf8_lossy(bytes);
     let mut lines = lines(file, &text);

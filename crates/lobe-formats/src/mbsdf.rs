@@ -51,7 +51,7 @@ const DATA: &[u8] = b"MBSDF_DATA=\n";
 const REFLECTION: &[u8] = b"MBSDF_DATA_REFLECTION=\n";
 const TRANSMISSION: &[u8] = b"MBSDF_DATA_TRANSMISSION=\n";
 
-/// Whether `bytes` begin like a file of this format.
+/// `true` if `bytes` begin like a file of this format.
 pub fn matches(bytes: &[u8]) -> bool {
     bytes.starts_with(MAGIC)
 }

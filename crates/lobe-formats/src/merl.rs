@@ -54,7 +54,7 @@ fn header(bytes: &[u8]) -> Option<([usize; 3], usize)> {
     Some((bins, size.checked_add(HEADER)?))
 }
 
-/// Whether the size of the file is the one that its header implies. There is no signature.
+/// `true` if the size of the file is the one that its header implies. There is no signature.
 pub fn matches(bytes: &[u8]) -> bool {
     header(bytes).is_some_and(|(_, size)| size == bytes.len())
 }

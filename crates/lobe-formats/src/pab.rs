@@ -214,7 +214,7 @@ fn head(file: &Path, lines: &[Line<'_>]) -> Result<Head, FormatError> {
     }
 }
 
-/// Whether values are `f` times the cosine.
+/// `true` if values are `f` times the cosine.
 fn is_dsf(line: Line<'_>, quantity: &str) -> Result<bool, FormatError> {
     match quantity.to_ascii_uppercase().as_str() {
         "DSF" => Ok(true),

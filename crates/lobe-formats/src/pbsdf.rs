@@ -38,7 +38,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     }),
 };
 
-/// Whether `bytes` are a tensor file with the fields of a polarised material.
+/// `true` if `bytes` are a tensor file with the fields of a polarised material.
 pub fn matches(bytes: &[u8]) -> bool {
     tensor::matches(bytes)
         && tensor::read(bytes, Path::new("")).is_ok_and(|file| file.get("M").is_some() && file.get("theta_h").is_some())

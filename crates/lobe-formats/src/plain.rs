@@ -33,7 +33,7 @@ enum Order {
     Big,
 }
 
-/// Whether it is UTF-16, and its byte order.
+/// The byte order of UTF-16 text; `None` for other text.
 fn utf_16(bytes: &[u8]) -> Option<Order> {
     const SAMPLE: usize = 64;
     match bytes {
@@ -53,7 +53,7 @@ fn utf_16(bytes: &[u8]) -> Option<Order> {
     }
 }
 
-/// Whether a text has carriage returns but no line feeds.
+/// `true` if a text has carriage returns but no line feeds.
 fn has_only_returns(bytes: &[u8]) -> bool {
     let is_text = |&byte: &u8| byte != 0 && byte != b'\n';
     bytes.iter().all(is_text) && bytes.contains(&b'\r')

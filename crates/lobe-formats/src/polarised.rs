@@ -1,8 +1,8 @@
 //! Mueller matrices in specular coordinates, as [tensor files](crate::tensor).
 //!
 //! Fields: `sigma [S]`, `psi [P]`, `theta [T]` and `phi [F]` in radians, `wavelengths [L]` in nm, and
-//! `M [S, P, T, F, L, 4, 4]` in 1/sr, all in 32-bit floats. The Stokes frames are those of [pBSDF](crate::pbsdf): the x axis
-//! is the normal of the plane of the two directions.
+//! `M [S, P, T, F, L, 4, 4]` in 1/sr, all in 32-bit floats. The Stokes frames are those of [pBSDF](crate::pbsdf): the x
+//! axis is the normal of the plane of the two directions.
 
 use std::io;
 use std::path::Path;
@@ -41,7 +41,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
 const WAVELENGTHS: &str = "wavelengths";
 const ELEMENTS: &str = "M";
 
-/// Whether `bytes` are a tensor file with the fields of such matrices.
+/// `true` if `bytes` are a tensor file with the fields of such matrices.
 pub fn matches(bytes: &[u8]) -> bool {
     tensor::matches(bytes)
         && tensor::read(bytes, Path::new(""))

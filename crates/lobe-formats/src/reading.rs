@@ -23,13 +23,13 @@ pub struct ReadOptions {
     pub values: Option<Quantity>,
     /// The factor of the values.
     pub scale: Option<Scale>,
-    /// Whether a table holds reflection or transmission.
+    /// The kind of scatter that a table holds: reflection, transmission or both.
     pub holds: Option<Holds>,
     /// The sign of polar angles in tables within the plane of incidence.
     pub in_plane: Option<InPlane>,
     /// The origin of the azimuths of the viewer in tables without azimuths of the light.
     pub azimuth_from: Option<AzimuthFrom>,
-    /// Whether numbers in a table have decimal commas.
+    /// `true` if numbers in a table have decimal commas.
     pub decimal_comma: Option<bool>,
 }
 

@@ -50,7 +50,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     }),
 };
 
-/// Whether `bytes` are a tensor file with the fields of an RGL material.
+/// `true` if `bytes` are a tensor file with the fields of an RGL material.
 pub fn matches(bytes: &[u8]) -> bool {
     tensor::matches(bytes)
         && tensor::read(bytes, Path::new("")).is_ok_and(|file| file.get("vndf").is_some() && file.get("ndf").is_some())

@@ -17,7 +17,7 @@ pub struct FormatSpec {
     pub word: &'static str,
     /// The usual extensions of files in the format, in lower case. They are never trusted; see [`sniff`](crate::sniff).
     pub extensions: &'static [&'static str],
-    /// Whether the content looks like this format. Formats later in the registry may look alike.
+    /// `true` if the content looks like this format. Formats later in the registry may look alike.
     pub matches: fn(&[u8]) -> bool,
     /// Reads the content of a file; the path names it in errors. `None` if the format is only written.
     pub read: Option<Read>,
@@ -39,13 +39,13 @@ pub type ReadSet = fn(&[(PathBuf, Vec<u8>)]) -> Result<Document, FormatError>;
 pub struct Writer {
     /// Extensions of the files, in lower case.
     pub extensions: &'static [&'static str],
-    /// Whether it supports these channels.
+    /// `true` if the format supports these channels.
     pub holds_channels: fn(&Channels) -> bool,
     /// The channels that it supports, described for people.
     pub channels: &'static str,
-    /// Whether it has the representation of a document, so that nothing has to be resampled.
+    /// `true` if the format has the representation of a document, so that nothing has to be resampled.
     pub holds: fn(&Document) -> bool,
-    /// Whether one file can hold several measurements of a sheet.
+    /// `true` if one file can hold several measurements of a sheet.
     pub holds_sheets: bool,
     /// The only scatter that a file with this name can hold, if there is one.
     pub scatter: fn(&Path) -> Option<Scatter>,

@@ -106,7 +106,7 @@ pub struct TensorFile<'a> {
     file: PathBuf,
 }
 
-/// Whether `bytes` begin like a tensor file.
+/// `true` if `bytes` begin like a tensor file.
 pub fn matches(bytes: &[u8]) -> bool {
     bytes.starts_with(MAGIC)
 }

@@ -39,7 +39,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
 
 const SIZE: usize = 3 * PLANE * size_of::<f64>();
 
-/// Whether the file has the size of a UTIA file, which is the only way to recognise it.
+/// `true` if the file has the size of a UTIA file, which is the only way to recognise it.
 pub fn matches(bytes: &[u8]) -> bool {
     bytes.len() == SIZE
 }

@@ -41,7 +41,8 @@ enum Place {
     Alone(MmapMut),
 }
 
-/// A fixed number of values, the first on a cache line, so that a value whose size divides that of a line never straddles two.
+/// A fixed number of values, the first on a cache line, so that a value whose size divides that of a line never
+/// straddles two.
 pub struct Storage<T> {
     place: Place,
     len: usize,

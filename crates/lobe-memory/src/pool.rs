@@ -1,8 +1,8 @@
 //! Huge pages that storages share, because a storage smaller than a huge page would waste a whole one.
 //!
 //! Returned ranges are joined with free neighbours, so that storages of any size can use them again. An empty mapping
-//! is returned to the system, except for one that is kept as long as others are in use. Idle pages of other mappings are
-//! returned once there are many, so that one small remaining table does not keep everything around it.
+//! is returned to the system, except for one that is kept as long as others are in use. Idle pages of other mappings
+//! are returned once there are many, so that one small remaining table does not keep everything around it.
 
 use std::collections::BTreeMap;
 use std::ops::{Deref, DerefMut};
@@ -23,8 +23,8 @@ const CHUNK_LINES: usize = CHUNK / size_of::<Line>();
 const PIECE: usize = 4096 / size_of::<Line>();
 /// Pages go back to the system in multiples of this, of which the pages of any system are a part.
 const PAGES: usize = (64 << 10) / size_of::<Line>();
-/// Lines that were written to and that nobody has, at most, before pages go back: those of two mappings. Taking them again is
-/// quicker than taking new ones.
+/// The largest number of written but unused lines that are kept before pages go back to the system: those of two
+/// mappings. Reusing them is quicker than taking new ones.
 const IDLE: usize = 2 * CHUNK_LINES;
 
 /// Lines of a shared mapping, for one storage.
@@ -61,7 +61,7 @@ struct Chunk {
 #[derive(Clone, Copy, PartialEq)]
 struct Free {
     len: usize,
-    /// How many lines of it take memory, at most.
+    /// An upper bound on the number of its lines that take memory.
     idle: usize,
 }
 
@@ -142,8 +142,9 @@ impl Chunk {
         let first = start.next_multiple_of(PAGES);
         let lines = ((start + range.len) / PAGES * PAGES).saturating_sub(first);
         let (offset, len) = (first * size_of::<Line>(), lines * size_of::<Line>());
-        // SAFETY: the pages are part of the mapping and of a free range, whose lines nobody reads or writes until they are taken
-        // again; they are then filled with zeros, whatever the system has made of them, as they are below `fresh`.
+        // SAFETY: the pages are part of the mapping and of a free range, whose lines nobody reads or writes until they
+        // are taken again; they are then filled with zeros, whatever the system has made of them, as they are below
+        // `fresh`.
         if lines > 0 && unsafe { map.unchecked_advise_range(UncheckedAdvice::DontNeed, offset, len) }.is_ok() {
             range.idle = range.len - lines;
         }

@@ -14,7 +14,7 @@ pub(crate) fn wrong(path: &Path, found: impl Into<String>, expected: impl Into<S
 }
 
 /// Makes a mesh of the content of a file. Normals become unit vectors, and a smooth normal replaces one without
-/// direction; tangents that make no frame are dropped, to be computed later.
+/// direction; tangents that do not form a frame are dropped, to be computed later.
 pub(crate) fn geometry(path: &Path, mut parts: Parts) -> Result<Geometry, FormatError> {
     if parts.triangles.is_empty() {
         return Err(wrong(path, "no triangles", "a mesh with at least one"));

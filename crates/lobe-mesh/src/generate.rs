@@ -1,8 +1,7 @@
 //! Generates the meshes on which materials are previewed, with the same bytes on any machine.
 //!
 //! Generating them takes a moment (the cloth is a simulation), so they are also kept as files, which
-//! [`ply::read`](crate::ply::read) and
-//! [`Geometry::complete`] turn into the same meshes.
+//! [`ply::read`](crate::ply::read) and [`Geometry::complete`] turn into the same meshes.
 
 mod ball;
 mod cloth;

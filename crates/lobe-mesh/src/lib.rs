@@ -1,8 +1,8 @@
 //! Triangle meshes on which to show measured materials.
 //!
-//! [`read`] opens PLY, OBJ, glTF and Mitsuba's serialized files; [`shapes`] makes a sphere, a plane, a disk, a cuboid and tubes; [`generate`]
-//! makes the scenes of the previews: a draped cloth, a material ball, a knot. All of them give a [`Geometry`], whose
-//! [`complete`](Geometry::complete) adds the normals and tangents that are missing, and whose
+//! [`read`] opens PLY, OBJ, glTF and Mitsuba's serialized files; [`shapes`] makes a sphere, a plane, a disk, a cuboid
+//! and tubes; [`generate`] makes the scenes of the previews: a draped cloth, a material ball, a knot. All of them give
+//! a [`Geometry`], whose [`complete`](Geometry::complete) adds the normals and tangents that are missing, and whose
 //! [`refined`](Geometry::refined) cuts coarse triangles into finer ones.
 //!
 //! # Conventions

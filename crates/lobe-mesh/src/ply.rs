@@ -2,8 +2,8 @@
 //!
 //! Vertices have `x y z`, and may have `nx ny nz`, texture coordinates (`u v`, `s t`, `texture_u texture_v` or
 //! `texture_s texture_t`) and tangents (`tx ty tz tw`); faces have `vertex_indices` or `vertex_index`. Polygons of any
-//! shape become triangles. `tristrips`, as files of scanned models have them, are strips of triangles in such a list, each ended
-//! by -1. Everything else is skipped.
+//! shape become triangles. `tristrips`, as files of scanned models have them, are strips of triangles in such a list,
+//! each ended by -1. Everything else is skipped.
 //!
 //! PLY has no groups. The writer gives every face a property `group`, and names them in comments: `group 0 NAME`,
 //! `material 0 NAME`. The reader sorts faces by it.

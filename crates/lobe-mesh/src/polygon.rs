@@ -2,11 +2,11 @@
 
 use crate::geometry::wide;
 
-/// The most corners of a polygon that is not star-shaped about its first corner: the time to cut it grows with their
-/// square.
+/// The largest number of corners of a polygon that is not star-shaped about its first corner: the time to cut it grows
+/// with the square of this number.
 pub(crate) const MOST: usize = 4096;
 
-/// How often all corners are looked at, at most: a polygon that needs it more often has edges that cross.
+/// The largest number of times that all corners are examined: a polygon that needs more has edges that cross.
 const ROUNDS: u32 = 4;
 
 /// A polygon has too many corners.
@@ -46,7 +46,8 @@ pub(crate) fn triangulate(
         return Err(TooMany);
     }
     let mut rest: Vec<usize> = (0..distinct.len()).collect();
-    // What is known of each corner: cutting one off makes ears of its neighbours at most, so no other is looked at again.
+    // What is known of each corner. Cutting one off can turn only its neighbours into ears, so only they are examined
+    // again.
     let mut ears: Vec<Option<bool>> = vec![None; distinct.len()];
     let (mut at, mut failures, mut rounds, mut is_cut) = (0, 0, 0, false);
     while rest.len() > 3 {
@@ -203,7 +204,7 @@ mod tests {
         for corners in [spiral(MOST), crossing] {
             let begun = std::time::Instant::now();
             cut(&corners);
-            // It is a tenth of a second; it was minutes when every corner was looked at for every ear.
+            // This takes a tenth of a second; it took minutes when every corner was examined for every ear.
             assert!(begun.elapsed() < std::time::Duration::from_secs(20), "{:?}", begun.elapsed());
         }
     }

@@ -5,12 +5,12 @@ use std::f64::consts::PI;
 use crate::Model;
 use crate::vec3::{add, normalize};
 
-/// The lobe of J. F. Blinn, *Models of light reflection for computer synthesized pictures*, SIGGRAPH 1977, about the half
-/// vector `h` of `wi` and `wo`: `f = specular N cos^n(angle between h and the normal)`.
+/// The lobe of J. F. Blinn, *Models of light reflection for computer synthesized pictures*, SIGGRAPH 1977, about the
+/// half vector `h` of `wi` and `wo`: `f = specular N cos^n(angle between h and the normal)`.
 ///
-/// `N = (n + 2)(n + 4) / (8 pi (2^(-n/2) + n))` makes light from the zenith reflect exactly `specular`: with `t` the polar
-/// angle of the viewer, that of `h` is `t/2`, and the integral of `cos^n(t/2) cos t` over the hemisphere is `1/N`.
-/// From other directions less is reflected.
+/// `N = (n + 2)(n + 4) / (8 pi (2^(-n/2) + n))` makes light from the zenith reflect exactly `specular`: with `t` the
+/// polar angle of the viewer, that of `h` is `t/2`, and the integral of `cos^n(t/2) cos t` over the hemisphere is
+/// `1/N`. From other directions less is reflected.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blinn {
     /// Reflectance at the zenith, per channel, in `[0, 1]`.

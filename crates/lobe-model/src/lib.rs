@@ -4,8 +4,8 @@
 //! Everything here is plain `f64` for one pair of directions at a time: the reference from which tables are made and
 //! with which they are compared, not the evaluator.
 //!
-//! Directions are unit vectors that point away from the surface, whose normal is `+z`: `wi` toward the light, `wo` toward
-//! the viewer. Values are RGB in 1/sr without the cosine.
+//! Directions are unit vectors that point away from the surface, whose normal is `+z`: `wi` toward the light, `wo`
+//! toward the viewer. Values are RGB in 1/sr without the cosine.
 #![forbid(unsafe_code)]
 
 mod albedo;

@@ -8,8 +8,8 @@ use crate::Model;
 /// reflectance model*, SIGGRAPH 1994, equation 30.
 ///
 /// `f = albedo/pi (A + B max(0, cos(phi_i - phi_o)) sin(alpha) tan(beta))` with `A = 1 - s^2 / (2 (s^2 + 0.33))`,
-/// `B = 0.45 s^2 / (s^2 + 0.09)`, `alpha` and `beta` the larger and the smaller polar angle, `s` the roughness.
-/// It leaves out interreflection between walls and, being a fit, can reflect up to 1.5 % more than `albedo` at grazing
+/// `B = 0.45 s^2 / (s^2 + 0.09)`, `alpha` and `beta` the larger and the smaller polar angle, `s` the roughness. It
+/// leaves out interreflection between walls and, being a fit, can reflect up to 1.5 % more than `albedo` at grazing
 /// incidence for roughness near 0.2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrenNayar {

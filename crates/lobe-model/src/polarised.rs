@@ -31,7 +31,8 @@ impl RoughMirrors {
         fresnel(cos, n, k).0.matrix().map(|row| row.map(|element| mirrors * element))
     }
 
-    /// The matrices at knots of sigma, psi, theta and phi, in radians. `step` is called after each direction of the light.
+    /// The matrices at knots of sigma, psi, theta and phi, in radians. `step` is called after each direction of the
+    /// light.
     ///
     /// # Errors
     /// If the knots or the wavelengths, in nm, do not form a grid, or the numbers of wavelengths and indices differ.

@@ -5,10 +5,10 @@ use lobe_table::data::Section;
 use lobe_table::{Aspect, Scatter};
 use serde::Serialize;
 
-/// A block of values.
+/// The description of a part.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Part {
-    /// What the file calls it, and which light it is of; may be empty.
+    /// The name of the part in the file, and the light that it belongs to; may be empty.
     pub name: String,
     /// The representation.
     pub kind: &'static str,
@@ -27,17 +27,17 @@ pub struct Part {
 /// A coordinate of a grid.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Axis {
-    /// What it is.
+    /// The name of the coordinate.
     pub name: &'static str,
     /// The unit of its knots.
     pub unit: &'static str,
-    /// How many knots there are.
+    /// The number of knots.
     pub count: usize,
-    /// The first of them.
+    /// The first knot.
     pub first: f32,
-    /// The last.
+    /// The last knot.
     pub last: f32,
-    /// All of them.
+    /// All knots.
     pub knots: Vec<f32>,
 }
 
@@ -46,15 +46,15 @@ pub struct Axis {
 pub struct Values {
     /// The meaning of the values.
     pub of: &'static str,
-    /// How many there are.
+    /// The number of values.
     pub count: usize,
-    /// Size in memory.
+    /// Their size in memory, in bytes.
     pub bytes: usize,
-    /// The smallest.
+    /// The smallest value.
     pub smallest: f32,
-    /// The largest.
+    /// The largest value.
     pub largest: f32,
-    /// How many are below 0.
+    /// The number of values below 0.
     pub negative: usize,
 }
 

@@ -4,8 +4,7 @@
 //! - [`reciprocity`], [`check`]: whether a measurement is sound, and what it covers;
 //! - [`energy`], [`symmetrise`], [`fill`]: repairs of a table, each of which reports what it changed;
 //! - [`resample`]: any material into a table of specular coordinates, with given knots or with as many as an error
-//!   bound
-//!   asks for, and the error that was made;
+//!   bound asks for, and the error that was made;
 //! - [`remeasure`]: any material at the nodes of another representation;
 //! - [`colour`]: from spectra to CIE XYZ and RGB;
 //! - [`describe`](mod@describe): the contents of a file, in names, numbers and words;

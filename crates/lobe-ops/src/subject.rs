@@ -47,7 +47,7 @@ impl Subject {
         self.parts().flat_map(aspects).collect()
     }
 
-    /// Whether values do not depend on the rotation of the sample.
+    /// `true` if values do not depend on the rotation of the sample.
     pub fn is_isotropic(&self) -> bool {
         self.document.parts.iter().all(|part| part.data.representation().is_isotropic())
     }
@@ -89,8 +89,8 @@ impl Subject {
         self.document.only().or_else(|| self.parts().find(answers).map(|part| &part.data))
     }
 
-    /// Whether an aspect was measured only in the plane of incidence, so that an integral over the hemisphere is not a
-    /// measurement.
+    /// `true` if an aspect was measured only in the plane of incidence, so that an integral over the hemisphere is not
+    /// a measurement.
     pub fn is_in_plane(&self, aspect: Aspect) -> bool {
         self.data(aspect).is_some_and(|data| crate::check::is_in_plane(data.representation()))
     }

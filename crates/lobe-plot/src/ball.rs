@@ -10,8 +10,8 @@ use crate::image::Image;
 use crate::subject::Subject;
 use crate::view::View;
 
-/// The visible points of a ball, one per pixel, with their frames. The viewer is far away at +z, up is +y; the sample lies on
-/// the ball with its x axis along the circles of latitude.
+/// The visible points of a ball, one per pixel, with their frames. The viewer is far away at +z, up is +y; the sample
+/// lies on the ball with its x axis along the circles of latitude.
 #[derive(Clone, Debug)]
 pub struct Ball {
     size: usize,

@@ -50,7 +50,8 @@ pub fn from_disk(side: Side, scatter: Scatter, psi: f64, x: f64, y: f64) -> Opti
     Some([-along * cos + across * sin, -along * sin - across * cos, outgoing_sign(side, scatter) * (1.0 - square)])
 }
 
-/// The point of a direction on the unit disk: the inverse of [`from_disk`]. `psi` is the azimuth of the light in radians.
+/// The point of a direction on the unit disk: the inverse of [`from_disk`]. `psi` is the azimuth of the light in
+/// radians.
 pub fn to_disk(side: Side, psi: f64, direction: [f64; 3]) -> [f64; 2] {
     let [x, y, z] = direction;
     let (sin, cos) = psi.sin_cos();

@@ -18,7 +18,7 @@ pub struct Curve {
     pub theta: Vec<f64>,
     /// The quantity of the view at each angle, in 1/sr.
     pub f: Vec<f32>,
-    /// Whether each value is measured rather than extrapolated.
+    /// `true` if each value is measured rather than extrapolated.
     pub is_measured: Vec<bool>,
     /// The positions in `theta` of the angles at which the material was measured.
     pub points: Vec<usize>,

@@ -66,7 +66,7 @@ impl<'a> Part<'a> {
         self.data.coverage([sigma, psi])
     }
 
-    /// Whether light at `sigma` and `psi` is one of the measured directions.
+    /// `true` if light at `sigma` and `psi` is one of the measured directions.
     fn is_incidence(&self, sigma: f64, psi: f64) -> bool {
         let is_turned = |phi: f64| ((phi - psi + PI).rem_euclid(2.0 * PI) - PI).abs() > SAME;
         let is_free = self.data.is_isotropic() || sigma < SAME;

@@ -20,7 +20,7 @@ pub struct Slice {
     pub size: usize,
     /// The quantity of the view in 1/sr, rows from the top; `None` outside the disk.
     pub f: Vec<Option<f32>>,
-    /// Whether each value is measured rather than extrapolated.
+    /// `true` if each value is measured rather than extrapolated.
     pub is_measured: Vec<bool>,
     /// The measured directions, as positions in the square `[-1, 1]`, with y up.
     pub measured: Vec<[f64; 2]>,

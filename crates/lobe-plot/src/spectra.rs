@@ -20,7 +20,7 @@ pub struct Spectrum {
     pub nm: Vec<f64>,
     /// `f` in 1/sr at each.
     pub f: Vec<f32>,
-    /// Whether the values are measured rather than extrapolated.
+    /// `true` if the values are measured rather than extrapolated.
     pub is_measured: bool,
 }
 

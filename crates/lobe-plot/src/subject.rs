@@ -74,7 +74,8 @@ impl Subject {
         check(&self.measured, &Thoroughness::default(), advance)
     }
 
-    /// Whether the material is evaluated pair by pair, in microseconds each, so that pictures of it have fewer pixels.
+    /// `true` if the material is evaluated pair by pair, in microseconds each, so that pictures of it have fewer
+    /// pixels.
     pub(crate) fn is_slow(&self) -> bool {
         self.measured.document.parts.iter().any(|part| part.data.representation().samples().is_some())
     }
@@ -90,8 +91,9 @@ impl Subject {
         [Side::Front, Side::Back].into_iter().filter(|&side| !self.scatters(side).is_empty()).collect()
     }
 
-    /// Whether the value of a pair of directions in the given hemispheres is one of the measurement, rather than of its
-    /// continuation; `sigma` and `psi` of the light are in radians. A test of outgoing directions of either sign of z.
+    /// `true` if the value of a pair of directions in the given hemispheres is one of the measurement, rather than of
+    /// its continuation; `sigma` and `psi` of the light are in radians. A test of outgoing directions of either sign of
+    /// z.
     pub fn coverage(&self, side: Side, scatter: Scatter, sigma: f64, psi: f64) -> impl Fn([f64; 3]) -> bool {
         let is_covered = self.part(side, scatter).map(|part| part.coverage(sigma, psi));
         move |[x, y, z]| is_covered.as_ref().is_some_and(|is_covered| is_covered([x, y, z.abs()]))
@@ -130,8 +132,8 @@ impl Subject {
         self.scatters(side).first().and_then(|&scatter| self.part(side, scatter)).map_or(0.0, |part| part.psi())
     }
 
-    /// Whether rotating the sample by an eighth or a quarter of a turn changes the colours by a twentieth or more, over
-    /// a few hundred pairs of directions.
+    /// `true` if rotating the sample by an eighth or a quarter of a turn changes the colours by a twentieth or more,
+    /// over a few hundred pairs of directions.
     pub fn is_anisotropic(&self, side: Side) -> bool {
         let scatters = self.scatters(side);
         let Some(&scatter) = scatters.first() else { return false };

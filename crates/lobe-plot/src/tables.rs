@@ -93,7 +93,7 @@ pub(crate) fn albedo_table(name: &str, view: &View, albedos: &[Albedo]) -> Strin
         }
     }
     if albedos.is_empty() {
-        let why = "There is none, because only the plane of incidence was measured.";
+        let why = "No albedo: only the plane of incidence was measured.";
         return format!("<div class=\"card\">{}<p>{why}</p></div>", heading(name, "Directional albedo"));
     }
     let mut out = format!(

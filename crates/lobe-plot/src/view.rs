@@ -20,8 +20,8 @@ pub struct View {
     pub sigmas: Vec<f64>,
     /// The azimuth of the light, in radians.
     pub psi: f64,
-    /// The viewing angles of spectra, in radians, as in [`in_plane`](crate::in_plane()); if there are none, some about the
-    /// mirror direction.
+    /// The viewing angles of spectra, in radians, as in [`in_plane`](crate::in_plane()); if there are none, some about
+    /// the mirror direction.
     pub thetas: Vec<f64>,
     /// The scaling of value axes; `None` lets each figure choose.
     pub scaling: Option<Scaling>,

@@ -119,7 +119,8 @@ pub fn remake<'py>(
     }
 }
 
-/// The data as the arguments of `from_samples`; `false` if they are neither a grid of four angles nor scattered samples.
+/// The data as the arguments of `from_samples`; `false` if they are neither a grid of four angles nor scattered
+/// samples.
 ///
 /// # Errors
 /// If there is not enough memory.

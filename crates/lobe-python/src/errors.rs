@@ -16,7 +16,7 @@ pub enum Failure {
     Format(FormatError),
     /// A scene has a mistake.
     Scene(SceneError),
-    /// An argument makes no sense.
+    /// An argument is invalid.
     Value(String),
 }
 

@@ -125,10 +125,10 @@ impl Material {
 
     /// f in 1/sr, without the cosine, for light from wi to wo.
     ///
-    /// wi and wo are unit vectors: arrays of shapes (..., 3) that broadcast. The result is float32 of shape (..., channels), and
-    /// is written to `out` if it is given. Contiguous float32 is not copied, and neither are columns, as in the transpose of an
-    /// array of shape (3, n); everything else is copied piece by piece. Large batches are shared among threads, without the lock
-    /// of the interpreter.
+    /// wi and wo are unit vectors: arrays of shapes (..., 3) that broadcast. The result is float32 of shape (...,
+    /// channels), and is written to `out` if it is given. Contiguous float32 is not copied, and neither are columns, as
+    /// in the transpose of an array of shape (3, n); everything else is copied piece by piece. Large batches are shared
+    /// among threads, without the lock of the interpreter.
     #[pyo3(signature = (wi, wo, *, out=None))]
     fn eval<'py>(
         &self,
@@ -205,8 +205,8 @@ impl Material {
         PyArray1::from_vec(py, angles).reshape([count, 2])
     }
 
-    /// The albedo for light at polar angles theta and azimuths phi in radians, arrays that broadcast: the integral of f times
-    /// cosine over the hemisphere, as float64 of shape (..., channels).
+    /// The albedo for light at polar angles theta and azimuths phi in radians, arrays that broadcast: the integral of f
+    /// times cosine over the hemisphere, as float64 of shape (..., channels).
     ///
     /// `tolerance` is the absolute error to aim for. With `errors`, the result is a pair, and its second part is the
     /// estimated error of each integral, of shape (...). `scatter` and `side` select a measurement of a sheet.

@@ -117,7 +117,7 @@ pub fn check<'py>(py: Python<'py>, subject: &Arc<Subject>) -> PyResult<Bound<'py
 /// The difference between two materials.
 ///
 /// # Errors
-/// `ValueError` if the channels differ and have no colour, or the limit makes no sense.
+/// `ValueError` if the channels differ and have no colour, or the limit is invalid.
 pub fn compare<'py>(
     py: Python<'py>,
     [first, second]: [&Arc<Subject>; 2],

@@ -167,7 +167,7 @@ fn planned(scene: &Scene, wanted: &Wanted, backend: lobe::Backend) -> Result<Met
         (Some(_), Some(_)) => return Err(Failure::value("found tile and crop; expected one of them")),
         (Some((part, parts)), None) => whole.strip(part, parts).ok_or_else(|| {
             Failure::Value(format!(
-                "tile: found part {part} of {parts}; expected one from 1 to at most as many as there are rows, {}",
+                "tile: found part {part} of {parts}; expected a part from 1 to the number of parts, and at most {} parts",
                 whole.height
             ))
         })?,
@@ -225,8 +225,8 @@ fn opened(py: Python<'_>, scene: &Path, backend: lobe::Backend) -> PyResult<Scen
 /// these samples. `time` in seconds ends the rendering, but every pixel gets at least one sample. The picture does not
 /// depend on `threads`, and with `strict` it does not depend on the machine.
 ///
-/// `progress(done, total)` is called about ten times a second; if it returns False, the picture so far is returned. Ctrl-C raises
-/// KeyboardInterrupt.
+/// `progress(done, total)` is called about ten times a second; if it returns False, the picture so far is returned.
+/// Ctrl-C raises KeyboardInterrupt.
 #[pyfunction]
 #[pyo3(signature = (scene, *, samples=None, crop=None, integrator=None, time=None, tile=None, samples_range=None, threads=None,
     backend=None, strict=false, progress=None))]

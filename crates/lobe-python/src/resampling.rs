@@ -34,7 +34,7 @@ pub struct Wanted {
 /// Resamples a material to a table.
 ///
 /// # Errors
-/// `ValueError` if the bound makes no sense or cannot be met, or the knots do not make a table.
+/// `ValueError` if the bound is invalid or cannot be met, or the knots do not form a table.
 pub fn resample(py: Python<'_>, material: &Opened, aspect: Aspect, wanted: Wanted) -> PyResult<Opened> {
     let is_sound = wanted.limit > 0.0 && wanted.limit <= FRAC_PI_2;
     if !is_sound || wanted.error.is_some_and(|error| error.is_nan() || error <= 0.0) {

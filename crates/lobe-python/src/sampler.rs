@@ -34,7 +34,7 @@ impl Sampler {
     /// Builds the distributions of a material, whose Python object is `owner`.
     ///
     /// # Errors
-    /// `ValueError` if the options make no sense for it.
+    /// `ValueError` if the options are invalid for it.
     pub fn build(
         owner: Bound<'_, PyAny>,
         material: Arc<lobe::Material>,

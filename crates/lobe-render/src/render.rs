@@ -65,7 +65,7 @@ impl<T: Transport> State<T> {
 /// tenth of a second, and ends the rendering when it returns `false`.
 ///
 /// # Errors
-/// [`RenderError`] if the settings make no sense.
+/// [`RenderError`] if the settings are invalid.
 pub fn render<T: Transport>(
     world: &World<T>,
     settings: &Settings<T>,

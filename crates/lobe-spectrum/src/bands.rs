@@ -148,7 +148,8 @@ impl Bands {
         mean.into_iter().map(|x| if y > 0.0 { (x * luminance / y) as f32 } else { 0.0 }).collect()
     }
 
-    /// A smooth reflectance that has this colour under D65, each component from 0 to 1: the spectrum of Jakob and Hanika.
+    /// A smooth reflectance that has this colour under D65, each component from 0 to 1: the spectrum of Jakob and
+    /// Hanika.
     pub fn reflectance(&self, rgb: [f32; 3]) -> Vec<f32> {
         self.fit(rgb.map(f64::from)).into_iter().map(|x| x as f32).collect()
     }

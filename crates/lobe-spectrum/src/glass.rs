@@ -17,8 +17,8 @@ pub enum Glass {
 /// Names of media, and the constants of Sellmeier's formula.
 type Named = (&'static str, [f64; 3], [f64; 3]);
 
-/// The Schott catalogue; silica and sapphire (ordinary): I. H. Malitson 1965, 1962; diamond: F. Peter 1923; as collected by
-/// refractiveindex.info (public domain).
+/// The Schott catalogue; silica and sapphire (ordinary): I. H. Malitson 1965, 1962; diamond: F. Peter 1923; as
+/// collected by refractiveindex.info (public domain).
 const NAMED: [Named; 9] = [
     ("BK7", [1.039_612_12, 0.231_792_344, 1.010_469_45], [0.006_000_698_67, 0.020_017_914_4, 103.560_653]),
     ("F2", [1.345_333_59, 0.209_073_176, 0.937_357_162], [0.009_977_438_71, 0.047_045_076_7, 111.886_764]),

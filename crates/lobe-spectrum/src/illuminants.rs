@@ -1,5 +1,5 @@
-//! Tables of standard illuminants (CIE 15, Colorimetry), relative to 100 at 560 nm or as published, from 380 to 780 nm in
-//! steps of 5 nm.
+//! Tables of standard illuminants (CIE 15, Colorimetry), relative to 100 at 560 nm or as published, from 380 to 780 nm
+//! in steps of 5 nm.
 
 /// The wavelength of the first entry, in nm.
 pub(crate) const FIRST: f64 = 380.0;

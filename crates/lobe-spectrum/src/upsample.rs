@@ -1,5 +1,5 @@
-//! Smooth reflectances with a given colour: W. Jakob and J. Hanika, "A Low-Dimensional Function Space for Efficient Spectral
-//! Upsampling", Computer Graphics Forum 38(2), 2019.
+//! Smooth reflectances with a given colour: W. Jakob and J. Hanika, "A Low-Dimensional Function Space for Efficient
+//! Spectral Upsampling", Computer Graphics Forum 38(2), 2019.
 //!
 //! A reflectance is a sigmoid of a quadratic polynomial in the wavelength, so it is smooth and in [0, 1]. Its three
 //! coefficients are found by damped Newton iterations along a path from the grey of the same brightness.

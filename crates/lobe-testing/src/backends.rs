@@ -30,8 +30,8 @@ macro_rules! on_every_backend {
     )*};
 }
 
-/// Defines tests whose body is a kernel, generic over the lanes, that runs on every backend of this CPU, in strict and in
-/// fused form, and on emulated widths of 2 to 16 lanes.
+/// Defines tests whose body is a kernel, generic over the lanes, that runs on every backend of this CPU, in strict and
+/// in fused form, and on emulated widths of 2 to 16 lanes.
 ///
 /// ```
 /// # use lobe_lane::{Floats, Lanes};

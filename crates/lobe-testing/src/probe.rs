@@ -32,7 +32,8 @@ fn bytes_per_byte(format: Format) -> usize {
         Format::Pbsdf | Format::Rgl | Format::Mbsdf | Format::Merl | Format::Utia | Format::Fourier => 16,
         // Two characters of text become a number, of which there are a few copies.
         Format::WindowXml | Format::Zemax | Format::LightTools | Format::Ssdd | Format::Ddr | Format::Sdr => 64,
-        // A sample is kept once per wavelength, at most 64 times per byte; see the reader. A row becomes two rings of samples.
+        // A sample is kept once per wavelength, at most 64 times per byte; see the reader. A row becomes two rings of
+        // samples.
         Format::Speos | Format::TracePro => 2048,
         // A line becomes a vertex of a triangulation with its edges and triangles.
         _ => 256,

@@ -10,7 +10,8 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let material = Material::open(FILE)?;
     println!("{} with {} channels, on {}", material.kind(), material.channel_count(), material.backend());
 
-    // Unit vectors away from the surface, normal on +z: wi to the light, wo to the viewer, here in the mirror direction.
+    // Unit vectors away from the surface, normal on +z: wi to the light, wo to the viewer, here in the mirror
+    // direction.
     let (wi, wo) = ([0.6, 0.0, 0.8], [-0.6, 0.0, 0.8]);
     let mut f = vec![0.0; material.channel_count()];
     material.eval(wi, wo, &mut f);

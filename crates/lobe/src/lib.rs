@@ -1,8 +1,9 @@
 //! Measured BRDFs and BSDFs: open a file, evaluate it in batches on the best SIMD backend of the machine.
 //!
 //! A [`Material`] comes from a file of any format, from bytes in memory, or from samples, in any representation; a
-//! [`Sampler`] draws directions for it. Both are a [`Bsdf`], and so are the models of `lobe-model`. Directions are unit vectors away from the surface, whose normal is +z: `wi` toward
-//! the light, `wo` toward the viewer. Values are `f` in 1/sr, without the cosine, one per channel.
+//! [`Sampler`] draws directions for it. Both are a [`Bsdf`], and so are the models of `lobe-model`. Directions are unit
+//! vectors away from the surface, whose normal is +z: `wi` toward the light, `wo` toward the viewer. Values are `f` in
+//! 1/sr, without the cosine, one per channel.
 //!
 //! # Three ways to evaluate
 //!

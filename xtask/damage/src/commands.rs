@@ -2,8 +2,8 @@
 
 use crate::inputs::Kind;
 
-/// A command line: `{in}` is the damaged file, `{out}` a path without an extension for what is written, and other files are
-/// those of [`crate::inputs::sound`].
+/// A command line: `{in}` is the damaged file, `{out}` a path without an extension for what is written, and other files
+/// are those of [`crate::inputs::sound`].
 pub struct Command {
     /// The kind of file that is damaged.
     pub kind: Kind,

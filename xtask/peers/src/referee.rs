@@ -110,8 +110,8 @@ mod tests {
 
     const CLOSE: Agreement = Agreement { relative: 1e-5, floor: 0.1, outliers: 0.0 };
 
-    /// A unit square of two triangles, 0 beyond its diagonal and 1, at z = 1, a larger triangle 2 at z = 1.01, and a steep
-    /// one next to it.
+    /// A unit square of two triangles, 0 beyond its diagonal and 1, at z = 1, a larger triangle 2 at z = 1.01, and a
+    /// steep one next to it.
     fn square(any: bool, rays: &[[f32; 2]]) -> Referee {
         let mut positions: Vec<[f32; 3]> =
             [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| [x, y, 1.0]).into();

@@ -32,7 +32,8 @@ pub struct Options {
     /// Fewer queries and rounds: under a minute, ratios accurate to about 10 %
     #[arg(long)]
     pub quick: bool,
-    /// Only these questions, by their ids in report.json, or `formats`, `energy`, `samplers`, `pictures` or `equivalence`
+    /// Only these questions, by their ids in report.json, or `formats`, `energy`, `samplers`, `pictures` or
+    /// `equivalence`
     #[arg(long, value_name = "ID", value_delimiter = ',')]
     pub only: Vec<String>,
     /// Also write the rows to this file

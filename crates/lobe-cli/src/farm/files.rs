@@ -43,7 +43,7 @@ pub fn begin(folder: &Path, plan: &Plan) -> Result<(), Failure> {
 /// The plan of a job.
 ///
 /// # Errors
-/// If the folder has none, or one that makes no sense.
+/// If the folder has no plan, or an invalid one.
 pub fn read(folder: &Path) -> Result<Plan, Failure> {
     let file = folder.join(PLAN);
     let wrong = |error: String| Failure::File(format!("{}: {error}; expected the plan of a job", file.display()));

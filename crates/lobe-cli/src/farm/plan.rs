@@ -103,7 +103,7 @@ impl Wanted {
             By::Samples => (samples, "samples"),
         };
         if self.parts > most {
-            let message = format!("--parts: found {} parts of {most} {what}; expected at most as many", self.parts);
+            let message = format!("--parts: found {} parts; expected at most {most}, the number of {what}", self.parts);
             return Err(Failure::Usage(message));
         }
         let mut options = vec!["--samples".into(), samples.to_string()];
@@ -136,7 +136,7 @@ pub fn absolute(path: &Path) -> Result<PathBuf, Failure> {
 const MOST: u32 = 100_000;
 
 impl Plan {
-    /// Whether a picture can be cut like this: what is in a file may be anything.
+    /// `true` if a picture can be divided in this way, because a file may contain anything.
     pub fn is_sound(&self) -> bool {
         let [width, height] = self.size.map(u64::from);
         let most = match self.by {

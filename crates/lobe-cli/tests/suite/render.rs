@@ -154,7 +154,7 @@ fn time_crop_and_png() {
     folder.bad("render scene.toml -o crop.png --crop 10,20,5,30", 2, "X0 < X1");
     folder.bad("render scene.toml -o tile.png --tile 1/2", 2, "expected .exr");
     folder.bad("render scene.toml -o tile.exr --tile 3/2", 2, "1 <= I <= N");
-    folder.bad("render scene.toml -o tile.exr --tile 1/51", 2, "expected at most as many");
+    folder.bad("render scene.toml -o tile.exr --tile 1/51", 2, "expected at most 50, the number of rows");
     folder.bad("render scene.toml -o picture.jpg", 2, "ends in .exr or .png");
     folder.bad("render scene.toml -o picture.png --backend mmx", 2, "mmx");
     folder.bad("render scene.toml -o range.exr --samples 4 --samples-range 2..6", 2, "expected 4 at most");

@@ -81,7 +81,7 @@ fn radiance(text: &str) -> Option<Content> {
     })
 }
 
-/// Whether a text is HTML.
+/// `true` if a text is HTML.
 pub(super) fn is_web_page(text: &str) -> bool {
     let lower = text.get(..14).unwrap_or(text).to_ascii_lowercase();
     ["<!doctype html", "<html", "<head", "<body"].iter().any(|start| lower.starts_with(start))

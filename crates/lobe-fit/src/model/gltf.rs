@@ -39,8 +39,8 @@ pub(super) fn coated<T: Real>(geometry: &Geometry, base: T, coat: T, roughness: 
     base.lerp(facets(geometry, roughness), reflected)
 }
 
-/// Fibres over `base`: the distribution of A. Estevez and C. Kulla, *Production friendly microfacet sheen BRDF*, 2017, with
-/// the visibility of M. Ashikhmin and S. Premoze, *Distribution-based BRDFs*, 2007.
+/// Fibres over `base`: the distribution of A. Estevez and C. Kulla, *Production friendly microfacet sheen BRDF*, 2017,
+/// with the visibility of M. Ashikhmin and S. Premoze, *Distribution-based BRDFs*, 2007.
 pub(super) fn sheen<T: Real>(geometry: &Geometry, base: T, sheen: T, roughness: T) -> T {
     let (cos_i, cos_o) = (geometry.cos_i(), geometry.cos_o());
     let lost = FIBRES.at(cos_i, roughness);

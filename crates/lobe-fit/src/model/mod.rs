@@ -231,22 +231,22 @@ impl Model {
         if self.is_for_optics() { Weights::Relative } else { Weights::Cosine }
     }
 
-    /// Whether it describes the little light that smooth optics scatter, over many orders of magnitude.
+    /// `true` if the model describes the little light that smooth optics scatter, over many orders of magnitude.
     pub fn is_for_optics(self) -> bool {
         matches!(self, Model::Abg | Model::HarveyShack | Model::KCorrelation)
     }
 
-    /// Whether its values do not depend on the rotation of the sample.
+    /// `true` if the values of the model do not depend on the rotation of the sample.
     pub fn is_isotropic(self) -> bool {
         !matches!(self, Model::WardAnisotropic | Model::GgxAnisotropic | Model::OpenPbrAnisotropic)
     }
 
-    /// Whether its values depend on the wavelength itself.
+    /// `true` if the values of the model depend on the wavelength itself.
     pub fn needs_wavelength(self) -> bool {
         self == Model::KCorrelation
     }
 
-    /// Whether it describes this scatter.
+    /// `true` if the model describes this scatter.
     pub fn describes(self, scatter: Scatter) -> bool {
         let of_both = matches!(self, Model::Lambert | Model::Abg | Model::HarveyShack);
         scatter == Scatter::Reflection || of_both

@@ -36,9 +36,10 @@ pub(super) fn harvey_shack<T: Real>(geometry: &Geometry, [b0, l, s]: [T; 3]) -> 
     b0 * shoulder.powf(s * 0.5)
 }
 
-/// The generalised Harvey-Shack theory for smooth surfaces, `f = (4 pi^2 / lambda^4) (cos_i + cos_o)^2 S(f)` (A. Krywonos,
-/// J. E. Harvey and N. Choi, JOSA A 28(6), 2011) with the two-dimensional K-correlation spectrum
-/// `S = sigma^2 (s - 2) B^2 / (2 pi) (1 + (B f)^2)^(-s/2)`, whose integral is `sigma^2`, at `f = |beta - beta_0| / lambda`.
+/// The generalised Harvey-Shack theory for smooth surfaces, `f = (4 pi^2 / lambda^4) (cos_i + cos_o)^2 S(f)` (A.
+/// Krywonos, J. E. Harvey and N. Choi, JOSA A 28(6), 2011) with the two-dimensional K-correlation spectrum
+/// `S = sigma^2 (s - 2) B^2 / (2 pi) (1 + (B f)^2)^(-s/2)`, whose integral is `sigma^2`, at
+/// `f = |beta - beta_0| / lambda`.
 pub(super) fn k_correlation<T: Real>(geometry: &Geometry, nm: f64, [sigma, b, s]: [T; 3]) -> T {
     let micrometres = 1e-3 * nm;
     let spectrum = (sigma * 1e-3).square() * (s - 2.0) * b.square() / (2.0 * PI);

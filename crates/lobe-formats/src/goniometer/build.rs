@@ -197,7 +197,7 @@ impl Samples {
         Ok(())
     }
 
-    /// Whether each row is transmitted light, after a check of the ranges of polar angles.
+    /// Checks the ranges of polar angles. Returns one value per row, `true` if the row is transmitted light.
     fn through(&self, holds: Option<Holds>, file: &Path) -> Result<Vec<bool>, FormatError> {
         let error = |row: usize, axis: usize, expected: &str| {
             let name = if self.is_specular {

@@ -5,7 +5,7 @@ use super::meaning::Meaning;
 use super::source::{SPHERICAL, Source};
 use crate::angle::{Angle, Unit};
 
-/// Whether columns with these meanings determine the directions of light and viewer.
+/// `true` if columns with these meanings determine the directions of light and viewer.
 pub(super) fn has_directions(mut meanings: Vec<Meaning>, facts: &Facts) -> bool {
     let is_fixed = |angle: Angle| facts.angles.iter().any(|fixed| fixed.angle == angle);
     settle(&mut meanings, is_fixed);

@@ -43,7 +43,8 @@ pub(super) fn data(records: Records, of: Of, rows: Option<Rows>, file: &Path) ->
     records.scattered(file, scatter, channels).map(Data::Scattered)
 }
 
-/// Knots and values, if the samples are each node of a grid once. A line of directions is not a grid, unless it is stated.
+/// Knots and values, if the samples are each node of a grid once. A line of directions is not a grid, unless it is
+/// stated.
 fn grid(records: &Records, channels: usize, is_stated: bool) -> Option<([Vec<f64>; 4], Vec<f32>)> {
     // Angles that agree to six digits of radians are the same knot.
     let key = |angle: f64| (angle * 1e6).round() as i64;

@@ -30,7 +30,7 @@ pub(super) struct Layout {
     pub is_specular: bool,
     /// `theta_i`, `phi_i`, `theta_o`, `phi_o`, or `sigma`, `psi`, `theta`, `phi`.
     pub angles: [Source; 4],
-    /// Whether an angle may change between the rows, because it is in a separate line.
+    /// `true` if an angle may change between the rows, because it is in a separate line.
     pub is_from_facts: [bool; 4],
     pub values: Values,
     /// The quantity that the names state.

@@ -101,7 +101,7 @@ impl Name {
     }
 }
 
-/// Whether the text in brackets belongs to the name: `theta (in)`, `f(450 nm)`, `BRDF (R)`.
+/// `true` if the text in brackets belongs to the name: `theta (in)`, `f(450 nm)`, `BRDF (R)`.
 fn is_part_of_a_name(inner: &str) -> bool {
     let word = inner.trim();
     side(word).is_some()

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 pub(super) struct Dialect {
     /// The delimiter between cells; `None` for any white space.
     pub delimiter: Option<char>,
-    /// Whether numbers have decimal commas.
+    /// `true` if numbers have decimal commas.
     pub has_decimal_comma: bool,
 }
 

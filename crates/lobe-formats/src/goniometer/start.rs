@@ -22,7 +22,7 @@ pub(super) struct Start {
     pub width: usize,
 }
 
-/// Whether a line has more numbers than words, and two or more.
+/// `true` if a line has more numbers than words, and two or more.
 fn is_row(dialect: Dialect, line: &Line<'_>) -> bool {
     let cells: Vec<Cell> = dialect.cells_to_the_last(line.text).iter().map(|cell| dialect.cell(cell)).collect();
     let numbers = cells.iter().filter(|cell| matches!(cell, Cell::Number(_))).count();

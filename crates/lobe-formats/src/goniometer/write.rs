@@ -10,12 +10,12 @@ use super::{ROWS, Rows, SPECULAR, SPHERICAL, TRANSMISSION};
 use crate::{FormatError, Place};
 use lobe_files::write_whole;
 
-/// Writes `path` whole or not at all: one line per node or sample, with angles in degrees and then the channels; all
-/// values are the same when the file is read again.
+/// Writes `path` completely or not at all: one line per node or sample, with angles in degrees and then the channels;
+/// all values are the same when the file is read again.
 ///
 /// A grid is restored as the same grid, its angles to a billionth of a degree, except that a table in specular
 /// coordinates that is constant in phi is written with phi 0 and 360. If the rows do not show it, a comment says that
-/// they are the nodes of a grid, or samples. Samples are restored to the bit, so that they are interpolated as before;
+/// they are the nodes of a grid, or samples. Samples are restored bit for bit, so that they are interpolated as before;
 /// they are written in radians if degrees would not restore one of them.
 ///
 /// # Errors
@@ -95,15 +95,15 @@ fn rows(out: &mut String, rows: Option<Rows>) {
     }
 }
 
-/// Whether a reader restores a sample from these angles, whose last azimuth counts from the incident one.
+/// `true` if a reader restores a sample from these angles, whose last azimuth is measured from the incident one.
 fn is_restored([theta_i, phi_i, theta_o, relative]: [f64; 4], read: [f64; 4]) -> bool {
     let pairs =
         [(theta_i, read[0]), (phi_i, read[1]), (theta_o, read[2]), (relative, (read[3] - read[1]).rem_euclid(TAU))];
     pairs.into_iter().all(|(a, b)| a.to_bits() == b.to_bits())
 }
 
-/// The angles of a file in degrees, with the fewest digits that a reader converts to the same radians; `None` if there
-/// are none.
+/// The angles of a file in degrees, with the fewest digits that a reader converts to the same radians; `None` if no
+/// digits do.
 fn exact_degrees(angles: [f64; 4]) -> Option<[f64; 4]> {
     let unit = 1_f64.to_radians();
     let degrees = |angle: f64| {

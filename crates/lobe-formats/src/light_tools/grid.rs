@@ -147,8 +147,8 @@ impl Axes {
     }
 }
 
-/// The columns by ascending azimuth from the plane of incidence at POI 0; 0 and 360 are the same, and so are a column and
-/// its mirror image in the plane.
+/// The columns by ascending azimuth from the plane of incidence at POI 0; 0 and 360 are the same, and so are a column
+/// and its mirror image in the plane.
 fn columns(text: &Text<'_>, head: &Head) -> Result<Vec<Place>, FormatError> {
     let turned = head.azimuths.iter().map(|azimuth| (azimuth - 90.0).rem_euclid(360.0));
     let mut columns: Vec<Place> = turned.zip(0..).map(|(angle, index)| Place { angle, index }).collect();

@@ -57,7 +57,7 @@ pub(super) fn read(text: &mut Text<'_>) -> Result<Head, FormatError> {
     Ok(head)
 }
 
-/// Whether half of the azimuths are the mirror image of the other half.
+/// `true` if half of the azimuths are the mirror image of the other half.
 fn symmetry(text: &mut Text<'_>) -> Result<bool, FormatError> {
     let value = text.expect("a symmetry")?;
     let is_symmetric = ["PlaneSymmetrical", "PlaneSymmetric"].iter().any(|word| value.is(word));

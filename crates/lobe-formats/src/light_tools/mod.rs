@@ -8,8 +8,8 @@
 //! values in 1/sr follow, radial angle fastest; Last is `DataEnd`, which instruments leave out. A statement stays in
 //! force until it is replaced.
 //!
-//! The light is at azimuth 90 + `POI` in these files; here it is at `POI`. Several wavelengths of a `Monochrome` file are
-//! its channels.
+//! The light is at azimuth 90 + `POI` in these files; here it is at `POI`. Several wavelengths of a `Monochrome` file
+//! are its channels.
 
 mod grid;
 mod head;

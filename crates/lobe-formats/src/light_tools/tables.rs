@@ -28,7 +28,7 @@ pub(super) struct Tables {
     pub tis: Vec<f32>,
     /// Lines and comments for people, each once.
     pub source: Vec<(String, String)>,
-    /// Whether there is a `DataEnd`.
+    /// `true` if there is a `DataEnd`.
     pub has_end: bool,
 }
 

@@ -8,7 +8,8 @@
 //! part.
 //!
 //! A coating has the numbers of incident angles and of wavelengths, the wavelengths, and for each angle two lines of
-//! reflectance and transmittance at each wavelength: one for P polarisation, which begins with the angle, and one for S.
+//! reflectance and transmittance at each wavelength: one for P polarisation, which begins with the angle, and one for
+//! S.
 
 use std::path::Path;
 

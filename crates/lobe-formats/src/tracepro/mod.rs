@@ -1,8 +1,8 @@
 //! Surface properties of TracePro, as the program exports them: those with a table of scatter.
 //!
-//! The first line is `TracePro Surface Property Data`; a head of names and values follows, then `Temperature` and the names
-//! of the other columns of the specular data, and their rows. After `Table_BSDF_Data` and names of columns come rows of
-//! temperature, wavelength in micrometres, polar angle and azimuth of incidence in degrees, `ScatterBeta`,
+//! The first line is `TracePro Surface Property Data`; a head of names and values follows, then `Temperature` and the
+//! names of the other columns of the specular data, and their rows. After `Table_BSDF_Data` and names of columns come
+//! rows of temperature, wavelength in micrometres, polar angle and azimuth of incidence in degrees, `ScatterBeta`,
 //! `ScatterAzimuth`, and the BRDF and BTDF in 1/sr.
 //!
 //! `ScatterBeta` is the abscissa of Harvey and Shack: the distance, in the plane of the surface, between the

@@ -69,7 +69,7 @@ pub(super) struct Document<'a> {
     structure: Option<Structure>,
     basis: BasisReader,
     wavelength: String,
-    /// Whether the element is within a block, which is then the last one.
+    /// `true` if the element is within a block, which is then the last one.
     is_in_block: bool,
     blocks: Vec<BlockText<'a>>,
     /// The first block of the `WavelengthData` that is being read.

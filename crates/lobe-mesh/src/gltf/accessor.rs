@@ -169,7 +169,7 @@ impl Source<'_> {
     /// An item of one of the lists of a document.
     pub fn item<'b, T>(&self, list: &'b [T], index: usize, name: &str) -> Result<&'b T, FormatError> {
         let found =
-            || wrong(self.path, format!("{name} {index}"), format!("less than {}, as many as there are", list.len()));
+            || wrong(self.path, format!("{name} {index}"), format!("less than {}, the number of entries", list.len()));
         list.get(index).ok_or_else(found)
     }
 }

@@ -85,7 +85,7 @@ impl PropertyAccess for Face {
 pub(super) struct Strips {
     /// `None` ends a strip.
     pub corners: Vec<Option<u32>>,
-    /// Whether the indices were whole numbers.
+    /// `true` if the indices were whole numbers.
     pub is_sound: bool,
 }
 
@@ -114,8 +114,8 @@ impl PropertyAccess for Strips {
 }
 
 impl Strips {
-    /// The triangles, all turned as the first of their strip, without those of two equal corners, which only lead from one
-    /// strip to the next.
+    /// The triangles, all turned as the first of their strip, without those of two equal corners, which only lead from
+    /// one strip to the next.
     pub fn triangles(&self) -> impl Iterator<Item = [u32; 3]> {
         let strips = self.corners.split(|corner| corner.is_none());
         strips.flat_map(|strip| {

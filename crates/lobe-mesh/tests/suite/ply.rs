@@ -179,7 +179,7 @@ fn faces_that_are_not_convex_are_filled() {
     assert_eq!((mesh.triangles.len(), mesh.area()), (5, 3.5));
 }
 
-/// A mesh in strips: a head with two squares, then what is said of the strips.
+/// A mesh in strips: a header and the vertices of two squares, then the list of strips.
 fn strips(kind: &str, list: &str) -> String {
     format!(
         "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\nelement tristrips 1\n\

@@ -104,7 +104,8 @@ impl Model for Cloth {
 
 /// The `n`-th point of a sequence that fills the unit square evenly for any number of points.
 ///
-/// M. Roberts, *The unreasonable effectiveness of quasirandom sequences*, 2018: steps of `1/g` and `1/g^2`, `g^3 = g + 1`.
+/// M. Roberts, *The unreasonable effectiveness of quasirandom sequences*, 2018: steps of `1/g` and `1/g^2`,
+/// `g^3 = g + 1`.
 fn even_point(n: u32) -> [f64; 2] {
     const PLASTIC: f64 = 1.324_717_957_244_746;
     [1.0 / PLASTIC, 1.0 / (PLASTIC * PLASTIC)].map(|step| (0.5 + f64::from(n) * step).fract())

@@ -9,8 +9,8 @@ use crate::{Ggx, Model};
 
 /// The surface of a yarn: dyed body and shine.
 ///
-/// The local frame has the fibres along x. Shine is a patchwork with the body (as in [`Mix`](crate::Mix)): reciprocal, and
-/// never more than all the light.
+/// The local frame has the fibres along x. Shine is a patchwork with the body (as in [`Mix`](crate::Mix)): reciprocal,
+/// and never more than all the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Yarn {
     /// Diffuse reflectance of the body, per channel, in `[0, 1]`.

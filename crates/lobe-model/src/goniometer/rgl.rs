@@ -1,9 +1,9 @@
 //! Surfaces in the adaptive parameterisation of the EPFL database.
 //!
-//! J. Dupuy and W. Jakob, *An adaptive parameterization for efficient material acquisition and rendering*, ACM TOG 37(6),
-//! 2018. The surface is treated as a collection of small mirrors whose normals are found from the retroreflected light;
-//!       the distribution of the normals visible from each light warps the unit square, so that equal steps on it lead
-//!       to viewers that receive about equal shares of the light. The images are then smooth.
+//! J. Dupuy and W. Jakob, *An adaptive parameterization for efficient material acquisition and rendering* (ACM TOG
+//! 37(6), 2018). The surface is treated as a collection of small mirrors whose normals are found from the
+//! retroreflected light; the distribution of the normals visible from each light warps the unit square, so that equal
+//! steps on it lead to viewers that receive about equal shares of the light. The images are then smooth.
 
 use std::f64::consts::{PI, TAU};
 

@@ -10,8 +10,8 @@ use crate::Surface;
 use crate::vec3::spherical as direction;
 
 /// Measures a surface at every node of `knots`: `theta_i`, `phi_i`, `theta_o` and `phi_o` in radians, as in
-/// [`spherical::Data`]. With `is_half` the grid is one half of an isotropic material, and its last axis is the angle between
-/// the azimuths, from 0 to half a turn.
+/// [`spherical::Data`]. With `is_half` the grid is one half of an isotropic material, and its last axis is the angle
+/// between the azimuths, from 0 to half a turn.
 ///
 /// Directions near the horizon are lifted, see [`lift`]. The incident directions are distributed over the threads of
 /// rayon. `progress` is called after each of them, so as many times as there are `theta_i` knots times `phi_i` knots.

@@ -47,7 +47,7 @@ fn seam(grid: &Grid<'_>, part: &str, axis: usize) -> Finding {
     Finding::new("azimuth seam", part, status, text).number("difference", difference)
 }
 
-/// Whether the only azimuths of the viewer are those of the plane of incidence.
+/// `true` if the only azimuths of the viewer are those of the plane of incidence.
 pub(super) fn is_in_plane(grid: &Grid<'_>) -> bool {
     let knots = &grid.knots[3];
     knots.len() == 2 && (knots[1] - knots[0] - PI).abs() < 0.01

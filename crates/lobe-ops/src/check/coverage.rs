@@ -88,7 +88,7 @@ fn dark_nodes(data: &dyn Representation, part: &str) -> Option<Finding> {
     Some(Finding::new("coverage", part, status, text).number("dark", dark as f64).number("above", above as f64))
 }
 
-/// Whether only the plane of incidence was measured, so that no integral over the hemisphere is a measurement.
+/// `true` if only the plane of incidence was measured, so that no integral over the hemisphere is a measurement.
 pub(crate) fn is_in_plane(data: &dyn Representation) -> bool {
     let is_flat = |([_, phi_i, theta, phi], _): ([f64; 4], &[f32])| theta < 1e-3 || (phi - phi_i).sin().abs() < 1e-3;
     data.samples().is_some_and(|mut samples| samples.all(is_flat))

@@ -139,7 +139,7 @@ fn energy(part: &str, aspect: &Aspect, albedos: &[Albedo], names: &[String]) -> 
     finding.number("smallest", low.smallest()).number("largest", high.largest()).number("error", error)
 }
 
-/// Whether the albedos are plausible for values in 1/sr.
+/// `true` if the albedos are plausible for values in 1/sr.
 fn unit(part: &str, albedos: &[Albedo]) -> Option<Finding> {
     let mut means: Vec<f64> =
         albedos.iter().map(|albedo| albedo.values.iter().sum::<f64>() / albedo.values.len() as f64).collect();
@@ -163,7 +163,7 @@ fn unit(part: &str, albedos: &[Albedo]) -> Option<Finding> {
     Some(Finding::new("unit", part, Status::Warn, text).number("albedo", median))
 }
 
-/// Whether values fall off toward the horizon like a cosine, as values of `f cos` would and values of `f` seldom do.
+/// `true` if values fall off toward the horizon like a cosine, as values of `f cos` would and values of `f` seldom do.
 fn cosine(subject: &Subject, aspect: Aspect, part: &str) -> Option<Finding> {
     let incidences = subject.incidences(aspect);
     let [theta, phi] = *incidences.iter().min_by(|a, b| (a[0] - 0.5).abs().total_cmp(&(b[0] - 0.5).abs()))?;

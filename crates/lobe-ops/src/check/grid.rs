@@ -76,7 +76,7 @@ impl<'a> Grid<'a> {
         findings
     }
 
-    /// Whether the pole of the viewer, and that of the light, have one value at all azimuths.
+    /// `true` if the pole of the viewer, and that of the light, have one value at all azimuths.
     pub(super) fn check_pole(&self, part: &str) -> Vec<Finding> {
         let mut findings = Vec::new();
         let [light, rotations, viewer, azimuths] = self.knots.each_ref().map(Vec::len);

@@ -11,7 +11,8 @@ use crate::samples::{directions, nodes};
 const NEAR: f64 = 0.02;
 /// The height above which it is not: 3.4 degrees.
 const AWAY: f64 = 0.06;
-/// Within this angle of the normal, 30 degrees, half vectors are those of a mirror: peaks there rise toward the horizon.
+/// Within this angle of the normal, 30 degrees, half vectors are those of a mirror: peaks there rise toward the
+/// horizon.
 const PEAK: f64 = std::f64::consts::PI / 6.0;
 /// A value that is this many times the largest of all others stands out.
 const OUT: f64 = 10.0;
@@ -114,7 +115,8 @@ fn of_grid(grid: &spherical::Data, extremes: &mut Extremes) {
     }
 }
 
-/// What is evaluated, as texels are in no directions: some lights, and viewers around the hemisphere, near its rim and not.
+/// Evaluates some lights, and viewers all over the hemisphere and near its rim, because texels have no fixed
+/// directions.
 fn of_rgl(data: &rgl::Data, extremes: &mut Extremes) {
     const HEIGHTS: [f64; 9] = [1e-4, 1e-3, 1e-2, 0.06, 0.1, 0.2, 0.4, 0.7, 0.95];
     const AROUND: u32 = 16;

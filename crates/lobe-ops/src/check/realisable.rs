@@ -1,4 +1,4 @@
-//! Whether a surface can have given Mueller matrices.
+//! Checks if a surface can have given Mueller matrices.
 //!
 //! A matrix is possible if it is a mixture of Jones matrices, that is, if Cloude's coherency matrix has no negative
 //! eigenvalue: S. R. Cloude, "Group theory and polarisation algebra", Optik 75, 1986. Outgoing light is then never more

@@ -120,8 +120,8 @@ pub fn knots(is_isotropic: bool) -> [Vec<f64>; 4] {
 /// Zenith angles and azimuths of uniform half grids that suit most materials: every degree, and every two.
 const UNIFORM: [usize; 2] = [90, 91];
 
-/// Knots of a grid in spherical coordinates that suit most materials, in radians: every 5 degrees of incidence, every 2.5
-/// of exit. Peaks lie across such grids, which need more nodes than specular ones.
+/// Knots of a grid in spherical coordinates that suit most materials, in radians: every 5 degrees of incidence, every
+/// 2.5 of exit. Peaks lie across such grids, which need more nodes than specular ones.
 pub fn spherical_knots(is_isotropic: bool) -> [Vec<f64>; 4] {
     let steps = |count: u32, step: f64| (0..=count).map(|index| step * f64::from(index)).collect::<Vec<f64>>();
     let degrees = match is_isotropic {

@@ -14,7 +14,7 @@ use crate::{Aspect, OnBackend};
 pub struct Bound {
     /// Relative to the largest value of the material; or to each value, but at least to a thousandth of the largest.
     pub error: f64,
-    /// Whether the error is relative to each value.
+    /// `true` if the error is relative to each value.
     pub per_value: bool,
     /// The polar angle of both directions up to which the bound applies, in radians, because values, and the largest
     /// with them, grow toward the horizon.

@@ -98,7 +98,7 @@ fn chosen(count: usize) -> Vec<usize> {
     }
 }
 
-/// Whether each channel is dark everywhere.
+/// `true` if each channel is dark everywhere.
 fn dark(curves: &[Vec<Curve>], channels: usize) -> Vec<bool> {
     let largest = |at: usize| {
         let of = curves.iter().filter_map(|curves| curves.get(at)).flat_map(|curve| &curve.f);

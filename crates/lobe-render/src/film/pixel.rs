@@ -58,9 +58,9 @@ pub const RADIANCE_UNIT: f64 = 1.0 / 18_446_744_073_709_551_616.0;
 pub const SURFACE_UNIT: f64 = 1.0 / 1_073_741_824.0;
 /// The limit to which the radiance of a sample is clamped, so that no sum of `2^32` samples overflows.
 pub(super) const BRIGHTEST: f32 = 1_073_741_824.0;
-/// That in units of [`RADIANCE_UNIT`].
+/// This limit in units of [`RADIANCE_UNIT`].
 pub(crate) const BRIGHTEST_UNITS: u128 = 1 << (30 + 64);
-/// What an albedo and a normal of a sample are at most, in units of [`SURFACE_UNIT`].
+/// The largest albedo or component of a normal of a sample, in units of [`SURFACE_UNIT`].
 pub(crate) const SURFACE_UNITS: u128 = 1 << 30;
 
 impl<T: Transport> Pixel<T> {

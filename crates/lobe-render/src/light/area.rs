@@ -53,7 +53,8 @@ impl<S: Channels> AreaLight<S> {
         if self.two_sided || front { self.radiance } else { S::ZERO }
     }
 
-    /// The density over solid angle, 1/sr, of sampling points at that distance whose normals have that cosine to the ray.
+    /// The density over solid angle, 1/sr, of sampling points at that distance whose normals have that cosine to the
+    /// ray.
     #[inline(always)]
     pub(crate) fn pdf_li<L: Lanes>(&self, lanes: L, distance: L::F, cos: L::F) -> L::F {
         distance * distance / (cos.abs().max(lanes.splat(1e-9)) * lanes.splat(self.area as f32))

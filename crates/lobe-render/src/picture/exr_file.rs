@@ -268,7 +268,7 @@ pub fn read_partial_in<T: Transport>(path: &Path, basis: &T::Basis) -> Result<(F
     Ok((film, meta))
 }
 
-/// What no rendering sums up, and what could not be added to. `None` if there is nothing of the kind.
+/// A sum in the film that no rendering can have, or to which samples could not be added; `None` if all sums are valid.
 fn impossible<T: Transport>(film: &Film<T>) -> Option<String> {
     for Pixel { radiance, albedo, normal, samples, .. } in film.pixels() {
         let (samples, found) = (u128::from(*samples), format!("a sum of more than {samples} samples"));

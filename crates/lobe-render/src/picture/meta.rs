@@ -80,7 +80,7 @@ impl Meta {
             .or_else(|| differing("a size", &size(self), &size(other)))
     }
 
-    /// Reads text written by [`Display`](fmt::Display). `None` for any other text, or if it makes no sense.
+    /// Reads text written by [`Display`](fmt::Display). `None` for any other text, or if values in it are invalid.
     pub fn parse(text: &str) -> Option<Self> {
         let table = toml::de::DeTable::parse(text).ok()?;
         let table = table.get_ref();

@@ -92,8 +92,7 @@ pub fn from_document_in<T: Transport>(
     prepare(basis, material, path, backend, limit, progress)
 }
 
-/// Opens the files of a sheet, measured with light on its front and on its back, as
-/// [`Material::open_sheet`] does.
+/// Opens the files of a sheet, measured with light on its front and on its back, as [`Material::open_sheet`] does.
 ///
 /// # Errors
 /// [`MaterialError`] names the file.

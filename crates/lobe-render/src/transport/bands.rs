@@ -8,8 +8,8 @@ use super::{Conversion, Transport, lone};
 use crate::channels::Channels;
 use crate::vec3::Vec3;
 
-/// A value for each of up to `N` wavelengths: independent channels, lanes along them. Those beyond the number of wavelengths
-/// are 0 throughout.
+/// A value for each of up to `N` wavelengths: independent channels, lanes along them. Those beyond the number of
+/// wavelengths are 0 throughout.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Bands<const N: usize>;
 

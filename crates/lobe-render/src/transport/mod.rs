@@ -116,8 +116,8 @@ pub trait Transport: Copy + Debug + Default + PartialEq + Eq + Send + Sync + 'st
     /// The wavelengths of the channels in nm, if they are wavelengths.
     fn wavelengths(basis: &Self::Basis) -> Option<&[f64]>;
 
-    /// The degree of linear polarisation, from 0 to 1, and the angle of linear polarisation from the right of the picture, in
-    /// radians from 0 to pi, of the luminance; `None` if light is not polarised.
+    /// The degree of linear polarisation, from 0 to 1, and the angle of linear polarisation from the right of the
+    /// picture, in radians from 0 to pi, of the luminance; `None` if light is not polarised.
     fn linear_polarisation(basis: &Self::Basis, radiance: Self::Radiance) -> Option<[f32; 2]> {
         let _ = (basis, radiance);
         None

@@ -1,10 +1,9 @@
 //! A wave: the paths of a tile, all at the same depth, with their state in the cache.
 //!
 //! Each stage of a wave has its own module, and integrators compose them: rays are [intersected](intersect) and their
-//! hits sorted by material; rays that
-//! [escape] reach the environment; surfaces that [emit] add light; lights are sampled for the hits ([next_event]), and
-//! [shadow] rays are resolved; materials [scatter] the rays of the next wave. The properties of hits are kept in
-//! columns, in sorted order.
+//! hits sorted by material; rays that [escape] reach the environment; surfaces that [emit] add light; lights are
+//! sampled for the hits ([next_event]), and [shadow] rays are resolved; materials [scatter] the rays of the next wave.
+//! The properties of hits are kept in columns, in sorted order.
 
 mod begin;
 mod emit;

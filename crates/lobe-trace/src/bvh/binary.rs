@@ -129,8 +129,8 @@ impl Binary {
 /// over twelve meshes), and they are built in two thirds of the time.
 const SEARCH: PlocSearchDistance = PlocSearchDistance::VeryLow;
 
-/// The share of nodes that a round of reinsertion moves: the 0.05 of the presets takes a third longer, for trees that cost
-/// half a per cent less.
+/// The share of nodes that a round of reinsertion moves: the 0.05 of the presets takes a third longer, for trees that
+/// cost half a per cent less.
 const REINSERTED: f32 = 0.005;
 
 /// Such a share would hardly change small trees, so a round moves at least twice this many nodes if the tree has them.

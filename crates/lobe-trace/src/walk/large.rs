@@ -1,7 +1,7 @@
 //! Up to 64 rays of one octant.
 //!
-//! All children of a node are tested at once, one child per lane, against one bundle of eight rays after another. Rays are
-//! tested one by one if all bundles are wide, and at the leaves.
+//! All children of a node are tested at once, one child per lane, against one bundle of eight rays after another. Rays
+//! are tested one by one if all bundles are wide, and at the leaves.
 
 use core::hint::select_unpredictable;
 

@@ -53,7 +53,7 @@ fn wedges(mesh: &Mesh) -> Vec<Wedge> {
     (0..mesh.triangles().len()).map(wedge).collect()
 }
 
-/// Whether a line hits a triangle: the test of [`intersect`] without its divisions, for many triangles.
+/// `true` if a line hits a triangle: the test of [`intersect`] without its divisions, for many triangles.
 fn crosses(origin: V, direction: V, [a, e, f]: &Wedge) -> bool {
     let p = cross(direction, *f);
     let determinant = dot(*e, p);

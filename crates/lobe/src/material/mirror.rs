@@ -11,7 +11,7 @@ pub(crate) struct Mirror {
 }
 
 impl Mirror {
-    /// Whether this applies to an aspect.
+    /// `true` if this applies to an aspect.
     pub(crate) fn answers(&self, aspect: Aspect) -> bool {
         self.data.scatter() == aspect.scatter && self.side.is_none_or(|side| side == aspect.light)
     }

@@ -106,7 +106,7 @@ impl Material {
         self.bsdf.is_isotropic()
     }
 
-    /// Whether there are values for light from a side that is reflected or transmitted.
+    /// `true` if there are values for light from a side that is reflected or transmitted.
     pub fn holds(&self, aspect: Aspect) -> bool {
         self.bsdf.holds(aspect)
     }
@@ -124,7 +124,7 @@ impl Material {
         Some(mirrored(wi, scatter))
     }
 
-    /// Whether there is a [mirror](Material::mirror).
+    /// `true` if there is a [mirror](Material::mirror).
     pub fn has_mirrors(&self) -> bool {
         !self.mirrors.is_empty()
     }
@@ -180,8 +180,8 @@ impl Material {
         self.try_eval_on(self.backend, wi.into(), wo.into(), out)
     }
 
-    /// Like [`eval_batch`](Material::eval_batch), but on the given backend: for a renderer that chooses one backend for a
-    /// whole picture.
+    /// Like [`eval_batch`](Material::eval_batch), but on the given backend: for a renderer that chooses one backend for
+    /// a whole picture.
     ///
     /// # Panics
     /// The same as for [`eval_batch`](Material::eval_batch).
@@ -219,7 +219,7 @@ impl Material {
         self.bsdf.mueller(wi, wo, nm)
     }
 
-    /// Whether there are Mueller matrices for pairs of directions.
+    /// `true` if there are Mueller matrices for pairs of directions.
     pub fn is_polarised(&self) -> bool {
         self.bsdf.is_polarised()
     }

@@ -108,7 +108,8 @@ impl Material {
     /// reflection is black.
     ///
     /// # Errors
-    /// The same as for [`open`](Material::open), and if the files have different channels, or one of them is itself a sheet.
+    /// The same as for [`open`](Material::open), and if the files have different channels, or one of them is itself a
+    /// sheet.
     pub fn open_sheet<P: AsRef<Path>>(front: &[P], back: &[P], options: &Options) -> Result<Self, OpenError> {
         let mut parts = Parts::default();
         let mut last = None;

@@ -45,7 +45,7 @@ pub(super) struct Sheet {
 }
 
 impl Sheet {
-    /// Whether a part was measured with light from that side.
+    /// `true` if a part was measured with light from that side.
     fn measures(&self, aspect: Aspect) -> bool {
         let fits = |part: &Part| part.scatter == aspect.scatter && part.side.is_none_or(|side| side == aspect.light);
         self.parts.iter().any(fits)

@@ -14,10 +14,10 @@ use lobes::Lobes;
 
 /// A material, and the distributions to sample directions in proportion to luminance times `f` times cosine.
 ///
-/// Every representation is sampled in its own way: specular tables and the EPFL database by their own schemes,
-/// in lanes; Klems matrices by their patches; everything else by histograms over the hemisphere, which are blended
-/// between incident directions and have an exact density. Sheets and windows have a lobe for each side and scatter;
-/// light chooses among the lobes of its side by their brightness, and mirrors are lobes too.
+/// Every representation is sampled in its own way: specular tables and the EPFL database by their own schemes, in
+/// lanes; Klems matrices by their patches; everything else by histograms over the hemisphere, which are blended between
+/// incident directions and have an exact density. Sheets and windows have a lobe for each side and scatter; light
+/// chooses among the lobes of its side by their brightness, and mirrors are lobes too.
 ///
 /// Directions are unit vectors away from the surface, normal on +z. Densities are per steradian. The density is
 /// positive wherever `f` is, except for the EPFL database, whose published scheme is kept. In strict form, samples have

@@ -1,5 +1,5 @@
-//! Representations other than specular tables, in `f32` lanes on every backend, against the answers of the programs that define
-//! their formats.
+//! Representations other than specular tables, in `f32` lanes on every backend, against the answers of the programs
+//! that define their formats.
 
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! Instantiates kernels of lobe in a crate outside its workspace.
 //!
-//! `lobe-user` reads a question from each line of its input, answers it a few times, and writes the shortest time of a call in
-//! nanoseconds. Without input, it lists its questions.
+//! `lobe-user` reads a question from each line of its input, answers it a few times, and writes the shortest time of a
+//! call in nanoseconds. Without input, it lists its questions.
 #![forbid(unsafe_code)]
 
 mod kernels;

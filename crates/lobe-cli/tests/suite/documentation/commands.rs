@@ -35,7 +35,7 @@ pub fn blocks(document: &str) -> Vec<Block> {
     blocks
 }
 
-/// Whether a loop is open, or a line is continued.
+/// `true` if a loop is open, or a line is continued.
 fn is_unfinished(line: &str) -> bool {
     line.ends_with('\\') || (line.starts_with("for ") && !line.lines().any(|line| line.trim() == "done"))
 }

@@ -45,7 +45,7 @@ impl Contacts {
         }
     }
 
-    /// Whether two particles are at most two cells apart in the weave.
+    /// `true` if two particles are at most two cells apart in the weave.
     fn neighbours(&self, i: u32, j: u32) -> bool {
         let [(a, b), (c, d)] = [i, j].map(|k| (k as usize % self.n, k as usize / self.n));
         a.abs_diff(c) <= 2 && b.abs_diff(d) <= 2
