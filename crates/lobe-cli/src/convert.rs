@@ -24,7 +24,7 @@ use crate::target::Target;
 /// Convert a material to another format.
 #[derive(clap::Args)]
 #[command(
-    after_help = "The extension of OUT, or --to, determines the format to write. If that format has the representation of the file, knots and values are written unchanged. Otherwise the material is resampled, which is reported together with the error at sample directions, the last of which is what `lobe compare` finds: files that have comments keep it. --error refines the nodes until the relative error (root mean square) is met; if it cannot be, the exit code is 3 and no file is written. What the format cannot hold is refused, and so is an option that would change nothing. Trees of WINDOW XML are written as trees, unless --to klems or --basis ask for matrices.
+    after_help = "The extension of OUT, or --to, determines the format to write. If that format has the representation of the file, knots and values are written unchanged. Otherwise the material is resampled, and the nodes are reported together with the error that `lobe compare` finds; files of formats with comments keep both. --error refines the nodes until the relative error (root mean square) is met; if it cannot be, the exit code is 3 and no file is written. What the format cannot express is refused, and so is an option that would change nothing. Trees of WINDOW XML are written as trees, unless --to klems or --basis asks for matrices.
 
 Examples:
   lobe convert paint.ddr paint.ssdd                           the same table in another format
@@ -32,7 +32,7 @@ Examples:
   lobe convert cloth.ddr cloth.bsdf --to rgl --azimuths 49    finer
   lobe convert gold.binary gold.xml --basis half              Klems matrices for Radiance
   lobe convert paint.ddr tree.xml --basis tree3               a tensor tree
-  lobe convert paint.bsdf fine.ddr --error 0.05               as fine as it takes
+  lobe convert paint.bsdf fine.ddr --error 0.05               as fine as necessary
   lobe convert paint.ddr green.brdf --channel G               for Ansys Speos
   lobe convert paint.ddr lens.bsdf --to lighttools            for LightTools
   lobe convert paint.bsdf paint.npz                           for numpy.load
