@@ -33,7 +33,7 @@ const TASKS: [Task; 10] = [
     Task { name: "cross", about: "Test the backends of other processors on emulators", packages: &["xtask-cross"] },
     Task {
         name: "damage",
-        about: "Give damaged files to every command of the program, under limits of memory and time",
+        about: "Run every command of the program on damaged files, under limits of memory and time",
         packages: &["xtask-damage"],
     },
     Task {

@@ -96,7 +96,7 @@ pub enum GeometryError {
     TooMany {
         /// `vertices` or `triangles`.
         what: &'static str,
-        /// How many.
+        /// Their number.
         found: usize,
     },
     /// Groups have gaps, overlap, or are not in order.

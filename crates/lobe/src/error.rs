@@ -69,11 +69,11 @@ impl OpenError {
 #[error("found {found} {what}; expected {expected}")]
 #[non_exhaustive]
 pub struct ShapeError {
-    /// What is counted, such as `values`.
+    /// The name of what is counted, such as `values`.
     pub what: &'static str,
-    /// How many there are.
+    /// The number that was found.
     pub found: usize,
-    /// How many there should be.
+    /// The expected number.
     pub expected: usize,
 }
 

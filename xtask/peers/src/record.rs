@@ -21,7 +21,7 @@ pub struct Record {
     pub machine: Machine,
     /// The core, if the process was pinned to one.
     pub core: Option<usize>,
-    /// How fast the machine was.
+    /// The speed of the machine.
     pub speed: Speed,
     /// The number of turns.
     pub turns: usize,
@@ -31,9 +31,9 @@ pub struct Record {
     pub missing: Vec<[String; 2]>,
     /// The figures.
     pub rows: Vec<Row>,
-    /// How noisy samples are.
+    /// The variances of samples.
     pub variances: Vec<Variance>,
-    /// How much pictures differ from those of another renderer.
+    /// The differences between pictures and those of another renderer.
     pub pictures: Vec<Agreement>,
 }
 

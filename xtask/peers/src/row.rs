@@ -10,7 +10,7 @@ pub struct Row {
     pub id: &'static str,
     /// The data and input.
     pub on: String,
-    /// What is counted.
+    /// The unit that is counted.
     pub unit: &'static str,
     /// The peer.
     pub peer: &'static str,
@@ -18,9 +18,9 @@ pub struct Row {
     pub ns: f64,
     /// The peer's processor time, in nanoseconds.
     pub peer_ns: f64,
-    /// How many times as fast as the peer.
+    /// The peer's time divided by this library's.
     pub ratio: f64,
-    /// The goal for that, if this is the fastest peer.
+    /// The goal for the ratio, if this is the fastest peer.
     pub goal: Option<f64>,
     /// The largest relative difference of the values, if they are of the same material.
     pub difference: Option<f64>,

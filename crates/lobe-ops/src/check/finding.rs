@@ -7,7 +7,7 @@ use lobe_formats::{Document, Part};
 use lobe_table::{Aspect, Side};
 use serde::Serialize;
 
-/// How serious a finding is.
+/// The severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
@@ -39,11 +39,11 @@ pub struct Finding {
     pub check: &'static str,
     /// The part of the file; empty if there is only one.
     pub part: String,
-    /// How serious it is.
+    /// The severity of the finding.
     pub status: Status,
     /// The finding in words.
     pub text: String,
-    /// The numbers in it, by name.
+    /// The numbers in the text, by name.
     pub numbers: BTreeMap<&'static str, f64>,
 }
 

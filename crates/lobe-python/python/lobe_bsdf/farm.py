@@ -19,7 +19,7 @@ from typing import Any
 import lobe_bsdf
 
 RETRIES = 5
-"""How often a part is rendered again."""
+"""The number of times that a part is rendered again if it fails."""
 
 
 def rendered(scene: str, part: int, parts: int, options: dict[str, Any]) -> bytes:
