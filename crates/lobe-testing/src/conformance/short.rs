@@ -88,7 +88,10 @@ fn one_access<L: Lanes>(lanes: L) {
         return;
     };
     let (access, more) = wanted.split_once(':').expect("two numbers");
-    let access = Access::ALL[access.parse::<usize>().expect("a number")];
+    let Some(&access) = Access::ALL.get(access.parse::<usize>().expect("a number")) else {
+        eprintln!("there is no access {access}");
+        return;
+    };
     let len = access.needs(L::LANES).checked_add_signed(more.parse().expect("a number")).expect("a length");
     lanes.vectorize(Touch { access, len });
     eprintln!("{access:?} of a slice of {len} is accepted");
