@@ -323,6 +323,7 @@ mod tests {
     use crate::picture::{Inspected, Light, inspect};
 
     #[test]
+    #[cfg_attr(target_os = "wasi", ignore = "WASI has no folder for temporary files")]
     fn splats_are_written_read_and_merged_exactly_if_there_are_any() {
         let folder = tempfile::tempdir().unwrap();
         let window = Rect { x: 0, y: 0, width: 5, height: 4 };

@@ -9,6 +9,15 @@ use lobe_render::light::{Environment, Light};
 use lobe_render::shader::{Backend, Delta, DeltaShader, Lambert, Shader, open};
 use lobe_render::{Camera, Film, Filter, Rect, Settings, Shape, World, WorldBuilder, render};
 
+/// A new folder, which is removed when the value is dropped.
+pub fn folder() -> tempfile::TempDir {
+    if cfg!(target_os = "wasi") {
+        // WASI has no folder for temporary files. This fails if it is named already.
+        let _ = tempfile::env::override_temp_dir(Path::new("/tmp"));
+    }
+    tempfile::tempdir().unwrap()
+}
+
 /// Paths of up to 8 surfaces.
 pub fn path_tracing() -> Arc<dyn Integrator> {
     path_of(8)

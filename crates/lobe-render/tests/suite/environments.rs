@@ -28,7 +28,7 @@ fn hdr(header: &str, size: &str, data: &[u8]) -> Vec<u8> {
 }
 
 fn read(name: &str, bytes: &[u8]) -> Result<Environment, PictureError> {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = crate::common::folder();
     let path = folder.path().join(name);
     std::fs::write(&path, bytes).unwrap();
     read_environment(&path, 0.0, 1.0)
@@ -213,7 +213,7 @@ mod open_exr {
     }
 
     fn written(picture: &Picture) -> std::result::Result<Environment, PictureError> {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = crate::common::folder();
         let path = folder.path().join("sky.exr");
         picture.write().non_parallel().to_file(&path).unwrap();
         read_environment(&path, 0.0, 1.0)
@@ -311,7 +311,7 @@ mod open_exr {
             layer.attributes.layer_name = Some(name.into());
             layer
         };
-        let folder = tempfile::tempdir().unwrap();
+        let folder = crate::common::folder();
         let write = |layers: Vec<Layer<AnyChannels<FlatSamples>>>| {
             let path: PathBuf = folder.path().join("sky.exr");
             let bounds = IntegerBounds::new((0, 0), (4, 2));

@@ -29,7 +29,7 @@ fn meta(window: Rect, samples: std::ops::Range<u32>) -> Meta {
 fn parts_merge_to_the_same_bytes_as_the_whole() {
     let world = mixed();
     let settings = settings(SIZE, 6, path_tracing());
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let file = |name: &str| folder.path().join(name);
     let whole = picture(&world, &settings);
     write_exr(&file("whole.exr"), &whole, &meta(settings.window, 0..6), false).unwrap();
@@ -66,7 +66,7 @@ fn parts_merge_to_the_same_bytes_as_the_whole() {
 #[test]
 fn damaged_files_are_errors() {
     let settings = settings([16, 16], 1, path_tracing());
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let path = folder.path().join("part.exr");
     let film = picture(&mixed(), &settings);
     let said = Meta { size: [16, 16], ..meta(settings.window, 0..1) };
@@ -94,7 +94,7 @@ fn damaged_files_are_errors() {
 #[test]
 fn sums_of_more_than_their_samples_are_refused() {
     let window = Rect { x: 0, y: 0, width: 2, height: 1 };
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let path = folder.path().join("part.exr");
     let said = Meta { size: [2, 1], ..meta(window, 0..6) };
     type Change<'a> = &'a dyn Fn(&mut Film);
@@ -124,7 +124,7 @@ fn sums_of_more_than_their_samples_are_refused() {
 
 #[test]
 fn environments_come_from_exr_and_hdr() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let path = folder.path().join("sky.hdr");
     // Two by one texels, not run-length encoded: (1, 0.5, 0.25) and black.
     let mut bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n".to_vec();
@@ -158,7 +158,7 @@ fn a_png_follows_the_tone_map() {
     let settings = settings([20, 10], 1, path_tracing());
     let film = picture(&mixed(), &settings);
     let tone = ToneMap { exposure: 0.5 };
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let path = folder.path().join("picture.png");
     write_png(&path, &film, tone).unwrap();
     let bytes = std::fs::read(&path).unwrap();

@@ -42,7 +42,7 @@ fn from_white(world: &World, integrator: Arc<dyn Integrator>) -> (f64, f64) {
 
 #[test]
 fn white_surfaces_vanish_in_a_white_sky() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let white = even(folder.path(), Scatter::Reflection, 1.0);
     let table = open(&white, &Options::default(), Backend::best()).unwrap();
     let oren_nayar = lobe_model::OrenNayar { albedo: [1.0; 3], roughness: 0.0 };
@@ -65,7 +65,7 @@ fn white_surfaces_vanish_in_a_white_sky() {
 /// Colours that the channels cannot represent have negative values, and so does noise around 0.
 #[test]
 fn negative_values_are_kept() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let file = even(folder.path(), Scatter::Reflection, -0.25);
     let edges = Edges { non_negative: false, ..Edges::default() };
     let world = furnace(open(&file, &Options { edges, ..Options::default() }, Backend::best()).unwrap());
@@ -87,7 +87,7 @@ fn glass_loses_nothing_when_all_of_its_rays_are_followed() {
 
 #[test]
 fn a_sheet_that_reflects_half_and_transmits_half_vanishes() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let files = [Scatter::Reflection, Scatter::Transmission].map(|scatter| even(folder.path(), scatter, 0.5));
     let sheet = open_sheet(&files, &files, &Options::default(), Backend::best()).unwrap();
     assert!(sheet.lobes().transmits);

@@ -113,7 +113,7 @@ fn scene(lights: &[Light], lamp: Option<bool>, glass: bool) -> World {
 
 /// A sheet that reflects and transmits light, more of it straight through, with a different back.
 fn sheet_of(backend: Backend) -> Arc<dyn Shader> {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let steps = |n: usize, step: f64| (0..n).map(|i| (step * i as f64).to_radians()).collect::<Vec<_>>();
     let file = |name: &str, scatter, share: f32| {
         let knots = [steps(10, 10.0), steps(3, 120.0), steps(19, 10.0), steps(12, 30.0)];
@@ -329,7 +329,7 @@ fn stopped_passes_continue() {
 
 #[test]
 fn scenes_choose_the_integrator() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let file = folder.path().join("scene.toml");
     let open = |keys: &str| {
         let text = format!("[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n[integrator]\n{keys}\n");

@@ -149,7 +149,7 @@ fn options_that_make_no_difference_are_errors() {
 
 #[test]
 fn meshes_with_bad_numbers_are_errors() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let scene = |mesh: &str| {
         std::fs::write(folder.path().join("mesh.obj"), mesh).unwrap();
         let text = GOOD.replacen("shape = \"plane\"\nsize = 4", "file = \"mesh.obj\"", 1);
@@ -172,7 +172,7 @@ fn meshes_with_bad_numbers_are_errors() {
 
 #[test]
 fn files_that_are_not_text() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, [b'[', 0xff, 0xfe]).unwrap();
     let error = Scene::open(&path, Backend::best()).unwrap_err().to_string();

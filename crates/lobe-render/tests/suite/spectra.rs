@@ -167,7 +167,7 @@ fn pictures_are_the_same_bits_on_every_backend_and_for_any_number_of_threads() {
 
 #[test]
 fn parts_are_written_read_and_merged_exactly() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = crate::common::folder();
     let scene = stokes(&mixed("[spectrum]\nstokes = true\n"), Backend::best());
     let basis = scene.world.basis();
     let all = settings(&scene, 6, Backend::best());
@@ -200,7 +200,7 @@ fn parts_are_written_read_and_merged_exactly() {
 
 #[test]
 fn files_say_which_wavelengths_they_have() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = crate::common::folder();
     let text = mixed("[spectrum]\nwavelengths = [410, 450, 480, 512.5, 530, 550, 580, 600, 620, 700]\n");
     let scene = bands16(&text, Backend::best());
     let all = settings(&scene, 1, Backend::best());

@@ -21,6 +21,7 @@ fn threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
 }
 
 #[test]
+#[cfg_attr(target_family = "wasm", ignore = "WebAssembly cannot start threads")]
 fn values_do_not_depend_on_the_number_of_threads() {
     let knots = [vec![0.0, 0.5, 1.2], vec![0.0], vec![0.0, 0.1, 0.7, 3.0], vec![0.0, 2.0, 4.0]];
     let values = (0..3 * 4 * 3 * 3).map(|i| (i * 37 % 101) as f32).collect();
@@ -74,6 +75,7 @@ fn answers(sampler: &Sampler) -> Vec<u32> {
 }
 
 #[test]
+#[cfg_attr(target_family = "wasm", ignore = "WebAssembly cannot start threads")]
 fn samples_do_not_depend_on_the_number_of_threads() {
     let mut seen = Vec::new();
     for (format, bytes) in examples::all() {

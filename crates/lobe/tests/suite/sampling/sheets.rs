@@ -77,6 +77,7 @@ fn transmission_measured_in_one_direction_applies_to_both() {
 }
 
 #[test]
+#[cfg_attr(target_os = "wasi", ignore = "WASI has no folder for temporary files")]
 fn sheets_open_from_the_files_of_their_sides() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
