@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use lobe::table::specular::coords;
 use lobe::{Aspect, Given, Sampler, Scatter, Side};
+use lobe_testing::emulation::draws;
 use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -15,18 +16,22 @@ use super::{below, incidents, numbers};
 const THETAS: usize = 40;
 const PHIS: usize = 24;
 
-/// The fewest and the most points per bin at which the density is summed.
-const POINTS: [usize; 2] = [1024, 1 << 19];
+/// The fewest points per bin at which the density is summed; fewer on emulated processors.
+const FEWEST_POINTS: usize = 1024;
+/// The most points per bin.
+const MOST_POINTS: usize = 1 << 19;
 
-/// Samples per incident direction: the value of `LOBE_SAMPLES`, with which all files are tested (or those whose names
-/// contain `LOBE_FILES`), which takes half an hour for a million. Without the variable there are fewer samples, and two
-/// files of each kind.
+/// Samples per incident direction, unless [another number](asked) is asked for; fewer on emulated processors.
+const SAMPLES: usize = 100_000;
+
+/// The value of `LOBE_SAMPLES`, with which all files are tested (or those whose names contain `LOBE_FILES`), which takes
+/// half an hour for a million. Without the variable there are two files of each kind.
 fn asked() -> Option<usize> {
     std::env::var("LOBE_SAMPLES").ok().map(|count| count.parse().expect("LOBE_SAMPLES is a number"))
 }
 
 fn sample_count() -> usize {
-    asked().unwrap_or(100_000)
+    asked().unwrap_or_else(|| draws(SAMPLES))
 }
 
 /// The subject of a test.
@@ -94,13 +99,13 @@ impl Density<'_> {
     /// The integral of the density over a bin, with so many points that the sums of the two halves differ by at most a
     /// tenth of the noise of the samples.
     fn integral(&self, bin: &Bin, samples: f64) -> f64 {
-        let mut points = POINTS[0] / 2;
+        let mut points = draws(FEWEST_POINTS) / 2;
         let mut first = self.sum(bin, 0..points);
         loop {
             let second = self.sum(bin, points..2 * points);
             let scale = 1.0 / (2 * points) as f64;
             let (integral, doubt) = ((first + second) * scale, (first - second).abs() * scale);
-            if doubt <= 0.1 * (integral / samples).sqrt() || 2 * points >= POINTS[1] {
+            if doubt <= 0.1 * (integral / samples).sqrt() || 2 * points >= MOST_POINTS {
                 return integral;
             }
             (first, points) = (first + second, 2 * points);
@@ -125,7 +130,7 @@ fn expected(sampler: &Sampler, incident: [f32; 3]) -> Vec<f64> {
             for j in 0..PHIS {
                 let phi = [j, j + 1].map(|j| j as f64 / PHIS as f64 * TAU);
                 let start = (i * PHIS + j) as f64 * 0.618_033_988_749_895;
-                bins.push(density.integral(&Bin { side, rest, phi, start }, sample_count() as f64));
+                bins.push(density.integral(&Bin { side, rest, phi, start }, asked().unwrap_or(SAMPLES) as f64));
             }
         }
     }
