@@ -107,15 +107,24 @@ impl Rows {
     }
 }
 
-/// The length of the beginning of a file that is enough to recognise it.
+/// The length of the beginning of a file that is enough to recognise it, if it has a few lines.
 const HEAD: usize = 1 << 16;
+
+/// The beginning of a text that is enough to recognise it. Names of thousands of columns are longer than that of others.
+fn beginning(bytes: &[u8]) -> &[u8] {
+    /// More than the line of names and a row; a line may end in two characters.
+    const ENDS: usize = 8;
+    let ends = bytes.iter().enumerate().filter(|(_, byte)| matches!(byte, b'\n' | b'\r'));
+    let few = ends.take(ENDS).nth(ENDS - 1).map_or(bytes.len(), |(at, _)| at + 1);
+    &bytes[..bytes.len().min(HEAD.max(few))]
+}
 
 /// `true` for a text with names of angle columns and rows of numbers, and for such JSON.
 pub fn matches(bytes: &[u8]) -> bool {
     let bytes = plain::text(bytes);
-    let head = text(&bytes[..bytes.len().min(HEAD)]);
+    let head = text(beginning(&bytes));
     match head.trim_start().starts_with('{') {
-        true => json::matches(&head),
+        true => json::matches(&text(&bytes[..bytes.len().min(HEAD)])),
         // `def` opens the values in files of Integra, whose lists of angles look like columns.
         false => !head.contains('\0') && !has_words(head.as_bytes(), ";;", &["def"]) && table::is_named_table(&head),
     }
@@ -124,7 +133,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 /// `true` for a text with rows of numbers, whatever is above them: a table whose contents options have to describe.
 pub fn may_be(bytes: &[u8]) -> bool {
     let bytes = plain::text(bytes);
-    let head = text(&bytes[..bytes.len().min(HEAD)]);
+    let head = text(beginning(&bytes));
     !head.contains('\0') && table::has_rows(&head)
 }
 

@@ -182,6 +182,25 @@ fn narrow_figures_are_legible() {
     }
 }
 
+#[test]
+fn spectra_of_dark_directions_are_visible() {
+    // Ten times as bright for light at 57 degrees; beyond two degrees from the mirror direction, a share of it.
+    let drawn = |share: f32, scaling| {
+        let knots = [vec![0.0, 1.0], vec![0.0], vec![0.0, 0.03, PI / 2.0], vec![0.0]];
+        let values = [1.0, 10.0].iter().flat_map(|f| [*f, f * share, f * share]).flat_map(|f| [f; 3]).collect();
+        let data = specular::Data::new(Scatter::Reflection, knots, wavelengths(), values).expect("a table");
+        let subject = Subject::new(Path::new("peak.ddr"), Format::Ddr, Document::new(data)).expect("a material");
+        let view = View { sigmas: vec![0.0, 1.0], scaling, ..View::new(&subject) };
+        one(&subject, &view, Figure::Spectra)
+    };
+    let has_powers = |svg: &str| svg.contains(">10<tspan");
+    assert!(has_powers(&drawn(1e-3, None)) && !has_powers(&drawn(0.2, None)));
+    // Each linear panel has its own axis: the first one ends near 1, the other near 10.
+    let linear = drawn(1e-3, Some(Scaling::Linear));
+    let has_label = |label: &str| linear.contains(&format!(">{label}</text>"));
+    assert!(!has_powers(&linear) && has_label("0.8") && has_label("8"), "{linear}");
+}
+
 /// The number of an attribute of the first element of a line.
 fn attribute(line: &str, name: &str) -> f64 {
     let rest = line.split_once(&format!(" {name}=\"")).unwrap_or_else(|| panic!("no {name} in {line}")).1;

@@ -162,6 +162,26 @@ impl Dialect {
         number.ok().filter(|number: &f64| number.is_finite())
     }
 
+    /// A number whose comma may come before decimals or between thousands, if no number of these lines says which:
+    /// spreadsheets put quotes around both. Among semicolons, a comma is one of decimals.
+    pub fn ambiguous(self, lines: &[Line<'_>]) -> Option<(usize, String)> {
+        if !self.has_decimal_comma || self.delimiter == Some(';') {
+            return None;
+        }
+        let mut first = None;
+        for line in lines.iter().filter(|line| line.text.contains(',')) {
+            for cell in self.cells(line.text) {
+                if cell.contains(',') && self.number(&cell).is_some() {
+                    if !is_grouped(&cell) {
+                        return None;
+                    }
+                    first.get_or_insert_with(|| (line.number, cell.into_owned()));
+                }
+            }
+        }
+        first
+    }
+
     /// A description for people.
     pub fn describe(self) -> String {
         let between = match self.delimiter {
@@ -174,6 +194,14 @@ impl Dialect {
         let decimals = if self.has_decimal_comma { "a comma" } else { "a point" };
         format!("{between} between cells, {decimals} before decimals")
     }
+}
+
+/// Whether a number can be a whole one with a comma between thousands, such as 12,345.
+fn is_grouped(number: &str) -> bool {
+    let mut groups = number.trim_start_matches(['+', '-', '\u{2212}']).split(',');
+    let is_whole = |group: &str| group.bytes().all(|byte| byte.is_ascii_digit());
+    let is_first = |group: &str| (1..=3).contains(&group.len()) && !group.starts_with('0') && is_whole(group);
+    groups.next().is_some_and(is_first) && groups.all(|group| group.len() == 3 && is_whole(group))
 }
 
 /// The number of lines that are examined to find the dialect.

@@ -62,6 +62,13 @@ pub(super) fn read(text: &str, file: &Path, options: &ReadOptions) -> Result<Raw
         hint(FormatError::new(file, Place::Line(number), trouble.found, trouble.expected), options)
     };
     let mut start = start(&lines, dialect, options).map_err(|(line, trouble)| at(line, trouble))?;
+    if options.decimal_comma.is_none()
+        && let Some((line, number)) = dialect.ambiguous(&lines[start.first..])
+    {
+        let expected = "numbers without separators of thousands, or --decimal-comma if these are decimals";
+        let found = format!("{number}, and no comma that can only be one of decimals");
+        return Err(FormatError::new(file, Place::Line(line), found, expected));
+    }
     let mut facts = Facts::default();
     let (names_line, has_names) = (start.names_line, !start.names.is_empty());
     for line in lines[..start.first].iter().filter(|line| line.number != names_line || !has_names) {

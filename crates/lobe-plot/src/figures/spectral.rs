@@ -15,6 +15,8 @@ use crate::spectra::{Spectrum, spectra};
 
 /// If there are more wavelengths than this, not each has a dot and a hint.
 const FEW: usize = 48;
+/// If the largest value of one line is this many times that of another, a linear axis shows only the first.
+const WIDE: f32 = 20.0;
 
 /// One panel per incidence, one line per viewing angle; `None` if the channels are not wavelengths.
 pub(super) fn chart<'a>(shown: Shown<'a>, progress: &dyn Progress) -> Option<Chart<'a>> {
@@ -25,15 +27,20 @@ pub(super) fn chart<'a>(shown: Shown<'a>, progress: &dyn Progress) -> Option<Cha
     // Viewing angles that are relative to the mirror direction are the same series at every incidence.
     let count = sigmas.first().map_or(0, |&sigma| view.viewing_angles(sigma).len());
     let ink = |at: usize| Ink::of_channel(at, count);
+    let panels_of = || spectra.chunks(count.max(1));
+    let is_wide = panels_of().any(|of_incidence| is_wide(of_incidence));
+    let scaling = view.scaling.unwrap_or(if is_wide { Scaling::Log } else { Scaling::Linear });
     let mut panels = Vec::new();
-    for of_incidence in spectra.chunks(count.max(1)) {
+    for of_incidence in panels_of() {
         let Spectrum { sigma, scatter, .. } = &of_incidence[0];
         let name = match scatters.len() {
             1 if *scatter == Scatter::Reflection => format!("σ = {}", degrees(*sigma)),
             _ => format!("{}, σ = {}", scatter_name(*scatter), degrees(*sigma)),
         };
         let lines = of_incidence.iter().enumerate().map(|(at, spectrum)| line(spectrum, ink(at))).collect();
-        let group = usize::from(*scatter == Scatter::Transmission);
+        // On a common linear axis, peaks for grazing light would make the other lines invisible.
+        let group =
+            if scaling == Scaling::Linear { panels.len() } else { usize::from(*scatter == Scatter::Transmission) };
         panels.push(Panel { name, group, lines, mirrors: Vec::new() });
     }
     let entry = |(at, label): (usize, String)| Entry { ink: ink(at), label };
@@ -53,7 +60,7 @@ pub(super) fn chart<'a>(shown: Shown<'a>, progress: &dyn Progress) -> Option<Cha
         what,
         title: title(&[shown], "f against the wavelength at several viewing angles"),
         axis: Axis::Wavelength(bounds.0, bounds.1),
-        scaling: view.scaling.unwrap_or(Scaling::Linear),
+        scaling,
         panels,
         legend: ("viewing angle θ_{o} in the plane of incidence", {
             view.angle_names().into_iter().enumerate().map(entry).collect()
@@ -61,6 +68,14 @@ pub(super) fn chart<'a>(shown: Shown<'a>, progress: &dyn Progress) -> Option<Cha
         ends: ["", ""],
         notes: Vec::new(),
     })
+}
+
+/// Whether lines of one panel are so different that some would lie on a linear axis.
+fn is_wide(lines: &[Spectrum]) -> bool {
+    let peaks = lines.iter().map(|line| line.f.iter().copied().fold(0.0, f32::max)).filter(|peak| *peak > 0.0);
+    let (least, most) =
+        peaks.fold((f32::INFINITY, 0.0), |(least, most): (f32, f32), peak| (least.min(peak), most.max(peak)));
+    most > WIDE * least
 }
 
 fn line(spectrum: &Spectrum, ink: Ink) -> Line {

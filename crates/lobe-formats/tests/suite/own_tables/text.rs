@@ -1,6 +1,6 @@
 //! From text to cells, and from names to angles.
 
-use lobe_formats::{Document, Format, sniff};
+use lobe_formats::{Document, Format, from_bytes, sniff};
 use lobe_table::Channels;
 
 use super::*;
@@ -48,6 +48,46 @@ fn delimiters_and_decimals() {
     for (name, text) in texts {
         assert_eq!(sniff(text.as_bytes()), Some(Format::Goniometer), "{name}");
         is_the_measurement(&read(text.as_bytes(), &[]), 3, name);
+    }
+}
+
+#[test]
+fn commas_of_thousands_are_not_decimals() {
+    let of = |values: [&str; 3], delimiter: &str| {
+        let row = |(theta, value): (i32, &str)| format!("30{delimiter}{theta}{delimiter}90{delimiter}{value}\n");
+        let rows: String = [0, 20, 40].into_iter().zip(values).map(row).collect();
+        format!("{}\n{rows}", ["theta_i", "theta_o", "phi_o", "f"].join(delimiter))
+    };
+    let large = ["250", "\"1,234\"", "\"-12,345,678\""];
+    for (values, delimiter) in [(["250", "\"1,234\"", "\"12,345\""], ","), (["7", "1,234", "12,345"], "\t")] {
+        refused(&of(values, delimiter), &[], "1,234", "--decimal-comma");
+        let said = read(of(values, delimiter).as_bytes(), &[("decimal-comma", "true")]);
+        let found = eval(said.only().expect("data"), direction(30.0, 0.0), direction(20.0, 90.0));
+        assert!((found[0] - 1.234).abs() < 1e-5, "{found:?}");
+    }
+    assert!(from_bytes(of(large, ",").as_bytes(), path()).is_err());
+    // One that cannot be of thousands decides for all, and so does a semicolon.
+    for (values, delimiter) in [
+        (["0,5", "1,234", "12,345"], "\t"),
+        (["\"2,5\"", "\"1,234\"", "\"12,345\""], ","),
+        (["0,250", "1,234", "12,345"], "\t"),
+        (["7", "1,234", "12,345"], ";"),
+    ] {
+        let document = read(of(values, delimiter).as_bytes(), &[]);
+        let found = eval(document.only().expect("data"), direction(30.0, 0.0), direction(20.0, 90.0));
+        assert!((found[0] - 1.234).abs() < 1e-5, "{values:?}: {found:?}");
+    }
+}
+
+#[test]
+fn names_longer_than_other_files_are_read() {
+    let wavelengths: Vec<String> = (1..=20_000).map(|step| format!("{}nm", 200.0 + 0.1 * f64::from(step))).collect();
+    for end in ["\n", "\r\n"] {
+        let row = |theta: u32| format!("30,{theta},0{}", ",0.25".repeat(wavelengths.len()));
+        let text = [format!("theta_i,theta_o,phi_o,{}", wavelengths.join(",")), row(0), row(40)].join(end);
+        assert_eq!(sniff(text.as_bytes()), Some(Format::Goniometer));
+        let document = read(text.as_bytes(), &[]);
+        assert_eq!(document.only().expect("data").representation().channels().count(), wavelengths.len());
     }
 }
 
