@@ -26,6 +26,35 @@ def scene(fixtures, tmp_path_factory):
     return folder / "small" / "small.toml"
 
 
+PLAIN = """
+[camera]
+position = [0, 1.2, 4]
+target = [0, 0.5, 0]
+[film]
+width = 96
+height = 54
+[integrator]
+samples = 4
+[material.grey]
+model = "lambert"
+albedo = 0.5
+[[object]]
+shape = "sphere"
+material = "grey"
+[[light]]
+kind = "environment"
+radiance = 1
+"""
+
+
+@pytest.fixture(scope="module")
+def plain(tmp_path_factory):
+    """A scene that is read at once."""
+    file = tmp_path_factory.mktemp("plain") / "plain.toml"
+    file.write_text(PLAIN)
+    return file
+
+
 @pytest.fixture(scope="module")
 def picture(scene):
     return lobe_bsdf.render(scene)
@@ -70,18 +99,18 @@ def test_parts_are_merged_to_the_same_bits(picture, scene, tmp_path):
     assert (lobe_bsdf.merge([parts[0], parts[2]], allow_gaps=True).samples[20] == 0).all()
 
 
-def test_progress_can_end_a_rendering(scene):
+def test_progress_can_end_a_rendering(plain):
     seen = []
 
     def progress(done, total):
         seen.append((done, total))
         return len(seen) < 2
 
-    picture = lobe_bsdf.render(scene, samples=5000, threads=1, progress=progress)
+    picture = lobe_bsdf.render(plain, samples=5000, threads=1, progress=progress)
     assert not picture.is_finished and len(seen) >= 2 and seen[-1][1] == 96 * 54 * 5000
 
 
-def test_exceptions_of_progress_are_raised(scene):
+def test_exceptions_of_progress_are_raised(plain):
     class Enough(Exception):
         pass
 
@@ -89,7 +118,7 @@ def test_exceptions_of_progress_are_raised(scene):
         raise Enough
 
     with pytest.raises(Enough):
-        lobe_bsdf.render(scene, samples=5000, progress=progress)
+        lobe_bsdf.render(plain, samples=5000, progress=progress)
 
 
 def test_crops_and_ranges(picture, scene):
@@ -114,9 +143,9 @@ def test_crops_and_ranges(picture, scene):
         {"threads": 0},
     ],
 )
-def test_options_are_checked(scene, options):
+def test_options_are_checked(plain, options):
     with pytest.raises(ValueError, match="found|seconds"):
-        lobe_bsdf.render(scene, **options)
+        lobe_bsdf.render(plain, **options)
 
 
 def test_mistakes_in_scenes_are_named(scene, tmp_path):

@@ -51,7 +51,8 @@ impl Package {
     /// The interpreter.
     pub fn python(&self) -> Command {
         let others = std::env::var_os("PYTHONPATH").unwrap_or_default();
-        let folders = [self.folder.path().to_owned()].into_iter().chain(std::env::split_paths(&others));
+        let others = std::env::split_paths(&others).filter(|folder| !folder.as_os_str().is_empty());
+        let folders = [self.folder.path().to_owned()].into_iter().chain(others);
         let mut python = Command::new(&self.interpreter);
         python.env("PYTHONPATH", std::env::join_paths(folders).expect("paths")).env("PYTHONDONTWRITEBYTECODE", "1");
         python
