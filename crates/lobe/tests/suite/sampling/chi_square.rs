@@ -1,7 +1,7 @@
 //! Samples follow their density: histograms of samples against the integrated density, by Pearson's test.
 
 use std::collections::HashMap;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use lobe::table::specular::coords;
 use lobe::{Aspect, Given, Sampler, Scatter, Side};
@@ -56,11 +56,12 @@ fn raised([x, y, z]: [f32; 3]) -> [f64; 3] {
     [x, y, z.abs()].map(f64::from)
 }
 
-/// A density for one incident direction, and the frame in which it is summed.
+/// A density for one incident direction, and the frame in which it is summed: toward phi = 0, toward phi = 90 degrees, and
+/// the mirror direction.
 struct Density<'a> {
     sampler: &'a Sampler,
     incident: [f32; 3],
-    angles: [f64; 2],
+    frame: [[f64; 3]; 3],
 }
 
 /// A region of scattered directions: the side of the surface, and the ranges of `1 - cos theta` and phi.
@@ -76,8 +77,8 @@ impl Density<'_> {
     /// The sum of the density over some of the points of a bin, each multiplied by its share of the solid angle.
     /// Because the density is not continuous, no two points have the same theta or phi.
     fn sum(&self, bin: &Bin, points: std::ops::Range<usize>) -> f64 {
-        let [sigma, psi] = self.angles;
         let [rest, phi] = [bin.rest, bin.phi].map(|[low, high]| (low, high - low));
+        let [x, y, z] = self.frame;
         let place = |point: usize| {
             // The additive recurrence of the plastic number (Roberts 2018), with a different start in each bin.
             let at = bin.start + point as f64;
@@ -85,8 +86,11 @@ impl Density<'_> {
             // At the mirror direction, the density of an EPFL material may grow without bound, as theta^(-3/2): points
             // are denser there.
             let (u, share) = if rest.0 == 0.0 { (u.powi(4), 4.0 * u.powi(3)) } else { (u, 1.0) };
-            let theta = 2.0 * (0.5 * (rest.0 + u * rest.1)).sqrt().asin();
-            let wo = coords::angles_to_directions([sigma, psi, theta, phi.0 + w * phi.1], |s| s).1;
+            let versine = rest.0 + u * rest.1;
+            let (sin_theta, cos_theta) = ((versine * (2.0 - versine)).max(0.0).sqrt(), 1.0 - versine);
+            let (sin_phi, cos_phi) = (phi.0 + w * phi.1).sin_cos();
+            let [a, b] = [sin_theta * cos_phi, sin_theta * sin_phi];
+            let wo: [f64; 3] = std::array::from_fn(|k| a * x[k] + b * y[k] + cos_theta * z[k]);
             let above = if wo[2] > 0.0 { bin.side } else { f64::NAN };
             ([wo[0], wo[1], wo[2] * above].map(|x| x as f32), share * rest.1 * phi.1)
         };
@@ -116,7 +120,9 @@ impl Density<'_> {
 /// The integral of the density over each bin, reflection before transmission.
 fn expected(sampler: &Sampler, incident: [f32; 3]) -> Vec<f64> {
     let [sigma, psi, ..] = coords::directions_to_angles(raised(incident), [0.0, 0.0, 1.0], |s| s);
-    let density = Density { sampler, incident, angles: [sigma, psi] };
+    let axis = |theta: f64, phi: f64| coords::angles_to_directions([sigma, psi, theta, phi], |s| s).1;
+    let frame = [axis(FRAC_PI_2, 0.0), axis(FRAC_PI_2, FRAC_PI_2), axis(0.0, 0.0)];
+    let density = Density { sampler, incident, frame };
     let front = incident[2] > 0.0;
     let mut bins = Vec::new();
     for scatter in [Scatter::Reflection, Scatter::Transmission] {
