@@ -94,10 +94,10 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatError> {
             return Err(line.error(format!("{} numbers", numbers.len()), format!("3 inputs and {outputs} outputs")));
         }
         let (theta_i, theta_o, dphi) = match input {
-            Input::Projected => (numbers[0], numbers[1].hypot(numbers[2]), numbers[2].atan2(numbers[1])),
+            Input::Projected => (numbers[0], libm::hypot(numbers[1], numbers[2]), libm::atan2(numbers[2], numbers[1])),
             Input::Angles => (numbers[1], numbers[0], numbers[2]),
         };
-        let cosine = if has_cosine { theta_o.cos() } else { 1.0 };
+        let cosine = if has_cosine { libm::cos(theta_o) } else { 1.0 };
         if cosine >= LEAST_COSINE {
             let values = numbers[3..].iter().map(|value| value / cosine);
             records.push_line(line.number, [theta_i, 0.0, theta_o, dphi], values);

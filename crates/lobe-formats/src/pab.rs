@@ -139,7 +139,7 @@ fn samples(file: &Path, text: &str, records: &mut BTreeMap<(Side, bool), Records
             return Err(line.error(format!("theta {theta}"), "-180 to 180 degrees"));
         }
         let (view, seen) = folded(theta);
-        let cos = theta.to_radians().cos().abs();
+        let cos = libm::cos(theta.to_radians()).abs();
         if head.is_dsf && cos < GRAZING {
             continue;
         }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::path::Path;
 
+use libm::{atan2, hypot, sincos};
 use lobe_table::{Channels, Data, Scatter, specular, spherical};
 
 use super::Rows;
@@ -80,10 +81,11 @@ fn from_specular(records: &Records, channels: &Channels) -> Records {
     let mut out = Records::default();
     for (&[sigma, psi, theta, phi], colour) in records.angles.iter().zip(records.values.chunks_exact(channels.count()))
     {
-        let ((sin, cos), (sin_t, cos_t), (sin_p, cos_p)) = (sigma.sin_cos(), theta.sin_cos(), phi.sin_cos());
+        let ((sin, cos), (sin_t, cos_t), (sin_p, cos_p)) = (sincos(sigma), sincos(theta), sincos(phi));
         let (x, y, z) = (cos * sin_t * cos_p - sin * cos_t, sin_t * sin_p, sin * sin_t * cos_p + cos * cos_t);
         if z > 0.0 {
-            out.push([sigma, psi, x.hypot(y).atan2(z), y.atan2(x) + psi], colour.iter().map(|value| f64::from(*value)));
+            let angles = [sigma, psi, atan2(hypot(x, y), z), atan2(y, x) + psi];
+            out.push(angles, colour.iter().map(|value| f64::from(*value)));
         }
     }
     out

@@ -149,7 +149,7 @@ impl Table {
         let columns = self.phis.len();
         let at = move |index: usize| (self.thetas[index / columns], self.phis[index % columns], self.values[index]);
         (0..self.values.len()).map(at).filter_map(move |(theta, phi, value)| {
-            let cosine = if self.is_intensity { theta.cos() } else { 1.0 };
+            let cosine = if self.is_intensity { libm::cos(theta) } else { 1.0 };
             (cosine >= LEAST_COSINE).then_some((theta, phi, scale * value / cosine))
         })
     }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::path::Path;
 
+use libm::hypot;
 use lobe_table::Scatter;
 
 use super::sections::Sheet;
@@ -88,20 +89,21 @@ impl Curve {
     /// Adds samples on the rings of the abscissas and halfway between them if they are above the horizon, and on the
     /// horizon within the range of the abscissas.
     pub(super) fn samples(&self, records: &mut Records) {
-        let (sin, phi) = (self.theta.to_radians().sin(), self.phi.to_radians());
+        let (sin, phi) = (libm::sin(self.theta.to_radians()), self.phi.to_radians());
         // In the plane of the surface, with the light on +x. Transmitted light goes straight through.
         let center = [-sin, 0.0];
         let mut add = |[x, y]: [f64; 2], values: Vec<f64>| {
-            let radius = x.hypot(y).min(1.0);
-            records.push([self.theta.to_radians(), phi, radius.asin(), phi + y.atan2(x)], values);
+            let radius = hypot(x, y).min(1.0);
+            records.push([self.theta.to_radians(), phi, libm::asin(radius), phi + libm::atan2(y, x)], values);
         };
         let halfway = self.knots.windows(2).map(|ends| (ends[0].0 + ends[1].0) / 2.0);
         for beta in self.knots.iter().map(|knot| knot.0).chain(halfway) {
             let count = if beta == 0.0 { 1 } else { DIRECTIONS };
             for at in 0..count {
                 let angle = at as f64 / count as f64 * TAU;
-                let place = [center[0] + beta * angle.cos(), center[1] + beta * angle.sin()];
-                if place[0].hypot(place[1]) < 1.0 {
+                let (sin, cos) = libm::sincos(angle);
+                let place = [center[0] + beta * cos, center[1] + beta * sin];
+                if hypot(place[0], place[1]) < 1.0 {
                     add(place, self.at(beta));
                 }
             }
@@ -109,8 +111,9 @@ impl Curve {
         let last = self.knots.last().map_or(0.0, |knot| knot.0);
         for at in 0..DIRECTIONS {
             let angle = at as f64 / DIRECTIONS as f64 * TAU;
-            let place = [angle.cos(), angle.sin()];
-            let beta = (place[0] - center[0]).hypot(place[1] - center[1]);
+            let (sin, cos) = libm::sincos(angle);
+            let place = [cos, sin];
+            let beta = hypot(place[0] - center[0], place[1] - center[1]);
             if beta <= last {
                 add(place, self.at(beta));
             }

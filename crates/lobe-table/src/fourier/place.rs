@@ -39,7 +39,7 @@ impl Place {
         if light.abs() < GRAZING || viewer.abs() < GRAZING {
             return None;
         }
-        let across = (ix.hypot(iy), ox.hypot(oy));
+        let across = ((ix * ix + iy * iy).sqrt(), (ox * ox + oy * oy).sqrt());
         let cos_phi = match across.0 > POLE && across.1 > POLE {
             true => (-(ix * ox + iy * oy) / (across.0 * across.1)).clamp(-1.0, 1.0),
             false => 1.0,

@@ -3,6 +3,7 @@
 use super::mesh::Mesh;
 use crate::spherical::AXIS_NAMES;
 use crate::{Channels, Scatter};
+use libm::{atan2, hypot, sin, sincos};
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
@@ -130,7 +131,7 @@ impl Data {
         let mesh = Mesh::new(&positions).ok_or(ScatteredError::Empty)?;
 
         let (incidences, mesh): (Arc<[Incidence]>, _) = (incidences.into(), Arc::new(mesh));
-        let mut sides = incidences.iter().flat_map(|i| &i.outgoing).map(|[theta, phi]| theta.sin() * phi.sin());
+        let mut sides = incidences.iter().flat_map(|i| &i.outgoing).map(|[theta, phi]| sin(*theta) * sin(*phi));
         let (least, most) = sides.by_ref().fold((0.0_f64, 0.0_f64), |(lo, hi), y| (lo.min(y), hi.max(y)));
         let measured_side = match is_isotropic {
             true if least > -SAME => 1.0,
@@ -205,8 +206,8 @@ impl Data {
         if !is_measured {
             return out.fill(0.0);
         }
-        let theta = wi[0].hypot(wi[1]).atan2(wi[2].abs());
-        let phi = wi[1].atan2(wi[0]);
+        let theta = atan2(hypot(wi[0], wi[1]), wi[2].abs());
+        let phi = atan2(wi[1], wi[0]);
         for (index, weight) in self.mesh.weights(project(theta, place(phi, self.is_isotropic))) {
             if weight == 0.0 {
                 continue;
@@ -269,14 +270,17 @@ fn incidence(
 /// Polar angle and azimuth, relative to the plane of incidence, of an outgoing direction that is rotated in that plane
 /// by `by`, away from the light, and kept above the horizon.
 fn turned(wo: [f64; 3], phi_i: f64, by: f64) -> [f64; 2] {
-    let ((sin, cos), (sin_by, cos_by)) = (phi_i.sin_cos(), by.sin_cos());
+    let ((sin, cos), (sin_by, cos_by)) = (sincos(phi_i), sincos(by));
     let (x, y, z) = (cos * wo[0] + sin * wo[1], cos * wo[1] - sin * wo[0], wo[2].abs());
     let (x, z) = (cos_by * x - sin_by * z, (sin_by * x + cos_by * z).max(0.0));
-    [x.hypot(y).atan2(z), y.atan2(x)]
+    [atan2(hypot(x, y), z), atan2(y, x)]
 }
 
+/// The place of a direction in its mesh. The last digit of a sine decides which of two equally good diagonals of a trapezoid of
+/// samples is an edge, so it must be the same on every system.
 fn project(theta: f64, phi: f64) -> [f64; 2] {
-    [theta * phi.cos(), theta * phi.sin()]
+    let (sin, cos) = sincos(phi);
+    [theta * cos, theta * sin]
 }
 
 /// The azimuth of an incident direction in the mesh: for an isotropic material, all are on a line.

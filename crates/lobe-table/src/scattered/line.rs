@@ -15,13 +15,13 @@ impl Line {
     /// points at its ends.
     pub(crate) fn new(points: &[[f64; 2]], tolerance: f64) -> Option<Self> {
         let farthest = |from: [f64; 2]| {
-            let distance = |point: &[f64; 2]| (point[0] - from[0]).hypot(point[1] - from[1]);
+            let distance = |point: &[f64; 2]| libm::hypot(point[0] - from[0], point[1] - from[1]);
             points.iter().copied().max_by(|a, b| distance(a).total_cmp(&distance(b)))
         };
         let start = farthest(*points.first()?)?;
         let end = farthest(start)?;
         let (dx, dy) = (end[0] - start[0], end[1] - start[1]);
-        let length = dx.hypot(dy);
+        let length = libm::hypot(dx, dy);
         let direction = if length > 0.0 { [dx / length, dy / length] } else { [0.0; 2] };
         let mut line = Line { start, direction, points: Vec::new() };
         let off = |[x, y]: [f64; 2]| (direction[0] * (y - start[1]) - direction[1] * (x - start[0])).abs();

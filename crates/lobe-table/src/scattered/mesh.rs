@@ -1,5 +1,6 @@
 //! Linear interpolation between scattered points of a plane, on their Delaunay triangulation.
 
+use libm::hypot;
 use spade::handles::{FixedDirectedEdgeHandle, FixedVertexHandle};
 use spade::{
     DelaunayTriangulation, HasPosition, HierarchyHintGenerator, Point2, PositionInTriangulation, Triangulation,
@@ -110,7 +111,7 @@ impl Triangles {
             let face = inner.face().as_inner().map(|face| face.fix().index());
             let apex = inner.opposite_position();
             match face.zip(apex) {
-                Some((face, apex)) if !is_outside[face] && area(a, b, apex) < FLAT * (b.x - a.x).hypot(b.y - a.y) => {
+                Some((face, apex)) if !is_outside[face] && area(a, b, apex) < FLAT * hypot(b.x - a.x, b.y - a.y) => {
                     is_outside[face] = true;
                     pending.extend([inner.next().fix(), inner.prev().fix()]);
                 }
@@ -175,7 +176,7 @@ fn corners(points: &[[f64; 2]]) -> Option<[usize; 3]> {
         (0..points.len()).max_by(|&i, &j| distance(points[i]).total_cmp(&distance(points[j])))
     };
     let [x, y] = *points.first()?;
-    let second = farthest(&|point| (point[0] - x).hypot(point[1] - y))?;
+    let second = farthest(&|point| hypot(point[0] - x, point[1] - y))?;
     let (dx, dy) = (points[second][0] - x, points[second][1] - y);
     let third = farthest(&|point| (dx * (point[1] - y) - dy * (point[0] - x)).abs())?;
     Some([0, second, third])

@@ -65,7 +65,7 @@ fn reversed(side: [f64; 3]) -> [f64; 3] {
 /// From one point to another: the unit vector and the distance.
 fn way(from: [f64; 2], to: [f64; 2]) -> ([f64; 2], f64) {
     let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
-    let length = dx.hypot(dy);
+    let length = libm::hypot(dx, dy);
     ([dx / length, dy / length], length)
 }
 

@@ -76,7 +76,7 @@ impl Table {
             }
             first += incidence.outgoing.len();
             let is_fixed_pole = !data.is_isotropic && incidence.theta <= SAME;
-            let (sin, cos) = incidence.theta.sin_cos();
+            let (sin, cos) = libm::sincos(incidence.theta);
             lights.extend([sin as f32, cos as f32, index_bits(mesh as usize)?, f32::from(u8::from(is_fixed_pole))]);
         }
         let count = match (&*data.mesh, data.incidences.len()) {

@@ -126,3 +126,28 @@ fn narrow_triangles_are_left_to_double_precision() {
     }
     check("too narrow", &data(Scatter::Reflection, 1, &angles));
 }
+
+/// Rings of samples at equal azimuths: each trapezoid has two diagonals that are equally good.
+#[test]
+fn equally_good_triangles_are_chosen_the_same_way_on_every_system() {
+    let angle = |degrees: u32| f64::from(degrees).to_radians();
+    let mut angles = Vec::new();
+    for light in [0, 30, 60] {
+        for ring in 0..6 {
+            angles.extend((0..24).map(|sector| [angle(light), 0.0, angle(17 * ring), angle(15 * sector)]));
+        }
+    }
+    let values: Vec<f32> = (0..angles.len()).map(|at| (at * 37 % 101) as f32 / 16.0).collect();
+    let data = Data::new(Scatter::Reflection, Channels::Mono, &angles, &values).expect("samples");
+    // Directions without a sine, and a hash (FNV-1a) of the bits of their values.
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    for at in 0..2000_u32 {
+        let part = |step: u32| f64::from(at * step % 199) / 99.5 - 1.0;
+        let (wi, wo) = ([part(7), 0.0, 1.0], [part(11), part(31), 0.75]);
+        let [value] = data.eval(wi, wo).try_into().expect("one channel");
+        for byte in value.to_bits().to_le_bytes() {
+            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+    assert_eq!(hash, 0xc7e3_0060_7448_ef9e, "{hash:#x}");
+}
