@@ -51,15 +51,9 @@ impl Lanes for Simd128 {
                 Floats(i32x4_shuffle::<0, 1, 4, 7>(z01, c)),
             ]
         };
-        fn gather(self, table: &[f32], index: Ints) -> Floats = {
-            let last = table.len().checked_sub(1).expect("a gather from an empty table");
-            let [a, b, c, d] = memory::indices(index.0);
-            Floats(f32x4(table[a.min(last)], table[b.min(last)], table[c.min(last)], table[d.min(last)]))
-        };
+        fn gather(self, table: &[f32], index: Ints) -> Floats = Floats(memory::gather(table, index.0));
         fn gather_pair(self, table: &[[f32; 2]], index: Ints) -> [Floats; 2] = {
-            let [a, b, c, d] = memory::indices(index.0);
-            let (a, b) = (memory::load_pair(table, a), memory::load_pair(table, b));
-            let (c, d) = (memory::load_pair(table, c), memory::load_pair(table, d));
+            let [a, b, c, d] = memory::load_pairs(table, index.0);
             let (ab, cd) = (i32x4_shuffle::<0, 4, 1, 5>(a, b), i32x4_shuffle::<0, 4, 1, 5>(c, d));
             [Floats(i64x2_shuffle::<0, 2>(ab, cd)), Floats(i64x2_shuffle::<1, 3>(ab, cd))]
         };
@@ -79,16 +73,11 @@ impl Lanes for Simd128 {
 
 #[inline(always)]
 fn gather_quads<T: Stored, const N: usize>(block: &Block<'_, N, 4, T>, base: Ints) -> [[Floats; 4]; N] {
-    let bases = memory::indices(base.0);
     let mut corners = [[Floats(f32x4_splat(0.0)); 4]; N];
     let mut corner = 0;
     while corner < N {
-        let mut row = 0;
-        while row < 4 {
-            corners[corner][row] = Floats(memory::load_corner(block, bases[row], corner, 0));
-            row += 1;
-        }
-        corners[corner] = transpose(corners[corner]);
+        let [a, b, c, d] = memory::load_rows(block, base.0, corner);
+        corners[corner] = transpose([Floats(a), Floats(b), Floats(c), Floats(d)]);
         corner += 1;
     }
     corners

@@ -25,21 +25,44 @@ pub(crate) fn store_int(dst: &mut [i32], x: v128) {
     unsafe { v128_store(dst.as_mut_ptr().cast(), x) }
 }
 
-/// The four integers, each as an index with negative values far outside.
+/// The four integers as indices, of which those outside, negative ones too, are `last`. They are clamped in one instruction,
+/// where four indices would take four comparisons; an index of wasm32 has as many bits as a lane.
 #[inline(always)]
-pub(crate) fn indices(x: v128) -> [usize; 4] {
+fn clamped(x: v128, last: usize) -> [usize; 4] {
+    let x = u32x4_min(x, u32x4_splat(last as u32));
     let (a, b) = (u32x4_extract_lane::<0>(x), u32x4_extract_lane::<1>(x));
     let (c, d) = (u32x4_extract_lane::<2>(x), u32x4_extract_lane::<3>(x));
     [a as usize, b as usize, c as usize, d as usize]
 }
 
-/// The two floats of `table[index]`, in the low half of the register; an index outside reads the last entry.
+/// `table[index]` of four indices; one outside reads the last entry.
 #[inline(always)]
-pub(crate) fn load_pair(table: &[[f32; 2]], index: usize) -> v128 {
-    let last = table.len().checked_sub(1).expect("a gather from an empty table");
-    let pair = &table[index.min(last)];
-    // SAFETY: `pair` has eight bytes; the load needs no alignment.
-    unsafe { v128_load64_zero(pair.as_ptr().cast()) }
+pub(crate) fn gather(table: &[f32], index: v128) -> v128 {
+    let [a, b, c, d] = clamped(index, table.len().checked_sub(1).expect("a gather from an empty table"));
+    let start: *const u32 = table.as_ptr().cast();
+    // SAFETY: `clamped` returns no index beyond the last entry; each has four bytes, and the loads need no alignment.
+    unsafe {
+        let first = v128_load32_zero(start.add(a));
+        let second = v128_load32_lane::<1>(first, start.add(b));
+        let third = v128_load32_lane::<2>(second, start.add(c));
+        v128_load32_lane::<3>(third, start.add(d))
+    }
+}
+
+/// The two floats of `table[index]` of four indices, each in the low half of a register; an index outside reads the last entry.
+#[inline(always)]
+pub(crate) fn load_pairs(table: &[[f32; 2]], index: v128) -> [v128; 4] {
+    let [a, b, c, d] = clamped(index, table.len().checked_sub(1).expect("a gather from an empty table"));
+    let start = table.as_ptr();
+    // SAFETY: `clamped` returns no index beyond the last entry; each has eight bytes, and the loads need no alignment.
+    unsafe {
+        [
+            v128_load64_zero(start.add(a).cast()),
+            v128_load64_zero(start.add(b).cast()),
+            v128_load64_zero(start.add(c).cast()),
+            v128_load64_zero(start.add(d).cast()),
+        ]
+    }
 }
 
 /// A storage format that loads read.
@@ -75,6 +98,24 @@ impl Stored for u16 {
         let magnitude = i32x4_shl(v128_and(bits, i32x4_splat(0x7fff)), 13);
         let sign = i32x4_shl(v128_and(bits, i32x4_splat(0x8000)), 16);
         v128_or(f32x4_mul(magnitude, i32x4_splat((127 + 127 - 15) << 23)), sign)
+    }
+}
+
+/// Four floats at `base + offsets[corner]` for each of four bases, which are clamped to the block's last one.
+#[inline(always)]
+pub(crate) fn load_rows<T: Stored, const N: usize>(block: &Block<'_, N, 4, T>, base: v128, corner: usize) -> [v128; 4] {
+    let [a, b, c, d] = clamped(base, block.last_base());
+    let start = block.data().as_ptr();
+    let offset = block.offsets()[corner];
+    // SAFETY: the block promises `last_base + offset + 4 <= data.len()` for each of its offsets, and `clamped` returns no base
+    // beyond the last one; an array is aligned as its elements.
+    unsafe {
+        [
+            T::load(&*start.add(a + offset).cast()),
+            T::load(&*start.add(b + offset).cast()),
+            T::load(&*start.add(c + offset).cast()),
+            T::load(&*start.add(d + offset).cast()),
+        ]
     }
 }
 
