@@ -22,6 +22,7 @@ const CHUNK_LINES: usize = CHUNK / size_of::<Line>();
 /// Shares consist of whole small pages, which leaves few pieces that are too small to be useful.
 const PIECE: usize = 4096 / size_of::<Line>();
 /// Pages go back to the system in multiples of this, of which the pages of any system are a part.
+#[cfg(unix)]
 const PAGES: usize = (64 << 10) / size_of::<Line>();
 /// The largest number of written but unused lines that are kept before pages go back to the system: those of two
 /// mappings. Reusing them is quicker than taking new ones.
