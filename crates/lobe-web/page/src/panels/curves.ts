@@ -134,7 +134,9 @@ export class Curves {
         const line = (angle: number, text: string, name: string) => {
             const x = plot.valToPos(angle / DEGREE, "x", true);
             ctx.save();
-            ctx.strokeStyle = ctx.fillStyle = colour(name);
+            ctx.strokeStyle = colour(name);
+            // The colour of the lamp is too pale for small text.
+            ctx.fillStyle = colour("ink");
             ctx.lineWidth = devicePixelRatio;
             ctx.setLineDash([5 * devicePixelRatio, 4 * devicePixelRatio]);
             ctx.beginPath();
