@@ -1,6 +1,6 @@
 // What both tests share: the program, the fixtures, and pairs of directions.
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
@@ -28,6 +28,13 @@ function make() {
     add("paint.xml", "convert", "--to", "klems", path.join(fixtures, "conductor-7x8x13.ddr"));
     add("paint.binary", "convert", path.join(fixtures, "conductor-7x8x13.ddr"));
     return found;
+}
+
+/** A small file of every format, written by the tests of the libraries. */
+export function examples() {
+    const folder = process.env.LOBE_WEB_EXAMPLES ?? path.join(root, "target/web-examples");
+    const names = readdirSync(folder).sort();
+    return names.map((name) => ({ name, word: /^(.*)-\d+\./.exec(name)[1], file: path.join(folder, name) }));
 }
 
 /** Real files of all formats, where the project keeps them; none elsewhere. */
@@ -64,13 +71,26 @@ export function pairs(count, seed = 1) {
     return Array.from({ length: count }, () => [...direction(1), ...direction(random() < 0.1 ? -1 : 1)]);
 }
 
+const tables = new Map();
+
+/** The file with those pairs. */
+function table(all) {
+    if (!tables.has(all)) {
+        const file = path.join(scratch, `pairs-${tables.size}.csv`);
+        writeFileSync(file, all.map((pair) => pair.join(",")).join("\n"));
+        tables.set(all, file);
+    }
+    return tables.get(all);
+}
+
 /** What the program says: the values of the pairs as 32-bit floats, in strict form. */
 export function expected(file, all) {
-    const table = path.join(scratch, "pairs.csv");
-    writeFileSync(table, all.map((pair) => pair.join(",")).join("\n"));
-    const lines = run("eval", file, "--pairs", table, "--strict").trim().split("\n");
-    return Float32Array.from(lines.flatMap((line) => line.split(",").map((word) => Number(word === "inf" ? "Infinity" : word))));
+    const words = run("eval", file, "--pairs", table(all), "--strict").trim().split(/[\n,]/);
+    return Float32Array.from(words, (word) => Number(word === "inf" ? "Infinity" : word));
 }
+
+/** How large a file is. */
+export const size = (file) => statSync(file).size;
 
 /** The directions as the program rounds them. */
 export function rounded(all) {

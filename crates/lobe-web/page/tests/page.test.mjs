@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { createReadStream, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
+import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { after, before, test } from "node:test";
@@ -10,7 +11,7 @@ import { gzipSync } from "node:zlib";
 
 import { chromium } from "playwright-core";
 
-import { bytes, differing, expected, files, lobe, pairs, rounded, scratch, shared } from "./common.mjs";
+import { bytes, differing, examples, expected, files, lobe, pairs, rounded, run, scratch } from "./common.mjs";
 
 const out = process.env.LOBE_WEB_OUT;
 const shots = process.env.LOBE_WEB_SHOTS ?? path.join(path.dirname(out), "web-shots");
@@ -49,6 +50,8 @@ before(async () => {
         viewport: { width: 1280, height: 900 },
         acceptDownloads: true,
     });
+    // Other programs may have the processor for a while.
+    context.setDefaultTimeout(120_000);
     page = await fresh();
 });
 
@@ -104,6 +107,58 @@ test("every fixture is dropped, shown, and has the values of the program", async
     }
     assert.equal(await page.locator(".message.error").count(), 0);
     assert.equal(await page.locator(".materials li").count(), files().length);
+});
+
+test("a file of every format is dropped and shown, or says why not", async () => {
+    await close(page);
+    const all = pairs(200, 9);
+    const { wi, wo } = rounded(all);
+    const shown = new Set();
+    const refused = [];
+    for (const { name, word, file } of examples()) {
+        await page.evaluate(() => (document.querySelector("#curve-value").textContent = ""));
+        await drop(page, [{ name, file }]);
+        if ((await page.locator(".message.error").count()) > 0) {
+            const said = await page.locator(".message.error p").first().textContent();
+            assert.match(said, /mirror reflectances|parts with different channels/, name);
+            // What can be read is shown all the same.
+            await page.locator(".message.error .more").click();
+            assert.equal(await page.locator("dialog.held h2").textContent(), name);
+            assert.ok((await page.locator("dialog.held tbody tr").count()) >= 2, name);
+            await page.keyboard.press("Escape");
+            await page.waitForFunction(() => !document.querySelector("dialog.held"));
+            await page.locator(".message.error button:not(.more)").click();
+            refused.push(word);
+            continue;
+        }
+        await page.waitForFunction((name) => document.title.startsWith(name), name);
+        await page.waitForFunction(() => /peak/.test(document.querySelector("#curve-value").textContent));
+        const found = await page.evaluate(
+            async ([wi, wo]) => Array.from(await window.explorer.desk.evaluate(window.explorer.state.a.desk, Float32Array.from(wi), Float32Array.from(wo), "", true)),
+            [Array.from(wi), Array.from(wo)],
+        );
+        assert.equal(differing(Float32Array.from(found), expected(file, all)), 0, name);
+        shown.add(word);
+        await close(page);
+    }
+    assert.deepEqual(refused.sort(), ["sdr", "ssdd"]);
+    assert.ok(shown.size >= 25, `${shown.size}`);
+    assert.deepEqual(problems, []);
+});
+
+test("a folder is one material if its files are", async () => {
+    await close(page);
+    const folder = path.join(scratch, "scan");
+    mkdirSync(folder, { recursive: true });
+    const rpc = readFileSync(examples().find(({ word }) => word === "rpc").file, "utf8");
+    writeFileSync(path.join(folder, "a.txt"), rpc);
+    writeFileSync(path.join(folder, "b.txt"), rpc.replace("5.000", "35.000"));
+    const opens = await page.evaluate(() => window.explorer.took().opens);
+    await page.locator("#folder-input").setInputFiles(folder);
+    await page.waitForFunction((opens) => window.explorer.took().opens > opens, opens);
+    assert.match(await page.title(), /^scan /);
+    assert.equal(await page.locator(".materials li").count(), 1);
+    await close(page);
 });
 
 test("the value under the pointer is that of the material", async () => {
@@ -233,6 +288,64 @@ test("the page makes no requests to other servers, and every control has a name"
     assert.deepEqual(problems, []);
 });
 
+test("everything is reached by the keyboard, and stays where it is", async () => {
+    for (const dismiss of await page.locator(".message button").all()) await dismiss.click().catch(() => {});
+    await page.waitForFunction(() => !/Checking/.test(document.querySelector("#findings").textContent));
+    const count = await page.evaluate(() => {
+        const stops = [...document.querySelectorAll("button, select, input, canvas[tabindex], summary, [tabindex='0']")].filter((element) => element.checkVisibility() && !element.disabled);
+        stops.forEach((element, at) => (element.dataset.stop = at));
+        document.activeElement?.blur();
+        return stops.length;
+    });
+    assert.ok(count > 25, `${count}`);
+    const reached = new Set();
+    for (let press = 0; press < count + 10; press++) {
+        await page.keyboard.press("Tab");
+        const { stop, outline } = await page.evaluate(() => ({ stop: document.activeElement?.dataset.stop, outline: document.activeElement && getComputedStyle(document.activeElement).outlineStyle }));
+        if (stop === undefined) continue;
+        reached.add(stop);
+        assert.notEqual(outline, "none", stop);
+    }
+    assert.equal(reached.size, count);
+    // What is pressed keeps the focus although the list that it is in is made anew.
+    for (const of of [".knots button", ".materials button.name"]) {
+        await page.locator(of).last().focus();
+        await page.keyboard.press("Enter");
+        await page.waitForTimeout(50);
+        assert.ok(await page.evaluate((of) => document.activeElement?.matches(of), of), of);
+    }
+    await page.locator("canvas.scene").focus();
+    const lamp = () => page.evaluate(() => window.explorer.state.view.lamp.join());
+    const before = await lamp();
+    await page.keyboard.press("ArrowRight");
+    assert.notEqual(await lamp(), before);
+    await page.locator("#show-help").focus();
+    await page.keyboard.press("Enter");
+    assert.ok(await page.locator("#help").isVisible());
+    await page.keyboard.press("Escape");
+    assert.ok(!(await page.locator("#help").isVisible()));
+});
+
+test("the rules of axe for accessibility are kept", async () => {
+    const source = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+    await page.evaluate(source);
+    for (const theme of ["light", "dark"]) {
+        await page.evaluate((theme) => (document.documentElement.dataset.theme = theme), theme);
+        for (const dialog of ["", "show-help", "show-export"]) {
+            if (dialog) await page.locator(`#${dialog}`).click();
+            // Buttons change their colour gently.
+            await page.waitForTimeout(400);
+            const broken = await page.evaluate(async () => {
+                const { violations } = await window.axe.run(document, { resultTypes: ["violations"] });
+                return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 100)).join(" ")}`);
+            });
+            assert.deepEqual(broken, [], `${theme} ${dialog}`);
+            if (dialog) await page.keyboard.press("Escape");
+        }
+    }
+    await page.evaluate(() => delete document.documentElement.dataset.theme);
+});
+
 test("text has contrast in both themes", async () => {
     for (const theme of ["light", "dark"]) {
         await page.evaluate((theme) => (document.documentElement.dataset.theme = theme), theme);
@@ -288,24 +401,32 @@ test("lobe view serves files, and shows them again when they change", async () =
 });
 
 test("first curves come soon after a drop", async () => {
-    const large = shared().filter(({ file }) => /bsdf|xml/.test(file)).sort((a, b) => statSync(b.file).size - statSync(a.file).size)[0];
-    const list = [files().find(({ name }) => name.startsWith("cloth")), ...(large ? [large] : [])];
+    // A text of about 20 MB, the slowest to read of what is as large.
+    const steps = (count, end) => Array.from({ length: count }, (_, at) => ((end * at) / (count - 1)).toFixed(3)).join(",");
+    const large = path.join(scratch, "large.ddr");
+    run("generate", "ggx", large, "--alpha", "0.3,0.5", "--sigma", steps(18, 85), "--psi", steps(6, 300), "--theta", steps(86, 180), "--phi", steps(72, 355));
+    const list = [files().find(({ name }) => name.startsWith("cloth")), { name: "large.ddr", file: large }];
     for (const { name, file } of list) {
-        const other = await fresh();
         const data = readFileSync(file).toString("base64");
-        const took = await other.evaluate(
-            async ({ name, data }) => {
-                const transfer = new DataTransfer();
-                transfer.items.add(new File([Uint8Array.from(atob(data), (c) => c.charCodeAt(0))], name));
-                const begun = performance.now();
-                window.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer }));
-                while (!/peak/.test(document.querySelector("#curve-value").textContent)) await new Promise((done) => setTimeout(done, 5));
-                return performance.now() - begun;
-            },
-            { name, data },
-        );
-        console.log(`${name}, ${(statSync(file).size / 1e6).toFixed(1)} MB: first curves after ${took.toFixed(0)} ms`);
-        await other.close();
+        let least = Infinity;
+        for (let turn = 0; turn < 3; turn++) {
+            const other = await fresh();
+            const took = await other.evaluate(
+                async ({ name, data }) => {
+                    const transfer = new DataTransfer();
+                    transfer.items.add(new File([Uint8Array.from(atob(data), (c) => c.charCodeAt(0))], name));
+                    const begun = performance.now();
+                    window.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer }));
+                    while (!/peak/.test(document.querySelector("#curve-value").textContent)) await new Promise((done) => setTimeout(done, 5));
+                    return performance.now() - begun;
+                },
+                { name, data },
+            );
+            least = Math.min(least, took);
+            await other.close();
+        }
+        console.log(`${name}, ${(statSync(file).size / 1e6).toFixed(1)} MB: first curves after ${least.toFixed(0)} ms`);
+        assert.ok(least < 20_000, name);
     }
 });
 
