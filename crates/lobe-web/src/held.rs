@@ -38,8 +38,17 @@ pub struct MirrorTable {
     pub psi: Option<f64>,
     /// The names of the channels.
     pub channels: Vec<String>,
-    /// For each polar angle of the light, in radians, the share of each channel.
-    pub rows: Vec<(f64, Vec<f32>)>,
+    /// One for each polar angle of the light.
+    pub rows: Vec<MirrorRow>,
+}
+
+/// The share of the light from one direction.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MirrorRow {
+    /// The polar angle of the light in radians.
+    pub sigma: f64,
+    /// The share of each channel.
+    pub values: Vec<f32>,
 }
 
 /// What a document holds that was read from `path`, a file of that many bytes.
@@ -62,8 +71,9 @@ fn tables(name: &str, mirror: &mirror::Data) -> Vec<MirrorTable> {
     let [sigmas, psis] = mirror.knots();
     let count = mirror.channels().count();
     let table = |(at, psi): (usize, &f64)| {
-        let row = |(row, sigma): (usize, &f64)| {
-            (*sigma, mirror.values()[(row * psis.len() + at) * count..][..count].to_vec())
+        let row = |(row, &sigma): (usize, &f64)| {
+            let values = mirror.values()[(row * psis.len() + at) * count..][..count].to_vec();
+            MirrorRow { sigma, values }
         };
         MirrorTable {
             name: format!("{name} {}", scatter_word(mirror.scatter())).trim().into(),

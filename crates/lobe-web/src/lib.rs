@@ -29,7 +29,7 @@ pub use converted::{Converted, Target, converted, targets};
 pub use evaluation::{Evaluator, backends, evaluate};
 pub use facts::{Facts, Finding, facts, findings};
 pub use figures::{CURVE_ROW, Spectrum, albedo_rows, curve, figure, spectra, table};
-pub use held::{Held, MirrorTable};
+pub use held::{Held, MirrorRow, MirrorTable};
 pub use hemisphere::{Map, Probe, Quantities, map, probe};
 pub use request::{Request, Showing};
 pub use session::{Opened, Session};

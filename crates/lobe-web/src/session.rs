@@ -130,7 +130,8 @@ mod tests {
         session.add("m.sdr", lobe_testing::examples::SDR.into());
         let [mirror] = session.held("m.sdr").unwrap().mirrors.try_into().unwrap();
         assert_eq!((mirror.psi, mirror.channels.len()), (None, 2));
-        assert_eq!(mirror.rows[1], (std::f64::consts::FRAC_PI_4, vec![0.2, 0.0]));
+        let row = &mirror.rows[1];
+        assert_eq!((row.sigma, row.values.as_slice()), (std::f64::consts::FRAC_PI_4, [0.2, 0.0].as_slice()));
         let error = session.open("none.ddr").unwrap_err();
         assert_eq!(session.held("none.ddr").unwrap_err(), error);
         assert_eq!(error, "none.ddr: found no such file; expected a file that can be read");

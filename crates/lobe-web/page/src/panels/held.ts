@@ -7,7 +7,7 @@ interface MirrorTable {
     name: string;
     psi: number | null;
     channels: string[];
-    rows: [number, number[]][];
+    rows: { sigma: number; values: number[] }[];
 }
 
 export interface Held extends Pick<FileFacts, "name" | "format" | "bytes" | "parts" | "source" | "notes" | "doubts"> {
@@ -22,7 +22,7 @@ export class NoMaterial extends Error {
 }
 
 function table({ name, psi, channels, rows }: MirrorTable): HTMLElement {
-    const row = ([sigma, values]: [number, number[]]) => h("tr", {}, h("th", { scope: "row" }, degrees(sigma)), ...values.map((value) => h("td", {}, short(value))));
+    const row = ({ sigma, values }: MirrorTable["rows"][number]) => h("tr", {}, h("th", { scope: "row" }, degrees(sigma)), ...values.map((value) => h("td", {}, short(value))));
     const head = h("tr", {}, ...["σ", ...channels].map((text) => h("th", { scope: "col" }, text)));
     const title = h("h3", {}, psi === null ? `${name} by polar angle of the light` : `${name} by polar angle of the light at ψ ${degrees(psi)}`);
     return h("div", { class: "scroll", tabindex: 0 }, title, h("table", { class: "numbers" }, h("thead", {}, head), h("tbody", {}, ...rows.map(row))));
