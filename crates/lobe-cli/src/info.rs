@@ -1,5 +1,7 @@
 //! `lobe info`: the contents of a file.
 
+pub mod picture;
+
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -11,14 +13,16 @@ use crate::failure::Failure;
 use crate::message;
 use crate::reading::Reading;
 
-/// Show the contents of a file: format, channels, angles, values, and header facts.
+/// Show the contents of a file: format, channels, angles, values, and header facts; or those of a picture.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   lobe info paint.ddr
   lobe info --json sensor.bsdf | jq '.parts[0].axes'
+  lobe info picture.exr                                     wavelengths, Stokes components, samples
 
 The format is recognised by the content of the file. The extension only decides whether Integra files are of reflection or transmission: .ddt and .sdt are transmission.
-Files compressed with gzip are unpacked. In a folder, the files with one incident direction each (RPC Photonics, pab) are read as one material.")]
+Files compressed with gzip are unpacked. In a folder, the files with one incident direction each (RPC Photonics, pab) are read as one material.
+An OpenEXR picture may be of spectra or of polarised light, by lobe render or by another program.")]
 pub struct Args {
     /// The file to show.
     file: PathBuf,
@@ -49,6 +53,10 @@ struct Info {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
+    if picture::is_picture(&args.file) {
+        args.reading.refuse(&args.file, "a picture")?;
+        return picture::run(&args.file, args.json);
+    }
     let (format, document) = args.reading.open(&args.file)?;
     // Standard input has no size.
     let metadata = std::fs::metadata(&args.file).ok();

@@ -1,27 +1,30 @@
-//! `lobe plot`: figures of a material, or of several.
+//! `lobe plot`: figures of a material, of several, or of a picture.
+
+mod bar;
+mod picture;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use clap::ValueEnum;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lobe::{Bsdf as _, Side};
 use lobe_files::check_output;
 use lobe_formats::{Document, Format, write_whole};
 use lobe_ops::describe::{Part, describe};
 use lobe_plot::{
-    DrawError, Facts, Figure, Fitted, Page, Progress, Quantity, Scaling, Shown, Subject, View, ViewError, draw,
-    page_with_fit, rasterise,
+    DrawError, Facts, Figure, Fitted, Page, Quantity, Scaling, Shown, Subject, View, ViewError, draw, page_with_fit,
+    rasterise,
 };
 
+use self::bar::Bar;
 use crate::failure::Failure;
 use crate::guesses::warn_of_guesses;
+use crate::info::picture::is_picture;
 use crate::message;
 use crate::reading::Reading;
 
-/// Draw materials: curves in the plane of incidence, channels, spectra, slices of the hemisphere, lit spheres, or a
-/// page of them all.
+/// Draw materials: curves in the plane of incidence, channels, spectra, slices of the hemisphere, lit spheres,
+/// polarisation, or a page of them all; or draw a picture of spectra or of polarised light.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   lobe plot cloth.ddr -o cloth.html                         a page with everything, in one file
@@ -31,11 +34,14 @@ use crate::reading::Reading;
   lobe plot film.csv -o film.svg --kind spectra --sigma 20,60 --theta 20,0,-20
   lobe plot screen.xml -o slices.svg --kind slices --sigma 0,40,60 --channel Visible --side back
   lobe plot cloth.ddr -o warp.png --kind sphere --psi 90
+  lobe plot gold.pbsdf -o gold.svg --kind mueller --channel 550nm
   lobe plot paint.ddr --fit fit.json -o fit.html            where a fit of `lobe fit` fails
+  lobe plot picture.exr -o picture.html --at 120,80         colours, polarisation and spectra of a picture
 
 The extension of OUT determines what is written: .html is a page, .svg or .png a figure. In every figure, the light is on the left, viewing angles are positive on the side of the mirror direction, and f is in 1/sr, without the cosine. Dots are measured points; dashed lines are extrapolated. Browsers show the value at the pointer.")]
 pub struct Args {
-    /// The files of measured BRDFs or BTDFs; several files are drawn into the same figures.
+    /// The files of measured BRDFs or BTDFs; several files are drawn into the same figures. Or an OpenEXR picture of
+    /// spectra or of polarised light.
     #[arg(required = true)]
     files: Vec<PathBuf>,
     #[command(flatten)]
@@ -71,6 +77,13 @@ pub struct Args {
     /// A fit of the file, written by `lobe fit -o FIT.json`: the page shows where it fails.
     #[arg(long, value_name = "FIT")]
     fit: Option<PathBuf>,
+    /// Pixels of a picture whose spectra are drawn, by column and row from the upper left; by default some in the middle
+    /// row.
+    #[arg(long, value_name = "X,Y", value_parser = picture::parse_point)]
+    at: Vec<picture::Point>,
+    /// The exposure of a picture in stops; by default it is fitted to the picture.
+    #[arg(long, value_name = "STOPS", allow_hyphen_values = true, value_parser = picture::parse_exposure)]
+    exposure: Option<f32>,
     /// The width of a figure in pixels. Below 560, it is laid out for a narrow column.
     #[arg(long, default_value_t = 960, value_parser = clap::value_parser!(u32).range(100..=8000))]
     width: u32,
@@ -92,6 +105,10 @@ enum Kind {
     Slices,
     /// Spheres of the material under several lights.
     Sphere,
+    /// All elements of the Mueller matrices of a polarised file, in the plane of incidence.
+    Mueller,
+    /// Degree and angle of the linear polarisation of what unpolarised light becomes, of a polarised file.
+    Polarisation,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -116,6 +133,9 @@ enum Target {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let target = target(&args.out, args.kind)?;
     check_output(&args.out, &args.files.iter().chain(&args.fit).collect::<Vec<_>>())?;
+    if args.files.iter().any(|file| is_picture(file)) {
+        return picture::run(args, target);
+    }
     refuse_idle(args)?;
     let mut subjects = Vec::new();
     let mut tables = Vec::new();
@@ -252,6 +272,8 @@ fn target(out: &Path, kind: Option<Kind>) -> Result<Target, Failure> {
         Some(Kind::Polar) => Some(Figure::Polar),
         Some(Kind::Slices) => Some(Figure::Slices),
         Some(Kind::Sphere) => Some(Figure::Sphere),
+        Some(Kind::Mueller) => Some(Figure::Mueller),
+        Some(Kind::Polarisation) => Some(Figure::Polarisation),
     };
     let usage = |found: &str, expected: &str| {
         Err(Failure::Usage(format!("{}: found {found}; expected {expected}", out.display())))
@@ -267,8 +289,16 @@ fn target(out: &Path, kind: Option<Kind>) -> Result<Target, Failure> {
     }
 }
 
-/// Refuses options that have no effect on spheres, which have their own lights and scale.
+/// Refuses options that have no effect: those of pictures, and those of lights and scales on spheres, which have their
+/// own.
 fn refuse_idle(args: &Args) -> Result<(), Failure> {
+    let of_pictures = [("--at", !args.at.is_empty()), ("--exposure", args.exposure.is_some())];
+    if let Some((name, _)) = of_pictures.into_iter().find(|(_, is_given)| *is_given) {
+        return Err(Failure::Usage(format!(
+            "{}: found {name}, which is for pictures; expected an OpenEXR picture",
+            args.files[0].display()
+        )));
+    }
     let given = [("--log", args.log), ("--linear", args.linear), ("--sigma", !args.sigma.is_empty())];
     let found = given.into_iter().find(|(_, is_given)| *is_given && args.kind == Some(Kind::Sphere));
     match found {
@@ -351,42 +381,5 @@ fn parse_sigma(text: &str) -> Result<f64, String> {
     match (0.0..90.0).contains(&sigma) {
         true => Ok(sigma),
         false => Err(format!("found {sigma}; expected 0 or more and less than 90 degrees")),
-    }
-}
-
-/// A progress bar on standard error, if that is a terminal, once a second has passed.
-struct Bar(ProgressBar);
-
-/// Work that takes less than this shows no bar.
-const PATIENCE: Duration = Duration::from_secs(1);
-
-impl Bar {
-    fn new() -> Self {
-        let bar = ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::hidden());
-        if let Ok(style) = ProgressStyle::with_template("{msg:8} {bar:40} {percent:>3} % {eta} left") {
-            bar.set_style(style);
-        }
-        Bar(bar)
-    }
-}
-
-impl Progress for Bar {
-    fn begin(&self, figure: &str, pairs: u64) {
-        self.0.set_message(figure.to_string());
-        self.0.set_length(pairs);
-        self.0.set_position(0);
-    }
-
-    fn advance(&self, pairs: u64) {
-        if self.0.is_hidden() && self.0.elapsed() > PATIENCE {
-            self.0.set_draw_target(ProgressDrawTarget::stderr());
-        }
-        self.0.inc(pairs);
-    }
-}
-
-impl Drop for Bar {
-    fn drop(&mut self) {
-        self.0.finish_and_clear();
     }
 }

@@ -70,6 +70,17 @@ impl Reading {
         Ok(open_with(path, &self.options())?)
     }
 
+    /// Refuses options for a file to which none applies.
+    pub fn refuse(&self, path: &Path, what: &str) -> Result<(), Failure> {
+        match self.options() == ReadOptions::default() {
+            true => Ok(()),
+            false => Err(Failure::Usage(format!(
+                "{}: found options for tables, but the file is {what}; expected none",
+                path.display()
+            ))),
+        }
+    }
+
     /// Opens a file for an operation.
     pub fn subject(&self, path: &Path, options: &Options) -> Result<Subject, Failure> {
         let (format, document) = self.open(path)?;

@@ -17,6 +17,6 @@ pub use content::{Content, beginning, content, is_web_page};
 pub use error::{FormatError, Place, excerpt, sentence};
 pub use memory::{Files, exists, files_of, in_memory, is_folder};
 pub use printable::printable;
-pub use read::{Reads, bytes, is_standard_input, name_standard_input, read, recorded};
+pub use read::{Reads, begins_with, bytes, is_standard_input, name_standard_input, read, recorded};
 pub use unpack::{Unpacked, inflated, is_gzip, unpacked};
 pub use write::{SIDECAR, check_output, replace, unwritable, write_whole};

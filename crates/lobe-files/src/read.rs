@@ -37,6 +37,16 @@ pub fn read(path: &Path) -> Result<Vec<u8>, FormatError> {
     Ok(bytes)
 }
 
+/// Whether a file begins with these bytes. `false` if it cannot be read, or is a folder or a device.
+pub fn begins_with(path: &Path, bytes: &[u8]) -> bool {
+    if is_standard_input(path) || memory::content(path).is_some() {
+        return read(path).is_ok_and(|content| content.starts_with(bytes));
+    }
+    let is_file = path.metadata().is_ok_and(|metadata| not_a_file(&metadata).is_none());
+    let mut head = vec![0; bytes.len()];
+    is_file && File::open(path).and_then(|mut file| file.read_exact(&mut head)).is_ok() && head == bytes
+}
+
 /// The name of standard input, for programs that enable it.
 const DASH: &str = "-";
 

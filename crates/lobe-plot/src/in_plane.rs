@@ -91,12 +91,12 @@ fn reduced<const N: usize>(
 }
 
 /// Viewing angles in radians, ascending, and the positions of the measured ones.
-struct Angles {
-    theta: Vec<f64>,
-    points: Vec<usize>,
+pub(crate) struct Angles {
+    pub(crate) theta: Vec<f64>,
+    pub(crate) points: Vec<usize>,
 }
 
-fn angles(subject: &Subject, view: &View, scatter: Scatter, sigma: f64) -> Angles {
+pub(crate) fn angles(subject: &Subject, view: &View, scatter: Scatter, sigma: f64) -> Angles {
     let part = subject.part(view.side, scatter);
     let mut measured = part.map(|part| part.in_plane(sigma, view.psi)).unwrap_or_default();
     measured.iter_mut().for_each(|theta| *theta = theta.to_degrees());

@@ -20,6 +20,7 @@ mod ink;
 mod layout;
 mod measured;
 mod page;
+mod polarised;
 mod quantity;
 #[cfg(feature = "raster")]
 mod raster;
@@ -38,11 +39,11 @@ mod view;
 pub use albedo::{Albedo, albedos};
 pub use ball::Ball;
 pub use evaluate::{Progress, Silent};
-pub use figures::{DrawError, Drawing, Figure, draw};
+pub use figures::{DrawError, Drawing, Figure, Picture, draw, draw_picture};
 pub use geometry::{from_disk, in_plane, incident, to_disk};
 pub use image::Image;
 pub use in_plane::{Curve, curves};
-pub use page::{Page, page, page_with_fit};
+pub use page::{Page, page, page_of_picture, page_with_fit};
 pub use quantity::Quantity;
 #[cfg(feature = "raster")]
 pub use raster::{RasterError, rasterise};

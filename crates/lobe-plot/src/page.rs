@@ -8,11 +8,13 @@ use quick_xml::escape::escape;
 
 use crate::albedo::albedos;
 use crate::evaluate::Progress;
+use crate::figures::picture::{Picture, draw_on, said};
 use crate::figures::{
-    Plate, all_curves, channels_plate, curves_plate, polar_plate, residuals_plate, side_name, slices_plate,
-    spectra_plate, sphere_plate,
+    Plate, all_curves, channels_plate, curves_plate, mueller_plate, polar_plate, polarisation_plate, residuals_plate,
+    side_name, slices_plate, spectra_plate, sphere_plate,
 };
 use crate::layout::{Layout, Paper, Sprites};
+use crate::polarised::scatter;
 use crate::residual::Fitted;
 use crate::scale::{Scaling, degrees};
 use crate::shown::Shown;
@@ -68,14 +70,30 @@ pub fn page_with_fit(
         .iter()
         .map(|shown| format!("<p>{}</p>\n", escape(summary(shown.subject, shown_name(shown, &names)))))
         .collect();
-    let html = format!(
+    Page { html: document(&name, &summaries, &sprites, &out.html), figures: out.figures, said: out.said }
+}
+
+/// A self-contained HTML page of a picture: the facts about it, and its figure.
+pub fn page_of_picture(picture: &Picture<'_>, facts: &[Facts]) -> Page {
+    let sprites = Sprites::default();
+    let mut out = Out { html: String::new(), sprites: &sprites, pixels: picture.pixels, figures: 0, said: Vec::new() };
+    out.put("<section class=\"cards\">\n<div class=\"stack\">");
+    out.figure(&Plate { draw: Box::new(|paper| draw_on(picture, paper)), said: said(picture) });
+    out.put("</div>\n<div class=\"stack\">");
+    out.put(&facts_table("", facts));
+    out.put("</div>\n</section>");
+    let html = document(&escape(picture.name), "", &sprites, &out.html);
+    Page { html, figures: out.figures, said: out.said }
+}
+
+/// The page with its style; `name` and `summaries` are HTML.
+fn document(name: &str, summaries: &str, sprites: &Sprites, body: &str) -> String {
+    format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{name}</title>\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n{}<main>\n<header>\n<h1>{name}</h1>\n{summaries}</header>\n{}</main>\n</body>\n</html>\n",
+         <style>\n{STYLE}</style>\n</head>\n<body>\n{}<main>\n<header>\n<h1>{name}</h1>\n{summaries}</header>\n{body}</main>\n</body>\n</html>\n",
         sprites.svg(),
-        out.html
-    );
-    Page { html, figures: out.figures, said: out.said }
+    )
 }
 
 /// The name of a file if there are several.
@@ -202,6 +220,12 @@ impl Out<'_> {
             if let Some(spectra) = spectra_plate(*one, progress) {
                 self.figure(&spectra);
             }
+        }
+        if let [one] = shown
+            && scatter(one.subject, one.view.side).is_some()
+        {
+            self.figure(&mueller_plate(*one, progress));
+            self.figure(&polarisation_plate(*one, progress));
         }
         self.figure(&polar_plate(shown, curves));
         self.figure(&slices_plate(shown, progress));

@@ -31,7 +31,7 @@ pub(super) enum Axis {
 
 impl Axis {
     /// The position of radians or nanometres: 0 on the left, 1 on the right.
-    fn place(self, x: f64) -> f64 {
+    pub(super) fn place(self, x: f64) -> f64 {
         match self {
             Axis::Angle => 0.5 + x.to_degrees() / 180.0,
             Axis::Wavelength(first, last) => (x - first) / (last - first),

@@ -5,10 +5,14 @@ mod channels;
 mod chart;
 mod legend;
 mod lines;
+mod mueller;
+pub(crate) mod picture;
 mod polar;
+mod polarisation;
 mod residuals;
 mod shared;
 mod slices;
+mod small;
 mod spectral;
 mod sphere;
 
@@ -19,11 +23,13 @@ use thiserror::Error;
 use crate::evaluate::Progress;
 use crate::in_plane::{Curve, MOST, curves};
 use crate::layout::Paper;
+use crate::polarised::scatter;
 use crate::residual::Fitted;
 use crate::scale::{Scaling, degrees};
 use crate::shown::{Shown, incidences};
 use crate::view::View;
 
+pub use picture::{Picture, draw_picture};
 pub(crate) use shared::side_name;
 
 /// A kind of figure.
@@ -41,6 +47,10 @@ pub enum Figure {
     Slices,
     /// Spheres under lights.
     Sphere,
+    /// All elements of the Mueller matrix in the plane of incidence.
+    Mueller,
+    /// Degree and angle of the linear polarisation of what unpolarised light becomes.
+    Polarisation,
 }
 
 impl fmt::Display for Figure {
@@ -52,6 +62,8 @@ impl fmt::Display for Figure {
             Figure::Polar => "polar",
             Figure::Slices => "slices",
             Figure::Sphere => "sphere",
+            Figure::Mueller => "mueller",
+            Figure::Polarisation => "polarisation",
         })
     }
 }
@@ -73,6 +85,14 @@ pub enum DrawError {
         /// The channels of the material.
         found: String,
     },
+    /// Polarisation of a material without Mueller matrices.
+    #[error("found {found}; expected Mueller matrices for the figure {figure}")]
+    Unpolarised {
+        /// The figure.
+        figure: Figure,
+        /// The representation of the material.
+        found: String,
+    },
 }
 
 /// A figure, and remarks about it.
@@ -87,7 +107,8 @@ pub struct Drawing {
 /// One figure, with the width of the first view. If that is less than 560 pixels, it is laid out for narrow columns.
 ///
 /// # Errors
-/// If there are several materials for a figure that shows only one, or if there are no spectra to draw.
+/// If there are several materials for a figure that shows only one, or if there are no spectra or no Mueller matrices to
+/// draw.
 pub fn draw(shown: &[Shown<'_>], figure: Figure, progress: &dyn Progress) -> Result<Drawing, DrawError> {
     let pixels = shown.first().map_or(0, |first| first.view.width);
     let Plate { draw, said } = compose(shown, figure, progress)?;
@@ -117,6 +138,14 @@ fn compose<'a>(shown: &[Shown<'a>], figure: Figure, progress: &dyn Progress) -> 
         }
         Figure::Slices => slices_plate(shown, progress),
         Figure::Sphere => sphere_plate(shown, progress),
+        Figure::Mueller | Figure::Polarisation => {
+            let one = only()?;
+            if scatter(one.subject, one.view.side).is_none() {
+                let found = one.subject.material().kind().to_string();
+                return Err(DrawError::Unpolarised { figure, found });
+            }
+            if figure == Figure::Mueller { mueller_plate(one, progress) } else { polarisation_plate(one, progress) }
+        }
     })
 }
 
@@ -160,6 +189,20 @@ pub(crate) fn slices_plate<'a>(shown: &[Shown<'a>], progress: &dyn Progress) -> 
     sigmas.dedup();
     let shown = shown.to_vec();
     Plate { draw: Box::new(move |paper| slices::draw(&shown, &slices, paper)), said: vec![lights(&sigmas)] }
+}
+
+/// Empty if the material is not polarised.
+pub(crate) fn mueller_plate<'a>(shown: Shown<'a>, progress: &dyn Progress) -> Plate<'a> {
+    let curves = mueller::matrices(shown, progress);
+    let said = vec![lights(&curves.iter().map(|curve| curve.sigma).collect::<Vec<_>>())];
+    Plate { draw: Box::new(move |paper| mueller::draw(shown, &curves, paper)), said }
+}
+
+/// Empty if the material is not polarised.
+pub(crate) fn polarisation_plate<'a>(shown: Shown<'a>, progress: &dyn Progress) -> Plate<'a> {
+    let found = polarisation::found(shown, progress);
+    let said = vec![lights(&found.disks.iter().map(|disk| disk.sigma).collect::<Vec<_>>())];
+    Plate { draw: Box::new(move |paper| polarisation::draw(shown, &found, paper)), said }
 }
 
 pub(crate) fn residuals_plate<'a>(shown: Shown<'a>, fitted: &Fitted<'_>, progress: &dyn Progress) -> Plate<'a> {

@@ -17,13 +17,15 @@ pub(super) fn id(figure: &str, view: &View) -> String {
 
 /// The names of the files, and the contents of the figure; returns the height at which plots begin.
 pub(super) fn heading(svg: &mut Svg<'_>, shown: &[Shown<'_>], what: &str) -> f64 {
+    let names: Vec<&str> = shown.iter().map(|shown| shown.subject.name()).collect();
+    named_heading(svg, &names.join(", "), what)
+}
+
+/// Like [`heading`], with the name of what is shown.
+pub(super) fn named_heading(svg: &mut Svg<'_>, name: &str, what: &str) -> f64 {
     let room = svg.layout().width - 2.0 * MARGIN;
-    let name = match shown {
-        [one] => one.subject.name().to_string(),
-        several => several.iter().map(|shown| shown.subject.name()).collect::<Vec<_>>().join(", "),
-    };
     // A letter of the heading is about half as wide as it is high.
-    svg.text([MARGIN, 32.0], Text { size: 20.0, is_heavy: true, ..LABEL }, &shortened(&name, (room / 11.6) as usize));
+    svg.text([MARGIN, 32.0], Text { size: 20.0, is_heavy: true, ..LABEL }, &shortened(name, (room / 11.6) as usize));
     let style = Text { size: 16.0, role: Role::Muted, ..LABEL };
     let lines = wrapped(what, (room / 8.0) as usize);
     for (at, line) in lines.iter().enumerate() {

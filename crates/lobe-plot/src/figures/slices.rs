@@ -146,7 +146,7 @@ pub(super) struct Place {
 
 impl Place {
     /// The place of a point of the unit disk.
-    fn at(self, [u, v]: [f64; 2]) -> [f64; 2] {
+    pub(super) fn at(self, [u, v]: [f64; 2]) -> [f64; 2] {
         [self.x + self.radius * u, self.y - self.radius * v]
     }
 }
@@ -193,7 +193,7 @@ pub(super) fn light_and_mirror(svg: &mut Svg<'_>, place: Place, view: &View, sig
 }
 
 /// The radius on the unit disk of a polar angle in degrees.
-fn ring(angle: f64) -> f64 {
+pub(super) fn ring(angle: f64) -> f64 {
     SQRT_2 * (0.5 * angle.to_radians()).sin()
 }
 

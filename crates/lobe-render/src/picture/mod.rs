@@ -3,8 +3,10 @@
 mod environment_file;
 mod exr_file;
 mod inspect;
+mod layout;
 mod meta;
 mod png_file;
+mod spectra;
 
 use std::path::{Path, PathBuf};
 
@@ -16,6 +18,7 @@ pub use inspect::{Inspected, Light, inspect};
 pub use lobe_colour::ToneMap;
 pub use meta::{Difference, Meta};
 pub use png_file::{Shown, encode_png, encode_png_in, encode_rgb, write_png, write_png_in};
+pub use spectra::{Quantity, SpectralPicture, read_spectral};
 
 /// The reason why a picture cannot be read or written.
 #[derive(Debug, thiserror::Error)]
