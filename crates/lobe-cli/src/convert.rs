@@ -36,6 +36,7 @@ Examples:
   lobe convert paint.ddr green.brdf --channel G               for Ansys Speos
   lobe convert paint.ddr lens.bsdf --to lighttools            for LightTools
   lobe convert paint.bsdf paint.npz                           for numpy.load
+  lobe convert gold.mueller gold.csv --to mueller-csv         Mueller matrices as a table
   lobe convert film.ssdd film.bsdf --to zemax --channel G --scatter transmission
 
 Grids of half and difference angles (MERL) are interpolated between the centres of their bins."
@@ -198,7 +199,9 @@ fn interpolated(document: &Document, target: Target, args: &Args) -> Result<Opti
 fn loss(document: &Document, written: Option<Scatter>) -> Option<String> {
     let data = || document.parts.iter().map(|part| part.data.representation());
     if data().any(|data| data.is_polarised()) {
-        return Some("polarised; only the intensity of unpolarised light is written".into());
+        return Some(
+            "polarised; only the intensity of unpolarised light is written (--to mueller-csv writes matrices)".into(),
+        );
     }
     if !data().all(|data| data.has_known_unit()) {
         return Some("the unit of the values is not documented; they are written as they are stored".into());

@@ -21,7 +21,7 @@ pub fn converted(document: &Document, target: Target, output: &Output) -> Result
     let out = output.out.as_path();
     let failed = |error: &dyn std::fmt::Display| Failure::File(format!("{}: {error}", out.display()));
     let (matrices, nodes): (Data, String) = match (document.only(), target.format) {
-        (Some(Data::Mueller(data)), Format::Polarised) => {
+        (Some(Data::Mueller(data)), Format::Polarised | Format::MuellerCsv) => {
             output.refuse_others(&[Purpose::Knots])?;
             let knots = output.knots(true);
             let counts = knots.each_ref().map(Vec::len);
@@ -60,6 +60,7 @@ fn write(matrices: Data, target: Target, output: &Output, how: &str) -> Result<(
   lobe generate mueller gold.mueller --metal gold --alpha 0.2
   lobe generate mueller lacquer.mueller --glass BK7 --alpha 0.05 --wavelengths 450,550,650
   lobe generate mueller rough.mueller --index 1.5 --alpha 0.1,0.3
+  lobe generate mueller gold.csv --to mueller-csv --metal gold --sigma 0,30,60 --theta 0,5,10,30
 
 A dielectric only reflects: light that passes through its surface is left out.")]
 pub struct Args {
@@ -86,8 +87,9 @@ pub struct Args {
 pub fn generate(args: &Args) -> Result<(), Failure> {
     let usage = |message: String| Err(Failure::Usage(message));
     let (output, target) = (&args.output, args.output.target()?);
-    if target.format != Format::Polarised {
-        return usage(format!("{}: expected a .mueller file, or --to mueller", output.out.display()));
+    if !matches!(target.format, Format::Polarised | Format::MuellerCsv) {
+        let expected = "a .mueller file, or --to mueller or mueller-csv";
+        return usage(format!("{}: found {}; expected {expected}", output.out.display(), target.format));
     }
     lobe_files::check_output::<&std::path::Path>(&output.out, &[])?;
     output.refuse_others(&[Purpose::Knots])?;

@@ -44,6 +44,8 @@ pub mod lumos;
 #[cfg(feature = "spherical")]
 pub mod mbsdf;
 pub mod merl;
+#[cfg(feature = "mueller")]
+pub mod mueller_csv;
 pub mod nist;
 pub mod npz;
 mod open;

@@ -62,6 +62,8 @@ formats! {
     TracePro = tracepro::FORMAT,
     Cornell = cornell::FORMAT,
     Alta = alta::FORMAT,
+    #[cfg(feature = "mueller")]
+    MuellerCsv = mueller_csv::FORMAT,
     Nist = nist::FORMAT,
     Zernike = zernike::FORMAT,
     Lumos = lumos::FORMAT,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use lobe_formats::{Format, Sides, mbsdf, merl, pbsdf, polarised as polarised_file, rgl};
+use lobe_formats::{Format, Sides, mbsdf, merl, mueller_csv, pbsdf, polarised as polarised_file, rgl};
 use lobe_table::rgl::{Images, Parts};
 use lobe_table::{Channels, Scatter, half_diff, mueller, polarised, spherical};
 
@@ -177,6 +177,13 @@ pub fn tiny_polarised() -> Vec<u8> {
     polarised_file::to_bytes(&data).expect("bytes")
 }
 
+/// The same as a table.
+pub fn tiny_mueller_csv() -> Vec<u8> {
+    let knots = [vec![0.0, 1.0], vec![0.0], vec![0.0, 1.5], vec![0.0, 3.0]];
+    let data = polarised::Data::new(knots, vec![550.0], vec![0.25; 128]).expect("valid matrices");
+    mueller_csv::to_text(&data).into_bytes()
+}
+
 /// A small KAIST file.
 pub fn tiny_pbsdf() -> Vec<u8> {
     let knots = [vec![-3.0, 3.0], vec![0.0, 1.5], vec![0.5], vec![500.0, 600.0]];
@@ -263,6 +270,7 @@ pub fn all() -> Vec<(Format, Vec<u8>)> {
         (Format::Rgl, tiny_rgl()),
         (Format::Pbsdf, tiny_pbsdf()),
         (Format::Polarised, tiny_polarised()),
+        (Format::MuellerCsv, tiny_mueller_csv()),
         (Format::Merl, tiny_merl()),
         (Format::Mbsdf, tiny_mbsdf()),
         (Format::Fourier, tiny_fourier()),

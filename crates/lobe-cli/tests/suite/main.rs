@@ -15,6 +15,8 @@ mod fit;
 mod hardening;
 mod honest;
 mod import;
+mod matrices;
+mod pictures;
 mod plot;
 mod render;
 mod resample;

@@ -1,0 +1,3 @@
+#![no_main]
+
+lobe_fuzz::reader!(MuellerCsv);
