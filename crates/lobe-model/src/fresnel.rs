@@ -6,39 +6,43 @@
 
 /// A complex number.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Complex {
-    re: f64,
-    im: f64,
+pub(crate) struct Complex {
+    pub(crate) re: f64,
+    pub(crate) im: f64,
 }
 
 impl Complex {
-    fn times(self, other: Self) -> Self {
+    pub(crate) fn times(self, other: Self) -> Self {
         Complex { re: self.re * other.re - self.im * other.im, im: self.re * other.im + self.im * other.re }
     }
 
-    fn scaled(self, factor: f64) -> Self {
+    pub(crate) fn scaled(self, factor: f64) -> Self {
         Complex { re: self.re * factor, im: self.im * factor }
     }
 
-    fn plus(self, other: Self) -> Self {
+    pub(crate) fn plus(self, other: Self) -> Self {
         Complex { re: self.re + other.re, im: self.im + other.im }
     }
 
-    fn over(self, other: Self) -> Self {
+    pub(crate) fn minus(self, other: Self) -> Self {
+        self.plus(other.scaled(-1.0))
+    }
+
+    pub(crate) fn over(self, other: Self) -> Self {
         self.times(other.conjugate()).scaled(1.0 / other.norm())
     }
 
-    fn conjugate(self) -> Self {
+    pub(crate) fn conjugate(self) -> Self {
         Complex { re: self.re, im: -self.im }
     }
 
     /// The squared magnitude.
-    fn norm(self) -> f64 {
+    pub(crate) fn norm(self) -> f64 {
         self.re * self.re + self.im * self.im
     }
 
     /// The square root whose imaginary part is not negative: a decaying wave.
-    fn root(self) -> Self {
+    pub(crate) fn root(self) -> Self {
         let size = self.norm().sqrt();
         let re = (0.5 * (size + self.re)).max(0.0).sqrt();
         let im = (0.5 * (size - self.re)).max(0.0).sqrt();
@@ -67,7 +71,7 @@ impl Elements {
         [[a, b, 0.0, 0.0], [b, a, 0.0, 0.0], [0.0, 0.0, c, s], [0.0, 0.0, -s, c]]
     }
 
-    fn of(perpendicular: Complex, parallel: Complex) -> Self {
+    pub(crate) fn of(perpendicular: Complex, parallel: Complex) -> Self {
         let (rs, rp) = (perpendicular.norm(), parallel.norm());
         let mixed = perpendicular.times(parallel.conjugate());
         Elements { a: 0.5 * (rs + rp), b: 0.5 * (rs - rp), c: mixed.re, s: mixed.im }
@@ -85,9 +89,9 @@ pub fn fresnel(cos: f64, eta: f64, k: f64) -> (Elements, Elements) {
     // cos_t.
     let through = index2.plus(Complex { re: -sin2, im: 0.0 }).root();
     let front = Complex { re: cos, im: 0.0 };
-    let perpendicular = front.plus(through.scaled(-1.0)).over(front.plus(through));
+    let perpendicular = front.minus(through).over(front.plus(through));
     let dense = index2.scaled(cos);
-    let parallel = dense.plus(through.scaled(-1.0)).over(dense.plus(through));
+    let parallel = dense.minus(through).over(dense.plus(through));
     let mirrored = Elements::of(perpendicular, parallel);
     let (ts, tp) = (1.0 - perpendicular.norm(), 1.0 - parallel.norm());
     let passes = k == 0.0 && eta * eta > sin2;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use lobe_memory::Storage;
 use lobe_trace::{Mesh, MeshError, Scene};
 
-use crate::light::{AreaLight, Light, Lights, SceneBounds};
+use crate::light::{AreaLight, Light, LightPolarisation, Lights, SceneBounds};
 use crate::shader::Shader;
 use crate::transport::{Rgb, Transport};
 use crate::vec3::{add, length, scale, sub};
@@ -82,6 +82,7 @@ pub struct WorldBuilder<T: Transport = Rgb> {
     groups: Vec<MaterialGroup>,
     materials: Vec<Arc<dyn Shader<T>>>,
     lights: Vec<Light<T::Spectrum>>,
+    polarised: Vec<(usize, LightPolarisation)>,
 }
 
 /// Triangles of one material, in the order of the mesh.
@@ -117,7 +118,14 @@ impl<T: Transport<Basis = ()>> WorldBuilder<T> {
 impl<T: Transport> WorldBuilder<T> {
     /// An empty world in these channels.
     pub fn in_basis(basis: T::Basis) -> Self {
-        WorldBuilder { basis, shape: Shape::default(), groups: Vec::new(), materials: Vec::new(), lights: Vec::new() }
+        WorldBuilder {
+            basis,
+            shape: Shape::default(),
+            groups: Vec::new(),
+            materials: Vec::new(),
+            lights: Vec::new(),
+            polarised: Vec::new(),
+        }
     }
 
     /// Description of the channels.
@@ -134,6 +142,16 @@ impl<T: Transport> WorldBuilder<T> {
     /// Adds a light that is not a shape.
     pub fn light(&mut self, light: Light<T::Spectrum>) {
         self.lights.push(light);
+    }
+
+    /// The number of lights so far, including shapes that emit.
+    pub fn light_count(&self) -> usize {
+        self.lights.len()
+    }
+
+    /// Polarises the lights from this number on. Only transports of polarised light see the difference.
+    pub fn polarise(&mut self, from: usize, polarisation: LightPolarisation) {
+        self.polarised.extend((from..self.lights.len()).map(|light| (light, polarisation)));
     }
 
     /// Adds a shape with a material. With `radiance` in W/(m^2 sr) it also emits light, on both sides if `two_sided`.
@@ -213,7 +231,7 @@ impl<T: Transport> WorldBuilder<T> {
         } else {
             SceneBounds { center: [0.0; 3], radius: 1.0 }
         };
-        let lights = Lights::new(self.lights, sphere);
+        let lights = Lights::new(self.lights, sphere).polarised(&self.polarised);
         let (groups, materials, basis) = (self.groups, self.materials, self.basis);
         Ok(World { basis, scene, corners, triangles: with_groups, groups, materials, lights })
     }

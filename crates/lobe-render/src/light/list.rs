@@ -2,15 +2,17 @@
 
 use lobe_lane::{Floats, Ints, Lanes, MAX_LANES, Mask};
 
-use super::Light;
 use super::cdf::Cdf;
 use super::sample::{Emitted, LightRay, LightSample, SceneBounds};
+use super::{Light, LightPolarisation};
 use crate::channels::Channels;
 
 /// All lights of a scene and their probabilities of being chosen.
 #[derive(Clone, Debug)]
 pub(crate) struct Lights<S: Channels> {
     pub all: Vec<Light<S>>,
+    /// How the light of each is polarised.
+    polarisation: Vec<Option<LightPolarisation>>,
     /// The probability of each light.
     pub(super) chances: Vec<f32>,
     pub(super) cdf: Cdf,
@@ -29,7 +31,25 @@ impl<S: Channels> Lights<S> {
         let chances: Vec<f64> = weights.iter().map(|&weight| 0.5 * by_power(weight) + 0.5 * equal).collect();
         let cdf = Cdf::new(all.len(), &chances);
         let environment = all.iter().position(|light| matches!(light, Light::Environment(_)));
-        Lights { all, chances: chances.into_iter().map(|chance| chance as f32).collect(), cdf, bounds, environment }
+        let chances = chances.into_iter().map(|chance| chance as f32).collect();
+        Lights { polarisation: vec![None; all.len()], all, chances, cdf, bounds, environment }
+    }
+
+    /// The same, with lights that are polarised, by their numbers.
+    pub fn polarised(mut self, polarised: &[(usize, LightPolarisation)]) -> Self {
+        polarised.iter().for_each(|(light, polarisation)| self.polarisation[*light] = Some(*polarisation));
+        self
+    }
+
+    /// How the light is polarised; `None` if it is not.
+    pub fn polarisation(&self, light: usize) -> Option<&LightPolarisation> {
+        self.polarisation[light].as_ref()
+    }
+
+    /// The lights that numbers in `[0, 1)` choose.
+    #[inline(always)]
+    pub fn chosen_by<L: Lanes>(&self, lanes: L, choice: L::F) -> L::I {
+        self.cdf.sample(lanes, lanes.splat_int(0), choice).0
     }
 
     /// Samples the given light, or lights chosen by the first number, as seen from the points `from`. The radiance is

@@ -6,11 +6,13 @@ mod emission;
 mod emit;
 mod environment;
 mod list;
+mod polarised;
 mod sample;
 
 pub use area::AreaLight;
 pub use environment::{Environment, EnvironmentError};
 pub(crate) use list::Lights;
+pub use polarised::LightPolarisation;
 pub use sample::{EmissionPdf, EmissionSample, LightRay, LightSample, SceneBounds};
 
 use lobe_lane::{Floats, Lanes};

@@ -2,7 +2,7 @@
 
 use super::Reading;
 use super::node::{Node, SceneError};
-use crate::light::{Environment, Light};
+use crate::light::{Environment, Light, LightPolarisation};
 use crate::picture::read_environment_as;
 use crate::transport::Transport;
 use crate::vec3::{neg, sub, unit};
@@ -37,8 +37,13 @@ pub(super) fn read<T: Transport>(root: &Node<'_, '_>, reading: &mut Reading<'_, 
                 return Err(node.error("kind", message));
             }
         };
+        let polarisation = polarisation(&node, matches!(light, Light::Environment(_)))?;
         node.finish()?;
+        let number = reading.world.light_count();
         reading.world.light(light);
+        if let Some(polarisation) = polarisation {
+            reading.world.polarise(number, polarisation);
+        }
     }
     Ok(())
 }
@@ -77,4 +82,36 @@ fn environment<T: Transport>(
     let ground = node.colour("ground", f64::MAX)?.unwrap_or(horizon);
     let [zenith, horizon, ground] = [zenith, horizon, ground].map(|rgb| T::emission(basis, rgb));
     Environment::gradient(zenith, horizon, ground).map_err(|error| node.error("zenith", error.to_string()))
+}
+
+/// The polarisation of a light: `axis` and `stokes`, or the `sun` and `degree` of a sky.
+pub(super) fn polarisation(node: &Node<'_, '_>, is_sky: bool) -> Result<Option<LightPolarisation>, SceneError> {
+    let Some(table) = node.child("polarised")? else { return Ok(None) };
+    let direction = |key: &str| {
+        let Some(vector) = table.vector(key)? else { return Ok(None) };
+        let message = "found a direction of length 0; expected three numbers that are not all 0";
+        unit(vector).map(Some).ok_or_else(|| table.error(key, message))
+    };
+    let found = match (direction("axis")?, direction("sun")?) {
+        (Some(axis), None) => {
+            let fits = |x: f64| x.abs() <= 1.0;
+            let stokes = table.three("stokes", "three numbers from -1 to 1", fits)?.unwrap_or([1.0, 0.0, 0.0]);
+            let degree = stokes.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if degree > 1.0 + 1e-6 {
+                let found = format!("found light that is {:.1} % polarised", 100.0 * degree);
+                return Err(table.error("stokes", format!("{found}; expected S1, S2 and S3 over S0 of at most 100 %")));
+            }
+            LightPolarisation::Axis { axis, stokes: stokes.map(|x| x as f32) }
+        }
+        (None, Some(sun)) if is_sky => {
+            let degree = table.number("degree", "a number from 0 to 1", |x| (0.0..=1.0).contains(&x))?;
+            LightPolarisation::Sky { sun, degree: degree.unwrap_or(1.0) as f32 }
+        }
+        _ => {
+            let expected = if is_sky { "either `axis` or `sun`" } else { "`axis`" };
+            return Err(table.error("", format!("found no or too many keys; expected {expected}")));
+        }
+    };
+    table.finish()?;
+    Ok(Some(found))
 }

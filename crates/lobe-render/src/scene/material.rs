@@ -10,14 +10,15 @@ use lobe_model::{Blinn, Coated, Conductor, Ggx, Model, OrenNayar, Phong, RoughMi
 use lobe_spectrum::{Glass, Metal, Spectrum};
 
 use super::Reading;
+use super::film::{Behind as Under, Coat};
 use super::node::{Node, SceneError};
 use crate::channels::Channels;
-use crate::shader::{BsdfShader, Delta, DeltaShader, Lambert, RoughMetal, Shader, Together};
+use crate::shader::{Behind, BsdfShader, Delta, DeltaShader, Lambert, RoughFilm, RoughMetal, Shader, Together};
 use crate::shader::{MaterialError, from_document_in, open_sheet_in};
 use crate::transport::Transport;
 
 const MODELS: &str =
-    "lambert, mirror, glass, polariser, retarder, oren-nayar, phong, blinn, ward, conductor or plastic";
+    "lambert, mirror, glass, film, polariser, retarder, oren-nayar, phong, blinn, ward, conductor or plastic";
 
 pub(super) fn read<T: Transport>(root: &Node<'_, '_>, reading: &mut Reading<'_, T>) -> Result<(), SceneError> {
     let Some(all) = root.child("material")? else { return Ok(()) };
@@ -132,6 +133,14 @@ fn model_named<T: Transport>(
         }
         "mirror" => {
             if let Some(metal) = metal(node)? {
+                if let Some(coat) = Coat::of(node)? {
+                    let table = coat.table(reading, &Under::Metal(&metal));
+                    return Ok(Arc::new(DeltaShader(Delta::Film {
+                        table,
+                        behind: Behind::Metal,
+                        tint: T::Spectrum::ONE,
+                    })));
+                }
                 let [eta, k] = [&metal.n, &metal.k].map(|index| T::sampled(basis, index));
                 return Ok(Arc::new(DeltaShader(Delta::Metal { eta, k })));
             }
@@ -139,6 +148,14 @@ fn model_named<T: Transport>(
         }
         "glass" => {
             let tint = reading.share(node, "tint")?.unwrap_or(white);
+            if let Some(coat) = Coat::of(node)? {
+                let Index::Constant(eta) = glass(node)? else {
+                    let found = "found a film on glass that disperses";
+                    return Err(node.error("film", format!("{found}; expected glass with `eta`")));
+                };
+                let (table, behind) = (coat.table(reading, &Under::Glass(eta)), Behind::Glass(eta as f32));
+                return Ok(Arc::new(DeltaShader(Delta::Film { table, behind, tint })));
+            }
             Ok(Arc::new(DeltaShader(match glass(node)? {
                 Index::Constant(eta) => Delta::Glass { eta: eta as f32, tint },
                 Index::Formula(glass) => match T::wavelengths(basis) {
@@ -152,6 +169,11 @@ fn model_named<T: Transport>(
                     }
                 },
             })))
+        }
+        "film" => {
+            let tint = reading.share(node, "tint")?.unwrap_or(white);
+            let table = Coat::read(node)?.table(reading, &Under::Air);
+            Ok(Arc::new(DeltaShader(Delta::Film { table, behind: Behind::Nothing, tint })))
         }
         "polariser" => {
             let tint = reading.share(node, "tint")?.unwrap_or(white);
@@ -186,6 +208,13 @@ fn model_named<T: Transport>(
                 Some(metal) => metal,
                 None => Metal { n: indices(node, "eta")?, k: indices(node, "k")? },
             };
+            if let Some(coat) = Coat::of(node)? {
+                let (table, channels) = (coat.table(reading, &Under::Metal(&metal)), channels(reading));
+                let film = RoughFilm { ggx, table, channels };
+                let isotropic = ggx.alpha[0] == ggx.alpha[1];
+                let shader = BsdfShader::<T>::model_in(basis, film, isotropic, backend);
+                return Ok(Arc::new(shader.map_err(|error| node.error("model", error.to_string()))?));
+            }
             let [eta, k] = [&metal.n, &metal.k].map(|index| T::sampled(basis, index));
             if T::POLARISED {
                 return rough_metal(node, reading, ggx, [eta, k]);
@@ -212,13 +241,13 @@ fn of<S: Channels>(spectrum: &S, three: [usize; 3]) -> [f64; 3] {
 const YELLOW: f64 = 587.561_8;
 
 /// The refractive index of glass.
-enum Index {
+pub(super) enum Index {
     Constant(f64),
     Formula(Glass),
 }
 
 /// `eta`, the name of a `glass`, or the terms of `cauchy`.
-fn glass(node: &Node<'_, '_>) -> Result<Index, SceneError> {
+pub(super) fn glass(node: &Node<'_, '_>) -> Result<Index, SceneError> {
     let eta = node.number("eta", "a refractive index from 1 to 5", |x| (1.0..=5.0).contains(&x))?;
     let name = node.text("glass")?;
     let cauchy = node.numbers("cauchy", "up to eight numbers: a + b / x + c / x^2 ..., x in square micrometres")?;

@@ -1,5 +1,6 @@
 //! Scenes in TOML files. The format is described in `docs/scenes.md`.
 
+mod film;
 mod light;
 mod material;
 pub(crate) mod node;

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use lobe_mesh::{Geometry, Shading, generate, shapes};
 
-use super::Reading;
 use super::node::{Node, SceneError};
+use super::{Reading, light};
 use crate::preview;
 use crate::transform::Transform;
 use crate::transport::Transport;
@@ -25,6 +25,11 @@ pub(super) fn read<T: Transport>(root: &Node<'_, '_>, reading: &mut Reading<'_, 
         let place = self::place(&node)?;
         let radiance = reading.light(&node, "radiance")?;
         let two_sided = node.flag("two_sided")?;
+        let polarisation = light::polarisation(&node, false)?;
+        if polarisation.is_some() && radiance.is_none() {
+            return Err(node.error("polarised", "found no `radiance`; expected a shape that emits light"));
+        }
+        let first_light = reading.world.light_count();
         let material = named(&node, reading, "material")?;
         let by_group = groups(&node, reading, &geometry)?;
         node.finish()?;
@@ -38,6 +43,9 @@ pub(super) fn read<T: Transport>(root: &Node<'_, '_>, reading: &mut Reading<'_, 
             let shape = place.shape(&geometry, triangles);
             let added = reading.world.shape(&shape, material, radiance, two_sided);
             added.map_err(|error| node.error("", error.to_string()))?;
+        }
+        if let Some(polarisation) = polarisation {
+            reading.world.polarise(first_light, polarisation);
         }
     }
     Ok(())

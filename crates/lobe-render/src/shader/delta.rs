@@ -1,7 +1,10 @@
 //! Surfaces that send a ray into one or two exact directions.
 
+use std::sync::Arc;
+
 use lobe_model::{Elements, fresnel};
 
+use super::film::FilmTable;
 use super::{Evaluated, Lobes, Sampled, Scratch, Shader};
 use crate::channels::Channels;
 use crate::transport::{Polarisation, Transport, TransportMode};
@@ -81,6 +84,26 @@ pub enum Delta<S: Channels = [f32; 3]> {
         /// The delay, in radians.
         retardance: f32,
     },
+    /// A thin film, whose colours depend on the angle.
+    Film {
+        /// Its reflection and transmission.
+        table: Arc<FilmTable<S>>,
+        /// The medium that it lies on.
+        behind: Behind,
+        /// The factors for mirrored and for transmitted light.
+        tint: S,
+    },
+}
+
+/// The medium that a film lies on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Behind {
+    /// The same as in front, so that light goes straight through.
+    Nothing,
+    /// Glass of this relative refractive index.
+    Glass(f32),
+    /// A metal, which light does not pass.
+    Metal,
 }
 
 impl<S: Channels> Delta<S> {
@@ -111,6 +134,15 @@ impl<S: Channels> Delta<S> {
     /// `true` if channels may take different directions.
     pub fn disperses(&self) -> bool {
         matches!(self, Delta::Dispersive { .. })
+    }
+
+    /// `true` if light may pass through.
+    pub fn transmits(&self) -> bool {
+        match self {
+            Delta::Mirror(_) | Delta::Measured(_) | Delta::Metal { .. } => false,
+            Delta::Film { behind, .. } => *behind != Behind::Metal,
+            _ => true,
+        }
     }
 
     /// Like [`samples`](Self::samples), with the contents requested of them.
@@ -147,6 +179,29 @@ impl<S: Channels> Delta<S> {
                 let (sin, cos) = libm::sincosf(*retardance);
                 let elements = [S::ZERO, S::ONE.map(|_| cos), S::ONE.map(|_| -sin)];
                 straight(wo, *angle, S::ONE, elements, choice)
+            }
+            Delta::Film { table, behind, tint } => {
+                let [mirror, passed] = table.at(wo[2] > 0.0, wo[2].abs()).map(|elements| elements.of);
+                let sample = |wi: Vec3, elements: [S; 4], factor: f32| {
+                    let (mut weight, mut relative) = (S::ZERO, [S::ZERO; 3]);
+                    for k in 0..S::COUNT {
+                        let [a, b, c, s] = elements.map(|element| f64::from(element.as_ref()[k]));
+                        weight.as_mut()[k] = tint.as_ref()[k] * factor * a as f32;
+                        set(&mut relative, k, Elements { a, b, c, s });
+                    }
+                    let polarisation = choice.is_polarised.then(|| polarisation(wo, relative));
+                    DeltaSample { wi, weight, polarisation }
+                };
+                let transmission = match behind {
+                    Behind::Metal => None,
+                    Behind::Nothing => Some(sample(wo.map(|x| -x), passed, 1.0)),
+                    Behind::Glass(eta) => {
+                        let ratio = if wo[2] > 0.0 { 1.0 / eta } else { *eta };
+                        let squeezed = if mode == TransportMode::Radiance { ratio * ratio } else { 1.0 };
+                        refract(wo, ratio).1.map(|wi| sample(wi, passed, squeezed))
+                    }
+                };
+                DeltaSamples { reflection: sample(mirrored, mirror, 1.0), transmission }
             }
         }
     }
@@ -264,8 +319,7 @@ pub struct DeltaShader<S: Channels = [f32; 3]>(pub Delta<S>);
 
 impl<T: Transport> Shader<T> for DeltaShader<T::Spectrum> {
     fn lobes(&self) -> Lobes {
-        let transmits = !matches!(self.0, Delta::Mirror(_) | Delta::Measured(_) | Delta::Metal { .. });
-        Lobes { values: false, delta: true, transmits }
+        Lobes { values: false, delta: true, transmits: self.0.transmits() }
     }
 
     fn delta(&self) -> Option<&Delta<T::Spectrum>> {

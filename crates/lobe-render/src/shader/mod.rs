@@ -6,6 +6,7 @@
 
 mod bsdf;
 mod delta;
+mod film;
 mod lambert;
 mod models;
 mod open;
@@ -13,7 +14,9 @@ mod open;
 use std::fmt::Debug;
 
 pub use bsdf::BsdfShader;
-pub use delta::{Choice, Delta, DeltaSample, DeltaSamples, DeltaShader};
+pub use delta::{Behind, Choice, Delta, DeltaSample, DeltaSamples, DeltaShader};
+pub(crate) use film::RoughFilm;
+pub use film::{FilmElements, FilmTable};
 pub use lambert::Lambert;
 pub use lobe::Backend;
 pub(crate) use models::{RoughMetal, Together};

@@ -87,7 +87,7 @@ impl Bsdf for RoughMetal {
 }
 
 /// Cosine and sine of twice the angle from the normal of the plane of incidence to the x axis of each direction.
-fn turns(wi: [f64; 3], wo: [f64; 3]) -> ([f64; 2], [f64; 2]) {
+pub(super) fn turns(wi: [f64; 3], wo: [f64; 3]) -> ([f64; 2], [f64; 2]) {
     let normal = plane_normal(wi, wo);
     let toward = wi.map(|x| -x);
     let doubled = |forward: [f64; 3], target: [f64; 3]| {
@@ -105,7 +105,7 @@ fn turns(wi: [f64; 3], wo: [f64; 3]) -> ([f64; 2], [f64; 2]) {
 }
 
 /// A matrix about the normal of the plane, in the frames of the directions.
-fn turned(plane: Matrix, [ci, si]: [f64; 2], [co, so]: [f64; 2]) -> Matrix {
+pub(super) fn turned(plane: Matrix, [ci, si]: [f64; 2], [co, so]: [f64; 2]) -> Matrix {
     // First the columns by the transposed rotation of the incoming light, then the rows by the rotation of the outgoing
     // light.
     let mut columns = plane;

@@ -15,6 +15,7 @@ pub use rgb::Rgb;
 pub use stokes::{Components, Polarisation, Stokes, Stokes16, StokesConversion, StokesRgb};
 
 use crate::channels::Channels;
+use crate::light::LightPolarisation;
 use crate::vec3::Vec3;
 
 /// Which of two adjoint quantities a path carries.
@@ -79,6 +80,17 @@ pub trait Transport: Copy + Debug + Default + PartialEq + Eq + Send + Sync + 'st
 
     /// Emitted light after a throughput.
     fn radiance(throughput: Self::Throughput, emitted: Self::Spectrum) -> Self::Radiance;
+
+    /// Like [`radiance`](Self::radiance), for light that may be polarised and comes from the unit direction `wi`.
+    fn radiance_from(
+        throughput: Self::Throughput,
+        emitted: Self::Spectrum,
+        polarisation: Option<&LightPolarisation>,
+        wi: Vec3,
+    ) -> Self::Radiance {
+        let _ = (polarisation, wi);
+        Self::radiance(throughput, emitted)
+    }
 
     /// Radiance with this colour in linear sRGB.
     fn from_colour(basis: &Self::Basis, colour: [f32; 3]) -> Self::Radiance;

@@ -14,9 +14,10 @@ use lobe_spectrum::Spectrum;
 use super::{Bands, Conversion, Mueller, Rgb, Transport};
 use crate::channels::Channels;
 use crate::columns::{Column, ZEROS};
+use crate::light::LightPolarisation;
 use crate::vec3::{Vec3, add, cross, dot, neg, scale, sub, unit};
 
-/// Polarised light over the `N` channels of another transport. Lights are unpolarised.
+/// Polarised light over the `N` channels of another transport.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stokes<T, const N: usize>(PhantomData<T>);
 
@@ -144,6 +145,24 @@ where
         for (row, out) in throughput.elements.iter().zip(&mut radiance.0) {
             for ((out, factor), emitted) in out.iter_mut().zip(&row[0]).zip(&emitted) {
                 *out = factor * emitted;
+            }
+        }
+        radiance
+    }
+
+    fn radiance_from(
+        throughput: Mueller<N>,
+        emitted: [f32; N],
+        polarisation: Option<&LightPolarisation>,
+        wi: Vec3,
+    ) -> Components<f32, N> {
+        let Some(polarisation) = polarisation else { return Self::radiance(throughput, emitted) };
+        let direction = neg(wi);
+        let [s1, s2, s3] = polarisation.along(direction, stokes_basis(direction));
+        let mut radiance = Components([[0.0; N]; 4]);
+        for (row, out) in throughput.elements.iter().zip(&mut radiance.0) {
+            for (k, out) in out.iter_mut().enumerate() {
+                *out = (row[0][k] + s1 * row[1][k] + s2 * row[2][k] + s3 * row[3][k]) * emitted[k];
             }
         }
         radiance

@@ -36,7 +36,9 @@ impl<T: Transport> Wavefront<'_, T> {
             let emitted = self.world.lights.emitted(light as usize, &reached);
             let share = power_heuristic(state.pdf, emitted.pdf_li);
             let radiance = emitted.radiance.map(|x| x * share);
-            accumulate(&mut self.slots[state.slot as usize], state.throughput, radiance, limit);
+            let polarisation = self.world.lights.polarisation(light as usize);
+            let radiance = T::radiance_from(state.throughput, radiance, polarisation, reached.wi);
+            accumulate(&mut self.slots[state.slot as usize], radiance, limit);
         }
         self.stats.interactions += begun.elapsed();
     }

@@ -19,7 +19,8 @@ impl<T: Transport> Wavefront<'_, T> {
             let emitted = lights.emitted(environment, &LightRay { wi, distance: f32::INFINITY, cos: 1.0 });
             let share = power_heuristic(state.pdf, emitted.pdf_li);
             let radiance = emitted.radiance.map(|x| x * share);
-            accumulate(&mut self.slots[state.slot as usize], state.throughput, radiance, limit);
+            let radiance = T::radiance_from(state.throughput, radiance, lights.polarisation(environment), wi);
+            accumulate(&mut self.slots[state.slot as usize], radiance, limit);
         }
         self.stats.interactions += begun.elapsed();
     }

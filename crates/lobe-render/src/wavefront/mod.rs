@@ -128,9 +128,8 @@ fn power_heuristic(pdf: f32, other: f32) -> f32 {
     1.0 / (1.0 + ratio * ratio)
 }
 
-/// Adds emitted light that arrives at the slot of a path, no channel of it more than `limit`.
-fn accumulate<T: Transport>(slot: &mut PathSlot<T>, throughput: T::Throughput, emitted: T::Spectrum, limit: f32) {
-    let radiance = T::radiance(throughput, emitted);
+/// Adds light that arrives at the slot of a path, no channel of it more than `limit`.
+fn accumulate<T: Transport>(slot: &mut PathSlot<T>, radiance: T::Radiance, limit: f32) {
     for (sum, value) in slot.sample.radiance.as_mut().iter_mut().zip(radiance.as_ref()) {
         *sum += clamped(*value, limit);
     }

@@ -85,6 +85,8 @@ pub(super) struct LightSampleBlock<T: Transport> {
     radiance: <T::Spectrum as Channels>::Columns,
     /// The density of the sample; infinite for lights without extent.
     pub pdf: Column,
+    /// The number of the light, if light is polarised.
+    light: [i32; RAYS],
 }
 
 impl<T: Transport> LightSampleBlock<T> {
@@ -95,6 +97,7 @@ impl<T: Transport> LightSampleBlock<T> {
         t_max: ZEROS,
         radiance: T::Spectrum::ZERO_COLUMNS,
         pdf: ZEROS,
+        light: [0; RAYS],
     };
 
     #[inline(always)]
@@ -199,7 +202,14 @@ impl<T: Transport> Wavefront<'_, T> {
                     let hit = hit as usize;
                     f = T::in_world(f, &self.hits.frame(hit), wi[pair], self.hits.wo()[hit]);
                 }
-                let radiance = T::radiance(T::apply(arrived.throughput, f), sample.emitted(at));
+                let throughput = T::apply(arrived.throughput, f);
+                let radiance = match T::POLARISED {
+                    true => {
+                        let polarisation = self.world.lights.polarisation(sample.light[at] as usize);
+                        T::radiance_from(throughput, sample.emitted(at), polarisation, vector(&sample.direction, at))
+                    }
+                    false => T::radiance(throughput, sample.emitted(at)),
+                };
                 let radiance = radiance.map(|value| clamped(value * share, event.limit));
                 // NaN must continue, to be counted.
                 let some = radiance.as_ref().iter().fold(false, |some, x| some | (*x != 0.0));
@@ -255,6 +265,13 @@ impl<T: Transport> Kernel for SampleLights<'_, T> {
             store(lanes, &mut out.direction, first, direction);
             lanes.store(&mut out.t_max[first..], t_max);
             lanes.store(&mut out.pdf[first..], sample.pdf);
+            if T::POLARISED {
+                let number = match light {
+                    Some(light) => lanes.splat_int(light as i32),
+                    None => lights.chosen_by(lanes, choice),
+                };
+                lanes.store_int(&mut out.light[first..], number);
+            }
             let (columns, radiance) = (out.radiance.as_mut(), sample.radiance.as_ref());
             let mut k = 0;
             while k < T::Spectrum::COUNT {

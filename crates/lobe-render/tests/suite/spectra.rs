@@ -9,19 +9,19 @@ use lobe_render::{Bands, Channels, Film, Rect, Rgb, Settings, StokesRgb, Transpo
 
 const FIXTURES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures");
 
-fn parse(text: &str, backend: Backend) -> AnyScene {
+pub fn parse(text: &str, backend: Backend) -> AnyScene {
     AnyScene::parse(Path::new("scene.toml"), Path::new(FIXTURES), text, backend)
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn refused(text: &str) -> String {
+pub fn refused(text: &str) -> String {
     match AnyScene::parse(Path::new("scene.toml"), Path::new(FIXTURES), text, Backend::best()) {
         Ok(_) => panic!("not refused: {text}"),
         Err(error) => error.to_string(),
     }
 }
 
-fn bands16(text: &str, backend: Backend) -> Scene<Bands<16>> {
+pub fn bands16(text: &str, backend: Backend) -> Scene<Bands<16>> {
     match parse(text, backend) {
         AnyScene::Bands16(scene) => scene,
         other => panic!("{other:?}"),
@@ -35,7 +35,7 @@ fn stokes(text: &str, backend: Backend) -> Scene<StokesRgb> {
     }
 }
 
-fn settings<T: Transport>(scene: &Scene<T>, samples: u32, backend: Backend) -> Settings<T> {
+pub fn settings<T: Transport>(scene: &Scene<T>, samples: u32, backend: Backend) -> Settings<T> {
     let window = Rect { x: 0, y: 0, width: scene.size[0], height: scene.size[1] };
     Settings {
         camera: scene.camera,
@@ -50,14 +50,14 @@ fn settings<T: Transport>(scene: &Scene<T>, samples: u32, backend: Backend) -> S
     }
 }
 
-fn picture<T: Transport>(scene: &Scene<T>, settings: &Settings<T>) -> Film<T> {
+pub fn picture<T: Transport>(scene: &Scene<T>, settings: &Settings<T>) -> Film<T> {
     let (film, stats) = render(&scene.world, settings, Film::new(settings.window), |_| true).unwrap();
     assert_eq!(stats.invalid, 0, "samples that are not numbers");
     film
 }
 
 /// The mean of each channel over all pixels.
-fn means<T: Transport>(film: &Film<T>) -> Vec<f64> {
+pub fn means<T: Transport>(film: &Film<T>) -> Vec<f64> {
     let mut means = vec![0.0; T::Radiance::COUNT];
     for pixel in 0..film.pixels().len() {
         means.iter_mut().zip(film.radiance(pixel).as_ref()).for_each(|(sum, x)| *sum += f64::from(*x));
@@ -65,7 +65,7 @@ fn means<T: Transport>(film: &Film<T>) -> Vec<f64> {
     means.iter().map(|sum| sum / film.pixels().len() as f64).collect()
 }
 
-fn mean_colour<T: Transport>(scene: &Scene<T>, film: &Film<T>) -> [f64; 3] {
+pub fn mean_colour<T: Transport>(scene: &Scene<T>, film: &Film<T>) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for colour in film.colours_in(scene.world.basis()) {
         sum.iter_mut().zip(colour).for_each(|(sum, c)| *sum += f64::from(c));
@@ -232,14 +232,14 @@ fn files_say_which_wavelengths_they_have() {
 }
 
 /// Sheets across the view, each a plane that faces the camera, in front of a white sky.
-fn sheets(sheets: &str) -> String {
+pub fn sheets(sheets: &str) -> String {
     format!(
         "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\nfield_of_view = 1\n[film]\nwidth = 4\nheight = 4\n\
         [spectrum]\nstokes = true\n[integrator]\nsamples = 4\n{sheets}[[light]]\nkind = \"environment\"\nradiance = 1\n"
     )
 }
 
-fn sheet(name: &str, model: &str, at: f64) -> String {
+pub fn sheet(name: &str, model: &str, at: f64) -> String {
     format!(
         "[material.{name}]\n{model}\n[[object]]\nshape = \"plane\"\nsize = 4\nrotate = [90, 0, 0]\ntranslate = [0, 0, {at}]\n\
         material = \"{name}\"\n"
@@ -247,7 +247,7 @@ fn sheet(name: &str, model: &str, at: f64) -> String {
 }
 
 /// The mean of the Stokes components of green.
-fn seen(text: &str) -> [f64; 4] {
+pub fn seen(text: &str) -> [f64; 4] {
     let scene = stokes(text, Backend::best());
     let film = picture(&scene, &settings(&scene, 4, Backend::best()));
     let means = means(&film);
