@@ -1,5 +1,6 @@
 //! A measured material, whatever its representation, ready to be evaluated.
 
+mod frames;
 mod mirror;
 mod open;
 mod sheet;

@@ -1,7 +1,9 @@
 //! Several measurements of one sheet: the sides of the two directions select the measurement.
 
+use lobe_table::mueller::Matrix;
 use lobe_table::{Aspect, Bsdf, Channels, Directions, Kind, Scatter, Side};
 
+use super::frames::{at_wavelength, depolariser, unflipped, upright};
 use crate::Backend;
 
 /// The kind of a material that consists of several measurements.
@@ -101,5 +103,67 @@ impl Bsdf for Sheet {
                 out[query * channels..][..channels].copy_from_slice(value);
             }
         }
+    }
+
+    fn is_polarised(&self) -> bool {
+        self.parts.iter().any(|part| part.bsdf.is_polarised())
+    }
+
+    /// Parts without matrices depolarise light.
+    fn mueller(&self, wi: [f32; 3], wo: [f32; 3], nm: f64) -> Option<Matrix> {
+        if !self.is_polarised() {
+            return None;
+        }
+        // Of several parts for the same sides, the last counts, as for values.
+        let answers = |part: &&Part| part.bsdf.is_polarised() && part.answers(wi, wo);
+        if let Some(part) = self.parts.iter().rev().find(answers) {
+            let (light, viewer, is_flipped) = upright(wi, wo);
+            let matrix = part.bsdf.mueller(light, viewer, nm)?;
+            return Some(if is_flipped { unflipped(matrix, wi, wo) } else { matrix });
+        }
+        let mut values = vec![0.0; self.channels.count()];
+        self.eval_batch(Backend::best(), (&[wi]).into(), (&[wo]).into(), &mut values);
+        match &self.channels {
+            Channels::Spectral(wavelengths) => Some(depolariser(at_wavelength(wavelengths, &values, nm))),
+            _ => None,
+        }
+    }
+
+    fn mueller_batch(&self, backend: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) -> bool {
+        if !self.is_polarised() {
+            return false;
+        }
+        let (count, channels) = (wi.count(), self.channels.count());
+        assert_eq!(count, wo.count(), "as many wi as wo");
+        assert_eq!(out.len(), 16 * count * channels, "one matrix per query and channel");
+        let mut values = vec![0.0; count * channels];
+        self.eval_batch(backend, wi, wo, &mut values);
+        out.fill(0.0);
+        out.chunks_exact_mut(16).zip(&values).for_each(|(matrix, value)| matrix[0] = *value);
+        for part in self.parts.iter().filter(|part| part.bsdf.is_polarised()) {
+            let (mut queries, mut lights, mut viewers) = (Vec::new(), Vec::new(), Vec::new());
+            for query in (0..count).filter(|query| part.answers(wi.get(*query), wo.get(*query))) {
+                let (light, viewer, is_flipped) = upright(wi.get(query), wo.get(query));
+                queries.push((query, is_flipped));
+                lights.push(light);
+                viewers.push(viewer);
+            }
+            let mut found = vec![0.0; 16 * channels * queries.len()];
+            part.bsdf.mueller_batch(backend, (&lights).into(), (&viewers).into(), &mut found);
+            for ((query, is_flipped), matrices) in queries.into_iter().zip(found.chunks_exact(16 * channels)) {
+                let out = &mut out[16 * channels * query..][..16 * channels];
+                out.copy_from_slice(matrices);
+                if is_flipped {
+                    let (matrices, _) = out.as_chunks_mut::<16>();
+                    for matrix in matrices {
+                        let upright: Matrix =
+                            std::array::from_fn(|i| std::array::from_fn(|j| matrix[4 * i + j].into()));
+                        let turned = unflipped(upright, wi.get(query), wo.get(query));
+                        matrix.iter_mut().zip(turned.as_flattened()).for_each(|(out, x)| *out = *x as f32);
+                    }
+                }
+            }
+        }
+        true
     }
 }

@@ -5,6 +5,7 @@ mod golden;
 mod golden_representations;
 mod material;
 mod paper;
+mod polarised_sheets;
 mod real_files;
 mod sampling;
 mod threads;
