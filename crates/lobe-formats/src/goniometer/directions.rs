@@ -45,6 +45,12 @@ pub(super) fn settle(meanings: &mut [Meaning], is_fixed: impl Fn(Angle) -> bool)
     }
 }
 
+/// Whether a number is there twice. Files may have hundreds of thousands of columns.
+pub(super) fn has_twice(mut numbers: Vec<f64>) -> bool {
+    numbers.sort_by(f64::total_cmp);
+    numbers.windows(2).any(|pair| pair[0] == pair[1])
+}
+
 /// The columns of a table with one column per incident or outgoing polar angle, if it is such a table: all whose names
 /// are numbers.
 pub(super) type Wide = (Vec<(usize, f64)>, Option<Unit>);
@@ -65,10 +71,7 @@ pub(super) fn wide(meanings: &[Meaning], angles: &mut [Source; 4]) -> Option<Wid
         of == unit && which == angle && which.is_none_or(|angle| angle == SPHERICAL[missing]) && number.abs() <= 90.0
     };
     let has_values = meanings.iter().any(|meaning| matches!(meaning, Meaning::Values { .. }));
-    if has_values
-        || !numbers.iter().all(fits)
-        || (1..numbers.len()).any(|i| numbers[..i].iter().any(|other| other.1 == numbers[i].1))
-    {
+    if has_values || !numbers.iter().all(fits) || has_twice(numbers.iter().map(|(_, number, ..)| *number).collect()) {
         return None;
     }
     angles[missing] = Source::Wide;

@@ -1,9 +1,11 @@
 //! The meaning of each column of a table.
 
+use std::collections::BTreeSet;
+
 use lobe_table::Channels;
 
 use super::chosen::{list, list_of};
-use super::directions::{settle, wide};
+use super::directions::{has_twice, settle, wide};
 use super::facts::Facts;
 use super::meaning::Meaning;
 use super::source::{SPECULAR, SPHERICAL, Source};
@@ -123,7 +125,7 @@ impl Layout {
             Some((columns, unit)) => layout.values = Values::Wide(columns, unit),
             None => layout.find_values(names, &meanings, is_text, options)?,
         }
-        let used = layout.used();
+        let used: BTreeSet<usize> = layout.used().into_iter().collect();
         let mut passed = Vec::new();
         for (column, meaning) in meanings.iter().enumerate().filter(|(column, _)| !used.contains(column)) {
             let Some(name) = names.get(column).filter(|name| !name.trim().is_empty()) else { continue };
@@ -259,7 +261,7 @@ impl Layout {
         let channels = channels(&wanted)
             .ok_or_else(|| Trouble::new(format!("channels {}", list_of(names, &columns)), CHANNELS))?;
         if let Channels::Spectral(nm) = &channels
-            && (1..nm.len()).any(|i| nm[..i].contains(&nm[i]))
+            && has_twice(nm.clone())
         {
             return Err(Trouble::new(format!("a wavelength twice in {}", list_of(names, &columns)), "each once"));
         }
