@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::angles::{Angles, ScatterRule, SideRule, choose_aspects, parse_angles, progress, table};
 use crate::failure::Failure;
 use crate::guesses::warn_of_guesses;
-use crate::measure::fits;
+use crate::measure::{fits, integrates};
 use crate::message::{self, say};
 use crate::reading::Reading;
 
@@ -66,6 +66,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         return Err(Failure::Usage(format!("found a tolerance of {}; expected one above 0", args.tolerance)));
     }
     let subject = args.reading.subject(&args.file, &Options::default())?;
+    integrates(&args.file, subject.material.channel_count())?;
     let aspects = choose_aspects(&args.file, &subject, args.scatter, args.side)?;
     if let Some(aspect) = aspects.iter().find(|&&aspect| subject.is_in_plane(aspect)) {
         let message = format!(

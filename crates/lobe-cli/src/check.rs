@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use crate::angles::{progress, table};
 use crate::failure::Failure;
+use crate::measure::integrates;
 use crate::message;
 use crate::reading::Reading;
 
@@ -94,6 +95,7 @@ fn report(file: &Path, reading: &Reading) -> Result<Report, Failure> {
         }
         Err(other) => return Err(other),
     };
+    integrates(file, subject.material.channel_count())?;
     let bar = progress("checking");
     let findings = check(&subject, &Thoroughness::default(), &bar);
     Ok(Report {

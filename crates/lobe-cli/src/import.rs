@@ -14,6 +14,7 @@ use serde::Serialize;
 
 use crate::angles::progress;
 use crate::failure::Failure;
+use crate::measure::integrates;
 use crate::message::{self, say};
 use crate::reading::Reading;
 use crate::target::parser;
@@ -111,6 +112,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     };
     let material = Material::from_document(&document, &Options::default()).map_err(|error| error.in_file(file))?;
     let subject = Subject::new(format, document, material, &Options::default());
+    integrates(file, subject.material.channel_count())?;
     let bar = progress("checking");
     let findings = check(&subject, &Thoroughness::default(), &bar);
     drop(bar);

@@ -242,6 +242,13 @@ pub fn fits(out: &Path, nodes: &[usize], channels: usize) -> Result<(), Failure>
     })
 }
 
+/// Fails if there is no memory to integrate over directions, which takes the values of all channels at many of them.
+pub fn integrates(file: &Path, channels: usize) -> Result<(), Failure> {
+    /// The most directions whose values are kept at once: albedos take 120 kB per channel.
+    const DIRECTIONS: usize = 4096;
+    fits(file, &[DIRECTIONS], channels)
+}
+
 fn file(out: &Path, error: &dyn std::fmt::Display) -> Failure {
     Failure::File(format!("{}: {error}", out.display()))
 }

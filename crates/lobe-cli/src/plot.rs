@@ -20,6 +20,7 @@ use self::bar::Bar;
 use crate::failure::Failure;
 use crate::guesses::warn_of_guesses;
 use crate::info::picture::is_picture;
+use crate::measure::integrates;
 use crate::message;
 use crate::reading::Reading;
 
@@ -145,7 +146,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         if matches!(target, Target::Page) {
             tables.push(facts(file, format.name(), &document)?);
         }
-        subjects.push(Subject::new(file, format, document)?.named(&name(file, &args.files)));
+        let subject = Subject::new(file, format, document)?;
+        integrates(file, subject.material().channel_count())?;
+        subjects.push(subject.named(&name(file, &args.files)));
     }
     let views = views(args, &subjects)?;
     let shown: Vec<Shown<'_>> = subjects.iter().zip(&views).map(|(subject, view)| Shown { subject, view }).collect();

@@ -227,6 +227,9 @@ fn memory_errors_say_how_much_is_needed() {
     files.write("a.ddr", &diffuse([0.5; 3]));
     files.write("big.toml", &SCENE.replace("width = 24\nheight = 16", "width = 30000\nheight = 4000"));
     files.write("fine.toml", &SCENE.replace("shape = \"sphere\"", "shape = \"sphere\"\nsegments = 1000\nrefine = 5"));
+    let names: String = (0..100_000).map(|step| format!(",{:.2}nm", 300.0 + 0.01 * f64::from(step))).collect();
+    let row = |theta| format!("10,{theta},0{}\n", ",1".repeat(100_000));
+    files.write("wide.csv", &format!("theta_i,theta_o,phi_o{names}\n{}{}{}", row(0), row(40), row(60)));
     let range = "0:80:0.1";
     for command in [
         "render big.toml -o a.exr".into(),
@@ -237,6 +240,10 @@ fn memory_errors_say_how_much_is_needed() {
         "generate ggx b.bsdf --to rgl --alpha 0.1,0.4 --zeniths 512 --azimuths 512 --texels 1024 --channel R".into(),
         "compare a.ddr a.ddr --pairs 10000000".into(),
         "albedo a.ddr --sigma 0:80:0.001 --psi 0:90:0.001".into(),
+        "check wide.csv".into(),
+        "albedo wide.csv".into(),
+        "import wide.csv --no-sidecar".into(),
+        "plot wide.csv -o wide.svg".into(),
     ] {
         let limit = if command.starts_with("compare") { 500_000 } else { 3_000_000 };
         let (code, _, message) = shell(&files, &format!("ulimit -v {limit}; timeout 100 \"$LOBE\" {command}"));
