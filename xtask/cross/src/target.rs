@@ -100,8 +100,10 @@ impl Target {
                 let node = install::node()?;
                 install::rust_target(triple)?;
                 setup.set("CARGO_BUILD_TARGET", triple);
-                // The stack size of a main thread on other systems.
-                setup.set_of(triple, "RUSTFLAGS", "-C target-feature=+simd128 -C link-arg=-zstack-size=8388608");
+                // The stack of a main thread on other systems, and so much memory that it need not grow: then it may move,
+                // but node would read and write where it was before, and crash.
+                let memory = "-C link-arg=-zstack-size=8388608 -C link-arg=--initial-memory=3221225472";
+                setup.set_of(triple, "RUSTFLAGS", format!("-C target-feature=+simd128 {memory}"));
                 let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/wasi.mjs");
                 let mut runner = node.into_os_string();
                 runner.push(" --no-warnings ");
