@@ -35,7 +35,7 @@ use crate::reading::Reading;
   lobe plot film.csv -o film.svg --kind spectra --sigma 20,60 --theta 20,0,-20
   lobe plot screen.xml -o slices.svg --kind slices --sigma 0,40,60 --channel Visible --side back
   lobe plot cloth.ddr -o warp.png --kind sphere --psi 90
-  lobe plot gold.pbsdf -o gold.svg --kind mueller --channel 550nm
+  lobe plot gold.mueller -o gold.svg --kind mueller --channel 550nm
   lobe plot paint.ddr --fit fit.json -o fit.html            where a fit of `lobe fit` fails
   lobe plot picture.exr -o picture.html --at 120,80         colours, polarisation and spectra of a picture
 

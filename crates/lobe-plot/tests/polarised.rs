@@ -62,7 +62,7 @@ fn elements_are_relative_to_the_first_and_in_their_panels() {
 fn degrees_and_angles_are_said_at_the_pointer() {
     let svg = one(&everywhere(diagonal()), Figure::Polarisation).expect("a figure");
     assert!(svg.contains("σ = 28.6°, θ = 45°, 90° from the mirror side: 50 %, 45°</title>"), "{svg}");
-    assert_eq!(svg.matches(": 50 %, 45°").count(), 61, "at every marked direction");
+    assert_eq!(svg.matches(": 50 %, 45°").count(), 2 * 61, "at every marked direction of both disks");
     // Two disks and two bars.
     assert_eq!(svg.matches("<image").count(), 4);
     // Light across the normal is at 90 degrees.

@@ -104,6 +104,7 @@ impl Scratch {
         self.write("lens.bsdf", examples::ZEMAX);
         self.write("film.ssdd", examples::SSDD);
         self.write("gold.binary", examples::tiny_merl());
+        self.run("lobe generate mueller gold.mueller --metal gold --sigma 0,30,60 --theta 0,10,40");
         let sheet = examples::sheet("Columns", "0.1 0.1 0.1 0.1 0.1 0.1 0.1 0.1 0.1");
         // Light through the sheet from its front, and light reflected by its back, as this format calls them.
         for name in ["blinds.xml", "t.xml"] {
@@ -126,6 +127,7 @@ impl Scratch {
         self.write("pairs.csv", "0,0,1,0,0,1\n0.6,0,0.8,-0.6,0,0.8\n");
         self.write("scene.toml", SCENE);
         self.write("glass.toml", format!("{SCENE}\n[spectrum]\nstokes = true\n"));
+        self.run("lobe render glass.toml -o picture.exr --quiet");
         for tile in 1..=4 {
             self.run(&format!("lobe render scene.toml -o part{tile}.exr --tile {tile}/4 --quiet"));
         }
