@@ -120,7 +120,7 @@ test("a file of every format is dropped and shown, or says why not", async () =>
         await drop(page, [{ name, file }]);
         if ((await page.locator(".message.error").count()) > 0) {
             const said = await page.locator(".message.error p").first().textContent();
-            assert.match(said, /mirror reflectances|parts with different channels/, name);
+            assert.match(said, /mirror reflectance|parts with different channels/, name);
             // What can be read is shown all the same.
             await page.locator(".message.error .more").click();
             assert.equal(await page.locator("dialog.held h2").textContent(), name);
