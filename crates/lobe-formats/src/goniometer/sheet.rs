@@ -81,11 +81,12 @@ impl Dialect {
     /// commas before blanks.
     pub fn of(lines: &[Line<'_>], has_decimal_comma: Option<bool>) -> Option<Self> {
         let mut bytes = 0;
-        let enough = |line: &&Line<'_>| {
+        let is_within = |(index, line): &(usize, &Line<'_>)| {
             bytes += line.text.len();
-            bytes <= SAMPLE_BYTES
+            *index < LEAST || bytes <= SAMPLE_BYTES
         };
-        let sample: Vec<Line<'_>> = lines.iter().take(SAMPLE).take_while(enough).copied().collect();
+        let sample: Vec<Line<'_>> =
+            lines.iter().take(SAMPLE).enumerate().take_while(is_within).map(|(_, line)| *line).collect();
         let mut best = (0, None);
         for delimiter in [Some('\t'), Some(';'), Some('|'), Some(','), None] {
             for comma in [false, true] {
@@ -204,9 +205,11 @@ fn is_grouped(number: &str) -> bool {
     groups.next().is_some_and(is_first) && groups.all(|group| group.len() == 3 && is_whole(group))
 }
 
-/// The number of lines that are examined to find the dialect.
+/// The number of lines that are examined to find the dialect: fewer if they are long, but some however long the names of
+/// the columns are.
 const SAMPLE: usize = 400;
 const SAMPLE_BYTES: usize = 1 << 20;
+const LEAST: usize = 8;
 
 /// Cells, some of which are in quotes; within quotes, a delimiter is text and two quotes mean one.
 fn quoted(text: &str, delimiter: char) -> Vec<Cow<'_, str>> {
