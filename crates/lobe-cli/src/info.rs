@@ -18,7 +18,7 @@ use crate::reading::Reading;
 #[command(after_help = "Examples:
   lobe info paint.ddr
   lobe info --json sensor.bsdf | jq '.parts[0].axes'
-  lobe info picture.exr                                     wavelengths, Stokes components, samples
+  lobe info glass.exr                                       wavelengths, Stokes components, samples
 
 The format is recognised by the content of the file. The extension only decides whether Integra files are of reflection or transmission: .ddt and .sdt are transmission.
 Files compressed with gzip are unpacked. In a folder, the files with one incident direction each (RPC Photonics, pab) are read as one material.

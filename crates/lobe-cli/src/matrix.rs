@@ -19,7 +19,7 @@ use crate::message::{self, say};
 Of a WINDOW file, the Visible band is used for light that arrives at its front, with CIE-X and CIE-Z for colour if it has them. Convert tensor trees with `lobe convert --to klems --basis full` first.
 
 Examples:
-  lobe matrix v.mtx t.xml d.mtx s.mtx                   three-phase method, for every hour of the sky
+  lobe matrix v.mtx t.xml d.mtx s.mtx                   three-phase method, for each hour
   lobe matrix d.mtx s.mtx -o lit.mtx --format float     two-phase method
   lobe matrix v.mtx t.xml d.mtx s.mtx --minus vd.mtx,t.xml,dd.mtx,s.mtx --plus c.mtx,sun.mtx
 

@@ -37,7 +37,7 @@ use crate::reading::Reading;
   lobe plot cloth.ddr -o warp.png --kind sphere --psi 90
   lobe plot gold.mueller -o gold.svg --kind mueller --channel 550nm
   lobe plot paint.ddr --fit fit.json -o fit.html            where a fit of `lobe fit` fails
-  lobe plot picture.exr -o picture.html --at 120,80         colours, polarisation and spectra of a picture
+  lobe plot glass.exr -o glass.html --at 120,80             a picture of polarised light
 
 The extension of OUT determines what is written: .html is a page, .svg or .png a figure. In every figure, the light is on the left, viewing angles are positive on the side of the mirror direction, and f is in 1/sr, without the cosine. Dots are measured points; dashed lines are extrapolated. Browsers show the value at the pointer.")]
 pub struct Args {

@@ -329,14 +329,14 @@ mod tests {
         let without = |row: usize| [&rows[..row], &rows[row + 1..]].concat().join("\n");
         for (text, expected) in [
             (without(5), "23 rows for 2 sigma x 1 psi x 3 theta x 2 phi x 2 wavelengths"),
-            (format!("{text}{}", rows[3]), "line 27: found the same angles and wavelength as in line 4"),
+            (format!("{text}{}", rows[3]), "x.csv:27: found the same angles and wavelength as in line 4"),
             (text.replacen(",m11", "", 1), "no column m11"),
             (text.replacen("m12", "m11", 1), "two columns for \"m11\""),
             (text.replacen("sigma_deg", "sigma", 1), "the column \"sigma\""),
             (text.replacen("wavelength_nm", "m34", 1), "the column \"m34\""),
-            (format!("{text}1,2,3"), "line 27: found 3 cells; expected 21"),
-            (text.replacen("450.5", "blue", 1), "line 3: found \"blue\""),
-            (text.replacen("450.5", "nan", 1), "line 3"),
+            (format!("{text}1,2,3"), "x.csv:27: found 3 cells; expected 21"),
+            (text.replacen("450.5", "blue", 1), "x.csv:3: found \"blue\""),
+            (text.replacen("450.5", "nan", 1), "x.csv:3: "),
             (text.replacen(",0.1,", ",1e300,", 1), "a number of 32 bits"),
             (rows[..2].join("\n"), "0 rows"),
             (String::new(), "no names of columns"),

@@ -127,7 +127,7 @@ impl Scratch {
         self.write("pairs.csv", "0,0,1,0,0,1\n0.6,0,0.8,-0.6,0,0.8\n");
         self.write("scene.toml", SCENE);
         self.write("glass.toml", format!("{SCENE}\n[spectrum]\nstokes = true\n"));
-        self.run("lobe render glass.toml -o picture.exr --quiet");
+        self.run("lobe render glass.toml -o glass.exr --quiet");
         for tile in 1..=4 {
             self.run(&format!("lobe render scene.toml -o part{tile}.exr --tile {tile}/4 --quiet"));
         }
