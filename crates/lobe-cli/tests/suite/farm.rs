@@ -198,7 +198,10 @@ fn impossible_divisions_are_refused() {
     let scene = files.write("scene.toml", SCENE);
     let (out, job) = (files.path("out.exr"), files.path("job"));
     for (arguments, words) in [
-        (vec!["slurm", text(&scene), "-o", text(&out), "--parts", "17"], "found 17 parts; expected at most 16, the number of rows"),
+        (
+            vec!["slurm", text(&scene), "-o", text(&out), "--parts", "17"],
+            "found 17 parts; expected at most 16, the number of rows",
+        ),
         (
             vec!["slurm", text(&scene), "-o", text(&out), "--parts", "5", "--by", "samples"],
             "found 5 parts; expected at most 4, the number of samples",

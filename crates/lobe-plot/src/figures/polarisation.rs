@@ -90,17 +90,18 @@ fn disk(shown: Shown<'_>, sigma: f64, size: usize, progress: &dyn Progress) -> D
     for ((at, matrix), wo) in inside.into_iter().zip(of(&outgoing)).zip(&outgoing) {
         (light[at], is_measured[at]) = (Linear::of(&matrix), is_covered(*wo));
     }
-    let mut places = vec![(0.0, 0.0, [0.0, 0.0])];
+    let mut spots = vec![Spot { theta: 0.0, turn: 0.0, at: [0.0, 0.0] }];
     for theta in [15.0, 30.0, 45.0, 60.0, 75.0_f64] {
         let turns = (-5..=6).map(|step| 30.0 * f64::from(step));
-        places.extend(turns.map(|turn: f64| {
+        spots.extend(turns.map(|turn: f64| {
             let (sin, cos) = turn.to_radians().sin_cos();
-            (theta, turn, [ring(theta) * cos, ring(theta) * sin])
+            Spot { theta, turn, at: [ring(theta) * cos, ring(theta) * sin] }
         }));
     }
     let directions: Vec<[f64; 3]> =
-        places.iter().filter_map(|(.., [x, y])| from_disk(view.side, scatter, view.psi, *x, *y)).collect();
-    let stroke = |((&(theta, turn, at), matrix), &wo): ((&(f64, f64, [f64; 2]), _), &[f64; 3])| {
+        spots.iter().filter_map(|Spot { at: [x, y], .. }| from_disk(view.side, scatter, view.psi, *x, *y)).collect();
+    let stroke = |((spot, matrix), &wo): ((&Spot, _), &[f64; 3])| {
+        let Spot { theta, turn, at } = *spot;
         let light = Linear::of(matrix)?;
         let turn = if theta > 0.0 { format!(", {turn}° from the mirror side") } else { String::new() };
         let kind = if is_covered(wo) { "" } else { ", not measured" };
@@ -108,8 +109,15 @@ fn disk(shown: Shown<'_>, sigma: f64, size: usize, progress: &dyn Progress) -> D
         let text = format!("σ = {}, θ = {theta}°{turn}: {degree}, {angle:.0}°{kind}", degrees(sigma));
         Some(Stroke { at, along: along(view, wi, wo, light), light, text })
     };
-    let strokes = places.iter().zip(&of(&directions)).zip(&directions).filter_map(stroke).collect();
+    let strokes = spots.iter().zip(&of(&directions)).zip(&directions).filter_map(stroke).collect();
     Disk { sigma, size, light, is_measured, strokes }
+}
+
+/// A point of the disk with a stroke: the polar angle and the azimuth from the mirror side, in degrees.
+struct Spot {
+    theta: f64,
+    turn: f64,
+    at: [f64; 2],
 }
 
 /// The direction on the disk in which light that leaves along `wo` oscillates.

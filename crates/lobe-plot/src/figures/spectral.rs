@@ -28,7 +28,7 @@ pub(super) fn chart<'a>(shown: Shown<'a>, progress: &dyn Progress) -> Option<Cha
     let count = sigmas.first().map_or(0, |&sigma| view.viewing_angles(sigma).len());
     let ink = |at: usize| Ink::of_channel(at, count);
     let panels_of = || spectra.chunks(count.max(1));
-    let is_wide = panels_of().any(|of_incidence| is_wide(of_incidence));
+    let is_wide = panels_of().any(is_wide);
     let scaling = view.scaling.unwrap_or(if is_wide { Scaling::Log } else { Scaling::Linear });
     let mut panels = Vec::new();
     for of_incidence in panels_of() {

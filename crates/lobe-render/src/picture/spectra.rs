@@ -122,12 +122,12 @@ fn of_channels(list: &[AnyChannel<FlatSamples>], path: &Path) -> Result<Spectral
         others.extend(shares.iter().map(|(_, index)| list[*index].name.to_string()));
         let wavelengths = sorted(&mut rows[0], path)?;
         let mut stokes = vec![indices(&rows[0])];
-        for component in 1..4 {
-            let found = sorted(&mut rows[component], path)?;
+        for (component, row) in rows.iter_mut().enumerate().skip(1) {
+            let found = sorted(row, path)?;
             if !found.is_empty() && found != wavelengths {
                 return wrong(format!("other wavelengths of S{component} than of S0"));
             }
-            stokes.push(indices(&rows[component]));
+            stokes.push(indices(row));
         }
         (stokes, Quantity::Radiance, lobe::Channels::Spectral(wavelengths))
     } else if let Some(first) = all(colours[0]) {
