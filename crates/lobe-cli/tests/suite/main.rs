@@ -16,6 +16,8 @@ mod hardening;
 mod honest;
 mod import;
 mod matrices;
+#[cfg(target_os = "linux")]
+mod memory;
 mod pictures;
 mod plot;
 mod render;

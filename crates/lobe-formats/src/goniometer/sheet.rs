@@ -197,7 +197,7 @@ impl Dialect {
     }
 }
 
-/// Whether a number can be a whole one with a comma between thousands, such as 12,345.
+/// `true` if a number can be a whole one with a comma between thousands, such as 12,345.
 fn is_grouped(number: &str) -> bool {
     let mut groups = number.trim_start_matches(['+', '-', '\u{2212}']).split(',');
     let is_whole = |group: &str| group.bytes().all(|byte| byte.is_ascii_digit());
