@@ -58,6 +58,8 @@ SCRIPT = """
 import signal, sys, time
 import numpy as np
 import lobe_bsdf
+# It is ignored in what a shell runs in the background.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 material = lobe_bsdf.open(sys.argv[1])
 w = np.zeros((6_000_000, 3), np.float32); w[:, 2] = 1
 out = np.zeros((len(w), 3), np.float32)
