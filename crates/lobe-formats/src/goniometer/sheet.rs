@@ -163,8 +163,9 @@ impl Dialect {
         number.ok().filter(|number: &f64| number.is_finite())
     }
 
-    /// A number whose comma may come before decimals or between thousands, if no number of these lines says which:
-    /// spreadsheets put quotes around both. Among semicolons, a comma is one of decimals.
+    /// The first number whose comma may be a decimal comma or separate thousands, with its line; `None` if another
+    /// number of these lines decides. Spreadsheets quote both kinds. If semicolons separate the cells, a comma is
+    /// decimal.
     pub fn ambiguous(self, lines: &[Line<'_>]) -> Option<(usize, String)> {
         if !self.has_decimal_comma || self.delimiter == Some(';') {
             return None;
@@ -197,7 +198,7 @@ impl Dialect {
     }
 }
 
-/// `true` if a number can be a whole one with a comma between thousands, such as 12,345.
+/// `true` if a number could be an integer with commas between thousands, such as 12,345.
 fn is_grouped(number: &str) -> bool {
     let mut groups = number.trim_start_matches(['+', '-', '\u{2212}']).split(',');
     let is_whole = |group: &str| group.bytes().all(|byte| byte.is_ascii_digit());
@@ -205,8 +206,8 @@ fn is_grouped(number: &str) -> bool {
     groups.next().is_some_and(is_first) && groups.all(|group| group.len() == 3 && is_whole(group))
 }
 
-/// The number of lines that are examined to find the dialect: fewer if they are long, but some however long the names of
-/// the columns are.
+/// The number of lines that are examined to find the dialect: fewer if they are long, but always some, however long the
+/// names of the columns are.
 const SAMPLE: usize = 400;
 const SAMPLE_BYTES: usize = 1 << 20;
 const LEAST: usize = 8;

@@ -67,7 +67,7 @@ pub fn product(matrices: &[Matrix]) -> Result<Matrix, Shapes> {
     Ok(Matrix { components: (0..components).map(of_component).collect() })
 }
 
-/// Where to split the product of the factors from `first` up to `end`, as `[first][end]`.
+/// The position at which to split the product of the factors from `first` up to `end`, as `[first][end]`.
 fn order(sizes: &[usize]) -> Vec<Vec<usize>> {
     let count = sizes.len() - 1;
     let (mut costs, mut splits) = (vec![vec![0.0; count + 1]; count + 1], vec![vec![0; count + 1]; count + 1]);
