@@ -9,6 +9,8 @@ use crate::invalid::Invalid;
 pub const MAX_ORDER: u8 = 15;
 /// The highest power of the wavelength.
 const MAX_POWER: u8 = 8;
+/// What coefficients are below, so that sums of terms are numbers that an `f32` can hold.
+const TOO_LARGE: f64 = 1e20;
 
 /// A term of an expansion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +37,11 @@ impl Term {
     fn is_valid(&self) -> bool {
         let ([n, m], l) = (self.radial, self.azimuthal);
         let are_ordered = l <= m && m <= n && n <= MAX_ORDER;
-        are_ordered && (n - l) % 2 == 0 && (m - l) % 2 == 0 && self.power <= MAX_POWER && self.coefficient.is_finite()
+        are_ordered
+            && (n - l) % 2 == 0
+            && (m - l) % 2 == 0
+            && self.power <= MAX_POWER
+            && self.coefficient.abs() < TOO_LARGE
     }
 }
 
@@ -60,7 +66,8 @@ impl Data {
             let Term { radial: [n, m], azimuthal: l, power, coefficient } = terms[at];
             let found = format!("n {n}, m {m}, l {l}, power {power} and coefficient {coefficient} at index {at}");
             let expected = format!(
-                "l <= m <= n <= {MAX_ORDER}, all even or all odd, powers up to {MAX_POWER}, and finite coefficients"
+                "l <= m <= n <= {MAX_ORDER}, all even or all odd, powers up to {MAX_POWER}, and coefficients below \
+                 {TOO_LARGE:e}"
             );
             return Err(Invalid::new("terms", found, expected));
         }

@@ -1,5 +1,7 @@
 //! The evaluation of [`Data`] one query at a time in `f64`, with the sums that define the polynomials.
 
+use std::collections::BTreeMap;
+
 use super::data::{Data, MAX_ORDER, Term};
 
 impl Data {
@@ -19,6 +21,45 @@ impl Data {
             factor.abs() * (3e-7 * (a + b) + 6e-8 * steepness)
         };
         self.sum(wi, wo, term)
+    }
+
+    /// The values for light at each of the polar angles, a viewer at each of them, and each azimuth between the two, in
+    /// radians: `[light][viewer][azimuth][channel]`. Polar angles are below a right angle.
+    ///
+    /// The terms are summed once per pair of polar angles: a file of many terms is listed as quickly as it is read.
+    pub(super) fn on_grid(&self, polar: &[f64], azimuths: &[f64]) -> Vec<f64> {
+        let micrometres = self.micrometres();
+        // Files may repeat the orders of a term; there are 240 different ones.
+        let mut factors: BTreeMap<(u8, [u8; 2]), Vec<f64>> = BTreeMap::new();
+        for term in self.terms() {
+            let sums = factors.entry((term.azimuthal, term.radial)).or_insert_with(|| vec![0.0; micrometres.len()]);
+            for (sum, micrometres) in sums.iter_mut().zip(&micrometres) {
+                *sum += term.factor(*micrometres);
+            }
+        }
+        let of_angle = |theta: &f64| polynomials(self.order(), (1.0 - theta.cos()).sqrt());
+        let of_polar: Vec<Polynomials> = polar.iter().map(of_angle).collect();
+        let of_azimuth = |phi: &f64| std::array::from_fn(|l| (l as f64 * phi).cos());
+        let cosines: Vec<Orders> = azimuths.iter().map(of_azimuth).collect();
+        let mut out = Vec::with_capacity(polar.len() * polar.len() * azimuths.len() * micrometres.len());
+        let mut sums = vec![[0.0; AZIMUTHAL]; micrometres.len()];
+        for of_wi in &of_polar {
+            for of_wo in &of_polar {
+                sums.fill([0.0; AZIMUTHAL]);
+                for ((l, [n, m]), factors) in &factors {
+                    let [l, n, m] = [*l, *n, *m].map(usize::from);
+                    let products = of_wi[n][l] * of_wo[m][l] + of_wi[m][l] * of_wo[n][l];
+                    for (sums, factor) in sums.iter_mut().zip(factors) {
+                        sums[l] += factor * products;
+                    }
+                }
+                for cosines in &cosines {
+                    let at = |sums: &Orders| sums.iter().zip(cosines).map(|(sum, cosine)| sum * cosine).sum::<f64>();
+                    out.extend(sums.iter().map(at));
+                }
+            }
+        }
+        out
     }
 
     fn sum(&self, wi: [f64; 3], wo: [f64; 3], of_term: impl Fn(f64, [f64; 2], f64) -> f64) -> Vec<f64> {
@@ -43,8 +84,14 @@ impl Data {
     }
 }
 
+/// The number of azimuthal orders.
+const AZIMUTHAL: usize = MAX_ORDER as usize + 1;
+
+/// A number for each azimuthal order.
+type Orders = [f64; AZIMUTHAL];
+
 /// The radial polynomials at a radius, `[n][l]`.
-type Polynomials = [[f64; MAX_ORDER as usize + 1]; MAX_ORDER as usize + 1];
+type Polynomials = [Orders; AZIMUTHAL];
 
 fn polynomials(order: usize, rho: f64) -> Polynomials {
     let mut out = Polynomials::default();

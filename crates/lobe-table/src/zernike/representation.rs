@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use super::data::Data;
 use crate::bsdf::Bsdf;
-use crate::data::{Options, PrepareError, Section, direction};
+use crate::data::{Options, PrepareError, Section};
 use crate::{Aspect, Channels, Kind, Representation};
 
 /// The name of the representation.
@@ -33,15 +33,13 @@ impl Representation for Data {
 
     /// The values every 5 degrees of the polar angles, and every 10 of the azimuth between them.
     fn sections(&self) -> Vec<Section<'_>> {
-        let polar = |step: usize| PI / 2.0 * step as f64 / STEPS as f64;
-        let all = (0..STEPS).flat_map(|i| (0..STEPS).flat_map(move |o| (0..=STEPS).map(move |phi| [i, o, phi])));
-        let values = all.flat_map(|[i, o, phi]| {
-            self.eval(direction(polar(i), 0.0), direction(polar(o), PI * phi as f64 / STEPS as f64))
-        });
+        let polar: Vec<f64> = (0..STEPS).map(|step| PI / 2.0 * step as f64 / STEPS as f64).collect();
+        let azimuths: Vec<f64> = (0..=STEPS).map(|step| PI * step as f64 / STEPS as f64).collect();
+        let values = self.on_grid(&polar, &azimuths);
         let section = Section::new(KIND, Aspect::REFLECTION, Data::channels(self).clone(), &[]);
         let section = Section {
             quantity: "f in 1/sr, every 5 degrees",
-            values: Cow::Owned(values.map(|value| value as f32).collect()),
+            values: Cow::Owned(values.into_iter().map(|value| value as f32).collect()),
             bytes: size_of_val(self.terms()),
             ..section
         };

@@ -38,6 +38,28 @@ fn the_first_term_is_lambertian_and_all_are_reciprocal() {
     assert_eq!(all.eval(wi, [0.6, 0.0, -0.8]), [0.0]);
 }
 
+/// What is listed for people are values of the expansion, also if a file repeats orders.
+#[test]
+fn values_on_a_grid_are_those_of_single_directions() {
+    let powers = |(power, coefficient): (u8, f64)| Term { power, coefficient, ..term([5, 3], 1) };
+    let mut terms: Vec<Term> = [(0, 1.0), (2, -0.5), (0, 0.25)].map(powers).into();
+    terms.extend([term([0, 0], 0), term([4, 2], 2), term([2, 2], 2), term([3, 3], 3)]);
+    let data = Data::new(terms, Channels::Spectral(vec![400.0, 900.0])).expect("valid terms");
+    let (polar, azimuths) = ([0.0, 0.3, 1.5], [0.0, 1.1, PI]);
+    let mut listed = data.on_grid(&polar, &azimuths).into_iter();
+    for i in polar {
+        for o in polar {
+            for phi in azimuths {
+                for wanted in data.eval(direction(i, 0.0), direction(o, phi)) {
+                    let found = listed.next().expect("a value per channel and pair of directions");
+                    assert!((found - wanted).abs() < 1e-12, "{found} instead of {wanted} at {i}, {o}, {phi}");
+                }
+            }
+        }
+    }
+    assert_eq!(listed.next(), None);
+}
+
 /// Different terms are orthogonal over the disk of both directions, and all have the same norm.
 #[test]
 fn terms_are_orthonormal() {
@@ -76,7 +98,9 @@ fn terms_that_do_not_fit_are_refused() {
     }
     refused(vec![term([2, 2], 1)], Channels::Mono, "terms");
     refused(vec![term([2, 0], 2)], Channels::Mono, "terms");
-    refused(vec![Term { coefficient: f64::NAN, ..term([0, 0], 0) }], Channels::Mono, "terms");
+    for coefficient in [f64::NAN, 1e30] {
+        refused(vec![Term { coefficient, ..term([0, 0], 0) }], Channels::Mono, "terms");
+    }
     refused(vec![Term { power: 1, ..term([0, 0], 0) }], Channels::Mono, "channels");
     refused(vec![term([0, 0], 0)], Channels::Rgb, "channels");
     refused(vec![term([0, 0], 0)], Channels::Spectral(vec![-1.0]), "channels");
