@@ -19,10 +19,15 @@ pub(crate) fn open(folder: &Path) -> Result<(Format, Document), FormatError> {
     let paths = files_of(folder)
         .map_err(|error| FormatError::new(folder, Place::File, error.to_string(), "files that can be read"))?;
     let mut found: Option<(Format, Files)> = None;
+    let mut others: Vec<&str> = Vec::new();
     for path in paths {
         let bytes = lobe_files::read(&path)?;
         let bytes = plain::text(&unpacked(&bytes, &path)?.bytes).into_owned();
-        let Some(format) = sniff(&bytes).filter(|format| format.spec().read_set.is_some()) else { continue };
+        let Some(format) = sniff(&bytes) else { continue };
+        if format.spec().read_set.is_none() {
+            others.push(format.name());
+            continue;
+        }
         let (first, files) = found.get_or_insert_with(|| (format, Vec::new()));
         if *first != format {
             let found = format!("files of {first} and of {format}");
@@ -34,8 +39,17 @@ pub(crate) fn open(folder: &Path) -> Result<(Format, Document), FormatError> {
     let found = found.and_then(|(format, files)| Some((format, files, format.spec().read_set?)));
     let Some((format, files, read_set)) = found else {
         let names: Vec<&str> = sets().map(|(format, _)| format.name()).collect();
-        let expected = format!("files of a format with one incident direction per file: {}", names.join(" or "));
-        return Err(FormatError::new(folder, Place::File, "a folder without such files", expected));
+        let mut expected = format!("files of a format with one incident direction per file: {}", names.join(" or "));
+        others.sort_unstable();
+        others.dedup();
+        let found = match others.is_empty() {
+            true => "a folder without measurements".into(),
+            false => format!("a folder with files of other formats ({})", others.join(", ")),
+        };
+        if !others.is_empty() {
+            expected += ", or a single file; tables can be joined into one with a column of theta_i";
+        }
+        return Err(FormatError::new(folder, Place::File, found, expected));
     };
     Ok((format, read_set(&files)?))
 }

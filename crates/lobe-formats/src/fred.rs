@@ -8,6 +8,7 @@
 
 mod write;
 
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
@@ -143,13 +144,23 @@ pub fn read_rpc(bytes: &[u8], file: &Path) -> Result<scattered::Data, FormatErro
 /// Reads the files of one material, each with its name for errors.
 ///
 /// # Errors
-/// [`FormatError`] with the line, as in [`read_as`].
+/// [`FormatError`] with the line, as in [`read_as`], and if two files have the same incident direction.
 pub fn read_rpc_set<B: AsRef<[u8]>>(files: &[(PathBuf, B)]) -> Result<scattered::Data, FormatError> {
     let units = Units { to_radians: PI / 180.0, scale: 1.0 };
     let mut records = Records::default();
+    let mut measured: BTreeMap<[u64; 2], &Path> = BTreeMap::new();
     for (file, bytes) in files {
-        let text = String::from_utf8_lossy(bytes.as_ref());
+        let (text, before) = (String::from_utf8_lossy(bytes.as_ref()), records.angles.len());
         blocks(lines(file, &text).filter(|line| !line.text.starts_with("!!")), &units, &mut records)?;
+        for [theta, phi, ..] in &records.angles[before..] {
+            let light = [*theta, *phi].map(|angle| (angle + 0.0).to_bits());
+            let other = *measured.entry(light).or_insert(file);
+            if other != file.as_path() {
+                let found = format!("light at {} degrees, as in {}", theta.to_degrees(), other.display());
+                let expected = "files of one sample, each incident direction once";
+                return Err(FormatError::new(file, Place::File, found, expected));
+            }
+        }
     }
     let name = files.first().map_or(Path::new(""), |(file, _)| file);
     records.scattered(name, Scatter::Transmission, Channels::Mono)

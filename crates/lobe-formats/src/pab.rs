@@ -8,7 +8,7 @@
 //!
 //! A material is the set of such files in a folder.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use lobe_table::{Channels, Scatter, Side};
@@ -76,14 +76,25 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Document, FormatError> {
 ///
 /// # Errors
 /// [`FormatError`] with the line: no incident direction, values that are neither BSDF nor DSF (such as detector
-/// currents), lines with another number of values, fewer lines than the head states, or files whose channels or
-/// orientation differ from those of the first.
+/// currents), lines with another number of values, fewer lines than the head states, files whose channels or
+/// orientation differ from those of the first, or two files of the same light on the same side.
 pub fn read_set(files: &[(PathBuf, Vec<u8>)]) -> Result<Document, FormatError> {
     let mut records: BTreeMap<(Side, bool), Records> = BTreeMap::new();
     let mut first: Option<Head> = None;
+    // The direction of the light, in bits, and whether its light is transmitted.
+    let mut measured: BTreeMap<([u64; 2], bool), &Path> = BTreeMap::new();
     for (file, bytes) in files {
         let text = String::from_utf8_lossy(bytes);
-        let head = samples(file, &text, &mut records)?;
+        let (head, passes) = samples(file, &text, &mut records)?;
+        let light = head.light.map(|angle| (angle + 0.0).to_bits());
+        for passes in passes {
+            if let Some(other) = measured.insert((light, passes), file) {
+                let [theta, phi] = head.light;
+                let found = format!("light at {theta}, {phi} degrees, as in {}", other.display());
+                let expected = "files of one sample, each direction of the light once";
+                return Err(FormatError::new(file, Place::File, found, expected));
+            }
+        }
         let Some(first) = &mut first else {
             first = Some(head);
             continue;
@@ -116,8 +127,12 @@ pub fn read_set(files: &[(PathBuf, Vec<u8>)]) -> Result<Document, FormatError> {
     Ok(document)
 }
 
-/// Reads the samples of a file into those of its sides.
-fn samples(file: &Path, text: &str, records: &mut BTreeMap<(Side, bool), Records>) -> Result<Head, FormatError> {
+/// Reads the samples of a file into those of its sides. Also returns whether some are not, and are, transmitted light.
+fn samples(
+    file: &Path,
+    text: &str,
+    records: &mut BTreeMap<(Side, bool), Records>,
+) -> Result<(Head, BTreeSet<bool>), FormatError> {
     let all: Vec<Line<'_>> = lines(file, text).collect();
     let end = all.iter().position(|line| !line.text.starts_with('#')).unwrap_or(all.len());
     let (head_lines, value_lines) = all.split_at(end);
@@ -126,6 +141,7 @@ fn samples(file: &Path, text: &str, records: &mut BTreeMap<(Side, bool), Records
     let [theta_i, phi_i] = head.light;
     let (light, lit) = folded(theta_i);
     let phi_i = phi_i + head.turn;
+    let mut passes = BTreeSet::new();
     for line in value_lines.iter().filter(|line| !line.text.starts_with('#')) {
         let numbers = line.numbers()?;
         let &[theta, phi, ref values @ ..] = numbers.as_slice() else {
@@ -145,15 +161,16 @@ fn samples(file: &Path, text: &str, records: &mut BTreeMap<(Side, bool), Records
         }
         let scale = if head.is_dsf { 1.0 / cos } else { 1.0 };
         let angles = [light, phi_i, view, phi + head.turn].map(f64::to_radians);
+        passes.insert(lit != seen);
         let of_sides = records.entry((lit, lit != seen)).or_default();
         of_sides.push(angles, values.iter().map(|value| value * scale));
     }
-    let count = value_lines.len();
+    let count = value_lines.iter().filter(|line| !line.text.starts_with('#')).count();
     if let Some(stated) = head.count.filter(|stated| *stated > count) {
         let found = format!("{count} lines of values; the head states {stated}");
         return Err(FormatError::new(file, Place::File, found, "a whole file"));
     }
-    Ok(head)
+    Ok((head, passes))
 }
 
 /// A polar angle from the normal of its side, in degrees, and the side. Negative angles are in the other half of the
@@ -181,15 +198,27 @@ fn head(file: &Path, lines: &[Line<'_>]) -> Result<Head, FormatError> {
         let text = line.text.trim_start_matches('#').trim();
         let (name, value) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
         let (name, value) = (name.trim_end_matches(':'), value.trim());
-        let number = |word: &str| line.number(word);
+        // Some files state the direction twice.
+        let mut light = |axis: usize, word: &str| -> Result<(), FormatError> {
+            let (before, angle) = (head.light[axis], line.number(word)?);
+            if !before.is_nan() && before != angle {
+                let found = format!("light at {angle} degrees, after {before} in a line above");
+                return Err(line.error(found, "one direction of the light"));
+            }
+            head.light[axis] = angle;
+            Ok(())
+        };
         match name.to_ascii_lowercase().as_str() {
             "incident_angle" => {
-                let (theta, phi) = value.split_once(char::is_whitespace).unwrap_or((value, "0"));
-                head.light = [number(theta)?, number(phi.trim())?];
+                let (theta, phi) = value.split_once(char::is_whitespace).unwrap_or((value, ""));
+                light(0, theta)?;
+                if !phi.trim().is_empty() {
+                    light(1, phi.trim())?;
+                }
             }
-            "intheta" => head.light[0] = number(value)?,
-            "inphi" => head.light[1] = number(value)?,
-            "upphi" => head.turn = (90.0 - number(value)?).rem_euclid(360.0),
+            "intheta" => light(0, value)?,
+            "inphi" => light(1, value)?,
+            "upphi" => head.turn = (90.0 - line.number(value)?).rem_euclid(360.0),
             "datapoints_in_file" => head.count = value.parse().ok(),
             "colorimetry" => head.channels = colours(*line, value)?,
             _ => head.source.push((name.into(), value.trim_matches('"').into())),

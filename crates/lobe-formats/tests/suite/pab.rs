@@ -80,6 +80,11 @@ fn folders_are_one_material_for_any_quantity() {
                 );
             }
         }
+        // The same light twice: another sample, or a repetition.
+        write("r20 again.txt", &made(20.0, quantity, 0..=85).replace("made", "other"));
+        let error = open(folder.path()).map(|_| ()).expect_err("two samples").to_string();
+        assert!(error.contains("light at 20, 0 degrees, as in ") && error.contains("r20"), "{error}");
+        std::fs::remove_file(folder.path().join("r20 again.txt")).expect("a file");
         write("diffuser.txt", RPC);
         let error = open(folder.path()).map(|_| ()).expect_err("two formats").to_string();
         assert!(error.contains("files of RPC Photonics and of pab gonio-photometer"), "{error}");
@@ -87,6 +92,9 @@ fn folders_are_one_material_for_any_quantity() {
     let empty = tempfile::tempdir().expect("a folder");
     let error = open(empty.path()).map(|_| ()).expect_err("nothing").to_string();
     assert!(error.contains("RPC Photonics or pab"), "{error}");
+    std::fs::write(empty.path().join("30.csv"), "AOI: 30 deg\ntheta_o,phi_o,BRDF\n0,0,1\n10,0,1\n").expect("a file");
+    let error = open(empty.path()).map(|_| ()).expect_err("tables").to_string();
+    assert!(error.contains("table with named columns") && error.contains("a column of theta_i"), "{error}");
 }
 
 #[test]
@@ -139,6 +147,7 @@ fn heads_may_be_written_in_many_ways() {
     refused(&plain.replace("#incident_angle", "#angle"), "no incident direction");
     refused(&plain.replace("#pgII", "#datapoints_in_file 9999"), "648 lines of values; the head states 9999");
     refused(&plain.replace("#pgII", "#colorimetry: RGB"), "colorimetry");
+    refused(&plain.replace("#pgII", "#intheta 50"), "after 50 in a line above");
     refused(&plain.replace("\t30\t0", "\t230\t0"), "230");
     lobe_testing::damage::truncations(PAB.as_bytes(), |bytes| read(&String::from_utf8_lossy(bytes)).is_ok());
 }
