@@ -36,6 +36,8 @@ pub(super) struct Tables {
 struct State {
     aoi: Option<f64>,
     poi: f64,
+    /// The azimuth was stated as a whole turn, which is 0.
+    is_turned: bool,
     side: Side,
     is_btdf: bool,
     tristimulus: Option<u64>,
@@ -51,7 +53,16 @@ pub(super) fn read(text: &mut Text<'_>, head: &Head) -> Result<Tables, FormatErr
     let mut totals = BTreeMap::new();
     let mut facts = HashSet::new();
     let (side, is_btdf) = (Side::Front, false);
-    let mut state = State { aoi: None, poi: 0.0, side, is_btdf, tristimulus: None, wavelength: None, is_open: true };
+    let mut state = State {
+        aoi: None,
+        poi: 0.0,
+        is_turned: false,
+        side,
+        is_btdf,
+        tristimulus: None,
+        wavelength: None,
+        is_open: true,
+    };
     loop {
         let Some(key) = text.next() else {
             if state.is_open {
@@ -76,10 +87,13 @@ pub(super) fn read(text: &mut Text<'_>, head: &Head) -> Result<Tables, FormatErr
                 values.push(text.value("a value")?);
             }
             let by_incidence = found.tables.entry((state.side, state.is_btdf)).or_default();
-            if by_incidence.insert(incidence, values).is_some() {
+            // A whole turn of POI may end as it begins.
+            let before = by_incidence.get(&incidence);
+            if before.is_some_and(|before| !(state.is_turned && *before == values)) {
                 let found = format!("a second table of {}", state.name());
                 return Err(text.error(key.line, found, "one for each AOI, POI, wavelength or tristimulus value"));
             }
+            by_incidence.insert(incidence, values);
             state.is_open = false;
         } else {
             let fact = fact(text, key, "a keyword of a table, or `DataEnd`")?;
@@ -123,7 +137,9 @@ impl State {
             if !(-360.0..=360.0).contains(&angle) {
                 return Err(text.error(text.line(), format!("POI {angle}"), "-360 to 360 degrees"));
             }
-            self.poi = if angle < 0.0 { angle + 360.0 } else { angle + 0.0 };
+            // Adding zero removes the sign of a zero.
+            self.poi = angle.rem_euclid(360.0) + 0.0;
+            self.is_turned = angle.abs() == 360.0;
         } else if key.is("Wavelength") {
             self.wavelength = Some(wavelength(text)?);
         } else if key.is("Side") {

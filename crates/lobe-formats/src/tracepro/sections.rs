@@ -156,13 +156,20 @@ fn specular(line: Line<'_>, names: &[String]) -> Result<SpecularRow, FormatError
         at.and_then(|at| numbers.get(at)).copied()
     };
     let needed = |name: &str| value(name).ok_or_else(|| line.error(format!("no {name}"), "a value in each column"));
-    // Some files name fewer columns than the program does; missing columns are 0.
-    let mean = |a: &str, b: &str| (value(a).unwrap_or(0.0) + value(b).unwrap_or(0.0)) / 2.0;
+    if numbers.len() < names.len() {
+        return Err(line.error(format!("{} numbers", numbers.len()), format!("{}, one for each name", names.len())));
+    }
+    // Some files name fewer columns than the program does: without both polarisations there is no such light.
+    let mean = |s: &str, p: &str| match (value(s), value(p)) {
+        (Some(s), Some(p)) => Ok((s + p) / 2.0),
+        (None, None) => Ok(0.0),
+        _ => Err(line.error(format!("only one of {s} and {p}"), "both polarisations")),
+    };
     Ok(SpecularRow {
         nm: nanometres(line, needed("wavelength")?)?,
         theta: polar(line, needed("incangle")?)?,
-        reflectance: mean("refl_s", "refl_p"),
-        transmittance: mean("tran_s", "tran_p"),
+        reflectance: mean("refl_s", "refl_p")?,
+        transmittance: mean("tran_s", "tran_p")?,
     })
 }
 

@@ -132,6 +132,10 @@ fn planes_of_incidence_are_azimuths_of_the_light() {
     refused(&format!("{HEAD}{tables}{}", table("AOI 50 POI 0", 1.0)), "AOI 50, POI 120 without a table");
     refused(&format!("{HEAD}{tables}DataEnd").replace("Asymmetric", "PlaneSymmetrical"), "3 POI");
     refused(&format!("{HEAD}{}DataEnd", table("AOI 30 POI 400", 1.0)), "POI 400");
+    // A whole turn ends as it begins, or contradicts itself.
+    let turn = |value: f64| format!("{HEAD}{tables}{}DataEnd", table("AOI 30 POI 360", value));
+    assert_eq!(grid(&turn(1.0)).knots()[1].len(), 3);
+    refused(&turn(2.0), "a second table of AOI 30, POI 0");
 }
 
 #[test]

@@ -125,5 +125,8 @@ fn ambiguous_properties_are_refused() {
         "without a table of scatter",
     );
     refused(&whole.replacen("300\t0.55\t0\t0\t0\t0\t", "300\t0.55\tx\t0\t0\t0\t", 1), "found \"x\"");
+    refused(&file("300 0.55 0 0 0 0 0.1\n", &table(550.0, 0.4)), "7 numbers");
+    let one = file("300 0.55 0 0 0 0 0.1 0 0\n", &table(550.0, 0.4)).replace("Refl_S Refl_P", "Refl_S");
+    refused(&one, "only one of refl_s and refl_p");
     lobe_testing::damage::truncations(TRACE_PRO.as_bytes(), |bytes| read(&String::from_utf8_lossy(bytes)).is_ok());
 }
