@@ -99,6 +99,11 @@ mod tests {
             (b"{\"name\": 1, \"b\": 2}", "a", "a JSON file of another kind, with \"name\" and \"b\""),
             (b"analytic\n\n::begin parameters\n", "a.brdf", "a shader of Disney's BRDF Explorer, a formula"),
             (b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n", "a", "a picture (Radiance HDR)"),
+            (
+                b"#?RGBE\nEXPOSURE=1\n\n-Y 1 +X 3\n\x80\xff\x01\x81\x90\xa0\xb0\0\0\0\0\0",
+                "a",
+                "a picture (Radiance HDR)",
+            ),
             (b"#?RADIANCE\npabopto2bsdf x\nFORMAT=BSDF_RBFmesh\n\n", "a", "an interpolated BSDF of Radiance (.sir)"),
             (b"404: Not Found", "a", "the message of a server, `404: Not Found`"),
             (b"IESNA:LM-63-2002\n", "a", "the light distribution of a lamp (IES)"),
@@ -128,6 +133,10 @@ mod tests {
             "an Excel workbook (.xlsx)"
         );
         assert_eq!(what(&entry("values.npy"), "a.npz"), "NumPy arrays (.npz)");
+        let workbook = [entry("[Content_Types].xml"), entry("docProps/app.xml"), entry("xl/workbook.xml")].concat();
+        assert_eq!(what(&workbook, "scan.csv"), "an Excel workbook (.xlsx)");
+        let sheet = [entry("mimetype"), b"application/vnd.oasis.opendocument.spreadsheet".to_vec()].concat();
+        assert_eq!(what(&sheet, "scan.csv"), "a spreadsheet (.ods)");
         for end in 0..40 {
             what(&entry("x.bsdf")[..end.min(36)], "a");
         }

@@ -38,17 +38,29 @@ pub(super) fn content(bytes: &[u8], path: &Path) -> Option<Content> {
 fn zip(bytes: &[u8], path: &Path) -> Content {
     let name = first_name(bytes);
     let is_named = |extension: &str| path.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension));
+    // Workbooks may have any name, and any file first.
+    let has = |part: &str| {
+        const ENDS: usize = 1 << 18;
+        let ends = [&bytes[..bytes.len().min(ENDS)], &bytes[bytes.len().saturating_sub(ENDS)..]];
+        ends.iter().any(|end| end.windows(part.len()).any(|window| window == part.as_bytes()))
+    };
     match () {
-        () if name.starts_with("xl/") || is_named("xlsx") || is_named("xlsm") => {
+        () if name.starts_with("xl/") || is_named("xlsx") || is_named("xlsm") || has("xl/workbook.") => {
             Content::new("an Excel workbook (.xlsx)", EXPORT)
         }
-        () if is_named("ods") => Content::new("a spreadsheet (.ods)", EXPORT),
-        () if name.starts_with("word/") || is_named("docx") || is_named("odt") => {
+        () if is_named("ods") || has("opendocument.spreadsheet") => Content::new("a spreadsheet (.ods)", EXPORT),
+        () if name.starts_with("word/")
+            || has("word/document.xml")
+            || has("opendocument.text")
+            || is_named("docx")
+            || is_named("odt") =>
+        {
             Content::new("a text document", "Save its table as CSV")
         }
         () if name.ends_with(".npy") => {
             Content::new("NumPy arrays (.npz)", "Save the angles and values as columns of a CSV file")
         }
+        () if name.is_empty() => Content::new("a damaged zip archive", super::AGAIN),
         () => Content::new(format!("a zip archive with {name}"), UNPACK),
     }
 }

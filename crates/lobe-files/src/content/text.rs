@@ -29,17 +29,16 @@ fn utf16(bytes: &[u8], unit: impl Fn([u8; 2]) -> u16) -> String {
 }
 
 pub(super) fn content(bytes: &[u8]) -> Option<Content> {
+    // A header of lines, and mostly binary data after it.
+    if bytes.starts_with(b"#?") {
+        return radiance(&String::from_utf8_lossy(&bytes[..bytes.len().min(HEAD)]));
+    }
     let text = of(bytes)?;
     let text = text.trim_start();
     if text.is_empty() {
         return Some(Content::new("a file of nothing but white space", super::AGAIN));
     }
-    pointer(text)
-        .or_else(|| radiance(text))
-        .or_else(|| markup(text))
-        .or_else(|| json(text))
-        .or_else(|| mesh(text))
-        .or_else(|| other(text))
+    pointer(text).or_else(|| markup(text)).or_else(|| json(text)).or_else(|| mesh(text)).or_else(|| other(text))
 }
 
 /// Placeholders in a repository or a download for a file that is elsewhere.
