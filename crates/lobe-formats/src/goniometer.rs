@@ -31,6 +31,7 @@ mod samples;
 mod sheet;
 mod source;
 mod start;
+mod stated;
 mod table;
 mod trouble;
 mod unit;

@@ -6,7 +6,7 @@ use std::borrow::Cow;
 /// The same text in UTF-8 without a byte-order mark and with a line feed at the end of each line; other content is
 /// unchanged.
 ///
-/// UTF-16 is recognised by its mark, or by every other byte being 0 at the start. Carriage returns become line feeds
+/// UTF-16 is recognised by its mark, or by most characters at the start being ASCII in two bytes. Carriage returns become line feeds
 /// if there are no line feeds.
 pub fn text(bytes: &[u8]) -> Cow<'_, [u8]> {
     if let Some(order) = utf_16(bytes) {
@@ -43,8 +43,10 @@ fn utf_16(bytes: &[u8]) -> Option<Order> {
     }
     let sample = &bytes[..bytes.len().min(SAMPLE) & !1];
     let is = |zero: usize| {
-        let letter = |byte: u8| (b' '..=b'~').contains(&byte) || byte.is_ascii_whitespace();
-        sample.len() >= 16 && sample.chunks_exact(2).all(|pair| pair[zero] == 0 && letter(pair[1 - zero]))
+        let is_ascii = |byte: u8| (b' '..=b'~').contains(&byte) || byte.is_ascii_whitespace();
+        let ascii = sample.chunks_exact(2).filter(|pair| pair[zero] == 0 && is_ascii(pair[1 - zero])).count();
+        // Up to a quarter may be accented or Greek letters, and signs such as that of degrees.
+        sample.len() >= 16 && 8 * ascii >= 3 * sample.len() && sample.chunks_exact(2).all(|pair| pair != [0, 0])
     };
     match () {
         () if is(1) => Some(Order::Little),
@@ -65,7 +67,7 @@ mod tests {
 
     #[test]
     fn texts_of_all_encodings_are_the_same() {
-        let wanted = "theta_i,theta_o,phi_o,f and a comment\n1,2 \u{b0}\n";
+        let wanted = "θ_i [°],theta_o,phi_o,f and a comment\n1,2 \u{b0}\n";
         let of = |units: Vec<[u8; 2]>| units.concat();
         let little = of(wanted.encode_utf16().map(u16::to_le_bytes).collect());
         let big = of(wanted.encode_utf16().map(u16::to_be_bytes).collect());

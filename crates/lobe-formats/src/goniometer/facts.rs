@@ -57,9 +57,20 @@ impl Facts {
         let is_kind =
             ["scatter", "scattertype", "scatter type", "scatter_type", "type", "measurement type", "data type", "mode"];
         if is_kind.contains(&words.0.as_str()) {
-            self.holds = words.1.trim().parse().ok().or(self.holds);
+            self.holds = holds(&words.1).or(self.holds);
         }
         self.source.push((shown(name), shown(&value)));
+    }
+}
+
+/// What a line such as `Mode: transmittance (BTDF)` says, in lower case.
+fn holds(value: &str) -> Option<Holds> {
+    let has = |parts: &[&str]| parts.iter().any(|part| value.contains(part));
+    match (has(&["refl", "brdf"]), has(&["transm", "btdf"])) {
+        (true, true) => Some(Holds::Both),
+        (true, false) => Some(Holds::Reflection),
+        (false, true) => Some(Holds::Transmission),
+        (false, false) => value.trim().parse().ok(),
     }
 }
 

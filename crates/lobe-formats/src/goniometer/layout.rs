@@ -9,6 +9,7 @@ use super::directions::{has_twice, settle, wide};
 use super::facts::Facts;
 use super::meaning::Meaning;
 use super::source::{SPECULAR, SPHERICAL, Source};
+use super::stated::{Remedy, other_values, unit_of_angle};
 use super::trouble::Trouble;
 use crate::angle::{Angle, Unit};
 use crate::columns::channels;
@@ -93,6 +94,13 @@ impl Layout {
                 _ => None,
             });
             if let Some((column, unit)) = columns.next() {
+                if unit.is_none()
+                    && options.unit.is_none()
+                    && let Some(stated) = names.get(column).and_then(|name| unit_of_angle(name))
+                {
+                    let found = format!("{angle} in {stated}, in column {}", shown(&names[column]));
+                    return Err(Trouble::new(found, "degrees, radians or mrad"));
+                }
                 angles[axis] = Source::Column(column, unit);
                 if columns.next().is_some() {
                     return Err(Trouble::new(format!("a second column of {angle}"), "each angle once"));
@@ -167,6 +175,7 @@ impl Layout {
         options: &ReadOptions,
     ) -> Result<(), Trouble> {
         let is_word = |column: usize| is_text.get(column).copied().unwrap_or(false);
+        let is_said = options.values.is_some() || options.scale.is_some();
         let mut columns = Vec::new();
         for (column, meaning) in meanings.iter().enumerate() {
             if matches!(meaning, Meaning::Values { .. } | Meaning::Number(..)) && !is_word(column) {
@@ -180,7 +189,6 @@ impl Layout {
                 columns.map(|(column, _)| column).collect::<Vec<usize>>()
             };
             let (unknown, signals) = (of(|m| *m == Meaning::Unknown), of(|m| *m == Meaning::Signal));
-            let is_said = options.values.is_some() || options.scale.is_some();
             columns = match (unknown.len(), signals.len()) {
                 (1, 0) => unknown,
                 (0, 1) | (1, 1) if is_said => signals,
@@ -195,6 +203,17 @@ impl Layout {
                 }
                 _ => return Err(Trouble::new(format!("channels {}", list_of(names, &unknown)), CHANNELS)),
             };
+        }
+        for name in columns.iter().filter_map(|column| names.get(*column)) {
+            let Some(stated) = other_values(name) else { continue };
+            let is_said = match stated.remedy {
+                Remedy::Scale => options.scale.is_some(),
+                Remedy::Either => is_said,
+                Remedy::None => false,
+            };
+            if !is_said {
+                return Err(Trouble::new(format!("{} in column {}", stated.found, shown(name)), stated.expected));
+            }
         }
         let mut channel_names = Vec::new();
         let mut quantities = Vec::new();

@@ -17,7 +17,7 @@ pub(crate) fn meaning(name: &str) -> Meaning {
             let is = |list: &[&str]| name.words.iter().any(|word| list.contains(&word.as_str()));
             match () {
                 () if is(OF_NO_VALUE) => Meaning::NoValue,
-                () if is(SIGNALS) || is_signal_unit(&name.unit) => Meaning::Signal,
+                () if is(SIGNALS) || name.text == "i/f" || is_signal_unit(&name.unit) => Meaning::Signal,
                 () => Meaning::Unknown,
             }
         },
@@ -25,7 +25,7 @@ pub(crate) fn meaning(name: &str) -> Meaning {
 }
 
 impl Name {
-    fn new(text: &str) -> Self {
+    pub(super) fn new(text: &str) -> Self {
         let text = text.trim().trim_matches('"');
         let mut spelled = String::new();
         let mut before = ' ';

@@ -1,6 +1,8 @@
 //! Names of values and of wavelengths.
 
+use super::angles::{Side, side};
 use super::meaning::{Meaning, Name};
+use super::words::POLARS;
 use crate::reading::Quantity;
 
 /// Names of quantities that are measured on the way to `f`.
@@ -24,9 +26,19 @@ pub(super) const SIGNALS: &[&str] = &[
     "reflexionsgrad",
     "leuchtdichte",
     "intensität",
-    "signal",
     "spannung",
     "strom",
+    // Reflectance factors and other quantities of remote sensing that are not pi f.
+    "hdrf",
+    "hcrf",
+    "bcrf",
+    "ccrf",
+    "radf",
+    "bhr",
+    "dhr",
+    "dn",
+    "albedo",
+    "tis",
 ];
 
 /// Units that values of `f` cannot have.
@@ -66,15 +78,19 @@ impl Name {
                 "btdf" | "ft" => {
                     (is_named, is_transmission, quantity) = (true, true, quantity.or(Some(Quantity::F)));
                 }
-                "ccbrdf" | "ccbtdf" | "ccbsdf" | "brdfcos" | "fcos" | "arb" => {
+                "ccbrdf" | "ccbtdf" | "ccbsdf" | "brdfcos" | "btdfcos" | "bsdfcos" | "fcos" | "arb" | "ars" | "dsf" => {
                     (is_named, quantity) = (true, Some(Quantity::FCos));
-                    is_transmission |= word == "ccbtdf";
+                    is_transmission |= ["ccbtdf", "btdfcos"].contains(&word.as_str());
                 }
                 // `ccBRDF` is two words.
                 "cc" => quantity = Some(Quantity::FCos),
-                "cos" | "cosine" if is_named => quantity = Some(Quantity::FCos),
+                "cos" | "cosine" | "costheta" | "costhetao" | "costhetas" | "costhetar" if is_named => {
+                    quantity = Some(Quantity::FCos);
+                }
+                // The angle of the cosine.
+                word if quantity == Some(Quantity::FCos) && is_polar_angle(word) => {}
                 "corrected" if quantity == Some(Quantity::FCos) => {}
-                "brf" | "leuchtdichtefaktor" | "leuchtdichtekoeffizient" => {
+                "brf" | "reff" | "leuchtdichtefaktor" | "leuchtdichtekoeffizient" => {
                     (is_named, quantity) = (true, Some(Quantity::LuminanceFactor));
                 }
                 "value" | "values" | "channel" | "mean" | "avg" | "average" => is_named = true,
@@ -99,6 +115,12 @@ impl Name {
         let unit = unit.to_string();
         is_values.then_some(Meaning::Values { channel, quantity, unit, is_transmission })
     }
+}
+
+/// `true` for words of the viewer's polar angle after a cosine: `theta`, `thetas`, and the letter after `theta`.
+fn is_polar_angle(word: &str) -> bool {
+    let is_viewer = matches!(side(word.strip_prefix("theta").unwrap_or(word)), Some(Side::Viewer | Side::Either));
+    POLARS.contains(&word) || (is_viewer && !COLOURS.iter().any(|names| names.contains(&word)))
 }
 
 pub(super) const COLOURS: [&[&str]; 6] =

@@ -1,7 +1,8 @@
 //! Finds the beginning of a table: the line of names, and the first row.
 
 use super::chosen::of_name;
-use super::facts::fixed;
+use super::directions::has_directions;
+use super::facts::{Facts, fixed};
 use super::meaning::Meaning;
 use super::sheet::{Cell, Dialect, Line, names};
 use super::trouble::Trouble;
@@ -41,6 +42,16 @@ pub(super) fn start(lines: &[Line<'_>], dialect: Dialect, options: &ReadOptions)
             }
         }
     }
+    // Names of angles without rows of numbers.
+    let named = head.windows(2).find(|pair| names_directions(dialect, &pair[0]));
+    if let Some([_, row]) = named
+        && options.columns.is_empty()
+        && let Some((at, cell)) =
+            dialect.cells(row.text).iter().enumerate().find(|(_, cell)| dialect.cell(cell) == Cell::Text)
+    {
+        let found = format!("{} in column {}", shown(cell), at + 1);
+        return Err((row.number, Trouble::new(found, "rows of numbers below the names")));
+    }
     // No names of angles: the first row of numbers, and the line above it if it has as many cells.
     let first = head.iter().position(|line| is_row(dialect, line)).ok_or_else(|| {
         (1, Trouble::new("no rows of numbers in the first lines", "a line of names with rows of numbers below it"))
@@ -58,6 +69,20 @@ pub(super) fn start(lines: &[Line<'_>], dialect: Dialect, options: &ReadOptions)
     }
     let (names_line, names) = above.unwrap_or_default();
     Ok(Start { names, names_line, first, width })
+}
+
+/// `true` if a line names the directions of light and viewer.
+fn names_directions(dialect: Dialect, line: &Line<'_>) -> bool {
+    let cells = dialect.cells_to_the_last(line.comment().unwrap_or(line.text));
+    cells.len() > 2 && has_directions(cells.iter().map(|name| of_name(name)).collect(), &Facts::default())
+}
+
+/// `true` if one of the first lines names directions, whatever separates the names.
+pub(super) fn has_names(lines: &[Line<'_>]) -> bool {
+    const FEW: usize = 50;
+    let delimiters = [Some('\t'), Some(';'), Some('|'), Some(','), None];
+    let mut dialects = delimiters.map(|delimiter| Dialect { delimiter, has_decimal_comma: false }).into_iter();
+    dialects.any(|dialect| lines.iter().take(FEW).any(|line| names_directions(dialect, line)))
 }
 
 /// The table that starts with the first of these lines, if its names include angles and rows follow.

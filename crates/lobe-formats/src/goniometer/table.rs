@@ -9,7 +9,8 @@ use super::facts::Facts;
 use super::layout::Layout;
 use super::rows::{Raw, describe};
 use super::sheet::{Cell, Dialect, Line, lines};
-use super::start::{HEAD, start};
+use super::start::{HEAD, has_names, start};
+use super::stated::is_unit_of_angle;
 use super::trouble::Trouble;
 use crate::angle::Unit;
 use crate::reading::ReadOptions;
@@ -30,9 +31,12 @@ pub(super) fn is_named_table(text: &str) -> bool {
     meanings(&start.names, start.width, &options).is_ok_and(|meanings| has_directions(meanings, &facts))
 }
 
-/// `true` if the text has rows of numbers, or some below the name of an angle.
+/// `true` if the text has rows of numbers, or some below the name of an angle, or a line of names of both directions.
 pub(super) fn has_rows(text: &str) -> bool {
     let lines: Vec<Line<'_>> = lines(text).take(HEAD).collect();
+    if has_names(&lines) {
+        return true;
+    }
     let Some(dialect) = Dialect::of(&lines, None) else { return false };
     let is_row = |line: &Line<'_>, width: usize| {
         let cells = dialect.cells_to_the_last(line.text);
@@ -122,7 +126,7 @@ fn hint(error: FormatError, options: &ReadOptions) -> FormatError {
 fn add_units(names: &mut [String], dialect: Dialect, line: &Line<'_>) -> bool {
     let cells = dialect.cells_to_the_last(line.comment().unwrap_or(line.text));
     let units: Vec<&str> = cells.iter().map(|cell| cell.trim_matches(['[', ']', '(', ')'])).collect();
-    let is_unit = |cell: &&str| cell.parse::<Unit>().is_ok();
+    let is_unit = |cell: &&str| cell.parse::<Unit>().is_ok() || is_unit_of_angle(cell);
     if units.len() > names.len() || !units.iter().any(is_unit) {
         return false;
     }

@@ -77,6 +77,9 @@ fn commas_of_thousands_are_not_decimals() {
         let found = eval(document.only().expect("data"), direction(30.0, 0.0), direction(20.0, 90.0));
         assert!((found[0] - 1.234).abs() < 1e-5, "{values:?}: {found:?}");
     }
+    // Points between thousands, and a comma before decimals.
+    refused("theta_i;theta_o;phi_o;R;G;B\n10;0;0;1.250,0;1.300,5;1.400,0\n", &[], "1.250,0", "rows of numbers");
+    refused("theta_i;theta_o;phi_o;f\nten;none;zero;x\n", &[], "no rows of numbers", "a line of names");
 }
 
 #[test]
@@ -276,6 +279,12 @@ fn degrees_and_radians() {
     is_the_measurement(&read(row_of_units.as_bytes(), &[]), 3, "units in a row");
     refused("theta_i,theta_o,f\n0.5,0.5,1\n0.5,1,2\n0.5,1.5,3\n", &[], "degrees or radians", "--unit rad");
     refused(&table("theta_i_deg,theta_o_deg,phi_o_deg,R,G,B", ","), &[("unit", "rad")], "says deg", "rad");
+    // Units that are not read are not taken for degrees.
+    for unit in ["gon", "arcmin", "mm", "turns"] {
+        let named = format!("theta_i [{unit}],theta_o [{unit}],R,G,B");
+        refused(&in_plane(&named), &[], unit, "degrees");
+        refused(&in_plane(&format!("theta_i,theta_o,R,G,B\n{unit},{unit},,,")), &[], unit, "degrees");
+    }
 }
 
 #[test]

@@ -75,6 +75,54 @@ fn quantities_of_values() {
     refused(&in_plane("theta_i,theta_o,R,G,B"), &[("scale", "tis")], "", "total integrated scatter");
 }
 
+/// Names that say that the numbers are not `f` in 1/sr are not ignored.
+#[test]
+fn names_that_state_another_scale_are_refused() {
+    let named = |name: &str| {
+        let row = |i: f64, o: f64, [a, ..]: [f64; 3]| format!("{i},{o},{a}");
+        format!("theta_i,theta_o,{name}\n{}", rows(row))
+    };
+    for (name, expected) in [
+        ("log BRDF", "itself"),
+        ("log10(BRDF)", "itself"),
+        ("BRDF_dB", "itself"),
+        ("BRDF [dB]", "itself"),
+        ("BRDF [10^-3 1/sr]", "scale"),
+        ("BRDF [10⁻³ sr⁻¹]", "scale"),
+        ("BRDF [1e-3/sr]", "scale"),
+        ("BRDF (x1000)", "scale"),
+        ("BRDF [1/msr]", "scale"),
+        ("L [W m-2 sr-1]", "scale"),
+        ("normalised BRDF", "values"),
+        ("BRDF_norm", "values"),
+        ("BRDF [a.u.]", "values"),
+        ("relative BRDF", "values"),
+        ("pi*BRDF", "luminance-factor"),
+        ("πf", "luminance-factor"),
+        ("HDRF", "luminance-factor"),
+        ("I/F", "luminance-factor"),
+        ("BRDF cos(theta_i)", "values"),
+        ("BRDF*cosθi", "values"),
+    ] {
+        refused(&named(name), &[], "", expected);
+    }
+    let scaled = |name: &str, words: &[(&str, &str)]| {
+        let row = |i: f64, o: f64, [a, ..]: [f64; 3]| format!("{i},{o},{}", 1000.0 * a);
+        is_the_measurement(&read(format!("theta_i,theta_o,{name}\n{}", rows(row)).as_bytes(), words), 1, name);
+    };
+    scaled("BRDF [10^-3 1/sr]", &[("scale", "0.001")]);
+    scaled("normalised BRDF", &[("scale", "0.001")]);
+    refused(&named("BRDF [10^-3 1/sr]"), &[("values", "f")], "10-3", "scale");
+    for name in ["BRDF [sr^-1]", "BRDF [sr⁻¹]", "f (1/sr)", "BRDF (550)"] {
+        is_the_measurement(&read(named(name).as_bytes(), &[]), 1, name);
+    }
+    let cosine = |name: &str| {
+        let row = |i: f64, o: f64, [a, ..]: [f64; 3]| format!("{i},{o},{}", a * o.to_radians().cos());
+        is_the_measurement(&read(format!("theta_i,theta_o,{name}\n{}", rows(row)).as_bytes(), &[]), 1, name);
+    };
+    ["BRDF*cos(theta_o)", "BRDF·cosθ", "BRDF cosθ_o", "f costhetas", "ARS [1/sr]", "DSF"].into_iter().for_each(cosine);
+}
+
 #[test]
 fn transmission() {
     let through = format!("theta_i,theta_o,BTDF\n{}", rows(|i, o, [a, ..]| format!("{i},{o},{a}")));
@@ -85,6 +133,10 @@ fn transmission() {
         rows(|i, o, [a, ..]| format!("{i},{},{a}", (180.0 - f64::abs(o)).copysign(o)))
     );
     refused(&beyond, &[], "theta_o", "--holds transmission");
+    for kind in ["Mode: Transmittance", "# Scatter type: BTDF", "Measurement type, transmitted light"] {
+        let document = read(format!("{kind}\n{}", through.replace("BTDF", "f")).as_bytes(), &[]);
+        assert_eq!(document.only().expect("data").representation().scatter(), Scatter::Transmission, "{kind}");
+    }
     let wi = direction(30.0, 0.0);
     let [x, y, z] = direction(30.0, 180.0);
     let down = read(beyond.as_bytes(), &[("holds", "transmission")]);
