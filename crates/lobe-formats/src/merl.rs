@@ -77,7 +77,7 @@ pub(crate) fn damaged(bytes: &[u8], name: &Path) -> Option<Content> {
     let is_likely = |bins: &[usize; 3]| bins.iter().all(|bins| *bins <= MOST) && (is_named || DATABASE.contains(bins));
     if let Some((bins, size)) = header(bytes).filter(|(bins, _)| bins.iter().all(|bins| *bins <= MOST)) {
         let values = (size - HEADER) / size_of::<f64>();
-        if len == HEADER + values * size_of::<f32>() {
+        if len == HEADER + values * size_of::<f32>() && are_single(&bytes[HEADER..]) {
             let what = format!("a MERL file with values of 32 bits ({found} bytes instead of {})", grouped(size));
             let advice =
                 "The database has values of 64 bits, and the scale of others is not known: write the values as f64";
@@ -99,6 +99,17 @@ pub(crate) fn damaged(bytes: &[u8], name: &Path) -> Option<Content> {
     let advice =
         "Reverse the bytes of its 32-bit header and of its 64-bit values; files of the database are little-endian";
     Some(Content { what, advice: advice.into() })
+}
+
+/// `true` if these are values of 32 bits, and not the first half of a file of 64-bit values: as 32-bit values, these have
+/// arbitrary magnitudes every other time, or zeros if they are round numbers.
+fn are_single(values: &[u8]) -> bool {
+    const SAMPLE: usize = 1 << 16;
+    let (words, _) = values[..values.len().min(SAMPLE)].as_chunks();
+    let words: Vec<f32> = words.iter().map(|word| f32::from_le_bytes(*word)).collect();
+    let is_likely = |value: &&f32| **value == 0.0 || (1e-9..1e9).contains(&value.abs());
+    let likely = words.iter().filter(is_likely).count();
+    20 * likely >= 19 * words.len() && words.iter().step_by(2).any(|value| *value != 0.0)
 }
 
 /// A number with commas between thousands.

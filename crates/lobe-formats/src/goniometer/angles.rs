@@ -96,6 +96,7 @@ fn parted(word: &str) -> Option<(&str, Kind)> {
         ("theta", Kind::Polar),
         ("phi", Kind::Azimuth),
         ("azimuth", Kind::Azimuth),
+        ("azimut", Kind::Azimuth),
         ("zenith", Kind::Polar),
         ("th", Kind::Polar),
     ] {

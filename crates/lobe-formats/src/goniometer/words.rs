@@ -2,9 +2,10 @@
 
 use crate::angle::Angle;
 
-pub(super) const POLARS: &[&str] = &["theta", "th", "polar", "zenith", "zen"];
+pub(super) const POLARS: &[&str] = &["theta", "th", "polar", "polarwinkel", "zenith", "zen", "zenit", "zenitwinkel"];
 
-pub(super) const AZIMUTHS: &[&str] = &["phi", "azimuth", "azimuthal", "azimut", "azi", "az"];
+pub(super) const AZIMUTHS: &[&str] =
+    &["phi", "azimuth", "azimuthal", "azimut", "azimutwinkel", "azimuthwinkel", "azi", "az"];
 
 /// The direction of the light.
 pub(super) const INCOMING: &[&str] = &[
@@ -91,7 +92,8 @@ pub(super) const OUTGOING: &[&str] = &[
     "betrachtungs",
 ];
 
-pub(super) const RELATIVE: &[&str] = &["relative", "rel", "delta", "diff", "difference", "relativer"];
+pub(super) const RELATIVE: &[&str] =
+    &["relative", "rel", "delta", "diff", "difference", "differenz", "relativ", "relativer"];
 
 /// Words without a meaning.
 pub(super) const FILLERS: &[&str] = &["of", "the", "to", "der", "des", "from", "at"];
@@ -103,6 +105,10 @@ pub(super) const WHOLE: &[(&str, Angle)] = &[
     ("aoi", Angle::ThetaI),
     ("incidence", Angle::ThetaI),
     ("incoming", Angle::ThetaI),
+    ("einfall", Angle::ThetaI),
+    ("ausfall", Angle::ThetaO),
+    ("streuung", Angle::ThetaO),
+    ("beobachtung", Angle::ThetaO),
     ("sza", Angle::ThetaI),
     ("saa", Angle::PhiI),
     ("vza", Angle::ThetaO),

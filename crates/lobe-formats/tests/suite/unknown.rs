@@ -77,8 +77,7 @@ fn merl_files_that_are_damaged_are_recognised() {
     refused(&[90, 0, 0, 0, 90], "a.binary", "a MERL file cut short (5 of 34,992,012 bytes)", "again");
     let small = tiny_merl();
     assert!(from_bytes(&small, Path::new("small.binary")).is_ok());
-    // A file with the size for values of 32 bits is described as having those.
-    for end in (13..small.len()).filter(|end| *end != 84) {
+    for end in 13..small.len() {
         refused(&small[..end], "small.binary", "cut short", "again");
     }
     let (header, values) = small.split_at(12);
@@ -88,6 +87,13 @@ fn merl_files_that_are_damaged_are_recognised() {
     refused(&swapped, "any", "a MERL file in big-endian order", "little-endian");
     let halves = [header, &vec![0x3d; values.len() / 2]].concat();
     refused(&halves, "any", "values of 32 bits (84 bytes instead of 156)", "f64");
+    // Half of the values of a whole file are as many bytes as all of them in 32 bits.
+    for value in [0.01_f64, 300.0] {
+        let dims = [90_i32, 90, 180].map(i32::to_le_bytes).concat();
+        let values = (0..90 * 90 * 90 * 3).map(|at| value * f64::from(1 + at % 7)).flat_map(f64::to_le_bytes);
+        let half: Vec<u8> = dims.into_iter().chain(values).collect();
+        refused(&half, "any", "cut short (17,496,012 of 34,992,012 bytes)", "again");
+    }
 }
 
 #[test]

@@ -151,6 +151,9 @@ fn names_of_angles_and_values() {
         "zenith_in,zenith_out,azimuth_out",
         "theta_i,theta,phi",
         "th_i,th_o,az_o",
+        "Einfallswinkel (°),Beobachtungswinkel (°),Azimutdifferenz (°)",
+        "Einfall,Streuung,Azimut",
+        "Einfallswinkel,Ausfallswinkel,relativer Azimutwinkel",
     ] {
         let text = table(&format!("{head},450nm,550nm,650nm"), ",");
         is_the_measurement(&read(text.as_bytes(), &[]), 3, head);
