@@ -98,8 +98,8 @@ impl Layout {
                     && options.unit.is_none()
                     && let Some(stated) = names.get(column).and_then(|name| unit_of_angle(name))
                 {
-                    let found = format!("{angle} in {stated}, in column {}", shown(&names[column]));
-                    return Err(Trouble::new(found, "degrees, radians or mrad"));
+                    let found = format!("{angle} as {stated}, in column {}", shown(&names[column]));
+                    return Err(Trouble::new(found, "degrees, radians or mrad from the normal"));
                 }
                 angles[axis] = Source::Column(column, unit);
                 if columns.next().is_some() {

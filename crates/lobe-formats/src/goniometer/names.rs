@@ -12,6 +12,10 @@ pub(crate) fn meaning(name: &str) -> Meaning {
     if let Some((_, meaning)) = WHOLE.iter().find(|(word, _)| *word == name.compact) {
         return Meaning::Angle(*meaning, name.angle_unit);
     }
+    // Colours for people, in spaces that are not linear.
+    if ["l*", "a*", "b*", "c*", "h*", "u*", "v*"].contains(&name.text.as_str()) {
+        return Meaning::Signal;
+    }
     name.angle().or_else(|| name.wavelength()).or_else(|| name.number()).or_else(|| name.values()).unwrap_or_else(
         || {
             let is = |list: &[&str]| name.words.iter().any(|word| list.contains(&word.as_str()));

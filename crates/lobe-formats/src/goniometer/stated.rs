@@ -93,6 +93,9 @@ const RELATIVE: &[&str] = &[
 
 const LOGARITHMS: &[&str] = &["log", "log10", "logarithm", "lg", "ln", "db", "decibel", "loge"];
 
+/// Words in brackets after an angle that is not from the normal.
+const OTHER_ORIGINS: &[&str] = &["specular", "mirror", "glanz", "spiegel", "surface", "horizon", "grazing", "relative"];
+
 const FACTOR: &str = "f in 1/sr, or the factor that converts to it: scale";
 const QUANTITY: &str = "f in 1/sr, or their quantity: values = f, luminance-factor or f-cos, and scale";
 
@@ -112,10 +115,11 @@ pub(super) enum Remedy {
     None,
 }
 
-/// A unit of an angle that is not read.
+/// A unit or an origin of an angle that is not read.
 pub(super) fn unit_of_angle(name: &str) -> Option<String> {
     let Name { unit, angle_unit, .. } = Name::new(name);
-    (angle_unit.is_none() && OTHER_ANGLES.contains(&unit.as_str())).then_some(unit)
+    let is_other = OTHER_ANGLES.contains(&unit.as_str()) || OTHER_ORIGINS.iter().any(|word| unit.contains(word));
+    (angle_unit.is_none() && is_other).then_some(unit)
 }
 
 /// `true` for the name of such a unit, without brackets.

@@ -101,6 +101,7 @@ fn names_that_state_another_scale_are_refused() {
         ("πf", "luminance-factor"),
         ("HDRF", "luminance-factor"),
         ("I/F", "luminance-factor"),
+        ("b*", "luminance-factor"),
         ("BRDF cos(theta_i)", "values"),
         ("BRDF*cosθi", "values"),
     ] {
