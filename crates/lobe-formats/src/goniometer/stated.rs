@@ -122,15 +122,23 @@ pub(super) fn unit_of_angle(name: &str) -> Option<String> {
     (angle_unit.is_none() && is_other).then_some(unit)
 }
 
-/// `true` for the name of such a unit, without brackets.
-pub(super) fn is_unit_of_angle(word: &str) -> bool {
-    OTHER_ANGLES[..OTHER_ANGLES.len() - 1].contains(&word.to_lowercase().as_str())
+/// `true` for a unit without brackets, in a line of units.
+pub(super) fn is_unit(word: &str) -> bool {
+    let unit = plain(&word.to_lowercase());
+    let is_angle = OTHER_ANGLES.contains(&unit.as_str()) && unit != "m";
+    let is_per = unit.len() <= 16 && unit.contains("sr") && unit.contains(['/', '-', '⁻']);
+    is_angle || is_per || PER_STERADIAN.contains(&unit.as_str())
+}
+
+/// A unit without blanks, brackets and carets.
+fn plain(unit: &str) -> String {
+    unit.chars().filter(|c| !" ^{}()[]$\\".contains(*c)).collect()
 }
 
 /// What a name states of values, if they are not numbers of `f` in 1/sr, `f cos` or luminance factors as they are.
 pub(super) fn other_values(name: &str) -> Option<Stated> {
     let name = Name::new(name);
-    let unit: String = name.unit.chars().filter(|c| !" ^{}()[]$\\".contains(*c)).collect();
+    let unit = plain(&name.unit);
     let is =
         |list: &[&str]| list.contains(&unit.as_str()) || name.words.iter().any(|word| list.contains(&word.as_str()));
     let stated = |found: String, expected, remedy| Some(Stated { found, expected, remedy });

@@ -10,7 +10,7 @@ use super::layout::Layout;
 use super::rows::{Raw, describe};
 use super::sheet::{Cell, Dialect, Line, lines};
 use super::start::{HEAD, has_names, start};
-use super::stated::is_unit_of_angle;
+use super::stated;
 use super::trouble::Trouble;
 use crate::angle::Unit;
 use crate::reading::ReadOptions;
@@ -126,7 +126,7 @@ fn hint(error: FormatError, options: &ReadOptions) -> FormatError {
 fn add_units(names: &mut [String], dialect: Dialect, line: &Line<'_>) -> bool {
     let cells = dialect.cells_to_the_last(line.comment().unwrap_or(line.text));
     let units: Vec<&str> = cells.iter().map(|cell| cell.trim_matches(['[', ']', '(', ')'])).collect();
-    let is_unit = |cell: &&str| cell.parse::<Unit>().is_ok() || is_unit_of_angle(cell);
+    let is_unit = |cell: &&str| cell.parse::<Unit>().is_ok() || stated::is_unit(cell);
     if units.len() > names.len() || !units.iter().any(is_unit) {
         return false;
     }
