@@ -74,7 +74,11 @@ pub(super) fn start(lines: &[Line<'_>], dialect: Dialect, options: &ReadOptions)
 /// `true` if a line names the directions of light and viewer.
 fn names_directions(dialect: Dialect, line: &Line<'_>) -> bool {
     let cells = dialect.cells_to_the_last(line.comment().unwrap_or(line.text));
-    cells.len() > 2 && has_directions(cells.iter().map(|name| of_name(name)).collect(), &Facts::default())
+    let meanings: Vec<Meaning> = cells.iter().map(|name| of_name(name)).collect();
+    // Prose names directions as well.
+    let unknown = meanings.iter().filter(|meaning| **meaning == Meaning::Unknown).count();
+    let is_named = 4 * unknown <= meanings.len() || (dialect.delimiter.is_some() && 2 * unknown <= meanings.len());
+    meanings.len() > 2 && is_named && has_directions(meanings, &Facts::default())
 }
 
 /// `true` if one of the first lines names directions, whatever separates the names.
