@@ -69,8 +69,10 @@ impl Name {
             angle_unit = words.last().and_then(|word| word.parse().ok());
             if angle_unit.is_some()
                 && let Some(unit) = words.pop()
+                && let Some(at) = spelled.rfind(&unit)
             {
-                spelled.truncate(spelled.trim_end().len() - unit.len());
+                // Signs and letters of several bytes may follow.
+                spelled.truncate(at);
                 spelled.truncate(spelled.trim_end_matches(is_apart).len());
             }
         }

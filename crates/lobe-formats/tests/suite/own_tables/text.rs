@@ -282,6 +282,13 @@ fn degrees_and_radians() {
     is_the_measurement(&read(row_of_units.as_bytes(), &[]), 3, "units in a row");
     refused("theta_i,theta_o,f\n0.5,0.5,1\n0.5,1,2\n0.5,1.5,3\n", &[], "degrees or radians", "--unit rad");
     refused(&table("theta_i_deg,theta_o_deg,phi_o_deg,R,G,B", ","), &[("unit", "rad")], "says deg", "rad");
+    // Whatever follows the unit.
+    for end in ["°", "°…", "°\u{fffd}", "²", "\u{fffd}", "\u{fffd}\u{fffd}", "…", "°°"] {
+        let text = in_plane(&format!("theta_i deg{end},theta_o_deg {end},R,G,B"));
+        let _ = from_bytes(text.as_bytes(), path());
+        let text = in_plane(&format!("theta_i,theta_o,phi_o rad·{end},R {end},G deg{end}"));
+        let _ = from_bytes(text.as_bytes(), path());
+    }
     refused(&in_plane("AOI,scatter angle (from specular),R,G,B"), &[], "specular", "from the normal");
     // Units that are not read are not taken for degrees.
     for unit in ["gon", "arcmin", "mm", "turns"] {
