@@ -39,6 +39,11 @@ impl<'a> Source<'a> {
         &self.subject.document
     }
 
+    /// `true` if the file has Mueller matrices.
+    pub fn is_polarised(&self) -> bool {
+        self.document().parts.iter().any(|part| part.data.representation().is_polarised())
+    }
+
     /// The name of the file.
     pub fn name(&self) -> Cow<'_, str> {
         self.file.file_name().unwrap_or_default().to_string_lossy()

@@ -10,11 +10,11 @@ use lobe_formats::{Document, Format, Part, convert};
 use lobe_ops::remeasure::{MaterialSurface, Sides};
 use lobe_table::window::klems::AngleBasis;
 use lobe_table::window::{self, Band, Block, Blocks, Component};
+use lobe_table::{mueller, polarised};
 use serde::Serialize;
 
 use crate::certificate::{Certificate, Source};
 use crate::failure::Failure;
-use crate::matrices;
 use crate::measure::{self, Job, Resampled, is_of_sheets};
 use crate::message::{self, say};
 use crate::output::{Output, side};
@@ -37,6 +37,7 @@ Examples:
   lobe convert paint.ddr lens.bsdf --to lighttools            for LightTools
   lobe convert paint.bsdf paint.npz                           for numpy.load
   lobe convert gold.mueller gold.csv --to mueller-csv         Mueller matrices as a table
+  lobe convert paint.ddr green.pbsdf --channel G              for programs that trace polarised light
   lobe convert film.ssdd film.bsdf --to zemax --channel G --scatter transmission
 
 Grids of half and difference angles (MERL) are interpolated between the centres of their bins."
@@ -130,12 +131,11 @@ fn written(document: Document, args: &Args) -> Result<Answer, Failure> {
             return Ok(answer(None, written.note, error));
         }
     }
-    if matrices::converted(&document, target, &args.output)?.is_some() {
-        if args.error.is_some() {
-            let expected = "no such option: matrices are not compared with their source";
-            return Err(Failure::Usage(format!("{}: found --error; expected {expected}", out.display())));
-        }
-        return Ok(answer(Some("Mueller matrices".into()), None, None));
+    let is_polarised = document.parts.iter().any(|part| part.data.representation().is_polarised());
+    let keeps_matrices = is_polarised && matches!(target.writer.resampled_as, Ok(mueller::KIND | polarised::KIND));
+    if keeps_matrices && channel.is_some() {
+        let expected = "no such option: matrices are converted with all of their wavelengths";
+        return Err(Failure::Usage(format!("{}: found --channel; expected {expected}", out.display())));
     }
     if let Some(Data::Mirror(_)) = document.only() {
         let message = format!("{format}: found mirror reflectances; expected values for pairs of directions");
@@ -152,7 +152,7 @@ fn written(document: Document, args: &Args) -> Result<Answer, Failure> {
         Sides::One(scatter) => Some(scatter),
         Sides::Both => None,
     };
-    if let Some(loss) = loss(&document, scatter) {
+    if let Some(loss) = loss(&document, scatter).filter(|_| !keeps_matrices) {
         say(format_args!("{}: {loss}", args.file.display()));
     }
     let source = Source::new(&args.file, &document, target, channel);

@@ -1,9 +1,8 @@
-//! Mueller matrices: generated for rough surfaces, and resampled from one grid to another.
+//! Mueller matrices, generated for rough surfaces.
 
 use lobe::Data;
 use lobe_formats::{Document, Format};
 use lobe_model::{Ggx, RoughMirrors};
-use lobe_ops::matrices::{to_half_difference, to_specular};
 use lobe_spectrum::{Glass, Metal};
 
 use crate::failure::Failure;
@@ -12,41 +11,6 @@ use crate::message::say;
 use crate::output::{Output, Purpose};
 use crate::progress::Progress;
 use crate::target::Target;
-
-/// Numbers of `phi_d`, `theta_d` and `theta_h` when matrices are resampled on half and difference angles.
-const STEPS: [u16; 3] = [36, 45, 45];
-
-/// Matrices resampled on the grid of the other matrix format; `None` if that was not requested.
-pub fn converted(document: &Document, target: Target, output: &Output) -> Result<Option<()>, Failure> {
-    let out = output.out.as_path();
-    let failed = |error: &dyn std::fmt::Display| Failure::File(format!("{}: {error}", out.display()));
-    let (matrices, nodes): (Data, String) = match (document.only(), target.format) {
-        (Some(Data::Mueller(data)), Format::Polarised | Format::MuellerCsv) => {
-            output.refuse_others(&[Purpose::Knots])?;
-            let knots = output.knots(true);
-            let counts = knots.each_ref().map(Vec::len);
-            fits(out, &counts, 16 * data.knots()[3].len())?;
-            let [sigma, psi, theta, phi] = counts;
-            let nodes = format!("{sigma} sigma x {psi} psi x {theta} theta x {phi} phi");
-            (to_specular(data, knots).map_err(|error| failed(&error))?.into(), nodes)
-        }
-        (Some(Data::Polarised(data)), Format::Pbsdf) => {
-            output.refuse_others(&[])?;
-            if data.knots()[1].len() > 1 {
-                let expected = "an isotropic one for grids of half and difference angles";
-                return Err(Failure::Usage(format!(
-                    "{}: found an anisotropic material; expected {expected}",
-                    out.display()
-                )));
-            }
-            let nodes = format!("{} x {} x {} half and difference angles", STEPS[0] + 1, STEPS[1] + 1, STEPS[2] + 1);
-            (to_half_difference(data, STEPS).map_err(|error| failed(&error))?.into(), nodes)
-        }
-        _ => return Ok(None),
-    };
-    write(matrices, target, output, &format!("resampled: {nodes}"))?;
-    Ok(Some(()))
-}
 
 fn write(matrices: Data, target: Target, output: &Output, how: &str) -> Result<(), Failure> {
     (target.writer.write)(&Document::new(matrices), &output.out)?;

@@ -10,10 +10,10 @@ use lobe_model::goniometer::half_diff as bins;
 use lobe_model::goniometer::rgl::Resolution;
 use lobe_model::goniometer::tensor_tree::Refinement;
 use lobe_model::{Surface, is_isotropic};
-use lobe_ops::remeasure::{Mapped, Nodes, Sides, refine, remeasure};
+use lobe_ops::remeasure::{Mapped, Nodes, RemeasureError, Sides, refine, remeasure, resampled_matrices};
 use lobe_table::window::klems;
 use lobe_table::window::tensor_tree::Rank;
-use lobe_table::{Kind, half_diff, rgl, spherical};
+use lobe_table::{Kind, half_diff, mueller, polarised, rgl, spherical, utia};
 
 use crate::certificate::{Certificate, Source};
 use crate::failure::Failure;
@@ -65,7 +65,12 @@ pub fn write(job: &Job<'_>) -> Result<Resampled, Failure> {
     fits(out, &nodes.counts(), channels)?;
     // If a format has both sides, everything is measured.
     let measured = if let Nodes::Klems(_) | Nodes::Tree(_) = nodes { sides } else { Sides::One(scatter) };
-    let at_nodes = |nodes: &Nodes| {
+    let at_nodes = |nodes: &Nodes| -> Result<Document, RemeasureError> {
+        if let Some(source) = source
+            && let Some(document) = resampled_matrices(source.document(), nodes)?
+        {
+            return Ok(document);
+        }
         let progress = Progress::new(nodes.steps(measured), counted);
         let document = remeasure(surface, is_from_file, measured, nodes, || progress.step());
         document.map(|document| Document { source: facts(source, nodes, out), kept: kept(source), ..document })
@@ -107,6 +112,9 @@ pub fn write(job: &Job<'_>) -> Result<Resampled, Failure> {
     say(format_args!("{}: {format}, resampled: {kind} {side}, {words}", out.display()));
     if let Some(note) = &map.note {
         say(format_args!("  {note}"));
+    }
+    if let Some(convention) = convention(&nodes, source) {
+        say(format_args!("  {convention}"));
     }
     let aspects: Vec<Aspect> = match &nodes {
         Nodes::Klems(_) | Nodes::Tree(_) => {
@@ -162,12 +170,19 @@ fn nodes(target: Target, output: &Output, isotropic: bool) -> Result<(Nodes, &'s
         rgl::KIND => &[Purpose::Images, Purpose::Azimuths],
         klems::KIND if is_tree => &[Purpose::Patches, Purpose::Leaves],
         klems::KIND => &[Purpose::Patches],
-        half_diff::KIND | UNIFORM_HALF => &[],
+        half_diff::KIND | UNIFORM_HALF | mueller::KIND | utia::KIND => &[],
         _ => &[Purpose::Knots],
     })?;
     Ok(match kind {
-        half_diff::KIND | UNIFORM_HALF if !isotropic => return refuse("an anisotropic material", "an isotropic one"),
+        half_diff::KIND | UNIFORM_HALF | mueller::KIND if !isotropic => {
+            return refuse("an anisotropic material", "an isotropic one");
+        }
         half_diff::KIND => (Nodes::HalfDiff(bins::MERL), "bins"),
+        mueller::KIND | UNIFORM_HALF | utia::KIND => match Nodes::of(kind, isotropic) {
+            Some(nodes) => (nodes, "directions of the light"),
+            None => return refuse("an anisotropic material", "an isotropic one"),
+        },
+        polarised::KIND => (Nodes::Polarised(output.knots(isotropic)), "directions of the light"),
         rgl::KIND => (Nodes::Rgl(output.rgl(isotropic)), "directions of the light"),
         klems::KIND => match output.window() {
             Nodes::Tree(Refinement { rank: Rank::Three, .. }) if !isotropic => {
@@ -183,10 +198,6 @@ fn nodes(target: Target, output: &Output, isotropic: bool) -> Result<(Nodes, &'s
             let knots = output.spherical(isotropic);
             (Nodes::Spherical { knots, is_half: false }, "directions of the light")
         }
-        UNIFORM_HALF => match Nodes::of(UNIFORM_HALF, isotropic) {
-            Some(nodes) => (nodes, "directions of the light"),
-            None => return refuse("an anisotropic material", "an isotropic one"),
-        },
         _ => (Nodes::Specular(output.knots(isotropic)), "directions of the light"),
     })
 }
@@ -208,15 +219,30 @@ fn kept(source: Option<&Source<'_>>) -> Vec<(&'static str, String)> {
     source.map_or_else(Vec::new, |source| source.document().kept.clone())
 }
 
+/// What the format leaves open, and how it is written.
+fn convention(nodes: &Nodes, source: Option<&Source<'_>>) -> Option<&'static str> {
+    match nodes {
+        Nodes::Utia => Some("the format states no unit; these values are in 1/sr"),
+        nodes if nodes.are_of_matrices() => {
+            let is_polarised = source.is_some_and(|source| source.is_polarised());
+            let unknown = "the polarisation is not known: the matrices are those of an ideal depolariser";
+            (!is_polarised).then_some(unknown)
+        }
+        _ => None,
+    }
+}
+
 /// How to make a large error smaller.
 fn advice(nodes: &Nodes) -> &'static str {
     match nodes {
         Nodes::Rgl(_) => "for a smaller error: more --zeniths, --azimuths or --texels",
         Nodes::Klems(_) => "these are means over patches, which are smallest with --basis full; trees divide further",
         Nodes::Tree(_) => "for a smaller error: a larger --depth, and a smaller --leaf-error",
-        Nodes::HalfDiff(_) => "the grid of this format cannot be refined; --to rgl and specular tables can",
-        Nodes::Spherical { is_half: true, .. } => "for a smaller error: convert with --error",
-        Nodes::Specular(_) | Nodes::Spherical { .. } => {
+        Nodes::HalfDiff(_) | Nodes::Utia => {
+            "the grid of this format cannot be refined; --to rgl and specular tables can"
+        }
+        Nodes::Spherical { is_half: true, .. } | Nodes::Mueller(_) => "for a smaller error: convert with --error",
+        Nodes::Specular(_) | Nodes::Polarised(_) | Nodes::Spherical { .. } => {
             "for a smaller error: denser --sigma, --psi, --theta or --phi, or --to rgl, whose nodes follow the peak"
         }
     }
@@ -256,7 +282,12 @@ fn file(out: &Path, error: &dyn std::fmt::Display) -> Failure {
 /// Nodes in words.
 fn described(nodes: &Nodes) -> String {
     match nodes {
-        Nodes::Specular(knots) => {
+        Nodes::Utia => "the grid of the UTIA database, up to 75 degrees".into(),
+        Nodes::Mueller(knots) => {
+            let [turns, differences, halves] = knots.each_ref().map(Vec::len);
+            format!("{turns} phi_d x {differences} theta_d x {halves} theta_h")
+        }
+        Nodes::Specular(knots) | Nodes::Polarised(knots) => {
             let [sigma, psi, theta, phi] = knots.each_ref().map(Vec::len);
             format!("{sigma} sigma x {psi} psi x {theta} theta x {phi} phi")
         }

@@ -32,7 +32,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         holds: |document| matches!(document.only(), Some(Data::Polarised(_))),
         holds_sheets: false,
         scatter: reflection,
-        resampled_as: Err("Mueller matrices in specular coordinates"),
+        resampled_as: Ok(polarised::KIND),
         write: |document, path| match document.only() {
             Some(Data::Polarised(data)) => commented("#", document, path, |path| write(data, path)),
             _ => Err(unfit(document, path, "Mueller matrices in specular coordinates")),

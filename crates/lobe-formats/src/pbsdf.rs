@@ -30,7 +30,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         holds: |document| matches!(document.only(), Some(Data::Mueller(_))),
         holds_sheets: false,
         scatter: reflection,
-        resampled_as: Err("Mueller matrices"),
+        resampled_as: Ok(mueller::KIND),
         write: |document, path| match document.only() {
             Some(Data::Mueller(data)) => write(data, path),
             _ => Err(unfit(document, path, "Mueller matrices")),

@@ -29,7 +29,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
         holds: |document| matches!(document.only(), Some(Data::Utia(_))),
         holds_sheets: false,
         scatter: reflection,
-        resampled_as: Err("the grid of the UTIA database"),
+        resampled_as: Ok(utia::KIND),
         write: |document, path| match document.only() {
             Some(Data::Utia(data)) => write(data, path),
             _ => Err(unfit(document, path, "the grid of the UTIA database")),

@@ -4,9 +4,11 @@
 
 pub mod half_diff;
 pub mod klems;
+pub mod mueller;
 pub mod rgl;
 pub mod spherical;
 pub mod tensor_tree;
+pub mod utia;
 
 use std::f64::consts::TAU;
 

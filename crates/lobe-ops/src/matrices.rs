@@ -1,12 +1,15 @@
 //! Resampling of Mueller matrices from one grid to another.
 
-use std::f64::consts::{FRAC_PI_2, PI};
-
+use lobe_model::goniometer::lift;
+use lobe_model::goniometer::mueller::directions;
 use lobe_table::specular::coords::angles_to_directions;
-use lobe_table::{Edges, GridError, Invalid, mueller, polarised};
+use lobe_table::{Channels, Edges, GridError, Invalid, mueller, polarised, specular};
+
+/// The elements of a matrix.
+const ELEMENTS: usize = 16;
 
 /// Resamples matrices over half and difference angles at knots of sigma, psi, theta and phi, in radians. Unmeasured
-/// ones, and those below the surface, are 0.
+/// ones are 0. Directions near the horizon and below it are lifted, see [`lift`].
 ///
 /// # Errors
 /// If the knots do not form a grid.
@@ -18,6 +21,7 @@ pub fn to_specular(data: &mueller::Data, knots: [Vec<f64>; 4]) -> Result<polaris
             for theta in &knots[2] {
                 for phi in &knots[3] {
                     let (wi, wo) = angles_to_directions([*sigma, *psi, *theta, *phi], |sigma| sigma);
+                    let (wi, wo) = (lift(wi), lift(wo));
                     for nm in &wavelengths {
                         let matrix = data.in_plane(wi, wo, *nm).unwrap_or_default();
                         values.extend(matrix.as_flattened().iter().map(|element| *element as f32));
@@ -29,59 +33,55 @@ pub fn to_specular(data: &mueller::Data, knots: [Vec<f64>; 4]) -> Result<polaris
     polarised::Data::new(knots, wavelengths, values)
 }
 
-/// Resamples isotropic matrices in specular coordinates on a grid of half and difference angles with equal steps: phi_d
-/// over a full turn, theta_d and theta_h over a quarter turn. Pairs below the surface are marked as not measured.
+/// Resamples isotropic matrices in specular coordinates at knots of `phi_d`, `theta_d` and `theta_h`, in radians.
+/// Directions near the horizon and below it are lifted, see [`lift`].
 ///
 /// # Errors
-/// If there are no steps.
-pub fn to_half_difference(data: &polarised::Data, steps: [u16; 3]) -> Result<mueller::Data, Invalid> {
-    let even = |steps: u16, low: f64, high: f64| -> Vec<f32> {
-        (0..=steps).map(|k| (low + (high - low) * f64::from(k) / f64::from(steps.max(1))) as f32).collect()
-    };
-    let wavelengths: Vec<f32> = data.wavelengths().iter().map(|nm| *nm as f32).collect();
-    let knots = [even(steps[0], -PI, PI), even(steps[1], 0.0, FRAC_PI_2), even(steps[2], 0.0, FRAC_PI_2), wavelengths];
+/// If the knots do not form a grid.
+pub fn to_half_difference(data: &polarised::Data, knots: &[Vec<f64>; 3]) -> Result<mueller::Data, Invalid> {
+    let narrow = |knots: &[f64]| knots.iter().map(|knot| *knot as f32).collect::<Vec<f32>>();
+    let [turns, differences, halves] = knots;
     let mut values = Vec::new();
-    for phi_d in &knots[0] {
-        for theta_d in &knots[1] {
-            for theta_h in &knots[2] {
-                let (wi, wo) = directions([*phi_d, *theta_d, *theta_h].map(f64::from));
-                for nm in &knots[3] {
-                    match data.in_plane(&Edges::default(), wi, wo, f64::from(*nm)) {
+    for phi_d in turns {
+        for theta_d in differences {
+            for theta_h in halves {
+                let (wi, wo) = directions([*phi_d, *theta_d, *theta_h]);
+                let (wi, wo) = (lift(wi), lift(wo));
+                for nm in data.wavelengths() {
+                    match data.in_plane(&Edges::default(), wi, wo, *nm) {
                         Some(matrix) => values.extend(matrix.as_flattened().iter().map(|element| *element as f32)),
-                        None => values.extend([f32::NAN; 16]),
+                        None => values.extend([f32::NAN; ELEMENTS]),
                     }
                 }
             }
         }
     }
-    mueller::Data::new(knots, values)
+    mueller::Data::new([narrow(turns), narrow(differences), narrow(halves), narrow(data.wavelengths())], values)
 }
 
-/// The directions to the light and to the viewer of half and difference angles, with the half vector at azimuth 0.
-fn directions([phi_d, theta_d, theta_h]: [f64; 3]) -> ([f64; 3], [f64; 3]) {
-    let ((sin, cos), (sin_d, cos_d)) = (theta_h.sin_cos(), theta_d.sin_cos());
-    let (sin_p, cos_p) = phi_d.sin_cos();
-    let place = |x: f64, y: f64| [cos * x + sin * cos_d, y, cos * cos_d - sin * x];
-    (place(sin_d * cos_p, sin_d * sin_p), place(-sin_d * cos_p, -sin_d * sin_p))
+/// Matrices of an ideal depolariser, whose only element other than 0 is the first, with the values of a table of
+/// wavelengths.
+///
+/// # Errors
+/// If the channels are not wavelengths.
+pub fn depolarising(table: &specular::Data) -> Result<polarised::Data, GridError> {
+    let Channels::Spectral(wavelengths) = table.channels() else {
+        let found = table.channels().names().join(" ");
+        return Err(GridError::Channels(format!("found {found}; expected wavelengths")));
+    };
+    let mut values = Vec::with_capacity(table.values().len() * ELEMENTS);
+    for f in table.values() {
+        values.push(*f);
+        values.extend([0.0; ELEMENTS - 1]);
+    }
+    polarised::Data::new(table.knots().clone(), wavelengths.clone(), values)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use std::f64::consts::{FRAC_PI_2, PI};
 
-    #[test]
-    fn angles_survive_a_round_trip() {
-        for at in [[0.4, 0.3, 0.5], [-2.0, 0.7, 0.2], [1.2, 0.1, 0.9]] {
-            let (wi, wo) = directions(at);
-            let turned = |w: [f64; 3]| (w[0] * w[0] + w[1] * w[1] + w[2] * w[2] - 1.0).abs() < 1e-12;
-            assert!(turned(wi) && turned(wo));
-            let [_, theta_d, theta_h] = mueller::coordinates(wi, wo);
-            assert!((theta_d - at[1]).abs() < 1e-9 && (theta_h - at[2]).abs() < 1e-9);
-            let found = mueller::coordinates(wi, wo)[0];
-            let apart = (found - at[0]).rem_euclid(2.0 * PI);
-            assert!(apart.min(2.0 * PI - apart) < 1e-9, "{found}, not {}", at[0]);
-        }
-    }
+    use super::*;
 
     #[test]
     fn matrices_survive_both_ways() {
@@ -101,7 +101,9 @@ mod tests {
         let even = |n: usize, most: f64| (0..n).map(|k| most * k as f64 / (n - 1) as f64).collect::<Vec<f64>>();
         let specular =
             to_specular(&data, [even(17, 1.5), vec![0.0], even(40, PI), even(25, 2.0 * PI)]).expect("a grid");
-        let back = to_half_difference(&specular, [24, 18, 18]).expect("a grid");
+        let turns = (0..=24).map(|k| PI * (f64::from(k) / 12.0 - 1.0)).collect();
+        let halves = [turns, even(19, FRAC_PI_2), even(19, FRAC_PI_2)];
+        let back = to_half_difference(&specular, &halves).expect("a grid");
         let (wi, wo) = ([0.48, 0.36, 0.8], [-0.36, 0.1, 0.92763]);
         let length = wo.iter().map(|x: &f64| x * x).sum::<f64>().sqrt();
         let wo = wo.map(|x| x / length);
@@ -109,5 +111,20 @@ mod tests {
         for (a, b) in first.as_flattened().iter().zip(second.as_flattened()) {
             assert!((a - b).abs() < 5e-3, "{first:?} {second:?}");
         }
+    }
+
+    #[test]
+    fn a_depolariser_has_the_values_and_nothing_else() {
+        let even = |n: usize, most: f64| (0..n).map(|k| most * k as f64 / (n - 1) as f64).collect::<Vec<f64>>();
+        let knots = [even(3, 1.2), vec![0.0], even(4, PI), even(5, 2.0 * PI)];
+        let values: Vec<f32> = (0..3 * 4 * 5 * 2).map(|index| 0.1 + index as f32).collect();
+        let channels = Channels::Spectral(vec![450.0, 650.0]);
+        let scatter = lobe_table::Scatter::Reflection;
+        let table = specular::Data::new(scatter, knots, channels, values.clone()).expect("a table");
+        let matrices = depolarising(&table).expect("matrices");
+        assert!(matrices.values().iter().step_by(ELEMENTS).eq(&values));
+        assert_eq!(matrices.values().iter().filter(|element| **element != 0.0).count(), values.len());
+        let grey = specular::Data::new(scatter, table.knots().clone(), Channels::Rgb, vec![0.5; 3 * 4 * 5 * 3]);
+        assert!(depolarising(&grey.expect("a table")).is_err());
     }
 }

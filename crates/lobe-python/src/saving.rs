@@ -7,8 +7,7 @@ use lobe::{Aspect, Lookup, Material, Options, Scatter};
 use lobe_files::check_output;
 use lobe_formats::{ChannelMap, ConvertError, Document, Format, convert, sidecar};
 use lobe_ops::Subject;
-use lobe_ops::remeasure::{Mapped, MaterialSurface, Nodes, Sides, remeasure};
-use lobe_table::half_diff;
+use lobe_ops::remeasure::{Mapped, MaterialSurface, Nodes, RemeasureError, Sides, remeasure, resampled_matrices};
 use lobe_table::window::klems;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -122,14 +121,18 @@ fn written(subject: &Subject, format: Format, path: &Path, wanted: &Wanted<'_>, 
     let surface = MaterialSurface { material, scatter };
     let surface = Mapped { surface: &surface, map: &map };
     let is_isotropic = lobe_model::is_isotropic(&surface);
-    if kind_of_nodes == half_diff::KIND && !is_isotropic {
-        return refuse("an anisotropic material", "an isotropic one");
-    }
+    // All kinds of nodes suit isotropic materials.
     let Some(nodes) = Nodes::of(kind_of_nodes, is_isotropic) else {
-        return refuse(kind.name(), "another representation");
+        return refuse("an anisotropic material", "an isotropic one");
     };
-    let document = remeasure(&surface, true, sides, &nodes, || watch.check());
-    let document = document.map_err(|error| Failure::Value(format!("{}: {error}", path.display())))?;
+    let invalid = |error: RemeasureError| Failure::Value(format!("{}: {error}", path.display()));
+    if subject.material.is_polarised() && nodes.are_of_matrices() && wanted.channel.is_some() {
+        return refuse("channel=", "matrices of all wavelengths");
+    }
+    let document = match resampled_matrices(&subject.document, &nodes).map_err(invalid)? {
+        Some(document) => document,
+        None => remeasure(&surface, true, sides, &nodes, || watch.check()).map_err(invalid)?,
+    };
     let source = subject.document.source.clone();
     Ok((writer.write)(&Document { source, ..document }, path)?)
 }

@@ -213,12 +213,14 @@ fn what_a_conversion_states_is_what_compare_finds() {
         ("f.mbsdf", &[], true),
         ("g.binary", &["--to", "merl"], false),
         ("h.brdf", &["--channel", "G"], true),
+        ("i.bin", &[], false),
+        ("j.pbsdf", &["--channel", "G"], false),
     ] {
         let output = folder.lobe(&[&["convert", source, out, "--json"], options].concat());
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(output.status.success(), "{out}: {said}");
         let stated: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
-        let channel = if out == "h.brdf" { &["--channel", "G"][..] } else { &[] };
+        let channel = if options.contains(&"--channel") { options } else { &[] };
         let found = folder.printed(&[&["compare", "--json", source, out, "--pixels", "8"], channel].concat());
         let found: serde_json::Value = serde_json::from_str(&found).expect("JSON");
         for name in ["max", "rms", "relative_rms", "pairs"] {

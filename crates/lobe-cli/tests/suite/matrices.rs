@@ -46,3 +46,66 @@ fn matrices_are_drawn_and_other_materials_have_none() {
     let (code, _, error) = run(&["plot", text(&plain), "-o", text(&out), "--kind", "mueller"]);
     assert!(code == 2 && error.contains("expected Mueller matrices for the figure mueller"), "{error}");
 }
+
+#[test]
+fn materials_without_matrices_become_depolarisers() {
+    let folder = Files::new();
+    let paint = folder.write("paint.ddr", &crate::common::diffuse([0.3, 0.4, 0.5]));
+    let (tensor, back) = (folder.path("a.pbsdf"), folder.path("b.csv"));
+    let (code, _, said) = run(&["convert", text(&paint), text(&tensor)]);
+    assert_eq!(code, 0, "{said}");
+    assert!(said.contains("37 phi_d x 46 theta_d x 46 theta_h"), "{said}");
+    assert!(said.contains("the polarisation is not known: the matrices are those of an ideal depolariser"), "{said}");
+    let info = json(&["info", text(&tensor)]);
+    assert_eq!(info["format"], "KAIST pBSDF");
+    // Matrices stay matrices.
+    let (code, _, said) = run(&[
+        "convert",
+        text(&tensor),
+        text(&back),
+        "--to",
+        "mueller-csv",
+        "--theta",
+        "0,60,180",
+        "--phi",
+        "0,180,360",
+    ]);
+    assert!(code == 0 && !said.contains("depolariser"), "{said}");
+    let table = std::fs::read_to_string(&back).expect("a table");
+    let row = table.lines().find(|line| line.starts_with("40,0,0,0,")).expect("a row");
+    let elements: Vec<f64> = row.split(',').skip(5).map(|cell| cell.parse().expect("a number")).collect();
+    assert!((elements[0] - 0.4 / std::f64::consts::PI).abs() < 1e-3, "{row}");
+    assert!(elements.len() == 16 && elements[1..].iter().all(|element| *element == 0.0), "{row}");
+}
+
+#[test]
+fn matrices_are_resampled_with_a_stated_error() {
+    let folder = Files::new();
+    let (gold, tensor) = (folder.path("gold.mueller"), folder.path("gold.pbsdf"));
+    printed(&["generate", "mueller", text(&gold), "--metal", "gold", "--alpha", "0.4", "--wavelengths", "450,650"]);
+    let stated = json(&["convert", text(&gold), text(&tensor)]);
+    let found = json(&["compare", text(&gold), text(&tensor), "--pixels", "8"]);
+    let error = |answer: &serde_json::Value| answer[0]["difference"]["relative_rms"].as_f64().expect("a number");
+    let before = error(&stated["error"]);
+    assert_eq!(before, error(&found));
+    assert!(before > 0.0 && before < 0.1, "{stated}");
+    // All elements are resampled, not only those of unpolarised light.
+    let matrix = |file| {
+        let table = folder.path("matrix.csv");
+        printed(&["convert", text(file), text(&table), "--to", "mueller-csv"]);
+        let table = std::fs::read_to_string(&table).expect("a table");
+        let row = table.lines().find(|line| line.starts_with("60,0,10,90,650,")).expect("a row");
+        row.split(',').skip(5).map(|cell| cell.parse().expect("a number")).collect::<Vec<f64>>()
+    };
+    let (exact, resampled) = (matrix(&gold), matrix(&tensor));
+    assert!(exact[1].abs() > 0.02 * exact[0] && exact[11].abs() > 0.1 * exact[0], "{exact:?}");
+    for (exact_element, element) in exact.iter().zip(&resampled) {
+        assert!((element - exact_element).abs() < 0.05 * exact[0], "{resampled:?}, not {exact:?}");
+    }
+    let (code, _, said) = run(&["convert", text(&gold), text(&tensor), "--channel", "650nm"]);
+    assert!(code == 2 && said.contains("found --channel; expected no such option"), "{said}");
+    // A bound that the default nodes do not meet.
+    let bound = format!("{:.5}", 0.8 * before);
+    let finer = json(&["convert", text(&gold), text(&tensor), "--error", &bound]);
+    assert!(error(&finer["error"]) <= 0.8 * before, "{finer}");
+}

@@ -41,7 +41,7 @@ pub fn measure(
 }
 
 /// The values for all viewers of one light, `[theta_o][phi_o][channel]`.
-fn viewers(
+pub(super) fn viewers(
     surface: &dyn Surface,
     scatter: Scatter,
     [theta, phi]: [f64; 2],

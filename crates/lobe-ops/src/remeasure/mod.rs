@@ -8,12 +8,14 @@ mod surface;
 
 use lobe_formats::Document;
 use lobe_model::Surface;
-use lobe_model::goniometer::{half_diff, klems, measure_surface, rgl, spherical, tensor_tree};
+use lobe_model::goniometer::{half_diff, klems, measure_surface, mueller, rgl, spherical, tensor_tree, utia};
 use lobe_table::window::Component;
 use lobe_table::window::klems::KlemsError;
 use lobe_table::window::tensor_tree::TreeError;
-use lobe_table::{GridError, Invalid, Scatter};
+use lobe_table::{Data, GridError, Invalid, Scatter};
 use thiserror::Error;
+
+use crate::matrices::{depolarising, to_half_difference, to_specular};
 
 pub use nodes::{Nodes, Sides, knots, spherical_knots};
 pub use refine::{Refined, refine};
@@ -40,6 +42,9 @@ pub enum RemeasureError {
 /// Measures a surface at nodes, and returns a document that a format with such nodes can hold. `progress` is called
 /// [`Nodes::steps`] times.
 ///
+/// At nodes for Mueller matrices, surfaces are ideal depolarisers, as their polarisation is not known;
+/// [`resampled_matrices`] keeps it.
+///
 /// Within a degree of the horizon, a material from a file (`is_from_file`) may have any value, because many formats
 /// store values that have to be divided by the cosine; so it is never evaluated there. Models are exact.
 ///
@@ -61,6 +66,11 @@ pub fn remeasure(
     };
     Ok(match nodes {
         Nodes::Specular(knots) => Document::new(measure_surface(near, scatter, knots.clone(), progress)?),
+        Nodes::Polarised(knots) => {
+            Document::new(depolarising(&measure_surface(near, scatter, knots.clone(), progress)?)?)
+        }
+        Nodes::Mueller(knots) => Document::new(mueller::measure(near, knots, progress)?),
+        Nodes::Utia => Document::new(utia::measure(near, progress)?),
         Nodes::HalfDiff(bins) => Document::new(half_diff::measure(near, *bins, progress)?),
         Nodes::Rgl(resolution) => Document::new(rgl::measure(surface, *resolution, progress)?),
         Nodes::Klems(basis) => {
@@ -83,6 +93,18 @@ pub fn remeasure(
     })
 }
 
+/// The matrices of a document at other nodes for matrices; `None` if it has none, or the nodes are for values.
+///
+/// # Errors
+/// [`RemeasureError`] if the knots do not form a grid.
+pub fn resampled_matrices(document: &Document, nodes: &Nodes) -> Result<Option<Document>, RemeasureError> {
+    Ok(match (document.only(), nodes) {
+        (Some(Data::Mueller(data)), Nodes::Polarised(knots)) => Some(Document::new(to_specular(data, knots.clone())?)),
+        (Some(Data::Polarised(data)), Nodes::Mueller(knots)) => Some(Document::new(to_half_difference(data, knots)?)),
+        _ => None,
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use std::sync::atomic::{AtomicUsize, Ordering};
@@ -93,7 +115,7 @@ mod tests {
     use lobe_model::{Lambert, Rgb};
     use lobe_table::window::klems::{self, AngleBasis};
     use lobe_table::window::tensor_tree::{self, Rank};
-    use lobe_table::{half_diff, rgl, specular, spherical};
+    use lobe_table::{half_diff, rgl, specular, spherical, utia};
 
     use super::*;
 
@@ -101,7 +123,8 @@ mod tests {
     fn a_lambertian_surface_is_one_at_all_nodes() {
         let surface = Rgb(Lambert { albedo: [0.2, 0.4, 0.6] });
         let tree = Nodes::Tree(Refinement { rank: Rank::Three, depth: 4, error: 0.05 });
-        let kinds = [specular::KIND, half_diff::KIND, rgl::KIND, klems::KIND, spherical::KIND, UNIFORM_HALF];
+        let kinds =
+            [specular::KIND, half_diff::KIND, rgl::KIND, klems::KIND, spherical::KIND, UNIFORM_HALF, utia::KIND];
         let nodes = kinds.map(|kind| (kind, Nodes::of(kind, true).expect("a kind with nodes")));
         for (kind, nodes) in nodes.into_iter().chain([(tensor_tree::KIND, tree)]) {
             let nodes = match nodes {

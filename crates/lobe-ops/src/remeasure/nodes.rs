@@ -2,13 +2,16 @@
 
 use lobe_formats::mbsdf::UNIFORM_HALF;
 use lobe_model::goniometer::half_diff as bins;
+use lobe_model::goniometer::mueller::knots as half_and_difference;
 use lobe_model::goniometer::rgl::Resolution;
 use lobe_model::goniometer::spherical::uniform_half;
 use lobe_model::goniometer::tensor_tree::{self, Refinement};
+use lobe_model::goniometer::utia::LIGHTS;
+use lobe_table::utia::{PHIS, THETAS};
 use lobe_table::window::Block;
 use lobe_table::window::klems::{self, AngleBasis};
 use lobe_table::window::tensor_tree::Rank;
-use lobe_table::{Kind, Scatter, half_diff, rgl, specular, spherical};
+use lobe_table::{Kind, Scatter, half_diff, mueller, polarised, rgl, specular, spherical, utia};
 
 /// The sides on which a surface has values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,6 +38,12 @@ impl Sides {
 pub enum Nodes {
     /// Knots of sigma, psi, theta and phi, in radians.
     Specular([Vec<f64>; 4]),
+    /// The same, for Mueller matrices.
+    Polarised([Vec<f64>; 4]),
+    /// Knots of `phi_d`, `theta_d` and `theta_h`, in radians, for Mueller matrices.
+    Mueller([Vec<f64>; 3]),
+    /// The grid of the UTIA database.
+    Utia,
     /// Bins of theta_h, theta_d and phi_d.
     HalfDiff([usize; 3]),
     /// Directions of the light and texels.
@@ -58,7 +67,10 @@ impl Nodes {
     pub fn of(kind: Kind, is_isotropic: bool) -> Option<Self> {
         match kind {
             specular::KIND => Some(Nodes::Specular(knots(is_isotropic))),
-            half_diff::KIND => Some(Nodes::HalfDiff(bins::MERL)),
+            polarised::KIND => Some(Nodes::Polarised(knots(is_isotropic))),
+            mueller::KIND if is_isotropic => Some(Nodes::Mueller(half_and_difference())),
+            utia::KIND => Some(Nodes::Utia),
+            half_diff::KIND if is_isotropic => Some(Nodes::HalfDiff(bins::MERL)),
             rgl::KIND if is_isotropic => Some(Nodes::Rgl(Resolution::ISOTROPIC)),
             rgl::KIND => Some(Nodes::Rgl(Resolution::ANISOTROPIC)),
             klems::KIND => Some(Nodes::Klems(AngleBasis::full())),
@@ -73,7 +85,9 @@ impl Nodes {
     /// The number of progress reports.
     pub fn steps(&self, sides: Sides) -> usize {
         match self {
-            Nodes::Specular([sigma, psi, ..]) => sigma.len() * psi.len(),
+            Nodes::Specular([sigma, psi, ..]) | Nodes::Polarised([sigma, psi, ..]) => sigma.len() * psi.len(),
+            Nodes::Mueller([turns, ..]) => turns.len(),
+            Nodes::Utia => LIGHTS,
             Nodes::HalfDiff([halves, ..]) => *halves,
             Nodes::Rgl(resolution) => resolution.steps(),
             Nodes::Klems(basis) => sides.blocks().len() * basis.patches(),
@@ -82,10 +96,18 @@ impl Nodes {
         }
     }
 
+    /// `true` if the values at the nodes are Mueller matrices.
+    pub fn are_of_matrices(&self) -> bool {
+        matches!(self, Nodes::Polarised(_) | Nodes::Mueller(_))
+    }
+
     /// The number of values per channel, as factors.
     pub fn counts(&self) -> Vec<usize> {
         match self {
             Nodes::Specular(knots) => knots.iter().map(Vec::len).collect(),
+            Nodes::Polarised(knots) => knots.iter().map(Vec::len).chain([ELEMENTS]).collect(),
+            Nodes::Mueller(knots) => knots.iter().map(Vec::len).chain([ELEMENTS]).collect(),
+            Nodes::Utia => vec![THETAS, PHIS, THETAS, PHIS],
             Nodes::HalfDiff(bins) => bins.to_vec(),
             Nodes::Rgl(Resolution { theta_i, phi_i, spectra, .. }) => vec![*theta_i, *phi_i, *spectra, *spectra],
             Nodes::Klems(basis) => vec![Block::ALL.len(), basis.patches(), basis.patches()],
@@ -96,6 +118,9 @@ impl Nodes {
         }
     }
 }
+
+/// The elements of a Mueller matrix.
+const ELEMENTS: usize = 16;
 
 const SIGMA: &[f64] =
     &[0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 55.0, 60.0, 65.0, 70.0, 75.0, 80.0, 84.0, 88.0];

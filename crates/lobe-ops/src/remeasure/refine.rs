@@ -13,6 +13,8 @@ impl Nodes {
     pub fn refined(&self) -> Vec<Nodes> {
         match self {
             Nodes::Specular(knots) => denser(knots).into_iter().map(Nodes::Specular).collect(),
+            Nodes::Polarised(knots) => denser(knots).into_iter().map(Nodes::Polarised).collect(),
+            Nodes::Mueller(knots) => denser(knots).into_iter().map(Nodes::Mueller).collect(),
             Nodes::Spherical { knots, is_half: false } => {
                 denser(knots).into_iter().map(|knots| Nodes::Spherical { knots, is_half: false }).collect()
             }
@@ -23,7 +25,7 @@ impl Nodes {
                 let half = |[zeniths, azimuths]: [usize; 2]| uniform_half(zeniths, azimuths);
                 finer.map(half).into_iter().map(|knots| Nodes::Spherical { knots, is_half: true }).collect()
             }
-            Nodes::HalfDiff(_) => Vec::new(),
+            Nodes::HalfDiff(_) | Nodes::Utia => Vec::new(),
             Nodes::Rgl(resolution) => {
                 let mut finer = vec![
                     Resolution { spectra: half_more(resolution.spectra), ..*resolution },
@@ -62,7 +64,7 @@ fn half_more(count: usize) -> usize {
 }
 
 /// The knots with additional ones between them, along one axis at a time.
-fn denser(knots: &[Vec<f64>; 4]) -> Vec<[Vec<f64>; 4]> {
+fn denser<const AXES: usize>(knots: &[Vec<f64>; AXES]) -> Vec<[Vec<f64>; AXES]> {
     let is_axis = |axis: &usize| knots[*axis].len() > 1;
     let along = |axis: usize| {
         let mut finer = knots.clone();
@@ -70,7 +72,7 @@ fn denser(knots: &[Vec<f64>; 4]) -> Vec<[Vec<f64>; 4]> {
         finer[axis].extend(knots[axis].last());
         finer
     };
-    (0..4).filter(is_axis).map(along).collect()
+    (0..AXES).filter(is_axis).map(along).collect()
 }
 
 /// The result of the search for nodes.
@@ -145,7 +147,10 @@ mod tests {
         let finer = spherical([3, 1, 4, 5]).refined();
         let counts: Vec<_> = finer.iter().map(Nodes::counts).collect();
         assert_eq!(counts, [[5, 1, 4, 5], [3, 1, 7, 5], [3, 1, 4, 9]]);
-        assert!(Nodes::HalfDiff([90, 90, 180]).refined().is_empty());
+        assert!(Nodes::HalfDiff([90, 90, 180]).refined().is_empty() && Nodes::Utia.refined().is_empty());
+        let turns = Nodes::Mueller([vec![0.0, 1.0], vec![0.0, 0.5, 1.0], vec![0.0]]).refined();
+        let counts: Vec<_> = turns.iter().map(Nodes::counts).collect();
+        assert_eq!(counts, [[3, 3, 1, 16], [2, 5, 1, 16]]);
         assert!(Nodes::Klems(AngleBasis::full()).refined().is_empty());
         assert_eq!(Nodes::Klems(AngleBasis::quarter()).refined(), [Nodes::Klems(AngleBasis::half())]);
         let tree = Nodes::Tree(Refinement { rank: Rank::Three, depth: 3, error: 0.2 });
