@@ -31,11 +31,14 @@ FORMATS = [
     ("MERL", "binary", [], False),
     ("RGL", "bsdf", ["--to", "rgl", "--zeniths", "16", "--texels", "32"], True),
     ("Klems", "xml", ["--to", "klems", "--basis", "full"], True),
+    ("UTIA", "bin", [], False),
+    ("pBSDF", "pbsdf", [], False),
+    ("Mueller tensor", "mueller", [], False),
+    ("Mueller CSV", "csv", ["--to", "mueller-csv"], True),
     ("tree", "xml", ["--to", "klems", "--basis", "tree3", "--depth", "5"], True),
 ]
-# Formats with one channel, which is the one of these that a source has.
-SINGLE = {"FRED", "Speos"}
-CHANNELS = ["G", "Y", "Visible"]
+# If a format does not hold the channels of a source, the first of these that the source has is written.
+CHANNELS = [None, "G", "Y", "Visible", "360nm"]
 
 
 def run(lobe, *arguments):
@@ -70,8 +73,7 @@ def main():
         sources = {}
         for name, extension, options, _ in FORMATS:
             file = folder / f"from-{name}.{extension}"
-            channels = CHANNELS if name in SINGLE else [None]
-            stated, _ = convert(lobe, FIXTURE, file, options, channels)
+            stated, _ = convert(lobe, FIXTURE, file, options, CHANNELS)
             if isinstance(stated, str):
                 sys.exit(f"{name}: {stated}")
             sources[name] = file
@@ -79,8 +81,7 @@ def main():
             row = [source]
             for name, extension, options, keeps in FORMATS:
                 target = folder / f"{source}-to-{name}.{extension}"
-                channels = [None, *CHANNELS] if name in SINGLE else [None]
-                stated, channel = convert(lobe, file, target, options, channels)
+                stated, channel = convert(lobe, file, target, options, CHANNELS)
                 if isinstance(stated, str):
                     print(f"{source} to {name}: {stated}")
                     row.append("refused")

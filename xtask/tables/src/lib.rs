@@ -32,8 +32,8 @@ pub struct Options {
     /// Fewer queries and rounds: under a minute, ratios accurate to about 10 %
     #[arg(long)]
     pub quick: bool,
-    /// Only these questions, by their ids in report.json, or `formats`, `energy`, `samplers`, `pictures` or
-    /// `equivalence`
+    /// Only these questions, by their ids in report.json, or `formats`, `conversions`, `energy`, `samplers`, `pictures`
+    /// or `equivalence`
     #[arg(long, value_name = "ID", value_delimiter = ',')]
     pub only: Vec<String>,
     /// Also write the rows to this file
@@ -45,7 +45,7 @@ pub struct Options {
 }
 
 /// The sections that are not about speed.
-pub const SECTIONS: [&str; 5] = ["formats", "energy", "samplers", "pictures", "equivalence"];
+pub const SECTIONS: [&str; 6] = ["formats", "conversions", "energy", "samplers", "pictures", "equivalence"];
 
 impl Options {
     /// `true` if a section is requested.
