@@ -19,6 +19,20 @@ pub(super) fn schlick<T: Real>(cos: f64, f0: T) -> T {
     f0 + f0.rest() * (1.0 - cos).powi(5)
 }
 
+/// The reflectance of a facet with the complex refractive index `n + ik` for unpolarised light; `k` is above 0.
+pub(super) fn fresnel<T: Real>(cos: f64, n: T, k: T) -> T {
+    let sin2 = 1.0 - cos * cos;
+    let difference = n.square() - k.square() - sin2;
+    let both = (difference.square() + (n * k).square() * 4.0).sqrt();
+    // Two forms of the same number, of which one keeps its digits.
+    let square =
+        if difference.value() > 0.0 { (both + difference) * 0.5 } else { (n * k).square() * 2.0 / (both - difference) };
+    let real = square.sqrt() * (2.0 * cos);
+    let across = (both + cos * cos - real) / (both + cos * cos + real);
+    let (sum, mixed) = (both * (cos * cos) + sin2 * sin2, real * sin2);
+    across * ((sum - mixed) / (sum + mixed) + 1.0) * 0.5
+}
+
 fn lambda<T: Real>(w: [f64; 3], [x, y]: [T; 2], rotation: T) -> T {
     let [along, across] = turned(w, rotation);
     let tan2 = ((along * x).square() + (across * y).square()) / (w[2] * w[2]);

@@ -36,6 +36,8 @@ pub enum Model {
     Ggx,
     /// The same with two roughnesses and a rotation.
     GgxAnisotropic,
+    /// GGX microfacets with a complex refractive index, over a diffuse part.
+    GgxFresnel,
     /// The parameters of OpenPBR that a measured opaque material determines.
     OpenPbr,
     /// The same with the anisotropy of the roughness.
@@ -84,10 +86,12 @@ const ROTATION: Parameter = shape("rotation", "azimuth of x, in degrees", [-50.0
 const BASE_COLOR: Parameter = share("base_color", "linear colour of the base");
 const ROUGHNESS: [f64; 2] = [0.03, 1.0];
 const ALPHA: [f64; 2] = [5e-4, 2.0];
+const INDEX: [f64; 2] = [0.02, 100.0];
+const EXTINCTION: [f64; 2] = [1e-4, 100.0];
 
 impl Model {
     /// All models.
-    pub const ALL: [Model; 16] = [
+    pub const ALL: [Model; 17] = [
         Model::Lambert,
         Model::OrenNayar,
         Model::Phong,
@@ -96,6 +100,7 @@ impl Model {
         Model::WardAnisotropic,
         Model::Ggx,
         Model::GgxAnisotropic,
+        Model::GgxFresnel,
         Model::OpenPbr,
         Model::OpenPbrAnisotropic,
         Model::Gltf,
@@ -117,6 +122,7 @@ impl Model {
             Model::WardAnisotropic => "ward-anisotropic",
             Model::Ggx => "ggx",
             Model::GgxAnisotropic => "ggx-anisotropic",
+            Model::GgxFresnel => "ggx-fresnel",
             Model::OpenPbr => "openpbr",
             Model::OpenPbrAnisotropic => "openpbr-anisotropic",
             Model::Gltf => "gltf",
@@ -139,6 +145,7 @@ impl Model {
             Model::WardAnisotropic => "the same with two widths",
             Model::Ggx => "GGX microfacets with Schlick's Fresnel term, and a diffuse part",
             Model::GgxAnisotropic => "the same with two roughnesses",
+            Model::GgxFresnel => "GGX microfacets with Fresnel's equations for n and k, and a diffuse part",
             Model::OpenPbr => "OpenPBR: base, metalness, roughness, index, diffuse roughness",
             Model::OpenPbrAnisotropic => "the same with anisotropic roughness",
             Model::Gltf => "metallic-roughness of glTF 2.0",
@@ -189,6 +196,17 @@ impl Model {
                         ROTATION,
                         DIFFUSE,
                         F0,
+                    ]
+                }
+            }
+            Model::GgxFresnel => {
+                const {
+                    &[
+                        width("alpha", "roughness", ALPHA),
+                        width("n", "refractive index of the facets", INDEX),
+                        width("k", "extinction coefficient of the facets", EXTINCTION),
+                        DIFFUSE,
+                        share("tint", "factor of the reflectance of the facets"),
                     ]
                 }
             }
@@ -276,6 +294,10 @@ impl Model {
             (Model::GgxAnisotropic, &[x, y, rotation, base, f0]) => {
                 let facets = microfacet::mirrors(geometry, [x, y], rotation);
                 diffuse::lambert(base) + facets * microfacet::schlick(geometry.cos_d, f0)
+            }
+            (Model::GgxFresnel, &[alpha, n, k, base, tint]) => {
+                let facets = microfacet::mirrors(geometry, [alpha, alpha], T::of(0.0));
+                diffuse::lambert(base) + facets * microfacet::fresnel(geometry.cos_d, n, k) * tint
             }
             (Model::OpenPbr, &[metalness, roughness, ior, diffuse, color]) => {
                 openpbr::f(geometry, [metalness, roughness, ior, diffuse, T::of(0.0), T::of(0.0)], color)

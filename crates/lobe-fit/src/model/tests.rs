@@ -27,6 +27,10 @@ fn formulas_agree_with_the_reference() {
     agree(Model::WardAnisotropic, &[0.2, 0.5, 0.0, 0.0, 0.4], exact::Ward { specular, alpha: [0.2, 0.5] });
     let conductor = exact::Conductor { ggx: exact::Ggx { alpha: [0.2, 0.5] }, eta: [1.0; 3], k: [1e9; 3] };
     agree(Model::GgxAnisotropic, &[0.2, 0.5, 0.0, 0.0, 1.0], conductor);
+    for (n, k) in [(1.5, 1e-4), (0.3, 2.5), (0.7, 1e-4), (30.0, 40.0)] {
+        let facets = exact::Conductor { ggx: exact::Ggx { alpha: [0.3; 2] }, eta: [n; 3], k: [k; 3] };
+        agree(Model::GgxFresnel, &[0.3, n, k, 0.0, 1.0], facets);
+    }
 }
 
 /// Rotating the material equals rotating both directions the other way.

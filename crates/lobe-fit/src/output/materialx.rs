@@ -66,6 +66,7 @@ pub fn materialx(fit: &Fit, name: &str) -> Result<String, OutputError> {
         | Model::WardAnisotropic
         | Model::Ggx
         | Model::GgxAnisotropic
+        | Model::GgxFresnel
         | Model::Abg
         | Model::HarveyShack
         | Model::KCorrelation => return Err(refused()),

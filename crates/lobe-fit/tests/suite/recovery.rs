@@ -20,6 +20,7 @@ fn cases() -> Vec<(Model, Vec<f64>, [Vec<f64>; 3])> {
         (Model::WardAnisotropic, vec![0.4, 0.15, 20.0], both(warm, [0.3, 0.4, 0.2])),
         (Model::Ggx, vec![0.2], both(warm, gold)),
         (Model::GgxAnisotropic, vec![0.15, 0.4, -25.0], both(warm, gold)),
+        (Model::GgxFresnel, vec![0.2, 0.8, 1.2], both(warm, gold)),
         (Model::OpenPbr, vec![0.4, 0.4, 1.6, 0.4], of(warm)),
         (Model::OpenPbrAnisotropic, vec![0.5, 0.45, 1.7, 0.4, 0.6, 30.0], of(gold)),
         (Model::Gltf, vec![0.6, 0.35], of(warm)),
