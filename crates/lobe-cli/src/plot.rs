@@ -10,6 +10,7 @@ use clap::ValueEnum;
 use lobe::{Bsdf as _, Side};
 use lobe_files::check_output;
 use lobe_formats::{Document, Format, write_whole};
+use lobe_ops::compare::spheres;
 use lobe_ops::describe::{Part, describe};
 use lobe_plot::{
     DrawError, Facts, Figure, Fitted, Page, Quantity, Scaling, Shown, Subject, View, ViewError, draw, page_with_fit,
@@ -218,6 +219,9 @@ fn content(
     Ok(Ok(Content { bytes, what: format!("{figure}, {width} pixels wide"), said: drawing.said }))
 }
 
+/// The width of the spheres of a fit and its file, in pixels.
+const PIXELS: usize = 256;
+
 /// The fit to show with the only file.
 fn fitted<'a>(args: &Args, target: Target, shown: &[Shown<'_>]) -> Result<Option<Fitted<'a>>, Failure> {
     let Some(file) = &args.fit else { return Ok(None) };
@@ -260,8 +264,11 @@ fn fitted<'a>(args: &Args, target: Target, shown: &[Shown<'_>]) -> Result<Option
     };
     let facts = vec![Facts { title: "The fit".into(), rows: saved.facts.clone() }];
     let (fitted, channels) = (saved.fitted, saved.channels.len());
+    // A channel, or the plane of incidence alone, has no appearance.
+    let is_whole = !subject.measured().is_in_plane(aspect) && (channels > 1 || names.len() == 1);
+    let spheres = is_whole.then(|| spheres(subject.material(), &fitted, aspect, PIXELS).ok()).flatten();
     let f = Box::new(move |wi: [f64; 3], wo: [f64; 3], out: &mut [f64]| fitted.f(wi, wo, out));
-    Ok(Some(Fitted { scatter: aspect.scatter, channels, modelled, measured, f, facts }))
+    Ok(Some(Fitted { scatter: aspect.scatter, channels, modelled, measured, f, facts, spheres }))
 }
 
 /// The extension and the kind must agree.

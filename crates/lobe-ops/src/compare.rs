@@ -94,6 +94,30 @@ pub fn difference<'a>(
     })
 }
 
+/// The differences of two spheres, pixel by pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spheres {
+    /// The width and the height of the picture in pixels.
+    pub size: usize,
+    /// CIE delta E 2000, row by row from the top; `None` where no light is seen.
+    pub delta_e: Vec<Option<f64>>,
+}
+
+impl Spheres {
+    /// Their summary.
+    pub fn summary(&self) -> Visible {
+        let mut errors: Vec<f64> = self.delta_e.iter().copied().flatten().collect();
+        errors.sort_by(f64::total_cmp);
+        let at = |share: f64| errors.get((share * errors.len() as f64) as usize).copied().unwrap_or(0.0);
+        Visible {
+            pixels: errors.len(),
+            mean: errors.iter().sum::<f64>() / errors.len().max(1) as f64,
+            percentile_95: at(0.95),
+            max: errors.last().copied().unwrap_or(0.0),
+        }
+    }
+}
+
 /// Draws a sphere of each material, `size` pixels wide, seen from afar under a distant light at 45 degrees from above
 /// left, and compares their pixels.
 ///
@@ -102,27 +126,37 @@ pub fn difference<'a>(
 ///
 /// # Errors
 /// [`NoColour`] if the channels of one material have no colour.
+pub fn spheres<'a>(
+    a: impl Into<OnBackend<'a>>,
+    b: impl Into<OnBackend<'a>>,
+    aspect: Aspect,
+    size: usize,
+) -> Result<Spheres, NoColour> {
+    let (places, pixels): (Vec<usize>, Vec<_>) = lit_pixels(size).into_iter().unzip();
+    let (first, second) = (colours(a, aspect, &pixels)?, colours(b, aspect, &pixels)?);
+    let mut found = vec![None; size * size];
+    for (place, (a, b)) in places.into_iter().zip(first.into_iter().zip(second)) {
+        found[place] = Some(delta_e(a, b));
+    }
+    Ok(Spheres { size, delta_e: found })
+}
+
+/// The summary of [`spheres`].
+///
+/// # Errors
+/// The same as for [`spheres`].
 pub fn visible<'a>(
     a: impl Into<OnBackend<'a>>,
     b: impl Into<OnBackend<'a>>,
     aspect: Aspect,
     size: usize,
 ) -> Result<Visible, NoColour> {
-    let pixels = lit_pixels(size);
-    let (first, second) = (colours(a, aspect, &pixels)?, colours(b, aspect, &pixels)?);
-    let mut errors: Vec<f64> = first.into_iter().zip(second).map(|(a, b)| delta_e(a, b)).collect();
-    errors.sort_by(f64::total_cmp);
-    let at = |share: f64| errors.get((share * errors.len() as f64) as usize).copied().unwrap_or(0.0);
-    Ok(Visible {
-        pixels: errors.len(),
-        mean: errors.iter().sum::<f64>() / errors.len().max(1) as f64,
-        percentile_95: at(0.95),
-        max: errors.last().copied().unwrap_or(0.0),
-    })
+    Ok(spheres(a, b, aspect, size)?.summary())
 }
 
-/// The directions to the light and to the viewer in the frame of each pixel that sees both.
-fn lit_pixels(size: usize) -> Vec<([f64; 3], [f64; 3])> {
+/// Each pixel that sees both the light and the viewer: its index, and the directions to the light and to the viewer in
+/// its frame.
+fn lit_pixels(size: usize) -> Vec<(usize, ([f64; 3], [f64; 3]))> {
     const LIGHT: [f64; 3] = [-0.5, 0.5, std::f64::consts::FRAC_1_SQRT_2];
     const VIEWER: [f64; 3] = [0.0, 0.0, 1.0];
     let centre = |index: usize| (2.0 * index as f64 + 1.0) / size as f64 - 1.0;
@@ -142,7 +176,7 @@ fn lit_pixels(size: usize) -> Vec<([f64; 3], [f64; 3])> {
             let local = |w: [f64; 3]| [dot(w, tangent), dot(w, up), dot(w, normal)];
             let (wi, wo) = (local(LIGHT), local(VIEWER));
             if wi[2] > 0.0 && wo[2] > 0.0 {
-                pixels.push((wi, wo));
+                pixels.push((row * size + column, (wi, wo)));
             }
         }
     }
@@ -210,7 +244,11 @@ mod tests {
     #[test]
     fn spheres_differ_in_appearance() {
         let grey = |albedo: f64| Exact(Lambert { albedo: [albedo; 3] });
-        let far = visible(&grey(1.0), &grey(0.0), Aspect::REFLECTION, 64).expect("colours");
+        let pixels = spheres(&grey(1.0), &grey(0.0), Aspect::REFLECTION, 64).expect("colours");
+        let far = pixels.summary();
+        // Bright above left, dark below right, and nothing in the corners.
+        let at = |row: usize, column: usize| pixels.delta_e[row * 64 + column];
+        assert!(at(16, 20) > Some(90.0) && at(50, 40) < at(16, 20) && at(0, 0).is_none(), "{:?}", at(16, 20));
         assert!((far.max - 100.0).abs() < 0.5 && far.mean < far.percentile_95, "{far:?}");
         assert!(far.pixels > 64 * 64 / 2, "{far:?}");
         let near = visible(&grey(0.5), &grey(0.51), Aspect::REFLECTION, 64).expect("colours");

@@ -10,8 +10,8 @@ use crate::albedo::albedos;
 use crate::evaluate::Progress;
 use crate::figures::picture::{Picture, draw_on, said};
 use crate::figures::{
-    Plate, all_curves, channels_plate, curves_plate, mueller_plate, polar_plate, polarisation_plate, residuals_plate,
-    side_name, slices_plate, spectra_plate, sphere_plate,
+    Plate, all_curves, appearance_plate, channels_plate, curves_plate, mueller_plate, polar_plate, polarisation_plate,
+    residuals_plate, side_name, slices_plate, spectra_plate, sphere_plate,
 };
 use crate::layout::{Layout, Paper, Sprites};
 use crate::polarised::scatter;
@@ -184,6 +184,9 @@ impl Out<'_> {
         self.put("<section>\n<h2>The fit, and where it fails</h2>\n<div class=\"cards\">");
         self.put(&facts_table("", &fitted.facts));
         self.figure(&residuals_plate(shown, fitted, progress));
+        if let Some(plate) = appearance_plate(shown, fitted) {
+            self.figure(&plate);
+        }
         self.put("</div>\n</section>");
     }
 

@@ -1,6 +1,7 @@
 //! Computes where a model is above and below the measurement.
 
 use lobe::Scatter;
+use lobe_ops::compare::Spheres;
 
 use crate::evaluate::Progress;
 use crate::geometry::{from_disk, incident};
@@ -28,6 +29,9 @@ pub struct Fitted<'a> {
     pub f: Box<Values<'a>>,
     /// Facts about the fit, for readers.
     pub facts: Vec<Facts>,
+    /// The difference of two spheres, of the material and of the model; `None` if they have no colours, or not all of
+    /// the material was fitted.
+    pub spheres: Option<Spheres>,
 }
 
 /// The disk of an incidence, with the differences between a model and the measurement.

@@ -292,6 +292,7 @@ fn a_page_shows_where_a_fit_fails() {
         page.contains("The fit, and where it fails") && page.contains("lambert") && page.contains("rms "),
         "no fit"
     );
+    assert!(page.contains("CIE ΔE 2000") && page.contains(" % below "), "no spheres");
     let said = folder.refused(&["plot", source, "-o", "x.svg", "--fit", "fit.json"], "x.svg");
     assert!(said.contains("a fit with a figure"), "{said}");
     let said = folder.lobe(&["plot", source, "-o", "y.html", "--fit", source]);

@@ -1,5 +1,6 @@
 //! The figures.
 
+mod appearance;
 mod cartesian;
 mod channels;
 mod chart;
@@ -209,6 +210,13 @@ pub(crate) fn residuals_plate<'a>(shown: Shown<'a>, fitted: &Fitted<'_>, progres
     let disks = residuals::residuals(shown, fitted, progress);
     let sigmas: Vec<f64> = disks.iter().map(|disk| disk.slice.sigma).collect();
     Plate { draw: Box::new(move |paper| residuals::draw(shown, &disks, paper)), said: vec![lights(&sigmas)] }
+}
+
+/// How different the fit looks; `None` if that is not known.
+pub(crate) fn appearance_plate<'a>(shown: Shown<'a>, fitted: &Fitted<'_>) -> Option<Plate<'a>> {
+    let spheres = fitted.spheres.clone()?;
+    let said = vec![format!("delta E {:.2} on average", spheres.summary().mean)];
+    Some(Plate { draw: Box::new(move |paper| appearance::draw(shown, &spheres, paper)), said })
 }
 
 pub(crate) fn sphere_plate<'a>(shown: &[Shown<'a>], progress: &dyn Progress) -> Plate<'a> {
