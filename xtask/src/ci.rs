@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
 use std::time::Instant;
 
+use super::counts::Counts;
 use super::{cargo, python};
 
 pub const ABOUT: &str = "Run the checks that a change must pass: format, lints, documentation, and last the tests";
@@ -88,32 +89,6 @@ fn quiet() -> Command {
     cargo
 }
 
-/// The totals of the test runner.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Counts {
-    passed: u64,
-    failed: u64,
-    skipped: u64,
-}
-
-impl Counts {
-    /// Adds the counts of a line of output: each test program ends with such a line, and the last counts the
-    /// documentation examples.
-    fn add(&mut self, line: &str) {
-        let Some(counts) = line.strip_prefix("test result:") else { return };
-        for part in counts.split([';', '.']) {
-            let mut words = part.split_whitespace();
-            let Some(count) = words.next().and_then(|word| word.parse::<u64>().ok()) else { continue };
-            match words.next() {
-                Some("passed") => self.passed += count,
-                Some("failed") => self.failed += count,
-                Some("ignored") => self.skipped += count,
-                _ => {}
-            }
-        }
-    }
-}
-
 /// Runs all tests, those in Python with this interpreter, shows their output, and ends with the totals.
 fn test(python: Option<&Path>) -> ExitCode {
     let mut cargo = quiet();
@@ -136,20 +111,6 @@ fn test(python: Option<&Path>) -> ExitCode {
         }
     }
     let succeeded = running.wait().is_ok_and(|status| status.success());
-    println!("{} passed, {} failed, {} skipped", counts.passed, counts.failed, counts.skipped);
+    println!("{counts}");
     if succeeded { ExitCode::SUCCESS } else { ExitCode::FAILURE }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_lines_of_all_test_programs_are_added_up() {
-        let mut counts = Counts::default();
-        counts.add("test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 3 filtered out; finished in 0.01s");
-        counts.add("test result: FAILED. 4 passed; 2 failed; 0 ignored; 0 measured; 0 filtered out; finished in 1.50s");
-        counts.add("test tests::result: 7 passed");
-        assert_eq!(counts, Counts { passed: 16, failed: 2, skipped: 1 });
-    }
 }

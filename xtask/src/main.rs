@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 
 mod ci;
+mod counts;
 mod python;
 mod web;
 mod wheel;

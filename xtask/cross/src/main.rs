@@ -4,15 +4,19 @@
 //! printed.
 #![forbid(unsafe_code)]
 
+#[path = "../../src/counts.rs"]
+mod counts;
 mod install;
 mod target;
 
-use std::process::Command;
+use std::io::{BufRead, BufReader};
+use std::process::{Command, Stdio};
 use std::time::Instant;
 
 use anyhow::{Context, ensure};
 use clap::Parser;
 
+use counts::Counts;
 use target::{Setup, Target};
 
 /// The packages tested on each target, besides the crate of the backend: lanes, functions, tables, the facade, rays and
@@ -49,24 +53,24 @@ fn main() -> anyhow::Result<()> {
     let targets = if args.targets.is_empty() { Target::ALL.to_vec() } else { args.targets };
     let mut outcomes = Vec::new();
     for target in targets {
-        let begun = Instant::now();
+        let (begun, mut counts) = (Instant::now(), Counts::default());
         let outcome = match target.setup() {
-            Ok(setup) => match test(target, &setup, &args.packages) {
+            Ok(setup) => match test(target, &setup, &args.packages, &mut counts) {
                 Ok(()) => Outcome::Passed,
                 Err(error) => Outcome::Failed(format!("{error:#}")),
             },
             Err(reason) => Outcome::Skipped(format!("{reason:#}")),
         };
-        outcomes.push((target, outcome, begun.elapsed()));
+        outcomes.push((target, outcome, counts, begun.elapsed().as_secs()));
     }
     println!();
     let (mut failed, mut skipped) = (0, 0);
-    for (target, outcome, time) in &outcomes {
+    for (target, outcome, counts, seconds) in &outcomes {
         let name = target.name();
         match outcome {
-            Outcome::Passed => println!("{name}: passed in {:.0} s", time.as_secs_f64()),
+            Outcome::Passed => println!("{name}: passed in {seconds} s; tests: {counts}"),
             Outcome::Skipped(reason) => println!("{name}: SKIP: {reason}"),
-            Outcome::Failed(error) => println!("{name}: FAILED: {error}"),
+            Outcome::Failed(error) => println!("{name}: FAILED after {seconds} s: {error}; tests: {counts}"),
         }
         failed += usize::from(matches!(outcome, Outcome::Failed(_)));
         skipped += usize::from(matches!(outcome, Outcome::Skipped(_)));
@@ -79,14 +83,14 @@ fn main() -> anyhow::Result<()> {
 
 /// Tests the backend by itself and the packages that use it, then its equivalence with the reference, which fails if the
 /// backend did not run.
-fn test(target: Target, setup: &Setup, packages: &[String]) -> anyhow::Result<()> {
+fn test(target: Target, setup: &Setup, packages: &[String], counts: &mut Counts) -> anyhow::Result<()> {
     let mut failed = Vec::new();
     // One build, because each package alone would have dependencies with other features, which are compiled again.
     let mut arguments = vec!["test", "--lib", "--tests", "--no-fail-fast", "--package", target.backend_crate()];
     arguments.extend(packages.iter().flat_map(|package| ["--package", package.as_str()]));
     arguments.push("--");
     arguments.extend(setup.harness);
-    if !cargo(setup, &arguments)? {
+    if !cargo(setup, &arguments, counts)? {
         failed.push("the tests");
     }
     if setup.panics_end && !refuses_short_slices(target, setup)? {
@@ -94,7 +98,7 @@ fn test(target: Target, setup: &Setup, packages: &[String]) -> anyhow::Result<()
     }
     let backend = target.backend();
     let equivalence = ["run", "--package", "xtask-equivalence", "--no-default-features", "--", "--backend", backend];
-    if !cargo(setup, &equivalence)? {
+    if !cargo(setup, &equivalence, counts)? {
         failed.push("the equivalence with the reference");
     }
     ensure!(failed.is_empty(), "{}", failed.join(", "));
@@ -129,10 +133,16 @@ fn refuses_short_slices(target: Target, setup: &Setup) -> anyhow::Result<bool> {
     Ok(false)
 }
 
-/// Runs cargo; returns `true` if it succeeds.
-fn cargo(setup: &Setup, arguments: &[&str]) -> anyhow::Result<bool> {
+/// Runs cargo, shows its output, and adds up what test programs say at their end; returns `true` if it succeeds.
+fn cargo(setup: &Setup, arguments: &[&str], counts: &mut Counts) -> anyhow::Result<bool> {
     println!("\n== cargo {}", arguments.join(" "));
-    Ok(command(setup).args(arguments).status().context("cannot run cargo")?.success())
+    let mut cargo = command(setup).args(arguments).stdout(Stdio::piped()).spawn().context("cannot run cargo")?;
+    for line in BufReader::new(cargo.stdout.take().context("the output of cargo")?).lines() {
+        let line = line?;
+        println!("{line}");
+        counts.add(&line);
+    }
+    Ok(cargo.wait()?.success())
 }
 
 fn command(setup: &Setup) -> Command {

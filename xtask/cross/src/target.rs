@@ -92,7 +92,10 @@ impl Target {
                 install::rust_target(triple)?;
                 setup.set("CARGO_BUILD_TARGET", triple);
                 setup.set_of(triple, "LINKER", "rust-lld");
-                setup.set_of(triple, "RUNNER", install::qemu("aarch64")?);
+                // The oldest of them.
+                let mut runner = install::qemu("aarch64")?.into_os_string();
+                runner.push(" -cpu cortex-a53");
+                setup.set_of(triple, "RUNNER", runner);
                 setup.set("LOBE_EMULATED", "1");
             }
             Target::Wasm => {
