@@ -59,7 +59,17 @@ impl<const N: usize> Channels for Components<f32, N> {
 
     #[inline(always)]
     fn in_lanes<L: Lanes>(self, lanes: L) -> Self::InLanes<L> {
-        Components(self.0.map(|row| row.map(|value| lanes.splat(value))))
+        let mut values = [[lanes.splat(0.0); N]; 4];
+        let mut row = 0;
+        while row < 4 {
+            let mut k = 0;
+            while k < N {
+                values[row][k] = lanes.splat(self.0[row][k]);
+                k += 1;
+            }
+            row += 1;
+        }
+        Components(values)
     }
 }
 

@@ -24,22 +24,28 @@ impl Interpolator {
     /// The channels at four angles in radians, into `out`; 0 if not `valid`.
     #[inline(always)]
     pub(crate) fn single<L: Lanes>(&self, lanes: L, angles: [f32; 4], valid: bool, out: &mut [f32]) {
-        let strides = self.layout().strides();
-        let find = |index: usize| {
-            let OneCell { index: cell, fraction, contained } = self.axes()[index].cell_one(lanes, angles[index]);
-            (cell.wrapping_mul(strides[index] as u32), fraction, contained)
+        let first = self.find_along(lanes, angles, 0);
+        let third = self.find_along(lanes, angles, 2);
+        let last = self.find_along(lanes, angles, LAST);
+        let turn = match self.is_anisotropic() {
+            true => self.find_along(lanes, angles, TURN),
+            false => OneCell { index: 0, fraction: 0.0, contained: true },
         };
-        let (at_first, first, in_first) = find(0);
-        let (at_third, third, in_third) = find(2);
-        let (at_last, last, in_last) = find(LAST);
-        let (at_turn, turn, in_turn) = if self.is_anisotropic() { find(TURN) } else { (0, 0.0, true) };
-        let base = at_first.wrapping_add(at_turn).wrapping_add(at_third).wrapping_add(at_last);
-        let valid = valid & in_first & in_turn & in_third & in_last;
-        let located = Located { at: base as usize, fractions: [first, turn, third, last], valid };
+        let base = first.index.wrapping_add(turn.index).wrapping_add(third.index).wrapping_add(last.index);
+        let valid = valid & first.contained & turn.contained & third.contained & last.contained;
+        let fractions = [first.fraction, turn.fraction, third.fraction, last.fraction];
+        let located = Located { at: base as usize, fractions, valid };
         match self.layout().texels() {
             Texels::Single(corners) => located.read(lanes, self, corners, out),
             Texels::Half(corners) => located.read(lanes, self, corners, out),
         }
+    }
+
+    /// The cell along an axis, with its offset in the table instead of its index.
+    #[inline(always)]
+    fn find_along<L: Lanes>(&self, lanes: L, angles: [f32; 4], axis: usize) -> OneCell {
+        let cell = self.axes()[axis].cell_one(lanes, angles[axis]);
+        OneCell { index: cell.index.wrapping_mul(self.layout().strides()[axis] as u32), ..cell }
     }
 }
 
@@ -93,12 +99,13 @@ impl Axis {
     fn find_one<L: Lanes>(&self, lanes: L, x: f32) -> (u32, f32) {
         let cell = match self.search() {
             Search::Registers(registers) => {
-                let octs = |from: usize| lanes.oct_load(&registers.sorted[from..][..8]);
-                let mut count = lanes.oct_count_le(octs(0), x);
+                let sorted = &registers.sorted;
+                let mut count = lanes.oct_count_le(lanes.oct_load(&sorted[..8]), x);
                 if registers.levels > 3 {
-                    count += lanes.oct_count_le(octs(8), x);
+                    count += lanes.oct_count_le(lanes.oct_load(&sorted[8..16]), x);
                     if registers.levels > 4 {
-                        count += lanes.oct_count_le(octs(16), x) + lanes.oct_count_le(octs(24), x);
+                        count += lanes.oct_count_le(lanes.oct_load(&sorted[16..24]), x);
+                        count += lanes.oct_count_le(lanes.oct_load(&sorted[24..32]), x);
                     }
                 }
                 count

@@ -187,8 +187,9 @@ impl Table {
     #[inline(always)]
     fn bins<L: Lanes>(&self, lanes: L, n: usize, scratch: &mut Scratch) {
         let Scratch { angles, base, places: [h, d, p], .. } = scratch;
-        let last = |axis: usize| self.bins[axis] as i32 - 1;
-        let (h_last, d_last, p_last) = (lanes.splat_int(last(0)), lanes.splat_int(last(1)), lanes.splat_int(last(2)));
+        let [h_bins, d_bins, p_bins] = self.bins;
+        let (h_last, d_last) = (lanes.splat_int(h_bins as i32 - 1), lanes.splat_int(d_bins as i32 - 1));
+        let p_last = lanes.splat_int(p_bins as i32 - 1);
         let [h_stride, d_stride, p_stride] = self.strides;
         let (h_stride, d_stride) = (lanes.splat_int(h_stride as i32), lanes.splat_int(d_stride as i32));
         let p_stride = lanes.splat_int(p_stride as i32);

@@ -47,8 +47,10 @@ fn acos<L: Lanes>(lanes: L, cos: L::F) -> L::F {
 pub(super) fn above_horizon<L: Lanes>(lanes: L, wi: [L::F; 3], wo: [L::F; 3]) -> L::M {
     let (zero, limit) = (lanes.splat(0.0), lanes.splat(2.0));
     let mut valid = zero.lt(wi[2]) & zero.lt(wo[2]);
-    for component in wi.into_iter().chain(wo) {
-        valid = valid & component.abs().lt(limit);
+    let mut axis = 0;
+    while axis < 3 {
+        valid = valid & wi[axis].abs().lt(limit) & wo[axis].abs().lt(limit);
+        axis += 1;
     }
     valid
 }

@@ -364,9 +364,10 @@ impl Table {
             while left != 0 {
                 let lane = left.trailing_zeros() as usize;
                 left &= left - 1;
-                let pair = [wi, wo].map(|side| lanes.extract_xyz(side.load(lanes, query), lane));
+                let one_wi = lanes.extract_xyz(wi.load(lanes, query), lane);
+                let one_wo = lanes.extract_xyz(wo.load(lanes, query), lane);
                 if let Some(texel) = out.get_mut((query + lane) * channels..(query + lane + 1) * channels) {
-                    self.exact(pair[0], pair[1], texel);
+                    self.exact(one_wi, one_wo, texel);
                 }
             }
             query += L::LANES;
