@@ -5,9 +5,10 @@ use std::process::{Command, ExitCode};
 
 pub const ABOUT: &str = "Build the explorer, a page for browsers, into target/web; --test runs its tests";
 
-const USAGE: &str = "Usage: cargo xtask web [--test] [--embed]
+const USAGE: &str = "Usage: cargo xtask web [--test] [--speed] [--embed]
 
   --test   run the tests of the module in node, and of the page in Chromium
+  --speed  compare simd128 with a module that is built without it
   --embed  also copy the page to crates/lobe-cli/page, so that `lobe view` is built with it
 
 It needs the target wasm32-unknown-unknown (`rustup target add wasm32-unknown-unknown`), node 20.19
@@ -16,12 +17,15 @@ or newer with npm, and Chromium for the tests of the page; the variable CHROMIUM
 const TRIPLE: &str = "wasm32-unknown-unknown";
 
 pub fn run(arguments: &[String]) -> ExitCode {
-    if let Some(unknown) = arguments.iter().find(|argument| !["--test", "--embed"].contains(&argument.as_str())) {
+    if let Some(unknown) =
+        arguments.iter().find(|argument| !["--test", "--speed", "--embed"].contains(&argument.as_str()))
+    {
         println!("{ABOUT}\n\n{USAGE}");
         return if ["-h", "--help"].contains(&unknown.as_str()) { ExitCode::SUCCESS } else { ExitCode::from(2) };
     }
     let has = |option: &str| arguments.iter().any(|argument| argument == option);
-    match build(has("--test"), has("--embed")) {
+    let asked = Asked { tests: has("--test"), speed: has("--speed"), embeds: has("--embed") };
+    match build(asked) {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         // Only tests may be skipped; if the page was requested, it must be built.
         Ok(Outcome::Skipped(why)) if has("--test") => {
@@ -39,6 +43,13 @@ pub fn run(arguments: &[String]) -> ExitCode {
     }
 }
 
+/// What is asked for besides the page.
+struct Asked {
+    tests: bool,
+    speed: bool,
+    embeds: bool,
+}
+
 enum Outcome {
     Done,
     Skipped(String),
@@ -54,7 +65,7 @@ struct Places {
     out: PathBuf,
 }
 
-fn build(tests: bool, embeds: bool) -> Result<Outcome, String> {
+fn build(asked: Asked) -> Result<Outcome, String> {
     let absolute = |path: &str| std::path::absolute(path).map_err(|error| error.to_string());
     let places = Places {
         page: absolute("crates/lobe-web/page")?,
@@ -70,20 +81,7 @@ fn build(tests: bool, embeds: bool) -> Result<Outcome, String> {
         }
     }
     let bindgen = bindgen()?;
-    let target = absolute("target/wasm")?;
-    done(
-        super::cargo()
-            .args(["build", "--release", "--quiet", "--package", "lobe-web", "--target", TRIPLE, "--target-dir"])
-            .arg(&target)
-            .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS", "-C target-feature=+simd128"),
-    )?;
-    let module = target.join(TRIPLE).join("release/lobe_web.wasm");
-    done(
-        Command::new(bindgen)
-            .args(["--target", "web", "--remove-name-section", "--remove-producers-section", "--out-dir"])
-            .arg(&places.module)
-            .arg(module),
-    )?;
+    module(&bindgen, &absolute("target/wasm")?, &places.module, "-C target-feature=+simd128")?;
     let mut npm = npm(&places);
     if done(npm.args(["ci", "--no-audit", "--no-fund", "--loglevel", "error"])).is_err() {
         let why = "npm cannot install the packages of the page";
@@ -92,7 +90,7 @@ fn build(tests: bool, embeds: bool) -> Result<Outcome, String> {
     }
     done(with_places(npm_run(&places), &places))?;
     println!("{}: {}", places.out.display(), sizes(&places.out)?);
-    if embeds {
+    if asked.embeds {
         let page = absolute("crates/lobe-cli/page")?;
         let _ = std::fs::remove_dir_all(&page);
         copy(&places.out, &page)?;
@@ -100,7 +98,31 @@ fn build(tests: bool, embeds: bool) -> Result<Outcome, String> {
         std::fs::write(page.join(".gitkeep"), "").map_err(|error| error.to_string())?;
         println!("{}: the next build of `lobe` contains it", page.display());
     }
-    if tests { test(&places) } else { Ok(Outcome::Done) }
+    if asked.speed {
+        // The scalar backend of the module with simd128 is vectorised by the compiler; this one is what a browser without
+        // it would run.
+        let scalar = absolute("target/web-module-scalar")?;
+        module(&bindgen, &absolute("target/wasm-scalar")?, &scalar, "")?;
+        done(Compared::build()?.node(&places, &["tests/speed.mjs"]).env("LOBE_WEB_SCALAR", &scalar))?;
+    }
+    if asked.tests { test(&places) } else { Ok(Outcome::Done) }
+}
+
+/// Compiles the module with these flags, and writes what wasm-bindgen makes of it into a folder.
+fn module(bindgen: &Path, target: &Path, out: &Path, flags: &str) -> Result<(), String> {
+    done(
+        super::cargo()
+            .args(["build", "--release", "--quiet", "--package", "lobe-web", "--target", TRIPLE, "--target-dir"])
+            .arg(target)
+            .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS", flags),
+    )?;
+    let module = target.join(TRIPLE).join("release/lobe_web.wasm");
+    done(
+        Command::new(bindgen)
+            .args(["--target", "web", "--remove-name-section", "--remove-producers-section", "--out-dir"])
+            .arg(out)
+            .arg(module),
+    )
 }
 
 /// `true` if there is a standard library for the target.
@@ -191,22 +213,9 @@ fn copy(from: &Path, to: &Path) -> Result<(), String> {
 
 /// Tests the module in node, then the page in Chromium.
 fn test(places: &Places) -> Result<Outcome, String> {
-    // The tests compare with the current program. The tests of the workspace use the same build of it.
-    done(super::cargo().args(["build", "--quiet", "--workspace", "--bin", "lobe", "--example", "write_examples"]))?;
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
-    let target = std::path::absolute(target).map_err(|error| error.to_string())?;
-    let built = |name: &str| target.join("debug").join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
-    // A small file of every format.
-    let examples = target.join("web-examples");
-    let _ = std::fs::remove_dir_all(&examples);
-    done(Command::new(built("examples/write_examples")).arg(&examples))?;
-    let node = |file: &str| {
-        let mut node = Command::new("node");
-        node.current_dir(&places.page).args(["--test", "--test-reporter=spec", file]);
-        node.env("LOBE", built("lobe")).env("LOBE_WEB_EXAMPLES", &examples);
-        with_places(node, places)
-    };
-    done(node("tests/module.test.mjs"))?;
+    let compared = Compared::build()?;
+    let tests = |file: &str| compared.node(places, &["--test", "--test-reporter=spec", file]);
+    done(tests("tests/module.test.mjs"))?;
     let named = std::env::var("CHROMIUM").ok();
     let browsers = named.iter().map(String::as_str).chain(["chromium", "chromium-browser", "google-chrome"]);
     let Some(browser) = browsers.into_iter().find(|browser| answers(browser)) else {
@@ -214,9 +223,39 @@ fn test(places: &Places) -> Result<Outcome, String> {
             "there is no Chromium for the tests of the page; those of the module passed".into(),
         ));
     };
-    let mut tests = node("tests/page.test.mjs");
-    done(tests.env("CHROMIUM", browser))?;
+    for file in ["tests/page.test.mjs", "tests/panels.test.mjs", "tests/quality.test.mjs"] {
+        done(tests(file).env("CHROMIUM", browser))?;
+    }
     Ok(Outcome::Done)
+}
+
+/// What the module is compared with.
+struct Compared {
+    /// The program.
+    lobe: PathBuf,
+    /// A folder with a small file of every format.
+    examples: PathBuf,
+}
+
+impl Compared {
+    fn build() -> Result<Self, String> {
+        // The tests of the workspace use the same build of the program.
+        done(super::cargo().args(["build", "--quiet", "--workspace", "--bin", "lobe", "--example", "write_examples"]))?;
+        let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
+        let target = std::path::absolute(target).map_err(|error| error.to_string())?;
+        let built = |name: &str| target.join("debug").join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
+        let examples = target.join("web-examples");
+        let _ = std::fs::remove_dir_all(&examples);
+        done(Command::new(built("examples/write_examples")).arg(&examples))?;
+        Ok(Compared { lobe: built("lobe"), examples })
+    }
+
+    fn node(&self, places: &Places, arguments: &[&str]) -> Command {
+        let mut node = Command::new("node");
+        node.current_dir(&places.page).args(arguments);
+        node.env("LOBE", &self.lobe).env("LOBE_WEB_EXAMPLES", &self.examples);
+        with_places(node, places)
+    }
 }
 
 fn done(mut command: impl std::borrow::BorrowMut<Command>) -> Result<(), String> {

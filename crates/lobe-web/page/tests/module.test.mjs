@@ -143,7 +143,7 @@ test("curves, maps, probes and facts agree with values", () => {
     const curve = explorer.curve(material, request, 0.5);
     assert.ok(curve.length > 3000 && curve.length % 3 === 0);
     const size = 32;
-    const map = explorer.map(material, request, 0.5, size, "values", 0);
+    const map = explorer.map(material, request, 0.5, size, "values", 0, new Float64Array());
     const [x, y] = [20, 9];
     const probe = JSON.parse(explorer.probe(material, request, 0.5, (2 * (x + 0.5)) / size - 1, 1 - (2 * (y + 0.5)) / size));
     assert.equal(Math.fround(probe.value), map.values[y * size + x]);
@@ -173,13 +173,14 @@ test("findings of the checks are those of the program", () => {
 test("a picture is rendered in steps, and a converted file has the same values", () => {
     const { name, file } = files().find(({ name }) => name.startsWith("paint-"));
     const material = open(name, bytes(file));
-    explorer.stage(material, JSON.stringify({ form: "flat", sky: "dusk", toward: [0, 1, 0.3], size: [48, 48], samples: 2 }));
+    explorer.stage(0, material, JSON.stringify({ form: "flat", sky: "dusk", toward: [0, 1, 0.3], size: [48, 48], samples: 2 }));
     let calls = 0;
-    while (!explorer.rendered() && calls < 100) {
-        explorer.render(5);
+    while (!explorer.rendered(0) && calls < 100) {
+        explorer.render(0, 5);
         calls++;
     }
-    const picture = explorer.picture(0);
+    const picture = explorer.picture(0, 0);
+    assert.throws(() => explorer.picture(2, 0), /found the stage 2/);
     assert.equal(picture.length, 4 * 48 * 48);
     assert.ok(picture.some((byte, at) => at % 4 < 3 && byte > 60));
     const ball = explorer.ball(material, "{}", 64, Float32Array.of(-0.5, 0.5, 0.7), 0);
